@@ -24,10 +24,11 @@ void reserve_standard_streams() {
     if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDONLY);  // open() returns the lowest free descriptor
 }
 
-// With these signals ignored, the failing write returns an error that its caller reports; the program keeps running.
+// Ignores the signals of failing writes, so that the write returns an error instead of ending the program; the caller
+// of the write reports it.
 void ignore_write_signals() {
-  std::signal(SIGXFSZ, SIG_IGN);  // file size limit reached
-  std::signal(SIGPIPE, SIG_IGN);  // the reader has closed the pipe
+  std::signal(SIGXFSZ, SIG_IGN);  // sent when a file reaches the size limit
+  std::signal(SIGPIPE, SIG_IGN);  // sent when the reader has closed the pipe
 }
 
 int run(int argc, char** argv) {
@@ -44,8 +45,8 @@ int run(int argc, char** argv) {
   }
 }
 
-// Turns success into failure if not all output was written: a script must not take a truncated table for a complete
-// one.
+// Turns an exit code of success into failure if not all output was written: a script must not take a truncated table
+// for a complete one.
 int check_output(int code) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
   gearshift::base::print_message("cannot write to standard output");

@@ -11,7 +11,7 @@ layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
 layout(location = 5) in vec4 in_colour;
 layout(location = 0) out vec2 uv;
-layout(location = 1) out float alpha;  // of the vertex colour
+layout(location = 1) out float alpha;  // alpha of the vertex colour
 invariant gl_Position;
 
 void main() {

@@ -43,16 +43,16 @@ layout(push_constant) uniform Draw { DrawData draw; };
 layout(location = 0) in vec3 to_eye;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 uv;
-layout(location = 3) in vec3 place;
+layout(location = 3) in vec3 lookup;
 layout(location = 4) in vec4 tangent;
 layout(location = 5) in vec4 colour;
 layout(location = 6) flat in uint eye;
 
-layout(location = 0) out vec4 seen;
+layout(location = 0) out vec4 fragment_colour;
 
 const float kPi = 3.14159265;
 const float kDielectricF0 = 0.04;
-const float kMinSunRoughness = 0.06;  // for the sun's highlight, because the sun is not a point
+const float kMinSunRoughness = 0.06;  // lower limit for the sun's highlight, because the sun is not a point
 
 bool has(uint feature) { return (features & feature) != 0u; }
 
@@ -72,7 +72,7 @@ vec3 shading_normal() {
   return normalize(n * sqrt(max(1.0 - dot(slope, slope), 0.01)) + (gl_FrontFacing ? bent : -bent));
 }
 
-// Degree-2 spherical harmonics as a polynomial.
+// Irradiance / pi for a normal: spherical harmonics up to degree 2, written as a polynomial.
 vec3 irradiance(vec3 n) {
   vec3 e = SKY(0) + SKY(1) * n.y + SKY(2) * n.z + SKY(3) * n.x;
   e += (SKY(4) * n.x + SKY(5) * n.z) * n.y + SKY(6) * (n.z * n.z) + SKY(7) * (n.x * n.z) +
@@ -86,13 +86,13 @@ vec3 surroundings(vec3 direction, float roughness) {
                        : textureLod(reflections, direction, level).rgb;
 }
 
-// Fraction of the sun's light that arrives: the mean of bilinear comparisons over 3x3 texels, computed from 4x4
-// comparisons in four gathers. The weights are applied here because drivers need not filter depth, and a software
-// driver does not.
+// Fraction of the sun's light that is not shadowed: the mean of bilinearly weighted depth comparisons over 3x3 texels,
+// computed from 4x4 comparisons in four gathers. The weights are applied here because drivers need not filter depth,
+// and a software driver does not.
 float sunlit() {
-  float side = pass.shadow_texel.y, depth = max(place.z, 0.0);
-  vec2 at = place.xy * side - 0.5, texel = floor(at), f = at - texel, e = 1.0 - f;
-  vec4 low = vec4(texel, texel + 2.0) / side;  // the corner between four texels
+  float side = pass.shadow_texel.y, depth = max(lookup.z, 0.0);
+  vec2 at = lookup.xy * side - 0.5, texel = floor(at), f = at - texel, e = 1.0 - f;
+  vec4 low = vec4(texel, texel + 2.0) / side;  // points where four texels meet: low.xy and low.zw
   vec4 a = textureGather(shadow, low.xy, depth), b = textureGather(shadow, low.zy, depth);
   vec4 c = textureGather(shadow, low.xw, depth), d = textureGather(shadow, low.zw, depth);
   float rows = dot(vec4(e.x, 1.0, 1.0, f.x), vec4(a.x, a.y, b.x, b.y) + vec4(c.w, c.z, d.w, d.z));
@@ -118,12 +118,12 @@ void main() {
   vec3 n = shading_normal(), v = normalize(to_eye);
   float n_dot_v = clamp(dot(n, v), 1e-3, 1.0);
 
-  // Sky: split sum. Light that is not reflected enters the surface.
+  // Light from the sky, by the split sum. Light that is not reflected enters the surface.
   vec2 ab = texture(brdf, vec2(n_dot_v, roughness)).xy;
   vec3 reflectance = f0 * ab.x + ab.y;
   vec3 diffuse = base.rgb * (1.0 - metallic) * (1.0 - reflectance);
-  vec3 around = has(kShowsMirror) ? texture(mirror, place).rgb : surroundings(reflect(-v, n), roughness);
-  vec3 reflected = around * reflectance;
+  vec3 environment = has(kShowsMirror) ? texture(mirror, lookup).rgb : surroundings(reflect(-v, n), roughness);
+  vec3 reflected = environment * reflectance;
   vec3 scattered = irradiance(n) * diffuse;
   if (has(kHasMap << kMapOcclusion)) {
     float open = mix(1.0, texture(occlusion_map, uv_of(kMapOcclusion)).r, material.surface.z);
@@ -131,7 +131,7 @@ void main() {
     reflected *= clamp(pow(n_dot_v + open, exp2(-16.0 * roughness - 1.0)) - 1.0 + open, 0.0, 1.0);
   }
 
-  // Sun.
+  // Light from the sun.
   vec3 l = pass.towards_sun.xyz;
   float n_dot_l = max(dot(n, l), 0.0);
   vec3 h = normalize(l + v);
@@ -143,10 +143,10 @@ void main() {
                             n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - a2) + a2));
   float away2 = away * away;
   vec3 fresnel = f0 + (1.0 - f0) * (away2 * away2 * away);
-  vec3 arriving = pass.sun.rgb * n_dot_l;
-  if (has(kShadowed) && !has(kShowsMirror)) arriving *= sunlit();
-  reflected += arriving * fresnel * (visibility * a2 / (kPi * d * d));
-  scattered += arriving * diffuse * (1.0 / kPi);
+  vec3 incident = pass.sun.rgb * n_dot_l;
+  if (has(kShadowed) && !has(kShowsMirror)) incident *= sunlit();
+  reflected += incident * fresnel * (visibility * a2 / (kPi * d * d));
+  scattered += incident * diffuse * (1.0 / kPi);
 
   if (has(kEmits)) {
     vec3 emissive = material.emissive.rgb * draw.emission;
@@ -154,8 +154,8 @@ void main() {
     scattered += emissive;
   }
 
-  // Glass transmits what it does not reflect. Its coverage grows towards grazing angles, and blending must not dim the
-  // reflection by it.
+  // Glass transmits only light that it does not reflect, so its coverage grows with the reflectance towards grazing
+  // angles. The radiance is divided by the coverage, so that blending does not dim the reflection.
   float cover = 1.0;
   vec3 radiance = scattered + reflected;
   if (has(kBlended)) {
@@ -164,5 +164,5 @@ void main() {
     radiance = (scattered * base.a + reflected) / max(cover, 1e-3);
     cover *= draw.opacity;
   }
-  seen = vec4(has(kLinearOut) ? radiance : tone_map(radiance * pass.sun.w), cover);
+  fragment_colour = vec4(has(kLinearOut) ? radiance : tone_map(radiance * pass.sun.w), cover);
 }

@@ -15,14 +15,14 @@ layout(location = 5) in vec4 in_colour;
 layout(location = 0) out vec3 to_eye;  // [m]
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 uv;      // both UV sets
-layout(location = 3) out vec3 place;   // in the shadow map or in the mirror's picture
+layout(location = 3) out vec3 lookup;  // coordinates in the shadow map or in the mirror's picture
 layout(location = 4) out vec4 tangent;
 layout(location = 5) out vec4 colour;
 layout(location = 6) flat out uint eye;
 invariant gl_Position;
 
-// The shadow lookup is offset from the surface by this many texels, to cover the depth range within one texel of a
-// sloped surface.
+// [texels] Offset of the shadow lookup from the surface, along its normal. It covers the depth range of a sloped
+// surface within one texel.
 const float kNormalOffset = 1.5;
 
 void main() {
@@ -34,17 +34,18 @@ void main() {
   gl_Layer = gl_InstanceIndex;
 #endif
   to_eye = pass.eye[eye].xyz - world.xyz;
-  // Unit vectors for any scale of the node, because the slopes of the normal map are relative to them.
+  // Normal and tangent are unit vectors for any scale of the node, because the slopes of the normal map are relative to
+  // them.
   normal = normalize(mat3(object.normal[0].xyz, object.normal[1].xyz, object.normal[2].xyz) * in_normal);
   uv = vec4(in_uv0 + object.uv_shift.xy, in_uv1);
   if ((features & (kHasMap << kMapNormal)) != 0u)
     tangent = vec4(normalize(mat3(object.world) * in_tangent.xyz), in_tangent.w * object.normal[0].w);
   if ((features & kVertexColour) != 0u) colour = in_colour;
   if ((features & kShowsMirror) != 0u) {
-    place = vec3(dot(pass.mirror_u, world), dot(pass.mirror_v, world), float(eye));
+    lookup = vec3(dot(pass.mirror_u, world), dot(pass.mirror_v, world), float(eye));
   } else if ((features & kShadowed) != 0u) {
     vec3 off = normal * (kNormalOffset * pass.shadow_texel.x);
-    if (draw.thin > 0.0 && dot(normal, to_eye) < 0.0) off = -off;  // towards the visible side
-    place = (pass.shadow_from_world * vec4(world.xyz + off, 1.0)).xyz;
+    if (draw.thin > 0.0 && dot(normal, to_eye) < 0.0) off = -off;  // offset towards the visible side
+    lookup = (pass.shadow_from_world * vec4(world.xyz + off, 1.0)).xyz;
   }
 }

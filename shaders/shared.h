@@ -21,7 +21,7 @@ using uint = std::uint32_t;
 SHARED uint kBindPass = 0u;         // PassData
 SHARED uint kBindObjects = 1u;      // ObjectData, one per node
 SHARED uint kBindReflections = 2u;  // cube, prefiltered by roughness
-SHARED uint kBindBrdf = 3u;         // scale and bias of F0 over (n.v, roughness)
+SHARED uint kBindBrdf = 3u;         // scale and bias of F0 for (n.v, roughness)
 SHARED uint kBindShadow = 4u;       // depth, seen from the sun
 SHARED uint kBindMirror = 5u;       // the mirror's picture, one layer per eye
 SHARED uint kBindSky = 6u;          // cube, unfiltered
@@ -36,10 +36,10 @@ SHARED uint kMapEmissive = 4u;
 SHARED uint kMaps = 5u;
 SHARED uint kBindMaterial = 5u;  // MaterialData
 
-// Specialization constant 0: features of a pipeline. A material without a map does not sample one.
-SHARED uint kHasMap = 1u;  // << kMap...: the map is present
+// Specialization constant 0: features of a pipeline, as bits. The shader samples only maps that the material has.
+SHARED uint kHasMap = 1u;  // shifted left by kMap...: the map is present
 SHARED uint kAllMaps = 31u;
-SHARED uint kMapOnUv1 = 1u << 5;        // << kMap...: and uses the second UV set
+SHARED uint kMapOnUv1 = 1u << 5;        // shifted left by kMap...: the map uses the second UV set
 SHARED uint kTransformedUv = 1u << 10;  // some map uses KHR_texture_transform
 SHARED uint kVertexColour = 1u << 11;
 SHARED uint kMasked = 1u << 12;   // fragments with alpha below the cutoff are discarded
@@ -50,14 +50,14 @@ SHARED uint kShowsMirror = 1u << 16;  // reflects the mirror's picture instead o
 SHARED uint kLinearOut = 1u << 17;    // writes linear radiance, without tone mapping
 SHARED uint kIndoors = 1u << 18;      // lit by the indoor environment instead of the open sky
 
-// Specialization constants 1 to 27: irradiance over pi, outdoors or indoors, as a polynomial in the normal, see
+// Specialization constants 1 to 27: irradiance / pi, outdoors or indoors, as a polynomial in the normal, see
 // irradiance() in mesh.frag. The light rarely changes, and a software driver is slow at reading 27 uniforms per pixel.
 SHARED uint kIrradianceTerms = 9u;
 
 SHARED uint kReflectionLevels = 6u;  // levels of the cube, roughness 0 to 1
 
 struct PassData {
-  mat4 clip_from_world[2];  // one per eye; in the shadow pass, the sun's
+  mat4 clip_from_world[2];  // one per eye; in the shadow pass, the first is the sun's
   vec4 eye[2];              // xyz [m] world
   vec4 sky_centre[2];       // direction at clip (x, y): centre + x right + y down
   vec4 sky_right[2];

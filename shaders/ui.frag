@@ -3,11 +3,11 @@
 
 layout(set = 0, binding = 0) uniform sampler2D font;
 
-layout(location = 0) in vec2 place;
+layout(location = 0) in vec2 uv;
 layout(location = 1) in vec4 colour;
 
-layout(location = 0) out vec4 shade;
+layout(location = 0) out vec4 fragment_colour;
 
 void main() {
-  shade = vec4(colour.rgb, colour.a * texture(font, place).r);
+  fragment_colour = vec4(colour.rgb, colour.a * texture(font, uv).r);
 }

@@ -6,14 +6,14 @@ layout(push_constant) uniform Picture {
 } picture;
 
 layout(location = 0) in vec2 position;  // [px]
-layout(location = 1) in vec2 place;     // in the font's texture
+layout(location = 1) in vec2 uv;        // coordinates in the font's texture
 layout(location = 2) in vec4 colour;    // display-referred, straight alpha
 
-layout(location = 0) out vec2 place_out;
+layout(location = 0) out vec2 uv_out;
 layout(location = 1) out vec4 colour_out;
 
 void main() {
   gl_Position = vec4(2.0 * position / picture.size - 1.0, 0.0, 1.0);
-  place_out = place;
+  uv_out = uv;
   colour_out = colour;
 }

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 fs::path assets_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw std::runtime_error(fmt::format("/proc/self/exe: cannot be read: {}", error.message()));
+  if (error) throw std::runtime_error(fmt::format("/proc/self/exe: cannot be read ({})", error.message()));
   return program.parent_path().parent_path() / "share" / "gearshift" / "assets";
 }
 
@@ -34,8 +34,8 @@ fs::path shipped_folder(std::string_view kind) {
   std::error_code error;
   if (!fs::is_directory(assets_folder() / kind, error))
     throw std::runtime_error(
-        fmt::format("{}: the program's data files (gates, cars, lessons, models) are missing. "
-                    "Reinstall gearshift",
+        fmt::format("{}: the program's data files (gates, cars, lessons, models) are missing; "
+                    "reinstall gearshift",
                     haptics::printable(assets_folder().string())));
   return assets_folder() / kind;
 }
@@ -45,7 +45,7 @@ fs::path find_asset(std::string_view kind, const std::string& name_or_path) {
   if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {
     return assets_folder() / kind / (name_or_path + ".toml");
   }
-  // Treat anything that looks like a path, or exists, as a path: reading it gives the most useful error message.
+  // Anything that exists or looks like a path is returned as a path: reading it gives the most useful error message.
   fs::path path(name_or_path);
   std::error_code error;
   if (path.has_parent_path() || path.has_extension() || fs::exists(path, error)) return path;

@@ -11,7 +11,7 @@
 
 namespace gearshift::base {
 
-// output: stdout or stderr.
+// Prints to `output`, which is stdout or stderr.
 inline void print_to(std::FILE* output, std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), output);
 }
@@ -22,13 +22,13 @@ void print_out(fmt::format_string<Values...> format, Values&&... values) {
   print_to(stdout, fmt::format(format, std::forward<Values>(values)...));
 }
 
-// Prints a line to standard output and flushes, because a user or script is waiting for it.
+// Prints a line to standard output and flushes it, because a user or script is waiting for the line.
 inline void print_line(std::string_view line) {
   print_out("{}\n", line);
   std::fflush(stdout);
 }
 
-// Prints a line to standard error: an error, or a message that is not part of the results.
+// Prints a line to standard error; for errors and for messages that are not part of the results.
 template <class... Values>
 void print_message(fmt::format_string<Values...> format, Values&&... values) {
   print_to(stderr, "gearshift: " + fmt::format(format, std::forward<Values>(values)...) + '\n');

@@ -1,4 +1,4 @@
-// Shared by all generated pages: the style sheet and escaping of text.
+// The parts that all generated pages share: style sheet and escaping of text.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace gearshift::base {
 
-std::string html_text(std::string_view text);  // & < > " escaped
+std::string html_text(std::string_view text);  // escapes & < > "
 std::string_view html_style();                 // CSS for screen and print
 
 }  // namespace gearshift::base

@@ -34,7 +34,7 @@ std::optional<std::string> LineReader::read_line(double seconds) {
   if (std::optional<std::string> line = take_line()) return line;
   const int milliseconds = static_cast<int>(std::ceil(1e3 * seconds));
   if (at_end_) {
-    // Callers use this wait to pace their loop, so it must take the full time here as well
+    // Callers limit the rate of their loop by this wait, so it must take the full time at the end of the input too.
     poll(nullptr, 0, milliseconds);
     return std::nullopt;
   }

@@ -10,7 +10,7 @@ namespace gearshift::base {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+  if (error) throw std::runtime_error(fmt::format("{}: cannot be created ({})", folder.string(), error.message()));
 }
 
 }  // namespace gearshift::base

@@ -1,4 +1,4 @@
-// A progress bar on stderr if that is a terminal. It appears after one second and is erased at the end.
+// A progress bar on stderr, shown only if stderr is a terminal. It appears after one second and is erased at the end.
 #pragma once
 
 #include <unistd.h>
@@ -23,8 +23,9 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // what: the current part of the work. fraction: how much of it is done, 0 to 1. Cheap enough to call every cycle.
-  void show(std::string_view what, double fraction) {
+  // label: the current part of the work. fraction: the fraction of the work that is done, 0 to 1. Cheap enough to be
+  // called every cycle.
+  void show(std::string_view label, double fraction) {
     if (!is_terminal_) return;
     const Clock::time_point now = Clock::now();
     if (now < next_) return;
@@ -32,11 +33,11 @@ class ProgressBar {
     drawn_ = true;
     const double done = std::clamp(fraction, 0.0, 1.0);
     const std::string bar(static_cast<std::size_t>(kWidth * done), '=');
-    print_to(stderr, fmt::format("\r{:<14} [{:{}}] {:3.0f} %", what, bar, kWidth, 100.0 * done));
+    print_to(stderr, fmt::format("\r{:<14} [{:{}}] {:3.0f} %", label, bar, kWidth, 100.0 * done));
     std::fflush(stderr);
   }
 
-  // Call before printing anything else.
+  // Erases the bar. Call this before printing anything else.
   void clear() {
     if (drawn_) print_to(stderr, fmt::format("\r{:{}}\r", "", kWidth + 24));
     drawn_ = false;

@@ -12,23 +12,23 @@
 
 namespace gearshift::base {
 
-// Returns the result of the work. If a signal interrupted it, prints a message and returns nothing.
-template <class Made>
-std::optional<Made> run_until_signal(
-    const std::function<Made(const std::function<void(std::string_view, double)>&)>& work) {
-  struct Ended {  // not a std::exception: the work catches those to continue with its next part
+// Returns the result of the work, or prints a message and returns nothing if a signal has interrupted the work.
+template <class Result>
+std::optional<Result> run_until_signal(
+    const std::function<Result(const std::function<void(std::string_view, double)>&)>& work) {
+  struct Ended {  // not a std::exception, because the work catches those and continues with its next part
     std::string part;
   };
   const StopSignals signals;
   ProgressBar bar;
   try {
-    return work([&](std::string_view part, double share) {
+    return work([&](std::string_view part, double fraction) {
       if (StopSignals::requested()) throw Ended{std::string(part)};
-      bar.show(part, share);
+      bar.show(part, fraction);
     });
   } catch (const Ended& ended) {
     bar.clear();
-    print_message("interrupted during \"{}\"; finished files kept, no page written", ended.part);
+    print_message("interrupted during \"{}\"; finished files were kept, but no page was written", ended.part);
     return std::nullopt;
   }
 }

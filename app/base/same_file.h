@@ -1,4 +1,4 @@
-// Tells whether two paths name the same file, so that an input is not overwritten.
+// Checks whether two paths name the same file, so that an input is not overwritten.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace gearshift::base {
 
-// Follows links and also works for files that do not exist yet. Always false for anything but a regular file
-// (/dev/null), which may be given more than once.
+// Follows links and also works for files that do not exist yet. Always false if the path names something other than a
+// regular file, such as /dev/null, which may be given more than once.
 inline bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   if (a.empty() || b.empty()) return false;
   std::error_code error;

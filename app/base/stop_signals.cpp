@@ -6,9 +6,9 @@
 namespace gearshift::base {
 namespace {
 
-// Any thread may receive the signal; sig_atomic_t would only be valid within that thread.
+// Atomic because any thread may receive the signal; a sig_atomic_t would be valid only within that thread.
 std::atomic<bool> is_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // required in a signal handler
+static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may use only lock-free atomics
 
 void request_stop(int) {
   is_requested = true;
@@ -16,7 +16,7 @@ void request_stop(int) {
 
 }  // namespace
 
-// Without SA_RESTART, so that blocking calls return and their callers notice the request.
+// The handlers are installed without SA_RESTART, so that blocking calls return and their callers notice the request.
 StopSignals::StopSignals() {
   is_requested = false;
   struct sigaction once = {};

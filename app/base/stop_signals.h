@@ -1,6 +1,6 @@
 // Lets a program that drives motors end cleanly on Ctrl-C, kill and a closed terminal: results are saved, motors are
-// off, the device is released. A second signal ends it at once. A signal that was ignored at the start (nohup) stays
-// ignored.
+// off, the device is released. A second signal ends the program at once. A signal that was ignored when the program
+// started (nohup) stays ignored.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace gearshift::base {
 
-class StopSignals {  // one object at a time
+class StopSignals {  // only one object may exist at a time
  public:
   StopSignals();
   ~StopSignals();  // restores the previous handlers

@@ -5,28 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "app/base/html.h"
+
 namespace gearshift::base {
 namespace {
-
-std::string escaped(std::string_view label) {
-  std::string safe;
-  for (const char c : label) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 std::string stroke(const Pen& pen) {
   return fmt::format(
@@ -67,7 +49,7 @@ void Svg::text(glm::dvec2 at, const Type& type, std::string_view label) {
   body_ += fmt::format(
       "<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.2f}\" fill=\"{}\" text-anchor=\"{}\" "
       "font-weight=\"{}\">{}</text>\n",
-      at.x, at.y, type.size, type.colour, type.anchor, type.bold ? "bold" : "normal", escaped(label));
+      at.x, at.y, type.size, type.colour, type.anchor, type.bold ? "bold" : "normal", html_text(label));
 }
 
 void Svg::line(glm::dvec2 from, glm::dvec2 to, const Pen& pen) {
@@ -86,7 +68,7 @@ void Svg::frame(const Rect& r, std::string_view fill, const Pen& pen) {
 void Svg::dot(glm::dvec2 center, double radius, std::string_view fill, std::string_view tip) {
   body_ +=
       fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.2f}\" fill=\"{}\"", center.x, center.y, radius, fill);
-  body_ += tip.empty() ? "/>\n" : fmt::format("><title>{}</title></circle>\n", escaped(tip));
+  body_ += tip.empty() ? "/>\n" : fmt::format("><title>{}</title></circle>\n", html_text(tip));
 }
 
 void Svg::ring(glm::dvec2 center, double radius, const Pen& pen) {

@@ -1,4 +1,4 @@
-// A small SVG writer with the shapes that this program's drawings need. Units are those of the view box.
+// A small SVG writer with the shapes that this program's drawings need. Lengths are in units of the view box.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Rect {
 struct Pen {
   const char* colour = "#000000";
   double width = 0.3;
-  const char* dash = "none";  // "on off" lengths
+  const char* dash = "none";  // lengths of dash and gap, e.g. "2 1"
 };
 
 struct Type {  // text style
@@ -30,13 +30,13 @@ struct Type {  // text style
 
 class Svg {
  public:
-  // pixels: pixels per unit of the page.
+  // page: the view box. pixels: number of pixels per unit of the view box.
   Svg(const Rect& page, double pixels);
 
   // Defines a fill of diagonal stripes; use it with fill = "url(#name)".
   void stripes(std::string_view name, std::string_view ground, std::string_view stripe);
 
-  void text(glm::dvec2 at, const Type& type, std::string_view label);  // escaped here
+  void text(glm::dvec2 at, const Type& type, std::string_view label);  // escapes the label
   void line(glm::dvec2 from, glm::dvec2 to, const Pen& pen);
   void rect(const Rect& r, std::string_view fill, double corner = 0.0);
   void frame(const Rect& r, std::string_view fill, const Pen& pen);

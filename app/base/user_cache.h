@@ -1,4 +1,4 @@
-// Cache files: may be deleted at any time and are created again when missing.
+// Cache files. The user may delete them at any time; a missing file is created again.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace gearshift::base {
 
-// A file in $XDG_CACHE_HOME/gearshift or ~/.cache/gearshift; the folder is created if missing. Empty if neither is
-// available.
+// Path of a file in $XDG_CACHE_HOME/gearshift or ~/.cache/gearshift; creates the folder if it is missing. Empty if
+// neither folder is available.
 std::filesystem::path user_cache_file(std::string_view name);
 
 }  // namespace gearshift::base

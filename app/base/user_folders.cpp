@@ -14,8 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "All paths set in these environment variables must be absolute. If an implementation encounters a relative path [...]
-// it should consider the path invalid and ignore it."
+// The value of the variable if it is an absolute path, else empty. From the specification: "All paths set in these
+// environment variables must be absolute. If an implementation encounters a relative path [...] it should consider the
+// path invalid and ignore it."
 fs::path absolute_variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value == '/' ? fs::path(value) : fs::path{};
@@ -25,7 +26,7 @@ fs::path home(const char* variable) {
   if (fs::path by_variable = absolute_variable("HOME"); !by_variable.empty()) return by_variable;
   const passwd* user = getpwuid(getuid());
   if (user != nullptr && user->pw_dir != nullptr && *user->pw_dir == '/') return user->pw_dir;
-  throw std::runtime_error(std::string("no folder for the user's files: neither ") + variable +
+  throw std::runtime_error(std::string("there is no folder for your files: neither ") + variable +
                            " nor HOME names one, and the system has no home folder for this user");
 }
 

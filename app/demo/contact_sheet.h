@@ -1,4 +1,4 @@
-// Combines many pictures into one.
+// Combines several pictures into one.
 #pragma once
 
 #include <span>
@@ -7,8 +7,9 @@
 
 namespace gearshift::demo {
 
-// Arranges pictures of equal size in rows of `columns`, each reduced by a whole factor (averaging pixels), with a
-// margin [px]. Throws std::invalid_argument if the sizes differ or there are no pictures.
+// Arranges pictures of equal size in rows with `columns` pictures each. shrink: whole factor by which each picture is
+// reduced, by averaging pixels. margin [px]: around each picture. Throws std::invalid_argument if the sizes differ or
+// there are no pictures.
 engine::Image contact_sheet(std::span<const engine::Image> pictures, int columns, int shrink, int margin = 8);
 
 }  // namespace gearshift::demo

@@ -32,7 +32,8 @@ cabin::Stage make_stage(const DemoSetup& setup, cabin::Cabin cabin) {
   return {cabin::stage_config(setup.tour.gate, setup.tour.lever.yoke, cabin), base::assets_folder() / "models"};
 }
 
-// Uploads the cabin once: all drives of a demo have the same car and so the same red line on the dial.
+// Uploads the cabin. Once is enough for a cabin: all drives of a demo have the same car, and so the same red line on
+// the dial.
 void show_cabin(cabin::CabinView& view, cabin::Stage& stage, const FilmFrame& frame) {
   stage.place({frame.lever, frame.car, frame.time});
   view.set_model(stage.model());
@@ -46,7 +47,7 @@ engine::Image take_picture(cabin::CabinView& view, cabin::Stage& stage, const Fi
   return view.picture();
 }
 
-// Renders all pictures of one cabin before the next, so that each model is uploaded only once.
+// Renders all pictures with one kind of cabin before those with the next, so that each model is uploaded only once.
 std::vector<engine::Image> take_pictures(cabin::CabinView& view, const DemoSetup& setup, const std::vector<Shot>& shots,
                                          const lab::TourProgress& progress, DemoResult& result) {
   std::vector<engine::Image> pictures(shots.size());
@@ -112,7 +113,7 @@ lessons::LessonDriveConfig tour_drive(const DemoSetup& setup, const vehicle::Car
 
 DemoChapter tour_chapter(const FilmedDrive& tour, const std::optional<vehicle::CarSpec>& car) {
   if (!car)
-    return {"Through every gear", {"No shipped car has all gears of this gate, so the car stands still."}, {}, {}};
+    return {"Through every gear", {"No shipped car has all the gears of this gate, so this drive has no car."}, {}, {}};
   DemoChapter chapter{"Through every gear", {car->title + "."}, {}, {}};
   for (std::string& sentences : describe_result(tour)) chapter.text.push_back(std::move(sentences));
   return chapter;
@@ -132,7 +133,7 @@ std::size_t DemoResult::pictures() const {
 
 DemoResult run_demo(const DemoSetup& setup, const lab::TourProgress& progress) {
   DemoResult result;
-  std::vector<FilmFrame> by_hand;  // film of the scripted tour, which has no car
+  std::vector<FilmFrame> by_hand;  // film of the tour by a scripted hand, which has no car
   result.tour = lab::drive_tour(
       setup.tour, progress, [&](const haptics::HapticSnapshot& now, std::span<const haptics::HapticEvent> events) {
         by_hand.push_back(

@@ -1,5 +1,5 @@
-// Renders the tour and two lessons offscreen, deterministically: pictures, sound, traces, plots, a learner's report and
-// a page that shows them.
+// Renders the tour and two lessons off screen, with the same result on every run: pictures, sound, traces, plots, a
+// learner's report and a page that shows them.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace gearshift::demo {
 struct DemoSetup {
   lab::TourSetup tour;
   cabin::ViewConfig view;
-  double film_rate = 0.0;  // [1/s] pictures of the whole drive from the driver's eye; 0: only the key pictures
+  double film_rate = 0.0;  // [1/s] pictures per second of a film of the whole drive, from the driver's eye; 0: no film
 };
 
 struct DemoPicture {
@@ -24,27 +24,28 @@ struct DemoPicture {
 // One drive and its pictures.
 struct DemoChapter {
   std::string title;
-  std::vector<std::string> text;  // sentences
-  std::string trace;              // file, or empty
+  std::vector<std::string> text;  // description, in sentences
+  std::string trace;              // file name of the trace; empty: no trace
   std::vector<DemoPicture> pictures;
 };
 
 struct DemoResult {
   lab::TourResult tour;
   std::vector<DemoChapter> chapters;  // the drive through every gear, then the lessons
-  bool has_report = false;            // report.html: there was a lesson
-  bool passed = true;                 // every lesson was passed
+  bool has_report = false;            // true if report.html was written, i.e. if there were lessons
+  bool passed = true;                 // true if every lesson was passed
   int film_frames = 0;
   double picture_ms = 0.0;  // [ms] median time to draw a picture and read it back
-  std::string device;       // GPU that drew the pictures
+  std::string device;       // name of the GPU that drew the pictures
   std::uint64_t validation_messages = 0;
 
   std::size_t pictures() const;
 };
 
-// Writes to setup.tour.folder, which must exist: NAME.png for each moment, contact_sheet.png, film/00000.png ...,
-// demo.wav, tour.trace, tour.csv, trajectory and force (svg, png), LESSON.trace, report.html, index.html. If no shipped
-// car has all gears of the gate, the car stands still and there are no lessons. Throws FileError, GltfError, GpuError.
+// Writes these files to setup.tour.folder, which must exist: NAME.png for each shot, contact_sheet.png, film/00000.png
+// ..., demo.wav, tour.trace, tour.csv, trajectory and force (svg, png), LESSON.trace, report.html, index.html. If no
+// shipped car has all gears of the gate, there is no car and there are no lessons. Throws FileError, GltfError,
+// GpuError.
 DemoResult run_demo(const DemoSetup& setup, const lab::TourProgress& progress);
 
 }  // namespace gearshift::demo

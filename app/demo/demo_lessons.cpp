@@ -19,10 +19,10 @@ namespace gearshift::demo {
 namespace {
 
 constexpr std::array<std::string_view, 2> kLessons{"hill_start", "up_through_the_gears"};
-constexpr std::array kErrors{0.9, 0.7, 0.5, 0.3, 0.15, 0.0};  // [1] skill error (skill_of) of each trial
-// A fixed date, so that the page is the same on any day.
+constexpr std::array kErrors{0.9, 0.7, 0.5, 0.3, 0.15, 0.0};  // [1] skill error of each trial, see skill_of()
+// The runs' date and time: fixed, so that the page is the same on any day.
 constexpr std::string_view kDay = "2000-01-01T10:{:02}:00Z";
-constexpr const char* kLearner = "Simulated learner";
+constexpr const char* kLearner = "Simulated driver";
 
 bool has_gears(const lessons::Lesson& lesson, const vehicle::CarSpec& car, const haptics::Gate& gate) {
   try {

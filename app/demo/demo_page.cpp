@@ -12,7 +12,8 @@
 namespace gearshift::demo {
 namespace {
 
-// Additions to the common page style: a grid with as many pictures per row as fit on the screen, two on paper.
+// Additions to the common page style: a grid with the number of pictures per row that fits on the screen, or two on
+// paper.
 constexpr const char* kStyle = R"css(
 .sentences { margin: 0 0 1rem; padding: 0; list-style: none; max-width: 52rem; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(18rem, 1fr)); gap: 1.4rem 1.2rem; }
@@ -36,8 +37,8 @@ std::string figure(const std::string& file, const std::string& caption) {
 }
 
 std::string facts(const DemoSetup& setup, const DemoResult& result) {
-  const auto row = [](std::string_view what, const std::string& value) {
-    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, base::html_text(value));
+  const auto row = [](std::string_view label, const std::string& value) {
+    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", label, base::html_text(value));
   };
   const lab::TourResult& tour = result.tour;
   std::string table = "<table class=\"facts\">\n";
@@ -45,15 +46,15 @@ std::string facts(const DemoSetup& setup, const DemoResult& result) {
   table += row("Drive", fmt::format("{:.2f} s at {:g} Hz, {} cycles, hash {:016x}", tour.duration,
                                     setup.tour.haptics.rate, tour.cycles, tour.hash));
   table += row("In contact", fmt::format("{:.0f} % of the cycles", 100.0 * tour.contact_fraction()));
-  table += row("Deepest beyond a wall", fmt::format("{:.2f} mm", 1e3 * tour.deepest));
+  table += row("Deepest wall penetration", fmt::format("{:.2f} mm", 1e3 * tour.deepest));
   table += row("Strongest push", fmt::format("{:.1f} N", tour.strongest));
   for (const haptics::TuningLimit& limit : tour.limits) table += row("Limited", haptics::describe(limit));
-  table += row("Drawn by", result.device);
+  table += row("Rendered by", result.device);
   return table + "</table>\n";
 }
 
 std::string gear_table(const lab::TourResult& tour) {
-  std::string table = "<table>\n<tr><th>Gear</th><th>engaged at</th></tr>\n";
+  std::string table = "<table>\n<tr><th>Gear</th><th>Engaged at</th></tr>\n";
   for (const lab::GearTime& gear : tour.engaged)
     table += fmt::format("<tr><td>{}</td><td>{:.3f} s</td></tr>\n", haptics::gear_name(gear.gear), gear.time);
   return table + "</table>\n";
@@ -70,10 +71,11 @@ std::string chapter_html(const DemoChapter& chapter) {
 }
 
 constexpr const char* kDriven =
-    "A simulated learner drives through every gear of the gate and then two lessons, in a car with a full driveline. ";
+    "A simulated driver goes through every gear of the gate and then takes two lessons, in a car with a full "
+    "driveline. ";
 constexpr const char* kIntroduction =
-    "The drawn lever is the proxy, which never leaves the slots. At the end, a scripted hand shifts through the same "
-    "gate without a car; it pushes into the walls and is held by the plotted force. Everything on this page is "
+    "The lever shown always stays inside the gate. At the end, a scripted hand shifts through the same gate without a "
+    "car and pushes against the walls; the plots show the force that holds it back. Everything on this page is "
     "deterministic: the traces replay bit for bit.";
 
 }  // namespace
@@ -81,22 +83,23 @@ constexpr const char* kIntroduction =
 void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
   std::ostringstream out;
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>gearshift: a drive</title>\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>gearshift demo</title>\n"
          "<style>"
-      << base::html_style() << kStyle << "</style>\n</head>\n<body>\n<h1>" << base::html_text(setup.tour.layout.name)
-      << ", driven</h1>\n<p>" << (result.has_report ? kDriven : "") << kIntroduction
+      << base::html_style() << kStyle
+      << "</style>\n</head>\n<body>\n<h1>Demo: " << base::html_text(setup.tour.layout.name) << "</h1>\n<p>"
+      << (result.has_report ? kDriven : "") << kIntroduction
       << "</p>\n<p class=\"sound\">Sound of the drive through every gear:<br><audio controls "
          "src=\"demo.wav\"></audio></p>\n";
   if (result.has_report) {
-    out << "<p>The learner drove each lesson several times with increasing skill, though the grade need not rise every "
-           "time. "
-           "The last attempt is shown here; all attempts are in <a href=\"report.html\">the learner's "
+    out << "<p>The simulated driver took each lesson several times with increasing skill, although the grade may not "
+           "rise every time. The last attempt is shown here; all attempts are in <a href=\"report.html\">the "
            "report</a>.</p>\n";
   }
   for (const DemoChapter& chapter : result.chapters) out << chapter_html(chapter);
   out << "<section>\n<h2>Lever and force, by a scripted hand</h2>\n<div class=\"plots\">\n"
       << facts(setup, result) << gear_table(result.tour) << "</div>\n<div class=\"plots\">\n"
-      << figure("trajectory.svg", "The hand's lever point and the drawn lever in the gate (Fig. 9 a of the paper)")
+      << figure("trajectory.svg",
+                "Paths of the real lever and of the displayed lever in the gate (Fig. 9 a of the paper)")
       << figure("force.svg", "Position and force against time (Fig. 9 b of the paper)")
       << "</div>\n<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, "
          "<a href=\"contact_sheet.png\">contact sheet</a></p>\n</section>\n<p>"

@@ -1,4 +1,4 @@
-// Writes the demo page: index.html beside the pictures that it shows.
+// Writes the demo page, index.html, into the folder of the pictures that it shows.
 #pragma once
 
 #include "app/demo/demo.h"

@@ -1,4 +1,4 @@
-// A recorded drive for rendering: the state of lever and car every 1/60 s.
+// A film: a recorded drive for rendering, with the state of lever and car every 1/60 s.
 #pragma once
 
 #include <span>
@@ -10,16 +10,16 @@
 namespace gearshift::demo {
 
 struct FilmFrame {
-  double time = 0.0;  // [s]
+  double time = 0.0;  // [s] since the start of the drive
   haptics::HapticSnapshot lever;
-  std::vector<haptics::HapticEvent> events;  // since the previous frame
+  std::vector<haptics::HapticEvent> events;  // events since the previous frame
   vehicle::VehicleState car;
 };
 
-// Every gear that the lever enters, without neutral.
+// Every gear that the lever enters, in order, without neutral.
 std::vector<lab::GearTime> gears_of(std::span<const FilmFrame> film);
 
-// The frame nearest to that time. The film must not be empty.
+// The frame nearest to this time [s]. The film must not be empty.
 const FilmFrame& frame_at(std::span<const FilmFrame> film, double time);
 
 }  // namespace gearshift::demo

@@ -17,10 +17,10 @@ struct FilmedDrive {
   std::vector<FilmFrame> film;
 };
 
-// Like drive_lesson(); replaces the watch and on_event callbacks of the config.
+// Drives a lesson like drive_lesson() and films it. Replaces the callbacks on_cycle and on_event of the config.
 FilmedDrive film_drive(lessons::LessonDriveConfig config);
 
-// The first shipped car that has every gear of the gate.
+// The first shipped car that has every gear of the gate; empty if none has.
 std::optional<vehicle::CarSpec> fitting_car(const haptics::Gate& gate);
 
 }  // namespace gearshift::demo

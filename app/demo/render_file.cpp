@@ -20,7 +20,7 @@
 namespace gearshift::demo {
 namespace {
 
-// "X,Y,Z:X,Y,Z": eye and target.
+// Parses "X,Y,Z:X,Y,Z", the positions of eye and target.
 std::optional<std::array<glm::dvec3, 2>> two_points(std::string_view text) {
   std::array<double, 6> number{};
   const char* at = text.data();
@@ -35,7 +35,7 @@ std::optional<std::array<glm::dvec3, 2>> two_points(std::string_view text) {
   return std::array<glm::dvec3, 2>{{{number[0], number[1], number[2]}, {number[3], number[4], number[5]}}};
 }
 
-constexpr double kField = 58.0;  // [deg]
+constexpr double kField = 58.0;  // [deg] default field of view of cameras that are not named
 
 bool is_named(const std::string& camera) {
   return camera != kFittingCamera && camera.find(':') == std::string::npos;
@@ -50,12 +50,13 @@ engine::EyePose chosen_eye(const std::string& text) {
   return engine::look_at((*points)[0], (*points)[1]);
 }
 
-// Checked after loading, because only then the model's buffer and texture files are known.
+// Throws if the picture would overwrite a file of the model. Called after loading, because the model's buffer and
+// texture files are known only then.
 void check_not_written_over(const engine::Model& model, const std::filesystem::path& picture) {
   for (const std::filesystem::path& file : model.files) {
     if (base::is_same_file(picture, file))
       throw std::runtime_error(
-          fmt::format("--out: the picture and {}, which the model uses, must be different files", file.string()));
+          fmt::format("--out: the picture must not overwrite {}, which the model uses", file.string()));
   }
 }
 

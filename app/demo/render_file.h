@@ -20,14 +20,14 @@ struct RenderFileSetup {
   std::filesystem::path file;
   std::filesystem::path out;  // PNG
   cabin::ViewConfig view;
-  std::optional<double> field;          // [deg] across the shorter side; empty: default of the camera
-  std::string camera = kFittingCamera;  // or the name of a cabin camera, or "X,Y,Z:X,Y,Z": eye and target [m]
+  std::optional<double> field;          // [deg] field of view across the shorter side; empty: the camera's default
+  std::string camera = kFittingCamera;  // kFittingCamera, name of a cabin camera, or "X,Y,Z:X,Y,Z": eye and target [m]
 };
 
 struct RenderFileResult {
   std::uint64_t triangles = 0;
   int draws = 0;
-  double load_ms = 0.0, first_frame_ms = 0.0;  // [ms]
+  double load_ms = 0.0, first_frame_ms = 0.0;  // [ms] durations
   std::vector<std::string> skipped;            // see Model::skipped
   std::string device;
 };

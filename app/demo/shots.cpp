@@ -9,13 +9,13 @@
 namespace gearshift::demo {
 namespace {
 
-constexpr double kRpm = 60.0 / 6.283185307179586;  // per rad/s
-constexpr double kRestDelay = 0.25;                // [s] after a gear engaged, the lever rests in it
-constexpr double kHandDelay = 0.05;                // [s] after a gear engaged, the hand is still on the knob
-constexpr double kMinHandBrake = 0.9;              // [1] above this the handbrake holds the car
-constexpr double kMinClutchTorque = 5.0;           // [N m] above this the clutch has taken up
-constexpr double kMinDrivingSpeed = 2.0;           // [m/s]
-constexpr double kStandstillSpeed = 0.05;          // [m/s]
+constexpr double kRpm = 60.0 / 6.283185307179586;  // [rpm] per rad/s
+constexpr double kRestDelay = 0.25;                // [s] the lever is at rest this long after a gear has engaged
+constexpr double kHandDelay = 0.05;        // [s] the hand is still on the knob this long after a gear has engaged
+constexpr double kMinHandBrake = 0.9;      // [1] the handbrake holds the car if pulled further than this
+constexpr double kMinClutchTorque = 5.0;   // [N m] the clutch bites if it transmits more than this
+constexpr double kMinDrivingSpeed = 2.0;   // [m/s] the car is driving if it is faster than this
+constexpr double kStandstillSpeed = 0.05;  // [m/s] the car is at rest if it is slower than this
 
 double depth_beyond_wall(const FilmFrame& frame) {
   return glm::distance(frame.lever.lever, frame.lever.proxy);
@@ -33,7 +33,7 @@ const FilmFrame& fastest_frame(std::span<const FilmFrame> film) {
 }
 
 std::string speeds(const FilmFrame& frame) {
-  return fmt::format("{:.0f} km/h, {:.0f} rpm in {}", haptics::kKmhPerMps * frame.car.road_speed,
+  return fmt::format("{:.0f} km/h, {:.0f} rpm in gear {}", haptics::kKmhPerMps * frame.car.road_speed,
                      kRpm * frame.car.engine_speed, haptics::gear_name(frame.car.gear));
 }
 
@@ -48,7 +48,7 @@ const FilmFrame* bite_frame(std::span<const FilmFrame> film) {
   return best;
 }
 
-// The frame, while driving, in which the synchroniser ring rubs with the largest speed difference; null if there is
+// The frame in which, in the moving car, the synchroniser ring rubs with the largest speed difference; null if there is
 // none.
 const FilmFrame* ring_frame(std::span<const FilmFrame> film) {
   const FilmFrame* best = nullptr;
@@ -59,7 +59,7 @@ const FilmFrame* ring_frame(std::span<const FilmFrame> film) {
   return best;
 }
 
-// The last frame before that gear engages: the sleeve is between the dogs.
+// The last frame before the gear engages, when the sleeve is about to slide over the gear's dogs.
 const FilmFrame& before(std::span<const FilmFrame> film, const lab::GearTime& gear) {
   const FilmFrame& in = frame_at(film, gear.time);
   return &in == film.data() ? in : *(&in - 1);
@@ -69,7 +69,7 @@ const FilmFrame& before(std::span<const FilmFrame> film, const lab::GearTime& ge
 
 std::vector<Shot> tour_shots(std::span<const FilmFrame> film) {
   const std::vector<lab::GearTime> came = gears_of(film);
-  std::vector<lab::GearTime> gears;  // the first time that each engaged
+  std::vector<lab::GearTime> gears;  // only the first engagement of each gear
   for (const lab::GearTime& gear : came) {
     const auto same = [&](const lab::GearTime& known) { return known.gear == gear.gear; };
     if (std::none_of(gears.begin(), gears.end(), same)) gears.push_back(gear);
@@ -78,29 +78,30 @@ std::vector<Shot> tour_shots(std::span<const FilmFrame> film) {
   shots.push_back({"cabin", "The cabin before the first gear", &film.front(), "driver"});
   for (const lab::GearTime& gear : gears) {
     const std::string name = haptics::gear_name(gear.gear);
-    shots.push_back({fmt::format("gear_{}", name), fmt::format("{} engaged, {:.2f} s", name, gear.time),
+    shots.push_back({fmt::format("gear_{}", name), fmt::format("Gear {} engaged after {:.2f} s", name, gear.time),
                      &frame_at(film, gear.time + kRestDelay), "gate"});
   }
   const FilmFrame& deepest = deepest_frame(film);
-  shots.push_back({"clamp",
-                   fmt::format("The hand is {:.2f} mm beyond the wall and is held with {:.1f} N; the drawn lever "
-                               "stays in the gate",
-                               1e3 * depth_beyond_wall(deepest), glm::length(deepest.lever.commanded)),
-                   &deepest, "gate"});
+  shots.push_back(
+      {"clamp",
+       fmt::format("The hand is {:.2f} mm beyond the wall and is pushed back with {:.1f} N; the drawn lever "
+                   "stays in the gate",
+                   1e3 * depth_beyond_wall(deepest), glm::length(deepest.lever.commanded)),
+       &deepest, "gate"});
   if (gears.size() > 1) {
     shots.push_back({"gearbox",
-                     fmt::format("The gearbox cut open, between {} and {}", haptics::gear_name(gears[0].gear),
+                     fmt::format("The gearbox cut open, between gears {} and {}", haptics::gear_name(gears[0].gear),
                                  haptics::gear_name(gears[1].gear)),
                      &before(film, gears[1]), "gearbox"});
-    shots.push_back({"gearbox_in", fmt::format("The gearbox in {}", haptics::gear_name(gears[1].gear)),
+    shots.push_back({"gearbox_in", fmt::format("The gearbox in gear {}", haptics::gear_name(gears[1].gear)),
                      &frame_at(film, gears[1].time + kRestDelay), "gearbox"});
   }
   if (gears.empty()) return shots;
   const lab::GearTime& middle = gears[gears.size() / 2];
-  shots.push_back({"hand", fmt::format("The hand in {}", haptics::gear_name(middle.gear)),
+  shots.push_back({"hand", fmt::format("The hand on the lever, in gear {}", haptics::gear_name(middle.gear)),
                    &frame_at(film, middle.time + kHandDelay), "lever"});
   shots.push_back({"cluster", speeds(fastest_frame(film)), &fastest_frame(film), "cluster"});
-  shots.push_back({"driver", fmt::format("{} from the driver's eye", haptics::gear_name(gears.back().gear)),
+  shots.push_back({"driver", fmt::format("Gear {}, seen from the driver's seat", haptics::gear_name(gears.back().gear)),
                    &frame_at(film, gears.back().time + kRestDelay), "driver"});
   return shots;
 }
@@ -117,7 +118,7 @@ std::vector<Shot> lesson_shots(std::span<const FilmFrame> film, const std::strin
   if (const FilmFrame* ring = ring_frame(film)) {
     shots.push_back(
         {lesson + "_ring",
-         fmt::format("The synchroniser blocks: its dogs differ by {:.0f} rpm, the hand pushes with {:.0f} N",
+         fmt::format("The synchroniser blocks: the two sides differ by {:.0f} rpm while the hand pushes with {:.0f} N",
                      kRpm * std::abs(ring->car.dog_difference), glm::length(ring->lever.f_h)),
          ring, "gearbox"});
     const std::vector<lab::GearTime> gears = gears_of(film);
@@ -126,7 +127,7 @@ std::vector<Shot> lesson_shots(std::span<const FilmFrame> film, const std::strin
     if (next != gears.end()) {
       shots.push_back(
           {lesson + "_in",
-           fmt::format("{} engaged, {:.2f} s later", haptics::gear_name(next->gear), next->time - ring->time),
+           fmt::format("Gear {} engaged {:.2f} s later", haptics::gear_name(next->gear), next->time - ring->time),
            &frame_at(film, next->time + kHandDelay), "gearbox"});
     }
   }

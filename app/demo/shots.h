@@ -1,4 +1,4 @@
-// Selects the moments of a drive to picture, and the camera for each.
+// Selects the moments of a drive that the demo shows as pictures, and the camera for each.
 #pragma once
 
 #include <span>
@@ -10,19 +10,19 @@
 namespace gearshift::demo {
 
 struct Shot {
-  std::string name;     // of the file, without extension
+  std::string name;     // file name of the picture, without extension
   std::string caption;  // one sentence
   const FilmFrame* frame = nullptr;
-  std::string camera;  // see camera(); cabin_for_camera() tells how far the cabin is cut open for it
+  std::string camera;  // see camera(); also selects the kind of cabin, see cabin_for_camera()
 };
 
-// Both functions return shots in the order of the drive. The film must not be empty and must outlive the shots.
-//
-// Shots of a drive through every gear: the cabin, each gear as it engages, the hand pushing into a wall, the gearbox in
-// the middle of a shift, the instruments.
+// For both functions, the film must not be empty and must outlive the shots.
+
+// Shots of a drive through every gear: the cabin, each gear as it engages, the hand pushing into a wall, the gearbox
+// between two gears and in gear, the hand, the instruments.
 std::vector<Shot> tour_shots(std::span<const FilmFrame> film);
-// Shots of a lesson: the bite point while a brake still holds the car, a blocking synchroniser ring and the engaged
-// dogs, the end. Moments that the drive does not have are left out. `lesson`: prefix of the picture names.
+// Shots of a lesson: the bite point while the handbrake still holds the car, a blocking synchroniser ring and then the
+// engaged dogs, the highest speed. Moments that do not occur in the drive are left out. lesson: prefix of the names.
 std::vector<Shot> lesson_shots(std::span<const FilmFrame> film, const std::string& lesson);
 
 }  // namespace gearshift::demo

@@ -19,7 +19,8 @@ struct Box {
   }
 };
 
-// A skinned mesh is placed by its joints, so its bounding box is computed from the posed vertices.
+// Adds a skinned mesh to the bounding box. Its joints determine its place, so the box is computed from the posed
+// vertices.
 void add_posed(const engine::Model& model, std::size_t node, const std::vector<glm::mat4>& world, Box& box) {
   std::vector<engine::Vertex> posed;
   engine::skin_vertices(model, static_cast<int>(node), world, posed);
@@ -63,7 +64,7 @@ engine::FrameScene still_scene(const engine::Model& model) {
     if (node.mesh == engine::kNone || node.skin == engine::kNone) continue;
     engine::DeformedMesh posed{node.mesh, {}, static_cast<int>(i)};
     engine::skin_vertices(model, posed.node, world, posed.vertices);
-    if (posed.vertices.empty()) continue;  // only lines or points, which are not drawn
+    if (posed.vertices.empty()) continue;  // the mesh has only lines or points, which are not drawn
     scene.deformed.push_back(std::move(posed));
     scene.nodes[i].world = glm::mat4(1.0f);  // skinned vertices are in world space
   }

@@ -1,4 +1,4 @@
-// The haptic thread's part of a trainer: runs the loop cycle by cycle and publishes a record of each cycle.
+// The part of the runtime on the haptic thread: runs the loop cycle by cycle and publishes a record of each cycle.
 #pragma once
 
 #include <array>
@@ -17,43 +17,45 @@
 namespace gearshift::runtime {
 
 struct CycleRecord {
-  vehicle::DriveSample sample;  // without a car, its car is the default state
-  std::int64_t late_ns = 0;     // [ns] wake-up after the deadline
+  vehicle::DriveSample sample;  // without a car, sample.car has default values
+  std::int64_t late_ns = 0;     // [ns] time by which the thread woke up after the deadline
 };
 
 struct LoopFigures {
   std::uint64_t overruns = 0;        // see CycleStatistics
   std::uint64_t skipped = 0;         // see CycleStatistics
-  std::array<double, 8> stage_ns{};  // [ns] read .. write, mean of the latest stamps
-  double cycle_ns = 0.0;             // [ns] whole cycle, from the same stamps
+  std::array<double, 8> stage_ns{};  // [ns] mean durations of the stages, see LoopHealth::stage_ns
+  double cycle_ns = 0.0;             // [ns] mean duration of a cycle: the sum of stage_ns
 };
 
 class CycleRunner {
  public:
-  static constexpr std::size_t kMaxRecords = 8192;    // 8 s at 1 kHz, 2 s at 4 kHz
+  static constexpr std::size_t kMaxRecords = 8192;    // 8 s of cycles at 1 kHz, 2 s at 4 kHz
   static constexpr std::size_t kMaxForDriver = 4096;  // if the driver falls further behind, cycles are skipped
 
-  explicit CycleRunner(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}  // [ns] of the thread
+  explicit CycleRunner(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}  // [ns] period of the thread
 
-  // Runs one cycle; real-time safe. statistics: of the calling thread; null on a virtual clock, which is never late.
+  // Runs one cycle; real-time safe. statistics: those of the calling thread; null on the virtual clock, which is never
+  // late.
   void cycle(const haptics::CycleCall& call, const haptics::CycleStatistics* statistics) noexcept;
 
-  // The last cycle. Only on the thread that runs the cycles.
+  // The last cycle. Call only on the thread that runs the cycles.
   const vehicle::DriveSample& newest() const noexcept { return record_.sample; }
 
-  // Frame side. From the next cycle on, `next` runs; once has_run(next) is true, the previous run may be destroyed.
+  // For the frame side. From the next cycle on, `next` runs; once has_run(next) is true, the previous run may be
+  // destroyed.
   void switch_to(LoopRun& next) noexcept { next_.store(&next, std::memory_order_release); }
   bool has_run(const LoopRun& run) const noexcept { return ran_.load(std::memory_order_acquire) == &run; }
-  std::int64_t now_ns() const noexcept { return now_ns_.load(std::memory_order_relaxed); }  // newest deadline
+  std::int64_t now_ns() const noexcept { return now_ns_.load(std::memory_order_relaxed); }  // newest cycle's deadline
 
-  haptics::SpscQueue<CycleRecord> records{kMaxRecords};  // if full, the newest are dropped
-  // set before the first cycle; null: no driver. If full, the newest are dropped
+  haptics::SpscQueue<CycleRecord> records{kMaxRecords};  // if full, new records are dropped
+  // Null: no driver. Set before the first cycle. If full, new samples are dropped.
   std::unique_ptr<haptics::SpscQueue<vehicle::DriveSample>> for_driver;
   haptics::LatestValue<LoopFigures> figures;
   haptics::LatestValue<vehicle::VehicleState> car;
 
  private:
-  static constexpr std::size_t kStamps = 16;  // number of stamps averaged
+  static constexpr std::size_t kStamps = 16;  // number of stamped cycles in the means of LoopFigures
 
   std::int64_t lateness(const haptics::CycleCall& call, const haptics::CycleStatistics& statistics) noexcept;
   void publish(std::int64_t late_ns) noexcept;
@@ -65,10 +67,10 @@ class CycleRunner {
   std::atomic<std::int64_t> now_ns_{0};
   LoopRun* run_ = nullptr;
   CycleRecord record_;
-  LoopFigures latest_figures_;   // written at each stamp, and at once when a deadline was missed
-  bool has_new_misses_ = false;  // a deadline was missed in this cycle
-  std::array<std::array<std::int64_t, 8>, kStamps> stage_ns_{};  // latest ones, as a ring buffer
-  std::size_t stamps_ = 0;                                       // number so far
+  LoopFigures latest_figures_;   // published after each stamped cycle, and at once when a deadline was missed
+  bool has_new_misses_ = false;  // true if deadlines were missed before this cycle
+  std::array<std::array<std::int64_t, 8>, kStamps> stage_ns_{};  // [ns] ring buffer of the latest stamped cycles
+  std::size_t stamps_ = 0;                                       // number of stamped cycles so far
 };
 
 }  // namespace gearshift::runtime

@@ -7,7 +7,8 @@
 namespace gearshift::runtime {
 namespace {
 
-// Polling interval for the next cycle: waking a thread would be a system call, which the haptic thread must not make.
+// Interval at which the thread polls for the next cycle. The haptic thread cannot wake it, because that would take a
+// system call, which the haptic thread must not make.
 constexpr std::chrono::microseconds kDriveEvery{250};
 
 }  // namespace

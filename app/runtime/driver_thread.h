@@ -1,4 +1,5 @@
-// Runs a driver, or a person's pedals, beside a real-time lever: processes every cycle, some milliseconds late.
+// The thread that runs a DriverFunction or a PedalSource while the lever runs in real time. It processes every cycle,
+// up to some milliseconds late.
 #pragma once
 
 #include <functional>
@@ -11,8 +12,8 @@ namespace gearshift::runtime {
 
 class DriverThread {
  public:
-  // Pops the cycles from the queue as its only reader. The queue must outlive this object. The destructor waits for the
-  // current action.
+  // Calls `act` for each cycle from the queue, of which this thread is the only reader. The queue must outlive this
+  // object. The destructor waits until the current call of `act` returns.
   DriverThread(std::function<void(const vehicle::DriveSample&)> act, haptics::SpscQueue<vehicle::DriveSample>& cycles);
 
  private:

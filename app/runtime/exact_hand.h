@@ -1,4 +1,4 @@
-// A hand with a target for every cycle, used exactly as set, including velocity.
+// A hand that gets a target for every cycle and takes it over exactly, including the velocity.
 #pragma once
 
 #include "haptics/device/hand.h"

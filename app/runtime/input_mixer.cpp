@@ -5,16 +5,17 @@
 namespace gearshift::runtime {
 namespace {
 
-// The driver's pedals and keys, with the instructor's slope and guidance.
-haptics::DriverControls merged(const haptics::DriverControls& driver, const haptics::DriverControls& teacher) noexcept {
+// Combines the driver's controls with the instructor's slope and guidance.
+haptics::DriverControls merged(const haptics::DriverControls& driver,
+                               const haptics::DriverControls& instructor) noexcept {
   haptics::DriverControls both = driver;
-  both.slope = teacher.slope;
-  both.guided_gear = teacher.guided_gear;
-  both.guidance = teacher.guidance;
+  both.slope = instructor.slope;
+  both.guided_gear = instructor.guided_gear;
+  both.guidance = instructor.guidance;
   return both;
 }
 
-// Each pedal as deep as the deeper of both.
+// Presses each pedal as deep as the deeper one of `person` and `pedals`.
 haptics::DriverControls pressed(const haptics::DriverControls& person, const haptics::DriverControls& pedals) noexcept {
   haptics::DriverControls both = person;
   both.throttle = std::max(person.throttle, pedals.throttle);

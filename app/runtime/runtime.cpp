@@ -22,27 +22,27 @@
 namespace gearshift::runtime {
 namespace {
 
-constexpr std::uint64_t kDrainInterval = 1000;  // [cycles] of the virtual clock; the queues hold eight times as many
-constexpr std::chrono::microseconds kPollPeriod{
-    100};  // until the next cycle of a thread with a period of at least 250 us
+constexpr std::uint64_t kDrainInterval = 1000;  // [cycles] on the virtual clock; the queues hold 8 times this number
+// Pause between checks whether the haptic thread has run a cycle; its period is at least 250 us.
+constexpr std::chrono::microseconds kPollPeriod{100};
 
 RuntimeConfig checked(RuntimeConfig config) {
   haptics::check_config(config.preset.haptics);
   if (config.lever && config.driver)
-    throw std::invalid_argument("an automatic hand needs the simulated lever: a real stick is held by a person");
+    throw std::invalid_argument("a simulated driver needs the simulated lever, because a person holds the real stick");
   haptics::HandImpedance& hand = config.preset.lever.hand;
   hand = haptics::leading_hand(hand);
   return config;
 }
 
-constexpr std::int64_t kMaxPausePeriods = 11;  // after a pause, pedals catch up no more than the loop's load does
+constexpr std::int64_t kMaxPausePeriods = 11;  // maximum advance of the pedals after a pause, as for the loop's load
 
-// Null: use the simulated lever.
+// The real lever; null if the simulated lever is used.
 std::unique_ptr<haptics::HapticDevice> make_lever(const RuntimeConfig& config) {
   return config.lever ? config.lever(haptics::period_s(config.preset.haptics)) : nullptr;
 }
 
-// Compiled for the reach of the lever: on a yoke's sphere, or in a plane.
+// The gate, compiled for the reach of the lever, which moves on the sphere of a yoke or in a plane.
 haptics::Gate gate_for(const RuntimeConfig& config, const haptics::HapticDevice* real_device) {
   const haptics::YokeGeometry& yoke = config.preset.lever.yoke;
   if (real_device == nullptr)
@@ -80,7 +80,7 @@ struct Runtime::State {
   std::unique_ptr<LoopRun> make_run();
   glm::dvec2 start_position() const { return haptics::rest_position(gate, config.start.gear); }
   haptics::HapticConfig running_config() const;
-  haptics::TraceHeader header(const char* load, bool armed) const;
+  haptics::TraceHeader header(const char* replay_parameters, bool armed) const;
   bool requires_manual_arming() const;
   void switch_to(std::unique_ptr<LoopRun> next);
   void begin();
@@ -100,31 +100,31 @@ struct Runtime::State {
   const DriverFunction driver;
   const PedalSource feet;
   std::int64_t period_ns;
-  std::unique_ptr<haptics::HapticDevice> real_device;  // null: simulated
+  std::unique_ptr<haptics::HapticDevice> real_device;  // null: the lever is simulated
   haptics::Gate gate;
-  InputMixer seat;
-  std::unique_ptr<haptics::HandDriver> hand;  // of the simulated lever
+  InputMixer input;
+  std::unique_ptr<haptics::HandDriver> hand;  // the hand that holds the simulated lever
   std::unique_ptr<haptics::SimulatedLever> simulated;
   haptics::HapticDevice& lever;
   std::unique_ptr<LoopRun> run;
   haptics::AdmittedTuning admitted;
   CycleRunner runner;
-  std::optional<std::int64_t> acted_ns;       // [ns] of the last cycle passed to the pedals
-  std::optional<DriverThread> driver_thread;  // real clock only
+  std::optional<std::int64_t> acted_ns;       // [ns] time of the last cycle passed to the pedals
+  std::optional<DriverThread> driver_thread;  // empty on the virtual clock
   std::unique_ptr<haptics::TraceRecorder> recorder;
   haptics::RealtimeThread thread;
 
   // Used only by the frame side.
   haptics::HapticSnapshot newest;
-  std::vector<vehicle::DriveSample> cycles;  // not yet returned by drain_cycles()
+  std::vector<vehicle::DriveSample> cycles;  // cycles not yet returned by drain_cycles()
   std::vector<haptics::HapticEvent> events;
   haptics::DurationHistogram lateness;
-  std::uint64_t events_lost = 0;      // in earlier loops
-  bool wants_forces = false;          // last request: arm, disarm or stop
-  std::int64_t start_ns = 0;          // [ns] on the loop's clock, one period before the first cycle
-  std::int64_t virtual_ns = 0;        // [ns] of the last cycle
-  double pending_time = 0.0;          // [s] requested by advance() but less than a period
-  std::uint64_t unserved_cycles = 0;  // on the virtual clock, since the queues were last drained
+  std::uint64_t events_lost = 0;      // number of events lost in earlier loops
+  bool wants_forces = false;          // true if the last request was arm(), false after disarm() or stop()
+  std::int64_t start_ns = 0;          // [ns] one period before the first cycle, on the loop's clock
+  std::int64_t virtual_ns = 0;        // [ns] time of the last cycle on the virtual clock
+  double pending_time = 0.0;          // [s] rest of the time requested by advance(), shorter than a period
+  std::uint64_t unserved_cycles = 0;  // number of cycles since the queues were last drained; virtual clock only
 };
 
 Runtime::State::State(const RuntimeConfig& wanted)
@@ -134,7 +134,7 @@ Runtime::State::State(const RuntimeConfig& wanted)
       period_ns(haptics::period_ns(config.preset.haptics)),
       real_device(make_lever(config)),
       gate(gate_for(config, real_device.get())),
-      seat(static_cast<bool>(config.driver), resting_action()),
+      input(static_cast<bool>(config.driver), resting_action()),
       hand(real_device ? nullptr : make_hand()),
       simulated(real_device ? nullptr
                             : std::make_unique<haptics::SimulatedLever>(config.preset.lever, period_ns, *hand)),
@@ -148,8 +148,8 @@ Runtime::State::State(const RuntimeConfig& wanted)
   newest.lever = newest.proxy = start;
   newest.wall_stiffness = admitted.tuning.wall_stiffness;
   if (run->car() != nullptr) runner.car.write(run->car()->state());
-  if (feet) seat.press(feet({}, 0.0));
-  seat.connect(run->channels);
+  if (feet) input.press(feet({}, 0.0));
+  input.connect(run->channels);
   begin();
 }
 
@@ -159,11 +159,11 @@ Runtime::State::~State() {
 }
 
 std::unique_ptr<haptics::HandDriver> Runtime::State::make_hand() {
-  if (driver) return std::make_unique<ExactHand>(seat.hand());
-  return std::make_unique<haptics::SmoothedHand>(seat.hand(), haptics::period_s(config.preset.haptics));
+  if (driver) return std::make_unique<ExactHand>(input.hand());
+  return std::make_unique<haptics::SmoothedHand>(input.hand(), haptics::period_s(config.preset.haptics));
 }
 
-// Until a hand or driver gives targets.
+// Hand and controls until the first set_hand(), set_controls() or action of the driver.
 vehicle::DriverAction Runtime::State::resting_action() const {
   vehicle::DriverAction action;
   action.hand.position = start_position();
@@ -172,7 +172,7 @@ vehicle::DriverAction Runtime::State::resting_action() const {
   return action;
 }
 
-// The next run; the car continues from its current state.
+// Creates the next run, in which the car continues from its current state.
 std::unique_ptr<LoopRun> Runtime::State::make_run() {
   runner.car.update();
   const vehicle::CarStart from = vehicle::start_from(runner.car.value());
@@ -197,28 +197,30 @@ void Runtime::State::begin() {
   start_ns = newest.time_ns - period_ns;
 }
 
-// The tuning as last requested, with the hold in use: what change_tuning() admitted is then admitted again.
+// The configuration with the tuning as last requested and the hold in use. With the same hold, the next loop admits the
+// same tuning as change_tuning() did.
 haptics::HapticConfig Runtime::State::running_config() const {
   haptics::HapticConfig haptics = config.preset.haptics;
   haptics.contact.hold = admitted.hold;
   return haptics;
 }
 
-haptics::TraceHeader Runtime::State::header(const char* load, bool armed) const {
-  return {config.program, running_config(), lever.spec(), config.layout.file, config.layout.text, load, armed};
+haptics::TraceHeader Runtime::State::header(const char* replay_parameters, bool armed) const {
+  return {config.program,     running_config(),  lever.spec(), config.layout.file,
+          config.layout.text, replay_parameters, armed};
 }
 
-// True if a fault has ended the forces and only a person may restore them: the same rule as in HapticLoop::watch_guard.
+// True if a fault has ended the forces and only arm() may restore them: the same rule as in HapticLoop::watch_guard().
 bool Runtime::State::requires_manual_arming() const {
   const bool may_rearm = lever.spec().simulated && newest.fault != haptics::GuardFault::chatter;
   return newest.guard == haptics::GuardState::released || (newest.guard == haptics::GuardState::damped && !may_rearm);
 }
 
-// Returns after the first cycle of the next loop: everything sent from then on goes to it, and its recording is
-// complete. If the old loop had a fault after the next one was created, the new loop's forces end, too; they have
-// hardly begun to ramp up.
+// Replaces the running loop. Returns after the first cycle of the next one, so that later commands reach it and its
+// recording misses no cycle. If the old loop had a fault after the next one was created, the next one's forces, which
+// have hardly begun to ramp up, are ended too.
 void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
-  seat.connect(next->channels);
+  input.connect(next->channels);
   runner.switch_to(*next);
   if (is_virtual()) {
     cycle_once();
@@ -234,12 +236,13 @@ void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
   send(haptics::LoopCommand::stop);
 }
 
-// On the virtual clock's thread, or on the driver's.
+// Lets the driver or the pedals react to the cycle. Called on the virtual clock by the frame's thread, otherwise by the
+// DriverThread.
 void Runtime::State::act(const vehicle::DriveSample& cycle) {
-  if (driver) return seat.act(driver(cycle));
+  if (driver) return input.act(driver(cycle));
   const std::int64_t before_ns = std::exchange(acted_ns, cycle.lever.time_ns).value_or(cycle.lever.time_ns);
   const std::int64_t passed_ns = std::min(cycle.lever.time_ns - before_ns, kMaxPausePeriods * period_ns);
-  seat.press(feet(cycle, 1e-9 * static_cast<double>(passed_ns)));
+  input.press(feet(cycle, 1e-9 * static_cast<double>(passed_ns)));
 }
 
 void Runtime::State::cycle_once() {
@@ -249,7 +252,7 @@ void Runtime::State::cycle_once() {
   if (++unserved_cycles >= kDrainInterval) drain_queues();
 }
 
-// Drains the queues that a thread or the frame would drain on the real clock.
+// On the virtual clock, drains the queues that the frame and the recorder's thread drain on the real clock.
 void Runtime::State::drain_queues() {
   unserved_cycles = 0;
   if (recorder) recorder->pump();
@@ -272,8 +275,8 @@ void Runtime::State::drain_events() {
   for (haptics::HapticEvent event; run->channels.events.pop(event);) events.push_back(event);
 }
 
-// Each command waits for a cycle, one per cycle. If the queue is full, a stopped virtual clock drops the oldest
-// command; a thread takes one within a period, so wait for it.
+// Queues the command; the loop takes one command per cycle. If the queue is full: on the virtual clock, which may stand
+// still, drops the oldest command; on the real clock, waits until the loop has taken one.
 void Runtime::State::send(haptics::LoopCommand command) {
   while (!run->channels.commands.push(command)) {
     haptics::LoopCommand oldest;
@@ -324,11 +327,11 @@ std::vector<vehicle::DriveSample> Runtime::drain_cycles() {
 }
 
 void Runtime::set_hand(const haptics::HandTarget& target) {
-  state_->seat.set_hand(target);
+  state_->input.set_hand(target);
 }
 
 void Runtime::set_controls(const haptics::DriverControls& controls) {
-  state_->seat.set_controls(controls);
+  state_->input.set_controls(controls);
 }
 
 haptics::AdmittedTuning Runtime::change_tuning(const haptics::HapticTuning& wanted) {
@@ -369,16 +372,17 @@ LoopHealth Runtime::health() {
   health.stage_ns = figures.stage_ns;
   health.cycle_ns = figures.cycle_ns;
   health.realtime = s.thread.is_realtime();
-  health.not_realtime_reason = s.is_virtual() ? "not real-time: virtual clock" : s.thread.not_realtime_reason();
+  health.not_realtime_reason =
+      s.is_virtual() ? "not real-time, because the virtual clock is used" : s.thread.not_realtime_reason();
   return health;
 }
 
 void Runtime::start_recording(const std::filesystem::path& file) {
   State& s = *state_;
-  if (s.recorder) throw std::logic_error("a recording is running already: stop it first");
+  if (s.recorder) throw std::logic_error("a recording is already running; stop it first");
   s.update_snapshot();
   std::unique_ptr<LoopRun> next = s.make_run();
-  // A request counts even if the loop has not processed the command yet
+  // A request for forces counts even if the loop has not processed the command yet.
   const bool armed = s.wants_forces && !s.requires_manual_arming();
   if (armed) next->loop.arm();
   const haptics::TracePump pump = s.is_virtual() ? haptics::TracePump::by_caller : haptics::TracePump::own_thread;
@@ -409,7 +413,7 @@ void Runtime::advance(double seconds) {
   if (!(seconds > 0.0) || !std::isfinite(seconds)) return;
   const double period = 1e-9 * static_cast<double>(s.period_ns);
   s.pending_time += seconds;
-  // rounding must not cost a cycle
+  // The small margin keeps a rounding error from dropping a cycle.
   const std::int64_t cycles = std::llround(std::floor(s.pending_time / period + 1e-6));
   for (std::int64_t i = 0; i < cycles; ++i) s.cycle_once();
   s.pending_time -= static_cast<double>(cycles) * period;

@@ -1,9 +1,9 @@
 // The running lever: device, hand, loop, thread and recorder, shared by window, demo and tests.
 //
-// Two clocks: a real-time thread for people, or a virtual clock advanced by advance() for films and tests. A different
-// gate, preset or driver needs a new Runtime. If the frame side makes no calls for seconds, the lever keeps running.
-// Two kinds of lever: the preset's simulated one, whose hand is controlled from here, or a real one held by a person,
-// which only a person may arm with arm().
+// Two clocks: a real-time thread for users, or a virtual clock advanced by advance() for films and tests. A different
+// gate, preset or driver needs a new Runtime. The lever keeps running even if the frame side makes no calls for
+// seconds. Two kinds of lever: the preset's simulated one, with a hand controlled by set_hand() or a driver; or a real
+// one held by the user, for which only the user may request arm().
 #pragma once
 
 #include <array>
@@ -28,57 +28,58 @@ namespace gearshift::runtime {
 
 enum class RuntimeClock { real_time, virtual_time };
 
-// A scripted driver: called with the last cycle, returns hand target and pedals for the next; the hand follows the
+// A scripted driver: called with the last cycle, returns hand target and controls for the next; the hand follows the
 // target exactly, velocity included. On the virtual clock it is called once per cycle, within advance() and
-// start_recording(). On the real clock a separate thread calls it in order, possibly some milliseconds late: it may
-// allocate, and must not throw. If it falls seconds behind, cycles are skipped.
+// start_recording(). On the real clock a separate thread calls it in order, possibly some milliseconds late. It may
+// allocate but must not throw. If it falls seconds behind, cycles are skipped.
 using DriverFunction = std::function<vehicle::DriverAction(const vehicle::DriveSample&)>;
 
-// A person's pedals: called with the last cycle and the seconds since the one before, returns throttle, brake and
-// clutch for the next cycle (other fields are ignored). Called like a DriverFunction, so that pedals move on the car's
-// clock even if frames are rare; and once before the first cycle, with 0 s.
+// The user's keyboard pedals: called with the last cycle and the seconds between the last two cycles, returns throttle,
+// brake and clutch for the next cycle (other fields are ignored). Called like a DriverFunction, so that pedals move on
+// the car's clock even at a low frame rate; and once before the first cycle, with 0 s.
 using PedalSource = std::function<haptics::DriverControls(const vehicle::DriveSample& cycle, double seconds)>;
 
-// Creates a real lever for a loop of that period [s], without moving it; only one may be in use at a time. Throws
+// Creates a real lever for a loop with this period [s], without moving it; only one may be in use at a time. Throws
 // std::invalid_argument with one sentence.
 using LeverFactory = std::function<std::unique_ptr<haptics::HapticDevice>(double period)>;
 
 struct RuntimeConfig {
   haptics::GateLayout layout;
-  std::optional<vehicle::CarSpec> car;  // load on the lever; empty: none
-  vehicle::CarStart start;              // of the car; also the gear that the lever starts in
+  std::optional<vehicle::CarSpec> car;  // the car that loads the lever; empty: no load
+  vehicle::CarStart start;              // the car's first state; the lever starts in the same gear
   double hand_brake = 0.0;              // [1] 0 to 1, until set_controls() or the driver changes it
-  haptics::Preset preset;               // a hand that cannot be controlled is replaced by leading_hand()
-  LeverFactory lever;     // replaces the preset's lever; then the hand is not controlled, and there must be no driver
+  haptics::Preset preset;               // a hand too soft to lead the lever is replaced, see leading_hand()
+  LeverFactory lever;     // replaces the preset's lever by a real one, and set_hand() is ignored; requires no `driver`
   DriverFunction driver;  // empty: set_hand() and set_controls() are used
-  PedalSource feet;  // added to set_controls() if there is no driver: each pedal is the deeper of both; may be empty
+  PedalSource feet;       // keyboard pedals, may be empty; ignored with a driver. See set_controls()
   RuntimeClock clock = RuntimeClock::real_time;
-  std::uint64_t seed = 1;             // for the car
+  std::uint64_t seed = 1;             // random seed of the car
   std::string program = "gearshift";  // name and version of the program, for the trace
 };
 
-// Timing of the thread since the last call. Lateness: wake-up after the deadline.
+// Timing of the haptic thread.
 struct LoopHealth {
-  double rate = 0.0;                                        // [Hz] as configured
-  double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;  // [s]
-  std::uint64_t overruns = 0;                               // cycles that took too long, since the start
-  std::uint64_t skipped = 0;      // deadlines missed: by overruns, and by waking up a period late or more
-  std::uint64_t events_lost = 0;  // since the start; 0 if all is well
-  std::array<double, 8>
-      stage_ns{};         // [ns] read, estimate, proxy, couple, feel, load, guard, write: mean of the latest stamps
-  double cycle_ns = 0.0;  // [ns] whole cycle, from the same stamps
+  double rate = 0.0;  // [Hz] as configured
+  // [s] Median, 99th percentile and maximum, since the last call of health(), of the time from deadline to wake-up.
+  double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;
+  std::uint64_t overruns = 0;     // number of cycles since the start that took longer than a period
+  std::uint64_t skipped = 0;      // number of deadlines since the start that were missed, by overruns or late wake-ups
+  std::uint64_t events_lost = 0;  // number of events since the start that were lost because their queue was full
+  // [ns] Mean durations of read, estimate, proxy, couple, feel, load, guard and write in the latest stamped cycles.
+  std::array<double, 8> stage_ns{};
+  double cycle_ns = 0.0;  // [ns] mean duration of a whole cycle: the sum of stage_ns
   bool realtime = false;
   std::string not_realtime_reason;  // empty if real-time
 };
 
-// Throws what Runtime's constructor would, without running anything: for checking a lever that another runtime still
-// uses, with a stand-in for it. Returns the gate.
+// Throws what Runtime's constructor would throw, without running anything, and returns the gate. Used with a detached
+// lever to check a configuration while the stick is still in use by a different runtime.
 haptics::Gate check_runtime(const RuntimeConfig& config);
 
 class Runtime {
  public:
-  // Starts the loop disarmed, with the lever in the start gear (a real lever stays where it is). If the engine runs,
-  // the ignition is on until set_controls() changes it. Throws FileError (the layout does not fit this device),
+  // Starts the loop disarmed, with the lever in the start gear (a real lever is not moved). If the engine runs at the
+  // start, the ignition is on until set_controls() changes it. Throws FileError (the gate does not fit the device),
   // std::invalid_argument (also if the car does not fit the gate) or std::runtime_error with one sentence.
   explicit Runtime(const RuntimeConfig& config);
   ~Runtime();  // releases the motors and closes the recording
@@ -88,43 +89,43 @@ class Runtime {
   const RuntimeConfig& config() const noexcept;  // with the hand in use and the tuning as last requested
   const haptics::Gate& gate() const noexcept;
   const haptics::DeviceSpec& device() const noexcept;
-  const haptics::AdmittedTuning& admitted() const noexcept;  // in use now
+  const haptics::AdmittedTuning& admitted() const noexcept;  // the tuning in use
 
-  // Frame side, for one thread.
-  haptics::HapticSnapshot snapshot();                // newest
-  vehicle::VehicleState car();                       // newest; default values without a car
-  std::vector<haptics::HapticEvent> drain_events();  // since the last call, in order
-  // Every cycle since the last call, in order. After a pause of more than 8192 cycles, the first 8192; the gap shows in
-  // HapticSnapshot::cycle.
+  // The frame side: all following functions must be called by the same thread.
+  haptics::HapticSnapshot snapshot();                // newest state of the lever
+  vehicle::VehicleState car();                       // newest state of the car; default values without a car
+  std::vector<haptics::HapticEvent> drain_events();  // events since the last call, in order
+  // Returns every cycle since the last call, in order, but at most 8192. After more cycles, the newest are missing; the
+  // gap shows in HapticSnapshot::cycle.
   std::vector<vehicle::DriveSample> drain_cycles();
-  // Uses position and push; ignored with a driver or a real lever.
+  // Uses position and push of the target. Ignored with a driver or a real lever.
   void set_hand(const haptics::HandTarget& target);
-  // With a driver only slope, guidance and guided gear are used, and the driver's own are ignored. Guidance needs a
-  // car.
+  // Without a driver, each pedal is as deep as the deeper one of `controls` and RuntimeConfig::feet. With a driver,
+  // only slope, guidance and guided gear are used, and replace those of the driver. Guidance needs a car.
   void set_controls(const haptics::DriverControls& controls);
-  haptics::AdmittedTuning change_tuning(const haptics::HapticTuning& wanted);  // see HapticLoop::change_tuning
+  haptics::AdmittedTuning change_tuning(const haptics::HapticTuning& wanted);  // see HapticLoop::change_tuning()
   // arm() allows forces, which ramp up from zero; disarm() ends them; stop() switches the motors off at once, like the
-  // large red button. Applied in the next cycle; the resulting guard state is in the snapshot: idle, armed, ramping,
-  // running or, after a fault, damped or released. A simulated lever leaves damped by itself after 50 ms without a
-  // fault, unless it chattered even with a softer wall (GuardFault::chatter). From there, and from idle and released,
-  // only arm() restores the forces.
+  // large red button. They take effect in the next cycle; the resulting guard state is in the snapshot: idle, armed,
+  // ramping, running or, after a fault, damped or released. A simulated lever leaves the state damped by itself after
+  // 50 ms without a fault, except after GuardFault::chatter (chatter even with a softer wall). In all other cases only
+  // arm() restores the forces.
   void arm();
   void disarm();
   void stop();
   LoopHealth health();
 
-  // A trace can be replayed only from the first cycle of a loop. So a recording starts a new loop between two cycles,
-  // with the lever where it is: armed if the old one was, with forces ramping up from zero as after arm(). Lever, hand
-  // and clock continue; cycles count from 0 again, and the current gear is engaged again (a second event, without
-  // gear_left before it). The car continues from its state at the call; guidance fades in again from zero. Throws
-  // FileError if the file cannot be created, std::logic_error while recording: nothing has changed then.
+  // A trace can be replayed only from the first cycle of a loop. So a recording starts a new loop between two cycles.
+  // If the old loop was armed, the new one is too, with forces ramping up from zero as after arm(). Lever, hand and
+  // clock continue; cycles count from 0 again, and the current gear is reported as engaged again (without a gear_left
+  // event before). The car continues from its state at the call; guidance fades in again from zero. Throws FileError if
+  // the file cannot be created, or std::logic_error if a recording is running; then nothing has changed.
   void start_recording(const std::filesystem::path& file);
-  std::optional<std::string> poll_recording_problem();  // the problem that ended the current recording, returned once
-  std::optional<std::string> stop_recording();          // a problem, if there was one
+  std::optional<std::string> poll_recording_problem();  // problem that ended the current recording, returned only once
+  std::optional<std::string> stop_recording();          // returns the recording's problem; empty: it is complete
   bool is_recording() const noexcept;
 
-  void advance(double seconds);  // virtual clock only (else std::logic_error): runs whole cycles
-  double time() const noexcept;  // [s] on the loop's clock, since the start
+  void advance(double seconds);  // runs whole cycles on the virtual clock; throws std::logic_error on the real clock
+  double time() const noexcept;  // [s] since the start, on the loop's clock
 
  private:
   struct State;

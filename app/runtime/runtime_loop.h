@@ -1,4 +1,4 @@
-// A haptic loop with its channels and the load on its lever: created again when a recording starts.
+// A haptic loop with its channels and the load on its lever. A new one is created when a recording starts.
 #pragma once
 
 #include <memory>

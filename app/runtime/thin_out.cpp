@@ -14,11 +14,11 @@ bool is_weaker(const haptics::HapticSnapshot& a, const haptics::HapticSnapshot& 
 
 }  // namespace
 
-std::vector<haptics::HapticSnapshot> thin_out(const std::vector<haptics::HapticSnapshot>& all, std::size_t most) {
-  if (all.size() <= most) return all;
-  if (most == 0) return {};
-  if (most == 1) return {*std::max_element(all.begin(), all.end(), is_weaker)};
-  const std::size_t parts = most / 2;
+std::vector<haptics::HapticSnapshot> thin_out(const std::vector<haptics::HapticSnapshot>& all, std::size_t max_count) {
+  if (all.size() <= max_count) return all;
+  if (max_count == 0) return {};
+  if (max_count == 1) return {*std::max_element(all.begin(), all.end(), is_weaker)};
+  const std::size_t parts = max_count / 2;
   std::vector<haptics::HapticSnapshot> few;
   few.reserve(2 * parts);
   for (std::size_t part = 0; part < parts; ++part) {

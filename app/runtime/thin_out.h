@@ -1,4 +1,4 @@
-// Reduces a list of snapshots to fewer that still show what happened.
+// Reduces a list of snapshots to fewer that still show all force peaks.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace gearshift::runtime {
 
-// At most `most` of the snapshots, in order; all of them if they fit. Otherwise they are split into most / 2 equal
-// parts, and the weakest and strongest push |f_h| of each part is kept, so that no peak is lost. most = 1: the
-// strongest of all.
-std::vector<haptics::HapticSnapshot> thin_out(const std::vector<haptics::HapticSnapshot>& all, std::size_t most);
+// Returns at most `max_count` of the snapshots, in order. If there are more, they are split into max_count / 2 equal
+// parts, and the snapshots with the smallest and the largest hand force |f_h| of each part are kept. max_count = 1:
+// only the one with the largest force of all.
+std::vector<haptics::HapticSnapshot> thin_out(const std::vector<haptics::HapticSnapshot>& all, std::size_t max_count);
 
 }  // namespace gearshift::runtime

@@ -1,4 +1,4 @@
-// Finds bindings by name. The user's own, measured by `devices --calibrate`, are preferred over the shipped ones.
+// Finds bindings by name. The user's own bindings, measured by `devices --calibrate`, have priority over shipped ones.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace gearshift::session {
 
 inline constexpr std::string_view kOwnBindings = "own";
 
-// Empty name: the user's own bindings if there are any, else "default". config_folder: the user's, or empty if there is
-// none. Throws std::runtime_error with one sentence.
+// An empty name means the user's own bindings if they exist, else "default". config_folder: the user's, or empty if the
+// user has none. Throws std::runtime_error with one sentence.
 inline std::filesystem::path bindings_file(const std::string& name, const std::filesystem::path& config_folder) {
   std::filesystem::path own = ui::user_bindings_file(config_folder, std::string(kOwnBindings));
   std::error_code ignored;

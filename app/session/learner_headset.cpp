@@ -8,17 +8,17 @@
 namespace gearshift::session {
 namespace {
 
-// Shortest and longest pause between two searches for a headset
+// Shortest and longest pause between two searches for a headset.
 constexpr std::chrono::seconds kMinPause(2), kMaxPause(60);
-constexpr std::chrono::seconds kTakenOffDelay(
-    1);                        // delay of the report; a user who quits takes the headset off as well
-constexpr double kTip = 0.10;  // [m] length of the beam while the hand touches the knob: it marks the ray's origin
+// Delay before the removal of the headset is reported: a user who quits takes it off too, and needs no report.
+constexpr std::chrono::seconds kTakenOffDelay(1);
+constexpr double kTip = 0.10;  // [m] length of the beam that shows the ray's origin while the hand touches the knob
 
 engine::HeadsetPanel in_room(const engine::EyePose& cabin_from_room, const cabin::HangingPanel& panel) {
   return {engine::inverse(cabin_from_room) * panel.pose, panel.size, panel.low, panel.high};
 }
 
-engine::EyePose between(const engine::HeadsetEyes& eyes) {
+engine::EyePose middle_eye(const engine::HeadsetEyes& eyes) {
   return {0.5 * (eyes.pose[0].position + eyes.pose[1].position),
           glm::slerp(eyes.pose[0].orientation, eyes.pose[1].orientation, 0.5)};
 }
@@ -42,14 +42,14 @@ bool LearnerHeadset::is_found() {
     return true;
   } catch (const engine::HeadsetAbsent& absent) {
     pause_ = kMinPause;
-    report_once(fmt::format("{}; the desktop shows the cabin until then", absent.what()));
+    report_once(fmt::format("{}; the desktop shows the cabin until one is connected", absent.what()));
   } catch (const engine::HeadsetError& error) {
     report_once(fmt::format("{}; the desktop shows the cabin", error.what()));
   }
   return false;
 }
 
-// The search repeats every 2 s: reports a result only when it changes.
+// Reports the result of a search only if it differs from the last one, because the search is repeated.
 void LearnerHeadset::report_once(const std::string& message) {
   if (message == reported_) return;
   reported_ = message_ = message;
@@ -58,15 +58,15 @@ void LearnerHeadset::report_once(const std::string& message) {
 bool LearnerHeadset::open() {
   try {
     view_ = std::make_unique<cabin::HeadsetView>(setup_.view, std::move(found_), window_, ui_);
-  } catch (const std::exception& error) {  // an error of the runtime or of the GPU
+  } catch (const std::exception& error) {  // from the headset's runtime or the GPU
     lose(error.what());
     return false;
   }
-  message_ = fmt::format("{} at {}", view_->headset().headset, view_->headset().runtime);
+  message_ = fmt::format("{} connected through {}", view_->headset().headset, view_->headset().runtime);
   return true;
 }
 
-// Errors of the headset or of its GPU must not end the trainer.
+// Runs the work. An error from the headset or its GPU closes the view instead of ending the trainer.
 template <class Work>
 void LearnerHeadset::guarded(const Work& work) {
   try {
@@ -86,7 +86,8 @@ bool LearnerHeadset::is_leaving() const {
   return leaving_.valid() && leaving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
 
-// STOP must not wait for the headset's runtime: if it still withholds a frame, the view is destroyed on another thread.
+// Closes the view after an error. If the headset's runtime still withholds a frame, the view is destroyed on a separate
+// thread: a STOP by the user must not wait for the runtime.
 void LearnerHeadset::lose(const std::string& why) {
   if (view_ && view_->is_waiting()) {
     view_->release_window();
@@ -100,8 +101,8 @@ void LearnerHeadset::lose(const std::string& why) {
   taken_off_at_.reset();
   seating_.on_headset_lost();
   next_try_ = std::chrono::steady_clock::now() + pause_;
-  pause_ = std::min(2 * pause_, kMaxPause);  // each attempt interrupts the desktop's picture
-  report_once(fmt::format("{}; the desktop shows the cabin, the lever keeps running", why));
+  pause_ = std::min(2 * pause_, kMaxPause);  // doubled, because each attempt interrupts the desktop's picture
+  report_once(fmt::format("{}; the desktop shows the cabin. The lever keeps running.", why));
 }
 
 bool LearnerHeadset::begin(const cabin::Stage& stage) {
@@ -137,19 +138,20 @@ void LearnerHeadset::report_taken_off() {
   if (was_worn_ || wants_exit_) taken_off_at_.reset();
   if (!taken_off_at_ || std::chrono::steady_clock::now() - *taken_off_at_ < kTakenOffDelay) return;
   taken_off_at_.reset();
-  message_ = "the headset was taken off; the desktop shows the cabin";
+  message_ = "the headset was taken off, so the desktop shows the cabin";
 }
 
 // Some headsets never report a position, some only after a while. Until then the head is placed at the driver's eye
-// point; the seat is recentred as soon as a position is known. A touch calibration needs a head with a known position.
+// point; the seat is recentred as soon as a position is known. A touch calibration needs a known position of the head.
 void LearnerHeadset::update_seat(const cabin::Stage& stage) {
   const engine::HeadsetEyes& eyes = view_->eyes();
   if (std::exchange(placed_, eyes.is_known) != eyes.is_known) seating_.recentre();
-  const bool seen = eyes.is_known ? eyes.is_tracked : eyes.is_oriented;
-  if (seen) seating_.seat_if_needed(between(eyes), stage.knob_at_rest(), eyes.is_known && view_->is_room_persistent());
+  const bool is_tracked = eyes.is_known ? eyes.is_tracked : eyes.is_oriented;
+  if (is_tracked)
+    seating_.seat_if_needed(middle_eye(eyes), stage.knob_at_rest(), eyes.is_known && view_->is_room_persistent());
 }
 
-void LearnerHeadset::draw(const engine::FrameScene& scene, const cabin::VisibleRegion& seen,
+void LearnerHeadset::draw(const engine::FrameScene& scene, const cabin::VisibleRegion& visible,
                           const cabin::VisibleRegion& card, const engine::EyePose& desk) {
   const cabin::DriveSide side = setup_.seat.drive;
   const engine::EyePose driver = cabin::camera("driver", side);
@@ -158,10 +160,10 @@ void LearnerHeadset::draw(const engine::FrameScene& scene, const cabin::VisibleR
                        : cabin::hang_card(driver.position, side, size, card.low, card.high);
   const engine::HeadsetPanel panel = in_room(seating_.cabin_from_room(), panel_);
   const engine::EyePose& seat = view_->is_shown() ? seating_.cabin_from_room() : desk;
-  guarded([&] { view_->draw(scene, seat, &panel, seen); });
+  guarded([&] { view_->draw(scene, seat, &panel, visible); });
 }
 
-// The first hand that points at the panel controls it.
+// Reads both hands; the first one that points at the panel controls it.
 void LearnerHeadset::follow_hands(const cabin::Stage& stage) {
   const std::array<engine::HeadsetHand, 2> hands = view_->hands();
   for (std::size_t i = 0; i < hands.size(); ++i) {
@@ -184,12 +186,12 @@ void LearnerHeadset::follow_hands(const cabin::Stage& stage) {
 }
 
 void LearnerHeadset::apply(const cabin::HeadsetRequests& requests, double bound) {
-  if (requests.touch) panel_open_ = true;  // the panel shows the instructions
+  if (requests.start_touching) panel_open_ = true;  // the panel shows the instructions
   seating_.apply_requests(requests, bound, view_->is_room_persistent());
 }
 
 engine::EyePose LearnerHeadset::head() const {
-  return seating_.cabin_from_room() * between(view_->eyes());
+  return seating_.cabin_from_room() * middle_eye(view_->eyes());
 }
 
 double LearnerHeadset::touch_error() const noexcept {
@@ -205,7 +207,7 @@ cabin::HeadsetReport LearnerHeadset::report() const {
   cabin::HeadsetReport report;
   report.headset = view_->headset().headset;
   report.runtime = view_->headset().runtime;
-  report.state = engine::name_of(view_->state());
+  report.state = engine::to_string(view_->state());
   report.eye = view_->eye_size();
   report.timing = view_->timing();
   report.is_tracked = view_->eyes().is_tracked;

@@ -1,5 +1,5 @@
-// The headset in a running session: its pictures, its seat in the cabin, and the hand that points at the panel. The
-// headset may be lost and found again; without it the caller shows the cabin on the desktop.
+// The headset in a running session: its pictures, its place in the cabin (the seat), and the hand that points at the
+// panel. The headset may be lost and found again; in the meantime the caller shows the cabin on the desktop.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ struct HeadsetSetup {
   cabin::HeadsetViewConfig view;
   std::filesystem::path seat_file;  // empty: the seat is not saved
   cabin::SeatSettings seat;
-  bool is_new = false;  // differs from the file's, so it is saved once the trainer runs
+  bool is_new = false;  // true if `seat` differs from the file and is to be saved there
 };
 
 class LearnerHeadset {
@@ -31,45 +31,45 @@ class LearnerHeadset {
   // Does not open a headset yet. Window and panel must outlive this object.
   LearnerHeadset(const HeadsetSetup& setup, engine::Window& window, engine::UiContext& ui);
 
-  // Checks at most every 2 s whether a runtime with a headset is present. If so, the window must be free for open().
+  // Searches for a runtime with a headset, at most every 2 s. If it returns true, destroy the window's view, then call
+  // open().
   bool is_found();
-  // Creates the view on the runtime that is_found() has found. False if that fails; take_message() has the reason.
+  // Creates the view with the runtime that is_found() has found. Returns false on failure; see take_message().
   bool open();
   bool is_open() const noexcept { return view_ != nullptr; }
   bool is_held() const noexcept { return view_ && view_->is_waiting(); }  // the runtime withholds the next frame
-  bool is_worn() const noexcept { return view_ && view_->is_shown(); }    // the user sees its pictures
+  bool is_worn() const noexcept { return view_ && view_->is_shown(); }    // the user sees the headset's pictures
 
-  void set_model(const engine::Model& model);  // model of the stage; does nothing while no headset is open
+  void set_model(const engine::Model& model);  // model of the stage; call only while is_open()
 
-  // One frame, in this order. begin() waits for the headset's next frame and updates the seat; false if nobody wears
-  // the headset now, and then the caller sets the pace. If the headset is lost, the view is destroyed: see is_open()
-  // and take_message().
+  // Call begin() and draw() once per frame, in this order. begin() waits for the headset's next frame and updates the
+  // seat. It returns false if nobody is wearing the headset; the caller then sets the frame rate. If the headset is
+  // lost, the view is destroyed: see is_open() and take_message().
   bool begin(const cabin::Stage& stage);
-  // seen: the part of the picture that the panel leaves free; card: the same with the learner's card; desk: where the
-  // window views the cabin from while the user does not see through the headset.
-  void draw(const engine::FrameScene& scene, const cabin::VisibleRegion& seen, const cabin::VisibleRegion& card,
+  // visible: the part of the picture that the panel leaves free. card: that part together with the lesson card. desk:
+  // camera of the window while the user does not see through the headset.
+  void draw(const engine::FrameScene& scene, const cabin::VisibleRegion& visible, const cabin::VisibleRegion& card,
             const engine::EyePose& desk);
 
-  // Valid for the frame that has begun.
-  engine::EyePose head() const;  // in the cabin, midway between the eyes
+  // The functions from here to beam() are valid for the frame that has begun.
+  engine::EyePose head() const;  // pose in the cabin of the point midway between the eyes
   struct Pointer {
     cabin::PanelHit hit;
     bool selects = false;
     glm::dvec2 scroll{0.0};
   };
   const std::optional<Pointer>& pointer() const noexcept { return pointer_; }  // the hand's pointer on the panel
-  const std::optional<cabin::Beam>& beam() const noexcept {
-    return beam_;
-  }  // beam from that hand, in cabin coordinates
+  const std::optional<cabin::Beam>& beam() const noexcept { return beam_; }    // the hand's beam in cabin coordinates
   bool wants_exit() const noexcept { return wants_exit_; }
-  bool take_opened() noexcept { return std::exchange(opened_, false); }  // a menu button opened the whole panel
+  // True once after a menu button has opened the whole panel.
+  bool take_opened() noexcept { return std::exchange(opened_, false); }
 
   void recentre() noexcept { seating_.recentre(); }
-  // bound [m]: allowed distance between felt and displayed lever
+  // Call only while is_open(). bound [m]: allowed distance between felt and displayed lever.
   void apply(const cabin::HeadsetRequests& requests, double bound);
   cabin::HeadsetReport report() const;
-  double touch_error() const noexcept;  // [m] between felt and displayed lever, the part caused by the seat calibration
-  std::string take_message();           // one sentence, returned once; empty: none
+  double touch_error() const noexcept;  // [m] distance between felt and displayed lever due to the seat calibration
+  std::string take_message();           // one sentence, returned only once; empty: no message
 
  private:
   void report_once(const std::string& message);
@@ -93,17 +93,17 @@ class LearnerHeadset {
   std::string reported_;  // the last reported reason why no headset is open
 
   cabin::SeatCalibration seating_;
-  bool was_worn_ = false;  // in the previous frame
-  std::optional<std::chrono::steady_clock::time_point>
-      taken_off_at_;     // time when it was taken off, if not reported yet
+  bool was_worn_ = false;  // true if the headset was worn in the previous frame
+  // Time when the headset was taken off, if not reported yet.
+  std::optional<std::chrono::steady_clock::time_point> taken_off_at_;
   bool placed_ = false;  // the head's position is known; until then the head is placed at the driver's eye point
 
   cabin::HangingPanel panel_;
   std::optional<Pointer> pointer_;
   std::optional<cabin::Beam> beam_;
-  std::array<bool, 2> selected_{}, menu_{};  // in the previous frame
-  bool panel_open_ = false;  // the whole panel, not only the learner's card; toggled by the hand's menu button
-  bool opened_ = false;      // in this frame
+  std::array<bool, 2> selected_{}, menu_{};  // per hand: trigger and menu button held in the previous frame
+  bool panel_open_ = false;  // true: the whole panel, false: only the lesson card; toggled by a hand's menu button
+  bool opened_ = false;      // see take_opened()
   bool wants_exit_ = false;
   std::string message_;
 };

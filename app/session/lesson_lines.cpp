@@ -7,17 +7,27 @@
 
 #include "app/base/console.h"
 #include "app/lessons/assessment/grade.h"
+#include "haptics/files/ascii.h"
 
 namespace gearshift::session {
 namespace {
 
-std::string format_result(const lessons::LessonResult& result) {
-  const std::string grade =
-      lessons::is_graded(result) ? fmt::format("grade {:.1f} of 10, ", result.grade) : "not graded, ";
-  return grade + (result.passed ? "passed" : "not passed: " + result.why);
+// Removes the first two words of a sentence like "Not graded: the lever was guiding you." and capitalises the rest.
+std::string without_verdict(std::string why) {
+  constexpr std::string_view kVerdict = "Not graded: ";
+  if (!why.starts_with(kVerdict)) return why;
+  why.erase(0, kVerdict.size());
+  if (!why.empty()) why[0] = haptics::ascii_upper(why[0]);
+  return why;
 }
 
-// A trial on the virtual clock may begin at 0 s, so begin alone does not tell.
+std::string format_result(const lessons::LessonResult& result) {
+  if (!lessons::is_graded(result)) return "not graded. " + without_verdict(result.why);
+  const std::string grade = fmt::format("grade {:.1f} of 10, ", result.grade);
+  return grade + (result.passed ? "passed" : "not passed. " + result.why);
+}
+
+// True once the trial has cycles. `begin` is not sufficient: on the virtual clock a trial may begin at 0 s.
 bool has_cycles(const lessons::LessonResult& result) {
   return result.begin != 0.0 || result.duration > 0.0;
 }
@@ -42,7 +52,7 @@ std::vector<std::string> LessonLines::new_lines(const lessons::CoachView& coach)
   return lines_;
 }
 
-// Two trials may follow each other within one frame.
+// True for the first result of a trial, even if the previous trial ended within the same frame.
 bool LessonLines::is_new_trial(const lessons::LessonResult& result) const {
   return result.begin != begin_ || result.duration < duration_;
 }

@@ -1,4 +1,4 @@
-// Turns the coach's progress into lines on stdout, for people and scripts that watch.
+// Turns the coach's progress into lines on stdout, for users and scripts that follow the lesson.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace gearshift::session {
 
 class LessonLines {
  public:
-  // Call once per frame. Returns the lines that are new.
+  // Call once per frame. Returns the new lines of this frame.
   std::vector<std::string> new_lines(const lessons::CoachView& coach);
 
  private:
@@ -24,12 +24,12 @@ class LessonLines {
   std::vector<std::string> lines_;
   lessons::LessonPhase phase_ = lessons::LessonPhase::none;
   std::string lesson_;                // key of the lesson being reported
-  std::optional<double> begin_;       // [s] begin of its trial
-  double duration_ = 0.0;             // [s] length of the trial so far
-  bool is_running_ = false;           // the trial is still running
+  std::optional<double> begin_;       // [s] start of the trial being reported
+  double duration_ = 0.0;             // [s] duration of the trial so far
+  bool is_running_ = false;           // true while the trial is running
   std::size_t step_ = 0, hints_ = 0;  // step and number of hints reported so far
 };
 
-void print_lines(const std::vector<std::string>& lines, double time);  // [s] since the start of the session
+void print_lines(const std::vector<std::string>& lines, double time);  // time [s] since the start of the session
 
 }  // namespace gearshift::session

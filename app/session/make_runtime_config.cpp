@@ -12,8 +12,8 @@
 namespace gearshift::session {
 namespace {
 
-runtime::DriverFunction self_driver(const runtime::RuntimeConfig& runtime, const vehicle::CarSpec& car,
-                                    const lessons::Lesson* lesson) {
+runtime::DriverFunction automatic_driver(const runtime::RuntimeConfig& runtime, const vehicle::CarSpec& car,
+                                         const lessons::Lesson* lesson) {
   const haptics::YokeGeometry& yoke = runtime.preset.lever.yoke;
   lessons::AutoDriverConfig config;
   config.gate = haptics::compile_gate(runtime.layout, haptics::workspace_half_extent(yoke), yoke.radius);
@@ -45,8 +45,8 @@ runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const Re
   if (choice.hand != kAutomaticHand) return config;
   if (choice.stick)
     throw std::invalid_argument("hand \"by itself\" works only with the simulated lever, not with a stick");
-  if (!config.car) throw std::invalid_argument("hand \"by itself\" needs a car: choose a car or another hand");
-  config.driver = self_driver(config, *config.car, lesson);
+  if (!config.car) throw std::invalid_argument("hand \"by itself\" needs a car; choose a car or another hand");
+  config.driver = automatic_driver(config, *config.car, lesson);
   return config;
 }
 

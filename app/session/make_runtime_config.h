@@ -1,4 +1,4 @@
-// Makes the runtime's configuration from a choice.
+// Makes the runtime's configuration from a SessionChoice.
 #pragma once
 
 #include "app/lessons/assessment/lesson.h"
@@ -6,8 +6,8 @@
 
 namespace gearshift::session {
 
-// The car starts as the lesson demands; null: no lesson, the car is parked. The hand "by itself" drives the lesson or,
-// without a lesson, laps through all gears. Throws FileError or std::invalid_argument with one sentence.
+// lesson: defines the state in which the car starts; null: no lesson, the car is parked. The hand "by itself" drives
+// the lesson or, without a lesson, laps through all gears. Throws FileError or std::invalid_argument with one sentence.
 runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const ResolvedCar& chosen,
                                            const lessons::Lesson* lesson);
 

@@ -1,4 +1,4 @@
-// Reduces the cycles of a frame to the lever samples that the plots draw.
+// Reduces the cycles of one frame to the lever samples that the plots draw.
 #pragma once
 
 #include <span>

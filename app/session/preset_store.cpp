@@ -21,7 +21,7 @@ bool is_shipped(const std::string& name) {
   return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
 }
 
-// Empty if there is no home folder.
+// Folder of the user's presets; empty if there is no home folder.
 fs::path own_folder() {
   try {
     return base::user_presets_folder();
@@ -31,10 +31,10 @@ fs::path own_folder() {
 }
 
 const char* name_problem(const std::string& name) {
-  if (name.empty()) return "it is empty";
-  if (name.front() == '.') return "it must not begin with a dot";
+  if (name.empty()) return "it must not be empty";
+  if (name.front() == '.') return "it must not start with a dot";
   if (name.find('/') != std::string::npos) return "it must not contain a slash";
-  return is_shipped(name) ? "a shipped preset already has it" : nullptr;
+  return is_shipped(name) ? "a shipped preset already has that name" : nullptr;
 }
 
 }  // namespace
@@ -60,8 +60,7 @@ fs::path preset_file(const std::string& name) {
 
 fs::path user_preset_file(const std::string& name) {
   if (const char* wrong = name_problem(name))
-    throw std::invalid_argument(
-        fmt::format("\"{}\" cannot be the name of a preset: {}", haptics::printable(name), wrong));
+    throw std::invalid_argument(fmt::format("\"{}\" is not a valid preset name: {}", haptics::printable(name), wrong));
   const fs::path folder = base::user_presets_folder();
   base::make_folder(folder);
   return folder / (name + ".toml");

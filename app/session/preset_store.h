@@ -7,14 +7,15 @@
 
 namespace gearshift::session {
 
-// Shipped presets, then the user's own, each once. Only the shipped ones if there is no home folder.
+// Names of the shipped presets, then of the user's own; only the shipped ones if there is no home folder.
 std::vector<std::string> preset_names();
 
-// name: of a shipped or a user's preset, or a path. Throws std::runtime_error with one sentence.
+// name: the name of a shipped or a user's preset, or a path. Throws std::runtime_error with one sentence.
 std::filesystem::path preset_file(const std::string& name);
 
-// Where to save a user's preset of that name; creates the folder. Throws std::invalid_argument with one sentence if a
-// shipped preset has that name or it cannot be a file name, std::runtime_error if there is no user folder.
+// The file in which to save a user's preset called `name`; creates the folder. Throws std::invalid_argument with one
+// sentence if a shipped preset has that name or it cannot be a file name. Throws std::runtime_error if there is no home
+// folder.
 std::filesystem::path user_preset_file(const std::string& name);
 
 }  // namespace gearshift::session

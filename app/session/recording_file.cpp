@@ -16,11 +16,11 @@ std::filesystem::path unused_trace_path(const std::filesystem::path& folder, con
   return file;
 }
 
-std::string recording_name(const std::string& what) {
+std::string recording_name(const std::string& prefix) {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   localtime_r(&now, &local);
-  return fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}-{}", what, local.tm_year + 1900, local.tm_mon + 1,
+  return fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}-{}", prefix, local.tm_year + 1900, local.tm_mon + 1,
                      local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec, getpid());
 }
 

@@ -6,11 +6,11 @@
 
 namespace gearshift::session {
 
-// The first of NAME.trace, NAME-2.trace, NAME-3.trace ... that does not exist in the folder yet.
+// Path of the first of NAME.trace, NAME-2.trace, NAME-3.trace, ... that does not exist in the folder yet.
 std::filesystem::path unused_trace_path(const std::filesystem::path& folder, const std::string& name);
 
-// "drive-20260131-174205-4711": `what`, the local time and the process id, so that no other process makes the same
-// name.
-std::string recording_name(const std::string& what);
+// "drive-20260131-174205-4711": `prefix`, local time and process id. The process id keeps other processes from making
+// the same name.
+std::string recording_name(const std::string& prefix);
 
 }  // namespace gearshift::session

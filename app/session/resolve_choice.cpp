@@ -54,9 +54,10 @@ haptics::Preset resolve_preset(const SessionChoice& choice) {
   if (choice.hand.empty() || choice.hand == kAutomaticHand) return preset;
   const std::optional<haptics::HandImpedance> hand = haptics::parse_hand(choice.hand);
   if (!hand || hand->stiffness < haptics::kMinLeadingStiffness)
-    throw std::invalid_argument(
-        fmt::format("hand {}: must be light, grip, arm, \"{}\" or M,B,K in kg, N s/m and N/m, with at least {:g} N/m",
-                    choice.hand, kAutomaticHand, haptics::kMinLeadingStiffness));
+    throw std::invalid_argument(fmt::format(
+        "\"{}\" is not a valid hand: use light, grip, arm, \"{}\" or M,B,K (kg, N s/m and N/m, with a stiffness of at "
+        "least {:g} N/m)",
+        choice.hand, kAutomaticHand, haptics::kMinLeadingStiffness));
   preset.lever.hand = *hand;
   return preset;
 }

@@ -23,16 +23,17 @@ struct ResolvedCar {
   haptics::GateLayout layout;
 };
 
-// Fills names that the choice leaves empty from the car or with defaults. Throws FileError or std::runtime_error with
-// one sentence.
+// Replaces empty names in the choice: the car by the default car, the gate by the car's gate. Throws FileError or
+// std::runtime_error with one sentence.
 ResolvedCar resolve_car(const SessionChoice& choice);
 
-// The choice with another gate. Keeps the car if it has every gear of the gate, else takes the first shipped car that
-// has, else kNoCar. Throws like resolve_car().
+// Returns the choice with its gate replaced. Keeps the car if it has every gear of the new gate; otherwise takes the
+// first shipped car that does, or kNoCar if none does. Throws like resolve_car().
 SessionChoice with_gate(SessionChoice choice, const std::string& gate);
 
-// The choice with the lesson's car and gate, where the lesson names them. Otherwise keeps the chosen ones, but replaces
-// a gate that lacks one of the lesson's gears. Throws like resolve_car().
+// Returns the choice with the lesson's car and gate, if the lesson names them. Otherwise keeps the chosen ones, except
+// that the default car replaces kNoCar, and the car's gate replaces a gate that does not fit lesson and car. Throws
+// like resolve_car().
 SessionChoice with_lesson(SessionChoice choice, const lessons::Lesson& lesson);
 
 }  // namespace gearshift::session

@@ -36,11 +36,11 @@ lessons::CoachConfig coach_config(const SessionChoice& choice) {
   return config;
 }
 
-bool same_turn(const haptics::YokeGeometry& a, const haptics::YokeGeometry& b) {
+bool same_geometry(const haptics::YokeGeometry& a, const haptics::YokeGeometry& b) {
   return a.radius == b.radius && a.theta_limit == b.theta_limit && a.phi_limit == b.phi_limit;
 }
 
-// State of the car when there is none: pedals and gear only.
+// The state that is displayed if there is no car: contains only pedals, gear and switches.
 vehicle::VehicleState standing_car(const haptics::DriverControls& controls, int gear) {
   vehicle::VehicleState car;
   car.running = false;
@@ -53,8 +53,8 @@ vehicle::VehicleState standing_car(const haptics::DriverControls& controls, int 
   return car;
 }
 
-// The first change, if there are several.
-std::string_view changed_by(const ui::PanelRequests& requests) {
+// Describes the change that the user requests; the first one if there are several.
+std::string_view change_reason(const ui::PanelRequests& requests) {
   if (requests.car) return "the car changed";
   if (requests.gate) return "the gate changed";
   if (requests.hand) return "the hand changed";
@@ -63,7 +63,7 @@ std::string_view changed_by(const ui::PanelRequests& requests) {
 
 }  // namespace
 
-// Stops the motors first: the other members may take time to end, for example OpenAL without a card.
+// Stops the motors first, because destroying other members may take long, for example OpenAL without a sound card.
 Session::~Session() {
   runtime_.reset();
 }
@@ -94,8 +94,8 @@ Session::Session(const SessionChoice& choice)
   panel_.device_name = choice.stick ? choice.stick->name() : std::string(kSimulatedDevice);
 }
 
-// Forces that the user or a fault has switched off are switched on again only by the user; with a real stick, only in
-// this very frame.
+// True if a new runtime is to start with forces on. Forces that the user or a fault has switched off stay off until the
+// user switches them on. A real stick starts with forces only if the user switches them on in the same frame.
 bool Session::should_arm() {
   if (choice_.stick) return armed_this_frame_;
   if (!runtime_) return true;
@@ -104,8 +104,8 @@ bool Session::should_arm() {
          (armed_this_frame_ || (guard != haptics::GuardState::released && guard != haptics::GuardState::damped));
 }
 
-// Either succeeds completely or leaves the running setup unchanged. The gate is compiled for the new device's range.
-void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* lesson, std::string_view what) {
+// Starts a new runtime for the choice. On failure the running setup stays unchanged.
+void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* lesson, std::string_view reason) {
   const ResolvedCar chosen = resolve_car(choice);
   runtime::RuntimeConfig config = make_runtime_config(choice, chosen, lesson);
   config.feet = pedal_source(pedal_owner_ + 1);
@@ -113,13 +113,13 @@ void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* less
   if (!choice.stick) runtime = std::make_unique<runtime::Runtime>(config);
   const haptics::Gate gate = runtime ? runtime->gate() : check_stick(config);
   if (lesson && choice.stick) check_lever_gear(*lesson, gate);
-  if (!stage_ || stage_gate_ != chosen.layout.text || !same_turn(stage_yoke_, config.preset.lever.yoke))
+  if (!stage_ || stage_gate_ != chosen.layout.text || !same_geometry(stage_yoke_, config.preset.lever.yoke))
     rebuild_stage(gate, chosen.layout.text, config.preset.lever.yoke, cabin_);
   message_.clear();
   const bool armed = should_arm();
-  close_current(what);
+  close_current(reason);
   adopt(runtime ? std::move(runtime) : replace_runtime(config), lesson);
-  wants_forces_ = armed;  // so a fault in this change does not re-arm at the next one
+  wants_forces_ = armed;  // forces that a fault has switched off stay off in later changes too
   if (armed) runtime_->arm();
   running_ = choice;
   running_.car = chosen.car;
@@ -128,7 +128,7 @@ void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* less
   if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
 }
 
-// The first limited parameter; for a real stick preferably the wall stiffness, because the user feels that.
+// Describes the first limited parameter; for a real stick preferably the wall stiffness, because the user feels it.
 std::string Session::describe_limit() const {
   const haptics::AdmittedTuning admitted = runtime_->admitted();
   const auto wall =
@@ -136,21 +136,19 @@ std::string Session::describe_limit() const {
         return limited.parameter == haptics::TuningParameter::wall_stiffness && limited.used < limited.wanted;
       });
   if (!running_.stick || admitted.limits.empty()) return first_limit(admitted);
-  const std::string limit =
-      wall == admitted.limits.end()
-          ? first_limit(admitted)
-          : fmt::format("walls are softer, {:.0f} N/m instead of {:.0f}", wall->used, wall->wanted);
-  return fmt::format("{} responds after {:.1f} ms: {}", running_.stick->name(), 1e3 * running_.stick->answer_time(),
-                     limit);
+  const std::string delay =
+      fmt::format("{} takes {:.1f} ms to respond", running_.stick->name(), 1e3 * running_.stick->answer_time());
+  if (wall == admitted.limits.end()) return delay + "; " + first_limit(admitted);
+  return fmt::format("{}, so the walls were softened from {:.0f} to {:.0f} N/m", delay, wall->wanted, wall->used);
 }
 
 // Ends a running lesson early, closes recordings and ends a replay.
-void Session::close_current(std::string_view what) {
+void Session::close_current(std::string_view reason) {
   const bool drives = coach_.view().phase == lessons::LessonPhase::driving;
   if (drives) coach_.leave();
   end_lesson_recording();
   if (recording()) end_recording();
-  if (drives) report_left(what);
+  if (drives) report_early_end(reason);
   opening_.reset();
   player_.reset();
 }
@@ -172,7 +170,8 @@ void Session::adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Le
   runtime_->set_controls(effective_controls());
 }
 
-// The keyboard pedals carry over from one runtime to the next, which moves them from adopt() on.
+// A pedal source for the runtime with this lever number. All runtimes share the keyboard pedals, so that the pedals
+// keep their positions when the runtime changes; adopt() decides which runtime moves them.
 runtime::PedalSource Session::pedal_source(int lever) const {
   return [keyboard = pedals_, lever](const vehicle::DriveSample& cycle, double seconds) {
     const bool coupled = cycle.car.gear != haptics::kNeutralGear && cycle.car.clutch_capacity > 0.0;
@@ -245,7 +244,7 @@ void Session::apply(const ui::PanelRequests& requests) {
   }
 }
 
-// Tuned parameters stay, unless another preset is requested.
+// Applies changes of gate, car, hand, preset and configuration. Tuned parameters are kept unless a preset is requested.
 void Session::apply_choice(const ui::PanelRequests& requests) {
   if (!requests.gate && !requests.car && !requests.preset && !requests.hand && !requests.restart) return;
   SessionChoice wanted = choice_;
@@ -262,7 +261,7 @@ void Session::apply_choice(const ui::PanelRequests& requests) {
     wanted.preset = *requests.preset;
     wanted.haptics.reset();
   }
-  switch_to(wanted, nullptr, changed_by(requests));
+  switch_to(wanted, nullptr, change_reason(requests));
   choice_ = wanted;
   if (coach_.view().learner != learner_of(choice_)) coach_.set_learner(learner_of(choice_));
 }
@@ -293,7 +292,7 @@ void Session::drain_cycles() {
   history_ = plot_samples(cycles);
 }
 
-// After drain_cycles(), so that the displayed state is not older than the history.
+// Call after drain_cycles(), so that the displayed state is not older than the history.
 void Session::update_shown() {
   shown_ = runtime_->snapshot();
   const double apart = glm::distance(shown_.lever, shown_.proxy) + visual_offset_;
@@ -320,11 +319,11 @@ void Session::update_cabin() {
   report_sound();
 }
 
-// Reports once when sound is lost, and once when it is back.
+// Reports the loss and the return of sound, each once.
 void Session::report_sound() {
   if (sound_.silence_reason() == why_silent_) return;
   why_silent_ = sound_.silence_reason();
-  message_ = why_silent_.empty() ? "sound is back" : why_silent_;
+  message_ = why_silent_.empty() ? "the sound is back" : why_silent_;
 }
 
 bool Session::take_new_runtime() {
@@ -346,7 +345,7 @@ void Session::save_preset(const std::string& name) {
   haptics::write_preset(preset, file);
   choice_.preset = running_.preset = name;
   panel_.presets = preset_names();
-  message_ = fmt::format("saved as {}", file.string());
+  message_ = fmt::format("preset saved as {}", file.string());
 }
 
 const ui::PanelInput& Session::panel_input() {
@@ -366,7 +365,7 @@ const ui::PanelInput& Session::panel_input() {
   panel_.gate_name = running_.gate;
   panel_.car_name = running_.car;
   panel_.preset_name = running_.preset;
-  panel_.hand_name = running_.stick ? "your own" : running_.hand.empty() ? "preset's" : running_.hand;
+  panel_.hand_name = running_.stick ? "your own" : running_.hand.empty() ? "from preset" : running_.hand;
   if (running_.stick) panel_.stick = ui::StickView{is_stick_connected_, running_.stick->answer_time()};
   panel_.recording = runtime_->is_recording();
   panel_.is_automatic_hand = running_.hand == kAutomaticHand;

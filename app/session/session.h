@@ -25,10 +25,10 @@
 
 namespace gearshift::session {
 
-// Ignition and hand brake at the start of a lesson; the user's own switches are set to them.
+// Ignition and hand brake at the start of a lesson, to which the caller sets the user's switches.
 struct CarSwitches {
   bool ignition = true;
-  double hand_brake = 0.0;  // [1]
+  double hand_brake = 0.0;  // [1] 0: released, 1: fully applied
 };
 
 class Session {
@@ -37,18 +37,19 @@ class Session {
   explicit Session(const SessionChoice& choice);
   ~Session();  // stops the haptic loop first
 
-  // One frame, in this order. These functions do not throw: a refused request becomes message(). From here to the next
-  // set_driver(), keys move the pedals on the car's clock; each pedal is as deep as the deeper of keys and controls.
+  // Call set_driver(), advance() and update_cabin() once per frame, in this order, and apply() at any time in a frame.
+  // They do not throw: a rejected request sets message(). Until the next set_driver(), `keys` move the keyboard pedals
+  // on the car's clock; each pedal is as deep as the deeper one of keyboard pedal and `controls`.
   void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
                   const ui::PedalKeys& keys = {});
   void apply(const ui::PanelRequests& requests);
-  void advance(double seconds);  // haptic loop (on the virtual clock), events, lesson, replay
+  void advance(double seconds);  // advances lesson and replay, on the virtual clock also the haptic loop; reads events
   void update_cabin();           // places the cabin's parts and updates the sound
 
   void set_foot_pace(const ui::PedalTiming& pace) { pedals_->set_timing(pace); }
 
-  // Replays a recorded drive: one of its shifts, or all of it from a time on [s]. Throws FileError,
-  // std::invalid_argument or std::runtime_error with one sentence.
+  // Replays a recorded drive: the shift with this index or, if `shift` is empty, the whole drive. from [s]: start time.
+  // Throws FileError, std::invalid_argument or std::runtime_error with one sentence.
   void open_replay(const std::filesystem::path& recording, std::optional<std::size_t> shift = std::nullopt,
                    double from = 0.0);
 
@@ -60,34 +61,32 @@ class Session {
   const ui::PanelInput& panel_input();
   runtime::Runtime& runtime() { return *runtime_; }
   const lessons::Coach& coach() const { return coach_; }
-  const haptics::HapticSnapshot& shown() const { return shown_; }  // state that the cabin shows: live or replayed
-  const vehicle::VehicleState& car() const { return car_; }        // live or replayed
+  const haptics::HapticSnapshot& shown() const { return shown_; }  // state shown in the cabin, live or replayed
+  const vehicle::VehicleState& car() const { return car_; }        // state shown in the cabin, live or replayed
   const std::optional<vehicle::CarSpec>& car_spec() const { return runtime_->config().car; }
   const std::vector<haptics::HapticEvent>& events() const {
     return events_;
-  }  // from the running loop in this frame; times in [ns] since the start
+  }  // events of the running loop in this frame; times [ns] since the start of the session
   engine::SoundWorld& sound() { return sound_; }
-  double time() const { return time_; }  // [s] of frames since the start
-  double lever_time() const {
-    return 1e-9 * static_cast<double>(newest_ns_ - start_ns_);
-  }                                                        // [s] time of the running loop
-  const std::string& message() const { return message_; }  // last refusal or other message, one sentence
+  double time() const { return time_; }  // [s] sum of the frames' lengths since the start of the session
+  // [s] time of the running loop's newest snapshot since the start of the session
+  double lever_time() const { return 1e-9 * static_cast<double>(newest_ns_ - start_ns_); }
+  const std::string& message() const { return message_; }  // last message, such as a rejection; one sentence
   bool recording() const { return runtime_ && runtime_->is_recording(); }
   // Call before the session ends. Ends a running lesson early, saves pending results and deletes recordings that the
-  // history will not reference. Returns in one sentence what could not be saved; empty: everything is saved.
+  // history does not reference. Returns a sentence that says what could not be saved; empty if everything was saved.
   std::string save_and_stop();
-  bool end_recording();  // false if it failed; message() has the result
+  bool end_recording();  // returns false if the recording failed; message() describes the result
   void set_ears(const engine::EyePose& ears) { ears_ = ears; }
   void set_frame_ms(double ms) { frame_ms_ = ms; }
-  void set_message(const std::string& news) { message_ = news; }
-  // State of the headset; empty: not worn.
+  void set_message(const std::string& message) { message_ = message; }
+  // report: the state of the headset; empty if no headset is open.
   void set_headset(std::optional<cabin::HeadsetReport> report) { panel_.headset = std::move(report); }
-  // Distance [m] between the displayed and the felt lever before the displayed lever is clamped to the gate; leaves
-  // less room for the clamp.
+  // offset [m]: distance between displayed and felt lever due to the seat calibration. The clamp of the displayed lever
+  // to the gate adds to it; if the sum exceeds ghost_offset, the lever is flagged as past the wall (kFlagGhost).
   void set_visual_offset(double offset) { visual_offset_ = offset; }
-  void set_pointer(const std::optional<cabin::Beam>& beam) {
-    pointer_ = beam;
-  }  // beam of the pointing hand, in cabin coordinates
+  // beam: the pointing hand's beam in cabin coordinates
+  void set_pointer(const std::optional<cabin::Beam>& beam) { pointer_ = beam; }
   void set_keys(std::vector<ui::KeyHint> keys) { panel_.keys = std::move(keys); }
   void set_mouse_leads(bool leads) { panel_.mouse_moves_lever = leads; }
   bool is_replaying() const { return player_.has_value(); }
@@ -95,19 +94,19 @@ class Session {
   bool is_replaying_shift() const { return player_ && player_->shift(); }
 
  private:
-  // session_stick.cpp: the real stick
+  // Defined in session_stick.cpp: the real stick.
   bool arm();
   void poll_stick();
   haptics::Gate check_stick(runtime::RuntimeConfig config) const;
   std::unique_ptr<runtime::Runtime> replace_runtime(const runtime::RuntimeConfig& config);
   void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;
 
-  // session.cpp: the running loop, its cabin, one frame
+  // Defined in session.cpp: the running loop, its cabin, one frame.
   void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
-                 std::string_view what = "restarted");  // what: reason reported if this ends a lesson
+                 std::string_view reason = "the loop was restarted");  // reason: reported if a lesson ends by this
   void apply_choice(const ui::PanelRequests& requests);
   std::string describe_limit() const;
-  void close_current(std::string_view what);
+  void close_current(std::string_view reason);
   void adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Lesson* lesson);
   runtime::PedalSource pedal_source(int lever) const;
   bool should_arm();
@@ -121,26 +120,26 @@ class Session {
   void report_sound();
   void save_preset(const std::string& name);
 
-  // session_lessons.cpp
+  // Defined in session_lessons.cpp.
   void apply_lesson_requests(const ui::LessonRequests& requests);
   void offer_initial(const SessionChoice& choice);
   void offer(const lessons::Lesson& lesson);
   void change_comment(const ui::LessonRequests::CommentChange& change);
   void change_learner(const std::string& name);
   void leave_lesson();
-  void report_left(std::string_view what);
+  void report_early_end(std::string_view reason);
   void begin_lesson();
-  std::filesystem::path record_lesson(const lessons::Lesson& lesson);  // empty if it cannot be recorded
+  std::filesystem::path record_lesson(const lessons::Lesson& lesson);  // returns an empty path on failure
   void update_lesson(std::span<const vehicle::DriveSample> cycles);
   void hold_car();
   void check_still_passable();
   haptics::DriverControls effective_controls() const;
   bool delete_unreferenced_recordings();
 
-  // session_replay.cpp
+  // Defined in session_replay.cpp.
   void apply_replay_requests(const ui::ReplayRequests& requests);
   void open_last_recording();
-  // [s] near: begin of the shift to show
+  // near [s]: shows the shift that begins nearest to this time; empty: the whole drive
   void open_recording(const std::filesystem::path& recording, std::optional<double> near);
   void finish_opening();
   void show_opened();
@@ -150,14 +149,14 @@ class Session {
   void end_replay();
   void check_can_replay() const;
 
-  // session_recordings.cpp
+  // Defined in session_recordings.cpp.
   std::filesystem::path recordings_folder() const;
   void toggle_recording();
   void start_recording(const std::string& name);
   void end_lesson_recording();
   void report_recording_problem();
 
-  SessionChoice choice_;   // the user's
+  SessionChoice choice_;   // the user's choice
   SessionChoice running_;  // choice_ with the lesson's car and gate; car and gate are never empty
   cabin::Cabin cabin_;
   lessons::Coach coach_;
@@ -167,23 +166,23 @@ class Session {
   haptics::YokeGeometry stage_yoke_;  // yoke that the stage was built for
   engine::SoundWorld sound_;
   cabin::CabinSound cabin_sound_;
-  std::unique_ptr<lessons::DriveLoader> opening_;  // while a recording is being read
-  std::optional<double> opening_near_;             // [s] begin of the shift to show
-  std::optional<lessons::Player> player_;          // while replaying
-  std::shared_ptr<ui::KeyboardPedals> pedals_ =
-      std::make_shared<ui::KeyboardPedals>();  // the user's; moved by the loop's thread
-  int pedal_owner_ = 0;                        // number of the runtime that moves the pedals
-  haptics::DriverControls controls_;           // the user's, without the keyboard pedals
-  haptics::DriverControls newest_controls_;    // in the newest cycle
-  double slope_ = 0.0;                         // [rad] slope of the lesson's road
-  // After a lesson the instructor holds clutch and brake, until the next lesson, no lesson, or another car, gate or
-  // hand.
+  std::unique_ptr<lessons::DriveLoader> opening_;  // not null while a recording is being read
+  std::optional<double> opening_near_;             // [s] time of the shift to show, see open_recording()
+  std::optional<lessons::Player> player_;          // not empty during a replay
+  // The user's keyboard pedals, moved by the loop's thread.
+  std::shared_ptr<ui::KeyboardPedals> pedals_ = std::make_shared<ui::KeyboardPedals>();
+  int pedal_owner_ = 0;                      // number of the runtime that moves the pedals
+  haptics::DriverControls controls_;         // the user's controls, without the keyboard pedals
+  haptics::DriverControls newest_controls_;  // controls in the newest cycle
+  double slope_ = 0.0;                       // [rad] slope of the lesson's road
+  // True after a lesson, while the instructor holds clutch and brake: until the next lesson starts, the lesson is
+  // dismissed, or car, gate or hand change.
   bool is_car_held_ = false;
-  std::size_t fault_count_ = 0;  // in the current trial
-  bool is_unpassable_ = false;   // the current trial can no longer be passed
+  std::size_t error_count_ = 0;  // number of driving errors in the current trial
+  bool is_unpassable_ = false;   // true if the current trial can no longer be passed
   std::optional<CarSwitches> switches_;
   engine::EyePose ears_;
-  double visual_offset_ = 0.0;  // [m]
+  double visual_offset_ = 0.0;  // [m] see set_visual_offset()
   std::optional<cabin::Beam> pointer_;
   haptics::HapticSnapshot shown_;
   vehicle::VehicleState car_;                     // displayed state of the car
@@ -193,17 +192,17 @@ class Session {
   std::filesystem::path last_recording_;
   std::set<std::string> lesson_recordings_;  // recordings made automatically for lessons
   std::string message_;
-  std::string why_silent_;                // in the previous frame
-  bool wants_forces_ = true;              // result of the last arm, release or stop
-  bool armed_this_frame_ = false;         // by the user
-  bool is_stick_connected_ = false;       // in the previous frame
-  bool is_lesson_recording_ = false;      // the running recording is a lesson's
-  bool is_recording_incomplete_ = false;  // the last recording is a lesson's and failed
+  std::string why_silent_;                // sound_.silence_reason() in the previous frame
+  bool wants_forces_ = true;              // true after arming, false after the user or a fault switched forces off
+  bool armed_this_frame_ = false;         // the user switched forces on in this frame
+  bool is_stick_connected_ = false;       // state in the previous frame
+  bool is_lesson_recording_ = false;      // the running recording belongs to a lesson
+  bool is_recording_incomplete_ = false;  // the last recording belongs to a lesson and failed
   std::int64_t start_ns_ = 0;             // [ns] start of this session, on the loop's clock
-  std::int64_t newest_ns_ = 0;            // [ns] newest snapshot, on the same clock
-  double time_ = 0.0;                     // [s]
-  double frame_ms_ = 0.0;                 // [ms]
-  std::uint64_t run_ = 0;                 // PanelInput::run
+  std::int64_t newest_ns_ = 0;            // [ns] time of the newest snapshot, on the loop's clock
+  double time_ = 0.0;                     // [s] see time()
+  double frame_ms_ = 0.0;                 // [ms] length of the last frame
+  std::uint64_t run_ = 0;                 // see PanelInput::run
   bool new_model_ = true;
   bool new_runtime_ = true;
 };

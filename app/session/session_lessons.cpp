@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Settings that the history saves with a lesson run.
+// The settings in use, as text that the history saves with a lesson run.
 std::string settings_text(const SessionChoice& choice, const haptics::HapticTuning& tuning) {
   return fmt::format(
       "car = \"{}\"\ngate = \"{}\"\npreset = \"{}\"\nhand = \"{}\"\nwall_stiffness_n_per_m = "
@@ -27,7 +27,7 @@ std::string settings_text(const SessionChoice& choice, const haptics::HapticTuni
 
 }  // namespace
 
-// Offers the named lesson, else the suggested one. The automatic hand only drives a named lesson.
+// Offers the named lesson, or else the suggested one. With the automatic hand or without a car, only a named lesson.
 void Session::offer_initial(const SessionChoice& choice) {
   std::string name = choice.lesson;
   const bool suggested = name.empty();
@@ -42,7 +42,7 @@ void Session::apply_lesson_requests(const ui::LessonRequests& requests) {
   if (requests.learner) change_learner(*requests.learner);
   if (requests.next) coach_.set_next(*requests.next);
   if (requests.comment_change) change_comment(*requests.comment_change);
-  if (requests.comment) coach_.comment(requests.comment->run, requests.comment->author, requests.comment->text);
+  if (requests.comment) coach_.add_comment(requests.comment->run, requests.comment->author, requests.comment->text);
   if (requests.offer) offer(lessons::read_lesson(base::find_asset("lessons", *requests.offer)));
   if (requests.mode) coach_.set_mode(*requests.mode);
   if (requests.help) coach_.set_help(*requests.help);
@@ -56,17 +56,17 @@ void Session::apply_lesson_requests(const ui::LessonRequests& requests) {
   if (coach_.view().phase != lessons::LessonPhase::driving) end_lesson_recording();
 }
 
-// An invalid name throws before anything changes.
+// Selects the learner. Throws for an invalid name, before anything changes.
 void Session::change_learner(const std::string& name) {
   if (!name.empty()) lessons::check_learner_name(name);
   const bool drives = coach_.view().phase == lessons::LessonPhase::driving;
   choice_.learner = name;
   coach_.set_learner(learner_of(choice_));
   message_.clear();
-  if (choice_.hand == kAutomaticHand) message_ = "the hand drives by itself: results are not saved";
+  if (choice_.hand == kAutomaticHand) message_ = "the simulated driver is driving, so nothing is saved";
   if (!drives || coach_.view().phase == lessons::LessonPhase::driving) return;
   hold_car();
-  report_left("the learner changed");
+  report_early_end("the learner changed");
 }
 
 void Session::leave_lesson() {
@@ -75,9 +75,9 @@ void Session::leave_lesson() {
   if (drives) hold_car();
 }
 
-// Placed before other messages, such as the result of the recording or a limit.
-void Session::report_left(std::string_view what) {
-  message_ = fmt::format("lesson ended early: {}{}{}", what, message_.empty() ? "" : "; ", message_);
+// Puts the report in front of the current message, such as the result of a recording or a limit.
+void Session::report_early_end(std::string_view reason) {
+  message_ = fmt::format("the lesson ended early because {}{}{}", reason, message_.empty() ? "" : "; ", message_);
 }
 
 void Session::change_comment(const ui::LessonRequests::CommentChange& change) {
@@ -87,7 +87,7 @@ void Session::change_comment(const ui::LessonRequests::CommentChange& change) {
     coach_.delete_comment(change.run, change.comment);
 }
 
-// Discards cycles before the trial's first, then starts the coach.
+// Switches to the lesson's setup, discards the cycles before the trial, then starts the coach.
 void Session::begin_lesson() {
   const lessons::Lesson lesson = *coach_.lesson();
   if (coach_.view().phase == lessons::LessonPhase::over) offer(lesson);
@@ -98,27 +98,27 @@ void Session::begin_lesson() {
   fs::path recording;
   if (view.is_saving && !view.learner.empty()) recording = record_lesson(lesson);
   (void)runtime_->drain_cycles();
-  fault_count_ = 0;
+  error_count_ = 0;
   is_unpassable_ = false;
   coach_.begin(*runtime_->config().car, runtime_->gate(),
                settings_text(running_, runtime_->config().preset.haptics.tuning), recording);
   runtime_->set_controls(effective_controls());
 }
 
-// The recording of the previous lesson stays as it is.
+// Offers the lesson. From now on, an incomplete recording of the previous lesson is kept, see save_and_stop().
 void Session::offer(const lessons::Lesson& lesson) {
   coach_.offer(lesson);
   is_recording_incomplete_ = false;
 }
 
-// If recording fails, the lesson is driven without.
+// Starts to record the lesson. If this fails, the lesson is driven without a recording.
 fs::path Session::record_lesson(const lessons::Lesson& lesson) {
   const std::string news = message_;
   try {
     start_recording(recording_name(lesson.key));
     is_lesson_recording_ = true;
     lesson_recordings_.insert(haptics::make_absolute(last_recording_).string());
-    message_ = news;  // automatic, so not worth a message
+    message_ = news;  // no message about a recording that starts automatically
     return haptics::make_absolute(last_recording_);
   } catch (const std::exception& refused) {
     message_ = refused.what();
@@ -137,37 +137,38 @@ void Session::update_lesson(std::span<const vehicle::DriveSample> cycles) {
   if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
 }
 
-// Grades the trial as if it ended now: points are only ever deducted, so a failed grade cannot recover.
+// Grades the trial as if it ended now. Points are only ever deducted, so a trial that fails now can no longer be
+// passed.
 void Session::check_still_passable() {
   const lessons::CoachView& view = coach_.view();
   const bool is_judged = view.phase == lessons::LessonPhase::driving && !view.result.guided && view.result.is_complete;
   if (!is_judged) is_unpassable_ = false;
-  if (!is_judged || std::exchange(fault_count_, view.result.errors.size()) == view.result.errors.size()) return;
+  if (!is_judged || std::exchange(error_count_, view.result.errors.size()) == view.result.errors.size()) return;
   lessons::LessonResult done = view.result;
   done.end = lessons::LessonEnd::done;
   lessons::grade_result(*coach_.lesson(), done);
   is_unpassable_ = !done.passed;
 }
 
-// The instructor holds clutch and brake until the next lesson.
+// Lets the instructor hold clutch and brake, see is_car_held_.
 void Session::hold_car() {
   is_car_held_ = true;
   pedals_->set_keys({});
 }
 
-// Saves results first. If the disk is full, deletes unreferenced recordings, then the lesson's incomplete recording,
-// and retries.
+// Saves results first. If the disk is full, deletes unreferenced recordings and retries, then deletes the lesson's
+// incomplete recording and retries.
 std::string Session::save_and_stop() {
-  std::string not_kept = coach_.flush();
+  std::string unsaved = coach_.flush();
   end_lesson_recording();
-  if (delete_unreferenced_recordings() && coach_.needs_room()) not_kept = coach_.flush();
-  if (!is_recording_incomplete_ || !coach_.needs_room()) return not_kept;
+  if (delete_unreferenced_recordings() && coach_.needs_room()) unsaved = coach_.flush();
+  if (!is_recording_incomplete_ || !coach_.needs_room()) return unsaved;
   coach_.clear_recording();
   std::error_code ignored;
   fs::remove(last_recording_, ignored);
-  not_kept = coach_.flush();
+  unsaved = coach_.flush();
   delete_unreferenced_recordings();
-  return not_kept;
+  return unsaved;
 }
 
 // Deletes this session's lesson recordings that no history row references. True if any was deleted.

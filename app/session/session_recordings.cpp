@@ -15,14 +15,16 @@ namespace fs = std::filesystem;
 
 void Session::toggle_recording() {
   if (coach_.view().phase == lessons::LessonPhase::driving)
-    throw std::runtime_error("lessons of a named learner are recorded automatically, from start to end");
+    throw std::runtime_error(
+        "You cannot start or end a recording during a lesson. Lessons are recorded automatically once you enter a "
+        "name.");
   if (recording())
     end_recording();
   else
     start_recording(recording_name("drive"));
 }
 
-// Next to the history that references them.
+// The folder of the recordings: next to the history file, which references them.
 fs::path Session::recordings_folder() const {
   const fs::path data =
       choice_.history.empty() ? base::user_data_folder() : haptics::make_absolute(choice_.history).parent_path();
@@ -45,7 +47,7 @@ bool Session::end_recording() {
   return !problem;
 }
 
-// A lesson's recording is referenced by the history, so success needs no message.
+// Ends the recording of a lesson. Success needs no message, because the history references the recording.
 void Session::end_lesson_recording() {
   if (!recording() || !is_lesson_recording_) return;
   const std::optional<std::string> problem = runtime_->stop_recording();
@@ -54,7 +56,7 @@ void Session::end_lesson_recording() {
   message_ = *problem;
 }
 
-// Ends a recording that has failed.
+// Ends the recording and reports the problem if it has failed.
 void Session::report_recording_problem() {
   const std::optional<std::string> problem = runtime_->poll_recording_problem();
   if (!problem) return;

@@ -1,4 +1,4 @@
-// The session's replays: a recorded drive is displayed in place of the live lever.
+// The session's replays: a recorded drive is displayed instead of the live lever.
 #include <stdexcept>
 #include <utility>
 
@@ -15,12 +15,12 @@ namespace fs = std::filesystem;
 void Session::open_last_recording() {
   check_can_replay();
   if (recording() && !end_recording()) return;
-  if (last_recording_.empty()) throw std::runtime_error("nothing has been recorded yet");
+  if (last_recording_.empty()) throw std::runtime_error("nothing has been recorded yet. Press \"Record\" first.");
   open_recording(last_recording_, std::nullopt);
 }
 
-// Reads in the background while the loop runs; on the virtual clock it reads at once, because no user waits for a
-// frame.
+// Starts to read the recording in the background. On the virtual clock, waits for the end of reading, because no user
+// is waiting for the next frame.
 void Session::open_recording(const fs::path& recording, std::optional<double> near) {
   check_can_replay();
   opening_ = std::make_unique<lessons::DriveLoader>(recording);
@@ -50,7 +50,7 @@ void Session::apply_replay_requests(const ui::ReplayRequests& requests) {
   if (requests.close && opening_) return cancel_opening();
   if (!player_) return;
   if (requests.shift) player_->select_shift(requests.shift);
-  if (requests.whole) player_->select_shift(std::nullopt);
+  if (requests.whole_drive) player_->select_shift(std::nullopt);
   if (requests.seek) player_->seek(*requests.seek);
   if (requests.pace) player_->set_pace(*requests.pace);
   if (requests.play) player_->play(*requests.play);
@@ -64,7 +64,7 @@ void Session::cancel_opening() {
 
 void Session::check_can_replay() const {
   if (coach_.view().phase == lessons::LessonPhase::driving)
-    throw std::runtime_error("a lesson is running: leave it before you open a recording");
+    throw std::runtime_error("You cannot open a recording during a lesson. Leave the lesson first.");
 }
 
 void Session::open_replay(const fs::path& recording, std::optional<std::size_t> shift, double from) {
@@ -75,15 +75,15 @@ void Session::open_replay(const fs::path& recording, std::optional<std::size_t> 
   start_replay(std::move(player));
 }
 
-// Shows the recording in a cabin with its own gate. The displayed lever is the running preset's; a stick's path fits
-// any.
+// Shows the recording in a cabin with the gate of the recording and the lever of the running preset. A drive recorded
+// with a simulated lever needs a preset with the same lever; one recorded with a stick fits any preset.
 void Session::start_replay(lessons::Player player) {
   const haptics::TraceHeader& header = player.drive().header();
   const bool same_lever = header.device.yoke_radius == stage_yoke_.radius &&
                           header.device.workspace == haptics::workspace_half_extent(stage_yoke_);
   if (header.device.simulated && !same_lever)
     throw std::runtime_error(
-        fmt::format("{}: recorded with another lever: choose the matching preset first", player.file().string()));
+        fmt::format("{}: recorded with a different lever; choose the matching preset first", player.file().string()));
   if (header.gate_text != stage_gate_) rebuild_stage(player.drive().gate(), header.gate_text, stage_yoke_, cabin_);
   message_ = fmt::format("replaying {}", player.file().string());
   player_ = std::move(player);
@@ -97,7 +97,7 @@ void Session::end_replay() {
   if (stage_gate_ != config.layout.text) rebuild_stage(runtime_->gate(), config.layout.text, stage_yoke_, cabin_);
 }
 
-// The displayed state comes from the trace, except the guard, which stays that of the running loop.
+// Takes the displayed state from the trace, except for the guard, whose live state must stay visible.
 void Session::show_replay(double seconds) {
   if (player_->has_jumped()) ++run_;
   (void)player_->advance(seconds);

@@ -1,27 +1,28 @@
-// The session's real stick: drives one runtime at a time, and only the user arms it.
+// The session's real stick: used by one runtime at a time, and armed only by the user.
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "app/lessons/assessment/lever_path_text.h"
 #include "app/session/session.h"
 #include "haptics/contact/proxy.h"
 #include "haptics/gate/gear_selector.h"
 
 namespace gearshift::session {
 
-// A stick that is not connected must not start to push when it is plugged in.
+// Switches the forces on. Refuses if the stick is not connected: it must not start to push when it is plugged in.
 bool Session::arm() {
   if (choice_.stick && !choice_.stick->connected()) {
-    message_ = fmt::format("{} is not plugged in: plug it in, then switch forces on", choice_.stick->name());
+    message_ = fmt::format("{} is not plugged in. Plug it in, then turn forces on.", choice_.stick->name());
     return false;
   }
   runtime_->arm();
-  if (choice_.stick) message_.clear();  // it asked the user to arm
+  if (choice_.stick) message_.clear();  // the message asked the user to switch forces on
   return true;
 }
 
-// A disconnected stick is disarmed and stays so when it comes back.
+// Collects the stick's messages. Switches its forces off when it is disconnected; they stay off when it is reconnected.
 void Session::poll_stick() {
   if (!choice_.stick) return;
   std::string news;
@@ -38,8 +39,8 @@ haptics::Gate Session::check_stick(runtime::RuntimeConfig config) const {
   return runtime::check_runtime(config);
 }
 
-// The old runtime must end first because the stick has one runtime at a time. All checks have passed by now; if the new
-// runtime fails anyway, the old one is recreated.
+// Ends the old runtime before it creates the new one, because only one may use the stick. All checks have passed
+// before; if the new runtime fails anyway, the old one is recreated.
 std::unique_ptr<runtime::Runtime> Session::replace_runtime(const runtime::RuntimeConfig& config) {
   if (!runtime_) return std::make_unique<runtime::Runtime>(config);
   const runtime::RuntimeConfig before = runtime_->config();
@@ -52,17 +53,17 @@ std::unique_ptr<runtime::Runtime> Session::replace_runtime(const runtime::Runtim
   }
 }
 
-// A simulated lever is moved to the lesson's starting gear; a real stick must be moved there by the user.
+// Throws unless the real stick is in the lesson's starting gear: unlike a simulated lever, only the user can move it.
 void Session::check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const {
   if (!runtime_) return;
   if (!choice_.stick->connected())
     throw std::runtime_error(
-        fmt::format("{} is not plugged in: plug it in, then start the lesson", choice_.stick->name()));
+        fmt::format("{} is not plugged in. Plug it in, then start the lesson.", choice_.stick->name()));
   haptics::GearSelector at_once(0.0);
   const int gear = at_once.update(gate, haptics::place_proxy(gate, runtime_->snapshot().lever).position, 0.0);
   if (gear == lesson.start.gear) return;
-  throw std::runtime_error(fmt::format("the lesson starts in {}, but the stick is in {}: move it there, then start",
-                                       haptics::gear_name(lesson.start.gear), haptics::gear_name(gear)));
+  throw std::runtime_error(fmt::format("the lesson starts in {0}, but the stick is in {1}. Move it to {0}, then start.",
+                                       lessons::gear_word(lesson.start.gear), lessons::gear_word(gear)));
 }
 
 }  // namespace gearshift::session

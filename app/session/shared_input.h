@@ -1,4 +1,5 @@
-// Shares a window's mouse and keys between the panel and the driver: in each frame only one of them gets each.
+// Distributes a window's mouse and keys: in each frame, either the panel or the driver gets the mouse, and either of
+// them gets the keys.
 #pragma once
 
 #include <optional>
@@ -15,16 +16,15 @@ class SharedInput {
  public:
   explicit SharedInput(const ui::Bindings& bindings) : driver_({bindings}) {}
 
-  // Call once per frame, before the panel is drawn. seconds: since the last call. mouse [px]: position of the window's
-  // mouse in the picture that the panel was drawn into. hand: replaces the window's mouse on the panel; the driver
-  // never gets it.
+  // Call once per frame, before the panel is drawn. seconds: time since the last call. mouse [px]: position of the
+  // window's mouse in the picture that the panel was drawn into. hand: pointer that replaces the window's mouse on the
+  // panel, but not for the driver.
   void update(const engine::WindowInput& window, double seconds, glm::dvec2 mouse, const ui::Panel& panel,
               engine::UiContext& ui, const std::optional<PanelPointer>& hand = std::nullopt);
 
   ui::DriverInput& driver() noexcept { return driver_; }
-  glm::dvec2 turned() const noexcept {
-    return turned_;
-  }  // [px] how far the view turns in this frame: the right button held beside the panel
+  // [px] Mouse motion in this frame that turns the view: with the right button held, pressed outside the panel.
+  glm::dvec2 turned() const noexcept { return turned_; }
 
  private:
   engine::UiEvents for_panel(const engine::WindowInput& window, glm::dvec2 mouse,
@@ -32,8 +32,8 @@ class SharedInput {
   void look(const engine::WindowInput& window, bool panel_has_mouse);
 
   ui::DriverInput driver_;
-  bool shift_ = false, control_ = false, alt_ = false;  // currently held
-  bool is_turning_ = false;  // the right button was pressed beside the panel and is still held
+  bool shift_ = false, control_ = false, alt_ = false;  // true while held
+  bool is_turning_ = false;  // the right button was pressed outside the panel and is still held
   bool right_was_down_ = false;
   glm::dvec2 turned_{0.0};
 };

@@ -27,20 +27,20 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kOffscreenRate = 30.0;         // [1/s] frames per simulated second
-constexpr int kSettling = 3;                    // frames until every part of the panel has its final height
+constexpr int kSettling = 3;                    // number of frames until every part of the panel has its final height
 constexpr double kMinFrameTime = 1.0 / 144;     // [s] shortest frame if the display does not limit the rate
-constexpr double kMaxFrameTime = 0.25;          // [s] longer frames advance car and pedals by only this much
-constexpr std::chrono::seconds kViewRetry{1};   // between attempts to recreate the picture
-constexpr std::chrono::seconds kViewHolds{10};  // the loss of a picture is reported if it had lasted this long
+constexpr double kMaxFrameTime = 0.25;          // [s] a longer frame advances car and pedals by only this time
+constexpr std::chrono::seconds kViewRetry{1};   // pause between attempts to recreate the picture
+constexpr std::chrono::seconds kViewHolds{10};  // a new loss of the picture within this time is not reported
 
-// The part of a picture of that size that the panel leaves free.
-cabin::VisibleRegion seen_beside(const ui::Panel& panel, glm::dvec2 size) {
+// The part of the cabin's picture, `size` [px] large, that panel and card leave free.
+cabin::VisibleRegion free_region(const ui::Panel& panel, glm::dvec2 size) {
   const ui::ControlRect middle = panel.cabin_area();
   return {middle.min / size, middle.max / size};
 }
 
-// The same, including the learner's card that lies over the cabin.
-cabin::VisibleRegion card_in(const ui::Panel& panel, glm::dvec2 size) {
+// The part of the cabin's picture that columns and bar leave free, including the lesson card over it.
+cabin::VisibleRegion card_region(const ui::Panel& panel, glm::dvec2 size) {
   const ui::ControlRect between = panel.central_area();
   return {between.min / size, between.max / size};
 }
@@ -55,14 +55,14 @@ void print_unsaved(const std::string& problem) {
   if (!problem.empty()) base::print_message("{}", haptics::printable(problem));
 }
 
-// Runs the trainer in a window, frame by frame: poll, lead, read, panel, update, show.
+// Runs the trainer in a window, frame by frame.
 class WindowTrainer {
  public:
   explicit WindowTrainer(const TrainSetup& setup)
       : setup_(setup),
         window_(setup.view.width, setup.view.height, "gearshift"),
         headset_(setup.headset ? std::make_unique<LearnerHeadset>(*setup.headset, window_, ui_) : nullptr),
-        view_(first_view()),  // created before the haptic loop starts
+        view_(first_view()),  // before session_, which starts the haptic loop
         session_(setup.choice),
         shared_(setup.bindings),
         input_(shared_.driver()),
@@ -78,17 +78,17 @@ class WindowTrainer {
     return quit_ || left || window_.wants_close() || base::StopSignals::requested();
   }
 
-  // Ends the lesson early, closes the recording and reports both. Returns the exit code.
+  // Ends a running lesson early, closes the recording and reports the results. Returns the exit code.
   int finish() {
     print_unsaved(session_.save_and_stop());
     print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
     if (!session_.take_new_runtime()) health_ = session_.runtime().health();  // includes cycles since the newest frame
     print_health(health_);
     if (!session_.recording()) return 0;
-    const bool whole = session_.end_recording();
-    if (whole) base::print_out("{}\n", session_.message());
-    if (!whole) base::print_message("{}", session_.message());
-    return whole ? 0 : 1;
+    const bool is_complete = session_.end_recording();
+    if (is_complete) base::print_out("{}\n", session_.message());
+    if (!is_complete) base::print_message("{}", session_.message());
+    return is_complete ? 0 : 1;
   }
 
   void frame() {
@@ -119,7 +119,7 @@ class WindowTrainer {
   }
 
   bool wears() const { return headset_ && headset_->is_open(); }
-  bool is_worn() const { return headset_ && headset_->is_worn(); }  // right now
+  bool is_worn() const { return headset_ && headset_->is_worn(); }  // the user sees the headset's pictures
 
   std::unique_ptr<cabin::CabinView> desktop_view() {
     return std::make_unique<cabin::CabinView>(setup_.view, &window_, &ui_);
@@ -130,7 +130,8 @@ class WindowTrainer {
     return desktop_view();
   }
 
-  // Switches to a headset if one is found, else shows the window. The window shows only one of the two.
+  // Switches to a headset if one is found; otherwise ensures that the window has a desktop view. A headset uses the
+  // window as its mirror, so only one of the two views may exist.
   void find_view() {
     if (headset_ && headset_->is_found()) {
       view_.reset();
@@ -141,7 +142,7 @@ class WindowTrainer {
     if (!wears() && !view_) make_desktop_view();
   }
 
-  // Retries at most once per kViewRetry, in case the device is lost repeatedly.
+  // Tries at most once per kViewRetry, in case the GPU is lost repeatedly.
   void make_desktop_view() {
     const Clock::time_point now = Clock::now();
     if (now < next_view_) return;
@@ -158,7 +159,7 @@ class WindowTrainer {
     view_.reset();
     const Clock::time_point now = Clock::now();
     if (now > view_quiet_until_)
-      base::print_message("{}; restarting the picture, the lever keeps running", lost.what());
+      base::print_message("{}; restarting the display. The lever keeps running.", lost.what());
     view_quiet_until_ = now + kViewHolds;
   }
 
@@ -175,8 +176,8 @@ class WindowTrainer {
     session_.set_message(news);
   }
 
-  // The headset's display sets the pace while it is worn. Otherwise sleeps before input is read, not after, to keep the
-  // latency from input to picture short.
+  // Waits for the next frame: for the headset's display while it is worn, otherwise for at least kMinFrameTime since
+  // the last frame. The wait comes before input is read, to keep the latency from input to picture short.
   void pace() {
     find_view();
     const auto next =
@@ -209,7 +210,8 @@ class WindowTrainer {
     return is_there ? pointer : std::nullopt;
   }
 
-  // In a headset only the head moves the view, so the camera is left alone.
+  // Sets the listener and the pointing beam, and moves the desktop camera. In a headset the head alone sets the view,
+  // so the camera stays.
   void look() {
     const bool points = is_worn() && (pointer_ || !headset_->pointer());
     session_.set_pointer(points ? headset_->beam() : std::nullopt);
@@ -223,7 +225,7 @@ class WindowTrainer {
     session_.set_ears(look_.pose());
   }
 
-  // After a change of gate, hand or device, the user's hand starts where the lever is.
+  // Passes the user's input to the session. After a change of gate, car, hand or device, the hand starts at the lever.
   void set_driver() {
     if (session_.take_new_runtime()) {
       print_health(std::exchange(health_, std::nullopt));
@@ -300,7 +302,7 @@ class WindowTrainer {
         quit_ = true;
         break;
       default:
-        break;  // driving actions, handled by DriverInput
+        break;  // the driving actions, which DriverInput handles
     }
     session_.apply(requests);
   }
@@ -340,16 +342,16 @@ class WindowTrainer {
       if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
       fresh_view_ = false;
       if (!wears()) return;  // the headset was lost in set_model()
-      headset_->draw(session_.stage().scene(), seen_beside(panel_, panel_size()), card_in(panel_, panel_size()),
+      headset_->draw(session_.stage().scene(), free_region(panel_, panel_size()), card_region(panel_, panel_size()),
                      look_.pose());
       return;
     }
-    if (!view_) return;  // the headset or the device was lost
+    if (!view_) return;  // the headset or the GPU was lost
     try {
       if (session_.take_new_model() || fresh_view_) view_->set_model(session_.stage().model());
       fresh_view_ = false;
       if (view_->begin())
-        view_->draw(session_.stage().scene(), look_.pose(), look_.field(), seen_beside(panel_, panel_size()));
+        view_->draw(session_.stage().scene(), look_.pose(), look_.field(), free_region(panel_, panel_size()));
     } catch (const engine::GpuLost& lost) {
       lose_view(lost);
     }
@@ -361,10 +363,10 @@ class WindowTrainer {
   engine::UiContext ui_;
   UiScale ui_scale_;
   ui::Panel panel_;
-  std::unique_ptr<LearnerHeadset> headset_;  // null: not requested
+  std::unique_ptr<LearnerHeadset> headset_;  // null if no headset was requested
   std::unique_ptr<cabin::CabinView> view_;   // null while the headset is open
   Session session_;
-  std::optional<LearnerHeadset::Pointer> pointer_;  // where the hand points at the panel
+  std::optional<LearnerHeadset::Pointer> pointer_;  // place on the panel at which the hand points
   PointingHand pointing_;
   SharedInput shared_;
   ui::DriverInput& input_;
@@ -380,7 +382,7 @@ class WindowTrainer {
   std::string printed_message_;
 };
 
-// A lesson by the automatic hand, or a replay, has come to its end.
+// True if the lesson or the replay has come to its end.
 bool is_done(const Session& session) {
   return session.coach().view().phase == lessons::LessonPhase::over || session.is_replay_over();
 }
@@ -389,14 +391,14 @@ bool is_done(const Session& session) {
 
 int train_in_window(const TrainSetup& setup) {
   const base::StopSignals signals;
-  WindowTrainer runtime(setup);
+  WindowTrainer trainer(setup);
   try {
-    while (!runtime.done()) runtime.frame();
+    while (!trainer.done()) trainer.frame();
   } catch (...) {
-    (void)runtime.finish();
+    (void)trainer.finish();
     throw;
   }
-  return runtime.finish();
+  return trainer.finish();
 }
 
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
@@ -433,7 +435,7 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   print_lines(lines.new_lines(session.coach().view()), session.lever_time());
   view.set_model(session.stage().model());  // only the last frame is written
   view.begin();
-  view.draw(session.stage().scene(), look.pose(), look.field(), seen_beside(panel, eye));
+  view.draw(session.stage().scene(), look.pose(), look.field(), free_region(panel, eye));
   const std::filesystem::path picture = offscreen.folder / "train.png";
   engine::write_png(picture, view.picture());
   base::print_out("{}\n", picture.string());

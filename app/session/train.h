@@ -1,4 +1,4 @@
-// The trainer, in a window or off screen with frames in memory.
+// Runs the trainer, in a window or off screen.
 #pragma once
 
 #include <filesystem>
@@ -18,18 +18,19 @@ struct TrainSetup {
   bool panel = true;
   std::optional<HeadsetSetup> headset;  // empty: desktop only
   std::filesystem::path replay;         // recording to replay; empty: none
-  std::optional<std::size_t> shift;     // one shift of it, counted from 0; empty: all of it
-  double from = 0.0;                    // [s] start position in it
+  std::optional<std::size_t> shift;     // shift to replay, counted from 0; empty: the whole recording
+  double from = 0.0;                    // [s] start position in the recording
 };
 
-// Runs until the window is closed. Prints a line for each gear. Returns the exit code: 1 if the last recording failed.
+// Runs until the user quits. Prints a line for each engaged gear. Returns the exit code: 1 if the last recording
+// failed.
 int train_in_window(const TrainSetup& setup);
 
-// Renders in memory on the virtual clock, at 30 frames per simulated second. Writes the last frame as train.png into
-// the folder.
+// Settings for train_offscreen(), which runs on the virtual clock at 30 frames per simulated second and writes the last
+// frame to train.png in the folder.
 struct OffscreenSetup {
   std::filesystem::path folder;
-  double seconds = 5.0;  // [s] > 0; upper limit: a lesson or a replay may end earlier
+  double seconds = 5.0;  // [s] > 0; maximum duration: the end of a lesson or a replay ends the run earlier
 };
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen);
 

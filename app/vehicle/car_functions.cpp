@@ -21,7 +21,7 @@ double full_torque(const EngineSpec& engine, double speed) noexcept {
     const double fraction = (speed - point[i - 1].speed) / (point[i].speed - point[i - 1].speed);
     return point[i - 1].torque + fraction * (point[i].torque - point[i - 1].torque);
   }
-  return point[engine.points - 1].torque;  // a table with a single point
+  return point[engine.points - 1].torque;  // reached only if the table has a single point
 }
 
 double friction_torque(const EngineSpec& engine, double speed) noexcept {

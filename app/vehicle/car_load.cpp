@@ -15,16 +15,16 @@ namespace gearshift::vehicle {
 namespace {
 
 constexpr const char* kName = "car";
-constexpr int kStands = 0, kEngineRunning = 1, kStalled = 2;  // state of the engine, in the text of replay_parameters()
+constexpr int kEngineOff = 0, kEngineRunning = 1, kStalled = 2;  // codes for the engine's state in replay_parameters()
 
 double force_scale(double force_limit) {
-  if (!(force_limit > 0.0)) throw std::invalid_argument("CarLoad: the device's largest force must be more than 0 N");
+  if (!(force_limit > 0.0)) throw std::invalid_argument("the device's maximum force must be greater than 0 N");
   return std::min(1.0, force_limit / kMaxHandForce);
 }
 
 int engine_code(const CarStart& start) noexcept {
   if (start.running) return kEngineRunning;
-  return start.stalled ? kStalled : kStands;
+  return start.stalled ? kStalled : kEngineOff;
 }
 
 double finite_or_zero(double value) noexcept {
@@ -39,8 +39,8 @@ CarStart complete_start(const CarSpec& car, CarStart start) {
   return start;
 }
 
-// Two lines of values, then the car file. Doubles are written so that they read back exactly.
-std::string make_name(const CarSpec& car, double force_limit, const CarStart& start, std::uint64_t seed) {
+// A line of values, a line with the car file's name, then the car file's text. Doubles read back exactly.
+std::string format_parameters(const CarSpec& car, double force_limit, const CarStart& start, std::uint64_t seed) {
   return fmt::format("{} {} {} {} {} {} {} {} {} {}\n{}\n{}", kName, force_limit, seed, start.road_speed, start.gear,
                      engine_code(start), *start.engine_speed, *start.shaft_speed, start.distance, start.slip_energy,
                      car.name + ".toml", car.text);
@@ -74,7 +74,7 @@ CarLoad::CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_lim
     : car_(car),
       gate_(gate),
       start_(complete_start(car, start)),
-      name_(make_name(car, force_limit, start_, seed)),
+      parameters_(format_parameters(car, force_limit, start_, seed)),
       driveline_(car),
       synchroniser_(car.synchro, gate, force_scale(force_limit), start.gear, seed),
       vibration_(car.engine.shudder * force_scale(force_limit)) {
@@ -169,12 +169,12 @@ std::unique_ptr<CarLoad> make_car_load(const std::string& name, const haptics::G
   std::string kind, file;
   double force_limit = 0.0, engine_speed = 0.0, shaft_speed = 0.0;
   std::uint64_t seed = 0;
-  int engine = kStands;
+  int engine = kEngineOff;
   CarStart start;
   stream >> kind >> force_limit >> seed >> start.road_speed >> start.gear >> engine >> engine_speed >> shaft_speed >>
       start.distance >> start.slip_energy;
   if (!stream || kind != kName || stream.get() != '\n' || !std::getline(stream, file)) return nullptr;
-  if (engine < kStands || engine > kStalled) return nullptr;
+  if (engine < kEngineOff || engine > kStalled) return nullptr;
   start.running = engine == kEngineRunning;
   start.stalled = engine == kStalled;
   start.engine_speed = engine_speed;

@@ -1,4 +1,4 @@
-// The car behind the lever: driveline and synchroniser, stepped inside the haptic cycle.
+// The car as a load on the lever: a driveline and a synchroniser, stepped once per haptic cycle.
 #pragma once
 
 #include <array>
@@ -19,34 +19,35 @@ namespace gearshift::vehicle {
 
 struct CarStart {
   double road_speed = 0.0;
-  int gear = haptics::kNeutralGear;  // gear engaged, with the lever in its slot
+  int gear = haptics::kNeutralGear;  // engaged gear; the lever is in its slot
   bool running = true;
   bool stalled = false;  // the engine is off because it stalled, and the key is still on
-  // [rad/s] default: idle, or the speed that gear and road speed require if that is higher
+  // [rad/s] If empty: idle speed, or the speed that gear and road speed require if that is higher; 0 if not running.
   std::optional<double> engine_speed;
-  // [rad/s] default: the speed that the gear requires; in neutral the engine's speed
+  // [rad/s] If empty: the speed that gear and road speed require; in neutral the engine's speed.
   std::optional<double> shaft_speed;
-  double distance = 0.0;     // [m] driven before
-  double slip_energy = 0.0;  // [J] dissipated in the clutch before
+  double distance = 0.0;     // [m] distance driven before the start
+  double slip_energy = 0.0;  // [J] heat dissipated in the clutch before the start
 };
 
-// A start that continues from this state.
+// Returns a start that continues from `state`.
 CarStart start_from(const VehicleState& state) noexcept;
 
-// Throws std::invalid_argument with one sentence if the gate has a gear that the car lacks.
+// Throws std::invalid_argument, with one sentence as its message, if the gate has a gear that the car lacks.
 void check_car_fits(const CarSpec& car, const haptics::Gate& gate);
 
 class CarLoad final : public haptics::LeverLoad {
  public:
-  // force_limit: largest force of the device at the knob [N], > 0; the lever's forces are scaled down to it, and the
-  // state reports the scale. seed: for the random tooth position at each second bump. Throws like check_car_fits().
+  // force_limit: largest force that the device can render at the knob [N], > 0; forces on the lever are scaled down to
+  // it by VehicleState::force_scale. seed: for the random tooth position at each second bump. Throws like
+  // check_car_fits().
   CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_limit, const CarStart& start = {},
           std::uint64_t seed = 1);
 
   haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override;
-  // "car", the exact value of every constructor argument, and the whole car file: make_car_load() rebuilds the same
-  // load.
-  const char* replay_parameters() const noexcept override { return name_.c_str(); }
+  // Returns "car", the exact value of every constructor argument and the text of the car file. make_car_load() rebuilds
+  // the same load from it.
+  const char* replay_parameters() const noexcept override { return parameters_.c_str(); }
   const CarSpec& spec() const noexcept { return car_; }
   const VehicleState& state() const noexcept { return state_; }
   const Driveline& driveline() const noexcept { return driveline_; }
@@ -54,9 +55,9 @@ class CarLoad final : public haptics::LeverLoad {
  private:
   struct SlotGear {
     int gear = haptics::kNeutralGear;
-    double side = 1.0;      // of the slot: +1 forward, -1 back
-    double per_road = 0.0;  // [rad/m] shaft speed per road speed
-    double ratio = 1.0;     // [1] shaft to gear, > 0
+    double side = 1.0;      // side of the slot: +1 forward, -1 back
+    double per_road = 0.0;  // [rad/m] shaft speed divided by road speed
+    double ratio = 1.0;     // [1] shaft speed divided by the gear's speed, > 0
   };
 
   SleeveInput sleeve_input(const haptics::LeverInput& in) const noexcept;
@@ -67,7 +68,7 @@ class CarLoad final : public haptics::LeverLoad {
   CarSpec car_;
   haptics::Gate gate_;
   CarStart start_;
-  std::string name_;
+  std::string parameters_;
   std::array<SlotGear, haptics::kMaxSlots> gear_of_slot_{};
   Driveline driveline_;
   Synchroniser synchroniser_;
@@ -75,8 +76,8 @@ class CarLoad final : public haptics::LeverLoad {
   VehicleState state_;
 };
 
-// Rebuilds the load that replay_parameters() describes; null if the text describes no car. Throws FileError if the car file in it is
-// rejected, std::invalid_argument if the car does not fit the gate.
-std::unique_ptr<CarLoad> make_car_load(const std::string& name, const haptics::Gate& gate);
+// Rebuilds the load that replay_parameters() describes; returns null if the text does not describe a car. Throws
+// FileError if the car file in it is rejected, std::invalid_argument if the car does not fit the gate.
+std::unique_ptr<CarLoad> make_car_load(const std::string& parameters, const haptics::Gate& gate);
 
 }  // namespace gearshift::vehicle

@@ -18,7 +18,7 @@ constexpr double kPerKrpm = 1000.0 * kPerRpm;        // [rad/s]
 constexpr double kPerDegree = std::numbers::pi / 180.0;
 constexpr double kMetresPerMillimetre = 1e-3;
 
-// Ranges of the file's values in the file's units, from a moped's engine to a lorry's.
+// Allowed ranges of the file's values, in the file's units: wide enough for a moped and for a lorry.
 constexpr haptics::Range kSpeedRpm{50.0, 20000.0};
 constexpr haptics::Range kTorquePointRpm{0.0, 20000.0};
 constexpr haptics::Range kTorqueNm{0.0, 5000.0};
@@ -56,19 +56,18 @@ constexpr haptics::Range kBrakeN{0.0, 1e6};
 void read_full_load(const haptics::TomlTable& table, EngineSpec& engine) {
   const std::vector<haptics::TomlTable> points = table.tables("full_load");
   if (points.size() < 2 || points.size() > kMaxTorquePoints)
-    table.fail("full_load",
-               fmt::format("must have between 2 and {} points, each {{ rpm = ..., nm = ... }}, this has {}",
-                           kMaxTorquePoints, points.size()));
+    table.fail("full_load", fmt::format("must have between 2 and {} points, each {{ rpm = ..., nm = ... }}, but has {}",
+                                        kMaxTorquePoints, points.size()));
   for (const haptics::TomlTable& point : points) {
     const double speed = point.number("rpm", kTorquePointRpm) * kPerRpm;
     if (engine.points > 0 && speed <= engine.full_load[engine.points - 1].speed)
-      point.fail("rpm", "must be larger than the rpm of the point before");
+      point.fail("rpm", "must be greater than the rpm of the previous point");
     engine.full_load[engine.points++] = {speed, point.number("nm", kTorqueNm)};
     point.reject_unknown_keys();
   }
 }
 
-// Requires table[less] < table[more].
+// Reports an error unless table[less] < table[more].
 void require_order(const haptics::TomlTable& table, const char* less, const char* more) {
   const haptics::Range any{-1e9, 1e9};
   if (table.number(less, any) >= table.number(more, any)) table.fail(less, fmt::format("must be less than {}", more));
@@ -86,7 +85,7 @@ void check_engine(const haptics::TomlTable& table, const EngineSpec& engine) {
   const double first = engine.full_load[0].speed, last = engine.full_load[engine.points - 1].speed;
   if (first > engine.idle || last < engine.limiter)
     table.fail("full_load",
-               fmt::format("must reach from idle_rpm or below to limiter_rpm or above, this has {} to {}",
+               fmt::format("must reach from idle_rpm or below to limiter_rpm or above, but reaches from {} to {}",
                            haptics::number_text(first / kPerRpm, 3), haptics::number_text(last / kPerRpm, 3)));
 }
 
@@ -126,7 +125,7 @@ ClutchSpec read_clutch(const haptics::TomlTable& table) {
   return clutch;
 }
 
-// Forward ratios are numbered from 1 without gaps and decrease.
+// Forward ratios must be numbered from 1 without gaps, and decrease.
 void read_ratios(const haptics::TomlTable& table, GearboxSpec& gearbox) {
   for (int gear = 1; gear <= haptics::kMaxGear; ++gear) {
     const std::string key = fmt::format("ratio_{}", gear);
@@ -134,7 +133,7 @@ void read_ratios(const haptics::TomlTable& table, GearboxSpec& gearbox) {
     const std::size_t at = static_cast<std::size_t>(gear - 1);
     gearbox.ratio[at] = table.number(key, kRatio);
     if (gear == 1) continue;
-    if (gearbox.ratio[at - 1] == 0.0) table.fail(key, fmt::format("there is no ratio_{}", gear - 1));
+    if (gearbox.ratio[at - 1] == 0.0) table.fail(key, fmt::format("needs ratio_{}, which is missing", gear - 1));
     if (gearbox.ratio[at] >= gearbox.ratio[at - 1])
       table.fail(key, fmt::format("must be less than ratio_{}", gear - 1));
   }

@@ -1,4 +1,4 @@
-// A car as described by its TOML file: everything that affects shifting. The files give a source for each value.
+// A car as described by its TOML file: everything that affects shifting. The files name a source for each value.
 #pragma once
 
 #include <array>
@@ -15,82 +15,82 @@ inline constexpr std::size_t kMaxTorquePoints = 24;
 
 struct TorquePoint {
   double speed = 0.0;   // [rad/s]
-  double torque = 0.0;  // [N m] at full throttle, net of friction
+  double torque = 0.0;  // [N m] torque at full throttle, net of engine friction
 };
 
 struct EngineSpec {
-  std::array<TorquePoint, kMaxTorquePoints> full_load{};  // speeds increase; linear between points, zero outside
+  std::array<TorquePoint, kMaxTorquePoints> full_load{};  // in order of speed; linear between points, zero outside
   std::size_t points = 0;
-  double friction = 9.0;         // [N m] throttle closed, at standstill
-  double friction_slope = 0.0;   // [N m s] increase per rad/s
-  double friction_square = 0.0;  // [N m s^2] increase per (rad/s)^2
-  double inertia = 0.15;         // [kg m^2] with flywheel
+  double friction = 9.0;         // [N m] engine friction at standstill, throttle closed
+  double friction_slope = 0.0;   // [N m s] increase of friction per rad/s
+  double friction_square = 0.0;  // [N m s^2] increase of friction per (rad/s)^2
+  double inertia = 0.15;         // [kg m^2] including the flywheel
   double idle = 84.0;            // [rad/s]
-  double idle_gain = 0.01;       // [s] throttle per rad/s below idle
-  double stall = 37.0;           // [rad/s] below this it stops firing
+  double idle_gain = 0.01;       // [s] extra throttle per rad/s below idle
+  double stall = 37.0;           // [rad/s] below this speed the engine stops firing
   double red_line = 680.0;       // [rad/s] over-rev warning
-  double limiter = 690.0;        // [rad/s] fuel is cut here, and restored below limiter - limiter_band
+  double limiter = 690.0;        // [rad/s] fuel is cut above this speed and restored below limiter - limiter_band
   double limiter_band = 10.0;    // [rad/s]
-  double starter_torque = 60.0;  // [N m] at standstill, falling to zero at starter_speed
+  double starter_torque = 60.0;  // [N m] starter torque at standstill; falls to zero at starter_speed
   double starter_speed = 30.0;   // [rad/s]
-  double shift_low = 210.0;      // [rad/s] band for economical upshifts: from here
-  double shift_high = 262.0;     // [rad/s] to here
-  double lug_below = 120.0;      // [rad/s] below this full load harms the engine
+  double shift_low = 210.0;      // [rad/s] lower end of the band for economical upshifts
+  double shift_high = 262.0;     // [rad/s] upper end of the band for economical upshifts
+  double lug_below = 120.0;      // [rad/s] below this speed, full load harms the engine
   double shudder = 3.0;          // [N] amplitude of the vibration at a real car's knob as the engine dies
 };
 
 struct ClutchSpec {
-  double capacity = 240.0;      // [N m] pedal up
-  double bite = 0.75;           // [1] pedal position below which it transmits torque
-  double closed = 0.15;         // [1] pedal position below which it has full capacity; quadratic in between
-  double disc_inertia = 0.006;  // [kg m^2] disc and input shaft
+  double capacity = 240.0;      // [N m] largest torque, pedal up
+  double bite = 0.75;           // [1] pedal position below which the clutch transmits torque
+  double closed = 0.15;         // [1] pedal position below which capacity is full; it grows quadratically from bite on
+  double disc_inertia = 0.006;  // [kg m^2] disc plus input shaft
 };
 
 struct GearboxSpec {
-  std::array<double, haptics::kMaxGear> ratio{};  // [1] first to ninth; 0: no such gear
+  std::array<double, haptics::kMaxGear> ratio{};  // [1] ratios of first to ninth gear; 0: no such gear
   double reverse = 0.0;                           // [1] > 0
   double final_drive = 4.0;                       // [1]
-  double drag = 0.5;                              // [N m] Coulomb, on the input shaft
+  double drag = 0.5;                              // [N m] Coulomb friction on the input shaft
   double drag_slope = 0.005;                      // [N m s]
-  double efficiency = 1.0;                        // [1] of the meshing teeth under load; 1: lossless
+  double efficiency = 1.0;                        // [1] efficiency of the meshing teeth under load; 1: lossless
 };
 
 // All forward gears share these values; reverse has no synchroniser.
 struct SynchroSpec {
-  double friction = 0.10;        // [1] of the cone; below the critical value the synchroniser counts as worn
-  double radius = 0.030;         // [m] of the cone, mean
+  double friction = 0.10;        // [1] friction of the cone; below critical_friction() the synchroniser counts as worn
+  double radius = 0.030;         // [m] mean radius of the cone
   double cone_angle = 0.11;      // [rad] half-angle
   double cones = 1.0;            // [1] number of friction surfaces
-  double index_radius = 0.035;   // [m] of the blocking teeth
-  double pointing_angle = 0.92;  // [rad] half-angle of their points
+  double index_radius = 0.035;   // [m] radius of the blocking teeth
+  double pointing_angle = 0.92;  // [rad] half-angle of the blocking teeth's points
   double index_friction = 0.09;  // [1]
   double teeth = 36.0;           // [1] number of dogs
   double dog_speed = 1.0;        // [rad/s] largest speed difference at which the dogs engage
-  double lever_ratio = 9.0;      // [1] knob to sleeve
-  double efficiency = 0.8;       // [1] of the linkage
+  double lever_ratio = 9.0;      // [1] knob travel divided by sleeve travel
+  double efficiency = 0.8;       // [1] efficiency of the linkage
 };
 
 struct BodySpec {
   double mass = 1200.0;               // [kg] with driver
-  double rotating = 38.8;             // [kg] of the wheels, reduced to the rim
+  double rotating = 38.8;             // [kg] inertia of the wheels, as a mass at the rim
   double wheel_radius = 0.303;        // [m]
-  double resistance = 128.19;         // [N] rolling resistance at standstill: a
-  double resistance_slope = 0.0;      // [N s/m] b
-  double resistance_square = 0.4764;  // [N s^2/m^2] drag: c
-  double brake_force = 9000.0;        // [N] full
-  double hand_brake_force = 4500.0;   // [N] full
+  double resistance = 128.19;         // [N] a in a + b v + c v^2: rolling resistance
+  double resistance_slope = 0.0;      // [N s/m] b in a + b v + c v^2
+  double resistance_square = 0.4764;  // [N s^2/m^2] c in a + b v + c v^2: air drag
+  double brake_force = 9000.0;        // [N] with the pedal fully down
+  double hand_brake_force = 4500.0;   // [N] with the lever fully up
 };
 
 struct CarSpec {
   std::string name;  // the file's name without .toml
   std::string title;
-  std::string gate;  // gate layout named in the file
+  std::string gate;  // name of the gate layout
   EngineSpec engine;
   ClutchSpec clutch;
   GearboxSpec gearbox;
   SynchroSpec synchro;
   BodySpec body;
-  std::string text;  // the whole file, kept for traces
+  std::string text;  // text of the whole file, stored in traces
   std::string file;  // for messages
 };
 
@@ -98,12 +98,13 @@ struct CarSpec {
 CarSpec read_car(const std::filesystem::path& file);
 CarSpec parse_car(std::string_view text, const std::string& file_name);
 
-// Clutch shaft speed per road speed [rad/m]: ratio times final drive over wheel radius; reverse < 0, neutral 0.
+// Shaft speed divided by road speed [rad/m]: ratio * final drive / wheel radius. Negative in reverse, 0 in neutral.
 double shaft_per_road(const CarSpec& car, int gear) noexcept;
-// [N m] at that speed, with the throttle fully open or closed.
+// Torque at full throttle, net of engine friction [N m]. speed: [rad/s].
 double full_torque(const EngineSpec& engine, double speed) noexcept;
+// Engine friction with the throttle closed [N m]. speed: [rad/s].
 double friction_torque(const EngineSpec& engine, double speed) noexcept;
-// [N m] that the clutch can transmit at that pedal position (0 up, 1 down).
+// Largest torque that the clutch can transmit [N m]. pedal: 0 up, 1 down.
 double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept;
 
 }  // namespace gearshift::vehicle

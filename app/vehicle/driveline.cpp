@@ -1,4 +1,4 @@
-// One step: its inputs and the published state. The motion itself is in driveline_motion.cpp.
+// Reads the inputs of a step and publishes the state after it. The motion itself is computed in driveline_motion.cpp.
 #include "app/vehicle/driveline.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace gearshift::vehicle {
 namespace {
 
 constexpr double kMaxStep = 0.5;       // [s]
-constexpr double kMaxSubstep = 0.002;  // [s] for the midpoint rule
+constexpr double kMaxSubstep = 0.002;  // [s] longest step of the midpoint rule
 constexpr double kGravity = 9.81;      // [m/s^2]
-// [N m] of one friction element: more than any two bodies need to reach one speed within microseconds
+// [N m] limit for one friction element. With a usual disc inertia it brings two bodies to one speed within 0.1 ms.
 constexpr double kMaxTorque = 1e5;
 
 double finite(double value) noexcept {
@@ -99,8 +99,8 @@ void Driveline::set_input(const DrivelineInput& in) noexcept {
   is_first_step_ = false;
 }
 
-// Engaging dogs bring shaft and car to one speed. The clutch torque is limited, so it transmits no impulse: the engine
-// keeps its speed and the clutch slips.
+// Engaging dogs bring shaft and car to one speed at once. The clutch's torque is limited, so the clutch transmits no
+// impulse: the engine keeps its speed and the clutch slips.
 void Driveline::mesh(int gear, int cone_gear) noexcept {
   const double per_road = shaft_per_road(car_, gear), cone_per_road = shaft_per_road(car_, cone_gear);
   if (per_road == 0.0) {
@@ -121,7 +121,7 @@ void Driveline::mesh(int gear, int cone_gear) noexcept {
   cone_gear_ = cone_gear;
 }
 
-// The clutch capacity has kinks where it starts to carry torque and where it reaches its maximum: a substep ends there.
+// Time of the next kink of the clutch capacity, where torque begins or capacity is full. A substep ends there.
 double Driveline::next_kink(double after) const noexcept {
   double next = length_;
   if (pedal_.from == pedal_.to) return next;
@@ -134,7 +134,7 @@ double Driveline::next_kink(double after) const noexcept {
 
 void Driveline::publish_state(double capacity) noexcept {
   const ChainMotion& motion = now_.motion;
-  const double engine = std::max(0.0, speed_[engine_body]);  // avoids -0 after the engine was stopped from behind
+  const double engine = std::max(0.0, speed_[engine_body]);  // the car may have stopped the engine at -0
   state_.engine_speed = engine;
   state_.engine_load = engine_.load(engine, state_.throttle);
   state_.engine_torque = engine_.torque(engine, state_.throttle) - friction_torque(car_.engine, engine);

@@ -1,9 +1,10 @@
 // Engine, clutch, gearbox shaft and car as rigid inertias with Coulomb friction between them.
 //
 // Friction elements: the clutch (capacity set by the pedal), the synchroniser's cone, rolling resistance and brakes at
-// the car, drag at the shaft, and the engine, which cannot turn backwards. Each one sticks or slips. A step is cut
-// where one of them changes (event location); an element that starts to stick conserves momentum; between changes the
-// midpoint rule is used. After a fixed number of changes in one step, the rest of the step is solved by impulses.
+// the car, drag at the shaft, and friction in the engine, which cannot turn backwards. Each element sticks or slips. A
+// step is split where an element changes from one to the other (event location); sticking starts with momentum
+// conserved; between events the midpoint rule is used. After kMaxEvents events in a substep, the rest of the substep is
+// solved by impulses.
 #pragma once
 
 #include <array>
@@ -22,11 +23,11 @@ struct DrivelineInput {
   bool starter = false;
   double slope = 0.0;        // [rad] uphill is positive
   int meshed = 0;            // gear whose dogs are engaged
-  int cone_gear = 0;         // gear whose cone rubs; 0: none. Never together with meshed
-  double cone_torque = 0.0;  // [N m] capacity of the cone, on the gear's side, >= 0
+  int cone_gear = 0;         // gear whose cone rubs; 0: none. Always 0 while a gear is meshed
+  double cone_torque = 0.0;  // [N m] capacity of the cone, measured at the gear, >= 0
 };
 
-// [J] Energy since the start. Energy put in equals energy spent, up to rounding.
+// Energies since place() [J]. Supplied energy equals losses plus the rise of stored energy, up to rounding.
 struct EnergyLedger {
   double engine = 0.0;    // combustion and starter
   double friction = 0.0;  // inside the engine
@@ -35,7 +36,7 @@ struct EnergyLedger {
   double shaft_drag = 0.0;
   double rolling = 0.0;  // including air drag
   double brakes = 0.0;
-  double slope = 0.0;  // gained by climbing
+  double slope = 0.0;  // potential energy gained by climbing
   double teeth = 0.0;  // lost in the gear's teeth (efficiency)
   double mesh = 0.0;   // lost when dogs engaged at unequal speeds
 };
@@ -43,22 +44,22 @@ struct EnergyLedger {
 class Driveline {
  public:
   explicit Driveline(const CarSpec& car);
-  // Advances by `seconds` (0 to 0.5). noexcept, no allocation. Inputs that are not finite count as 0.
+  // Advances by `seconds` (limited to 0.5). Does not allocate. Inputs that are not finite count as 0.
   // `in` holds the values at the end of the step. Pedals, slope and cone torque change linearly from the previous
   // step's values (constant in the first step and in the first one after place()); gear and key change at the start of
-  // the step. If dogs engage at unequal speeds, shaft and car exchange momentum at once, and the clutch slips if it has
-  // to.
+  // the step. If dogs engage at unequal speeds, shaft and car exchange momentum at once, and the clutch slips if
+  // necessary.
   void step(const DrivelineInput& in, double seconds) noexcept;
 
   // Sets the speeds directly, in neutral, and resets the energy ledger: for the start of a lesson and for tests.
   // stalled: the engine is off because it stalled; ignored if running.
   void place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled = false) noexcept;
 
-  // engine, clutch and car; the lever's fields keep their defaults
+  // State of engine, clutch and car. Fields that the synchroniser determines keep their defaults.
   const VehicleState& state() const noexcept { return state_; }
   const EnergyLedger& energy() const noexcept { return energy_; }
   double kinetic_energy() const noexcept;                          // [J]
-  std::uint64_t fallbacks() const noexcept { return fallbacks_; }  // number of steps that used impulses
+  std::uint64_t fallbacks() const noexcept { return fallbacks_; }  // number of substeps that used impulses
 
  private:
   struct Ramp {
@@ -67,7 +68,7 @@ class Driveline {
   };
   struct Loads {
     ChainLoads chain;
-    double lift = 0.0, brakes = 0.0;  // [N] parts of push and ground
+    double lift = 0.0, brakes = 0.0;  // [N] gravity's part of chain.push, the brakes' part of chain.ground
   };
   struct Reversed {
     bool clutch = false, cone = false;
@@ -77,7 +78,7 @@ class Driveline {
   struct Trial {
     PerBody speed;
     Loads loads;
-    ChainMotion motion;  // loads and motion are those of the midpoint
+    ChainMotion motion;  // motion, like loads, is that of the step's midpoint
     Solution end;
     bool ends_mode;
   };
@@ -91,7 +92,7 @@ class Driveline {
   Trial try_step(double seconds) const noexcept;
   Reversed reversed(const PerBody& speed, const Loads& loads) const noexcept;
   void accept(const Trial& trial, double seconds) noexcept;
-  void snap(const Reversed& is) noexcept;
+  void snap(const Reversed& elements) noexcept;
   void update_modes() noexcept;
   void account_energy(const Loads& loads, const ChainMotion& motion, const PerBody& to, double seconds) noexcept;
   void publish_state(double clutch_capacity) noexcept;
@@ -102,9 +103,9 @@ class Driveline {
   PerBody speed_{};
   Solution now_;  // current mode and motion
   Ramp throttle_, pedal_, brakes_, lift_, cone_;
-  double time_ = 0.0, length_ = 1.0;  // [s] time within this step, and the step's length
+  double time_ = 0.0, length_ = 1.0;  // [s] time since the step began; the step's length
   int meshed_ = 0, cone_gear_ = 0;
-  double cone_ratio_ = 1.0;  // [1] ratio of the cone's gear
+  double cone_ratio_ = 1.0;  // [1] ratio of the gear whose cone rubs
   bool is_first_step_ = true;
   VehicleState state_;
   EnergyLedger energy_;

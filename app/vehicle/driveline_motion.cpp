@@ -1,4 +1,4 @@
-// Motion within a step: pieces with one stick-slip mode each, cut where a friction element or the engine changes state.
+// Motion within a step, split wherever a friction element or the engine changes state: each piece has one mode.
 #include <algorithm>
 #include <cmath>
 
@@ -8,9 +8,9 @@ namespace gearshift::vehicle {
 namespace {
 
 constexpr double kEventTime = 1e-11;  // [s] accuracy of event location
-constexpr int kMaxEvents = 20;        // in one piece; beyond that impulses are used (Zeno behaviour)
+constexpr int kMaxEvents = 20;        // per substep; then impulses take over: events can pile up (Zeno behaviour)
 
-// Speeds after `seconds`. Bodies that move as one get exactly the same speed.
+// Speeds after `seconds`. Bodies that stick together get exactly matching speeds.
 PerBody advance_speeds(const FrictionChain& chain, const FrictionMode& mode, const PerBody& from, const PerBody& rate,
                        double seconds) noexcept {
   PerBody to;
@@ -74,31 +74,31 @@ void Driveline::advance(double seconds) noexcept {
   }
 }
 
-// Midpoint rule in the current mode. The result says whether the mode ends during the step.
+// Tries a step of the midpoint rule in the current mode. Trial::ends_mode is true if the mode ends during the step.
 Driveline::Trial Driveline::try_step(double seconds) const noexcept {
   Trial trial;
   const PerBody half = advance_speeds(chain_, now_.mode, speed_, now_.motion.rate, 0.5 * seconds);
   trial.loads = loads_at(half, time_ + 0.5 * seconds);
-  trial.motion = move(chain_, trial.loads.chain, now_.mode);
+  trial.motion = motion_in_mode(chain_, trial.loads.chain, now_.mode);
   trial.speed = advance_speeds(chain_, now_.mode, speed_, trial.motion.rate, seconds);
   trial.ends_mode = reversed(trial.speed, trial.loads).any() || engine_.would_change(trial.speed[engine_body]);
   if (trial.ends_mode) return trial;
   const Loads at_end = loads_at(trial.speed, time_ + seconds);
-  trial.end = {now_.mode, move(chain_, at_end.chain, now_.mode)};
+  trial.end = {now_.mode, motion_in_mode(chain_, at_end.chain, now_.mode)};
   trial.ends_mode = trial.end.motion.violation > 0.0;
   return trial;
 }
 
-// Elements whose slip or rotation has changed sign. Elements without capacity do not count.
+// Returns the elements whose slip or rotation has changed sign. Elements without capacity do not count.
 Driveline::Reversed Driveline::reversed(const PerBody& speed, const Loads& loads) const noexcept {
   const FrictionMode& mode = now_.mode;
-  const ChainLoads& most = loads.chain;
-  Reversed is;
-  is.clutch = mode.clutch * (speed[engine_body] - speed[shaft_body]) < 0.0 && most.clutch > 0.0;
-  is.cone = mode.cone * cone_slip(chain_, speed) < 0.0 && most.cone > 0.0;
+  const ChainLoads& capacity = loads.chain;
+  Reversed elements;
+  elements.clutch = mode.clutch * (speed[engine_body] - speed[shaft_body]) < 0.0 && capacity.clutch > 0.0;
+  elements.cone = mode.cone * cone_slip(chain_, speed) < 0.0 && capacity.cone > 0.0;
   for (std::size_t b = 0; b < 3; ++b)
-    is.turn[b] = mode.turn[b] * speed[b] < 0.0 && (b == engine_body || most.ground[b] > 0.0);
-  return is;
+    elements.turn[b] = mode.turn[b] * speed[b] < 0.0 && (b == engine_body || capacity.ground[b] > 0.0);
+  return elements;
 }
 
 void Driveline::accept(const Trial& trial, double seconds) noexcept {
@@ -107,20 +107,19 @@ void Driveline::accept(const Trial& trial, double seconds) noexcept {
   if (!trial.ends_mode) now_ = trial.end;
 }
 
-// Elements that come to rest, or to one speed, within the event tolerance do so exactly. The kinetic energy of the
-// speed left after 10 ps is below rounding.
-void Driveline::snap(const Reversed& is) noexcept {
-  if (!is.any()) return;
+// Makes elements that stop slipping within the event tolerance stick exactly. The speed that this removes builds up in
+// at most 10 ps; its kinetic energy is below rounding.
+void Driveline::snap(const Reversed& elements) noexcept {
+  if (!elements.any()) return;
   FrictionMode& mode = now_.mode;
-  if (is.clutch) mode.clutch = 0;
-  if (is.cone) mode.cone = 0;
+  if (elements.clutch) mode.clutch = 0;
+  if (elements.cone) mode.cone = 0;
   for (std::size_t b = 0; b < 3; ++b)
-    if (is.turn[b]) mode.turn[b] = 0;
+    if (elements.turn[b]) mode.turn[b] = 0;
   speed_ = collide(chain_, speed_, mode);
 }
 
-// Finds which elements stick from here on. Slipping elements are known from the sign of their speed; the rest is solved
-// for.
+// Finds which elements stick from now on. Elements with a nonzero speed slip in its direction; the rest are solved for.
 void Driveline::update_modes() noexcept {
   FrictionMode known;
   known.clutch = sign(speed_[engine_body] - speed_[shaft_body]);
@@ -129,8 +128,8 @@ void Driveline::update_modes() noexcept {
   now_ = solve_modes(chain_, loads_at(speed_, time_).chain, known, now_.mode);
 }
 
-// Impulse time stepping: loads and limits are frozen over the whole interval, and all elements are solved together so
-// that each sticks at its end or slips in the direction of its force. First order, but it always succeeds.
+// Impulse time stepping: loads and limits are held constant over the whole interval, and all elements are solved
+// together so that at its end each element sticks or slips against its full friction. First order, but always solvable.
 void Driveline::advance_by_impulses(double seconds) noexcept {
   ++fallbacks_;
   const Loads loads = loads_at(speed_, time_);
@@ -146,7 +145,7 @@ void Driveline::advance_by_impulses(double seconds) noexcept {
   update_modes();
 }
 
-// Force times time times mean speed: the momentum came from the same forces, so the energy balance is exact.
+// Energy is force times time times mean speed. The same forces changed the momentum, so the balance is exact.
 void Driveline::account_energy(const Loads& loads, const ChainMotion& motion, const PerBody& to,
                                double seconds) noexcept {
   PerBody distance;

@@ -4,15 +4,15 @@
 
 namespace gearshift::vehicle {
 namespace {
-// The engine fires once the starter has turned it this fast and this far: a four-stroke's control knows after at most
-// two turns which cylinder is next. [engineering value]s
-constexpr double kMinCrankSpeed = 0.5;    // [1] of the starter's speed
+// The engine fires once the starter has turned it this fast and this far: the control of a four-stroke engine needs up
+// to two turns (12.57 rad) to find out which cylinder is next. Engineering values.
+constexpr double kMinCrankSpeed = 0.5;    // [1] fraction of EngineSpec::starter_speed
 constexpr double kMinCrankAngle = 12.57;  // [rad]
 }  // namespace
 
 EngineControl::EngineControl(const EngineSpec& spec) noexcept : spec_(spec) {
-  const double most = combustion_torque(spec.idle);
-  idle_load_ = most > 0.0 ? std::min(1.0, friction_torque(spec, spec.idle) / most) : 0.0;
+  const double max_torque = combustion_torque(spec.idle);
+  idle_load_ = max_torque > 0.0 ? std::min(1.0, friction_torque(spec, spec.idle) / max_torque) : 0.0;
 }
 
 void EngineControl::turn_key(bool ignition, bool starter) noexcept {
@@ -27,7 +27,7 @@ void EngineControl::set(bool running, bool stalled) noexcept {
   has_run_ = running || stalled;
 }
 
-// An engine that fires while the starter turns has not run by itself yet: it may die when the key is released.
+// An engine that fires below its stall speed, driven by the starter, has not run by itself yet.
 void EngineControl::update(double speed) noexcept {
   firing_ = next(speed);
   if (!ignition_) {
@@ -49,14 +49,13 @@ EngineControl::FiringState EngineControl::next(double speed) const noexcept {
   return {running, running && cut};
 }
 
-// Below the torque table the first point applies: otherwise the starter could not bring the engine up to speed.
+// Below the table's first speed its first point applies: otherwise the starter could not bring the engine up to speed.
 double EngineControl::combustion_torque(double speed) const noexcept {
   const double tabled = spec_.points > 0 ? std::max(speed, spec_.full_load[0].speed) : speed;
   return full_torque(spec_, tabled) + friction_torque(spec_, speed);
 }
 
-// The idle control is proportional, around the load that idling needs; the pedal takes over as soon as it asks for
-// more.
+// The idle control is proportional around the load that idling needs. The larger of its load and the pedal applies.
 double EngineControl::load(double speed, double pedal) const noexcept {
   if (!firing_.running || firing_.cut) return 0.0;
   const double idling = std::clamp(idle_load_ + spec_.idle_gain * (spec_.idle - speed), 0.0, 1.0);

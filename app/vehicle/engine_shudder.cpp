@@ -6,8 +6,8 @@
 
 namespace gearshift::vehicle {
 namespace {
-constexpr double kFiringsPerTurn = 2.0;  // per turn: four cylinders, four strokes
-constexpr double kMaxPeriod = 0.5;       // [s] same limit as in driveline.cpp
+constexpr double kFiringsPerTurn = 2.0;  // four cylinders, each firing every second turn
+constexpr double kMaxPeriod = 0.5;       // [s] same as kMaxStep in driveline.cpp
 }  // namespace
 
 double engine_shudder(const EngineSpec& engine, const VehicleState& now) noexcept {
@@ -16,8 +16,8 @@ double engine_shudder(const EngineSpec& engine, const VehicleState& now) noexcep
   const double begins = engine.idle - kSmoothDip * (engine.idle - engine.stall);
   const double depth = std::clamp((begins - speed) / (begins - engine.stall), 0.0, 1.0);
   if (!now.running) return speed < engine.stall ? speed / engine.stall : depth;
-  const double own = friction_torque(engine, engine.idle);
-  const double load = own > 0.0 ? std::clamp(now.clutch_torque / own, 0.0, 1.0) : 1.0;
+  const double idle_friction = friction_torque(engine, engine.idle);
+  const double load = idle_friction > 0.0 ? std::clamp(now.clutch_torque / idle_friction, 0.0, 1.0) : 1.0;
   return depth * load;
 }
 

@@ -8,7 +8,7 @@
 namespace gearshift::vehicle {
 namespace {
 
-constexpr double kSlack = 1e-12;  // [1] relative to the forces: rounding must not cause slip
+constexpr double kSlack = 1e-12;  // [1] tolerance relative to the forces: rounding must not cause slip
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 // Distance of `force` from the range [low, high], 0 inside it.
@@ -17,11 +17,11 @@ double distance_outside(double force, double low, double high) noexcept {
   return by > 0.0 ? std::max(0.0, by - kSlack * (std::abs(force) + std::abs(force < low ? low : high))) : 0.0;
 }
 
-// Links as arrays: link i joins body i and body i + 1; while it sticks, their speeds have the ratio `ratio[i]`.
+// Clutch and gear as arrays: link i joins bodies i and i + 1. While it sticks, speed i is ratio[i] times speed i + 1.
 struct Links {
   std::array<bool, 2> is_holding;
   std::array<double, 2> ratio, limit;
-  std::array<double, 2> torque{};  // at the left body
+  std::array<double, 2> torque{};  // measured at body i
 };
 
 Links make_links(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode) noexcept {
@@ -34,25 +34,25 @@ Links make_links(const FrictionChain& chain, const ChainLoads& loads, const Fric
 }
 
 struct Segment {
-  std::size_t first, last;     // bodies that move as one
-  double force_in, force_out;  // [N m] or [N] into the first body and out of the last one
+  std::size_t first, last;     // first and last of the bodies that move as one
+  double force_in, force_out;  // [N m] or [N] acting on the first body, and passed on by the last one
 };
 
-// Acceleration is the sum of forces over the sum of inertias, both reduced to the last body; then the torque of each
-// link follows from body to body. The gear's teeth pass on only the fraction `transmitted` of what they receive, which
-// is equivalent to scaling all forces and inertias before them by it.
+// Acceleration is the sum of forces divided by the sum of inertias, both reduced to the last body; the torque of each
+// link then follows from body to body. The gear's teeth pass on only the fraction `transmitted` of what they receive,
+// which is equivalent to scaling all forces and inertias before the teeth by that fraction.
 double solve_moving(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode,
                     const Segment& segment, double transmitted, Links& links, ChainMotion& out) noexcept {
-  double inertia = 0.0, force = -segment.force_out, seen = 1.0, fraction = 1.0;
+  double inertia = 0.0, force = -segment.force_out, ratio = 1.0, fraction = 1.0;
   for (std::size_t b = segment.last + 1; b-- > segment.first;) {
-    if (b < segment.last) seen *= links.ratio[b];
+    if (b < segment.last) ratio *= links.ratio[b];
     if (b == shaft_body && segment.last == car_body) fraction = transmitted;
-    out.rate[b] = seen;
+    out.rate[b] = ratio;
     out.ground[b] = -mode.turn[b] * loads.ground[b];
-    inertia += fraction * seen * seen * chain.inertia[b];
-    force += fraction * seen * (loads.push[b] + out.ground[b]);
+    inertia += fraction * ratio * ratio * chain.inertia[b];
+    force += fraction * ratio * (loads.push[b] + out.ground[b]);
   }
-  force += fraction * seen * segment.force_in;
+  force += fraction * ratio * segment.force_in;
   double carried = segment.force_in, violation = 0.0;
   for (std::size_t b = segment.first; b <= segment.last; ++b) {
     out.rate[b] *= force / inertia;
@@ -65,7 +65,7 @@ double solve_moving(const FrictionChain& chain, const ChainLoads& loads, const F
   return violation;
 }
 
-// Tooth losses depend on the direction of the power flow. That direction does not depend on the size of the loss.
+// Tooth losses depend on the direction of the power flow, which a solution without losses already shows.
 void solve_moving_with_teeth(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode,
                              const Segment& segment, Links& links, ChainMotion& out) noexcept {
   double violation = solve_moving(chain, loads, mode, segment, 1.0, links, out);
@@ -79,8 +79,8 @@ void solve_moving_with_teeth(const FrictionChain& chain, const ChainLoads& loads
   if (segment.last == car_body) out.drive = transmitted * links.ratio[1] * links.torque[1];
 }
 
-// Bodies at rest on the ground. The link torques are not unique then, only bounded: a first pass from left to right
-// finds the ranges, a second one from right to left picks the smallest torque that keeps everything at rest.
+// Solves bodies at rest on the ground. Their link torques are not unique, only bounded: a first pass from left to right
+// finds the ranges; a second pass, from right to left, picks the smallest torques that keep everything at rest.
 void solve_resting(const FrictionChain& chain, const ChainLoads& loads, const Segment& segment, Links& links,
                    ChainMotion& out) noexcept {
   std::array<double, 2> low{}, high{};
@@ -96,7 +96,7 @@ void solve_resting(const FrictionChain& chain, const ChainLoads& loads, const Se
     high[b] = std::clamp(to, -limit, limit);
     from = std::min(links.ratio[b] * low[b], links.ratio[b] * high[b]);
     to = std::max(links.ratio[b] * low[b], links.ratio[b] * high[b]);
-    if (b == shaft_body && chain.link == GearLink::dogs) {  // tooth friction helps to hold
+    if (b == shaft_body && chain.link == GearLink::dogs) {  // friction in the teeth helps to hold the car
       from *= from > 0.0 ? chain.efficiency : 1.0 / chain.efficiency;
       to *= to > 0.0 ? 1.0 / chain.efficiency : chain.efficiency;
     }
@@ -106,8 +106,8 @@ void solve_resting(const FrictionChain& chain, const ChainLoads& loads, const Se
   for (std::size_t b = segment.last; b > segment.first; --b) {
     const double ratio = links.ratio[b - 1], needs = force_out - loads.push[b];
     const double one = (needs - loads.ground[b]) / ratio, other = (needs + loads.ground[b]) / ratio;
-    const double least = std::clamp(0.0, std::min(one, other), std::max(one, other));
-    links.torque[b - 1] = std::clamp(least, low[b - 1], high[b - 1]);
+    const double smallest = std::clamp(0.0, std::min(one, other), std::max(one, other));
+    links.torque[b - 1] = std::clamp(smallest, low[b - 1], high[b - 1]);
     out.ground[b] = needs - ratio * links.torque[b - 1];
     force_out = links.torque[b - 1];
   }
@@ -115,7 +115,7 @@ void solve_resting(const FrictionChain& chain, const ChainLoads& loads, const Se
   out.ground[segment.first] = force_out - loads.push[segment.first] - segment.force_in;
 }
 
-// Bodies that stick together must turn in the same sense, and the engine cannot turn backwards.
+// Bodies that stick together must turn in the same direction, and the engine cannot turn backwards.
 bool is_feasible(const FrictionChain& chain, const FrictionMode& mode) noexcept {
   if (mode.turn[engine_body] < 0) return false;
   if (mode.clutch == 0 && mode.turn[engine_body] != mode.turn[shaft_body]) return false;
@@ -129,7 +129,7 @@ double slip_violation(int known, int chosen, double rate, double scale) noexcept
 
 Solution evaluate(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& known,
                   const FrictionMode& mode) noexcept {
-  Solution s{mode, move(chain, loads, mode)};
+  Solution s{mode, motion_in_mode(chain, loads, mode)};
   const PerBody& rate = s.motion.rate;
   const double engine = rate[engine_body], shaft = rate[shaft_body], gear = chain.per_road * rate[car_body];
   s.motion.violation += slip_violation(known.clutch, mode.clutch, engine - shaft, std::abs(engine) + std::abs(shaft));
@@ -150,11 +150,12 @@ FrictionMode merged(const FrictionMode& known, const FrictionMode& guess) noexce
 
 constexpr int kModes = 3 * 3 * 3 * 3 * 3;
 
-// Enumerates the modes, all elements sticking first: that is the most frequent result of a change.
+// Enumerates the modes. Number 0, in which all elements stick, is the most frequent result of a change.
 FrictionMode mode_of(int number) noexcept {
   FrictionMode mode;
-  for (int* grip : {&mode.clutch, &mode.cone, &mode.turn[engine_body], &mode.turn[shaft_body], &mode.turn[car_body]}) {
-    *grip = number % 3 == 2 ? -1 : number % 3;
+  for (int* element :
+       {&mode.clutch, &mode.cone, &mode.turn[engine_body], &mode.turn[shaft_body], &mode.turn[car_body]}) {
+    *element = number % 3 == 2 ? -1 : number % 3;
     number /= 3;
   }
   return mode;
@@ -169,7 +170,7 @@ bool repeats_known(const FrictionChain& chain, const FrictionMode& known, const 
 
 }  // namespace
 
-ChainMotion move(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode) noexcept {
+ChainMotion motion_in_mode(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode) noexcept {
   ChainMotion out;
   Links links = make_links(chain, loads, mode);
   for (std::size_t first = 0; first < 3;) {
@@ -208,11 +209,11 @@ Solution solve_modes(const FrictionChain& chain, const ChainLoads& loads, const 
 }
 
 PerBody collide(const FrictionChain& chain, const PerBody& speed, const FrictionMode& mode) noexcept {
-  FrictionChain bare = chain;  // tooth losses do not matter in an impact
+  FrictionChain bare = chain;  // an impact has no losses in the teeth
   bare.efficiency = 1.0;
   ChainLoads momentum;
   for (std::size_t b = 0; b < 3; ++b) momentum.push[b] = chain.inertia[b] * speed[b];
-  return move(bare, momentum, mode).rate;
+  return motion_in_mode(bare, momentum, mode).rate;
 }
 
 double kinetic_energy(const FrictionChain& chain, const PerBody& speed) noexcept {

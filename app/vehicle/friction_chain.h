@@ -6,7 +6,7 @@
 //      ground           ground                ground        the shaft's drag, rolling resistance with brakes
 //
 // Bodies that stick together move as one. For given loads the motion is unique: it minimises Gauss' constraint plus the
-// dissipation of the friction elements, a strictly convex function. So the first consistent choice of modes is the
+// dissipation of the friction elements, a strictly convex function. So the first consistent combination of modes is the
 // solution.
 #pragma once
 
@@ -26,47 +26,48 @@ enum class GearLink { open, cone, dogs };
 struct FrictionChain {
   PerBody inertia{};  // [kg m^2], [kg m^2], [kg]
   GearLink link = GearLink::open;
-  double per_road = 0.0;    // [rad/m] shaft speed per road speed; not 0 unless the link is open
-  double efficiency = 1.0;  // [1] of the gear's teeth under load, dogs engaged; > 0
+  double per_road = 0.0;    // [rad/m] shaft speed divided by road speed; may be 0 only if the link is open
+  double efficiency = 1.0;  // [1] efficiency of the gear's teeth with dogs engaged, > 0
 };
 
 struct ChainLoads {
-  PerBody push{};       // [N m], [N m], [N] sum of all forces except friction
-  PerBody ground{};     // friction limit against the ground, >= 0
+  PerBody push{};       // [N m], [N m], [N] sum of all forces except Coulomb friction
+  PerBody ground{};     // [N m], [N m], [N] limit of the friction against the ground, >= 0
   double clutch = 0.0;  // [N m] capacity, >= 0
   double cone = 0.0;    // [N m] capacity at the shaft
 };
 
-// 0: sticks; +1 or -1: slips or turns in that direction.
+// For each element, 0: it sticks; +1 or -1: it slips or turns in that direction.
 struct FrictionMode {
-  int clutch = 0;  // +1: engine faster than shaft
-  int cone = 0;    // +1: shaft faster than the gear
+  int clutch = 0;  // +1: the engine is faster than the shaft
+  int cone = 0;    // +1: the shaft is faster than the gear
   std::array<int, 3> turn{};
 };
 
 struct ChainMotion {
   PerBody rate{};          // [rad/s^2], [rad/s^2], [m/s^2]
-  double clutch = 0.0;     // [N m] from engine to shaft
-  double gear = 0.0;       // [N m] from shaft to gear, at the shaft
-  double drive = 0.0;      // [N] the part of it that reaches the car
-  PerBody ground{};        // [N m], [N m], [N] friction of the ground on each body
+  double clutch = 0.0;     // [N m] torque from engine to shaft
+  double gear = 0.0;       // [N m] torque from shaft to gear, measured at the shaft
+  double drive = 0.0;      // [N] force of the gear on the car, after losses in the teeth
+  PerBody ground{};        // [N m], [N m], [N] friction from the ground on each body
   double violation = 0.0;  // total excess over friction limits, plus slip in the wrong direction; 0: consistent
 };
 
 // Motion in the given mode.
-ChainMotion move(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode) noexcept;
+ChainMotion motion_in_mode(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode) noexcept;
 
 struct Solution {
   FrictionMode mode;
   ChainMotion motion;
 };
-// The consistent mode and its motion. In `known`, +1 and -1 mark elements known to slip; elements at 0 are solved for.
-// `guess` is tried first. If rounding leaves no consistent mode, returns the one with the smallest violation.
+// Returns the consistent mode and its motion. In `known`, +1 and -1 mark elements known to slip; elements at 0 are
+// solved for. `guess` is tried first. If rounding leaves no consistent mode, returns the one with the smallest
+// violation.
 Solution solve_modes(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& known,
                      const FrictionMode& guess) noexcept;
 
-// Speeds after an impact that brings bodies that stick in `mode` to one speed, or to rest on the ground, conserving
-// momentum.
+// Speeds after an impact in which bodies that stick together in `mode` reach one speed, and bodies that stick to the
+// ground come to rest. Bodies that stick to each other conserve their momentum.
 PerBody collide(const FrictionChain& chain, const PerBody& speed, const FrictionMode& mode) noexcept;
 
 double kinetic_energy(const FrictionChain& chain, const PerBody& speed) noexcept;  // [J]
@@ -75,7 +76,7 @@ double kinetic_energy(const FrictionChain& chain, const PerBody& speed) noexcept
 inline bool gear_holds(const FrictionChain& chain, const FrictionMode& mode) noexcept {
   return chain.link == GearLink::dogs || (chain.link == GearLink::cone && mode.cone == 0);
 }
-// [rad/s] speed of the shaft relative to the gear, at the shaft.
+// Speed of the shaft relative to the gear [rad/s], measured at the shaft; 0 if no cone rubs.
 inline double cone_slip(const FrictionChain& chain, const PerBody& speed) noexcept {
   return chain.link == GearLink::cone ? speed[shaft_body] - chain.per_road * speed[car_body] : 0.0;
 }

@@ -14,7 +14,7 @@ struct Shape {
   double value = 0.0, slope = 0.0;
 };
 
-// |u| with the corner at 0 rounded off over `width`: slope v (3 - v^2) / 2, as in the gate's centring springs.
+// |u|, rounded off where |v| < 1, v = u / width: slope v (3 - v^2) / 2, as in the gate's centring springs.
 Shape rounded(double u, double width) noexcept {
   const double v = u / width;
   if (std::abs(v) >= 1.0) return {std::abs(u) - 0.375 * width, v < 0.0 ? -1.0 : 1.0};
@@ -27,8 +27,8 @@ Shape rise(double u, double width) noexcept {
   return {v * v * (3.0 - 2.0 * v), 6.0 * v * (1.0 - v) / width};
 }
 
-// Distance from the edge of the column to the edge of its nearest neighbour.
-double gap_beside(const haptics::Gate& gate, const haptics::Column& column) noexcept {
+// Distance from the edge of the column to the edge of the nearest other column.
+double gap_next_to(const haptics::Gate& gate, const haptics::Column& column) noexcept {
   double gap = gate.select_max - gate.select_min;
   for (const haptics::Column& other : haptics::columns(gate)) {
     const double apart = std::abs(other.center - column.center) - other.half_width - column.half_width;
@@ -38,8 +38,8 @@ double gap_beside(const haptics::Gate& gate, const haptics::Column& column) noex
 }
 
 struct Pull {
-  double energy = 0.0;  // [m] per newton of pull
-  dvec2 force{0.0};     // [1]
+  double energy = 0.0;  // [m] potential divided by the pull
+  dvec2 force{0.0};     // [1] force divided by the pull
 };
 
 Pull pull_to(const haptics::Gate& gate, const haptics::Slot& slot, dvec2 p) noexcept {
@@ -53,11 +53,11 @@ Pull pull_to(const haptics::Gate& gate, const haptics::Slot& slot, dvec2 p) noex
   const double held = rounded(here.center - goal.center, soft).value;
   const Shape fade = rise(std::abs(p.y) - gate.half_aisle, width);
   const double off = p.x - goal.center;
-  const Shape away = rise(std::abs(off) - goal.half_width, gap_beside(gate, goal));
+  const Shape away = rise(std::abs(off) - goal.half_width, gap_next_to(gate, goal));
   const double on_column = 1.0 - away.value, on_column_slope = -away.slope * (off < 0.0 ? -1.0 : 1.0);
   const Shape out = rounded(p.y, soft);
   const Shape in = rounded(p.y - side * slot.rest, soft);
-  const double end_pull = in.value - slot.rest;  // less than out.value
+  const double end_pull = in.value - slot.rest;  // <= out.value
 
   Pull pull;
   pull.energy =
@@ -82,7 +82,7 @@ double guidance_energy(const haptics::Gate& gate, int gear, dvec2 proxy) noexcep
 }
 
 GuidedLoad::GuidedLoad(haptics::LeverLoad& inner, const haptics::Gate& gate)
-    : inner_(inner), gate_(gate), name_(std::string("guided ") + inner.replay_parameters()) {}
+    : inner_(inner), gate_(gate), parameters_(std::string("guided ") + inner.replay_parameters()) {}
 
 haptics::LeverOutput GuidedLoad::step(const haptics::LeverInput& in, double period) noexcept {
   haptics::LeverOutput out = inner_.step(in, period);
@@ -94,8 +94,8 @@ haptics::LeverOutput GuidedLoad::step(const haptics::LeverInput& in, double peri
 void GuidedLoad::follow(const haptics::DriverControls& controls, double period) noexcept {
   const bool same = controls.guided_gear == gear_;
   const double asked = same && controls.guidance > 0.0 ? std::min(controls.guidance, 1.0) : 0.0;
-  const double most = kGuidanceRate * period;
-  strength_ += std::clamp(asked - strength_, -most, most);
+  const double max_step = kGuidanceRate * period;
+  strength_ += std::clamp(asked - strength_, -max_step, max_step);
   if (strength_ == 0.0) gear_ = controls.guided_gear;
 }
 

@@ -1,6 +1,6 @@
-// A force that leads the lever to a gear, added to the load on the lever: like an instructor's hand on the learner's.
+// A force that leads the lever to a gear, like an instructor's hand on the learner's. It is added to another load.
 //
-// It is separate from the mechanism: the walls belong to the gearbox and are always there, guidance fades (guidance.h).
+// Guidance is separate from the gearbox's mechanism: its walls are always there, while guidance fades (guidance.h).
 #pragma once
 
 #include <string>
@@ -12,39 +12,39 @@
 
 namespace gearshift::vehicle {
 
-inline constexpr double kGuidancePull = 3.0;  // [N] along the path, at full strength: like the gate's own centring
-inline constexpr double kGuidanceRate = 2.0;  // [1/s] rate at which the strength follows the request
-inline constexpr double kGuidanceFadeTime = 1.0 / kGuidanceRate;  // [s] until it has faded out completely
+inline constexpr double kGuidancePull = 3.0;  // [N] along the path, at full strength; similar to the gate's centring
+inline constexpr double kGuidanceRate = 2.0;  // [1/s] fastest change of the strength, which is 0 to 1
+inline constexpr double kGuidanceFadeTime = 1.0 / kGuidanceRate;  // [s] from full strength to zero
 
-// Force at full strength on a lever drawn at this point of free space, and its potential. Zero if the gate has no such
-// gear, and at the gear's rest position. [N], [J]
+// Guidance at full strength for a proxy at this point: force F_g [N] and its potential V [J]. Both are zero if the gate
+// lacks the gear; the force is zero at the gear's rest position, too. With F = kGuidancePull:
 //
 //     V / F = X(x) - B (X(x) - X(c)) + (1 - W) S(|y|) + W (S(|y - y_gear|) - |y_gear|)
 //
 // S(u) is |u|, rounded off within half a slot's width of 0. X(x) = S(x - x_gear) pulls along the aisle. B rises from 0
-// at the aisle's wall to 1 one slot width behind it; c is the slot's centre: inside a slot the sideways pull fades, so
-// nothing presses on its walls further in. W is 1 over the gear's own column and 0 from the next column on: over its
-// own column the lever is led to the gear, elsewhere to the aisle. |force| <= 2.2 F.
+// at the aisle's wall to 1 one slot width behind it, and c is the centre of the nearest column: inside a slot the
+// sideways pull fades, so nothing presses on the slot's walls further in. W is 1 in the gear's own column and 0 from
+// the next column on: in the gear's column the lever is led to the gear, elsewhere to the aisle. |F_g| <= 2.2 F.
 glm::dvec2 guidance_force(const haptics::Gate& gate, int gear, glm::dvec2 proxy) noexcept;
 double guidance_energy(const haptics::Gate& gate, int gear, glm::dvec2 proxy) noexcept;
 
-// Strength and gear come from DriverControls' guidance and guided_gear. The strength follows at kGuidanceRate, and a
-// new gear starts from zero strength: a growing potential can release no more energy than it holds. Without guidance
-// the output equals that of the inner load exactly.
+// Follows DriverControls::guidance and guided_gear. The strength changes by at most kGuidanceRate, and a new gear
+// starts from zero strength, so guidance can release no more energy than its potential at full strength holds. Without
+// guidance the output is exactly that of the inner load.
 class GuidedLoad final : public haptics::LeverLoad {
  public:
-  GuidedLoad(haptics::LeverLoad& inner,
-             const haptics::Gate& gate);  // inner must outlive this object; the gate is copied
+  // inner must outlive this object; the gate is copied.
+  GuidedLoad(haptics::LeverLoad& inner, const haptics::Gate& gate);
 
   haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override;
-  const char* replay_parameters() const noexcept override { return name_.c_str(); }
+  const char* replay_parameters() const noexcept override { return parameters_.c_str(); }
 
  private:
   void follow(const haptics::DriverControls& controls, double period) noexcept;
 
   haptics::LeverLoad& inner_;
   haptics::Gate gate_;
-  std::string name_;
+  std::string parameters_;
   int gear_ = haptics::kNeutralGear;
   double strength_ = 0.0;  // [1]
 };

@@ -1,4 +1,4 @@
-// The shift light: advises the next gear up above one engine speed, and the next gear down below another.
+// The shift light: advises shifting up above one engine speed, and down below a lower one.
 //
 // It is simpler than the gear shift indicator of Regulation (EU) 65/2012, Annex I, which estimates the gear with the
 // lowest fuel consumption. Here neither fuel nor the torque left in the higher gear is considered: uphill at full
@@ -10,15 +10,16 @@
 
 namespace gearshift::vehicle {
 
-// Thresholds for switching the advice on and off. The hysteresis keeps the light from flickering.
-inline constexpr double kAdviceHysteresis = 0.05;  // [1] relative, of the speeds that are compared
-inline constexpr double kUpshiftThrottle = 0.05, kUpshiftThrottleOff = 0.02;  // [1] throttle, to advise a gear up
-inline constexpr double kDownshiftLoad = 0.40, kDownshiftLoadOff = 0.30;      // [1] engine load, to advise a gear down
+// Hysteresis, so that the light does not flicker: advice ends at a lower threshold than it begins.
+inline constexpr double kAdviceHysteresis = 0.05;  // [1] fraction of the engine speed thresholds
+inline constexpr double kUpshiftThrottle = 0.05, kUpshiftThrottleOff = 0.02;  // [1] least throttle for an upshift
+inline constexpr double kDownshiftLoad = 0.40, kDownshiftLoadOff = 0.30;      // [1] least engine load for a downshift
 
-// +1: the engine turns faster than EngineSpec::shift_high, the throttle is open, and one gear higher it would still
-// turn at lug_below or more.
-// -1: it turns slower than lug_below under load, and one gear lower it would stay below its red line.
-//  0: otherwise, and always out of a forward gear, with the clutch open or slipping, or with the engine off.
+// Returns the advice:
+// +1: the engine turns faster than EngineSpec::shift_high, the throttle is open, and one gear higher the engine would
+//     still turn at lug_below or more.
+// -1: the engine turns slower than lug_below under load, and one gear lower it would stay below its red line.
+//  0: otherwise, and always in neutral or reverse, with the clutch open or slipping, or with the engine off.
 // before: the result of the previous cycle, for the hysteresis.
 int shift_advice(const CarSpec& car, const VehicleState& now, int before) noexcept;
 

@@ -12,26 +12,27 @@
 namespace gearshift::vehicle {
 namespace {
 
-// Stations as fractions of the distance from the detent's crest to the depth at which the gear counts as engaged.
+// SleeveStations, as fractions of the way from the detent's crest to the depth at which the gear counts as engaged.
 constexpr double kBlock = 0.20;
 constexpr double kOut = 0.35;
 constexpr double kDogs = 0.45;
 constexpr double kHome = 0.95;
 
 constexpr double kContactTolerance = 1e-6;  // [m] a lever this close to a wall touches it
-constexpr double kStrutForce = 80.0;        // [N] of the struts on the ring while the sleeve moves through it
+constexpr double kStrutForce = 80.0;        // [N] force of the struts on the ring while the sleeve passes through
 constexpr double kBackTaper = 0.07;         // [1] tangent of the dogs' back taper, which holds the sleeve under load
-// [N s/m] a pull beyond the holding force draws the sleeve out with this damping
+// [N s/m] damping of a sleeve that a pull beyond the holding force draws out
 constexpr double kDrawOutDamping = 20.0;
-constexpr double kMinLockForce = 0.2;         // [N] below what a hand can feel
+constexpr double kMinLockForce = 0.2;         // [N] a smaller holding force cannot be felt and is dropped
 constexpr double kPushFilterTime = 0.010;     // [s] time constant of the push filter
 constexpr double kBumpFraction = 1.0 / 3.0;   // [1] largest second bump, as a fraction of the peak push
 constexpr double kMaxBumpStiffness = 2000.0;  // [N/m] largest slope of the bump
-constexpr double kQuietMass = 0.03;  // [kg] 0.35 times the lever's mass: K <= 0.35 m / T^2 keeps a bare lever quiet
-constexpr double kRattleFraction = 0.25;   // [1] of the push
+// [kg] 0.35 times the lever's mass m: a bare lever does not buzz if the stiffness is <= 0.35 m / T^2 (haptic_config.h)
+constexpr double kQuietMass = 0.03;
+constexpr double kRattleFraction = 0.25;   // [1] peak of the rattle divided by the push
 constexpr double kMinRattle = 0.01;        // [N] below this the rattle ends
 constexpr double kMaxRattle = 4.0;         // [N]
-constexpr double kMaxRattleRate = 120.0;   // [Hz] a hand feels nothing above
+constexpr double kMaxRattleRate = 120.0;   // [Hz] a hand does not feel a faster rattle
 constexpr double kMinRattleSamples = 8.0;  // [cycles] smallest period of a rattle
 
 double smooth_step(double u) noexcept {
@@ -39,7 +40,7 @@ double smooth_step(double u) noexcept {
   return u * u * (3.0 - 2.0 * u);
 }
 
-// SplitMix64: the next pseudorandom number, 0 to 1.
+// Next pseudorandom number of SplitMix64, >= 0 and < 1.
 double draw(std::uint64_t& state) noexcept {
   std::uint64_t z = state += 0x9E3779B97F4A7C15;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9;
@@ -55,19 +56,19 @@ SleeveStations sleeve_stations(const haptics::Slot& slot) noexcept {
   return {slot.release_depth, at(kBlock), at(kOut), at(kDogs), at(kHome)};
 }
 
-// T_c = n F mu R / sin a
+// T_c / F, from the torque of n cones T_c = n F mu R / sin a, with the force F on the sleeve
 double cone_gain(const SynchroSpec& synchro) noexcept {
   return synchro.cones * synchro.friction * synchro.radius / std::sin(synchro.cone_angle);
 }
 
-// T_I = F R_I (cos b - mu_I sin b) / (sin b + mu_I cos b)
+// T_I / F, from the torque of the ring's teeth T_I = F R_I (cos b - mu_I sin b) / (sin b + mu_I cos b)
 double index_gain(const SynchroSpec& synchro) noexcept {
   const double sine = std::sin(synchro.pointing_angle), cosine = std::cos(synchro.pointing_angle);
   const double mu = synchro.index_friction;
   return synchro.index_radius * (cosine - mu * sine) / (sine + mu * cosine);
 }
 
-// Both torques are proportional to the push, so the push does not decide which one is larger.
+// The torques of cone and teeth are both proportional to the push, so the push does not decide which one is larger.
 double critical_friction(const SynchroSpec& synchro) noexcept {
   return synchro.friction * index_gain(synchro) / cone_gain(synchro);
 }
@@ -124,7 +125,7 @@ void Synchroniser::update_mesh(const SleeveInput& in) noexcept {
   if (!is_meshed() && in.depth >= at_.dogs - kContactTolerance && speeds_match(in)) mesh(in.depth);
 }
 
-// The relative position of the teeth is random: the gear must turn aside by up to half a tooth, in either direction.
+// The relative position of the teeth is random: the gear must turn aside by up to half a tooth in either direction.
 void Synchroniser::mesh(double depth) noexcept {
   meshed_ = haptics::slot_of(gate_, slot_).gear;
   held_depth_ = depth;
@@ -150,8 +151,9 @@ bool Synchroniser::speeds_match(const SleeveInput& in) const noexcept {
   return std::abs(in.difference) <= synchro_.dog_speed;
 }
 
-// The cone torque keeps the ring in the sleeve's way as long as the speeds differ. A lever that passes the ring within
-// one cycle was not let through: it is held where it is. Reverse has no ring.
+// The cone torque keeps the ring in the sleeve's way as long as the speeds differ. A lever that jumps past the ring
+// within one cycle has not passed it: the ring still blocks, and a wall holds the lever at its depth. Reverse has no
+// ring.
 bool Synchroniser::ring_blocks(const SleeveInput& in) const noexcept {
   return ring_can_block_ && !has_passed_ring_ && !speeds_match(in) &&
          haptics::slot_of(gate_, slot_).gear != haptics::kReverseGear;
@@ -171,34 +173,35 @@ SyncPhase Synchroniser::phase(const SleeveInput& in) const noexcept {
   return ring_blocks(in) ? SyncPhase::synchronising : SyncPhase::passing;
 }
 
-// [N] on the sleeve of the real gearbox, for a push at the device's knob.
+// Force on the sleeve of the real gearbox [N] for a push on the device's knob [N].
 double Synchroniser::sleeve_force(double push) const noexcept {
   return std::max(0.0, push) / scale_ * synchro_.lever_ratio * synchro_.efficiency;
 }
 
-// Proportional to the push past the detent, fading in smoothly until the ring blocks. On the way through the ring the
-// struts supply it: enough to hold the shaft's speed against oil drag.
+// The cone torque is proportional to the push, fading in smoothly between the detent and the depth at which the ring
+// blocks. While the sleeve moves through the ring, the struts supply the force: enough to hold the shaft's speed
+// against oil drag.
 double Synchroniser::cone_torque(const SleeveInput& in) const noexcept {
   if (haptics::slot_of(gate_, slot_).gear == haptics::kReverseGear || in.depth < at_.crest) return 0.0;
   if (has_passed_ring_) return cone_gain_ * kStrutForce;
   return cone_gain_ * sleeve_force(in.push) * smooth_step((in.depth - at_.crest) / (at_.block - at_.crest));
 }
 
-// Slipping dogs rub on each other. So reverse goes in eventually with the clutch down, and so does a worn gear.
+// Slipping dogs rub until their speeds match: with the clutch down, reverse or a worn gear eventually goes in.
 double Synchroniser::rattle_torque(const SleeveInput& in) const noexcept {
   if (!dogs_clash(in)) return 0.0;
   return synchro_.index_friction * synchro_.index_radius * sleeve_force(in.push);
 }
 
-// [N] at the device's knob, needed to pull the gear out against friction and back taper of its loaded dogs.
+// Force at the device's knob [N] needed to pull the gear out, against friction and back taper of its loaded dogs.
 double Synchroniser::lock_force(const SleeveInput& in) const noexcept {
   if (in.clutch_open) return 0.0;
   const double sleeve = std::abs(in.load) * (synchro_.index_friction + kBackTaper) / synchro_.index_radius;
   return scale_ * sleeve / (synchro_.lever_ratio * synchro_.efficiency);
 }
 
-// Friction that holds the sleeve in place: a wall that follows the lever inwards and yields outwards only to a pull
-// that overcomes it.
+// Renders the friction that holds a loaded sleeve, as a wall: it follows the lever inwards and yields outwards only to
+// a pull above lock_force().
 void Synchroniser::hold_under_load(const SleeveInput& in, double period, SleeveOutput& out) noexcept {
   const double lock = lock_force(in);
   out.torque_locked = lock > scale_ * kMaxHandForce;
@@ -209,14 +212,14 @@ void Synchroniser::hold_under_load(const SleeveInput& in, double period, SleeveO
   out.depth_min = lock < kMinLockForce ? 0.0 : held_depth_;
 }
 
-// A sin^2 bump over depth with continuous slope, felt only on the way in. Largest slope: pi peak / width.
+// The second bump: sin^2 in depth, so its slope is continuous; only on the way in. Largest slope: pi * peak / width.
 double Synchroniser::bump_force(double depth) const noexcept {
   if (bump_ == 0.0 || depth <= at_.dogs || depth >= at_.home) return 0.0;
   const double sine = std::sin(std::numbers::pi * (depth - at_.dogs) / (at_.home - at_.dogs));
   return -bump_ * sine * sine;
 }
 
-// Rattle of clashing dogs at the rate at which teeth pass, limited to what a hand can feel. It only ever pushes back.
+// Rattle of clashing dogs, at the rate at which teeth pass but no faster than a hand can feel. It only pushes outwards.
 double Synchroniser::rattle_force(const SleeveInput& in, double period) noexcept {
   const bool on = dogs_clash(in);
   const double target = on ? std::min(kRattleFraction * push_, kMaxRattle) : 0.0;

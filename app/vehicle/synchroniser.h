@@ -5,9 +5,9 @@
 //       | ring    |           | dogs engaged     |    the gear counts as engaged
 //       | indexes | the ring blocks while the speeds differ: a wall
 //
-// It never sets the lever's position. It returns walls (limits of depth) and two small forces along the slot: the
-// second bump on the way in, and the rattle of clashing dogs. Speeds are those of the car's last step; the push is one
-// cycle old.
+// The synchroniser never sets the lever's position. It returns walls (limits of depth) and two small forces along the
+// slot: the second bump on the way in, and the rattle of clashing dogs. The speeds that it gets are those of the car's
+// last step; the push is one cycle old.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,23 @@
 
 namespace gearshift::vehicle {
 
-// Largest push of a person on the lever [N]: the paper's alarm level. It maps to the device's largest force, and all
-// forces between lever and car are scaled by the same ratio.
+// Largest push of a driver on a real lever [N]: the alarm level of Lin and Young's paper (haptics/EQUATIONS.md). It
+// maps to the device's largest force, and all forces between lever and car are scaled by the same ratio.
 inline constexpr double kMaxHandForce = 60.0;
 
-// Depths in a slot, increasing. [m]
+// Depths in a slot [m], in increasing order.
 struct SleeveStations {
   double crest = 0.0;  // past the detent
   double block = 0.0;  // the sleeve's teeth meet the ring's teeth
-  double out = 0.0;    // coming back, the dogs are disengaged here
+  double out = 0.0;    // on the way out, the dogs disengage here
   double dogs = 0.0;   // the sleeve's teeth meet the dogs: they engage or clash
-  double home = 0.0;   // past the second bump
+  double home = 0.0;   // the second bump ends here
 };
 SleeveStations sleeve_stations(const haptics::Slot& slot) noexcept;
 
-// Torque per force on the sleeve [m]: of the cone, and of the ring's teeth as the sleeve turns the ring aside.
+// Torque of the cone divided by the force on the sleeve [m].
 double cone_gain(const SynchroSpec& synchro) noexcept;
+// Torque with which the ring's teeth turn the ring aside, divided by the force on the sleeve [m].
 double index_gain(const SynchroSpec& synchro) noexcept;
 // Cone friction below which the sleeve can turn the ring aside before the speeds match. [1]
 double critical_friction(const SynchroSpec& synchro) noexcept;
@@ -41,30 +42,30 @@ double critical_friction(const SynchroSpec& synchro) noexcept;
 struct SleeveInput {
   int slot = haptics::kNoSlot;  // slot that the lever is in
   double depth = 0.0;           // [m]
-  double push = 0.0;            // [N] of the hand at the knob; into the slot is positive
-  double feel = 0.0;            // [N] of the gate's feel at the knob; into the slot is positive
-  double difference = 0.0;      // [rad/s] speed difference of that gear's dogs, at the gear
-  double load = 0.0;            // [N m] load on the gear, at the gear; either sign
+  double push = 0.0;            // [N] force of the hand on the knob; into the slot is positive
+  double feel = 0.0;            // [N] force of the gate's feel on the knob; into the slot is positive
+  double difference = 0.0;      // [rad/s] speed difference of the slot's dogs, measured at the gear
+  double load = 0.0;            // [N m] load torque, measured at the gear; either sign
   bool clutch_open = false;     // the clutch transmits no torque
 };
 
 struct SleeveOutput {
   int meshed = haptics::kNeutralGear;     // gear whose dogs are engaged
   int cone_gear = haptics::kNeutralGear;  // gear whose cone rubs
-  double cone_torque = 0.0;               // [N m] capacity of the cone, at the gear
-  double depth_min = 0.0;                 // [m] limits of depth; 0 and the largest double mean no limit
-  double depth_max = 0.0;                 // [m]
-  double force = 0.0;                     // [N] on the knob; into the slot is positive
-  double rattle = 0.0;  // [N] part of it from clashing dogs; it oscillates by itself, whatever the lever does
+  double cone_torque = 0.0;               // [N m] capacity of the cone, measured at the gear
+  double depth_min = 0.0;                 // [m] lower limit of depth; 0: no limit
+  double depth_max = 0.0;                 // [m] upper limit of depth; the largest double: no limit
+  double force = 0.0;                     // [N] force on the knob; into the slot is positive
+  double rattle = 0.0;  // [N] part of `force` from clashing dogs; it oscillates whatever the lever does
   SyncPhase phase = SyncPhase::free;
   double grind_power = 0.0;    // [W]
-  bool torque_locked = false;  // no hand can pull the gear out
+  bool torque_locked = false;  // the load is too high for any hand to pull the gear out
 };
 
 class Synchroniser {
  public:
-  // force_scale: device force over real force, (0 to 1]. meshed: gear engaged at the start; it stays engaged only if
-  // the lever is in its slot at the first step.
+  // force_scale: device force divided by real force, > 0 and at most 1. meshed: gear engaged at the start; it stays
+  // engaged only if the lever is in its slot at the first step.
   Synchroniser(const SynchroSpec& synchro, const haptics::Gate& gate, double force_scale, int meshed,
                std::uint64_t seed);
 
@@ -99,13 +100,13 @@ class Synchroniser {
   bool has_started_ = false;
   int slot_ = haptics::kNoSlot;
   int meshed_;
-  SleeveStations at_;             // of the current slot
+  SleeveStations at_;             // stations of the current slot
   bool has_passed_ring_ = false;  // the sleeve has moved through the ring
   double push_ = 0.0;             // [N] filtered
   double peak_push_ = 0.0;        // [N] largest push since the lever reached the ring
   double bump_ = 0.0;             // [N] peak of the second bump; 0: already passed
-  double period_ = 0.0;           // [s] of the current step
-  double filter_gain_ = 0.0;      // [1] fraction of a change that the filters follow in one step
+  double period_ = 0.0;           // [s] duration of the current step
+  double filter_gain_ = 0.0;      // [1] fraction of its input's change that a filter follows per step
   double held_depth_ = 0.0;       // [m] depth at which the load holds the sleeve
   double rattle_ = 0.0;           // [N] amplitude
   double rattle_phase_ = 0.0;     // [rad]

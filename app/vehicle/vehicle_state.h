@@ -6,7 +6,7 @@
 namespace gearshift::vehicle {
 
 // Progress of the sleeve into a gear. Lovas, Savage, Magi: Dynamics of Gear Selector Mechanisms and Synchronisers,
-// 2006, has eight phases; these are the ones that a hand can distinguish.
+// 2006, distinguishes eight phases; these are the ones that a hand can tell apart.
 enum class SyncPhase : std::uint8_t {
   free,           // ring not touched
   indexing,       // past the detent, the ring turns into its blocking position
@@ -23,44 +23,44 @@ struct VehicleState {
   double engine_load = 0.0;    // [1] 0 to 1: fraction of the available torque
   double engine_torque = 0.0;  // [N m] at the flywheel, net of friction
   bool running = true;         // the engine fires
-  bool stalled = false;        // it ran, died with the ignition on, and has not run by itself since
+  bool stalled = false;        // the engine died with the ignition on and has not run by itself since
   double red_line = 0.0;       // [rad/s] 0: none
-  bool over_revved = false;    // above the red line
-  bool fuel_cut = false;       // by the rev limiter
-  bool cranking = false;       // the starter turns it
+  bool over_revved = false;    // the engine turns faster than its red line
+  bool fuel_cut = false;       // the rev limiter has cut the fuel
+  bool cranking = false;       // the starter turns the engine
   double shudder = 0.0;        // [1] 0 to 1: vibration of a labouring or dying engine
   int shift_advice = 0;        // +1: shift up to save fuel; -1: shift down, the engine labours; 0: stay
 
   // Clutch and gearbox
-  double clutch_bite = 0.0;      // [1] pedal position at which it starts to transmit torque, coming up
-  double clutch_closed = 0.0;    // [1] pedal position from which it has full capacity. Both 0: no car
-  double clutch_capacity = 0.0;  // [N m] largest torque it can transmit now
-  double clutch_torque = 0.0;    // [N m] transmitted; engine to gearbox is positive
-  double shaft_speed = 0.0;      // [rad/s] gearbox input shaft = clutch disc; backwards is negative
+  double clutch_bite = 0.0;      // [1] pedal position at which a clutch coming up starts to transmit torque; 0: no car
+  double clutch_closed = 0.0;    // [1] pedal position at which a clutch coming up has full capacity; 0: no car
+  double clutch_capacity = 0.0;  // [N m] largest torque that the clutch can transmit now
+  double clutch_torque = 0.0;    // [N m] torque transmitted; from engine to gearbox is positive
+  double shaft_speed = 0.0;      // [rad/s] gearbox input shaft and clutch disc; backwards is negative
   double slip_power = 0.0;       // [W] heat in the clutch, >= 0
   double slip_energy = 0.0;      // [J] heat in the clutch since the start
   bool clutch_locked = false;
-  int gear = 0;                      // engaged: kReverseGear, kNeutralGear or 1, 2, ...
-  SyncPhase sync = SyncPhase::free;  // of the slot the lever is in
-  // [rad/s] speed difference of the dogs that would mesh, at the gear's shaft; 0 in neutral
+  int gear = 0;                      // engaged gear: kReverseGear, kNeutralGear or 1, 2, ...
+  SyncPhase sync = SyncPhase::free;  // in the slot that the lever is in
+  // [rad/s] speed difference of the dogs in the lever's slot, measured at the gear; 0 in no slot or with a gear engaged
   double dog_difference = 0.0;
-  double grind_power = 0.0;    // [W] of rattling dogs, >= 0
+  double grind_power = 0.0;    // [W] power lost in rattling dogs, >= 0
   bool grinding = false;       // dogs are rattling
-  bool torque_locked = false;  // the gear cannot be pulled out under this load
+  bool torque_locked = false;  // the load is too high to pull the gear out
 
   // Car
   double road_speed = 0.0;    // [m/s] forward is positive
   double acceleration = 0.0;  // [m/s^2] forward is positive
-  double distance = 0.0;      // [m] driven; forward is positive
-  double drive_torque = 0.0;  // [N m] of the gearbox at the wheels; forward is positive
-  double slope = 0.0;         // [rad] of the road; uphill is positive
+  double distance = 0.0;      // [m] distance driven; forward is positive
+  double drive_torque = 0.0;  // [N m] torque of the gearbox at the wheels; forward is positive
+  double slope = 0.0;         // [rad] slope of the road; uphill is positive
   double throttle = 0.0, brake = 0.0, clutch = 0.0, hand_brake = 0.0;  // [1] 0 to 1, pedal and lever positions
-  double steering = 0.0;                                               // [rad] of the wheel; left is positive
-  bool ignition = true;                                                // with the engine off: warning lamps lit
+  double steering = 0.0;                                               // [rad] steering wheel angle; left is positive
+  bool ignition = true;                                                // on with the engine off: warning lamps lit
   bool turn_left = false, turn_right = false;                          // indicators
 
   // Lever
-  double force_scale = 1.0;  // [1] device force over real force; at most 1
+  double force_scale = 1.0;  // [1] device force divided by real force, at most 1
 };
 
 }  // namespace gearshift::vehicle

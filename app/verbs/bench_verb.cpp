@@ -48,7 +48,7 @@ std::string describe_gpu() {
     const engine::GpuTraits traits = engine::Gpu({}).traits();
     return traits.name + ", " + traits.driver;
   } catch (const std::exception&) {
-    return {};  // most families need no GPU
+    return {};  // not an error, because most families need no GPU
   }
 }
 
@@ -59,18 +59,18 @@ void report_problem(const std::string& problem) {
 struct Interrupted {};
 
 struct BenchMeasurement {
-  std::vector<lab::MeasuredRow> rows;  // of complete families; for the others, rows that say why they were not measured
+  std::vector<lab::MeasuredRow> rows;  // results; for a family that failed, rows with the reason
   bool is_complete = true;
 };
 
-// A family that fails does not stop the others. Ctrl-C and similar signals stop the run the next time a family reports
-// its progress.
+// Measures the wanted families. If one fails, the others are measured anyway. Ctrl-C and similar signals stop the run
+// the next time a family reports its progress.
 BenchMeasurement measure(const BenchArguments& arguments) {
   base::ProgressBar progress;
   lab::BenchOptions options = arguments.options;
-  options.progress = [&](std::string_view family, double share) {
+  options.progress = [&](std::string_view family, double fraction) {
     if (base::StopSignals::requested()) throw Interrupted();
-    progress.show(family, share);
+    progress.show(family, fraction);
   };
   BenchMeasurement measured;
   for (const lab::NamedFamily& family : lab::bench_families()) {
@@ -88,8 +88,8 @@ BenchMeasurement measure(const BenchArguments& arguments) {
     } catch (const Interrupted&) {
       progress.clear();
       report_problem(
-          fmt::format("interrupted in family {}: {}", family.name,
-                      measured.rows.empty() ? "nothing was measured" : "only the families before it are reported"));
+          fmt::format("interrupted while measuring family {}: {}", family.name,
+                      measured.rows.empty() ? "no family was completed" : "only completed families are reported"));
       measured.is_complete = false;
       break;
     }
@@ -97,12 +97,13 @@ BenchMeasurement measure(const BenchArguments& arguments) {
   return measured;
 }
 
-// A run with fewer repetitions or other block lengths cannot be compared with full runs.
+// False for a run with fewer repetitions or changed block lengths, which cannot be compared with full runs.
 bool is_comparable(const lab::BenchOptions& options) {
   return !options.quick && options.jitter_block == lab::BenchOptions{}.jitter_block;
 }
 
-// Failing to compare or to save is reported, but the results are kept.
+// Compares the run with this machine's last one, then saves it. A failure is reported but does not end the program, so
+// that the results are not lost.
 void compare_and_save(lab::BenchRun& run) {
   try {
     const fs::path file = lab::last_run_file(base::user_data_folder(), run.machine);
@@ -110,7 +111,8 @@ void compare_and_save(lab::BenchRun& run) {
     lab::compare(run, last);
     lab::save_run(file, last, run);
   } catch (const std::exception& problem) {
-    report_problem(fmt::format("{}; this run is not saved for the next comparison", problem.what()));
+    report_problem(
+        fmt::format("{}; this run was not saved, so the next run cannot be compared with it", problem.what()));
   }
 }
 
@@ -130,8 +132,9 @@ std::vector<lessons::ReportFile> format_files(const lab::BenchRun& run) {
   return files;
 }
 
-// The measurement took minutes, so a file that cannot be written is reported and the others are still written. Called
-// before printing to stdout, which may be a closed pipe. Returns the files of the folder that were written completely.
+// Writes the result files. The measurement took minutes, so if a file cannot be written, this is reported and the
+// others are still written. Called before anything is printed to stdout, which may be a closed pipe. Returns the files
+// of the folder that were written completely; sets `all` to false if one is missing.
 std::vector<fs::path> write_files(const BenchArguments& arguments, std::optional<haptics::AtomicFile>& csv,
                                   const lab::BenchRun& run, bool& all) {
   std::vector<fs::path> written;
@@ -164,19 +167,19 @@ fs::path last_run_path(const lab::Machine& machine) {
   try {
     return lab::last_run_file(base::user_data_folder(), machine);
   } catch (const std::exception&) {
-    return {};  // reported when the run is saved
+    return {};  // compare_and_save() reports the problem
   }
 }
 
 void check_csv(const BenchArguments& arguments, const lab::Machine& machine) {
   if (arguments.csv_file.empty()) return;
-  check_distinct_outputs("--csv", "the table and the saved results of the last run", arguments.csv_file,
+  check_distinct_outputs("--csv", "the CSV file and the saved results of the last run", arguments.csv_file,
                          last_run_path(machine));
   if (arguments.out.empty()) return;
   std::vector<std::string> written{"bench.html", "bench.csv", "bench.json"};
   for (const lab::NamedFamily& family : lab::bench_families()) written.push_back(plot_name(family));
   for (const std::string& name : written)
-    check_distinct_outputs("--csv", "the table and what --out writes", arguments.csv_file,
+    check_distinct_outputs("--csv", "the CSV file and the files written by --out", arguments.csv_file,
                            fs::path(arguments.out) / name);
 }
 
@@ -185,7 +188,7 @@ int run_bench(const BenchArguments& arguments) {
   check_csv(arguments, machine);
   const base::StopSignals signals;
   std::optional<haptics::AtomicFile> csv;
-  if (!arguments.csv_file.empty()) csv.emplace(arguments.csv_file).prepare();  // detect a wrong path before measuring
+  if (!arguments.csv_file.empty()) csv.emplace(arguments.csv_file).prepare();  // detects a wrong path before measuring
   if (!arguments.out.empty()) base::make_folder(arguments.out);
   lab::BenchRun run{.program = base::program_name() + " " + commit_text(),
                     .date = lessons::format_utc(lessons::system_seconds()),
@@ -210,25 +213,26 @@ int run_bench(const BenchArguments& arguments) {
 void add_bench_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<BenchArguments>();
   CLI::App* verb =
-      app.add_subcommand("bench", "Measure speed against error: haptic loop, driveline, graphics, learning");
+      app.add_subcommand("bench", "Measure the speed and error of the haptic loop, driveline, graphics and learning");
   verb->footer(
       "Examples:\n"
       "  gearshift bench --quick\n"
       "  gearshift bench --family plant\n");
   std::vector<std::string> names;
   for (const lab::NamedFamily& family : lab::bench_families()) names.emplace_back(family.name);
-  verb->add_option("--family", arguments->families, "only these families; may be repeated")
+  verb->add_option("--family", arguments->families, "measure only this family; may be repeated")
       ->check(CLI::IsMember(names));
   verb->add_flag("--quick", arguments->options.quick,
-                 "fewer repetitions, about a minute: for a quick check, not for figures to quote or compare");
+                 "fewer repetitions: takes about a minute, but its figures should not be quoted or compared");
   verb->add_flag("--json", arguments->json, "print JSON to stdout");
   verb->add_option("--csv", arguments->csv_file, "also write the rows as CSV")->type_name("FILE");
-  verb->add_option("--out", arguments->out, "also write bench.html with plots, bench.csv, bench.json, FAMILY.svg")
+  verb->add_option("--out", arguments->out,
+                   "also write bench.html with plots, bench.csv, bench.json and FAMILY.svg to this folder")
       ->type_name("DIR");
   verb->add_option(
           "--block", arguments->options.jitter_block,
           "length of each measuring block in the families jitter and beside [s]; 1 with --quick. Shorter blocks get no "
-          "verdict, and a run with another length is not compared with the last")
+          "verdict, and a run with another block length is not compared with the last run")
       ->check(number_between(1.0, 600.0))
       ->capture_default_str();
   verb->callback([arguments, verb, &action] {

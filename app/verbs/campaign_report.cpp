@@ -11,19 +11,21 @@
 namespace gearshift::verbs {
 namespace {
 
-constexpr std::size_t kMaxListedFailures = 20;  // printed failures; the JSON has all of them
+constexpr std::size_t kMaxListedFailures = 20;  // maximum number of printed failures; the JSON has all of them
 
-std::string law_row(lab::CampaignLaw law, const lab::LawSummary& seen) {
+std::string law_row(lab::CampaignLaw law, const lab::LawSummary& summary) {
   const lab::LawText& law_info = lab::law_text(law);
   const std::string name(law_info.name), requirement(law_info.requirement);
-  if (seen.cases == 0) return fmt::format("| {} | {} | 0 | - | - | - | - |\n", name, requirement);
-  return fmt::format("| {} | {} | {} | {:.4g} {} | {:.4g} | {} | {} |\n", name, requirement, seen.cases,
-                     seen.worst.value, std::string(law_info.unit), seen.worst.bound, seen.worst_case, seen.broken);
+  if (summary.cases == 0) return fmt::format("| {} | {} | 0 | - | - | - | - |\n", name, requirement);
+  return fmt::format("| {} | {} | {} | {:.4g} {} | {:.4g} | {} | {} |\n", name, requirement, summary.cases,
+                     summary.worst.value, std::string(law_info.unit), summary.worst.bound, summary.worst_case,
+                     summary.broken);
 }
 
 std::string laws_text(const lab::CampaignSummary& summary) {
   std::string text =
-      "| law | requirement | cases | worst | bound | in case | broken in |\n|---|---|---|---|---|---|---|\n";
+      "| law | requirement | cases | worst value | bound | worst case | broken in cases "
+      "|\n|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < lab::kCampaignLaws; ++i)
     text += law_row(static_cast<lab::CampaignLaw>(i), summary.laws[i]);
   return text;
@@ -31,9 +33,8 @@ std::string laws_text(const lab::CampaignSummary& summary) {
 
 std::string groups_text(const lab::CampaignSummary& summary) {
   std::string text =
-      "| drawn | | cases | shifts | intended gear reached | wall softened in | stopped by the guard in | tuning "
-      "limited "
-      "in | a law broken in |\n"
+      "| drawn property | value | cases | shifts | intended gear reached | cases with softened wall | cases stopped by "
+      "the guard | cases with limited tuning | cases with broken law |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const lab::CaseGroup& group : summary.groups) {
     const double reached =
@@ -51,7 +52,7 @@ std::string ripple_text(const lab::CampaignSummary& summary, bool promised) {
     if (cell.promised == promised)
       text += fmt::format("| {:g} to {:g} Hz | {}{} | {} | {:.3f} | {:.3f} | {:.3f} |\n", cell.slowest, cell.fastest,
                           cell.delay, cell.delay == 4 ? " to 8" : "", cell.cases, 1e3 * cell.median, 1e3 * cell.p95,
-                          1e3 * cell.most);
+                          1e3 * cell.max);
   return text;
 }
 
@@ -59,38 +60,39 @@ std::string failures_text(const lab::CampaignSummary& summary) {
   if (summary.broken.empty()) return "No law was broken.\n";
   std::string text = "| case | seed | law | value | bound | at s |\n|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < summary.broken.size() && i < kMaxListedFailures; ++i) {
-    const lab::LawBroken& one = summary.broken[i];
+    const lab::BrokenLaw& one = summary.broken[i];
     text += fmt::format("| {} | {:016x} | {} | {:.4g} | {:.4g} | {:.3f} |\n", one.number, one.seed,
-                        std::string(lab::law_text(one.law).name), one.seen.value, one.seen.bound, one.seen.time);
+                        std::string(lab::law_text(one.law).name), one.result.value, one.result.bound, one.result.time);
   }
   if (summary.broken.size() > kMaxListedFailures)
-    text += fmt::format("\nand {} more in summary.json\n", summary.broken.size() - kMaxListedFailures);
+    text += fmt::format("\n{} more are listed in summary.json.\n", summary.broken.size() - kMaxListedFailures);
   return text;
 }
 
 std::string refusals_text(const lab::CampaignSummary& summary) {
   std::string text;
-  for (const auto& [why, times] : summary.refusals) text += fmt::format("- rejected {} times: {}\n", times, why);
+  for (const auto& [why, times] : summary.refusals)
+    text += fmt::format("- rejected {}: {}\n", times == 1 ? "once" : fmt::format("{} times", times), why);
   return text;
 }
 
-nlohmann::ordered_json seen_json(const lab::LawResult& seen) {
-  return {{"value", seen.value}, {"bound", seen.bound}, {"at_s", seen.time}};
+nlohmann::ordered_json result_json(const lab::LawResult& result) {
+  return {{"value", result.value}, {"bound", result.bound}, {"at_s", result.time}};
 }
 
 }  // namespace
 
 std::string campaign_text(const lab::CampaignSummary& summary) {
   return fmt::format(
-             "{} shifts in {} cases of seed {}: {} cycles, {:.1f} hours simulated; {} clean aims of a gripping hand; "
-             "{} "
-             "cases rejected by the loop's checks\n\n",
+             "{} shifts in {} cases of seed {}: {} cycles, {:.1f} hours of simulated time; {} clean aims of a gripping "
+             "hand; {} cases rejected by the loop's checks\n\n",
              summary.shifts, summary.cases, summary.seed, summary.cycles, summary.seconds / 3600.0, summary.clean,
              summary.refused) +
          laws_text(summary) + "\n" + failures_text(summary) + "\n" + groups_text(summary) +
-         "\nPeak-to-peak motion of a lever held still, in the last 0.5 s of 3 s, where quiet is promised:\n\n" +
-         ripple_text(summary, true) + "\nWhere quiet is not promised:\n\n" + ripple_text(summary, false) + "\n" +
-         refusals_text(summary);
+         "\nPeak-to-peak motion of a lever held still for 3 s, measured in the last 0.5 s. Cases in which quiet is "
+         "promised:\n\n" +
+         ripple_text(summary, true) + "\nCases in which quiet is not promised:\n\n" + ripple_text(summary, false) +
+         "\n" + refusals_text(summary);
 }
 
 std::string campaign_json(const lab::CampaignSummary& summary, const std::string& program) {
@@ -106,15 +108,15 @@ std::string campaign_json(const lab::CampaignSummary& summary, const std::string
                             {"cases", law.cases},
                             {"looks", law.checks},
                             {"broken", law.broken},
-                            {"worst", seen_json(law.worst)},
+                            {"worst", result_json(law.worst)},
                             {"worst_case", law.worst_case}});
   }
   json["failures"] = nlohmann::ordered_json::array();
-  for (const lab::LawBroken& one : summary.broken)
+  for (const lab::BrokenLaw& one : summary.broken)
     json["failures"].push_back({{"case", one.number},
                                 {"seed", fmt::format("{:016x}", one.seed)},
                                 {"law", lab::law_text(one.law).name},
-                                {"seen", seen_json(one.seen)}});
+                                {"seen", result_json(one.result)}});
   for (const lab::CaseGroup& group : summary.groups)
     json["drawn"].push_back({{"of", group.of},
                              {"name", group.name},
@@ -133,7 +135,7 @@ std::string campaign_json(const lab::CampaignSummary& summary, const std::string
                               {"cases", cell.cases},
                               {"median_m", cell.median},
                               {"p95_m", cell.p95},
-                              {"most_m", cell.most}});
+                              {"most_m", cell.max}});
   for (const auto& [why, times] : summary.refusals) json["refusals"].push_back({{"why", why}, {"times", times}});
   return json.dump(2) + "\n";
 }
@@ -141,25 +143,28 @@ std::string campaign_json(const lab::CampaignSummary& summary, const std::string
 std::string case_text(const lab::CampaignCase& drawn, const lab::CaseOutcome& outcome) {
   const haptics::HapticConfig& haptics = drawn.haptics;
   std::string text = fmt::format(
-      "case {}, seed {:016x}: {} hand ({:.3g} kg, {:.3g} N s/m, {:.4g} N/m), {} gate, {}{:.1f} Hz, delay {}, jitter "
-      "{:.1f} "
-      "%, plant error {:.1f} %, count {:.1f} um, {}, {}, K {:.0f} N/m wanted, {:.0f} used, last push {:.0f} "
-      "N\n",
+      "case {}, seed {:016x}: {} hand ({:.3g} kg, {:.3g} N s/m, {:.4g} N/m), {} gate, {}{:.1f} Hz, delay: {} cycle{}, "
+      "period jitter: {:.1f} %, plant error: {:.1f} %, encoder step: {:.1f} um, {}, energy control: {}, wall "
+      "stiffness: {:.0f} N/m requested, {:.0f} used, final push: {:.0f} N\n",
       drawn.number, drawn.seed, std::string(lab::kCaseHandNames[static_cast<std::size_t>(drawn.hand)]),
       drawn.lever.hand.mass, drawn.lever.hand.damping, drawn.lever.hand.stiffness,
-      drawn.shipped_gate >= 0 ? "shipped" : "random", drawn.has_car ? "a car behind it, " : "", haptics.rate,
-      drawn.lever.delay, 100.0 * drawn.lever.period_jitter, 100.0 * drawn.lever.model_error, 1e6 * lab::count_of(drawn),
-      haptics::to_string(haptics.contact.hold), haptics::to_string(haptics.contact.energy_control),
-      haptics.tuning.wall_stiffness, outcome.stiffness, drawn.manner.last_push);
+      drawn.shipped_gate >= 0 ? "shipped" : "random", drawn.has_car ? "with a car, " : "", haptics.rate,
+      drawn.lever.delay, drawn.lever.delay == 1 ? "" : "s", 100.0 * drawn.lever.period_jitter,
+      100.0 * drawn.lever.model_error, 1e6 * lab::count_of(drawn), haptics::to_string(haptics.contact.hold),
+      haptics::to_string(haptics.contact.energy_control), haptics.tuning.wall_stiffness, outcome.stiffness,
+      drawn.manner.last_push);
   if (!outcome.refused.empty()) return text + "rejected: " + outcome.refused + "\n";
-  text += fmt::format("{} of {} shifts reached, wall softened {} times, {:.1f} s\n", outcome.reached, outcome.shifts,
-                      outcome.softened, outcome.seconds);
+  text += fmt::format(
+      "{} of {} shifts reached the intended gear; times that the wall was softened: {}; {:.1f} s of "
+      "simulated time\n",
+      outcome.reached, outcome.shifts, outcome.softened, outcome.seconds);
   for (std::size_t i = 0; i < lab::kCampaignLaws; ++i) {
-    const lab::LawResult& seen = outcome.laws.seen(static_cast<lab::CampaignLaw>(i));
+    const lab::LawResult& result = outcome.laws.result(static_cast<lab::CampaignLaw>(i));
     const lab::LawText& law_info = lab::law_text(static_cast<lab::CampaignLaw>(i));
-    if (seen.checks == 0) continue;
+    if (result.checks == 0) continue;
     text += fmt::format("{:<10} {:>10.4g} {:<14} bound {:<10.4g} at {:>8.3f} s  {}\n", std::string(law_info.name),
-                        seen.value, std::string(law_info.unit), seen.bound, seen.time, seen.broken() ? "BROKEN" : "");
+                        result.value, std::string(law_info.unit), result.bound, result.time,
+                        result.broken() ? "BROKEN" : "");
   }
   return text;
 }

@@ -32,17 +32,17 @@ namespace gearshift::verbs {
 namespace {
 
 constexpr const char* kCampaignFooter =
-    "Each case draws a gate, hand, rate, delay, jitter, encoder and tuning from the seed and its number; the loop's "
-    "checks\n"
-    "limit or reject it. A simulated hand then drives some dozens of shifts, and every law is checked in every cycle.\n"
+    "The seed and the case number determine the random gate, hand, rate, delay, jitter, encoder and tuning of each\n"
+    "case; the loop's checks limit its tuning or reject the case. A simulated hand then makes some dozens of shifts,\n"
+    "and every law is checked in every cycle.\n"
     "\n"
-    "Results are saved to cases.csv in the folder: if you stop the campaign (Ctrl-C), the same command resumes it. "
-    "At the end\n"
-    "the folder has summary.json and, for each failed case (100 at most), failures/SEED.trace and SEED.txt, which "
-    "says\n"
-    "what the case breaks; gearshift replay prints it with the command that shows it. --case writes them, too.\n"
+    "Results are saved to cases.csv in the folder. If you stop the campaign (Ctrl-C), run the same command to resume\n"
+    "it. At the end, the folder contains summary.json and, for each failed case (100 at most), failures/SEED.trace\n"
+    "and SEED.txt, which names the broken laws. gearshift replay prints this too, with a command that reproduces the\n"
+    "failure. --case also writes a trace and, if a law is broken, such a text.\n"
     "\n"
-    "Exit code: 0 every law holds; 1 a law is broken, or the work failed or was stopped; 2 bad usage.\n"
+    "Exit code: 0 if every law holds; 1 if a law is broken or the campaign failed or was stopped; 2 if the command\n"
+    "line is invalid.\n"
     "\n"
     "  gearshift campaign --shifts 1000 --out look\n"
     "  gearshift campaign --case 1 --out look    prints \"trace look/case_1.trace\"\n"
@@ -50,7 +50,7 @@ constexpr const char* kCampaignFooter =
 
 struct CampaignArguments {
   lab::CampaignPlan plan;
-  std::optional<std::uint64_t> number;  // run only this case
+  std::optional<std::uint64_t> number;  // number of the only case to run; empty: all cases
 };
 
 int run_one_case(const CampaignArguments& arguments, const std::vector<haptics::GateLayout>& shipped) {
@@ -60,7 +60,7 @@ int run_one_case(const CampaignArguments& arguments, const std::vector<haptics::
   const lab::CaseOutcome outcome = lab::run_case(drawn, shipped, trace);
   base::print_out("{}", case_text(drawn, outcome));
   if (!outcome.refused.empty()) {
-    base::print_out("the case was not driven, so nothing was recorded\n");
+    base::print_out("the case was rejected, so nothing was recorded\n");
     return 0;
   }
   lab::write_broken_laws(trace, arguments.plan.seed, lab::summarise(arguments.plan.seed, {&outcome, 1}, gates).broken);
@@ -68,12 +68,13 @@ int run_one_case(const CampaignArguments& arguments, const std::vector<haptics::
   return outcome.laws.any_broken() ? 1 : 0;
 }
 
-// The hung thread cannot be stopped from outside, so the whole program exits. Finished cases are already on disk.
+// Exits from the whole program, because the thread of a hung case cannot be stopped from outside. Finished cases are
+// already on disk.
 [[noreturn]] void exit_with_hung_case(base::ProgressBar& bar, const lab::CampaignPlan& plan, std::uint64_t number) {
   bar.clear();
   base::print_message(
-      "case {} has not ended after {:g} s: gearshift campaign --seed {} --case {} --out DIR drives only "
-      "this case; finished cases are saved",
+      "case {} has not ended after {:g} s, so the campaign was stopped; finished cases are saved. To run only this "
+      "case: gearshift campaign --seed {} --case {} --out DIR",
       number, plan.case_time_limit, plan.seed, number);
   std::_Exit(1);
 }
@@ -88,15 +89,16 @@ int run_cases(lab::CampaignPlan plan, const std::vector<haptics::GateLayout>& sh
   plan.program = base::program_name() + " " + commit_text();
   const base::StopSignals signals;
   base::ProgressBar bar;
-  const auto show = [&](std::string_view what, const lab::CampaignStatus& status) {
+  const auto show = [&](std::string_view part, const lab::CampaignStatus& status) {
     if (status.overdue) exit_with_hung_case(bar, plan, *status.overdue);
-    bar.show(what, status.share);
+    bar.show(part, status.fraction);
     return !base::StopSignals::requested();
   };
   const std::vector<lab::CaseOutcome> outcomes =
       lab::drive_campaign(plan, shipped, [&](const lab::CampaignStatus& status) { return show("campaign", status); });
   if (base::StopSignals::requested())
-    return report_interruption(bar, fmt::format("after {} cases in a row", outcomes.size()));
+    return report_interruption(bar, outcomes.size() == 1 ? std::string("after 1 finished case")
+                                                         : fmt::format("after {} finished cases", outcomes.size()));
   const lab::CampaignSummary summary = lab::summarise(plan.seed, outcomes, static_cast<int>(shipped.size()));
   haptics::write_text_file(plan.folder / "summary.json", campaign_json(summary, plan.program));
   bar.clear();
@@ -104,7 +106,7 @@ int run_cases(lab::CampaignPlan plan, const std::vector<haptics::GateLayout>& sh
   std::fflush(stdout);
   const std::size_t failed = lab::record_failures(
       plan, summary.broken, shipped, [&](const lab::CampaignStatus& status) { return show("traces", status); });
-  if (base::StopSignals::requested()) return report_interruption(bar, "before every failed case was recorded");
+  if (base::StopSignals::requested()) return report_interruption(bar, "before all failed cases were recorded");
   bar.clear();
   if (failed > lab::kMaxTraces)
     base::print_out("{} cases failed; the first {} are recorded in failures/\n", failed, lab::kMaxTraces);
@@ -123,9 +125,10 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<CampaignArguments>();
   arguments->plan.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   CLI::App* verb = app.add_subcommand(
-      "campaign", "Check laws that must always hold on a million random shifts: gates, hands, rates, delays, tunings");
+      "campaign",
+      "Check laws that must always hold, on a million shifts with random gates, hands, rates, delays and tunings");
   verb->footer(kCampaignFooter);
-  CLI::Option* shifts = verb->add_option("--shifts", arguments->plan.shifts, "least number of shifts to try")
+  CLI::Option* shifts = verb->add_option("--shifts", arguments->plan.shifts, "minimum number of shifts")
                             ->check(whole_number(1, 1'000'000'000))
                             ->capture_default_str();
   verb->add_option("--seed", arguments->plan.seed, "seed of the whole campaign")
@@ -134,7 +137,7 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--out", arguments->plan.folder, "folder for progress and results; created if missing")
       ->required()
       ->type_name("DIR");
-  verb->add_option("--threads", arguments->plan.threads, "number of threads; the result does not depend on it")
+  verb->add_option("--threads", arguments->plan.threads, "number of threads; does not affect the results")
       ->check(whole_number(1, lab::kMaxThreads))
       ->capture_default_str();
   verb->add_option("--case", arguments->number, "run only case K and record it as DIR/case_K.trace")

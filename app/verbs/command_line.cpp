@@ -19,6 +19,8 @@ void add_verbs(CLI::App& app, VerbAction& action) {
   add_devices_verb(app, action);
   add_campaign_verb(app, action);
   add_bench_verb(app, action);
+  for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; })) verb->group("Verbs");
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
 }
 
 std::string verb_names(const CLI::App& app) {
@@ -34,7 +36,8 @@ void reject_unknown_verb(const CLI::App& app, const std::string& word) {
   throw CLI::ParseError("unknown verb \"" + word + "\"; the verbs are " + verb_names(app), CLI::ExitCodes::ExtrasError);
 }
 
-// An empty path usually comes from an unset shell variable; the output would go to the wrong place or be lost.
+// Rejects empty paths, which usually come from an unset shell variable: the output would go to the wrong place or be
+// lost.
 void reject_empty_paths(const CLI::App& verb) {
   const auto is_file = [](const std::string& type) {
     const std::string kind = type.substr(0, type.find(':'));  // validators append ":..." to the type name
@@ -42,7 +45,8 @@ void reject_empty_paths(const CLI::App& verb) {
   };
   for (const CLI::Option* option : verb.get_options()) {
     for (const std::string& value : option->results())
-      if (value.empty() && is_file(option->get_type_name())) throw CLI::ValidationError(option->get_name(), "is empty");
+      if (value.empty() && is_file(option->get_type_name()))
+        throw CLI::ValidationError(option->get_name(), "the path must not be empty");
   }
 }
 

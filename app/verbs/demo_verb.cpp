@@ -1,4 +1,4 @@
-// gearshift demo: renders the tour and two lessons offscreen: pictures, sound, traces, plots and a page.
+// gearshift demo: renders the tour and two lessons off screen: pictures, sound, traces, plots and a page.
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,10 +21,10 @@ struct DemoArguments {
   std::string size = "1280x720";
   int samples = 4;
   bool stereo = false;
-  double film_rate = 0.0;  // [1/s]
+  double film_rate = 0.0;  // [1/s] see DemoSetup::film_rate
 };
 
-// All arguments are checked before the folder is created.
+// Runs the demo. Checks all arguments before it creates the folder.
 int run(const DemoArguments& arguments) {
   demo::DemoSetup setup;
   setup.tour = make_tour_setup(arguments.tour);
@@ -35,12 +35,12 @@ int run(const DemoArguments& arguments) {
   setup.view.stereo = arguments.stereo;
   setup.film_rate = arguments.film_rate;
   base::make_folder(setup.tour.folder);
-  const std::optional<demo::DemoResult> made = base::run_until_signal<demo::DemoResult>(
+  const std::optional<demo::DemoResult> finished = base::run_until_signal<demo::DemoResult>(
       [&](const lab::TourProgress& progress) { return demo::run_demo(setup, progress); });
-  if (!made) return 1;
-  const demo::DemoResult& result = *made;
+  if (!finished) return 1;
+  const demo::DemoResult& result = *finished;
   print_tour(setup.tour, result.tour);
-  base::print_out("{} pictures of {} rendered by {}, {:.0f} ms each\n", result.pictures(), arguments.size,
+  base::print_out("{} pictures of {} pixels, rendered by {} in {:.0f} ms each\n", result.pictures(), arguments.size,
                   result.device, result.picture_ms);
   base::print_out(
       "{0}/index.html: pictures, sound, traces and plots; {0}/contact_sheet.png: all pictures on one sheet\n",
@@ -49,9 +49,9 @@ int run(const DemoArguments& arguments) {
     base::print_out("{}\n", chapter.title);
     for (const std::string& sentence : chapter.text) base::print_out("  {}\n", sentence);
   }
-  if (result.has_report) base::print_out("{}/report.html: the learner's report\n", setup.tour.folder.string());
-  if (!result.tour.complete()) base::print_message("the hand did not engage every gear in order");
-  if (!result.passed) base::print_message("the simulated learner did not pass every lesson");
+  if (result.has_report) base::print_out("{}/report.html: the report on the lessons\n", setup.tour.folder.string());
+  if (!result.tour.complete()) base::print_message("the simulated hand did not engage every gear in order");
+  if (!result.passed) base::print_message("the simulated driver did not pass every lesson");
   return result.tour.complete() && result.tour.lost.times == 0 && result.passed ? 0 : 1;
 }
 
@@ -66,7 +66,7 @@ int run_demo(const TourArguments& tour) {
 void add_demo_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<DemoArguments>();
   CLI::App* verb = app.add_subcommand(
-      "demo", "Render simulated drives offscreen: every gear and two lessons; pictures, sound, report and page");
+      "demo", "Render a tour of every gear and two lessons offscreen: pictures, sound, report and web page");
   verb->footer(
       "Examples:\n"
       "  gearshift demo --out demo\n"
@@ -77,8 +77,9 @@ void add_demo_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--samples", arguments->samples, "samples per pixel: 1 or 4")
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
-  verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
-  verb->add_option("--film", arguments->film_rate, "also save the whole drive as pictures, this many per second [1/s]")
+  verb->add_flag("--stereo", arguments->stereo, "render both eyes, side by side");
+  verb->add_option("--film", arguments->film_rate,
+                   "also save the whole drive as a series of pictures, this many per second [1/s]")
       ->check(number_between(0.1, 60.0));
   verb->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }

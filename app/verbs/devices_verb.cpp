@@ -39,7 +39,7 @@ std::filesystem::path calibrations_folder() {
   return base::user_config_folder() / "devices";
 }
 
-// Empty if no home folder is known: then nothing can have been calibrated.
+// The folder of the calibrations; empty if no home folder is known, since nothing can have been calibrated then.
 std::filesystem::path calibrations_to_read() {
   try {
     return calibrations_folder();
@@ -48,7 +48,7 @@ std::filesystem::path calibrations_to_read() {
   }
 }
 
-// Works on a machine without USB, too: prints the problem and returns an empty list.
+// The plugged-in sticks. On a machine without USB, prints the problem and returns an empty list.
 std::vector<runtime::ListedStick> plugged_sticks() {
   try {
     return runtime::list_sticks(haptics::usb_hid_devices(), calibrations_to_read());
@@ -58,7 +58,7 @@ std::vector<runtime::ListedStick> plugged_sticks() {
   }
 }
 
-// GLFW needs a display. The list includes force-feedback sticks.
+// The devices that GLFW lists, including force-feedback sticks; empty without a display, which GLFW needs.
 std::vector<engine::PadState> glfw_pads() {
   return engine::has_display() ? engine::glfw_sticks() : std::vector<engine::PadState>{};
 }
@@ -69,7 +69,7 @@ DeviceJson pad_json(const engine::PadState& pad) {
 
 DeviceJson stick_json(const runtime::ListedStick& stick) {
   DeviceJson effects = DeviceJson::array();
-  for (const haptics::PidEffect effect : stick.effects) effects.push_back(haptics::pid_effect_name(effect));
+  for (const haptics::PidEffect effect : stick.effects) effects.push_back(haptics::to_string(effect));
   return {
       {"name", runtime::stick_name(stick.identity)},
       {"id", runtime::stick_id(stick.identity)},
@@ -99,11 +99,11 @@ void print_rows(const std::vector<DevicesRow>& rows) {
 }
 
 void print_sticks(const std::vector<runtime::ListedStick>& sticks) {
-  std::vector<DevicesRow> rows{{"stick", "id", "place", "axes", "buttons", "forces", "calibrated"}};
+  std::vector<DevicesRow> rows{{"stick", "id", "port", "axes", "buttons", "forces", "calibrated"}};
   for (const runtime::ListedStick& stick : sticks) {
-    const bool seen = stick.force != runtime::StickForce::unknown;
+    const bool is_known = stick.force != runtime::StickForce::unknown;
     rows.push_back({runtime::stick_name(stick.identity), runtime::stick_id(stick.identity), stick.identity.place,
-                    seen ? fmt::format("{}", stick.axes) : "?", seen ? fmt::format("{}", stick.buttons) : "?",
+                    is_known ? fmt::format("{}", stick.axes) : "?", is_known ? fmt::format("{}", stick.buttons) : "?",
                     runtime::describe_forces(stick), runtime::describe_calibration(stick)});
   }
   print_rows(rows);
@@ -113,21 +113,21 @@ void print_sticks(const std::vector<runtime::ListedStick>& sticks) {
 
 void print_pads(const std::vector<engine::PadState>& pads) {
   if (pads.empty()) return;
-  base::print_out("\nWithout force feedback, for hand and pedals:\n");
+  base::print_out("\nDevices without force feedback, usable for the lever and the pedals:\n");
   std::vector<DevicesRow> rows{{"name", "axes", "buttons"}};
   for (const engine::PadState& pad : pads)
     rows.push_back({haptics::printable(pad.name), std::to_string(pad.axes.size()), std::to_string(pad.buttons.size())});
   print_rows(rows);
 }
 
-// Printed once, for all sticks that the user may not open.
+// Prints the udev rule that grants access, once for all sticks that the user may not open.
 void print_rule(const std::vector<runtime::ListedStick>& sticks) {
   const bool forbidden = std::any_of(
-      sticks.begin(), sticks.end(), [](const runtime::ListedStick& stick) { return runtime::lacks_permission(stick); });
+      sticks.begin(), sticks.end(), [](const runtime::ListedStick& stick) { return runtime::needs_permission(stick); });
   if (!forbidden) return;
   const std::string rule = (base::assets_folder() / "udev" / "70-gearshift.rules").string();
   base::print_out(
-      "To let the user at this machine use them, run once:\n"
+      "To allow the user at this machine to open these sticks, run these commands once:\n"
       "  sudo cp \"{}\" /etc/udev/rules.d/\n"
       "  sudo udevadm control --reload\n"
       "Then plug the stick in again.\n",
@@ -141,13 +141,13 @@ int list_devices(bool as_json) {
   if (as_json) {
     DeviceJson all = DeviceJson::array();
     for (const runtime::ListedStick& stick : sticks) all.push_back(stick_json(stick));
-    DeviceJson seen = DeviceJson::array();
-    for (const engine::PadState& pad : pads) seen.push_back(pad_json(pad));
-    const DeviceJson listed{{"sticks", all}, {"seen_by_glfw", seen}, {"problems_of_absent", absent}};
+    DeviceJson pads_json = DeviceJson::array();
+    for (const engine::PadState& pad : pads) pads_json.push_back(pad_json(pad));
+    const DeviceJson listed{{"sticks", all}, {"seen_by_glfw", pads_json}, {"problems_of_absent", absent}};
     base::print_out("{}\n", listed.dump(2));
     return 0;
   }
-  if (sticks.empty()) base::print_out("No USB stick is plugged in. The simulated lever works without one.\n");
+  if (sticks.empty()) base::print_out("No USB joystick is plugged in. You can use the simulated lever without one.\n");
   if (!sticks.empty()) print_sticks(sticks);
   for (const std::string& problem : absent) base::print_out("  {}\n", problem);
   print_rule(sticks);
@@ -155,8 +155,8 @@ int list_devices(bool as_json) {
   return 0;
 }
 
-// A force-feedback stick is measured; for other sticks and pads the user assigns the axes, which needs a display for
-// GLFW.
+// Calibrates the wanted device: measures a force-feedback stick, or lets the user assign the axes of other sticks and
+// pads, which needs a display for GLFW.
 int calibrate(const std::string& wanted, bool again) {
   const std::vector<runtime::ListedStick> plugged = plugged_sticks();
   const runtime::ListedStick* stick = runtime::find_plugged_stick(wanted, plugged);
@@ -180,16 +180,16 @@ int run_devices(const DevicesArguments& arguments) {
 
 void add_devices_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<DevicesArguments>();
-  CLI::App* verb = app.add_subcommand("devices", "List connected sticks and what they can do; calibrate them");
+  CLI::App* verb = app.add_subcommand("devices", "List the connected sticks and what they can do, or calibrate one");
   verb->footer(
       "Examples:\n"
       "  gearshift devices\n"
-      "  gearshift devices --calibrate NAME    any part of the stick's name; guides you step by step\n");
+      "  gearshift devices --calibrate NAME    guides you step by step; NAME: any part of the stick's name\n");
   CLI::Option* json = verb->add_flag("--json", arguments->json, "print the list as JSON");
   CLI::Option* calibrate =
       verb->add_option(
               "--calibrate", arguments->calibrate,
-              "calibrate this stick (name, VENDOR:PRODUCT, serial or place) step by step; each finished step is saved")
+              "calibrate this stick (name, VENDOR:PRODUCT, serial or port) step by step; each finished step is saved")
           ->type_name("NAME")
           ->check([](const std::string& name) { return name.empty() ? "the stick's name must not be empty" : ""; })
           ->excludes(json);

@@ -18,8 +18,7 @@ namespace gearshift::verbs {
 namespace {
 
 constexpr const char* kGateHelp =
-    "Show a compiled gate layout: aisles, junctions, gears, wall pairs and lockouts, as a table, JSON or "
-    "drawing.";
+    "Show the aisles, junctions, gears, wall pairs and lockouts of a gate layout as a table, JSON or drawing.";
 constexpr const char* kGateExamples =
     "\nExamples:\n"
     "  gearshift gate paper                       the gate of the paper, as a table\n"
@@ -67,7 +66,7 @@ void add_gate_verb(CLI::App& app, VerbAction& action) {
   verb->footer(kGateExamples);
   verb->add_option("LAYOUT", options->layout, "layout file or shipped layout: " + join_names())->required();
   verb->add_flag("--json", options->json, "print JSON instead of the table");
-  verb->add_option("--svg", options->svg, "also draw the gate to this file, to scale")->type_name("FILE");
+  verb->add_option("--svg", options->svg, "also draw the gate to scale in this file")->type_name("FILE");
   verb->callback([options, &action] { action = [options] { return show_gate(*options); }; });
 }
 

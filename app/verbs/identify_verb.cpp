@@ -48,7 +48,7 @@ int run_identify(const IdentifyArguments& arguments) {
   const haptics::Preset preset = make_preset(arguments);
   if (!arguments.folder.empty()) base::make_folder(arguments.folder);
   base::ProgressBar bar;
-  const lab::IdentifyProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
+  const lab::IdentifyProgress progress = [&](std::string_view part, double fraction) { bar.show(part, fraction); };
   const lab::Identification found = lab::identify_lever(preset, axes_of(arguments.axis), progress);
   if (!arguments.folder.empty()) draw(arguments.folder, found, progress);
   bar.clear();
@@ -56,10 +56,10 @@ int run_identify(const IdentifyArguments& arguments) {
     base::print_out("{}", lab::identification_json(found));
     return 0;
   }
-  base::print_out("{}: sine sweep sampled at {:g} Hz, hand off the lever\n\n{}", preset.name, found.rate,
+  base::print_out("{}: sine sweep sampled at {:g} Hz, without a hand on the lever\n\n{}", preset.name, found.rate,
                   lab::identification_table(found));
   if (!arguments.folder.empty())
-    base::print_out("\n{}/bode_*.png (also .svg), test points as .csv\n", arguments.folder);
+    base::print_out("\nPlots: {0}/bode_*.png (also .svg); test points: {0}/bode_*.csv\n", arguments.folder);
   return 0;
 }
 
@@ -68,12 +68,12 @@ int run_identify(const IdentifyArguments& arguments) {
 void add_identify_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* verb = app.add_subcommand(
-      "identify", "Measure a lever's mass, damping, stiffness and bandwidth by its frequency response");
+      "identify", "Measure a lever's mass, damping, stiffness and bandwidth from its frequency response");
   verb->footer(
       "Examples:\n"
       "  gearshift identify\n"
       "  gearshift identify --axis x --out lever\n");
-  verb->add_option("--preset", arguments->preset, "shipped preset or file: lever and rate")
+  verb->add_option("--preset", arguments->preset, "shipped preset or preset file with the lever and the rate")
       ->type_name("NAME|FILE")
       ->capture_default_str();
   verb->add_option("--axis", arguments->axis, "x (select), y (shift) or both")
@@ -81,7 +81,8 @@ void add_identify_verb(CLI::App& app, VerbAction& action) {
       ->capture_default_str();
   verb->add_option("--rate", arguments->rate, "cycle rate [Hz]; default: the preset's")
       ->check(number_between(100.0, 4000.0));
-  verb->add_option("--seed", arguments->seed, "seed of the sensor noise and the lever's errors; default: the preset's")
+  verb->add_option("--seed", arguments->seed,
+                   "seed of the sensor noise and of the lever's model errors; default: the preset's")
       ->check(whole_number());
   verb->add_option("--out", arguments->folder, "folder for Bode plots and test points; created if missing")
       ->type_name("DIR");

@@ -11,7 +11,7 @@
 
 namespace gearshift::verbs {
 
-// CLI11 validator: returns what is wrong with the name, or an empty string.
+// A CLI11 validator: returns the problem with the name, or an empty string if the name is valid.
 inline std::string validate_learner_name(const std::string& name) {
   return lessons::user_text_problem(lessons::UserText::name, "a learner's name", name);
 }

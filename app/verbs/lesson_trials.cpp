@@ -27,27 +27,27 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBatchSize = 256;  // [cycles] each is judged, but the coach's view is updated once per batch
+constexpr std::size_t kBatchSize = 256;  // [cycles] the coach's view is updated once per batch; each cycle is judged
 
-// "-2.0"; empty if the run is not graded.
+// Formats deducted points: "-2.0"; empty if the run is not graded.
 std::string format_points(const lessons::LessonResult& result, double points) {
   return lessons::is_graded(result) ? fmt::format("-{:.1f}", points) : "";
 }
 
-void print_faults(const lessons::LessonResult& result) {
+void print_errors(const lessons::LessonResult& result) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < result.errors.size(); ++i) {
     const bool costs = next < result.deductions.size() && result.deductions[next].error == i;
     const double points = costs ? result.deductions[next++].points : 0.0;
     const lessons::DrivingError& error = result.errors[i];
     if (error.severity == lessons::Severity::note) continue;
-    base::print_out("  {:6.1f} s  {:<11}  {:4}  {}\n", error.time, lessons::severity_key(error.severity),
+    base::print_out("  {:6.1f} s  {:<11}  {:4}  {}\n", error.time, lessons::to_string(error.severity),
                     format_points(result, points), lessons::error_sentence(error));
   }
 }
 
 void print_result(const lessons::LessonResult& result, std::int64_t run) {
-  print_faults(result);
+  print_errors(result);
   if (run > 0) base::print_out("Run {}: ", run);
   const std::size_t shifts = result.shifts.size();
   base::print_out("{} {} in {:.1f} s. ", shifts, shifts == 1 ? "shift" : "shifts", result.duration);
@@ -56,7 +56,7 @@ void print_result(const lessons::LessonResult& result, std::int64_t run) {
 }
 
 void print_shift(const lessons::ShiftRecord& shift, std::int64_t run) {
-  const std::int64_t number = shift.number + 1;  // shown counting from 1
+  const std::int64_t number = shift.number + 1;  // printed numbers count from 1
   if (run > 0) base::print_out("  run {}, shift {} saved: ", run, number);
   if (run == 0) base::print_out("  shift {}: ", number);
   base::print_out("{} to {} in {:.2f} s\n", haptics::gear_name(shift.from), haptics::gear_name(shift.to),
@@ -80,7 +80,7 @@ class Trials {
     if (remove_unreferenced() && coach_.needs_room()) coach_.flush();
     report_coach_problem();
     if (number == trials_.runs && !is_interrupted_) return coach_.view().result.passed;
-    base::print_message("interrupted {} run {} of {}", is_interrupted_ ? "in" : "before",
+    base::print_message("interrupted {} run {} of {}", is_interrupted_ ? "during" : "before",
                         number + (is_interrupted_ ? 0 : 1), trials_.runs);
     return false;
   }
@@ -93,7 +93,7 @@ class Trials {
     if (!trials_.learner.empty()) config.no_history = trials_.history.problem;
     config.learner = trials_.learner;
     config.program = base::program_name();
-    config.lock_timeout = lessons::kHistoryLockTimeout;  // no frames to draw, so waiting for the lock is fine
+    config.lock_timeout = lessons::kHistoryLockTimeout;  // may be long, because no frames are drawn
     return config;
   }
 
@@ -120,7 +120,8 @@ class Trials {
     print_result(coach_.view().result, coach_.view().run);
   }
 
-  // Called with the first cycles, so that a lesson that cannot start prints only its error.
+  // Prints goal and guidance. Called only once there are cycles, so that a lesson that cannot start prints only its
+  // error.
   void print_start() {
     if (!std::exchange(has_printed_goal_, true))
       base::print_out("{}: {}\n", trials_.drive.lesson.title, trials_.drive.lesson.goal);
@@ -135,7 +136,7 @@ class Trials {
     if (view.guidance > 0.0) base::print_out("Guidance {:.0f} %.\n", 100.0 * view.guidance);
   }
 
-  // Deletes automatic recordings that no saved run refers to; --trace files stay. Returns whether any was deleted.
+  // Deletes automatic recordings to which no saved run refers, but not --trace files. Returns true if any was deleted.
   bool remove_unreferenced() {
     bool any = false;
     for (const std::string& file : coach_.take_unreferenced_recordings()) {
@@ -144,8 +145,8 @@ class Trials {
     return any;
   }
 
-  // A failing automatic recording must not stop the lesson: if it cannot be created, the lesson runs without one; if it
-  // is incomplete, it is deleted to leave room for the history.
+  // Drives the lesson. A problem with an automatic recording does not stop it: if the recording cannot be created, the
+  // lesson runs without one; if the recording is incomplete, it is deleted to leave room for the history.
   void run(lessons::LessonDriveConfig& drive, bool is_automatic_recording) {
     try {
       lessons::drive_lesson(drive, judge());
@@ -164,7 +165,7 @@ class Trials {
     }
   }
 
-  // A new file beside the history; empty if nothing is recorded.
+  // Path of a new recording next to the history; empty if nothing is to be recorded.
   fs::path automatic_recording_path() {
     if (!coach_.view().is_saving || trials_.learner.empty()) return {};
     try {
@@ -187,7 +188,7 @@ class Trials {
     };
   }
 
-  // Lets the coach update its view and save results, then prints what is new.
+  // Lets the coach update its view and save results, then prints new shifts and problems.
   void flush_cycles() {
     if (pending_cycles_ > 0) print_start();
     pending_cycles_ = 0;
@@ -196,7 +197,7 @@ class Trials {
     report_coach_problem();
   }
 
-  // Called after the coach has saved them.
+  // Call after the coach has saved the shifts.
   void print_new_shifts() {
     const std::vector<lessons::ShiftRecord>& shifts = coach_.view().result.shifts;
     for (; trials_.prints_shifts && printed_shifts_ < shifts.size(); ++printed_shifts_)
@@ -209,14 +210,16 @@ class Trials {
     has_saved_ = has_saved_ || coach_.view().is_saving;
   }
 
-  // Each problem is reported once. If nothing was ever saved, a longer sentence about the loss adds no information.
+  // True if the problem was reported before. If nothing was ever saved, also true for a longer sentence that begins
+  // with a reported one, because it adds no information.
   bool is_already_reported(const std::string& problem) const {
     return std::any_of(reported_problems_.begin(), reported_problems_.end(), [&](const std::string& reported) {
       return problem == reported || (!has_saved_ && problem.starts_with(reported));
     });
   }
 
-  // Reported only once: each run's recording has another name, so the sentences would differ.
+  // Reports only the first problem with a recording: each run's recording has a different name, so all sentences would
+  // differ.
   void report_recording_problem(const std::string& problem) {
     if (!std::exchange(has_reported_recording_, true)) report_problem(problem);
   }
@@ -235,11 +238,11 @@ class Trials {
   const base::StopSignals signals_;  // constructed before coach_, so that a signal cannot leave the history open
   haptics::Gate gate_;
   lessons::Coach coach_;
-  std::size_t pending_cycles_ = 0;  // judged since the last flush
-  std::size_t printed_shifts_ = 0;  // of the current run
+  std::size_t pending_cycles_ = 0;  // number of cycles judged since the last flush
+  std::size_t printed_shifts_ = 0;  // number of printed shifts of the current run
   std::set<std::string> automatic_recordings_;
   std::vector<std::string> reported_problems_;
-  bool is_interrupted_ = false;  // a signal stopped the current run; it counts as abandoned
+  bool is_interrupted_ = false;  // a signal stopped the current run, which counts as abandoned
   bool has_saved_ = false, has_reported_recording_ = false, has_printed_goal_ = false, has_printed_guidance_ = false;
 };
 

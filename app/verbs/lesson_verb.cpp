@@ -27,11 +27,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLessonHelp =
-    "Run a lesson with a simulated driver, faster than real time: driving errors and grade. With --learner the run is "
-    "saved and recorded like a person's.";
+    "Run a lesson with a simulated driver, faster than real time, and print the driving errors and the grade. With "
+    "--learner, the run is saved and recorded like a person's.";
 constexpr const char* kLessonExamples =
-    "\nExit code: 0 passed (with --runs: the last run), 1 not passed, interrupted or a bad file, 2 bad usage.\n"
-    "If the history cannot be used, a message says why and the lesson runs without saving.\n"
+    "\nExit code: 0 if passed (with --runs: if the last run passed); 1 if not passed, interrupted, or a file is\n"
+    "invalid; 2 if the command line is invalid.\n"
+    "If the history cannot be used, a message explains why and the lesson runs without saving.\n"
     "\nExamples:\n"
     "  gearshift lesson hill_start                               a skilled driver\n"
     "  gearshift lesson hill_start --skill-error 1 --seed 4      a beginner: exits 1\n"
@@ -50,13 +51,13 @@ struct LessonArguments {
   bool guided = false, verbose = false;
 };
 
-// The command-line option if given, otherwise the lesson's value, otherwise the default.
+// Returns the command-line option if it was given, otherwise the lesson's value, otherwise the fallback.
 std::string first_of(const std::string& option, const std::string& lesson, const std::string& fallback) {
   if (!option.empty()) return option;
   return lesson.empty() ? fallback : lesson;
 }
 
-// The settings saved with a run: gate and car file, skill and deliberate errors of the simulated driver.
+// The settings that are saved with a run: gate and car file, skill and deliberate errors of the simulated driver.
 std::string settings_of(const lessons::LessonDriveConfig& drive, const LessonArguments& arguments) {
   std::string text = fmt::format("gate = \"{}\"\ncar = \"{}\"\nsimulated_skill_error = {:g}\n", drive.gate.file,
                                  drive.car.file, arguments.skill_error);
@@ -65,14 +66,15 @@ std::string settings_of(const lessons::LessonDriveConfig& drive, const LessonArg
   return text;
 }
 
-// SQLite keeps more files beside the database.
+// Throws if the recording would overwrite the history or one of the files that SQLite keeps next to it.
 void check_history(const std::string& trace, const fs::path& history) {
   if (history.empty()) return;
   for (const char* suffix : {"", "-wal", "-shm", "-journal"})
     check_distinct_outputs("--trace", "the recording and the history", trace, history.string() + suffix);
 }
 
-// Overwrites only recordings: a mistyped name must not destroy a history or any other file.
+// Throws if the recording would overwrite a file that is not a recording: a mistyped name must not destroy a history or
+// any other file.
 void check_recording(const std::string& trace) {
   std::error_code error;
   if (trace.empty() || !std::filesystem::is_regular_file(trace, error) || std::filesystem::is_empty(trace, error))
@@ -80,8 +82,9 @@ void check_recording(const std::string& trace) {
   std::array<char, haptics::kTraceMagic.size()> first{};
   std::ifstream(trace, std::ios::binary).read(first.data(), first.size());
   if (first != haptics::kTraceMagic)
-    throw CLI::ValidationError("--trace",
-                               haptics::printable(trace) + " exists and is not a recording, so it is not overwritten");
+    throw CLI::ValidationError(
+        "--trace", haptics::printable(trace) +
+                       " already exists and is not a recording, so it was not overwritten; choose another file");
 }
 
 lessons::LessonDriveConfig make_drive(const LessonArguments& arguments) {
@@ -120,10 +123,10 @@ int run_lesson(const LessonArguments& arguments) {
   return drive_trials(make_trials(arguments)) ? 0 : 1;
 }
 
-std::vector<std::string> fault_keys() {
+std::vector<std::string> error_keys() {
   std::vector<std::string> keys;
   for (int i = 0; i < lessons::kErrorKindCount; ++i)
-    keys.emplace_back(lessons::error_key(static_cast<lessons::ErrorKind>(i)));
+    keys.emplace_back(lessons::to_string(static_cast<lessons::ErrorKind>(i)));
   return keys;
 }
 
@@ -136,19 +139,20 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("lesson", arguments->lesson, "shipped lesson or lesson file")->required();
   verb->add_option("--car", arguments->car, "shipped car or car file; default: the lesson's");
   verb->add_option("--gate", arguments->gate, "shipped gate or layout file; default: the lesson's or the car's");
-  verb->add_option("--skill-error", arguments->skill_error, "the driver's skill: 0 skilled to 1 beginner")
+  verb->add_option("--skill-error", arguments->skill_error, "how unskilled the driver is: 0 is skilled, 1 a beginner")
       ->check(number_between(0.0, 1.0))
       ->capture_default_str();
-  verb->add_option("--fault", arguments->errors, "driving error to make on purpose; may be repeated")
-      ->check(CLI::IsMember(fault_keys()));
-  verb->add_option("--fault-amount", arguments->amount, "size of the deliberate errors; 1 is obvious")
+  verb->add_option("--fault", arguments->errors, "driving error that the driver makes on purpose; may be repeated")
+      ->check(CLI::IsMember(error_keys()));
+  verb->add_option("--fault-amount", arguments->amount,
+                   "how large the deliberate errors are; at 1 they are easy to notice")
       ->check(number_between(0.0, 3.0))
       ->capture_default_str();
   CLI::Option* guidance = verb->add_option("--guidance", arguments->guidance,
                                            "strength of the lever's guidance; guided runs are not graded")
                               ->check(number_between(0.0, 1.0))
                               ->capture_default_str();
-  verb->add_option("--seed", arguments->seed, "seed of the driver; increases by 1 per run")
+  verb->add_option("--seed", arguments->seed, "seed of the simulated driver; increases by 1 with each run")
       ->check(whole_number())
       ->capture_default_str();
   CLI::Option* trace =
@@ -157,7 +161,7 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
                              ->type_name("NAME")
                              ->check(validate_learner_name);
   verb->add_option("--database", arguments->database,
-                   "history file to use instead of your own; recordings go to recordings/ beside it")
+                   "history file to use instead of your own; recordings are saved in the folder recordings beside it")
       ->type_name("FILE")
       ->needs(learner);
   verb->add_option("--runs", arguments->runs, "number of runs, one after another")
@@ -165,7 +169,7 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
       ->capture_default_str()
       ->excludes(trace);
   add_mode_option(*verb, arguments->mode);
-  verb->add_flag("--guided", arguments->guided, "let the coach choose the guidance from this learner's past runs")
+  verb->add_flag("--guided", arguments->guided, "choose the guidance automatically from this learner's past runs")
       ->excludes(guidance);
   verb->add_flag("--verbose", arguments->verbose, "print a line for each shift once it is saved");
   verb->callback([arguments, &action] { action = [arguments] { return run_lesson(*arguments); }; });

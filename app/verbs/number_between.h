@@ -1,4 +1,4 @@
-// A range check that also refuses NaN, which CLI::Range lets through.
+// A range check that also rejects NaN, which CLI::Range accepts.
 #pragma once
 
 #include <cmath>
@@ -11,14 +11,13 @@
 namespace gearshift::verbs {
 
 inline CLI::Validator number_between(double min, double max) {
-  const std::string range = fmt::format("{:g} to {:g}", min, max);
-  const auto check = [min, max, range](std::string& text) {
+  const auto check = [min, max](std::string& text) {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     const bool ok = !text.empty() && *end == '\0' && std::isfinite(value) && value >= min && value <= max;
-    return ok ? std::string{} : fmt::format("\"{}\" is not a number from {}", text, range);
+    return ok ? std::string{} : fmt::format("\"{}\" is not a number from {:g} to {:g}", text, min, max);
   };
-  return CLI::Validator(check, "FROM " + range);
+  return CLI::Validator(check, fmt::format("{:g} TO {:g}", min, max));
 }
 
 }  // namespace gearshift::verbs

@@ -15,7 +15,7 @@ struct PictureSize {
   int width = 0, height = 0;  // [px]
 };
 
-// stereo: both eyes share the width, so it must be even. Throws CLI::ValidationError.
+// stereo: the width must be even, because both eyes share it. Throws CLI::ValidationError.
 inline PictureSize picture_size(const std::string& text, bool stereo) {
   PictureSize size;
   const char* const end = text.data() + text.size();
@@ -24,10 +24,11 @@ inline PictureSize picture_size(const std::string& text, bool stereo) {
   const auto height = has_x ? std::from_chars(width.ptr + 1, end, size.height) : width;
   const auto fits = [](int side) { return side >= kMinPictureSide && side <= kMaxPictureSide; };
   if (!has_x || height.ec != std::errc{} || height.ptr != end || !fits(size.width) || !fits(size.height))
-    throw CLI::ValidationError(
-        fmt::format("--size {}: must be WIDTHxHEIGHT, each {} to {} pixels", text, kMinPictureSide, kMaxPictureSide));
+    throw CLI::ValidationError(fmt::format("--size {}: must be WIDTHxHEIGHT, each from {} to {} pixels", text,
+                                           kMinPictureSide, kMaxPictureSide));
   if (stereo && size.width % 2 != 0)
-    throw CLI::ValidationError(fmt::format("--size {}: the width must be even for two eyes side by side", text));
+    throw CLI::ValidationError(
+        fmt::format("--size {}: the width must be even, because the picture shows two eyes side by side", text));
   return size;
 }
 

@@ -17,7 +17,7 @@ namespace {
 struct RenderArguments {
   std::string file, out, size = "1280x720", camera = "fit";
   int samples = 4;
-  std::optional<double> fov;  // [deg]
+  std::optional<double> fov;  // [deg] field of view; empty: the camera's default
   bool stereo = false;
 };
 
@@ -67,12 +67,12 @@ void add_render_verb(CLI::App& app, VerbAction& action) {
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
   verb->add_option("--camera", arguments->camera,
-                   "fit, driver, ahead, lever, gate, cluster, gearbox, or X,Y,Z:X,Y,Z: eye and target [m]")
+                   "fit, driver, ahead, lever, gate, cluster or gearbox; or the eye and its target as X,Y,Z:X,Y,Z [m]")
       ->capture_default_str();
   verb->add_option("--fov", arguments->fov,
                    "field of view across the shorter side [deg]; default: 58, or that of the named camera")
       ->check(number_between(5.0, 150.0));
-  verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
+  verb->add_flag("--stereo", arguments->stereo, "render both eyes, side by side");
   verb->callback([arguments, &action] { action = [arguments] { return run_render(*arguments); }; });
 }
 

@@ -26,13 +26,13 @@ namespace gearshift::verbs {
 namespace {
 
 constexpr const char* kFooter =
-    "A trace holds the inputs of every haptic cycle, the configuration and the gate.\n"
-    "replay feeds the inputs to the same cycle again and compares every output bit for bit. For a trace of a failed\n"
-    "campaign case it also prints the broken law and the command that shows it.\n"
+    "A trace contains the inputs of every haptic cycle, the configuration and the gate.\n"
+    "replay computes every cycle again from these inputs and compares all outputs bit for bit. For a trace of a "
+    "failed\n"
+    "campaign case, it also prints the broken law and a command that reproduces the failure.\n"
     "\n"
-    "Exit code: 0 identical (or exported, with --torn; or listed, with --shifts), 1 different or a bad file, 2 "
-    "bad "
-    "usage.\n"
+    "Exit code: 0 if identical (with --torn: if exported; with --shifts: if listed); 1 if different or if the file is\n"
+    "invalid; 2 if the command line is invalid.\n"
     "\n"
     "  gearshift replay tour.trace\n"
     "  gearshift replay tour.trace --csv tour.csv\n"
@@ -52,27 +52,28 @@ double done_fraction(std::uint64_t cycles, const haptics::TraceReader& reader) {
 
 int print_result(const haptics::ReplayResult& result, const haptics::TraceReader& reader) {
   if (result.bit_for_bit()) {
-    base::print_out("bit for bit: {} cycles, {:.3f} s, hash {:016x}\n", result.cycles, result.seconds,
+    base::print_out("identical bit for bit: {} cycles, {:.3f} s, hash {:016x}\n", result.cycles, result.seconds,
                     result.replayed_hash);
     return 0;
   }
   if (!result.first) {
-    base::print_out("parameters differ: hash {:016x}, recorded {:016x}\n", result.replayed_hash, result.recorded_hash);
+    base::print_out("the parameters differ: replayed hash {:016x}, recorded hash {:016x}\n", result.replayed_hash,
+                    result.recorded_hash);
     return 1;
   }
-  base::print_out("first difference in cycle {}: {} is {}, recorded {}\n", result.first->cycle, result.first->field,
-                  result.first->replayed, result.first->recorded);
+  base::print_out("first difference in cycle {}: {} is {} in the replay, {} in the recording\n", result.first->cycle,
+                  result.first->field, result.first->replayed, result.first->recorded);
   if (reader.header().program != base::program_name())
     base::print_out("recorded by {}, replayed by {}\n", reader.header().program, base::program_name());
   return 1;
 }
 
 std::unique_ptr<haptics::LeverLoad> make_load(const std::string& name, const haptics::Gate& gate) {
-  std::unique_ptr<haptics::LeverLoad> nothing = haptics::make_no_load(name, gate);
-  return nothing ? std::move(nothing) : vehicle::make_lesson_load(name, gate);
+  std::unique_ptr<haptics::LeverLoad> no_load = haptics::make_no_load(name, gate);
+  return no_load ? std::move(no_load) : vehicle::make_lesson_load(name, gate);
 }
 
-// Reads the file once: exports every cycle, and replays up to the first difference.
+// Exports every cycle, and replays up to the first difference, while it reads the file once.
 int replay_file(const ReplayOptions& options) {
   haptics::TraceReader reader(options.trace);
   haptics::Replayer replayer(reader.header(), options.trace.string(), make_load);
@@ -111,17 +112,17 @@ void print_shift(const lessons::ShiftRecord& shift, double begin) {
                   change, shift.clutch_time, shift.lever_time, shift.end - shift.begin, shift.missed ? "missed" : "");
 }
 
-// Lists the shifts of the intact part. The list ends at the first cycle that replays differently.
+// Lists the shifts of the part that replays as recorded. The list ends at the first cycle that replays differently.
 int list_shifts(const ReplayOptions& options) {
   const lessons::RecordedDrive drive(options.trace);
-  if (!drive.has_car()) base::print_out("no shifts: the drive has no car\n");
+  if (!drive.has_car()) base::print_out("The drive has no car, so there are no shifts to list.\n");
   if (!drive.shifts().empty()) base::print_out("shift   begin s  gears    clutch s  lever s  total s\n");
   for (const lessons::RecordedShift& shift : drive.shifts()) print_shift(shift.record, drive.begin());
   const std::size_t shifts = drive.shifts().size();
   if (drive.has_car())
     base::print_out("{} {} in {:.1f} s\n", shifts, shifts == 1 ? "shift" : "shifts", drive.end() - drive.begin());
   if (!drive.has_diverged()) return 0;
-  base::print_out("the replay differs from the recording; run gearshift replay without --shifts to see where\n");
+  base::print_out("The replay differs from the recording. Run gearshift replay without --shifts to see where.\n");
   return 1;
 }
 
@@ -141,7 +142,7 @@ void add_replay_verb(CLI::App& app, VerbAction& action) {
       verb->add_option("--csv", options->csv, "also write every cycle as a line of CSV, with units in the header");
   csv->type_name("FILE");
   verb->add_flag("--torn", options->torn,
-                 "export the intact cycles of an incomplete or damaged trace, without replaying")
+                 "export the intact cycles of an incomplete or damaged trace without replaying them")
       ->needs(csv);
   verb->add_flag("--shifts", options->shifts, "list the shifts of the drive: time, gears, duration")->excludes(csv);
   verb->callback([options, &action] {

@@ -36,18 +36,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReportHelp =
-    "Show learners' results: a table of all, or for one learner a page with curves, weaknesses, shifts and runs, or "
-    "CSV.";
+    "Show learners' results: a table of all learners or, for one learner, a table of runs, a page with curves, "
+    "weaknesses, shifts and runs, or CSV files.";
 constexpr const char* kReportExamples =
     "\nExamples:\n"
     "  gearshift report                                      all learners\n"
     "  gearshift report --learner Ada                        Ada's runs\n"
     "  gearshift report --learner Ada --out ada --csv        ada/index.html, runs.csv, shifts.csv, faults.csv\n"
     "  gearshift report --learner Ada --comment 12 \"Much calmer.\" --by Bo\n"
-    "  gearshift report --learner Ada --edit-comment 3 \"Calmer.\"   3: number shown in the table of runs\n"
+    "  gearshift report --learner Ada --edit-comment 3 \"Calmer.\"   3 is the number of the comment in the table of "
+    "runs\n"
     "  gearshift report --learner Ada --delete-comment 3\n"
-    "  gearshift report --learner Ada --next hill_start      overrides the suggested lesson; \"\" removes it again\n"
-    "  gearshift report --learner Ada --delete               permanently, with the recordings\n";
+    "  gearshift report --learner Ada --next hill_start      overrides the suggested lesson; \"\" returns to it\n"
+    "  gearshift report --learner Ada --delete               permanently deletes Ada's results and recordings\n";
 
 constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kFaults = "faults.csv";
 
@@ -55,8 +56,8 @@ using NumberedText = std::pair<std::int64_t, std::string>;
 
 struct ReportArguments {
   std::string learner, database, out, by, next;
-  std::optional<NumberedText> comment, edit;    // number of the run; number of the comment
-  std::optional<std::int64_t> deleted_comment;  // number of the comment
+  std::optional<NumberedText> comment, edit;    // comment: run's number and text; edit: comment's number and new text
+  std::optional<std::int64_t> deleted_comment;  // number of the comment to delete
   bool csv = false, sets_next = false, deletes_learner = false, yes = false;
 };
 
@@ -104,14 +105,14 @@ void write_report(const ReportArguments& arguments, lessons::History& history, c
   if (arguments.csv) {
     files.push_back({kRuns, lessons::runs_csv(all)});
     files.push_back({kShifts, lessons::shifts_csv(all)});
-    files.push_back({kFaults, lessons::faults_csv(all)});
+    files.push_back({kFaults, lessons::errors_csv(all)});
   }
   base::make_folder(arguments.out);
   lessons::write_report_files(arguments.out, files,
                               [](const fs::path& file) { base::print_out("{}\n", file.string()); });
 }
 
-// lesson: key of a shipped lesson; empty: return to the suggested one.
+// Sets the learner's next lesson. lesson: key of a shipped lesson; empty: the suggested one.
 void set_next(const std::string& lesson, lessons::History& history, const lessons::LearnerRow& learner) {
   const std::vector<lessons::Lesson> lessons = lessons::shipped_lessons();
   std::string keys;
@@ -119,10 +120,11 @@ void set_next(const std::string& lesson, lessons::History& history, const lesson
   const bool is_known =
       std::any_of(lessons.begin(), lessons.end(), [&](const lessons::Lesson& l) { return l.key == lesson; });
   if (!lesson.empty() && !is_known)
-    throw std::runtime_error(fmt::format("no lesson \"{}\"; shipped lessons: {}", haptics::printable(lesson), keys));
+    throw std::runtime_error(
+        fmt::format("there is no lesson \"{}\"; the shipped lessons are {}", haptics::printable(lesson), keys));
   history.set_next_lesson(learner.id, lesson);
-  base::print_out("{}: next lesson {}\n", haptics::printable(learner.name),
-                  lesson.empty() ? "as suggested" : haptics::printable(lesson));
+  base::print_out("{}: the next lesson is {}\n", haptics::printable(learner.name),
+                  lesson.empty() ? "the suggested one" : haptics::printable(lesson));
 }
 
 void apply_instructor_options(const ReportArguments& arguments, lessons::History& history,
@@ -130,13 +132,13 @@ void apply_instructor_options(const ReportArguments& arguments, lessons::History
   if (arguments.comment) {
     const auto& [run, text] = *arguments.comment;
     const std::int64_t number = lessons::comment_on_run(history, learner, run, arguments.by, text);
-    base::print_out("run {}, comment {}: {}, {}\n", run, number, haptics::printable(text),
-                    haptics::printable(arguments.by));
+    base::print_out("comment {} on run {}, by {}: {}\n", number, run, haptics::printable(arguments.by),
+                    haptics::printable(text));
   }
   if (arguments.edit) {
     const auto& [number, text] = *arguments.edit;
     lessons::edit_comment(history, learner, number, text);
-    base::print_out("comment {}: {}\n", number, haptics::printable(text));
+    base::print_out("comment {} changed to: {}\n", number, haptics::printable(text));
   }
   if (arguments.deleted_comment) {
     lessons::delete_comment(history, learner, *arguments.deleted_comment);
@@ -145,20 +147,21 @@ void apply_instructor_options(const ReportArguments& arguments, lessons::History
   if (arguments.sets_next) set_next(arguments.next, history, learner);
 }
 
-std::string counted(std::size_t number, std::string_view what) {
-  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+std::string counted(std::size_t number, std::string_view noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
-// left: why deleted rows are still in the file; empty if they are not. Returns the exit code.
+// Reports deleted rows that are still in the file. left: the reason; empty if there are none. Returns the exit code.
 int report_leftovers(const std::string& left) {
   if (!left.empty()) base::print_message("{}", haptics::printable(left));
   return left.empty() ? 0 : 1;
 }
 
-void print_recordings(const lessons::DeletionReport& gone) {
-  for (const std::string& file : gone.recordings) base::print_out("  {}\n", haptics::printable(file));
-  for (const std::string& file : gone.missing) base::print_out("  not found: {}\n", haptics::printable(file));
-  for (const std::string& kept : gone.not_deleted) base::print_message("not deleted: {}", haptics::printable(kept));
+void print_recordings(const lessons::DeletionReport& deletion) {
+  for (const std::string& file : deletion.recordings) base::print_out("  {}\n", haptics::printable(file));
+  for (const std::string& file : deletion.missing) base::print_out("  not found: {}\n", haptics::printable(file));
+  for (const std::string& file : deletion.not_deleted)
+    base::print_message("could not be deleted: {}", haptics::printable(file));
 }
 
 void confirm(const ReportArguments& arguments, const lessons::LearnerRow& learner) {
@@ -169,14 +172,14 @@ void confirm(const ReportArguments& arguments, const lessons::LearnerRow& learne
   std::string again;
   const bool is_answered = static_cast<bool>(std::getline(std::cin, again));
   if (again == learner.name) return;
-  const bool is_line_open = !is_answered || isatty(STDIN_FILENO) == 0;  // on a terminal, Enter ends the prompt's line
+  const bool is_line_open = !is_answered || isatty(STDIN_FILENO) == 0;  // on a terminal, Enter has ended the line
   if (is_line_open) base::print_to(stderr, "\n");
   throw std::runtime_error(fmt::format("{} was not deleted: {}", haptics::printable(learner.name),
                                        is_answered ? "the name does not match" : "no answer given"));
 }
 
-// If the learner no longer exists, finishes an earlier deletion that was left incomplete. `first`: recordings that have
-// already been deleted.
+// Deletes the learner. If the learner no longer exists, finishes an earlier deletion that is still incomplete. first:
+// recordings that have already been deleted.
 int erase_learner(const ReportArguments& arguments, lessons::History& history, const std::vector<std::string>& first) {
   if (!history.find_learner(arguments.learner) && history.erasure_is_pending()) {
     const std::string left = history.finish_erasure();
@@ -187,16 +190,16 @@ int erase_learner(const ReportArguments& arguments, lessons::History& history, c
   }
   const lessons::LearnerRow learner = known_learner(history, arguments.learner);
   confirm(arguments, learner);
-  lessons::DeletionReport gone = lessons::delete_learner(history, learner);
-  std::erase_if(gone.missing,
+  lessons::DeletionReport deletion = lessons::delete_learner(history, learner);
+  std::erase_if(deletion.missing,
                 [&](const std::string& file) { return std::find(first.begin(), first.end(), file) != first.end(); });
-  base::print_out("deleted {}: {}, {}, {}, {}, {}, {}\n", haptics::printable(learner.name),
-                  counted(gone.sessions, "session"), counted(gone.runs, "run"), counted(gone.shifts, "shift"),
-                  counted(gone.errors, "fault"), counted(gone.comments, "comment"),
-                  counted(gone.recordings.size() + first.size(), "recording"));
-  print_recordings(gone);
-  const int code = report_leftovers(gone.remaining_data);
-  return gone.not_deleted.empty() ? code : 1;
+  base::print_out(
+      "deleted {}: {}, {}, {}, {}, {}, {}\n", haptics::printable(learner.name), counted(deletion.sessions, "session"),
+      counted(deletion.runs, "run"), counted(deletion.shifts, "shift"), counted(deletion.errors, "driving error"),
+      counted(deletion.comments, "comment"), counted(deletion.recordings.size() + first.size(), "recording"));
+  print_recordings(deletion);
+  const int code = report_leftovers(deletion.remaining_data);
+  return deletion.not_deleted.empty() ? code : 1;
 }
 
 std::unique_ptr<lessons::History> try_open_history(const fs::path& file) {
@@ -207,7 +210,8 @@ std::unique_ptr<lessons::History> try_open_history(const fs::path& file) {
   }
 }
 
-// If the disk is too full to open the history for writing, deletes the recordings first to make room.
+// Deletes the learner from the history. If the disk is too full to open the history for writing, deletes the recordings
+// first to make room.
 int delete_history(ReportArguments arguments, const fs::path& file) {
   std::unique_ptr<lessons::History> history = try_open_history(file);
   std::vector<std::string> first;
@@ -216,10 +220,11 @@ int delete_history(ReportArguments arguments, const fs::path& file) {
     const lessons::LearnerRow learner = known_learner(copy, arguments.learner);
     confirm(arguments, learner);
     arguments.yes = true;
-    const lessons::DeletionReport gone = lessons::remove_recordings(copy, learner);
-    base::print_out("The disk is full, so {} recordings were deleted first\n", gone.recordings.size());
-    print_recordings(gone);
-    first = gone.recordings;
+    const lessons::DeletionReport deletion = lessons::remove_recordings(copy, learner);
+    base::print_out("The disk is full, so {} {} deleted first.\n", counted(deletion.recordings.size(), "recording"),
+                    deletion.recordings.size() == 1 ? "was" : "were");
+    print_recordings(deletion);
+    first = deletion.recordings;
     history = std::make_unique<lessons::History>(file);
   }
   return erase_learner(arguments, *history, first);
@@ -234,7 +239,7 @@ int report_learner(const ReportArguments& arguments, lessons::History& history) 
   return 0;
 }
 
-// Never creates a history. Opens it read-only if possible, so that no write permission is needed.
+// Runs the verb. Never creates a history, and opens it read-only if possible, so that no write permission is needed.
 int run_report(const ReportArguments& arguments) {
   const fs::path file = history_file(arguments);
   check_out(arguments, file);
@@ -261,9 +266,9 @@ std::string check_author_name(const std::string& name) {
   return lessons::user_text_problem(lessons::UserText::name, "an instructor's name", name);
 }
 
-void check_comment(const char* option, const std::optional<NumberedText>& said) {
+void check_comment(const char* option, const std::optional<NumberedText>& comment) {
   const std::string problem =
-      said ? lessons::user_text_problem(lessons::UserText::comment, "a comment", said->second) : std::string();
+      comment ? lessons::user_text_problem(lessons::UserText::comment, "a comment", comment->second) : std::string();
   if (!problem.empty()) throw CLI::ValidationError(option, problem);
 }
 
@@ -298,9 +303,10 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
       verb->add_option("--delete-comment", arguments->deleted_comment, "permanently delete a comment")
           ->type_name("COMMENT")
           ->needs(learner);
-  CLI::Option* next = verb->add_option("--next", arguments->next, "set the next lesson; empty: the suggested one")
-                          ->type_name("LESSON")
-                          ->needs(learner);
+  CLI::Option* next =
+      verb->add_option("--next", arguments->next, "set the next lesson; \"\" returns to the suggested lesson")
+          ->type_name("LESSON")
+          ->needs(learner);
   CLI::Option* erases =
       verb->add_flag("--delete", arguments->deletes_learner, "permanently delete this learner's results and recordings")
           ->needs(learner)

@@ -36,7 +36,7 @@ std::string reject_unknown_section(const std::string& id) {
   const auto sections = lab::all_sections();
   const bool known =
       std::any_of(sections.begin(), sections.end(), [&](const lab::NamedSection& section) { return section.id == id; });
-  return known ? std::string{} : fmt::format("no section \"{}\"; the sections are {}", id, ids());
+  return known ? std::string{} : fmt::format("there is no section \"{}\"; the sections are {}", id, ids());
 }
 
 void print_result(const lab::Study& study, const std::vector<lab::Section>& sections) {
@@ -47,12 +47,12 @@ void print_result(const lab::Study& study, const std::vector<lab::Section>& sect
     if (!section.problem.empty()) base::print_message("{}: {}", section.id, section.problem);
     if (section.findings.empty()) continue;
     const lab::Finding& main = section.findings.front();
-    base::print_out("{:<14}  {}: {}\n", section.id, main.paper, main.ours);
+    base::print_out("{}\n  paper      {}\n  gearshift  {}\n", section.id, main.paper, main.result);
   }
   base::print_out("{}\n", (study.folder / "index.html").string());
 }
 
-// All arguments are checked before the folder is created.
+// Runs the verb. Checks all arguments before it creates the folder.
 int run_reproduce(const ReproduceArguments& arguments) {
   const haptics::Preset preset = haptics::read_preset(base::find_asset("presets", arguments.preset).string());
   const lab::Study study =
@@ -73,15 +73,15 @@ int run_reproduce(const ReproduceArguments& arguments) {
 void add_reproduce_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<ReproduceArguments>();
   CLI::App* verb = app.add_subcommand(
-      "reproduce", "Reproduce every figure and table of the paper, beside the printed ones, as a page");
+      "reproduce", "Reproduce every figure and table of the paper on a page, beside the printed values");
   verb->footer(
       "Examples:\n"
       "  gearshift reproduce --out paper\n");
   verb->add_option("--out", arguments->folder, "folder for page, pictures and data; created if missing")
       ->type_name("DIR")
       ->required();
-  verb->add_option("--preset", arguments->preset, "shipped preset or file")->capture_default_str();
-  verb->add_option("--only", arguments->only, "only these sections: " + ids())
+  verb->add_option("--preset", arguments->preset, "shipped preset or preset file")->capture_default_str();
+  verb->add_option("--only", arguments->only, "make only these sections: " + ids())
       ->type_name("ID")
       ->check(reject_unknown_section);
   verb->callback([arguments, &action] { action = [arguments] { return run_reproduce(*arguments); }; });

@@ -1,4 +1,4 @@
-// gearshift stability: tells whether a wall is stable at a given rate on a given device.
+// gearshift stability: shows whether a wall is stable at a given rate on a given device.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -32,7 +32,7 @@ constexpr const char* kStabilityHelp =
 constexpr const char* kStabilityExamples =
     "\nExamples:\n"
     "  gearshift stability                                       5000 N/m at 1 kHz on the paper's X axis\n"
-    "  gearshift stability --rate 100 --hand all                 the paper's rate, in every listed hand\n"
+    "  gearshift stability --rate 100 --hand all                 the paper's rate, with each of the listed hands\n"
     "  gearshift stability --wall-damping 10 --delay 1 --svg map.svg\n"
     "  gearshift stability --hold half_sample --json             the shipped wall, as JSON\n";
 
@@ -64,14 +64,14 @@ std::string device_name(const StabilityArguments& arguments) {
 constexpr std::array kHolds = {haptics::ContactHold::zero_order, haptics::ContactHold::half_sample,
                                haptics::ContactHold::observer};
 
-// name: one of kHolds; the option's check guarantees it.
+// name: key of one of kHolds, which the option's check guarantees.
 haptics::ContactHold hold_of(const std::string& name) {
   return *std::find_if(kHolds.begin(), kHolds.end(),
-                       [&](haptics::ContactHold hold) { return name == haptics::hold_name(hold); });
+                       [&](haptics::ContactHold hold) { return name == haptics::hold_key(hold); });
 }
 
 std::vector<std::string> hold_names() {
-  return {haptics::hold_name(kHolds[0]), haptics::hold_name(kHolds[1]), haptics::hold_name(kHolds[2])};
+  return {haptics::hold_key(kHolds[0]), haptics::hold_key(kHolds[1]), haptics::hold_key(kHolds[2])};
 }
 
 haptics::ContactLaw wall_of(const StabilityArguments& arguments) {
@@ -90,14 +90,15 @@ std::vector<lab::JudgedHand> hands_of(const std::string& text) {
     if (text == "all" || text == named.name) hands.push_back({std::string(named.name), named.hand});
   }
   if (!hands.empty()) return hands;
-  const std::optional<haptics::HandImpedance> given = haptics::parse_hand(text);
-  if (!given)
+  const std::optional<haptics::HandImpedance> parsed = haptics::parse_hand(text);
+  if (!parsed)
     throw CLI::ValidationError(
-        fmt::format("--hand {}: must be bare, light, grip, arm, all or M,B,K in kg, N s/m, N/m", text));
-  return {{"given", *given}};
+        fmt::format("--hand {}: must be bare, light, grip, arm, all or M,B,K [kg, N s/m, N/m]", text));
+  return {{"given", *parsed}};
 }
 
-// All other options are checked against their range when parsed; the hand's three values are checked by the analysis.
+// Runs the analysis and rejects an invalid hand. Only the hand's three values are checked by the analysis; all other
+// options are checked against their ranges when they are parsed.
 lab::StabilityAnswer answer_or_reject(const lab::StabilityQuestion& question, const std::string& hand) {
   try {
     return lab::answer(question);
@@ -115,12 +116,12 @@ void write(haptics::AtomicFile& out, const std::string& file, const std::string&
 void write_map(const StabilityArguments& arguments, const lab::StabilityQuestion& question,
                const lab::StabilityAnswer& answer) {
   if (arguments.svg_file.empty() && arguments.csv_file.empty()) return;
-  // Detect a wrong path before the map is computed.
+  // prepare() detects a wrong path before the map is computed.
   std::optional<haptics::AtomicFile> svg, csv;
   if (!arguments.svg_file.empty()) svg.emplace(arguments.svg_file).prepare();
   if (!arguments.csv_file.empty()) csv.emplace(arguments.csv_file).prepare();
   base::ProgressBar bar;
-  const lab::StabilityMap map = lab::stability_map(question, [&](double share) { bar.show("map", share); });
+  const lab::StabilityMap map = lab::stability_map(question, [&](double fraction) { bar.show("map", fraction); });
   bar.clear();
   if (svg) write(*svg, arguments.svg_file, lab::stability_svg(question, answer, map));
   if (csv) write(*csv, arguments.csv_file, lab::stability_csv(question, map));
@@ -139,7 +140,7 @@ int run_stability(const StabilityArguments& arguments) {
 }
 
 void add_device_options(CLI::App& verb, StabilityArguments& arguments) {
-  verb.add_option("--axis", arguments.axis, "use the handle of this axis of the paper")
+  verb.add_option("--axis", arguments.axis, "use the handle of this axis of the paper's device")
       ->check(CLI::IsMember({"x", "y"}))
       ->capture_default_str();
   verb.add_option("--mass", arguments.mass, "mass of the handle [kg]")->check(number_between(1e-3, 1e3));
@@ -148,10 +149,12 @@ void add_device_options(CLI::App& verb, StabilityArguments& arguments) {
   verb.add_option("--rate", arguments.rate, "rate of the haptic cycle [Hz]")
       ->check(number_between(50.0, 20000.0))
       ->capture_default_str();
-  verb.add_option("--delay", arguments.delay, "whole samples until a command takes effect")
+  verb.add_option("--delay", arguments.delay, "delay until a command takes effect [samples]")
       ->check(whole_number(0, haptics::kMaxSimulatedDelay))
       ->capture_default_str();
-  verb.add_option("--hand", arguments.hand, "bare, light, grip, arm, all, or M,B,K in kg, N s/m, N/m")
+  verb.add_option("--hand", arguments.hand,
+                  "hand on the handle: bare, light, grip, arm or all; or its mass, damping and stiffness as M,B,K [kg, "
+                  "N s/m, N/m]")
       ->capture_default_str();
 }
 
@@ -162,10 +165,12 @@ void add_wall_options(CLI::App& verb, StabilityArguments& arguments) {
   verb.add_option("--wall-damping", arguments.wall_damping, "damping B of the wall [N s/m]")
       ->check(number_between(0.0, 1e5))
       ->capture_default_str();
-  verb.add_option("--window", arguments.window, "samples over which the velocity is estimated")
+  verb.add_option("--window", arguments.window, "number of samples from which the velocity is estimated")
       ->check(whole_number(1, haptics::kMaxWindow))
       ->capture_default_str();
-  verb.add_option("--hold", arguments.hold, "zero_order (a textbook spring), half_sample or observer")
+  verb.add_option(
+          "--hold", arguments.hold,
+          "how the wall's force is held between samples: zero_order (a textbook spring), half_sample or observer")
       ->check(CLI::IsMember(hold_names()))
       ->capture_default_str();
 }
@@ -179,8 +184,9 @@ void add_stability_verb(CLI::App& app, VerbAction& action) {
   add_device_options(*verb, *arguments);
   add_wall_options(*verb, *arguments);
   verb->add_flag("--json", arguments->json, "print JSON to stdout; an infinite limit is null");
-  verb->add_option("--svg", arguments->svg_file, "draw the K-B map to this file")->type_name("FILE");
-  verb->add_option("--csv", arguments->csv_file, "write the K-B map to this file")->type_name("FILE");
+  verb->add_option("--svg", arguments->svg_file, "draw a map of the stable K and B in this file")->type_name("FILE");
+  verb->add_option("--csv", arguments->csv_file, "write the map of the stable K and B to this file as CSV")
+      ->type_name("FILE");
   verb->callback([arguments, &action] { action = [arguments] { return run_stability(*arguments); }; });
 }
 

@@ -15,9 +15,9 @@
 namespace gearshift::verbs {
 namespace {
 
-// Constructs a lever with this hand; its constructor throws if the hand cannot be simulated.
+// Checks the hand by constructing a lever with it: the constructor throws if the hand cannot be simulated.
 void check_on_lever(const haptics::HandImpedance& hand) {
-  constexpr std::int64_t kAnyPeriod = 1'000'000;  // [ns]
+  constexpr std::int64_t kAnyPeriod = 1'000'000;  // [ns] the check does not depend on it
   haptics::SimulatedLeverConfig config;
   config.hand = hand;
   haptics::IdleHand idle_hand;
@@ -29,10 +29,10 @@ void check_on_lever(const haptics::HandImpedance& hand) {
 haptics::HandImpedance driving_hand(const std::string& text) {
   const std::optional<haptics::HandImpedance> hand = haptics::parse_hand(text);
   if (!hand)
-    throw CLI::ValidationError(fmt::format("--hand {}: must be light, grip, arm or M,B,K in kg, N s/m, N/m", text));
+    throw CLI::ValidationError(fmt::format("--hand {}: must be light, grip, arm or M,B,K [kg, N s/m, N/m]", text));
   if (hand->stiffness < haptics::kMinLeadingStiffness) {
     throw CLI::ValidationError(
-        fmt::format("--hand {}: stiffness {} N/m is too soft to move the lever, must be at least {:g}", text,
+        fmt::format("--hand {}: a stiffness of {} N/m is too low to move the lever; it must be at least {:g} N/m", text,
                     hand->stiffness, haptics::kMinLeadingStiffness));
   }
   try {
@@ -63,11 +63,11 @@ void add_tour_options(CLI::App& verb, TourArguments& arguments) {
       ->type_name("DIR")
       ->required();
   verb.add_option("--gate", arguments.gate, "shipped gate or layout file")->capture_default_str();
-  verb.add_option("--preset", arguments.preset, "shipped preset or file: device and configuration")
+  verb.add_option("--preset", arguments.preset, "shipped preset or preset file with the device and the configuration")
       ->capture_default_str();
   verb.add_option("--hand", arguments.hand,
-                  "light, grip, arm, or M,B,K in kg, N s/m, N/m; default: the preset's, or grip if that is too soft to "
-                  "move the lever");
+                  "simulated hand: light, grip or arm; or its mass, damping and stiffness as M,B,K [kg, N s/m, N/m]; "
+                  "default: the preset's hand, or grip if the preset's is too soft to move the lever");
   verb.add_option("--rate", arguments.rate, "rate of the haptic cycle [Hz]; default: the preset's")
       ->check(number_between(100.0, 4000.0));
   verb.add_option("--seed", arguments.seed, "seed of the hand's random aims")

@@ -1,5 +1,5 @@
-// gearshift tour: a simulated hand, or a person at a stick, shifts through every gear without graphics: trace and
-// plots.
+// gearshift tour: a simulated hand, or the user with a stick, shifts through every gear without graphics; writes a
+// trace and plots.
 #include <unistd.h>
 
 #include <cstdio>
@@ -30,21 +30,23 @@ constexpr std::string_view kNoStick = "simulated";
 struct TourVerbArguments {
   TourArguments tour;
   std::string device{kNoStick};
-  double seconds = 300.0;  // [s] longest tour with a stick
+  double seconds = 300.0;  // [s] maximum duration of a tour with a stick
 };
 
 void print_files(const lab::TourSetup& setup) {
-  base::print_out("{0}/trajectory.png and {0}/force.png (also .svg), trace {0}/tour.trace, table {0}/tour.csv\n",
-                  setup.folder.string());
+  base::print_out(
+      "Plots: {0}/trajectory.png and {0}/force.png (also .svg); trace: {0}/tour.trace; table: {0}/tour.csv\n",
+      setup.folder.string());
 }
 
-// Flushes, because the person or script at the stick is waiting for these lines.
+// Prints a line and flushes it, because the user at the stick, or a script, is waiting for it.
 void print_now(const std::string& line) {
   base::print_out("{}\n", line);
   std::fflush(stdout);
 }
 
-// Returns after releasing the stick, so that it is free while the plots are drawn.
+// Lets the user drive the tour with the stick. Releases the stick before it returns, so that the stick is free while
+// the plots are drawn.
 lab::TourResult drive_by_person(lab::TourSetup& setup, const TourVerbArguments& arguments,
                                 const lab::TourProgress& progress) {
   const base::StopSignals signals;
@@ -52,16 +54,16 @@ lab::TourResult drive_by_person(lab::TourSetup& setup, const TourVerbArguments& 
       runtime::open_stick(arguments.device, base::user_config_folder() / "devices");
   base::make_folder(setup.folder);
   base::LineReader answers(STDIN_FILENO);
-  print_now(fmt::format("{} answers after {:.1f} ms.", stick->name(), 1e3 * stick->answer_time()));
+  print_now(fmt::format("{} responds after {:.1f} ms.", stick->name(), 1e3 * stick->answer_time()));
   return lab::drive_held_tour(setup, *stick, arguments.seconds, answers, print_now, progress);
 }
 
 int run_held_tour(const TourVerbArguments& arguments) {
   if (!arguments.tour.hand.empty())
-    throw CLI::ValidationError("--hand: not with --device, your own hand holds the stick");
+    throw CLI::ValidationError("--hand cannot be used with --device, because your own hand holds the stick");
   lab::TourSetup setup = make_tour_setup(arguments.tour);
   base::ProgressBar bar;
-  const lab::TourProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
+  const lab::TourProgress progress = [&](std::string_view part, double fraction) { bar.show(part, fraction); };
   const lab::TourResult result = drive_by_person(setup, arguments, progress);
   bar.clear();
   print_tour(setup, result);
@@ -69,23 +71,23 @@ int run_held_tour(const TourVerbArguments& arguments) {
   bar.clear();
   print_files(setup);
   if (result.visited_in_order()) return 0;
-  base::print_message("not all gears were engaged in order");
+  base::print_message("you did not engage every gear in order");
   return 1;
 }
 
-// All arguments are checked before the folder is created.
+// Runs the tour with a simulated hand. Checks all arguments before it creates the folder.
 int run_tour(const TourArguments& arguments) {
   const lab::TourSetup setup = make_tour_setup(arguments);
   base::make_folder(setup.folder);
   base::ProgressBar bar;
-  const lab::TourProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
+  const lab::TourProgress progress = [&](std::string_view part, double fraction) { bar.show(part, fraction); };
   const lab::TourResult result = lab::drive_tour(setup, progress);
   bar.clear();
   print_tour(setup, result);
   lab::draw_tour(setup, result, progress);
   bar.clear();
   print_files(setup);
-  if (!result.complete()) base::print_message("the hand did not engage every gear in order");
+  if (!result.complete()) base::print_message("the simulated hand did not engage every gear in order");
   return result.complete() && result.lost.times == 0 ? 0 : 1;
 }
 
@@ -93,17 +95,17 @@ int run_tour(const TourArguments& arguments) {
 
 void add_tour_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<TourVerbArguments>();
-  CLI::App* verb =
-      app.add_subcommand("tour", "Shift through every gear with a simulated hand or your stick: trace and plots");
+  CLI::App* verb = app.add_subcommand(
+      "tour", "Shift through every gear with a simulated hand or your stick, and save a trace and plots");
   verb->footer(
       "Examples:\n"
       "  gearshift tour --out drive\n"
       "  gearshift tour --gate dog_leg_five --out dog_leg\n"
-      "  gearshift tour --device NAME --out drive    you shift with that stick\n");
+      "  gearshift tour --device NAME --out drive    you shift with this stick\n");
   add_tour_options(*verb, arguments->tour);
   CLI::Option* device =
       verb->add_option("--device", arguments->device,
-                       "shift with a calibrated force-feedback stick, given by name, VENDOR:PRODUCT, serial or place")
+                       "shift with a calibrated force-feedback stick, given by name, VENDOR:PRODUCT, serial or port")
           ->type_name("NAME")
           ->capture_default_str();
   verb->add_option("--seconds", arguments->seconds, "time limit of a tour with a stick [s]")

@@ -1,4 +1,4 @@
-// gearshift train: the trainer, in a window, in a headset or offscreen.
+// gearshift train: runs the trainer in a window, in a headset or off screen.
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -23,7 +23,7 @@
 namespace gearshift::verbs {
 namespace {
 
-constexpr double kDefaultSeconds = 5.0, kMaxSeconds = 600.0;  // offscreen
+constexpr double kDefaultSeconds = 5.0, kMaxSeconds = 600.0;  // [s] durations of an off-screen run
 
 struct TrainArguments {
   session::SessionChoice choice;
@@ -33,16 +33,16 @@ struct TrainArguments {
   std::optional<std::size_t> shift;
   bool stereo = false, no_panel = false, silent = false;
   bool xr = false;
-  double xr_scale = 1.0;         // [1]
-  std::string drive;             // left, right; empty: as saved for the headset, otherwise left
-  std::optional<double> height;  // [m]
-  std::vector<double> knob;      // [m] right, down, ahead
+  double xr_scale = 1.0;         // [1] see HeadsetViewConfig::scale
+  std::string drive;             // left or right; empty: as saved for the headset, otherwise left
+  std::optional<double> height;  // [m] see SeatSettings::height
+  std::vector<double> knob;      // [m] right, down, ahead, see KnobDistance
   bool no_help = false;
-  double from = 0.0;              // [s]
-  std::optional<double> seconds;  // [s] empty: kDefaultSeconds, or to the end of the replay
+  double from = 0.0;              // [s] start of the replay
+  std::optional<double> seconds;  // [s] empty: kDefaultSeconds, or kMaxSeconds for a replay
 };
 
-// Empty if there is no home folder: then the user has no bindings.
+// The user's configuration folder; empty if there is no home folder.
 std::filesystem::path config_folder() {
   try {
     return base::user_config_folder();
@@ -56,7 +56,7 @@ cabin::DriveSide drive_side(const TrainArguments& arguments, cabin::DriveSide fa
   return arguments.drive == "right" ? cabin::DriveSide::right : cabin::DriveSide::left;
 }
 
-// Values given on the command line replace the saved ones and are saved with them.
+// Settings for the headset. Seat values given on the command line replace the saved ones and are saved.
 session::HeadsetSetup headset_setup(const TrainArguments& arguments) {
   session::HeadsetSetup setup;
   setup.view.scale = arguments.xr_scale;
@@ -66,7 +66,7 @@ session::HeadsetSetup headset_setup(const TrainArguments& arguments) {
   if (!setup.seat_file.empty()) setup.seat = cabin::read_seat(setup.seat_file);
   const cabin::DriveSide saved = setup.seat.drive;
   setup.seat.drive = drive_side(arguments, saved);
-  if (setup.seat.drive != saved) setup.seat.touched.reset();  // it was measured with the lever at the other hand
+  if (setup.seat.drive != saved) setup.seat.touched.reset();  // measured with the lever on the other side
   if (arguments.height) setup.seat.height = *arguments.height;
   if (arguments.knob.size() == 3)
     setup.seat.knob = cabin::KnobDistance{arguments.knob[0], arguments.knob[1], arguments.knob[2]};
@@ -91,7 +91,7 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
   setup.bindings = ui::read_bindings(session::bindings_file(arguments.bindings, config_folder()));
-  setup.panel = !arguments.no_panel && !arguments.stereo;  // an eye has only half the width; F2 shows the panel
+  setup.panel = !arguments.no_panel && !arguments.stereo;  // in stereo each eye has only half the width
   setup.replay = arguments.replay;
   if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = session::kNoLesson;
   if (arguments.shift) setup.shift = *arguments.shift - 1;
@@ -104,12 +104,13 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   return setup;
 }
 
-// Runs the demo, which needs no display and no person, with the same gate.
+// Runs the demo, which needs neither a display nor a user, with the same gate and preset.
 int run_demo_instead(const TrainArguments& arguments) {
   if (arguments.or_demo.empty())
-    throw std::runtime_error("no display found: use train --offscreen DIR, or demo --out DIR for a tour");
-  base::print_out("No display found: running the demo with a simulated hand instead.\n");
-  std::fflush(stdout);  // the demo takes a minute
+    throw std::runtime_error(
+        "no display found; use gearshift train --offscreen DIR, or gearshift demo --out DIR for a tour");
+  base::print_out("No display found. Running the demo with a simulated hand instead.\n");
+  std::fflush(stdout);  // shown at once, because the demo takes a minute
   TourArguments tour;
   tour.folder = arguments.or_demo;
   if (!arguments.choice.gate.empty()) tour.gate = arguments.choice.gate;
@@ -117,21 +118,23 @@ int run_demo_instead(const TrainArguments& arguments) {
   return run_demo(tour);
 }
 
-// Runs of the automatic hand are not saved, even if a learner is named.
+// Warns the user who has named a learner that runs of the automatic hand are not saved.
 void warn_nothing_is_saved(const session::SessionChoice& choice) {
   if (choice.learner.empty() || !session::learner_of(choice).empty()) return;
-  base::print_message("the hand drives by itself, so nothing is saved for {}", haptics::printable(choice.learner));
+  base::print_message("the simulated driver is driving, so nothing is saved for {}",
+                      haptics::printable(choice.learner));
 }
 
-// Opens the stick given with --device; null for the simulated lever. A person holds it, in real time, so it excludes a
-// simulated hand and offscreen frames.
+// Opens the stick that was named with --device; returns null for the simulated lever. The user holds the stick in real
+// time, so --device cannot be combined with a simulated hand or off-screen frames.
 std::shared_ptr<runtime::StickLever> held_stick(const TrainArguments& arguments) {
   if (arguments.device == session::kSimulatedDevice) return nullptr;
   if (!arguments.offscreen.empty())
-    throw CLI::ValidationError("--device: not with --offscreen, which has only the simulated lever");
+    throw CLI::ValidationError("--device cannot be used with --offscreen, which has only the simulated lever");
   if (!arguments.choice.hand.empty())
-    throw CLI::ValidationError("--hand: not with --device, your own hand holds the stick");
-  if (!engine::has_display()) throw std::runtime_error("no display found: use tour --device, which needs none");
+    throw CLI::ValidationError("--hand cannot be used with --device, because your own hand holds the stick");
+  if (!engine::has_display())
+    throw std::runtime_error("no display found; use gearshift tour --device NAME, which needs none");
   return runtime::open_stick(arguments.device, base::user_config_folder() / "devices");
 }
 
@@ -155,7 +158,8 @@ int run_train(const TrainArguments& arguments) {
 
 void add_train_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<TrainArguments>();
-  CLI::App* verb = app.add_subcommand("train", "Start the trainer: drive with a stick, mouse, keys or pad, or watch");
+  CLI::App* verb =
+      app.add_subcommand("train", "Start the trainer: drive with a stick, mouse, keys or pad, or watch a drive");
   verb->footer(
       "Examples:\n"
       "  gearshift train --learner Ada\n"
@@ -164,7 +168,7 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--lesson", arguments->choice.lesson,
                    "shipped lesson, lesson file, or none; default: the suggested one");
   verb->add_option("--learner", arguments->choice.learner,
-                   "save results under this name (not for --hand \"by itself\")")
+                   "save results under this name (not with a simulated driver, --hand \"by itself\")")
       ->type_name("NAME")
       ->check(validate_learner_name);
   verb->add_option("--database", arguments->database, "history file to use instead of your own")->type_name("FILE");
@@ -175,39 +179,45 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--gate", arguments->choice.gate, "shipped gate or layout file; default: the lesson's or the car's");
   verb->add_option("--preset", arguments->choice.preset, "shipped or saved preset, or preset file")
       ->capture_default_str();
-  verb->add_option(
-          "--device", arguments->device,
-          "calibrated force-feedback stick to use as the lever: name, VENDOR:PRODUCT, serial or place (see devices)")
+  verb->add_option("--device", arguments->device,
+                   "calibrated force-feedback stick to use as the lever: name, VENDOR:PRODUCT, serial or port (see "
+                   "gearshift devices)")
       ->type_name("NAME")
       ->capture_default_str();
   verb->add_option("--hand", arguments->choice.hand,
-                   "light, grip, arm, M,B,K in kg, N s/m, N/m, or \"by itself\" to drive without a person");
-  verb->add_option(
-      "--bindings", arguments->bindings,
-      "shipped bindings of keys, mouse and pad, or a file; default: your own (see devices), or \"default\"");
+                   "simulated hand: light, grip or arm; its mass, damping and stiffness as M,B,K [kg, N s/m, N/m]; or "
+                   "\"by itself\" for a simulated driver");
+  verb->add_option("--bindings", arguments->bindings,
+                   "shipped bindings of keys, mouse and pad, or a bindings file; default: your own bindings (see "
+                   "gearshift devices), "
+                   "or \"default\"");
   verb->add_option("--size", arguments->size, "window size [px]")->type_name("WxH")->capture_default_str();
   verb->add_option("--samples", arguments->samples,
                    "samples per pixel: 1 or 4; default: 4, or 1 with a software renderer")
       ->check(CLI::IsMember({1, 4}));
-  CLI::Option* replay = verb->add_option("--replay", arguments->replay, "show this recorded drive")->type_name("TRACE");
-  CLI::Option* shift = verb->add_option("--shift", arguments->shift,
-                                        "start the recorded drive at this shift, numbered as in replay --shifts")
-                           ->check(whole_number(1, 1'000'000))
-                           ->needs(replay);
+  CLI::Option* replay = verb->add_option("--replay", arguments->replay, "show this recorded drive instead of driving")
+                            ->type_name("TRACE");
+  CLI::Option* shift =
+      verb->add_option("--shift", arguments->shift,
+                       "start the recorded drive at this shift, numbered as by gearshift replay --shifts")
+          ->check(whole_number(1, 1'000'000))
+          ->needs(replay);
   verb->add_option("--from", arguments->from, "start the recorded drive at this time [s]")
       ->check(number_between(0.0, 1e6))
       ->needs(replay)
       ->excludes(shift);
-  verb->add_option("--camera", arguments->choice.camera, "driver, ahead, lever, gate, cluster or gearbox")
+  verb->add_option("--camera", arguments->choice.camera,
+                   "camera to start with: driver, ahead, lever, gate, cluster or gearbox")
       ->check(CLI::IsMember({"driver", "ahead", "lever", "gate", "cluster", "gearbox"}))
       ->capture_default_str();
-  CLI::Option* stereo = verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
+  CLI::Option* stereo = verb->add_flag("--stereo", arguments->stereo, "draw both eyes, side by side");
   verb->add_option("--drive", arguments->drive,
                    "side of the car on which the driver sits: left or right; saved with --xr")
       ->check(CLI::IsMember({"left", "right"}));
   CLI::Option* xr =
-      verb->add_flag("--xr", arguments->xr, "use a headset through OpenXR; the window shows what it shows");
-  verb->add_option("--xr-scale", arguments->xr_scale, "resolution scale of the headset; higher is sharper and slower")
+      verb->add_flag("--xr", arguments->xr, "use a headset through OpenXR; the window mirrors the headset");
+  verb->add_option("--xr-scale", arguments->xr_scale,
+                   "resolution scale of the headset; higher values are sharper and slower")
       ->needs(xr)
       ->check(number_between(0.3, 2.0))
       ->capture_default_str();
@@ -220,16 +230,17 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
       ->expected(3)
       ->needs(xr)
       ->check(number_between(-1.5, 1.5));
-  verb->add_flag("--no-panel", arguments->no_panel, "start with only the cabin; F2 shows the panel");
-  verb->add_flag("--silent", arguments->silent, "no sound");
-  CLI::Option* offscreen = verb->add_option("--offscreen", arguments->offscreen,
-                                            "no window: write the last picture to this folder, print the gears")
-                               ->type_name("DIR");
+  verb->add_flag("--no-panel", arguments->no_panel, "start without the panel; press F2 to show it");
+  verb->add_flag("--silent", arguments->silent, "switch the sound off");
+  CLI::Option* offscreen =
+      verb->add_option("--offscreen", arguments->offscreen,
+                       "run without a window: write the last picture to this folder and print the gears")
+          ->type_name("DIR");
   xr->excludes(stereo)->excludes(offscreen);
   verb->add_option("--or-demo", arguments->or_demo, "if there is no display, run the demo into this folder")
       ->type_name("DIR");
   verb->add_option("--seconds", arguments->seconds,
-                   "simulated time with --offscreen [s]; default: 5, or to the end of the replay")
+                   "simulated time with --offscreen [s]; default: 5, or until the end of the replay")
       ->check(number_between(0.1, kMaxSeconds));
   verb->callback([arguments, &action] { action = [arguments] { return run_train(*arguments); }; });
 }

@@ -1,4 +1,5 @@
-// The verbs of the program. Each function adds a subcommand; when chosen, it sets the action to run.
+// The verbs of the program. Each function add_..._verb() adds a subcommand, which sets `action` when the user chooses
+// it.
 #pragma once
 
 #include <functional>
@@ -8,17 +9,17 @@
 
 namespace gearshift::verbs {
 
-// Returns the exit code: 0 done, 1 the work failed. main() prints an exception as one sentence to stderr; it exits with
-// 2 for bad usage (CLI::ParseError) and with 1 for anything else, including FileError.
+// The work of a verb. Returns the exit code: 0 for success, 1 if the work failed. If it throws, main() prints the
+// exception as one sentence to stderr and exits with 2 for bad usage (CLI::ParseError), with 1 for anything else.
 using VerbAction = std::function<int()>;
 
-// Parses the command line and returns the action of its verb; without a verb, that of `train`. Throws CLI::ParseError
-// for bad usage and for --help.
+// Parses the command line and returns the action of the chosen verb; without a verb, that of `train`. Throws
+// CLI::ParseError for bad usage and for --help.
 VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv);
-std::string usage_sentence(const CLI::ParseError& refusal);  // with control characters made printable
+std::string usage_sentence(const CLI::ParseError& refusal);  // the message, with control characters made printable
 
 struct TourArguments;
-int run_demo(const TourArguments& tour);  // `demo` with its other options at their defaults
+int run_demo(const TourArguments& tour);  // runs `demo` with the defaults of all other options
 
 void add_train_verb(CLI::App& app, VerbAction& action);
 void add_demo_verb(CLI::App& app, VerbAction& action);

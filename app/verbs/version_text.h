@@ -4,10 +4,10 @@
 
 namespace gearshift::verbs {
 
-// The output of `--version` without the final line feed: program_name(); commit; build type and compiler; libraries.
+// The output of `--version`, without the final line feed: program_name(), commit, build type and compiler, libraries.
 std::string version_text();
 
-// Commit of the source: "0123456789ab", with "-dirty" if files were changed; "unknown" without git.
+// The commit of the source: "0123456789ab", with "-dirty" appended if files were changed; "unknown" without git.
 std::string commit_text();
 
 }  // namespace gearshift::verbs

@@ -25,7 +25,7 @@ def option(name, default=None):
 
 
 def look(cameras, hide=None):
-    """Renders the pictures asked for with --preview."""
+    """Renders the pictures that --preview requests."""
     names = [n for n in option("--preview", "").split(",") if n in cameras]
     preview.render(names, cameras, option("--samples", "48"), option("--size", "960x540"), hide)
 

@@ -179,7 +179,7 @@ PIVOTS = {
     "BootRing": (0.330, 0.037, -0.270),
     "Handbrake": (0.335, -0.030, 0.170),
 }
-LAMPS = {  # and its area in the print atlas, which colours it: left edge [px]; 64 px square, from v = 580 px
+LAMPS = {  # by lamp: left edge of its colour field in the print atlas [px]; each field is 64 px square, from v = 580 px
     "TurnLeft": 1648,
     "TurnRight": 1648,
     "Oil": 1488,
@@ -216,7 +216,7 @@ def check_needle(glb, name, top, marks):
     check(near(rest, about(2, 135), 1e-4), "%s rests at +135 deg about Z" % name)
     for value, clock in marks.items():
         x, y, _ = turned(about(2, 135 - 270 * value / top), tip)
-        seen = math.degrees(math.atan2(x, y))  # from twelve o'clock, clockwise
+        seen = math.degrees(math.atan2(x, y))  # [deg] clockwise from twelve o'clock
         check(abs(seen - clock) < 0.2, "%s at %g points %.1f deg from twelve o'clock" % (name, value, seen))
 
 
@@ -380,7 +380,7 @@ def check_hand():
     check(set(names) == wanted, "hand: %d joints" % len(names))
     worst = 0.0
     for name, m in zip(names, glb.read(skin["inverseBindMatrices"])):
-        origin = glb.world(name)  # inverse bind matrix times the joint's position must be the joint's origin
+        origin = glb.world(name)  # the inverse bind matrix must map this position to the joint's own origin
         back = [sum(m[4 * k + r] * (origin + (1,))[k] for k in range(4)) for r in range(3)]
         worst = max(worst, length(back))
     check(worst < 1e-5, "hand: the nodes stand in the bind pose (%.1e m)" % worst)

@@ -47,7 +47,7 @@ VkCommandBuffer FrameRing::begin() {
     done_[index] = 0;
   }
   VkCommandBuffer commands = commands_[index];
-  // also resets a frame that began but was never ended
+  // This also resets the commands of a frame that was begun but never ended.
   check(vkResetCommandBuffer(commands, 0), "vkResetCommandBuffer");
   begin_once(commands);
   return commands;

@@ -16,12 +16,12 @@ class FrameRing {
   explicit FrameRing(Gpu& gpu);
   ~FrameRing();  // waits for all submitted frames
 
-  // Waits for the frame that last used this slot, then begins recording. slot() is the index (0 to kFramesInFlight - 1)
-  // of the buffers that this frame may write.
+  // Moves to the next slot, waits for the frame that last used it, and begins recording. slot() is then the index (0 to
+  // kFramesInFlight - 1) of the buffers that the new frame may write.
   VkCommandBuffer begin();
   int slot() const noexcept { return slot_; }
   std::uint64_t end(VkSemaphore wait_for = VK_NULL_HANDLE, VkSemaphore then_signal = VK_NULL_HANDLE);
-  void wait();  // for all frames
+  void wait();  // waits for all submitted frames
 
  private:
   Gpu& gpu_;

@@ -25,7 +25,7 @@ struct Features {
 };
 
 // Features requested from the device, one structure each. An XR runtime appends its own structures to the chain; a
-// structure must not appear twice, nor beside the VkPhysicalDeviceVulkan1xFeatures structure that includes it
+// structure must not appear twice, nor together with the VkPhysicalDeviceVulkan1xFeatures structure that includes it
 // (VUID-VkDeviceCreateInfo-pNext-02830). Layer selection in a vertex shader has no structure; enabling its extension is
 // enough.
 struct RequestedFeatures {
@@ -82,9 +82,9 @@ bool has_extension(VkPhysicalDevice physical, const char* name) {
 bool is_usable(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties, bool swapchain) {
   if (properties.apiVersion < VK_API_VERSION_1_3 || !graphics_family(physical)) return false;
   if (swapchain && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) return false;
-  Features has;
-  vkGetPhysicalDeviceFeatures2(physical, &has.core);
-  return has.is_sufficient();
+  Features supported;
+  vkGetPhysicalDeviceFeatures2(physical, &supported.core);
+  return supported.is_sufficient();
 }
 
 int rank(VkPhysicalDeviceType type) {
@@ -117,16 +117,17 @@ VkPhysicalDevice choose(VkInstance instance, bool swapchain, const std::string& 
     best_rank = rank(properties.deviceType);
   }
   if (names.empty()) {
-    throw GpuError("No Vulkan 1.3 device: the package mesa-vulkan-drivers provides a software one.");
+    throw GpuError("No Vulkan 1.3 device was found. Install the package mesa-vulkan-drivers for a software renderer.");
   }
   if (best == VK_NULL_HANDLE) {
-    throw GpuError(
-        fmt::format("No Vulkan 1.3 device has \"{}\" in its name (GEARSHIFT_GPU); there is {}.", wanted, names));
+    throw GpuError(fmt::format(
+        "No Vulkan 1.3 device has \"{}\" in its name (GEARSHIFT_GPU). The available devices are: {}.", wanted, names));
   }
   return best;
 }
 
-// The headset is connected to one device, so there is nothing to choose between.
+// Uses the device that the factory chooses: the one that the headset is connected to. Throws GpuError if it is not
+// usable.
 VkPhysicalDevice choose_with(GpuFactory& factory, VkInstance instance, bool swapchain) {
   VkPhysicalDevice physical = factory.choose(instance);
   VkPhysicalDeviceProperties properties;
@@ -146,19 +147,19 @@ std::string driver_of(VkPhysicalDevice physical) {
   return fmt::format("{} {}", static_cast<const char*>(driver.driverName), static_cast<const char*>(driver.driverInfo));
 }
 
-GpuTraits traits_of(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties, const Features& has,
+GpuTraits traits_of(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties, const Features& supported,
                     const VkQueueFamilyProperties& family) {
   const auto& limits = properties.limits;
   GpuTraits traits;
   traits.name = properties.deviceName;
   traits.driver = driver_of(physical);
   traits.is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-  traits.layered_vertex = has.v12.shaderOutputLayer == VK_TRUE &&
+  traits.layered_vertex = supported.v12.shaderOutputLayer == VK_TRUE &&
                           has_extension(physical, VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME);
   traits.four_samples =
       (limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0;
-  traits.depth_clamp = has.core.features.depthClamp == VK_TRUE;
-  if (has.core.features.samplerAnisotropy == VK_TRUE && !traits.is_cpu) {
+  traits.depth_clamp = supported.core.features.depthClamp == VK_TRUE;
+  if (supported.core.features.samplerAnisotropy == VK_TRUE && !traits.is_cpu) {
     traits.max_anisotropy = limits.maxSamplerAnisotropy;
   }
   traits.tick_ns = static_cast<double>(limits.timestampPeriod);
@@ -166,11 +167,11 @@ GpuTraits traits_of(VkPhysicalDevice physical, const VkPhysicalDeviceProperties&
   return traits;
 }
 
-VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuTraits& traits, const Features& has,
-                     bool swapchain, GpuFactory* factory) {
-  RequestedFeatures wanted;
-  wanted.core.features.depthClamp = has.core.features.depthClamp;
-  wanted.core.features.samplerAnisotropy = traits.max_anisotropy > 1.0f ? VK_TRUE : VK_FALSE;
+VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuTraits& traits,
+                     const Features& supported, bool swapchain, GpuFactory* factory) {
+  RequestedFeatures requested;
+  requested.core.features.depthClamp = supported.core.features.depthClamp;
+  requested.core.features.samplerAnisotropy = traits.max_anisotropy > 1.0f ? VK_TRUE : VK_FALSE;
   const float priority = 1.0f;
   const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                       .queueFamilyIndex = family,
@@ -180,7 +181,7 @@ VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuT
   if (swapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
   if (traits.layered_vertex) extensions.push_back(VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME);
   const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
-                                .pNext = &wanted.core,
+                                .pNext = &requested.core,
                                 .queueCreateInfoCount = 1,
                                 .pQueueCreateInfos = &queue,
                                 .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
@@ -198,10 +199,10 @@ Device::Device(VkInstance instance, bool swapchain, const std::string& wanted, G
     : physical_(factory != nullptr ? choose_with(*factory, instance, swapchain) : choose(instance, swapchain, wanted)),
       family_(graphics_family(physical_).value()) {
   vkGetPhysicalDeviceProperties(physical_, &properties_);
-  Features has;
-  vkGetPhysicalDeviceFeatures2(physical_, &has.core);
-  traits_ = traits_of(physical_, properties_, has, queue_families(physical_)[family_]);
-  device_ = make_device(physical_, family_, traits_, has, swapchain, factory);
+  Features supported;
+  vkGetPhysicalDeviceFeatures2(physical_, &supported.core);
+  traits_ = traits_of(physical_, properties_, supported, queue_families(physical_)[family_]);
+  device_ = make_device(physical_, family_, traits_, supported, swapchain, factory);
   vkGetDeviceQueue(device_, family_, 0, &queue_);
 }
 

@@ -64,7 +64,7 @@ struct Gpu::State {
   std::filesystem::path cache_file;
   PipelineCache cache;
   Semaphore timeline;
-  std::uint64_t submitted = 0;  // last value that a submission will signal on the timeline
+  std::uint64_t submitted = 0;  // timeline value that the last submission signals
 };
 
 Gpu::Gpu(const GpuConfig& config) : state_(std::make_unique<State>(config)) {}
@@ -117,7 +117,7 @@ VkDeviceSize Gpu::allocated() const noexcept {
 std::uint64_t Gpu::submit(VkCommandBuffer commands, VkSemaphore wait_for, VkSemaphore then_signal) {
   const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                          .commandBuffer = commands};
-  // Swapchain images are only written by copies, so rendering need not wait for the acquire semaphore.
+  // Swapchain images are written only by blits and clears, so rendering need not wait for the acquire semaphore.
   const VkSemaphoreSubmitInfo wait{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
                                    .semaphore = wait_for,
                                    .stageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT};

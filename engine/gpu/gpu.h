@@ -15,8 +15,8 @@
 
 namespace gearshift::engine {
 
-// Creates the Vulkan objects on our behalf: an XR runtime adds the extensions that its compositor needs and selects the
-// device that the headset is connected to. Must outlive the Gpu.
+// Creates the Vulkan instance and device on our behalf: an XR runtime adds the extensions that its compositor needs and
+// selects the device that the headset is connected to. Must outlive the Gpu.
 struct GpuFactory {
   virtual ~GpuFactory() = default;
   virtual VkResult make_instance(const VkInstanceCreateInfo& info, VkInstance* instance) = 0;
@@ -27,20 +27,20 @@ struct GpuFactory {
 struct GpuConfig {
   std::vector<const char*> instance_extensions;  // required by the window
   bool swapchain = false;                        // VK_KHR_swapchain
-  GpuFactory* factory = nullptr;                 // null: the Gpu creates them itself
+  GpuFactory* factory = nullptr;                 // null: the Gpu creates instance and device itself
   bool validation = false;                       // core and synchronization validation, if the layer is installed
-  std::function<void(std::string_view)> on_validation;  // called for each message, never with an empty text
+  std::function<void(std::string_view)> on_validation;  // called with each validation message, never empty
   std::filesystem::path pipeline_cache;                 // file name; empty: no cache
 };
 
 struct GpuTraits {
   std::string name;                  // device name
   std::string driver;                // driver name and version, as reported
-  bool is_cpu = false;               // a software driver; no anisotropy there, it would cost seconds per frame
-  bool layered_vertex = false;       // a vertex shader can select the layer, so both eyes fit in one pass
-  bool four_samples = false;         // for colour and depth
-  bool depth_clamp = false;          // pipelines can clamp depth in front of the near plane
-  float max_anisotropy = 1.0f;       // 1: none
+  bool is_cpu = false;               // a software driver; anisotropic filtering is off, as it takes seconds per frame
+  bool layered_vertex = false;       // a vertex shader can select the layer, so one pass can draw both eyes
+  bool four_samples = false;         // 4x multisampling of colour and depth
+  bool depth_clamp = false;          // pipelines can clamp the depth of geometry in front of the near plane
+  float max_anisotropy = 1.0f;       // 1: no anisotropic filtering
   double tick_ns = 1.0;              // duration of one timestamp tick
   std::uint32_t timestamp_bits = 0;  // 0: no timestamps
 };
@@ -51,17 +51,17 @@ struct Allocation {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   VkDeviceSize offset = 0;
   VkDeviceSize size = 0;
-  void* mapped = nullptr;  // host-visible memory: address of the byte at offset
+  void* mapped = nullptr;  // address of the byte at offset; null if not host-visible
   MemoryBlock* block = nullptr;
 };
 enum class MemoryKind { device, upload, read_back };  // upload and read_back are mapped and coherent
-enum class MemoryUser { buffer, image };              // never in the same block, because of bufferImageGranularity
+enum class MemoryUser { buffer, image };              // kept in separate blocks because of bufferImageGranularity
 
 class Gpu {
  public:
-  // Prefers a discrete device, then an integrated one, then a software one. GEARSHIFT_GPU=SUBSTRING selects a device by
-  // name; a factory's choice overrides both. Throws GpuError with one sentence if there is no Vulkan 1.3 device (it
-  // names the package that provides a software one).
+  // Prefers a discrete device, then an integrated one, then a software one. GEARSHIFT_GPU=SUBSTRING in the environment
+  // selects a device by name; a factory's choice overrides both. Throws GpuError with one sentence if there is no
+  // Vulkan 1.3 device; the sentence names the package that provides a software driver.
   explicit Gpu(const GpuConfig& config);
   ~Gpu();  // waits until idle and saves the pipeline cache (written atomically)
   Gpu(const Gpu&) = delete;
@@ -75,9 +75,10 @@ class Gpu {
   VkPipelineCache cache() const noexcept;
   const GpuTraits& traits() const noexcept;
   bool validates() const noexcept;                     // the validation layer is installed and enabled
-  std::uint64_t validation_messages() const noexcept;  // errors and warnings so far
+  std::uint64_t validation_messages() const noexcept;  // errors and warnings reported so far
 
-  // First fit in blocks of 32 MiB; larger allocations get a block of their own. Throws GpuError if memory runs out.
+  // Allocates first-fit from blocks of 32 MiB; a larger allocation gets a block of its own. Throws GpuError if memory
+  // runs out.
   Allocation allocate(const VkMemoryRequirements& needs, MemoryKind kind, MemoryUser user);
   void free(const Allocation& allocation) noexcept;
   VkDeviceSize allocated() const noexcept;  // [bytes] currently allocated

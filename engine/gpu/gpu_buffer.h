@@ -18,7 +18,7 @@ class GpuBuffer {
 
   VkBuffer get() const noexcept { return buffer_; }
   VkDeviceSize size() const noexcept { return size_; }
-  // null for device-local memory
+  // Null if the memory is not host-visible.
   std::byte* mapped() const noexcept { return static_cast<std::byte*>(allocation_.mapped); }
   explicit operator bool() const noexcept { return buffer_ != VK_NULL_HANDLE; }
 

@@ -5,7 +5,7 @@
 namespace gearshift::engine {
 namespace {
 
-std::string name_of(VkResult result) {
+std::string to_string(VkResult result) {
   switch (result) {
     case VK_TIMEOUT:
       return "VK_TIMEOUT";
@@ -52,7 +52,7 @@ std::string name_of(VkResult result) {
 
 void check(VkResult result, const char* what) {
   if (result >= VK_SUCCESS) return;
-  const std::string sentence = std::string(what) + " failed: " + name_of(result);
+  const std::string sentence = std::string(what) + " failed: " + to_string(result);
   if (result == VK_ERROR_DEVICE_LOST) throw GpuLost(sentence);
   throw GpuError(sentence);
 }

@@ -1,5 +1,5 @@
-// Images that track their own state: transition() moves them from one use to the next, and using one in the wrong state
-// throws.
+// Images that track their own state: transition() moves them from one use to the next, and expect() throws if an image
+// is in the wrong state.
 //
 // Synchronization validation does not check the attachments of dynamic rendering; this tracking covers them.
 #pragma once
@@ -14,13 +14,13 @@
 
 namespace gearshift::engine {
 
-// Use of an image; it determines layout, stages and accesses.
+// How an image is used. The use determines layout, stages and accesses.
 enum class ImageUse : std::uint8_t {
   none,           // content undefined
   colour_target,  // render target, blend target or resolve destination
   depth_target,
   depth_resolved,  // destination of a depth resolve
-  sampled,         // by a fragment shader
+  sampled,         // sampled by a fragment shader
   copy_from,       // source of a copy, blit or resolve
   copy_to,
   present
@@ -34,7 +34,7 @@ struct ImageDesc {
   VkImageUsageFlags usage = 0;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   bool cube = false;                             // six layers
-  VkFormat second_format = VK_FORMAT_UNDEFINED;  // additional view format (an sRGB image viewed as UNORM)
+  VkFormat second_format = VK_FORMAT_UNDEFINED;  // additional view format (e.g. UNORM views of an sRGB image)
 };
 
 class GpuImage {
@@ -51,7 +51,7 @@ class GpuImage {
   VkExtent2D extent() const noexcept { return {desc_.width, desc_.height}; }
   VkImageAspectFlags aspect() const noexcept;  // colour or depth, derived from the format
 
-  // State of a mip level, common to all layers.
+  // Current use of a mip level; the same for all layers.
   ImageUse use(std::uint32_t level = 0) const noexcept { return states_[level].use; }
 
  private:
@@ -76,13 +76,14 @@ inline constexpr std::uint32_t kAllLevels = ~0u;
 void transition(VkCommandBuffer commands, GpuImage& image, ImageUse use, std::uint32_t first_level = 0,
                 std::uint32_t level_count = kAllLevels);
 
-// Returns only the barrier, for all levels and layers of the aspect and with a null image; empty if no barrier is
-// needed. From `none` with a discarded_use: the content is dropped but that use is still waited for. Throws
-// std::logic_error if `to` is `none`.
+// Returns the barrier that transition() would record, but for all levels and layers of the aspect and with a null
+// image; empty if no barrier is needed. If `from` is `none`, the content is dropped, but the barrier still waits for
+// discarded_use. Throws std::logic_error if `to` is `none`.
 std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to, VkImageAspectFlags aspect,
                                                      ImageUse discarded_use = ImageUse::none);
 
-// Throws std::logic_error naming both uses if the image is not in that state. Call it before each use.
+// Throws std::logic_error, which names both uses, if the current use of the level is not `use`. Call it before each use
+// of an image.
 void expect(const GpuImage& image, ImageUse use, std::uint32_t level = 0);
 
 // Marks the content as no longer needed (a swapchain image after present; a target about to be cleared).
@@ -91,27 +92,27 @@ void discard_content(GpuImage& image) noexcept;
 VkImageLayout layout_of(ImageUse use) noexcept;
 
 ImageView make_view(const Gpu& gpu, const GpuImage& image, VkImageViewType type, std::uint32_t first_layer = 0,
-                    // undefined: the image's format
+                    // VK_FORMAT_UNDEFINED: the image's own format
                     std::uint32_t layer_count = 1, VkFormat format = VK_FORMAT_UNDEFINED);
 
 struct SamplerDesc {
   bool linear = true;
   VkSamplerAddressMode u = VK_SAMPLER_ADDRESS_MODE_REPEAT, v = VK_SAMPLER_ADDRESS_MODE_REPEAT;
   bool mips = true;
-  bool anisotropic = false;  // up to 8, limited by the device; off on a software driver
-  bool compare = false;      // depth compare, greater or equal (reverse-Z)
+  bool anisotropic = false;  // maximum 8, or the device's limit if lower; off on a software driver
+  bool compare = false;      // compares depth: greater or equal passes (reverse-Z)
 };
 Sampler make_sampler(const Gpu& gpu, const SamplerDesc& desc);
 
 // Uploads the pixels, generates mip levels by blitting if `mips`, and leaves the image in ImageUse::sampled. Waits for
 // the upload.
 GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips);
-// Takes raw texels for each level of each layer, level by level: for tables and environments.
+// Uploads raw texels, for lookup tables and environments: levels[i] holds level i of all layers.
 GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vector<std::byte>> levels);
 
 // Records a copy of all layers of level 0 into an image of the same size; the formats may differ. `from` must be in
 // copy_from, `to` in copy_to.
-void copy_whole(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to);
+void copy_image(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to);
 
 // Records a blit of one layer, scaled into the rectangle `place` of another image. `from` must be in copy_from, `to` in
 // copy_to.
@@ -121,7 +122,8 @@ void blit_into(VkCommandBuffer commands, const GpuImage& from, std::uint32_t lay
 // Records the barrier that lets the host read the results of copies once the commands have completed.
 void make_copies_visible_to_host(VkCommandBuffer commands);
 
-// Reads one layer of level 0 at four bytes per pixel and leaves the image in copy_from. Waits for the copy.
+// Reads one layer of level 0 of an image with four bytes per pixel, and leaves the image in copy_from. Waits for the
+// copy.
 Image read_back(Gpu& gpu, GpuImage& image, std::uint32_t layer = 0);
 
 }  // namespace gearshift::engine

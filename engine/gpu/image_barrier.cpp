@@ -57,7 +57,7 @@ std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to,
   return VkImageMemoryBarrier2{
       .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
       .srcStageMask = source.stages,
-      .srcAccessMask = source.writes,  // after a read there is nothing to flush, only to wait for
+      .srcAccessMask = source.writes,  // 0 after a read: nothing to flush, only an execution dependency
       .dstStageMask = target.stages,
       .dstAccessMask = target.reads | target.writes,
       .oldLayout = layout_of(from),
@@ -71,7 +71,7 @@ std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to,
 void transition(VkCommandBuffer commands, GpuImage& image, ImageUse use, std::uint32_t first_level,
                 std::uint32_t level_count) {
   const std::uint32_t end = level_count == kAllLevels ? image.desc().levels : first_level + level_count;
-  if (end > image.desc().levels) throw std::logic_error("A transition exceeds the image's last level.");
+  if (end > image.desc().levels) throw std::logic_error("A transition includes levels that the image does not have.");
   std::vector<VkImageMemoryBarrier2> barriers;
   for (std::uint32_t level = first_level; level < end; ++level) {
     auto& state = image.states_[level];

@@ -69,14 +69,14 @@ Instance::Instance(const GpuConfig& config)
   const VkResult result = config.factory != nullptr ? config.factory->make_instance(info, &instance_)
                                                     : vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
-    throw GpuError("No Vulkan driver is installed: the package mesa-vulkan-drivers provides a software one.");
+    throw GpuError("No Vulkan driver is installed. Install the package mesa-vulkan-drivers for a software renderer.");
   }
   check(result, "vkCreateInstance");
   if (!validates_) return;
   const auto create = load<PFN_vkCreateDebugUtilsMessengerEXT>(instance_, "vkCreateDebugUtilsMessengerEXT");
-  const VkResult made = create(instance_, &messenger, nullptr, &messenger_);
-  if (made != VK_SUCCESS) vkDestroyInstance(instance_, nullptr);
-  check(made, "vkCreateDebugUtilsMessengerEXT");
+  const VkResult created = create(instance_, &messenger, nullptr, &messenger_);
+  if (created != VK_SUCCESS) vkDestroyInstance(instance_, nullptr);
+  check(created, "vkCreateDebugUtilsMessengerEXT");
 }
 
 Instance::~Instance() {

@@ -20,7 +20,7 @@ class Instance {
   bool validates() const noexcept { return validates_; }
   std::uint64_t messages() const noexcept { return messages_; }
 
-  void count(std::string_view message);  // counts a message of the validation layer
+  void count(std::string_view message);  // counts a validation message and passes it to GpuConfig::on_validation
 
  private:
   VkInstance instance_ = VK_NULL_HANDLE;

@@ -33,9 +33,9 @@ std::optional<VkDeviceSize> FreeRanges::allocate(VkDeviceSize size, VkDeviceSize
     const VkDeviceSize offset = (start + alignment - 1) & ~(alignment - 1);
     const VkDeviceSize end = start + length;
     if (offset + size > end) continue;
-    const VkDeviceSize before = offset - start;
+    const VkDeviceSize padding = offset - start;
     free_.erase(start);
-    if (before > 0) free_.emplace(offset - before, before);
+    if (padding > 0) free_.emplace(offset - padding, padding);
     if (offset + size < end) free_.emplace(offset + size, end - offset - size);
     return offset;
   }
@@ -78,7 +78,8 @@ std::uint32_t DeviceMemory::type_for(std::uint32_t allowed, MemoryKind kind) con
 
 MemoryBlock& DeviceMemory::add_block(VkDeviceSize size, std::uint32_t type, MemoryUser user) {
   const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
-  if (size > heap) throw GpuError(fmt::format("{} MiB exceed the device's memory.", size >> 20));
+  if (size > heap)
+    throw GpuError(fmt::format("The device has less than the {} MiB of memory that are needed.", size >> 20));
   const VkMemoryAllocateInfo info{
       .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = size, .memoryTypeIndex = type};
   blocks_.reserve(blocks_.size() + 1);

@@ -1,4 +1,4 @@
-// Device memory in blocks, first fit.
+// Device memory, allocated first-fit from blocks.
 #pragma once
 
 #include <map>
@@ -10,13 +10,14 @@
 
 namespace gearshift::engine {
 
-// Free ranges of [0, size), with adjacent ranges merged.
+// The free ranges within [0, size); adjacent ones are merged.
 class FreeRanges {
  public:
   explicit FreeRanges(VkDeviceSize size) : size_(size), free_{{0, size}} {}
-  // Returns the offset of the first range that fits. alignment: power of two
+  // Allocates from the first free range that fits, and returns the offset; empty if none fits. alignment: a power of
+  // two
   std::optional<VkDeviceSize> allocate(VkDeviceSize size, VkDeviceSize alignment);
-  void release(VkDeviceSize offset, VkDeviceSize size);  // a range returned by allocate()
+  void release(VkDeviceSize offset, VkDeviceSize size);  // frees a range returned by allocate()
   bool is_unused() const { return free_.size() == 1 && free_.begin()->second == size_; }
 
  private:

@@ -6,7 +6,7 @@
 namespace gearshift::engine {
 
 inline constexpr VkFormat kColourFormat = VK_FORMAT_R8G8B8A8_SRGB;    // format of a picture
-inline constexpr VkFormat kOverlayFormat = VK_FORMAT_R8G8B8A8_UNORM;  // format in which an overlay sees it
+inline constexpr VkFormat kOverlayFormat = VK_FORMAT_R8G8B8A8_UNORM;  // format of the view that an overlay draws on
 
 class Overlay {
  public:

@@ -14,8 +14,8 @@ struct VertexInput {
   std::vector<VkVertexInputAttributeDescription> attributes;
 };
 
-enum class Blend { none, alpha };        // alpha: source over, with straight alpha
-enum class Depth { none, test, write };  // greater or equal: reverse-Z; write: test and write
+enum class Blend { none, alpha };        // alpha: source over destination; straight alpha
+enum class Depth { none, test, write };  // test: greater or equal (reverse-Z); write: test and write
 
 struct PipelineDesc {
   std::span<const std::uint32_t> vertex;    // SPIR-V
@@ -28,11 +28,11 @@ struct PipelineDesc {
   Blend blend = Blend::none;
   Depth depth_use = Depth::none;
   float depth_bias = 0.0f, depth_slope = 0.0f;
-  // if the device supports it; for casters in front of a shadow map's near plane
+  // Clamps depth if the device supports it; for casters in front of a shadow map's near plane.
   bool depth_clamp = false;
   std::span<const std::uint32_t> constants;  // values of specialization constants 0, 1, 2, ... in both stages
 };
-// Triangle list. Dynamic state: viewport, scissor, cull mode, front face.
+// Makes a pipeline for triangle lists. Viewport, scissor, cull mode and front face are dynamic state.
 Pipeline make_pipeline(const Gpu& gpu, const PipelineDesc& desc);
 
 struct Binding {

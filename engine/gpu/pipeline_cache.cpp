@@ -12,21 +12,22 @@
 namespace gearshift::engine {
 namespace {
 
-// Our header in front of the driver's data. Drivers check device and version but trust that the rest is complete.
-struct Frame {
+// Our header in front of the driver's data. Drivers check device and version, but trust the rest of the data to be
+// complete.
+struct CacheHeader {
   std::array<char, 8> magic{'g', 's', 'c', 'a', 'c', 'h', 'e', '1'};
   std::uint64_t size = 0;
   std::uint64_t sum = 0;
 };
 
 // FNV-1a, 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
-std::uint64_t sum_of(std::span<const std::byte> bytes) {
+std::uint64_t checksum(std::span<const std::byte> bytes) {
   std::uint64_t sum = 0xcbf29ce484222325u;
   for (const std::byte b : bytes) sum = (sum ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
   return sum;
 }
 
-constexpr std::uintmax_t kMaxCacheBytes = std::uintmax_t{256} << 20;  // [bytes] drivers store a few MiB
+constexpr std::uintmax_t kMaxCacheBytes = std::uintmax_t{256} << 20;  // [bytes] ample: drivers store a few MiB
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
   std::error_code problem;
@@ -39,7 +40,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& file) {
   return in ? bytes : std::vector<std::byte>{};
 }
 
-bool is_for(std::span<const std::byte> content, const VkPhysicalDeviceProperties& device) {
+bool matches_device(std::span<const std::byte> content, const VkPhysicalDeviceProperties& device) {
   VkPipelineCacheHeaderVersionOne header;
   if (content.size() < sizeof header) return false;
   std::memcpy(&header, content.data(), sizeof header);
@@ -53,12 +54,13 @@ bool is_for(std::span<const std::byte> content, const VkPhysicalDeviceProperties
 std::vector<std::byte> load_pipeline_cache(const std::filesystem::path& file,
                                            const VkPhysicalDeviceProperties& device) {
   std::vector<std::byte> bytes = read_file(file);
-  Frame frame;
-  if (bytes.size() < sizeof frame) return {};
-  std::memcpy(&frame, bytes.data(), sizeof frame);
-  const auto content = std::span<const std::byte>(bytes).subspan(sizeof frame);
-  const bool whole = frame.magic == Frame{}.magic && frame.size == content.size() && frame.sum == sum_of(content);
-  if (!whole || !is_for(content, device)) return {};
+  CacheHeader header;
+  if (bytes.size() < sizeof header) return {};
+  std::memcpy(&header, bytes.data(), sizeof header);
+  const auto content = std::span<const std::byte>(bytes).subspan(sizeof header);
+  const bool is_complete =
+      header.magic == CacheHeader{}.magic && header.size == content.size() && header.sum == checksum(content);
+  if (!is_complete || !matches_device(content, device)) return {};
   return {content.begin(), content.end()};
 }
 
@@ -66,11 +68,11 @@ void save_pipeline_cache(const std::filesystem::path& file, std::span<const std:
   try {
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
     const std::filesystem::path part = file.string() + "." + std::to_string(getpid());
-    Frame frame;
-    frame.size = content.size();
-    frame.sum = sum_of(content);
+    CacheHeader header;
+    header.size = content.size();
+    header.sum = checksum(content);
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
-    out.write(reinterpret_cast<const char*>(&frame), sizeof frame);
+    out.write(reinterpret_cast<const char*>(&header), sizeof header);
     out.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
     out.close();
     std::error_code ignored;

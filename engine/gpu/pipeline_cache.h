@@ -10,12 +10,12 @@
 
 namespace gearshift::engine {
 
-// Returns the data saved for exactly this device and driver; empty if there is none, if it is incomplete or if it
-// belongs to another device.
+// Returns the data saved for exactly this device and driver; empty if the file is missing, incomplete, or from a
+// different device or driver.
 std::vector<std::byte> load_pipeline_cache(const std::filesystem::path& file, const VkPhysicalDeviceProperties& device);
 
-// Written beside the file and renamed, so that the file is never incomplete. Never throws: a cache that cannot be
-// written is skipped.
+// Writes a temporary file next to `file` and renames it, so that `file` is never incomplete. Never throws: a cache that
+// cannot be written is skipped.
 void save_pipeline_cache(const std::filesystem::path& file, std::span<const std::byte> content) noexcept;
 
 }  // namespace gearshift::engine

@@ -18,14 +18,14 @@ std::uint32_t side_at(std::uint32_t side, std::uint32_t level) {
   return std::max(side >> level, 1u);
 }
 
-VkBufferImageCopy whole_level(const GpuImage& image, std::uint32_t level, VkDeviceSize offset) {
+VkBufferImageCopy level_copy(const GpuImage& image, std::uint32_t level, VkDeviceSize offset) {
   return {.bufferOffset = offset,
           .imageSubresource = {.aspectMask = image.aspect(), .mipLevel = level, .layerCount = image.desc().layers},
           .imageExtent = {side_at(image.desc().width, level), side_at(image.desc().height, level), 1}};
 }
 
-// Each texel is the mean of four texels of the level above.
-void make_level(VkCommandBuffer commands, GpuImage& image, std::uint32_t level) {
+// Fills a mip level from the next larger one: each texel is the mean of four texels there.
+void blit_level(VkCommandBuffer commands, GpuImage& image, std::uint32_t level) {
   transition(commands, image, ImageUse::copy_from, level - 1, 1);
   transition(commands, image, ImageUse::copy_to, level, 1);
   const auto corner = [&](std::uint32_t l) {
@@ -58,9 +58,9 @@ GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips) {
   std::memcpy(staging.mapped(), pixels.rgba.data(), pixels.rgba.size());
   run_once(gpu, [&](VkCommandBuffer commands) {
     transition(commands, image, ImageUse::copy_to, 0, 1);
-    const VkBufferImageCopy copy = whole_level(image, 0, 0);
+    const VkBufferImageCopy copy = level_copy(image, 0, 0);
     vkCmdCopyBufferToImage(commands, staging.get(), image.get(), layout_of(ImageUse::copy_to), 1, &copy);
-    for (std::uint32_t level = 1; level < desc.levels; ++level) make_level(commands, image, level);
+    for (std::uint32_t level = 1; level < desc.levels; ++level) blit_level(commands, image, level);
     transition(commands, image, ImageUse::sampled);
   });
   return image;
@@ -68,19 +68,19 @@ GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips) {
 
 GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vector<std::byte>> levels) {
   if (levels.size() != desc.levels)
-    throw std::logic_error("The number of levels differs from the texture's description.");
+    throw std::logic_error("The number of levels is not the one in the texture's description.");
   ImageDesc full = desc;
   full.usage |= kTextureUsage;
   GpuImage image(gpu, full);
   std::size_t size = 0;
-  // copy offsets must be multiples of the texel size
+  // Copy offsets must be multiples of the texel size, which is at most 16 bytes.
   for (const auto& level : levels) size += (level.size() + 15) / 16 * 16;
   GpuBuffer staging(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
   std::vector<VkBufferImageCopy> copies;
   std::size_t offset = 0;
   for (std::uint32_t level = 0; level < desc.levels; ++level) {
     std::memcpy(staging.mapped() + offset, levels[level].data(), levels[level].size());
-    copies.push_back(whole_level(image, level, offset));
+    copies.push_back(level_copy(image, level, offset));
     offset += (levels[level].size() + 15) / 16 * 16;
   }
   run_once(gpu, [&](VkCommandBuffer commands) {
@@ -92,7 +92,7 @@ GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vect
   return image;
 }
 
-void copy_whole(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to) {
+void copy_image(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to) {
   expect(from, ImageUse::copy_from);
   expect(to, ImageUse::copy_to);
   const auto [width, height] = from.extent();
@@ -144,7 +144,7 @@ Image read_back(Gpu& gpu, GpuImage& image, std::uint32_t layer) {
   GpuBuffer staging(gpu, pixels.rgba.size(), VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::read_back);
   run_once(gpu, [&](VkCommandBuffer commands) {
     transition(commands, image, ImageUse::copy_from);
-    VkBufferImageCopy copy = whole_level(image, 0, 0);
+    VkBufferImageCopy copy = level_copy(image, 0, 0);
     copy.imageSubresource.baseArrayLayer = layer;
     copy.imageSubresource.layerCount = 1;
     vkCmdCopyImageToBuffer(commands, image.get(), layout_of(ImageUse::copy_from), staging.get(), 1, &copy);

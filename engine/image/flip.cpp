@@ -21,10 +21,12 @@ namespace {
 using glm::dvec3;
 using std::numbers::pi;
 
-// Constants of the paper: 4.1.4 (error exponent and redistribution) and 4.2 (feature width and exponent).
+// Constants from the paper: section 4.1.4 (error exponent and redistribution) and section 4.2 (feature width and
+// exponent).
 constexpr double kColourExponent = 0.7, kKneeIn = 0.4, kKneeOut = 0.95, kFeatureWidth = 0.082, kFeatureExponent = 0.5;
 
-// Contrast sensitivity as sums of Gaussians a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees (4.1.1, table 1).
+// Contrast sensitivity as sums of Gaussians a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees (section 4.1.1, table 1 of
+// the paper).
 struct Sensitivity {
   double a1, b1, a2, b2;
 };
@@ -45,7 +47,7 @@ double linear_of(std::uint8_t srgb) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-// Opponent colours, linear in light so that they may be filtered.
+// Converts to opponent colours, which are linear in light, so that they can be filtered.
 dvec3 ycc_of_xyz(dvec3 xyz) {
   const dvec3 n = xyz / white;
   return {116.0 * n.y - 16.0, 500.0 * (n.x - n.y), 200.0 * (n.y - n.z)};
@@ -63,17 +65,17 @@ dvec3 lab_of_rgb(dvec3 rgb) {
   return {116.0 * f(n.y) - 16.0, 500.0 * (f(n.x) - f(n.y)), 200.0 * (f(n.y) - f(n.z))};
 }
 
-// Hunt effect: colours look less colourful in the dark (4.1.2).
+// Hunt effect: colours look less colourful in the dark (section 4.1.2).
 dvec3 hunt(dvec3 lab) {
   return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
 }
 
-// Distance for large colour differences (4.1.3).
+// HyAB colour distance, which suits large differences (section 4.1.3).
 double hyab(dvec3 a, dvec3 b) {
   return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// --- separable filters with a repeated border ---
+// --- separable filters; beyond the border, the outermost pixels are repeated ---
 
 using Plane = std::vector<double>;
 
@@ -85,7 +87,7 @@ struct Size {
   }
 };
 
-// Weights from -radius to radius.
+// Filter weights at offsets from -radius to radius.
 using Kernel = std::vector<double>;
 
 template <typename Weight>
@@ -140,7 +142,7 @@ Plane blurred(const Plane& in, Size size, const Sensitivity& s, double pixels_pe
   return out;
 }
 
-// --- colour error (4.1) ---
+// --- colour error (section 4.1) ---
 
 struct Ycc {
   Plane y, cx, cz;
@@ -160,7 +162,7 @@ Ycc opponent(const Image& image) {
   return out;
 }
 
-// As resolved by the eye, in Hunt-adjusted L*a*b*.
+// The picture as the eye resolves it, in Hunt-adjusted L*a*b*.
 std::vector<dvec3> perceived(const Ycc& in, Size size, double pixels_per_degree) {
   const Plane y = blurred(in.y, size, kLuminance, pixels_per_degree);
   const Plane cx = blurred(in.cx, size, kRedGreen, pixels_per_degree);
@@ -173,8 +175,8 @@ std::vector<dvec3> perceived(const Ycc& in, Size size, double pixels_per_degree)
   return out;
 }
 
-// Maps a distance to [0, 1], with most of the range for small differences (4.1.4). The largest distance is between
-// green and blue.
+// Maps a colour distance to [0, 1], of which small differences get most (section 4.1.4). The largest distance is
+// between green and blue.
 double redistributed(double distance) {
   static const double max_distance =
       std::pow(hyab(hunt(lab_of_rgb({0, 1, 0})), hunt(lab_of_rgb({0, 0, 1}))), kColourExponent);
@@ -182,13 +184,13 @@ double redistributed(double distance) {
   return error < knee ? kKneeOut * error / knee : kKneeOut + (1.0 - kKneeOut) * (error - knee) / (max_distance - knee);
 }
 
-// --- feature error (4.2): edges and points in the luminance, detected with derivatives of a Gaussian ---
+// --- feature error (section 4.2): edges and points in the luminance, detected with derivatives of a Gaussian ---
 
 struct Features {
   Plane edge, point;
 };
 
-// Scales positive weights to a sum of 1 and negative ones to -1.
+// Scales the positive weights to a sum of 1 and the negative ones to a sum of -1.
 Kernel balanced(Kernel k) {
   double positive = 0.0, negative = 0.0;
   for (const double w : k) (w > 0.0 ? positive : negative) += std::abs(w);
@@ -233,7 +235,7 @@ FlipError flip(const Image& reference, const Image& test, double pixels_per_degr
     const double feature =
         std::max(std::abs(feature_a.edge[i] - feature_b.edge[i]), std::abs(feature_a.point[i] - feature_b.point[i]));
     const double sharpened = std::pow(feature / std::numbers::sqrt2, kFeatureExponent);
-    error.map.push_back(std::pow(colour, 1.0 - sharpened));  // (4.3)
+    error.map.push_back(std::pow(colour, 1.0 - sharpened));  // section 4.3
   }
   error.mean = std::accumulate(error.map.begin(), error.map.end(), 0.0) / static_cast<double>(error.map.size());
   return error;

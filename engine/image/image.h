@@ -21,19 +21,22 @@ struct Image {
 
 inline constexpr int kMaxImageSide = 16384;  // [px] limit for images that are read
 
-// Throw std::runtime_error with one sentence: file and reason. write_png() replaces the file atomically.
+// Both functions throw std::runtime_error with one sentence that names file and reason. write_png() replaces the file
+// atomically.
 void write_png(const std::filesystem::path& file, const Image& image);
 Image read_png(const std::filesystem::path& file);
 
-// For the bytes of a PNG or JPEG file; other formats are rejected. Throw std::runtime_error with only the reason.
-// encoded_size() reads the header, so a caller can check the size before any pixels are allocated.
+// encoded_size() and decode_image() take the bytes of a PNG or JPEG file and reject other formats. They throw
+// std::runtime_error with only the reason. encoded_size() reads only the header, so a caller can check the size before
+// any pixels are allocated.
 struct ImageSize {
   int width = 0, height = 0;  // [px]
 };
 ImageSize encoded_size(std::span<const std::uint8_t> bytes);
 Image decode_image(std::span<const std::uint8_t> bytes);
 
-// Returns the part inside the rectangle. Throws std::invalid_argument unless the rectangle lies inside the image.
+// Returns the part of the image inside the rectangle. Throws std::invalid_argument unless the rectangle lies inside the
+// image.
 Image crop(const Image& image, int x, int y, int width, int height);
 
 // Places two images of equal height next to each other, for stereo on a desktop. Throws std::invalid_argument if

@@ -1,4 +1,4 @@
-// PNG and JPEG through stb; the input is checked before stb sees it.
+// Reads PNG and JPEG and writes PNG, with stb; input is checked before it is passed to stb.
 #include <stb_image.h>
 #include <stb_image_write.h>
 #include <unistd.h>
@@ -84,10 +84,11 @@ std::filesystem::path resolve_path(const std::filesystem::path& file) {
   return is_link ? std::filesystem::canonical(file) : file;
 }
 
-// Temporary name that is unique to this process: readers see either the old picture or the new one.
-std::filesystem::path part_of(std::filesystem::path place) {
-  if (!is_device_or_pipe(place)) place += fmt::format(".{}.part", getpid());
-  return place;
+// Returns a temporary name that is unique to this process. The finished file is renamed to the target, so readers see
+// either the old picture or the new one.
+std::filesystem::path part_of(std::filesystem::path target) {
+  if (!is_device_or_pipe(target)) target += fmt::format(".{}.part", getpid());
+  return target;
 }
 
 }  // namespace
@@ -97,20 +98,20 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   try {
     check_shape(image);
     const std::vector<std::uint8_t> bytes = encoded_png(image);
-    const std::filesystem::path place = resolve_path(file);
-    // Renaming would replace even a write-protected file, against the intention of whoever protected it.
-    if (access(place.c_str(), W_OK) != 0 && errno != ENOENT) throw std::runtime_error(std::strerror(errno));
-    part = part_of(place);
+    const std::filesystem::path target = resolve_path(file);
+    // Check this explicitly, because renaming would replace even a write-protected file.
+    if (access(target.c_str(), W_OK) != 0 && errno != ENOENT) throw std::runtime_error(std::strerror(errno));
+    part = part_of(target);
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     out.close();
     if (!out) throw std::runtime_error(std::strerror(errno));
-    if (part != place) std::filesystem::rename(part, place);
+    if (part != target) std::filesystem::rename(part, target);
   } catch (const std::exception& e) {
     std::error_code ignored;
     if (!is_device_or_pipe(file)) std::filesystem::remove(part, ignored);
     const auto* system = dynamic_cast<const std::system_error*>(&e);
-    throw std::runtime_error(fmt::format("{}: the picture cannot be written: {}", file.string(),
+    throw std::runtime_error(fmt::format("{}: the picture cannot be written ({})", file.string(),
                                          system != nullptr ? system->code().message() : e.what()));
   }
 }
@@ -120,21 +121,21 @@ Image read_png(const std::filesystem::path& file) try {
   if (!is_png(bytes)) throw std::runtime_error("it is not a PNG file");
   return decode_image(bytes);
 } catch (const std::exception& e) {
-  throw std::runtime_error(fmt::format("{}: the picture cannot be read: {}", file.string(), e.what()));
+  throw std::runtime_error(fmt::format("{}: the picture cannot be read ({})", file.string(), e.what()));
 }
 
 ImageSize encoded_size(std::span<const std::uint8_t> bytes) {
-  // stb supports more formats, but less robustly.
+  // stb decodes more formats, but less robustly.
   if (!is_png(bytes) && !is_jpeg(bytes)) throw std::runtime_error("it is neither PNG nor JPEG");
   if (bytes.size() > kMaxImageBytes) throw std::runtime_error("it is too large");
   ImageSize size;
   int channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width, &size.height, &channels) == 0) {
-    throw std::runtime_error("its header is corrupt");
+    throw std::runtime_error("its header is damaged");
   }
   if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide || size.height > kMaxImageSide) {
-    throw std::runtime_error(
-        fmt::format("{} x {} pixels exceed the limit of {} per side", size.width, size.height, kMaxImageSide));
+    throw std::runtime_error(fmt::format("it has {} x {} pixels, but each side may have only 1 to {}", size.width,
+                                         size.height, kMaxImageSide));
   }
   return size;
 }
@@ -147,7 +148,7 @@ Image decode_image(std::span<const std::uint8_t> bytes) {
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
       stbi_image_free);
   if (pixels == nullptr || width != size.width || height != size.height)
-    throw std::runtime_error("its pixel data is corrupt");
+    throw std::runtime_error("its pixel data is damaged");
   image.rgba.assign(pixels.get(),
                     pixels.get() + 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   return image;

@@ -20,7 +20,7 @@ constexpr float kEyeHeight = 1.1f;      // [m] above the road
 constexpr float kRoadHalfWidth = 6.0f;  // [m] the road runs along z
 constexpr float kSoftEdge = 2.0f;       // [m] blend from road to verge, so that reflections show no seam
 
-glm::vec3 above(glm::vec3 direction, glm::vec3 towards_sun) {
+glm::vec3 sky_radiance(glm::vec3 direction, glm::vec3 towards_sun) {
   // Haze thickens with the air mass towards the horizon.
   const float haze = std::exp(-6.0f * direction.y);
   const float near_sun = glm::max(glm::dot(direction, towards_sun), 0.0f);
@@ -28,7 +28,7 @@ glm::vec3 above(glm::vec3 direction, glm::vec3 towards_sun) {
   return glm::mix(kZenith, kHaze, haze) + glow * kGlow;
 }
 
-glm::vec3 below(glm::vec3 direction, glm::vec3 horizon) {
+glm::vec3 ground_radiance(glm::vec3 direction, glm::vec3 horizon) {
   const float metres_per_unit = kEyeHeight / -direction.y;
   const float aside = std::abs(direction.x) * metres_per_unit;
   const float verge = glm::smoothstep(kRoadHalfWidth, kRoadHalfWidth + kSoftEdge, aside);
@@ -41,8 +41,8 @@ glm::vec3 below(glm::vec3 direction, glm::vec3 horizon) {
 Radiance day_sky(glm::vec3 towards_sun) {
   const glm::vec3 sun = glm::normalize(towards_sun);
   return [sun](glm::vec3 direction) {
-    if (direction.y >= 0.0f) return above(direction, sun);
-    return below(direction, above(glm::vec3(direction.x, 0.0f, direction.z), sun));
+    if (direction.y >= 0.0f) return sky_radiance(direction, sun);
+    return ground_radiance(direction, sky_radiance(glm::vec3(direction.x, 0.0f, direction.z), sun));
   };
 }
 

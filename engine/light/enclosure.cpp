@@ -17,30 +17,31 @@ namespace gearshift::engine {
 namespace {
 
 constexpr int kWindowSide = 16;  // [texels] face side of the cube map over which the windows are integrated
-constexpr int kLiningSide = 4;   // [texels] face side at which the light of the windows is sampled: it is smooth
+constexpr int kLiningSide = 4;   // [texels] face side of the cube map that samples the windows' smooth light
 
-// A window by azimuth (0 ahead, 90 to the right) and elevation. [deg] Both sides of the car are alike.
+// A window of the car, in ranges [deg] of azimuth (0 ahead, 90 to the right) and elevation. The left side mirrors the
+// right.
 struct Pane {
-  float from, to;  // azimuth, in the right half
+  float from, to;  // azimuth on the right side
   float low, high;
 };
 
-// Windows as seen from (0.335, 0.56, -0.12) in cabin.glb, between the heads and the lever: windscreen, doors, and rear
-// window between the headrests (tests/picture/cabin_light_test.cpp compares them with rays).
+// Windows as seen from the point (0.335, 0.56, -0.12) [m] in cabin.glb, between the heads and the lever: windscreen,
+// doors, and rear window between the headrests (tests/picture/cabin_light_test.cpp compares them with rays).
 constexpr Pane kPanes[] = {{0.0f, 24.0f, -9.0f, 38.0f},
                            {24.0f, 54.0f, -9.0f, 28.0f},
                            {61.0f, 122.0f, -9.0f, 25.0f},
                            {155.0f, 180.0f, -3.0f, 12.0f}};
-constexpr glm::vec3 kAbove{0.57f, 0.54f, 0.49f};     // above the sills: headliner, pillars
-constexpr glm::vec3 kBelow{0.060f, 0.058f, 0.055f};  // below: dash, seats, doors, carpet
-constexpr float kSill = -9.0f;                       // [deg] elevation
+constexpr glm::vec3 kAbove{0.57f, 0.54f, 0.49f};     // albedo above the window sills: headliner, pillars
+constexpr glm::vec3 kBelow{0.060f, 0.058f, 0.055f};  // albedo below them: dash, seats, doors, carpet
+constexpr float kSill = -9.0f;                       // [deg] elevation of the window sills
 
 // A direction and the solid angle [sr] that it represents.
 struct Ray {
   glm::vec3 direction;
   float angle = 0.0f;
 };
-std::vector<Ray> all_around(int side) {
+std::vector<Ray> cube_rays(int side) {
   std::vector<Ray> rays;
   for (int face = 0; face < 6; ++face)
     for (int y = 0; y < side; ++y)
@@ -49,13 +50,13 @@ std::vector<Ray> all_around(int side) {
   return rays;
 }
 
-// Light that reaches the lining directly, without a reflection at the lining before. [E / pi]
+// Irradiance / pi that reaches the lining directly, before any reflection at the lining.
 class DirectLight {
  public:
   DirectLight(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance)
       : window_(room.window), towards_sun_(towards_sun), sun_(irradiance / glm::pi<float>()) {
     std::vector<Ray> windows;
-    for (const Ray& ray : all_around(kWindowSide))
+    for (const Ray& ray : cube_rays(kWindowSide))
       if (room.window(ray.direction)) windows.push_back(ray);
     const auto from_windows = [&](glm::vec3 at) {
       glm::vec3 sum(0.0f);
@@ -84,26 +85,26 @@ class DirectLight {
 
 }  // namespace
 
-Radiance inside(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance) {
-  const DirectLight first(room, open, glm::normalize(towards_sun), irradiance);
+Radiance indoor_radiance(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance) {
+  const DirectLight direct(room, open, glm::normalize(towards_sun), irradiance);
   glm::vec3 first_bounce(0.0f), albedo(0.0f);
-  for (const Ray& ray : all_around(kWindowSide)) {
+  for (const Ray& ray : cube_rays(kWindowSide)) {
     if (room.window(ray.direction)) continue;
     const glm::vec3 weight = ray.angle / (4.0f * glm::pi<float>()) * room.albedo(ray.direction);
-    first_bounce += weight * first(ray.direction);
+    first_bounce += weight * direct(ray.direction);
     albedo += weight;
   }
   const glm::vec3 interreflected = first_bounce / (1.0f - albedo);
   return [=](glm::vec3 direction) {
     if (room.window(direction)) return open(direction);
-    return room.albedo(direction) * (first(direction) + interreflected);
+    return room.albedo(direction) * (direct(direction) + interreflected);
   };
 }
 
 Enclosure car_cabin() {
   const auto height_of = [](float elevation) { return std::sin(glm::radians(elevation)); };
   struct Opening {
-    float from, to, low, high;  // azimuth [deg], heights on the unit sphere
+    float from, to, low, high;  // from, to: azimuth [deg]; low, high: heights on the unit sphere
   };
   std::vector<Opening> openings;
   for (const Pane& pane : kPanes) openings.push_back({pane.from, pane.to, height_of(pane.low), height_of(pane.high)});

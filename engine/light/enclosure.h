@@ -27,8 +27,9 @@ struct Enclosure {
   std::function<glm::vec3(glm::vec3 direction)> albedo;
 };
 
-// irradiance: of the sun, on a surface facing it. The sun is treated as a point, so its patch has a sharp edge.
-Radiance inside(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance);
+// irradiance: from the sun, on a surface that faces it. The sun is treated as a point, so its patch on the lining has a
+// sharp edge.
+Radiance indoor_radiance(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance);
 
 // The cabin of assets/models, seen from its centre.
 Enclosure car_cabin();

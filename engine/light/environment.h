@@ -26,16 +26,16 @@ struct Harmonics {
   std::array<glm::vec3, 9> c{};
   glm::vec3 operator()(glm::vec3 direction) const;
 };
-inline constexpr int kIrradianceSamples = 32;  // along one side of a face
+inline constexpr int kIrradianceSamples = 32;  // samples along one side of a cube face
 Harmonics project(const Radiance& radiance, int samples_per_face_side = kIrradianceSamples);
 
-// Irradiance / pi as a function of the normal: the cosine lobe is folded in.
+// Irradiance / pi as a function of the normal: the coefficients include the cosine lobe.
 using Irradiance = Harmonics;
 Irradiance project_irradiance(const Radiance& radiance, int samples_per_face_side = kIrradianceSamples);
 
-// Cube map of prefiltered radiance. Level 0 is a mirror, the last level has roughness 1; level i has roughness i /
-// (levels - 1). Faces in Vulkan's order (+X -X +Y -Y +Z -Z), texels are linear RGB half floats with alpha 1, rows from
-// the top.
+// Cube map of prefiltered radiance. Level 0 is what a mirror reflects, the last level has roughness 1; level i has
+// roughness i / (levels - 1). Faces in Vulkan's order (+X -X +Y -Y +Z -Z), texels are linear RGB half floats with alpha
+// 1, rows from the top.
 struct PrefilteredCube {
   int side = 0;                                    // [texels] at level 0
   std::vector<std::vector<std::uint16_t>> levels;  // 6 faces of (side >> level)^2 texels, 4 halves each
@@ -43,8 +43,8 @@ struct PrefilteredCube {
 inline constexpr int kPrefilterSamples = 64;  // per texel
 PrefilteredCube prefilter(const Radiance& radiance, int side = 64, int levels = 6, int samples = kPrefilterSamples);
 
-// Split sum: scale and bias of F0 for (n.v, roughness), GGX with height-correlated Smith visibility. n.v > 0. The table
-// is sampled at texel centres: u = n.v, v = roughness.
+// BRDF part of the split sum: scale and bias of F0 for (n.v, roughness), GGX with height-correlated Smith visibility.
+// n.v > 0. The table is sampled at texel centres: u = n.v, v = roughness.
 glm::dvec2 environment_brdf(double n_dot_v, double roughness, int samples);  // evaluates the integral
 struct BrdfTable {
   int side = 0;                                            // [texels]

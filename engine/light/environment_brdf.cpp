@@ -1,4 +1,4 @@
-// The split-sum integral, by a dedicated quadrature.
+// The BRDF integral of the split sum, by a quadrature made for it.
 //
 // This work is based on:
 // Brian Karis. Real Shading in Unreal Engine 4. 2013 (the split sum)
@@ -29,13 +29,13 @@ Quadrature gauss_legendre(int n) {
   for (int i = 0; i < n; ++i) {
     double z = std::cos(glm::pi<double>() * (i + 0.75) / (n + 0.5)), slope = 1.0;
     for (int step = 0; step < 8; ++step) {
-      double p = 1.0, before = 0.0;
+      double p = 1.0, previous = 0.0;
       for (int k = 1; k <= n; ++k) {
-        const double next = ((2 * k - 1) * z * p - (k - 1) * before) / k;
-        before = p;
+        const double next = ((2 * k - 1) * z * p - (k - 1) * previous) / k;
+        previous = p;
         p = next;
       }
-      slope = n * (z * p - before) / (z * z - 1.0);
+      slope = n * (z * p - previous) / (z * z - 1.0);
       z -= p / slope;
     }
     q.node.push_back(0.5 * (1.0 - z));
@@ -100,7 +100,7 @@ class VisibleNormals {
 glm::dvec2 integrate(double n_dot_v, double roughness, const Quadrature& heights, const Quadrature& azimuths) {
   const VisibleNormals normals(n_dot_v, std::max(roughness * roughness, 1e-6));
   glm::dvec2 sum(0.0);
-  for (std::size_t j = 0; j < azimuths.node.size(); ++j) {  // half a turn: the other half is its mirror image
+  for (std::size_t j = 0; j < azimuths.node.size(); ++j) {  // azimuths cover half a turn; the other half mirrors it
     const double phi = glm::pi<double>() * azimuths.node[j], cos_phi = std::cos(phi), sin_phi = std::sin(phi);
     const double low = normals.horizon(cos_phi, sin_phi), length = 1.0 - low;
     glm::dvec2 ring(0.0);
@@ -146,9 +146,9 @@ BrdfTable bake_brdf(int side, int samples) {
       }
     }
   };
-  std::thread odd(bake_rows, 1, 2);
+  std::thread odd_rows(bake_rows, 1, 2);
   bake_rows(0, 2);
-  odd.join();
+  odd_rows.join();
   return table;
 }
 
@@ -158,8 +158,8 @@ glm::vec2 BrdfTable::sample(float n_dot_v, float roughness) const {
     const std::size_t at = 2 * static_cast<std::size_t>(row * side + column);
     return glm::vec2(texels[at], texels[at + 1]) / 65535.0f;
   };
-  const glm::vec2 place = glm::vec2(n_dot_v, roughness) * static_cast<float>(side) - 0.5f;
-  const glm::vec2 corner = glm::floor(place), t = place - corner;
+  const glm::vec2 position = glm::vec2(n_dot_v, roughness) * static_cast<float>(side) - 0.5f;
+  const glm::vec2 corner = glm::floor(position), t = position - corner;
   const int x = static_cast<int>(corner.x), y = static_cast<int>(corner.y);
   return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), t.x), glm::mix(texel(x, y + 1), texel(x + 1, y + 1), t.x),
                   t.y);

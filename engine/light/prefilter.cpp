@@ -30,8 +30,8 @@ double radical_inverse(std::uint32_t i) {
   return inverse;
 }
 
-// GGX half vectors around the normal, restricted to those that reflect upwards (u < 1 / (1 + alpha^2), n.h >
-// sqrt(1/2)). They are the same for each texel of a level.
+// Light directions reflected at GGX half vectors around the normal, only those above the surface (u < 1 / (1 +
+// alpha^2), n.h > sqrt(1/2)). The samples are the same for all texels of a level.
 std::vector<LobeSample> ggx_lobe(double roughness, int samples) {
   if (roughness == 0.0) return {{glm::vec3(0.0f, 0.0f, 1.0f), 1.0f}};
   const double a2 = std::pow(roughness, 4.0);
@@ -50,7 +50,7 @@ std::vector<LobeSample> ggx_lobe(double roughness, int samples) {
   return lobe;
 }
 
-// Any frame whose z axis is the normal.
+// Returns an arbitrary orthonormal frame whose z axis is the normal.
 glm::mat3 frame_about(glm::vec3 normal) {
   const glm::vec3 up = std::abs(normal.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
   const glm::vec3 x = glm::normalize(glm::cross(up, normal));
@@ -90,9 +90,9 @@ PrefilteredCube prefilter(const Radiance& radiance, int side, int levels, int sa
       filter_face(radiance, lobes[level], face, width, first);
     }
   };
-  std::thread other(work);
+  std::thread worker(work);
   work();
-  other.join();
+  worker.join();
   return cube;
 }
 

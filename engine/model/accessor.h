@@ -1,4 +1,5 @@
-// Numbers in a buffer in glTF's layouts: interleaved, normalised, sparse. check_gltf() has already checked the ranges.
+// Reads numbers from a buffer in any of glTF's layouts: interleaved, normalised, sparse. check_gltf() has already
+// checked the ranges.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@ namespace gearshift::engine {
 enum class ComponentType : int { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 std::size_t byte_size(ComponentType type);
 
-// `count` elements of `components` numbers each, the first one at `first`. Without bytes, all are zero.
+// Elements at regular distances, the first one at `first`. If `first` is null, all numbers are zero.
 struct StridedData {
   const std::uint8_t* first = nullptr;
   std::size_t stride = 0;  // [bytes] between the starts of elements
@@ -23,14 +24,14 @@ struct AccessorData {
   std::size_t components = 1;  // per element
   ComponentType type = ComponentType::f32;
   bool normalized = false;
-  // Sparse accessors: the elements that are replaced.
+  // For a sparse accessor: the elements that it replaces.
   std::size_t sparse_count = 0;
   ComponentType sparse_type = ComponentType::u32;
   StridedData sparse_indices, sparse_values;
 };
 
-// Return count * components numbers. Throw GltfError if a sparse index is out of range or out of order, or if a number
-// is not finite.
+// Both functions return count * components numbers. They throw GltfError if a sparse index is out of range or out of
+// order, or if a number is not finite.
 std::vector<float> read_floats(const AccessorData& data);
 std::vector<std::uint32_t> read_integers(const AccessorData& data);  // unsigned types only
 

@@ -23,46 +23,46 @@ void shift(int& index, int by) {
   if (index != kNone) index += by;
 }
 
-void append_materials(Model& whole, const Model& part) {
-  const int textures = size_of(whole.textures);
-  whole.textures.insert(whole.textures.end(), part.textures.begin(), part.textures.end());
+void append_materials(Model& target, const Model& part) {
+  const int textures = size_of(target.textures);
+  target.textures.insert(target.textures.end(), part.textures.begin(), part.textures.end());
   for (Material material : part.materials) {
     for (TextureUse* use : {&material.base_colour_map, &material.metal_rough_map, &material.normal_map,
                             &material.occlusion_map, &material.emissive_map}) {
       shift(use->texture, textures);
     }
-    whole.materials.push_back(std::move(material));
+    target.materials.push_back(std::move(material));
   }
 }
 
-// `materials`: number of materials in `whole` before the append.
-void append_meshes(Model& whole, const Model& part, int materials) {
-  const auto vertices = static_cast<std::uint32_t>(whole.vertices.size());
-  const auto indices = static_cast<std::uint32_t>(whole.indices.size());
+// `materials`: number of materials in `target` before the append.
+void append_meshes(Model& target, const Model& part, int materials) {
+  const auto vertices = static_cast<std::uint32_t>(target.vertices.size());
+  const auto indices = static_cast<std::uint32_t>(target.indices.size());
   for (Mesh mesh : part.meshes) {
     mesh.first_vertex += vertices;
     for (Primitive& primitive : mesh.primitives) {
       primitive.first_index += indices;
       shift(primitive.material, materials);
     }
-    whole.meshes.push_back(std::move(mesh));
+    target.meshes.push_back(std::move(mesh));
   }
-  for (const std::uint32_t index : part.indices) whole.indices.push_back(vertices + index);
-  whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
-  if (whole.vertex_joints.empty() && part.vertex_joints.empty()) return;
-  whole.vertex_joints.resize(vertices);
-  whole.vertex_joints.insert(whole.vertex_joints.end(), part.vertex_joints.begin(), part.vertex_joints.end());
-  whole.vertex_joints.resize(whole.vertices.size());
+  for (const std::uint32_t index : part.indices) target.indices.push_back(vertices + index);
+  target.vertices.insert(target.vertices.end(), part.vertices.begin(), part.vertices.end());
+  if (target.vertex_joints.empty() && part.vertex_joints.empty()) return;
+  target.vertex_joints.resize(vertices);
+  target.vertex_joints.insert(target.vertex_joints.end(), part.vertex_joints.begin(), part.vertex_joints.end());
+  target.vertex_joints.resize(target.vertices.size());
 }
 
-void append_skins(Model& whole, const Model& part, int nodes) {
+void append_skins(Model& target, const Model& part, int nodes) {
   for (Skin skin : part.skins) {
     for (int& joint : skin.joints) shift(joint, nodes);
-    whole.skins.push_back(std::move(skin));
+    target.skins.push_back(std::move(skin));
   }
 }
 
-// Implements merge_static(): keeps the nodes of the model and only the meshes that are still referenced.
+// Implements merge_static(): keeps all nodes of the model, and only those meshes that are still used.
 class StaticMerge {
  public:
   StaticMerge(const Model& model, std::span<const std::string_view> moving)
@@ -128,7 +128,8 @@ class StaticMerge {
 
   void append_static_mesh() {
     Mesh mesh{"Static", {}, static_cast<std::uint32_t>(out_.vertices.size()), 0};
-    std::map<int, std::vector<std::pair<std::size_t, const Primitive*>>> by_material;  // with the node that carries it
+    // Primitives by material, each with the index of the node that carries it.
+    std::map<int, std::vector<std::pair<std::size_t, const Primitive*>>> by_material;
     for (const std::size_t node : parts_) {
       for (const Primitive& p : model_.meshes[static_cast<std::size_t>(model_.nodes[node].mesh)].primitives) {
         if (p.index_count > 0) by_material[p.material].emplace_back(node, &p);
@@ -152,7 +153,7 @@ class StaticMerge {
     out_.nodes.push_back(std::move(root));
   }
 
-  // A mirroring transform turns triangles inside out and swaps the side of the bitangent.
+  // A mirroring transform turns triangles inside out and flips the bitangent.
   void append_transformed(const Primitive& primitive, const glm::mat4& world) {
     const glm::mat3 linear(world);
     const glm::mat3 for_normals = glm::transpose(glm::inverse(linear));
@@ -193,22 +194,22 @@ class StaticMerge {
 
 }  // namespace
 
-int append_model(Model& whole, const Model& part, int parent) {
-  if (parent < kNone || parent >= size_of(whole.nodes)) throw std::invalid_argument("append_model: no such parent");
-  const int first = size_of(whole.nodes), meshes = size_of(whole.meshes), skins = size_of(whole.skins);
-  const int materials = size_of(whole.materials);
-  append_materials(whole, part);
-  append_meshes(whole, part, materials);
-  append_skins(whole, part, first);
+int append_model(Model& target, const Model& part, int parent) {
+  if (parent < kNone || parent >= size_of(target.nodes)) throw std::invalid_argument("append_model: no such parent");
+  const int first = size_of(target.nodes), meshes = size_of(target.meshes), skins = size_of(target.skins);
+  const int materials = size_of(target.materials);
+  append_materials(target, part);
+  append_meshes(target, part, materials);
+  append_skins(target, part, first);
   for (Node node : part.nodes) {
     node.parent = node.parent == kNone ? parent : node.parent + first;
     shift(node.mesh, meshes);
     shift(node.skin, skins);
-    whole.nodes.push_back(std::move(node));
+    target.nodes.push_back(std::move(node));
   }
   for (const std::string& name : part.skipped) {
-    if (std::find(whole.skipped.begin(), whole.skipped.end(), name) == whole.skipped.end()) {
-      whole.skipped.push_back(name);
+    if (std::find(target.skipped.begin(), target.skipped.end(), name) == target.skipped.end()) {
+      target.skipped.push_back(name);
     }
   }
   return first;

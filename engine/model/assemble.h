@@ -8,14 +8,13 @@
 
 namespace gearshift::engine {
 
-// Appends `part` to `whole` with all its nodes; its root nodes become children of `parent` (kNone: roots). Returns the
-// index of its first node.
-int append_model(Model& whole, const Model& part, int parent = kNone);
+// Appends `part` with all its nodes to `target`. The root nodes of `part` become children of `parent` (kNone: they stay
+// roots). Returns the index that the first node of `part` has in `target`.
+int append_model(Model& target, const Model& part, int parent = kNone);
 
-// Merges everything static: every mesh whose node is not named in `moving`, not a descendant of such a node and not
-// skinned becomes part of a mesh at a new root node "Static", with one primitive per material. Its nodes stay, without
-// a mesh. Names must match completely: a node whose name merely ends in one of `moving` does not count. Throws
-// std::invalid_argument with the name if there is no such node.
+// Merges all static meshes into one mesh at a new root node "Static", with one primitive per material. A mesh is static
+// unless it is skinned, or its node or an ancestor of that node is named in `moving`. The nodes of merged meshes stay,
+// without a mesh. Names in `moving` must match completely; std::invalid_argument is thrown for a name that no node has.
 Model merge_static(const Model& model, std::span<const std::string_view> moving);
 
 // Number of draws in one frame: the primitives of all nodes that carry a mesh.

@@ -1,6 +1,6 @@
 // Builds a Model from a checked document, using tinygltf's structs. This is the only file that includes tinygltf, and
-// tinygltf is given only JSON that check_gltf() has passed: no file, no buffer, no image. Its own loader reads images
-// beyond their buffers, a binary chunk eight bytes too far, and files from the working folder.
+// tinygltf is given only JSON that check_gltf() has passed: no file, no buffer, no image. tinygltf's own loader would
+// read images beyond the end of their buffers, a binary chunk eight bytes too far, and files from the working folder.
 #include "engine/model/gltf.h"
 
 #include <algorithm>
@@ -33,13 +33,13 @@ decltype(auto) at(List& list, int index) {
   return list[static_cast<std::size_t>(index)];
 }
 
-tinygltf::Model structs_of(const GltfDocument& document) {
-  nlohmann::json read = nlohmann::json::object();
+tinygltf::Model parse_structs(const GltfDocument& document) {
+  nlohmann::json known = nlohmann::json::object();
   for (const char* key : {"asset", "bufferViews", "accessors", "meshes", "nodes", "scenes", "scene", "materials",
                           "textures", "samplers", "skins"}) {
-    if (document.json.contains(key)) read[key] = document.json[key];
+    if (document.json.contains(key)) known[key] = document.json[key];
   }
-  const std::string text = read.dump();
+  const std::string text = known.dump();
   tinygltf::Model model;
   std::string errors, warnings;
   if (!tinygltf::TinyGLTF().LoadASCIIFromString(&model, &errors, &warnings, text.data(),
@@ -55,10 +55,11 @@ float clamped(double value) {
 
 class GltfReader {
  public:
-  explicit GltfReader(const std::filesystem::path& file) : document_(open_gltf(file)), source_(structs_of(document_)) {}
+  explicit GltfReader(const std::filesystem::path& file)
+      : document_(open_gltf(file)), source_(parse_structs(document_)) {}
 
   Model read() {
-    name_skipped();
+    list_skipped();
     for (const tinygltf::Material& material : source_.materials) model_.materials.push_back(read_material(material));
     read_textures();
     read_nodes();
@@ -74,7 +75,7 @@ class GltfReader {
  private:
   void skip(std::string what) { skipped_.insert(std::move(what)); }
 
-  void name_skipped() {
+  void list_skipped() {
     const nlohmann::json& json = document_.json;
     if (json.contains("extensionsUsed")) {
       for (const std::string name : json["extensionsUsed"]) {
@@ -116,7 +117,7 @@ class GltfReader {
     return static_cast<float>(std::max(0.0, found->second.Get("emissiveStrength").GetNumberAsDouble()));
   }
 
-  template <typename TextureInfo>  // tinygltf has three such types with the same members
+  template <typename TextureInfo>  // tinygltf has three types of texture use with the same members
   TextureUse texture_use(const TextureInfo& in, bool srgb) {
     TextureUse out;
     if (in.index == -1) return out;
@@ -132,7 +133,7 @@ class GltfReader {
     return out;
   }
 
-  // Returns the UV set, which the extension may override.
+  // Reads the values of KHR_texture_transform. Returns the UV set, which the extension may override.
   static int read_transform(const tinygltf::Value& in, TextureUse& out, int uv_set) {
     const auto number = [](const tinygltf::Value& v) { return static_cast<float>(v.GetNumberAsDouble()); };
     if (in.Has("offset")) out.offset = {number(in.Get("offset").Get(0)), number(in.Get("offset").Get(1))};
@@ -141,7 +142,7 @@ class GltfReader {
     return in.Has("texCoord") ? in.Get("texCoord").GetNumberAsInt() : uv_set;
   }
 
-  // --- textures: one for every combination of image, sampler and colour space in use ---
+  // --- textures: one for each combination of image, sampler and colour space that the materials use ---
 
   int texture(int index, bool srgb) {
     const tinygltf::Texture& in = at(source_.textures, index);
@@ -172,10 +173,10 @@ class GltfReader {
   }
 
   void read_textures() {
-    std::map<int, std::size_t> place;  // index in `encoded`, by image
+    std::map<int, std::size_t> encoded_index;  // image in the file -> index in `encoded`
     std::vector<EncodedImage> encoded;
     for (const int image : image_of_texture_) {
-      const auto [known, is_new] = place.try_emplace(image, encoded.size());
+      const auto [known, is_new] = encoded_index.try_emplace(image, encoded.size());
       if (is_new) {
         const auto index = static_cast<std::size_t>(image);
         encoded.push_back({fmt::format("images[{}]", index), image_bytes(document_, index), 0});
@@ -184,7 +185,7 @@ class GltfReader {
     }
     std::vector<Image> images = decode_images(encoded);
     for (std::size_t i = 0; i < model_.textures.size(); ++i) {
-      const std::size_t from = place.at(image_of_texture_[i]);
+      const std::size_t from = encoded_index.at(image_of_texture_[i]);
       const bool last = --encoded[from].uses == 0;
       model_.textures[i].pixels = last ? std::move(images[from]) : images[from];
     }
@@ -193,19 +194,19 @@ class GltfReader {
   // --- nodes of the scene, parents first ---
 
   void read_nodes() {
-    place_of_node_.assign(source_.nodes.size(), kNone);
-    std::vector<std::pair<int, int>> waiting;  // node in the file, its parent in the model
+    model_index_of_node_.assign(source_.nodes.size(), kNone);
+    std::vector<std::pair<int, int>> pending;  // index of a node in the file, index of its parent in the model
     const std::vector<int> roots = scene_roots();
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.emplace_back(*root, kNone);
-    while (!waiting.empty()) {
-      const auto [index, parent] = waiting.back();
-      waiting.pop_back();
-      if (at(place_of_node_, index) != kNone) continue;  // a scene may list a root twice
-      at(place_of_node_, index) = static_cast<int>(model_.nodes.size());
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.emplace_back(*root, kNone);
+    while (!pending.empty()) {
+      const auto [index, parent] = pending.back();
+      pending.pop_back();
+      if (at(model_index_of_node_, index) != kNone) continue;  // a scene may list a root twice
+      at(model_index_of_node_, index) = static_cast<int>(model_.nodes.size());
       const tinygltf::Node& in = at(source_.nodes, index);
       model_.nodes.push_back(read_node(in, index, parent));
       for (auto child = in.children.rbegin(); child != in.children.rend(); ++child) {
-        waiting.emplace_back(*child, at(place_of_node_, index));
+        pending.emplace_back(*child, at(model_index_of_node_, index));
       }
     }
   }
@@ -311,17 +312,18 @@ class GltfReader {
     return out;
   }
 
-  static std::vector<std::uint32_t> counted(std::size_t count) {
+  static std::vector<std::uint32_t> consecutive_indices(std::size_t count) {
     std::vector<std::uint32_t> indices(count);
     for (std::size_t i = 0; i < count; ++i) indices[i] = static_cast<std::uint32_t>(i);
     return indices;
   }
 
   std::vector<std::uint32_t> read_indices(const tinygltf::Primitive& in, std::size_t vertices) const {
-    if (in.indices == -1) return counted(vertices);
+    if (in.indices == -1) return consecutive_indices(vertices);
     std::vector<std::uint32_t> indices = read_integers(accessor(in.indices));
     const auto beyond = std::find_if(indices.begin(), indices.end(), [&](std::uint32_t i) { return i >= vertices; });
-    if (beyond != indices.end()) throw GltfError(fmt::format("a mesh of {} vertices has index {}", vertices, *beyond));
+    if (beyond != indices.end())
+      throw GltfError(fmt::format("a mesh uses vertex {}, but has only {} vertices", *beyond, vertices));
     return indices;
   }
 
@@ -344,18 +346,19 @@ class GltfReader {
   }
 
   bool read_vertex_attribute(const std::string& name, int index, std::vector<Vertex>& out) const {
-    const auto each = [&](auto store) {
+    const auto store_each = [&](auto store) {
       const AccessorData data = accessor(index);
       const std::vector<float> values = read_floats(data);
       for (std::size_t i = 0; i < out.size(); ++i) store(out[i], &values[i * data.components], data.components);
       return true;
     };
-    if (name == "POSITION") return each([](Vertex& v, const float* p, auto) { v.position = glm::make_vec3(p); });
-    if (name == "NORMAL") return each([](Vertex& v, const float* p, auto) { v.normal = glm::make_vec3(p); });
-    if (name == "TANGENT") return each([](Vertex& v, const float* p, auto) { v.tangent = glm::make_vec4(p); });
-    if (name == "TEXCOORD_0") return each([](Vertex& v, const float* p, auto) { v.uv0 = glm::make_vec2(p); });
-    if (name == "TEXCOORD_1") return each([](Vertex& v, const float* p, auto) { v.uv1 = glm::make_vec2(p); });
-    if (name == "COLOR_0") return each([](Vertex& v, const float* p, auto count) { v.colour = packed(p, count); });
+    if (name == "POSITION") return store_each([](Vertex& v, const float* p, auto) { v.position = glm::make_vec3(p); });
+    if (name == "NORMAL") return store_each([](Vertex& v, const float* p, auto) { v.normal = glm::make_vec3(p); });
+    if (name == "TANGENT") return store_each([](Vertex& v, const float* p, auto) { v.tangent = glm::make_vec4(p); });
+    if (name == "TEXCOORD_0") return store_each([](Vertex& v, const float* p, auto) { v.uv0 = glm::make_vec2(p); });
+    if (name == "TEXCOORD_1") return store_each([](Vertex& v, const float* p, auto) { v.uv1 = glm::make_vec2(p); });
+    if (name == "COLOR_0")
+      return store_each([](Vertex& v, const float* p, auto count) { v.colour = packed(p, count); });
     return false;
   }
 
@@ -377,7 +380,7 @@ class GltfReader {
         if (weights[4 * i + k] < 0.0f) throw GltfError("a mesh has a negative joint weight");
         sum += weights[4 * i + k];
       }
-      if (sum < 1e-6) continue;  // no weights: the first joint gets all
+      if (sum < 1e-6) continue;  // no weights: keep VertexJoints' default
       for (std::size_t k = 0; k < 4; ++k) {
         out[i].weight[k] = static_cast<float>(weights[4 * i + k] / sum);
         const bool used = out[i].weight[k] > 0.0f;
@@ -407,16 +410,16 @@ class GltfReader {
     model_.vertex_joints.insert(model_.vertex_joints.end(), surface.joints.begin(), surface.joints.end());
   }
 
-  // --- skins used by the scene's nodes; the others stay in the list, empty ---
+  // --- skins: those that no node of the scene uses stay in the list, empty ---
 
   void read_skins() {
-    std::set<int> named;
-    for (const Node& node : model_.nodes) named.insert(node.skin);
+    std::set<int> used;
+    for (const Node& node : model_.nodes) used.insert(node.skin);
     model_.skins.resize(source_.skins.size());
     std::uint64_t matrices = 0;
     for (std::size_t i = 0; i < source_.skins.size(); ++i) {
       const tinygltf::Skin& in = source_.skins[i];
-      if (named.count(static_cast<int>(i)) == 0) continue;
+      if (used.count(static_cast<int>(i)) == 0) continue;
       if (in.inverseBindMatrices != -1) matrices += accessor(in.inverseBindMatrices).count;
       if (matrices > kMaxSkinMatrices) throw GltfError("its skins have too many matrices");
       model_.skins[i] = read_skin(in);
@@ -426,8 +429,8 @@ class GltfReader {
   Skin read_skin(const tinygltf::Skin& in) const {
     Skin out;
     for (const int joint : in.joints) {
-      if (at(place_of_node_, joint) == kNone) throw GltfError("a skin has a joint outside the scene");
-      out.joints.push_back(at(place_of_node_, joint));
+      if (at(model_index_of_node_, joint) == kNone) throw GltfError("a skin has a joint outside the scene");
+      out.joints.push_back(at(model_index_of_node_, joint));
     }
     out.inverse_bind.assign(out.joints.size(), glm::mat4(1.0f));
     if (in.inverseBindMatrices == -1) return out;
@@ -455,8 +458,8 @@ class GltfReader {
   std::set<std::string> skipped_;
   std::map<std::tuple<int, bool, Wrap, Wrap, bool>, int> textures_;
   std::vector<int> image_of_texture_;
-  std::vector<int> place_of_node_;  // index in the file -> index in the model; kNone: not in the scene
-  std::set<int> without_joints_;    // meshes without joints
+  std::vector<int> model_index_of_node_;  // index in the file -> index in the model; kNone: not in the scene
+  std::set<int> without_joints_;          // meshes whose vertices have no joints
   GltfDocument document_;
   tinygltf::Model source_;
   Model model_;
@@ -465,7 +468,7 @@ class GltfReader {
 }  // namespace
 
 Model read_gltf(const std::filesystem::path& file) try { return GltfReader(file).read(); } catch (const GltfError& e) {
-  throw GltfError(fmt::format("{}: the model cannot be read: {}", file.string(), e.what()));
+  throw GltfError(fmt::format("{}: the model cannot be read, because {}", file.string(), e.what()));
 }
 
 }  // namespace gearshift::engine

@@ -15,7 +15,7 @@ namespace gearshift::engine {
 
 namespace {
 
-// glTF 2.0, 4.4: little-endian words, which matches every machine this is built for.
+// Words in a .glb (glTF 2.0, 4.4). They are little-endian, like every machine that this is built for.
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
@@ -51,7 +51,7 @@ int base64_value(char c) {
   return c == '/' ? 63 : -1;
 }
 
-// RFC 4648, with or without the padding.
+// Decodes base64 (RFC 4648), with or without padding.
 std::vector<std::uint8_t> decoded_base64(std::string_view text) {
   for (int i = 0; i < 2 && !text.empty() && text.back() == '='; ++i) text.remove_suffix(1);
   std::vector<std::uint8_t> bytes;
@@ -97,7 +97,7 @@ bool is_inside(const std::filesystem::path& file, const std::filesystem::path& f
   return end == folder.end();
 }
 
-std::filesystem::path file_beside(const std::string& name, const std::filesystem::path& folder) {
+std::filesystem::path referenced_file(const std::string& name, const std::filesystem::path& folder) {
   const std::filesystem::path relative(name);
   const bool plain = !name.empty() && name.find('\0') == std::string::npos && name.find(':') == std::string::npos;
   if (!plain || relative.is_absolute()) throw GltfError("a URI is neither base64 data nor a relative path");
@@ -119,11 +119,12 @@ std::string printable_name(std::string_view text) {
   return printable;
 }
 
-std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file) {
+std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw GltfError("there is no such file");
-  if (!std::filesystem::is_regular_file(status)) throw GltfError("it is not a file");
+  if (std::filesystem::is_directory(status)) throw GltfError("it is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) throw GltfError("it is not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) throw GltfError(error.message());
   if (size > kMaxGltfBytes) throw GltfError("the file is too large");
@@ -138,7 +139,7 @@ std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file) {
 GltfChunks parse_chunks(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 4 || word(bytes, 0) != kMagic) return {as_text(bytes), {}};
   if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) throw GltfError("the .glb header is cut off");
-  if (word(bytes, 4) != 2) throw GltfError(fmt::format("it is .glb version {}, not 2", word(bytes, 4)));
+  if (word(bytes, 4) != 2) throw GltfError(fmt::format("it has .glb version {}, not 2", word(bytes, 4)));
   const std::uint32_t length = word(bytes, 8);
   if (length > bytes.size() || length < kHeaderBytes) throw GltfError("the file is cut off");
   std::span<const std::uint8_t> rest = bytes.first(length).subspan(kHeaderBytes);
@@ -155,11 +156,11 @@ GltfChunks parse_chunks(std::span<const std::uint8_t> bytes) {
 std::vector<std::uint8_t> read_uri(std::string_view uri, const std::filesystem::path& folder,
                                    std::vector<std::filesystem::path>& files) {
   if (!uri.starts_with("data:")) {
-    files.push_back(file_beside(percent_decoded(uri), folder));
+    files.push_back(referenced_file(percent_decoded(uri), folder));
     try {
-      return read_whole_file(files.back());
+      return read_file_bytes(files.back());
     } catch (const GltfError& e) {
-      throw GltfError(fmt::format("'{}' beside it: {}", printable_name(uri), e.what()));
+      throw GltfError(fmt::format("its file '{}' cannot be read ({})", printable_name(uri), e.what()));
     }
   }
   const std::size_t comma = uri.find(',');

@@ -47,10 +47,10 @@ struct Accessor {
   std::uint64_t component = 0;
   std::uint64_t count = 0;
   bool normalized = false;
-  bool stored = false;  // in a buffer view, not implicit zeros
+  bool stored = false;  // elements are in a buffer view; false: all are zero
 };
 
-// Checks the top-level lists in the order of their references.
+// Checks the top-level lists, each after those that it refers to.
 class Check {
  public:
   Check(const nlohmann::json& json, std::size_t binary_bytes) : root_(json, ""), binary_bytes_(binary_bytes) {}
@@ -74,7 +74,7 @@ class Check {
     const JsonItem asset = root_.required_item("asset");
     const std::string version = asset.required_text("version");
     if (!version.starts_with("2.")) throw GltfError(fmt::format("it is glTF {}, not 2.0", printable_name(version)));
-    // glTF 2.0, 5.8: the reader must support this version
+    // glTF 2.0, 5.8: a reader must support minVersion.
     const std::string needs = asset.text("minVersion").value_or("2.0");
     if (needs != "2.0") throw GltfError(fmt::format("it needs glTF {}, not 2.0", printable_name(needs)));
   }
@@ -102,17 +102,17 @@ class Check {
 
   void check_views() {
     for (const JsonItem& item : root_.items("bufferViews")) {
-      const std::uint64_t whole = buffer_bytes_[item.required_index("buffer", buffer_bytes_.size())];
-      const std::uint64_t offset = item.integer("byteOffset", 0, whole).value_or(0);
+      const std::uint64_t buffer_size = buffer_bytes_[item.required_index("buffer", buffer_bytes_.size())];
+      const std::uint64_t offset = item.integer("byteOffset", 0, buffer_size).value_or(0);
       const std::uint64_t length = item.required_integer("byteLength", 1, kMaxGltfBytes);
-      if (length > whole - offset) item.reject("extends beyond its buffer");
+      if (length > buffer_size - offset) item.reject("extends beyond its buffer");
       const std::uint64_t stride = item.integer("byteStride", 4, 252).value_or(0);
       if (stride % 4 != 0) item.reject("has a stride that is not a multiple of 4");
       views_.push_back({length, stride});
     }
   }
 
-  // `count` elements starting at the item's byteOffset must lie inside its buffer view.
+  // Rejects the item unless `count` elements, starting at its byteOffset, lie inside its buffer view.
   void check_range(const JsonItem& item, std::uint64_t count, std::uint64_t element) const {
     const View& view = views_[item.required_index("bufferView", views_.size())];
     const std::uint64_t offset = item.integer("byteOffset", 0, view.length).value_or(0);
@@ -136,8 +136,8 @@ class Check {
     return accessor;
   }
 
-  void check_sparse(const JsonItem& sparse, std::uint64_t most, std::uint64_t element) const {
-    const std::uint64_t count = sparse.required_integer("count", 1, most);
+  void check_sparse(const JsonItem& sparse, std::uint64_t max_count, std::uint64_t element) const {
+    const std::uint64_t count = sparse.required_integer("count", 1, max_count);
     const JsonItem indices = sparse.required_item("indices");
     const std::uint64_t type = indices.required_integer("componentType", u8, u32);
     if (type != u8 && type != u16 && type != u32) indices.reject("has a type that indices cannot have");
@@ -229,14 +229,14 @@ class Check {
     if (elements_ > kMaxGltfElements) throw GltfError("it has too many vertices or indices");
   }
 
-  // Returns the number of vertices.
+  // Checks a primitive's attributes; returns the number of vertices.
   std::uint64_t checked_attributes(const JsonItem& item) const {
     const auto attributes = item.named_indices("attributes", accessors_.size());
     const auto position =
         std::find_if(attributes.begin(), attributes.end(), [](const auto& a) { return a.first == "POSITION"; });
     if (position == attributes.end()) item.reject("has no positions");
     for (const auto& [name, index] : attributes) {
-      if (!fits(name, accessors_[index])) {
+      if (!is_allowed_type(name, accessors_[index])) {
         item.reject(fmt::format("has a {} of a type that glTF does not allow", printable_name(name)));
       }
       if (accessors_[index].count != accessors_[position->second].count) {
@@ -246,8 +246,9 @@ class Check {
     return accessors_[position->second].count;
   }
 
-  // glTF 2.0, 3.7.2.1, table of attributes. Names that are not in the table are not read.
-  static bool fits(std::string_view name, const Accessor& a) {
+  // Types from glTF 2.0, 3.7.2.1, table of attributes. A name that is not in the table is allowed, because it is not
+  // read.
+  static bool is_allowed_type(std::string_view name, const Accessor& a) {
     const bool is_float = a.component == f32;
     const bool is_fraction = is_float || ((a.component == u8 || a.component == u16) && a.normalized);
     if (name == "POSITION" || name == "NORMAL") return a.type == "VEC3" && is_float;
@@ -292,7 +293,7 @@ class Check {
       const std::vector<std::size_t>& next = children[reached[i]];
       reached.insert(reached.end(), next.begin(), next.end());
     }
-    if (reached.size() != children.size()) throw GltfError("its node hierarchy has a cycle");
+    if (reached.size() != children.size()) throw GltfError("its node hierarchy contains a cycle");
   }
 
   void check_skins() const {

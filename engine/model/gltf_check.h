@@ -1,4 +1,4 @@
-// Checks the JSON of a glTF 2.0 file, as far as it is read here: types, ranges, references, byte ranges.
+// Checks those parts of a glTF 2.0 file's JSON that gltf.cpp reads: types, ranges, references, byte ranges.
 #pragma once
 
 #include <cstddef>

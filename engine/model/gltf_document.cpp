@@ -11,10 +11,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int kMaxJsonDepth = 64;  // of the JSON; glTF itself needs about ten, extensions a few more
+constexpr int kMaxJsonDepth = 64;  // [levels] glTF itself needs about ten, extensions a few more
 
-// Checks, before a parser builds anything, how deeply the text is nested and how many values it has. Base64 is inside
-// strings and counts as one value. Text that is not JSON may be counted wrongly; the parser then rejects it.
+// Checks, before a parser builds anything, how deeply the text is nested and how many values it has. A base64 string
+// counts as one value. Text that is not JSON may be counted wrongly; the parser then rejects it.
 void check_extent(std::string_view text) {
   int depth = 0;
   std::uint64_t values = 1;
@@ -40,7 +40,7 @@ json parsed(std::string_view text) {
   try {
     return json::parse(text.begin(), text.end());
   } catch (const json::parse_error& e) {
-    throw GltfError(fmt::format("it is neither .glb nor JSON, or broken at byte {}", e.byte));
+    throw GltfError(fmt::format("it is neither .glb nor JSON, or its JSON is invalid at byte {}", e.byte));
   } catch (const json::exception&) {
     throw GltfError("its JSON has a number that is out of range");
   }
@@ -63,7 +63,7 @@ std::vector<std::uint8_t> buffer_bytes(GltfDocument& document, std::size_t index
 }  // namespace
 
 GltfDocument open_gltf(const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> bytes = read_whole_file(file);
+  const std::vector<std::uint8_t> bytes = read_file_bytes(file);
   const GltfChunks chunks = parse_chunks(bytes);
   GltfDocument document{parsed(chunks.json), {}, file.parent_path()};
   check_gltf(document.json, chunks.binary.size());

@@ -15,13 +15,13 @@ namespace gearshift::engine {
 
 struct GltfDocument {
   nlohmann::json json;
-  std::vector<std::vector<std::uint8_t>> buffers;   // one per buffer, as long as the JSON says
+  std::vector<std::vector<std::uint8_t>> buffers;   // one per buffer, of the length that the JSON states
   std::filesystem::path folder;                     // folder of the file, for relative paths
-  std::vector<std::filesystem::path> files{};       // files that were read from it
+  std::vector<std::filesystem::path> files{};       // files that were read from the folder
   std::vector<std::vector<std::uint8_t>> images{};  // encoded images that are not in a buffer, loaded on demand
 };
 
-// All of these throw GltfError with only the reason.
+// Both functions throw GltfError with only the reason.
 GltfDocument open_gltf(const std::filesystem::path& file);
 
 // Returns the encoded bytes of an image, wherever they are stored; valid as long as the document. Images outside of

@@ -20,11 +20,11 @@ void check_sizes(const std::vector<EncodedImage>& encoded) {
     try {
       size = encoded_size(image.bytes);
     } catch (const std::runtime_error& e) {
-      throw GltfError(fmt::format("{} cannot be used: {}", image.place, e.what()));
+      throw GltfError(fmt::format("{} cannot be used ({})", image.path, e.what()));
     }
     if (size.width > kMaxTextureSide || size.height > kMaxTextureSide) {
-      throw GltfError(fmt::format("{} has {} x {} pixels, more than {} per side", image.place, size.width, size.height,
-                                  kMaxTextureSide));
+      throw GltfError(fmt::format("{} has {} x {} pixels, but may have at most {} per side", image.path, size.width,
+                                  size.height, kMaxTextureSide));
     }
     pixels += static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height) *
               static_cast<std::uint64_t>(image.uses);
@@ -36,7 +36,7 @@ Image decoded(const EncodedImage& image) {
   try {
     return decode_image(image.bytes);
   } catch (const std::runtime_error& e) {
-    throw GltfError(fmt::format("{} cannot be used: {}", image.place, e.what()));
+    throw GltfError(fmt::format("{} cannot be used ({})", image.path, e.what()));
   }
 }
 

@@ -11,13 +11,13 @@
 namespace gearshift::engine {
 
 struct EncodedImage {
-  std::string place;  // for error messages: "images[3]"
+  std::string path;  // for error messages: "images[3]"
   std::span<const std::uint8_t> bytes;
-  int uses = 1;  // copies of its pixels in the model
+  int uses = 1;  // number of copies of its pixels in the model
 };
 
 // Returns the images in order. Throws GltfError with only the reason: not PNG or JPEG, corrupt, or beyond the limits of
-// gltf.h, which are checked from all headers before any image is decoded.
+// gltf.h. The limits are checked with the headers of all images before any image is decoded.
 std::vector<Image> decode_images(const std::vector<EncodedImage>& encoded);
 
 }  // namespace gearshift::engine

@@ -44,16 +44,16 @@ struct Texture {
   Image pixels;
   bool srgb = false;  // false: linear data
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  bool linear = true;  // filtering; false: nearest
+  bool linear = true;  // linear filtering; false: nearest
 };
 
-// One use of a texture by a material (KHR_texture_transform).
+// One use of a texture by a material, with its transform (KHR_texture_transform).
 struct TextureUse {
   int texture = kNone;
   int uv_set = 0;  // 0 or 1
   glm::vec2 offset{0.0f};
   glm::vec2 scale{1.0f};
-  float rotation = 0.0f;  // [rad] as defined by the extension
+  float rotation = 0.0f;  // [rad] for its sign, see matrix()
   // uv = matrix * vec3(uv of the set, 1). The sign of the rotation is that of the Khronos sample viewer and of the
   // extension's example; the GLSL in the extension's text rotates the other way and contradicts both.
   glm::mat3 matrix() const;
@@ -86,13 +86,13 @@ struct Primitive {
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  std::uint32_t first_vertex = 0;  // vertices used only by this mesh
+  std::uint32_t first_vertex = 0;  // start of the vertices, which no other mesh uses
   std::uint32_t vertex_count = 0;
 };
 
 struct Node {
   std::string name;
-  int parent = kNone;  // always before this node in Model::nodes
+  int parent = kNone;  // comes before this node in Model::nodes
   glm::vec3 translation{0.0f};
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   glm::vec3 scale{1.0f};
@@ -119,13 +119,14 @@ struct Model {
   std::vector<std::filesystem::path> files;  // buffer and texture files that were read
 
   int node(std::string_view name) const;  // first node of that name, or kNone
-  std::uint64_t triangle_count() const;   // over all nodes that carry a mesh
+  std::uint64_t triangle_count() const;   // triangles of all nodes that carry a mesh
 };
 
 // World matrix of every node as placed by the file; one per entry of model.nodes.
 std::vector<glm::mat4> rest_pose(const Model& model);
 
-// World matrix of every node, given its transform local[i] relative to its parent. Same length as model.nodes.
+// World matrix of every node. local[i]: transform of node i relative to its parent. `local` and the result have one
+// entry per node.
 std::vector<glm::mat4> world_from_local(const Model& model, const std::vector<glm::mat4>& local);
 
 }  // namespace gearshift::engine

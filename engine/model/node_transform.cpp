@@ -12,12 +12,12 @@ namespace gearshift::engine {
 
 namespace {
 
-double largest(const glm::dmat4& matrix) {
-  double most = 0.0;
+double max_abs_entry(const glm::dmat4& matrix) {
+  double max = 0.0;
   for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row) most = std::max(most, std::abs(matrix[column][row]));
+    for (int row = 0; row < 4; ++row) max = std::max(max, std::abs(matrix[column][row]));
   }
-  return most;
+  return max;
 }
 
 bool is_finite(const glm::mat4& matrix) {
@@ -45,8 +45,9 @@ bool set_node_transform(const glm::dmat4& matrix, Node& node) {
   node.translation = glm::vec3(matrix[3]);
   node.rotation = glm::quat(glm::normalize(glm::quat_cast(axes)));
   node.scale = glm::vec3(scale);
-  // Recomposing shows what the three cannot represent (shear); the bound leaves some room for float precision.
-  return largest(glm::dmat4(node.local()) - matrix) <= 1e-4 * std::max(1.0, largest(matrix));
+  // Composing the matrix again reveals shear, which translation, rotation and scale cannot represent; the bound allows
+  // for float precision.
+  return max_abs_entry(glm::dmat4(node.local()) - matrix) <= 1e-4 * std::max(1.0, max_abs_entry(matrix));
 }
 
 bool drop_flat_meshes(Model& model) {

@@ -1,4 +1,4 @@
-// Skinning on the CPU: a hand has only two thousand triangles.
+// Skinning on the CPU, which suffices for a hand of two thousand triangles.
 #pragma once
 
 #include <span>

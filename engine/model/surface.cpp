@@ -16,7 +16,7 @@ using glm::vec3;
 
 namespace {
 
-// Normalises, or returns false if the length is near zero. Uses double, since the squares of floats may overflow a
+// Normalises v, or returns false if its length is near zero. Uses double, since the squares of floats may overflow a
 // float.
 bool normalize_in_place(vec3& v) {
   const double length = std::sqrt(double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z);
@@ -25,8 +25,8 @@ bool normalize_in_place(vec3& v) {
   return true;
 }
 
-// Any unit vector perpendicular to a unit vector.
-vec3 across(vec3 n) {
+// Returns an arbitrary unit vector perpendicular to the unit vector n.
+vec3 perpendicular(vec3 n) {
   const vec3 axis = std::abs(n.x) < 0.7f ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
   vec3 t = glm::cross(axis, n);
   normalize_in_place(t);
@@ -64,7 +64,7 @@ vec2 uv_of(const Vertex& v, const TextureUse& use, const glm::mat3& matrix) {
   return vec2(matrix * vec3(use.uv_set == 0 ? v.uv0 : v.uv1, 1.0f));
 }
 
-// Orientation of a triangle in its texture: the direction of growing u, and whether the texture is mirrored.
+// Orientation of the texture on a triangle: the direction in which u grows, and whether the texture is mirrored.
 struct TextureFrame {
   vec3 along_u{0.0f};
   bool valid = false;
@@ -75,7 +75,7 @@ TextureFrame texture_frame(const Corners& t, const TextureUse& use, const glm::m
   const vec2 uv = uv_of(t.a, use, matrix);
   const vec2 d1 = uv_of(t.b, use, matrix) - uv, d2 = uv_of(t.c, use, matrix) - uv;
   const vec3 e1 = t.b.position - t.a.position, e2 = t.c.position - t.a.position;
-  const float area = d1.x * d2.y - d2.x * d1.y;  // v grows downwards: negative if the texture faces the viewer
+  const float area = d1.x * d2.y - d2.x * d1.y;  // negative if the texture is not mirrored, because v grows downwards
   TextureFrame frame{(e1 * d2.y - e2 * d1.y) * (area < 0.0f ? -1.0f : 1.0f), false, area > 0.0f};
   frame.valid = area != 0.0f && normalize_in_place(frame.along_u);
   return frame;
@@ -88,8 +88,8 @@ class TangentSum {
   explicit TangentSum(Surface& surface)
       : surface_(surface), sum_(surface.vertices.size(), vec3(0.0f)), sign_(surface.vertices.size(), 0) {}
 
-  // Adds a corner's contribution: its triangle's direction projected into the vertex's tangent plane, weighted by the
-  // angle of the corner.
+  // Adds a corner's contribution: the direction in which u grows on its triangle, projected into the vertex's tangent
+  // plane, weighted by the angle of the corner.
   void add(std::size_t corner, const TextureFrame& frame, float angle) {
     const std::uint32_t vertex = vertex_for(corner, frame.mirrored ? -1 : 1);
     const vec3 n = surface_.vertices[vertex].normal;
@@ -193,7 +193,7 @@ void repair_tangents(Surface& surface) {
   for (Vertex& vertex : surface.vertices) {
     vec3 t = vec3(vertex.tangent);
     t -= vertex.normal * glm::dot(vertex.normal, t);
-    if (!normalize_in_place(t)) t = across(vertex.normal);
+    if (!normalize_in_place(t)) t = perpendicular(vertex.normal);
     vertex.tangent = glm::vec4(t, vertex.tangent.w < 0.0f ? -1.0f : 1.0f);
   }
 }

@@ -1,4 +1,5 @@
-// The triangles of one primitive, and what glTF leaves to the reader: lists from strips and fans, normals, tangents.
+// The triangles of one primitive, and the work that glTF leaves to its reader: lists from strips and fans, normals,
+// tangents.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +18,14 @@ struct Surface {
 enum class TriangleMode : int { list = 4, strip = 5, fan = 6 };  // glTF's values
 std::vector<std::uint32_t> triangle_list(const std::vector<std::uint32_t>& indices, TriangleMode mode);
 
-// One vertex per corner, with its triangle's normal; a triangle without area gets +Z.
+// Gives each corner its own vertex, with its triangle's normal; the normal of a triangle without area is +Z.
 void make_flat_normals(Surface& surface);
 
 // Normalises every normal; one of zero length becomes the area-weighted mean of its triangles' normals.
 void repair_normals(Surface& surface);
 
-// From positions, normals and the UV set of the normal map. Afterwards mirrored and unmirrored triangles share no
-// vertex.
+// Computes tangents from positions, normals and the UV set of the normal map. Afterwards no vertex belongs to both a
+// triangle with a mirrored texture and one with an unmirrored texture.
 void make_tangents(Surface& surface, const TextureUse& normal_map);
 
 // Makes every tangent a unit vector perpendicular to its normal, with a sign of 1 or -1.

@@ -21,9 +21,9 @@ float distance(const DrawItem& item, glm::vec3 eye) {
   return glm::distance(item.box.centre(), eye);
 }
 
-// Each combination of features is a shader that a software driver compiles slowly at its first use. The mirror is
-// small, so it uses only a few combinations: solid or blended, outdoors or indoors. A map that a material lacks is
-// bound as white.
+// Each combination of features is a separate shader, which a software driver compiles slowly on first use. The mirror
+// is small, so it uses few combinations: all materials sample the maps of base colour and occlusion, and no other map.
+// A material that lacks one of these maps has a white texture bound in its place.
 std::uint32_t mirror_features(std::uint32_t features) {
   using namespace shader;
   constexpr std::uint32_t kPreservedFeatures =
@@ -46,17 +46,17 @@ std::vector<DrawItem> list_items(const GpuModel& model, const FrameScene& scene,
     const int mesh_index = model.mesh_of_node[node];
     if (mesh_index == kNone || !state.visible || state.opacity <= 0.0f) continue;
     const GpuMesh& mesh = model.meshes[static_cast<std::size_t>(mesh_index)];
-    const DeformedRange* place = find_range(deformed, mesh_index, static_cast<int>(node));
+    const DeformedRange* range = find_range(deformed, mesh_index, static_cast<int>(node));
     for (std::uint32_t i = 0; i < mesh.part_count; ++i) {
       DrawItem item;
       item.part = &model.parts[mesh.first_part + i];
       item.material = &model.materials[item.part->material];
       item.node = static_cast<std::uint32_t>(node);
-      item.box = transformed(state.world, place != nullptr ? place->box : item.part->box);
-      item.deformed = place != nullptr;
+      item.box = transformed(state.world, range != nullptr ? range->box : item.part->box);
+      item.deformed = range != nullptr;
       if (item.deformed)
         item.vertex_offset =
-            static_cast<std::int32_t>(place->first_vertex) - static_cast<std::int32_t>(mesh.first_vertex);
+            static_cast<std::int32_t>(range->first_vertex) - static_cast<std::int32_t>(mesh.first_vertex);
       item.mirrored = glm::determinant(glm::mat3(state.world)) < 0.0f;
       item.blended = item.material->blended || state.opacity < 1.0f;
       item.indoors = state.indoors;
@@ -94,7 +94,7 @@ std::uint32_t features_in(PassKind pass, const DrawItem& item, const FeatureChoi
   if (item.indoors) features |= kIndoors;
   if (pass == PassKind::mirror) return mirror_features(features);
   if (!choice.normal_maps) features &= ~(kHasMap << kMapNormal);
-  if ((features & kAllMaps) == 0) features |= kEmits;  // lamps and unlit materials share one shader
+  if ((features & kAllMaps) == 0) features |= kEmits;  // without maps, emissive and other materials share one shader
   if (item.shows_mirror) return features | kShowsMirror;
   return choice.shadow ? features | kShadowed : features;
 }

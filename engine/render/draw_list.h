@@ -11,11 +11,11 @@
 
 namespace gearshift::engine {
 
-// A mesh whose vertices for this frame are in the frame's own buffer.
+// A mesh that is deformed in this frame: its vertices are in the frame slot's vertex buffer.
 struct DeformedRange {
   int mesh = kNone;
   int node = kNone;                // kNone: all nodes that carry the mesh
-  std::uint32_t first_vertex = 0;  // in that buffer
+  std::uint32_t first_vertex = 0;  // index in the frame slot's vertex buffer
   Box box;
 };
 
@@ -25,7 +25,7 @@ struct DrawItem {
   std::uint32_t node = 0;
   Box box;  // [m] world
   std::int32_t vertex_offset = 0;
-  bool deformed = false;  // vertices are in the frame's own buffer
+  bool deformed = false;  // vertices are in the frame slot's vertex buffer
   bool mirrored = false;  // the node's transform turns the triangles inside out
   bool blended = false;
   bool indoors = false;
@@ -43,7 +43,7 @@ struct DrawList {
 };
 DrawList list_draws(std::span<const DrawItem> items, const Frusta& frusta, glm::vec3 eye);
 
-// Selects the material features that a pass uses.
+// Feature groups that the renderer has turned on.
 struct FeatureChoice {
   bool shadow = true, normal_maps = true;
 };

@@ -12,11 +12,12 @@ namespace gearshift::engine {
 
 namespace {
 
-// Offset of a uniform buffer: a multiple of 256 suits every device (Vulkan 1.3, required limits).
+// [bytes] Distance between the passes' data in the uniform buffer: a multiple of 256, which suits every device (Vulkan
+// 1.3, required limits).
 constexpr VkDeviceSize kPassStride = (sizeof(shader::PassData) + 255) / 256 * 256;
 
-// Normals are transformed by the cofactor matrix: the inverse transpose times the determinant, with the determinant's
-// sign removed.
+// Normals are transformed by the inverse transpose times the absolute value of the determinant: the cofactor matrix
+// without the determinant's sign.
 shader::ObjectData object_data(const NodeState& state) {
   const glm::vec3 x(state.world[0]), y(state.world[1]), z(state.world[2]);
   const float sign = glm::dot(glm::cross(x, y), z) < 0.0f ? -1.0f : 1.0f;
@@ -72,22 +73,22 @@ void FrameSlot::write_objects(Gpu& gpu, const FrameScene& scene) {
 
 std::vector<DeformedRange> FrameSlot::write_deformed(Gpu& gpu, const GpuModel& model,
                                                      std::span<const DeformedMesh> meshes) {
-  std::vector<DeformedRange> places;
+  std::vector<DeformedRange> ranges;
   std::uint32_t count = 0;
   for (const DeformedMesh& mesh : meshes) {
     const auto index = static_cast<std::size_t>(mesh.mesh);
     if (mesh.mesh < 0 || index >= model.meshes.size() || mesh.vertices.size() != model.meshes[index].vertex_count ||
         mesh.vertices.empty())
       throw std::invalid_argument("A deformed mesh is not in the model, or has a different number of vertices.");
-    places.push_back({mesh.mesh, mesh.node, count, box_of(mesh.vertices)});
+    ranges.push_back({mesh.mesh, mesh.node, count, box_of(mesh.vertices)});
     count += static_cast<std::uint32_t>(mesh.vertices.size());
   }
-  if (count == 0) return places;
+  if (count == 0) return ranges;
   grow(gpu, vertices_, count * sizeof(Vertex), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   for (std::size_t i = 0; i < meshes.size(); ++i)
-    std::memcpy(vertices_.mapped() + places[i].first_vertex * sizeof(Vertex), meshes[i].vertices.data(),
+    std::memcpy(vertices_.mapped() + ranges[i].first_vertex * sizeof(Vertex), meshes[i].vertices.data(),
                 meshes[i].vertices.size() * sizeof(Vertex));
-  return places;
+  return ranges;
 }
 
 }  // namespace gearshift::engine

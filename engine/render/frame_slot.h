@@ -21,7 +21,8 @@ class FrameSlot {
 
   void write_pass(PassKind pass, const shader::PassData& data);
   void write_objects(Gpu& gpu, const FrameScene& scene);
-  // Throws std::invalid_argument for an unknown mesh or a wrong number of vertices.
+  // Writes the vertices of deformed meshes. Throws std::invalid_argument for an unknown mesh or a wrong number of
+  // vertices.
   std::vector<DeformedRange> write_deformed(Gpu& gpu, const GpuModel& model, std::span<const DeformedMesh> meshes);
 
  private:

@@ -11,7 +11,8 @@ namespace gearshift::engine {
 
 namespace {
 
-// A multiple of every device's minUniformBufferOffsetAlignment (Vulkan 1.3, table "Required Limits": at most 256).
+// [bytes] Distance between materials in the buffer: a multiple of every device's minUniformBufferOffsetAlignment
+// (Vulkan 1.3, table "Required Limits": at most 256).
 constexpr VkDeviceSize kMaterialStride = 512;
 static_assert(sizeof(shader::MaterialData) <= kMaterialStride);
 
@@ -22,10 +23,10 @@ void upload_textures(Gpu& gpu, const Model& model, GpuModel& into) {
     into.samplers.push_back(texture_sampler(gpu, texture));
   };
   for (const Texture& texture : model.textures) add(texture);
-  add(Texture{.pixels = {1, 1, {255, 255, 255, 255}}});  // the last texture: bound where a material has no map
+  add(Texture{.pixels = {1, 1, {255, 255, 255, 255}}});  // white; the last texture, bound where a material has no map
 }
 
-// For each material: does any of its triangles have vertex colours?
+// For each material, whether any of its triangles has vertex colours; the last entry is for the default material.
 std::vector<bool> coloured_materials(const Model& model) {
   std::vector<bool> coloured(model.materials.size() + 1, false);
   for (const Mesh& mesh : model.meshes) {
@@ -58,67 +59,68 @@ void upload_materials(Gpu& gpu, const Model& model, VkDescriptorSetLayout layout
   into.sets = SetPool(gpu, count, sizes);
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const Material& material = materials[i];
-    GpuMaterial& made = into.materials.emplace_back();
-    made.features = features_of(material, coloured[i]);
-    made.blended = material.alpha_mode == AlphaMode::blend;
-    made.double_sided = material.double_sided;
-    made.set = into.sets.make(layout);
+    GpuMaterial& gpu_material = into.materials.emplace_back();
+    gpu_material.features = features_of(material, coloured[i]);
+    gpu_material.blended = material.alpha_mode == AlphaMode::blend;
+    gpu_material.double_sided = material.double_sided;
+    gpu_material.set = into.sets.make(layout);
     const auto maps = maps_of(material);
     for (std::uint32_t map = 0; map < shader::kMaps; ++map) {
       const int texture = maps[map]->texture;
       const std::size_t at = texture == kNone ? into.textures.size() - 1 : static_cast<std::size_t>(texture);
-      bind_texture(gpu, made.set, map, into.views[at].get(), into.samplers[at].get());
+      bind_texture(gpu, gpu_material.set, map, into.views[at].get(), into.samplers[at].get());
     }
-    bind_buffer(gpu, made.set, shader::kBindMaterial, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, into.material_data.get(),
-                i * kMaterialStride, sizeof(shader::MaterialData));
+    bind_buffer(gpu, gpu_material.set, shader::kBindMaterial, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                into.material_data.get(), i * kMaterialStride, sizeof(shader::MaterialData));
   }
 }
 
 void list_parts(const Model& model, GpuModel& into) {
   for (const Mesh& mesh : model.meshes) {
-    GpuMesh& made = into.meshes.emplace_back();
-    made.first_part = static_cast<std::uint32_t>(into.parts.size());
-    made.part_count = static_cast<std::uint32_t>(mesh.primitives.size());
-    made.first_vertex = mesh.first_vertex;
-    made.vertex_count = mesh.vertex_count;
+    GpuMesh& gpu_mesh = into.meshes.emplace_back();
+    gpu_mesh.first_part = static_cast<std::uint32_t>(into.parts.size());
+    gpu_mesh.part_count = static_cast<std::uint32_t>(mesh.primitives.size());
+    gpu_mesh.first_vertex = mesh.first_vertex;
+    gpu_mesh.vertex_count = mesh.vertex_count;
     for (const Primitive& primitive : mesh.primitives) {
       const Box box{primitive.low, primitive.high};
       const auto material = primitive.material == kNone ? static_cast<std::uint32_t>(model.materials.size())
                                                         : static_cast<std::uint32_t>(primitive.material);
-      made.box = &primitive == &mesh.primitives.front() ? box : united(made.box, box);
+      gpu_mesh.box = &primitive == &mesh.primitives.front() ? box : united(gpu_mesh.box, box);
       into.parts.push_back({primitive.first_index, primitive.index_count, material, box});
     }
   }
 }
 
-Box box_at_rest(const Model& model, const GpuModel& made) {
+Box box_at_rest(const Model& model, const GpuModel& gpu_model) {
   const std::vector<glm::mat4> world = rest_pose(model);
-  Box whole;
+  Box total;
   bool first = true;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     if (model.nodes[i].mesh == kNone) continue;
-    const Box box = transformed(world[i], made.meshes[static_cast<std::size_t>(model.nodes[i].mesh)].box);
-    whole = first ? box : united(whole, box);
+    const Box box = transformed(world[i], gpu_model.meshes[static_cast<std::size_t>(model.nodes[i].mesh)].box);
+    total = first ? box : united(total, box);
     first = false;
   }
-  return whole;
+  return total;
 }
 
 }  // namespace
 
 GpuModel upload_model(Gpu& gpu, const Model& model, VkDescriptorSetLayout material_layout) {
-  GpuModel made;
+  GpuModel gpu_model;
   if (!model.indices.empty()) {
-    made.vertices =
+    gpu_model.vertices =
         make_device_buffer(gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, std::as_bytes(std::span(model.vertices)));
-    made.indices = make_device_buffer(gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(std::span(model.indices)));
+    gpu_model.indices =
+        make_device_buffer(gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(std::span(model.indices)));
   }
-  upload_textures(gpu, model, made);
-  upload_materials(gpu, model, material_layout, made);
-  list_parts(model, made);
-  for (const Node& node : model.nodes) made.mesh_of_node.push_back(node.mesh);
-  made.box = box_at_rest(model, made);
-  return made;
+  upload_textures(gpu, model, gpu_model);
+  upload_materials(gpu, model, material_layout, gpu_model);
+  list_parts(model, gpu_model);
+  for (const Node& node : model.nodes) gpu_model.mesh_of_node.push_back(node.mesh);
+  gpu_model.box = box_at_rest(model, gpu_model);
+  return gpu_model;
 }
 
 }  // namespace gearshift::engine

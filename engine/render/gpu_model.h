@@ -13,7 +13,7 @@
 
 namespace gearshift::engine {
 
-// The unit of drawing: triangles of one material that lie close together.
+// The unit of drawing: one primitive of a mesh.
 struct Part {
   std::uint32_t first_index = 0, index_count = 0;
   std::uint32_t material = 0;  // index into GpuModel::materials, whose last entry is the default material
@@ -27,7 +27,7 @@ struct GpuMesh {
 };
 
 struct GpuMaterial {
-  std::uint32_t features = 0;  // shader::k...
+  std::uint32_t features = 0;  // bits: shader::kHasMap, shader::kMasked, ...
   bool blended = false, double_sided = false;
   VkDescriptorSet set = VK_NULL_HANDLE;
 };

@@ -12,7 +12,7 @@ namespace gearshift::engine {
 
 namespace {
 
-constexpr float kMinEyeDistance = 1e-3f;  // [m] minimum distance of an eye from a mirror
+constexpr float kMinEyeDistance = 1e-3f;  // [m] an eye closer to the mirror gets no mirror view
 
 glm::vec4 row(glm::vec3 axis, float at_zero, const MirrorWindow& window, float width) {
   return glm::vec4(axis, at_zero - glm::dot(axis, window.origin)) / width;

@@ -14,13 +14,14 @@ namespace gearshift::engine {
 
 // The mirror as a window: a rectangle in the plane z = 0 of its node, visible from +Z.
 struct MirrorWindow {
-  glm::vec3 origin{0.0f}, right{1.0f, 0.0f, 0.0f}, up{0.0f, 1.0f, 0.0f};  // world space, unit vectors
+  glm::vec3 origin{0.0f}, right{1.0f, 0.0f, 0.0f}, up{0.0f, 1.0f, 0.0f};  // in world space; right, up: unit vectors
   glm::vec3 normal{0.0f, 0.0f, 1.0f};
   glm::vec2 low{0.0f}, high{0.0f};  // [m] from the origin, along right and up
   float aspect() const { return (high.x - low.x) / (high.y - low.y); }
 
-  // Texture coordinates in its picture, as row vectors to be multiplied by (world, 1). The picture shows what the
-  // mirrored eye sees through the window. That eye looks from behind, so u runs against `right`.
+  // Texture coordinates of a world point in the mirror's picture: the dot products of these rows with (point, 1). The
+  // picture shows what the mirrored eye sees through the window. That eye looks from behind, so u grows against
+  // `right`.
   glm::vec4 u_row() const;
   glm::vec4 v_row() const;
 };

@@ -14,9 +14,10 @@ class PassTimer {
 
   // Call at the start of a frame. Reads the times of the previous, completed frame that used this slot.
   void begin(VkCommandBuffer commands, int slot);
-  void stamp(VkCommandBuffer commands);  // marks the end of a pass: shadow, depth, mirror, main, overlay
-  // Writes a timestamp that is not read, see Renderer::State::flush_collected_triangles(). Skipped once a frame has
-  // used all of its kFlushStamps.
+  // Marks the end of a pass. Must be called for the passes in this order: shadow, depth, mirror, main, overlay.
+  void stamp(VkCommandBuffer commands);
+  // Writes a timestamp that is never read: it makes a software driver start shading, see
+  // Renderer::State::flush_collected_triangles(). Does nothing once a frame has written kFlushStamps of them.
   void stamp_to_flush(VkCommandBuffer commands);
   const PassTimes& times() const noexcept { return times_; }
 

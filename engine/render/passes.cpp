@@ -13,19 +13,20 @@ namespace gearshift::engine {
 
 namespace {
 
-constexpr std::uint32_t kMaxCollectedTriangles = 5000;  // [triangles]
+constexpr std::uint32_t kMaxCollectedTriangles = 5000;  // [triangles] after which a software driver is made to shade
 
-// The region that receives the sun's shadow: the part of the model inside the scene's shadow room.
-Box shadowed_box(const Box& model, const ShadowRoom& room) {
-  const Box box{glm::max(model.low, room.low), glm::min(model.high, room.high)};
+// The region that receives the sun's shadow: the part of the model inside the scene's shadow bounds, or the whole model
+// if that part is empty.
+Box shadowed_box(const Box& model, const ShadowBounds& bounds) {
+  const Box box{glm::max(model.low, bounds.low), glm::min(model.high, bounds.high)};
   return glm::all(glm::lessThan(box.low, box.high)) ? box : model;
 }
 
-VkRect2D whole(const GpuImage& image) {
+VkRect2D full_rect(const GpuImage& image) {
   return {{0, 0}, image.extent()};
 }
 
-// The texels that boxes can cover in an orthographic shadow map.
+// The texels of an orthographic shadow map that the bounding boxes of the items can cover.
 VkRect2D texels_of(std::span<const DrawItem* const> items, const glm::mat4& clip_from_world, const GpuImage& map) {
   constexpr float kRounding = 2.0f;  // [texels]
   const glm::vec2 size(static_cast<float>(map.desc().width), static_cast<float>(map.desc().height));
@@ -59,18 +60,18 @@ void copy_depth(VkCommandBuffer commands, GpuImage& from, GpuImage& to, const Vk
 std::vector<glm::mat4> clips_of(std::span<const View> views, float margin) {
   std::vector<glm::mat4> clips;
   const float scale = 1.0f / (1.0f + margin);
-  const glm::mat4 wider = glm::scale(glm::mat4(1.0f), glm::vec3(scale, scale, 1.0f));
-  for (const View& view : views) clips.push_back(wider * clip_from_world(view));
+  const glm::mat4 widen = glm::scale(glm::mat4(1.0f), glm::vec3(scale, scale, 1.0f));
+  for (const View& view : views) clips.push_back(widen * clip_from_world(view));
   return clips;
 }
 
-// Empty if either eye is behind the mirror.
+// Returns the views of the mirrored eyes; empty if either eye is behind the mirror.
 std::vector<View> mirrored_views(const MirrorWindow& window, std::span<const View> views) {
   std::vector<View> mirrored;
   for (const View& view : views) {
-    const std::optional<View> seen = mirror_view(window, view.eye);
-    if (!seen) return {};
-    mirrored.push_back(*seen);
+    const std::optional<View> mirrored_view = mirror_view(window, view.eye);
+    if (!mirrored_view) return {};
+    mirrored.push_back(*mirrored_view);
   }
   return mirrored;
 }
@@ -121,8 +122,9 @@ std::uint64_t Renderer::State::draw(const FrameScene& scene, std::span<const Vie
   return ring.end(finish->wait_for, finish->then_signal);
 }
 
-// Empty if there is no mirror, if no eye sees its bounding box, or if either eye is behind it.
-std::optional<MirrorOfFrame> Renderer::State::mirror_of(const Frame& frame) const {
+// Returns the mirror of this frame; empty if there is none, if no eye sees its bounding box, or if either eye is behind
+// it.
+std::optional<FrameMirror> Renderer::State::mirror_of(const Frame& frame) const {
   const FrameScene& scene = *frame.scene;
   if (scene.mirror == kNone || config.mirror_height == 0) return std::nullopt;
   const auto node = static_cast<std::size_t>(scene.mirror);
@@ -130,7 +132,7 @@ std::optional<MirrorOfFrame> Renderer::State::mirror_of(const Frame& frame) cons
   if (mesh == kNone || !scene.nodes[node].visible) return std::nullopt;
   const Box& box = model.meshes[static_cast<std::size_t>(mesh)].box;
   if (!Frusta(frame.clips).intersects(transformed(scene.nodes[node].world, box))) return std::nullopt;
-  MirrorOfFrame mirrored{mirror_window(scene.nodes[node].world, box), {}};
+  FrameMirror mirrored{mirror_window(scene.nodes[node].world, box), {}};
   mirrored.views = mirrored_views(mirrored.window, frame.views);
   if (mirrored.views.empty()) return std::nullopt;
   return mirrored;
@@ -146,7 +148,7 @@ void Renderer::State::apply_late_views(Frame& frame, std::span<const View> late)
   frame.slot->write_pass(PassKind::main, frame.data);
   if (!frame.mirror) return;
   const std::vector<View> mirrored = mirrored_views(frame.mirror->window, late);
-  if (mirrored.empty()) return;  // an eye moved behind the mirror: keep its earlier picture
+  if (mirrored.empty()) return;  // an eye moved behind the mirror: keep the earlier mirrored views
   shader::PassData data = frame.data;
   set_views(data, mirrored);
   frame.slot->write_pass(PassKind::mirror, data);
@@ -167,12 +169,13 @@ void Renderer::State::prepare(Frame& frame) {
   if (frame.mirror) set_mirror(frame.data, frame.mirror->window);
 }
 
-// Static casters are drawn into a map of their own when they change. That map is then copied over the texels where
-// moving casters were drawn, because most of a cabin never moves.
+// Most of a cabin never moves, so static casters are drawn into a map of their own, and only when they change. Each
+// frame copies that map over the texels where moving casters were drawn before, and then draws the moving casters.
 void Renderer::State::draw_shadow(Frame& frame) {
   if (config.shadow_side == 0) return;
-  const std::vector<glm::vec3> seen = visible_corners(shadowed_box(model.box, frame.scene->shadow_room), frame.clips);
-  const ShadowFit fit = fit_shadow(seen, frame.scene->sun.towards, config.shadow_side);
+  const std::vector<glm::vec3> corners =
+      visible_corners(shadowed_box(model.box, frame.scene->shadow_bounds), frame.clips);
+  const ShadowFit fit = fit_shadow(corners, frame.scene->sun.towards, config.shadow_side);
   set_shadow(frame.data, fit, config.shadow_side);
   shader::PassData data = frame.data;
   data.clip_from_world[0] = fit.clip_from_world;
@@ -180,15 +183,16 @@ void Renderer::State::draw_shadow(Frame& frame) {
 
   const bool redraw_static = static_casters.update(fit, *frame.scene, frame.items);
   const DrawList casters = list_draws(frame.items, Frusta({&fit.clip_from_world, 1}), frame.eye);
-  std::vector<const DrawItem*> still, moving;
-  for (const DrawItem* item : casters.solid) (static_casters.is_static(item->node) ? still : moving).push_back(item);
+  std::vector<const DrawItem*> static_items, moving;
+  for (const DrawItem* item : casters.solid)
+    (static_casters.is_static(item->node) ? static_items : moving).push_back(item);
   if (redraw_static) {
-    dirty_shadow_texels = whole(shadow.depth);
-    discard_content(shadow.still);
-    transition(frame.commands, shadow.still, ImageUse::depth_target);
-    draw_casters(frame, shadow.still_view.get(), VK_ATTACHMENT_LOAD_OP_CLEAR, still);
+    dirty_shadow_texels = full_rect(shadow.depth);
+    discard_content(shadow.static_depth);
+    transition(frame.commands, shadow.static_depth, ImageUse::depth_target);
+    draw_casters(frame, shadow.static_view.get(), VK_ATTACHMENT_LOAD_OP_CLEAR, static_items);
   }
-  copy_depth(frame.commands, shadow.still, shadow.depth, dirty_shadow_texels);
+  copy_depth(frame.commands, shadow.static_depth, shadow.depth, dirty_shadow_texels);
   dirty_shadow_texels = texels_of(moving, fit.clip_from_world, shadow.depth);
   if (!moving.empty()) {
     transition(frame.commands, shadow.depth, ImageUse::depth_target);
@@ -209,29 +213,30 @@ void Renderer::State::draw_casters(const Frame& frame, VkImageView view, VkAttac
   vkCmdEndRendering(frame.commands);
 }
 
-// Prepares all targets of the depth, mirror and main passes before the first of them: a barrier between two passes
-// would make a software driver wait for the earlier pass.
+// Transitions all targets of the depth, mirror and main passes before the first of these passes: a barrier between two
+// passes would make a software driver wait for the earlier pass.
 void Renderer::State::prepare_targets(const Frame& frame) {
-  const auto ready = [&](GpuImage& image, ImageUse use) {
+  const auto prepare_target = [&](GpuImage& image, ImageUse use) {
     discard_content(image);
     transition(frame.commands, image, use);
   };
-  ready(picture.drawn().image, ImageUse::colour_target);
-  ready(picture.depth.image, ImageUse::depth_target);
-  if (picture.stores_depth && picture.multisampled) ready(picture.one_depth.image, ImageUse::depth_resolved);
+  prepare_target(picture.draw_target().image, ImageUse::colour_target);
+  prepare_target(picture.depth.image, ImageUse::depth_target);
+  if (picture.stores_depth && picture.multisampled)
+    prepare_target(picture.resolved_depth.image, ImageUse::depth_resolved);
   if (!frame.mirror) return;
-  ready(mirror.colour.image, ImageUse::colour_target);
-  ready(mirror.depth.image, ImageUse::depth_target);
+  prepare_target(mirror.colour.image, ImageUse::colour_target);
+  prepare_target(mirror.depth.image, ImageUse::depth_target);
 }
 
-// Depth prepass, so that each pixel is shaded once. With four samples, a software driver loses more time on the second
-// pass over the triangles than it saves.
+// Depth prepass, so that each pixel is shaded once. There is none with four samples, where a software driver would lose
+// more time in the additional pass over the triangles than it saves.
 void Renderer::State::draw_depth(Frame& frame) {
   if (picture.multisampled) return;
   frame.slot->write_pass(PassKind::depth, frame.data);
   for (const EyeGroup eyes : eye_groups()) {
-    const Attachment deep{.view = view_of(picture.depth, eyes)};
-    begin_rendering(frame.commands, picture.depth.image.extent(), eyes.count, nullptr, &deep);
+    const Attachment depth{.view = view_of(picture.depth, eyes)};
+    begin_rendering(frame.commands, picture.depth.image.extent(), eyes.count, nullptr, &depth);
     record(frame, PassKind::depth, frame.list.solid, eyes);
     vkCmdEndRendering(frame.commands);
   }
@@ -254,7 +259,7 @@ void Renderer::State::draw_main(Frame& frame) {
   frame.slot->write_pass(PassKind::main, frame.data);
   if (frame.mirror) transition(frame.commands, mirror.colour.image, ImageUse::sampled);
   if (!picture.multisampled) transition(frame.commands, picture.depth.image, ImageUse::depth_target);
-  draw_eyes(frame, PassKind::main, picture.drawn(), picture.depth, frame.list);
+  draw_eyes(frame, PassKind::main, picture.draw_target(), picture.depth, frame.list);
   if (picture.multisampled) resolve(frame.commands);
 }
 
@@ -287,7 +292,7 @@ void Renderer::State::draw_overlays(const Frame& frame, std::span<Overlay* const
 
 void Renderer::State::store_depth(Attachment& depth, EyeGroup eyes) const {
   if (picture.multisampled)
-    depth.resolved = view_of(picture.one_depth, eyes);
+    depth.resolved = view_of(picture.resolved_depth, eyes);
   else
     depth.store = VK_ATTACHMENT_STORE_OP_STORE;
 }
@@ -300,12 +305,12 @@ VkImageView Renderer::State::view_of(const EyeImage& image, EyeGroup eyes) const
 void Renderer::State::draw_eyes(const Frame& frame, PassKind pass, EyeImage& colour, EyeImage& depth,
                                 const DrawList& list) {
   for (const EyeGroup eyes : eye_groups()) {
-    const Attachment drawn{.view = view_of(colour, eyes)};
-    Attachment deep{.view = view_of(depth, eyes), .store = VK_ATTACHMENT_STORE_OP_DONT_CARE};
-    // filled by draw_depth()
-    if (pass == PassKind::main && !picture.multisampled) deep.load = VK_ATTACHMENT_LOAD_OP_LOAD;
-    if (pass == PassKind::main && picture.stores_depth) store_depth(deep, eyes);
-    begin_rendering(frame.commands, colour.image.extent(), eyes.count, &drawn, &deep);
+    const Attachment colour_attachment{.view = view_of(colour, eyes)};
+    Attachment depth_attachment{.view = view_of(depth, eyes), .store = VK_ATTACHMENT_STORE_OP_DONT_CARE};
+    // draw_depth() has filled it.
+    if (pass == PassKind::main && !picture.multisampled) depth_attachment.load = VK_ATTACHMENT_LOAD_OP_LOAD;
+    if (pass == PassKind::main && picture.stores_depth) store_depth(depth_attachment, eyes);
+    begin_rendering(frame.commands, colour.image.extent(), eyes.count, &colour_attachment, &depth_attachment);
     record(frame, pass, list.solid, eyes);
     const VkDescriptorSet set = frame.slot->set(pass);
     vkCmdBindPipeline(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines->sky(pass));
@@ -325,18 +330,18 @@ void Renderer::State::record(const Frame& frame, PassKind pass, std::span<const 
   vkCmdBindDescriptorSets(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts.pipeline.get(), 0, 1, &set, 0,
                           nullptr);
   vkCmdBindIndexBuffer(frame.commands, model.indices.get(), 0, VK_INDEX_TYPE_UINT32);
-  const DrawItem* before = nullptr;
+  const DrawItem* previous = nullptr;
   for (const DrawItem* item : items) {
-    bind_item(frame, pass, *item, before);
+    bind_item(frame, pass, *item, previous);
     vkCmdDrawIndexed(frame.commands, item->part->index_count, eyes.count, item->part->first_index, item->vertex_offset,
                      eyes.first);
     flush_collected_triangles(frame, item->part->index_count / 3 * eyes.count);
-    before = item;
+    previous = item;
   }
 }
 
 // A software driver collects the triangles of a pass on one thread, and starts shading only when its buffer is full.
-// Writing a timestamp makes it start.
+// Writing a timestamp makes it start at once.
 void Renderer::State::flush_collected_triangles(const Frame& frame, std::uint32_t triangles) {
   if (!gpu.traits().is_cpu) return;
   collected_triangles += triangles;
@@ -345,16 +350,16 @@ void Renderer::State::flush_collected_triangles(const Frame& frame, std::uint32_
   collected_triangles = 0;
 }
 
-// Binds only what differs from the previous item.
-void Renderer::State::bind_item(const Frame& frame, PassKind pass, const DrawItem& item, const DrawItem* before) {
+// Binds only the state that differs from that of the previous item.
+void Renderer::State::bind_item(const Frame& frame, PassKind pass, const DrawItem& item, const DrawItem* previous) {
   const FeatureChoice choice{config.shadow_side != 0, config.normal_maps};
   const std::uint32_t features = features_in(pass, item, choice);
-  if (before == nullptr || features != features_in(pass, *before, choice))
+  if (previous == nullptr || features != features_in(pass, *previous, choice))
     vkCmdBindPipeline(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines->mesh(pass, features));
-  if (before == nullptr || item.material != before->material)
+  if (previous == nullptr || item.material != previous->material)
     vkCmdBindDescriptorSets(frame.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts.pipeline.get(), 1, 1,
                             &item.material->set, 0, nullptr);
-  if (before == nullptr || item.deformed != before->deformed) {
+  if (previous == nullptr || item.deformed != previous->deformed) {
     const VkBuffer vertices = item.deformed ? frame.slot->deformed() : model.vertices.get();
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(frame.commands, 0, 1, &vertices, &offset);

@@ -20,8 +20,8 @@ namespace gearshift::engine {
 
 namespace {
 
-// Avoids self-shadowing: pushes depth away from the sun (reverse-Z: smaller) by the slope of the surface in the map.
-// The normal offset in mesh_vertex.glsl takes care of the rest.
+// Avoids self-shadowing: pushes depth away from the sun (reverse-Z: smaller) in proportion to the slope of the surface
+// in the map. The normal offset in mesh_vertex.glsl prevents the rest.
 constexpr float kShadowSlopeBias = -1.5f;
 
 VertexInput vertex_input() {
@@ -59,8 +59,8 @@ SetLayout material_layout(const Gpu& gpu) {
   return make_set_layout(gpu, bindings);
 }
 
-// Expands the spherical harmonics (engine/light/irradiance.cpp) to a polynomial; c6 (3 z^2 - 1) gives a constant and a
-// square.
+// Expands the spherical harmonics (engine/light/irradiance.cpp) to a polynomial; the term with c6, 3 z^2 - 1, adds to
+// the constant and to the coefficient of z^2.
 std::array<glm::vec3, shader::kIrradianceTerms> polynomial_of(const Irradiance& light) {
   constexpr std::array kFactor{0.282095f, 0.488603f, 0.488603f, 0.488603f, 1.092548f,
                                1.092548f, 0.946176f, 1.092548f, 0.546274f};

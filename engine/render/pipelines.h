@@ -1,4 +1,4 @@
-// Pipelines, chosen by what a draw needs and created on first use.
+// Pipelines, one for each combination of pass and features, created on first use.
 #pragma once
 
 #include <array>

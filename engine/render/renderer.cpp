@@ -17,18 +17,18 @@ namespace {
 void check_config(const Gpu& gpu, const RenderConfig& config) {
   const auto within = [](int value, int low, int high) { return value >= low && value <= high; };
   if (!within(config.width, 1, 16384) || !within(config.height, 1, 16384))
-    throw std::invalid_argument("A picture is 1 to 16384 pixels wide and high.");
-  if (!within(config.eyes, 1, 2)) throw std::invalid_argument("A picture has one or two eyes.");
-  if (config.samples != 1 && config.samples != 4) throw std::invalid_argument("A pixel has 1 or 4 samples.");
+    throw std::invalid_argument("A picture must be 1 to 16384 pixels wide and high.");
+  if (!within(config.eyes, 1, 2)) throw std::invalid_argument("A picture must have one or two eyes.");
+  if (config.samples != 1 && config.samples != 4) throw std::invalid_argument("A pixel must have 1 or 4 samples.");
   if (config.shadow_side != 0 && !within(config.shadow_side, 16, 8192))
-    throw std::invalid_argument("A shadow map has 16 to 8192 texels per side, or 0 for none.");
-  if (!within(config.mirror_height, 0, 2048)) throw std::invalid_argument("A mirror is 0 to 2048 pixels high.");
+    throw std::invalid_argument("A shadow map must have 16 to 8192 texels per side; 0 means no shadows.");
+  if (!within(config.mirror_height, 0, 2048)) throw std::invalid_argument("A mirror must be 0 to 2048 pixels high.");
   if (!(config.late_margin >= 0.0f && config.late_margin <= 1.0f))
-    throw std::invalid_argument("The margin of late views is 0 to 1.");
+    throw std::invalid_argument("The late-view margin must be between 0 and 1.");
   if (config.samples == 4 && !gpu.traits().four_samples)
-    throw GpuError("The device does not support 4 samples per pixel: " + gpu.traits().name + ".");
+    throw GpuError(gpu.traits().name + " does not support 4 samples per pixel. Use 1 sample.");
   if (config.eyes == 2 && config.eye_passes == EyePasses::layered && !gpu.traits().layered_vertex)
-    throw GpuError("The device cannot draw both eyes in one pass: " + gpu.traits().name + ".");
+    throw GpuError(gpu.traits().name + " cannot draw both eyes in one pass.");
 }
 
 SetPool pass_sets(const Gpu& gpu) {
@@ -42,7 +42,7 @@ SetPool pass_sets(const Gpu& gpu) {
 LightMaps day_light() {
   const Sun sun;
   const Radiance open = day_sky(sun.towards);
-  return light_maps(open, inside(car_cabin(), open, sun.towards, sun.irradiance));
+  return light_maps(open, indoor_radiance(car_cabin(), open, sun.towards, sun.irradiance));
 }
 
 VkSampleCountFlagBits sample_count(const RenderConfig& config) {
@@ -88,7 +88,7 @@ Renderer::State::State(Gpu& device, const RenderConfig& wanted)
   set_light(maps.get());
 }
 
-// Create images and pipelines for the configuration. Must not be called while a frame is in flight.
+// Creates the picture's images for the configuration. Must not be called while a frame is in flight.
 void Renderer::State::make_picture() {
   const auto eyes = static_cast<std::uint32_t>(config.eyes);
   const VkExtent2D extent{static_cast<std::uint32_t>(config.width), static_cast<std::uint32_t>(config.height)};
@@ -106,20 +106,20 @@ void Renderer::State::make_shadow() {
   }
 }
 
-// It is created again when a mirror is visible.
+// Frees the mirror's images; fit_mirror() creates them again when a mirror is visible.
 void Renderer::State::drop_mirror() {
   mirror = MirrorTarget();
   bind_mirror();
 }
 
-// Recreates only what the change affects, so that dragging a window's border compiles nothing.
+// Recreates only what the change affects, so that dragging a window's border compiles no pipeline.
 void Renderer::State::resize(const RenderConfig& wanted) {
-  const RenderConfig before = std::exchange(config, wanted);
+  const RenderConfig previous = std::exchange(config, wanted);
   const bool was_layered = layered;
   make_picture();
-  if (config.samples != before.samples || layered != was_layered) make_pipelines();
-  if (config.shadow_side != before.shadow_side) make_shadow();
-  if (config.eyes != before.eyes || config.mirror_height != before.mirror_height) drop_mirror();
+  if (config.samples != previous.samples || layered != was_layered) make_pipelines();
+  if (config.shadow_side != previous.shadow_side) make_shadow();
+  if (config.eyes != previous.eyes || config.mirror_height != previous.mirror_height) drop_mirror();
 }
 
 void Renderer::State::make_pipelines() {
@@ -144,11 +144,11 @@ void Renderer::State::set_model(const Model& content) {
   static_casters.reset();
 }
 
-// The mirror's image has the aspect ratio of the mirror; it is created when a mirror is first visible or has another
-// shape.
+// Creates the mirror's images, with the aspect ratio of the mirror, when a mirror is first visible or its shape has
+// changed.
 void Renderer::State::fit_mirror(const MirrorWindow& window) {
-  const VkExtent2D extent = mirror_extent(window, config.mirror_height), now = mirror.colour.image.extent();
-  if (mirror.colour.all && extent.width == now.width && extent.height == now.height) return;
+  const VkExtent2D extent = mirror_extent(window, config.mirror_height), current = mirror.colour.image.extent();
+  if (mirror.colour.all && extent.width == current.width && extent.height == current.height) return;
   ring.wait();
   mirror = MirrorTarget(gpu, extent, static_cast<std::uint32_t>(config.eyes));
   run_once(gpu, [&](VkCommandBuffer commands) { transition(commands, mirror.colour.image, ImageUse::sampled); });
@@ -156,11 +156,12 @@ void Renderer::State::fit_mirror(const MirrorWindow& window) {
 }
 
 void Renderer::State::bind_mirror() {
-  const VkImageView none = mirror_placeholder.colour.all.get(),
-                    shown = mirror.colour.all ? mirror.colour.all.get() : none;
+  const VkImageView placeholder = mirror_placeholder.colour.all.get(),
+                    current = mirror.colour.all ? mirror.colour.all.get() : placeholder;
   for (const FrameSlot& slot : slots) {
     for (const PassKind pass : kPasses)
-      bind_texture(gpu, slot.set(pass), shader::kBindMirror, pass == PassKind::main ? shown : none, clamped.get());
+      bind_texture(gpu, slot.set(pass), shader::kBindMirror, pass == PassKind::main ? current : placeholder,
+                   clamped.get());
   }
 }
 

@@ -1,5 +1,5 @@
-// Draws a frame: sun shadow, mirror, opaque, masked, sky, glass, for one eye or two; tone-mapped into an image of its
-// own.
+// Draws a frame for one or two eyes: sun shadow, mirror, opaque and masked surfaces, sky, glass. The tone-mapped
+// picture is in an image that the renderer owns.
 //
 // Each eye's picture is a layer of colour(), which can be blitted to a window, read back as a PNG, or copied to a
 // headset. Both eyes are drawn in one pass if the device lets a vertex shader select the layer, otherwise eye by eye.
@@ -32,8 +32,8 @@ struct RenderConfig {
   int mirror_height = 96;   // [px] 0: the mirror shows only its material
   bool normal_maps = true;  // false: negative control for a test
   bool keep_depth = false;  // makes depth() available for copying, for reprojection
-  // [1] widens the culling frusta by this fraction of the tangents of the half angles, for the late views of Finish. A
-  // head turning at 300 deg/s turns by 3 deg in 10 ms: a tenth at the edge of a 90 deg picture.
+  // [1] widens the culling frusta by this fraction of the tangents of the half angles, for Finish::late_views(). A head
+  // turning at 300 deg/s turns by 3 deg in 10 ms, for which a picture 90 deg wide needs 0.1.
   float late_margin = 0.0f;
 };
 
@@ -52,7 +52,7 @@ class Renderer {
   // Replaces the default environment, which is a day sky and the light that reaches a car's cabin. `indoors` lights the
   // nodes marked as indoors; if empty, `open` is used for them. Waits for the frames in flight.
   void set_environment(const Radiance& open, const Radiance& indoors = {});
-  void resize(const RenderConfig& config);  // changes size, eyes and samples. Waits for the frames in flight
+  void resize(const RenderConfig& config);  // applies a changed configuration. Waits for the frames in flight
   const RenderConfig& config() const noexcept;
 
   // Records and submits one frame; views.size() == eyes. Overlays are drawn in order, on every eye. Returns the
@@ -65,7 +65,8 @@ class Renderer {
     // slot: index of this frame among the kFramesInFlight, for per-frame buffers of the caller.
     virtual void record(VkCommandBuffer commands, GpuImage& colour, int slot) = 0;
     // Latest views of the eyes, requested after recording and just before the submission; the frame is drawn from them.
-    // Empty: keep the views passed to draw(). They may differ from those by no more than late_margin allows.
+    // Empty: keep the views passed to draw(). The latest views may differ from those by no more than late_margin
+    // allows.
     virtual std::span<const View> late_views() { return {}; }
     VkSemaphore wait_for = VK_NULL_HANDLE;
     VkSemaphore then_signal = VK_NULL_HANDLE;
@@ -74,8 +75,8 @@ class Renderer {
                      Finish& finish);
 
   GpuImage& colour() noexcept;  // one layer per eye, kColourFormat
-  // One layer per eye, kDepthFormat: near plane / distance; with multisampling, the first sample. In copy_from after
-  // draw(), if the config has keep_depth.
+  // One layer per eye, kDepthFormat; values: near plane / distance; with multisampling, that of the first sample. In
+  // copy_from after draw(), if the config has keep_depth.
   GpuImage& depth() noexcept;
   Image read_eye(int eye);  // waits for the GPU
   const PassTimes& times() const noexcept;

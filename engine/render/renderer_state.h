@@ -19,7 +19,7 @@
 namespace gearshift::engine {
 
 // The mirror of this frame: its window, and the mirrored views of the eyes.
-struct MirrorOfFrame {
+struct FrameMirror {
   MirrorWindow window;
   std::vector<View> views;
 };
@@ -31,15 +31,15 @@ struct Frame {
   int slot_index = 0;
   const FrameScene* scene = nullptr;
   std::span<const View> views;
-  std::vector<glm::mat4> clips;  // clip matrices for culling: of the views, widened by late_margin
-  std::optional<MirrorOfFrame> mirror;
+  std::vector<glm::mat4> clips;  // clip matrices of the views, widened by late_margin, for culling
+  std::optional<FrameMirror> mirror;
   glm::vec3 eye{0.0f};  // midway between the eyes
   std::vector<DrawItem> items;
-  DrawList list;            // of the main pass
+  DrawList list;            // draws of the main pass
   shader::PassData data{};  // uniforms common to the passes
 };
 
-// Eyes that are drawn by one recording: all of them into the layers of an image, or a single one into its layer.
+// Eyes that the same commands draw: all eyes into the layers of an image, or a single eye into its layer.
 struct EyeGroup {
   std::uint32_t first = 0, count = 1;
 };
@@ -48,7 +48,7 @@ struct Renderer::State {
   State(Gpu& device, const RenderConfig& wanted);
   ~State() { gpu.wait_idle(); }  // no object may be destroyed while a frame uses it
 
-  // in renderer.cpp
+  // defined in renderer.cpp
   void make_picture();
   void make_shadow();
   void drop_mirror();
@@ -60,10 +60,10 @@ struct Renderer::State {
   void bind_mirror();
   std::vector<EyeGroup> eye_groups() const;
 
-  // in passes.cpp
+  // defined in passes.cpp
   std::uint64_t draw(const FrameScene& scene, std::span<const View> views, std::span<Overlay* const> overlays,
                      Finish* finish);
-  std::optional<MirrorOfFrame> mirror_of(const Frame& frame) const;
+  std::optional<FrameMirror> mirror_of(const Frame& frame) const;
   void prepare(Frame& frame);
   void draw_shadow(Frame& frame);
   void draw_casters(const Frame& frame, VkImageView view, VkAttachmentLoadOp load,
@@ -80,7 +80,7 @@ struct Renderer::State {
   void draw_eyes(const Frame& frame, PassKind pass, EyeImage& colour, EyeImage& depth, const DrawList& list);
   void record(const Frame& frame, PassKind pass, std::span<const DrawItem* const> items, EyeGroup eyes);
   void flush_collected_triangles(const Frame& frame, std::uint32_t triangles);
-  void bind_item(const Frame& frame, PassKind pass, const DrawItem& item, const DrawItem* before);
+  void bind_item(const Frame& frame, PassKind pass, const DrawItem& item, const DrawItem* previous);
 
   Gpu& gpu;
   RenderConfig config;
@@ -94,7 +94,8 @@ struct Renderer::State {
   ShadowTarget shadow;
   StaticCasters static_casters;
   VkRect2D dirty_shadow_texels{};  // texels of the map that show moving casters
-  // mirror_placeholder: one black texel, bound while the mirror itself is drawn
+  // mirror_placeholder: one black texel, bound in place of the mirror's picture in all passes but the main one, and in
+  // the main pass until a mirror is visible
   MirrorTarget mirror_placeholder, mirror;
   PictureTarget picture;
   std::unique_ptr<Pipelines> pipelines;

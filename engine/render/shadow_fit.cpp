@@ -14,10 +14,10 @@ namespace gearshift::engine {
 
 namespace {
 
-constexpr int kStepsPerWidth = 16;           // positions of the map's centre per width
+constexpr int kStepsPerWidth = 16;           // steps of the map's centre per width of the map
 constexpr double kMinWidth = 1e-3;           // [m]
-constexpr double kWidthRatio = 1.189207115;  // 2^(1/4), between consecutive map widths
-constexpr double kDepthStep = 0.25;          // [m] rounding of the deepest point
+constexpr double kWidthRatio = 1.189207115;  // 2^(1/4), ratio of consecutive map widths
+constexpr double kDepthStep = 0.25;          // [m] the depth range is rounded to multiples of this
 
 struct Corner {
   glm::vec3 world;
@@ -25,21 +25,22 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-// Ivan Sutherland, Gary Hodgman. Reentrant Polygon Clipping. 1974. Keeps dot(plane, clip) >= 0.
+// Keeps the part of the polygon with dot(plane, clip) >= 0 (Ivan Sutherland, Gary Hodgman. Reentrant Polygon Clipping.
+// 1974).
 Polygon clipped(const Polygon& polygon, glm::vec4 plane) {
-  Polygon kept;
+  Polygon inside;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
     const float in_a = glm::dot(plane, a.clip), in_b = glm::dot(plane, b.clip);
-    if (in_a >= 0.0f) kept.push_back(a);
+    if (in_a >= 0.0f) inside.push_back(a);
     if ((in_a >= 0.0f) == (in_b >= 0.0f)) continue;
     const float t = in_a / (in_a - in_b);
-    kept.push_back({glm::mix(a.world, b.world, t), glm::mix(a.clip, b.clip, t)});
+    inside.push_back({glm::mix(a.world, b.world, t), glm::mix(a.clip, b.clip, t)});
   }
-  return kept;
+  return inside;
 }
 
-// Left, right, top, bottom. The near plane is omitted: the pyramid extends to its apex instead.
+// Left, right, top and bottom of the view pyramid. The near plane is omitted: the pyramid extends to its apex instead.
 constexpr std::array<glm::vec4, 4> kSides{{{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, 1, 0, 1}, {0, -1, 0, 1}}};
 
 std::array<glm::vec3, 8> corners_of(const Box& box) {
@@ -51,7 +52,7 @@ std::array<glm::vec3, 8> corners_of(const Box& box) {
 
 constexpr int kFaces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
 
-// The point where all four sides meet: clip x = y = w = 0.
+// The point where all four sides of the view pyramid meet: clip x = y = w = 0.
 glm::vec3 apex_of(const glm::mat4& clip_from_world) {
   const glm::mat4 rows = glm::transpose(clip_from_world);
   const glm::mat3 system = glm::transpose(glm::mat3(glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[3])));
@@ -66,7 +67,7 @@ bool contains(const Box& box, glm::vec3 point) {
 
 std::vector<glm::vec3> visible_corners(const Box& box, std::span<const glm::mat4> clip_from_world) {
   const std::array<glm::vec3, 8> corners = corners_of(box);
-  std::vector<glm::vec3> seen;
+  std::vector<glm::vec3> visible;
   for (const glm::mat4& clip : clip_from_world) {
     for (const auto& face : kFaces) {
       Polygon polygon;
@@ -75,12 +76,12 @@ std::vector<glm::vec3> visible_corners(const Box& box, std::span<const glm::mat4
         polygon.push_back({at, clip * glm::vec4(at, 1.0f)});
       }
       for (const glm::vec4& side : kSides) polygon = clipped(polygon, side);
-      for (const Corner& corner : polygon) seen.push_back(corner.world);
+      for (const Corner& corner : polygon) visible.push_back(corner.world);
     }
-    if (const glm::vec3 tip = apex_of(clip); contains(box, tip)) seen.push_back(tip);
+    if (const glm::vec3 apex = apex_of(clip); contains(box, apex)) visible.push_back(apex);
   }
-  if (seen.empty()) seen.assign(corners.begin(), corners.end());
-  return seen;
+  if (visible.empty()) visible.assign(corners.begin(), corners.end());
+  return visible;
 }
 
 ShadowFit fit_shadow(std::span<const glm::vec3> points, glm::vec3 towards_sun, int side) {
@@ -90,11 +91,11 @@ ShadowFit fit_shadow(std::span<const glm::vec3> points, glm::vec3 towards_sun, i
 
   glm::dvec3 low(1e30), high(-1e30);
   for (const glm::vec3& point : points) {
-    const glm::dvec3 p(point), seen(glm::dot(x, p), glm::dot(y, p), glm::dot(z, p));
-    low = glm::min(low, seen);
-    high = glm::max(high, seen);
+    const glm::dvec3 p(point), in_sun_frame(glm::dot(x, p), glm::dot(y, p), glm::dot(z, p));
+    low = glm::min(low, in_sun_frame);
+    high = glm::max(high, in_sun_frame);
   }
-  // Wide enough even after the centre is rounded to whole steps.
+  // The map must be wide enough even after its centre is rounded to whole steps.
   const int inner = side - 2 * kShadowMargin, texels_per_step = std::max(1, inner / kStepsPerWidth);
   const double slack = 1.0 - static_cast<double>(texels_per_step) / inner;
   const double needed = std::max({high.x - low.x, high.y - low.y, kMinWidth}) / slack;

@@ -7,20 +7,21 @@ bool StaticCasters::update(const ShadowFit& fit, const FrameScene& scene, std::s
   bool stale = size_changed || fit.clip_from_world != clip_from_world_;
   clip_from_world_ = fit.clip_from_world;
 
-  std::vector<Caster> now(scene.nodes.size());
+  std::vector<Caster> current(scene.nodes.size());
   for (const DrawItem& item : items) {
-    Caster& caster = now[item.node];
+    Caster& caster = current[item.node];
     caster.casts = caster.casts || !item.blended;
     caster.world = scene.nodes[item.node].world;
     caster.moves = caster.moves || item.deformed;
   }
-  for (std::size_t node = 0; node < now.size() && !size_changed; ++node) {
-    const Caster& before = nodes_[node];
-    const bool caster_changed = now[node].casts != before.casts || (now[node].casts && now[node].world != before.world);
-    if (caster_changed && !before.moves) stale = true;
-    now[node].moves = now[node].moves || before.moves || caster_changed;
+  for (std::size_t node = 0; node < current.size() && !size_changed; ++node) {
+    const Caster& previous = nodes_[node];
+    const bool caster_changed =
+        current[node].casts != previous.casts || (current[node].casts && current[node].world != previous.world);
+    if (caster_changed && !previous.moves) stale = true;
+    current[node].moves = current[node].moves || previous.moves || caster_changed;
   }
-  nodes_ = std::move(now);
+  nodes_ = std::move(current);
   return stale;
 }
 

@@ -14,7 +14,7 @@ class StaticCasters {
   // moved, appeared or disappeared. A node that has moved once counts as moving from then on.
   bool update(const ShadowFit& fit, const FrameScene& scene, std::span<const DrawItem> items);
   bool is_static(std::uint32_t node) const { return !nodes_[node].moves; }
-  void reset() { *this = {}; }  // after a change of model or map
+  void reset() { *this = {}; }  // call after a change of model or map
 
  private:
   struct Caster {

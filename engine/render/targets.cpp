@@ -22,7 +22,7 @@ VkRenderingAttachmentInfo attachment_info(const Attachment& attachment, ImageUse
           .resolveImageView = attachment.resolved,
           .resolveImageLayout = resolves ? layout_of(ImageUse::depth_resolved) : VK_IMAGE_LAYOUT_UNDEFINED,
           .loadOp = attachment.load,
-          .storeOp = attachment.store};  // cleared to zero: black, and infinite distance in reverse-Z
+          .storeOp = attachment.store};  // clear value 0: black, and infinite distance in reverse-Z
 }
 
 }  // namespace
@@ -32,22 +32,23 @@ EyeImage::EyeImage(Gpu& gpu, const ImageDesc& desc)
   for (std::uint32_t eye = 0; eye < desc.layers; ++eye) one[eye] = make_view(gpu, image, VK_IMAGE_VIEW_TYPE_2D, eye, 1);
 }
 
-PictureTarget::PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits count, bool keeps)
-    : multisampled(count != VK_SAMPLE_COUNT_1_BIT), stores_depth(keeps) {
-  ImageDesc picture =
+PictureTarget::PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits count,
+                             bool keep_depth)
+    : multisampled(count != VK_SAMPLE_COUNT_1_BIT), stores_depth(keep_depth) {
+  ImageDesc picture_desc =
       target_desc(extent, eyes, kColourFormat, kColour | kSource | kSampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  picture.second_format = kOverlayFormat;
-  colour = EyeImage(gpu, picture);
+  picture_desc.second_format = kOverlayFormat;
+  colour = EyeImage(gpu, picture_desc);
   for (std::uint32_t eye = 0; eye < eyes; ++eye)
     overlay[eye] = make_view(gpu, colour.image, VK_IMAGE_VIEW_TYPE_2D, eye, 1, kOverlayFormat);
-  ImageDesc deep = target_desc(extent, eyes, kDepthFormat, kDepth | (keeps && !multisampled ? kSource : 0));
-  deep.samples = count;
-  depth = EyeImage(gpu, deep);
+  ImageDesc depth_desc = target_desc(extent, eyes, kDepthFormat, kDepth | (keep_depth && !multisampled ? kSource : 0));
+  depth_desc.samples = count;
+  depth = EyeImage(gpu, depth_desc);
   if (!multisampled) return;
-  ImageDesc several = target_desc(extent, eyes, kColourFormat, kColour | kSource);
-  several.samples = count;
-  samples = EyeImage(gpu, several);
-  if (keeps) one_depth = EyeImage(gpu, target_desc(extent, eyes, kDepthFormat, kDepth | kSource));
+  ImageDesc samples_desc = target_desc(extent, eyes, kColourFormat, kColour | kSource);
+  samples_desc.samples = count;
+  samples = EyeImage(gpu, samples_desc);
+  if (keep_depth) resolved_depth = EyeImage(gpu, target_desc(extent, eyes, kDepthFormat, kDepth | kSource));
 }
 
 MirrorTarget::MirrorTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes)
@@ -57,8 +58,8 @@ MirrorTarget::MirrorTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes)
 ShadowTarget::ShadowTarget(Gpu& gpu, std::uint32_t side)
     : depth(gpu, target_desc({side, side}, 1, kShadowFormat, kDepth | kSampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
       view(make_view(gpu, depth, VK_IMAGE_VIEW_TYPE_2D)),
-      still(gpu, target_desc({side, side}, 1, kShadowFormat, kDepth | kSource)),
-      still_view(make_view(gpu, still, VK_IMAGE_VIEW_TYPE_2D)) {}
+      static_depth(gpu, target_desc({side, side}, 1, kShadowFormat, kDepth | kSource)),
+      static_view(make_view(gpu, static_depth, VK_IMAGE_VIEW_TYPE_2D)) {}
 
 void begin_rendering(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers, const Attachment* colour,
                      const Attachment* depth) {

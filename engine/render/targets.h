@@ -25,11 +25,11 @@ struct PictureTarget {
   EyeImage colour;   // the final picture, single-sampled
   EyeImage samples;  // multisampled target, if used
   EyeImage depth;
-  EyeImage one_depth;                // first sample of a multisampled depth, if depth is stored
+  EyeImage resolved_depth;           // first sample of a multisampled depth, if depth is stored
   std::array<ImageView, 2> overlay;  // views of the layers of colour, in kOverlayFormat
   bool multisampled = false, stores_depth = false;
-  EyeImage& drawn() noexcept { return multisampled ? samples : colour; }
-  EyeImage& stored_depth() noexcept { return multisampled ? one_depth : depth; }
+  EyeImage& draw_target() noexcept { return multisampled ? samples : colour; }
+  EyeImage& stored_depth() noexcept { return multisampled ? resolved_depth : depth; }
 };
 
 struct MirrorTarget {
@@ -43,17 +43,17 @@ struct ShadowTarget {
   ShadowTarget(Gpu& gpu, std::uint32_t side);
   GpuImage depth;  // the map that shaders sample
   ImageView view;
-  GpuImage still;  // static casters only; copied into depth before the moving casters are drawn
-  ImageView still_view;
+  GpuImage static_depth;  // static casters only; copied into depth before the moving casters are drawn
+  ImageView static_view;
 };
 
-// Attachment for begin_rendering(), which calls vkCmdBeginRendering over one or more layers. The images must already be
-// in the matching use. Sets viewport and scissor to the whole extent.
+// Attachment for begin_rendering(), which calls vkCmdBeginRendering for one or more layers, and sets viewport and
+// scissor to the whole extent. The images must already be in the matching use.
 struct Attachment {
   VkImageView view = VK_NULL_HANDLE;
   VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_CLEAR;
   VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_STORE;
-  VkImageView resolved = VK_NULL_HANDLE;  // destination for the first sample of depth
+  VkImageView resolved = VK_NULL_HANDLE;  // null, or destination for the first sample of depth
 };
 void begin_rendering(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers, const Attachment* colour,
                      const Attachment* depth);

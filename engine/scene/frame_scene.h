@@ -34,19 +34,19 @@ struct DeformedMesh {
   int node = kNone;              // kNone: all nodes that carry the mesh
 };
 
-// Shadows are computed only inside this box: the smaller it is, the sharper they are. [m] world
-struct ShadowRoom {
+// Shadows are computed only inside this box ([m] world); a smaller box gives sharper shadows.
+struct ShadowBounds {
   glm::vec3 low{-std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::max()};
 };
 
-// The mirror is the plane z = 0 of its node, reflecting on the +Z side.
+// Content of one frame. The mirror, if any, is the plane z = 0 of its node and reflects on the +Z side.
 struct FrameScene {
   std::vector<NodeState> nodes;        // one per node of the model
   std::vector<DeformedMesh> deformed;  // may be empty
   Sun sun;
   float exposure = 1.0f;
   int mirror = kNone;  // node whose mesh is the mirror
-  ShadowRoom shadow_room;
+  ShadowBounds shadow_bounds;
 };
 
 }  // namespace gearshift::engine

@@ -47,9 +47,9 @@ Fov symmetric_fov(double vertical, double aspect) {
 
 View view_from(const EyePose& eye, const Fov& fov, double near_plane) {
   View view;
-  const glm::dmat4 turned = glm::mat4_cast(glm::conjugate(eye.orientation));
-  glm::dmat4 view_from_world = turned;
-  view_from_world[3] = turned * glm::dvec4(-eye.position, 1.0);
+  const glm::dmat4 rotation = glm::mat4_cast(glm::conjugate(eye.orientation));
+  glm::dmat4 view_from_world = rotation;
+  view_from_world[3] = rotation * glm::dvec4(-eye.position, 1.0);
   view.view_from_world = glm::mat4(view_from_world);
   view.clip_from_view = off_axis_projection(fov, near_plane);
   view.eye = glm::vec3(eye.position);
@@ -68,12 +68,13 @@ EyePose look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up) {
 StereoEyes stereo_eyes(const EyePose& head, const Fov& centre, double ipd, double distance) {
   StereoEyes eyes;
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    const double aside = eye == 0 ? -0.5 * ipd : 0.5 * ipd;
-    eyes.pose[eye] = {head.position + head.orientation * (aside * kRight), head.orientation};
-    // The screen is fixed, so its edges shift relative to the eye, in tangents by eye offset / distance.
+    const double offset = eye == 0 ? -0.5 * ipd : 0.5 * ipd;
+    eyes.pose[eye] = {head.position + head.orientation * (offset * kRight), head.orientation};
+    // The screen is fixed, so the tangents of the angles to its edges shift by offset / distance when the eye moves by
+    // `offset`.
     eyes.fov[eye] = centre;
-    eyes.fov[eye].left = std::atan(std::tan(centre.left) - aside / distance);
-    eyes.fov[eye].right = std::atan(std::tan(centre.right) - aside / distance);
+    eyes.fov[eye].left = std::atan(std::tan(centre.left) - offset / distance);
+    eyes.fov[eye].right = std::atan(std::tan(centre.right) - offset / distance);
   }
   return eyes;
 }

@@ -20,7 +20,8 @@ struct EyePose {
   glm::dquat orientation{1.0, 0.0, 0.0, 0.0};  // looks along its -Z, +Y up
 };
 
-// A pose also describes a space within another one: pose b in the space of a is a * b outside of it.
+// A pose also describes a space within a surrounding space: a pose b in the space of pose a is a * b in the space
+// around a.
 EyePose operator*(const EyePose& a, const EyePose& b);
 EyePose inverse(const EyePose& pose);
 glm::dvec3 operator*(const EyePose& pose, glm::dvec3 point);
@@ -31,24 +32,25 @@ struct View {
   glm::vec3 eye{0.0f};  // [m] world
 };
 
-// With an infinite far plane. near_plane [m] > 0
+// Projection with an infinite far plane. near_plane [m] > 0
 glm::mat4 off_axis_projection(const Fov& fov, double near_plane);
 
-// From the vertical field of view. [rad]
+// Symmetric frustum. vertical [rad]: vertical field of view; aspect: width / height
 Fov symmetric_fov(double vertical, double aspect);
 
 View view_from(const EyePose& eye, const Fov& fov, double near_plane);
 EyePose look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up = {0.0, 1.0, 0.0});
 
 // Two eyes `ipd` [m] apart whose frusta coincide on a screen `distance` [m] ahead: parallel axes, off-axis projections.
-// A point z ahead has a disparity of f ipd (1/z - 1/distance), where f is the focal length in pixels.
+// A point at distance z ahead has a disparity of f ipd (1/z - 1/distance), where f is the focal length in pixels.
 struct StereoEyes {
   std::array<EyePose, 2> pose;  // left, right
   std::array<Fov, 2> fov;
 };
 StereoEyes stereo_eyes(const EyePose& head, const Fov& centre, double ipd, double distance);
 
-// Projects a world point: [px] from the upper left corner; z > 0 in front of the near plane
+// Projects a world point. Returns x and y [px] from the upper left corner, and z [m], the distance beyond the near
+// plane; negative if the point is nearer or behind the eye.
 glm::dvec3 project(const View& view, glm::dvec3 point, glm::dvec2 size_px);
 
 }  // namespace gearshift::engine

@@ -32,7 +32,7 @@ class QuietStderr {
 };
 
 template <typename Function>
-Function entry(const char* name) {
+Function alc_function(const char* name) {
   return reinterpret_cast<Function>(alcGetProcAddress(nullptr, name));
 }
 
@@ -43,12 +43,12 @@ ALCdevice* open_card() {
 
 ALCdevice* open_memory() {
   if (alcIsExtensionPresent(nullptr, "ALC_SOFT_loopback") == ALC_FALSE) return nullptr;
-  const auto open = entry<LPALCLOOPBACKOPENDEVICESOFT>("alcLoopbackOpenDeviceSOFT");
+  const auto open = alc_function<LPALCLOOPBACKOPENDEVICESOFT>("alcLoopbackOpenDeviceSOFT");
   return open != nullptr ? open(nullptr) : nullptr;
 }
 
-// On a sound card, the driver decides about headphones (HRTF) and limits the volume. Memory gets the plain stereo sum,
-// which is the same on every machine and linear, so that it can be measured.
+// On a sound card, the driver decides about headphones (HRTF) and limits the volume. The memory device renders the
+// plain stereo sum, which is the same on every machine and linear, so that it can be measured.
 ALCcontext* make_context(ALCdevice* device, SoundOutput output) {
   static constexpr ALCint card[] = {ALC_FREQUENCY, kSoundRate, 0};
   static constexpr ALCint memory[] = {ALC_FREQUENCY,
@@ -75,10 +75,10 @@ void SoundDevice::Close::operator()(ALCcontext* context) const {
 SoundDevice::SoundDevice(SoundOutput output) {
   const bool is_card = output == SoundOutput::card;
   device_.reset(is_card ? open_card() : open_memory());
-  if (!device_) throw std::runtime_error(is_card ? "no sound card" : "OpenAL cannot render to memory");
+  if (!device_) throw std::runtime_error(is_card ? "there is no sound card" : "OpenAL cannot render to memory");
   context_.reset(make_context(device_.get(), output));
   if (!context_) throw std::runtime_error("the sound device does not support stereo at 48 kHz");
-  if (!is_card) render_samples_ = entry<LPALCRENDERSAMPLESSOFT>("alcRenderSamplesSOFT");
+  if (!is_card) render_samples_ = alc_function<LPALCRENDERSAMPLESSOFT>("alcRenderSamplesSOFT");
 }
 
 bool SoundDevice::connected() const {

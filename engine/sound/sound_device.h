@@ -12,8 +12,8 @@ namespace gearshift::engine {
 
 class SoundDevice {
  public:
-  // output: card or memory, as stereo floats at kSoundRate. Throws std::runtime_error with a short reason if there is
-  // none.
+  // output: card or memory, as stereo floats at kSoundRate. Throws std::runtime_error with a short reason if the device
+  // cannot be opened.
   explicit SoundDevice(SoundOutput output);
   virtual ~SoundDevice() = default;
   SoundDevice(const SoundDevice&) = delete;
@@ -21,7 +21,7 @@ class SoundDevice {
 
   virtual bool connected() const;  // false once the card was unplugged or its server ended
   void make_current() const;
-  void render(std::span<float> stereo);  // memory only
+  void render(std::span<float> stereo);  // only for SoundOutput::memory
 
  private:
   struct Close {

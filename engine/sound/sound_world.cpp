@@ -13,31 +13,31 @@
 
 namespace gearshift::engine {
 
-namespace {
-
-constexpr double kRetryPeriod = 1.0;  // [s] between attempts to reopen a lost device
-
-struct Clip {
+struct SoundClip {
   std::vector<float> samples;
   ALuint buffer = 0;
 };
 
-struct Loop {
+struct SoundLoop {
   ClipId clip = 0;
   Voice voice;
-  ALuint source = 0;  // 0: the device has no free source
+  ALuint source = 0;  // 0: the device had no free source
   bool changed = true, starts = true;
 };
 
-struct OneShot {
+struct SoundOneShot {
   ALuint source = 0;
   std::uint64_t number = 0;  // number of the play() call; the smallest is the oldest
 };
 
-struct Listener {
+struct SoundListener {
   glm::vec3 position{0.0f}, forward{0.0f, 0.0f, -1.0f}, up{0.0f, 1.0f, 0.0f};
   float volume = 1.0f;
 };
+
+namespace {
+
+constexpr double kRetryPeriod = 1.0;  // [s] between attempts to reopen a lost device
 
 float clamp_or_low(float value, float low, float high) {
   return std::isnan(value) ? low : std::clamp(value, low, high);
@@ -51,11 +51,11 @@ void write_voice(ALuint source, const Voice& voice) {
   if (is_finite(voice.position)) alSource3f(source, AL_POSITION, voice.position.x, voice.position.y, voice.position.z);
   alSourcef(source, AL_GAIN, clamp_or_low(voice.gain, 0.0f, 1.0f));
   alSourcef(source, AL_PITCH, clamp_or_low(voice.pitch, 0.25f, 4.0f));
-  // AL_EXT_SOURCE_RADIUS; if not supported, a point source
+  // Needs AL_EXT_SOURCE_RADIUS; without this extension, every source is a point.
   alSourcef(source, AL_SOURCE_RADIUS, clamp_or_low(voice.radius, 0.0f, 1e3f));
 }
 
-void write_listener(const Listener& listener) {
+void write_listener(const SoundListener& listener) {
   const auto& [position, forward, up, volume] = listener;
   const float orientation[6] = {forward.x, forward.y, forward.z, up.x, up.y, up.z};
   if (is_finite(position)) alListener3f(AL_POSITION, position.x, position.y, position.z);
@@ -63,7 +63,7 @@ void write_listener(const Listener& listener) {
   alListenerf(AL_GAIN, clamp_or_low(volume, 0.0f, 1.0f));
 }
 
-// The gain is reference / max(reference, distance). Returns 0 if the device has no free source.
+// Makes a source whose gain is reference / max(reference, distance). Returns 0 if the device has no free source.
 ALuint make_source() {
   alGetError();  // clears earlier errors
   ALuint source = 0;
@@ -81,7 +81,7 @@ ALuint make_buffer(const std::vector<float>& samples) {
   return buffer;
 }
 
-// AL_SOFT_deferred_updates: all changes during its lifetime reach the mixer at the same sample.
+// All changes made while an object of this type exists reach the mixer at the same sample (AL_SOFT_deferred_updates).
 struct DeferredUpdates {
   using Function = void (*)();
   DeferredUpdates() { call("alDeferUpdatesSOFT"); }
@@ -105,26 +105,26 @@ struct SoundWorld::State {
   std::unique_ptr<SoundDevice> device;
   std::string silence_reason = "sound is off";
   bool is_lost = false;
-  double next_try = 0.0;  // [s]
+  double next_attempt = 0.0;  // [s]
 
-  std::vector<Clip> clips;
-  std::vector<Loop> loops;
-  std::array<OneShot, kOneShotVoices> one_shots;
+  std::vector<SoundClip> clips;
+  std::vector<SoundLoop> loops;
+  std::array<SoundOneShot, kOneShotVoices> one_shots;
   std::uint64_t played = 0;
-  Listener listener;
+  SoundListener listener;
   bool listener_changed = true;
 
   void open();
   void mark_lost() noexcept;
   void reopen(double time) noexcept;
   void rebuild();
-  void set_up(Loop& loop);
+  void set_up(SoundLoop& loop);
   void apply_changes();
   void start_loops();
-  OneShot& next_one_shot();
+  SoundOneShot& next_one_shot();
 };
 
-// Rethrows exceptions of the opener.
+// Opens the device and transfers the state to it. Passes on exceptions of the opener.
 void SoundWorld::State::open() {
   device = opener(wanted);
   rebuild();
@@ -139,13 +139,13 @@ void SoundWorld::State::mark_lost() noexcept {
 }
 
 void SoundWorld::State::reopen(double time) noexcept {
-  next_try = std::min(next_try, time + kRetryPeriod);  // keeps retrying even if the clock was set back
-  if (time < next_try) return;
-  next_try = time + kRetryPeriod;
+  next_attempt = std::min(next_attempt, time + kRetryPeriod);  // keeps retrying even if the clock was set back
+  if (time < next_attempt) return;
+  next_attempt = time + kRetryPeriod;
   try {
     open();
   } catch (const std::exception&) {
-    device.reset();  // silence_reason still says that it was lost
+    device.reset();  // silence_reason still says that the device was lost
   }
 }
 
@@ -153,13 +153,13 @@ void SoundWorld::State::reopen(double time) noexcept {
 void SoundWorld::State::rebuild() {
   device->make_current();
   alDistanceModel(AL_INVERSE_DISTANCE_CLAMPED);
-  for (Clip& clip : clips) clip.buffer = make_buffer(clip.samples);
-  for (OneShot& shot : one_shots) shot = {make_source(), 0};
-  for (Loop& loop : loops) set_up(loop);
+  for (SoundClip& clip : clips) clip.buffer = make_buffer(clip.samples);
+  for (SoundOneShot& shot : one_shots) shot = {make_source(), 0};
+  for (SoundLoop& loop : loops) set_up(loop);
   listener_changed = true;
 }
 
-void SoundWorld::State::set_up(Loop& loop) {
+void SoundWorld::State::set_up(SoundLoop& loop) {
   loop.source = make_source();
   alSourcei(loop.source, AL_BUFFER, static_cast<ALint>(clips.at(static_cast<std::size_t>(loop.clip)).buffer));
   alSourcei(loop.source, AL_LOOPING, AL_TRUE);
@@ -171,7 +171,7 @@ void SoundWorld::State::apply_changes() {
   {
     const DeferredUpdates deferred;
     if (std::exchange(listener_changed, false)) write_listener(listener);
-    for (Loop& loop : loops) {
+    for (SoundLoop& loop : loops) {
       if (std::exchange(loop.changed, false)) write_voice(loop.source, loop.voice);
     }
   }
@@ -180,21 +180,21 @@ void SoundWorld::State::apply_changes() {
 
 void SoundWorld::State::start_loops() {
   std::vector<ALuint> sources;
-  for (Loop& loop : loops) {
+  for (SoundLoop& loop : loops) {
     if (std::exchange(loop.starts, false) && loop.source != 0) sources.push_back(loop.source);
   }
   if (!sources.empty()) alSourcePlayv(static_cast<ALsizei>(sources.size()), sources.data());
 }
 
 // Returns a source that has finished, or else the oldest one.
-OneShot& SoundWorld::State::next_one_shot() {
-  for (OneShot& shot : one_shots) {
+SoundOneShot& SoundWorld::State::next_one_shot() {
+  for (SoundOneShot& shot : one_shots) {
     ALint state = AL_STOPPED;
     alGetSourcei(shot.source, AL_SOURCE_STATE, &state);
     if (state != AL_PLAYING) return shot;
   }
   return *std::min_element(one_shots.begin(), one_shots.end(),
-                           [](const OneShot& a, const OneShot& b) { return a.number < b.number; });
+                           [](const SoundOneShot& a, const SoundOneShot& b) { return a.number < b.number; });
 }
 
 SoundWorld::SoundWorld(SoundOutput output) : SoundWorld(output, open_device) {}
@@ -222,7 +222,7 @@ const std::string& SoundWorld::silence_reason() const noexcept {
 }
 
 ClipId SoundWorld::add_clip(std::span<const float> samples) {
-  Clip& clip = state_->clips.emplace_back();
+  SoundClip& clip = state_->clips.emplace_back();
   clip.samples.assign(samples.begin(), samples.end());
   if (state_->device) {
     state_->device->make_current();
@@ -232,7 +232,7 @@ ClipId SoundWorld::add_clip(std::span<const float> samples) {
 }
 
 void SoundWorld::set_listener(glm::vec3 position, glm::vec3 forward, glm::vec3 up) {
-  Listener& listener = state_->listener;
+  SoundListener& listener = state_->listener;
   listener = {position, forward, up, listener.volume};
   state_->listener_changed = true;
 }
@@ -246,7 +246,7 @@ void SoundWorld::play(ClipId clip, const Voice& voice) {
   const ALuint buffer = state_->clips.at(static_cast<std::size_t>(clip)).buffer;
   if (!state_->device) return;
   state_->device->make_current();
-  OneShot& shot = state_->next_one_shot();
+  SoundOneShot& shot = state_->next_one_shot();
   shot.number = ++state_->played;
   alSourceStop(shot.source);  // the clip of a playing source cannot be changed
   alSourcei(shot.source, AL_BUFFER, static_cast<ALint>(buffer));
@@ -256,7 +256,7 @@ void SoundWorld::play(ClipId clip, const Voice& voice) {
 
 VoiceId SoundWorld::loop(ClipId clip, const Voice& voice) {
   static_cast<void>(state_->clips.at(static_cast<std::size_t>(clip)));
-  Loop& loop = state_->loops.emplace_back(Loop{clip, voice});
+  SoundLoop& loop = state_->loops.emplace_back(SoundLoop{clip, voice});
   if (state_->device) {
     state_->device->make_current();
     state_->set_up(loop);
@@ -265,7 +265,7 @@ VoiceId SoundWorld::loop(ClipId clip, const Voice& voice) {
 }
 
 void SoundWorld::set(VoiceId voice, const Voice& to) {
-  Loop& loop = state_->loops.at(static_cast<std::size_t>(voice));
+  SoundLoop& loop = state_->loops.at(static_cast<std::size_t>(voice));
   loop.voice = to;
   loop.changed = true;
 }

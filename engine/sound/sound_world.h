@@ -39,32 +39,32 @@ class SoundWorld {
  public:
   // card: falls back to none if there is no card; see silence_reason(). memory: for tests and films, through render().
   explicit SoundWorld(SoundOutput output);
-  SoundWorld(SoundOutput output, SoundDeviceOpener open);  // with another opener, so that a test can lose the device
+  SoundWorld(SoundOutput output, SoundDeviceOpener open);  // `open` lets a test simulate the loss of a device
   ~SoundWorld();
   SoundWorld(const SoundWorld&) = delete;
   SoundWorld& operator=(const SoundWorld&) = delete;
 
-  SoundOutput output() const noexcept;                 // the actual output at this time
+  SoundOutput output() const noexcept;                 // the output in use now; none if the device failed or was lost
   const std::string& silence_reason() const noexcept;  // empty while there is sound
 
-  // Mono samples in [-1, 1] at kSoundRate. The id stays valid.
+  // samples: mono, in [-1, 1] at kSoundRate. The returned id stays valid, even if the device is lost.
   ClipId add_clip(std::span<const float> samples);
 
   // Values out of range are clamped, and NaN becomes the lowest value. An unknown id throws std::out_of_range.
   void set_listener(glm::vec3 position, glm::vec3 forward, glm::vec3 up);
-  void set_volume(float gain);                    // [1] 0 to 1, overall
-  void play(ClipId clip, const Voice& voice);     // plays once; beyond 24 at a time the oldest one is stopped
+  void set_volume(float gain);                    // [1] 0 to 1, for all sounds
+  void play(ClipId clip, const Voice& voice);     // plays once; beyond kOneShotVoices, the oldest is stopped
   VoiceId loop(ClipId clip, const Voice& voice);  // plays for as long as the SoundWorld exists
   void set(VoiceId voice, const Voice& to);
-  void restart(VoiceId voice);  // at the clip's first sample
+  void restart(VoiceId voice);  // restarts a loop at the clip's first sample
 
   // Call once per frame. Detects a lost device and tries to reopen it, at most once per second. Never throws. Changes
   // to loops and listener since the last update or render take effect here, all at the same sample: loops that start
   // together and keep the same pitch stay in phase.
   void update(double time);  // [s]
 
-  // memory only: renders the next frames as interleaved stereo floats. Not limited: the sum of voices can exceed 1. For
-  // other outputs, fills with silence.
+  // With SoundOutput::memory, renders the next frames as interleaved stereo floats; the sum of voices is not limited
+  // and can exceed 1. With other outputs, writes silence.
   void render(std::span<float> stereo);
 
  private:

@@ -6,8 +6,8 @@
 
 namespace gearshift::engine {
 
-// stereo: interleaved samples in [-1, 1], clipped if beyond; rate [Hz]. Writes 16-bit RIFF WAVE. Throws
-// std::runtime_error.
+// Writes a 16-bit RIFF WAVE file. stereo: interleaved samples, clipped to [-1, 1]; rate [Hz]. Throws std::runtime_error
+// with file and reason.
 void write_wav(const std::filesystem::path& path, std::span<const float> stereo, int rate);
 
 }  // namespace gearshift::engine

@@ -12,12 +12,12 @@ namespace gearshift::engine {
 
 struct UiInput {
   float width = 1280.0f, height = 720.0f;  // [px]
-  float seconds = 1.0f / 60.0f;            // since the last frame, > 0
-  float scale = 1.0f;                      // of text and widgets: 1 at 96 dpi, 3 on a 4K television
+  float seconds = 1.0f / 60.0f;            // [s] since the last frame, > 0
+  float scale = 1.0f;                      // size of text and widgets: 1 at 96 dpi, 3 on a 4K television
 };
 
 // One Dear ImGui context with our style and font at the given scale. Needs no GPU: windows can be built, clicked and
-// inspected without one. Keyboard navigation is on. No file is read or written.
+// inspected without one. Keyboard navigation is on. No settings or log file is read or written.
 class UiContext {
  public:
   UiContext();  // makes the context current
@@ -30,7 +30,8 @@ class UiContext {
   void end();                         // calls ImGui::Render
 
   // After begin(): true if the input belongs to the user interface and not to the scene behind it. The keyboard belongs
-  // to it only while a field is edited or the navigation highlight is visible, not merely because a panel was clicked.
+  // to the user interface only while a field is edited or the navigation highlight is visible, not merely because a
+  // panel was clicked.
   bool wants_mouse() const;
   bool wants_keys() const;
 
@@ -40,8 +41,8 @@ class UiContext {
   friend class UiOverlay;
 };
 
-// Draws the context's last frame. Call at most once per frame and slot: each slot has its own buffers, which grow as
-// needed. The font is the only supported texture: any other throws std::logic_error.
+// Draws the context's last frame. Each slot has its own buffers, which grow as needed. The font is the only supported
+// texture: any other throws std::logic_error.
 class UiOverlay final : public Overlay {
  public:
   UiOverlay(Gpu& gpu, UiContext& context);

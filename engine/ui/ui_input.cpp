@@ -8,8 +8,8 @@
 namespace gearshift::engine {
 namespace {
 
-// GLFW_KEY_... from glfw3.h 3.3, "Keyboard keys". The numbers are stable; using them directly avoids a dependency on
-// GLFW.
+// Key codes GLFW_KEY_... from glfw3.h 3.3, "Keyboard keys". The numbers are stable; using them directly avoids a
+// dependency on GLFW.
 struct KeyPair {
   ImGuiKey_ imgui;
   int glfw;
@@ -35,7 +35,8 @@ bool writes_text(int key) {
   return key >= kSpace && key <= kLastPrintable;
 }
 
-// Would Dear ImGui miss this key if it went down and up between two frames? Letters do not matter: they arrive as text.
+// True if Dear ImGui would miss this key when it goes down and up between two frames. Keys that write text do not
+// matter: their letters arrive separately.
 bool is_polled_by_imgui(int key, bool control) {
   if (writes_text(key) && !control && (key != kSpace || ImGui::GetIO().WantTextInput)) return false;
   return std::any_of(std::begin(kKeys), std::end(kKeys), [&](const KeyPair& pair) { return pair.glfw == key; });
@@ -47,7 +48,8 @@ bool is_key_of_imgui(int key) {
 
 }  // namespace
 
-// A letter is queued after the key that typed it if the numbers of both match, otherwise before all keys.
+// Queues each letter after the key that typed it if there are as many letters as keys that write text; otherwise queues
+// all letters before the keys.
 void UiKeyQueue::push(const UiEvents& events) {
   if (!events.focused) {
     items_.clear();
@@ -56,19 +58,19 @@ void UiKeyQueue::push(const UiEvents& events) {
   bool held[3] = {shift_, control_, alt_};
   const bool has_modifier_events =
       std::any_of(events.keys.begin(), events.keys.end(), [](const UiKey& key) { return modifier_of(key.key) >= 0; });
-  if (!has_modifier_events) {  // no modifier changed in between: use the final state
+  if (!has_modifier_events) {  // no modifier changed since the last push: use the final state
     held[0] = events.shift;
     held[1] = events.control;
     held[2] = events.alt;
   }
   const auto item = [&](UiKey key, char32_t letter) { items_.push_back({key, letter, held[0], held[1], held[2]}); };
-  std::size_t writing = 0, next = 0;
+  std::size_t printable_keys = 0, next = 0;
   bool control = held[1];
   for (const UiKey& key : events.keys) {
     if (modifier_of(key.key) == 1) control = key.down;
-    writing += key.down && writes_text(key.key) && !control;
+    printable_keys += key.down && writes_text(key.key) && !control;
   }
-  const bool in_order = writing == events.text.size();
+  const bool in_order = printable_keys == events.text.size();
   if (!in_order)
     for (const char32_t letter : events.text) item({}, letter);
   for (const UiKey& key : events.keys) {
@@ -81,7 +83,8 @@ void UiKeyQueue::push(const UiEvents& events) {
   alt_ = events.alt;
 }
 
-// A frame has a single state for each key and modifier, and processes its letters before its keys.
+// True if the item must wait for the next frame: a frame has a single state for each key and modifier, and processes
+// its letters before its keys.
 bool UiKeyQueue::starts_frame(const Item& item) const {
   if (changed_.empty()) return false;
   const ImGuiIO& io = ImGui::GetIO();
@@ -106,8 +109,8 @@ void UiKeyQueue::feed_next_frame() {
     }
   }
   if (!items_.empty()) return;
-  const bool same = io.KeyShift == shift_ && io.KeyCtrl == control_ && io.KeyAlt == alt_;
-  if (!changed_.empty() && !same) return;  // the modifiers change in the next frame
+  const bool modifiers_match = io.KeyShift == shift_ && io.KeyCtrl == control_ && io.KeyAlt == alt_;
+  if (!changed_.empty() && !modifiers_match) return;  // the modifiers change in the next frame
   io.KeyShift = shift_;
   io.KeyCtrl = control_;
   io.KeyAlt = alt_;
@@ -116,9 +119,9 @@ void UiKeyQueue::feed_next_frame() {
 void feed_mouse(const UiEvents& events) {
   ImGuiIO& io = ImGui::GetIO();
   constexpr float kNoMousePosition = -3.4e38f;  // Dear ImGui's value for "no mouse": -FLT_MAX
-  const ImVec2 place(static_cast<float>(events.mouse.x), static_cast<float>(events.mouse.y));
+  const ImVec2 position(static_cast<float>(events.mouse.x), static_cast<float>(events.mouse.y));
   io.MouseDrawCursor = events.draws_cursor;
-  io.MousePos = events.has_mouse ? place : ImVec2(kNoMousePosition, kNoMousePosition);
+  io.MousePos = events.has_mouse ? position : ImVec2(kNoMousePosition, kNoMousePosition);
   std::copy(events.mouse_down.begin(), events.mouse_down.end(), io.MouseDown);
   io.MouseWheel += static_cast<float>(events.scroll.y);
   io.MouseWheelH += static_cast<float>(events.scroll.x);

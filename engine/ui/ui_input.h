@@ -20,7 +20,7 @@ struct UiEvents {
   glm::dvec2 mouse{0.0};             // [px]
   bool has_mouse = true;             // false: the mouse is captured by something else, or outside the window
   bool draws_cursor = false;         // draw a cursor, because the system shows none
-  std::array<bool, 5> mouse_down{};  // at present: left, right, middle, ...
+  std::array<bool, 5> mouse_down{};  // buttons that are down now: left, right, middle, ...
   glm::dvec2 scroll{0.0};            // [lines] up is positive
   std::vector<UiKey> keys;           // in the order of the events
   bool shift = false, control = false, alt = false;
@@ -48,7 +48,7 @@ class UiKeyQueue {
   bool shift_ = false, control_ = false, alt_ = false;  // state after the last push
 };
 
-// Writes mouse and wheel to the current context's ImGuiIO, which reads them in the next NewFrame.
+// Writes mouse and wheel to the current context's ImGuiIO, where the next NewFrame reads them.
 void feed_mouse(const UiEvents& events);
 
 // Tells Dear ImGui which GLFW key codes correspond to its own keys. Call once per context.

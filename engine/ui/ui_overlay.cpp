@@ -18,14 +18,15 @@
 #include "shaders/ui_vert.h"
 
 namespace gearshift::engine {
+
+struct UiBuffers {
+  GpuBuffer vertices, indices;
+};
+
 namespace {
 
 constexpr VkDeviceSize kInitialBufferBytes = VkDeviceSize{64} * 1024;  // [bytes] initial size of each buffer
 constexpr std::uint32_t kPushBytes = 2 * sizeof(float);
-
-struct FrameBuffers {
-  GpuBuffer vertices, indices;
-};
 
 // The previous frame that used this slot has completed, so the old buffer can be replaced.
 void grow_buffer(Gpu& gpu, GpuBuffer& buffer, VkDeviceSize needed, VkBufferUsageFlags usage) {
@@ -35,7 +36,7 @@ void grow_buffer(Gpu& gpu, GpuBuffer& buffer, VkDeviceSize needed, VkBufferUsage
   buffer = GpuBuffer(gpu, size, usage, MemoryKind::upload);
 }
 
-void upload(Gpu& gpu, FrameBuffers& buffers, const ImDrawData& data) {
+void upload(Gpu& gpu, UiBuffers& buffers, const ImDrawData& data) {
   const auto vertices = static_cast<VkDeviceSize>(data.TotalVtxCount) * sizeof(ImDrawVert);
   const auto indices = static_cast<VkDeviceSize>(data.TotalIdxCount) * sizeof(ImDrawIdx);
   grow_buffer(gpu, buffers.vertices, vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
@@ -50,10 +51,10 @@ void upload(Gpu& gpu, FrameBuffers& buffers, const ImDrawData& data) {
   }
 }
 
-// In whole pixels inside the picture; empty if the command lies outside of it.
+// A command's clip rectangle in whole pixels, limited to the picture; empty if it lies outside of the picture.
 VkRect2D scissor_of(const ImVec4& clip, VkExtent2D extent) {
-  const auto pixel = [](float value, std::uint32_t most) {
-    return static_cast<std::int32_t>(std::lround(std::clamp(value, 0.0f, static_cast<float>(most))));
+  const auto pixel = [](float value, std::uint32_t max) {
+    return static_cast<std::int32_t>(std::lround(std::clamp(value, 0.0f, static_cast<float>(max))));
   };
   const std::int32_t left = pixel(clip.x, extent.width), top = pixel(clip.y, extent.height);
   const std::int32_t right = std::max(left, pixel(clip.z, extent.width));
@@ -97,11 +98,11 @@ struct UiOverlay::State {
   GpuImage font;
   ImageView font_view;
   std::uint64_t font_version = 0;
-  std::array<FrameBuffers, kFramesInFlight> buffers;
+  std::array<UiBuffers, kFramesInFlight> buffers;
 
   State(Gpu& a_gpu, UiContext& a_context);
   void rebuild_font(std::uint64_t version);
-  void bind(VkCommandBuffer commands, const ImDrawData& data, const FrameBuffers& frame) const;
+  void bind(VkCommandBuffer commands, const ImDrawData& data, const UiBuffers& frame) const;
 };
 
 UiOverlay::State::State(Gpu& a_gpu, UiContext& a_context) : gpu(a_gpu), context(a_context) {
@@ -137,7 +138,7 @@ void UiOverlay::State::rebuild_font(std::uint64_t version) {
   font_version = version;
 }
 
-void UiOverlay::State::bind(VkCommandBuffer commands, const ImDrawData& data, const FrameBuffers& frame) const {
+void UiOverlay::State::bind(VkCommandBuffer commands, const ImDrawData& data, const UiBuffers& frame) const {
   const VkViewport viewport{0.0f, 0.0f, data.DisplaySize.x, data.DisplaySize.y, 0.0f, 1.0f};
   const VkDeviceSize start = 0;
   const VkBuffer vertices = frame.vertices.get();
@@ -183,7 +184,7 @@ void UiOverlay::draw(VkCommandBuffer commands, VkExtent2D extent, int slot) {
   const ImDrawData* data = ImGui::GetDrawData();
   if (data == nullptr || data->TotalIdxCount == 0) return;
   state.rebuild_font(context.font_version);
-  FrameBuffers& frame = state.buffers.at(static_cast<std::size_t>(slot));
+  UiBuffers& frame = state.buffers.at(static_cast<std::size_t>(slot));
   upload(state.gpu, frame, *data);
   state.bind(commands, *data, frame);
   std::uint32_t first_index = 0;

@@ -1,4 +1,4 @@
-// State shared by context and overlay, private to this room.
+// State shared by context and overlay, private to this library.
 #pragma once
 
 #include <imgui.h>

@@ -12,12 +12,13 @@ namespace {
 constexpr const char* kRegular = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
 
-// Latin-1, dashes and ellipsis, arrows, comparisons. Pairs of first and last code point, terminated by 0.
+// Letters in the font atlas: Latin-1, dashes and ellipsis, arrows, comparisons. Pairs of first and last code point,
+// terminated by 0.
 constexpr ImWchar kLetters[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x2193, 0x2264, 0x2265, 0};
 
 struct FontFile {
   const char* path;
-  float size;  // [px] at scale 1
+  float size;  // [px] at scale 1, including line spacing
 };
 constexpr FontFile kFonts[] = {{kRegular, 15.0f}, {kRegular, 13.0f}, {kBold, 16.0f}, {kBold, 22.0f}, {kBold, 42.0f}};
 
@@ -102,8 +103,8 @@ float ui_em() {
 }
 
 ImU32 with_alpha(ImU32 colour, float alpha) {
-  const float own = static_cast<float>((colour >> IM_COL32_A_SHIFT) & 0xff);
-  const auto scaled = static_cast<ImU32>(std::lround(own * std::clamp(alpha, 0.0f, 1.0f)));
+  const float original = static_cast<float>((colour >> IM_COL32_A_SHIFT) & 0xff);
+  const auto scaled = static_cast<ImU32>(std::lround(original * std::clamp(alpha, 0.0f, 1.0f)));
   return (colour & ~IM_COL32_A_MASK) | (scaled << IM_COL32_A_SHIFT);
 }
 

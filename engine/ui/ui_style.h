@@ -5,10 +5,10 @@
 
 namespace gearshift::engine {
 
-// In the order of the atlas. Sizes are in pixels at scale 1, including line spacing.
+// The fonts of the user interface, in the order of the atlas.
 enum class UiFont : int { body, small, title, prompt, digits };
 
-ImFont* ui_font(UiFont font);  // in the current context
+ImFont* ui_font(UiFont font);  // a font of the current context
 float ui_em();                 // [px] size of the body font: the unit for all other sizes
 
 // Sets a font for the enclosing block.

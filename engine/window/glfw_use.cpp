@@ -27,7 +27,7 @@ GlfwUse::~GlfwUse() {
 std::string glfw_error() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text == nullptr ? "GLFW gave no reason" : text;
+  return text == nullptr ? "GLFW reported no reason" : text;
 }
 
 }  // namespace gearshift::engine

@@ -13,7 +13,7 @@ class GlfwUse {
   GlfwUse& operator=(const GlfwUse&) = delete;
 };
 
-// Text of the last error, which is cleared; never empty.
+// Returns the text of GLFW's last error, which is then cleared; never empty.
 std::string glfw_error();
 
 }  // namespace gearshift::engine

@@ -10,10 +10,10 @@ struct PadState {
   std::string name;
   std::vector<float> axes;             // [-1, 1]
   std::vector<unsigned char> buttons;  // 0 or 1; the four directions of each hat follow the buttons
-  std::string guid;                    // of the model, not of the unit: two devices of one model have the same
+  std::string guid;                    // identifies the model: two devices of the same model have the same GUID
 };
 
-// Devices that are plugged in now, in the order of their connection. GLFW must be initialised, and this must be its
+// Devices that are plugged in now, in the order of GLFW's joystick numbers. Call after GLFW was initialised, on its
 // thread.
 std::vector<PadState> read_pads();
 

@@ -22,7 +22,8 @@ Semaphore make_semaphore(VkDevice device) {
   return {device, semaphore};
 }
 
-// Any call that uses a surface can find it lost. This exception never leaves this file.
+// Thrown when a Vulkan call reports that the surface is lost, which any call that uses a surface may do. Never leaves
+// this file.
 struct SurfaceLost {};
 void check_surface(VkResult result, const char* what) {
   if (result == VK_ERROR_SURFACE_LOST_KHR) throw SurfaceLost{};
@@ -30,7 +31,7 @@ void check_surface(VkResult result, const char* what) {
 }
 
 template <class T, class Query>
-std::vector<T> list(Query query) {
+std::vector<T> query_list(Query query) {
   std::uint32_t count = 0;
   check_surface(query(&count, static_cast<T*>(nullptr)), "a query of the surface");
   std::vector<T> items(count);
@@ -44,13 +45,13 @@ void require_present(const Gpu& gpu, VkSurfaceKHR surface) {
   check_surface(vkGetPhysicalDeviceSurfaceSupportKHR(gpu.physical(), gpu.queue_family(), surface, &can_present),
                 "vkGetPhysicalDeviceSurfaceSupportKHR");
   if (can_present == VK_FALSE) {
-    throw GpuError(fmt::format("{} cannot present to this window.", gpu.traits().name));
+    throw GpuError(fmt::format("{} cannot draw to this window.", gpu.traits().name));
   }
 }
 
-// sRGB, so that the blit encodes the filtered values.
+// Chooses an sRGB format, so that the blit filters linear light and encodes the result.
 VkSurfaceFormatKHR choose_format(const Gpu& gpu, VkSurfaceKHR surface) {
-  const auto formats = list<VkSurfaceFormatKHR>([&](auto* count, auto* items) {
+  const auto formats = query_list<VkSurfaceFormatKHR>([&](auto* count, auto* items) {
     return vkGetPhysicalDeviceSurfaceFormatsKHR(gpu.physical(), surface, count, items);
   });
   for (const VkSurfaceFormatKHR& f : formats) {
@@ -65,7 +66,7 @@ VkSurfaceFormatKHR choose_format(const Gpu& gpu, VkSurfaceKHR surface) {
 
 VkPresentModeKHR choose_mode(const Gpu& gpu, VkSurfaceKHR surface, bool vsync) {
   if (vsync) return VK_PRESENT_MODE_FIFO_KHR;
-  const auto modes = list<VkPresentModeKHR>([&](auto* count, auto* items) {
+  const auto modes = query_list<VkPresentModeKHR>([&](auto* count, auto* items) {
     return vkGetPhysicalDeviceSurfacePresentModesKHR(gpu.physical(), surface, count, items);
   });
   for (const VkPresentModeKHR wanted : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR}) {
@@ -74,25 +75,25 @@ VkPresentModeKHR choose_mode(const Gpu& gpu, VkSurfaceKHR surface, bool vsync) {
   return VK_PRESENT_MODE_FIFO_KHR;
 }
 
-VkExtent2D choose_extent(const VkSurfaceCapabilitiesKHR& can, glm::ivec2 framebuffer) {
-  if (can.currentExtent.width != std::numeric_limits<std::uint32_t>::max()) return can.currentExtent;
+VkExtent2D choose_extent(const VkSurfaceCapabilitiesKHR& capabilities, glm::ivec2 framebuffer) {
+  if (capabilities.currentExtent.width != std::numeric_limits<std::uint32_t>::max()) return capabilities.currentExtent;
   const auto within = [](int wanted, std::uint32_t min, std::uint32_t max) {
     return std::clamp(static_cast<std::uint32_t>(wanted), min, max);
   };
-  return {within(framebuffer.x, can.minImageExtent.width, can.maxImageExtent.width),
-          within(framebuffer.y, can.minImageExtent.height, can.maxImageExtent.height)};
+  return {within(framebuffer.x, capabilities.minImageExtent.width, capabilities.maxImageExtent.width),
+          within(framebuffer.y, capabilities.minImageExtent.height, capabilities.maxImageExtent.height)};
 }
 
-VkCompositeAlphaFlagBitsKHR choose_alpha(VkCompositeAlphaFlagsKHR can) {
-  if ((can & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0) return VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-  return static_cast<VkCompositeAlphaFlagBitsKHR>(can & (~can + 1));  // the lowest supported bit
+VkCompositeAlphaFlagBitsKHR choose_alpha(VkCompositeAlphaFlagsKHR supported) {
+  if ((supported & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0) return VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+  return static_cast<VkCompositeAlphaFlagBitsKHR>(supported & (~supported + 1));  // the lowest supported bit
 }
 
 }  // namespace
 
 VkRect2D placement_of(const ShownLayer& layer, VkExtent2D picture, VkExtent2D window) {
-  const auto at = [&](float share) {
-    return std::lround(std::clamp(share, 0.0f, 1.0f) * static_cast<float>(window.width));
+  const auto at = [&](float fraction) {
+    return std::lround(std::clamp(fraction, 0.0f, 1.0f) * static_cast<float>(window.width));
   };
   const double left = static_cast<double>(at(layer.from)), width = static_cast<double>(at(layer.to)) - left;
   const double scale = std::min(width / picture.width, static_cast<double>(window.height) / picture.height);
@@ -130,11 +131,11 @@ struct Swapchain::State {
   VkSurfaceFormatKHR format{};
   VkExtent2D extent{};
   glm::ivec2 built_for{0};  // framebuffer size at the last build
-  bool stale = true;        // must be rebuilt before the next frame
+  bool stale = true;        // the swapchain must be rebuilt before the next frame
   bool lost = false;        // the surface must be recreated, too
   std::vector<GpuImage> images;
-  std::vector<Semaphore> rendered;  // one per image: reusable once the image is acquired again
-  // One more than the frames in flight, because an image is acquired before the frame waits for its slot.
+  std::vector<Semaphore> rendered;  // one per image, reusable once that image is acquired again
+  // One semaphore more than frames in flight, because an image is acquired before the frame waits for its slot.
   std::array<Semaphore, kFramesInFlight + 1> acquired;
   std::size_t frame = 0;
   std::uint32_t index = 0;  // index of the acquired image
@@ -163,36 +164,37 @@ void Swapchain::State::drop_surface() noexcept {
 }
 
 void Swapchain::State::build() {
-  VkSurfaceCapabilitiesKHR can;
-  check_surface(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu.physical(), surface, &can),
+  VkSurfaceCapabilitiesKHR capabilities;
+  check_surface(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu.physical(), surface, &capabilities),
                 "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
   stale = true;  // until the build has completed
   built_for = window.framebuffer();
-  extent = choose_extent(can, built_for);
+  extent = choose_extent(capabilities, built_for);
   if (extent.width == 0 || extent.height == 0) return;
   gpu.wait_idle();  // frames in flight may still use the old images
   images.clear();
   rendered.clear();
-  const std::uint32_t max = can.maxImageCount == 0 ? std::numeric_limits<std::uint32_t>::max() : can.maxImageCount;
+  const std::uint32_t max =
+      capabilities.maxImageCount == 0 ? std::numeric_limits<std::uint32_t>::max() : capabilities.maxImageCount;
   const VkSwapchainKHR old = swapchain;
   const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
                                       .surface = surface,
-                                      .minImageCount = std::min(can.minImageCount + 1, max),
+                                      .minImageCount = std::min(capabilities.minImageCount + 1, max),
                                       .imageFormat = format.format,
                                       .imageColorSpace = format.colorSpace,
                                       .imageExtent = extent,
                                       .imageArrayLayers = 1,
                                       .imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                                      .preTransform = can.currentTransform,
-                                      .compositeAlpha = choose_alpha(can.supportedCompositeAlpha),
+                                      .preTransform = capabilities.currentTransform,
+                                      .compositeAlpha = choose_alpha(capabilities.supportedCompositeAlpha),
                                       .presentMode = choose_mode(gpu, surface, vsync),
                                       .clipped = VK_TRUE,
                                       .oldSwapchain = old};
-  const VkResult made = vkCreateSwapchainKHR(gpu.device(), &info, nullptr, &swapchain);
-  vkDestroySwapchainKHR(gpu.device(), old, nullptr);  // it is retired even if creating the new one failed
-  if (made != VK_SUCCESS) swapchain = VK_NULL_HANDLE;
-  check_surface(made, "vkCreateSwapchainKHR");
-  const auto raw = list<VkImage>(
+  const VkResult result = vkCreateSwapchainKHR(gpu.device(), &info, nullptr, &swapchain);
+  vkDestroySwapchainKHR(gpu.device(), old, nullptr);  // the old one is retired even if the new one could not be created
+  if (result != VK_SUCCESS) swapchain = VK_NULL_HANDLE;
+  check_surface(result, "vkCreateSwapchainKHR");
+  const auto raw = query_list<VkImage>(
       [&](auto* count, auto* items) { return vkGetSwapchainImagesKHR(gpu.device(), swapchain, count, items); });
   for (VkImage image : raw) {
     images.emplace_back(image, ImageDesc{.width = extent.width, .height = extent.height, .format = format.format});
@@ -250,7 +252,7 @@ bool Swapchain::acquire() {
   const std::size_t next = (s.frame + 1) % s.acquired.size();
   const VkResult result = vkAcquireNextImageKHR(s.gpu.device(), s.swapchain, s.vsync ? kAcquireTimeout : 0,
                                                 s.acquired[next].get(), VK_NULL_HANDLE, &s.index);
-  // the semaphore was not used, so the next call uses it again
+  // If the acquisition failed, the semaphore was not used; the next call then uses it again.
   if (!s.handle_result(result, "vkAcquireNextImageKHR")) return false;
   s.frame = next;
   return true;
@@ -274,8 +276,8 @@ void Swapchain::record(VkCommandBuffer commands, GpuImage& picture, std::span<co
   vkCmdClearColorImage(commands, image.get(), layout_of(ImageUse::copy_to), &black, 1, &all);
   transition(commands, image, ImageUse::copy_to);  // orders the blit after the clear
   for (const ShownLayer& layer : layers) {
-    const VkRect2D place = placement_of(layer, picture.extent(), s.extent);
-    blit_into(commands, picture, layer.layer, image, place);
+    const VkRect2D rect = placement_of(layer, picture.extent(), s.extent);
+    blit_into(commands, picture, layer.layer, image, rect);
   }
   transition(commands, image, ImageUse::present);
 }
@@ -295,7 +297,7 @@ void Swapchain::present() {
 VkExtent2D Swapchain::extent() const noexcept {
   return state_->extent;
 }
-std::uint64_t Swapchain::rebuilt() const noexcept {
+std::uint64_t Swapchain::rebuild_count() const noexcept {
   return state_->builds;
 }
 

@@ -19,12 +19,14 @@ VkRect2D placement_of(const ShownLayer& layer, VkExtent2D picture, VkExtent2D wi
 
 class Swapchain {
  public:
-  // Without vsync, acquire() does not wait: for a mirror window next to a display that must not be delayed.
+  // Without vsync, acquire() does not wait: for a window that mirrors the picture of a headset, which must not be
+  // delayed.
   Swapchain(Gpu& gpu, Window& window, bool vsync = true);
   ~Swapchain();
 
-  // False if there is nothing to present to (minimised, being resized): draw nothing, poll and try again. If true,
-  // acquired() and rendered() are the semaphores of this frame: wait for the first, signal the second.
+  // Acquires the next image. False if there is nothing to present to (minimised, being resized): draw nothing, poll and
+  // try again. If true, acquired() and rendered() are the semaphores of this frame: wait for the first, signal the
+  // second.
   bool acquire();
   VkSemaphore acquired() const noexcept;
   VkSemaphore rendered() const noexcept;
@@ -35,7 +37,7 @@ class Swapchain {
 
   void present();  // call after the submission. Throws GpuLost
   VkExtent2D extent() const noexcept;
-  std::uint64_t rebuilt() const noexcept;  // number of rebuilds after the first build
+  std::uint64_t rebuild_count() const noexcept;  // number of rebuilds after the first build
 
  private:
   struct State;

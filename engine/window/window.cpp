@@ -13,21 +13,22 @@
 #include "engine/window/glfw_use.h"
 
 namespace gearshift::engine {
-namespace {
 
-struct Rectangle {
+struct DesktopArea {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-Rectangle area_of(GLFWwindow* window) {
-  Rectangle r;
+namespace {
+
+DesktopArea area_of(GLFWwindow* window) {
+  DesktopArea r;
   glfwGetWindowPos(window, &r.x, &r.y);
   glfwGetWindowSize(window, &r.width, &r.height);
   return r;
 }
 
-Rectangle area_of(GLFWmonitor* monitor) {
-  Rectangle r;
+DesktopArea area_of(GLFWmonitor* monitor) {
+  DesktopArea r;
   const GLFWvidmode* mode = glfwGetVideoMode(monitor);
   glfwGetMonitorPos(monitor, &r.x, &r.y);
   r.width = mode->width;
@@ -35,7 +36,7 @@ Rectangle area_of(GLFWmonitor* monitor) {
   return r;
 }
 
-long overlap(const Rectangle& a, const Rectangle& b) {
+long overlap(const DesktopArea& a, const DesktopArea& b) {
   const int width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
   const int height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
   return width <= 0 || height <= 0 ? 0 : static_cast<long>(width) * height;
@@ -46,7 +47,7 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
   if (count == 0) return nullptr;
-  const Rectangle area = area_of(window);
+  const DesktopArea area = area_of(window);
   return *std::max_element(monitors, monitors + count, [&](GLFWmonitor* a, GLFWmonitor* b) {
     return overlap(area, area_of(a)) < overlap(area, area_of(b));
   });
@@ -69,10 +70,10 @@ struct Window::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  void listen();
-  void moved_to(double x, double y);
-  void pressed(int button, bool down);
-  bool is_shown() const;
+  void set_callbacks();
+  void on_mouse_moved(double x, double y);
+  void on_mouse_button(int button, bool down);
+  bool is_visible() const;
 
   GlfwUse use;
   GLFWwindow* window = nullptr;
@@ -81,7 +82,7 @@ struct Window::State {
   glm::dvec2 cursor{0.0};      // in GLFW's window coordinates, unbounded while captured
   bool captured = false;
   bool shown = true;
-  Rectangle before_full_screen;
+  DesktopArea before_full_screen;
 };
 
 Window::State::State(int width, int height, const std::string& title) {
@@ -90,40 +91,42 @@ Window::State::State(int width, int height, const std::string& title) {
   if (window == nullptr) throw std::runtime_error(fmt::format("Cannot open a window: {}.", glfw_error()));
   glfwSetWindowUserPointer(window, this);
   glfwGetCursorPos(window, &cursor.x, &cursor.y);
-  listen();
+  set_callbacks();
 }
 
-void Window::State::listen() {
-  static constexpr auto of = [](GLFWwindow* w) { return static_cast<State*>(glfwGetWindowUserPointer(w)); };
-  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w)->moved_to(x, y); });
-  glfwSetMouseButtonCallback(
-      window, [](GLFWwindow* w, int button, int action, int) { of(w)->pressed(button, action == GLFW_PRESS); });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) { of(w)->input.scroll += glm::dvec2(x, y); });
+void Window::State::set_callbacks() {
+  static constexpr auto state_of = [](GLFWwindow* w) { return static_cast<State*>(glfwGetWindowUserPointer(w)); };
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { state_of(w)->on_mouse_moved(x, y); });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    state_of(w)->on_mouse_button(button, action == GLFW_PRESS);
+  });
+  glfwSetScrollCallback(window,
+                        [](GLFWwindow* w, double x, double y) { state_of(w)->input.scroll += glm::dvec2(x, y); });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     if (action == GLFW_REPEAT) return;
-    of(w)->input.keys.push_back({.key = key,
-                                 .down = action == GLFW_PRESS,
-                                 .shift = (mods & GLFW_MOD_SHIFT) != 0,
-                                 .control = (mods & GLFW_MOD_CONTROL) != 0,
-                                 .alt = (mods & GLFW_MOD_ALT) != 0});
+    state_of(w)->input.keys.push_back({.key = key,
+                                       .down = action == GLFW_PRESS,
+                                       .shift = (mods & GLFW_MOD_SHIFT) != 0,
+                                       .control = (mods & GLFW_MOD_CONTROL) != 0,
+                                       .alt = (mods & GLFW_MOD_ALT) != 0});
   });
-  glfwSetCharCallback(window,
-                      [](GLFWwindow* w, unsigned int c) { of(w)->input.text.push_back(static_cast<char32_t>(c)); });
+  glfwSetCharCallback(
+      window, [](GLFWwindow* w, unsigned int c) { state_of(w)->input.text.push_back(static_cast<char32_t>(c)); });
 }
 
-void Window::State::moved_to(double x, double y) {
+void Window::State::on_mouse_moved(double x, double y) {
   int width = 0, height = 0, pixels_wide = 0, pixels_high = 0;
   glfwGetWindowSize(window, &width, &height);
   glfwGetFramebufferSize(window, &pixels_wide, &pixels_high);
   if (width <= 0 || height <= 0) return;
   const glm::dvec2 pixels{static_cast<double>(pixels_wide) / width, static_cast<double>(pixels_high) / height};
-  const glm::dvec2 now{x, y};
-  input.mouse_moved += (now - cursor) * pixels;
-  cursor = now;
-  if (!captured) input.mouse = now * pixels;
+  const glm::dvec2 current{x, y};
+  input.mouse_moved += (current - cursor) * pixels;
+  cursor = current;
+  if (!captured) input.mouse = current * pixels;
 }
 
-void Window::State::pressed(int button, bool down) {
+void Window::State::on_mouse_button(int button, bool down) {
   if (button < 0 || button >= static_cast<int>(held.size())) return;
   const auto index = static_cast<std::size_t>(button);
   held[index] = down;
@@ -131,7 +134,7 @@ void Window::State::pressed(int button, bool down) {
 }
 
 // A window manager can iconify the window or unmap it (another desktop). Nothing needs to be drawn in either case.
-bool Window::State::is_shown() const {
+bool Window::State::is_visible() const {
   return glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_FALSE &&
          glfwGetWindowAttrib(window, GLFW_VISIBLE) == GLFW_TRUE;
 }
@@ -159,7 +162,7 @@ const WindowInput& Window::poll() {
   for (std::size_t i = 0; i < s.held.size(); ++i) s.input.mouse_down[i] = s.input.mouse_down[i] || s.held[i];
   s.input.pads = read_pads();
   s.input.focused = glfwGetWindowAttrib(s.window, GLFW_FOCUSED) == GLFW_TRUE;
-  s.shown = s.is_shown();
+  s.shown = s.is_visible();
   return s.input;
 }
 
@@ -183,7 +186,7 @@ void Window::set_full_screen(bool on) {
   if (on == full_screen()) return;
   State& s = *state_;
   if (!on) {
-    const Rectangle& r = s.before_full_screen;
+    const DesktopArea& r = s.before_full_screen;
     glfwSetWindowMonitor(s.window, nullptr, r.x, r.y, r.width, r.height, GLFW_DONT_CARE);
     return;
   }
@@ -203,7 +206,7 @@ void Window::capture_mouse(bool on) {
   if (glfwRawMouseMotionSupported() == GLFW_TRUE) glfwSetInputMode(s.window, GLFW_RAW_MOUSE_MOTION, on);
   glfwSetInputMode(s.window, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   s.captured = on;
-  glfwGetCursorPos(s.window, &s.cursor.x, &s.cursor.y);  // the jump of the cursor is not a mouse movement
+  glfwGetCursorPos(s.window, &s.cursor.x, &s.cursor.y);  // the jump of the cursor must not count as a movement
 }
 
 VkSurfaceKHR Window::make_surface(VkInstance instance) const {

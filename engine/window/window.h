@@ -1,4 +1,4 @@
-// A desktop window and its input. Only this room uses GLFW.
+// A desktop window and its input. Only this library uses GLFW.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace gearshift::engine {
 
-// Does the server named by DISPLAY answer? Never throws, and leaves nothing open.
+// True if the X server named by DISPLAY answers. Never throws, and leaves no connection open.
 bool has_display();
 
 // A key that went down or up; auto-repeat produces no event.

@@ -5,7 +5,7 @@
 
 namespace gearshift::engine {
 
-void FrameTimes::add(const HeadsetFrame& frame, std::int64_t handed_ns, double gpu_ms) {
+void FrameTimes::add(const HeadsetFrame& frame, std::int64_t submit_ns, double gpu_ms) {
   const double period_ns = 1e9 * frame.period;
   ++timing_.frames;
   timing_.period_ms = 1e3 * frame.period;
@@ -15,9 +15,9 @@ void FrameTimes::add(const HeadsetFrame& frame, std::int64_t handed_ns, double g
     timing_.dropped += static_cast<std::uint64_t>(std::max(0l, periods - 1));
   }
   last_display_ns_ = frame.display_ns;
-  if (frame.wait_end_ns == 0 || handed_ns == 0) return;  // the runtime's clock is not available
-  timing_.cpu_ms = 1e-6 * static_cast<double>(handed_ns - frame.wait_end_ns);
-  timing_.spare_ms = 1e-6 * static_cast<double>(frame.display_ns - handed_ns) - gpu_ms;
+  if (frame.wait_end_ns == 0 || submit_ns == 0) return;  // the runtime's clock is not available
+  timing_.cpu_ms = 1e-6 * static_cast<double>(submit_ns - frame.wait_end_ns);
+  timing_.spare_ms = 1e-6 * static_cast<double>(frame.display_ns - submit_ns) - gpu_ms;
   timing_.late_ms =
       timing_.spare_ms >= 0.0 ? 0.0 : timing_.period_ms * std::ceil(-timing_.spare_ms / timing_.period_ms);
   timing_.late += timing_.spare_ms < 0.0;

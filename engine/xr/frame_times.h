@@ -1,4 +1,4 @@
-// Statistics of headset frames: cost and punctuality.
+// Statistics of headset frames: CPU and GPU time, delays, dropped frames.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ struct HeadsetTiming {
   double cpu_ms = 0.0;  // from the runtime's request for the frame to its submission
   double gpu_ms = 0.0;
   double spare_ms = 0.0;  // from the end of drawing to the display time; negative: too late
-  // From the planned display time to the actual one, taken as the first display period after drawing ended. OpenXR
-  // provides no more information.
+  // Estimated delay of the display: from the planned display time to the first display period that begins after drawing
+  // ended. OpenXR does not report the actual display time.
   double late_ms = 0.0;
   std::uint64_t frames = 0;
   std::uint64_t dropped = 0;  // display periods without a new frame
@@ -23,8 +23,8 @@ struct HeadsetTiming {
 
 class FrameTimes {
  public:
-  // Adds a frame that was submitted at handed_ns and then took gpu_ms on the GPU.
-  void add(const HeadsetFrame& frame, std::int64_t handed_ns, double gpu_ms);
+  // Adds a frame that was submitted at submit_ns and then took gpu_ms on the GPU.
+  void add(const HeadsetFrame& frame, std::int64_t submit_ns, double gpu_ms);
   void pause() { last_display_ns_ = 0; }  // frames are not paced for a while: do not count this time as dropped frames
   const HeadsetTiming& timing() const noexcept { return timing_; }
 

@@ -9,8 +9,8 @@ namespace {
   case value:                          \
     return #name;
 
-// xrResultToString needs an instance, which may not exist.
-const char* name_of(XrResult result) {
+// Used instead of xrResultToString, which needs an instance: there may be none.
+const char* to_string(XrResult result) {
   switch (result) {
     XR_LIST_ENUM_XrResult(GEARSHIFT_XR_CASE);
     default:
@@ -24,7 +24,7 @@ const char* name_of(XrResult result) {
 
 void check(XrResult result, const char* what) {
   if (XR_SUCCEEDED(result)) return;
-  const std::string sentence = std::string(what) + " failed: " + name_of(result);
+  const std::string sentence = std::string(what) + " failed: " + to_string(result);
   switch (result) {
     case XR_ERROR_SESSION_LOST:
     case XR_ERROR_INSTANCE_LOST:

@@ -15,7 +15,8 @@ struct HeadsetAbsent : HeadsetError {
   using HeadsetError::HeadsetError;
 };
 
-// Session or runtime are lost: HeadsetSession, HeadsetRuntime and the Gpu created through it must be recreated.
+// Session or runtime are lost: HeadsetSession, HeadsetRuntime and the Gpu created through that runtime must be
+// recreated.
 struct HeadsetLost : HeadsetError {
   using HeadsetError::HeadsetError;
 };

@@ -37,7 +37,7 @@ HeadsetHands::HeadsetHands(XrInstance instance, XrSession session) : instance_(i
   select_ = make_action("select", "Click", XR_ACTION_TYPE_BOOLEAN_INPUT);
   menu_ = make_action("menu", "Show or hide the panel", XR_ACTION_TYPE_BOOLEAN_INPUT);
   scroll_ = make_action("scroll", "Scroll", XR_ACTION_TYPE_VECTOR2F_INPUT);
-  suggest();
+  suggest_bindings();
   XrSessionActionSetsAttachInfo attach{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
   attach.countActionSets = 1;
   attach.actionSets = &set_;
@@ -74,8 +74,8 @@ XrAction HeadsetHands::make_action(const char* name, const char* label, XrAction
   return action;
 }
 
-// Suggests bindings for each profile. A profile unknown to the runtime is skipped; others will match.
-void HeadsetHands::suggest() {
+// Suggests bindings for each profile. A profile unknown to the runtime is skipped; one of the others will match.
+void HeadsetHands::suggest_bindings() {
   for (const Profile& profile : kProfiles) {
     std::vector<XrActionSuggestedBinding> bindings;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -119,12 +119,12 @@ bool HeadsetHands::is_pressed(XrAction action, XrPath hand) const {
 
 HeadsetHand HeadsetHands::read(std::size_t hand, XrSpace space, XrTime time) const {
   HeadsetHand out;
-  XrSpaceLocation place{XR_TYPE_SPACE_LOCATION};
-  check(xrLocateSpace(aim_space_[hand], space, time, &place), "xrLocateSpace");
+  XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
+  check(xrLocateSpace(aim_space_[hand], space, time, &location), "xrLocateSpace");
   constexpr XrSpaceLocationFlags kBoth = XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
-  out.is_tracked = (place.locationFlags & kBoth) == kBoth;
-  out.is_position_tracked = (place.locationFlags & XR_SPACE_LOCATION_POSITION_TRACKED_BIT) != 0;
-  if (out.is_tracked) out.aim = pose_of(place.pose);
+  out.is_tracked = (location.locationFlags & kBoth) == kBoth;
+  out.is_position_tracked = (location.locationFlags & XR_SPACE_LOCATION_POSITION_TRACKED_BIT) != 0;
+  if (out.is_tracked) out.aim = pose_of(location.pose);
   out.selects = is_pressed(select_, hand_[hand]);
   out.menu = is_pressed(menu_, hand_[hand]);
   XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};

@@ -19,7 +19,7 @@ class HeadsetHands {
 
  private:
   XrAction make_action(const char* name, const char* label, XrActionType type);
-  void suggest();
+  void suggest_bindings();
   XrPath path(const char* text) const;
   bool is_pressed(XrAction action, XrPath hand) const;
   HeadsetHand read(std::size_t hand, XrSpace space, XrTime time) const;

@@ -5,7 +5,7 @@
 namespace gearshift::engine {
 namespace {
 
-constexpr XrDuration kDestructionTimeout = 100'000'000;  // [ns] longer than a frame of any headset
+constexpr XrDuration kDestructionTimeout = 100'000'000;  // [ns] wait for an image; longer than a frame of any headset
 
 bool is_depth(VkFormat format) {
   return format == VK_FORMAT_D32_SFLOAT;
@@ -18,9 +18,9 @@ VkFormat choose_picture_format(XrSession session, const Gpu& gpu, std::span<cons
                                              });
   for (const VkFormat format : wanted) {
     const bool is_offered = std::find(offered.begin(), offered.end(), format) != offered.end();
-    const bool is_written = gpu.supports(
+    const bool is_writable = gpu.supports(
         format, is_depth(format) ? VK_FORMAT_FEATURE_2_TRANSFER_DST_BIT : VK_FORMAT_FEATURE_2_BLIT_DST_BIT);
-    if (is_offered && is_written) return format;
+    if (is_offered && is_writable) return format;
   }
   throw HeadsetError(is_depth(wanted.front()) ? "the headset does not accept 32-bit depth images"
                                               : "the headset accepts neither 8-bit sRGB nor 16-bit float images");
@@ -60,7 +60,8 @@ HeadsetImages::HeadsetImages(XrSession session, const Gpu& gpu, glm::ivec2 size,
   }
 }
 
-// An exception in the middle of a frame can leave an image acquired. It is waited for and released first, if possible.
+// An exception in the middle of a frame can leave an image acquired. Before the swapchain is destroyed, that image is
+// waited for and released, if possible.
 HeadsetImages::~HeadsetImages() {
   if (image_state_ == ImageState::acquired) {
     XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};

@@ -18,10 +18,11 @@ class HeadsetImages {
   HeadsetImages(const HeadsetImages&) = delete;
   HeadsetImages& operator=(const HeadsetImages&) = delete;
 
-  // Acquires and waits for the next image, which is then to be transitioned to copy_to. Returns null if the runtime has
-  // no free image within the timeout; then draw nothing. The image is ours until release().
+  // Acquires and waits for the next image; the caller must transition it to copy_to. Returns null if the runtime has no
+  // free image within the timeout; then draw nothing. The image is ours until release().
   GpuImage* acquire(XrDuration timeout);  // [ns]
-  void release();  // after the submission that writes the image and restores its layout, see transition_for_release()
+  // Call after the submission that writes the image and restores its layout, see transition_for_release().
+  void release();
   void transition_for_release(VkCommandBuffer commands);
 
   bool has_been_released() const noexcept { return has_been_released_; }

@@ -12,7 +12,7 @@ namespace gearshift::engine {
 namespace {
 
 constexpr const char* kNoRuntime =
-    "no OpenXR runtime found: start the headset's software, or set XR_RUNTIME_JSON to its manifest";
+    "no OpenXR runtime found; start the headset's software, or set XR_RUNTIME_JSON to the runtime's manifest";
 
 // Debian's loader prints four lines to std::cerr, whatever XR_LOADER_DEBUG says. We report the same in one sentence.
 class QuietLoader {
@@ -41,7 +41,7 @@ std::vector<XrExtensionProperties> offered_extensions() {
   }
 }
 
-bool has(const std::vector<XrExtensionProperties>& offered, const char* name) {
+bool has_extension(const std::vector<XrExtensionProperties>& offered, const char* name) {
   return std::any_of(offered.begin(), offered.end(),
                      [&](const auto& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
@@ -76,11 +76,11 @@ HeadsetRuntime::State::~State() {
 
 void HeadsetRuntime::State::make_instance() {
   const std::vector<XrExtensionProperties> offered = offered_extensions();
-  if (!has(offered, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME))
+  if (!has_extension(offered, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME))
     throw HeadsetError("the OpenXR runtime does not support Vulkan (XR_KHR_vulkan_enable2)");
   std::vector<const char*> wanted{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
-  traits.depth = has(offered, XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
-  timespec = has(offered, XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME);
+  traits.depth = has_extension(offered, XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
+  timespec = has_extension(offered, XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME);
   if (traits.depth) wanted.push_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   if (timespec) wanted.push_back(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME);
   XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
@@ -113,7 +113,8 @@ void HeadsetRuntime::State::find_headset() {
       [&](std::uint32_t capacity, std::uint32_t* count, XrViewConfigurationView* items) {
         return xrEnumerateViewConfigurationViews(instance, system, kTwoEyes, capacity, count, items);
       });
-  if (views.size() != 2) throw HeadsetError(fmt::format("{} does not have two eyes", traits.headset));
+  if (views.size() != 2)
+    throw HeadsetError(fmt::format("{} does not show a picture for each of two eyes", traits.headset));
   traits.eye = size_of(views[0].recommendedImageRectWidth, views[0].recommendedImageRectHeight);
   traits.largest = size_of(views[0].maxImageRectWidth, views[0].maxImageRectHeight);
   const auto blends = list_of<XrEnvironmentBlendMode>(
@@ -144,35 +145,35 @@ const HeadsetTraits& HeadsetRuntime::traits() const noexcept {
 }
 
 VkResult HeadsetRuntime::make_instance(const VkInstanceCreateInfo& info, VkInstance* instance) {
-  XrVulkanInstanceCreateInfoKHR get_requirements{XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR};
-  get_requirements.systemId = state_->system;
-  get_requirements.pfnGetInstanceProcAddr = vkGetInstanceProcAddr;
-  get_requirements.vulkanCreateInfo = &info;
+  XrVulkanInstanceCreateInfoKHR xr_info{XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR};
+  xr_info.systemId = state_->system;
+  xr_info.pfnGetInstanceProcAddr = vkGetInstanceProcAddr;
+  xr_info.vulkanCreateInfo = &info;
   VkResult result = VK_SUCCESS;
   const auto create = load<PFN_xrCreateVulkanInstanceKHR>(state_->instance, "xrCreateVulkanInstanceKHR");
-  check(create(state_->instance, &get_requirements, instance, &result), "xrCreateVulkanInstanceKHR");
+  check(create(state_->instance, &xr_info, instance, &result), "xrCreateVulkanInstanceKHR");
   return result;
 }
 
 VkPhysicalDevice HeadsetRuntime::choose(VkInstance instance) {
-  XrVulkanGraphicsDeviceGetInfoKHR get_requirements{XR_TYPE_VULKAN_GRAPHICS_DEVICE_GET_INFO_KHR};
-  get_requirements.systemId = state_->system;
-  get_requirements.vulkanInstance = instance;
+  XrVulkanGraphicsDeviceGetInfoKHR xr_info{XR_TYPE_VULKAN_GRAPHICS_DEVICE_GET_INFO_KHR};
+  xr_info.systemId = state_->system;
+  xr_info.vulkanInstance = instance;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   const auto get = load<PFN_xrGetVulkanGraphicsDevice2KHR>(state_->instance, "xrGetVulkanGraphicsDevice2KHR");
-  check(get(state_->instance, &get_requirements, &physical), "xrGetVulkanGraphicsDevice2KHR");
+  check(get(state_->instance, &xr_info, &physical), "xrGetVulkanGraphicsDevice2KHR");
   return physical;
 }
 
 VkResult HeadsetRuntime::make_device(VkPhysicalDevice physical, const VkDeviceCreateInfo& info, VkDevice* device) {
-  XrVulkanDeviceCreateInfoKHR get_requirements{XR_TYPE_VULKAN_DEVICE_CREATE_INFO_KHR};
-  get_requirements.systemId = state_->system;
-  get_requirements.pfnGetInstanceProcAddr = vkGetInstanceProcAddr;
-  get_requirements.vulkanPhysicalDevice = physical;
-  get_requirements.vulkanCreateInfo = &info;
+  XrVulkanDeviceCreateInfoKHR xr_info{XR_TYPE_VULKAN_DEVICE_CREATE_INFO_KHR};
+  xr_info.systemId = state_->system;
+  xr_info.pfnGetInstanceProcAddr = vkGetInstanceProcAddr;
+  xr_info.vulkanPhysicalDevice = physical;
+  xr_info.vulkanCreateInfo = &info;
   VkResult result = VK_SUCCESS;
   const auto create = load<PFN_xrCreateVulkanDeviceKHR>(state_->instance, "xrCreateVulkanDeviceKHR");
-  check(create(state_->instance, &get_requirements, device, &result), "xrCreateVulkanDeviceKHR");
+  check(create(state_->instance, &xr_info, device, &result), "xrCreateVulkanDeviceKHR");
   return result;
 }
 

@@ -1,4 +1,4 @@
-// An OpenXR runtime with its headset; creates the Vulkan objects that both can use.
+// An OpenXR runtime with its headset; creates the Vulkan instance and device that both can use.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ struct HeadsetTraits {
   std::string headset;    // name
   glm::ivec2 eye{0};      // [px] recommended size per eye
   glm::ivec2 largest{0};  // [px] maximum size per eye
-  bool depth = false;     // it accepts depth images and uses them for reprojection
+  bool depth = false;     // the runtime accepts depth images, for reprojection
 };
 
 class HeadsetRuntime final : public GpuFactory {

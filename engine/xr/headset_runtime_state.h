@@ -1,4 +1,4 @@
-// State of a runtime, private to this room.
+// State of a runtime, private to this library.
 #pragma once
 
 #include "engine/xr/headset_runtime.h"

@@ -17,7 +17,7 @@ namespace {
 constexpr VkFormat kPictureFormats[] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_SRGB,
                                         VK_FORMAT_R16G16B16A16_SFLOAT};
 constexpr VkFormat kDepthFormats[] = {VK_FORMAT_D32_SFLOAT};
-constexpr double kEyeDistance = 0.063;  // [m] until the runtime reports the eyes
+constexpr double kEyeDistance = 0.063;  // [m] assumed until the runtime has located the eyes
 // [ns] wait for an eye image; longer than a frame of any headset
 constexpr XrDuration kEyeImageTimeout = 100'000'000;
 constexpr XrDuration kExtraImageTimeout = 5'000'000;  // [ns] wait for depth and panel, which a frame can do without
@@ -29,7 +29,7 @@ std::vector<XrReferenceSpaceType> spaces_of(XrSession session) {
                                        });
 }
 
-// The buffer as the event that it contains.
+// Returns the content of the buffer as an event of the given type.
 template <class Event>
 const Event& as(const XrEventDataBuffer& buffer) {
   return *reinterpret_cast<const Event*>(&buffer);
@@ -56,7 +56,7 @@ HeadsetState state_of(XrSessionState state) {
 
 }  // namespace
 
-std::string_view name_of(HeadsetState state) noexcept {
+std::string_view to_string(HeadsetState state) noexcept {
   constexpr std::string_view kNames[] = {"idle", "ready", "synchronised", "visible", "focused", "stopping", "exiting"};
   return kNames[static_cast<std::size_t>(state)];
 }
@@ -95,7 +95,7 @@ struct HeadsetSession::State {
   HeadsetState state = HeadsetState::idle;
   bool is_running = false;
   bool depth_of_frame = false;             // depth was written for this frame
-  HeadsetEyes eyes;                        // as located last
+  HeadsetEyes eyes;                        // as last located
   glm::dvec3 eye_midpoint{0.0};            // [m] midpoint between the eyes
   std::array<glm::dvec3, 2> eye_offset{};  // [m] offset of each eye from the midpoint, in head space
   std::vector<Pending> pending;
@@ -104,15 +104,15 @@ struct HeadsetSession::State {
     XrFrameState frame_state;
     timespec ended;
   };
-  std::future<WaitResult> wait_result;  // of the waiting thread, see wait()
+  std::future<WaitResult> wait_result;  // result of the thread that calls xrWaitFrame, see wait()
 };
 
 HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const HeadsetConfig& config)
     : xr(*runtime.state_), gpu(device) {
   make_session();
   try {
-    const auto known = spaces_of(session);
-    const bool stage = std::find(known.begin(), known.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != known.end();
+    const auto offered = spaces_of(session);
+    const bool stage = std::find(offered.begin(), offered.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != offered.end();
     space_type = stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
     space = make_space(space_type);
     make_images(config);
@@ -161,12 +161,12 @@ XrSpace HeadsetSession::State::make_space(XrReferenceSpaceType type) const {
   XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO};
   info.referenceSpaceType = type;
   info.poseInReferenceSpace = xr_pose({});
-  XrSpace made = XR_NULL_HANDLE;
-  check(xrCreateReferenceSpace(session, &info, &made), "xrCreateReferenceSpace");
-  return made;
+  XrSpace created = XR_NULL_HANDLE;
+  check(xrCreateReferenceSpace(session, &info, &created), "xrCreateReferenceSpace");
+  return created;
 }
 
-// Depth helps the runtime, but is optional.
+// Creates the images of eyes, depth and panel. Without depth the session still works: it is only used for reprojection.
 void HeadsetSession::State::make_images(const HeadsetConfig& config) {
   colour = std::make_unique<HeadsetImages>(session, gpu, config.eye, 2, kPictureFormats);
   make_depth(config);
@@ -198,7 +198,7 @@ void HeadsetSession::State::handle_event(const XrEventDataBuffer& event) {
       break;
     }
     default:
-      break;  // input is polled each frame instead
+      break;  // no other event is needed: input is polled each frame
   }
 }
 
@@ -226,8 +226,8 @@ void HeadsetSession::State::queue_space_change(const XrEventDataReferenceSpaceCh
   pending.push_back({event.changeTime, change});
 }
 
-// While tracking is lost, position or orientation of the head keep their last values, whichever is lost. Both eyes stay
-// attached to the head.
+// Takes over the located eyes. If the position or the orientation of the head is not tracked, it keeps its last value.
+// Both eyes stay attached to the head.
 void HeadsetSession::State::update_eyes(const XrView* views, XrViewStateFlags flags) {
   const bool orientation_valid = (flags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0;
   const bool position_valid = (flags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0;
@@ -249,7 +249,7 @@ void HeadsetSession::State::update_eyes(const XrView* views, XrViewStateFlags fl
   eyes.is_known = eyes.is_known || eyes.is_tracked;
 }
 
-// While the head is not tracked, it moves with the origin of the space.
+// Converts the last eye poses to the moved space, so that an untracked head stays where it was in the room.
 void HeadsetSession::State::move_last_eyes(const EyePose& new_from_old) {
   eye_midpoint = new_from_old * eye_midpoint;
   for (EyePose& eye : eyes.pose) eye = new_from_old * eye;
@@ -364,7 +364,7 @@ HeadsetSession::Images HeadsetSession::acquire_images(bool with_panel) {
   State& s = *state_;
   Images images;
   images.colour = s.colour->acquire(kEyeImageTimeout);
-  if (!images.colour) return {};  // draw nothing
+  if (!images.colour) return {};  // the caller then draws nothing
   if (s.depth) images.depth = s.depth->acquire(kExtraImageTimeout);
   if (with_panel && s.panel) images.panel = s.panel->acquire(kExtraImageTimeout);
   s.depth_of_frame = images.depth != nullptr;

@@ -1,6 +1,6 @@
 // An OpenXR session: life cycle, frames, images. Must be used from one thread.
 //
-// The order of a frame: poll(), wait(), locate(), draw, locate() again just before the submission, end().
+// Order of calls in a frame: poll(), wait(), locate(); draw; locate() again just before the submission; end().
 #pragma once
 
 #include <array>
@@ -23,37 +23,37 @@ struct HeadsetConfig {
 
 // State of the session, in the order in which a session normally reaches them.
 enum class HeadsetState : std::uint8_t {
-  idle,          // not worn, or in use by another program
-  ready,         // the session begins with the next poll()
+  idle,          // headset not worn, or in use by another program
+  ready,         // the session has just begun
   synchronised,  // frames are paced but not visible
   visible,       // visible, but hands and buttons go to another program, e.g. the system menu
   focused,       // visible and with input
-  stopping,      // taken off
+  stopping,      // the session ends, e.g. because the headset was taken off
   exiting        // the user has asked us to exit
 };
-std::string_view name_of(HeadsetState state) noexcept;
+std::string_view to_string(HeadsetState state) noexcept;
 
 // A frame. Times are on the runtime's clock.
 struct HeadsetFrame {
   std::int64_t display_ns = 0;   // [ns] predicted display time
-  std::int64_t wait_end_ns = 0;  // [ns] when wait() ended; 0 if the runtime's clock is not available
+  std::int64_t wait_end_ns = 0;  // [ns] end of the runtime's wait; 0 if the runtime's clock is not available
   double period = 0.0;           // [s] display period
   bool should_render = false;    // false: drawing is unnecessary
 };
 
-// Eyes in the tracking space. While tracking is lost, position or orientation keep their last values, whichever is
-// lost; both eyes stay attached to the head.
+// Eyes in the tracking space. If the position or the orientation of the head is not tracked, it keeps its last value;
+// both eyes stay attached to the head.
 struct HeadsetEyes {
   std::array<EyePose, 2> pose;
   std::array<Fov, 2> fov;
-  bool is_known = false;     // their pose was tracked at least once in this session
+  bool is_known = false;     // the poses were tracked at least once in this session
   bool is_tracked = false;   // position and orientation are tracked now
   bool is_oriented = false;  // orientation is tracked now; some headsets track only this
 };
 
 // The origin of the tracking space has moved: a point that had coordinates p now has coordinates new_from_old * p.
 struct SpaceChange {
-  bool is_session_space = false;        // the space of all poses has changed; false: the one that the user recentres
+  bool is_session_space = false;        // true: the space of all poses moved; false: the space that recentring moves
   std::optional<EyePose> new_from_old;  // empty: unknown
 };
 
@@ -79,13 +79,13 @@ class HeadsetSession {
   HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config);
   ~HeadsetSession();  // waits until the device is idle
 
-  // Handles the runtime's events since the last poll, and begins or ends the session as it requests. Does nothing while
-  // a wait for a frame is pending. Throws HeadsetLost.
+  // Handles the runtime's events since the last poll, and begins or ends the session as the runtime requests. Does
+  // nothing while a wait for a frame is pending. Throws HeadsetLost.
   void poll();
   HeadsetState state() const noexcept;
   bool is_waiting() const noexcept;          // a wait for a frame is pending; the destructor waits for it to end
   bool is_running() const noexcept;          // the runtime wants frames: wait() paces them
-  const HeadsetEyes& eyes() const noexcept;  // last located; before that, side by side at the origin
+  const HeadsetEyes& eyes() const noexcept;  // as last located; at first, side by side at the origin
   bool is_stage() const noexcept;            // poses are in a room-fixed space that persists from day to day
 
   // Waits until the runtime wants the next frame, and begins it. Empty on timeout: the wait continues in the
@@ -93,7 +93,7 @@ class HeadsetSession {
   std::optional<HeadsetFrame> wait(std::chrono::milliseconds timeout);
   HeadsetEyes locate(const HeadsetFrame& frame);
   std::array<HeadsetHand, 2> hands(const HeadsetFrame& frame);  // left, right; default values while not focused
-  std::optional<SpaceChange> take_due_space_change(const HeadsetFrame& frame);  // empty until its time has come
+  std::optional<SpaceChange> take_due_space_change(const HeadsetFrame& frame);  // empty until a change is due
 
   // Images of this frame; null if the runtime has none free now, or if there is no depth or panel. Copy into them
   // between acquire_images() and transition_for_release(), which is recorded. end() releases them, after the
@@ -104,7 +104,8 @@ class HeadsetSession {
   Images acquire_images(bool panel);
   void transition_for_release(VkCommandBuffer commands);
 
-  // Submits what was drawn with the views it was drawn from; null: nothing. near_plane [m]: of the depth's projection.
+  // Submits the frame. eyes: the views from which it was drawn; null: no picture. panel: null if there is none.
+  // near_plane [m]: of the projection of the depth image.
   void end(const HeadsetFrame& frame, const HeadsetEyes* eyes, double near_plane, const HeadsetPanel* panel);
 
   std::int64_t now_ns() const;  // [ns] on the runtime's clock; 0 if it is not available

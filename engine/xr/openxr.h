@@ -1,4 +1,4 @@
-// The OpenXR C API for this room: errors as exceptions, conversions of poses. Not to be included elsewhere.
+// The OpenXR C API for this library: errors as exceptions, conversions of poses. Not to be included elsewhere.
 #pragma once
 
 #include <time.h>

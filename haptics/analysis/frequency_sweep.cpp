@@ -20,11 +20,11 @@ using Complex = std::complex<double>;
 constexpr double kTau = 2.0 * std::numbers::pi;
 constexpr double kMinWindowTime = 1.0;  // [s]
 constexpr double kMinRampTime = 0.3;    // [s]
-constexpr int kMaxWindows = 60;         // after which a response counts as never settled
-constexpr double kAgreement = 1e-3;     // [1] allowed difference between two windows if their noise is smaller
-constexpr double kMinDeviation = 1e-6;  // [1] floor for the deviation of a response; no device is better
-constexpr double kStopFraction = 0.9;   // [1] of the distance to the stop: motors off
-constexpr double kMaxOvershoot = 1.15;  // [1] of the requested stroke: reduce the amplitude
+constexpr int kMaxWindows = 60;         // then the response counts as never settled
+constexpr double kAgreement = 1e-3;     // [1] allowed difference between two windows, or their noise if larger
+constexpr double kMinDeviation = 1e-6;  // [1] lower bound of a response's deviation; no device is better
+constexpr double kStopFraction = 0.9;   // [1] fraction of the distance to the stop; beyond it the motors go off
+constexpr double kMaxOvershoot = 1.15;  // [1] fraction of the requested stroke; beyond it the amplitude is reduced
 
 int axis_index(LeverAxis axis) {
   return axis == LeverAxis::x ? 0 : 1;
@@ -37,11 +37,12 @@ const SweepConfig& validated(const SweepConfig& config, const DeviceSpec& spec, 
   require_between("FrequencySweep: points", config.points, 1, 200);
   require_between("FrequencySweep: force_fraction", config.force_fraction, 0.001, 1.0);
   require_between("FrequencySweep: stroke_fraction", config.stroke_fraction, 0.05, 0.7);
-  require_between("FrequencySweep: max_force of the device", spec.max_force[axis], 1e-3, 1e4, "N");
-  require_between("FrequencySweep: workspace of the device", spec.workspace[axis], 1e-4, 10.0, "m");
-  require_between("FrequencySweep: delay of the device", spec.delay, 0, kMaxLoopDelay, "cycles");
+  require_between("max_force of the device", spec.max_force[axis], 1e-3, 1e4, "N");
+  require_between("workspace of the device", spec.workspace[axis], 1e-4, 10.0, "m");
+  require_between("delay of the device", spec.delay, 0, kMaxLoopDelay, "cycles");
   if (config.literal && !spec.simulated) {
-    throw std::invalid_argument("FrequencySweep: literal drives the lever to its stop: simulated devices only");
+    throw std::invalid_argument(
+        "FrequencySweep: literal drives the lever to its stop, so it is allowed only with a simulated device");
   }
   return config;
 }
@@ -58,11 +59,11 @@ std::string_view fault_text(GuardFault fault) {
     case GuardFault::limit_broken:
       return "the lever is outside its workspace";
     default:
-      return guard_fault_name(fault);
+      return to_string(fault);
   }
 }
 
-// Fundamental of a sampled sinusoid that is held between samples, relative to the sinusoid.
+// Ratio of the fundamental of a sampled and held sinusoid to the sinusoid itself.
 Complex hold(double omega, double period) {
   const Complex jwt{0.0, omega * period};
   return (1.0 - std::exp(-jwt)) / jwt;
@@ -75,6 +76,10 @@ double rounding_deviation(double amplitude, double quantum) {
 }
 
 }  // namespace
+
+const char* to_string(LeverAxis axis) noexcept {
+  return axis == LeverAxis::x ? "x" : "y";
+}
 
 double FrequencySweep::Envelope::at(double time) const noexcept {
   const double s = std::clamp((time - start) / length, 0.0, 1.0);
@@ -125,7 +130,7 @@ bool FrequencySweep::step(std::int64_t now_ns) noexcept {
   } else if (fresh && guard_.state() == GuardState::running) {
     process_sample(reading);
   } else {
-    send(commands_[cycles_ % commands_.size()], reading, fresh);  // repeats the last command; zero until the guard runs
+    send(commands_[cycles_ % commands_.size()], reading, fresh);  // the last command again; 0 until the guard runs
   }
   return !done_;
 }
@@ -151,7 +156,7 @@ void FrequencySweep::update_time(std::int64_t time_ns) noexcept {
   started_ = true;
 }
 
-// The guard gets no velocity: it would only use it for damping after a fault, when the sweep is already over.
+// The guard gets no velocity: it would use the velocity only for damping after a fault, when the sweep is already over.
 void FrequencySweep::send(glm::dvec2 force, const LeverReading& reading, bool fresh) noexcept {
   GuardInput in;
   in.force = force;
@@ -184,7 +189,7 @@ void FrequencySweep::check_stroke(double position) noexcept {
     return;
   }
   if (distance > kStopFraction * stop_) {
-    finish("the lever came near its stop");
+    finish("the lever came too close to its stop");
   } else if (distance > kMaxOvershoot * config_.stroke_fraction * stop_ && !is_decreasing()) {
     is_reduced_ = true;
     ramp_to(0.5 * envelope_.at(time_));
@@ -195,13 +200,13 @@ bool FrequencySweep::is_decreasing() const noexcept {
   return stage_ == Stage::fade || (stage_ == Stage::ramp && envelope_.to < envelope_.from);
 }
 
-// A force along one arc only: the plane force that does no work on the other axis.
+// The plane force that acts along this axis's arc and does no work on the other axis.
 glm::dvec2 FrequencySweep::wanted_force(const ArcSample& here) const noexcept {
   const double phase = kTau * tones_[current_].frequency * (time_ - tone_start_);
   return envelope_.at(time_) * std::sin(phase) * here.plane_per_arc;
 }
 
-// Until the next sample the command sent `delay` samples ago acts, at the present pose.
+// Until the next sample, the force that acts is the command sent `delay` samples ago, at the present pose.
 void FrequencySweep::measure(const ArcSample& here, const LeverReading& reading) noexcept {
   if (stage_ == Stage::window) {
     const DeviceSpec& spec = device_.spec();
@@ -269,8 +274,8 @@ void FrequencySweep::next_tone() noexcept {
 }
 
 // Amplitude that should produce the requested stroke, predicted from the two frequencies above this one:
-// 1/G = k - m w^2 + j b w has three unknowns. With only one, the response is assumed to grow with the square of the
-// period, as above all resonances.
+// 1/G = k - m w^2 + j b w has three unknowns. With only one frequency measured, the response is assumed to grow with
+// the square of the period, as it does above all resonances.
 double FrequencySweep::amplitude_for_stroke(double omega) const noexcept {
   const double stroke = config_.stroke_fraction * stop_;
   const std::size_t known = response_.points.size();

@@ -2,14 +2,14 @@
 //
 // This work is based on:
 // Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
-// Eqs (8)-(10). Erratum: one third of the maximum force is possible only above about 5.4 Hz; at 1 Hz it would need a
-// stroke of 484 mm, but the stop is at 84 mm of arc. So the amplitude is limited to that third or to 60 % of the
-// stroke.
+// Eqs (8)-(10). Erratum in the paper: one third of the maximum force is possible only above about 5.4 Hz; at 1 Hz it
+// would need a stroke of 484 mm, but the stop is at 84 mm of arc. So here the amplitude is limited to that third or to
+// 60 % of the stroke.
 //
 // Works on every device that can be driven, in the plant's coordinates: along the arcs if the device has a yoke. The
-// hand must be off the lever. A force sensor compensates a hand that rests or pulls, but not one that moves with the
-// lever: its mass responds to every step of the held force between two samples. At 1 kHz a grip makes the mass 5 % too
-// large.
+// hand must be off the lever. With a force sensor, the effect of a hand that rests or pulls is removed, but not that of
+// a hand that moves with the lever: the hand's mass responds to every step of the held force between two samples. At 1
+// kHz a grip makes the mass 5 % too large.
 #pragma once
 
 #include <array>
@@ -26,13 +26,14 @@
 namespace gearshift::haptics {
 
 enum class LeverAxis : std::uint8_t { x, y };  // select, shift
+const char* to_string(LeverAxis axis) noexcept;
 
 struct SweepConfig {
   double highest = 65.0;              // [Hz] up to 0.4 of the sample rate; 65 Hz is the paper's limit
   double lowest = 0.2;                // [Hz] 0.01 to highest
-  int points = 24;                    // [1] 1 to 200, logarithmically spaced, from the highest down
-  double force_fraction = 1.0 / 3.0;  // [1] 0.001 to 1 of the device's maximum force: the paper's alpha
-  double stroke_fraction = 0.6;       // [1] 0.05 to 0.7 of the distance to the stop
+  int points = 24;                    // 1 to 200 frequencies, logarithmically spaced, from the highest down
+  double force_fraction = 1.0 / 3.0;  // [1] 0.001 to 1, of the device's maximum force; the paper's alpha
+  double stroke_fraction = 0.6;       // [1] 0.05 to 0.7, of the distance to the stop
   bool literal = false;               // uses the paper's alpha regardless of the stroke: simulated devices only
 };
 
@@ -44,12 +45,12 @@ enum class PointEnd : std::uint8_t {
 
 struct FrequencyPoint {
   double frequency = 0.0;          // [Hz]
-  double amplitude = 0.0;          // [N] alpha of eq (9)
-  bool bounded_by_stroke = false;  // alpha is limited by the stroke, not by force_fraction
+  double amplitude = 0.0;          // [N] amplitude of the force: alpha of the paper's eq (9)
+  bool bounded_by_stroke = false;  // the amplitude is limited by the stroke, not by force_fraction
   PointEnd end = PointEnd::measured;
-  std::complex<double> response{0.0};  // [m/N] measured G(j omega): position per force that moves the joystick, eq (4)
-  double deviation = 0.0;              // [1] standard deviation of the gain, relative, and of the phase [rad]
-  std::complex<double> held{1.0};      // [1] fraction of that force that is held between samples: the motors' part
+  std::complex<double> response{0.0};  // [m/N] measured G(j omega): position per force f_j of the paper's eq (4)
+  double deviation = 0.0;              // standard deviation of the relative gain [1] and of the phase [rad]
+  std::complex<double> held{1.0};      // [1] motors' part of that force, which is held between samples
 };
 
 struct FrequencyResponse {
@@ -62,8 +63,8 @@ struct FrequencyResponse {
 // Runs the sweep on the device; one step is one cycle of the device's loop. Per frequency it ramps up to the amplitude,
 // measures windows of whole periods until two consecutive ones agree, then fades out so that the next frequency starts
 // at rest. Every force passes the sweep's own guard, armed from the first step; the guard's output is what is sent and
-// used as input of the measurement. The guard's slew does not distort sinusoids below half of its limit per cycle: 12.5
-// N.
+// used as input of the measurement. Sinusoids with an amplitude below 12.5 N, half of the guard's slew limit per cycle,
+// are not distorted.
 class FrequencySweep {
  public:
   // period [s] of the cycles, 1e-5 to 0.02. The device must outlive the sweep and must not be driven by anything else.
@@ -94,9 +95,9 @@ class FrequencySweep {
     double at(double time) const noexcept;
   };
   struct ArcSample {
-    double position = 0.0;       // [m] along the arc of the axis
+    double position = 0.0;       // [m] position along the arc of the axis
     glm::dvec2 plane_per_arc{};  // plane force per newton along that arc
-    glm::dvec2 arc_per_plane{};  // its scalar product with a plane force is the force along the arc
+    glm::dvec2 arc_per_plane{};  // scalar product with a plane force: the force along the arc
   };
 
   static Tone make_tone(double frequency, double period);
@@ -124,21 +125,21 @@ class FrequencySweep {
   ForceGuard guard_;
   int axis_;
   double period_;         // [s]
-  double stop_;           // [m] along the arc
-  double max_amplitude_;  // [N] force_fraction of the device's maximum force
+  double stop_;           // [m] position of the stop along the arc
+  double max_amplitude_;  // [N] force_fraction times the device's maximum force
   std::vector<Tone> tones_;
   std::size_t current_ = 0;
   FrequencyResponse response_;
 
   bool started_ = false, done_ = false;
   std::int64_t origin_ns_ = 0;
-  double time_ = 0.0;  // [s] of the current sample
+  double time_ = 0.0;  // [s] time of the current sample
   std::uint64_t sequence_ = 0;
   Stage stage_ = Stage::ramp;
   Envelope envelope_;
-  double tone_start_ = 0.0;                               // [s] where the tone's phase is 0
+  double tone_start_ = 0.0;                               // [s] time at which the tone's phase is 0
   bool is_reduced_ = false;                               // the amplitude was reduced because of the stroke
-  std::array<glm::dvec2, kMaxLoopDelay + 1> commands_{};  // [N] in the gate plane, ring buffer indexed by cycle
+  std::array<glm::dvec2, kMaxLoopDelay + 1> commands_{};  // [N] commands in the gate plane, a ring buffer per cycle
   std::uint64_t cycles_ = 0;
   HarmonicFit fit_;
   int windows_ = 0;
@@ -147,7 +148,7 @@ class FrequencySweep {
 
 using SweepProgress = std::function<void(double fraction)>;
 
-// A whole sweep on a virtual clock starting at now_ns, which is advanced. For simulated devices.
+// Runs a whole sweep on a virtual clock that starts at now_ns; advances now_ns. For simulated devices.
 FrequencyResponse sweep_frequencies(const SweepConfig& config, HapticDevice& device, LeverAxis axis, double period,
                                     std::int64_t& now_ns, const SweepProgress& progress = {});
 

@@ -12,19 +12,19 @@ namespace gearshift::haptics {
 // Fits three signals at once in constant memory; samples may be unevenly spaced. Real-time safe.
 class HarmonicFit {
  public:
-  // Starts a new fit. omega [rad/s]; the window starts at `start` [s] and is about `length` [s] long, a whole number of
-  // periods.
+  // Starts a new fit. omega [rad/s]; the window starts at `start` [s] and lasts about `length` [s], which must be a
+  // whole number of periods.
   void begin(double omega, double start, double length) noexcept;
   void add(double time, glm::dvec3 values) noexcept;  // time [s], values in any unit
   int samples() const noexcept { return samples_; }
 
-  // Signal i is Re(phasor exp(j omega t)), t from the window's start, plus an offset and a drift. deviation: standard
-  // deviation of the phasor's real and imaginary part, from the residuals.
+  // The fitted signal i is Re(value exp(j omega t)), with t counted from the window's start, plus an offset and a
+  // drift. deviation: standard deviation of the phasor's real and imaginary part, from the residuals.
   struct Phasor {
     std::complex<double> value;
     double deviation = 0.0;
   };
-  Phasor phasor(int i) const noexcept;  // after at least 5 samples
+  Phasor phasor(int i) const noexcept;  // valid after at least 5 samples
 
  private:
   double omega_ = 0.0, start_ = 0.0, length_ = 1.0;

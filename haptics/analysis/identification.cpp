@@ -30,13 +30,13 @@ std::vector<FrequencyPoint> measured_points(const FrequencyResponse& response) {
   std::copy_if(response.points.begin(), response.points.end(), std::back_inserter(points),
                [](const FrequencyPoint& point) { return point.end == PointEnd::measured; });
   if (points.size() < 3) {
-    throw std::invalid_argument("fit_axis: " + std::to_string(points.size()) +
-                                " measured points, at least 3 are needed for mass, damping and stiffness");
+    throw std::invalid_argument("fit_axis: mass, damping and stiffness need at least 3 measured points, not " +
+                                std::to_string(points.size()));
   }
   return points;
 }
 
-// Compliance for a force that is held between samples: the discrete transfer function C (z - A)^-1 B of one step,
+// The compliance to a force that is held between samples: the discrete transfer function C (z - A)^-1 B of one step,
 // divided by the fundamental of the hold, so that it is comparable to compliance().
 Complex held_compliance(const AxisModel& axis, double frequency, double period) {
   const AxisStepper stepper(axis, period);
@@ -54,7 +54,7 @@ Complex expected_response(const AxisModel& axis, const FrequencyPoint& point, do
   return point.held * held + (1.0 - point.held) * compliance(axis, point.frequency);
 }
 
-// Initial guess that ignores the hold: real and imaginary part of 1/G are linear in (k, m) and in b.
+// Initial guess, which ignores the hold: the real part of 1/G is linear in k and m, the imaginary part in b.
 glm::dvec3 linear_fit(const std::vector<FrequencyPoint>& points) {
   double s1 = 0.0, sw = 0.0, sww = 0.0, sz = 0.0, szw = 0.0, b_numerator = 0.0, b_denominator = 0.0;
   for (const FrequencyPoint& point : points) {
@@ -121,7 +121,7 @@ Complex compliance(const AxisModel& axis, double frequency) noexcept {
 AxisFit fit_axis(const FrequencyResponse& response) {
   constexpr int kMaxIterations = 30;
   constexpr double kConvergence =
-      1e-6;  // [1] step length in standard deviations; a relative criterion would fail for a parameter of 0
+      1e-6;  // [1] step length in standard deviations: a relative one would fail for a parameter of 0
   const std::vector<FrequencyPoint> points = measured_points(response);
   glm::dvec3 p = linear_fit(points);
   NormalEquations sum;
@@ -134,7 +134,8 @@ AxisFit fit_axis(const FrequencyResponse& response) {
   }
   if (!has_mass(p)) throw std::invalid_argument("fit_axis: no axis with positive mass has this response");
   if (!(change <= kConvergence))
-    throw std::invalid_argument("fit_axis: no axis fits: not converged after 30 iterations");
+    throw std::invalid_argument(
+        "fit_axis: no axis fits this response, because the fit did not converge in 30 iterations");
 
   const double misfit = misfit_of(sum, points.size());
   const glm::dmat3 covariance = glm::inverse(sum.matrix);

@@ -14,9 +14,10 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kMinAngle = 1e-4;                           // [rad] w T
-constexpr double kMaxAngleStep = std::numbers::pi / 1024.0;  // [rad] search step: 7 per wave of the longest delay
+constexpr double kMaxAngleStep = std::numbers::pi / 1024.0;  // [rad] search step: 7 per ripple of the longest delay
 
-// (13) at w T = angle [rad]. Using 1 - exp(-j a) = 2 sin(a/2) (sin(a/2) + j cos(a/2)) avoids cancellation as w -> 0.
+// The right side of eq (13) at w T = angle [rad]. Using 1 - exp(-j a) = 2 sin(a/2) (sin(a/2) + j cos(a/2)) avoids
+// cancellation as w -> 0.
 double demand_at(const Environment& environment, double period, double angle) {
   const Complex e = environment(std::polar(1.0, angle));
   return 0.5 * period * (e.real() - e.imag() / std::tan(0.5 * angle));
@@ -36,8 +37,8 @@ double peak(const Function& f, double low, double high) {
   return best;
 }
 
-// Largest value of an even function of the angle over 0 to pi, including the limit at 0, which can be the largest, as
-// for a delayed spring. The search step is fine enough to find every peak; each is then refined.
+// Largest value of an even function of the angle between 0 and pi, including the limit at 0, which can be the largest,
+// as for a delayed spring. The search step is fine enough to find every peak; each is then refined.
 template <typename Function>
 double max_over_angles(const Function& f) {
   double best = (4.0 * f(kMinAngle) - f(2.0 * kMinAngle)) / 3.0;
@@ -77,7 +78,7 @@ Environment delayed(Environment environment, int samples) {
 
 Environment contact_environment(const ContactLaw& law, double period) {
   check_contact(law, period);
-  if (law.hold == ContactHold::observer) throw std::invalid_argument("the observer hold has no E(z) of its own");
+  if (law.hold == ContactHold::observer) throw std::invalid_argument("the observed hold has no transfer function E(z)");
   const double ahead = law.hold == ContactHold::zero_order ? 0.0 : period * (0.5 + law.delay);
   const double blend = -std::expm1(-period / law.smoothing);
   const auto wall = [=](Complex z) {

@@ -16,9 +16,9 @@ namespace {
 
 static_assert(2 + kMaxWindow + 1 + 3 + kMaxLoopDelay + 1 <=
               kMaxStates);                    // lever, past positions, smooth velocity, estimate, queue
-constexpr double kMinStiffnessFactor = 1e-7;  // [m / T^2] softest wall tested
+constexpr double kMinStiffnessFactor = 1e-7;  // in units of m / T^2: the softest wall tested
 constexpr double kMaxStiffness = 1e9;         // [N/m]
-constexpr double kScanRatio = 1.25;           // between two tested stiffnesses
+constexpr double kScanRatio = 1.25;           // ratio of neighbouring tested stiffnesses
 constexpr double kAccuracy = 1e-9;            // relative
 
 void check(const AxisModel& handle, const HandImpedance& hand) {
@@ -65,7 +65,7 @@ class ContactCycle {
 
     const double velocity = past.empty() ? 0.0 : (lever.position - past.back()) / (law_.window * period_);
     shift_in(past, lever.position);
-    const double previous_damping = free_damping_force(smooth);  // of the previous cycle
+    const double previous_damping = free_damping_force(smooth);  // damping force of the previous cycle
     for (double& v : smooth) v += blend_ * (velocity - v);
     const double wall = estimate.empty() ? sampled_force(lever.position, velocity)
                                          : observed_force(estimate, queue, lever.position, previous_damping);
@@ -115,8 +115,8 @@ class ContactCycle {
                                 observer_.compliance());
   }
 
-  // Queues the force and returns the one that acts now, written `delay` cycles ago. With an observer the queue also
-  // keeps that one for the next cycle.
+  // Queues the force and returns the force that acts now, written `delay` cycles ago. With an observer, the queue also
+  // keeps the returned force for the next cycle.
   double advance_queue(std::span<double> queue, double force) const {
     if (queue.empty()) return force;
     const double oldest = queue.front();
@@ -128,12 +128,12 @@ class ContactCycle {
   ContactLaw law_;
   Coupling wall_;
   double period_;
-  double horizon_;  // [s] the position is predicted to its middle
+  double horizon_;  // [s] the position is predicted to the middle of this horizon
   AxisStepper plant_;
   AxisObserver observer_;
   double force_scale_;  // [N] force that moves the lever by about one metre per period
   std::size_t past_size_ = 0, smooth_size_ = 0, estimate_size_ = 0, queue_size_ = 0;
-  double blend_ = 0.0;  // [1] weight of the newest velocity in the smooth one
+  double blend_ = 0.0;  // [1] weight of the newest velocity in the smooth velocity
 };
 
 // The cycle is linear, so the columns of its matrix are the images of the unit vectors.

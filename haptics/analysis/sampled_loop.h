@@ -16,27 +16,27 @@ namespace gearshift::haptics {
 
 // The wall's force law along one axis, as the loop renders it.
 struct ContactLaw {
-  ContactHold hold = ContactHold::half_sample;  // automatic is treated as half_sample
-  double stiffness = 0.0;                       // [N/m] 0 to 1e9, of the wall
-  double damping = 0.0;                         // [N s/m] 0 to 1e6, of the wall, on the estimated velocity
-  int window = 1;                               // [samples] 1 to kMaxWindow, span of that estimate
-  double free_damping = 0.0;                    // [N s/m] 0 to 1e6, inside and outside walls, on the smooth velocity
+  ContactHold hold = ContactHold::half_sample;  // ContactHold::automatic counts as half_sample
+  double stiffness = 0.0;                       // [N/m] 0 to 1e9, stiffness of the wall
+  double damping = 0.0;                         // [N s/m] 0 to 1e6, damping of the wall, times the estimated velocity
+  int window = 1;                               // [samples] 1 to kMaxWindow, span of the velocity estimate
+  double free_damping = 0.0;                    // [N s/m] 0 to 1e6, inside and outside walls, times the smooth velocity
   double smoothing = 0.004;                     // [s] 1e-6 to 1e3, time constant of the smooth velocity
   int delay = 0;                                // [samples] 0 to kMaxLoopDelay, from write to effect
 };
 
-// Throws std::invalid_argument with one sentence if a parameter is out of its range: those above, and period 1e-6 to 1
-// s. The functions below do so, too. Ranges of handle and hand: mass 0 (handle: 1e-3) to 1e3 kg, damping 0 to 1e4 N
-// s/m, stiffness 0 to 1e6 N/m.
+// Throws std::invalid_argument with one sentence if a parameter of the law (ranges above) or the period (1e-6 to 1 s)
+// is out of range. So do the functions below. Ranges of handle and hand: mass 0 (handle: 1e-3) to 1e3 kg, damping 0 to
+// 1e4 N s/m, stiffness 0 to 1e6 N/m.
 void check_contact(const ContactLaw& law, double period);
 
-// Spectral radius of one cycle of handle and hand together with the hand's target fixed. Stable below 1. period [s]
-// It is 1, up to rounding, for a free mass without spring or damper.
+// Spectral radius of one cycle of handle and hand together, with the hand's target fixed: stable if below 1; 1, up to
+// rounding, for a free mass without spring or damper. period [s]
 double spectral_radius(const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period);
 
 // Largest stiffness [N/m] up to which every wall is stable, with relative accuracy 1e-9; law.stiffness is ignored. 0 if
-// even 1e-7 m / T^2 is unstable, with m of handle and hand; infinite if 1e9 N/m is still stable. The search tests
-// stiffnesses a factor of 1.25 apart, so it may miss a narrower unstable band.
+// even 1e-7 m / T^2 is unstable, with m the mass of handle and hand; infinite if 1e9 N/m is still stable. The search
+// tests stiffnesses a factor of 1.25 apart, so it may miss a narrower unstable band.
 double stiffness_limit(const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period);
 
 }  // namespace gearshift::haptics

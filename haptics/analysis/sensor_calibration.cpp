@@ -84,7 +84,7 @@ SensorCalibration calibrate_sensor(std::span<const Weighing> weighings) {
   SensorCalibration calibration{fit_line(weighings, 0), fit_line(weighings, 1)};
   const SensorLine &x = calibration.x, &y = calibration.y;
   for (int direction = 0; direction < kCalibrationDirections; ++direction) {
-    double along_sum = 0.0, weight_sum = 0.0;  // for a line through the origin
+    double along_sum = 0.0, weight_sum = 0.0;  // sums for the slope of a line through the origin
     for (const Weighing& weighing : weighings) {
       if (weighing.direction != direction) continue;
       const glm::dvec2 force{(weighing.reading.x - x.offset) / x.gain, (weighing.reading.y - y.offset) / y.gain};

@@ -21,7 +21,7 @@ inline constexpr int kCalibrationDirections = 8;                                
 
 struct Weighing {
   double weight = 0.0;      // [gw]
-  int direction = 0;        // 0 to 7, times 45 deg from +x towards +y
+  int direction = 0;        // 0 to 7: multiple of 45 deg from +x towards +y
   glm::dvec2 reading{0.0};  // [raw] f_s of both axes
 };
 
@@ -29,9 +29,9 @@ struct Weighing {
 // std::invalid_argument.
 std::vector<Weighing> weigh(const ForceSensorModel& x, const ForceSensorModel& y, int samples, std::uint64_t seed);
 
-// Least-squares line f_s = offset + gain f_e of one axis, the inverse of eq (7).
+// Least-squares line f_s = offset + gain f_e of one axis, the inverse of the paper's eq (7).
 struct SensorLine {
-  double offset = 0.0, offset_deviation = 0.0;  // [raw] and its standard uncertainty
+  double offset = 0.0, offset_deviation = 0.0;  // [raw] offset and its standard uncertainty
   double gain = 0.0, gain_deviation = 0.0;      // [raw/gw]
   double nonlinearity = 0.0;                    // [gw] largest deviation of a reading from the line
 };

@@ -1,4 +1,4 @@
-// Spectral radius of a small real matrix. The only place that uses Eigen.
+// Spectral radius of a small real matrix. The library uses Eigen only here.
 #pragma once
 
 #include <span>

@@ -48,9 +48,9 @@ inline AisleBox vertical_aisle(const Gate& gate, const Passage& passage, const C
   return box;
 }
 
-// The chamfered mouth of one slot. In coordinates u = x - center and v = sign * y (the slot points towards +v) it is
-// the convex region |u| <= reach, -half_aisle <= v <= top, |u| + v <= reach + half_aisle, clipped to min_x..max_x: the
-// neutral aisle may be narrower there (its ends, a lateral lockout).
+// The chamfered mouth of one slot. In the coordinates u = x - center and v = sign * y, in which the slot points towards
+// +v, the mouth is the convex region |u| <= reach, -half_aisle <= v <= top, |u| + v <= reach + half_aisle, clipped to
+// min_x <= x <= max_x, because the neutral aisle may end there (at its own ends or at a lateral lockout).
 struct Mouth {
   double center, sign;  // x of the column, +1 forward or -1 back
   double reach, half_aisle, top;
@@ -81,7 +81,7 @@ inline glm::dvec2 nearest(const Mouth& mouth, glm::dvec2 p) noexcept {
   glm::dvec2 q = nearest(box, upright);
   const double limit = mouth.reach + mouth.half_aisle;
   if (std::abs(q.x - mouth.center) + q.y > limit) {
-    // Beyond a chamfer: project onto its 45 degree line and clamp to the chamfer.
+    // The point is beyond a chamfer: project it onto the chamfer's 45 degree line and clamp it to the chamfer.
     const double right = upright.x < mouth.center ? -1.0 : 1.0;
     const double u = right * (upright.x - mouth.center);
     const double end = right > 0.0 ? mouth.max_x - mouth.center : mouth.center - mouth.min_x;

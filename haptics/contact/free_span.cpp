@@ -44,8 +44,8 @@ void extend(Interval& span, Interval part) noexcept {
 
 }  // namespace
 
-// Such a line can only meet the nearest column's aisle and mouths and the neutral aisle: columns do not overlap, mouths
-// included, and between them there is only the neutral aisle.
+// A line through the point along an axis can only meet the nearest column's aisle and mouths and the neutral aisle:
+// columns do not overlap, mouths included, and between them there is only the neutral aisle.
 FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept {
   const Column& column = column_of(gate, nearest_column(gate, point.x));
   const Mouth forward = mouth_of(gate, passage, column, Side::forward);
@@ -57,7 +57,7 @@ FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) n
                            column.back_slot == kNoSlot ? Interval{} : interval_in(back, point, axis),
                            interval_in(neutral_aisle(gate, passage), point, axis)};
     Interval span_on_axis{point[axis], point[axis]};
-    for (int pass = 0; pass < 2; ++pass)  // two passes: from a mouth through the aisle into the opposite mouth
+    for (int pass = 0; pass < 2; ++pass)  // two passes, for a span that goes through the aisle into both mouths
       for (const Interval& part : parts) extend(span_on_axis, part);
     span.low[axis] = span_on_axis.low;
     span.high[axis] = span_on_axis.high;

@@ -9,14 +9,14 @@
 namespace gearshift::haptics {
 
 struct FreeSpan {
-  glm::dvec2 low{0.0}, high{0.0};  // [m] left/back end and right/forward end; low <= point <= high
+  glm::dvec2 low{0.0}, high{0.0};  // [m] per axis: low end (left, back), high end (right, forward)
 };
 
 // For each axis, the free interval containing the point on the line through it parallel to that axis. Respects
 // lockouts, chamfers and depth limits as move_proxy() does. The point must be in free space. Real-time safe.
 FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept;
 
-// The smallest span that contains both.
+// The smallest span that contains both spans.
 FreeSpan bounding_span(const FreeSpan& a, const FreeSpan& b) noexcept;
 
 }  // namespace gearshift::haptics

@@ -11,9 +11,9 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kRestartAfter = 0.050;  // [s] without an accepted sample, then the estimator restarts
-constexpr double kGuardLead = 0.030;     // [s] after the guard's stale time: a faulty sensor trips the guard first
-constexpr double kRounding = 1e-6;       // [1] of a count
+constexpr double kRestartAfter = 0.050;  // [s] without an accepted sample; then the estimator restarts
+constexpr double kGuardLead = 0.030;     // [s] margin to the guard's stale time: a faulty sensor trips the guard first
+constexpr double kRounding = 1e-6;       // [1] fraction of a count
 
 }  // namespace
 
@@ -43,7 +43,7 @@ LeverMotion LeverEstimator::update(const LeverReading& reading) noexcept {
   return motion_;
 }
 
-// Over `window` samples or as many as exist; the newest difference if the window is one.
+// Velocity over `window` samples, or over all samples if there are fewer; `newest` if the window is 1.
 glm::dvec2 LeverEstimator::window_velocity(const LeverReading& reading, glm::dvec2 newest) const noexcept {
   const std::size_t window = std::min(static_cast<std::size_t>(config_.window), history_count_);
   if (window <= 1) return newest;

@@ -13,7 +13,7 @@ namespace gearshift::haptics {
 
 struct LeverMotion {
   glm::dvec2 position{0.0};  // [m] newest accepted sample
-  glm::dvec2 velocity{0.0};  // [m/s] difference over the window; with window 1: no lag, but one encoder count of noise
+  glm::dvec2 velocity{0.0};  // [m/s] difference over the window; window 1: no lag, but one encoder count of noise
   glm::dvec2 smooth_velocity{0.0};  // [m/s] low-passed, for damping in free space
   bool fresh = false;               // this cycle's sample was new, finite and plausible
 };
@@ -48,20 +48,20 @@ class LeverEstimator {
 
   EstimatorConfig config_;
   double period_;
-  double jump_tolerance_;  // [m] one count on both axes at once
+  double jump_tolerance_;  // [m] length of a jump of one count on both axes at once
   double restart_after_;   // [s]
   double blend_;           // [1] weight of the newest sample in smooth_velocity
   LeverMotion motion_;
-  std::int64_t accepted_time_ns_ = 0;  // of the last accepted sample
-  std::uint64_t last_sequence_ = 0;    // of the last sample, accepted or not
+  std::int64_t accepted_time_ns_ = 0;  // time of the last accepted sample
+  std::uint64_t last_sequence_ = 0;    // sequence number of the last sample, accepted or not
   std::int64_t last_time_ns_ = 0;
   struct Sample {
     glm::dvec2 position{0.0};
     std::int64_t time_ns = 0;
   };
   std::array<Sample, kMaxWindow> history_{};  // accepted samples, kept only if the window is longer than one
-  std::size_t history_count_ = 0;             // since the last start
-  double unaccepted_time_ = 0.0;              // [s] since the last accepted sample
+  std::size_t history_count_ = 0;             // samples stored since the last start or restart
+  double unaccepted_time_ = 0.0;              // [s] time since the last accepted sample
   bool started_ = false;
 };
 

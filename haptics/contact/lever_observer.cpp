@@ -13,8 +13,8 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr std::int64_t kMaxSkippedCycles = 10;  // [cycles] longer gaps are not caught up with
-constexpr int kMaxBlindCycles = 10;             // [cycles] without a sample, then it restarts at the next one
+constexpr std::int64_t kMaxSkippedCycles = 10;  // [cycles] a longer gap is only simulated to this length
+constexpr int kMaxBlindCycles = 10;             // [cycles] without a sample; then the observer restarts at the next one
 
 // Transition matrix of (position, velocity, hand) over one period: its columns are the images of the unit states.
 dmat3 transition(const AxisStepper& stepper) noexcept {

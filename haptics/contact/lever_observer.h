@@ -37,23 +37,23 @@ class AxisObserver {
  public:
   AxisObserver(const AxisModel& axis, double bandwidth, double period) noexcept;  // bandwidth [1/s], period [s]
 
-  // The estimate one period later under the motor force `force` [N], before the sample is known.
+  // The estimate one period later, under the motor force `force` [N] and before the next sample is known.
   AxisEstimate predict(const AxisEstimate& estimate, double force) const noexcept;
-  // The prediction corrected by the sample [m] of that instant.
+  // The prediction, corrected by the position sample [m] of the predicted instant.
   AxisEstimate correct(AxisEstimate predicted, double position) const noexcept;
-  // Displacement at the end of a period per unit of force held over it. [m/N]
+  // Displacement at the end of a period, per unit of force held during the period. [m/N]
   double compliance() const noexcept { return stepper_.step({}, 1.0).position; }
 
  private:
   AxisStepper stepper_;
-  std::array<double, 3> gain_{};  // from the sample's error to position, velocity and hand force
+  std::array<double, 3> gain_{};  // correction of position, velocity and hand force per metre of prediction error
 };
 
 // Predicted motion over the period in which the next command acts.
 struct ObservedMotion {
-  glm::dvec2 position{0.0};    // [m] at its beginning
-  glm::dvec2 end{0.0};         // [m] at its end without motor force; the loop adds all forces but the wall's
-  glm::dvec2 compliance{0.0};  // [m/N] displacement of that end per unit of held force, per axis
+  glm::dvec2 position{0.0};    // [m] position at the beginning of that period
+  glm::dvec2 end{0.0};         // [m] position at its end, without motor force; the loop adds other forces' effect
+  glm::dvec2 compliance{0.0};  // [m/N] displacement of `end` per unit of held force, per axis
 };
 
 class LeverObserver {
@@ -79,7 +79,7 @@ class LeverObserver {
   std::size_t newest_ = 0;                                // index of the newest command
   std::size_t delay_;
   bool started_ = false;
-  int blind_cycles_ = 0;  // [cycles] since the last fresh sample
+  int blind_cycles_ = 0;  // [cycles] time since the last fresh sample
 };
 
 }  // namespace gearshift::haptics

@@ -7,21 +7,21 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kReversalCounts = 4.0;       // [counts] back from an extreme: more than quantisation alone produces
-constexpr double kMinCount = 20e-6;           // [m] used instead of the encoder's count if that is finer
-constexpr double kReversalWindow = 0.25;      // [s] all reversals must fall within it: 10 Hz
-constexpr double kTremorWidth = 0.8e-3;       // [m] between reversals: widest swing of a hand's tremor
-constexpr double kTremorWindow = 0.2;         // [s] the same if a swing is that narrow: 12.5 Hz, faster than any tremor
-constexpr double kVibrationTimeout = 0.25;    // [s] after its last reversal; a vibration below 2 Hz is treated as 2 Hz
-constexpr double kCalmTime = 0.5;             // [s] without chatter: counts as calm
+constexpr double kReversalCounts = 4.0;       // [counts] motion back from an extreme; more than quantisation produces
+constexpr double kMinCount = 20e-6;           // [m] used instead of the encoder's count if the count is finer
+constexpr double kReversalWindow = 0.25;      // [s] time within which all reversals must fall: 10 Hz
+constexpr double kTremorWidth = 0.8e-3;       // [m] widest swing of a hand's tremor, from reversal to reversal
+constexpr double kTremorWindow = 0.2;         // [s] kReversalWindow for swings narrower than a tremor: 12.5 Hz
+constexpr double kVibrationTimeout = 0.25;    // [s] longest time between a vibration's reversals: 2 Hz
+constexpr double kCalmTime = 0.5;             // [s] after this time without chatter the lever counts as calm
 constexpr double kSoftening = 0.75;           // [1] factor on the stiffness per detection
-constexpr double kFloorFactor = 0.3;          // [1] of m / tau^2, tau = (delay + 1) T
-constexpr int kMaxBounces = 3;                // detections at the floor that may be a decaying bounce
-constexpr double kSofteningBelowFloor = 0.5;  // [1] factor on the stiffness per further detection
-constexpr double kMinFraction = 1.0 / 64.0;   // [1] of the stiffness; below it softening has failed
-constexpr double kMinVibration = 0.02;        // [N] back from an extreme; less cannot move a lever by four counts
-constexpr double kVibrationMargin = 1.25;     // [1] over the swing of a pure sine, which no real vibration is
-constexpr int kMaxPendingTurns = 2;           // vibration reversals that the lever may lag behind: one each way
+constexpr double kFloorFactor = 0.3;          // [1] floor of the stiffness in units of m / tau^2, tau = (delay + 1) T
+constexpr int kMaxBounces = 3;                // up to this many detections at the floor may be a decaying bounce
+constexpr double kSofteningBelowFloor = 0.5;  // [1] factor on the stiffness per detection after these bounces
+constexpr double kMinFraction = 1.0 / 64.0;   // [1] of the wanted stiffness; below this, softening has failed
+constexpr double kMinVibration = 0.02;        // [N] change back from an extreme; less cannot move a lever four counts
+constexpr double kVibrationMargin = 1.25;     // [1] factor on a pure sine's swing: no real vibration is a pure sine
+constexpr int kMaxPendingTurns = 2;           // number of vibration reversals by which the lever may lag: one each way
 
 }  // namespace
 
@@ -67,7 +67,7 @@ bool ReversalLimiter::detect_chatter(Axis& axis, double position) noexcept {
   if (axis.lever.width < kTremorWidth) axis.narrow_time = time_;
   const double window = time_ - axis.narrow_time < kReversalWindow ? kTremorWindow : kReversalWindow;
   axis.reversal_times[axis.count++ % kReversals] = time_;
-  const double first = axis.reversal_times[axis.count % kReversals];  // oldest of the last kReversals
+  const double first = axis.reversal_times[axis.count % kReversals];  // time of the oldest of kReversals reversals
   return axis.count >= kReversals && time_ - first < window;
 }
 
@@ -88,7 +88,7 @@ void ReversalLimiter::track_vibration(glm::dvec2 vibration) noexcept {
   }
 }
 
-// True if a reversal of the vibration explains this one of the lever; each explains only one.
+// True if a reversal of the vibration explains this reversal of the lever; each explains only one.
 bool ReversalLimiter::is_forced_turn(Axis& axis) noexcept {
   if (axis.pending_turns == 0 || axis.lever.width > max_forced_swing_) return false;
   --axis.pending_turns;

@@ -5,11 +5,12 @@
 // model does not.
 //
 // A hand does not reverse a lever six times in a quarter of a second; a wall that is too stiff for its device does. A
-// hand does tremble at 8 to 12 Hz (Elble 2003) by less than a millimetre, so reversals that small must fall within a
-// fifth of a second. Each detection removes a quarter of the wall's stiffness, down to 0.3 m / tau^2, which is stable
-// if the device's mass and delay are as specified. If it still chatters there, they are not: the stiffness is halved
-// until the lever is still. The reduction lasts until the loop is armed again or the wall is tuned. A bounce that
-// decays costs little or no stiffness. Chatter that persists at 1/64 is not caused by the wall.
+// hand does tremble, at 8 to 12 Hz (Elble 2003), by less than a millimetre; so such small reversals count only if they
+// fall within a fifth of a second. Each detection removes a quarter of the wall's stiffness, down to 0.3 m / tau^2,
+// which is stable if the device's mass m and delay are as specified (tau = (delay + 1) T). If the lever still chatters
+// there, they are not as specified, and the stiffness is halved until the lever is still. The reduction lasts until the
+// loop is armed again or the wall is tuned. A bounce that decays costs little or no stiffness. Chatter that persists at
+// 1/64 of the stiffness is not caused by the wall.
 //
 // The load may vibrate the lever on purpose, for example a stalling engine. The lever then reverses as often as that
 // force and moves no further than the force can move it; such reversals are ignored, because softening would not calm
@@ -36,7 +37,7 @@ class ReversalLimiter {
   // motion [N]. Returns true if stiffness_fraction() or is_exhausted() has changed. Real-time safe.
   bool update(glm::dvec2 position, bool in_contact, double wanted, glm::dvec2 vibration) noexcept;
 
-  double stiffness_fraction() const noexcept { return fraction_; }  // [1] of the wanted stiffness to use
+  double stiffness_fraction() const noexcept { return fraction_; }  // [1] fraction of the wanted stiffness to use
   bool is_exhausted() const noexcept { return is_exhausted_; }      // softening does not help
 
  private:
@@ -49,15 +50,15 @@ class ReversalLimiter {
     double farthest = 0.0;   // extreme in the present direction
     double direction = 1.0;  // +1 or -1
     double last_turn = 0.0;  // value at the last reversal
-    double width = 0.0;      // between the last two reversals
+    double width = 0.0;      // distance between the last two reversals
   };
 
   struct Axis {
     Swing lever;                                      // [m]
-    int pending_turns = 0;                            // vibration reversals not yet matched by one of the lever
-    std::array<double, kReversals> reversal_times{};  // [s] lever reversals not caused by the vibration
+    int pending_turns = 0;                            // vibration reversals not yet matched by a reversal of the lever
+    std::array<double, kReversals> reversal_times{};  // [s] times of lever reversals not caused by the vibration
     std::size_t count = 0;
-    double narrow_time = -1.0;  // [s] last reversal no wider than a tremor
+    double narrow_time = -1.0;  // [s] time of the last reversal no wider than a tremor
   };
 
   void track_vibration(glm::dvec2 vibration) noexcept;
@@ -67,8 +68,8 @@ class ReversalLimiter {
 
   double period_;
   double reversal_step_;        // [m] motion back from an extreme that makes a reversal
-  double damping_;              // [N s/m] of the bare lever
-  double floor_;                // [N/m] stable if the device's mass and delay are as specified
+  double damping_;              // [N s/m] damping of the bare lever
+  double floor_;                // [N/m] stiffness that is stable if the device's mass and delay are as specified
   double time_ = 0.0;           // [s]
   double last_contact_ = -1.0;  // [s] when the lever was last in a wall
   double last_chatter_ = -1.0;  // [s] when chatter was last detected
@@ -77,7 +78,7 @@ class ReversalLimiter {
   bool is_exhausted_ = false;
   std::array<Axis, 2> axis_{};
   std::array<Swing, 2> vibration_{};   // [N]
-  double last_vibration_turn_ = -1.0;  // [s] last reversal of the vibration
+  double last_vibration_turn_ = -1.0;  // [s] time of the last reversal of the vibration
   double max_forced_swing_ = 0.0;      // [m] widest swing that the vibration can cause while the walls are passive
 };
 

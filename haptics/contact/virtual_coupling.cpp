@@ -10,15 +10,15 @@ namespace {
 
 using glm::dvec2;
 
-// Mean penetration over the coming hold, from the present penetration (s0) and the predicted one (s1). [m]
+// Mean penetration [m] during the coming hold, from the present penetration s0 and the predicted penetration s1.
 dvec2 mean_penetration(dvec2 now, dvec2 then, double depth_now, double depth_then, dvec2 step) noexcept {
   if (depth_now > 0.0 && depth_then > 0.0) return 0.5 * (now + then);
-  if (depth_then > 0.0) {  // entry: s1^2 / (2 (s1 - s0)); -s0 >= 0 is the distance to the wall
+  if (depth_then > 0.0) {  // entry: depth s1^2 / (2 (s1 - s0)); -s0 >= 0 is the distance to the wall
     const dvec2 normal = then / depth_then;
     const double travel = std::max(glm::dot(step, normal), depth_then);
     return then * (0.5 * depth_then / travel);
   }
-  const dvec2 normal = now / depth_now;  // exit: s0^2 / (2 (s0 - s1))
+  const dvec2 normal = now / depth_now;  // exit: depth s0^2 / (2 (s0 - s1))
   const double travel = std::max(-glm::dot(step, normal), depth_now);
   return now * (0.5 * depth_now / travel);
 }
@@ -87,7 +87,7 @@ ContactForce contact_force(const Coupling& coupling, const Gate& gate, const Pas
   return out;
 }
 
-const char* hold_name(ContactHold hold) noexcept {
+const char* hold_key(ContactHold hold) noexcept {
   static constexpr const char* kNames[] = {"automatic", "zero_order", "half_sample", "observer"};
   return kNames[static_cast<int>(hold)];
 }

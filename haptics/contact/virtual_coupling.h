@@ -22,48 +22,48 @@ namespace gearshift::haptics {
 
 // How the force to be held is computed from the sampled motion.
 enum class ContactHold : std::uint8_t {
-  automatic,    // resolved once to one of the others from the device's delay and rate; never passed to contact_force()
-  zero_order,   // from the sampled depth, like the paper's wall and the textbook wall
-  half_sample,  // from the mean depth over the coming hold, predicted by the sampled velocity
-  observer      // from the mean depth over the coming hold, predicted by a model of lever and hand (lever_observer.h)
+  automatic,    // replaced at the start, by the device's delay and rate; never passed to contact_force()
+  zero_order,   // force from the sampled depth, like the paper's wall and the textbook wall
+  half_sample,  // force from the mean depth during the coming hold, predicted from the sampled velocity
+  observer      // force from the mean depth during the coming hold, predicted by lever_observer.h
 };
 const char* to_string(ContactHold hold) noexcept;  // "half-sample hold"
-const char* hold_name(ContactHold hold) noexcept;  // "half_sample", as in files and on the command line
+const char* hold_key(ContactHold hold) noexcept;   // "half_sample", as in files and on the command line
 
 struct Coupling {
   double stiffness = 5000.0;  // [N/m]
-  double damping = 10.0;      // [N s/m] along the wall's normal, inside the wall only
+  double damping = 10.0;      // [N s/m] acts along the wall's normal, only inside the wall
   double period = 0.001;      // [s]
-  int delay = 0;              // [samples] until a command takes effect
+  int delay = 0;              // [samples] delay until a command takes effect
   ContactHold hold = ContactHold::half_sample;
 };
 
-// Least damping of the observer hold. With less, a heavy arm, unknown to the observer, rings; with more, a bare handle
-// hums on encoder quantisation.
+// Minimum damping of the observer hold. With less, a heavy arm rings, because the observer does not know its mass; with
+// more, a bare handle hums on encoder quantisation.
 inline constexpr double kMinObserverDamping = 50.0;  // [N s/m]
 
-// Wall force over a hold that begins at depth `begin` and without any force would end at `free_end`, both positive
-// inside the wall [m]. compliance: displacement of that end per unit of force held over the period [m/N]. Force and
-// motion are solved together: F = K (mean depth) + B (mean speed) of the motion that results under F. On entry and exit
-// only the travel inside the wall counts. So with an exact model and B = 0 the wall returns exactly the energy it
-// absorbed, to rounding, at any stiffness and period. [N], never negative
+// Wall force [N] over a hold that begins at depth `begin` and without any wall force would end at depth `free_end`,
+// both positive inside the wall [m]. compliance: displacement of the end per unit of force held over the period [m/N].
+// Force and motion are solved together: F = K (mean depth) + B (mean speed) of the motion that results under F. On
+// entry and exit only the travel inside the wall counts. So with an exact model and B = 0 the wall returns exactly the
+// energy it absorbed, to rounding, at any stiffness and period. Never negative.
 double solved_force(const Coupling& coupling, double begin, double free_end, double compliance) noexcept;
 
-// The same for a lever that stays inside the wall: linear, may be negative. [N]
+// solved_force() for a lever that stays inside the wall: linear, may be negative. [N]
 double solved_force_inside(const Coupling& coupling, double begin, double free_end, double compliance) noexcept;
 
 struct ContactForce {
-  glm::dvec2 force{0.0};       // [N] on the lever; never pulls into the wall
+  glm::dvec2 force{0.0};       // [N] force on the lever; never pulls it into the wall
   glm::dvec2 mean_proxy{0.0};  // [m] the proxy's mean position during the hold; the gate's feel is evaluated there
 };
 
-// From the sampled motion: zero-order or half-sample hold. The prediction moves the proxy no further than the lever; it
-// does not anticipate a hand-over round a corner. Real-time safe.
+// Force from the sampled motion, for the zero-order and the half-sample hold. The prediction moves the proxy no further
+// than the lever; it does not anticipate a hand-over round a corner. Real-time safe.
 ContactForce contact_force(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
                            const LeverMotion& motion) noexcept;
 
-// From the observed motion: force and motion over the coming hold are solved together (see solved_force). Damping acts
-// on the mean velocity. motion.end must include every commanded force except the wall's.
+// Force from the observed motion, for the observer hold: force and motion over the coming hold are solved together (see
+// solved_force). Damping acts on the mean velocity. motion.end must include every commanded force except the wall's.
 ContactForce contact_force(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
                            const ObservedMotion& motion) noexcept;
 

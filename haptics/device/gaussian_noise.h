@@ -6,7 +6,8 @@
 
 namespace gearshift::haptics {
 
-// Box-Muller on std::mt19937_64: the standard specifies that engine's sequence, but not std::normal_distribution's.
+// Box-Muller method on std::mt19937_64, because the standard specifies the sequence of that engine, but not that of
+// std::normal_distribution.
 class GaussianNoise {
  public:
   explicit GaussianNoise(std::uint64_t seed) : engine_(seed) {}

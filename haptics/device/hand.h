@@ -13,9 +13,9 @@
 namespace gearshift::haptics {
 
 struct HandImpedance {
-  double mass = 0.0;       // [kg] moves with the lever
-  double damping = 0.0;    // [N s/m] towards the target's velocity
-  double stiffness = 0.0;  // [N/m] towards the target
+  double mass = 0.0;       // [kg] mass that moves with the lever
+  double damping = 0.0;    // [N s/m] force per difference to the target's velocity
+  double stiffness = 0.0;  // [N/m] force per distance to the target
 };
 
 inline constexpr HandImpedance kBareHand{0.0, 0.0, 0.0};
@@ -30,7 +30,7 @@ struct NamedHand {
 inline constexpr std::array<NamedHand, 4> kNamedHands{
     {{"bare", kBareHand}, {"light", kLightHand}, {"grip", kGripHand}, {"arm", kArmHand}}};
 
-// [N/m] A softer hand cannot move a lever to a target.
+// [N/m] A hand softer than this cannot move a lever to a target.
 inline constexpr double kMinLeadingStiffness = 50.0;
 
 // The hand itself, or a grip if it is too soft to lead.
@@ -44,7 +44,7 @@ std::optional<HandImpedance> parse_hand(std::string_view text);
 struct HandTarget {
   glm::dvec2 position{0.0};   // [m] in the gate plane
   glm::dvec2 velocity{0.0};   // [m/s]
-  glm::dvec2 push{0.0};       // [N] on top of the impedance
+  glm::dvec2 push{0.0};       // [N] force in addition to the impedance
   bool pressed_down = false;  // knob pushed down or reverse button held
   bool lifted = false;        // lift ring held
 };

@@ -1,4 +1,4 @@
-// The encoder of one joint and the tangent of the joint's angle, both true and as read.
+// The encoder of one joint, and the tangent of the joint's angle: the true one and the one read.
 #pragma once
 
 namespace gearshift::haptics {
@@ -8,7 +8,7 @@ namespace gearshift::haptics {
 // cached while the joint stays in the cell.
 class JointEncoder {
  public:
-  // counts_per_degree: at least 1; 0: the angle is read exactly
+  // counts_per_degree: at least 1, or 0 to read the angle exactly
   explicit JointEncoder(double counts_per_degree) noexcept;
 
   void read(double angle) noexcept;  // [rad]

@@ -1,4 +1,4 @@
-// Hands for tests: an idle one, and one that pushes by a function of time.
+// A hand for tests that pushes with a force given as a function of time.
 #pragma once
 
 #include <functional>

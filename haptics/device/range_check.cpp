@@ -7,7 +7,8 @@
 namespace gearshift::haptics {
 namespace {
 
-// The fewest digits that identify the value, independent of the locale; an exponent only instead of many zeros.
+// The value with the fewest digits that identify it, independent of the locale; with an exponent only where it saves
+// many zeros.
 std::string format_number(double value) {
   const double size = std::abs(value);
   const bool is_plain = size == 0.0 || (size >= 1e-4 && size < 1e15);

@@ -34,11 +34,11 @@ void check(const HandStroke& stroke, std::size_t index) {
 
 }  // namespace
 
-// Flash & Hogan: the path of least jerk between two positions at rest is
+// The minimum-jerk path between two positions at rest (Flash and Hogan) is
 //     a + (b - a)(10 s^3 - 15 s^4 + 6 s^5), s = t / duration
 HandTarget minimum_jerk(glm::dvec2 a, glm::dvec2 b, double t, double duration) noexcept {
   HandTarget target;
-  target.position = b;  // exactly, without rounding, once it has arrived
+  target.position = b;  // exactly b at the end, without rounding
   if (t >= duration) return target;
   const double s = std::max(t / duration, 0.0);
   target.position = a + (b - a) * (s * s * s * (10.0 + s * (-15.0 + s * 6.0)));
@@ -88,7 +88,7 @@ const ScriptedHand::Segment& ScriptedHand::segment_at(double time) noexcept {
   return segments_[current_];
 }
 
-// Effort that opposes the lag decays while effort along it grows, so the effort may change sign.
+// Effort that opposes the lag decays, and effort along the lag grows, so the effort may change sign.
 glm::dvec2 ScriptedHand::effort(glm::dvec2 lag) noexcept {
   for (int axis = 0; axis < 2; ++axis) {
     const bool is_behind = std::abs(lag[axis]) > kArrivalTolerance;

@@ -17,9 +17,9 @@ namespace gearshift::haptics {
 HandTarget minimum_jerk(glm::dvec2 a, glm::dvec2 b, double t, double duration) noexcept;
 
 struct HandStroke {
-  glm::dvec2 to{0.0};     // [m] aim in the gate plane
-  double duration = 0.3;  // [s] of the movement, > 0
-  double dwell = 0.1;     // [s] at the aim before the next stroke
+  glm::dvec2 to{0.0};     // [m] point in the gate plane at which the stroke aims
+  double duration = 0.3;  // [s] > 0, duration of the movement
+  double dwell = 0.1;     // [s] time spent at the aim before the next stroke
   glm::dvec2 push{0.0};   // [N] steady push during stroke and dwell
   bool pressed_down = false;
   bool lifted = false;
@@ -27,14 +27,14 @@ struct HandStroke {
 
 struct ScriptedHandConfig {
   glm::dvec2 start{0.0};      // [m]
-  double aim_noise = 0.0;     // [m] standard deviation of each aim, per axis, drawn once per stroke
+  double aim_noise = 0.0;     // [m] standard deviation of the aim, per axis; drawn once per stroke
   double effort_gain = 0.0;   // [N/(m s)] how fast the hand adds force while the lever lags behind the target
-  double effort_limit = 0.0;  // [N] largest added force
+  double effort_limit = 0.0;  // [N] upper limit of the added force
   std::uint64_t seed = 1;
 };
 
-// Effort: a soft hand cannot pull through a detent by its stiffness only, so a person pushes harder the longer the
-// lever stays behind. On each axis, with lag = target - lever:
+// Effort: a soft hand cannot pull through a detent by its stiffness only, so a human pushes harder the longer the lever
+// stays behind. On each axis, with lag = target - lever:
 //
 //     effort' = gain lag              while |lag| > 1 mm, the effort at most effort_limit
 //     effort' = ... - effort / 50 ms  once the lever has arrived (within 1 mm),
@@ -44,19 +44,19 @@ struct ScriptedHandConfig {
 // while opposite effort grows; it never jumps.
 class ScriptedHand final : public HandDriver {
  public:
-  // period: between calls of next() [s], 1e-6 to 1. Throws std::invalid_argument.
+  // period: time between calls of next() [s], 1e-6 to 1. Throws std::invalid_argument.
   ScriptedHand(const ScriptedHandConfig& config, std::vector<HandStroke> strokes, double period);
 
   // The hand stays at the start before the first stroke or if there is none, and at the last aim after the last dwell.
   HandTarget next(double time, glm::dvec2 lever) noexcept override;
 
-  double duration() const noexcept;  // [s] of the whole script
+  double duration() const noexcept;  // [s] duration of the whole script
 
  private:
   // A stroke with its aim noise applied.
   struct Segment {
     double begin = 0.0;  // [s]
-    double end = 0.0;    // [s] after the dwell
+    double end = 0.0;    // [s] end of the dwell
     glm::dvec2 from{0.0};
     HandStroke stroke;
   };

@@ -15,11 +15,11 @@
 namespace gearshift::haptics {
 namespace {
 
-// Beyond any real hand; keeps the numbers finite whatever a driver returns.
+// Limits beyond any real hand, which keep the numbers finite whatever a driver returns.
 constexpr double kMaxPush = 1e4;   // [N]
 constexpr double kMaxSpeed = 1e2;  // [m/s]
 
-constexpr std::uint64_t kRandomSeedMask = 0x9e3779b97f4a7c15;  // decorrelates from the sensor's noise of the same seed
+constexpr std::uint64_t kRandomSeedMask = 0x9e3779b97f4a7c15;  // makes the sequence differ from the sensor noise's
 
 void check(const std::string& name, const AxisModel& axis) {
   require_between(name + ".mass", axis.mass, 1e-3, 1e3, "kg");
@@ -185,7 +185,8 @@ void SimulatedLever::update_hand() noexcept {
   y_.hand_drive = drive.y;
 }
 
-// A target that is not finite is replaced by the lever's position; one out of reach is at rest at the stop.
+// A target that is not finite is replaced by the lever's position, a target out of reach by a point at rest at the
+// stop.
 SimulatedLever::ArcTarget SimulatedLever::arc_target(const HandTarget& target) const noexcept {
   if (!is_finite(target.position)) return {{x_.state.position, y_.state.position}, {}};
   const PlanePose pose = reachable_pose(target.position);
@@ -231,7 +232,7 @@ void SimulatedLever::drive(const MotorCommand& command) noexcept {
   move(y_, actual_period_);
 }
 
-// The same in parts of the period, with the walls' force added in each.
+// As drive(), but in several parts of the period, with the walls' force added in each.
 void SimulatedLever::drive_in_walls(const MotorCommand& command) noexcept {
   const double parts = std::ceil(actual_period_ * kDeviceWallRate), part = actual_period_ / parts;
   const glm::dvec2 commanded = arc_force(pose_, command.force);
@@ -301,7 +302,7 @@ void SimulatedLever::sample() noexcept {
   reading_.lifted = target_.lifted;
 }
 
-// Force of the hand on the lever, f_h = m a + b v + k x - f, with the handle's m, b, k and the actuator force f. The
+// Force of the hand on the lever: f_h = m a + b v + k x - f, with the handle's m, b, k and the actuator force f. The
 // axis moves by (m + m_h) a = drive + f - (b + b_h) v - (k + k_h) x, so f_h = drive - k_h x - b_h v - m_h a. This form
 // also holds at a stop and under dry friction.
 double SimulatedLever::hand_force(const Axis& axis) const noexcept {
@@ -348,7 +349,7 @@ void SimulatedLever::place(glm::dvec2 position, glm::dvec2 velocity) noexcept {
   const glm::dvec2 speed = arc_velocity(pose, velocity);
   x_.state = {arc.x, speed.x};
   y_.state = {arc.y, speed.y};
-  x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand rests at the same position
+  x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand's target rests at the same position
   y_.hand_drive = config_.hand.stiffness * arc.y;
   update_pose();
 }

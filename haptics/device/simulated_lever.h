@@ -26,13 +26,13 @@ struct SimulatedLeverConfig {
   double encoder_counts = 2250.0 / 80.0;
   ActuatorLimits actuator;
   ForceSensorModel force_sensor;
-  int delay = 0;                       // [cycles] 0 to 8, from write to effect
-  double device_wall_stiffness = 0.0;  // [N/m] 0 to 1e5, of its device walls on both axes; 0: none
+  int delay = 0;                       // [cycles] 0 to 8, from write() to the force's effect
+  double device_wall_stiffness = 0.0;  // [N/m] 0 to 1e5, stiffness of the device walls on both axes; 0: none
   HandImpedance hand = kBareHand;
-  // Deviations unknown to any model, for difficult test cases; uniformly distributed, determined by the seed.
+  // Deviations from spec(), for difficult test cases: uniformly distributed, determined by the seed.
   double model_error = 0.0;    // [1] 0 to 0.5, largest relative error of each axis's mass, damping and stiffness
   double period_jitter = 0.0;  // [1] 0 to 0.5, largest relative error of each period
-  std::uint64_t seed = 1;      // for sensor noise, model error and jitter
+  std::uint64_t seed = 1;      // seed of sensor noise, model error and jitter
 };
 
 inline constexpr int kMaxSimulatedDelay = 8;  // [cycles]
@@ -55,7 +55,7 @@ inline constexpr double kDeviceWallRate = 4000.0;  // [Hz] lowest sampling rate 
 // independent of the loop's clock; a reading's time_ns shows its true length.
 class SimulatedLever final : public HapticDevice {
  public:
-  // period_ns: the loop's period [ns], 1 to 1e9. The driver must outlive the lever. Throws std::invalid_argument with
+  // period_ns: the loop's period, 1 to 1e9 [ns]. The driver must outlive the lever. Throws std::invalid_argument with
   // one sentence: parameter, value and allowed range.
   SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver);
 
@@ -65,11 +65,11 @@ class SimulatedLever final : public HapticDevice {
   void set_device_walls(const LeverWalls& walls) noexcept override;
   void release() noexcept override;
 
-  // True motion without encoder quantisation, for tests and benches. [m], [m/s] in the gate plane
+  // True position [m] and velocity [m/s] in the gate plane, without encoder quantisation; for tests and benches.
   glm::dvec2 true_position() const noexcept;
   glm::dvec2 true_velocity() const noexcept;
 
-  // Sets the tip's position and velocity. [m], [m/s] in the gate plane; a position out of reach is moved to the stop
+  // Sets the tip's position [m] and velocity [m/s] in the gate plane. A position out of reach is moved to the stop.
   void place(glm::dvec2 position, glm::dvec2 velocity = glm::dvec2(0.0)) noexcept;
 
  private:
@@ -81,8 +81,8 @@ class SimulatedLever final : public HapticDevice {
     Actuator actuator;
     JointEncoder encoder;
     AxisState state{};
-    double hand_drive = 0.0;      // [N] from the hand: push + stiffness * target + damping * target velocity
-    double actuator_force = 0.0;  // [N] delivered over the last cycle
+    double hand_drive = 0.0;      // [N] hand's force at x = 0: push + stiffness * target + damping * target velocity
+    double actuator_force = 0.0;  // [N] delivered during the last cycle
   };
 
   // The hand's target along the arcs.
@@ -90,7 +90,7 @@ class SimulatedLever final : public HapticDevice {
     glm::dvec2 position{0.0}, velocity{0.0};
   };
 
-  // What the loop has commanded.
+  // A command received from the loop.
   struct MotorCommand {
     glm::dvec2 force{0.0};  // [N]
     LeverWalls walls;
@@ -121,20 +121,20 @@ class SimulatedLever final : public HapticDevice {
   DeviceSpec spec_;
   std::uint64_t period_ns_;
   double period_;           // [s] nominal
-  double actual_period_;    // [s] of the current period, jitter included
-  std::mt19937_64 random_;  // for model error and jitter
+  double actual_period_;    // [s] length of the current period, jitter included
+  std::mt19937_64 random_;  // random source of model error and jitter
   double tan_theta_limit_, tan_phi_limit_;
   double reach_;  // [m] largest distance of the tip from the centre, in the corners
   Axis x_, y_;
-  PlanePose pose_;  // at the true angles
+  PlanePose pose_;  // pose at the true angles, without encoder quantisation
   HandTarget target_;
   GaussianNoise noise_;
 
   std::array<MotorCommand, kMaxSimulatedDelay + 1> queue_{};  // delay line, indexed by period
   MotorCommand written_;
-  std::uint64_t periods_ = 0;  // since the first read
+  std::uint64_t periods_ = 0;  // number of periods since the first read
   bool started_ = false;
-  std::int64_t last_ns_ = 0;   // [ns] of the last sample, on the loop's clock
+  std::int64_t last_ns_ = 0;   // [ns] time of the last sample, on the loop's clock
   std::int64_t drift_ns_ = 0;  // [ns] true time of the last sample minus last_ns_, due to jitter
   LeverReading reading_;
 };

@@ -13,7 +13,7 @@ AxisModel critically_damped(double tau) noexcept {
   return {1.0, 2.0 / tau, 1.0 / (tau * tau)};
 }
 
-constexpr double kMaxPosition = 1.0;  // [m] beyond any lever; keeps the filter's state bounded
+constexpr double kMaxPosition = 1.0;  // [m] farther than any lever moves; bounds the filter's state
 
 }  // namespace
 

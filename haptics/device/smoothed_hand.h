@@ -1,4 +1,4 @@
-// A simulated hand led by a person with the mouse, a stick or a tracked controller.
+// A simulated hand that the user leads with the mouse, a stick or a tracked controller.
 #pragma once
 
 #include "haptics/device/hand.h"
@@ -12,8 +12,8 @@ namespace gearshift::haptics {
 // provides the velocity that matches its position. A target that is not finite is ignored.
 class SmoothedHand final : public HandDriver {
  public:
-  // period: of the device [s], 1e-6 to 1. smoothing: time constant of the filter [s], 0.001 to 1. The channel must
-  // outlive the hand, which must be its only reader. Throws std::invalid_argument.
+  // period: the device's period [s], 1e-6 to 1. smoothing: time constant of the filter [s], 0.001 to 1. The channel
+  // must outlive the hand, which must be its only reader. Throws std::invalid_argument.
   SmoothedHand(LatestValue<HandTarget>& channel, double period, double smoothing = 0.015);
 
   HandTarget next(double time, glm::dvec2 lever) noexcept override;

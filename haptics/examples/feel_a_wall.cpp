@@ -1,5 +1,5 @@
-// A hand presses a simulated lever against the wall of a gate, with nothing of this project but the haptics library.
-// It prints how deep the lever is in the wall and with which force the wall answers.
+// Example that uses only the haptics library of this project: a simulated hand presses a simulated lever against a
+// gate's wall. Prints how deep the lever is in the wall, and the wall's force.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -11,7 +11,7 @@
 
 namespace haptics = gearshift::haptics;
 
-// Two columns. The neutral one has a slot forward only: behind it, there is a wall.
+// A gate of two columns. The neutral column has only a forward slot; at its back there is a wall.
 constexpr const char* kLayout = R"(
 name = "Two columns"
 [[column]]
@@ -39,9 +39,9 @@ int main() {
   const haptics::Gate gate = haptics::compile_gate(layout, lever.spec().workspace);
 
   haptics::NoLoad no_load;
-  haptics::LoopChannels channels;  // snapshots, events and recordings for other threads
+  haptics::LoopChannels channels;  // output of snapshots, events and recordings to other threads
   haptics::HapticLoop loop(config, gate, lever, no_load, channels);
-  loop.arm();  // a simulated lever may be armed by the program, a real one only by a person
+  loop.arm();  // a program may arm only a simulated lever; a real lever must be armed by the user
 
   std::printf("time [s]  depth [mm]  wall force [N]\n");
   for (int cycle = 0; cycle <= 2500; ++cycle) {
@@ -51,10 +51,10 @@ int main() {
       std::printf("%8.3f  %10.3f  %14.2f\n", 1e-9 * static_cast<double>(now.time_ns), 1e3 * (now.proxy.y - now.lever.y),
                   now.wall_force.y);
   }
-  // At rest the wall carries the push, less what the lever's own spring and the gate's centring take: almost 3 mm, which
-  // are 15 N / 5000 N/m.
+  // At rest the wall carries the push minus the forces of the lever's own spring and the gate's centring. The lever is
+  // almost 3 mm = 15 N / (5000 N/m) deep in the wall.
   const haptics::HapticSnapshot& rest = loop.snapshot();
   const bool holds = rest.wall_force.y > 13.0 && rest.wall_force.y < 15.0;
-  std::printf("%s\n", holds ? "the wall carries the hand" : "the wall does not carry the hand");
+  std::printf("%s\n", holds ? "the wall holds the hand back" : "the wall does not hold the hand back");
   return holds ? 0 : 1;
 }

@@ -39,13 +39,13 @@ AtomicFile::~AtomicFile() {
   if (temporary_ != target_) fs::remove(temporary_, ignored);
 }
 
-// A rename would replace even a write-protected file, which is not what its owner intended.
+// rename() would replace even a write-protected file, against its owner's intention.
 void AtomicFile::check_writable() const {
   if (access(target_.c_str(), W_OK) == 0 || errno == ENOENT) return;
-  throw FileError(file_.string(), 0, std::string("cannot be written: ") + std::strerror(errno));
+  throw FileError(file_.string(), 0, std::string("cannot be written (") + std::strerror(errno) + ")");
 }
 
-// Not for a pipe: its reader would take the empty text for the whole content.
+// Skipped for a pipe, whose reader would take the empty text for the whole content.
 void AtomicFile::prepare() {
   if (temporary_ != target_) write("");
 }
@@ -55,7 +55,7 @@ void AtomicFile::write(std::string_view text) {
   std::ofstream out(temporary_, std::ios::binary | std::ios::trunc);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
-  if (!out) throw FileError(file_.string(), 0, std::string("cannot be written: ") + std::strerror(errno));
+  if (!out) throw FileError(file_.string(), 0, std::string("cannot be written (") + std::strerror(errno) + ")");
 }
 
 void AtomicFile::commit() {
@@ -63,7 +63,7 @@ void AtomicFile::commit() {
   check_writable();
   std::error_code error;
   fs::rename(temporary_, target_, error);
-  if (error) throw FileError(file_.string(), 0, "cannot be written: " + error.message());
+  if (error) throw FileError(file_.string(), 0, "cannot be written (" + error.message() + ")");
 }
 
 void write_text_file(const fs::path& file, std::string_view text) {

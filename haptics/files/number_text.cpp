@@ -7,7 +7,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kMaxFixedPoint = 1e15;  // from here on digits after the point are meaningless: use the exponent
+constexpr double kMaxFixedPoint = 1e15;  // larger doubles have hardly any digits after the point: use the exponent
 
 std::string shortest(double value) {
   char digits[64];

@@ -9,8 +9,8 @@ namespace gearshift::haptics {
 // would round to 0 is written with an exponent. Independent of the locale.
 std::string number_text(double value, int decimals = 6);
 
-std::string fixed_text(double value, int decimals);  // exactly that many: 0.3, 2 -> "0.30". Independent of the locale.
-std::string short_text(double value);                // six digits: 3117.2 -> "3117.2". Independent of the locale.
+std::string fixed_text(double value, int decimals);  // exactly `decimals` digits: 0.3, 2 -> "0.30"
+std::string short_text(double value);                // at most six digits: 3117.2 -> "3117.2"
 
 // Metres as millimetres with one decimal: 0.0123 -> "12.3 mm".
 std::string millimetres_text(double metres);

@@ -7,9 +7,10 @@
 
 namespace gearshift::haptics {
 
-inline constexpr std::uintmax_t kMaxTextFile = 1 << 20;  // [bytes] far above any hand-written file
+inline constexpr std::uintmax_t kMaxTextFile = 1 << 20;  // [bytes] far longer than any hand-written file
 
-// The whole file. Throws FileError if it is missing, not a regular file, unreadable or larger than kMaxTextFile.
+// Returns the whole file. Throws FileError if it is missing, not a regular file, unreadable or larger than
+// kMaxTextFile.
 std::string read_text_file(const std::filesystem::path& file);
 
 }  // namespace gearshift::haptics

@@ -13,26 +13,26 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr std::size_t kMaxTextLength = 200;  // [bytes] of one value: enough for names and sentences
-constexpr int kMaxKeyParts = 8;              // in a dotted key such as "a.b.c"
+constexpr std::size_t kMaxTextLength = 200;  // [bytes] of one value in a message: enough for names and sentences
+constexpr int kMaxKeyParts = 8;              // maximum number of parts of a dotted key such as "a.b.c"
 
 int line_of(const toml::node& node) {
   return static_cast<int>(node.source().begin.line);
 }
 
-std::string join(const std::vector<std::string>& words) {
+std::string join(const std::vector<std::string>& items) {
   std::string list;
-  for (const auto& word : words) list += (list.empty() ? "" : ", ") + word;
+  for (const auto& item : items) list += (list.empty() ? "" : ", ") + item;
   return list;
 }
 
 // Truncates long text, but not inside a UTF-8 character.
-std::string shortened(std::string_view whole) {
+std::string shortened(std::string_view text) {
   constexpr std::size_t kShown = 40;
-  if (whole.size() <= kShown) return std::string(whole);
+  if (text.size() <= kShown) return std::string(text);
   std::size_t end = kShown;
-  while ((static_cast<unsigned char>(whole[end]) & 0xc0) == 0x80) --end;
-  return std::string(whole.substr(0, end)) + "...";
+  while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  return std::string(text.substr(0, end)) + "...";
 }
 
 // A value as text for messages; tables and lists are only named.
@@ -116,7 +116,7 @@ struct TomlTable::Node {
 TomlTable::TomlTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
 
 TomlTable TomlTable::parse(std::string_view text, const std::string& file_name) {
-  if (text.size() > kMaxTextFile) throw FileError(file_name, 0, "is larger than 1 MiB");
+  if (text.size() > kMaxTextFile) throw FileError(file_name, 0, "the file is larger than 1 MiB");
   auto root = std::make_shared<const toml::table>(parse_toml(text, file_name));
   const toml::table* table = root.get();
   return TomlTable(std::make_shared<Node>(Node{std::move(root), table, file_name, {}}));
@@ -146,11 +146,11 @@ std::string TomlTable::text(std::string_view key) const {
   const toml::node* value = node_->find(key);
   if (value == nullptr) fail(key, "is missing: it must be text in quotes");
   if (!value->is_string()) fail(key, "must be text in quotes");
-  const std::string& words = value->as_string()->get();
-  if (words.empty()) fail(key, "must not be empty");
-  if (words.size() > kMaxTextLength) fail(key, "must be at most " + std::to_string(kMaxTextLength) + " bytes long");
-  if (!is_printable(words)) fail(key, "must be one line without control characters");
-  return words;
+  const std::string& content = value->as_string()->get();
+  if (content.empty()) fail(key, "must not be empty");
+  if (content.size() > kMaxTextLength) fail(key, "must be at most " + std::to_string(kMaxTextLength) + " bytes long");
+  if (!is_printable(content)) fail(key, "must be one line without control characters");
+  return content;
 }
 
 std::string TomlTable::choice(std::string_view key, const std::vector<std::string>& allowed) const {

@@ -21,9 +21,9 @@ class TomlTable {
   static TomlTable parse(std::string_view text, const std::string& file_name);
 
   bool has(std::string_view key) const;
-  int line(std::string_view key = {}) const;  // of the key, or of the table itself
+  int line(std::string_view key = {}) const;  // line of the key, or of the table itself
 
-  // These throw FileError if the value is missing, of another type, not finite or out of range.
+  // These throw FileError if the value is missing, of the wrong type, not finite or out of range.
   double number(std::string_view key, Range range) const;
   std::string text(std::string_view key) const;
   std::string choice(std::string_view key, const std::vector<std::string>& allowed) const;
@@ -37,14 +37,14 @@ class TomlTable {
   // Call last: throws FileError for the first key that was never queried, listing the known keys.
   void reject_unknown_keys() const;
 
-  // Throws FileError "FILE:LINE: key = value: reason"; about the whole table if key is empty.
+  // Throws FileError "FILE:LINE: key = value: reason"; an empty key means the whole table.
   [[noreturn]] void fail(std::string_view key, const std::string& reason) const;
 
  private:
   struct Node;
   explicit TomlTable(std::shared_ptr<Node> node);
 
-  std::shared_ptr<Node> node_;  // shared by copies, so that they have the same set of queried keys
+  std::shared_ptr<Node> node_;  // shared by copies, so that all have the same set of queried keys
 };
 
 }  // namespace gearshift::haptics

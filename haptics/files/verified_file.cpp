@@ -17,7 +17,7 @@ void write_verified_file(const std::filesystem::path& file, std::string_view tex
     std::string reason = error.what();
     const std::size_t at = reason.find(part.path().string());
     if (at != std::string::npos) reason = reason.substr(reason.find(": ", at) + 2);
-    throw FileError(file.string(), 0, "not written: it could not be read back: " + reason);
+    throw FileError(file.string(), 0, "not written, because it could not be read back: " + reason);
   }
   part.commit();
 }

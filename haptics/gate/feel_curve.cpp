@@ -13,7 +13,7 @@ const FeelCurve::Piece& piece_at(const FeelCurve& curve, double at) noexcept {
   return curve.piece[i];
 }
 
-// Coefficients of the cubic that matches force and slope at both knots, in powers of u = at - a.at.
+// Coefficients, in powers of u = at - a.at, of the cubic that matches force and slope at both knots.
 std::array<double, 4> hermite(const FeelKnot& a, const FeelKnot& b) noexcept {
   const double h = b.at - a.at;
   const double rise = (b.force - a.force) / h;

@@ -14,8 +14,8 @@ struct FeelKnot {
 
 inline constexpr int kMaxFeelKnots = 16;
 
-// Cubic Hermite pieces between knots; constant before the first and after the last knot.
-// Trivially copyable, because it is part of a compiled Gate.
+// Cubic Hermite pieces between knots; constant before the first and after the last knot. Trivially copyable, because
+// the curve is part of a compiled Gate.
 struct FeelCurve {
   struct Piece {
     double from = 0.0;          // [m]
@@ -35,7 +35,7 @@ double feel_force(const FeelCurve& curve, double at) noexcept;
 double feel_slope(const FeelCurve& curve, double at) noexcept;
 double feel_work(const FeelCurve& curve, double at) noexcept;
 
-// Exact extremes of dF/dx over the whole curve. A restoring force, such as a spring, has stiffness -min.
+// Exact extremes of dF/dx on the whole curve. A restoring force, such as a spring, has stiffness -min.
 struct SlopeRange {
   double min = 0.0;  // [N/m] <= 0
   double max = 0.0;  // [N/m] >= 0

@@ -8,8 +8,8 @@ namespace gearshift::haptics {
 int nearest_column(const Gate& gate, double x) noexcept {
   int nearest = 0;
   for (int i = 1; i < gate.column_count; ++i) {
-    const double rival = std::abs(column_of(gate, i).center - x);
-    if (rival < std::abs(column_of(gate, nearest).center - x)) nearest = i;
+    const double distance = std::abs(column_of(gate, i).center - x);
+    if (distance < std::abs(column_of(gate, nearest).center - x)) nearest = i;
   }
   return nearest;
 }
@@ -34,7 +34,11 @@ const char* gear_name(int gear) noexcept {
   return gear >= kReverseGear && gear <= kMaxGear ? kNames[gear - kReverseGear] : "?";
 }
 
-const char* lockout_kind_name(LockoutKind kind) noexcept {
+const char* to_string(Side side) noexcept {
+  return side == Side::forward ? "forward" : "back";
+}
+
+const char* to_string(LockoutKind kind) noexcept {
   switch (kind) {
     case LockoutKind::push_down:
       return "push_down";

@@ -31,6 +31,7 @@ inline constexpr int kNoSlot = -1;
 inline constexpr double kKmhPerMps = 3.6;  // road speeds are km/h in files and on screen, m/s in the code
 
 enum class Side : int { back = -1, forward = 1 };
+const char* to_string(Side side) noexcept;
 
 // One branch of a column, with a gear at its end. Depth is |y|, measured from the aisle's centre line. [m]
 struct Slot {
@@ -39,8 +40,8 @@ struct Slot {
   int gear = kNeutralGear;     // kReverseGear or 1, 2, ...
   double end = 0.0;            // depth of the end stop
   double rest = 0.0;           // depth at which the engaged lever rests
-  double engage_depth = 0.0;   // from here on the gear is engaged
-  double release_depth = 0.0;  // below this it is released again; < engage_depth
+  double engage_depth = 0.0;   // depth at which the gear becomes engaged
+  double release_depth = 0.0;  // depth below which it is released again; < engage_depth
   FeelCurve feel;              // [N] along +depth (positive pulls into the gear)
 };
 
@@ -54,7 +55,7 @@ struct Column {
 };
 
 // The paper's rectangular buffer at the closed side of an end junction: the deeper the lever is in it, the more it is
-// deflected towards the open vertical aisles. It is a potential, so it cannot supply energy:
+// deflected towards the open vertical aisles. Its force has a potential V, so it cannot supply energy:
 //   V = -force g(u) W(y), u = depth into the buffer / width, g = 3u^2 - 2u^3, W' = shape across the aisle
 struct Buffer {
   double wall = 0.0;   // x of the closed wall
@@ -65,22 +66,22 @@ struct Buffer {
 };
 
 enum class LockoutKind : int {
-  push_down,  // open while the knob is pushed down (or the button held)
+  push_down,  // open while the knob is pushed down (or the reverse button held)
   lift,       // open while the lift ring is held
-  speed,      // closed above one speed, open again below a lower one
+  speed,      // closed above `close_above`, open again below `open_below`
   after_gear  // closed from the moment a given gear is engaged until the lever has left that gear's column
 };
 
 // The name used in layout files: "push_down", "lift", "speed", "after_gear".
-const char* lockout_kind_name(LockoutKind kind) noexcept;
+const char* to_string(LockoutKind kind) noexcept;
 
-// A movable wall. It does not close while the lever is beyond it.
+// A wall that opens and closes. It does not close while the lever is beyond it.
 struct Lockout {
   LockoutKind kind = LockoutKind::push_down;
-  int slot = kNoSlot;    // the slot that it blocks
+  int slot = kNoSlot;    // the slot that the wall blocks
   bool lateral = false;  // true: wall across the neutral aisle at `barrier`; false: wall in the slot's mouth
   double barrier = 0.0;  // [m] x of the lateral wall
-  int beyond = 0;        // lateral: -1 or +1, the side of the barrier that it blocks
+  int beyond = 0;        // lateral wall: -1 or +1, the side of the barrier that is blocked
   int after_gear = kNeutralGear;
   double close_above = 0.0;  // [m/s] road speed
   double open_below = 0.0;   // [m/s] road speed, < close_above
@@ -100,12 +101,12 @@ struct Gate {
   std::array<Slot, kMaxSlots> slot{};
   std::array<Lockout, kMaxLockouts> lockout{};
   std::array<Buffer, 2> buffer{};
-  FeelCurve select_feel;  // [N] along +x: centring to the neutral column
-  FeelCurve aisle_feel;   // [N] along +|y| in the neutral aisle
+  FeelCurve select_feel;  // [N] along +x: centring on the neutral column
+  FeelCurve aisle_feel;   // [N] along +|y|: centring in the neutral aisle
 };
 static_assert(std::is_trivially_copyable_v<Gate>);
 
-// The used parts of the arrays above.
+// The used elements of the arrays of Gate.
 inline std::span<const Column> columns(const Gate& gate) noexcept {
   return {gate.column.data(), static_cast<std::size_t>(gate.column_count)};
 }

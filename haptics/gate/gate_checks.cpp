@@ -47,10 +47,10 @@ void check_widths(const GateLayout& layout) {
   // Negated so that NaN is rejected as well.
   if (!(narrowest >= kMinAisleWidth)) {
     fail(layout, layout.lines.gate,
-         "an aisle of " + millimetres_text(narrowest) + " is too narrow: it needs at least " +
-             millimetres_text(kMinAisleWidth));
+         "an aisle of " + millimetres_text(narrowest) + " is too narrow; it must be at least " +
+             millimetres_text(kMinAisleWidth) + " wide");
   }
-  if (!(layout.chamfer >= 0.0)) fail(layout, layout.lines.gate, "a chamfer must not be negative");
+  if (!(layout.chamfer >= 0.0)) fail(layout, layout.lines.gate, "the chamfer must not be negative");
 }
 
 void check_column_count(const GateLayout& layout) {
@@ -58,7 +58,8 @@ void check_column_count(const GateLayout& layout) {
   if (count < 2 || count > kMaxColumns) {
     const int line = count > kMaxColumns ? layout.columns[kMaxColumns].line : layout.lines.gate;
     fail(layout, line,
-         "a gate has between 2 and " + std::to_string(kMaxColumns) + " columns, this one has " + std::to_string(count));
+         "a gate must have between 2 and " + std::to_string(kMaxColumns) + " columns, but this one has " +
+             std::to_string(count));
   }
   if (layout.neutral_column < 0 || layout.neutral_column >= static_cast<int>(count)) {
     fail(layout, layout.lines.gate, "the neutral column is not one of the columns");
@@ -72,51 +73,51 @@ void check_spacing(const GateLayout& layout) {
     const double spacing = column.position - layout.columns[i - 1].position;
     if (!(spacing > 0.0)) {
       fail(layout, column.line,
-           column_text(column) + " is not to the right of the previous one: list the columns from left to right");
+           column_text(column) + " is not to the right of the previous one; list the columns from left to right");
     }
     if (!(spacing >= required - 1e-9)) {
       fail(layout, column.line,
-           column_text(column) + " overlaps the previous one: slots of this width and chamfer need " +
-               millimetres_text(required) + " from centre to centre, not " + millimetres_text(spacing));
+           column_text(column) + " overlaps the previous one, because slots of this width and chamfer need " +
+               millimetres_text(required) + " from centre to centre, but have " + millimetres_text(spacing));
     }
   }
 }
 
-// A closed side deflects the lever into the column's slots, so no column can lie beyond it.
+// The closed side of a junction deflects the lever into the column's slots, so no column can lie beyond that side.
 void check_junctions(const GateLayout& layout) {
   const std::size_t count = layout.columns.size();
   for (std::size_t i = 0; i < count; ++i) {
     const ColumnLayout& column = layout.columns[i];
-    if (gears_of(column).empty()) fail(layout, column.line, column_text(column) + " has no gear");
+    if (gears_of(column).empty())
+      fail(layout, column.line, column_text(column) + " has no gear; write forward or back");
     if (column.junction == JunctionKind::open) continue;
     const bool inner = i > 0 && i + 1 < count;
     if (!inner && static_cast<int>(i) == layout.neutral_column) {
       fail(layout, column.line,
-           "the neutral column's junction cannot be closed: its buffer would push the lever from where it "
-           "rests");
+           "the neutral column's junction cannot be closed, because the buffer would push the lever out of neutral");
     }
     if (!inner) continue;
     const bool right_of_neutral = static_cast<int>(i) >= layout.neutral_column;
     const std::string unreachable = right_of_neutral ? gear_list(layout, i + 1, count) : gear_list(layout, 0, i);
     fail(layout, column.line,
-         "only an end column can have a closed junction: here gear " + unreachable + " could not be reached");
+         "only an end column can have a closed junction; here it would block the way to gear " + unreachable);
   }
 }
 
-// At least two columns have different gears here, so at least one is a forward gear.
+// When this runs, at least two columns have different gears, so at least one gear is a forward gear.
 void check_gears(const GateLayout& layout) {
   constexpr std::size_t kGears = kMaxGear - kReverseGear + 1;
   const auto at = [](int gear) {
     const int index = gear - kReverseGear;
     return static_cast<std::size_t>(index);
   };
-  std::array<int, kGears> line_of{};  // line of the gear in the file; 0: none
+  std::array<int, kGears> line_of{};  // line of each gear in the file; 0: unknown
   std::array<bool, kGears> is_present{};
   int highest = 0;
   for (const ColumnLayout& column : layout.columns) {
     for (const SlotLayout& slot : gears_of(column)) {
       if (slot.gear < kReverseGear || slot.gear > kMaxGear) {
-        fail(layout, slot.line, "gears are R and 1 to " + std::to_string(kMaxGear));
+        fail(layout, slot.line, "a gear must be R or a number from 1 to " + std::to_string(kMaxGear));
       }
       const std::size_t gear = at(slot.gear);
       if (is_present[gear]) {
@@ -147,31 +148,30 @@ void check_feel(const GateLayout& layout) {
   const double length = s.end - s.mouth;
   if (!(length >= kMinSlotProper)) {
     fail(layout, layout.lines.slot_length,
-         "slot_length_mm is too short: with this aisle and chamfer a slot needs at least " +
+         "slot_length_mm is too short; with this aisle and chamfer it must be at least " +
              millimetres_text(s.mouth + kMinSlotProper));
   }
   const std::string limit = number_text(kMaxFeelSlope) + " N/m and feel like a wall";
   if (!(steepest(aisle_knots(layout)) <= kMaxFeelSlope)) {
     fail(layout, layout.lines.feel,
-         "aisle_force_n is too large for such a narrow aisle: it would rise by more than " + limit);
+         "aisle_force_n is too large for such a narrow aisle; the force would rise more steeply than " + limit);
   }
   if (!(steepest(select_knots(layout)) <= kMaxFeelSlope)) {
     fail(layout, layout.lines.feel,
-         "center_force_n is too large for such a narrow slot: it would rise by more than " + limit);
+         "center_force_n is too large for such a narrow slot; the force would rise more steeply than " + limit);
   }
   const double slope = steepest(slot_knots(layout));
   if (!(slope <= kMaxFeelSlope)) {
     fail(layout, layout.lines.slot_length,
-         "slot_length_mm is too short for its feel: below " +
-             millimetres_text(s.mouth + length * slope / kMaxFeelSlope) + " its forces would rise by more than " +
-             limit);
+         "slot_length_mm is too short; below " + millimetres_text(s.mouth + length * slope / kMaxFeelSlope) +
+             " the slot's forces would rise more steeply than " + limit);
   }
 }
 
-// The paper's handle has a spring, eq (11), that pulls towards the middle of the workspace.
+// The paper's handle has a spring (its eq (11)) that pulls towards the middle of the workspace.
 constexpr double kHandleStiffness = 14.8;  // [N/m]
 constexpr double kReturnMargin = 1.2;
-constexpr double kMinReturnForce = 0.5;  // [N] in addition to the spring, to overcome dry friction
+constexpr double kMinReturnForce = 0.5;  // [N] force required beyond the spring's, to overcome dry friction
 
 void check_return(const GateLayout& layout) {
   const double neutral = layout.columns[static_cast<std::size_t>(layout.neutral_column)].position;
@@ -179,11 +179,12 @@ void check_return(const GateLayout& layout) {
   if (layout.feel.center_force >= required) return;
   fail(layout, layout.lines.feel,
        "center_force_n = " + number_text(layout.feel.center_force) + ": must be at least " +
-           number_text(std::ceil(10.0 * required) / 10.0) + ", or the lever would not return to a neutral column at " +
-           millimetres_text(neutral));
+           number_text(std::ceil(10.0 * required) / 10.0) +
+           ", or the lever would not return to the neutral column at " + millimetres_text(neutral));
 }
 
-// Largest distance of a wall from the centre for slots of this depth, rounded down to a tenth of a millimetre. [m]
+// Largest allowed distance [m] of a wall from the centre for slots of this depth, rounded down to a tenth of a
+// millimetre.
 double outermost_wall(glm::dvec2 workspace, double radius, double depth) {
   const double y = depth + kWorkspaceMargin;
   const auto ellipse = [y](double half_x, double half_y) {
@@ -193,7 +194,7 @@ double outermost_wall(glm::dvec2 workspace, double radius, double depth) {
   return std::floor(1e4 * std::max(0.0, reach - kWorkspaceMargin)) * 1e-4;
 }
 
-// Checks the slots' outer corners, where both joints are deflected most.
+// Checks that the slots' outer corners are in reach: there both joints are deflected most.
 void check_corners(const GateLayout& layout, glm::dvec2 workspace, double radius) {
   const double depth = layout.slot_length;
   for (const ColumnLayout& column : layout.columns) {
@@ -201,28 +202,28 @@ void check_corners(const GateLayout& layout, glm::dvec2 workspace, double radius
     if (reaches(workspace, radius, glm::dvec2(wall, depth) + glm::dvec2(kWorkspaceMargin))) continue;
     fail(layout, column.line,
          column_text(column) + " has its wall at " + millimetres_text(wall) +
-             ", outside the workspace: the device reaches less far in its corners; with end stops at " +
-             millimetres_text(depth) + ", walls must lie within " +
-             millimetres_text(outermost_wall(workspace, radius, depth)) + " of the centre");
+             ", outside the workspace, which is narrower at its corners; with end stops at " + millimetres_text(depth) +
+             ", walls must lie within " + millimetres_text(outermost_wall(workspace, radius, depth)) +
+             " of the centre");
   }
 }
 
 void check_workspace(const GateLayout& layout, glm::dvec2 workspace, double radius) {
   const glm::dvec2 reach = workspace - glm::dvec2(kWorkspaceMargin);
   const std::string device = "the device reaches " + millimetres_text(workspace.x) + " sideways and " +
-                             millimetres_text(workspace.y) + " fore and aft, of which walls need " +
-                             millimetres_text(kWorkspaceMargin) + " as a margin";
+                             millimetres_text(workspace.y) + " fore and aft, and walls must stay " +
+                             millimetres_text(kWorkspaceMargin) + " inside these limits";
   for (const ColumnLayout& column : layout.columns) {
     const double wall = std::abs(column.position) + layout.slot_width / 2.0;
     if (!(wall <= reach.x)) {
       fail(layout, column.line,
-           column_text(column) + " has its wall at " + millimetres_text(wall) + ", outside the workspace: " + device);
+           column_text(column) + " has its wall at " + millimetres_text(wall) + ", outside the workspace; " + device);
     }
   }
   if (!(layout.slot_length <= reach.y)) {
     fail(layout, layout.lines.slot_length,
-         "slot_length_mm puts the end stops at " + millimetres_text(layout.slot_length) +
-             ", outside the workspace: " + device);
+         "slot_length_mm puts the end stops at " + millimetres_text(layout.slot_length) + ", outside the workspace; " +
+             device);
   }
   check_corners(layout, workspace, radius);
 }
@@ -238,7 +239,8 @@ int column_of_gear(const GateLayout& layout, int gear) {
 void check_after_gear(const GateLayout& layout, const LockoutLayout& lockout) {
   const std::string gear = gear_name(lockout.gear);
   if (lockout.after_gear == lockout.gear) {
-    fail(layout, lockout.line, "gear " + gear + " could not be reached: its lockout waits for itself");
+    fail(layout, lockout.line,
+         "gear " + gear + " could not be reached, because its lockout would wait for this same gear");
   }
   if (column_of_gear(layout, lockout.after_gear) != column_of_gear(layout, lockout.gear)) {
     fail(layout, lockout.line,
@@ -250,16 +252,17 @@ void check_after_gear(const GateLayout& layout, const LockoutLayout& lockout) {
 void check_lockouts(const GateLayout& layout) {
   if (layout.lockouts.size() > kMaxLockouts) {
     fail(layout, layout.lockouts[kMaxLockouts].line,
-         "a gate has at most " + std::to_string(kMaxLockouts) + " lockouts");
+         "a gate can have at most " + std::to_string(kMaxLockouts) + " lockouts");
   }
   for (const LockoutLayout& lockout : layout.lockouts) {
     if (lockout.gear == kNeutralGear || column_of_gear(layout, lockout.gear) < 0) {
       fail(layout, lockout.line,
-           "there is no gear " + std::string(gear_name(lockout.gear)) + " for this lockout to guard");
+           "this lockout is for gear " + std::string(gear_name(lockout.gear)) + ", but the gate has no such gear");
     }
     if (lockout.kind == LockoutKind::after_gear) check_after_gear(layout, lockout);
     if (lockout.kind == LockoutKind::speed && !(lockout.open_below < lockout.close_above)) {
-      fail(layout, lockout.line, "open_below_kmh must be smaller than close_above_kmh, or the lockout would flicker");
+      fail(layout, lockout.line,
+           "open_below_kmh must be smaller than close_above_kmh, or the lockout would open and close rapidly");
     }
   }
 }
@@ -271,8 +274,9 @@ bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept {
   return inside(point.x / half.x, point.y / radius) && inside(point.x / radius, point.y / half.y);
 }
 
-// The buffer is a potential: its force across the aisle comes with a pull along it, towards the closed wall. That pull
-// is largest half-way into the buffer, at the open side of the aisle, and must be less than the centring force.
+// The buffer's force has a potential, so a force across the aisle implies a pull along the aisle, towards the closed
+// wall. That pull is largest half-way into the buffer, at the open side of the aisle, and must be less than the
+// centring force.
 void check_buffers(const GateLayout& layout, const Gate& gate) {
   const double center = layout.feel.center_force;
   for (const Buffer& buffer : buffers(gate)) {
@@ -282,8 +286,8 @@ void check_buffers(const GateLayout& layout, const Gate& gate) {
     if (buffer.force <= 0.0 || pull < center) continue;
     fail(layout, layout.lines.feel,
          "buffer_force_n = " + number_text(buffer.force) +
-             " would hold the lever at a closed junction: it pulls the lever there with " + number_text(pull, 2) +
-             " N, and center_force_n is only " + number_text(center));
+             " would hold the lever at a closed junction; it pulls the lever there with " + number_text(pull, 2) +
+             " N, but center_force_n is only " + number_text(center));
   }
 }
 

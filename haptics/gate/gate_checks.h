@@ -10,7 +10,7 @@ namespace gearshift::haptics {
 // Smallest solid wall between the mouths of two columns. [m]
 inline constexpr double kMinWall = 0.002;
 
-// Steepest allowed feel, softer than the paper's wall so that it does not feel like one. [N/m]
+// Steepest allowed slope of the feel: softer than the paper's wall, so that it does not feel like a wall. [N/m]
 inline constexpr double kMaxFeelSlope = 4000.0;
 
 // Free travel required behind every wall, and behind both walls in a corner: the paper's wall of 5000 N/m reaches its
@@ -31,7 +31,7 @@ bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept;
 // workspace and radius: half and radius of reaches(). [m]
 void check_layout(const GateLayout& layout, glm::dvec2 workspace, double radius);
 
-// The same for a check that needs the assembled gate: a buffer must not hold a free lever at its closed wall.
+// Throws FileError if a buffer would hold a free lever at its closed wall. This check needs the assembled gate.
 void check_buffers(const GateLayout& layout, const Gate& gate);
 
 }  // namespace gearshift::haptics

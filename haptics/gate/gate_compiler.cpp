@@ -10,7 +10,8 @@ namespace gearshift::haptics {
 namespace {
 
 // Width of the paper's rectangular buffer at the closed side of a junction, as a fraction of the slot's width. It is
-// wide because the buffer is a potential: the narrower it is, the harder it pulls towards the closed wall.
+// wide because the buffer's force has a potential: the narrower the buffer, the harder it pulls towards the closed
+// wall.
 constexpr double kBufferWidthFraction = 0.8;
 
 int add_slot(Gate& gate, int column, Side side, int gear, const GateLayout& layout) {

@@ -18,7 +18,7 @@ constexpr double kRest = 0.86;
 constexpr double kEngage = kCrest + 0.75 * (kRest - kCrest);
 
 // A spring that levels off smoothly at its full force: F(u) = F (3u - u^3)/2, so F(1) = F and F'(1) = 0. Its curvature
-// is zero at u = 0, so its odd mirror image continues it with continuous slope.
+// is zero at u = 0, so its odd mirror image joins it with continuous slope.
 constexpr double kSpringSlope = 1.5;  // slope at u = 0, in units of F / length
 
 double spring(double u) {
@@ -53,8 +53,8 @@ std::vector<FeelKnot> aisle_knots(const GateLayout& layout) {
 }
 
 // On the chamfers free space narrows with depth, so the force towards neutral must not depend on depth there: only with
-// a constant force is the energy of a point independent of the path round the chamfer. Therefore the knots `plateau`
-// and `mouth` have the same force, whatever follows deeper in the slot.
+// a constant force is the energy of a point independent of the path round the chamfer. Therefore the force is the same
+// at the knots `plateau` and `mouth`, whatever follows deeper in the slot.
 std::vector<FeelKnot> slot_knots(const GateLayout& layout) {
   const SlotStations s = slot_stations(layout);
   const FeelLayout& feel = layout.feel;

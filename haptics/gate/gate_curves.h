@@ -9,16 +9,16 @@
 
 namespace gearshift::haptics {
 
-// Characteristic depths along a slot, from the aisle's centre line, increasing in this order. [m]
+// Characteristic depths along a slot [m], from the aisle's centre line, in increasing order.
 struct SlotStations {
-  double plateau = 0.0;     // the aisle's centring reaches its full force
+  double plateau = 0.0;     // where the aisle's centring reaches its full force
   double half_aisle = 0.0;  // the aisle's wall, where the chamfered mouth begins
   double mouth = 0.0;       // end of the mouth, where the slot proper begins
   double bump = 0.0;        // peak of the mouth bump
   double low = 0.0;         // force minimum between bump and detent
   double crest = 0.0;       // peak of the detent; an engaged gear is released when the lever returns to here
   double lock = 0.0;        // peak of the pull-out force
-  double engage = 0.0;      // from here on the gear is engaged
+  double engage = 0.0;      // depth at which the gear becomes engaged
   double rest = 0.0;        // rest position of the engaged lever
   double end = 0.0;         // end stop
 };

@@ -29,8 +29,8 @@ bool is_last(const Gate& gate, int index) {
   return index == gate.column_count - 1;
 }
 
-// Sideways extent of a slot's mouth from its wall into the aisle's wall: 0 if there is no slot or if the aisle ends at
-// the slot's wall.
+// Length that a slot's chamfered mouth takes from the aisle's wall: 0 if there is no slot or if the aisle ends at the
+// slot's wall.
 double mouth_leg(const Gate& gate, int index, Side side, int towards) {
   if (branch_of(column_of(gate, index), side).slot == kNoSlot) return 0.0;
   const bool at_end_wall = towards < 0 ? is_first(index) : is_last(gate, index);
@@ -120,7 +120,7 @@ void describe_ends(const Gate& gate, GateDescription& list) {
 
 }  // namespace
 
-const char* wall_role_name(WallRole role) noexcept {
+const char* to_string(WallRole role) noexcept {
   switch (role) {
     case WallRole::aisle:
       return "aisle";

@@ -23,7 +23,7 @@ struct JunctionInfo {
 };
 enum class WallRole { aisle, chamfer, end_stop, closed_side };
 // "aisle", "chamfer", "end_stop", "closed_side".
-const char* wall_role_name(WallRole role) noexcept;
+const char* to_string(WallRole role) noexcept;
 struct WallInfo {
   glm::dvec2 from{0.0}, to{0.0};  // [m]
   WallRole role = WallRole::aisle;

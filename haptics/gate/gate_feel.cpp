@@ -7,14 +7,14 @@ namespace gearshift::haptics {
 namespace {
 
 // Buffer potential V = -force g(u) W(y). g rises smoothly from the buffer's inner edge to the closed wall, where its
-// slope vanishes, so that pressing into that wall at one y and leaving it at another supplies no energy. For the same
-// reason W is constant beyond the aisle's walls.
+// slope vanishes, so that pressing into that wall at one y and leaving it at a different y supplies no energy. For the
+// same reason W is constant beyond the aisle's walls.
 struct Rise {
   double value, slope;  // g, dg/dx
 };
 
 Rise buffer_rise(const Buffer& buffer, double x) noexcept {
-  const double width = buffer.wall - buffer.inner;  // signed: towards the wall
+  const double width = buffer.wall - buffer.inner;  // +1 or -1: direction towards the wall
   const double u = std::clamp((x - buffer.inner) / width, 0.0, 1.0);
   return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / width};
 }
@@ -23,8 +23,8 @@ struct Turn {
   double shape, integral;  // w, W(y) [m]
 };
 
-// With both sides open the force points away from the centre line, with peak 1 at half_aisle / sqrt(5); with one side
-// open it points there, with peak 1 at the centre line.
+// With slots on both sides, the force points away from the centre line, with peak 1 at half_aisle / sqrt(5); with one
+// slot it points towards that slot, with peak 1 at the centre line.
 Turn buffer_turn(const Buffer& buffer, double half_aisle, double y) noexcept {
   const double v = std::clamp(y / half_aisle, -1.0, 1.0);
   const double rest = 1.0 - v * v;

@@ -13,7 +13,7 @@ int slot_at(const Gate& gate, glm::dvec2 point) noexcept;
 // Force on the lever with the proxy at this point of free space: the negative gradient of gate_energy. [N]
 glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept;
 
-// Potential of that force. It depends on position only, so no closed path supplies energy. [J]
+// Potential of gate_feel(). It depends only on position, so no closed path supplies energy. [J]
 double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept;
 
 // Largest restoring stiffness anywhere in the gate; the coupling must not be softer. [N/m]

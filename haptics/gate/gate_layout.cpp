@@ -31,12 +31,12 @@ constexpr Range kBufferForceN{0.0, 10.0};
 
 // "R", "1", "2", ...: every gear except neutral, which has no slot.
 const std::vector<std::string>& gear_names() {
-  static const std::vector<std::string> words = [] {
+  static const std::vector<std::string> names = [] {
     std::vector<std::string> list{gear_name(kReverseGear)};
     for (int gear = 1; gear <= kMaxGear; ++gear) list.emplace_back(gear_name(gear));
     return list;
   }();
-  return words;
+  return names;
 }
 
 int read_gear(const TomlTable& table, std::string_view key) {
@@ -72,8 +72,8 @@ void read_columns(const TomlTable& root, GateLayout& layout) {
     layout.columns.push_back(read_column(table));
     if (table.flag_or("neutral", false)) {
       if (neutral != nullptr) {
-        table.fail("neutral", "only one column can be neutral, and line " + std::to_string(neutral->line("neutral")) +
-                                  " already says so");
+        table.fail("neutral", "only one column can be neutral, but the column on line " +
+                                  std::to_string(neutral->line("neutral")) + " already is");
       }
       neutral = &table;
       layout.neutral_column = static_cast<int>(layout.columns.size()) - 1;
@@ -82,7 +82,7 @@ void read_columns(const TomlTable& root, GateLayout& layout) {
   }
   if (tables.empty()) root.fail("column", "is missing: write one [[column]] for every column of gears");
   if (neutral == nullptr) {
-    tables.front().fail({}, "no column is neutral: write neutral = true in exactly one [[column]]");
+    tables.front().fail({}, "no column is neutral; write neutral = true in exactly one [[column]]");
   }
 }
 
@@ -116,12 +116,12 @@ LockoutKind read_kind(const TomlTable& table) {
                                      LockoutKind::after_gear};
   std::vector<std::string> names;
   names.reserve(kKinds.size());
-  for (const LockoutKind kind : kKinds) names.emplace_back(lockout_kind_name(kind));
+  for (const LockoutKind kind : kKinds) names.emplace_back(to_string(kind));
   const std::string word = table.choice("kind", names);
-  return *std::find_if(kKinds.begin(), kKinds.end(), [&](LockoutKind kind) { return word == lockout_kind_name(kind); });
+  return *std::find_if(kKinds.begin(), kKinds.end(), [&](LockoutKind kind) { return word == to_string(kind); });
 }
 
-// Only a speed lockout reads the speeds, so in other lockouts they are rejected as unknown keys instead of ignored.
+// Speeds are read only for a speed lockout, so in other lockouts they are rejected as unknown keys instead of ignored.
 LockoutLayout read_lockout(const TomlTable& table) {
   LockoutLayout lockout;
   lockout.line = table.line();

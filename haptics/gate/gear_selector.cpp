@@ -7,7 +7,7 @@
 namespace gearshift::haptics {
 namespace {
 
-// The gear for the lever's position, given the engaged one: between release and engage depth nothing changes, and a
+// The gear for the lever's position, given the engaged gear: between release and engage depth nothing changes, and a
 // gear stays engaged only in its own slot.
 int gear_at(const Gate& gate, glm::dvec2 proxy, int engaged) noexcept {
   const int index = slot_at(gate, proxy);

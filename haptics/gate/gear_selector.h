@@ -11,14 +11,14 @@ class GearSelector {
  public:
   explicit GearSelector(double debounce) noexcept : debounce_(debounce) {}  // [s]
 
-  // proxy [m]: the drawn lever; period [s]. Returns the engaged gear. Real-time safe.
+  // proxy [m]: position of the drawn lever; period [s]. Returns the engaged gear. Real-time safe.
   int update(const Gate& gate, glm::dvec2 proxy, double period) noexcept;
 
   int gear() const noexcept { return gear_; }
 
  private:
   double debounce_;
-  double candidate_time_ = 0.0;  // [s] since the candidate was first detected
+  double candidate_time_ = 0.0;  // [s] time since the candidate was first detected
   int gear_ = kNeutralGear;
   int candidate_ = kNeutralGear;
 };

@@ -90,7 +90,7 @@ std::string describe(const Lockout& lockout) {
       return "closed above " + number_text(lockout.close_above * kKmhPerMps, 3) + ", open below " +
              number_text(lockout.open_below * kKmhPerMps, 3) + " km/h";
     case LockoutKind::after_gear:
-      return std::string("closed after ") + gear_name(lockout.after_gear) + " until the lever leaves its column";
+      return std::string("closed for a direct shift from ") + gear_name(lockout.after_gear);
   }
   return "?";
 }

@@ -1,4 +1,4 @@
-// The movable walls that are currently closed, and the free space that remains.
+// The lockouts that are currently closed, and the free space that remains.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace gearshift::haptics {
 
-// The limits of free space in this cycle. An input of every proxy move.
+// The limits of free space in this cycle; an input of every proxy move.
 struct Passage {
-  double select_min = 0.0;  // [m] neutral aisle, narrowed by lateral lockouts
+  double select_min = 0.0;  // [m] ends of the neutral aisle, narrowed by lateral lockouts
   double select_max = 0.0;
-  std::uint32_t closed = 0;    // one bit per slot: a wall closes its mouth
+  std::uint32_t closed = 0;    // one bit per slot: 1 if a wall closes its mouth
   int limited_slot = kNoSlot;  // the slot whose depth the gearbox limits (synchroniser, torque lock)
-  double depth_min = 0.0;      // [m] limits in that slot
+  double depth_min = 0.0;      // [m] limits of the depth in that slot
   double depth_max = 0.0;
 };
 
@@ -37,9 +37,9 @@ class Lockouts {
   Passage update(const Gate& gate, const LockoutInputs& in, glm::dvec2 proxy) noexcept;
 
  private:
-  std::uint32_t latched_ = 0;  // one bit per lockout: closed by speed or by the last gear
+  std::uint32_t latched_ = 0;  // one bit per lockout: 1 if closed by speed or by the last gear
 };
 
-std::string describe(const Lockout& lockout);  // when it is open or closed: "closed above 20, open below 15 km/h"
+std::string describe(const Lockout& lockout);  // for example "closed above 20, open below 15 km/h"
 
 }  // namespace gearshift::haptics

@@ -1,5 +1,5 @@
-// The simplest gate: one straight aisle without feel. For studying a single wall, and as open space for emulated
-// elements.
+// The simplest gate: one straight aisle without feel. Used to study a single wall, and as open space for emulated
+// mechanical elements.
 #pragma once
 
 #include "haptics/gate/gate.h"

@@ -22,9 +22,9 @@ namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
 constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0};
-constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] minimum of a known value
+constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] minimum if the value is known
 
-using AxisName = std::pair<std::string_view, int>;  // usages of the Generic Desktop page
+using AxisName = std::pair<std::string_view, int>;  // name and usage on the Generic Desktop page
 constexpr std::array<AxisName, 9> kAxisNames{{{"x", 0x30},
                                               {"y", 0x31},
                                               {"z", 0x32},
@@ -36,7 +36,7 @@ constexpr std::array<AxisName, 9> kAxisNames{{{"x", 0x30},
                                               {"wheel", 0x38}}};
 
 template <class Integer>
-void read_whole(const TomlTable& table, std::string_view key, Integer& value, Range range) {
+void read_integer(const TomlTable& table, std::string_view key, Integer& value, Range range) {
   const double number = table.number(key, range);
   if (number != std::floor(number))
     table.fail(key, "must be a whole number between " + number_text(range.min) + " and " + number_text(range.max));
@@ -44,19 +44,19 @@ void read_whole(const TomlTable& table, std::string_view key, Integer& value, Ra
 }
 
 int read_axis_name(const TomlTable& table) {
-  std::vector<std::string> words;
-  for (const AxisName& name : kAxisNames) words.emplace_back(name.first);
-  const std::string word = table.choice("axis", words);
+  std::vector<std::string> names;
+  for (const AxisName& name : kAxisNames) names.emplace_back(name.first);
+  const std::string word = table.choice("axis", names);
   const auto found =
       std::find_if(kAxisNames.begin(), kAxisNames.end(), [&](const AxisName& name) { return name.first == word; });
   return found->second;
 }
 
-// Reads a value that is either 0 (not known) or at least `least`.
-double read_known(const TomlTable& table, std::string_view key, Range range, double least) {
+// Reads a value that is either 0 (not known) or at least `min`.
+double read_known(const TomlTable& table, std::string_view key, Range range, double min) {
   const double value = table.number(key, range);
-  if (value > 0.0 && value < least) {
-    table.fail(key, "must be 0 (not known) or between " + number_text(least) + " and " + number_text(range.max));
+  if (value > 0.0 && value < min) {
+    table.fail(key, "must be 0 (unknown) or between " + number_text(min) + " and " + number_text(range.max));
   }
   return value;
 }
@@ -78,10 +78,10 @@ void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
   if (axis.low != axis.high && !between) table.fail("centre_counts", "must lie between low_counts and high_counts");
   axis.travel = read_known(table, "travel_m", kTravel, kMinTravel);
   axis.full_force = read_known(table, "full_force_n", kForce, kMinForce);
-  read_whole(table, "constant_sign", axis.constant_sign, kSign);
-  read_whole(table, "spring_sign", axis.spring_sign, kSign);
+  read_integer(table, "constant_sign", axis.constant_sign, kSign);
+  read_integer(table, "spring_sign", axis.spring_sign, kSign);
   axis.spring_stiffness = table.number("spring_stiffness_n_per_m", kStiffness);
-  if (table.has("damper_sign")) read_whole(table, "damper_sign", axis.damper_sign, kSign);
+  if (table.has("damper_sign")) read_integer(table, "damper_sign", axis.damper_sign, kSign);
   if (table.has("damper_n_s_per_m")) axis.damper_strength = table.number("damper_n_s_per_m", kDamping);
   read_handle(table.table("handle"), axis.handle);
   table.reject_unknown_keys();
@@ -96,9 +96,9 @@ void read_timing(const TomlTable& table, DeviceTiming& timing) {
 }
 
 void read_buttons(const TomlTable& table, DeviceCalibration& calibration) {
-  read_whole(table, "press", calibration.press_button, kButton);
-  read_whole(table, "lift", calibration.lift_button, kButton);
-  read_whole(table, "stop", calibration.stop_button, kButton);
+  read_integer(table, "press", calibration.press_button, kButton);
+  read_integer(table, "lift", calibration.lift_button, kButton);
+  read_integer(table, "stop", calibration.stop_button, kButton);
   table.reject_unknown_keys();
 }
 
@@ -109,25 +109,27 @@ std::string hex_of(std::uint16_t value) {
   return std::string(4 - all.size(), '0') + std::string(all);
 }
 
-// Builds TOML text with an explanatory comment beside each line.
+// Builds TOML text with an explanatory comment at the end of each line.
 class CommentedText {
  public:
-  void comment(std::string_view words) { text_ += "# " + std::string(words) + '\n'; }
-  void section(std::string_view name, std::string_view words) {
+  void comment(std::string_view comment_text) { text_ += "# " + std::string(comment_text) + '\n'; }
+  void section(std::string_view name, std::string_view comment_text) {
     text_ += '\n';
-    line("[" + std::string(name) + "]", words);
+    line("[" + std::string(name) + "]", comment_text);
   }
-  void put(std::string_view key, const std::string& value, std::string_view words) {
-    line(std::string(key) + " = " + value, words);
+  void put(std::string_view key, const std::string& value, std::string_view comment_text) {
+    line(std::string(key) + " = " + value, comment_text);
   }
-  void put(std::string_view key, double value, std::string_view words) { put(key, toml_number(value), words); }
+  void put(std::string_view key, double value, std::string_view comment_text) {
+    put(key, toml_number(value), comment_text);
+  }
   std::string take() { return std::move(text_); }
 
  private:
-  void line(std::string left, std::string_view words) {
+  void line(std::string left, std::string_view comment_text) {
     constexpr std::size_t kColumn = 40;
-    if (!words.empty() && left.size() < kColumn) left.resize(kColumn, ' ');
-    text_ += left + (words.empty() ? "" : "  # " + std::string(words)) + '\n';
+    if (!comment_text.empty() && left.size() < kColumn) left.resize(kColumn, ' ');
+    text_ += left + (comment_text.empty() ? "" : "  # " + std::string(comment_text)) + '\n';
   }
 
   std::string text_;
@@ -140,20 +142,20 @@ std::string axis_name(int usage) {
 }
 
 void put_axis(CommentedText& out, const std::string& section, const LeverAxisCalibration& axis, bool is_select) {
-  out.section(section, is_select ? "the lever to the right (+) and the left" : "the lever forward (+) and back");
-  out.put("axis", toml_string(axis_name(axis.usage)), "of the device; x and y have motors");
+  out.section(section, is_select ? "lever to the right (+) and to the left (-)" : "lever forward (+) and back (-)");
+  out.put("axis", toml_string(axis_name(axis.usage)), "axis of the device; only x and y have motors");
   out.put("low_counts", axis.low, is_select ? "at the left stop" : "at the back stop");
   out.put("centre_counts", axis.centre, "at rest");
   out.put("high_counts", axis.high, is_select ? "at the right stop" : "at the forward stop");
-  out.put("travel_m", axis.travel, "of the knob, from stop to stop");
-  out.put("full_force_n", axis.full_force, "at the knob, at full magnitude");
+  out.put("travel_m", axis.travel, "travel of the knob from stop to stop");
+  out.put("full_force_n", axis.full_force, "force at the knob at full magnitude");
   out.put("constant_sign", axis.constant_sign,
-          is_select ? "1: a positive force pushes right, -1: left" : "1: a positive force pushes forward, -1: back");
-  out.put("spring_sign", axis.spring_sign, "1: a spring pulls to its centre, -1: pushes away");
-  out.put("spring_stiffness_n_per_m", axis.spring_stiffness, "of the strongest spring; 0: not measured");
-  out.put("damper_sign", axis.damper_sign, "1: a damper brakes, -1: drives");
-  out.put("damper_n_s_per_m", axis.damper_strength, "of the strongest damper; 0: not measured");
-  out.section(section + ".handle", "without a hand");
+          is_select ? "1: a positive force pushes right; -1: left" : "1: a positive force pushes forward; -1: back");
+  out.put("spring_sign", axis.spring_sign, "1: a spring pulls to its centre; -1: pushes away from it");
+  out.put("spring_stiffness_n_per_m", axis.spring_stiffness, "strongest spring; 0: not measured");
+  out.put("damper_sign", axis.damper_sign, "1: a damper brakes the lever; -1: drives it");
+  out.put("damper_n_s_per_m", axis.damper_strength, "strongest damper; 0: not measured");
+  out.section(section + ".handle", "handle without a hand");
   out.put("mass_kg", axis.handle.mass, "0: not measured");
   out.put("damping_n_s_per_m", axis.handle.damping, "");
   out.put("stiffness_n_per_m", axis.handle.stiffness, "");
@@ -178,8 +180,8 @@ std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& f
   const TomlTable root = TomlTable::parse(read_text_file(file), file.string());
   DeviceCalibration calibration;
   if (root.has("name")) calibration.name = root.text("name");
-  read_whole(root, "vendor", calibration.vendor, kId);
-  read_whole(root, "product", calibration.product, kId);
+  read_integer(root, "vendor", calibration.vendor, kId);
+  read_integer(root, "product", calibration.product, kId);
   if (root.has("serial")) calibration.serial = root.text("serial");
   read_lever_axis(root.table("select"), calibration.select);
   read_lever_axis(root.table("shift"), calibration.shift);
@@ -193,7 +195,7 @@ std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& f
 
 std::string calibration_text(const DeviceCalibration& calibration) {
   CommentedText out;
-  out.comment("Calibration of this stick. Counts are the device's; metres and newtons are at the knob.");
+  out.comment("Calibration of this stick. Counts are the device's own units; metres and newtons are at the knob.");
   if (!calibration.name.empty()) out.put("name", toml_string(calibration.name), "as reported by the device");
   out.put("vendor", "0x" + hex_of(calibration.vendor), "");
   out.put("product", "0x" + hex_of(calibration.product), "");
@@ -202,23 +204,23 @@ std::string calibration_text(const DeviceCalibration& calibration) {
   put_axis(out, "shift", calibration.shift, false);
   const DeviceTiming& timing = calibration.timing;
   out.section("timing", "intervals and delay of the device");
-  out.put("input_interval_s", timing.input_interval, "between two readings; 0: not measured");
-  out.put("output_interval_s", timing.output_interval, "between two forces");
-  out.put("delay_s", timing.delay, "from a force that was sent to its effect");
-  out.put("jitter_s", timing.jitter, "of the readings: the latest of a hundred");
-  out.section("buttons", "from 1; 0: none");
+  out.put("input_interval_s", timing.input_interval, "time between two readings; 0: not measured");
+  out.put("output_interval_s", timing.output_interval, "time between two forces");
+  out.put("delay_s", timing.delay, "time from sending a force to its effect");
+  out.put("jitter_s", timing.jitter, "lateness of the latest in a hundred readings");
+  out.section("buttons", "numbered from 1; 0: no button");
   out.put("press", calibration.press_button, "pushes the knob down");
   out.put("lift", calibration.lift_button, "lifts the ring");
-  out.put("stop", calibration.stop_button, "motors off");
+  out.put("stop", calibration.stop_button, "switches the motors off");
   return out.take();
 }
 
 void write_calibration(const DeviceCalibration& calibration, const std::filesystem::path& file) {
-  std::error_code failed;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failed);
-  if (failed) throw FileError(file.string(), 0, "cannot be written: " + failed.message());
+  std::error_code error;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+  if (error) throw FileError(file.string(), 0, "cannot be written (" + error.message() + ")");
   write_verified_file(file, calibration_text(calibration),
-                      [](const auto& written) { (void)read_calibration(written); });
+                      [](const auto& written_file) { (void)read_calibration(written_file); });
 }
 
 }  // namespace gearshift::haptics

@@ -1,4 +1,4 @@
-// Calibration steps that need a person. calibrator_forces.cpp has the hands-off measurements.
+// Calibration steps in which the user moves the lever. Measurements without a hand are in calibrator_forces.cpp.
 #include "haptics/hardware/calibrator.h"
 
 #include <algorithm>
@@ -11,24 +11,25 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kStartTime = 0.5, kEndTime = 0.3;  // [s] averaged before the push, and while holding it at the end
-constexpr double kMinMotion = 0.20;                 // [1] of the axis' logical range
-constexpr double kMaxCrossMotion = 0.5;             // [1] of that motion, along any other axis
-constexpr double kMaxCorrelation = 0.9;             // [1] between the two axes' positions
-constexpr double kReleaseTime = 1.0;                // [s] at the end, without a hand
+constexpr double kStartTime = 0.5, kEndTime = 0.3;  // [s] averaging time before the push, and at its end
+constexpr double kMinMotion = 0.20;                 // [1] fraction of the axis's logical range
+constexpr double kMaxCrossMotion = 0.5;             // [1] motion of any other axis, as a fraction of this axis's
+constexpr double kMaxCorrelation = 0.9;             // [1] correlation of the two axes' positions
+constexpr double kReleaseTime = 1.0;                // [s] last part of the measurement, without a hand
 
-std::string percent(double share) {
-  return number_text(100.0 * share, 0) + " %";
+std::string format_percent(double fraction) {
+  return number_text(100.0 * fraction, 0) + " %";
 }
 
 double middle_of_three(double a, double b, double c) noexcept {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-// Median of three: removes jumps of a single reading.
-std::vector<double> without_jumps(const std::vector<double>& seen) {
+// Median of three neighbouring readings: removes jumps of a single reading.
+std::vector<double> without_jumps(const std::vector<double>& positions) {
   std::vector<double> smooth;
-  for (std::size_t i = 2; i < seen.size(); ++i) smooth.push_back(middle_of_three(seen[i - 2], seen[i - 1], seen[i]));
+  for (std::size_t i = 2; i < positions.size(); ++i)
+    smooth.push_back(middle_of_three(positions[i - 2], positions[i - 1], positions[i]));
   return smooth;
 }
 
@@ -49,10 +50,11 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
 }
 
-double within(double value, double least, double most, const std::string& what, const std::string& unit) {
-  if (value >= least && value <= most) return value;
-  throw CalibrationRefused(what + " of " + number_text(value, 4) + " " + unit + ": it must be between " +
-                           number_text(least, 4) + " and " + number_text(most, 4) + " " + unit);
+double require_within(double value, double min, double max, const std::string& what, const std::string& unit) {
+  if (value >= min && value <= max) return value;
+  throw CalibrationRefused(what + " of " + number_text(value, 4) + " " + unit +
+                           " is not possible; it must be between " + number_text(min, 4) + " and " +
+                           number_text(max, 4) + " " + unit);
 }
 
 std::string counts_text(const LeverAxisCalibration& axis) {
@@ -61,11 +63,6 @@ std::string counts_text(const LeverAxisCalibration& axis) {
 }
 
 }  // namespace
-
-const char* calibration_step_name(CalibrationStep step) noexcept {
-  static constexpr const char* kNames[] = {"range", "numbers", "polarity", "timing", "handle", "springs"};
-  return kNames[static_cast<int>(step)];
-}
 
 std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs) {
   const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
@@ -93,7 +90,7 @@ std::size_t Calibrator::report_axis(int usage) const {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (axes[i].usage.page == kGenericDesktop && axes[i].usage.id == usage) return i;
   }
-  throw CalibrationRefused("the stick lacks an axis that its calibration names");
+  throw CalibrationRefused("the calibration names an axis that the stick does not have");
 }
 
 std::string Calibrator::find_axis(bool select, double seconds) {
@@ -107,34 +104,35 @@ std::string Calibrator::find_axis(bool select, double seconds) {
       if (time > seconds - kEndTime) after[i].push_back(rig.position(i));
     }
   }
-  std::size_t most = 0;
+  std::size_t largest = 0;
   std::vector<double> moved(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (axes[i].usage.page != kGenericDesktop) continue;
     moved[i] = (mean_of(after[i]) - mean_of(before[i])) / rig.range(i);
-    if (std::abs(moved[i]) > std::abs(moved[most])) most = i;
+    if (std::abs(moved[i]) > std::abs(moved[largest])) largest = i;
   }
-  if (std::abs(moved[most]) < kMinMotion)
-    throw CalibrationRefused("no axis moved by more than " + percent(std::abs(moved[most])) +
-                             " of its range, but at least " + percent(kMinMotion) +
-                             " is needed: push the lever all the way and hold it there");
+  if (std::abs(moved[largest]) < kMinMotion)
+    throw CalibrationRefused("no axis moved by more than " + format_percent(std::abs(moved[largest])) +
+                             " of its range, but at least " + format_percent(kMinMotion) +
+                             " is needed. Push the lever all the way and hold it there");
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (i != most && std::abs(moved[i]) > kMaxCrossMotion * std::abs(moved[most]))
-      throw CalibrationRefused("two axes moved together: push the lever straight");
+    if (i != largest && std::abs(moved[i]) > kMaxCrossMotion * std::abs(moved[largest]))
+      throw CalibrationRefused("two axes moved together. Push the lever straight");
   }
-  const int usage = axes[most].usage.id;
+  const int usage = axes[largest].usage.id;
   if (found_[select ? 1 : 0].usage == usage) {
-    if (!select) throw CalibrationRefused("the same axis moved as for select: push the lever forward");
-    found_[1] = {};  // a left-over of an earlier run with the axes swapped
+    if (!select)
+      throw CalibrationRefused("the same axis moved as when you pushed to the right. Push the lever forward");
+    found_[1] = {};  // left over from an earlier run with the axes swapped
   }
-  found_[select ? 0 : 1] = {usage, moved[most] > 0.0 ? 1 : -1};
-  return std::string(select ? "right" : "forward") + " is axis " + std::to_string(most + 1) +
-         " of the stick, counting " + (moved[most] > 0.0 ? "up" : "down");
+  found_[select ? 0 : 1] = {usage, moved[largest] > 0.0 ? 1 : -1};
+  return std::string(select ? "right" : "forward") + " is axis " + std::to_string(largest + 1) +
+         " of the stick, counting " + (moved[largest] > 0.0 ? "up" : "down");
 }
 
 std::string Calibrator::measure_range(double seconds) {
   if (found_[0].usage == 0 || found_[1].usage == 0)
-    throw CalibrationRefused("the lever's axes are not known yet: find them first");
+    throw CalibrationRefused("the lever's axes are not known yet. Find the axes first");
   const std::size_t select = report_axis(found_[0].usage), shift = report_axis(found_[1].usage);
   StickRig rig(driver_, tick_);
   std::vector<double> x, y;
@@ -150,41 +148,41 @@ std::string Calibrator::measure_range(double seconds) {
   LeverAxisCalibration new_select = range_of("select", found_[0], x, rest_x, rig.range(select));
   LeverAxisCalibration new_shift = range_of("shift", found_[1], y, rest_y, rig.range(shift));
   if (std::abs(correlation(x, y)) > kMaxCorrelation)
-    throw CalibrationRefused("the two axes move together: move the lever left and right, then forward and back");
+    throw CalibrationRefused("the two axes moved together. Move the lever left and right, then forward and back");
   new_select.travel = calibration_.select.travel;
   new_select.full_force = calibration_.select.full_force;
   new_shift.travel = calibration_.shift.travel;
   new_shift.full_force = calibration_.shift.full_force;
   calibration_.select = new_select;
   calibration_.shift = new_shift;
-  return "select: " + counts_text(new_select) + "; shift: " + counts_text(new_shift);
+  return "select from " + counts_text(new_select) + "; shift from " + counts_text(new_shift);
 }
 
-// A new range invalidates everything measured with the old one, so this starts from an empty axis.
+// A new range invalidates everything measured with the old range, so the result starts from an empty axis.
 LeverAxisCalibration Calibrator::range_of(const std::string& name, const FoundAxis& found,
-                                          const std::vector<double>& seen, double centre, double whole) {
-  if (seen.empty()) throw CalibrationRefused("the time was too short to move the lever at all");
-  const auto [low, high] = std::minmax_element(seen.begin(), seen.end());
-  const double least = *low, most = *high;
-  if (most - least < kMinMotion * whole)
-    throw CalibrationRefused(name + " moved over " + percent((most - least) / whole) +
-                             " of its range: move the lever to all its stops");
-  const double place = (centre - least) / (most - least);
-  if (place < 0.25 || place > 0.75)
-    throw CalibrationRefused(name + " rests at " + percent(place) +
-                             " of the way between its stops: let go of the lever so that it returns to the middle");
+                                          const std::vector<double>& positions, double centre, double range) {
+  if (positions.empty()) throw CalibrationRefused("the time was too short to move the lever at all");
+  const auto [low, high] = std::minmax_element(positions.begin(), positions.end());
+  const double lowest = *low, highest = *high;
+  if (highest - lowest < kMinMotion * range)
+    throw CalibrationRefused(name + " moved over only " + format_percent((highest - lowest) / range) +
+                             " of its range. Move the lever to all its stops");
+  const double rest_fraction = (centre - lowest) / (highest - lowest);
+  if (rest_fraction < 0.25 || rest_fraction > 0.75)
+    throw CalibrationRefused(name + " rests at " + format_percent(rest_fraction) +
+                             " of the way between its stops. Let go of the lever so that it returns to the middle");
   LeverAxisCalibration axis;
   axis.usage = found.usage;
-  axis.low = found.sign > 0 ? least : most;
-  axis.high = found.sign > 0 ? most : least;
+  axis.low = found.sign > 0 ? lowest : highest;
+  axis.high = found.sign > 0 ? highest : lowest;
   axis.centre = centre;
   return axis;
 }
 
 std::string Calibrator::set_numbers(double select_travel, double shift_travel, double full_force) {
-  calibration_.select.travel = within(select_travel, 0.02, 0.5, "a travel", "m");
-  calibration_.shift.travel = within(shift_travel, 0.02, 0.5, "a travel", "m");
-  within(full_force, 0.5, 100.0, "a full force", "N");
+  calibration_.select.travel = require_within(select_travel, 0.02, 0.5, "a travel", "m");
+  calibration_.shift.travel = require_within(shift_travel, 0.02, 0.5, "a travel", "m");
+  require_within(full_force, 0.5, 100.0, "a full force", "N");
   calibration_.select.full_force = calibration_.shift.full_force = full_force;
   return "travel " + millimetres_text(select_travel) + " and " + millimetres_text(shift_travel) + ", full force " +
          number_text(full_force, 2) + " N";

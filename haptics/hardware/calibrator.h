@@ -1,10 +1,10 @@
-// Calibrates a stick through its driver, step by step: first the steps that need a person, then the measurements that
-// run with hands off the lever. Each step writes its result into the calibration; a step that fails throws and changes
-// nothing. Until the polarity is known, no force exceeds kCautiousForce.
+// Calibrates a stick through its driver, step by step: first the steps in which the user moves the lever, then the
+// measurements without a hand on the lever. Each step writes its result into the calibration; a step that fails throws
+// and changes nothing. Until the polarity is known, no force exceeds kCautiousForce.
 //
-//   the person moves the lever   find_axis (right, then forward), measure_range, find_button
-//   the person enters numbers    set_numbers: travel and full force at the knob, measured with ruler and spring scale
-//   hands off                    measure_polarity, measure_timing, measure_handle, measure_springs
+//   the user moves the lever     find_axis (right, then forward), measure_range, find_button
+//   the user enters numbers      set_numbers: travel and full force at the knob, measured with ruler and spring scale
+//   no hand on the lever         measure_polarity, measure_timing, measure_handle, measure_springs
 #pragma once
 
 #include <array>
@@ -20,10 +20,9 @@
 
 namespace gearshift::haptics {
 
-inline constexpr double kCautiousForce = 0.10;  // [1] of the full force
+inline constexpr double kCautiousForce = 0.10;  // [1] fraction of the full force
 
 enum class CalibrationStep : std::uint8_t { range, numbers, polarity, timing, handle, springs };
-const char* calibration_step_name(CalibrationStep step) noexcept;
 
 // Steps still to do, in the order in which they must be done. springs: the device supports springs (PidAbility).
 std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs);
@@ -41,21 +40,21 @@ class Calibrator {
   // Every step returns one sentence with its result, or throws CalibrationRefused with one sentence that says why it
   // failed.
 
-  // Finds the device axis that moves, and its direction. The person holds the lever still, then pushes it fully right
+  // Finds the device axis that moves, and its direction. The user holds the lever still, then pushes it fully right
   // (select) or forward (shift) and holds it there, all within `seconds`. Call for select first.
   std::string find_axis(bool select, double seconds);
-  // The person moves the lever to all its stops, then lets go for the last second. Needs both find_axis() first.
+  // The user moves the lever to all its stops, then lets go for the last second. Call find_axis() for both axes first.
   std::string measure_range(double seconds);
-  // Travel 0.02 to 0.5 m, force 0.5 to 100 N.
+  // Stores the knob's travel between the stops, 0.02 to 0.5 m, and its force at full magnitude, 0.5 to 100 N.
   std::string set_numbers(double select_travel, double shift_travel, double full_force);
   // Waits up to `seconds` for a button press. Buttons already held at the start are ignored.
   std::string find_button(LeverButton button, double seconds);
 
-  std::string measure_polarity();  // signs of constant forces and springs, per axis
+  std::string measure_polarity();  // sign of constant forces and of springs, per axis
   std::string measure_timing();    // intervals, jitter, delay
-  std::string measure_handle();    // m, b, k; after set_numbers()
-  // Spring stiffness [N/m] and damper strength [N s/m]; after set_numbers(). The sign of a damper is found at
-  // kCautiousForce of its maximum coefficient. If only the dampers fail, the springs are still stored.
+  std::string measure_handle();    // mass, damping and stiffness; after set_numbers()
+  // Measures spring stiffness [N/m] and damper strength [N s/m]; call it after set_numbers(). The sign of a damper is
+  // found at kCautiousForce of its maximum coefficient. If only the dampers fail, the springs are still stored.
   std::string measure_springs();
 
  private:
@@ -64,8 +63,8 @@ class Calibrator {
     int sign = 0;   // +1: counts rise to the right, or forward; -1: they fall
   };
   struct AxisPlace {
-    std::size_t report = 0;  // index among the report's axes
-    std::size_t motor = 0;   // index among the driver's two motors
+    std::size_t report = 0;  // index of the axis in the report
+    std::size_t motor = 0;   // index of the motor in the driver
     double sign = 1.0;       // +1: counts rise to the right, or forward; -1: they fall
   };
 
@@ -73,8 +72,8 @@ class Calibrator {
   std::size_t report_axis(int usage) const;
   void require_range() const;
   void require_polarity() const;
-  static LeverAxisCalibration range_of(const std::string& name, const FoundAxis& found, const std::vector<double>& seen,
-                                       double centre, double whole);
+  static LeverAxisCalibration range_of(const std::string& name, const FoundAxis& found,
+                                       const std::vector<double>& positions, double centre, double range);
   int constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name) const;
   double push(StickRig& rig, const AxisPlace& place, const StickCommand& command) const;
   int spring_sign(StickRig& rig, const AxisPlace& place) const;
@@ -83,7 +82,7 @@ class Calibrator {
   std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double& magnitude) const;
   PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper = 0.0) const;
   static PulseFit fit_of(std::span<const Pulse> pulses, const std::string& name);
-  static PulseFit checked(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
+  static PulseFit validated(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
   double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis) const;
   std::string measure_dampers();
   double damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper) const;

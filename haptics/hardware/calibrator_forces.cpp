@@ -1,4 +1,4 @@
-// Calibration measurements that run with hands off the lever.
+// Calibration measurements without a hand on the lever.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,29 +12,29 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kMoved = 0.02, kMinMoved = 0.01;          // [1] of the range
+constexpr double kMoved = 0.02, kMinMoved = 0.01;          // [1] fraction of the range
 constexpr std::int64_t kPushTime = 250'000'000;            // [ns] longest push
-constexpr double kSpringOffset = 0.25;                     // [1] of the full deflection
-constexpr double kLoadForce = 0.05, kLoadFrequency = 5.0;  // [1] of the full force, [Hz]
+constexpr double kSpringOffset = 0.25;                     // [1] fraction of the full deflection
+constexpr double kLoadForce = 0.05, kLoadFrequency = 5.0;  // [1] fraction of the full force; [Hz]
 constexpr double kLoadDither = 0.01;  // [1] alternating offset, so that every tick has a new force to send
-constexpr std::int64_t kLoadTime = 2'100'000'000, kLoadStart = 100'000'000;  // [ns] total, and the part not counted
+constexpr std::int64_t kLoadTime = 2'100'000'000, kLoadStart = 100'000'000;  // [ns] total, and initial part not counted
 constexpr std::size_t kMinReadings = 50;
-constexpr double kPulseForce = 0.05, kMaxPulseForce = 0.4;  // [1] of the full force
-constexpr double kDampedPulseForce = 0.2;                   // [1] of the full force, against a strong damper
+constexpr double kPulseForce = 0.05, kMaxPulseForce = 0.4;  // [1] fraction of the full force
+constexpr double kDampedPulseForce = 0.2;                   // [1] fraction of the full force, against a strong damper
 constexpr std::int64_t kPulseTime = 60'000'000, kCoastTime = 400'000'000, kNoForceTime = 1'000'000'000;  // [ns]
-constexpr std::int64_t kSettingTime = 20'000'000;              // [ns] for the permanent part of the command to arrive
-constexpr double kPulseMotion = 0.06, kMinPulseMotion = 0.03;  // [1] of the range
+constexpr std::int64_t kSettingTime = 20'000'000;              // [ns] until the steady part of the command has arrived
+constexpr double kPulseMotion = 0.06, kMinPulseMotion = 0.03;  // [1] fraction of the range
 constexpr double kMaxResidual = 0.2;                           // [1]
-constexpr double kMaxDifference = 0.25;                        // [1] relative difference allowed between two pairs,
+constexpr double kMaxDifference = 0.25;                        // [1] allowed difference of two fits: relative,
 constexpr double kMaxDampingDifference = 2.0, kMaxDelayDifference = 0.002;  // [1/s], [s] or absolute
 constexpr std::size_t kMaxPairs = 5;
 constexpr double kMaxMeasuredDelay = 0.1;  // [s]
-constexpr double kMaxBalanceForce = 0.4;   // [1] of the full force, pushed against a spring
-constexpr double kMinBalance = 0.01;       // [1] of the range
-constexpr double kDamper = 0.5;            // [1] of the maximum coefficient; enough to measure
+constexpr double kMaxBalanceForce = 0.4;   // [1] fraction of the full force, pushed against a spring
+constexpr double kMinBalance = 0.01;       // [1] fraction of the range
+constexpr double kDamper = 0.5;            // [1] fraction of the maximum coefficient; enough to measure
 constexpr double kMaxHandleSpringForce =
-    0.3;                             // [1] of the full force, at a stop; more means that a hand holds the lever
-constexpr double kMinBraking = 0.3;  // [N s/m] enough to determine the sign of a damper
+    0.3;                             // [1] of the full force, at a stop; if larger, a hand must be on the lever
+constexpr double kMinBraking = 0.3;  // [N s/m] minimum to determine the sign of a damper
 
 StickCommand idle_command() noexcept {
   StickCommand command;
@@ -48,15 +48,15 @@ std::string newtons_per_metre(double stiffness) {
 
 bool fits_agree(const PulseFit& a, const PulseFit& b) noexcept {
   if (std::max(a.residual, b.residual) > kMaxResidual) return false;
-  const auto within = [](double x, double y, double least) {
-    return std::abs(x - y) <= std::max(least, kMaxDifference * std::max(std::abs(x), std::abs(y)));
+  const auto within = [](double x, double y, double min_difference) {
+    return std::abs(x - y) <= std::max(min_difference, kMaxDifference * std::max(std::abs(x), std::abs(y)));
   };
   return within(a.gain, b.gain, 0.0) && within(a.damping, b.damping, kMaxDampingDifference) &&
          within(a.delay, b.delay, kMaxDelayDifference);
 }
 
-double share_of(std::vector<double>& values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+double quantile(std::vector<double>& values, double q) {
+  const auto at = static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
 }
@@ -65,18 +65,18 @@ double share_of(std::vector<double>& values, double share) {
 
 void Calibrator::require_range() const {
   if (!calibration_.has_stops())
-    throw CalibrationRefused("the lever's stops are not known yet: measure the range first");
+    throw CalibrationRefused("the lever's stops are not known yet. Measure the range first");
 }
 
 void Calibrator::require_polarity() const {
   require_range();
   if (!calibration_.has_polarity())
-    throw CalibrationRefused("the direction of its forces is not known yet: measure the polarity first");
+    throw CalibrationRefused("the force direction is not known yet. Measure the force direction first");
 }
 
 Calibrator::AxisPlace Calibrator::axis_place(const LeverAxisCalibration& axis) const {
   if (axis.usage > kUsageY.id)
-    throw CalibrationRefused("the lever moves an axis without a motor: only X and Y have one");
+    throw CalibrationRefused("the lever moves an axis without a motor; only X and Y have motors");
   return {report_axis(axis.usage), axis.usage == kUsageY.id ? std::size_t{1} : std::size_t{0},
           axis.high > axis.low ? 1.0 : -1.0};
 }
@@ -91,12 +91,12 @@ std::string Calibrator::measure_polarity() {
     const AxisPlace place = axis_place(*axis);
     axis->constant_sign = constant_sign(rig, place, name);
     axis->spring_sign = spring_sign(rig, place);
-    sentence += (sentence.empty() ? "" : "; ") + name + ": a positive force pushes " +
+    sentence += (sentence.empty() ? "in " : "; in ") + name + ", a positive force pushes " +
                 (axis == &found.select ? (axis->constant_sign > 0 ? "right" : "left")
                                        : (axis->constant_sign > 0 ? "forward" : "back")) +
-                (axis->spring_sign == 0  ? ", springs do not move it"
-                 : axis->spring_sign > 0 ? ", springs pull to their centre"
-                                         : ", springs push away from their centre");
+                (axis->spring_sign == 0  ? " and springs have no effect"
+                 : axis->spring_sign > 0 ? " and springs pull to their centre"
+                                         : " and springs push away from their centre");
   }
   calibration_ = found;
   return sentence;
@@ -112,30 +112,31 @@ int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::
     command.constant[place.motor] = -magnitude;
     const double back = push(rig, place, command);
     if (std::abs(back) < kMinMoved || (there > 0.0) == (back > 0.0))
-      throw CalibrationRefused(name + " did not move one way and then the other: take your hands off the lever");
+      throw CalibrationRefused(name + " did not move in both directions. Take your hands off the lever");
     return there > 0.0 ? 1 : -1;
   }
-  throw CalibrationRefused(name + " does not move by " + number_text(100.0 * kCautiousForce, 0) +
-                           " % of the full force: check that the stick has power and can move freely");
+  throw CalibrationRefused(name + " does not move with " + number_text(100.0 * kCautiousForce, 0) +
+                           " % of the full force. Check that the stick has power and can move freely");
 }
 
 // Motion [1] of the range to the right or forward, from rest under that command.
 double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickCommand& command) const {
   const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
-  const double from = rig.rest(place.report, idle_command()), beside = rig.position(other);
+  const double from = rig.rest(place.report, idle_command()), other_from = rig.position(other);
   const std::int64_t begin = rig.latest().now_ns;
-  double moved = 0.0, strayed = 0.0;
+  double moved = 0.0, other_moved = 0.0;
   while (std::abs(moved) < kMoved && rig.latest().now_ns - begin < kPushTime) {
     rig.step(command);
     moved = (rig.position(place.report) - from) / rig.range(place.report);
-    strayed = (rig.position(other) - beside) / rig.range(other);
-    if (std::abs(strayed) > kMoved) throw CalibrationRefused("a force along one axis moves the other one");
+    other_moved = (rig.position(other) - other_from) / rig.range(other);
+    if (std::abs(other_moved) > kMoved) throw CalibrationRefused("a force along one axis also moves the other axis");
   }
   rig.step(idle_command());
   return moved * place.sign;
 }
 
-// A spring with its centre beside the lever pulls the lever there or pushes it away. Its saturation limits the force.
+// A spring whose centre is next to the lever pulls the lever there or pushes it away. The spring's saturation limits
+// the force.
 int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
   const PidLayout& pid = driver_.layout();
   if (!pid.has_effect(PidEffect::spring) || !pid.set_condition.exists()) return 0;
@@ -143,10 +144,10 @@ int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
   for (const double coefficient : {0.1, 0.4, 1.0}) {
     if (!is_capped && coefficient * kSpringOffset > kCautiousForce) break;
     rig.rest(place.report, idle_command());
-    const double here = rig.share(place.report), offset = here < 0.0 ? kSpringOffset : -kSpringOffset;
+    const double here = rig.deflection(place.report), offset = here < 0.0 ? kSpringOffset : -kSpringOffset;
     StickCommand command = idle_command();
     command.spring[place.motor] = {here + offset, 0.0, coefficient, kCautiousForce};
-    const double moved = push(rig, place, command) * place.sign;  // in the direction of rising counts
+    const double moved = push(rig, place, command) * place.sign;  // motion in the direction of rising counts
     if (std::abs(moved) < kMinMoved) continue;
     return (moved > 0.0) == (offset > 0.0) ? 1 : -1;
   }
@@ -164,7 +165,7 @@ std::string Calibrator::measure_timing() {
   calibration_.timing = timing;
   return "a reading every " + number_text(1e3 * timing.input_interval, 2) + " ms (jitter " +
          number_text(1e3 * timing.jitter, 2) + " ms), a force every " + number_text(1e3 * timing.output_interval, 2) +
-         " ms, delay " + number_text(1e3 * timing.delay, 2) + " ms: it answers after " +
+         " ms, delay " + number_text(1e3 * timing.delay, 2) + " ms; the stick responds after " +
          number_text(1e3 * answer_time(timing), 1) + " ms";
 }
 
@@ -192,26 +193,26 @@ DeviceTiming Calibrator::measure_intervals(StickRig& rig) const {
     rig.watch_runaway(shift.report, from_y);
   }
   const std::uint64_t outputs = last.state.outputs - first.state.outputs;
-  if (intervals.size() < kMinReadings) throw CalibrationRefused("the stick sends its position too seldom");
-  if (outputs < kMinReadings) throw CalibrationRefused("the stick accepts forces too seldom");
+  if (intervals.size() < kMinReadings) throw CalibrationRefused("the stick sends its position too rarely");
+  if (outputs < kMinReadings) throw CalibrationRefused("the stick accepts forces too rarely");
   DeviceTiming timing;
-  timing.input_interval = share_of(intervals, 0.5);
-  timing.jitter = std::max(0.0, share_of(intervals, 0.99) - timing.input_interval);
+  timing.input_interval = quantile(intervals, 0.5);
+  timing.jitter = std::max(0.0, quantile(intervals, 0.99) - timing.input_interval);
   timing.output_interval =
       1e-9 * static_cast<double>(last.state.sent_ns - first.state.sent_ns) / static_cast<double>(outputs);
   return timing;
 }
 
-// rest: command in effect before, during and after the pulse. The lever first comes to rest without it, because a
-// damped lever would take seconds.
+// rest: command in effect before, during and after the pulse. The lever first comes to rest without this command,
+// because with a damper it would take seconds.
 Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const {
   const double from = rig.rest(place.report, idle_command());
   for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kSettingTime;) rig.step(rest);
   const std::int64_t begin = rig.latest().now_ns;
   StickCommand on = rest;
   on.constant[place.motor] = magnitude;
-  Pulse seen;
-  seen.magnitude = magnitude;
+  Pulse measured;
+  measured.magnitude = magnitude;
   std::int64_t on_ns = 0, off_ns = 0;
   bool pushing = true;
   while (off_ns == 0 || rig.latest().now_ns - off_ns < kCoastTime) {
@@ -221,18 +222,18 @@ Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const StickComman
     if (!pushed && on_ns != 0 && off_ns == 0) off_ns = tick.state.sent_ns;
     const double moved = rig.position(place.report) - from;
     if (on_ns != 0 && tick.fresh)
-      seen.samples.push_back({1e-9 * static_cast<double>(tick.state.time_ns - on_ns), moved});
-    const bool enough = std::abs(moved) > kPulseMotion * rig.range(place.report);
-    pushing = pushing && !enough && tick.now_ns - begin < kPulseTime;
+      measured.samples.push_back({1e-9 * static_cast<double>(tick.state.time_ns - on_ns), moved});
+    const bool has_moved_enough = std::abs(moved) > kPulseMotion * rig.range(place.report);
+    pushing = pushing && !has_moved_enough && tick.now_ns - begin < kPulseTime;
     rig.watch_runaway(place.report, from);
-    if (off_ns == 0 && tick.now_ns - begin > kNoForceTime) throw CalibrationRefused("the stick accepts no force");
+    if (off_ns == 0 && tick.now_ns - begin > kNoForceTime) throw CalibrationRefused("the stick accepts no forces");
   }
-  seen.length = 1e-9 * static_cast<double>(off_ns - on_ns);
-  return seen;
+  measured.length = 1e-9 * static_cast<double>(off_ns - on_ns);
+  return measured;
 }
 
-// A pulse each way, with `magnitude` doubled until the lever moves far enough. The final magnitude is left in
-// `magnitude`.
+// One pulse in each direction, with `magnitude` doubled until the lever moves far enough. The final magnitude is left
+// in `magnitude`.
 std::array<Pulse, 2> Calibrator::pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest,
                                         double& magnitude) const {
   while (true) {
@@ -244,8 +245,8 @@ std::array<Pulse, 2> Calibrator::pulses(StickRig& rig, const AxisPlace& place, c
   }
 }
 
-// Fit in counts under a damper of that coefficient, from the first two pairs of pulses that agree. A single pair cannot
-// tell a nudge or a late cycle from the lever's dynamics.
+// Fits the lever's dynamics, in counts, under a damper of that coefficient, to the first two pairs of pulses that
+// agree. A single pair cannot tell a nudge or a late cycle from the lever's dynamics.
 PulseFit Calibrator::fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name,
                          double damper) const {
   const AxisPlace place = axis_place(axis);
@@ -261,36 +262,36 @@ PulseFit Calibrator::fit(StickRig& rig, const LeverAxisCalibration& axis, const 
     for (std::size_t i = 0; i + 1 < fits.size(); ++i) {
       if (!fits_agree(fits[i], fits.back())) continue;
       const Pulse four[] = {pairs[i][0], pairs[i][1], pairs.back()[0], pairs.back()[1]};
-      return checked(fit_of(four, name), axis, name);
+      return validated(fit_of(four, name), axis, name);
     }
   }
-  checked(fits.back(), axis, name);
-  throw CalibrationRefused(name + " responds differently to each push: take your hands off the lever");
+  validated(fits.back(), axis, name);
+  throw CalibrationRefused(name + " responds differently to each push. Take your hands off the lever");
 }
 
 PulseFit Calibrator::fit_of(std::span<const Pulse> pulses, const std::string& name) {
   try {
     return fit_pulses(pulses);
   } catch (const std::invalid_argument& error) {
-    throw CalibrationRefused(name + ": " + error.what());
+    throw CalibrationRefused(name + " cannot be measured, because " + error.what());
   }
 }
 
-PulseFit Calibrator::checked(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name) {
+PulseFit Calibrator::validated(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name) {
   if (found.residual > kMaxResidual)
-    throw CalibrationRefused(name + " does not respond to a push like a damped mass: take your hands off the lever");
+    throw CalibrationRefused(name + " does not respond to a push like a damped mass. Take your hands off the lever");
   if (found.gain * axis.constant_sign * (axis.high - axis.low) < 0.0)
-    throw CalibrationRefused(name + " moves against its polarity: measure the polarity again");
+    throw CalibrationRefused(name + " moves against the measured force direction. Measure the force direction again");
   if (found.delay > kMaxMeasuredDelay)
-    throw CalibrationRefused(name + " answers a push after " + number_text(1e3 * found.delay, 0) +
-                             " ms: too late for force feedback");
+    throw CalibrationRefused(name + " responds to a push after " + number_text(1e3 * found.delay, 0) +
+                             " ms, which is too late for force feedback");
   return found;
 }
 
 std::string Calibrator::measure_handle() {
   require_polarity();
   if (!calibration_.has_range() || !calibration_.has_force())
-    throw CalibrationRefused("the lever's travel and full force are not known yet: enter them first");
+    throw CalibrationRefused("the lever's travel and full force are not known yet. Enter these numbers first");
   StickRig rig(driver_, tick_);
   std::array<AxisModel, 2> handle;
   std::string sentence;
@@ -301,15 +302,15 @@ std::string Calibrator::measure_handle() {
     const double mass = axis.full_force / (std::abs(found.gain) * metre);
     if (!(mass >= 0.005 && mass <= 20.0))
       throw CalibrationRefused("a handle of " + number_text(mass, 4) +
-                               " kg is not plausible: check the full force and the travel");
-    const double half_way =
+                               " kg is not plausible. Check the full force and the travel");
+    const double stop_force =
         0.5 * found.stiffness * mass * axis.travel;  // [N] force of the handle's own spring at a stop
-    if (half_way > kMaxHandleSpringForce * axis.full_force)
+    if (stop_force > kMaxHandleSpringForce * axis.full_force)
       throw CalibrationRefused((select ? "select has a spring of " : "shift has a spring of ") +
                                newtons_per_metre(found.stiffness * mass) +
-                               ", too stiff for its motors: take your hands off the lever");
+                               ", too stiff for the motors. Take your hands off the lever");
     handle[select ? 0 : 1] = {mass, found.damping * mass, found.stiffness * mass};
-    sentence += (select ? "select: " : "; shift: ") + number_text(mass, 3) + " kg, " +
+    sentence += (select ? "select has " : "; shift has ") + number_text(mass, 3) + " kg, " +
                 number_text(found.damping * mass, 2) + " N s/m, " + newtons_per_metre(found.stiffness * mass);
   }
   calibration_.select.handle = handle[0];
@@ -320,54 +321,55 @@ std::string Calibrator::measure_handle() {
 std::string Calibrator::measure_springs() {
   require_polarity();
   if (!calibration_.has_range() || !calibration_.has_force())
-    throw CalibrationRefused("the lever's travel and full force are not known yet: enter them first");
+    throw CalibrationRefused("the lever's travel and full force are not known yet. Enter these numbers first");
   StickRig rig(driver_, tick_);
   const double select = spring_stiffness(rig, calibration_.select);
   const double shift = spring_stiffness(rig, calibration_.shift);
   calibration_.select.spring_stiffness = select;
   calibration_.shift.spring_stiffness = shift;
   const bool useful = std::min(select, shift) >= kMinSpring;
-  const std::string springs = "the strongest springs: select " + newtons_per_metre(select) + ", shift " +
-                              newtons_per_metre(shift) + (useful ? "" : ": too weak to be used");
+  const std::string springs = "springs of up to " + newtons_per_metre(select) + " in select and " +
+                              newtons_per_metre(shift) + " in shift" + (useful ? "" : ", too weak to be used");
   return driver_.layout().has_effect(PidEffect::damper) ? springs + "; " + measure_dampers() : springs;
 }
 
-// Finds the sign first, with only kCautiousForce of the maximum coefficient; then the strength.
+// Finds a damper's sign first, with kCautiousForce as a fraction of the maximum coefficient, then its strength.
 std::string Calibrator::measure_dampers() {
   DeviceCalibration found = calibration_;
-  if (!found.has_handle()) return "dampers are not measured: the handle is not known";
+  if (!found.has_handle()) return "the dampers were not measured, because the handle is not known";
   StickRig rig(driver_, tick_);
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
     const double braking = damping_by(rig, *axis, name, kCautiousForce);
-    if (std::abs(braking) < kMinBraking) return "dampers: too weak to be used";
+    if (std::abs(braking) < kMinBraking) return "the dampers are too weak to be used";
     axis->damper_sign = braking > 0.0 ? 1 : -1;
     axis->damper_strength = damping_by(rig, *axis, name, kDamper * axis->damper_sign) / kDamper;
-    if (axis->damper_strength <= 0.0) throw CalibrationRefused(name + " is driven by its damper with either sign");
+    if (axis->damper_strength <= 0.0)
+      throw CalibrationRefused("the damper of " + name + " drives the lever with either sign");
   }
   calibration_ = found;
-  return "dampers: select " + number_text(found.select.damper_strength, 1) + " N s/m, shift " +
-         number_text(found.shift.damper_strength, 1) + " N s/m" +
-         (found.select.damper_sign * found.shift.damper_sign > 0 ? "" : ", of different signs");
+  return "dampers of up to " + number_text(found.select.damper_strength, 1) + " N s/m in select and " +
+         number_text(found.shift.damper_strength, 1) + " N s/m in shift" +
+         (found.select.damper_sign * found.shift.damper_sign > 0 ? "" : ", with opposite signs");
 }
 
-// Damping [N s/m] that a damper of that coefficient adds to the handle's.
+// Damping [N s/m] that a damper of that coefficient adds to the handle's own damping.
 double Calibrator::damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name,
                               double damper) const {
   return fit(rig, axis, name, damper).damping * axis.handle.mass - axis.handle.damping;
 }
 
-// Pushes against the strongest spring with a known force, each way, and measures where the lever comes to rest.
+// Pushes against the strongest spring with a known force in each direction, and measures where the lever comes to rest.
 double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis) const {
   const AxisPlace place = axis_place(axis);
   const BitField& coefficient = driver_.layout().set_condition.positive_coefficient;
-  if (axis.spring_sign == 0) throw CalibrationRefused("its springs do not move the lever");
+  if (axis.spring_sign == 0) throw CalibrationRefused("the stick's springs do not move the lever");
   if (axis.spring_sign < 0 && coefficient.min >= coefficient.zero)
-    throw CalibrationRefused("its springs push away from their centre and cannot be inverted");
+    throw CalibrationRefused("the stick's springs push away from their centre and cannot be inverted");
   const LeverAxisMap map(axis, driver_.lever_report().axes[place.report].field);
   rig.rest(place.report, idle_command());
   StickCommand command = idle_command();
-  command.spring[place.motor] = {rig.share(place.report), 0.0, static_cast<double>(axis.spring_sign), 1.0};
+  command.spring[place.motor] = {rig.deflection(place.report), 0.0, static_cast<double>(axis.spring_sign), 1.0};
   double magnitude = kPulseForce;
   while (true) {
     command.constant[place.motor] = magnitude;
@@ -376,7 +378,7 @@ double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& a
     const double back = rig.rest(place.report, command);
     const double width = std::abs(there - back) / rig.range(place.report);
     const bool is_fine = width > kMinBalance || magnitude >= kMaxBalanceForce;
-    if (is_fine && width == 0.0) throw CalibrationRefused("its springs do not deflect under a force");
+    if (is_fine && width == 0.0) throw CalibrationRefused("the stick's springs do not give way under a force");
     if (is_fine) {
       const double metres = std::abs(map.metres(there) - map.metres(back));
       return std::max(0.0, 2.0 * magnitude * axis.full_force / metres - axis.handle.stiffness);

@@ -9,19 +9,19 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kRounding = 1e-9;      // [1] of a cycle
+constexpr double kRounding = 1e-9;      // [1] fraction of a cycle
 constexpr double kSlowestLoop = 100.0;  // [Hz]
 
-std::string too_slow(double answer, double period) {
-  const double most = (1.0 + kMaxLoopDelay) * period, rate = std::floor((1.0 + kMaxLoopDelay) / answer);
-  const std::string sentence = "the stick answers after " + number_text(1e3 * answer, 1) + " ms, but at " +
+std::string describe_too_slow(double answer, double period) {
+  const double max_delay = (1.0 + kMaxLoopDelay) * period, rate = std::floor((1.0 + kMaxLoopDelay) / answer);
+  const std::string sentence = "the stick responds after " + number_text(1e3 * answer, 1) + " ms, but at " +
                                number_text(1.0 / period, 0) + " Hz the loop compensates at most " +
-                               number_text(1e3 * most, 1) + " ms: ";
-  if (rate < kSlowestLoop) return sentence + "too slow for any rate from 100 Hz up";
-  return sentence + number_text(rate, 0) + " Hz would work";
+                               number_text(1e3 * max_delay, 1) + " ms; ";
+  if (rate < kSlowestLoop) return sentence + "the stick is too slow for any rate from 100 Hz up";
+  return sentence + "a rate of " + number_text(rate, 0) + " Hz would work";
 }
 
-// [m] per count, on the coarser side of the centre.
+// Resolution [m] per count, on the coarser side of the centre.
 double step_of(const LeverAxisCalibration& axis) noexcept {
   if (axis.low == axis.high) return 0.0;
   return 0.5 * axis.travel / std::min(std::abs(axis.high - axis.centre), std::abs(axis.centre - axis.low));
@@ -48,7 +48,7 @@ double answer_time(const DeviceTiming& timing) noexcept {
 int delay_cycles(const DeviceTiming& timing, double period) {
   const double answer = answer_time(timing);
   const double cycles = std::max(0.0, std::ceil(answer / period - kRounding) - 1.0);
-  if (!(cycles <= kMaxLoopDelay)) throw std::invalid_argument(too_slow(answer, period));
+  if (!(cycles <= kMaxLoopDelay)) throw std::invalid_argument(describe_too_slow(answer, period));
   return static_cast<int>(cycles);
 }
 

@@ -14,24 +14,24 @@ namespace gearshift::haptics {
 
 // One axis of the lever: select or shift.
 struct LeverAxisCalibration {
-  int usage = 0x30;  // device axis, a usage of the Generic Desktop page; only X (0x30) and Y (0x31) have motors
+  int usage = 0x30;  // device axis: usage of the Generic Desktop page; only X (0x30) and Y (0x31) have motors
   double low = 0.0, centre = 0.0,
          high = 0.0;              // [counts] at the left or back stop, at rest, at the right or forward stop;
                                   // low > high: the device counts the other way; low == high: not known
   double travel = 0.0;            // [m] knob travel from stop to stop; 0: not known
-  double full_force = 0.0;        // [N] at the knob, at full magnitude; 0: not known
+  double full_force = 0.0;        // [N] force at the knob at full magnitude; 0: not known
   int constant_sign = 0;          // +1: a positive magnitude pushes right or forward; -1: left or back; 0: not measured
   int spring_sign = 0;            // +1: a spring pulls to its centre; -1: it pushes away; 0: not measured
-  double spring_stiffness = 0.0;  // [N/m] at the knob, at the maximum coefficient; 0: not measured
-  AxisModel handle{0.0, 0.0, 0.0};  // without a hand; mass 0: not measured
+  double spring_stiffness = 0.0;  // [N/m] stiffness at the knob at the maximum coefficient; 0: not measured
+  AxisModel handle{0.0, 0.0, 0.0};  // handle without a hand; mass 0: not measured
   int damper_sign = 0;              // +1: a damper brakes; -1: it drives the lever; 0: not measured
-  double damper_strength = 0.0;     // [N s/m] at the knob, at the maximum coefficient; 0: not measured
+  double damper_strength = 0.0;     // [N s/m] damping at the knob at the maximum coefficient; 0: not measured
 };
 
 struct DeviceTiming {
-  double input_interval = 0.0;   // [s] between readings, median; 0: not measured
+  double input_interval = 0.0;   // [s] median time between readings; 0: not measured
   double output_interval = 0.0;  // [s] between outputs
-  double delay = 0.0;            // [s] from sending a force until the readings show its effect
+  double delay = 0.0;            // [s] time from sending a force until readings show its effect
   double jitter = 0.0;           // [s] p99 of the input interval minus its median
 };
 
@@ -41,7 +41,7 @@ struct DeviceCalibration {
   std::string name;
   LeverAxisCalibration select, shift;
   DeviceTiming timing;
-  int press_button = 0, lift_button = 0, stop_button = 0;  // from 1; 0: none
+  int press_button = 0, lift_button = 0, stop_button = 0;  // button numbers from 1; 0: none
 
   bool has_stops() const noexcept { return select.low != select.high && shift.low != shift.high; }
   bool has_travel() const noexcept { return select.travel > 0.0 && shift.travel > 0.0; }
@@ -52,7 +52,7 @@ struct DeviceCalibration {
   bool has_handle() const noexcept { return select.handle.mass > 0.0 && shift.handle.mass > 0.0; }
 };
 
-// Assumed where nothing was measured. The safe case is a slow stick with a light, lightly damped handle.
+// Values assumed if nothing was measured. A slow stick with a light, lightly damped handle is the safe assumption.
 inline constexpr DeviceTiming kUnmeasuredTiming{0.002, 0.002, 0.004, 0.0};
 inline constexpr AxisModel kUnmeasuredHandle{0.05, 1.0, 0.0};
 inline constexpr double kMinSpring = 100.0;  // [N/m] weaker springs are not used for device walls
@@ -66,10 +66,10 @@ double answer_time(const DeviceTiming& timing) noexcept;
 // std::invalid_argument beyond the longest delay that the loop supports; the message names a rate that would work.
 int delay_cycles(const DeviceTiming& timing, double period);
 
-// The device as the loop sees it. Until the polarity is measured, max_force is 0. Throws as delay_cycles() does.
+// The device's properties for the loop. Until the polarity is measured, max_force is 0. Throws as delay_cycles() does.
 DeviceSpec spec_of(const DeviceCalibration& calibration, double period);
 
-// VENDOR_PRODUCT[_SERIAL].toml in the folder, the serial in letters, digits, '-' and '_'.
+// The path VENDOR_PRODUCT[_SERIAL].toml in the folder, with the serial reduced to letters, digits, '-' and '_'.
 std::filesystem::path calibration_file(const std::filesystem::path& folder, const HidIdentity& device);
 
 // Empty if there is no file. Throws FileError with file, line, key, value and range.

@@ -32,8 +32,8 @@ void InputWatch::update(const LeverCounts& counts, std::array<double, 2> force, 
 
 void InputWatch::reset_force() noexcept {
   for (Axis& axis : axis_) {
-    axis.forced = 0.0;
-    axis.share = 1.0;
+    axis.forced_time = 0.0;
+    axis.force_fraction = 1.0;
   }
 }
 
@@ -43,8 +43,8 @@ void InputWatch::watch_jump(const LeverCounts& counts, std::int64_t time_ns) noe
   if (!are_neighbours || time_ns < unsure_ns_) return;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto moved = static_cast<double>(counts.axis[axes_[i]] - axis_[i].place);
-    const double share = 0.5 * std::abs(moved) / axis_[i].half_range;
-    if (share > kMinJump) jump_ = std::max(jump_, share);
+    const double fraction = 0.5 * std::abs(moved) / axis_[i].half_range;
+    if (fraction > kMinJump) jump_ = std::max(jump_, fraction);
   }
 }
 
@@ -52,24 +52,25 @@ void InputWatch::watch_still(Axis& axis, std::int64_t place, double force, doubl
   const bool moved = place != axis.place;
   axis.place = place;
   if (moved) {
-    axis.forced = 0.0;
+    axis.forced_time = 0.0;
     axis.force.begin(force);
     axis.spring.begin(spring);
   }
   axis.force.add(force);
   axis.spring.add(spring);
   const bool is_pushed = std::max(std::abs(force), std::abs(spring)) > kMinPushForce;
-  const bool was_still = axis.forced >= kFrozenTime;  // stays so until the axis moves; meanwhile its force fades out
-  if (!was_still) axis.forced = std::max(0.0, axis.forced + (is_pushed ? passed : -kStillnessDecay * passed));
-  const bool is_still = axis.forced >= kFrozenTime;
+  const bool was_still =
+      axis.forced_time >= kFrozenTime;  // stays frozen until the axis moves; meanwhile its force fades out
+  if (!was_still) axis.forced_time = std::max(0.0, axis.forced_time + (is_pushed ? passed : -kStillnessDecay * passed));
+  const bool is_still = axis.forced_time >= kFrozenTime;
   const double change = is_still ? -passed / kFadeOutTime : passed / kFadeInTime;
-  axis.share = std::clamp(axis.share + change, 0.0, 1.0);
+  axis.force_fraction = std::clamp(axis.force_fraction + change, 0.0, 1.0);
   axis.frozen = is_still && std::max(axis.force.width(), axis.spring.width()) > kFrozenForce;
 }
 
 void InputWatch::Span::add(double value) noexcept {
-  least = std::min(least, value);
-  most = std::max(most, value);
+  min = std::min(min, value);
+  max = std::max(max, value);
 }
 
 }  // namespace gearshift::haptics

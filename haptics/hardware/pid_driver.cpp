@@ -12,18 +12,18 @@ namespace {
 
 constexpr std::int64_t kSilence = static_cast<std::int64_t>(1e9 * kCommandSilence);  // [ns]
 constexpr std::int64_t kMillisecond = 1'000'000;                                     // [ns]
-constexpr std::int64_t kUnarrived = 100 * kMillisecond;  // [ns] in transit: the output is stuck
-constexpr std::int64_t kSlowness = 500 * kMillisecond;   // [ns] over which transfer times are averaged
+constexpr std::int64_t kUnarrived = 100 * kMillisecond;  // [ns] an output in transit for this time is stuck
+constexpr std::int64_t kSlowness = 500 * kMillisecond;   // [ns] period for which transfer times are averaged
 constexpr std::int64_t kMinArrivals = 5;
 
 LeverReport lever_of(const ReportDescriptor& descriptor) {
   if (std::optional<LeverReport> lever = find_lever_report(descriptor)) return *std::move(lever);
-  throw HidError("this device is not a stick: its descriptor has no X and Y axes");
+  throw HidError("this device is not a stick, because its descriptor has no X and Y axes");
 }
 
 PidLayout pid_of(const ReportDescriptor& descriptor) {
   if (const std::optional<PidLayout> pid = find_pid(descriptor)) return *pid;
-  throw HidError("this stick has no force feedback: its descriptor has no force reports (PID class)");
+  throw HidError("this stick has no force feedback, because its descriptor has no force reports (PID class)");
 }
 
 std::array<std::size_t, 2> stick_axes(const LeverReport& lever) {
@@ -35,7 +35,7 @@ std::array<std::size_t, 2> stick_axes(const LeverReport& lever) {
   return found;
 }
 
-// A command with a NaN or an infinity is replaced by an empty one.
+// False if the command contains a NaN or an infinity; it is then replaced by an empty command.
 bool is_number(const StickCommand& command) noexcept {
   bool finite = std::isfinite(command.constant[0]) && std::isfinite(command.constant[1]);
   for (const double damper : command.damper) finite = finite && std::isfinite(damper);
@@ -53,12 +53,12 @@ PidDriver::PidDriver(const std::vector<std::uint8_t>& report_descriptor)
       lever_(lever_of(descriptor_)),
       pid_(pid_of(descriptor_)),
       wake_fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
-      stream_(pid_),
+      scheduler_(pid_),
       watch_(lever_, stick_axes(lever_)) {
   for (std::size_t id = 0; id < input_size_.size(); ++id) {
     input_size_[id] = descriptor_.report_size(ReportKind::input, static_cast<std::uint8_t>(id));
   }
-  stream_.begin(blocks_, true);
+  scheduler_.begin(blocks_, true);
 }
 
 PidDriver::~PidDriver() {
@@ -71,7 +71,7 @@ PidAbility PidDriver::prepare(HidPort& port) {
   PreparedStick prepared = prepare_stick(port, pid_);
   problems_.reset();
   blocks_ = prepared.blocks;
-  stream_.begin(blocks_, prepared.ability.finite);
+  scheduler_.begin(blocks_, prepared.ability.finite);
   watch_ = InputWatch(lever_, stick_axes(lever_));
   driven_ = unarrived_ = false;
   arrivals_ = {};
@@ -93,7 +93,7 @@ void PidDriver::finish(HidPort& port) noexcept {
   silence_stick(port, pid_, blocks_);
   blocks_ = {};
   prepared_ = false;
-  stream_.begin(blocks_, true);
+  scheduler_.begin(blocks_, true);
   publish();
 }
 
@@ -111,7 +111,7 @@ void PidDriver::on_input(std::span<const std::uint8_t> report, std::int64_t time
 
 // Readings of a frozen sensor are dropped, so that the loop sees no fresh reading.
 void PidDriver::on_lever_report(const LeverCounts& counts, std::int64_t time_ns) noexcept {
-  watch_.update(counts, stream_.force(), stream_.spring(), time_ns);
+  watch_.update(counts, scheduler_.force(), scheduler_.spring(), time_ns);
   if (watch_.jump() > 0.0) problems_.raise(StickProblem::position_jump, std::lround(100.0 * watch_.jump()));
   if (watch_.is_frozen()) return problems_.raise(StickProblem::frozen, std::lround(kFrozenTime));
   if (watch_.is_faded_out()) {
@@ -124,9 +124,9 @@ void PidDriver::on_lever_report(const LeverCounts& counts, std::int64_t time_ns)
   publish();
 }
 
-// If the device has switched itself off, its motors stay off until a person arms it again.
+// If the device has switched itself off, its motors stay off until the user arms it again.
 void PidDriver::on_state_report(const PidStatus& status, std::int64_t time_ns) noexcept {
-  switch (stream_.on_report(status, time_ns)) {
+  switch (scheduler_.on_report(status, time_ns)) {
     case StickFault::none:
       return;
     case StickFault::effect_stopped:
@@ -148,29 +148,30 @@ void PidDriver::on_state_report(const PidStatus& status, std::int64_t time_ns) n
 HidBytes PidDriver::next_output(std::int64_t now_ns) noexcept {
   apply_command(now_ns);
   watch_silence(now_ns);
-  const HidBytes report = stream_.next(now_ns);
+  const HidBytes report = scheduler_.next(now_ns);
   watch_arrival(report.size > 0, now_ns);
   return report;
 }
 
-// A release voids every command sent before it.
+// Ignores the command if it was sent before the last release.
 void PidDriver::apply_command(std::int64_t now_ns) noexcept {
   if (commands_.update()) command_ns_ = now_ns;
   const std::uint64_t releases = releases_.load(std::memory_order_acquire);
-  if (releases != applied_releases_) stream_.release();
+  if (releases != applied_releases_) scheduler_.release();
   applied_releases_ = releases;
   const Command& newest = commands_.value();
-  const bool counts = prepared_ && newest.session == state_.session && newest.releases == releases;
-  driven_ = counts && newest.command.enabled;
-  StickCommand command = counts ? newest.command : StickCommand{};
-  for (std::size_t i = 0; i < 2; ++i) {  // device walls as well: they rely on the same sensor
+  const bool is_current = prepared_ && newest.session == state_.session && newest.releases == releases;
+  driven_ = is_current && newest.command.enabled;
+  StickCommand command = is_current ? newest.command : StickCommand{};
+  for (std::size_t i = 0; i < 2; ++i) {  // the device walls fade as well: they rely on the same sensor
     command.constant[i] *= watch_.force_fraction(i);
     command.spring[i].coefficient *= watch_.force_fraction(i);
   }
-  stream_.set_command(command);
+  scheduler_.set_command(command);
 }
 
-// The haptic side is late or dead while this thread runs: without this check its last force would be renewed forever.
+// Detects that the haptic side is late or dead while this thread runs; otherwise its last force would be renewed
+// forever.
 void PidDriver::watch_silence(std::int64_t now_ns) noexcept {
   if (!driven_ || now_ns - command_ns_ <= kSilence) return;
   problems_.raise(StickProblem::no_commands, kSilence / 1'000'000);
@@ -180,22 +181,22 @@ void PidDriver::watch_silence(std::int64_t now_ns) noexcept {
 // Voids all earlier commands and switches the motors off.
 void PidDriver::end_session() noexcept {
   ++state_.session;
-  stream_.set_command({});
-  stream_.release();
+  scheduler_.set_command({});
+  scheduler_.release();
   watch_.reset_force();
   publish();
 }
 
-void PidDriver::watch_arrival(bool anything, std::int64_t now_ns) noexcept {
-  if (anything) handed_ns_ = now_ns;
-  if (anything && !unarrived_) unarrived_ns_ = now_ns;
-  if (anything && unarrived_ && now_ns - unarrived_ns_ > kUnarrived) problems_.raise(StickProblem::output_stuck);
-  unarrived_ = anything;
+void PidDriver::watch_arrival(bool has_report, std::int64_t now_ns) noexcept {
+  if (has_report) handed_ns_ = now_ns;
+  if (has_report && !unarrived_) unarrived_ns_ = now_ns;
+  if (has_report && unarrived_ && now_ns - unarrived_ns_ > kUnarrived) problems_.raise(StickProblem::output_stuck);
+  unarrived_ = has_report;
 }
 
 void PidDriver::on_sent(std::int64_t time_ns) noexcept {
   unarrived_ = false;
-  stream_.arrived(time_ns);
+  scheduler_.arrived(time_ns);
   watch_slowness(time_ns);
   state_.sent_ns = time_ns;
   ++state_.outputs;
@@ -205,22 +206,22 @@ void PidDriver::on_sent(std::int64_t time_ns) noexcept {
 // A wall that is stable at the calibrated answer time can vibrate on a slower stick. The check needs most outputs
 // within half a second to be late, because a single late one proves nothing.
 void PidDriver::watch_slowness(std::int64_t now_ns) noexcept {
-  const std::int64_t took = now_ns - handed_ns_, answer = answer_ns_.load(std::memory_order_relaxed);
+  const std::int64_t transfer = now_ns - handed_ns_, answer = answer_ns_.load(std::memory_order_relaxed);
   ++arrivals_.all;
-  arrivals_.took_ns += took;
-  if (took > 2 * answer + kMillisecond) ++arrivals_.late;
+  arrivals_.transfer_ns += transfer;
+  if (transfer > 2 * answer + kMillisecond) ++arrivals_.late;
   if (now_ns - arrivals_.since_ns < kSlowness || arrivals_.all < kMinArrivals) return;
-  const Arrivals judged = std::exchange(arrivals_, {now_ns, 0, 0, 0});
-  if (!driven_ || answer == 0 || 2 * judged.late <= judged.all) return;
-  problems_.raise(StickProblem::slow_output, judged.took_ns / judged.all / kMillisecond,
+  const Arrivals window = std::exchange(arrivals_, {now_ns, 0, 0, 0});
+  if (!driven_ || answer == 0 || 2 * window.late <= window.all) return;
+  problems_.raise(StickProblem::slow_output, window.transfer_ns / window.all / kMillisecond,
                   (answer + kMillisecond - 1) / kMillisecond);
   end_session();
 }
 
 void PidDriver::publish() noexcept {
-  state_.sent = stream_.force();
-  state_.spring = stream_.spring();
-  state_.actuators = stream_.drives();
+  state_.sent = scheduler_.force();
+  state_.spring = scheduler_.spring();
+  state_.actuators = scheduler_.drives();
   states_.write(state_);
 }
 
@@ -247,7 +248,7 @@ void PidDriver::post_command(const StickCommand& command) noexcept {
   if (is_new) wake();
 }
 
-// Does not block; if the counter is full, the reader wakes up anyway.
+// Writing to the eventfd does not block; if its counter is full, the reader wakes up anyway.
 void PidDriver::wake() const noexcept {
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = write(wake_fd_, &one, sizeof one);

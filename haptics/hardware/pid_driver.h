@@ -1,18 +1,18 @@
-// Driver for a force-feedback stick of the USB PID class in raw units: counts in, fractions of full force out. The
-// calibration adds metres and newtons (pid_lever.h).
+// Driver for a force-feedback stick of the USB PID class, in raw units: positions in counts, forces as fractions of
+// full force. The calibration adds metres and newtons (pid_lever.h).
 //
 // Two threads use it. The port's thread prepares the device, streams, and finishes it; the haptic thread (or a
 // calibration) reads the state and sends commands. They exchange only the newest complete values.
 //
 //   prepare    pid_setup.h: creates the effects with zero force; actuators stay off
-//   stream     report_scheduler.h: when enabled, actuators on, effects started and renewed long before they end, so that the
-//              force ends if the program dies; the value furthest from its target goes first, one report per tick
-//   release    before anything else: actuators off (or stop all, or zero force, whichever the device supports)
+//   stream     report_scheduler.h: when enabled, actuators on, effects started and renewed long before they end, so
+//              that the force ends if the program dies; the value with the largest error first, one report per tick
+//   release    sent before anything else: actuators off (or stop all, or zero force, whichever the device supports)
 //   finish     stop all, actuators off, free blocks, reset
 //
 // Each command carries the session of the state it was computed from; commands of an ended session are ignored. A
-// session ends when the device is prepared again, when a fault switches the motors off, and when the haptic side stops
-// sending commands while it drives the motors.
+// session ends when the device is prepared again, when a fault switches the motors off, or when the haptic side stops
+// sending commands while the motors are on.
 #pragma once
 
 #include <array>
@@ -36,19 +36,19 @@
 namespace gearshift::haptics {
 
 inline constexpr double kCommandSilence =
-    0.1;  // [s] without a command, while enabled, until the motors are switched off
+    0.1;  // [s] time without a command after which enabled motors are switched off
 
 // Newest state of the device.
 struct StickState {
   std::uint64_t session = 0;   // 0: not prepared yet
   std::uint64_t sequence = 0;  // number of accepted lever reports
-  std::int64_t time_ns = 0;    // [ns] CLOCK_MONOTONIC, of the newest lever report
+  std::int64_t time_ns = 0;    // [ns] CLOCK_MONOTONIC, arrival of the newest lever report
   LeverCounts counts;
   std::array<double, 2> sent{};       // [1] constant forces that the device renders now
   std::array<PidSpring, 2> spring{};  // springs that the device renders now
   std::int64_t sent_ns = 0;           // [ns] when the last output arrived
   std::uint64_t outputs = 0;          // number of outputs that have arrived
-  bool actuators = false;             // on, with an effect playing, as far as is known
+  bool actuators = false;             // the actuators are on and an effect is playing, as far as is known
 };
 
 class PidDriver final : public HidStream {
@@ -63,9 +63,9 @@ class PidDriver final : public HidStream {
   const PidLayout& layout() const noexcept { return pid_; }
 
   // Port's thread.
-  PidAbility prepare(HidPort& port);  // throws HidGone, or HidError if the device cannot make a constant force
+  PidAbility prepare(HidPort& port);  // throws HidDisconnected, or HidError if the device cannot make a constant force
   StreamConfig stream_config(std::int64_t tick_ns) const noexcept;
-  void finish(HidPort& port) noexcept;  // best effort: a report that fails is skipped
+  void finish(HidPort& port) noexcept;  // a report that fails is skipped
   void on_input(std::span<const std::uint8_t> report, std::int64_t time_ns) noexcept override;
   HidBytes next_output(std::int64_t now_ns) noexcept override;
   void on_sent(std::int64_t time_ns) noexcept override;
@@ -77,8 +77,8 @@ class PidDriver final : public HidStream {
   void command(const StickCommand& command) noexcept;
   void release() noexcept;  // switches off before anything else; a later command() may enable again
 
-  // Any thread.
-  // Answer time from the calibration [s]. The motors go off if the stick takes more than twice as long for its outputs.
+  // Sets the answer time from the calibration [s]; any thread. The motors go off if the stick takes more than twice
+  // that time for its outputs.
   void expect_answer(double seconds) noexcept {
     answer_ns_.store(std::llround(1e9 * seconds), std::memory_order_relaxed);
   }
@@ -95,7 +95,7 @@ class PidDriver final : public HidStream {
 
   struct Arrivals {  // arrived outputs
     std::int64_t since_ns = 0, all = 0, late = 0;
-    std::int64_t took_ns = 0;  // sum of their transfer times
+    std::int64_t transfer_ns = 0;  // sum of the transfer times
   };
 
   void post_command(const StickCommand& command) noexcept;
@@ -113,7 +113,7 @@ class PidDriver final : public HidStream {
   ReportDescriptor descriptor_;
   LeverReport lever_;
   PidLayout pid_;
-  std::array<std::size_t, 256> input_size_{};  // [bytes] per report ID, ID included; 0: no such report
+  std::array<std::size_t, 256> input_size_{};  // [bytes] size per report ID, ID included; 0: no such report
   int wake_fd_;
 
   // Shared by the threads.
@@ -125,14 +125,14 @@ class PidDriver final : public HidStream {
   StickProblems problems_;
 
   // The port's thread.
-  ReportScheduler stream_;
+  ReportScheduler scheduler_;
   InputWatch watch_;
   StickBlocks blocks_{};
   bool prepared_ = false;  // prepared and not finished
   StickState state_;
   std::uint64_t applied_releases_ = 0;
   std::int64_t command_ns_ = 0;  // when the last command was received
-  bool driven_ = false;          // that command is valid and enables the motors
+  bool driven_ = false;          // the last command is valid and enables the motors
   std::int64_t unarrived_ns_ = 0;
   bool unarrived_ = false;      // an output has been in transit since unarrived_ns_
   std::int64_t handed_ns_ = 0;  // when the last output was handed out

@@ -16,12 +16,13 @@ std::size_t index_of(const LeverReport& report, int usage) {
   for (std::size_t i = 0; i < report.axes.size(); ++i) {
     if (report.axes[i].usage.page == kGenericDesktop && report.axes[i].usage.id == usage) return i;
   }
-  throw std::invalid_argument("the calibration names an axis that this stick lacks: usage " + std::to_string(usage) +
-                              " of the Generic Desktop page");
+  throw std::invalid_argument("the calibration names an axis that this stick does not have (usage " +
+                              std::to_string(usage) + " of the Generic Desktop page)");
 }
 
 const DeviceCalibration& with_range(const DeviceCalibration& calibration) {
-  if (!calibration.has_range()) throw std::invalid_argument("the stick is not calibrated: its stops are not known");
+  if (!calibration.has_range())
+    throw std::invalid_argument("the stick is not calibrated, because its stops are not known");
   return calibration;
 }
 
@@ -35,15 +36,15 @@ LeverAxisMap::LeverAxisMap(const LeverAxisCalibration& axis, const BitField& fie
       above_(0.5 * axis.travel / (axis.high - axis.centre)) {}
 
 double LeverAxisMap::metres(double counts) const noexcept {
-  const double away = counts - centre_;
-  return away * (away * above_ > 0.0 ? above_ : below_);
+  const double offset = counts - centre_;
+  return offset * (offset * above_ > 0.0 ? above_ : below_);
 }
 
 double LeverAxisMap::counts(double metres) const noexcept {
   return centre_ + metres / (metres > 0.0 ? above_ : below_);
 }
 
-double LeverAxisMap::share(double metres) const noexcept {
+double LeverAxisMap::deflection(double metres) const noexcept {
   return std::clamp((counts(metres) - middle_) / half_range_, -1.0, 1.0);
 }
 
@@ -96,13 +97,13 @@ LeverReading PidLever::read(std::int64_t) noexcept {
   const StickState state = driver_.state();
   halted_ = state.session != session_;
   session_ = state.session;
-  const auto place = [&](const Axis& axis) {
+  const auto position_of = [&](const Axis& axis) {
     return axis.map.metres(static_cast<double>(state.counts.axis[axis.report]));
   };
   LeverReading reading;
   reading.sequence = state.sequence;
   reading.time_ns = state.time_ns;
-  if (state.sequence > 0) reading.position = {place(axis_[0]), place(axis_[1])};
+  if (state.sequence > 0) reading.position = {position_of(axis_[0]), position_of(axis_[1])};
   position_ = reading.position;
   reading.actuator_force = motor_force(state, reading.position);
   reading.pressed_down = has_button(state.counts, calibration_.press_button);
@@ -117,8 +118,8 @@ glm::dvec2 PidLever::motor_force(const StickState& state, glm::dvec2 position) c
   const glm::dvec2 depth = position - glm::clamp(position, walls_.low, walls_.high);
   for (int i = 0; i < 2; ++i) {
     const Axis& axis = axis_[static_cast<std::size_t>(i)];
-    const bool walled = axis.spring != 0.0 && state.spring[axis.motor].coefficient != 0.0;
-    const double wall = walled ? walls_.stiffness_fraction * spec_.device_wall_stiffness[i] * depth[i] : 0.0;
+    const bool has_wall = axis.spring != 0.0 && state.spring[axis.motor].coefficient != 0.0;
+    const double wall = has_wall ? walls_.stiffness_fraction * spec_.device_wall_stiffness[i] * depth[i] : 0.0;
     force[i] =
         std::clamp(axis.sign * state.sent[axis.motor] * axis.full_force - wall, -axis.full_force, axis.full_force);
   }
@@ -148,32 +149,33 @@ void PidLever::write(glm::dvec2 force) noexcept {
 }
 
 void PidLever::set_device_walls(const LeverWalls& walls) noexcept {
-  const bool is_sound = is_finite(walls.low) && is_finite(walls.high) && std::isfinite(walls.stiffness_fraction) &&
+  const bool is_valid = is_finite(walls.low) && is_finite(walls.high) && std::isfinite(walls.stiffness_fraction) &&
                         std::isfinite(walls.damping_fraction);
-  walls_ = is_sound ? walls : LeverWalls{};
-  const double share = std::clamp(walls_.stiffness_fraction, 0.0, 1.0);
+  walls_ = is_valid ? walls : LeverWalls{};
+  const double stiffness_fraction = std::clamp(walls_.stiffness_fraction, 0.0, 1.0);
   for (int i = 0; i < 2; ++i) {
     const Axis& axis = axis_[static_cast<std::size_t>(i)];
     if (axis.spring == 0.0) continue;
-    const double low = axis.map.share(walls_.low[i]), high = axis.map.share(walls_.high[i]);
+    const double low = axis.map.deflection(walls_.low[i]), high = axis.map.deflection(walls_.high[i]);
     PidSpring& spring = command_.spring[axis.motor];
-    spring = {0.5 * (low + high), 0.5 * std::abs(high - low), share * axis.spring, 1.0};
+    spring = {0.5 * (low + high), 0.5 * std::abs(high - low), stiffness_fraction * axis.spring, 1.0};
     if (spring.coefficient != 0.0) command_.enabled = true;
   }
   send();
 }
 
-// A device damper acts everywhere, so it is switched on only while the lever is inside a wall, per axis.
+// A device damper acts at every position, so each axis's damper is switched on only while the lever is inside a wall.
 void PidLever::damp_in_walls() noexcept {
   for (int i = 0; i < 2; ++i) {
     const Axis& axis = axis_[static_cast<std::size_t>(i)];
     const bool in_wall = position_[i] < walls_.low[i] || position_[i] > walls_.high[i];
-    const double share = in_wall ? std::clamp(walls_.damping_fraction, 0.0, 1.0) : 0.0;
-    if (axis.full_force > 0.0) command_.damper[axis.motor] = share * axis.damper;
+    const double damping_fraction = in_wall ? std::clamp(walls_.damping_fraction, 0.0, 1.0) : 0.0;
+    if (axis.full_force > 0.0) command_.damper[axis.motor] = damping_fraction * axis.damper;
   }
 }
 
-// In the cycle in which a new session is noticed, the loop's command was still meant for the old one.
+// In the cycle in which a new session is noticed, the loop's command was still meant for the old session, so it is
+// dropped.
 void PidLever::send() noexcept {
   if (halted_) command_ = {};
   driver_.command(command_);

@@ -15,33 +15,33 @@ namespace gearshift::haptics {
 class LeverAxisMap {
  public:
   LeverAxisMap() = default;
-  // logical range of the axis in the report [counts]
+  // field: position of the axis in the report, with its logical range [counts]
   LeverAxisMap(const LeverAxisCalibration& axis, const BitField& field) noexcept;
 
-  double metres(double counts) const noexcept;  // piecewise linear about the centre, extrapolated beyond the stops
+  double metres(double counts) const noexcept;  // linear on each side of the centre, also beyond the stops
   double counts(double metres) const noexcept;
-  double share(double metres) const noexcept;  // [1] -1 to 1 over the logical range, clamped
+  double deflection(double metres) const noexcept;  // [1] -1 to 1 from end to end of the logical range, clamped
 
  private:
   double centre_ = 0.0, middle_ = 0.0, half_range_ = 1.0;  // [counts]
-  double below_ = 1.0, above_ = 1.0;                       // [m] per count, on the low and on the high side
+  double below_ = 1.0, above_ = 1.0;                       // [m] distance per count, on the low and on the high side
 };
 
 class PidLever final : public HapticDevice {
  public:
-  // The driver must outlive it. period: of the loop [s]. Throws std::invalid_argument if the calibration has no range,
-  // the stick lacks an axis, or its delay is longer than the loop supports.
+  // The driver must outlive the lever. period: the loop's period [s]. Throws std::invalid_argument if the calibration
+  // has no range, the stick lacks an axis, or its delay is longer than the loop supports.
   PidLever(const DeviceCalibration& calibration, PidDriver& driver, double period);
   ~PidLever() override { driver_.release(); }
   PidLever(const PidLever&) = delete;
   PidLever& operator=(const PidLever&) = delete;
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
-  // Fresh with every report of the device. The actuator force is computed from the forces sent and from the device
-  // walls at this depth, because these sticks do not measure it. After a reconnect, or after the driver has switched
-  // the motors off, one reading has `stop` set, so that a person has to arm the lever again.
+  // The reading is fresh if a new report has arrived from the device. The actuator force is computed from the forces
+  // sent and from the device walls at this depth, because these sticks do not measure it. After a reconnect, or after
+  // the driver has switched the motors off, one reading has `stop` set, so that the user has to arm the lever again.
   LeverReading read(std::int64_t now_ns) noexcept override;
-  void switch_on() noexcept override { command_.enabled = drives(); }  // sent by the next write()
+  void switch_on() noexcept override { command_.enabled = drives(); }  // sent with the next write()
   void write(glm::dvec2 force) noexcept override;                      // no force until the polarity is measured
   void set_device_walls(const LeverWalls& walls) noexcept override;
   void release() noexcept override;
@@ -49,10 +49,10 @@ class PidLever final : public HapticDevice {
  private:
   struct Axis {
     LeverAxisMap map;
-    std::size_t report = 0;   // index among the report's axes
-    std::size_t motor = 0;    // index among the driver's motors: X, Y
+    std::size_t report = 0;   // index of the axis in the report
+    std::size_t motor = 0;    // index of the motor in the driver: X, Y
     double full_force = 0.0;  // [N] 0: no motor, or its force is not known
-    double sign = 0.0;        // of a constant force
+    double sign = 0.0;        // sign of a constant force
     double spring = 0.0;      // signed spring coefficient of the device walls; 0: no device walls
     double damper = 0.0;      // signed damper coefficient in the device walls; 0: none
   };
@@ -73,7 +73,7 @@ class PidLever final : public HapticDevice {
   StickCommand command_;
   LeverWalls walls_;
   glm::dvec2 position_{0.0};        // [m] newest
-  std::uint64_t session_;           // of the last state
+  std::uint64_t session_;           // session of the last state
   bool halted_ = false;             // the session changed in this cycle
   bool stop_was_released_ = false;  // a stop button held since the start is ignored until it was released once
 };

@@ -13,9 +13,10 @@ constexpr int kBlockLoadPolls = 60;                 // as in Linux
 constexpr std::chrono::milliseconds kPollPause{1};  // between two polls
 
 constexpr const char* kEndless =
-    "its effects do not end by themselves: if this program dies, the last force stays until you unplug the stick";
-constexpr const char* kNoReset = "it cannot be reset: another program's effects may continue until they end";
-constexpr const char* kNoSwitch = "its motors cannot be switched off: they are quiet only while no force is commanded";
+    "the stick's effects do not end by themselves; if this program crashes, unplug the stick to stop the last force";
+constexpr const char* kNoReset = "the stick cannot be reset, so effects of another program may continue until they end";
+constexpr const char* kNoSwitch =
+    "the stick's motors cannot be switched off; they are quiet only while no force is commanded";
 
 PidEffect kind_of(StickEffect effect) noexcept {
   if (effect == StickEffect::spring) return PidEffect::spring;
@@ -33,7 +34,7 @@ class StickSetup {
 
   PreparedStick run() {
     read_pool();
-    clear();
+    reset_device();
     make(StickEffect::constant_x);
     make(StickEffect::constant_y);
     if (has_conditions(PidEffect::spring)) result_.ability.spring = try_to_make(StickEffect::spring);
@@ -55,19 +56,19 @@ class StickSetup {
     return pid_.device_control.control.supports(static_cast<std::size_t>(control));
   }
 
-  // The pool report is optional and its answer not needed: a full memory shows when effects are created.
+  // The pool report is optional and its answer is not used: if the device's memory is full, creating an effect fails.
   void read_pool() {
     if (!pid_.pool.exists()) return;
     try {
       (void)port_.get_feature(pid_.pool.id, pid_.pool.size);
-    } catch (const HidGone&) {
+    } catch (const HidDisconnected&) {
       throw;
     } catch (const HidError&) {
-      note("it does not report how many effects it can hold");
+      note("the stick does not report how many effects it can store");
     }
   }
 
-  void clear() {
+  void reset_device() {
     if (!supports(PidControl::reset)) note(kNoReset);
     if (!supports(PidControl::enable_actuators) || !supports(PidControl::disable_actuators)) note(kNoSwitch);
     send(PidControl::stop_all);
@@ -78,7 +79,7 @@ class StickSetup {
 
   bool has_conditions(PidEffect effect) {
     if (pid_.has_effect(effect) && pid_.set_condition.exists()) return true;
-    note(std::string("it has no ") + pid_effect_name(effect));
+    note(std::string("the stick has no ") + to_string(effect) + " effect");
     return false;
   }
 
@@ -86,38 +87,39 @@ class StickSetup {
     try {
       make(effect);
       return true;
-    } catch (const HidGone&) {
+    } catch (const HidDisconnected&) {
       throw;
     } catch (const HidError& error) {
-      note(std::string("it is used without a ") + pid_effect_name(kind_of(effect)) + ": " + error.what());
+      note(std::string("the stick is used without a ") + to_string(kind_of(effect)) + "; " + error.what());
       return false;
     }
   }
 
   void make(StickEffect effect) {
-    const auto which = static_cast<std::size_t>(effect);
+    const auto index = static_cast<std::size_t>(effect);
     const int block = create(kind_of(effect));
     if (std::find(result_.blocks.begin(), result_.blocks.end(), block) != result_.blocks.end())
-      throw HidError("the stick returned block " + std::to_string(block) + " twice");
+      throw HidError("the stick assigned effect block " + std::to_string(block) + " twice; this stick cannot be used");
     set(effect, block);
     zero(effect, block);
-    result_.blocks[which] = block;
+    result_.blocks[index] = block;
     ++result_.ability.blocks;
   }
 
-  // A device without a Create report has its effects built in, as blocks 1, 2, ...
+  // On a device without a Create report, the effects exist from the start, as blocks 1, 2, ...
   int create(PidEffect effect) {
     if (!pid_.create.exists()) return ++implicit_blocks_;
-    const std::string refuses = std::string("the stick refuses a ") + pid_effect_name(effect) + ": ";
+    const std::string refuses = std::string("the stick refuses a ") + to_string(effect) + ", because ";
     const HidBytes report = encode_create(pid_, effect);
     if (report.size == 0) throw HidError(refuses + "it does not support this effect");
     port_.set_feature(report);
     if (!pid_.block_load.exists()) return ++implicit_blocks_;
     const BlockLoad load = poll_block_load();
-    if (load.status == BlockLoad::Status::full) throw HidError(refuses + "its memory for effects is full");
+    if (load.status == BlockLoad::Status::full)
+      throw HidError(refuses + "its memory for effects is full; unplug it and plug it in again");
     if (load.status == BlockLoad::Status::error) throw HidError(refuses + "it reports an error");
-    if (load.status == BlockLoad::Status::pending) throw HidError(refuses + "it does not confirm that it is loaded");
-    if (load.block == kNoBlock) throw HidError(refuses + "it returns no block");
+    if (load.status == BlockLoad::Status::pending) throw HidError(refuses + "it does not confirm the effect");
+    if (load.block == kNoBlock) throw HidError(refuses + "it assigns no effect block");
     return load.block;
   }
 
@@ -135,12 +137,12 @@ class StickSetup {
     return decode_block_load(pid_, report.view()).value_or(BlockLoad{});
   }
 
-  // Sets a finite duration. If the device refuses that for the first effect, all effects are endless.
+  // Sets an effect with a finite duration. If the device refuses that for the first effect, all effects are endless.
   void set(StickEffect effect, int block) {
     PidAbility& ability = result_.ability;
     if (accepts(effect, block, ability.finite ? kEffectDuration : kForever)) return;
     if (ability.blocks > 0 || !accepts(effect, block, kForever))
-      throw HidError(std::string("the stick refuses a ") + pid_effect_name(kind_of(effect)) + " with any parameters");
+      throw HidError(std::string("the stick refuses a ") + to_string(kind_of(effect)) + " with any parameters");
     ability.finite = false;
     note(kEndless);
   }
@@ -148,10 +150,11 @@ class StickSetup {
   bool accepts(StickEffect effect, int block, double duration) {
     const HidBytes report = encode_set_effect(pid_, {block, kind_of(effect), duration, 1.0, axis_of(effect)});
     if (report.size == 0)
-      throw HidError("the stick returned block " + std::to_string(block) + ", which its reports cannot address");
+      throw HidError("the stick assigned effect block " + std::to_string(block) +
+                     ", a number that its own reports cannot hold; this stick cannot be used");
     try {
       port_.send(report);
-    } catch (const HidGone&) {
+    } catch (const HidDisconnected&) {
       throw;
     } catch (const HidError&) {
       return false;
@@ -170,7 +173,7 @@ class StickSetup {
   HidPort& port_;
   const PidLayout& pid_;
   PreparedStick result_;
-  int implicit_blocks_ = 0;  // blocks numbered by us, on a device without Create or Block Load
+  int implicit_blocks_ = 0;  // blocks numbered by this program, for a device without Create or Block Load
 };
 
 }  // namespace
@@ -179,7 +182,7 @@ PreparedStick prepare_stick(HidPort& port, const PidLayout& pid) {
   StickSetup setup(port, pid);
   try {
     return setup.run();
-  } catch (const HidGone&) {
+  } catch (const HidDisconnected&) {
     throw;
   } catch (const HidError&) {
     silence_stick(port, pid, setup.blocks());
@@ -188,13 +191,13 @@ PreparedStick prepare_stick(HidPort& port, const PidLayout& pid) {
 }
 
 void silence_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept {
-  bool gone = false;
+  bool disconnected = false;
   const auto send = [&](const HidBytes& report) {
-    if (gone || report.size == 0) return;
+    if (disconnected || report.size == 0) return;
     try {
       port.send(report);
-    } catch (const HidGone&) {
-      gone = true;
+    } catch (const HidDisconnected&) {
+      disconnected = true;
     } catch (...) {
       return;  // the next report may still succeed
     }

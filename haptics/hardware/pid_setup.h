@@ -1,4 +1,4 @@
-// Reports sent to a stick before and after streaming.
+// The reports that are sent to a stick before and after streaming.
 //
 //   prepare_stick  pool -> stop all -> reset -> actuators off -> gain 0 -> each effect: create, block load, set,
 //                  values zero -> actuators off -> gain full
@@ -22,8 +22,8 @@ namespace gearshift::haptics {
 // Capabilities of a prepared device.
 struct PidAbility {
   bool spring = false, damper = false;
-  bool finite = true;  // effects end by themselves; false: the device refuses a duration, and a note says so
-  int blocks = 0;      // effect blocks allocated
+  bool finite = true;              // effects end by themselves; false: the device refuses a duration (see `notes`)
+  int blocks = 0;                  // effect blocks allocated
   std::vector<std::string> notes;  // missing capabilities, one sentence each
 };
 
@@ -32,7 +32,7 @@ struct PreparedStick {
   PidAbility ability;
 };
 
-// Throws HidGone, or HidError if the device cannot make a constant force; the device is then silenced.
+// Throws HidDisconnected, or HidError if the device cannot make a constant force; the device is then silenced.
 PreparedStick prepare_stick(HidPort& port, const PidLayout& pid);
 
 // Best effort: a report that fails is skipped.

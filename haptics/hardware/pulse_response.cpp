@@ -19,7 +19,7 @@ using glm::dvec3;  // damping, stiffness, delay
 
 constexpr std::size_t kMinSamples = 20;
 constexpr int kMaxSteps = 60;
-// Starting points: the method finds the nearest minimum, not the lowest one.
+// Several starting points, because the method finds the nearest minimum, not the lowest.
 constexpr std::array kFirstDampings{3.0, 30.0, 150.0};                             // [1/s]
 constexpr std::array kFirstStiffnesses{20.0, 200.0, 1000.0, 4000.0};               // [1/s^2]
 constexpr std::array kFirstDelays{0.0, 0.003, 0.007, 0.012, 0.020, 0.035, 0.060};  // [s]
@@ -46,37 +46,37 @@ class PulseProblem {
   }
 
   std::size_t size() const noexcept { return measured_.size(); }
-  bool moved() const noexcept { return power_ > 0.0; }
+  bool has_motion() const noexcept { return power_ > 0.0; }
 
   struct Trial {
     dvec3 model{0.0};
     double gain = 0.0, error = 0.0;  // error: sum of squares
-    std::vector<double> left;        // residuals: measured minus modelled
+    std::vector<double> residuals;   // residuals: measured minus modelled
   };
 
-  Trial at(const dvec3& model) const {
+  Trial try_model(const dvec3& model) const {
     Trial trial;
     trial.model = model;
-    trial.left = responses(model);
+    trial.residuals = responses(model);
     double product = 0.0, square = 0.0;
     for (std::size_t i = 0; i < measured_.size(); ++i) {
-      product += trial.left[i] * measured_[i];
-      square += trial.left[i] * trial.left[i];
+      product += trial.residuals[i] * measured_[i];
+      square += trial.residuals[i] * trial.residuals[i];
     }
     trial.gain = square > 0.0 ? product / square : 0.0;
     for (std::size_t i = 0; i < measured_.size(); ++i) {
-      trial.left[i] = measured_[i] - trial.gain * trial.left[i];
-      trial.error += trial.left[i] * trial.left[i];
+      trial.residuals[i] = measured_[i] - trial.gain * trial.residuals[i];
+      trial.error += trial.residuals[i] * trial.residuals[i];
     }
     return trial;
   }
 
   // Levenberg-Marquardt from `from`. A large lambda means a short step along the gradient.
   Trial descend(const dvec3& from) const {
-    Trial best = at(from);
+    Trial best = try_model(from);
     double lambda = 1e-3;
     for (int step = 0; step < kMaxSteps && lambda < 1e9; ++step) {
-      const Trial trial = at(glm::clamp(best.model + move(best, lambda), kMinModel, kMaxModel));
+      const Trial trial = try_model(glm::clamp(best.model + move(best, lambda), kMinModel, kMaxModel));
       const bool is_better = trial.error < best.error;
       const bool is_settled = is_better && best.error - trial.error < 1e-12 * best.error;
       lambda *= is_better ? 0.2 : 5.0;
@@ -94,7 +94,7 @@ class PulseProblem {
         [&](const Pulse& pulse, const PulseSample& sample) { return pulse_response(model, pulse, sample.time); });
   }
 
-  // Values minus their mean over each pulse, because the position before a pulse is known only to a count.
+  // Values minus their mean in each pulse, because the position before a pulse is known only to one count.
   std::vector<double> centred(const auto& value_of) const {
     std::vector<double> values;
     for (const Pulse& pulse : pulses_) {
@@ -114,15 +114,15 @@ class PulseProblem {
     for (int i = 0; i < 3; ++i) {
       dvec3 model = trial.model;
       model[i] += kNudge[i];
-      slope[static_cast<std::size_t>(i)] = at(model).left;
+      slope[static_cast<std::size_t>(i)] = try_model(model).residuals;
     }
     glm::dmat3 normal(0.0);
     dvec3 gradient(0.0);
     for (std::size_t n = 0; n < measured_.size(); ++n) {
       dvec3 row;
-      for (int i = 0; i < 3; ++i) row[i] = (slope[static_cast<std::size_t>(i)][n] - trial.left[n]) / kNudge[i];
+      for (int i = 0; i < 3; ++i) row[i] = (slope[static_cast<std::size_t>(i)][n] - trial.residuals[n]) / kNudge[i];
       normal += glm::outerProduct(row, row);
-      gradient += row * trial.left[n];
+      gradient += row * trial.residuals[n];
     }
     for (int i = 0; i < 3; ++i) normal[i][i] = normal[i][i] * (1.0 + lambda) + 1e-300;
     return -glm::inverse(normal) * gradient;
@@ -135,12 +135,12 @@ class PulseProblem {
 };
 
 // Searches for the lowest minimum, using fewer samples.
-dvec3 find_valley(std::span<const Pulse> pulses) {
+dvec3 find_start(std::span<const Pulse> pulses) {
   const PulseProblem problem(pulses, kSampleStride);
   std::vector<PulseProblem::Trial> trials;
   for (const double damping : kFirstDampings)
     for (const double stiffness : kFirstStiffnesses)
-      for (const double delay : kFirstDelays) trials.push_back(problem.at({damping, stiffness, delay}));
+      for (const double delay : kFirstDelays) trials.push_back(problem.try_model({damping, stiffness, delay}));
   const auto better = [](const PulseProblem::Trial& a, const PulseProblem::Trial& b) { return a.error < b.error; };
   std::partial_sort(trials.begin(), trials.begin() + kDescents, trials.end(), better);
   PulseProblem::Trial best = trials.front();
@@ -153,8 +153,8 @@ dvec3 find_valley(std::span<const Pulse> pulses) {
 PulseFit fit_pulses(std::span<const Pulse> pulses) {
   const PulseProblem problem(pulses, 1);
   if (problem.size() < kMinSamples) throw std::invalid_argument("too few readings to identify the lever's motion");
-  if (!problem.moved()) throw std::invalid_argument("the lever did not move");
-  const PulseProblem::Trial best = problem.descend(find_valley(pulses));
+  if (!problem.has_motion()) throw std::invalid_argument("the lever did not move");
+  const PulseProblem::Trial best = problem.descend(find_start(pulses));
   return {best.gain, best.model.x, best.model.y, best.model.z, problem.residual(best)};
 }
 

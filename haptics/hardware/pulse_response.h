@@ -18,13 +18,13 @@
 namespace gearshift::haptics {
 
 struct PulseSample {
-  double time = 0.0;      // [s] since the pulse was sent
-  double position = 0.0;  // relative to rest, in any unit of length
+  double time = 0.0;      // [s] time since the pulse was sent
+  double position = 0.0;  // position relative to the rest position, in any unit of length
 };
 
 struct Pulse {
   double magnitude = 0.0;  // [1] -1 to 1, of the full force
-  double length = 0.0;     // [s] between sending the pulse and sending its end
+  double length = 0.0;     // [s] from sending the pulse to sending its end
   std::vector<PulseSample> samples;
 };
 

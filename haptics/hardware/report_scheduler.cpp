@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kDuration = static_cast<std::int64_t>(1e9 * kEffectDuration);  // [ns]
 constexpr std::int64_t kRenew = static_cast<std::int64_t>(1e9 * kRenewAfter);         // [ns]
-constexpr std::int64_t kReportLag = 50'000'000;  // [ns] after a command, state reports may still be older than it
+constexpr std::int64_t kReportLag = 50'000'000;  // [ns] state reports may be older than a command by this time
 constexpr int kOnce = 1;                         // loop count
 
 double difference(const PidCondition& a, const PidCondition& b) noexcept {
@@ -59,7 +59,7 @@ std::array<PidSpring, 2> ReportScheduler::spring() const noexcept {
   return spring;
 }
 
-// Constant forces always play, so that the first newton needs only one report.
+// Whether the effect should play. Constant forces always play, so that the first force needs only one report.
 bool ReportScheduler::is_wanted(std::size_t effect) const noexcept {
   if (effect_[effect].block == kNoBlock) return false;
   switch (static_cast<StickEffect>(effect)) {
@@ -166,14 +166,14 @@ void ReportScheduler::send_worst(std::int64_t now_ns) noexcept {
   if (index < kValues) send_value(index, target_value(index));
 }
 
-// Compares the encoded bytes: a difference below the device's resolution does not count.
+// Whether the device already has this setting, by the encoded bytes: a difference below its resolution does not count.
 bool ReportScheduler::is_current(std::size_t value, const PidCondition& setting) noexcept {
   if (encode(value, setting) != value_[value].sent) return false;
   value_[value].current = setting;
   return true;
 }
 
-// False if the device already has this value or does not support it.
+// Sends the value. Returns false if the device already has this value or does not support it.
 bool ReportScheduler::send_value(std::size_t value, const PidCondition& setting) noexcept {
   const HidBytes report = encode(value, setting);
   if (report.size == 0 || is_current(value, setting)) return false;
@@ -230,7 +230,7 @@ void ReportScheduler::started(Effect& effect, std::size_t index, std::int64_t no
   effect.renew_ns = now_ns + kRenew - stagger;
 }
 
-// A state report may be older than the last command, so disagreement within kReportLag is ignored.
+// A state report may be older than the last command, so a contradiction is ignored within kReportLag of a command.
 StickFault ReportScheduler::on_report(const PidStatus& status, std::int64_t now_ns) noexcept {
   const PidState& layout = pid_.state;
   if (!command_.enabled) return StickFault::none;

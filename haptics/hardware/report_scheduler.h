@@ -18,7 +18,7 @@
 namespace gearshift::haptics {
 
 inline constexpr double kEffectDuration = 0.3;  // [s] an effect ends after this time unless it is renewed
-inline constexpr double kRenewAfter = 0.1;      // [s] after an effect's start
+inline constexpr double kRenewAfter = 0.1;      // [s] time after an effect's start at which it is started again
 
 // The effects created on a stick.
 enum class StickEffect : std::uint8_t { constant_x, constant_y, spring, damper };
@@ -30,14 +30,14 @@ enum class StickFault : std::uint8_t { none, switched_off, effect_stopped, no_po
 
 class ReportScheduler {
  public:
-  explicit ReportScheduler(const PidLayout& pid) noexcept : pid_(pid) {}  // pid must outlive it
+  explicit ReportScheduler(const PidLayout& pid) noexcept : pid_(pid) {}  // pid must outlive the scheduler
 
   // Starts from the state in which prepare_stick() leaves the device: actuators off, nothing playing, every value zero.
   // finite: effects end by themselves after kEffectDuration.
   void begin(const StickBlocks& blocks, bool finite) noexcept;
 
   void set_command(const StickCommand& command) noexcept { command_ = command; }
-  void release() noexcept { released_ = true; }  // switches off first, whatever the command says
+  void release() noexcept { released_ = true; }  // switches the motors off first, whatever the command says
 
   // The next report; size 0: none. Call it after the last one has arrived; if called earlier, the last one counts as
   // lost and is scheduled again.
@@ -45,13 +45,14 @@ class ReportScheduler {
   void arrived(std::int64_t now_ns) noexcept;
   StickFault on_report(const PidStatus& status, std::int64_t now_ns) noexcept;
 
-  // What the device renders now.
+  // Forces and springs that the device renders now.
   std::array<double, 2> force() const noexcept;      // [1] constant forces
   std::array<PidSpring, 2> spring() const noexcept;  // coefficient 0: none
-  bool drives() const noexcept;                      // actuators on and an effect playing, as far as is known
+  bool drives() const noexcept;                      // actuators on, an effect playing, as far as is known
 
  private:
-  // Values: constant X, Y, spring X, Y, damper X, Y. The magnitude of a constant force is stored as its coefficient.
+  // The values sent to the device: constant X, Y, spring X, Y, damper X, Y. The magnitude of a constant force is stored
+  // as its coefficient.
   static constexpr std::size_t kValues = 6;
   static constexpr std::size_t effect_of(std::size_t value) noexcept { return value < 2 ? value : value / 2 + 1; }
 
@@ -59,7 +60,7 @@ class ReportScheduler {
     int block = kNoBlock;
     bool playing = false;
     std::int64_t started_ns = 0;
-    std::int64_t renew_ns = 0;  // staggered, so that the effects are not all renewed at once
+    std::int64_t renew_ns = 0;  // staggered, so that effects are not all renewed at once
   };
   struct Value {
     PidCondition current;

@@ -10,12 +10,12 @@ struct PidSpring {  // fractions as in PidCondition
   bool operator==(const PidSpring&) const = default;
 };
 
-// In effect until the next command. Arrays are in the device's axis order: X, Y.
+// A command is in effect until the next command. Arrays are in the device's axis order: X, Y.
 struct StickCommand {
   bool enabled = false;               // false: actuators off
-  std::array<double, 2> constant{};   // [1] -1 to 1 of the full force
+  std::array<double, 2> constant{};   // [1] -1 to 1, fraction of the full force
   std::array<PidSpring, 2> spring{};  // coefficient 0: none
-  std::array<double, 2> damper{};     // [1] -1 to 1 of the maximum coefficient; 0: none
+  std::array<double, 2> damper{};     // [1] -1 to 1, fraction of the maximum coefficient; 0: none
   bool operator==(const StickCommand&) const = default;
 };
 

@@ -19,10 +19,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kFirstWait{12}, kMaxWait{1000};  // looking for an absent device takes 12 ms
+constexpr milliseconds kFirstWait{12}, kMaxWait{1000};  // the first wait is the time to look for an absent device
 constexpr milliseconds kStableTime{1000};               // after streaming this long, earlier problems are forgotten
-constexpr std::size_t kMaxMessages = 64;                // queued; the oldest are dropped
-constexpr int kPriority = 70;                           // below the haptic loop's, which must never be delayed
+constexpr std::size_t kMaxMessages = 64;                // longest queue; the oldest messages are dropped
+constexpr int kPriority = 70;                           // below the haptic loop's priority: never delay the loop
 
 }  // namespace
 
@@ -49,10 +49,10 @@ struct StickConnection::State {
   std::deque<std::string> messages;
 
   // Used only by the thread.
-  std::vector<std::string> reported;               // since the stick last worked
-  std::string name;                                // of the device, once it was open
-  bool was_connected = false;                      // was prepared at least once
-  bool has_failed = false;                         // failed while streaming; further failures are not reported
+  std::vector<std::string> reported;               // messages reported since the stick last worked
+  std::string name;                                // name of the device, once it has been opened
+  bool was_connected = false;                      // the device was prepared at least once
+  bool has_failed = false;                         // failed while streaming: further failures are not reported
   std::optional<Clock::time_point> streams_since;  // of this connection
   milliseconds pause = kFirstWait;
   std::thread thread;
@@ -63,13 +63,13 @@ void StickConnection::State::run() noexcept {
   while (!stopping) {
     try {
       open_and_stream();
-    } catch (const HidGone& error) {
-      if (!was_connected) report_once(error.what());  // otherwise "unplugged" was already reported
+    } catch (const HidDisconnected& error) {
+      if (!was_connected) report_once(error.what());  // if not streaming, "unplugged" was already reported
       has_failed = false;
     } catch (const std::exception& error) {
       report_once(error.what());
     } catch (...) {
-      report_once("the stick cannot be used: unknown error");
+      report_once("the stick cannot be used because of an unknown error");
     }
     connected = false;
     wait();
@@ -78,15 +78,15 @@ void StickConnection::State::run() noexcept {
 
 void StickConnection::State::open_and_stream() {
   const std::unique_ptr<HidPort> port = open();
-  const std::string own = port->identity().name;
-  name = own.empty() ? "the stick" : own;
+  const std::string device_name = port->identity().name;
+  name = device_name.empty() ? "the stick" : device_name;
   streams_since.reset();
   try {
     connect(*port);
-  } catch (const HidGone&) {
-    on_unplugged(name + " was unplugged: its motors are off");
+  } catch (const HidDisconnected&) {
+    on_unplugged(name + " was unplugged, so its motors are off");
   } catch (const HidError& error) {
-    connected = false;  // at once: switching the motors off below may take a while
+    connected = false;  // set at once, because switching the motors off below may take a while
     if (!has_failed) report_once(error.what());
     has_failed = has_failed || streams_since;
   }
@@ -102,7 +102,7 @@ void StickConnection::State::connect(HidPort& port) {
     const std::lock_guard lock(mutex);
     ability = std::move(found);
   }
-  if (was_connected) report_once(name + " is connected again: its motors are off");
+  if (was_connected) report_once(name + " is connected again; its motors are still off");
   was_connected = true;
   connected = true;
   has_failed = false;

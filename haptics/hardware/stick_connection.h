@@ -25,8 +25,8 @@ class StickConnection {
   StickConnection& operator=(const StickConnection&) = delete;
 
   bool connected() const noexcept;            // prepared and streaming
-  std::optional<PidAbility> ability() const;  // of the device when it was last prepared
-  // Next message, oldest first: unplugged, reconnected, or a problem, one sentence each. A problem is reported once
+  std::optional<PidAbility> ability() const;  // of the device, as last prepared
+  // The next message, oldest first: unplugged, reconnected, or a problem, one sentence each. A problem is reported once
   // until the stick has worked for a second; after a failure while streaming, further failures are not reported.
   std::optional<std::string> take_message();
 

@@ -13,35 +13,36 @@ constexpr std::uint64_t reported_bit_of(std::size_t kind) noexcept {
 std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
   switch (problem) {
     case StickProblem::wrong_length:
-      return "the stick sends a report of " + std::to_string(a) + " bytes, but its descriptor says " +
-             std::to_string(b) + ": it is ignored";
+      return "the stick sends a report of " + std::to_string(a) + " bytes, but its descriptor declares " +
+             std::to_string(b) + "; the report is ignored";
     case StickProblem::unknown_report:
-      return "the stick sends report " + std::to_string(a) + ", which its descriptor does not define: it is ignored";
+      return "the stick sends report " + std::to_string(a) +
+             ", which its descriptor does not define; the report is ignored";
     case StickProblem::frozen:
       return "the stick's position has not changed for " + std::to_string(a) +
-             " s while its force changed: its sensor counts as dead until it moves";
+             " s while the force changed; its readings are ignored until the position changes";
     case StickProblem::faded_out:
       return "the stick's position has not changed for " + std::to_string(a) +
-             " s under force: the motors are off until you arm them again";
+             " s under force; the motors are off until you turn them on again";
     case StickProblem::position_jump:
-      return "the stick's position jumps by " + std::to_string(a) + " % of its range between two reports";
+      return "the stick's position jumped by " + std::to_string(a) + " % of its range between two reports";
     case StickProblem::switched_off:
-      return "the stick switched its motors off by itself: they stay off until you arm them again";
+      return "the stick switched its motors off by itself; they stay off until you turn them on again";
     case StickProblem::effect_stopped:
-      return "the stick stopped an effect by itself: it was started again";
+      return "the stick stopped an effect by itself; the effect was started again";
     case StickProblem::no_power:
-      return "the stick reports that its motors have no power";
+      return "the stick reports that its motors have no power; check its power supply";
     case StickProblem::safety_switch:
-      return "the stick reports that its safety switch is open: it makes no force";
+      return "the stick reports that its safety switch is open, so it produces no force";
     case StickProblem::output_stuck:
-      return "the stick accepts no outputs: its force ends by itself";
+      return "the stick accepts no output; its last force ends by itself";
     case StickProblem::slow_output:
-      return "the stick takes " + std::to_string(a) + " ms per output, but answered after " + std::to_string(b) +
-             " ms when it was calibrated: the motors are off until you arm them again";
+      return "the stick takes " + std::to_string(a) + " ms per output, but responded after " + std::to_string(b) +
+             " ms when it was calibrated; the motors are off until you turn them on again";
     case StickProblem::no_commands:
       break;
   }
-  return "no force was commanded for " + std::to_string(a) + " ms: the motors are off until you arm them again";
+  return "no force was commanded for " + std::to_string(a) + " ms; the motors are off until you turn them on again";
 }
 
 }  // namespace

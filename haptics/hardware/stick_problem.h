@@ -1,4 +1,4 @@
-// Problems of a streaming stick: raised on one thread, reported on another, each kind once.
+// Problems of a streaming stick: raised on one thread, reported on a different thread, each kind once.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ enum class StickProblem : std::uint8_t {
   safety_switch,   // the safety switch is open
   output_stuck,    // an output report does not complete
   slow_output,     // a: milliseconds per output, b: answer time from the calibration [ms]
-  no_commands      // a: milliseconds; not a fault of the stick: the haptic side is late or dead
+  no_commands      // a: milliseconds; the haptic side is late or dead, not the stick's fault
 };
 inline constexpr std::size_t kStickProblems = 12;
 
@@ -40,7 +40,7 @@ class StickProblems {
     std::atomic<std::int64_t> a{0}, b{0};
   };
   std::atomic<std::uint64_t> raised_and_reported_{
-      0};  // one bit per kind: raised in the low half, reported in the high half
+      0};  // one bit per kind in each half: raised in the low half, reported in the high half
   std::array<Detail, kStickProblems> detail_;
 };
 

@@ -6,13 +6,13 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr std::int64_t kMaxReadingGap = 500'000'000;      // [ns] without a reading
+constexpr std::int64_t kMaxReadingGap = 500'000'000;      // [ns] longest time without a reading
 constexpr std::int64_t kStillTime = 300'000'000;          // [ns] without motion
-constexpr std::int64_t kMaxRestTime = 5'000'000'000;      // [ns] to come to rest
-constexpr std::int64_t kStrictStillTime = 3'000'000'000;  // [ns] afterwards the relaxed threshold applies
-constexpr double kStill = 0.0005, kRelaxedStill = 0.005;  // [1] of the range
+constexpr std::int64_t kMaxRestTime = 5'000'000'000;      // [ns] longest time to come to rest
+constexpr std::int64_t kStrictStillTime = 3'000'000'000;  // [ns] after this time kRelaxedStill applies
+constexpr double kStill = 0.0005, kRelaxedStill = 0.005;  // [1] fraction of the range
 constexpr double kMinStill = 2.0;                         // [counts]
-constexpr double kMaxRunaway = 0.35;                      // [1] of the range
+constexpr double kMaxRunaway = 0.35;                      // [1] fraction of the range
 
 }  // namespace
 
@@ -39,7 +39,7 @@ double StickRig::range(std::size_t axis) const noexcept {
   return static_cast<double>(field.max - field.min);
 }
 
-double StickRig::share(std::size_t axis) const noexcept {
+double StickRig::deflection(std::size_t axis) const noexcept {
   const BitField& field = driver_.lever_report().axes[axis].field;
   return (position(axis) - 0.5 * static_cast<double>(field.max + field.min)) / (0.5 * range(axis));
 }
@@ -47,15 +47,15 @@ double StickRig::share(std::size_t axis) const noexcept {
 double StickRig::rest(std::size_t axis, const StickCommand& command) {
   const std::int64_t begin = step(command).now_ns;
   std::int64_t still_since = begin;
-  double least = position(axis), most = least, sum = 0.0;
+  double lowest = position(axis), highest = lowest, sum = 0.0;
   for (long count = 0; latest_.now_ns - begin < kMaxRestTime; step(command)) {
     const double here = position(axis);
-    const bool patient = latest_.now_ns - begin < kStrictStillTime;
-    least = std::min(least, here);
-    most = std::max(most, here);
-    if (most - least > std::max(kMinStill, (patient ? kStill : kRelaxedStill) * range(axis))) {
+    const bool is_strict = latest_.now_ns - begin < kStrictStillTime;
+    lowest = std::min(lowest, here);
+    highest = std::max(highest, here);
+    if (highest - lowest > std::max(kMinStill, (is_strict ? kStill : kRelaxedStill) * range(axis))) {
       still_since = latest_.now_ns;
-      least = most = here;
+      lowest = highest = here;
       sum = 0.0;
       count = 0;
     }
@@ -63,12 +63,12 @@ double StickRig::rest(std::size_t axis, const StickCommand& command) {
     ++count;
     if (latest_.now_ns - still_since >= kStillTime) return sum / static_cast<double>(count);
   }
-  throw CalibrationRefused("the lever does not come to rest: take your hands off it");
+  throw CalibrationRefused("the lever does not come to rest. Take your hands off the lever");
 }
 
 void StickRig::watch_runaway(std::size_t axis, double from) const {
   if (std::abs(position(axis) - from) > kMaxRunaway * range(axis))
-    throw CalibrationRefused("the lever ran away: its motors are off");
+    throw CalibrationRefused("the lever moved too far, so its motors were switched off");
 }
 
 }  // namespace gearshift::haptics

@@ -11,7 +11,7 @@
 
 namespace gearshift::haptics {
 
-// Says in one sentence why a measurement is not valid.
+// One sentence that says why a measurement is not valid.
 class CalibrationRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -20,7 +20,7 @@ class CalibrationRefused : public std::runtime_error {
 // Blocks until the next tick, about every millisecond, and returns the time on the driver's clock [ns].
 using CalibrationTick = std::function<std::int64_t()>;
 
-// Lives for one measurement and switches the motors off at its end.
+// One measurement; the destructor switches the motors off.
 class StickRig {
  public:
   StickRig(PidDriver& driver, const CalibrationTick& tick);
@@ -40,8 +40,8 @@ class StickRig {
   double position(std::size_t axis) const noexcept {  // [counts] newest
     return static_cast<double>(latest_.state.counts.axis[axis]);
   }
-  double range(std::size_t axis) const noexcept;  // [counts] width of the axis' logical range
-  double share(std::size_t axis) const noexcept;  // [1] -1 to 1 over the logical range, as in PidCondition
+  double range(std::size_t axis) const noexcept;       // [counts] width of the axis's logical range
+  double deflection(std::size_t axis) const noexcept;  // [1] -1 to 1, from end to end of the logical range
 
   // Repeats the command until the axis is still and returns its mean position [counts]. Throws CalibrationRefused if it
   // does not come to rest.

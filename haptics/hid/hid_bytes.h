@@ -10,7 +10,7 @@ namespace gearshift::haptics {
 
 // The first byte is always the report ID: 0 if the device uses no IDs (it is then not sent).
 struct HidBytes {
-  static constexpr std::size_t kMaxSize = 256;  // [bytes] far more than any report used here; longer ones are ignored
+  static constexpr std::size_t kMaxSize = 256;  // [bytes] longer reports are not used here and ignored
   std::array<std::uint8_t, kMaxSize> bytes{};
   std::size_t size = 0;  // [bytes] ID included; 0: no report
 

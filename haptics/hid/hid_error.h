@@ -12,7 +12,7 @@ class HidError : public std::runtime_error {
 };
 
 // The device is not connected, or was disconnected.
-class HidGone : public HidError {
+class HidDisconnected : public HidError {
  public:
   using HidError::HidError;
 };

@@ -34,12 +34,12 @@ class HidStream {
 };
 
 struct StreamConfig {
-  int wake_fd = -1;                  // an eventfd, written when next_output() has a new report; -1: none
-  std::int64_t tick_ns = 1'000'000;  // [ns] minimum interval between outputs, maximum between calls of next_output()
+  int wake_fd = -1;                  // eventfd that is written when next_output() has a new report; -1: none
+  std::int64_t tick_ns = 1'000'000;  // [ns] shortest interval between outputs, longest between calls of next_output()
   std::uint8_t lever_report = 0;     // ID of the input report with the lever's position
   std::int64_t silence_ns =
-      8'000'000;  // [ns] after this time without it, it is requested with GET_REPORT, because a stick
-                  // that reports only changes is silent while the lever stands still
+      8'000'000;  // [ns] after this time without a lever report, it is requested by GET_REPORT: a stick
+                  // that reports only changes is silent while the lever is still
 };
 
 class HidPort {
@@ -48,14 +48,14 @@ class HidPort {
   virtual const HidIdentity& identity() const noexcept = 0;
   virtual const std::vector<std::uint8_t>& report_descriptor() const noexcept = 0;
 
-  // Synchronous transfers over the control pipe; send() uses the interrupt OUT pipe if there is one. They block for at
-  // most 250 ms and throw HidGone or HidError with one sentence.
+  // Synchronous transfers on the control pipe; send() uses the interrupt OUT pipe if there is one. They block for at
+  // most 250 ms and throw HidDisconnected or HidError with one sentence.
   virtual HidBytes get_feature(std::uint8_t id,
                                std::size_t size) = 0;  // size includes the ID; the result may be shorter
   virtual void set_feature(const HidBytes& report) = 0;
   virtual void send(const HidBytes& report) = 0;
 
-  // Streams until should_end(). Throws HidGone if the device is disconnected, HidError if it no longer answers.
+  // Streams until should_end(). Throws HidDisconnected if the device is disconnected, HidError if it no longer answers.
   virtual void stream(const StreamConfig& config, HidStream& stream) = 0;
 };
 

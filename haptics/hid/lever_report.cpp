@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint16_t kSimulation = 0x02, kButton = 0x09;
 constexpr std::size_t kIdBits = 8;
 
-bool holds(std::span<const std::uint8_t> report, const BitField& field) noexcept {
+bool contains_field(std::span<const std::uint8_t> report, const BitField& field) noexcept {
   const auto offset = static_cast<std::size_t>(field.offset), bits = static_cast<std::size_t>(field.bits);
   return field.exists() && kIdBits + offset + bits <= 8 * report.size();
 }
@@ -44,10 +44,10 @@ struct Window {
 // inverted.
 void limit_range(BitField& field) noexcept {
   const bool is_signed = field.min < 0;
-  const std::int64_t least = is_signed ? -(std::int64_t{1} << (field.bits - 1)) : 0;
-  const std::int64_t most = least + (std::int64_t{1} << field.bits) - 1;
-  field.min = std::max(field.min, least);
-  field.max = std::min(field.max, most);
+  const std::int64_t min = is_signed ? -(std::int64_t{1} << (field.bits - 1)) : 0;
+  const std::int64_t max = min + (std::int64_t{1} << field.bits) - 1;
+  field.min = std::max(field.min, min);
+  field.max = std::min(field.max, max);
   if (field.min < field.max) return;
   field.min = 0;
   field.max = (std::int64_t{1} << field.bits) - 1;
@@ -56,9 +56,9 @@ void limit_range(BitField& field) noexcept {
 std::int64_t zero_of(const HidField& field, const BitField& range) noexcept {
   if (range.min < 0) return std::clamp(std::int64_t{0}, range.min, range.max);
   if (field.physical_min >= 0 || field.physical_max <= 0) return range.min;
-  const double share =
+  const double fraction =
       -static_cast<double>(field.physical_min) / static_cast<double>(field.physical_max - field.physical_min);
-  return range.min + std::llround(share * static_cast<double>(range.max - range.min));
+  return range.min + std::llround(fraction * static_cast<double>(range.max - range.min));
 }
 
 bool is_stick(const ReportDescriptor& descriptor, const HidField& field) {
@@ -73,7 +73,7 @@ bool is_axis(HidUsage usage, int bits) {
   return usage.page == kSimulation && usage.id >= 0xb0 && bits > 1;
 }
 
-// Number of elements with a usage of their own; the elements after the last usage are spare.
+// Number of elements that have a usage of their own; elements beyond the last usage are spare.
 int usage_count(const HidField& field) {
   return std::min(field.count, static_cast<int>(field.usages.size()));
 }
@@ -82,9 +82,9 @@ void add_axes(LeverReport& report, const HidField& field) {
   if (field.relative) return;
   for (int i = 0; i < usage_count(field); ++i) {
     const HidUsage usage = field.usage(i);
-    const auto has_it = [&](const HidAxis& axis) { return axis.usage == usage; };
+    const auto is_same_axis = [&](const HidAxis& axis) { return axis.usage == usage; };
     const BitField bits = bit_field(field, i);
-    if (!bits.exists() || !is_axis(usage, bits.bits) || std::ranges::any_of(report.axes, has_it)) continue;
+    if (!bits.exists() || !is_axis(usage, bits.bits) || std::ranges::any_of(report.axes, is_same_axis)) continue;
     report.axes.push_back({usage, bits});
   }
 }
@@ -128,7 +128,7 @@ LeverReport report_of(const ReportDescriptor& descriptor, std::uint8_t id) {
 }  // namespace
 
 std::int64_t read_bits(std::span<const std::uint8_t> report, const BitField& field) noexcept {
-  if (!holds(report, field)) return 0;
+  if (!contains_field(report, field)) return 0;
   const Window window(field);
   const auto value = static_cast<std::int64_t>(window.load(report) >> window.shift & window.mask);
   const std::int64_t sign = std::int64_t{1} << (field.bits - 1);
@@ -136,7 +136,7 @@ std::int64_t read_bits(std::span<const std::uint8_t> report, const BitField& fie
 }
 
 void write_bits(std::span<std::uint8_t> report, const BitField& field, std::int64_t value) noexcept {
-  if (!holds(report, field)) return;
+  if (!contains_field(report, field)) return;
   const Window window(field);
   const std::uint64_t bits = static_cast<std::uint64_t>(std::clamp(value, field.min, field.max)) & window.mask;
   const std::uint64_t others = window.load(report) & ~(window.mask << window.shift);
@@ -144,9 +144,9 @@ void write_bits(std::span<std::uint8_t> report, const BitField& field, std::int6
 }
 
 BitField bit_field(const HidField& field, int element) noexcept {
-  constexpr int most_bits = 32;
+  constexpr int kMaxBits = 32;
   BitField result;
-  if (field.bits > most_bits || element >= field.count) return result;
+  if (field.bits > kMaxBits || element >= field.count) return result;
   result.offset = field.offset + element * field.bits;
   result.bits = field.bits;
   result.min = field.logical_min;

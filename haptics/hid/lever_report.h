@@ -12,13 +12,13 @@
 
 namespace gearshift::haptics {
 
-// Position of a value in a report, and its range.
+// Position of a value in a report, and the value's range.
 struct BitField {
-  int offset = 0;                 // [bits] after the ID
+  int offset = 0;                 // [bits] position of the first bit after the report ID
   int bits = 0;                   // 0: the device has no such field; else 1 to 32
   std::int64_t min = 0, max = 0;  // logical range, limited to what `bits` can hold; signed if min < 0
   std::int64_t zero =
-      0;  // logical value that means zero: 0 if the logical range is signed; the value at physical 0 if only
+      0;  // logical value that represents zero: 0 for a signed logical range; the value at physical 0 if only
           // the physical range is signed; otherwise the minimum
   bool exists() const noexcept { return bits > 0; }
 };
@@ -44,7 +44,7 @@ struct LeverReport {
   std::uint8_t id = 0;
   std::size_t size = 0;           // [bytes] ID included
   std::vector<HidAxis> axes;      // in the order of the report, each usage once, at most kMaxAxes
-  std::vector<BitField> buttons;  // usage page 9, button 1 first, at most kMaxButtons; bits 0: it has no such button
+  std::vector<BitField> buttons;  // usage page 9, button 1 first, at most kMaxButtons; bits 0: no such button
 };
 
 // The first input report with X and Y inside a joystick, game pad or multi-axis controller collection; empty if there

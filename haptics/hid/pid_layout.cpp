@@ -24,15 +24,15 @@ constexpr std::array<std::uint16_t, 3> kStatusUsages{0x8c, 0x8d, 0x8e};
 constexpr std::uint16_t kBlock = 0x22;
 
 // An element of a field.
-struct Place {
+struct FieldElement {
   const HidField* field = nullptr;
   int element = 0;
 
   BitField bits() const noexcept { return field == nullptr ? BitField{} : bit_field(*field, element); }
 };
 
-// The fields of one report: those of that kind in a collection of that usage which share the first one's report ID.
-// Empty if the report is longer than HidBytes::kMaxSize.
+// The fields of one report: all fields of the given kind inside a collection of the given usage that have the same
+// report ID as the first such field. Empty if the report is longer than HidBytes::kMaxSize.
 class ReportView {
  public:
   ReportView(const ReportDescriptor& descriptor, ReportKind kind, HidUsage collection) : descriptor_(descriptor) {
@@ -52,7 +52,7 @@ class ReportView {
   PidReport report() const { return report_; }
 
   // The first element with that usage.
-  Place find(HidUsage usage) const {
+  FieldElement find(HidUsage usage) const {
     for (const HidField* field : fields_) {
       if (field->array && field->usages.size() != 1) continue;
       for (int i = 0; i < field->count && i < static_cast<int>(field->usages.size()); ++i) {
@@ -63,18 +63,18 @@ class ReportView {
   }
   BitField value(std::uint16_t id) const { return find(pid_usage(id)).bits(); }
 
-  // The view restricted to the inner collection of that usage.
+  // This view, restricted to the inner collection of that usage.
   ReportView within(HidUsage collection) const {
     ReportView result = *this;
     std::erase_if(result.fields_, [&](const HidField* field) { return !descriptor_.is_within(*field, collection); });
     return result;
   }
 
-  // One element for X and one for Y, found by the axis' usage or by its ordinal.
-  std::array<Place, 2> of_axes() const {
-    std::array<Place, 2> result;
+  // One element for X and one for Y, found by the axis's usage or by its ordinal.
+  std::array<FieldElement, 2> of_axes() const {
+    std::array<FieldElement, 2> result;
     for (std::uint16_t axis = 0; axis < 2; ++axis) {
-      Place& place = result[axis];
+      FieldElement& place = result[axis];
       place = find({kGenericDesktop, static_cast<std::uint16_t>(0x30 + axis)});
       if (place.field == nullptr) place = find({kOrdinal, static_cast<std::uint16_t>(1 + axis)});
     }
@@ -96,7 +96,8 @@ class ReportView {
     const auto found = std::find(field.usages.begin(), field.usages.end(), usage);
     if (choice.supported[which] || found == field.usages.end()) return;
     const auto index = static_cast<int>(found - field.usages.begin());
-    // Several usages for one multi-bit field are the numbers that it may hold, even if it is not flagged as an array.
+    // Several usages of one multi-bit field are the options that its number selects, even if it is not flagged as an
+    // array.
     if (field.bits > 1 && (field.array || static_cast<int>(field.usages.size()) > field.count)) {
       const BitField bits = bit_field(field, 0);
       const std::int64_t number = field.logical_min + index;
@@ -118,7 +119,7 @@ class ReportView {
   std::vector<const HidField*> fields_;
 };
 
-std::array<BitField, 2> bits_of(const std::array<Place, 2>& places) {
+std::array<BitField, 2> bits_of(const std::array<FieldElement, 2>& places) {
   return {places[0].bits(), places[1].bits()};
 }
 
@@ -134,7 +135,7 @@ double physical_per_count(const HidField& field) {
 }
 
 // [s] per count. Milliseconds, as on all known devices, if the field has no unit of time.
-double duration_unit(const Place& place) {
+double duration_unit(const FieldElement& place) {
   constexpr std::uint32_t dimensions = 0xfffffff0, time = 0x1000;  // HID 1.11 section 6.2.2.7: seconds, any system
   if (place.field == nullptr || (place.field->unit & dimensions) != time) return 1e-3;
   return physical_per_count(*place.field) * power_of_ten(place.field->unit_exponent);
@@ -142,7 +143,7 @@ double duration_unit(const Place& place) {
 
 // [counts] per 360 degrees of direction. The logical range is one turn, unless the physical range gives the angle
 // exactly, such as 0 to 35999 hundredths of a degree.
-double full_turn(const Place& place) {
+double full_turn(const FieldElement& place) {
   if (place.field == nullptr) return 0.0;
   const BitField range = place.bits();
   const auto counts = static_cast<double>(range.max - range.min);
@@ -159,9 +160,9 @@ Report begin(const ReportView& view) {
 }
 
 // The direction fields: the ordinals in the Direction collection, or else a field with the Direction usage itself.
-std::array<Place, 2> directions(const ReportView& view) {
-  const std::array<Place, 2> result = view.within(pid_usage(0x57)).of_axes();
-  return result[0].field != nullptr ? result : std::array<Place, 2>{view.find(pid_usage(0x57)), Place{}};
+std::array<FieldElement, 2> directions(const ReportView& view) {
+  const std::array<FieldElement, 2> result = view.within(pid_usage(0x57)).of_axes();
+  return result[0].field != nullptr ? result : std::array<FieldElement, 2>{view.find(pid_usage(0x57)), FieldElement{}};
 }
 
 PidSetEffect set_effect_of(const ReportDescriptor& descriptor) {
@@ -169,7 +170,7 @@ PidSetEffect set_effect_of(const ReportDescriptor& descriptor) {
   auto report = begin<PidSetEffect>(view);
   report.block = view.value(kBlock);
   report.type = view.choice(kEffectUsages);
-  const Place duration = view.find(pid_usage(0x50));
+  const FieldElement duration = view.find(pid_usage(0x50));
   report.duration = duration.bits();
   report.duration_unit = duration_unit(duration);
   report.sample_period = view.value(0x51);
@@ -178,7 +179,7 @@ PidSetEffect set_effect_of(const ReportDescriptor& descriptor) {
   report.trigger_repeat = view.value(0x54);
   report.axis_enable = bits_of(view.within(pid_usage(0x55)).of_axes());
   report.direction_enable = view.value(0x56);
-  const std::array<Place, 2> direction = directions(view);
+  const std::array<FieldElement, 2> direction = directions(view);
   report.direction = bits_of(direction);
   report.full_turn = full_turn(direction[0]);
   report.start_delay = view.value(0xa7);
@@ -216,7 +217,7 @@ PidOperate operate_of(const ReportDescriptor& descriptor) {
   return report;
 }
 
-// 0x95 is the report, 0x96 the choice in it; some devices have only one of them.
+// Usage 0x95 is the Device Control report, 0x96 the choice in it; some devices have only one of the two.
 PidDeviceControl device_control_of(const ReportDescriptor& descriptor) {
   for (const HidUsage usage : {pid_usage(0x96), pid_usage(0x95)}) {
     const ReportView view(descriptor, ReportKind::output, usage);
@@ -290,7 +291,7 @@ bool can_push(const PidLayout& pid) {
 
 }  // namespace
 
-const char* pid_effect_name(PidEffect effect) noexcept {
+const char* to_string(PidEffect effect) noexcept {
   constexpr std::array<const char*, kPidEffects> names{"constant force", "ramp",        "square",        "sine",
                                                        "triangle",       "sawtooth up", "sawtooth down", "spring",
                                                        "damper",         "inertia",     "friction"};

@@ -29,7 +29,7 @@ enum class PidEffect : std::uint8_t {
   friction
 };
 inline constexpr std::size_t kPidEffects = 11;
-const char* pid_effect_name(PidEffect effect) noexcept;
+const char* to_string(PidEffect effect) noexcept;
 
 enum class PidControl : std::uint8_t { enable_actuators, disable_actuators, stop_all, reset, pause, resume };
 inline constexpr std::size_t kPidControls = 6;
@@ -37,7 +37,7 @@ inline constexpr std::size_t kPidControls = 6;
 enum class PidOperation : std::uint8_t { start, start_solo, stop };
 inline constexpr std::size_t kPidOperations = 3;
 
-// A report. size 0: the device does not have it.
+// A report; size 0 if the device does not have it.
 struct PidReport {
   std::uint8_t id = 0;
   std::size_t size = 0;  // [bytes] ID included
@@ -58,9 +58,9 @@ struct PidSetEffect : PidReport {
   BitField block, duration, trigger_repeat, sample_period, gain, trigger_button, direction_enable, start_delay;
   PidChoice<kPidEffects> type;
   std::array<BitField, 2> axis_enable;  // X, Y
-  std::array<BitField, 2> direction;  // 8 or 16 bits. In the plane only the first is used, as an angle; the second is 0
-  double duration_unit = 1e-3;        // [s] per count
-  double full_turn = 0.0;             // [counts] of direction per 360 degrees
+  std::array<BitField, 2> direction;    // 8 or 16 bits; only [0] is used, as an angle; [1] is 0
+  double duration_unit = 1e-3;          // [s] per count
+  double full_turn = 0.0;               // [counts] of direction per 360 degrees
 };
 struct PidSetConstant : PidReport {
   BitField block, magnitude;
@@ -97,7 +97,7 @@ struct PidState : PidReport {  // input
   BitField block, playing, actuators_enabled, safety_switch, actuator_power, override_switch, paused;
 };
 
-// A stick can make forces with only set_effect, set_constant and operate; all other reports are optional.
+// Forces need only set_effect, set_constant and operate; all other reports are optional.
 struct PidLayout {
   PidSetEffect set_effect;
   PidSetConstant set_constant;

@@ -25,11 +25,11 @@ std::int64_t rounded(double value) noexcept {
   return static_cast<std::int64_t>(std::llround(value));
 }
 
-// Writes a fraction, -1 to 1, of the field's range above or below its zero; NaN and infinity count as 0.
-void put_share(HidBytes& bytes, const BitField& field, double share) noexcept {
-  const double limited = std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0.0;
-  const auto room = static_cast<double>(limited > 0.0 ? field.max - field.zero : field.zero - field.min);
-  put(bytes, field, field.zero + rounded(limited * room));
+// Writes a fraction, -1 to 1, of the field's range above or below the field's zero; NaN and infinity count as 0.
+void put_fraction(HidBytes& bytes, const BitField& field, double fraction) noexcept {
+  const double limited = std::isfinite(fraction) ? std::clamp(fraction, -1.0, 1.0) : 0.0;
+  const auto span_counts = static_cast<double>(limited > 0.0 ? field.max - field.zero : field.zero - field.min);
+  put(bytes, field, field.zero + rounded(limited * span_counts));
 }
 
 // A block index outside the field's range would be clamped to a different block.
@@ -50,7 +50,7 @@ bool is_selected(const PidChoice<N>& choice, std::size_t which, std::span<const 
   return read_bits(report, choice.field) == choice.number[which];
 }
 
-// kForever is encoded as all ones. If that is outside the logical range, it is a null value and means endless;
+// kForever is encoded as all ones. If all ones is outside the logical range, it is a null value, which means endless;
 // otherwise it is the longest possible duration.
 void put_duration(HidBytes& bytes, const PidSetEffect& effect, double seconds) noexcept {
   BitField field = effect.duration;
@@ -62,8 +62,8 @@ void put_duration(HidBytes& bytes, const PidSetEffect& effect, double seconds) n
     return put(bytes, field, ones);
   }
   const double counts = std::isfinite(seconds) ? seconds / effect.duration_unit : 0.0;
-  const auto most = static_cast<double>(std::min(field.max, ones - 1));
-  put(bytes, field, rounded(std::clamp(counts, 1.0, std::max(most, 1.0))));
+  const auto max_counts = static_cast<double>(std::min(field.max, ones - 1));
+  put(bytes, field, rounded(std::clamp(counts, 1.0, std::max(max_counts, 1.0))));
 }
 
 // Direction 0 is from the far side and turns clockwise, so X is a quarter turn and Y half a turn.
@@ -79,8 +79,8 @@ bool matches(const PidReport& layout, std::span<const std::uint8_t> report) noex
   return layout.exists() && report.size() == layout.size && report[0] == layout.id;
 }
 
-bool flag_or(std::span<const std::uint8_t> report, const BitField& field, bool otherwise) noexcept {
-  return field.exists() ? read_bits(report, field) != 0 : otherwise;
+bool flag_or(std::span<const std::uint8_t> report, const BitField& field, bool fallback) noexcept {
+  return field.exists() ? read_bits(report, field) != 0 : fallback;
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settin
   put(bytes, effect.block, settings.block);
   if (has_type) put_choice(bytes, effect.type, type);
   put_duration(bytes, effect, settings.duration);
-  put_share(bytes, effect.gain, std::max(settings.gain, 0.0));
+  put_fraction(bytes, effect.gain, std::max(settings.gain, 0.0));
   for (int axis = 0; axis < 2; ++axis) {
     if (settings.axis == axis || settings.axis < 0) put(bytes, effect.axis_enable[static_cast<std::size_t>(axis)], 1);
   }
@@ -106,7 +106,7 @@ HidBytes encode_constant(const PidLayout& pid, int block, double magnitude) noex
   if (!is_valid_block(pid.set_constant.block, block)) return {};
   HidBytes bytes = begin(pid.set_constant);
   put(bytes, pid.set_constant.block, block);
-  put_share(bytes, pid.set_constant.magnitude, magnitude);
+  put_fraction(bytes, pid.set_constant.magnitude, magnitude);
   return bytes;
 }
 
@@ -118,12 +118,12 @@ HidBytes encode_condition(const PidLayout& pid, int block, int axis, const PidCo
   HidBytes bytes = begin(set);
   put(bytes, set.block, block);
   put(bytes, set.parameter_block, axis);
-  put_share(bytes, set.centre, condition.centre);
-  put_share(bytes, set.positive_coefficient, condition.coefficient);
-  put_share(bytes, set.negative_coefficient, condition.coefficient);
-  put_share(bytes, set.positive_saturation, condition.saturation);
-  put_share(bytes, set.negative_saturation, condition.saturation);
-  put_share(bytes, set.dead_band, condition.dead_band);
+  put_fraction(bytes, set.centre, condition.centre);
+  put_fraction(bytes, set.positive_coefficient, condition.coefficient);
+  put_fraction(bytes, set.negative_coefficient, condition.coefficient);
+  put_fraction(bytes, set.positive_saturation, condition.saturation);
+  put_fraction(bytes, set.negative_saturation, condition.saturation);
+  put_fraction(bytes, set.dead_band, condition.dead_band);
   return bytes;
 }
 
@@ -148,7 +148,7 @@ HidBytes encode_control(const PidLayout& pid, PidControl control) noexcept {
 HidBytes encode_gain(const PidLayout& pid, double gain) noexcept {
   if (!pid.gain.gain.exists()) return {};
   HidBytes bytes = begin(pid.gain);
-  put_share(bytes, pid.gain.gain, std::max(gain, 0.0));
+  put_fraction(bytes, pid.gain.gain, std::max(gain, 0.0));
   return bytes;
 }
 

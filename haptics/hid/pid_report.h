@@ -17,18 +17,19 @@ inline constexpr int kNoBlock = 0;  // effect blocks count from 1
 struct PidEffectSettings {
   int block = kNoBlock;
   PidEffect effect = PidEffect::constant;
-  double duration = 0.3;  // [s] > 0; kForever: no end, or as long as possible
+  double duration = 0.3;  // [s] > 0; kForever: endless, or as long as possible
   double gain = 1.0;      // [1] 0 to 1
-  // Axis on which it acts: 0 X, 1 Y, -1 both (for conditions). Encoded in the axis enable bits and, if the device has
-  // one, the direction: X 90 degrees, Y 180 degrees (PID 1.0 section 4.2: 0 is from the far side, clockwise).
+  // Axis on which the effect acts: 0 X, 1 Y, -1 both (for conditions). Encoded in the axis enable bits and, if the
+  // device has a direction field, as a direction: X 90 degrees, Y 180 degrees (PID 1.0 section 4.2: 0 is from the far
+  // side, clockwise).
   int axis = 0;
 };
 inline constexpr double kForever = 1e9;  // [s]
 
-struct PidCondition {  // of one axis; fractions of full deflection (-1 to 1) and of full force (0 to 1)
+struct PidCondition {  // for one axis; fractions of full deflection (-1 to 1) and of full force (0 to 1)
   double centre = 0.0;
   double dead_band = 0.0;    // half width of the zone without force
-  double coefficient = 0.0;  // full force per full deflection; the device's maximum is 1
+  double coefficient = 0.0;  // force per deflection; 1: the device's maximum
   double saturation = 1.0;
 };
 
@@ -52,7 +53,7 @@ struct PoolInfo {
 };
 struct PidStatus {
   bool actuators_enabled = false, actuator_power = true, safety_switch = true,
-       paused = false;  // defaults if not reported
+       paused = false;  // defaults if the device does not report them
   bool playing = false;
   int block = kNoBlock;
 };

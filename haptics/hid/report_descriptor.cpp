@@ -11,8 +11,8 @@ namespace gearshift::haptics {
 namespace {
 
 constexpr std::size_t kMaxFields = 4096, kMaxCollections = 4096;
-constexpr std::size_t kMaxUsages = 1024;                 // of one field; later ones are not needed here
-constexpr std::uint64_t kMaxReportBits = 8 * 0xffffULL;  // of a report, whose length is a 16-bit number
+constexpr std::size_t kMaxUsages = 1024;                 // kept per field; further usages are not needed here
+constexpr std::uint64_t kMaxReportBits = 8 * 0xffffULL;  // per report: its length in bytes is a 16-bit number
 
 // Section 6.2.2.2: an item has a type, a tag and up to four bytes of data.
 enum class ItemType { main, global, local, reserved };
@@ -21,15 +21,15 @@ struct Item {
   ItemType type = ItemType::main;
   int tag = 0;
   std::uint32_t data = 0;
-  int size = 0;        // [bytes] of the data
-  std::size_t at = 0;  // [bytes] where it begins
+  int size = 0;        // [bytes] size of the data
+  std::size_t at = 0;  // [bytes] offset of the item
 };
 
 [[noreturn]] void refuse(std::size_t at, const std::string& reason) {
-  throw HidError("report descriptor, byte " + std::to_string(at) + ": " + reason);
+  throw HidError("the report descriptor is invalid at byte " + std::to_string(at) + " (" + reason + ")");
 }
 
-// A number whose signedness depends on the other items.
+// A minimum or maximum; whether it is signed depends on other items.
 struct Limit {
   std::uint32_t data = 0;
   int size = 0;
@@ -59,13 +59,13 @@ struct Globals {
 
 struct LocalUsage {
   HidUsage usage;
-  bool with_page = false;  // 32-bit usage that includes its page
+  bool with_page = false;  // a 32-bit usage, which includes its page
 };
 
 struct Locals {
   std::vector<LocalUsage> usages;
-  std::optional<LocalUsage> low, high;         // a usage range of which one or both ends are known
-  bool in_set = false, set_has_usage = false;  // alternate usages between delimiters
+  std::optional<LocalUsage> low, high;         // ends of a usage range, as far as known
+  bool in_set = false, set_has_usage = false;  // within a set of alternative usages between delimiters
 };
 
 class Parser {
@@ -89,8 +89,8 @@ class Parser {
   bool skip_long_item() {
     constexpr std::uint8_t prefix = 0xfe;
     if (bytes_[at_] != prefix) return false;
-    const std::size_t left = bytes_.size() - at_;
-    if (left < 3 || left - 3 < bytes_[at_ + 1]) refuse(at_, "a long item is cut off");
+    const std::size_t remaining = bytes_.size() - at_;
+    if (remaining < 3 || remaining - 3 < bytes_[at_ + 1]) refuse(at_, "a long item is cut off");
     at_ += 3U + bytes_[at_ + 1];
     return true;
   }
@@ -165,7 +165,7 @@ class Parser {
       case 0x4:
         globals_.physical.max = {item.data, item.size};
         break;
-      // A signed nibble: 55 0D and 55 FD are both -3.
+      // The exponent is a signed nibble: 55 0D and 55 FD both mean -3.
       case 0x5:
         globals_.unit_exponent = (static_cast<int>(item.data & 0xf) ^ 8) - 8;
         break;
@@ -193,13 +193,13 @@ class Parser {
   }
 
   void set_report_id(const Item& item) {
-    if (item.data > 0xff) refuse(item.at, "report ID " + std::to_string(item.data) + " is beyond 255");
+    if (item.data > 0xff) refuse(item.at, "report ID " + std::to_string(item.data) + " is above 255");
     globals_.report_id = static_cast<std::uint8_t>(item.data);
     result_.numbered = result_.numbered || globals_.report_id != 0;
   }
 
   void pop(const Item& item) {
-    if (pushed_.empty()) refuse(item.at, "pops a state that was never pushed");
+    if (pushed_.empty()) refuse(item.at, "a state that was never pushed is popped");
     globals_ = pushed_.back();
     pushed_.pop_back();
   }
@@ -235,7 +235,7 @@ class Parser {
     }
   }
 
-  // Of a set of alternative usages only the first counts: section 6.2.2.8.
+  // Only the first of a set of alternative usages counts: section 6.2.2.8.
   void add_usages(LocalUsage low, LocalUsage high) {
     if (locals_.in_set && locals_.set_has_usage) return;
     locals_.set_has_usage = true;
@@ -246,7 +246,8 @@ class Parser {
   }
 
   // The page in effect at the main item applies to the usages before it (section 6.2.2.8), back to the last usage
-  // declared under that page. So after X and Y of one page and a throttle of the next, each keeps its own page.
+  // declared under that page. So if X and Y are declared under one page and a throttle under the next, each keeps its
+  // own page.
   void resolve_pages() {
     for (auto usage = locals_.usages.rbegin(); usage != locals_.usages.rend(); ++usage) {
       if (usage->with_page) continue;
@@ -267,7 +268,7 @@ class Parser {
   }
 
   void end_collection(const Item& item) {
-    if (collection_ < 0) refuse(item.at, "end of a collection that never began");
+    if (collection_ < 0) refuse(item.at, "a collection that never began ends here");
     collection_ = result_.collections[static_cast<std::size_t>(collection_)].parent;
   }
 

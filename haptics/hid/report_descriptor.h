@@ -20,7 +20,7 @@ struct HidUsage {
 };
 
 struct HidCollection {
-  HidUsage usage;         // 0, 0 if it has none
+  HidUsage usage;         // 0, 0: no usage
   std::uint8_t type = 0;  // 0 physical, 1 application, 2 logical, ...
   int parent = -1;        // -1: top level
 };
@@ -29,24 +29,24 @@ struct HidCollection {
 struct HidField {
   ReportKind kind = ReportKind::input;
   std::uint8_t report_id = 0;  // 0: the device uses no report IDs
-  int offset = 0;              // [bits] of the first element, from the first bit after the ID
+  int offset = 0;              // [bits] from the first bit after the ID to the first element
   int bits = 0;                // [bits] per element, > 0; more than 32 are not supported
   int count = 0;               // elements, > 0
   bool constant = false;       // padding
   bool array = false;          // an element holds the number of a usage, not a value
   bool relative = false;
-  std::int64_t logical_min = 0, logical_max = 0;    // as intended by the device: 25 FF after 15 00 is 255
+  std::int64_t logical_min = 0, logical_max = 0;    // as the device intends: 25 FF after 15 00 means 255
   std::int64_t physical_min = 0, physical_max = 0;  // 0, 0: same as the logical range
   std::uint32_t unit = 0;
   int unit_exponent = 0;  // -8 to 7
-  // Variables: the usage of each element; the last one applies to all remaining elements. More usages than elements
-  // means a choice that its author forgot to flag as an array. Arrays: the usages of the values from logical_min
+  // Variables: the usage of each element; the last one applies to all remaining elements. More usages than elements: a
+  // choice that the device's author forgot to flag as an array. Arrays: the usages of the values from logical_min
   // upwards.
   std::vector<HidUsage> usages;
   int collection = -1;  // innermost collection
 
   bool is_signed() const noexcept { return logical_min < 0; }
-  HidUsage usage(int element) const noexcept;  // of a variable; 0, 0 if it has none
+  HidUsage usage(int element) const noexcept;  // usage of a variable; 0, 0 if it has none
 };
 
 struct ReportDescriptor {
@@ -54,16 +54,16 @@ struct ReportDescriptor {
   std::vector<HidField> fields;  // in descriptor order
   bool numbered = false;         // reports begin with an ID
 
-  // [bytes] of that report, including one byte for the ID even if the device uses none; 0: no such report
+  // Size of the report [bytes], including one byte for the ID even if the device uses none; 0: no such report.
   std::size_t report_size(ReportKind kind, std::uint8_t id) const noexcept;
 
   // True if the field is inside a collection of that usage, at any depth.
   bool is_within(const HidField& field, HidUsage collection) const noexcept;
 };
 
-// Accepts any bytes. Known mistakes of devices (README.md) are read as intended; trailing zeros are ignored. Throws
-// HidError with one sentence and the byte offset if the descriptor is truncated, has an unbalanced collection, a report
-// longer than 65535 bytes, or more than 4096 fields or collections.
+// Accepts any bytes. Known mistakes in devices' descriptors (README.md) are read as intended; trailing zeros are
+// ignored. Throws HidError with one sentence and the byte offset if the descriptor is truncated, has an unbalanced
+// collection, a report longer than 65535 bytes, or more than 4096 fields or collections.
 ReportDescriptor parse_report_descriptor(std::span<const std::uint8_t> bytes);
 
 }  // namespace gearshift::haptics

@@ -12,15 +12,15 @@ inline constexpr double kNewtonPerGramWeight = 9.80665e-3;
 struct ForceSensorModel {
   double offset = 19.04;        // [raw] eq (7)
   double gain = 0.1551;         // [raw/gw] eq (7)
-  double resolution_gw = 44.0;  // [gw] 0.044 kgf in X and Y
-  double range_gw = 22000.0;    // [gw] 22 kgf in X and Y
+  double resolution_gw = 44.0;  // [gw] resolution, 0.044 kgf in X and Y
+  double range_gw = 22000.0;    // [gw] range, 22 kgf in X and Y
   double noise_gw = 0.0;        // [gw] standard deviation before the resolution is applied
 };
 
-// Reading for a true force [N] of one axis: saturated at the range, rounded to the resolution. [raw]
+// Reading [raw] of one axis for a true force [N]: saturated at the range, rounded to the resolution.
 double sensor_reading(const ForceSensorModel& sensor, double force, double noise_gw = 0.0) noexcept;
 
-// Force from a reading, eq (7). [N]
+// Force [N] from a reading [raw], by the paper's eq (7).
 double force_from_reading(const ForceSensorModel& sensor, double reading) noexcept;
 
 }  // namespace gearshift::haptics

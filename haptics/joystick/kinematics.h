@@ -15,8 +15,8 @@ namespace gearshift::haptics {
 
 struct YokeGeometry {
   double radius = 0.120;                                 // [m] rho, centre to tip
-  double theta_limit = 40.0 * std::numbers::pi / 180.0;  // [rad] select axis stop, both sides
-  double phi_limit = 35.0 * std::numbers::pi / 180.0;    // [rad] shift axis stop, both sides
+  double theta_limit = 40.0 * std::numbers::pi / 180.0;  // [rad] stop of the select axis, both sides
+  double phi_limit = 35.0 * std::numbers::pi / 180.0;    // [rad] stop of the shift axis, both sides
 };
 
 struct JointAngles {
@@ -29,38 +29,39 @@ struct JointTorques {
   double phi = 0.0;    // [N m]
 };
 
-// Tip of the yoke, exact: eq (2) with the corrected y component. [m]
+// Exact tip position [m]: the paper's eq (2) with the corrected y component.
 glm::dvec3 tip_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 
-// Tip of the yoke for small angles, eq (3). [m] Only used to show its error: 3.1 mm per component at 20 deg.
+// Tip position [m] for small angles: the paper's eq (3). Used only to show its error: 3.1 mm per component at 20 deg.
 glm::dvec3 tip_position_small_angle(const YokeGeometry& yoke, JointAngles q) noexcept;
 
-// Inverse of tip_position for any point on the upper half sphere. [rad]
+// Inverse of tip_position() for any point on the upper half sphere. [rad]
 JointAngles joint_angles(glm::dvec3 tip) noexcept;
 
-// The gate lies in the plane (px, py), onto which the tip is projected. [m]; and the angles for a plane point with
-// |plane| < radius. [rad]
+// The gate lies in the plane (px, py), onto which the tip is projected: the tip's position there [m], and the angles
+// [rad] for a plane point with |plane| < radius.
 glm::dvec2 plane_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 JointAngles joint_angles_from_plane(const YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
-// Reach of the tip in the gate plane along each axis with the other joint upright: rho sin(limit). [m]
-// The workspace is not a rectangle: a point off both axes needs larger angles, atan2(px, pz) and atan2(-py, pz) with
-// the tip's height pz.
+// Reach of the tip [m] in the gate plane along each axis with the other joint upright: rho sin(limit). The workspace is
+// not a rectangle: a point off both axes needs larger angles, atan2(px, pz) and atan2(-py, pz) with the tip's height
+// pz.
 glm::dvec2 workspace_half_extent(const YokeGeometry& yoke) noexcept;
 
 // The plant's coordinates: the arc lengths (rho theta, -rho phi), one per axis. [m]
 glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 
-// Force at the tip, tangential to the sphere, from the joint torques: eq (5), corrected. [N]
+// Force at the tip [N], tangential to the sphere, from the joint torques: the paper's eq (5), corrected.
 glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
 
-// The inverse, tau = J^T f: joint torques equivalent to a force at the tip. [N m]
+// Inverse of tip_force(), tau = J^T f: joint torques [N m] equivalent to a force at the tip.
 JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 force) noexcept;
 
-// Small-angle force map, eq (6). [N]
+// Force at the tip [N] for small angles: the paper's eq (6).
 glm::dvec2 tip_force_small_angle(const YokeGeometry& yoke, JointTorques torque) noexcept;
 
-// The same two maps for generalised forces in the gate plane (fz = 0), whose work is f . d(px, py). [N], [N m]
+// The maps tip_force() and joint_torques() for generalised forces in the gate plane (fz = 0), whose work is f . d(px,
+// py). [N], [N m]
 glm::dvec2 plane_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
 JointTorques joint_torques_from_plane(const YokeGeometry& yoke, JointAngles q, glm::dvec2 force) noexcept;
 

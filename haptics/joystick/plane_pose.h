@@ -1,4 +1,4 @@
-// A pose of the yoke given by the tangents of its angles, and the maps between gate plane and arcs at that pose.
+// A pose of the yoke, given by the tangents of its angles, and the maps between gate plane and arcs at that pose.
 //
 // Each cycle uses these maps several times, so the tangents are computed once and the rest is inline. The maps are
 // those of kinematics.h with arc lengths (rho theta, -rho phi) instead of angles, which eliminates rho.
@@ -44,7 +44,7 @@ inline glm::dvec2 arc_velocity(const PlanePose& pose, glm::dvec2 plane) noexcept
   return {pose.n * (plane.x - ab / a1 * plane.y), pose.n * (plane.y - ab / b1 * plane.x)};
 }
 
-// Forces, by virtual work: arc = J^T plane. [N]
+// Forces: arc = J^T plane, by virtual work. [N]
 inline glm::dvec2 arc_force(const PlanePose& pose, glm::dvec2 plane) noexcept {
   const double scale = 1.0 / (pose.n * pose.n * pose.n);
   const double ab = pose.a * pose.b, a1 = 1.0 + pose.a * pose.a, b1 = 1.0 + pose.b * pose.b;

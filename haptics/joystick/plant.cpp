@@ -6,16 +6,16 @@
 namespace gearshift::haptics {
 namespace {
 
-// x'' + 2 a x' + w2 x = f/m. With S(t) the velocity-to-position response (S(0) = 0, S'(0) = 1) and I its integral:
-// x(t) = (1 - w2 I) x0 + S v0 + I f/m, v(t) = -w2 S x0 + S' v0 + S f/m.
+// x'' + 2 a x' + w2 x = f/m. With S(t) the position's response to a unit initial velocity (S(0) = 0, S'(0) = 1) and I
+// the integral of S: x(t) = (1 - w2 I) x0 + S v0 + I f/m, v(t) = -w2 S x0 + S' v0 + S f/m.
 struct Modes {
-  double a;     // [1/s] half of damping over mass
-  double w2;    // [1/s^2] stiffness over mass
+  double a;     // [1/s] damping / (2 mass)
+  double w2;    // [1/s^2] stiffness / mass
   double disc;  // [1/s^2] a^2 - w2: positive if over-damped, negative if under-damped
 };
 
 struct Response {
-  double free;   // 1 - w2 I: initial position's contribution
+  double free;   // 1 - w2 I: response to the initial position
   double s;      // [s] S
   double slope;  // S'
   double i;      // [s^2] I
@@ -26,10 +26,10 @@ Modes modes(const AxisModel& axis) noexcept {
   return {a, w2, a * a - w2};
 }
 
-// For short times I is computed as its power series, from I'' + 2 a I' + w2 I = 1. There the closed form below divides
-// differences of nearly equal numbers (0/0 for a free mass); the series does not, at any damping.
+// For short times I is computed as its power series, from I'' + 2 a I' + w2 I = 1. For such times the closed forms
+// below divide differences of nearly equal numbers (0/0 for a free mass); the series does not, at any damping.
 Response short_response(const Modes& mode, double t) noexcept {
-  double before = 0.0, term = 0.5 * t * t;  // c_n t^n for n = 1 and 2
+  double before = 0.0, term = 0.5 * t * t;  // terms c_n t^n of I for n = 1 and 2
   double i = term, s_t = 2.0 * term;        // I, and t S = t I'
   for (int n = 3; n <= 32 && std::abs(term) + std::abs(before) > 1e-18 * i; ++n) {
     const double next = -(2.0 * mode.a * t * (n - 1) * term + mode.w2 * t * t * before) / (n * (n - 1));
@@ -47,20 +47,21 @@ double integral_of_exp(double p, double t) noexcept {
   return p == 0.0 ? t : std::expm1(p * t) / p;
 }
 
-// disc >= 0: two real poles p1 >= p2. Computing p1 = -(a - r) would cancel for a soft spring; p1 = w2 / p2 does not.
+// Response for disc >= 0: two real poles p1 >= p2. Computing p1 = -(a - r) would cancel for a soft spring; p1 = w2 / p2
+// does not.
 Response over_damped(const Modes& mode, double t) noexcept {
   const double r = std::sqrt(mode.disc);
   const double p1 = -mode.w2 / (mode.a + r), p2 = -(mode.a + r);
   const double e1 = std::exp(p1 * t), e2 = std::exp(p2 * t);
   const double s = r > 0.0 ? e1 * -std::expm1(-2.0 * r * t) / (2.0 * r) : t * e1;
   const double free = e1 - p1 * s;
-  const bool is_separated = r * t >= 0.5;  // otherwise the difference of the integrals cancels; 1 - free does not
+  const bool is_separated = r * t >= 0.5;  // for long times the difference of the integrals cancels; 1 - free does not
   const double i =
       is_separated ? (integral_of_exp(p1, t) - integral_of_exp(p2, t)) / (2.0 * r) : (1.0 - free) / mode.w2;
   return {free, s, e2 + p1 * s, i};
 }
 
-// disc < 0: a decaying oscillation.
+// Response for disc < 0: a decaying oscillation.
 Response under_damped(const Modes& mode, double t) noexcept {
   const double w = std::sqrt(-mode.disc), decay = std::exp(-mode.a * t);
   const double s = decay * std::sin(w * t) / w, c = decay * std::cos(w * t), free = c + mode.a * s;
@@ -86,7 +87,7 @@ double time_of_reversal(const AxisModel& axis, double speed, double inertial) no
     const double w = std::sqrt(-mode.disc);
     return std::atan2(w * speed, -g) / w;
   }
-  if (g >= 0.0) return HUGE_VAL;  // creeps to rest without reversing
+  if (g >= 0.0) return HUGE_VAL;  // the motion creeps to rest without reversing
   const double r = std::sqrt(mode.disc), ratio = -r * speed / g;
   if (ratio >= 1.0) return HUGE_VAL;
   return r > 0.0 ? std::atanh(ratio) / r : -speed / g;
@@ -142,7 +143,7 @@ AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisS
     if (at_stop) state.position = std::copysign(limits.stop, state.position);
     if (at_stop && state.velocity * state.position > 0.0) state.velocity = 0.0;
 
-    // Friction is a constant force between two events, so each segment is exact.
+    // Between two events (reversals or impacts) friction is a constant force, so each segment is exact.
     const double start = inertial_force(axis, limits, state, force);
     if (state.velocity == 0.0 && start == 0.0) return state;
     const double along = sign(state.velocity != 0.0 ? state.velocity : start);

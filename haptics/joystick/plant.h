@@ -27,7 +27,7 @@ struct AxisState {
 // State after `time` >= 0 [s] under a constant force [N], for over-, under- and critically damped axes.
 AxisState advance(const AxisModel& axis, AxisState state, double force, double time) noexcept;
 
-// The same solution with the coefficients precomputed for one step length.
+// advance() with the coefficients precomputed for one step length.
 class AxisStepper {
  public:
   AxisStepper(const AxisModel& axis, double period) noexcept;  // mass > 0, period [s] >= 0
@@ -37,18 +37,18 @@ class AxisStepper {
   }
 
  private:
-  double xx_, xv_, vx_, vv_;  // state transition over one period
+  double xx_, xv_, vx_, vv_;  // state transition in one period
   double xf_, vf_;            // response to the held force
 };
 
 struct AxisLimits {
-  double stop = std::numeric_limits<double>::infinity();  // [m] > 0, hard stop at +stop and -stop, inelastic
+  double stop = std::numeric_limits<double>::infinity();  // [m] > 0, inelastic hard stops at +stop and -stop
   double coulomb_friction = 0.0;                          // [N] dry friction, 0 = none
 };
 
 // advance() with dry friction (the axis sticks if the force cannot overcome it) and inelastic hard stops. Reversals and
-// impacts inside the step are located, so the result does not depend on the step length. After kMaxAxisEvents of them
-// in one step the axis is set at rest, which can only remove energy.
+// impacts inside the step are located, so the result does not depend on the step length. After kMaxAxisEvents reversals
+// and impacts in one step the axis is set at rest, which can only remove energy.
 inline constexpr int kMaxAxisEvents = 64;
 AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force,
                           double time) noexcept;

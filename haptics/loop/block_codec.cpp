@@ -38,7 +38,7 @@ constexpr bool find_field(const T& value, std::string_view path, std::size_t& at
 }
 
 // Offset [bytes] of a field in an encoded sample. An unknown name does not compile.
-consteval std::size_t resolve_path(std::string_view path) {
+consteval std::size_t field_offset(std::string_view path) {
   std::size_t at = 0;
   if (!find_field(TraceSample{}, path, at)) throw std::invalid_argument("no field of that name");
   return at;
@@ -46,54 +46,55 @@ consteval std::size_t resolve_path(std::string_view path) {
 
 enum class Rule {
   extrapolated,  // linear extrapolation from the two previous samples
-  previous,      // another field of the previous sample
-  same,          // another field of this sample
-  negated,       // another field of this sample, negated
+  previous,      // a different field of the previous sample
+  same,          // a different field of this sample
+  negated,       // a different field of this sample, negated
   difference,    // difference of two fields of this sample
   sum            // sum of three fields of this sample
 };
 
 // Prediction of one 8-byte word. All other bytes are predicted by the previous sample.
-struct Guess {
+struct Prediction {
   Rule rule = Rule::same;
   std::size_t at = 0;
   std::size_t from = 0, and_from = 0, and_also = 0;
 };
 
-// In sample order; each refers only to fields of its own sample that come before it.
-constexpr std::array kGuesses = {
-    Guess{Rule::extrapolated, resolve_path("deadline_ns")},
-    Guess{Rule::extrapolated, resolve_path("reading.sequence")},
-    Guess{Rule::extrapolated, resolve_path("reading.time_ns")},
-    Guess{Rule::previous, resolve_path("reading.actuator_force.x"), resolve_path("out.commanded.x")},
-    Guess{Rule::previous, resolve_path("reading.actuator_force.y"), resolve_path("out.commanded.y")},
-    Guess{Rule::extrapolated, resolve_path("out.cycle")},
-    Guess{Rule::same, resolve_path("out.time_ns"), resolve_path("deadline_ns")},
-    Guess{Rule::same, resolve_path("out.lever.x"), resolve_path("reading.position.x")},
-    Guess{Rule::same, resolve_path("out.lever.y"), resolve_path("reading.position.y")},
-    Guess{Rule::sum, resolve_path("out.commanded.x"), resolve_path("out.wall_force.x"),
-          resolve_path("out.feel_force.x"), resolve_path("out.world_force.x")},
-    Guess{Rule::sum, resolve_path("out.commanded.y"), resolve_path("out.wall_force.y"),
-          resolve_path("out.feel_force.y"), resolve_path("out.world_force.y")},
-    Guess{Rule::same, resolve_path("out.f_h.x"), resolve_path("reading.hand_force.x")},
-    Guess{Rule::same, resolve_path("out.f_h.y"), resolve_path("reading.hand_force.y")},
-    Guess{Rule::negated, resolve_path("out.f_a.x"), resolve_path("reading.actuator_force.x")},
-    Guess{Rule::negated, resolve_path("out.f_a.y"), resolve_path("reading.actuator_force.y")},
-    Guess{Rule::difference, resolve_path("out.f_j.x"), resolve_path("out.f_h.x"), resolve_path("out.f_a.x")},
-    Guess{Rule::difference, resolve_path("out.f_j.y"), resolve_path("out.f_h.y"), resolve_path("out.f_a.y")},
+// In sample order. Within its own sample, each prediction refers only to earlier fields.
+constexpr std::array kPredictions = {
+    Prediction{Rule::extrapolated, field_offset("deadline_ns")},
+    Prediction{Rule::extrapolated, field_offset("reading.sequence")},
+    Prediction{Rule::extrapolated, field_offset("reading.time_ns")},
+    Prediction{Rule::previous, field_offset("reading.actuator_force.x"), field_offset("out.commanded.x")},
+    Prediction{Rule::previous, field_offset("reading.actuator_force.y"), field_offset("out.commanded.y")},
+    Prediction{Rule::extrapolated, field_offset("out.cycle")},
+    Prediction{Rule::same, field_offset("out.time_ns"), field_offset("deadline_ns")},
+    Prediction{Rule::same, field_offset("out.lever.x"), field_offset("reading.position.x")},
+    Prediction{Rule::same, field_offset("out.lever.y"), field_offset("reading.position.y")},
+    Prediction{Rule::sum, field_offset("out.commanded.x"), field_offset("out.wall_force.x"),
+               field_offset("out.feel_force.x"), field_offset("out.world_force.x")},
+    Prediction{Rule::sum, field_offset("out.commanded.y"), field_offset("out.wall_force.y"),
+               field_offset("out.feel_force.y"), field_offset("out.world_force.y")},
+    Prediction{Rule::same, field_offset("out.f_h.x"), field_offset("reading.hand_force.x")},
+    Prediction{Rule::same, field_offset("out.f_h.y"), field_offset("reading.hand_force.y")},
+    Prediction{Rule::negated, field_offset("out.f_a.x"), field_offset("reading.actuator_force.x")},
+    Prediction{Rule::negated, field_offset("out.f_a.y"), field_offset("reading.actuator_force.y")},
+    Prediction{Rule::difference, field_offset("out.f_j.x"), field_offset("out.f_h.x"), field_offset("out.f_a.x")},
+    Prediction{Rule::difference, field_offset("out.f_j.y"), field_offset("out.f_h.y"), field_offset("out.f_a.y")},
 };
 
-constexpr bool refers_to_known(const Guess& guess) {
+constexpr bool refers_to_known(const Prediction& prediction) {
   const bool uses_none =
-      guess.rule == Rule::extrapolated || guess.rule == Rule::previous;  // uses no field of its own sample
-  const std::size_t last = std::max({guess.from, guess.and_from, guess.and_also});
-  return uses_none || last + sizeof(Word) <= guess.at;
+      prediction.rule == Rule::extrapolated || prediction.rule == Rule::previous;  // no field of the sample itself
+  const std::size_t last = std::max({prediction.from, prediction.and_from, prediction.and_also});
+  return uses_none || last + sizeof(Word) <= prediction.at;
 }
-constexpr bool in_order(const Guess& a, const Guess& b) {
+constexpr bool in_order(const Prediction& a, const Prediction& b) {
   return a.at + sizeof(Word) <= b.at;
 }
-static_assert(std::all_of(kGuesses.begin(), kGuesses.end(), refers_to_known));
-static_assert(std::is_sorted(kGuesses.begin(), kGuesses.end(), [](auto& a, auto& b) { return in_order(a, b); }));
+static_assert(std::all_of(kPredictions.begin(), kPredictions.end(), refers_to_known));
+static_assert(std::is_sorted(kPredictions.begin(), kPredictions.end(),
+                             [](auto& a, auto& b) { return in_order(a, b); }));
 
 constexpr Word kSign = Word{1} << 63;
 constexpr EncodedSample kZeroSample{};
@@ -108,47 +109,47 @@ double number_at(const std::byte* sample, std::size_t at) noexcept {
   return std::bit_cast<double>(word_at(sample, at));
 }
 
-// Processors differ in the bits of NaN and infinity results, so those are predicted as 0.
+// Processors differ in the bits of NaN and infinity, so such predictions are replaced by 0.
 Word bits_of(double sum) noexcept {
   return std::isfinite(sum) ? std::bit_cast<Word>(sum) : 0;
 }
 
-// The two previous samples, and the current one as far as it is decoded.
+// The two previous samples, and the current sample as far as it is decoded.
 struct SampleContext {
   const std::byte* older = kZeroSample.data();
   const std::byte* before = kZeroSample.data();
   const std::byte* now = nullptr;
 };
 
-Word expected(const Guess& guess, const SampleContext& context) noexcept {
-  switch (guess.rule) {
+Word predicted_word(const Prediction& prediction, const SampleContext& context) noexcept {
+  switch (prediction.rule) {
     case Rule::extrapolated:
-      return 2 * word_at(context.before, guess.at) - word_at(context.older, guess.at);
+      return 2 * word_at(context.before, prediction.at) - word_at(context.older, prediction.at);
     case Rule::previous:
-      return word_at(context.before, guess.from);
+      return word_at(context.before, prediction.from);
     case Rule::same:
-      return word_at(context.now, guess.from);
+      return word_at(context.now, prediction.from);
     case Rule::negated:
-      return word_at(context.now, guess.from) ^ kSign;
+      return word_at(context.now, prediction.from) ^ kSign;
     case Rule::difference:
-      return bits_of(number_at(context.now, guess.from) - number_at(context.now, guess.and_from));
+      return bits_of(number_at(context.now, prediction.from) - number_at(context.now, prediction.and_from));
     case Rule::sum:
-      return bits_of(number_at(context.now, guess.from) + number_at(context.now, guess.and_from) +
-                     number_at(context.now, guess.and_also));
+      return bits_of(number_at(context.now, prediction.from) + number_at(context.now, prediction.and_from) +
+                     number_at(context.now, prediction.and_also));
   }
   return 0;
 }
 
-// XORs a sample with its prediction; encoding and decoding are the same operation. In both directions `context.now` is
-// the plain sample, and no prediction reads a part of it that is not decoded yet.
-void apply_guesses(const SampleContext& context, const std::byte* from, std::byte* to) noexcept {
+// XORs a sample with its prediction; encoding and decoding are the same operation. For both, `context.now` is the plain
+// sample, and no prediction reads a part of it that is not yet decoded.
+void apply_predictions(const SampleContext& context, const std::byte* from, std::byte* to) noexcept {
   std::size_t at = 0;
   const auto previous = [&](std::size_t end) {
     for (; at < end; ++at) to[at] = from[at] ^ context.before[at];
   };
-  for (const Guess& guess : kGuesses) {
-    previous(guess.at);
-    const Word word = word_at(from, at) ^ expected(guess, context);
+  for (const Prediction& prediction : kPredictions) {
+    previous(prediction.at);
+    const Word word = word_at(from, at) ^ predicted_word(prediction, context);
     std::memcpy(to + at, &word, sizeof word);
     at += sizeof word;
   }
@@ -161,7 +162,7 @@ void advance_to(SampleContext& context, const std::byte* sample) noexcept {
   context.before = sample;
 }
 
-constexpr std::size_t kMinRun = 3;  // [zeros] because a run costs two numbers
+constexpr std::size_t kMinRun = 3;  // [zeros] shortest run, because a run costs two numbers
 
 std::size_t zeros_at(std::span<const std::byte> bytes) noexcept {
   std::size_t zeros = 0;
@@ -198,7 +199,7 @@ void put_runs(std::span<const std::byte> planes, std::vector<std::byte>& coded) 
   }
 }
 
-// Empty if the number is cut off or larger than any block.
+// Reads a number from the front; empty if it is cut off or larger than any block.
 std::optional<std::size_t> read_number(std::span<const std::byte>& bytes) noexcept {
   std::size_t number = 0;
   for (unsigned shift = 0; shift < 21 && !bytes.empty(); shift += 7) {
@@ -233,11 +234,11 @@ void BlockCodec::encode(std::span<const std::byte> samples, std::vector<std::byt
   const std::size_t count = samples.size() / kSampleBytes;
   SampleContext context;
   for (std::size_t i = 0; i < count; ++i) {
-    EncodedSample rest;
+    EncodedSample residual;
     context.now = samples.data() + i * kSampleBytes;
-    apply_guesses(context, context.now, rest.data());
+    apply_predictions(context, context.now, residual.data());
     advance_to(context, context.now);
-    for (std::size_t plane = 0; plane < kSampleBytes; ++plane) planes_[plane * count + i] = rest[plane];
+    for (std::size_t plane = 0; plane < kSampleBytes; ++plane) planes_[plane * count + i] = residual[plane];
   }
   put_runs(std::span(planes_).first(count * kSampleBytes), coded);
 }
@@ -248,11 +249,11 @@ bool BlockCodec::decode(std::span<const std::byte> coded, std::size_t count, std
   if (!read_runs(coded, std::span(planes_).first(samples.size()))) return false;
   SampleContext context;
   for (std::size_t i = 0; i < count; ++i) {
-    EncodedSample rest;
-    for (std::size_t plane = 0; plane < kSampleBytes; ++plane) rest[plane] = planes_[plane * count + i];
+    EncodedSample residual;
+    for (std::size_t plane = 0; plane < kSampleBytes; ++plane) residual[plane] = planes_[plane * count + i];
     std::byte* const sample = samples.data() + i * kSampleBytes;
     context.now = sample;
-    apply_guesses(context, rest.data(), sample);
+    apply_predictions(context, residual.data(), sample);
     advance_to(context, sample);
   }
   return true;

@@ -1,7 +1,7 @@
 // Lossless compression of trace samples to about a fifth of their size. Each block is coded independently, so that it
 // can be read even if earlier blocks are lost.
 //
-//   guess   XOR each sample with a prediction: the previous sample, or for fields that follow from others
+//   predict XOR each sample with a prediction: the previous sample, or for fields that follow from others
 //           (f_j = f_h - f_a, the cycle counter) the derived value; a good prediction leaves zeros, at least in the
 //           high bytes
 //   planes  byte 0 of all samples, then byte 1 of all, and so on: this groups the zeros
@@ -17,19 +17,20 @@
 
 namespace gearshift::haptics {
 
-// [bytes] upper bound for any block. Noise hardly grows, because fewer than three zeros do not count as a run.
+// [bytes] upper bound for any block. Incompressible noise hardly grows, because fewer than three zeros do not count as
+// a run.
 inline constexpr std::size_t kMaxCodedBytes = kSamplesPerBlock * kSampleBytes + 16;
 
 class BlockCodec {
  public:
   BlockCodec();
 
-  // samples: 1 to kSamplesPerBlock encoded samples, concatenated. Replaces `coded`; allocates nothing if `coded` has
-  // capacity for kMaxCodedBytes.
+  // samples: 1 to kSamplesPerBlock encoded samples, concatenated. Replaces the content of `coded`; allocates nothing if
+  // `coded` has capacity for kMaxCodedBytes.
   void encode(std::span<const std::byte> samples, std::vector<std::byte>& coded);
 
-  // Replaces `samples` by `count` decoded samples. False if `count` is not 1 to kSamplesPerBlock, or `coded` does not
-  // hold exactly that many. The values of the fields are not checked.
+  // Replaces the content of `samples` by `count` decoded samples. Returns false if `count` is not 1 to
+  // kSamplesPerBlock, or if `coded` does not hold exactly `count` samples. The values of the fields are not checked.
   bool decode(std::span<const std::byte> coded, std::size_t count, std::vector<std::byte>& samples);
 
  private:

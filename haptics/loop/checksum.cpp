@@ -8,7 +8,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr std::size_t kSlices = 8;  // bytes taken per step
+constexpr std::size_t kSlices = 8;  // bytes processed per step
 using CrcTables = std::array<std::array<std::uint32_t, 256>, kSlices>;
 
 // table[0] is the CRC of one byte, table[n] the CRC of that byte followed by n zero bytes.
@@ -47,8 +47,8 @@ std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t so_far) noex
   return ~crc;
 }
 
-// Every step is invertible, so two different words give two different states. Two multiplications are needed: after
-// one, a flipped top bit still changes only a bit or two, which a later word could flip back.
+// Every step is invertible, so two different words give two different states. Two multiplications are needed: after a
+// single one, a flipped top bit still changes only one or two bits, which a later word could flip back.
 void RunHash::mix(std::uint64_t word) noexcept {
   state_ = (state_ ^ word) * 0xBF58476D1CE4E5B9;
   state_ = (state_ ^ (state_ >> 32)) * 0x94D049BB133111EB;

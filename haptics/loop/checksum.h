@@ -1,4 +1,4 @@
-// A CRC against disk errors, and a hash that compares the results of two runs.
+// A CRC that detects disk errors, and a hash for comparing the results of two runs.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace gearshift::haptics {
 
-// CRC-32 of IEEE 802.3 (reflected polynomial 0xEDB88320), as in zip and PNG. `so_far`: CRC of the preceding bytes.
+// CRC-32 as in IEEE 802.3 (reflected polynomial 0xEDB88320), as in zip and PNG. `so_far`: CRC of the preceding bytes.
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t so_far = 0) noexcept;
 
 // Order-dependent 64-bit hash of a run. It detects single differing bits; it is not cryptographic.

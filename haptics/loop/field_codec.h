@@ -16,7 +16,7 @@ namespace gearshift::haptics {
 
 static_assert(std::endian::native == std::endian::little, "the trace is written by copying native bytes");
 
-// A leaf field's representation in the file.
+// The representation of a leaf field in the file.
 template <LeafField T>
 auto leaf_bits(T value) noexcept {
   if constexpr (std::is_same_v<T, double>)

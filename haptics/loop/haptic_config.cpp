@@ -16,23 +16,23 @@
 namespace gearshift::haptics {
 namespace {
 
-// Found by a search over impact phases, hands, quantisation, jitter and plant error: see README.md.
-constexpr double kQuiet = 0.35;          // of m / tau^2 and m / tau: half-sample hold
-constexpr double kQuietObserved = 0.58;  // of m / tau^2: with the observer
+// These bounds were found by a search over impact phases, hands, quantisation, jitter and plant error: see README.md.
+constexpr double kQuiet = 0.35;          // in units of m / tau^2 and of m / tau: for the half-sample hold
+constexpr double kQuietObserved = 0.58;  // in units of m / tau^2: for the observer hold
 constexpr double kObservedTau = 0.0045;  // [s] longest tau at which the observer is better
-constexpr double kGainMargin = 1.1;      // of the stiffness, margin to the exact boundary for plant error and jitter
-constexpr double kMinSlew = 2.0;         // [N/cycle] at 1 the wall force rises so slowly that an arm swings by 80 mm
-constexpr const char* kQuietLaw = "quiet half-sample hold: K <= 0.35 m / tau^2, tau = (delay + 1) T";
-constexpr const char* kObservedLaw = "quiet observed hold: K <= 0.58 m / tau^2, tau = (delay + 1) T";
-constexpr const char* kDampingLaw = "quiet half-sample hold: B <= 0.35 m / tau, tau = (delay + 1) T";
-constexpr const char* kStableLaw = "spectral radius of the sampled loop below 1 at 1.1 K";
-constexpr const char* kFreeLaw = "spectral radius of the sampled lever outside the loop's walls below 1";
-constexpr const char* kObservedDampingLaw = "observed hold: B >= 50 N s/m, or a heavy arm rings";
-constexpr const char* kObserverLaw = "spectral radius of the observed loop below 1 at any K";
-constexpr const char* kFeelLaw = "passive proxy: no feel stiffer than the wall that carries the proxy";
+constexpr double kGainMargin = 1.1;      // factor on the stiffness: margin for plant error and jitter
+constexpr double kMinSlew = 2.0;         // [N/cycle] at 1 the wall force rises so slowly that an arm moves by 80 mm
+constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kObservedLaw = "the observed hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
+constexpr const char* kStableLaw = "the spectral radius of the sampled loop must be below 1 at 1.1 K";
+constexpr const char* kFreeLaw = "the spectral radius of the sampled lever must be below 1 outside the loop's walls";
+constexpr const char* kObservedDampingLaw = "the observed hold needs B >= 50 N s/m, or a heavy arm rings";
+constexpr const char* kObserverLaw = "the spectral radius of the observed loop is below 1 at no K";
+constexpr const char* kFeelLaw = "the proxy is passive only if no force of the gate is stiffer than the wall";
 
-// Limits a value to a bound, or with allow_unstable only reports it. If several laws limit a parameter, the last is
-// reported.
+// Limits a value to a bound, or with allow_unstable only reports the bound. If several laws limit a parameter, the last
+// is reported.
 struct Limiter {
   bool allow_unstable;
   std::vector<TuningLimit>& limits;
@@ -49,7 +49,7 @@ struct Limiter {
   }
 };
 
-// Mass m [kg] and lag tau [s] of the quiet laws.
+// The mass m [kg] and the lag tau [s] in the laws for quiet contact.
 double lighter_mass(const DeviceSpec& spec) noexcept {
   return std::min(spec.axis_x.mass, spec.axis_y.mass);
 }
@@ -78,7 +78,8 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   limiter.limit(tuning.wall_stiffness, stiffness, TuningParameter::wall_stiffness, observed ? kObservedLaw : kQuietLaw);
 }
 
-// The hold needs this damping to work, so it is raised even with allow_unstable.
+// Raises the damping to the minimum of the observer hold, even with allow_unstable, because the hold does not work with
+// less.
 void raise_observed_damping(AdmittedTuning& admitted) {
   double& damping = admitted.tuning.wall_damping;
   if (admitted.hold != ContactHold::observer || damping >= kMinObserverDamping) return;
@@ -87,7 +88,7 @@ void raise_observed_damping(AdmittedTuning& admitted) {
   damping = kMinObserverDamping;
 }
 
-// Visits every axis with every listed hand.
+// Calls visit for every axis with every listed hand.
 void for_each_lever(const DeviceSpec& spec, const auto& visit) {
   for (const NamedHand& named : kNamedHands)
     for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) visit(axis, named);
@@ -97,16 +98,17 @@ bool has_device_walls(const DeviceSpec& spec) noexcept {
   return usable_wall_stiffness(spec) > 0.0 || usable_wall_damping(spec) > 0.0;
 }
 
-// Visits every lever in a wall, with and without the device wall. To the loop the device wall is like part of the hand.
+// Calls visit for every axis and hand in a wall, with and without the device wall. To the loop, the device wall acts
+// like a part of the hand.
 void for_each_pressed_lever(const DeviceSpec& spec, const auto& visit) {
   for_each_lever(spec, visit);
   if (!has_device_walls(spec)) return;
   for (const NamedHand& named : kNamedHands) {
     for (const int i : {0, 1}) {
-      NamedHand held = named;
-      held.hand.stiffness += spec.device_wall_stiffness[i];
-      held.hand.damping += spec.device_wall_damping[i];
-      visit(i == 0 ? spec.axis_x : spec.axis_y, held);
+      NamedHand pressed = named;
+      pressed.hand.stiffness += spec.device_wall_stiffness[i];
+      pressed.hand.damping += spec.device_wall_damping[i];
+      visit(i == 0 ? spec.axis_x : spec.axis_y, pressed);
     }
   }
 }
@@ -118,7 +120,7 @@ ContactLaw loop_law(const HapticConfig& config, const AdmittedTuning& admitted, 
   return law;
 }
 
-// Checks damping without the loop's wall stiffness. A lever without friction or spring is exactly on the boundary,
+// Checks the damping without the loop's wall stiffness. A lever without damping or spring is exactly on the boundary,
 // which counts as stable.
 bool is_stable_without_wall(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec,
                             double wall_damping) {
@@ -137,19 +139,19 @@ bool is_stable_without_wall(const HapticConfig& config, const AdmittedTuning& ad
 void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
                         const Limiter& limiter) {
   AdmittedTuning trial = admitted;
-  double share = 1.0;
-  while (!is_stable_without_wall(config, trial, spec, 0.0) && share > 1e-3) {
-    share *= 0.5;
-    trial.tuning.aisle_damping = share * admitted.tuning.aisle_damping;
-    trial.tuning.limit_damping = share * admitted.tuning.limit_damping;
+  double factor = 1.0;
+  while (!is_stable_without_wall(config, trial, spec, 0.0) && factor > 1e-3) {
+    factor *= 0.5;
+    trial.tuning.aisle_damping = factor * admitted.tuning.aisle_damping;
+    trial.tuning.limit_damping = factor * admitted.tuning.limit_damping;
   }
   limiter.limit(admitted.tuning.aisle_damping, trial.tuning.aisle_damping, TuningParameter::aisle_damping, kFreeLaw);
   limiter.limit(admitted.tuning.limit_damping, trial.tuning.limit_damping, TuningParameter::limit_damping, kFreeLaw);
 }
 
 // Delayed damping can destabilise a lever held by the device's spring, however soft the loop's wall is.
-void limit_damping_beside_device_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
-                                       const Limiter& limiter) {
+void limit_damping_with_device_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
+                                     const Limiter& limiter) {
   if (!has_device_walls(spec) || admitted.hold == ContactHold::observer) return;
   double damping = admitted.tuning.wall_damping;
   while (!is_stable_without_wall(config, admitted, spec, damping) && damping > 1e-3) damping *= 0.5;
@@ -158,10 +160,10 @@ void limit_damping_beside_device_walls(const HapticConfig& config, const DeviceS
 
 struct StableStiffness {
   double max = std::numeric_limits<double>::infinity();  // [N/m]
-  std::string_view hand;                                 // the hand that sets the limit
+  std::string_view hand;                                 // the hand with which this limit was found
 };
 
-// Checks this stiffness and softer ones, down to an eighth.
+// Checks this stiffness and softer ones, down to an eighth of it.
 bool is_stable_up_to(const AxisModel& axis, const HandImpedance& hand, ContactLaw law, double stiffness,
                      double period) {
   for (law.stiffness = stiffness; law.stiffness > stiffness / 8.0; law.stiffness *= 0.8)
@@ -169,8 +171,8 @@ bool is_stable_up_to(const AxisModel& axis, const HandImpedance& hand, ContactLa
   return true;
 }
 
-// Checks the wanted stiffness first: a search is needed only for a hand that is unstable at it and at the limit found
-// so far.
+// Checks each hand at the wanted stiffness, or at the limit found so far: a search is needed only for a hand that is
+// unstable there.
 StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
   StableStiffness stable;
   ContactLaw law = loop_law(config, admitted, spec);
@@ -189,13 +191,13 @@ StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTunin
   return stable;
 }
 
-// Scales the device walls down if the wanted wall is softer than they are.
+// Scales the device walls down if the wanted wall is softer than the device walls.
 DeviceSpec scale_device_walls(DeviceSpec spec, const HapticTuning& wanted) noexcept {
-  const auto share = [](double want, double device_part) {
-    return device_part > 0.0 ? std::min(1.0, want / device_part) : 0.0;
+  const auto device_fraction = [](double wanted_value, double device_part) {
+    return device_part > 0.0 ? std::min(1.0, wanted_value / device_part) : 0.0;
   };
-  spec.device_wall_stiffness *= share(wanted.wall_stiffness, usable_wall_stiffness(spec));
-  spec.device_wall_damping *= share(wanted.wall_damping, usable_wall_damping(spec));
+  spec.device_wall_stiffness *= device_fraction(wanted.wall_stiffness, usable_wall_stiffness(spec));
+  spec.device_wall_damping *= device_fraction(wanted.wall_damping, usable_wall_damping(spec));
   return spec;
 }
 
@@ -205,37 +207,39 @@ void add_device_part(AdmittedTuning& admitted, double& value, TuningParameter pa
                      double device_part, const char* unit) {
   if (device_part == 0.0) return;
   value = std::min(wanted, value + device_part);
-  const auto is_it = [&](const TuningLimit& one) { return one.parameter == parameter; };
-  const auto limit = std::find_if(admitted.limits.begin(), admitted.limits.end(), is_it);
+  const auto is_same_parameter = [&](const TuningLimit& one) { return one.parameter == parameter; };
+  const auto limit = std::find_if(admitted.limits.begin(), admitted.limits.end(), is_same_parameter);
   if (limit == admitted.limits.end()) return;
   limit->wanted = wanted;
   limit->used = value;
   limit->bound += device_part;
-  limit->law += "; and " + number_text(device_part) + unit + " rendered by the device";
+  limit->law += "; the device itself renders another " + number_text(device_part) + unit;
   if (limit->bound >= wanted) admitted.limits.erase(limit);
 }
 
-// Used if the damping that the observer needs is itself unstable on this device.
+// Admits the tuning with the half-sample hold, if the damping that the observer needs is itself unstable on this
+// device.
 AdmittedTuning fall_back_to_half_sample(HapticConfig config, const DeviceSpec& device, const Gate& gate,
                                         std::string_view hand) {
   config.contact.hold = ContactHold::half_sample;
-  AdmittedTuning instead = admit_tuning(config, device, gate);
-  const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(instead.hold);
-  instead.limits.push_back({kObserverLaw, TuningParameter::hold, from, to, to, std::string(hand)});
-  return instead;
+  AdmittedTuning fallback = admit_tuning(config, device, gate);
+  const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(fallback.hold);
+  fallback.limits.push_back({kObserverLaw, TuningParameter::hold, from, to, to, std::string(hand)});
+  return fallback;
 }
 
 // Rejects options that need allow_unstable.
 void check_unstable_options(const HapticConfig& config, const DeviceSpec& spec) {
   if (config.contact.allow_unstable && !spec.simulated)
-    throw std::invalid_argument("study = true: only a simulated device may be driven beyond what is stable");
+    throw std::invalid_argument(
+        "study = true is allowed only with a simulated device, because unstable values are not safe");
   if (config.contact.allow_unstable) return;
   if (config.estimator.window > 1)
     throw std::invalid_argument(
-        "window_samples above 1: only with study = true, because it lets damping destabilise a wall");
-  if (!config.contact.reversal_limiter) throw std::invalid_argument("reversal_limiter = false: only with study = true");
+        "window_samples above 1 needs study = true, because it lets damping destabilise a wall");
+  if (!config.contact.reversal_limiter) throw std::invalid_argument("reversal_limiter = false needs study = true");
   if (config.contact.energy_control == EnergyControl::passivity_controller)
-    throw std::invalid_argument("energy_control = passivity_controller: only with study = true");
+    throw std::invalid_argument("energy_control = passivity_controller needs study = true");
 }
 
 }  // namespace
@@ -322,12 +326,12 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   DeviceSpec spec = scale_device_walls(device, config.tuning);
   AdmittedTuning out{config.tuning, select_hold(config, spec), {}};
   if (out.hold == ContactHold::observer)
-    spec.device_wall_damping = glm::dvec2(0.0);  // the observer would attribute it to the hand
+    spec.device_wall_damping = glm::dvec2(0.0);  // because the observer would attribute the damper's force to the hand
   out.tuning.wall_damping -= usable_wall_damping(spec);
   const Limiter limiter{config.contact.allow_unstable, out.limits};
   limit_to_quiet(config, spec, out, limiter);
   limit_free_damping(config, spec, out, limiter);
-  limit_damping_beside_device_walls(config, spec, out, limiter);
+  limit_damping_with_device_walls(config, spec, out, limiter);
   raise_observed_damping(out);
   const StableStiffness stable = stable_stiffness(config, out, spec);
   if (stable.max == 0.0 && !config.contact.allow_unstable) {
@@ -353,13 +357,13 @@ const char* to_string(TuningParameter parameter) noexcept {
 }
 
 std::string describe(const TuningLimit& limit) {
-  const bool is_hold = limit.parameter == TuningParameter::hold;  // whose values are enumerators
+  const bool is_hold = limit.parameter == TuningParameter::hold;  // `hold` is no number: its values are enumerators
   const auto text = [&](double value) {
-    return is_hold ? hold_name(static_cast<ContactHold>(value)) : short_text(value);
+    return is_hold ? hold_key(static_cast<ContactHold>(value)) : short_text(value);
   };
   std::string what = to_string(limit.parameter);
   if (limit.used == limit.wanted)
-    what += " " + text(limit.wanted) + " used anyway, limit " + short_text(limit.bound);
+    what += " " + text(limit.wanted) + " used anyway; the limit is " + short_text(limit.bound);
   else
     what += (!is_hold && limit.used > limit.wanted ? " raised from " : " limited from ") + text(limit.wanted) + " to " +
             text(limit.used);

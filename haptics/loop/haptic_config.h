@@ -1,4 +1,4 @@
-// All parameters of the haptic cycle, and the limits that a device sets to them.
+// All parameters of the haptic cycle, and the limits that a device sets for them.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ namespace gearshift::haptics {
 
 // Parameters that may change while the loop runs. They are applied together, between two cycles, and recorded.
 struct HapticTuning {
-  double wall_stiffness = 5000.0;  // [N/m] 0 to 20000, of the whole wall, device wall included
+  double wall_stiffness = 5000.0;  // [N/m] 0 to 20000, whole wall, device wall included
   double wall_damping = 10.0;      // [N s/m] 0 to 100
-  double feel_scale = 1.0;         // [1] 0 to 4, scales the gate's feel
+  double feel_scale = 1.0;         // [1] 0 to 4, factor on the gate's feel
   double aisle_damping = 2.0;      // [N s/m] 0 to 50, everywhere
-  double speed_limit = 0.6;        // [m/s] 0.05 to 5; limit_damping acts above it
-  double limit_damping = 15.0;     // [N s/m] 0 to 50, times the speed above the limit
+  double speed_limit = 0.6;        // [m/s] 0.05 to 5; limit_damping acts above this speed
+  double limit_damping = 15.0;     // [N s/m] 0 to 50, multiplies the speed above speed_limit
   bool operator==(const HapticTuning&) const = default;
 };
 
 struct OverPushConfig {
-  double warn_above = 60.0;   // [N] 1 to 1000, the hand's push
+  double warn_above = 60.0;   // [N] 1 to 1000, push of the hand
   double clear_below = 50.0;  // [N] 0 to warn_above
 };
 
@@ -35,10 +35,9 @@ struct OverPushConfig {
 struct ContactConfig {
   ContactHold hold = ContactHold::automatic;
   EnergyControl energy_control =
-      EnergyControl::none;       // in addition to the hold; passivity_controller needs allow_unstable
+      EnergyControl::none;       // used in addition to the hold; passivity_controller needs allow_unstable
   bool reversal_limiter = true;  // false needs allow_unstable
-  bool allow_unstable =
-      false;  // do not limit parameters to the stable range; only for simulated devices, never for a person
+  bool allow_unstable = false;   // do not limit parameters to the stable range; only for simulated devices
 };
 
 struct HapticConfig {
@@ -49,10 +48,10 @@ struct HapticConfig {
   GuardConfig guard;
   OverPushConfig over_push;
   double gear_debounce = 0.010;  // [s] 0 to 0.5
-  double ghost_offset = 0.020;   // [m] 0 to 1; if lever and proxy are further apart, the picture shows the true hand
+  double ghost_offset = 0.020;   // [m] 0 to 1; if lever and proxy are further apart, the true hand is drawn
 };
 
-// What a check may lower, raise or replace.
+// Parameters that a check may lower, raise or replace.
 enum class TuningParameter : std::uint8_t {
   wall_stiffness,
   wall_damping,
@@ -61,18 +60,18 @@ enum class TuningParameter : std::uint8_t {
   limit_damping,
   hold
 };
-const char* to_string(TuningParameter parameter) noexcept;  // its key in files: "wall_stiffness_n_per_m"
+const char* to_string(TuningParameter parameter) noexcept;  // key in files, such as "wall_stiffness_n_per_m"
 
 // A parameter that was limited. With `allow_unstable` it is reported but not changed.
 struct TuningLimit {
   std::string law;  // the reason, as one formula
   TuningParameter parameter = TuningParameter::wall_stiffness;
   double wanted = 0.0, used = 0.0;
-  double bound = 0.0;  // the largest value that the law allows
+  double bound = 0.0;  // the limit that the law sets
   std::string hand;    // the hand that sets the bound; empty if the bound does not depend on a hand
 };
-// "wall_stiffness_n_per_m limited from 5000 to 301 (law; hand: bare)", "hold limited from observer to half_sample";
-// with `allow_unstable`: "wall_stiffness_n_per_m 5000 used anyway, limit 301 (...)".
+// For example "wall_stiffness_n_per_m limited from 5000 to 301 (law; hand: bare)" or "hold limited from observer to
+// half_sample"; with `allow_unstable`: "wall_stiffness_n_per_m 5000 used anyway, limit 301 (...)".
 std::string describe(const TuningLimit& limit);
 
 struct AdmittedTuning {
@@ -94,7 +93,7 @@ void check_device(const DeviceSpec& spec);
 //   quiet      K <= 0.35 m / tau^2 (observer: 0.58) and B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis:
 //              found by a search over hands, impact phases, quantisation, jitter and plant error
 //   stable     the spectral radius of the sampled cycle (sampled_loop.h) is below 1 on both axes: in the wall at 1.1 K,
-//              with the aisles' damping and with that of the speed limit, too; and in free space with both
+//              with the aisles' damping, also with the speed limit's damping; and in free space with both
 //   feel       the feel is no stiffer than the wall that carries the proxy
 // If the device renders walls itself (DeviceSpec::device_wall_stiffness, device_wall_damping), the loop renders the
 // rest and the laws apply to that part; the exact check covers every lever with and without the device's spring and
@@ -105,13 +104,13 @@ void check_device(const DeviceSpec& spec);
 // allow_unstable, for allow_unstable on a real device, and if no wall of any stiffness is stable.
 AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate);
 
-// [N/m] The loop's part of the wall: the whole minus the device wall.
+// [N/m] The loop's part of the wall: the whole stiffness minus the device wall's.
 double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept;
 
 // [N s/m] The device damper's part of the wall's damping; 0 with the observed hold.
 double device_damping(const HapticTuning& tuning, ContactHold hold, const DeviceSpec& spec) noexcept;
 
-// The loop's part of the wall under that tuning, as input to spectral_radius().
+// The loop's part of the wall under the admitted tuning, as input to spectral_radius().
 ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept;
 
 }  // namespace gearshift::haptics

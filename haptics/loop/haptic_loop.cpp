@@ -20,19 +20,19 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kRearmAfter = 0.050;      // [s] of fresh readings before a simulated lever re-arms itself
+constexpr double kRearmAfter = 0.050;      // [s] duration of fresh readings before a simulated lever re-arms itself
 constexpr double kContactApart = 0.030;    // [s] away from the wall before a touch counts as a new impact
-constexpr double kSaturationHold = 0.050;  // [s] below the limit before saturation ends
+constexpr double kSaturationHold = 0.050;  // [s] force below the limit before saturation ends
 constexpr double kShortfall = 1.0;  // [N] difference between commanded and delivered force that a hand would notice
 constexpr std::int64_t kMaxCatchUpCycles = 10;  // the load catches up at most this many cycles after an overrun
 
-const HapticConfig& checked(const HapticConfig& config, const DeviceSpec& spec) {
+const HapticConfig& validated(const HapticConfig& config, const DeviceSpec& spec) {
   check_config(config);
   check_device(spec);
   return config;
 }
 
-// Takes the time stamps of every 64th cycle.
+// Records the time stamps of every 64th cycle.
 class StageClock {
  public:
   StageClock(StageStamps& stamps, std::uint64_t cycle) noexcept
@@ -59,9 +59,14 @@ GuardConfig guard_of(const HapticConfig& config, const DeviceSpec& spec) noexcep
 
 }  // namespace
 
+const char* to_string(LoopCommand command) noexcept {
+  static constexpr const char* kNames[] = {"none", "arm", "disarm", "stop"};
+  return kNames[static_cast<int>(command)];
+}
+
 HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverLoad& load,
                        LoopChannels& channels)
-    : config_(checked(config, device.spec())),
+    : config_(validated(config, device.spec())),
       admitted_(admit_tuning(config, device.spec(), gate)),
       gate_(gate),
       device_(device),
@@ -89,7 +94,7 @@ AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
   config.contact.hold = admitted_.hold;  // the hold cannot change while the loop runs
   AdmittedTuning admitted = admit_tuning(config, spec_, gate_);
   if (admitted.hold != admitted_.hold) {
-    throw std::invalid_argument("this tuning needs a different hold: restart the loop with it");
+    throw std::invalid_argument("this tuning needs another hold; restart the loop to use it");
   }
   channels_.tuning.write(admitted.tuning);
   return admitted;
@@ -150,21 +155,21 @@ void HapticLoop::apply_command(LoopCommand command) noexcept {
   }
 }
 
-// The panic button is obeyed even if the rest of the reading is implausible.
+// The panic button takes effect even if the rest of the reading is implausible.
 void HapticLoop::read_device(std::int64_t deadline_ns) noexcept {
   reading_ = device_.read(deadline_ns);
   if (reading_.stop) guard_.stop();
 }
 
-// The limiter's state only applies to the wall on which it was learned.
+// The reversal limiter's state applies only to the wall on which it was found, so it is reset.
 void HapticLoop::retune(const HapticTuning& tuning) noexcept {
   const bool same_wall = tuning.wall_stiffness == tuning_.wall_stiffness && tuning.wall_damping == tuning_.wall_damping;
   if (!same_wall) limiter_.reset();
   tuning_ = tuning;
 }
 
-// Arming places the proxy at the lever, so that an old penetration cannot pull. While forces are on the proxy is left
-// alone: otherwise pressing the arm key would carry it through a wall.
+// Arming places the proxy at the lever, so that an old penetration cannot pull. While forces are on the proxy is not
+// moved: otherwise pressing the arm key would carry it through a wall.
 void HapticLoop::arm() noexcept {
   if (reading_.stop) return guard_.reject_arming();
   if (!guard_.arm()) return;
@@ -201,10 +206,10 @@ ContactForce HapticLoop::couple_lever(std::int64_t skipped) noexcept {
   const Coupling coupling{stiffness, damping, period_, spec_.delay, admitted_.hold};
   if (admitted_.hold != ContactHold::observer) return contact_force(coupling, gate_, passage_, proxy_, motion_);
   ObservedMotion observed = observer_.update(motion_, out_.commanded, skipped);
-  // The previous cycle's feel and load forces also move the lever. Counted as penetration, that motion would turn the
-  // wall's edge into a step.
-  const dvec2 beside = out_.feel_force + load_output_.force;
-  if (is_finite(beside)) observed.end += observed.compliance * beside;
+  // The previous cycle's feel and load forces also move the lever. If that motion counted as penetration, the wall's
+  // edge would become a force step.
+  const dvec2 other_force = out_.feel_force + load_output_.force;
+  if (is_finite(other_force)) observed.end += observed.compliance * other_force;
   return contact_force(coupling, gate_, passage_, proxy_, observed);
 }
 
@@ -213,7 +218,7 @@ dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
   const double excess = std::max(0.0, speed - tuning_.speed_limit);
   const double damping = tuning_.aisle_damping + (excess > 0.0 ? tuning_.limit_damping * excess / speed : 0.0);
   const double softened =
-      std::min(tuning_.feel_scale * stiffest_feel_, out_.wall_stiffness);  // because the wall carries the proxy
+      std::min(tuning_.feel_scale * stiffest_feel_, out_.wall_stiffness);  // the feel must not be stiffer than the wall
   const double scale = stiffest_feel_ > 0.0 ? softened / stiffest_feel_ : tuning_.feel_scale;
   return scale * gate_feel(gate_, mean_proxy) - damping * motion_.smooth_velocity;
 }
@@ -252,20 +257,22 @@ void HapticLoop::drive(const GuardOutput& command) noexcept {
   if (device_wall_stiffness_ > 0.0 || device_wall_damping_ > 0.0) send_device_walls(command.ramp);
 }
 
-// The command takes effect one delay later, so the union of the free space now and then is sent. A wall that moves
-// closer therefore reaches the device late; until then only the loop's part resists.
+// The command takes effect one delay later, so the union of the present free space and the free space at that time is
+// sent. A wall that moves closer therefore reaches the device late; until then only the loop's part resists.
 void HapticLoop::send_device_walls(double ramp) noexcept {
-  const double kept = device_wall_stiffness_ > 0.0 ? std::min(1.0, tuning_.wall_stiffness / device_wall_stiffness_)
-                                                   : 0.0;  // [1] below 1 if the wanted wall is softer
-  const double share = ramp * kept * limiter_.stiffness_fraction();
-  const double damped = device_damping(tuning_, admitted_.hold, spec_);
-  const double damping = damped > 0.0 ? ramp * damped / device_wall_damping_ : 0.0;
-  if (share == 0.0 && damping == 0.0 && walls_.stiffness_fraction == 0.0 && walls_.damping_fraction == 0.0) return;
+  const double wall_fraction = device_wall_stiffness_ > 0.0
+                                   ? std::min(1.0, tuning_.wall_stiffness / device_wall_stiffness_)
+                                   : 0.0;  // [1] below 1 if the wanted wall is softer than the device wall
+  const double stiffness_fraction = ramp * wall_fraction * limiter_.stiffness_fraction();
+  const double device_part = device_damping(tuning_, admitted_.hold, spec_);
+  const double damping = device_part > 0.0 ? ramp * device_part / device_wall_damping_ : 0.0;
+  if (stiffness_fraction == 0.0 && damping == 0.0 && walls_.stiffness_fraction == 0.0 && walls_.damping_fraction == 0.0)
+    return;
   const double ahead = period_ * (1.0 + spec_.delay);
   const Proxy then = move_proxy(gate_, passage_, proxy_, motion_.position + ahead * motion_.smooth_velocity, 0.0);
   const FreeSpan free =
       bounding_span(free_span(gate_, passage_, proxy_.position), free_span(gate_, passage_, then.position));
-  const LeverWalls walls{free.low, free.high, share, damping};
+  const LeverWalls walls{free.low, free.high, stiffness_fraction, damping};
   if (walls == walls_) return;
   walls_ = walls;
   device_.set_device_walls(walls);
@@ -278,13 +285,13 @@ dvec2 HapticLoop::device_wall_force(const LeverWalls& walls) const noexcept {
   return walls.stiffness_fraction * spec_.device_wall_stiffness * (inside - motion_.position);
 }
 
-// The wanted force exceeds the device's limit, either the loop's part or together with the device walls.
+// Whether the wanted force exceeds the device's limit: the loop's part by itself, or together with the device walls.
 bool HapticLoop::is_saturated(const GuardOutput& command) const noexcept {
-  const dvec2 all = glm::abs(command.force + device_wall_force(walls_)), most = spec_.max_force;
-  return command.saturated || all.x > most.x || all.y > most.y;
+  const dvec2 all = glm::abs(command.force + device_wall_force(walls_)), max_force = spec_.max_force;
+  return command.saturated || all.x > max_force.x || all.y > max_force.y;
 }
 
-// Eq (4): f_j = f_h - f_a.
+// The paper's eq (4): f_j = f_h - f_a.
 void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
   const bool is_measured = spec_.measures_hand_force && is_finite(reading_.hand_force);
   if (is_finite(reading_.actuator_force)) out_.f_a = -reading_.actuator_force;
@@ -300,9 +307,9 @@ void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
   set_flag(kFlagFresh, motion_.fresh);
 }
 
-// Estimated push of the hand, without a force sensor or if its value is not finite: the force that balances the motors
-// and the handle's spring and damping, neglecting inertia. When the motors saturate that is not known; the push is then
-// the force that the wall would need at this depth.
+// Estimated push of the hand, used without a force sensor or if its value is not finite: the force that balances the
+// motors and the handle's spring and damping, neglecting inertia. When the motors saturate, that balance is not known;
+// the estimate is then the force that the wall would need at this depth.
 dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
   dvec2 damping{spec_.axis_x.damping, spec_.axis_y.damping};
   for (int i = 0; i < 2; ++i) {
@@ -310,8 +317,8 @@ dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
     if (in_wall) damping[i] += walls_.damping_fraction * spec_.device_wall_damping[i];
   }
   const dvec2 stiffness{spec_.axis_x.stiffness, spec_.axis_y.stiffness};
-  const dvec2 held = is_saturated(command) ? -(wanted_force() + device_wall_force(walls_)) : out_.f_a;
-  return held + damping * motion_.smooth_velocity + stiffness * motion_.position;
+  const dvec2 hold_force = is_saturated(command) ? -(wanted_force() + device_wall_force(walls_)) : out_.f_a;
+  return hold_force + damping * motion_.smooth_velocity + stiffness * motion_.position;
 }
 
 void HapticLoop::watch_gear() noexcept {
@@ -331,8 +338,8 @@ void HapticLoop::watch_push() noexcept {
   if (is_over != was_over) emit_event(is_over ? EventKind::over_push_begin : EventKind::over_push_end, push);
 }
 
-// Saturated: the wanted force exceeds the device's limit, or the motors delivered less than was commanded for this
-// cycle (overload).
+// Reports saturation: the wanted force exceeds the device's limit, or the motors delivered less than was commanded for
+// this cycle (overload).
 void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
   const std::uint64_t age = 1 + static_cast<std::uint64_t>(spec_.delay);
   const Sent due = out_.cycle >= age ? sent_[(out_.cycle - age) % sent_.size()] : Sent{};
@@ -341,12 +348,12 @@ void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
       device_wall_stiffness_ * period_ * glm::length(motion_.velocity);  // [N] change of the wall force within a period
   const bool falls_short = motion_.fresh && glm::length(expected + out_.f_a) > kShortfall + moves;
   sent_[out_.cycle % sent_.size()] = {command.force, walls_};
-  unsaturated_ = is_saturated(command) || falls_short ? 0.0 : unsaturated_ + period_;
-  const bool was = has_flag(kFlagSaturated);
-  const bool is = unsaturated_ < kSaturationHold;
-  set_flag(kFlagSaturated, is);
-  if (is == was) return;
-  emit_event(is ? EventKind::saturation_begin : EventKind::saturation_end, glm::length(wanted_force()));
+  unsaturated_time_ = is_saturated(command) || falls_short ? 0.0 : unsaturated_time_ + period_;
+  const bool was_flagged = has_flag(kFlagSaturated);
+  const bool is_flagged = unsaturated_time_ < kSaturationHold;
+  set_flag(kFlagSaturated, is_flagged);
+  if (is_flagged == was_flagged) return;
+  emit_event(is_flagged ? EventKind::saturation_begin : EventKind::saturation_end, glm::length(wanted_force()));
 }
 
 void HapticLoop::watch_contact() noexcept {
@@ -355,13 +362,13 @@ void HapticLoop::watch_contact() noexcept {
   const bool touches = depth > 0.0;
   set_flag(kFlagContact, touches);
   set_flag(kFlagGhost, depth > config_.ghost_offset);
-  if (touches && apart_ > kContactApart) {
+  if (touches && contact_free_time_ > kContactApart) {
     emit_event(EventKind::wall_contact, std::abs(glm::dot(motion_.smooth_velocity, penetration / depth)));
   }
-  apart_ = touches ? 0.0 : apart_ + period_;
+  contact_free_time_ = touches ? 0.0 : contact_free_time_ + period_;
 }
 
-// If the lever chatters on a wall, the stiffness is lowered; if that does not help, the guard damps.
+// If the lever chatters on a wall, lowers the stiffness; if that does not help, the guard enters the state damped.
 void HapticLoop::watch_chatter() noexcept {
   if (!config_.contact.reversal_limiter) return;
   if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness, load_output_.vibration))
@@ -371,8 +378,8 @@ void HapticLoop::watch_chatter() noexcept {
 }
 
 // A simulated lever re-arms itself after a fault once its readings have been fresh for a while. A real lever waits for
-// a person, and so does any lever that chattered. The motors are released in every state without force, and in the
-// first cycle, because an earlier loop may have left them on.
+// the user to arm it, and so does any lever that chattered. The motors are released in every state without force, and
+// in the first cycle, because an earlier loop may have left them on.
 void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   const bool has_changed = guard_.state() != out_.guard;
   const bool is_new = has_changed || out_.cycle == 0;
@@ -381,9 +388,9 @@ void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
                         !std::exchange(motors_released_, true);
   if ((is_new && is_off) || is_faded) device_.release();
   const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
-  healthy_ = is_healthy ? healthy_ + period_ : 0.0;
+  healthy_time_ = is_healthy ? healthy_time_ + period_ : 0.0;
   const bool may_rearm = spec_.simulated && guard_.fault() != GuardFault::chatter;
-  if (guard_.state() == GuardState::damped && may_rearm && healthy_ > kRearmAfter) arm();
+  if (guard_.state() == GuardState::damped && may_rearm && healthy_time_ > kRearmAfter) arm();
   if (guard_.state() != out_.guard) emit_event(EventKind::guard_changed, static_cast<double>(guard_.state()));
   out_.guard = guard_.state();
   out_.fault = guard_.fault();

@@ -27,6 +27,7 @@
 namespace gearshift::haptics {
 
 enum class LoopCommand : std::uint8_t { none, arm, disarm, stop };
+const char* to_string(LoopCommand command) noexcept;
 
 // All inputs and outputs of one cycle: enough to replay it and compare.
 struct TraceSample {
@@ -34,7 +35,7 @@ struct TraceSample {
   std::int64_t skipped = 0;      // deadlines missed before this one, >= 0
   LeverReading reading;
   DriverControls controls;
-  HapticTuning tuning;  // as applied in this cycle
+  HapticTuning tuning;  // tuning applied in this cycle
   LoopCommand command = LoopCommand::none;
   HapticSnapshot out;
 };
@@ -48,8 +49,8 @@ struct LoopChannels {
   SpscQueue<HapticEvent> events{4096};        // loop -> app
   SpscQueue<TraceSample> trace{8192};         // loop -> recorder
   SpscQueue<LoopCommand> commands{16};        // app -> loop
-  std::atomic<bool> recording{false};         // set by the recorder
-  std::atomic<std::uint64_t> trace_lost{0};   // samples that did not fit; the trace is then incomplete
+  std::atomic<bool> recording{false};         // set by TraceRecorder
+  std::atomic<std::uint64_t> trace_lost{0};   // samples that did not fit into `trace`, which is then incomplete
   std::atomic<std::uint64_t> events_lost{0};  // normally 0
 };
 
@@ -58,7 +59,7 @@ struct LoopChannels {
 struct StageStamps {
   static constexpr std::uint64_t kEvery = 64;
   std::uint64_t cycle = 0;
-  std::array<std::int64_t, 9> ns{};  // [ns] start, then after each of read .. write
+  std::array<std::int64_t, 9> ns{};  // [ns] start of the cycle, then the end of each call
 };
 
 class HapticLoop {
@@ -73,7 +74,7 @@ class HapticLoop {
   void cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept;
 
   const HapticSnapshot& snapshot() const noexcept { return out_; }       // on the loop's own thread
-  const DriverControls& controls() const noexcept { return controls_; }  // of the last cycle, on the same thread
+  const DriverControls& controls() const noexcept { return controls_; }  // after a cycle, on the loop's thread
   const AdmittedTuning& admitted() const noexcept { return admitted_; }  // at the start
 
   // Allows forces, ramped up from zero. Call it before the first cycle; while the loop runs, use LoopCommand::arm. Has
@@ -85,7 +86,7 @@ class HapticLoop {
   // range or needs a different hold than the current one.
   AdmittedTuning change_tuning(const HapticTuning& wanted);
 
-  // Stamps of the most recent 64th cycle.
+  // Time stamps of the most recent cycle that was stamped.
   const StageStamps& stamps() const noexcept { return stamps_; }
 
  private:
@@ -101,7 +102,7 @@ class HapticLoop {
   GuardInput guard_input(std::int64_t skipped) const noexcept;
   glm::dvec2 wanted_force() const noexcept { return out_.wall_force + out_.feel_force + load_output_.force; }
   void drive(const GuardOutput& command) noexcept;
-  void send_device_walls(double share) noexcept;
+  void send_device_walls(double ramp) noexcept;
   glm::dvec2 device_wall_force(const LeverWalls& walls) const noexcept;
   bool is_saturated(const GuardOutput& command) const noexcept;
   glm::dvec2 estimated_push(const GuardOutput& command) const noexcept;
@@ -137,25 +138,25 @@ class HapticLoop {
   Lockouts lockouts_;
   GearSelector selector_;
   ForceGuard guard_;
-  double stiffest_feel_;  // [N/m] of the gate
+  double stiffest_feel_;  // [N/m] stiffest feel of the gate
   LoopCommand command_ = LoopCommand::none;
   LeverReading reading_;
   LeverMotion motion_;
   Passage passage_;
   Proxy proxy_;
   LeverOutput load_output_;
-  LeverWalls walls_;              // last sent to the device
+  LeverWalls walls_;              // walls last sent to the device
   bool proxy_placed_ = false;     // the proxy was placed at the lever since the start or the last arming
-  bool first_step_ = true;        // of the load: it gets period 0
-  bool motors_released_ = false;  // a real device in state damped has been released
-  double healthy_ = 0.0;          // [s] of consecutive fresh readings, to re-arm a simulated lever
+  bool first_step_ = true;        // the load's first step, which gets period 0
+  bool motors_released_ = false;  // the motors of a real device in state damped were released
+  double healthy_time_ = 0.0;     // [s] duration of fresh readings so far, to re-arm a simulated lever
   struct Sent {
     glm::dvec2 force{0.0};  // [N]
     LeverWalls walls;
   };
-  std::array<Sent, kMaxLoopDelay + 1> sent_{};  // in the most recent cycles
-  double apart_ = 1.0;                          // [s] since the lever last touched a wall
-  double unsaturated_ = 1.0;                    // [s] since the wanted force last exceeded the device's limit
+  std::array<Sent, kMaxLoopDelay + 1> sent_{};  // commands of the most recent cycles
+  double contact_free_time_ = 1.0;              // [s] time since the lever last touched a wall
+  double unsaturated_time_ = 1.0;               // [s] time since the wanted force last exceeded the device's limit
   HapticSnapshot out_;
   StageStamps stamps_;
 };

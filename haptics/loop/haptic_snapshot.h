@@ -12,28 +12,27 @@
 namespace gearshift::haptics {
 
 // Bits of HapticSnapshot::flags.
-inline constexpr std::uint32_t kFlagContact = 1u << 0;    // the lever is pressed into a wall
-inline constexpr std::uint32_t kFlagSaturated = 1u << 1;  // the wanted force exceeded the device's limit
-inline constexpr std::uint32_t kFlagOverPush = 1u << 2;   // the hand pushes harder than the warning threshold
-inline constexpr std::uint32_t kFlagPushEstimated =
-    1u << 3;  // the push is estimated: no force sensor, or no valid value from it
-inline constexpr std::uint32_t kFlagGhost = 1u << 4;  // lever and proxy are too far apart
-inline constexpr std::uint32_t kFlagFresh = 1u << 5;  // this cycle's reading was new and plausible
+inline constexpr std::uint32_t kFlagContact = 1u << 0;        // the lever is pressed into a wall
+inline constexpr std::uint32_t kFlagSaturated = 1u << 1;      // the wanted force exceeds the device's limit
+inline constexpr std::uint32_t kFlagOverPush = 1u << 2;       // the hand pushes harder than the warning threshold
+inline constexpr std::uint32_t kFlagPushEstimated = 1u << 3;  // the push is estimated, without a valid sensor value
+inline constexpr std::uint32_t kFlagGhost = 1u << 4;          // lever and proxy are too far apart
+inline constexpr std::uint32_t kFlagFresh = 1u << 5;          // this cycle's reading was new and plausible
 
 struct HapticSnapshot {
   std::uint64_t cycle = 0;
   std::int64_t time_ns = 0;     // [ns] this cycle's deadline
   glm::dvec2 lever{0.0};        // [m] measured lever point
   glm::dvec2 velocity{0.0};     // [m/s] smoothed
-  glm::dvec2 proxy{0.0};        // [m] proxy; the drawn lever
+  glm::dvec2 proxy{0.0};        // [m] position of the drawn lever
   glm::dvec2 wall_force{0.0};   // [N] coupling
   glm::dvec2 feel_force{0.0};   // [N] gate's feel and damping
   glm::dvec2 load_force{0.0};   // [N] driveline
-  glm::dvec2 commanded{0.0};    // [N] after the guard
-  glm::dvec2 f_h{0.0};          // [N] eq (4): force of the hand
-  glm::dvec2 f_a{0.0};          // [N] eq (4): force of the actuators against the hand
-  glm::dvec2 f_j{0.0};          // [N] eq (4): f_h - f_a, which moves the joystick
-  double wall_stiffness = 0.0;  // [N/m] in use: the admitted stiffness after the reversal limiter
+  glm::dvec2 commanded{0.0};    // [N] force after the guard
+  glm::dvec2 f_h{0.0};          // [N] force of the hand, the paper's eq (4)
+  glm::dvec2 f_a{0.0};          // [N] force of the actuators against the hand, the paper's eq (4)
+  glm::dvec2 f_j{0.0};          // [N] f_h - f_a, which moves the joystick, the paper's eq (4)
+  double wall_stiffness = 0.0;  // [N/m] in use: admitted stiffness after the reversal limiter
   double road_speed = 0.0;      // [m/s]
   int slot = kNoSlot;
   int gear = kNeutralGear;
@@ -61,8 +60,8 @@ struct HapticEvent {
   double value = 0.0;
 };
 
-// "2 engaged", "wall hit at 0.31 m/s", ... push_estimated: the device has no force sensor, so the push is marked as
-// estimated.
+// For example "2 engaged" or "wall hit at 0.31 m/s". push_estimated: the device has no force sensor, so the push is
+// marked as estimated.
 std::string describe(const HapticEvent& event, bool push_estimated = false);
 
 }  // namespace gearshift::haptics

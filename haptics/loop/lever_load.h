@@ -23,7 +23,7 @@
 
 namespace gearshift::haptics {
 
-// The driver's other controls and the settings of a lesson. The frame thread writes them as one value.
+// The driver's controls except the lever, and the settings of a lesson. The frame thread writes them as one value.
 struct DriverControls {
   double throttle = 0.0;    // [1] 0 to 1
   double brake = 0.0;       // [1] 0 to 1
@@ -31,7 +31,7 @@ struct DriverControls {
   double hand_brake = 0.0;  // [1] 0 to 1
   bool ignition = false;
   bool starter = false;
-  double slope = 0.0;              // [rad] of the road, uphill +
+  double slope = 0.0;              // [rad] slope of the road, uphill +
   int guided_gear = kNeutralGear;  // gear to which the guidance leads the hand
   double guidance = 0.0;           // [1] 0 to 1, strength of the guidance; 0: none
 };
@@ -48,11 +48,11 @@ struct LeverInput {
 };
 
 struct LeverOutput {
-  glm::dvec2 force{0.0};  // [N] on the lever
+  glm::dvec2 force{0.0};  // [N] force on the lever
   glm::dvec2 vibration{
       0.0};  // [N] part of `force` that vibrates by itself, independent of the lever's motion: a stalling engine
-  int limited_slot = kNoSlot;  // slot with a depth limit: a blocking synchroniser, a torque lock
-  double depth_min = 0.0;      // [m]
+  int limited_slot = kNoSlot;                             // slot with a depth limit, such as a blocking synchroniser
+  double depth_min = 0.0;                                 // [m]
   double depth_max = std::numeric_limits<double>::max();  // [m]
   double road_speed = 0.0;                                // [m/s] forward +; drives the speed lockout
 };
@@ -61,7 +61,7 @@ class LeverLoad {
  public:
   virtual ~LeverLoad() = default;
   virtual LeverOutput step(const LeverInput& in, double period) noexcept = 0;  // period [s]
-  // Identifies the model and its parameters in a trace; a replay rejects a different one.
+  // Text that identifies the model and its parameters in a trace; a replay rejects a different model.
   virtual const char* replay_parameters() const noexcept = 0;
 };
 

@@ -15,15 +15,15 @@ namespace {
 constexpr Range kAnySeed{0.0, 9007199254740992.0};  // 2^53: every integer up to it is exact as a double
 constexpr double kMaxMass = 1e3, kMaxDamping = 1e4, kMaxStiffness = 1e6;
 
-// Reads a key if present and otherwise keeps the default. A default that another key has put out of range makes the key
-// mandatory.
+// Reads a key if present and otherwise keeps the default. The key is mandatory if a different key has put the default
+// out of range.
 void read(const TomlTable& table, std::string_view key, double& value, Range range) {
   const bool possible = value >= range.min && value <= range.max;
   if (table.has(key) || !possible) value = table.number(key, range);
 }
 
 template <class Integer>
-void read_whole(const TomlTable& table, std::string_view key, Integer& value, Range range) {
+void read_integer(const TomlTable& table, std::string_view key, Integer& value, Range range) {
   const double number = table.number_or(key, static_cast<double>(value), range);
   if (number != std::floor(number)) table.fail(key, "must be a whole number");
   value = static_cast<Integer>(number);
@@ -33,16 +33,16 @@ void read_angle(const TomlTable& table, std::string_view key, double& radians, R
   if (table.has(key)) radians = table.number(key, degrees) * std::numbers::pi / 180.0;
 }
 
-template <class Word>
-void read_word(const TomlTable& table, std::string_view key, Word& value,
-               const std::vector<std::pair<std::string, Word>>& words) {
+template <class Value>
+void read_choice(const TomlTable& table, std::string_view key, Value& value,
+                 const std::vector<std::pair<std::string, Value>>& choices) {
   if (!table.has(key)) return;
   std::vector<std::string> allowed;
-  allowed.reserve(words.size());
-  for (const auto& [word, meaning] : words) allowed.push_back(word);
+  allowed.reserve(choices.size());
+  for (const auto& [name, choice] : choices) allowed.push_back(name);
   const std::string chosen = table.choice(key, allowed);
-  for (const auto& [word, meaning] : words) {
-    if (word == chosen) value = meaning;
+  for (const auto& [name, choice] : choices) {
+    if (name == chosen) value = choice;
   }
 }
 
@@ -101,12 +101,12 @@ void read_lever(const TomlTable& table, SimulatedLeverConfig& lever) {
   read_encoder(table, lever.encoder_counts);
   read_actuator(table, lever.actuator);
   read(table, "coulomb_friction_n", lever.coulomb_friction, {0.0, 1e3});
-  read_whole(table, "delay_cycles", lever.delay, {0.0, kMaxSimulatedDelay});
+  read_integer(table, "delay_cycles", lever.delay, {0.0, kMaxSimulatedDelay});
   read(table, "own_wall_stiffness_n_per_m", lever.device_wall_stiffness, {0.0, 1e5});
   read_hand(table, lever.hand);
   read(table, "model_error", lever.model_error, {0.0, 0.5});
   read(table, "period_jitter", lever.period_jitter, {0.0, 0.5});
-  read_whole(table, "seed", lever.seed, kAnySeed);
+  read_integer(table, "seed", lever.seed, kAnySeed);
   read_part(table, "yoke", lever.yoke, read_yoke);
   read_part(table, "axis_x", lever.axis_x, read_axis);
   read_part(table, "axis_y", lever.axis_y, read_axis);
@@ -129,15 +129,15 @@ void read_tuning(const TomlTable& table, HapticTuning& tuning) {
 }
 
 void read_contact(const TomlTable& table, ContactConfig& contact) {
-  read_word<ContactHold>(table, "hold", contact.hold,
-                         {{"automatic", ContactHold::automatic},
-                          {"zero_order", ContactHold::zero_order},
-                          {"half_sample", ContactHold::half_sample},
-                          {"observer", ContactHold::observer}});
-  read_word<EnergyControl>(table, "energy_control", contact.energy_control,
-                           {{"none", EnergyControl::none},
-                            {"energy_bounding", EnergyControl::energy_bounding},
-                            {"passivity_controller", EnergyControl::passivity_controller}});
+  read_choice<ContactHold>(table, "hold", contact.hold,
+                           {{"automatic", ContactHold::automatic},
+                            {"zero_order", ContactHold::zero_order},
+                            {"half_sample", ContactHold::half_sample},
+                            {"observer", ContactHold::observer}});
+  read_choice<EnergyControl>(table, "energy_control", contact.energy_control,
+                             {{"none", EnergyControl::none},
+                              {"energy_bounding", EnergyControl::energy_bounding},
+                              {"passivity_controller", EnergyControl::passivity_controller}});
   contact.reversal_limiter = table.flag_or("reversal_limiter", contact.reversal_limiter);
   contact.allow_unstable = table.flag_or("study", contact.allow_unstable);
 }
@@ -145,7 +145,7 @@ void read_contact(const TomlTable& table, ContactConfig& contact) {
 void read_estimator(const TomlTable& table, EstimatorConfig& estimator) {
   read(table, "smoothing_s", estimator.smoothing, {1e-5, 1.0});
   read(table, "speed_limit_m_per_s", estimator.speed_limit, {0.1, 1000.0});
-  read_whole(table, "window_samples", estimator.window, {1.0, 64.0});
+  read_integer(table, "window_samples", estimator.window, {1.0, 64.0});
 }
 
 void read_guard(const TomlTable& table, GuardConfig& guard) {
@@ -153,7 +153,7 @@ void read_guard(const TomlTable& table, GuardConfig& guard) {
   read(table, "ramp_time_s", guard.ramp_time, {0.001, 60.0});
   read(table, "stale_time_s", guard.stale_time, {0.001, 1.0});
   read(table, "fade_time_s", guard.fade_time, {0.001, 1.0});
-  read_whole(table, "overruns_in_row", guard.overruns_in_row, {1.0, 1000.0});
+  read_integer(table, "overruns_in_row", guard.overruns_in_row, {1.0, 1000.0});
   read(table, "damped_damping_n_s_per_m", guard.damped_damping, {0.0, 50.0});
   read(table, "position_margin_m", guard.position_margin, {0.0, 1.0});
 }

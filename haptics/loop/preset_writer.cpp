@@ -12,7 +12,7 @@
 namespace gearshift::haptics {
 namespace {
 
-// Finds the number of degrees that the reader converts back (times pi / 180) to exactly this angle.
+// The number of degrees that the reader converts (times pi / 180) to exactly this angle.
 double degrees_of(double radians) {
   const double nearest = radians * 180.0 / std::numbers::pi;
   for (const double candidate : {nearest, std::nextafter(nearest, 0.0), std::nextafter(nearest, HUGE_VAL)})
@@ -23,7 +23,7 @@ double degrees_of(double radians) {
 class TomlText {
  public:
   void section(std::string_view name) { text_ += "\n[" + std::string(name) + "]\n"; }
-  void put(std::string_view key, const std::string& words) { line(key, toml_string(words)); }
+  void put(std::string_view key, const std::string& text) { line(key, toml_string(text)); }
   void put(std::string_view key, bool flag) { line(key, flag ? "true" : "false"); }
   void put(std::string_view key, double number) { line(key, toml_number(number)); }
   void put(std::string_view key, std::integral auto number) { line(key, toml_number(number)); }
@@ -42,7 +42,7 @@ std::string hand_text(const HandImpedance& hand) {
   return toml_number(hand.mass) + ',' + toml_number(hand.damping) + ',' + toml_number(hand.stiffness);
 }
 
-std::string word_of(ContactHold hold) {
+std::string key_of(ContactHold hold) {
   switch (hold) {
     case ContactHold::automatic:
       return "automatic";
@@ -56,7 +56,7 @@ std::string word_of(ContactHold hold) {
   return "observer";
 }
 
-std::string word_of(EnergyControl control) {
+std::string key_of(EnergyControl control) {
   switch (control) {
     case EnergyControl::none:
       return "none";
@@ -114,8 +114,8 @@ void put_tuning(TomlText& out, const HapticTuning& tuning) {
 
 void put_contact(TomlText& out, const ContactConfig& contact) {
   out.section("contact");
-  out.put("hold", word_of(contact.hold));
-  out.put("energy_control", word_of(contact.energy_control));
+  out.put("hold", key_of(contact.hold));
+  out.put("energy_control", key_of(contact.energy_control));
   out.put("reversal_limiter", contact.reversal_limiter);
   out.put("study", contact.allow_unstable);
 }

@@ -8,11 +8,11 @@
 
 namespace gearshift::haptics {
 
-// The file's text. Numbers are written losslessly. An angle may come back one bit off if no number of degrees gives
-// exactly that value; an angle that was read from degrees always comes back exactly.
+// The text of a preset file. Numbers are written losslessly. An angle may come back one bit off if no number of degrees
+// gives exactly that value; an angle that was read from degrees always comes back exactly.
 std::string preset_text(const Preset& preset);
 
-// Atomic: writes a temporary file, reads it back, and renames it over an existing file. The folder must exist. Throws
+// Replaces the file atomically: writes a temporary file, reads it back, and renames it. The folder must exist. Throws
 // FileError with one sentence if the file cannot be written or holds a value that read_preset() would reject.
 void write_preset(const Preset& preset, const std::filesystem::path& file);
 

@@ -16,9 +16,6 @@
 #include "haptics/loop/haptic_loop.h"
 
 namespace gearshift::haptics {
-namespace {
-
-constexpr std::size_t kShownName = 80;  // [bytes] of a load's name in a message
 
 // Returns the recorded readings and ignores all writes.
 class RecordedDevice final : public HapticDevice {
@@ -35,9 +32,13 @@ class RecordedDevice final : public HapticDevice {
   DeviceSpec spec_;
 };
 
+namespace {
+
+constexpr std::size_t kShownName = 80;  // [bytes] longest part of a load's name shown in a message
+
 struct NamedLeaf {
   std::string name;    // "reading.position.x"
-  std::uint64_t bits;  // as in the file
+  std::uint64_t bits;  // bits as stored in the file
   std::string text;
 };
 
@@ -51,7 +52,7 @@ std::string value_text(T value) {
   }
 }
 
-// Calls visit("reading.position.x", leaf) for every leaf field. It is slow and allocates, so it is not used every
+// Calls visit("reading.position.x", leaf) for every leaf field. This is slow and allocates, so it is not used every
 // cycle.
 template <class T, class Visit>
 void each_leaf(const T& value, const std::string& prefix, const Visit& visit) {
@@ -72,9 +73,10 @@ std::vector<NamedLeaf> leaves_of(const TraceSample& sample) {
 }
 
 std::optional<Difference> first_difference(const TraceSample& recorded, const TraceSample& replayed) {
-  const std::vector<NamedLeaf> was = leaves_of(recorded), is = leaves_of(replayed);
-  for (std::size_t i = 0; i < was.size(); ++i)
-    if (was[i].bits != is[i].bits) return Difference{recorded.out.cycle, was[i].name, was[i].text, is[i].text};
+  const std::vector<NamedLeaf> recorded_leaves = leaves_of(recorded), replayed_leaves = leaves_of(replayed);
+  for (std::size_t i = 0; i < recorded_leaves.size(); ++i)
+    if (recorded_leaves[i].bits != replayed_leaves[i].bits)
+      return Difference{recorded.out.cycle, recorded_leaves[i].name, recorded_leaves[i].text, replayed_leaves[i].text};
   return std::nullopt;
 }
 
@@ -85,13 +87,13 @@ bool has_same_bits(const HapticTuning& a, const HapticTuning& b) noexcept {
   return left == right;
 }
 
-// A name may contain a whole car file, so messages only quote its first line.
+// A load's name may contain a whole car file, so messages quote only its first line.
 std::unique_ptr<LeverLoad> make_known_load(const std::string& name, const Gate& gate, const LoadFactory& make_load) {
   std::unique_ptr<LeverLoad> load;
   try {
     load = make_load(name, gate);
   } catch (const FileError& error) {
-    throw std::invalid_argument(std::string("its lever load is refused: ") + error.what());
+    throw std::invalid_argument(std::string("its lever load is invalid: ") + error.what());
   }
   if (load) return load;
   const std::string first_line = printable(name.substr(0, std::min<std::size_t>(name.find('\n'), kShownName)));
@@ -146,9 +148,9 @@ Replayer::Replayer(const TraceHeader& header, const std::string& file, const Loa
     check_device(header.device);
     rig_ = std::make_unique<Rig>(header, make_load);
   } catch (const std::invalid_argument& error) {
-    throw FileError(file, 0, std::string("cannot be replayed: ") + error.what());
+    throw FileError(file, 0, std::string("the trace cannot be replayed, because ") + error.what());
   } catch (const FileError& error) {
-    throw FileError(file, 0, std::string("cannot be replayed: its gate is refused: ") + error.what());
+    throw FileError(file, 0, std::string("the trace cannot be replayed, because its gate is invalid: ") + error.what());
   }
 }
 
@@ -158,7 +160,7 @@ bool Replayer::step(const TraceSample& recorded) {
   const bool is_first = result_.cycles == 0;
   if (is_first && recorded.out.cycle != rig_->loop.snapshot().cycle)
     throw FileError(file_, 0,
-                    "cannot be replayed: its recording began in the middle of a run, at cycle " +
+                    "the trace cannot be replayed, because it was begun in the middle of a run, at cycle " +
                         std::to_string(recorded.out.cycle));
   if (is_first) first_ns_ = recorded.deadline_ns;
 
@@ -168,10 +170,10 @@ bool Replayer::step(const TraceSample& recorded) {
   last_ = recorded;
   ++result_.cycles;
 
-  const EncodedSample was = encode_sample(recorded);
-  const EncodedSample is = encode_sample(replayed);
-  hash_.add(outputs_of(is));
-  if (was == is) return true;
+  const EncodedSample recorded_bytes = encode_sample(recorded);
+  const EncodedSample replayed_bytes = encode_sample(replayed);
+  hash_.add(outputs_of(replayed_bytes));
+  if (recorded_bytes == replayed_bytes) return true;
   result_.first = first_difference(recorded, replayed);
   return false;
 }

@@ -17,16 +17,16 @@ namespace gearshift::haptics {
 using LoadFactory = std::function<std::unique_ptr<LeverLoad>(const std::string& name, const Gate& gate)>;
 std::unique_ptr<LeverLoad> make_no_load(const std::string& name, const Gate& gate);
 
-// The first field that differs.
+// The first field whose replayed value differs from the recorded one.
 struct Difference {
   std::uint64_t cycle = 0;
   std::string field;               // "out.commanded.x"
-  std::string recorded, replayed;  // as text, doubles losslessly
+  std::string recorded, replayed;  // values as text, doubles losslessly
 };
 
 struct ReplayResult {
-  std::uint64_t cycles = 0;         // replayed cycles, including the one that differs
-  double seconds = 0.0;             // [s] on the loop's clock
+  std::uint64_t cycles = 0;         // replayed cycles, including a cycle that differs
+  double seconds = 0.0;             // [s] replayed time on the loop's clock
   std::uint64_t recorded_hash = 0;  // hash of parameters and outputs
   std::uint64_t replayed_hash = 0;
   std::optional<Difference> first;
@@ -40,8 +40,8 @@ class Replayer {
   Replayer(const TraceHeader& header, const std::string& file, const LoadFactory& make_load = make_no_load);
   ~Replayer();
 
-  // Replays one cycle. False at the first difference; then call finish(). Throws FileError if the recording began in
-  // the middle of a run.
+  // Replays one cycle. Returns false at the first difference; then call finish(). Throws FileError if the recording
+  // began in the middle of a run.
   bool step(const TraceSample& recorded);
 
   // recorded_hash: hash of the whole recording (TraceReader::hash after the last cycle).

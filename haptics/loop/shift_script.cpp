@@ -59,7 +59,7 @@ const Column& column_at(const Gate& gate, double x) {
   return gate.column[static_cast<std::size_t>(nearest_column(gate, x))];
 }
 
-// x outside the column at `x`: the neutral column, or half way to a neighbour if this is the neutral column.
+// An x outside the column at `x`: the neutral column's, or half way to a neighbour if `x` is in the neutral column.
 double detour_x(const Gate& gate, double x) {
   const int here = nearest_column(gate, x);
   const double center = gate.column[static_cast<std::size_t>(here)].center;
@@ -67,10 +67,10 @@ double detour_x(const Gate& gate, double x) {
   return 0.5 * (center + gate.column[static_cast<std::size_t>(here > 0 ? here - 1 : here + 1)].center);
 }
 
-constexpr double kLean = 0.0015;  // [m] beyond a wall
+constexpr double kLean = 0.0015;  // [m] aim beyond a wall
 
-// x offset to aim at: a hand slides along the gate's end wall into an outer slot, and aims at the middle of an inner
-// slot.
+// Offset of the aim in x: a hand slides along the gate's end wall into an outer slot, but aims at the middle of an
+// inner slot.
 double lean_at(const Gate& gate, double x, double direction) {
   const double half_width = column_at(gate, x).half_width;
   const double wall = x + std::copysign(half_width, direction);
@@ -85,7 +85,7 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
   StrokeWriter writer(start, style);
   const auto select = [&](double x) {
     const double direction = x - writer.at().x;
-    if (std::abs(direction) <= column_at(gate, x).half_width + 1.01 * kLean) return;  // already in that column
+    if (std::abs(direction) <= column_at(gate, x).half_width + 1.01 * kLean) return;  // already in the right column
     writer.move_to({x + (style.leans ? lean_at(gate, x, direction) : 0.0), 0.0}, style.dwell_neutral);
   };
   int gear = kNeutralGear;

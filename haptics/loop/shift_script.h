@@ -12,8 +12,8 @@ namespace gearshift::haptics {
 struct ShiftStyle {
   double pace = 0.20;           // [m/s] mean speed of a stroke
   double reaction = 0.10;       // [s] added to every stroke
-  double dwell_gear = 0.30;     // [s] in each gear
-  double dwell_neutral = 0.05;  // [s] at each turn in the neutral aisle
+  double dwell_gear = 0.30;     // [s] dwell in each gear
+  double dwell_neutral = 0.05;  // [s] dwell at each turn in the neutral aisle
   bool leans =
       true;  // aim 1.5 mm beyond end walls and end stops, as a hand does; otherwise at the gear's rest position
 };
@@ -24,10 +24,10 @@ struct ShiftStyle {
 std::vector<HandStroke> shift_strokes(const Gate& gate, glm::dvec2 start, std::span<const int> gears,
                                       const ShiftStyle& style = {});
 
-// The order of the paper's Fig. 9: forward gears rising, then reverse. All gears of the gate.
+// All gears of the gate in the order of the paper's Fig. 9: forward gears rising, then reverse.
 std::vector<int> tour_order(const Gate& gate);
 
-// Hand settings for tour, bench and tests: the effort compensates for the softness of the hand's own impedance.
+// Hand settings for tour, bench and tests, with an effort that compensates for the softness of the hand's impedance.
 ScriptedHandConfig touring_hand(glm::dvec2 start);
 
 }  // namespace gearshift::haptics

@@ -1,5 +1,5 @@
-// A complete headless lever: simulated device and hand, gate and loop on a virtual clock. Deterministic, and not
-// limited to real time.
+// A complete headless lever: simulated device and hand, gate and loop on a virtual clock. Deterministic, and not tied
+// to real time.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@ namespace gearshift::haptics {
 namespace {
 
 constexpr double kMm = 1e3;  // [mm/m]
-constexpr int kDigits = 12;  // significant; the trace itself is lossless
+constexpr int kDigits = 12;  // significant digits; the trace itself is lossless
 
 // Collects cells. The same code builds the header and the lines, so that their columns always match.
 class Row {
@@ -56,20 +56,6 @@ class Row {
   std::string text_;
 };
 
-const char* command_name(LoopCommand command) noexcept {
-  switch (command) {
-    case LoopCommand::none:
-      return "none";
-    case LoopCommand::arm:
-      return "arm";
-    case LoopCommand::disarm:
-      return "disarm";
-    case LoopCommand::stop:
-      return "stop";
-  }
-  return "?";
-}
-
 void add_motion(Row& row, const HapticSnapshot& out) {
   row.pair("lever", "mm", out.lever, kMm);
   row.pair("proxy", "mm", out.proxy, kMm);
@@ -91,8 +77,8 @@ void add_state(Row& row, const HapticSnapshot& out) {
   row.cell("gear", out.gear);
   row.cell("slot", out.slot);
   row.cell("road_speed_m_per_s", out.road_speed);
-  row.cell("guard", guard_state_name(out.guard));
-  row.cell("fault", guard_fault_name(out.fault));
+  row.cell("guard", to_string(out.guard));
+  row.cell("fault", to_string(out.fault));
   flag("contact", kFlagContact);
   flag("saturated", kFlagSaturated);
   flag("over_push", kFlagOverPush);
@@ -120,7 +106,7 @@ void add_inputs(Row& row, const TraceSample& sample) {
   row.cell("guidance", sample.controls.guidance);
   row.cell("wall_stiffness_n_per_m", sample.tuning.wall_stiffness);
   row.cell("wall_damping_n_s_per_m", sample.tuning.wall_damping);
-  row.cell("command", command_name(sample.command));
+  row.cell("command", to_string(sample.command));
 }
 
 std::string row_of(const TraceSample& sample, std::int64_t first_ns, bool names) {
@@ -148,7 +134,7 @@ TraceCsvFile::TraceCsvFile(const std::filesystem::path& file) : name_(file.strin
   part_.prepare();
   errno = 0;
   stream_.open(part_.path(), std::ios::binary);
-  if (!stream_) throw FileError(name_, 0, std::string("cannot be written: ") + std::strerror(errno));
+  if (!stream_) throw FileError(name_, 0, std::string("cannot be written (") + std::strerror(errno) + ")");
   stream_ << trace_csv_header() << '\n';
 }
 
@@ -160,7 +146,7 @@ void TraceCsvFile::add(const TraceSample& sample) {
 void TraceCsvFile::finish() {
   errno = 0;
   stream_.close();
-  if (!stream_) throw FileError(name_, 0, std::string("could not be written: ") + std::strerror(errno));
+  if (!stream_) throw FileError(name_, 0, std::string("could not be written (") + std::strerror(errno) + ")");
   part_.commit();
 }
 

@@ -13,7 +13,7 @@
 namespace gearshift::haptics {
 
 std::string trace_csv_header();
-// first_ns: deadline of the first cycle [ns], at which time_s is 0. Neither line has a line end.
+// first_ns: deadline of the first cycle [ns], at which time_s is 0. The header and the lines have no line end.
 std::string trace_csv_line(const TraceSample& sample, std::int64_t first_ns);
 
 class TraceCsvFile {  // the file appears only after finish()

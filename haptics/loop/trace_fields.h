@@ -154,7 +154,7 @@ constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit)
   visit("flags", flags);
 }
 
-// `out` must be last: the outputs are the tail of an encoded sample.
+// `out` must be the last field: the outputs are the tail of an encoded sample.
 constexpr void each_field(FieldsOf<TraceSample> auto& sample, auto&& visit) {
   auto& [deadline_ns, skipped, reading, controls, tuning, command, out] = sample;
   visit("deadline_ns", deadline_ns);

@@ -21,11 +21,11 @@
 
 namespace gearshift::haptics {
 
-// Binary, and chosen so that a transfer that converts line ends damages it.
+// Binary, and chosen so that a file transfer that converts line ends damages the magic.
 inline constexpr std::array<char, 8> kTraceMagic = {'\x89', 'G', 'S', 'T', 'R', 'C', '\r', '\n'};
 inline constexpr std::uint32_t kTraceVersion = 7;
 
-// Everything that a replay needs before the first cycle. So that it matches the run, start recording before the first
+// Everything that a replay needs before the first cycle. For a replayable trace, start recording before the first
 // cycle, and put the initial tuning into the config instead of the channels.
 struct TraceHeader {
   std::string program;  // name and version of the recording program
@@ -48,7 +48,7 @@ std::span<const std::byte> outputs_of(std::span<const std::byte, kSampleBytes> s
 std::vector<std::byte> encode_header(const TraceHeader& header);
 std::optional<TraceHeader> decode_header(std::span<const std::byte> payload);  // empty if malformed
 
-// Difference of two times from a file, which may have any value; wraps instead of overflowing.
+// Difference of two times from a file. They may have any value, so the difference wraps instead of overflowing.
 constexpr std::int64_t nanoseconds_between(std::int64_t from, std::int64_t to) noexcept {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from));
 }
@@ -74,7 +74,7 @@ enum class BlockKind : std::uint32_t {
 
 struct BlockFrame {
   BlockKind kind = BlockKind::data;
-  std::uint32_t size = 0;     // [bytes] of the payload
+  std::uint32_t size = 0;     // [bytes] size of the payload
   std::uint32_t samples = 0;  // number of samples; only in data blocks
   std::uint32_t payload_crc = 0;
 };
@@ -83,7 +83,7 @@ inline constexpr std::size_t kPreambleBytes = kTraceMagic.size() + sizeof kTrace
 
 std::array<std::byte, kFrameBytes> encode_frame(BlockKind kind, std::span<const std::byte> payload,
                                                 std::size_t samples = 0) noexcept;
-// Empty if damaged, of unknown kind, or with more bytes or samples than a block of that kind can have.
+// Empty if the frame is damaged, of unknown kind, or has more bytes or samples than a block of that kind can have.
 std::optional<BlockFrame> decode_frame(std::span<const std::byte, kFrameBytes> bytes) noexcept;
 
 }  // namespace gearshift::haptics

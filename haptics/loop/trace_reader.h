@@ -1,5 +1,5 @@
-// Reads a trace file block by block and validates everything in it. Memory holds one block, and the positions of all
-// others: 24 bytes each, 1/10 byte per cycle.
+// Reads a trace file block by block and validates everything in it. Memory holds one block, and the position of every
+// block: 24 bytes per block, 0.1 byte per cycle.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ class TraceReader {
   explicit TraceReader(const std::filesystem::path& file, TornTrace torn = TornTrace::refuse);
 
   const TraceHeader& header() const noexcept { return header_; }
-  std::uint64_t cycles() const noexcept { return cycles_; }  // in all complete data blocks
+  std::uint64_t cycles() const noexcept { return cycles_; }  // number of cycles in all complete data blocks
   bool torn() const noexcept { return torn_; }               // true only when salvaging
 
   // False after the last cycle. Throws FileError if a block is damaged, a cycle holds an invalid value or does not
@@ -38,7 +38,7 @@ class TraceReader {
 
  private:
   struct Block {
-    std::uint64_t at = 0;  // [bytes] of the payload
+    std::uint64_t at = 0;  // [bytes] file offset of the payload
     BlockFrame frame;
   };
 
@@ -58,7 +58,7 @@ class TraceReader {
 
   std::string name_;
   std::ifstream stream_;
-  std::uint64_t size_ = 0;  // [bytes] of the file
+  std::uint64_t size_ = 0;  // [bytes] size of the file
   TornTrace policy_;
   TraceHeader header_;
   std::vector<Block> blocks_;  // data blocks
@@ -69,14 +69,14 @@ class TraceReader {
   std::size_t next_block_ = 0;
   std::vector<std::byte> payload_;
   BlockCodec codec_;
-  std::vector<std::byte> samples_;  // decoded from the current block
+  std::vector<std::byte> samples_;  // samples decoded from the current block
   std::size_t used_ = 0;            // [bytes] of samples_
   std::uint64_t cycles_read_ = 0;
   std::uint64_t last_cycle_ = 0;
   RunHash hash_;
 };
 
-// A whole trace in memory, for short ones.
+// A whole trace in memory, for short traces.
 struct Trace {
   TraceHeader header;
   std::vector<TraceSample> samples;

@@ -38,7 +38,7 @@ void TraceRecorder::drain() noexcept {
   if (lost_ || !writer_.problem().empty()) stop_recording();
 }
 
-// Cycles after a gap are dropped, because a replay needs every input. All cycles before it are written.
+// Writes the cycles before the first gap and drops those after it, because a replay needs every input.
 void TraceRecorder::take(const TraceSample& sample) noexcept {
   if (last_cycle_ && sample.out.cycle != *last_cycle_ + 1) lost_ = gap_ = true;
   last_cycle_ = sample.out.cycle;
@@ -50,13 +50,13 @@ void TraceRecorder::stop_recording() noexcept {
   const std::lock_guard lock(mutex_);
   if (!problem_.empty()) return;
   problem_ = writer_.problem();
-  if (problem_.empty()) problem_ = "the recording is torn: the recorder could not keep up";
+  if (problem_.empty()) problem_ = "the recording is incomplete, because the recorder could not keep up";
 }
 
 std::optional<std::string> TraceRecorder::take_problem() {
   const std::lock_guard lock(mutex_);
-  if (problem_.empty() || problem_taken_) return std::nullopt;
-  problem_taken_ = true;
+  if (problem_.empty() || problem_reported_) return std::nullopt;
+  problem_reported_ = true;
   return problem_;
 }
 

@@ -15,7 +15,7 @@
 namespace gearshift::haptics {
 
 enum class TracePump {
-  own_thread,  // for a real-time loop
+  own_thread,  // pumped on the recorder's own thread, for a real-time loop
   by_caller    // a headless run calls pump() at least once every 8000 cycles
 };
 
@@ -54,15 +54,15 @@ class TraceRecorder {
   TraceWriter writer_;
   const std::uint64_t lost_before_;
   std::optional<std::uint64_t> last_cycle_;
-  bool lost_ = false;  // the loop could not push a cycle
-  bool gap_ = false;   // and the cycles after it have begun to arrive
+  bool lost_ = false;  // the loop could not push a cycle into the queue
+  bool gap_ = false;   // cycles after the lost cycle have begun to arrive
   bool finished_ = false;
 
-  std::mutex mutex_;  // guards stopping_, problem_ and problem_taken_
+  std::mutex mutex_;  // guards stopping_, problem_ and problem_reported_
   std::condition_variable wake_;
   bool stopping_ = false;
   std::string problem_;
-  bool problem_taken_ = false;
+  bool problem_reported_ = false;
   std::thread thread_;
 };
 

@@ -9,7 +9,7 @@ namespace gearshift::haptics {
 
 TraceWriter::TraceWriter(const std::filesystem::path& file, const TraceHeader& header)
     : name_(file.string()), file_(std::fopen(name_.c_str(), "wb")), hash_(begin_hash(header)) {
-  if (!file_) throw FileError(name_, 0, std::string("cannot be written: ") + std::strerror(errno));
+  if (!file_) throw FileError(name_, 0, std::string("cannot be written (") + std::strerror(errno) + ")");
   // Blocks are large, so no buffer is needed; without it, an error is reported at the block that failed.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   block_.reserve(kSamplesPerBlock * kSampleBytes);
@@ -25,7 +25,7 @@ void TraceWriter::add(const TraceSample& sample) noexcept {
   if (!file_ || !problem_.empty()) return;
   const EncodedSample bytes = encode_sample(sample);
   hash_.add(outputs_of(bytes));
-  block_.insert(block_.end(), bytes.begin(), bytes.end());  // within the reserved capacity
+  block_.insert(block_.end(), bytes.begin(), bytes.end());  // no allocation: within the reserved capacity
   ++cycles_;
   if (block_.size() == kSamplesPerBlock * kSampleBytes) flush();
 }
@@ -58,7 +58,7 @@ void TraceWriter::write(std::span<const std::byte> bytes) noexcept {
 
 void TraceWriter::fail(int error) noexcept {
   if (!problem_.empty()) return;
-  problem_ = "the recording failed after " + std::to_string(cycles_) + " cycles: " + std::strerror(error);
+  problem_ = "the recording failed after " + std::to_string(cycles_) + " cycles (" + std::strerror(error) + ")";
 }
 
 }  // namespace gearshift::haptics

@@ -20,11 +20,12 @@ class TraceWriter {
   // Replaces an existing file. Throws FileError if it cannot be created or its header cannot be written.
   TraceWriter(const std::filesystem::path& file, const TraceHeader& header);
 
-  // After a write error, problem() says what failed, and everything later is ignored. Normally allocates nothing.
+  // Adds one cycle; normally allocates nothing. After a write error, problem() says what failed, and all later cycles
+  // are ignored.
   void add(const TraceSample& sample) noexcept;
 
-  // Writes the end block and closes the file. Without it the file counts as torn. torn: also mark the end block as
-  // torn.
+  // Writes the end block, without which the file counts as torn, and closes the file. torn: mark the end block as torn,
+  // too.
   void finish(bool torn = false) noexcept;
 
   const std::string& problem() const noexcept { return problem_; }  // empty, or one sentence

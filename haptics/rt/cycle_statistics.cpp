@@ -8,7 +8,7 @@
 
 namespace gearshift::haptics {
 
-// The leading bit of ns selects the octave, the kSubBits bits after it the bin inside the octave.
+// The leading bit of ns selects the octave, the next kSubBits bits select the bin inside the octave.
 std::size_t DurationHistogram::bin_of(std::uint64_t ns) noexcept {
   if (ns < (1u << kSubBits)) return static_cast<std::size_t>(ns);
   const int octave = static_cast<int>(std::bit_width(ns)) - 1 - kSubBits;
@@ -34,13 +34,13 @@ void DurationHistogram::add(std::int64_t ns) noexcept {
 std::int64_t DurationHistogram::quantile(double q) const noexcept {
   if (count_ == 0) return 0;
   if (!(q < 1.0)) return max_;
-  // Rank of the quantile: at least the fraction q of all samples is no larger than the sample of this rank.
+  // Rank of the quantile: at least the fraction q of all samples does not exceed the sample of this rank.
   const double wanted = std::ceil(std::max(q, 0.0) * static_cast<double>(count_));
   const std::uint64_t rank = std::max<std::uint64_t>(static_cast<std::uint64_t>(wanted), 1);
-  std::uint64_t seen = 0;
+  std::uint64_t counted = 0;
   for (std::size_t bin = 0; bin + 1 < kBins; ++bin) {
-    seen += bins_[bin];
-    if (seen >= rank) return std::min(upper_edge(bin), max_);
+    counted += bins_[bin];
+    if (counted >= rank) return std::min(upper_edge(bin), max_);
   }
   return max_;  // the last bin has no upper edge
 }

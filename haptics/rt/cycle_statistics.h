@@ -13,7 +13,7 @@ namespace gearshift::haptics {
 class DurationHistogram {
  public:
   void add(std::int64_t ns) noexcept;                 // negative counts as 0. Real-time safe
-  std::int64_t quantile(double q) const noexcept;     // [ns] upper edge of the bin, q in [0, 1]; 0 when empty
+  std::int64_t quantile(double q) const noexcept;     // [ns] upper edge of the quantile's bin, 0 <= q <= 1; 0 if empty
   std::int64_t max() const noexcept { return max_; }  // [ns] exact
   std::uint64_t count() const noexcept { return count_; }
 
@@ -32,7 +32,7 @@ class DurationHistogram {
 
 struct CycleStatistics {
   DurationHistogram wake_lateness;  // [ns] wake-up time minus deadline
-  DurationHistogram duration;       // [ns] of the cycle's work
+  DurationHistogram duration;       // [ns] duration of the cycle's work
   std::uint64_t cycles = 0;
   std::uint64_t overruns = 0;  // cycles that ended after the next deadline; the missed deadlines are skipped
   std::uint64_t skipped = 0;   // deadlines skipped after an overrun or a wake-up late by a period or more

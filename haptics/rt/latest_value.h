@@ -18,12 +18,12 @@ class LatestValue {
   // Writer only.
   void write(const T& value) noexcept {
     slot_[back_].value = value;
-    // Release: the reader that gets this index sees the complete value. Acquire: the reader has finished with the slot
-    // that comes back.
+    // Release: when the reader gets this index, it sees the complete value. Acquire: the reader has finished with the
+    // slot that the exchange returns.
     back_ = index_of(middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel));
   }
 
-  // Reader only. True when the value is newer than at the last call.
+  // Reader only. Fetches the newest value; true if it is newer than at the last call.
   bool update() noexcept {
     // Relaxed is enough for this check: only the reader clears the mark, and the exchange below gets the newest value.
     if (!(middle_.load(std::memory_order_relaxed) & kFresh)) return false;

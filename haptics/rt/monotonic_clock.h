@@ -1,5 +1,5 @@
-// The clock of the loop, its trace and the sticks: CLOCK_MONOTONIC, the same clock as std::chrono::steady_clock on
-// Linux.
+// The clock used by the loop, its trace and the stick driver: CLOCK_MONOTONIC, the same clock as
+// std::chrono::steady_clock on Linux.
 #pragma once
 
 #include <time.h>

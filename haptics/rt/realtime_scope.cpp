@@ -12,7 +12,7 @@ std::string schedule_fifo(int priority) {
   wanted.sched_priority = priority;
   if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) == 0) return {};
   const std::string level = std::to_string(priority);
-  return "SCHED_FIFO at priority " + level + " was refused: " + std::strerror(errno) + " (grant it with 'rtprio " +
+  return "SCHED_FIFO at priority " + level + " was refused (" + std::strerror(errno) + "; allow it with 'rtprio " +
          level + "')";
 }
 
@@ -28,7 +28,7 @@ RealtimeScope::~RealtimeScope() {
   sched_param before{};
   before.sched_priority = priority_;
   sched_setscheduler(0, policy_ | SCHED_RESET_ON_FORK,
-                     &before);  // keeps the flag, because clearing it needs a privilege
+                     &before);  // keeps the reset-on-fork flag, because clearing it needs a privilege
 }
 
 }  // namespace gearshift::haptics

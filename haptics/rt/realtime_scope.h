@@ -5,8 +5,8 @@
 
 namespace gearshift::haptics {
 
-// Sets SCHED_FIFO with priority 1 to 99; threads started by this one do not inherit it. Returns an error message, or an
-// empty string.
+// Sets SCHED_FIFO with priority 1 to 99; threads that this thread starts do not inherit it. Returns an error message,
+// or an empty string.
 std::string schedule_fifo(int priority);
 
 // SCHED_FIFO while the object lives, if permitted; the destructor restores the previous scheduling.

@@ -24,7 +24,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr std::size_t kStackBytes = std::size_t{256} * 1024;  // prefaulted before the first cycle
+constexpr std::size_t kStackBytes = std::size_t{256} * 1024;  // [bytes] stack that is prefaulted before the first cycle
 constexpr std::size_t kPageBytes = 4096;
 
 void sleep_until(std::int64_t wake_ns) noexcept {
@@ -49,9 +49,9 @@ bool may_lock_any_amount() noexcept {
   rlimit limit{};
   if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) return true;
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
-  __user_cap_data_struct held[_LINUX_CAPABILITY_U32S_3]{};
-  if (syscall(SYS_capget, &header, held) != 0) return false;
-  return (held[0].effective & (1u << CAP_IPC_LOCK)) != 0;
+  __user_cap_data_struct capabilities[_LINUX_CAPABILITY_U32S_3]{};
+  if (syscall(SYS_capget, &header, capabilities) != 0) return false;
+  return (capabilities[0].effective & (1u << CAP_IPC_LOCK)) != 0;
 }
 
 // Locked memory stays resident after free() unless malloc returns it to the kernel. By default malloc raises its mmap
@@ -63,9 +63,9 @@ constexpr int kMmapThreshold = 1 << 20;  // [bytes] larger blocks get their own 
 std::string lock_memory() {
   mallopt(M_MMAP_THRESHOLD, kMmapThreshold);
   // With a finite limit, a lock that succeeds now would make a later allocation fail, which is worse than no lock.
-  if (!may_lock_any_amount()) return "the memory lock was refused (grant it with 'memlock unlimited')";
+  if (!may_lock_any_amount()) return "the memory lock was refused (allow it with 'memlock unlimited')";
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
-  return std::string("the memory lock was refused: ") + std::strerror(errno) + " (grant it with 'memlock unlimited')";
+  return std::string("the memory lock was refused (") + std::strerror(errno) + "; allow it with 'memlock unlimited')";
 }
 
 std::string pin_to(int core) {
@@ -74,11 +74,11 @@ std::string pin_to(int core) {
   CPU_ZERO(&set);
   if (core < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(core), &set);
   if (sched_setaffinity(0, sizeof set, &set) == 0) return {};
-  return "core " + std::to_string(core) + " was refused: " + std::strerror(errno);
+  return "core " + std::to_string(core) + " was refused (" + std::strerror(errno) + ")";
 }
 
 // Keeps all cores out of deep idle states, from which they wake late, by holding /dev/cpu_dma_latency open with a value
-// of 0, as cyclictest does. Best effort: without permission, wake-ups are only later.
+// of 0, as cyclictest does. Without permission this does nothing, and wake-ups are only later.
 class AwakeCores {
  public:
   AwakeCores() noexcept : file_(open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
@@ -99,17 +99,17 @@ class AwakeCores {
 
 void append(std::string& sentence, const std::string& part) {
   if (part.empty()) return;
-  sentence += sentence.empty() ? "not real-time: " : ", and ";
+  sentence += sentence.empty() ? "not real-time, because " : ", and ";
   sentence += part;
 }
 
-// After a wake-up that is late by whole periods: the newest deadline that has passed; the earlier ones are skipped.
+// The newest deadline that has passed, after a wake-up that is late by whole periods; earlier deadlines are skipped.
 CycleCall skip_to_newest(const CycleCall& call, std::int64_t woke, std::int64_t period) noexcept {
   const std::int64_t missed = (woke - call.deadline_ns) / period;
   return {call.deadline_ns + missed * period, call.skipped + missed};
 }
 
-// The first deadline after the end of a cycle; all that have passed are skipped.
+// The first deadline after the end of a cycle; deadlines that have passed are skipped.
 CycleCall next_deadline(const CycleCall& call, std::int64_t done, std::int64_t period) noexcept {
   const std::int64_t next = call.deadline_ns + period;
   const std::int64_t missed = done > next ? (done - next + period - 1) / period : 0;
@@ -134,14 +134,14 @@ void RealtimeThread::start(const RealtimeConfig& config, std::function<void(cons
   statistics_ = CycleStatistics{};
 
   std::promise<bool> prepared;
-  std::future<bool> go = prepared.get_future();
+  std::future<bool> may_start = prepared.get_future();
   thread_ = std::thread([this, ready = std::move(prepared)]() mutable {
     prepare();
-    const bool run_it = not_realtime_reason_.empty() || config_.policy == RealtimePolicy::best_effort;
-    ready.set_value(run_it);
-    if (run_it) run();
+    const bool may_run = not_realtime_reason_.empty() || config_.policy == RealtimePolicy::best_effort;
+    ready.set_value(may_run);
+    if (may_run) run();
   });
-  if (go.get()) return;
+  if (may_start.get()) return;
   thread_.join();
   throw std::runtime_error(not_realtime_reason_);
 }
@@ -160,8 +160,8 @@ void RealtimeThread::prepare() {
   append(not_realtime_reason_, scheduling);
   append(not_realtime_reason_, memory);
   append(not_realtime_reason_, pin_to(config_.core));
-  if (!scheduling.empty() || !memory.empty()) not_realtime_reason_ += "; limits are set in /etc/security/limits.conf";
-  prctl(PR_SET_TIMERSLACK, 1UL);  // [ns] the default of a normal thread is 50 us
+  if (!scheduling.empty() || !memory.empty()) not_realtime_reason_ += "; set these limits in /etc/security/limits.conf";
+  prctl(PR_SET_TIMERSLACK, 1UL);  // [ns] timer slack; the default of a normal thread is 50 us
   prefault_stack();
 }
 

@@ -20,8 +20,8 @@ struct RealtimeConfig {
   std::int64_t period_ns = 1'000'000;  // [ns] > 0
   RealtimePolicy policy = RealtimePolicy::best_effort;
   int priority = 80;              // SCHED_FIFO, 1 to 99
-  std::int64_t spin_ns = 50'000;  // [ns] >= 0, busy-wait before each deadline; 0: sleep only
-  int core = -1;                  // pin to this core; -1: any
+  std::int64_t spin_ns = 50'000;  // [ns] >= 0, length of the busy-wait before each deadline; 0: sleep only
+  int core = -1;                  // core to which the thread is pinned; -1: any core
 };
 
 struct CycleCall {
@@ -30,8 +30,8 @@ struct CycleCall {
 };
 
 // Runs `cycle` once per period until stop(). After a late cycle the missed deadlines are skipped and never caught up;
-// the deadlines stay on the original grid. From call to call the deadline advances by exactly (1 + skipped) periods.
-// The statistics are not synchronised; read them after stop() or inside `cycle`.
+// the deadlines stay on the original grid. From one call to the next, the deadline advances by exactly (1 + skipped)
+// periods. The statistics are not synchronised; read them after stop() or inside `cycle`.
 class RealtimeThread {
  public:
   RealtimeThread() = default;
@@ -43,16 +43,16 @@ class RealtimeThread {
   // std::invalid_argument for a config out of range, std::logic_error if already running. Locks the memory of the whole
   // process if permitted, and leaves it locked.
   void start(const RealtimeConfig& config, std::function<void(const CycleCall&)> cycle);
-  void stop() noexcept;  // joins within a period; may be called twice, but not from inside `cycle`
+  void stop() noexcept;  // joins the thread within a period; may be called twice, but not inside `cycle`
 
   bool is_realtime() const noexcept { return realtime_; }                                   // SCHED_FIFO was granted
-  const std::string& not_realtime_reason() const noexcept { return not_realtime_reason_; }  // one sentence, or empty
+  const std::string& not_realtime_reason() const noexcept { return not_realtime_reason_; }  // a sentence, or empty
   const CycleStatistics& statistics() const noexcept { return statistics_; }
 
  private:
-  void prepare();  // on the new thread, before the first cycle
+  void prepare();  // runs on the new thread, before the first cycle
   void run() noexcept;
-  std::int64_t wait_until(std::int64_t deadline) const noexcept;  // returns the time at which it woke
+  std::int64_t wait_until(std::int64_t deadline) const noexcept;  // returns the wake-up time [ns]
 
   RealtimeConfig config_;
   std::function<void(const CycleCall&)> cycle_;

@@ -14,7 +14,7 @@ class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  // Room for at least `capacity` values. Only the constructor allocates.
+  // A queue with room for at least `capacity` values. Only the constructor allocates.
   explicit SpscQueue(std::size_t capacity) : slots_(std::bit_ceil(capacity)), mask_(slots_.size() - 1) {}
 
   // Writer only. False if full; the value was then not stored.

@@ -6,9 +6,9 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kBoundFraction = 0.5;       // [1] of the lossless slope, with which a pushed lever never settles
-constexpr double kMaxDampingFraction = 0.5;  // [1] of m / T
-constexpr double kMinSpeed = 1e-4;           // [m/s] below it damping has no effect
+constexpr double kBoundFraction = 0.5;       // [1] of the lossless slope, at which a pushed lever never settles
+constexpr double kMaxDampingFraction = 0.5;  // [1] fraction of m / T
+constexpr double kMinSpeed = 1e-4;           // [m/s] below this speed damping has no effect
 
 }  // namespace
 
@@ -30,7 +30,7 @@ double PassivityController::control(double wanted, double last, double travel, b
     return wanted;
   }
   const double speed = travel / period_;
-  const double predicted = absorbed_energy_ - wanted * travel;  // if the next period repeats the last one's travel
+  const double predicted = absorbed_energy_ - wanted * travel;  // balance if the next travel equals the last
   if (predicted >= 0.0 || std::abs(speed) < kMinSpeed) return wanted;
   const double damping = std::min(max_damping_, -predicted / (speed * speed * period_));
   return wanted - damping * speed;

@@ -12,13 +12,13 @@ namespace {
 
 using glm::dvec2;
 
-constexpr std::int64_t kArmedStaleFactor = 10;  // times stale_time while armed: the first reading may take that long
+constexpr std::int64_t kArmedStaleFactor = 10;  // factor on stale_time while armed: a first reading may take that long
 
 // After this long without a timely cycle (the process was stopped) lever and hand may be anywhere, so the previous
 // force must not resume by itself. The stick's driver waits equally long for a command.
 constexpr double kMaxLateTime = 0.1;  // [s]
 
-constexpr std::int64_t kUnlimitedCycles = 1'000'000'000'000;  // [cycles] avoids overflow: a trace may hold any number
+constexpr std::int64_t kUnlimitedCycles = 1'000'000'000'000;  // [cycles] avoids overflow: traces may hold any number
 
 std::int64_t saturating_add(std::int64_t cycles, std::int64_t more) noexcept {
   return std::min(cycles + std::min(more, kUnlimitedCycles), kUnlimitedCycles);
@@ -26,12 +26,18 @@ std::int64_t saturating_add(std::int64_t cycles, std::int64_t more) noexcept {
 
 }  // namespace
 
-const char* guard_state_name(GuardState state) noexcept {
+const char* to_string(GuardState state) noexcept {
   static constexpr const char* kNames[] = {"idle", "armed", "ramping", "running", "damped", "released"};
   return kNames[static_cast<int>(state)];
 }
 
-const char* guard_fault_name(GuardFault fault) noexcept {
+const char* describe(GuardState state) noexcept {
+  static constexpr const char* kTexts[] = {
+      "forces off", "forces armed", "forces starting", "forces on", "forces off, damping only", "motors off"};
+  return kTexts[static_cast<int>(state)];
+}
+
+const char* to_string(GuardFault fault) noexcept {
   static constexpr const char* kNames[] = {"none",         "stale reading", "overruns", "not finite",
                                            "limit broken", "stopped",       "chatter"};
   return kNames[static_cast<int>(fault)];
@@ -77,7 +83,7 @@ GuardOutput ForceGuard::compute_output(const GuardInput& in, dvec2 travel) noexc
 // Checks for every fault before a force is output. The most severe one wins.
 void ForceGuard::check_faults(const GuardInput& in) noexcept {
   const std::int64_t elapsed =
-      stale_cycles_ > 0 ? saturating_add(1, in.skipped) : 1;  // the reader may have been stopped too: it gets one cycle
+      stale_cycles_ > 0 ? saturating_add(1, in.skipped) : 1;  // the device's thread may have been stopped too: 1 cycle
   stale_cycles_ = in.fresh ? 0 : saturating_add(stale_cycles_, elapsed);
   late_cycles_ = in.skipped > 0 ? saturating_add(late_cycles_, in.skipped) : 0;
   overruns_ = in.skipped > 0 ? overruns_ + 1 : 0;
@@ -92,7 +98,7 @@ void ForceGuard::check_faults(const GuardInput& in) noexcept {
   if (overruns_ >= config_.overruns_in_row) return enter_fault(GuardState::damped, GuardFault::overruns);
 }
 
-// Only ever towards `released`, and never from idle.
+// Changes the state only towards `released`, and never from idle.
 void ForceGuard::enter_fault(GuardState state, GuardFault fault) noexcept {
   if (state_ == GuardState::idle || state <= state_) return;
   state_ = state;
@@ -112,8 +118,8 @@ dvec2 ForceGuard::apply_passivity_control(const GuardInput& in, dvec2 travel) no
   return force;
 }
 
-// Uses the newest command, which has not taken effect yet. Applied after the slew, so that a force that must drop can
-// drop at once.
+// Uses the newest command, even if it has not taken effect yet. Applied after the slew limit, so that a force that must
+// drop can drop at once.
 dvec2 ForceGuard::apply_energy_bounding(dvec2 force, dvec2 travel) const noexcept {
   if (energy_control_ != EnergyControl::energy_bounding) return force;
   for (int i = 0; i < 2; ++i)

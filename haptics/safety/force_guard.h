@@ -1,7 +1,7 @@
 // The final check of every force. In this order: finite, passivity control (if enabled), slew, energy bounding (if
 // enabled), clamp, ramp. It also holds the state machine:
 //
-//   idle -> armed -> ramping -> running      up: only on request of a person; a simulated lever arms itself
+//   idle -> armed -> ramping -> running      only on request of the user; a simulated lever arms itself
 //   damped    stale reading, too many overruns in a row, or chatter that softening the wall did not calm: the force
 //             fades out and only damping remains
 //   released  limit exceeded, device lost, force not finite, or a real device without commands for 0.1 s: motors off
@@ -19,19 +19,20 @@
 namespace gearshift::haptics {
 
 enum class GuardState : std::uint8_t { idle, armed, ramping, running, damped, released };
-const char* guard_state_name(GuardState state) noexcept;
+const char* to_string(GuardState state) noexcept;
+const char* describe(GuardState state) noexcept;  // text for the user, such as "forces on"
 
 enum class GuardFault : std::uint8_t { none, stale_reading, overruns, not_finite, limit_broken, stopped, chatter };
-const char* guard_fault_name(GuardFault fault) noexcept;
+const char* to_string(GuardFault fault) noexcept;
 
 struct GuardConfig {
   double slew = 25.0;             // [N/cycle] 2 to 100, largest change per axis; an impact needs 16 at 1 kHz
   double ramp_time = 0.5;         // [s] 0.001 to 60, from armed to full force
-  double stale_time = 0.020;      // [s] 0.001 to 1, without a fresh reading before damped
-  double fade_time = 0.020;       // [s] 0.001 to 1, in which the force then fades out
-  int overruns_in_row = 8;        // [cycles] 1 to 1000, before damped
+  double stale_time = 0.020;      // [s] 0.001 to 1, time without a fresh reading before state damped
+  double fade_time = 0.020;       // [s] 0.001 to 1, in which the force fades out in state damped
+  int overruns_in_row = 8;        // [cycles] 1 to 1000, consecutive overruns before state damped
   double damped_damping = 5.0;    // [N s/m] 0 to 50, in state damped, while readings are fresh
-  double position_margin = 0.02;  // [m] 0 to 1, a position further outside the workspace is a fault
+  double position_margin = 0.02;  // [m] 0 to 1; a position further outside the workspace is a fault
 };
 
 struct GuardInput {
@@ -40,13 +41,13 @@ struct GuardInput {
   glm::dvec2 velocity{0.0};  // [m/s] smoothed
   bool fresh = false;        // this cycle's reading is fresh
   bool in_contact = false;   // the lever is pressed into a wall
-  std::int64_t skipped = 0;  // [cycles] missed before this one
+  std::int64_t skipped = 0;  // [cycles] missed before this cycle
 };
 
 struct GuardOutput {
   glm::dvec2 force{0.0};   // [N] commanded
   bool saturated = false;  // the wanted force exceeded the device's maximum on an axis
-  double ramp = 0.0;       // [1] 0 to 1, fraction of the force that is output; 0 in every state without force
+  double ramp = 0.0;       // [1] 0 to 1, fraction of the force that is output; 0 in states without force
 };
 
 class ForceGuard {
@@ -55,13 +56,13 @@ class ForceGuard {
   ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double period,
              EnergyControl energy_control = EnergyControl::none) noexcept;
 
-  GuardOutput guard(const GuardInput& in) noexcept;  // once per cycle. Real-time safe
+  GuardOutput guard(const GuardInput& in) noexcept;  // call once per cycle. Real-time safe
 
   // State changes; call on the haptic thread between cycles.
   bool arm() noexcept;            // idle, damped or released -> armed, then ramping once readings are fresh; else false
-  void reject_arming() noexcept;  // stays in its state and reports the fault `stopped`
+  void reject_arming() noexcept;  // keeps the state and reports the fault `stopped`
   void disarm() noexcept;         // any -> idle, force 0
-  void stop() noexcept;           // armed, ramping, running or damped -> released: the large red button
+  void stop() noexcept;           // armed, ramping, running or damped -> released: the panic button
   void damp() noexcept;           // armed, ramping or running -> damped: softening the wall did not end the chatter
 
   GuardState state() const noexcept { return state_; }
@@ -83,19 +84,19 @@ class ForceGuard {
   EnergyControl energy_control_;
   std::array<EnergyBounder, 2> bounder_;                 // per axis
   std::array<PassivityController, 2> controller_;        // per axis
-  glm::dvec2 position_{0.0};                             // [m] in the previous cycle
-  std::array<glm::dvec2, kMaxLoopDelay + 1> applied_{};  // [N] ring buffer of the last commands, as output
+  glm::dvec2 position_{0.0};                             // [m] position in the previous cycle
+  std::array<glm::dvec2, kMaxLoopDelay + 1> applied_{};  // [N] ring buffer of the last commands
   std::size_t newest_ = 0;                               // index of the newest command
   std::size_t delay_;
   GuardState state_ = GuardState::idle;
   GuardFault fault_ = GuardFault::none;
   glm::dvec2 last_force_{0.0};     // [N] commanded before the ramp
   double ramp_ = 0.0;              // [1] 0 to 1
-  glm::dvec2 fade_from_{0.0};      // [N] command when the fault state was entered
+  glm::dvec2 fade_from_{0.0};      // [N] command when the state damped was entered
   double fade_ = 0.0;              // [1] remaining fraction of fade_from_, 1 to 0
-  std::int64_t stale_limit_;       // [cycles] without a fresh reading
-  std::int64_t late_limit_;        // [cycles] skipped in consecutive overruns
-  std::int64_t stale_cycles_ = 0;  // [cycles] since the last fresh reading
+  std::int64_t stale_limit_;       // [cycles] limit without a fresh reading
+  std::int64_t late_limit_;        // [cycles] limit of cycles skipped in consecutive overruns
+  std::int64_t stale_cycles_ = 0;  // [cycles] time since the last fresh reading
   std::int64_t late_cycles_ = 0;   // [cycles] skipped in the current run of overruns
   int overruns_ = 0;               // consecutive
 };

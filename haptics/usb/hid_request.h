@@ -31,7 +31,7 @@ inline HidRequest get_report(HidReportType type, std::uint8_t id, int interface)
 inline HidRequest set_report(HidReportType type, std::uint8_t id, int interface) {
   return hid_request(false, 0x09, static_cast<int>(type), id, interface);
 }
-// Idle rate 0: the device reports only changes, without periodic repeats.
+// Sets the idle rate to 0: the device reports only changes, without periodic repeats.
 inline HidRequest set_idle(int interface) {
   return hid_request(false, 0x0a, 0, 0, interface);
 }
@@ -46,8 +46,8 @@ inline std::size_t wire_offset(const ReportDescriptor& reports) {
 }
 
 inline std::span<std::uint8_t> on_the_wire(HidBytes& report, const ReportDescriptor& reports) {
-  const std::span<std::uint8_t> whole(report.bytes.data(), report.size);
-  return whole.empty() ? whole : whole.subspan(wire_offset(reports));
+  const std::span<std::uint8_t> bytes(report.bytes.data(), report.size);
+  return bytes.empty() ? bytes : bytes.subspan(wire_offset(reports));
 }
 
 }  // namespace gearshift::haptics

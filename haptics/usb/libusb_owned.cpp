@@ -10,44 +10,45 @@ namespace gearshift::haptics {
 UsbContext new_usb_context() {
   libusb_context* context = nullptr;
   const int code = libusb_init(&context);
-  if (code != LIBUSB_SUCCESS) throw HidError(std::string("USB is not available: ") + libusb_strerror(code));
+  if (code != LIBUSB_SUCCESS) throw HidError(std::string("USB is not available (") + libusb_strerror(code) + ")");
   return UsbContext(context);
 }
 
 std::vector<UsbDevice> usb_devices(libusb_context& context) {
   libusb_device** list = nullptr;
   const ssize_t count = libusb_get_device_list(&context, &list);
-  if (count < 0) throw HidError(std::string("USB is not available: ") + libusb_strerror(static_cast<int>(count)));
+  if (count < 0) throw HidError(std::string("USB is not available (") + libusb_strerror(static_cast<int>(count)) + ")");
   std::vector<UsbDevice> devices;
   for (libusb_device* device : std::span(list, static_cast<std::size_t>(count))) devices.emplace_back(device);
   libusb_free_device_list(list, 0);
   return devices;
 }
 
-UsbHandle open_usb(libusb_device& device, const HidIdentity& who) {
+UsbHandle open_usb(libusb_device& device, const HidIdentity& identity) {
   libusb_device_handle* handle = nullptr;
   const int code = libusb_open(&device, &handle);
-  if (code != LIBUSB_SUCCESS) throw_usb_failure(code, who, "open");
+  if (code != LIBUSB_SUCCESS) throw_usb_failure(code, identity, "opening the device");
   return UsbHandle(handle);
 }
 
-void throw_usb_failure(int code, const HidIdentity& who, std::string_view doing) {
-  const std::string name = usb_name(who);
+void throw_usb_failure(int code, const HidIdentity& identity, std::string_view action) {
+  const std::string name = usb_name(identity);
   switch (code) {
     case LIBUSB_ERROR_NO_DEVICE:
-      throw HidGone(name + " was unplugged");
+      throw HidDisconnected(name + " was unplugged");
     case LIBUSB_ERROR_ACCESS:
       throw HidError(name +
-                     " may not be used by this user: install the udev rule assets/udev/70-gearshift.rules as its first "
-                     "lines say, and plug it in again");
+                     " may not be used by this user; install the udev rule assets/udev/70-gearshift.rules as its first "
+                     "lines explain, and plug the device in again");
     case LIBUSB_ERROR_BUSY:
-      throw HidError(name + " is used by another program");
+      throw HidError(name + " is used by another program; close that program");
     case LIBUSB_ERROR_TIMEOUT:
-      throw HidError(name + " did not answer within " + std::to_string(kUsbTimeout) + " ms: " + std::string(doing));
+      throw HidError(name + " did not answer within " + std::to_string(kUsbTimeout) + " ms when " +
+                     std::string(action));
     case LIBUSB_ERROR_PIPE:
-      throw HidError(name + " refuses: " + std::string(doing));
+      throw HidError(name + " refused the request when " + std::string(action));
     default:
-      throw HidError(name + " failed: " + std::string(doing) + ": " + libusb_strerror(code));
+      throw HidError(name + " failed when " + std::string(action) + " (" + libusb_strerror(code) + ")");
   }
 }
 

@@ -1,4 +1,4 @@
-// RAII types for libusb, and its errors as sentences. Only files of this folder include libusb.h, through this header.
+// RAII types for libusb, and its errors as sentences. Only files in this folder include libusb.h, through this header.
 #pragma once
 
 #include <libusb.h>
@@ -25,13 +25,13 @@ using UsbDevice = std::unique_ptr<libusb_device, UsbClose<libusb_unref_device>>;
 using UsbHandle = std::unique_ptr<libusb_device_handle, UsbClose<libusb_close>>;
 using UsbTransfer = std::unique_ptr<libusb_transfer, UsbClose<libusb_free_transfer>>;
 
-inline constexpr unsigned kUsbTimeout = 250;  // [ms] of every synchronous transfer
+inline constexpr unsigned kUsbTimeout = 250;  // [ms] timeout of every synchronous transfer
 
-UsbContext new_usb_context();  // sees the devices plugged in now. Throws HidError if USB is not available
-std::vector<UsbDevice> usb_devices(libusb_context& context);        // throws HidError
-UsbHandle open_usb(libusb_device& device, const HidIdentity& who);  // throws HidGone, HidError
+UsbContext new_usb_context();  // sees only devices plugged in now. Throws HidError if USB is not available
+std::vector<UsbDevice> usb_devices(libusb_context& context);             // throws HidError
+UsbHandle open_usb(libusb_device& device, const HidIdentity& identity);  // throws HidDisconnected, HidError
 
-// Throws HidGone or HidError for a libusb error code; `doing` names the failed operation.
-[[noreturn]] void throw_usb_failure(int code, const HidIdentity& who, std::string_view doing);
+// Throws HidDisconnected or HidError for a libusb error code; `action` names the failed operation.
+[[noreturn]] void throw_usb_failure(int code, const HidIdentity& identity, std::string_view action);
 
 }  // namespace gearshift::haptics

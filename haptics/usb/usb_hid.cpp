@@ -12,10 +12,10 @@ namespace gearshift::haptics {
 namespace {
 
 // Reads the report descriptor of an interface without a kernel driver. Afterwards the interface is released and offered
-// to the kernel drivers again, because a driver that tried to bind while it was claimed was refused.
+// to the kernel drivers again, because a driver that tried to bind in the meantime was refused.
 std::vector<std::uint8_t> read_unbound_descriptor(libusb_device_handle& handle, const UsbInterface& interface) {
   const int code = libusb_claim_interface(&handle, interface.number);
-  if (code != LIBUSB_SUCCESS) throw_usb_failure(code, interface.identity, "claim its interface");
+  if (code != LIBUSB_SUCCESS) throw_usb_failure(code, interface.identity, "claiming its interface");
   struct Release {
     libusb_device_handle& handle;
     int number;
@@ -41,20 +41,21 @@ UsbHidDevice inspect(libusb_device& device, const UsbInterface& interface) {
   return found;
 }
 
-bool is_wanted(const UsbInterface& interface, const HidIdentity& wanted, int number) {
-  const HidIdentity& is = interface.identity;
-  return is.vendor == wanted.vendor && is.product == wanted.product &&
-         (wanted.serial.empty() || is.serial == wanted.serial) && (wanted.place.empty() || is.place == wanted.place) &&
+bool matches(const UsbInterface& interface, const HidIdentity& wanted, int number) {
+  const HidIdentity& identity = interface.identity;
+  return identity.vendor == wanted.vendor && identity.product == wanted.product &&
+         (wanted.serial.empty() || identity.serial == wanted.serial) &&
+         (wanted.place.empty() || identity.place == wanted.place) &&
          (number == kFirstInterface || interface.number == number);
 }
 
-std::pair<UsbHandle, UsbInterface> open_wanted(libusb_context& context, const HidIdentity& wanted, int number) {
+std::pair<UsbHandle, UsbInterface> open_matching(libusb_context& context, const HidIdentity& wanted, int number) {
   for (const UsbDevice& device : usb_devices(context)) {
     for (const UsbInterface& interface : hid_interfaces(*device)) {
-      if (is_wanted(interface, wanted, number)) return {open_usb(*device, interface.identity), interface};
+      if (matches(interface, wanted, number)) return {open_usb(*device, interface.identity), interface};
     }
   }
-  throw HidGone(usb_name(wanted) + " is not plugged in");
+  throw HidDisconnected(usb_name(wanted) + " is not plugged in");
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ std::vector<UsbHidDevice> usb_hid_devices() {
 
 std::unique_ptr<HidPort> open_usb_hid(const HidIdentity& wanted, int interface) {
   UsbContext context = new_usb_context();
-  auto [handle, found] = open_wanted(*context, wanted, interface);
+  auto [handle, found] = open_matching(*context, wanted, interface);
   return std::make_unique<UsbPort>(std::move(context), std::move(handle), found);
 }
 

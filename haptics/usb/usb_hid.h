@@ -16,11 +16,10 @@ namespace gearshift::haptics {
 
 // A HID interface of a device that is plugged in.
 struct UsbHidDevice {
-  HidIdentity identity;  // as read by the kernel at plug-in, so it needs no permission
+  HidIdentity identity;  // as read by the kernel at plug-in, so no permission is needed
   int interface = 0;
-  std::string
-      problem;  // why it cannot be opened, one sentence ("... may not be used by this user: ..."); empty: it can be
-  std::vector<std::uint8_t> report_descriptor;  // empty if it cannot be read
+  std::string problem;  // why the device cannot be opened ("... may not be used by this user; ..."); empty if it can
+  std::vector<std::uint8_t> report_descriptor;  // empty if the descriptor cannot be read
 };
 
 inline constexpr int kFirstInterface = -1;
@@ -29,11 +28,11 @@ inline constexpr int kFirstInterface = -1;
 // available.
 std::vector<UsbHidDevice> usb_hid_devices();
 
-// Claims the interface: the kernel driver is detached, and attached again when the port is destroyed. Throws HidGone if
-// no such device is plugged in, HidError if it may not be used (the sentence names the udev rule), is in use by another
-// program, or does not return its report descriptor. An empty serial means the first device with that vendor and
-// product; a place, if not empty, must match too. interface: from usb_hid_devices(), or kFirstInterface for the
-// device's first HID interface.
+// Claims the interface: detaches the kernel driver, and attaches it again when the port is destroyed. Throws
+// HidDisconnected if no such device is plugged in, HidError if it may not be used (the sentence names the udev rule),
+// is in use by another program, or does not return its report descriptor. An empty serial means the first device with
+// the given vendor and product; a place, if not empty, must match too. interface: from usb_hid_devices(), or
+// kFirstInterface for the device's first HID interface.
 std::unique_ptr<HidPort> open_usb_hid(const HidIdentity& wanted, int interface = kFirstInterface);
 
 }  // namespace gearshift::haptics

@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxDescriptorBytes = 4096;  // [bytes] limit of the Linux kernel
+constexpr int kMaxDescriptorBytes = 4096;  // [bytes] longest descriptor that the Linux kernel accepts
 constexpr std::uint8_t kHidDescriptor = 0x21, kReportDescriptor = 0x22;
 
 using ConfigDescriptor = std::unique_ptr<libusb_config_descriptor, UsbClose<libusb_free_config_descriptor>>;
 
 // Bus and port path in the kernel's notation, such as "1-1.2".
-std::string resolve_path(libusb_device& device) {
+std::string port_path(libusb_device& device) {
   std::array<std::uint8_t, 8> ports{};
   const int depth = libusb_get_port_numbers(&device, ports.data(), static_cast<int>(ports.size()));
   std::string place = std::to_string(libusb_get_bus_number(&device));
@@ -48,7 +48,7 @@ HidIdentity identity_of(libusb_device& device, const libusb_device_descriptor& d
   HidIdentity identity;
   identity.vendor = descriptor.idVendor;
   identity.product = descriptor.idProduct;
-  identity.place = resolve_path(device);
+  identity.place = port_path(device);
   identity.serial = kernel_string(identity.place, "serial");
   identity.maker = kernel_string(identity.place, "manufacturer");
   identity.name = kernel_string(identity.place, "product");
@@ -119,15 +119,15 @@ std::vector<std::uint8_t> bound_report_descriptor(const UsbInterface& interface)
 std::vector<std::uint8_t> read_report_descriptor(libusb_device_handle& handle, const UsbInterface& interface) {
   if (interface.descriptor_length == 0 || interface.descriptor_length > kMaxDescriptorBytes) {
     throw HidError(usb_name(interface.identity) + " declares a report descriptor of " +
-                   std::to_string(interface.descriptor_length) + " bytes; 1 to " + std::to_string(kMaxDescriptorBytes) +
-                   " are possible");
+                   std::to_string(interface.descriptor_length) + " bytes, but 1 to " +
+                   std::to_string(kMaxDescriptorBytes) + " bytes are allowed");
   }
   std::vector<std::uint8_t> bytes(interface.descriptor_length);
   const HidRequest request = get_report_descriptor(interface.number);
-  const int got = libusb_control_transfer(&handle, request.type, request.request, request.value, request.index,
-                                          bytes.data(), interface.descriptor_length, kUsbTimeout);
-  if (got < 0) throw_usb_failure(got, interface.identity, "read its report descriptor");
-  bytes.resize(static_cast<std::size_t>(got));
+  const int length = libusb_control_transfer(&handle, request.type, request.request, request.value, request.index,
+                                             bytes.data(), interface.descriptor_length, kUsbTimeout);
+  if (length < 0) throw_usb_failure(length, interface.identity, "reading its report descriptor");
+  bytes.resize(static_cast<std::size_t>(length));
   return bytes;
 }
 

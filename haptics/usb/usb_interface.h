@@ -16,7 +16,7 @@ struct UsbInterface {
   int number = 0;
   std::uint8_t in = 0, out = 0;         // addresses of the interrupt endpoints; 0: none
   std::size_t in_packet = 0;            // [bytes] maximum packet size of the IN endpoint
-  std::uint16_t descriptor_length = 0;  // [bytes] of its report descriptor, as declared
+  std::uint16_t descriptor_length = 0;  // [bytes] declared size of its report descriptor
 };
 
 // HID interfaces of the active configuration; empty if there are none or the device is not configured.
@@ -25,7 +25,7 @@ std::vector<UsbInterface> hid_interfaces(libusb_device& device);
 // The report descriptor as read by the kernel driver; empty if no driver is bound.
 std::vector<std::uint8_t> bound_report_descriptor(const UsbInterface& interface);
 
-// Reads the report descriptor from the device; the interface must be claimed. Throws HidGone, HidError.
+// Reads the report descriptor from the device; the interface must be claimed. Throws HidDisconnected, HidError.
 std::vector<std::uint8_t> read_report_descriptor(libusb_device_handle& handle, const UsbInterface& interface);
 
 std::string usb_name(const HidIdentity& identity);  // "Sidewinder Force Feedback 2 (045e:001b)"

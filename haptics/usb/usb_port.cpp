@@ -14,11 +14,11 @@ std::string feature_report(const char* verb, std::uint8_t id) {
   return std::string(verb) + " feature report " + std::to_string(id);
 }
 
-ReportDescriptor parse_or_throw(const std::vector<std::uint8_t>& descriptor, const HidIdentity& who) {
+ReportDescriptor parse_or_throw(const std::vector<std::uint8_t>& descriptor, const HidIdentity& identity) {
   try {
     return parse_report_descriptor(descriptor);
   } catch (const HidError& error) {
-    throw HidError(usb_name(who) + ": " + error.what());
+    throw HidError(usb_name(identity) + " cannot be used, because " + error.what());
   }
 }
 
@@ -28,7 +28,7 @@ UsbClaim::UsbClaim(libusb_device_handle& handle, const UsbInterface& interface)
     : handle_(handle), number_(interface.number) {
   libusb_set_auto_detach_kernel_driver(&handle_, 1);
   const int code = libusb_claim_interface(&handle_, number_);
-  if (code != LIBUSB_SUCCESS) throw_usb_failure(code, interface.identity, "claim its interface");
+  if (code != LIBUSB_SUCCESS) throw_usb_failure(code, interface.identity, "claiming its interface");
 }
 
 UsbClaim::~UsbClaim() {
@@ -49,21 +49,21 @@ HidBytes UsbPort::get_feature(std::uint8_t id, std::size_t size) {
   size = std::min(size, HidBytes::kMaxSize);
   if (size <= before) return report;
   const HidRequest request = get_report(HidReportType::feature, id, interface_.number);
-  const int got =
+  const int length =
       libusb_control_transfer(handle_.get(), request.type, request.request, request.value, request.index,
                               report.bytes.data() + before, static_cast<std::uint16_t>(size - before), kUsbTimeout);
-  if (got < 0) throw_usb_failure(got, interface_.identity, feature_report("get", id));
-  report.size = static_cast<std::size_t>(got) + before;
+  if (length < 0) throw_usb_failure(length, interface_.identity, feature_report("getting", id));
+  report.size = static_cast<std::size_t>(length) + before;
   return report;
 }
 
 void UsbPort::set_feature(const HidBytes& report) {
-  HidBytes sent = report;  // libusb wants it writable
+  HidBytes sent = report;  // libusb wants a writable buffer
   const std::span<std::uint8_t> wire = on_the_wire(sent, reports_);
   const HidRequest request = set_report(HidReportType::feature, report.id(), interface_.number);
   const int code = libusb_control_transfer(handle_.get(), request.type, request.request, request.value, request.index,
                                            wire.data(), static_cast<std::uint16_t>(wire.size()), kUsbTimeout);
-  if (code < 0) throw_usb_failure(code, interface_.identity, feature_report("set", report.id()));
+  if (code < 0) throw_usb_failure(code, interface_.identity, feature_report("setting", report.id()));
 }
 
 void UsbPort::send(const HidBytes& report) {
@@ -74,13 +74,13 @@ void UsbPort::send(const HidBytes& report) {
     code = libusb_interrupt_transfer(handle_.get(), interface_.out, wire.data(), static_cast<int>(wire.size()), nullptr,
                                      kUsbTimeout);
     if (code == LIBUSB_ERROR_PIPE)
-      libusb_clear_halt(handle_.get(), interface_.out);  // so that the next report can be sent
+      libusb_clear_halt(handle_.get(), interface_.out);  // clears the stall, so that the next report can be sent
   } else {
     const HidRequest request = set_report(HidReportType::output, report.id(), interface_.number);
     code = libusb_control_transfer(handle_.get(), request.type, request.request, request.value, request.index,
                                    wire.data(), static_cast<std::uint16_t>(wire.size()), kUsbTimeout);
   }
-  if (code < 0) throw_usb_failure(code, interface_.identity, "send output report " + std::to_string(report.id()));
+  if (code < 0) throw_usb_failure(code, interface_.identity, "sending output report " + std::to_string(report.id()));
 }
 
 void UsbPort::stream(const StreamConfig& config, HidStream& stream) {

@@ -9,7 +9,7 @@ namespace gearshift::haptics {
 // Claims an interface, detaching the kernel driver; the destructor releases it and attaches the driver again.
 class UsbClaim {
  public:
-  UsbClaim(libusb_device_handle& handle, const UsbInterface& interface);  // throws HidGone, HidError
+  UsbClaim(libusb_device_handle& handle, const UsbInterface& interface);  // throws HidDisconnected, HidError
   ~UsbClaim();
   UsbClaim(const UsbClaim&) = delete;
   UsbClaim& operator=(const UsbClaim&) = delete;
@@ -21,7 +21,7 @@ class UsbClaim {
 
 class UsbPort final : public HidPort {
  public:
-  // Claims the interface and reads its report descriptor. Throws HidGone, HidError.
+  // Claims the interface and reads its report descriptor. Throws HidDisconnected, HidError.
   UsbPort(UsbContext context, UsbHandle handle, const UsbInterface& interface);
 
   const HidIdentity& identity() const noexcept override { return interface_.identity; }

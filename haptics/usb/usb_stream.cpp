@@ -34,14 +34,14 @@ class FineSleep {
 };
 
 std::size_t longest_report(const ReportDescriptor& reports, ReportKind kind) {
-  std::size_t most = 0;
+  std::size_t longest = 0;
   for (const HidField& field : reports.fields) {
-    if (field.kind == kind) most = std::max(most, reports.report_size(kind, field.report_id));
+    if (field.kind == kind) longest = std::max(longest, reports.report_size(kind, field.report_id));
   }
-  return std::min(most, HidBytes::kMaxSize);
+  return std::min(longest, HidBytes::kMaxSize);
 }
 
-// The context's file descriptors changed and must be listed again.
+// Notes that the context's file descriptors have changed and must be listed again.
 void LIBUSB_CALL fd_added(int, short, void* changed) {
   *static_cast<bool*>(changed) = true;
 }
@@ -71,8 +71,8 @@ UsbStream::UsbStream(libusb_context& context, libusb_device_handle& handle, cons
   lever_size_ = std::max(lever, offset) - offset;
   // A multiple of the packet size, so that a report longer than declared is received in full and can be rejected.
   const std::size_t packet = std::max<std::size_t>(interface_.in_packet, 1);
-  const std::size_t room = std::max<std::size_t>((longest_input_ + packet - 1) / packet, 1) * packet;
-  for (Slot& slot : slots_->in) prepare(slot, room, &UsbStream::input_arrived);
+  const std::size_t buffer_size = std::max<std::size_t>((longest_input_ + packet - 1) / packet, 1) * packet;
+  for (Slot& slot : slots_->in) prepare(slot, buffer_size, &UsbStream::input_arrived);
   prepare(slots_->out, kSetup + HidBytes::kMaxSize, &UsbStream::output_arrived);
   prepare(slots_->request, kSetup + lever_size_, &UsbStream::answer_arrived);
   libusb_set_pollfd_notifiers(&context_, &fd_added, &fd_removed, &fds_changed_);
@@ -88,7 +88,7 @@ UsbStream::~UsbStream() {
   }
   libusb_set_pollfd_notifiers(&context_, nullptr, nullptr, nullptr);
   if (!any_pending()) return;
-  // The controller did not return all transfers. They may still be written to, so they are leaked.
+  // The controller has not returned all transfers and may still write to them, so they are leaked.
   for (Slot* slot : slots_->all) slot->stream = nullptr;
   static_cast<void>(slots_.release());
 }
@@ -117,7 +117,7 @@ void UsbStream::prepare(Slot& slot, std::size_t bytes, Arrival arrival) {
   slot.stream = this;
   slot.arrival = arrival;
   slot.transfer.reset(libusb_alloc_transfer(0));
-  if (slot.transfer == nullptr) throw HidError("no memory for a USB transfer");
+  if (slot.transfer == nullptr) throw HidError("there is not enough memory for a USB transfer");
   slot.bytes.resize(bytes);
 }
 
@@ -147,13 +147,13 @@ bool UsbStream::any_pending() const noexcept {
   return std::any_of(slots_->all.begin(), slots_->all.end(), [](const Slot* slot) { return slot->pending; });
 }
 
-void UsbStream::fail(bool gone, const char* what) noexcept {
-  if (!failure_) failure_ = Failure{gone, what};
+void UsbStream::fail(bool disconnected, const char* what) noexcept {
+  if (!failure_) failure_ = Failure{disconnected, what};
 }
 
 void UsbStream::throw_failure() const {
   const std::string sentence = usb_name(interface_.identity) + " " + failure_->what;
-  if (failure_->gone) throw HidGone(sentence);
+  if (failure_->disconnected) throw HidDisconnected(sentence);
   throw HidError(sentence);
 }
 
@@ -182,7 +182,7 @@ void UsbStream::input_arrived(const libusb_transfer& transfer) noexcept {
       in_.stalled = true;
       break;
     default:  // includes overflow: the report is longer than declared
-      bus_error(in_, "sends reports that break off or are too long");
+      bus_error(in_, "sends reports that are incomplete or too long");
   }
 }
 
@@ -214,7 +214,7 @@ void UsbStream::answer_arrived(const libusb_transfer& transfer) noexcept {
       ++silent_stalls_;
       break;
     case LIBUSB_TRANSFER_TIMED_OUT:
-      if (++silent_timeouts_ == 2) fail(false, "no longer answers");
+      if (++silent_timeouts_ == 2) fail(false, "no longer responds");
       break;
     default:  // requested again if the lever report is still missing
       break;
@@ -249,8 +249,8 @@ void UsbStream::service(std::int64_t now) noexcept {
   request_if_silent(now);
 }
 
-// Clears a stalled pipe. If it stalls again before a successful transfer, it has failed; it is cleared anyway for the
-// next user of the device.
+// Clears a stalled pipe. If the pipe stalls again before a successful transfer, it has failed; it is cleared anyway for
+// the next program that uses the device.
 bool UsbStream::clear(PipeErrors& pipe, std::uint8_t endpoint, const char* what) noexcept {
   pipe.stalled = false;
   if (endpoint != 0 && libusb_clear_halt(&handle_, endpoint) == LIBUSB_ERROR_NO_DEVICE) {
@@ -270,7 +270,7 @@ void UsbStream::service_input(std::int64_t now) noexcept {
       libusb_cancel_transfer(slot.transfer.get());
       waiting = true;
     }
-    if (waiting || !clear(in_, interface_.in, "stalled: it sends no more reports")) return;
+    if (waiting || !clear(in_, interface_.in, "has stopped sending data. Unplug it and plug it in again.")) return;
   }
   if (now < in_.retry) return;
   for (Slot& slot : slots_->in) {
@@ -281,8 +281,8 @@ void UsbStream::service_input(std::int64_t now) noexcept {
 void UsbStream::service_output(std::int64_t now) noexcept {
   Slot& slot = slots_->out;
   if (out_.stalled) {
-    if (!clear(out_, interface_.out, "stalled: it accepts no more reports")) return;
-    out_.resend = true;  // the report that was not accepted
+    if (!clear(out_, interface_.out, "has stopped accepting data. Unplug it and plug it in again.")) return;
+    out_.resend = true;  // sends the report that was not accepted
   }
   if (!out_.resend || slot.pending || now < out_.retry) return;
   out_.resend = false;
@@ -330,7 +330,7 @@ void UsbStream::request_if_silent(std::int64_t now) noexcept {
 // ----------------------------------------------------------------------------------------------------------- waiting
 
 std::int64_t UsbStream::next_service_ns(std::int64_t now) const noexcept {
-  if (slots_->out.pending || out_.resend) return now + config_.tick_ns;  // or when the transfer completes
+  if (slots_->out.pending || out_.resend) return now + config_.tick_ns;  // a completed transfer also ends the wait
   const std::int64_t free = output_ns_ + config_.tick_ns;
   return woken_ ? free : std::max(free, polled_ns_ + config_.tick_ns);
 }
@@ -347,8 +347,8 @@ void UsbStream::list_fds() {
 
 void UsbStream::wait(std::int64_t until) {
   if (fds_changed_) list_fds();
-  const std::int64_t left = std::max<std::int64_t>(until - monotonic_ns(), 0);
-  const timespec wait{left / kSecondNs, left % kSecondNs};
+  const std::int64_t remaining = std::max<std::int64_t>(until - monotonic_ns(), 0);
+  const timespec wait{remaining / kSecondNs, remaining % kSecondNs};
   if (ppoll(fds_.data(), fds_.size(), &wait, nullptr) > 0 && (fds_[0].revents & POLLIN) != 0) {
     std::uint64_t count = 0;
     woken_ = read(config_.wake_fd, &count, sizeof count) == sizeof count || woken_;

@@ -21,11 +21,11 @@ class UsbStream {
  public:
   UsbStream(libusb_context& context, libusb_device_handle& handle, const UsbInterface& interface,
             const ReportDescriptor& reports, const StreamConfig& config, HidStream& stream);
-  ~UsbStream();  // cancels all transfers and waits for them
+  ~UsbStream();  // cancels all transfers and waits until they have ended
   UsbStream(const UsbStream&) = delete;
   UsbStream& operator=(const UsbStream&) = delete;
 
-  void run();  // throws HidGone, HidError
+  void run();  // throws HidDisconnected, HidError
 
  private:
   using Arrival = void (UsbStream::*)(const libusb_transfer&) noexcept;
@@ -52,7 +52,7 @@ class UsbStream {
     std::int64_t retry = 0;        // [ns] earliest time of the next attempt
   };
   struct Failure {
-    bool gone = false;
+    bool disconnected = false;
     const char* what = "";
   };
 
@@ -61,7 +61,7 @@ class UsbStream {
   void submit(Slot& slot) noexcept;
   void cancel_all() noexcept;
   bool any_pending() const noexcept;
-  void fail(bool gone, const char* what) noexcept;  // only the first call counts
+  void fail(bool disconnected, const char* what) noexcept;  // only the first call has an effect
   void throw_failure() const;
 
   static void LIBUSB_CALL arrived(libusb_transfer* transfer) noexcept;
@@ -71,7 +71,7 @@ class UsbStream {
   void bus_error(PipeErrors& pipe, const char* what) noexcept;
   void deliver(std::span<const std::uint8_t> wire) noexcept;
 
-  void service(std::int64_t now) noexcept;  // does everything that is due
+  void service(std::int64_t now) noexcept;  // does all work that is due
   void service_input(std::int64_t now) noexcept;
   void service_output(std::int64_t now) noexcept;
   void offer_output(std::int64_t now) noexcept;
@@ -91,13 +91,13 @@ class UsbStream {
   HidStream& stream_;
 
   std::unique_ptr<Slots> slots_;
-  std::size_t longest_input_ = 0;  // [bytes] on the wire
-  std::size_t lever_size_ = 0;     // [bytes] on the wire; 0: no such report
+  std::size_t longest_input_ = 0;  // [bytes] longest input report on the wire
+  std::size_t lever_size_ = 0;     // [bytes] lever report on the wire; 0: no such report
   PipeErrors in_, out_;
   std::optional<Failure> failure_;
   bool closing_ = false;
 
-  std::int64_t lever_ns_ = 0;  // last lever report or request for one
+  std::int64_t lever_ns_ = 0;  // time of the last lever report, or of the last request for one
   int silent_stalls_ = 0, silent_timeouts_ = 0;
   std::int64_t output_ns_ = 0;  // when the last output was submitted
   std::int64_t polled_ns_ = 0;  // when next_output() was last called

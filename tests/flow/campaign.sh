@@ -6,12 +6,12 @@ gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 campaign() { "$gearshift" campaign --seed 11 --shifts 200 "$@" >"$work/out" 2>"$work/err"; }
-lacks() { ! "$@"; }
+fails() { ! "$@"; }
 cut_short() { head -c $(($(stat -c %s "$1") - 300)) "$1" >cut && mv cut "$1"; }
 same() { diff <(sort "$1/cases.csv") <(sort "$2/cases.csv") && cmp "$1/summary.json" "$2/summary.json"; }
 
 check "200 shifts" campaign --out once --threads 1
-no_law_broken() { # each of the thirteen by name; five have a precondition, which a small number of cases may not meet
+no_law_broken() { # all thirteen laws are in the table; five have a precondition, which a few cases may not meet (-)
   local law
   for law in finite "free space" "no wall" force slew fades "gear holds" told; do
     grep -qE "^\| $law \| .* \| 0 \|$" out || return 1
@@ -21,18 +21,18 @@ no_law_broken() { # each of the thirteen by name; five have a precondition, whic
   done
 }
 check "every law is in the table, and none is broken" no_law_broken
-check "nothing on stderr if it is no terminal" [ ! -s err ]
+check "nothing on stderr, because it is no terminal" [ ! -s err ]
 cp -r once again
 check "stopped in the middle of a line" cut_short again/cases.csv
 check "resumed" campaign --out again --threads 1
 check "with the same result" same once again
-# Too little memory for eight threads: three stacks of 1 GB, and the rest.
+# Too little memory for eight threads: enough for three stacks of 1 GB and the rest of the program.
 if [ -z "${ASAN_OPTIONS-}${TSAN_OPTIONS-}" ]; then
   fewer() { (ulimit -s 1000000 -v 4000000 && campaign --out fewer --threads 8); }
   check "with too little memory it uses fewer threads" fewer
   check "with the same result" cmp -s once/summary.json fewer/summary.json
 fi
-ended() { # by Ctrl-C: a shell's background children ignore SIGINT
+ended() { # ends a campaign as Ctrl-C does; env, because a shell's background children ignore SIGINT
   env --default-signal=INT "$gearshift" campaign --seed 11 --out ended >out 2>err &
   until [ -s ended/cases.csv ]; do sleep 0.05; done
   sleep 1
@@ -40,7 +40,7 @@ ended() { # by Ctrl-C: a shell's background children ignore SIGINT
   wait $!
   [ $? -eq 1 ]
 }
-hung_up() { # under nohup a closed terminal ends nothing
+hung_up() { # closes the terminal; under nohup the program continues
   nohup "$gearshift" campaign --seed 11 --out hung_up --shifts 40 >out 2>err &
   until [ -s hung_up/cases.csv ]; do sleep 0.05; done
   kill -HUP $!
@@ -48,17 +48,17 @@ hung_up() { # under nohup a closed terminal ends nothing
 }
 check "under nohup it continues when the terminal is closed" hung_up
 check "ended by Ctrl-C" ended
-check "it says so, and how to continue" grep -q "^gearshift: interrupted after [0-9]* cases in a row; run the same command to resume" err
-check "and continues" campaign --out ended --threads 1
+check "the interruption is reported, and how to continue" grep -q "^gearshift: interrupted after [0-9]* finished cases\{0,1\}; run the same command to resume" err
+check "the same command continues" campaign --out ended --threads 1
 check "with the same result" cmp -s once/summary.json ended/summary.json
-refused() { # exit code, text of the error, arguments ...
+refused() { # takes the exit code, text of the error, and the arguments of campaign
   local code=$1 words=$2
   shift 2
   "$gearshift" campaign "$@" >out 2>err
   [ $? -eq "$code" ] && [ "$(wc -l <err)" = 1 ] && grep -q -- "$words" err && [ ! -e bad ]
 }
-check "another campaign's folder is rejected" refused 1 "another campaign" --seed 12 --out once
-unreadable() { # by a user who may write it, but not read it
+check "the folder of a different campaign is rejected" refused 1 "another campaign" --seed 12 --out once
+unreadable() { # runs it as a user who may write the file, but not read it
   chmod 222 once/cases.csv
   chmod 777 "$work" once
   cp once/cases.csv before
@@ -67,38 +67,38 @@ unreadable() { # by a user who may write it, but not read it
 }
 as_nobody() { setpriv --reuid=65534 --regid=65534 --clear-groups "$gearshift" "$@"; }
 if [ "$(id -u)" = 0 ] && as_nobody gate paper >out 2>&1; then # skipped where only root can read the shipped files
-  check "an unreadable file is reported, and stays" unreadable
+  check "an unreadable file is reported and unchanged" unreadable
 fi
 check "a single case" "$gearshift" campaign --seed 11 --case 1 --out one
-check "its trace replays" sh -c '"$1" replay one/case_1.trace | grep -q "^bit for bit"' sh "$gearshift"
+check "its trace replays" sh -c '"$1" replay one/case_1.trace | grep -q "^identical bit for bit"' sh "$gearshift"
 not_driven() {
   "$gearshift" campaign --seed 1 --case 42 --out one >out && [ ! -e one/case_42.trace ] &&
-    grep -qx "the case was not driven, so nothing was recorded" out
+    grep -qx "the case was rejected, so nothing was recorded" out
 }
 check "a case rejected by the loop's checks has no trace" not_driven
-# The single case in a million that breaks a law (app/lab/campaign/README.md). Once that is fixed, use any other
-# failing case.
+# The only case in a million that breaks a law (app/lab/campaign/README.md). If that is fixed, use a different failing
+# case.
 "$gearshift" campaign --seed 1 --case 26063 --out broken >out
 check "a case that breaks a law" [ $? -eq 1 ]
-reports_broken_law() { # a second run reports it, too; so does the text file there
-  "$gearshift" replay broken/case_26063.trace >out && grep -q "^bit for bit" out &&
+reports_broken_law() { # the replay is identical, and prints the broken law and the text file's first line
+  "$gearshift" replay broken/case_26063.trace >out && grep -q "^identical bit for bit" out &&
     grep -qE "^case_26063.trace: case 26063 of seed 1 breaks fades .* m, bound .*, at 49\.[0-9]+ s$" out &&
     grep -qF "$(head -n 1 broken/case_26063.txt)" out
 }
-check "replay says which, where and by how much" reports_broken_law
-shows() { # the printed command, in memory; arguments ...
+check "replay prints the law, the time and the amount" reports_broken_law
+shows() { # runs the command that replay printed, without a window; takes more arguments
   $(tail -n 1 out | sed "s|^gearshift|$gearshift|") --offscreen shown --size 64x36 --samples 1 --no-panel "$@" >shown.txt
 }
-check "and the command that shows it" shows
-check "from two seconds before, to the end of the drive" lacks grep -qE "^ +[3-9]\.|^ +[0-9]{2}\." shown.txt
+check "the printed command shows the case" shows
+check "from two seconds before, to the end of the drive" fails grep -qE "^ +[3-9]\.|^ +[0-9]{2}\." shown.txt
 sed -i '$s/--from .*/--from 30/' out
-check "from another time" shows
+check "the command with a later time" shows
 check "to the end of the drive as well" grep -qE "^ +1[0-9]\." shown.txt
-beyond() { ! shows --seconds 1 2>err && [ "$(wc -l <err)" = 1 ] && grep -q "the drive lasts 49.* s: 49.5 s is not in it" err; }
+beyond() { ! shows --seconds 1 2>err && [ "$(wc -l <err)" = 1 ] && grep -q "49.5 s is not within the drive, which lasts 49.* s" err; }
 sed -i '$s/--from .*/--from 49.5/' out
-check "beyond its end: rejected" beyond
+check "a time beyond the drive's end is rejected" beyond
 cp one/case_1.trace broken/other.trace && cp broken/case_26063.txt broken/other.txt
-check "no trace is mentioned without a name" lacks sh -c '"$1" replay broken/other.trace | grep breaks' sh "$gearshift"
+check "a trace that is not named like a case is not taken for one" fails sh -c '"$1" replay broken/other.trace | grep breaks' sh "$gearshift"
 
 for number in -1 99999999999999999999 1.5; do
   for option in --case --seed; do

@@ -1,10 +1,10 @@
-# Sourced by the flows: an empty working folder, the function check, and the count at the end. A flow that does not
-# reach the count has failed, because bash ends a script early at a line that it cannot run.
+# Sourced by all flow tests: changes to an empty working folder, defines check(), and counts the results. A flow test
+# that does not reach finish() has failed, because bash ends a script early at a line that it cannot run.
 work=$(mktemp -d)
 passed=0
 failed=0
 is_finished=
-end_all() { :; } # the processes that a flow has started
+end_all() { :; } # flow tests override this to end the processes that they started
 leave() {
   local code=$?
   end_all
@@ -18,7 +18,7 @@ trap leave EXIT
 trap 'exit 1' HUP INT TERM
 cd "$work" || exit 1
 
-check() { # description, command ...
+check() { # takes a description, and a command that must succeed
   local what=$1
   shift
   if "$@"; then
@@ -28,23 +28,24 @@ check() { # description, command ...
     failed=$((failed + 1))
   fi
 }
-# A host that takes CPU time away delays all real-time programs: a flow with needs_machine=yes is then skipped instead
-# of failed (ctest's SKIP_RETURN_CODE), with a message.
+# If the host of a virtual machine takes CPU time away, all real-time programs are late. A flow test that sets
+# needs_machine=yes then counts as skipped instead of failed (ctest's SKIP_RETURN_CODE) and prints a message.
 stolen_ticks() { awk '$1 == "cpu" {print $9}' /proc/stat; }
 began_at=$EPOCHREALTIME began_stolen=$(stolen_ticks)
-host_took() { # [%] of the cores' time since the flow began
+host_took() { # prints the CPU time that the host took since the test began [% of the cores' time]
   awk -v ticks=$(($(stolen_ticks) - began_stolen)) -v from="$began_at" -v to="$EPOCHREALTIME" -v cores="$(nproc)" \
     -v rate="$(getconf CLK_TCK)" 'BEGIN {printf "%.0f", 100 * ticks / (rate * cores * (to - from))}'
 }
-# Under a sanitizer a program is late; what counts is that it reports nothing, including no abort. It reports to stderr,
-# which a flow keeps: a separate file (log_path) would be opened before umockdev is ready, which ends the program.
+# Under a sanitizer programs are late, so only the sanitizer's reports decide, which include aborts. Reports go to
+# stderr, which the tests save in files: a separate file (log_path) would be opened before umockdev is ready, and the
+# program would end.
 if [ -n "${GEARSHIFT_SANITIZED:-}" ]; then
   for sanitizer in ASAN_OPTIONS UBSAN_OPTIONS TSAN_OPTIONS; do export $sanitizer="${!sanitizer:-}:handle_abort=1"; done
 fi
 is_reported() { [ -n "${GEARSHIFT_SANITIZED:-}" ] && grep -rIhE -A 20 "Sanitizer: |runtime error: " "$work"; }
-whole() { [ -n "${GEARSHIFT_FULL:-}" ]; } # ./test --full
+is_full_run() { [ -n "${GEARSHIFT_FULL:-}" ]; } # set by ./test --full
 is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
-finish() { # the script's exit code
+finish() { # returns the script's exit code
   is_finished=yes
   echo "$passed passed, $failed failed"
   [ -z "${GEARSHIFT_SANITIZED:-}" ] || { end_all; wait; } # sanitizers report when a program ends

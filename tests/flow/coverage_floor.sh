@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# The floor in tests/coverage: one-line tables below it, at it, and an empty one.
+# Tests the floor of tests/coverage with tables at the floor and below it, and with an empty table.
 # Usage: coverage_floor.sh GEARSHIFT SOURCE_FOLDER
 set -u
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 table=$2/tests/coverage_table.py
 
-counted() { # number of covered lines out of 100, in each of two folders
+counted() { # prints a table with these two numbers of covered lines, of 100 lines in each of two folders
   echo "filename,line_total,line_covered,branch_total,branch_covered"
   printf 'app/%s/x.cpp,100,%s,,\n' a "$1" b "$2"
 }
 floor() { counted "$1" "$2" >counted.csv; python3 "$table" counted.csv 95 >out 2>err; }
-check "on the floor" floor 100 90
-check "without output" [ ! -s err ]
-check "each room has its row, and all of them" grep -qE "^all +200 +95\.0 % +-$" out
+check "coverage at the floor: exit 0" floor 100 90
+check "nothing on stderr" [ ! -s err ]
+check "there is a row for all rooms together" grep -qE "^all +200 +95\.0 % +-$" out
 floor 100 89
 check "a line below it: exit 1" [ $? -eq 1 ]
 check "in one sentence" grep -qx "coverage: 189 of 200 lines are less than 95 %" err

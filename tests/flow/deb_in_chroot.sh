@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # The Debian package in a fresh Debian 12: it installs with its dependencies, an ordinary user without a display runs
-# the demo, and purging leaves nothing behind. Part of ./test --full. By hand, as root and with a network, it takes some
-# minutes:
+# the demo, and purging leaves nothing behind. Part of ./test --full. It takes some minutes; to run it by hand, as root
+# and with a network:
 #   cmake --preset release && cmake --build --preset release --target package
 #   tests/flow/deb_in_chroot.sh build/release/gearshift_*.deb
 # Usage: deb_in_chroot.sh PACKAGE
 set -u
 command -v debootstrap >/dev/null || { echo "deb_in_chroot.sh: debootstrap is missing: apt-get install debootstrap" >&2; exit 2; }
-# Its mounts are private and disappear with it.
+# The mounts are private to this script and disappear with it.
 [ "$1" = --in-own-mounts ] || exec unshare --mount "$0" --in-own-mounts "$1"
 shift
 package=$(realpath "$1")
@@ -23,7 +23,7 @@ end_all() {
 
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
 as_user() { inside setpriv --reuid=1000 --regid=1000 --clear-groups env HOME=/home/user LANG=C.UTF-8 "$@"; }
-bring_up() { # its files, its own mounts, and this machine's package sources
+bring_up() { # makes a minimal Debian with its own mounts and this machine's package sources
   debootstrap --variant=minbase bookworm "$root" >debootstrap.txt 2>&1 || { tail -n 5 debootstrap.txt; return 1; }
   local place
   for place in proc sys dev; do mount --rbind "/$place" "$root/$place" || return 1; done
@@ -38,28 +38,28 @@ install_package() {
   inside apt-get install -y -qq --no-install-recommends /var/tmp/gearshift.deb >install.txt 2>&1 ||
     { tail -n 5 install.txt; return 1; }
 }
-is_left() { # a file with that name, not counting the user's files
+is_left() { # prints what the package left behind, not counting the user's files
   find "$root/usr" "$root/etc" "$root/lib" "$root/var/lib" "$root/var/cache" -xdev -iname "*gearshift*" |
     grep -v "/var/lib/apt/" | grep .
 }
-lacks() { ! "$@"; }
+fails() { ! "$@"; }
 
 check "a bare Debian 12" bring_up
-check "nothing of it exists before" lacks is_left
+check "no file of the package exists before" fails is_left
 check "the package installs" install_package
-check "dpkg finds every file as it was packed" inside dpkg --verify gearshift
+check "dpkg finds every file unchanged" inside dpkg --verify gearshift
 as_user gearshift --version >version.txt
-check "a user asks for the version" grep -q "^gearshift $(dpkg-deb -f "$package" Version)$" version.txt
-check "no library is missing" lacks grep -q "not found" <(inside ldd /usr/bin/gearshift)
-check "no file of the build's machine is named in it" lacks grep -aqF "$(cd "$flows/../.." && pwd)/" "$root/usr/bin/gearshift"
+check "the version is that of the package" grep -q "^gearshift $(dpkg-deb -f "$package" Version)$" version.txt
+check "no library is missing" fails grep -q "not found" <(inside ldd /usr/bin/gearshift)
+check "the program does not contain paths of the build machine" fails grep -aqF "$(cd "$flows/../.." && pwd)/" "$root/usr/bin/gearshift"
 demo() { as_user gearshift demo --out /tmp/demo >demo.txt 2>demo.err || { tail -n 2 demo.err; return 1; }; }
-check "and runs the demo" demo
+check "a user runs the demo" demo
 check "without output on stderr" test ! -s demo.err
-check "its page" test -s "$root/tmp/demo/index.html"
-check "its pictures" is_png "$root/tmp/demo/contact_sheet.png"
-check "the panel's letters and gnuplot's figures" is_png "$root/tmp/demo/trajectory.png"
+check "the demo's page exists" test -s "$root/tmp/demo/index.html"
+check "its pictures exist" is_png "$root/tmp/demo/contact_sheet.png"
+check "its plots exist" is_png "$root/tmp/demo/trajectory.png"
 check "purged" inside apt-get purge -y -qq gearshift >purge.txt 2>&1
-check "nothing is left" lacks is_left
+check "nothing is left" fails is_left
 cat version.txt
 tail -n 3 demo.txt
 finish

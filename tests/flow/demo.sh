@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The demo as a user without a display runs it: pictures, sound, traces, report and page exist and are complete, a
-# second run gives the same, and validation reports nothing.
+# second run writes the same files, and validation reports nothing.
 # Usage: demo.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -10,7 +10,7 @@ export GEARSHIFT_VALIDATION=1 XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/r
 mkdir -m 700 runtime
 
 size=192x108
-demo() { # name of the result, arguments ...
+demo() { # takes the name of the result and the arguments of the demo
   local name=$1
   shift
   "$gearshift" demo --out "$name" --size $size "$@" >"$name.txt" 2>"$name.err"
@@ -28,7 +28,7 @@ captioned() {
   pictures=$(grep -c "<img " one/index.html)
   [ "$pictures" -ge 15 ] && [ "$(grep -cE "<figcaption>[^<]{8,}</figcaption>" one/index.html)" = "$pictures" ]
 }
-lacks() { ! grep -qE "$2" "$1"; }
+has_no() { ! grep -qE "$2" "$1"; }
 
 check "demo of the paper's gate" demo one
 check "nothing on stderr, validation included" [ ! -s one.err ]
@@ -38,8 +38,8 @@ for picture in cabin driver clamp gearbox cluster gear_1 gear_R hill_start_bite 
 done
 check "everything that the page shows is there" shown_files_exist
 check "each picture of the page has alternative text" captioned
-check "pictures stand side by side, on a screen and on paper" [ "$(grep -c "grid-template-columns" one/index.html)" = 3 ]
-check "the page asks for nothing from outside" lacks one/index.html "http|<script|@import|url\("
+check "pictures are laid out side by side, on a screen and on paper" [ "$(grep -c "grid-template-columns" one/index.html)" = 3 ]
+check "the page loads nothing from other hosts" has_no one/index.html "http|<script|@import|url\("
 check "sound is a WAV file" grep -q WAVE <(head -c 16 one/demo.wav)
 check "its trace replays" "$gearshift" replay one/tour.trace
 for lesson in hill_start up_through_the_gears; do
@@ -48,11 +48,12 @@ done
 check "both lessons and the drive through every gear are passed" [ "$(grep -c "^  Passed with grade" one.txt)" = 3 ]
 check "the learner's report has both lessons" [ "$(grep -oE "Hill start|Up through the gears" one/report.html | sort -u | wc -l)" = 2 ]
 check "nothing is saved for the user" [ -z "$(find data -name history.db 2>/dev/null)" ]
-if whole; then
-  check "the same again" demo two
-  check "every file is the same twice, including the page" diff -rq one two
+if is_full_run; then
+  check "the demo runs again" demo two
+  check "both runs wrote the same files, including the page" diff -rq one two
 fi
-# The full-size demo as `./run` starts it; the short run waits only for its first picture.
+# The full-size demo as `./run` starts it without a display. Except under ./test --full, it is stopped after its first
+# picture.
 stale() { DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err; }
 begins() {
   DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err &
@@ -61,37 +62,37 @@ begins() {
   wait $!
   [ $? -eq 1 ]
 }
-whole_pictures() { # checks that every picture that exists is complete
+pictures_are_complete() { # checks that every picture that exists is complete
   local picture
   for picture in stale/*.png; do tail -c 8 "$picture" | grep -qa IEND || { echo "torn: $picture"; return 1; }; done
   is_png stale/cabin.png && [ ! -e stale/index.html ] && ! compgen -G "stale/*part*" >/dev/null
 }
-if whole; then
-  check "train beside a display that is gone: the demo" stale
+if is_full_run; then
+  check "train without a reachable display runs the demo" stale
   check "its page is there" [ -s stale/index.html ]
 else
-  check "train beside a display that is gone: the demo, ended early" begins
+  check "train without a reachable display runs the demo, ended early here" begins
   check "it says where, got: $(cat stale.err)" [ "$(cat stale.err)" = \
-    "gearshift: interrupted during \"pictures\"; finished files kept, no page written" ]
-  check "no partial file is left" whole_pictures
+    "gearshift: interrupted during \"pictures\"; finished files were kept, but no page was written" ]
+  check "no partial file is left" pictures_are_complete
 fi
-check "and it reports it" grep -q "^No display" stale.txt
+check "the missing display is reported" grep -q "^No display" stale.txt
 different() { ! same "$1" "$2"; }
 check "first and fifth gear do not look the same" different one/gear_1.png one/gear_5.png
 size=64x36
-check "another gate, stereo and a film" demo film --gate six_speed_r_left_up --stereo --film 0.1 --samples 1
+check "a different gate, stereo and a film" demo film --gate six_speed_r_left_up --stereo --film 0.1 --samples 1
 check "the film has frames" is_png film/film/00003.png
 
-refused() { # error text, arguments ...
+refused() { # takes the text of the error and the arguments
   local sentence=$1
   shift
   "$gearshift" "$@" >refused.txt 2>refused.err && return 1
   [ "$(wc -l <refused.err)" = 1 ] && grep -q -- "$sentence" refused.err
 }
-check "a size that is none" refused "must be WIDTHxHEIGHT" demo --out no --size 1280
+check "an invalid size" refused "must be WIDTHxHEIGHT" demo --out no --size 1280
 check "a size that is too large" refused "16 to 8192" demo --out no --size 99999x2
 check "three samples" refused "samples" demo --out no --samples 3
 check "no folder was made" [ ! -e no ]
-check "train without a display says what to do" refused "no display" train
+check "train without a display reports that there is none" refused "no display" train
 check "an unknown GPU is named" env GEARSHIFT_GPU=nonesuch bash -c "! '$gearshift' demo --out gpu 2>gpu.err && [ \$(wc -l <gpu.err) = 1 ]"
 finish

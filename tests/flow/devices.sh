@@ -1,38 +1,38 @@
 #!/usr/bin/env bash
-# Force-feedback sticks as their owner uses them, emulated beneath the real libusb: listed, driven through a tour,
-# killed with kill -9; a stick without access rights, and no stick at all.
+# Force-feedback sticks as a user uses them, emulated beneath the real libusb: they are listed and driven through a
+# tour; the program is killed with kill -9; a stick has no access rights, or no stick is plugged in.
 # Usage: devices.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
 needs_machine=yes
 source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
-all_known
+write_calibrations
 
 no_stick() {
   with_stick --family vjoy --unplug-at 0 -- \
-    bash -c 'for i in $(seq 100); do "$gearshift" devices >none.txt || exit; grep -q "No USB stick" none.txt && exit; sleep 0.1; done; exit 1' 2>none.err
+    bash -c 'for i in $(seq 100); do "$gearshift" devices >none.txt || exit; grep -q "No USB joystick" none.txt && exit; sleep 0.1; done; exit 1' 2>none.err
 }
 check "without a stick: a message, no failure" no_stick
-check "nor for a script" with_stick --family vjoy --unplug-at 0 -- bash -c 'sleep 1; "$gearshift" devices --json >none.json' 2>none.err
-check "with a message" python3 -c 'import json; assert json.load(open("none.json")) ["sticks"] == []'
+check "the same with --json" with_stick --family vjoy --unplug-at 0 -- bash -c 'sleep 1; "$gearshift" devices --json >none.json' 2>none.err
+check "the JSON has no sticks" python3 -c 'import json; assert json.load(open("none.json")) ["sticks"] == []'
 with_stick --family vjoy -- "$gearshift" tour --device rhino --out rhino >/dev/null 2>rhino.err
 check "an unknown stick is rejected with a list of those connected" \
-  grep -q '^gearshift: no stick "rhino" is plugged in; found: vJoy.*1234:bead' rhino.err
+  grep -q '^gearshift: no stick "rhino" is plugged in; available sticks: vJoy.*1234:bead' rhino.err
 check "in one sentence, and no folder is made" [ "$(wc -l <rhino.err)" -ge 1 -a ! -e rhino ]
 
-# Root may use any device, so this runs as another user.
+# Root may use any device, so the program runs as a different user.
 forbidden() {
   with_stick --family sidewinder -- bash -c '
-    chmod -R a+rwX "$UMOCKDEV_DIR" # its sockets, too
+    chmod -R a+rwX "$UMOCKDEV_DIR" # everything that umockdev needs, its sockets included
     as_nobody=; [ "$(id -u)" = 0 ] && as_nobody="setpriv --reuid 65534 --clear-groups"
     chmod 0 "$UMOCKDEV_DIR"/dev/bus/usb/*/*
     $as_nobody "$gearshift" devices' >forbidden.txt 2>forbidden.err
 }
 check "a stick without access rights is listed" forbidden
-check "with what it is" grep -q "SideWinder.*045e:001b.*constant force" forbidden.txt
+check "with its name and effects" grep -q "SideWinder.*045e:001b.*constant force" forbidden.txt
 check "with the reason" grep -q "may not be used by this user" forbidden.txt
 check "and the rule's commands" grep -q "sudo cp \".*udev/70-gearshift.rules\" /etc/udev/rules.d/" forbidden.txt
 
-all_known whole
+write_calibrations complete
 with_stick --family openffboard -- "$gearshift" devices --json >devices.json 2>devices.err
 check "the list for a script" python3 -c '
 import json
@@ -44,10 +44,10 @@ for family in $families; do (tour $family $family && touch $family.ok) & running
 wait
 running=()
 for run in $families; do
-  check "the tour of $run ends well" [ -e $run.ok ]
-  check "every gear of it, in order" in_order $run
-  check "it says how late the stick answers" grep -q "answers after .* ms" $run.txt
-  check "and what is missing" grep -q "limited from" $run.err
+  check "the tour of $run succeeds" [ -e $run.ok ]
+  check "every gear is engaged, in order" in_order $run
+  check "the stick's response time is printed" grep -q "responds after .* ms" $run.txt
+  check "and the limited parameters" grep -q "limited from" $run.err
   check "its motors are off after the program ended" silent_within 330 $run "the program's end"
   check "its trace replays" replays $run
   check "its plots are pictures" is_png "$run/trajectory.png"
@@ -57,10 +57,10 @@ early() {
   printf '\n\n\n\n' | with_stick --family vjoy -- "$gearshift" tour --device vjoy --gate paper --out early >early.txt 2>early.err
 }
 early
-check "Enter before the prompt arms nothing" grep -q "nobody can arm the stick" early.err
-check "and its motors never pushed" silent_within 0 early "the start"
+check "Enter before the prompt does not turn the forces on" grep -q "the forces cannot be turned on, because standard input is closed" early.err
+check "and the motors never pushed" silent_within 0 early "the start"
 
-# Killed while a hand presses into a wall: the effects end by themselves.
+# Kills the program while the hand presses into a wall: the effects must end by themselves.
 killed() {
   with_stick --family openffboard --tour elsewhere.toml -- bash -c '
     mkfifo killed.in
@@ -72,8 +72,8 @@ killed() {
     kill -9 $!' 2>killed.err
 }
 
-# Armed while the stop button is held, it has no forces, says why and asks again.
-asked() { printed "press Enter" refused "$1"; }
+# If forces are turned on while the stop button is held, they stay off, and the program reports why and asks again.
+is_prompted() { printed "press Enter" refused "$1"; }
 refused() {
   mkfifo refused.in refused.orders
   exec 9<>refused.in 8<>refused.orders
@@ -81,12 +81,12 @@ refused() {
   sed -i 's/^stop = 0/stop = 3/' "$work"/stop_button/gearshift/devices/*
   XDG_CONFIG_HOME=$work/stop_button with_stick --family vjoy --orders refused.orders -- \
     env --default-signal=INT "$gearshift" tour --device vjoy --gate paper --seconds 20 --out refused <&9 >refused.txt 2>refused.err &
-  within 10 asked 1
+  within 10 is_prompted 1
   echo hold 3 >&8
-  echo go 15 20 >&8 # where a lever with forces has a wall
+  echo go 15 20 >&8 # a place behind a wall of the gate
   sleep 0.3
   echo >&9
-  within 5 asked 2
+  within 5 is_prompted 2
   kill -INT "$(pgrep -P $! -f "$gearshift tour")"
   wait $!
 }
@@ -94,9 +94,9 @@ refused & running=($!)
 check "killed at a wall" killed
 wait
 running=()
-check "a held stop button is reported" printed "no forces: the stick's stop button is held" refused
-check "and asked for again" asked 2
-check "and its motors never pushed at the wall" silent_within 0 refused "the start"
-check "it pushed then, and its effects end by themselves" silent_within 330 killed "the program's end"
-check "not at once" [ "$(zero_force killed "the program's end")" -gt 0 ]
+check "a held stop button is reported" printed "the forces stay off: the stick's stop button is held" refused
+check "and the prompt is repeated" is_prompted 2
+check "and the motors never pushed at the wall" silent_within 0 refused "the start"
+check "killed: its effects end by themselves" silent_within 330 killed "the program's end"
+check "killed: but not at once, so it had pushed" [ "$(zero_force killed "the program's end")" -gt 0 ]
 finish

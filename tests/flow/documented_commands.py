@@ -7,9 +7,9 @@ A command is a line of a code block, or inline code, that begins with one of PRO
 order in one initially empty folder, with a separate home folder, the files of make_fixtures(), and the document's fenced
 blocks with a file name (```toml my.toml). Words in capitals are replaced from VALUES. The expected exit code is 0 or the
 one in the comment after the command: "# exits 1"; quoted text in the comment must be printed: # says "may not". Commands
-that need a person, a headset, a stick or many minutes are in ELSEWHERE, with the reason and, if not a person, the file
-that runs them: their verb and options must still exist, and a guide says "# not run: why". Commands that only take long
-are in LONG, and run by ./test --full. Ranges and defaults in the tuning guide are compared with the program's, too.
+that need a user, a headset, a stick or many minutes are in ELSEWHERE, with the reason and, unless they are only run by
+hand, the file that runs them: their verb and options must still exist, and a guide says "# not run: why". Commands that
+only take long are in LONG; ./test --full runs them. Ranges and defaults in the tuning guide are compared with the program's, too.
 """
 import concurrent.futures
 import os
@@ -25,8 +25,9 @@ import tempfile
 PROGRAM = (r"(cp|sed|sudo|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|\w+_fuzz|\w+_tests"
            r"|tests/\S+\.sh|tests/fuzz/run|tests/coverage|build/\S+)")
 PROGRAMS = re.compile(rf"^([A-Z_]+=\S+ )*(\./run|\./test|{PROGRAM})( |$)")
-BARE = re.compile(rf"^{PROGRAM}$")  # in prose this is only the program's name
-GUIDES = ("TUNING.md", "GUIDE.md", "BUILDING.md")  # these guides tell their readers which commands only read
+BARE = re.compile(rf"^{PROGRAM}$")  # inline code that is only the program's name
+# In these guides, each command that is not run here must be marked with "# not run: why".
+GUIDES = ("TUNING.md", "GUIDE.md", "BUILDING.md")
 SKIPPED_FOLDERS = {"build", "out", ".git"}
 
 # The value used for a placeholder in capitals, in one verb or in all verbs.
@@ -34,8 +35,9 @@ VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "m
           "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
           "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
 
-# Pattern of a command: the reason why it is not run here; the file that runs it, and the words in that file which do
-# (\1: the pattern's first group), among them a word of the command. Without a file: a person runs it.
+# Commands that are not run here. Key: a pattern of the command. Value: the reason, then the file that does run it and
+# the words in that file which show this (\1: the pattern's first group); one of them must occur in the command, too.
+# Without a file, the command is only run by hand.
 ELSEWHERE = {
     r"\./run$": ("installs and opens a window",),
     r"\./test": ("runs this test",),
@@ -146,7 +148,7 @@ def read_help(gearshift, verb):
 
 def read_verbs(gearshift):
     printed = subprocess.run([gearshift, "--help"], capture_output=True, text=True, check=True).stdout
-    return re.findall(r"^  (\w+)  ", printed[printed.index("Subcommands:"):], re.M)
+    return re.findall(r"^  (\w+)  ", printed[printed.index("Verbs:"):], re.M)
 
 
 def documents(sources, gearshift, verbs):
@@ -212,7 +214,7 @@ class Runner:
         self.failures.append(f"FAILED: {command.where()}\n  {why}")
 
     def parses(self, command):
-        """True if the command's verb and options exist."""
+        """Checks that the command's verb and options exist."""
         words = command.text.split()
         if words[0] != "gearshift" or len(words) < 2:
             return
@@ -235,7 +237,7 @@ class Runner:
         return True
 
     def is_shown(self, command, file, words):
-        """True if the file contains the words; common words, or none of the command's, do not count."""
+        """Checks that the file contains the words, which must be long enough and share a word with the command."""
         own = set(re.findall(r"[a-z]{2,}", words)) - {"gearshift", "tests", "flow", "build"}
         if len(words) < 4 or not any(re.search(rf"(?<![a-z]){word}(?![a-z])", command.text) for word in own):
             self.fail(command, f'"{words}", by which {file} is to show it, is nothing of its own')
@@ -305,10 +307,10 @@ class Runner:
         for number, (table, key, low, high, default) in enumerate(rows):
             row = Command("haptics/TUNING.md", number, f"[{table}] {key}")
             (folder / "beyond.toml").write_text(f'name = "Beyond"\n[{table}]\n{key} = {10 * int(float(high) + 1)}\n')
-            said = self.shell("gearshift tour --preset beyond.toml --out beyond", folder).stdout
-            bounds = re.search(rf"{key} = .*: must be between (\S+) and (\S+)", said)
+            output = self.shell("gearshift tour --preset beyond.toml --out beyond", folder).stdout
+            bounds = re.search(rf"{key} = .*: must be between (\S+) and (\S+)", output)
             if not bounds or [float(b) for b in bounds.groups()] != [float(low), float(high)]:
-                self.fail(row, f"is not from {low} to {high}: {said}")
+                self.fail(row, f"is not from {low} to {high}: {output}")
             in_table = shipped[shipped.index(f"[{table}]"):]
             if float(re.search(rf"^{key} = (\S+)", in_table, re.M).group(1)) != float(default):
                 self.fail(row, f"is not {default} where it is left out")

@@ -11,7 +11,7 @@ import urllib.parse
 SKIPPED_FOLDERS = ("build", "out", ".git")
 WALKED = ("app", "engine", "haptics", "shaders", "tests/flow", "tests/support")
 SOURCES = (".cpp", ".h", ".sh", ".py", ".vert", ".frag", ".glsl")
-MAX_WORDS = 35000  # of all .md files together
+MAX_WORDS = 35000  # limit for all .md files together
 GUIDES = ("TUNING.md", "BUILDING.md", "GUIDE.md")
 ROOMS = "app|assets|engine|haptics|shaders|tests"
 FUNCTION = re.compile(r"((?:`[\w:]+`(?:, )?)+) in `([^`]+)`")
@@ -21,7 +21,7 @@ TEST = re.compile(r'`([^`]+)`: "([^"]+)"')
 class Documents:
     def __init__(self, sources):
         self.sources, self.failures, self.checks = sources, [], 0
-        self.cases, self.said = {}, ""
+        self.cases, self.source_literals = {}, ""
 
     def check(self, where, ok, what):
         self.checks += 1
@@ -81,12 +81,12 @@ class Documents:
 
     def literals(self):
         """All string literals of the program; split literals are joined."""
-        if not self.said:
+        if not self.source_literals:
             for room in ("app", "engine", "haptics"):
                 for path in (self.sources / room).rglob("*.cpp"):
                     text = re.sub(r'"\s*\n\s*"', "", path.read_text())
-                    self.said += "\n".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', text)) + "\n"
-        return self.said
+                    self.source_literals += "\n".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', text)) + "\n"
+        return self.source_literals
 
     def test_cases(self, file):
         """The file's test case names, with split literals joined, as they appear in a table."""

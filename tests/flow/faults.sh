@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# System failures while a person's lesson is driven and recorded: the lever continues or has no force, each message
-# appears once, run and recording are saved. A preloaded library makes clock, GPU, sound and writes fail; the disk is a
-# separate small one.
+# System failures while a user drives a recorded lesson: the lever keeps running or has no force, each failure is
+# reported once, and run and recording are saved. A preloaded library makes clock, GPU, sound and writes fail; full and
+# read-only disks are small ones mounted for the test.
 # Usage: faults.sh GEARSHIFT SOURCE_FOLDER PRELOADED_FAULTS
 set -u
 gearshift=$1 preloaded=$3
-# Root mounts its disks where no other process sees them. Without permission to mount, those faults are left out, and if
-# everything else passes, the flow is skipped.
+# The test's disks are mounted where no other process sees them. Without the permission to mount, these faults are left
+# out, and if everything else passes, the test counts as skipped.
 has_mounts=${GEARSHIFT_OWN_MOUNTS:-}
 if [ -z "$has_mounts" ]; then
   [ "$(id -u)" = 0 ] && as_root=-m || as_root=-rm
@@ -18,25 +18,24 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 
 source "$flows/window.sh"
-unset GEARSHIFT_VALIDATION # it reports errors of its own for what the library blocks
+unset GEARSHIFT_VALIDATION # the validation layer would report errors of its own after injected failures
 size=160x120
 export INJECTED_FAULTS=$work/faults ALSOFT_DRIVERS=null
 mkdir faults
 beneath=(env LD_PRELOAD="$preloaded")
 
-in_time() { within "$@" || { needs_machine=yes; false; }; } # only a flow that waited in vain may blame the host
-inject() { echo "$2" >"faults/.$1" && mv "faults/.$1" "faults/$1"; } # fault, number
+in_time() { within "$@" || { needs_machine=yes; false; }; } # only a test that waited in vain may blame the host
+inject() { echo "$2" >"faults/.$1" && mv "faults/.$1" "faults/$1"; } # takes the fault and its number
 mend() { rm "faults/$1"; }
 logged() { [ "$(grep -cF -- "$1" "$log.txt" "$log.err" | awk -F: '{sum += $2} END {print sum}')" -ge "${2:-1}" ]; }
 is_reported_once() { [ "$(cat "$log.txt" "$log.err" | grep -cF -- "$1")" -eq 1 ]; } # sentence
-lesson() { # name, arguments ...: a recorded lesson that a person has begun
+lesson() { # name, arguments ...: starts a recorded lesson, as a user does
   start "$@" --lesson moving_off --learner Ada --mode follow-me --no-help --no-panel --hand grip ||
     { needs_machine=yes; return 1; }
   xdotool windowfocus "$window"
   in_time 20 press_until_logged Return "lesson moving_off begins" 1
 }
-# The key ends the lesson; the newest run is in the history, marked as left, and its recording is complete.
-left_runs() { # the number of runs in the history, and the newest one's recording
+left_runs() { # prints the number of runs in the history, and the newest run's recording
   python3 - "$XDG_DATA_HOME/gearshift" <<'END_OF_PYTHON'
 import os, sqlite3, sys
 rows = sqlite3.connect(sys.argv[1] + "/history.db").execute(
@@ -49,8 +48,10 @@ END_OF_PYTHON
 }
 ended() { ended_by End || { needs_machine=yes; kill "$trainer" && wait "$trainer"; false; }; }
 runs=0
-hung_up() { find_program && kill -HUP "$pid" && wait "$trainer"; } # its terminal is closed
-kept() { # how to end it, if not with the key
+hung_up() { find_program && kill -HUP "$pid" && wait "$trainer"; } # closes the program's terminal
+# Ends the lesson with its key, or with the given command. Then the newest run is in the history, marked as left, and
+# its recording is complete.
+is_saved() {
   local rows recording
   runs=$((runs + 1))
   "${@:-ended}" || return 1
@@ -58,26 +59,26 @@ kept() { # how to end it, if not with the key
   rows=$(left_runs) || return 1
   [ "$(head -n 1 <<<"$rows")" -eq $runs ] || return 1
   recording=$(tail -n 1 <<<"$rows")
-  "$gearshift" replay "data/gearshift/$recording" | grep -q "^bit for bit"
+  "$gearshift" replay "data/gearshift/$recording" | grep -q "^identical bit for bit"
 }
-has_forces() { [ "$(grep 'guard: ' "$log.txt" | tail -n 1 | sed 's/.*guard: //')" = running ]; }
+has_forces() { [ "$(grep -oE '(forces (off|armed|starting|on)|damping only|motors off)$' "$log.txt" | tail -n 1)" = "forces on" ]; }
 missed() { sed -n 's/^loop: \([0-9]*\) deadlines missed, .*/\1/p' "$log.txt" | tail -n 1; }
 find_program() { pid=$(pgrep -P "$trainer" -x gearshift) && [ -n "$pid" ]; }
-lever_keeps_running() { ! grep -q "guard: damped\|guard: released" "$log.txt"; }
+lever_keeps_running() { ! grep -q "forces off, damping only\|motors off" "$log.txt"; }
 
 check "closed terminal: a lesson begins" lesson hung_up
-check "closed terminal: run and recording are saved" kept hung_up
+check "closed terminal: run and recording are saved" is_saved hung_up
 
-# The picture, the sound and the wall clock.
+# Faults of the picture, the sound and the wall clock.
 check "picture: a lesson begins" lesson picture
 inject gpu 1
-check "picture: reported" in_time 20 logged "restarting the picture, the lever keeps running"
-xdotool mousemove --window "$window" 50 50 # a picture of it
+check "picture: reported" in_time 20 logged "restarting the display. The lever keeps running."
+xdotool mousemove --window "$window" 50 50
 check "picture: the lever continues" lever_keeps_running
 inject sound 1
 check "sound: reported" in_time 10 logged "the sound device was lost"
-# The clock steps while there is no sound: without a card, OpenAL uses that clock to mix what it missed before it lets a
-# program end.
+# The clock jumps while the sound device is lost, because OpenAL's null device measures time with this clock: OpenAL
+# would mix the sound of the jump before it lets a program end.
 inject clock 3600
 sleep 0.3
 inject clock -3600
@@ -85,21 +86,21 @@ sleep 1.2 # sound is retried every second
 check "clock: the lever continues" lever_keeps_running
 mend sound
 check "sound: back, reported" in_time 10 logged "sound is back"
-check "picture: reported once" is_reported_once "restarting the picture"
+check "picture: reported once" is_reported_once "restarting the display"
 check "sound: reported once" is_reported_once "the sound device was lost"
-check "picture, sound, clock: run and recording are saved" kept
+check "picture, sound, clock: run and recording are saved" is_saved
 mend clock
-span() { # duration of the newest run [s] according to the history
+span() { # prints the duration of the newest run in the history [s]
   python3 -c '
 import sqlite3, sys
 print(*sqlite3.connect(sys.argv[1]).execute("SELECT duration_s FROM lesson_run ORDER BY id DESC LIMIT 1").fetchone())' \
     "$XDG_DATA_HOME/gearshift/history.db"
 }
-check "clock: the duration of the lesson is right, got $(span) s" awk -v s="$(span)" 'BEGIN {exit !(s > 1 && s < 200)}'
+check "clock: the duration of the lesson is correct, got $(span) s" awk -v s="$(span)" 'BEGIN {exit !(s > 1 && s < 200)}'
 check "and nothing else is reported, got: $(grep -v picture picture.err)" [ "$(wc -l <picture.err)" -eq 1 ]
 
-# The same step while OpenAL plays to a null device, which it does only because it was asked to above: it first mixes an
-# hour of sound, and the program ends late. The lever does not wait.
+# The same jump while OpenAL plays to its null device (ALSOFT_DRIVERS above): it first mixes an hour of sound, so the
+# program ends late. The lever must not wait for this.
 check "late end: a lesson begins" lesson late
 check "late end: it has forces" in_time 10 has_forces
 check "late end: it runs" find_program
@@ -115,40 +116,40 @@ check "late end: the sound has not ended" alive
 kill -KILL "$pid"
 wait "$trainer" 2>/dev/null
 mend clock
-late_is_kept() { runs=$((runs + 1)) && [ "$(left_runs | sed -n 1p)" -eq $runs ]; }
-check "late end: the run is saved" late_is_kept
+late_is_saved() { runs=$((runs + 1)) && [ "$(left_runs | sed -n 1p)" -eq $runs ]; }
+check "late end: the run is saved" late_is_saved
 
-# A device that is lost repeatedly: no picture, but lever, lesson and keys still work.
+# A GPU device that is lost repeatedly: there is no picture, but lever, lesson and keys still work.
 check "no picture: a lesson begins" lesson blind
 rm -f faults/gpu_lost
 attempts() { wc -c <faults/gpu_lost; }
 attempted() { [ "$(attempts)" -ge "$1" ]; }
 begin=$SECONDS
 inject gpu 2
-check "no picture: reported" in_time 20 logged "restarting the picture"
-check "no picture: attempted again" in_time 20 attempted 4 # lost at once, every second
-taken=$((SECONDS - begin))
-check "no picture: not more than each second, got: $(attempts) in $taken s" [ "$(attempts)" -le $((taken + 3)) ]
+check "no picture: reported" in_time 20 logged "restarting the display"
+check "no picture: attempted again" in_time 20 attempted 4 # each attempt is lost at once; one attempt per second
+elapsed=$((SECONDS - begin))
+check "no picture: not more than each second, got: $(attempts) in $elapsed s" [ "$(attempts)" -le $((elapsed + 3)) ]
 check "no picture: alive" alive
 mend gpu
 check "no picture: the lever continues" lever_keeps_running
-check "no picture: saved" kept
+check "no picture: saved" is_saved
 check "no picture: reported once, got: $(cat blind.err)" [ "$(wc -l <blind.err)" -eq 1 ]
 
-# The process is stopped. The wall clock is wrong all the time; otherwise a clock that is never wrong would pass the
-# tests above.
+# The process is stopped. The wall clock is wrong from the start of this test: a history that showed the true time would
+# mean that the injected clock errors above had no effect.
 inject clock -3600
 check "stopped: a lesson begins" lesson stopped
 is_stopped() { grep -q "^State:.T" "/proc/$pid/status"; }
 check "stopped: it has forces" in_time 10 has_forces
 check "stopped: it runs" find_program
 kill -STOP "$pid"
-check "stopped: it stands still" in_time 5 is_stopped
+check "stopped: the process is stopped" in_time 5 is_stopped
 sleep 3
 kill -CONT "$pid"
-check "stopped: saved" kept
+check "stopped: saved" is_saved
 mend clock
-begun_behind() { # [s] behind the true time, according to the history
+begun_behind() { # prints how long ago the newest run began, according to the history [s]
   python3 - "$XDG_DATA_HOME/gearshift" <<'END_OF_PYTHON'
 import datetime, sqlite3, sys
 history = sqlite3.connect(sys.argv[1] + "/history.db")
@@ -157,36 +158,36 @@ begun = datetime.datetime.fromisoformat(begun.replace("Z", "+00:00"))
 print((datetime.datetime.now(datetime.timezone.utc) - begun.replace(tzinfo=datetime.timezone.utc)).total_seconds())
 END_OF_PYTHON
 }
-check "clock: the history has the time before the step, got: $(begun_behind) s" \
+check "clock: the history has the injected time, got: $(begun_behind) s ago" \
   awk -v s="$(begun_behind)" 'BEGIN {exit !(s >= 3600 && s < 3900)}'
 check "stopped: the lever continued" lever_keeps_running
 check "stopped: the cycles of 3 s are counted as missed, got: $(missed)" [ "$(missed)" -ge 2900 ]
 check "stopped: nothing on stderr, got: $(cat stopped.err)" [ ! -s stopped.err ]
 
-# Everything on one core, beside a busy loop.
+# All threads on one core, together with a busy loop.
 check "one core: a lesson begins" lesson hog
 check "one core: it runs" find_program
 timeout 30 taskset -c 0 sh -c 'while :; do :; done' &
 hog=$!
 check "one core: all its threads are sent there" taskset -acp 0 "$pid" >/dev/null
 stay_there() { [ "$(cat /proc/"$pid"/task/*/status | sed -n 's/^Cpus_allowed_list:\t//p' | sort -u)" = 0 ]; }
-check "one core: and stay" stay_there
+check "one core: they stay there" stay_there
 sleep 2
-check "one core: beside a busy loop" kill $hog
+check "one core: the busy loop has run until now" kill $hog
 taskset -acp "0-$(($(nproc) - 1))" "$pid" >/dev/null
-check "one core: saved" kept
+check "one core: saved" is_saved
 check "one core: forces to the end, switched on again if necessary" has_forces
 check "one core: missed deadlines are counted" \
   printed "^loop: [0-9]* deadlines missed, [0-9]* cycles too long, 0 events lost"
 check "one core: nothing on stderr, got: $(cat hog.err)" [ ! -s hog.err ]
 
-# Disk errors make it read-only, and somebody repairs it before the end.
+# The disk is temporarily read-only, as after disk errors, and works again before the end.
 check "read-only meanwhile: a lesson begins" lesson refused
 inject write 30 # EROFS
 check "read-only meanwhile: reported" in_time 20 logged "the recording failed after"
 check "read-only meanwhile: the lever continues" lever_keeps_running
 mend write
-check "read-only meanwhile: its key ends it" ended
+check "read-only meanwhile: the End key ends it" ended
 check "read-only meanwhile: reported once" is_reported_once "the recording failed after"
 check "read-only meanwhile: no loss is reported, got: $(cat refused.err)" [ ! -s refused.err ]
 check "read-only meanwhile: the run is in the history" [ "$(left_runs | sed -n 1p)" = $((runs + 1)) ]
@@ -199,27 +200,27 @@ if [ "$has_mounts" = yes ]; then
   dd if=/dev/zero of=small/filler bs=4k 2>/dev/null
   check "full disk: reported" in_time 20 logged "the recording failed after"
   check "full disk: the lever continues" lever_keeps_running
-  check "full disk: its key ends it" ended
+  check "full disk: the End key ends it" ended
   check "full disk: reported once" is_reported_once "the recording failed after"
   check "full disk: no loss is reported, got: $(cat full.err)" [ ! -s full.err ]
   check "full disk: the run is in the history, its truncated recording was deleted" \
     [ "$(left_runs | tr '\n' ' ')" = "1  " -a -z "$(ls small/gearshift/recordings)" ]
 
   rm -r small/*
-  check "room again: a lesson begins" lesson room
+  check "space again: a lesson begins" lesson room
   dd if=/dev/zero of=small/filler bs=4k 2>/dev/null
-  check "room again: reported" in_time 20 logged "the recording failed after"
+  check "space again: reported" in_time 20 logged "the recording failed after"
   rm small/filler
-  check "room again: its key ends it" ended
-  check "room again: no loss is reported, got: $(cat room.err)" [ ! -s room.err ]
-  check "room again: the run is in the history" [ "$(left_runs | sed -n 1p)" = 1 ]
+  check "space again: the End key ends it" ended
+  check "space again: no loss is reported, got: $(cat room.err)" [ ! -s room.err ]
+  check "space again: the run is in the history" [ "$(left_runs | sed -n 1p)" = 1 ]
 
   mount -t tmpfs -o size=1m none home
   mount -o remount,ro home
-  XDG_DATA_HOME=$work/home/data XDG_CONFIG_HOME=$work/home/config # without its cache a driver starts slowly
+  XDG_DATA_HOME=$work/home/data XDG_CONFIG_HOME=$work/home/config # without its cache the driver starts slowly
   check "read-only home: a lesson begins" lesson read_only
-  check "read-only home: its key ends it" ended
-  check "read-only home: reported at the start" [ "$(grep -c "the history cannot be used: .*Read-only" read_only.txt)" = 1 ]
+  check "read-only home: the End key ends it" ended
+  check "read-only home: reported at the start" [ "$(grep -c "the history cannot be used because .*Read-only" read_only.txt)" = 1 ]
   check "read-only home: the lesson was driven" printed "lesson moving_off is over: not graded.*[Yy]ou left"
   check "read-only home: losses are reported at the end, got: $(cat read_only.err)" \
     [ "$(grep -c "Read-only file system; not saved: 1 run$" read_only.err)" = 1 ]
@@ -227,7 +228,7 @@ fi
 XDG_CONFIG_HOME=$work/config
 [ "$has_mounts" = no ] || umount small home
 
-whole && check "a day of lessons: nothing grows" "$flows/soak.sh" "$gearshift" "$2" week "$work/day.csv" 24
+is_full_run && check "a day of lessons: nothing grows" "$flows/soak.sh" "$gearshift" "$2" week "$work/day.csv" 24
 finish || exit
 [ "$has_mounts" = no ] || exit 0
 echo "not shown: a full disk, a home that is read-only: no disk may be mounted here"

@@ -1,4 +1,4 @@
-// Fills a history for a flow: fill_history DATABASE RECORDING_TO_NAME
+// Fills a history for the flow tests: fill_history DATABASE RECORDING, where all runs refer to RECORDING.
 #include <cmath>
 #include <string>
 

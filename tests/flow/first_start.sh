@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The first start in any environment: no home folder, a read-only one, folders with spaces, quotes and letters of other
-# scripts, a German and a Turkish locale. The output is the same, byte for byte.
+# The first start in unusual environments: no home folder, a read-only one, folders with spaces, quotes and letters of
+# other scripts, a German and a Turkish locale. The output is the same in all locales, byte for byte.
 # Usage: first_start.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -8,8 +8,8 @@ source=$2
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 unset DISPLAY WAYLAND_DISPLAY XDG_DATA_HOME XDG_CONFIG_HOME XDG_CACHE_HOME XDG_RUNTIME_DIR LC_ALL MESA_SHADER_CACHE_DIR
 
-# Also as a user unknown to the system. If this is root: without root's right to write everywhere. Not as nobody, who
-# may not enter a clone in root's home.
+# As root, the program runs without root's right to write everywhere. (The user nobody may not enter a source tree in
+# root's home.)
 mkdir locked
 chmod 555 locked
 as_others=()
@@ -20,7 +20,7 @@ if ! "${as_others[@]}" true 2>/dev/null; then
   echo "no folder can be locked here: this root may not put its rights away"
   as_others=() locked=""
 fi
-start() { # name of the result, HOME=..., arguments ...
+start() { # takes the name of the result, HOME=..., and the arguments
   local name=$1 home=$2
   shift 2
   "${as_others[@]}" env "$home" "$gearshift" "$@" >"$name.txt" 2>"$name.err" </dev/null
@@ -29,7 +29,7 @@ one_sentence() { [ "$(wc -l <"$1")" -eq 1 ] && grep -q "$2" "$1"; }
 for home in $locked; do
   check "$home: a lesson is passed" start lesson "HOME=$work/$home" lesson hill_start --learner Ada
   check "$home: one message that nothing is saved, got: $(cat lesson.err)" \
-    one_sentence lesson.err "the history cannot be used: its folder cannot be created: Permission denied"
+    one_sentence lesson.err "the history cannot be used because its folder cannot be created (Permission denied)"
   start report "HOME=$work/$home" report --learner Ada --out page
   check "$home: a report fails" test $? -eq 1
   check "$home: in one sentence, got: $(cat report.err)" one_sentence report.err "history not found"
@@ -40,25 +40,25 @@ if [ -n "$locked" ]; then
   check "with one sentence, got: $(cat train.err)" one_sentence train.err "the history cannot be used"
   start refused HOME=/ tour --out "$work/locked/tour"
   check "a read-only folder: rejected" test $? -eq 1
-  check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked/tour: cannot be created: Permission denied"
+  check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked/tour: cannot be created (Permission denied)"
   echo mine >locked.svg
   chmod 444 locked.svg
   start refused HOME=/ gate paper --svg locked.svg
   check "a read-only file in a writable folder: rejected" test $? -eq 1
-  check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked.svg: cannot be written: Permission denied"
+  check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked.svg: cannot be written (Permission denied)"
   check "and it is unchanged" test "$(cat locked.svg)" = mine
   cp drawn/train.png train.png
   chmod 444 train.png
   start refused HOME=/ train --offscreen . --seconds 0.1 --size 320x180
-  check "nor a picture: in one sentence, got: $(cat refused.err)" one_sentence refused.err "train.png: the picture cannot be written: Permission denied"
-  check "which is unchanged" cmp train.png drawn/train.png
+  check "a read-only picture: one sentence, got: $(cat refused.err)" one_sentence refused.err "train.png: the picture cannot be written (Permission denied)"
+  check "and it is unchanged" cmp train.png drawn/train.png
 fi
-nameless() { # arguments ...: without HOME, as a user unknown to the system
+nameless() { # arguments ...: runs without HOME, as a user unknown to the system
   unshare --user --map-user=4242 env -u HOME "$gearshift" "$@" >nameless.txt 2>nameless.err </dev/null
 }
 if unshare --user --map-user=4242 "$gearshift" --version >/dev/null 2>&1; then
   check "no home at all: a gate is shown" nameless gate paper
-  no_home() { one_sentence nameless.err "no folder for the user's files"; }
+  no_home() { one_sentence nameless.err "there is no folder for your files"; }
   check "no home at all: a lesson is passed" nameless lesson hill_start --learner Ada
   check "no home at all: one message that nothing is saved, got: $(cat nameless.err)" no_home
   check "no home at all: devices are listed" nameless devices
@@ -71,7 +71,7 @@ else
   echo "not shown: no home at all (no user may have a namespace of his own here)"
 fi
 
-# The same files from the same commands, in a folder that is hard to quote.
+# The same commands write the same files in each locale, in a folder whose name is hard to quote.
 folder="Ordner ä ş ı İ 日本 o'clock \"q\" \`x\` \$HOME #1%41"
 session() { # locale
   (
@@ -91,21 +91,21 @@ session() { # locale
   )
 }
 for locale in de_DE tr_TR; do
-  check "the locale $locale can be made" localedef -i $locale -f UTF-8 "$work/$locale.UTF-8.made"
+  check "the locale $locale is compiled" localedef -i $locale -f UTF-8 "$work/$locale.UTF-8.made"
 done
 mkdir locales
 for locale in de_DE tr_TR; do mv "$locale.UTF-8.made" "locales/$locale.UTF-8"; done
 export LOCPATH=$work/locales
-check "whose decimal point is a comma" test "$(LC_ALL=tr_TR.UTF-8 locale decimal_point)" = ,
-check "a history for all of them: its runs have a time" \
+check "its decimal point is a comma" test "$(LC_ALL=tr_TR.UTF-8 locale decimal_point)" = ,
+check "a history for all locales, because its runs contain the time" \
   "$gearshift" lesson hill_start --learner "Ayşe İ ı" --database "$work/driven before.db" >/dev/null
 check "everything works in C.UTF-8" session C.UTF-8
-check "and is there" test "$(find C.UTF-8 -name "*.png" -o -name "*.csv" -o -name "*.svg" -o -name "*.gp" | wc -l)" -ge 11
+check "and the files exist" test "$(find C.UTF-8 -name "*.png" -o -name "*.csv" -o -name "*.svg" -o -name "*.gp" | wc -l)" -ge 11
 check "nothing is written elsewhere" test "$(ls C.UTF-8)" = "$folder"
 for locale in de_DE.UTF-8 tr_TR.UTF-8; do
   check "everything works in $locale" session $locale
-  # Excluded: the session's history contains the time, and the driver's cache is not reproducible.
-  check "and is the same, byte for byte" diff -rq -x .local -x .cache C.UTF-8 $locale
+  # Excluded: .local, because its history contains the time, and .cache, because the driver's cache is not reproducible.
+  check "and the files are the same, byte for byte" diff -rq -x .local -x .cache C.UTF-8 $locale
 done
 finish || exit
 [ -n "$locked" ] || exit 77

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A complete trainer with a real lever and a headset: both are found, the lever is drawn where it really is once its
-# knob was touched, only Enter switches forces on, the stick is unplugged while the headset is worn and continues when
-# the headset is lost; the timing of its cycles with and without a headset. The stick is emulated beneath the real
-# libusb, the headset is the OpenXR test runtime.
+# A complete trainer with a real lever and a headset: both are found; the lever is drawn at its true place after its
+# knob was touched; only Enter turns the forces on; the stick is unplugged while the headset is worn; the stick keeps
+# running when the headset is lost. Prints the timing of the cycles with and without the headset. The stick is emulated
+# beneath the real libusb; the headset is the OpenXR test runtime.
 # Usage: headset_stick.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR MANIFEST
 set -u
 needs_machine=yes
@@ -11,16 +11,16 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/sticks.sh"
 source "$flows/window.sh"
 source "$flows/worn.sh"
-all_known whole
+write_calibrations complete
 puts_on=launch
 
-no_force_messages() { ! printed "guard:"; }
+no_force_messages() { ! printed ' s  \(forces\|motors\) '; }
 in_room() { python3 "$flows/lever_in_room.py" "$@"; }
-# The time in the script of the last frame shown.
+# Prints the script's time of the last frame [s].
 script_time() { sed -n 's/^frame [0-9]* t=\([0-9.]*\).*/\1/p' "$log/log.txt" | tail -n 1; }
 is_later() { awk -v now="$(script_time)" -v then="$1" 'BEGIN {exit !(now > then)}'; }
 in_round() { within 20 is_later "$(awk -v round="$round" -v t="$1" 'BEGIN {print round + t}')"; }
-click() { # x, y in the window
+click() { # x, y: clicks at this point of the window
   xdotool mousemove --window "$window" "$1" "$2"
   sleep 0.4
   xdotool click 1
@@ -36,16 +36,18 @@ size=960x600 panel= hang="left -0.3"
 begin "stick and headset are found" wear touched --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
   echo 'capture = {every = 2}'
   in_room script)
-check "the headset's loss is reported" within 20 warned "$found"
+check "the headset is reported" within 20 warned "$found"
 xdotool windowfocus "$window"
 check "the window shows it" within 20 shows_picture
-# The panel is 960 x 540 in the middle of the window; the open tab is blue, and at first that is another one.
+# The panel has 960 x 540 pixels and is in the middle of the window. The open tab is blue; the pixel that is read below
+# belongs to the tab that is open at first.
 tab_is_open() { window_picture && [[ $(convert "$log.png" -crop 1x1+733+144 txt:-) != *"#285C7A"* ]]; }
 opens_tab() { click 935 149 && tab_is_open; }
-check "the panel's XR tab" within 20 opens_tab
+check "the panel's XR tab opens" within 20 opens_tab
 before=$(ls touched/*_left.png | tail -n 1)
-kept() { grep -qs "^\[touched\]" "$seat"; }
-# From one round's last pull to the next round's, with the lever where the controller is; saved before the next pull.
+touch_is_saved() { grep -qs "^\[touched\]" "$seat"; }
+# Touches the knob in three gears during one round of the headset's script: moves the lever to each gear before the
+# controller pulls its trigger there, and saves before the next round's first pull.
 touch_in_a_round() {
   round=$(script_time | awk '{print 10 * int(($1 + 1.6) / 10 + 1)}')
   in_round -1.5
@@ -65,54 +67,54 @@ touch_in_a_round() {
   order go 30 0
   sleep 0.2
   order go 0 0
-  within 4 kept
+  within 4 touch_is_saved
 }
-touch_in_some_round() { touch_in_a_round || touch_in_a_round || touch_in_a_round; } # a slow machine may miss one
+touch_in_some_round() { touch_in_a_round || touch_in_a_round || touch_in_a_round; } # a slow machine may miss a round
 check "the touches are saved" touch_in_some_round
 check "the knob is at its true place" in_room found "$seat"
 check "no forces so far" no_force_messages
 sleep 1.5 # until the lever is back and is drawn there
 touched=$(ls touched/*_left.png | tail -n 1)
 
-check "Enter switches them on" press_for Return "guard: running" 1
+check "Enter turns the forces on" press_for Return "forces on" 1
 order go 15 0
 sleep 0.2
-order go 15 20 # into the wall beside a slot
+order go 15 20 # into the wall next to a slot
 sleep 1
 drawn=$(frames)
 window_picture && cp "$log.png" plugged.png
 order unplug
-check "unplugged, its forces are off" within 5 printed "guard: released"
+check "unplugged, the forces are off" within 5 printed "motors off"
 check "the headset's pictures continue" within 10 has_more_frames $((drawn + 3))
 window_picture
 check "the panel reports it" differs plugged.png "$log.png" 3000
 order go 0 0
 order plug
 sleep 1.5
-check "reconnected, it has no forces by itself" [ "$(grep -c "guard: running" touched.txt)" = 1 ]
-check "but only by Enter" press_for Return "guard: running" 2
-check "its key ends it" ended_by End
+check "reconnected, the forces stay off" [ "$(grep -c "forces on" touched.txt)" = 1 ]
+check "until Enter turns them on" press_for Return "forces on" 2
+check "the End key ends it" ended_by End
 check "no OpenXR rule was broken" broke_no_rule
-check "each frame is whole" each_frame_is_whole
+check "each frame is complete" each_frame_is_complete
 zero() { sed -n "s/^stick_emulator: zero force \([0-9]*\) ms after $1.*/\1/p" "$log.err"; }
-gone_after() { local ms; ms=$(zero "$1") && echo "    zero force $ms ms after $1" && [ -n "$ms" ] && [ "$ms" -le 330 ]; }
-check "it pushed, and was still after an effect's length" gone_after "the unplug"
-check "still after the end" gone_after "the program's end"
+is_silent_after() { local ms; ms=$(zero "$1") && echo "    zero force $ms ms after $1" && [ -n "$ms" ] && [ "$ms" -le 330 ]; }
+check "unplugged, the motors stop after the length of an effect" is_silent_after "the unplug"
+check "the motors stop after the program's end" is_silent_after "the program's end"
 
-# --- the headset is lost while the stick is armed: another day, the seat calibrated
+# --- a new start with the calibrated seat: the headset is lost while the forces are on
 in_room truth "$seat"
 beneath=(umockdev-wrapper "$emulator" --family openffboard --tour paper --log lost.log --)
 panel=--no-panel hang="left -0.3 right 0.3"
-begin "another day" wear lost --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
+begin "a new start" wear lost --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
   echo 'capture = {every = 2}'
   in_room script | grep "^head\|^stage_origin"
   fails 36 xrEndFrame XR_ERROR_RUNTIME_FAILURE
   for i in 2 3 4 5 6 7; do fails $i xrGetSystem XR_ERROR_FORM_FACTOR_UNAVAILABLE; done)
-check "the headset's return is reported" within 20 warned "$found"
+check "the headset is found" within 20 warned "$found"
 check "the headset is worn" within 30 has_more_frames 4
 xdotool windowfocus "$window"
-check "the knob is drawn where it is" in_room drawn "$touched" "$(ls lost/*_left.png | tail -n 1)" "$before"
-check "armed" press_for Return "guard: running" 1
+check "the knob is drawn at its true place" in_room drawn "$touched" "$(ls lost/*_left.png | tail -n 1)" "$before"
+check "Enter turns the forces on" press_for Return "forces on" 1
 uptime_now() { read -r now _ </proc/uptime; echo "$now"; }
 armed_at=$(uptime_now)
 rm -rf data/gearshift/recordings
@@ -123,14 +125,15 @@ check "the headset is lost" soon 40 warned "$lost"
 lost_at=$(uptime_now)
 sleep 5
 check "the window shows the cabin" within 5 shows_desktop
-gone_at=$(uptime_now)
-check "its forces are on all the time" [ "$(grep -c "guard: released\|guard: damped" lost.txt)" = 0 ]
+checked_at=$(uptime_now)
+check "the forces stay on all the time" [ "$(grep -c "motors off\|forces off, damping only" lost.txt)" = 0 ]
 
 key F9
-check "the recording is whole" within 10 replays
-check "its key ends it" ended_by End
-# The output reports to the stick by its own clock: the cycles before and after the loss, without the second around it.
-check "the stick received force commands all the time" python3 - lost.log "$armed_at" "$gone_at" <<'END'
+check "the recording is complete" within 10 replays
+check "the End key ends it" ended_by End
+# The first check reads the output reports in the stick's log, which has the stick's clock. The second reads the
+# recorded cycles before and after the headset's loss, except for the second on either side of it.
+check "the stick received force commands all the time" python3 - lost.log "$armed_at" "$checked_at" <<'END'
 import sys
 begin, end = map(float, sys.argv[2:])
 times = [t for t in (float(line.split()[0]) for line in open(sys.argv[1]) if " out " in line) if begin < t < end]
@@ -146,13 +149,13 @@ ok = True
 for name, part in ("stick and headset", [t for t in times if t - start < lost - 1]), ("stick alone", [t for t in times if t - start > lost + 1]):
     gaps = sorted(b - a for a, b in zip(part, part[1:]))
     span = part[-1] - part[0]
-    share = len(part) / (1 + round(1000 * span))
-    print(f"    {name}: {len(part)} cycles in {span:.1f} s, {100 * share:.1f} %; apart p50 {1e3 * gaps[len(gaps) // 2]:.2f}, "
+    fraction = len(part) / (1 + round(1000 * span))
+    print(f"    {name}: {len(part)} cycles in {span:.1f} s, {100 * fraction:.1f} %; apart p50 {1e3 * gaps[len(gaps) // 2]:.2f}, "
           f"p99 {1e3 * gaps[len(gaps) * 99 // 100]:.2f}, at most {1e3 * gaps[-1]:.1f} ms")
-    ok = ok and span > 2 and share > 0.8 and gaps[-1] < 0.2
+    ok = ok and span > 2 and fraction > 0.8 and gaps[-1] < 0.2
 sys.exit(not ok)
 END
 check "no OpenXR rule was broken" broke_no_rule
-check "its motors are still" gone_after "the program's end"
+check "the motors stop after the program's end" is_silent_after "the program's end"
 check "no validation message" validates
 finish

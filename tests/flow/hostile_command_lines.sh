@@ -12,7 +12,7 @@ printf '\x89GSTRC\r\n\xff\xff\xff\xff' >newer.trace
 mkdir folder
 touch empty
 
-refuse() { # exit code, part of the error, arguments ...
+refuse() { # takes the exit code, part of the error, and the arguments
   local code=$1 part=$2
   shift 2
   "$gearshift" "$@" >out 2>err </dev/null
@@ -27,7 +27,7 @@ refuse() { # exit code, part of the error, arguments ...
   fi
 }
 
-# A script that reads truncated output must get an error.
+# A script whose standard output is full must get an error from the program.
 for verb in "gate paper" "lesson hill_start" "tour --help"; do
   "$gearshift" $verb >/dev/full 2>err
   if [ $? -ne 1 ] || ! grep -q "standard output" err; then
@@ -54,8 +54,8 @@ done
 
 unset DISPLAY WAYLAND_DISPLAY
 refuse 2 "--calibrate: the stick's name must not be empty" devices --calibrate ""
-refuse 2 "--csv: is empty" bench --family feel --csv ""
-refuse 2 "--out: is empty" campaign --out ""
+refuse 2 "--csv: the path must not be empty" bench --family feel --csv ""
+refuse 2 "--out: the path must not be empty" campaign --out ""
 refuse 2 "--shifts excludes --case" campaign --out c --case 5 --shifts 10
 refuse 2 "?[31m" $'\e[31m'
 refuse 2 "?[31m" tour --out t --rate $'\e[31m'
@@ -89,7 +89,7 @@ refuse 1 "neither a file nor one of the shipped lessons" lesson nonesuch
 refuse 2 "--fault" lesson hill_start --fault nothing
 refuse 2 "--skill-error" lesson hill_start --skill-error 2
 refuse 2 "--guidance" lesson hill_start --guidance nan
-refuse 1 "which this gate lacks" lesson up_through_the_gears --gate four_speed
+refuse 1 "which this gate does not have" lesson up_through_the_gears --gate four_speed
 refuse 1 "no/such.trace" lesson hill_start --trace no/such.trace
 refuse 2 "--out" tour
 refuse 2 "--rate" tour --out t --rate 99
@@ -150,10 +150,10 @@ for own in new.db ./new.db link.db new.db-wal new.db-shm new.db-journal; do
   refuse 2 "different files" lesson hill_start --learner A --database new.db --trace $own
 done
 mkdir gone && cd gone && rmdir ../gone
-gone=$({ "$gearshift" lesson hill_start --trace x.trace >/dev/null; } 2>&1)
+message=$({ "$gearshift" lesson hill_start --trace x.trace >/dev/null; } 2>&1)
 cd ..
-grep -q '^gearshift: x.trace: .*: No such file or directory$' <<<"$gone" ||
-  { echo "FAILED: where the working folder is gone: $gone"; failed=$((failed + 1)); }
+grep -q '^gearshift: x.trace: .* (No such file or directory)$' <<<"$message" ||
+  { echo "FAILED: where the working folder is gone: $message"; failed=$((failed + 1)); }
 cp "$source/assets/models/gearbox.glb" box.glb
 refuse 2 "different files" render box.glb --out folder/../box.glb
 python3 - <<'TEXTURED' # a triangle whose buffer and texture are in the same folder

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The house keeps its rules: what a room includes is linked by it, each library has one namespace and each type one
-definition, the folders of app are those of its README, and retired names stay away.
+"""Checks the rules of the source tree: a room links what it includes, each library has one namespace and each type one
+definition, app has exactly the known folders, and retired names are not used.
 Usage: house.py SOURCE_FOLDER HOUSE_DOT (written by CMake from its link lists)
 """
 import collections
@@ -32,7 +32,7 @@ def links(dot):
 
 
 def namespace_of(file):
-    """That of the file's library: gearshift::haptics, gearshift::lessons, ..."""
+    """Namespace of the file's library: gearshift::haptics, gearshift::lessons, ..."""
     folder, *rest = file.parts
     if folder != "app":
         return {"shaders": "shader"}.get(folder, folder)
@@ -41,7 +41,7 @@ def namespace_of(file):
 
 def types_defined(code):
     """Names of classes and enums that are defined at namespace level, outside of unnamed namespaces."""
-    scopes, names, start = [], [], 0  # of each open brace: does it belong to a named namespace?
+    scopes, names, start = [], [], 0  # scopes: whether each open brace belongs to a named namespace
     for brace in re.finditer(r"[{};]", code):
         if brace[0] == ";":
             start = brace.end()

@@ -6,14 +6,14 @@ set -u
 gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-identify() { # name of the result, arguments ...
+identify() { # takes the name of the result and the arguments
   local name=$1
   shift
   "$gearshift" identify "$@" >"$name.txt" 2>"$name.err"
 }
-# The nth number after "found" in the JSON: mass, damping, stiffness of x, then of y.
+# Prints the nth number after "found" in the JSON: mass, damping, stiffness of x, then of y.
 found() { grep -o '"found": [0-9.e-]*' "$1.txt" | sed -n "$2p" | cut -d' ' -f2; }
-near() { # name, n, value, share
+near() { # name, n, value, tolerance: compares the nth number; the tolerance is relative
   awk -v a="$(found "$1" "$2")" -v b="$3" -v s="$4" 'BEGIN { exit !(a != "" && a / b < 1 + s && a / b > 1 - s) }'
 }
 far() { ! near "$@"; }
@@ -21,9 +21,9 @@ says() { grep -qF -- "$2" "$1.txt"; }
 
 check "identify" identify plain --out plain
 check "Table 2" says plain "10.83 Nm"
-check "the literal amplitude" says plain "at 1 Hz hits the stop: it would move the lever by 484 mm"
-check "eq (7)" says plain "f_s = 19.04"
-check "nothing on stderr if it is no terminal" [ ! -s plain.err ]
+check "the paper's literal amplitude drives the lever to the stop" says plain "drives the lever to the stop (it would move the lever by 484 mm)"
+check "eq (7) of the paper" says plain "f_s = 19.04"
+check "nothing on stderr, because it is no terminal" [ ! -s plain.err ]
 for axis in x y; do
   check "bode_$axis.png is a picture" is_png plain/bode_$axis.png
   check "bode_$axis.svg is whole" grep -q "</svg>" plain/bode_$axis.svg
@@ -54,23 +54,23 @@ for value in 0.095 3.0 14.8 0.086 2.9 15.7; do
   i=$((i + 1))
   check "number $i within 2 %" near noisy $i $value 0.02
 done
-check "another seed" identify seed --preset noisy.toml --seed 2 --json
-check "another seed, other noise" [ "$(found seed 1)" != "$(found noisy 1)" ]
+check "a different seed" identify seed --preset noisy.toml --seed 2 --json
+check "a different seed gives different noise" [ "$(found seed 1)" != "$(found noisy 1)" ]
 check "the paper's rate" identify slow --preset paper --json
 check "mass at 100 Hz" near slow 1 0.095 0.02
-check "another rate" identify fast --rate 4000 --axis y --json
+check "a different rate" identify fast --rate 4000 --axis y --json
 check "stiffness at 4 kHz" near fast 3 15.7 0.02
-check "parts that are switched off" identify other --preset other.toml --axis x --json
-check "are identified as they are, not as drawn" far other 1 0.3 0.02
-check "within their tolerances" near other 1 0.3 0.3
+check "a lever with model errors" identify other --preset other.toml --axis x --json
+check "its true mass is found, not the nominal one" far other 1 0.3 0.02
+check "which differ by at most the model error" near other 1 0.3 0.3
 
 printf 'name = "x"\n[lever.axis_x]\nstiffness_n_per_m = 0\n' >springless.toml
 check "a lever without a spring" identify springless --preset springless.toml --axis x
-check "says that in words" says springless "no spring, so no damping ratio and no bandwidth"
+check "is reported in words" says springless "the axis has no spring, so no damping ratio and no bandwidth"
 check "and has no invalid number" [ "$(grep -c nan springless.txt)" -eq 0 ]
 
 # Bad command lines and levers: the documented exit code, one sentence, nothing on stdout.
-refuses() { # exit code, part of the error, arguments ...
+refuses() { # takes the exit code, part of the error, and the arguments
   local code=$1 part=$2
   shift 2
   "$gearshift" identify "$@" >out 2>err
@@ -83,7 +83,7 @@ check "rate out of range" refuses 2 "--rate" --rate 99
 check "a negative seed" refuses 2 "--seed" --seed -1
 check "no such preset" refuses 1 "default, measured, paper" --preset spaceship
 check "an unknown key" refuses 1 "unknown.toml:3: mass is not a known key" --preset unknown.toml
-check "a lever without motors" refuses 1 "axis x: FrequencySweep: max_force of the device = 0" --preset weak.toml
+check "a lever without motors" refuses 1 "axis x cannot be measured, because max_force of the device = 0" --preset weak.toml
 check "an impossible folder" refuses 1 "/proc" --out /proc/nowhere
 
 finish

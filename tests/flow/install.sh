@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# `cmake --install` into a folder that is hard to quote, moved elsewhere, with the source tree hidden: everything that
-# the program reads is installed with it. Also the output of --version, the changelog, and the desktop entry.
+# `cmake --install` into a folder whose name is hard to quote, then moved elsewhere, with the source tree hidden:
+# everything that the program reads is installed with it. Also the output of --version, the changelog, and the desktop
+# entry.
 # Usage: install.sh GEARSHIFT SOURCE_FOLDER BUILD_FOLDER
 set -u
 source=$2
@@ -8,32 +9,32 @@ build=$3
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export XDG_DATA_HOME=$work/data XDG_CACHE_HOME=$work/cache
 unset DISPLAY WAYLAND_DISPLAY DESTDIR MESA_SHADER_CACHE_DIR # the cache is in the hidden folder
-lacks() { ! "$@"; }
+fails() { ! "$@"; }
 
-check "it is installed" cmake --install "$build" --prefix "$work/erste Größe" --strip >install.txt
+check "the program is installed" cmake --install "$build" --prefix "$work/erste Größe" --strip >install.txt
 mv "erste Größe" "zweite 'Größe'"
 prefix="$work/zweite 'Größe'"
 cd "$prefix" || exit 1
-check "five kinds of files and the models" test "$(ls share/gearshift/assets | tr '\n' ' ')" = \
+check "the folders of the assets" test "$(ls share/gearshift/assets | tr '\n' ' ')" = \
   "bindings cars gates lessons models presets udev "
-as_in_the_source() { # every file of the assets
+as_in_the_source() { # compares every file of the assets
   local file
   find share/gearshift/assets -type f | while read -r file; do
     cmp "$file" "$source/assets/${file#share/gearshift/assets/}" || return 1
   done
 }
-check "as they are in the source tree" as_in_the_source
+check "their files equal those in the source tree" as_in_the_source
 check "every lesson, gate and model" test "$(find share/gearshift -name "*.toml" -o -name "*.glb" | wc -l)" -eq \
   "$(ls "$source"/assets/{bindings,cars,gates,lessons,presets}/*.toml "$source"/assets/models/*.glb | wc -l)"
-check "nothing else" lacks grep -q . <(find . -type f ! -path "./share/gearshift/assets/*" ! -path ./bin/gearshift \
+check "nothing else" fails grep -q . <(find . -type f ! -path "./share/gearshift/assets/*" ! -path ./bin/gearshift \
   ! -path "./share/doc/*" ! -path "./share/man/*" ! -name gearshift.desktop ! -name gearshift.svg ! -name "*.rules")
 check "the rule for udev" cmp lib/udev/rules.d/70-gearshift.rules "$source/assets/udev/70-gearshift.rules"
-# Assertions, which a release does not have, contain the names of their files.
-[ -n "${GEARSHIFT_SANITIZED:-}" ] || # sanitizer reports name source lines
-  check "the source tree is not named in the program" lacks grep -q . \
+# Assertions contain the names of their source files; a release build has no assertions.
+[ -n "${GEARSHIFT_SANITIZED:-}" ] || # sanitizer builds contain the names of source files, too
+  check "the program does not contain the path of the source tree" fails grep -q . \
   <(strings -a bin/gearshift | grep -F "$source/" | grep -vE "\.(h|cpp)$")
 
-# Where mounts are allowed, with source tree and build folder hidden.
+# Uses the installed program, with source tree and build folder hidden where mounts are allowed.
 cat >"$work/use.sh" <<'END'
 set -e
 [ -z "$2" ] || mount -t tmpfs none "$2"
@@ -46,9 +47,9 @@ END
 mkdir "$work/elsewhere"
 cd "$work/elsewhere" || exit 1
 if unshare -rm true 2>/dev/null; then
-  check "all that it needs is beside it" unshare -rm bash "$work/use.sh" "$prefix" "$source" 2>use.err
+  check "the program needs only what is installed with it" unshare -rm bash "$work/use.sh" "$prefix" "$source" 2>use.err
 else
-  check "all that it needs is beside it" bash "$work/use.sh" "$prefix" "" 2>use.err
+  check "the program needs only what is installed with it" bash "$work/use.sh" "$prefix" "" 2>use.err
 fi
 check "nothing on stderr, got: $(cat use.err)" test ! -s use.err
 check "the gate is the installed one" grep -qF "($prefix/share/gearshift/assets/gates/paper.toml)" gate.txt
@@ -75,10 +76,10 @@ changes="$prefix/share/doc/gearshift/changelog.gz"
 check "the changelog begins with this version" grep -q "^gearshift ($number) " <(zcat "$changes" | head -n 1)
 page() { zcat "$prefix/share/man/man1/gearshift.1.gz"; }
 verbs_of_the_page() { page | sed -n '/^.SH VERBS/,/^.SH OPTIONS/ {/^.TP/ {n; s/^.B //p}}'; }
-verbs_of_the_program() { "$prefix/bin/gearshift" --help | sed -n '/^Subcommands:/,$ s/^  \([a-z]*\)  .*/\1/p'; }
+verbs_of_the_program() { "$prefix/bin/gearshift" --help | sed -n '/^Verbs:/,$ s/^  \([a-z]*\)  .*/\1/p'; }
 check "the manual page has a line for each verb" diff <(verbs_of_the_page) <(verbs_of_the_program)
-check "and is of this version" grep -q "^.TH GEARSHIFT 1 \"[A-Z][a-z]* 20[0-9]*\" \"gearshift $number\"" <(page)
-dead_links() { # "PAGE: TARGET" for each relative link in an installed page to a file that is not installed
+check "and names this version" grep -q "^.TH GEARSHIFT 1 \"[A-Z][a-z]* 20[0-9]*\" \"gearshift $number\"" <(page)
+dead_links() { # prints "PAGE: TARGET" for each relative link in an installed page to a file that is not installed
   local page target
   find "$prefix/share/doc" -name "*.md" | while read -r page; do
     sed '/^```/,/^```/d; s/`[^`]*`//g' "$page" | grep -oP '\]\(\K[^)\s]+' | grep -vE '^[a-z]+:|^#' | while read -r target; do
@@ -87,10 +88,10 @@ dead_links() { # "PAGE: TARGET" for each relative link in an installed page to a
   done
 }
 check "every page is there" test "$(find "$prefix/share/doc" -name "*.md" | wc -l)" -ge 15
-check "no link of theirs is dead, got: $(dead_links)" test -z "$(dead_links)"
+check "no link in the pages is dead, got: $(dead_links)" test -z "$(dead_links)"
 named_pages() { grep -oP '^\| `.*' "$prefix/share/doc/gearshift/README.md" | grep -oP '`\K[^`]+\.md(?=`)'; }
 all_are_there() { named_pages | while read -r page; do test -s "$prefix/share/doc/gearshift/$page" || return 1; done; }
-check "the first page names others" test "$(named_pages | wc -l)" -ge 8
+check "the first page names the other pages" test "$(named_pages | wc -l)" -ge 8
 check "which are installed" all_are_there
 facts() { # source folder
   cmake -D "source=$1" -D header="$PWD/facts.h" -D type=t -D compiler=c -D libraries=l \

@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# A simulated driver's lessons are saved: passed, in the report, replayed; killed at 20 or 50 moments, and no reported
-# shift is lost; two programs at once; an unusable history costs one message and no lesson.
+# Saving the lessons of a simulated driver: a passed lesson is in the report, and its recording replays; a program
+# killed at 20 moments (--full: 50) loses no shift that it reported; programs share a history; an unusable history
+# causes one message, and the lesson is driven anyway.
 # Usage: lesson.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export XDG_DATA_HOME=$work/data
 
-learn() { # name of the result, arguments ...; returns the lesson's exit code
+learn() { # name of the result, arguments ...: drives a lesson and returns its exit code
   local name=$1
   shift
   "$gearshift" lesson "$@" >"$name.txt" 2>"$name.err" </dev/null
@@ -19,32 +20,32 @@ import sqlite3, sys
 print(sqlite3.connect(sys.argv[1]).execute("PRAGMA quick_check").fetchone()[0])' "$1")" = ok ]
 }
 rows() { tail -n +2 "$1" | wc -l; } # table
-exits() { # code, command ...
+exits() { # takes an exit code and a command
   local code=$1
   shift
   "$@"
   [ $? -eq "$code" ]
 }
-refuse() { # part of the error, arguments ...
+refuse() { # takes part of the error and the arguments
   local part=$1
   shift
   exits 2 learn refused "$@" && [ "$(wc -l <refused.err)" -eq 1 ] && grep -qF -- "$part" refused.err
 }
 
-# Passed, in the report, and the recording contains the drive.
+# A passed lesson is in the report, and its recording contains the drive.
 check "without a name nothing is saved" learn nobody hill_start
 check "and no folder is made" test ! -e data
 check "a lesson is passed" learn kim hill_start --learner Kim --verbose
-check "and reports it" grep -q '^Run 1: .*Grade 10.0 of 10. Passed.$' kim.txt
-check "each shift was reported, from 1 on" grep -q '^  run 1, shift 1 saved: ' kim.txt
-check "and not from 0" exits 1 grep -q 'shift 0' kim.txt
-check "nothing is wrong" test ! -s kim.err
-check "the page" report --learner Kim --out page --csv
-check "knows the lesson" grep -q "hill_start" page/runs.csv
+check "and its grade is printed" grep -q '^Run 1: .*Grade 10.0 of 10. Passed.$' kim.txt
+check "each shift was reported, numbered from 1" grep -q '^  run 1, shift 1 saved: ' kim.txt
+check "and there is no shift 0" exits 1 grep -q 'shift 0' kim.txt
+check "nothing on stderr" test ! -s kim.err
+check "the report is written" report --learner Kim --out page --csv
+check "it contains the lesson" grep -q "hill_start" page/runs.csv
 check "the reported shifts are in the table, number by number" \
   test "$(sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) saved: .*/\1,\2/p' kim.txt)" = \
   "$(tail -n +2 page/shifts.csv | cut -d, -f1,2)"
-bit_for_bit() { "$gearshift" replay "$1" 2>&1 | grep -q "^bit for bit"; }
+bit_for_bit() { "$gearshift" replay "$1" 2>&1 | grep -q "^identical bit for bit"; }
 check "the recording replays" bit_for_bit "$(ls data/gearshift/recordings/*.trace)"
 check "a lesson is failed" exits 1 learn kim hill_start --learner Kim --fault rollback
 check "there are deductions" grep -q "  -[0-9.]*  The car rolled back" kim.txt
@@ -52,13 +53,13 @@ check "a guided lesson is not passed" exits 1 learn guided hill_start --guidance
 check "there is no grade" exits 1 grep -q "Grade" guided.txt
 check "and no deductions" exits 1 grep -q "  -[0-9]" guided.txt
 learn kim skip_shifts --learner Kim --runs 4 --guided
-check "the last of four with help decides the exit code" exits $? grep -q 'Passed\.$' <(tail -n 1 kim.txt)
+check "the last of four runs decides the exit code" exits $? grep -q 'Passed\.$' <(tail -n 1 kim.txt)
 check "two of the first four are guided" test "$(grep -c '^Guidance' kim.txt)" -eq 2
 report --learner Kim --out page --csv
 check "shifts are drawn from the recordings" grep -q 'class="path"' page/index.html
 check "all of them are saved" test "$(rows page/runs.csv)" -eq 6
-check "guided ones without a grade" test "$(grep -c ',skip_shifts,' page/runs.csv)" -eq 4
-check "the mode is chosen" learn kim skip_shifts --learner Kim --mode by-yourself
+check "the four guided or unguided runs are in the table" test "$(grep -c ',skip_shifts,' page/runs.csv)" -eq 4
+check "a mode can be chosen" learn kim skip_shifts --learner Kim --mode by-yourself
 for trace in data/gearshift/recordings/*; do check "$trace replays" bit_for_bit "$trace"; done
 rm -rf data/gearshift/recordings
 echo >data/gearshift/recordings
@@ -68,27 +69,27 @@ rm data/gearshift/recordings
 
 check "an empty name" refuse "a learner's name must not be empty" hill_start --learner ""
 check "a name of two lines" refuse "control characters" hill_start --learner $'a\nb'
-check "no number of runs" refuse "--runs" hill_start --runs 0
+check "an invalid number of runs" refuse "--runs" hill_start --runs 0
 check "a trace for many runs" refuse "--trace" hill_start --runs 2 --trace t
-check "two kinds of help" refuse "--guid" hill_start --guided --guidance 1
-check "a database for nobody" refuse "--database" hill_start --database t.db
-check "no mode" refuse "--mode" hill_start --mode both
+check "two kinds of guidance" refuse "--guid" hill_start --guided --guidance 1
+check "a database without a learner" refuse "--database" hill_start --database t.db
+check "an invalid mode" refuse "--mode" hill_start --mode both
 
-# Killed at up to 50 moments, always with the same database.
+# Kills the program at up to 50 moments, always with the same database.
 kills=20
-whole && kills=50
-reported_shifts() { # the shifts that the program had reported, as run,shift
+is_full_run && kills=50
+reported_shifts() { # prints the shifts that the program had reported, as run,shift
   sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) saved: .*/\1,\2/p' "$@"
 }
 RANDOM=5
 : >all_reported
-lost=0 unusable=0 most=0
+lost=0 unusable=0
 for round in $(seq $kills); do
   : >killed.txt
   "$gearshift" lesson skip_shifts --runs 200 --learner K --database kill/h.db --verbose --seed "$round" \
     >>killed.txt 2>killed.err &
   program=$!
-  # In every second round only after something was reported, however slow the machine is.
+  # In every second round the kill waits until something was reported, however slow the machine is.
   [ $((round % 2)) -eq 0 ] || timeout 20 sh -c 'until [ -s killed.txt ]; do sleep 0.005; done'
   sleep "0.$(printf %03d $((RANDOM % 281 + 20)))"
   kill -9 $program
@@ -96,10 +97,10 @@ for round in $(seq $kills); do
   reported_shifts killed.txt >>all_reported
   [ -s killed.err ] && cat killed.err
   [ -e kill/h.db ] || continue
-  # killed before learner K was added
+  # the kill came before the program added learner K
   if [ ! -s all_reported ] && ! report --learner K --database kill/h.db; then continue; fi
   report --learner K --database kill/h.db --out killed --csv || unusable=$((unusable + 1))
-  # the report checks the file in every round, too
+  # only in every tenth round, because the report above checks the file in every round
   [ $((round % 10)) -ne 0 ] || is_sound kill/h.db || unusable=$((unusable + 1))
   cut -d, -f1,2 killed/shifts.csv | sort >there
   lost=$((lost + $(sort all_reported | comm -23 - there | wc -l)))
@@ -108,14 +109,14 @@ done
 check "after every kill the report works and the database is sound" test $unusable -eq 0
 check "no reported shift is lost" test $lost -eq 0
 check "shifts were reported" test "$(wc -l <all_reported)" -ge $((kills / 2))
-check "most kills hit a lesson, or the time between two" \
+check "many kills hit a lesson" \
   test "$(python3 -c '
 import sqlite3
 print(sqlite3.connect("kill/h.db").execute("SELECT count(*) FROM lesson_run WHERE ended = 0").fetchone()[0])')" -gt $((kills * 2 / 5))
-check "all others are over" learn after skip_shifts --learner K --database kill/h.db
+check "after the kills a lesson is driven to its end" learn after skip_shifts --learner K --database kill/h.db
 
-# Stopped by a signal, during a lesson or between two: no run stays open, each recording is complete.
-stopped() { # signal; a shell's background children ignore SIGINT
+# Stopped by a signal, during a lesson or between two: no run stays open, and each recording is complete.
+stopped() { # sends the signal to a lesson; env, because a shell's background children ignore SIGINT
   rm -f stopped.txt
   env --default-signal=INT "$gearshift" lesson up_through_the_gears --runs 5000 --learner S --database stop/h.db \
     --verbose >stopped.txt 2>stopped.err </dev/null &
@@ -123,7 +124,7 @@ stopped() { # signal; a shell's background children ignore SIGINT
   kill -"$1" $!
   wait $!
 }
-newest_recording() { # of a history without open runs
+newest_recording() { # prints the newest recording, or that a run is still open
   python3 -c '
 import sqlite3, sys
 rows = sqlite3.connect(sys.argv[1]).execute("SELECT ended, recording FROM lesson_run ORDER BY id").fetchall()
@@ -132,7 +133,7 @@ print("stop/" + rows[-1][1] if all(row[0] for row in rows) else "a run is open")
 for signal in INT TERM HUP; do
   check "$signal: exit 1" exits 1 stopped $signal
   check "$signal: one sentence, got: $(cat stopped.err)" test "$(wc -l <stopped.err)" -eq 1
-  check "$signal: which says where" grep -q "^gearshift: interrupted \(in\|before\) run [0-9]* of 5000$" stopped.err
+  check "$signal: which names the run" grep -q "^gearshift: interrupted \(during\|before\) run [0-9]* of 5000$" stopped.err
   check "$signal: the newest recording replays, got: $(newest_recording)" bit_for_bit "$(newest_recording)"
   grep -h "You left the lesson" stopped.txt >>told_left
 done
@@ -140,32 +141,32 @@ report --learner S --database stop/h.db --out stop --csv
 check "an interrupted lesson counts as left" test "$(grep -c ',left,' stop/runs.csv)" -eq "$(wc -l <told_left)"
 check "with as many recordings as runs" test "$(ls stop/recordings | wc -l)" -eq "$(rows stop/runs.csv)"
 
-# Two programs at once on a database that does not exist yet; with the same learner and with two.
+# Three programs at once on a database that does not exist yet; two of them have the same learner.
 learn one skip_shifts --runs 12 --learner Ada --database both/h.db &
 one=$!
 learn two skip_shifts --runs 12 --learner Bob --database both/h.db --seed 100 &
 two=$!
 learn three skip_shifts --runs 12 --learner Bob --database both/h.db --seed 200
-check "the one that shares a learner ends" test $? -eq 0
-check "one ends" wait $one
-check "the other ends" wait $two
-check "no complaints" test ! -s one.err -a ! -s two.err -a ! -s three.err
-for who in "Ada 12" "Bob 24"; do
-  set -- $who
+check "the third, which shares a learner, succeeds" test $? -eq 0
+check "the first succeeds" wait $one
+check "the second succeeds" wait $two
+check "nothing on stderr" test ! -s one.err -a ! -s two.err -a ! -s three.err
+for learner in "Ada 12" "Bob 24"; do
+  set -- $learner
   report --learner "$1" --database both/h.db --out both --csv
   check "all runs of $1" test "$(rows both/runs.csv)" -eq "$2"
   check "all shifts of $1" test "$(rows both/shifts.csv)" -eq $((2 * $2))
 done
-check "each has a recording of its own" test "$(ls both/recordings | wc -l)" -eq 36
-check "that replays" bit_for_bit "$(ls both/recordings/*.trace | tail -n 1)"
+check "each run has its own recording" test "$(ls both/recordings | wc -l)" -eq 36
+check "and the newest replays" bit_for_bit "$(ls both/recordings/*.trace | tail -n 1)"
 
-# An unusable history: one message, the lesson's normal exit code, the file unchanged.
+# An unusable history: one message, the lesson's normal exit code, and the file stays unchanged.
 cp data/gearshift/history.db good.db
-spoilt() { # description, part of the error, file
+spoilt() { # takes the description, part of the error, and the file
   cp "$3" before.db
   check "$1: passed" learn spoilt hill_start --runs 2 --learner Kim --database "$3"
   check "$1: one sentence, got: $(cat spoilt.err)" test "$(wc -l <spoilt.err)" -eq 1
-  check "$1: in words" grep -qF -- "$2" spoilt.err
+  check "$1: the reason is named" grep -qF -- "$2" spoilt.err
   check "$1: not passed" exits 1 learn spoilt hill_start --learner Kim --database "$3" --fault rollback
   check "$1: one sentence again" test "$(wc -l <spoilt.err)" -eq 1
   check "$1: unchanged" cmp -s "$3" before.db
@@ -173,16 +174,16 @@ spoilt() { # description, part of the error, file
 set_byte() { printf "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>/dev/null; }
 mkdir spoilt
 head -c 10000 good.db >spoilt/half.db
-spoilt "damaged" "it is damaged; left unchanged" spoilt/half.db
+spoilt "damaged" "it is damaged; the file is unchanged" spoilt/half.db
 echo "learner,grade" >spoilt/text.db
 spoilt "no history" "it is not a history of this program" spoilt/text.db
 cp good.db spoilt/newer.db
-set_byte spoilt/newer.db 63 '\377' # the last byte of the version: sqlite.org/fileformat2.html, 1.3
-spoilt "newer" "it was made by a newer program" spoilt/newer.db
-check "no other files beside them" test "$(ls spoilt | wc -l)" -eq 3
+set_byte spoilt/newer.db 63 '\377' # the last byte of the user version: sqlite.org/fileformat2.html, 1.3
+spoilt "newer" "it was written by a newer version of gearshift" spoilt/newer.db
+check "no other files were made there" test "$(ls spoilt | wc -l)" -eq 3
 
-# A user without write permission; root always has it, so it is dropped. Not as nobody, who may not enter a clone in
-# root's home.
+# A user without write permission. Root could write anyway, so root drops that right. (The user nobody may not enter a
+# source tree in root's home.)
 mkdir read_only
 cp good.db read_only/h.db
 chmod 755 "$work"
@@ -194,7 +195,7 @@ overrides=-dac_override,-dac_read_search
 check "read-only: passed" bash -c '"$@" >ro.txt 2>ro.err' - "${as_others[@]}" \
   "$gearshift" lesson hill_start --runs 2 --learner Kim --database read_only/h.db
 check "read-only: one sentence, got: $(cat ro.err)" test "$(wc -l <ro.err)" -eq 1
-check "read-only: in words" grep -q "no permission to write it\|it is read-only\|it cannot be opened" ro.err
+check "read-only: the reason is named" grep -q "you have no permission to write to it\|it is read-only\|it cannot be opened" ro.err
 check "read-only: unchanged" cmp -s read_only/h.db good.db
 chmod 755 read_only
 
@@ -211,7 +212,7 @@ fi
 "$1" lesson hill_start --runs 3 --learner Kim --database full/h.db >full.txt 2>full.err
 code=$?
 cmp -s full/h.db good.db || code=9
-umount full 2>/dev/null # mounted by root where there are no namespaces
+umount full 2>/dev/null # for a mount that root made without a namespace
 exit $code
 END
 if unshare -rm true 2>/dev/null; then
@@ -219,7 +220,7 @@ if unshare -rm true 2>/dev/null; then
 else
   check "full: passed, and the file is unchanged" bash on_full_disk.sh "$gearshift"
 fi
-reports_losses() { # the message at once, and at the end the list of losses
+reports_losses() { # one message at once, and the losses at the end
   [ "$(wc -l <full.err)" -eq 2 ] && head -n 1 full.err | grep -q "the disk is full" &&
     tail -n 1 full.err | grep -q "not saved: 3 runs"
 }
@@ -230,7 +231,7 @@ check "file size limit: passed, and the file is unchanged" \
   bash -c 'mount() { return 1; }; source on_full_disk.sh' - "$gearshift"
 check "file size limit: reported with the losses, got: $(cat full.err)" reports_losses
 
-# The recording itself fills the disk: no file that the history refers to is removed.
+# The recording itself fills the disk: no file that the history refers to may be removed.
 cat >on_small_disk.sh <<'END'
 mkdir small && mount -t tmpfs -o size=300k none small || exit 9
 "$1" lesson moving_off --learner Kim --database small/h.db >small.txt 2>small.err
@@ -242,12 +243,12 @@ sys.exit(0 if all(os.path.exists(os.path.join("small", row[0])) for row in rows)
 exit $code
 END
 if unshare -rm true 2>/dev/null; then
-  check "a small disk: passed, and what the history names is there" unshare -rm bash on_small_disk.sh "$gearshift"
+  check "a small disk: passed, and every recording that the history names exists" unshare -rm bash on_small_disk.sh "$gearshift"
   check "a small disk: reported, and nothing is lost, got: $(cat small.err)" \
     test "$(grep -c 'the recording failed' small.err)" -eq 1 -a "$(grep -c 'lost' small.err)" -eq 0
 fi
 
-# The recordings of several runs fill the disk: all rows are saved, whatever happens to recordings.
+# The recordings of several runs fill the disk: all rows are saved, whatever happens to the recordings.
 cat >on_filling_disk.sh <<'END'
 mkdir filling && mount -t tmpfs -o size=4m none filling || exit 9
 "$1" lesson up_through_the_gears --learner Kim --database filling/h.db --runs 6 >filling.txt 2>filling.err
@@ -259,16 +260,16 @@ END
 if unshare -rm true 2>/dev/null; then
   check "a disk that fills: six lessons, and a deletion when it is full" \
     unshare -rm bash on_filling_disk.sh "$gearshift"
-  check "a disk that fills: six runs that are over, got: $(cat filling.err)" \
+  check "a disk that fills: six completed runs, got: $(cat filling.err)" \
     test "$(grep -c ',done,' filling_page/runs.csv)" -eq 6
   check "a disk that fills: with all shifts" test "$(rows filling_page/shifts.csv)" -eq 24
-  check "a disk that fills: recordings went with the rows, got: $(cat filling_gone.txt)" \
+  check "a disk that fills: recordings were deleted with the rows, got: $(cat filling_gone.txt)" \
     grep -q "deleted Kim: 1 session, 6 runs, 24 shifts" filling_gone.txt
 fi
 
 # The database is upgraded by a newer program, or removed, while lessons are driven: reported, together with the losses.
 learn taken hill_start --learner Kim --database taken/h.db
-meanwhile() { # command ...: after the third run, while others are driven
+meanwhile() { # command ...: runs it after the third lesson run, while more are driven
   "$gearshift" lesson skip_shifts --runs 40 --learner Kim --database taken/h.db --verbose \
     >taken.txt 2>taken.err </dev/null &
   local program=$!
@@ -280,14 +281,14 @@ set_version() { python3 -c 'import sqlite3; sqlite3.connect("taken/h.db").execut
 count_runs() { python3 -c '
 import sqlite3
 print(sqlite3.connect("taken/h.db").execute("SELECT count(*) FROM lesson_run").fetchone()[0])'; }
-take_over() {
+upgrade_history() {
   set_version
   before=$(count_runs)
 }
-meanwhile take_over
-check "upgraded: no run is written any more" test "$(count_runs)" -eq "$before"
+meanwhile upgrade_history
+check "upgraded: no further run is written" test "$(count_runs)" -eq "$before"
 check "upgraded: reported with the losses, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
-  -n "$(grep "a newer program has upgraded it" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
+  -n "$(grep "a newer version of gearshift has upgraded it" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
 rm -rf taken
 learn taken hill_start --learner Kim --database taken/h.db
 meanwhile rm -f taken/h.db taken/h.db-wal taken/h.db-shm
@@ -295,13 +296,13 @@ check "removed: reported with the losses, got: $(cat taken.err)" test "$(wc -l <
   -n "$(grep "it was removed" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
 check "removed: not created again" test ! -e taken/h.db
 
-# Output that cannot be delivered: full, closed, or no reader. Everything is saved, and the exit code reports the
-# failure.
-undelivered() { # name, exit code, script around "$@" that drives three runs
+# The output cannot be delivered, because it is full, closed, or has no reader. Everything is saved, and the exit code
+# reports the failure.
+undelivered() { # takes the name, exit code, and a script that drives three runs with "$@"
   local runs="$gearshift lesson skip_shifts --runs 3 --verbose --learner Kim --database $1.db"
   check "$1: exit $2" exits "$2" bash -c "$3" - $runs
-  check "$1: three runs that are over" report --learner Kim --database "$1.db" --out "$1" --csv
-  check "$1: to their ends" test "$(grep -c ',done,' "$1/runs.csv")" -eq 3
+  check "$1: the report is written" report --learner Kim --database "$1.db" --out "$1" --csv
+  check "$1: it has three completed runs" test "$(grep -c ',done,' "$1/runs.csv")" -eq 3
 }
 undelivered said_to_full 1 '"$@" >/dev/full 2>undelivered.err'
 check "said_to_full: reported, got: $(cat undelivered.err)" grep -q "cannot write to standard output" undelivered.err
@@ -309,27 +310,27 @@ undelivered said_to_nobody 1 '{ "$@" 2>undelivered.err; echo $? >undelivered.cod
 check "said_to_nobody: reported, got: $(cat undelivered.err)" grep -q "cannot write to standard output" undelivered.err
 undelivered said_to_closed 1 '"$@" >&- 2>undelivered.err'
 check "said_to_closed: reported, got: $(cat undelivered.err)" grep -q "cannot write to standard output" undelivered.err
-mkdir no_folder && touch no_folder/recordings # recordings cannot be written there: reported, where output is possible
+mkdir no_folder && touch no_folder/recordings # so that recordings cannot be written; reported where output is possible
 for way in '2>/dev/full' '2>&-'; do
   cp good.db no_folder/h.db
   check "output to $way: passed" bash -c "\"\$@\" >undelivered.txt $way" - \
     "$gearshift" lesson hill_start --runs 2 --learner Kim --database no_folder/h.db
   check "output to $way: both runs" test "$(grep -c 'Passed\.$' undelivered.txt)" -eq 2
 done
-check "closed output: passed, and reported" exits 1 bash -c '"$@" >&- 2>/dev/null' - \
+check "closed output: exit 1" exits 1 bash -c '"$@" >&- 2>/dev/null' - \
   "$gearshift" lesson skip_shifts --verbose --trace closed.trace
-check "closed output: no output in the trace" bit_for_bit closed.trace
+check "closed output: the trace replays" bit_for_bit closed.trace
 
-# A mistyped name never overwrites a history; a recording is overwritten.
+# A mistyped name never overwrites a history; a recording may be overwritten.
 cp good.db theirs.db
 check "a history is not overwritten by a recording" exits 2 learn over hill_start --learner Kim --database good.db --trace theirs.db
 check "in a sentence, got: $(cat over.err)" \
-  test "$(wc -l <over.err)" -eq 1 -a -n "$(grep "theirs.db exists and is not a recording" over.err)"
+  test "$(wc -l <over.err)" -eq 1 -a -n "$(grep "theirs.db already exists and is not a recording" over.err)"
 check "and it is unchanged" cmp -s good.db theirs.db
-check "a recording is written over" learn over skip_shifts --trace closed.trace
-check "by the new program" bit_for_bit closed.trace
+check "a recording is overwritten" learn over skip_shifts --trace closed.trace
+check "by a recording that replays" bit_for_bit closed.trace
 
-# Moved together with its recordings: they are found, drawn and deleted at the new place.
+# A history that was moved together with its recordings: they are found, drawn and deleted at the new place.
 learn moved skip_shifts --learner Kim --database before/h.db
 mv before after_the_move
 report --learner Kim --database after_the_move/h.db --out moved
@@ -340,11 +341,11 @@ check "moved: with its recording" test "$(ls after_the_move/recordings | wc -l)"
 # Names with a special meaning in SQLite are plain file names here.
 for name in :memory: file:name.db?mode=memory; do
   check "$name: passed" learn named hill_start --learner Kim --database "$name"
-  check "$name: it is a file" test -s "$name"
+  check "$name: the file exists" test -s "$name"
   check "$name: Kim is in it" report --learner Kim --database "$name"
 done
 
-# Another program locks a history that has a run of Kim's: $holder.
+# Makes a history with a run of Kim's, and locks it from a second program, whose process is $holder.
 hold() { # name, duration [s]
   learn "$1" hill_start --learner Kim --database "$1.db"
   python3 -c '
@@ -357,23 +358,23 @@ time.sleep(float(sys.argv[2]))' "$1.db" "$2" >"$1.out" &
   until grep -qs held "$1.out"; do sleep 0.05; done
 }
 
-# Locked for longer than the program waits, which takes time: checked at the end.
+# A history that is locked for longer than the program waits. The wait takes long, so its result is checked at the end.
 hold held_on 60
 holder_on=$holder
 learn held_on hill_start --learner Kim --database held_on.db &
 held_on=$!
 
-# Locked during the whole lesson, and released a second after its end.
+# A history that is locked during the whole lesson, and released a second after the lesson's end.
 hold held 5
 check "held by another program: passed" learn held hill_start --learner Kim --database held.db
 wait $holder
 check "held: reported, and nothing is lost, got: $(cat held.err)" test "$(wc -l <held.err)" -eq 1
 report --learner Kim --database held.db --out held --csv
 check "held: both runs are there" test "$(rows held/runs.csv)" -eq 2
-check "held: and over" test "$(grep -c running held/runs.csv)" -eq 0
+check "held: and completed" test "$(grep -c running held/runs.csv)" -eq 0
 check "held: with their recordings" bit_for_bit "$(ls recordings/*.trace | tail -n 1)"
 
-# The loss is reported, although the wait was already reported.
+# The first history above: the loss is reported, although the wait was already reported.
 check "held on: passed" wait $held_on
 kill $holder_on
 wait $holder_on 2>/dev/null

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A person drives a lesson in the window, with mouse and keys under Xvfb, and passes; then the simulated driver does so
-# headless; both are in the report.
+# A user drives a lesson in the window, with mouse and keys under Xvfb, and passes; then the simulated driver passes it
+# without a window; both runs are in the report.
 # Usage: lesson_in_window.sh GEARSHIFT SOURCE_FOLDER
 set -u
 needs_machine=yes
@@ -13,8 +13,8 @@ down() { xdotool keydown "$1"; }
 up() { xdotool keyup "$1"; }
 is_over() { printed "lesson moving_off is over"; }
 at_step() { printed "step $1 of 6"; }
-# Time for the engine to respond to the throttle [s]: a key press counts up to a frame late, and a busy machine has long
-# frames.
+# Time for the engine to respond to the throttle [s]: a key press takes effect up to one frame late, and frames are long
+# on a busy machine.
 revs=1.2
 first=$("$gearshift" gate "$2/assets/gates/five_speed_r_right_down.toml" --json | python3 -c '
 import json, sys
@@ -22,40 +22,40 @@ gears = {gear["name"]: gear for gear in json.load(sys.stdin)["gears"]}
 x, y = gears["1"]["rest_mm"]
 print(round(x), round(y * 1.1))')
 
-size=320x200 # short frames read keys quickly
-check "it starts with the lesson's goal" start drive --lesson moving_off --learner Ada --mode follow-me --no-help --no-panel
-check "and reports it" wait_for "lesson moving_off offered: Move off smoothly"
+size=320x200 # small, because short frames read the keys sooner
+check "it starts with the lesson" start drive --lesson moving_off --learner Ada --mode follow-me --no-help --no-panel
+check "and prints the lesson's goal" wait_for "lesson moving_off offered: Move off smoothly"
 xdotool windowfocus "$window" mousemove --window "$window" 160 50 click 1
 sleep 2 # until the mouse moves the lever; there is no message for it
-check "the key begins it" press_for Return "lesson moving_off begins" 1
+check "Enter begins it" press_for Return "lesson moving_off begins" 1
 down a
 check "clutch down" within 20 at_step 2
 check "first gear" shift_to 1 $first
-check "seen" within 20 at_step 3
+check "the lesson notices first gear" within 20 at_step 3
 key h
-check "handbrake off" within 20 at_step 4
+check "the lesson notices the released handbrake" within 20 at_step 4
 down f
 sleep $revs
 up a
-check "moves off" within 20 at_step 5
+check "the car moves off" within 20 at_step 5
 up f
 down a
 down s
-check "and stops" within 20 at_step 6
+check "the car stops" within 20 at_step 6
 up s
 down f
 sleep $revs
 up a
-check "moves off again, and it is over" within 20 is_over
+check "the car moves off again, and the lesson is over" within 20 is_over
 up f
 check "passed" printed "lesson moving_off is over: grade .* of 10, passed"
 import -window root over.png
-check "its key ends it" ended_by End
-check "nothing on stderr but that there is no sound" [ "$(grep -vci 'sound' drive.err)" = 0 ]
+check "the End key ends it" ended_by End
+check "nothing on stderr except that there is no sound" [ "$(grep -vci 'sound' drive.err)" = 0 ]
 
 check "the simulated driver passes it, too" \
   "$gearshift" lesson moving_off --learner Ada --database "$work/data/gearshift/history.db" >headless.txt
-check "the report" "$gearshift" report --learner Ada --out page --csv
+check "the report is written" "$gearshift" report --learner Ada --out page --csv
 check "both runs are in it" [ "$(grep -c moving_off page/runs.csv)" = 2 ]
 check "both passed" [ "$(grep -c 'moving_off.*done.*,1,' page/runs.csv)" = 2 ]
 check "with the shifts" [ "$(wc -l <page/shifts.csv)" -ge 2 ]

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The trainer is started with --xr, but there is no runtime, no headset, or the seat options are invalid: it runs in a
+# The trainer is started with --xr, but there is no runtime or no headset, or the seat options are invalid: it runs in a
 # window as usual, or prints one error.
 # Usage: no_headset.sh GEARSHIFT SOURCE_FOLDER MANIFEST
 set -u
@@ -16,21 +16,21 @@ export XR_RUNTIME_JSON=/nowhere
 begin "without a runtime" start nowhere --xr --silent --no-panel --lesson none --hand "by itself"
 check "the window shows the cabin" within 20 shows_desktop
 xdotool windowfocus "$window"
-check "its key ends it" ended_by End
+check "the End key ends it" ended_by End
 check "one message, and nothing from the loader" one_line
-check "it says what to do" grep -q "^gearshift: no OpenXR runtime found: .*XR_RUNTIME_JSON.*; the desktop" nowhere.err
+check "the message names the remedy" grep -q "^gearshift: no OpenXR runtime found; .*XR_RUNTIME_JSON.*; the desktop" nowhere.err
 
-# --- no headset: reported once, however often the program searches
+# --- no headset: reported once, however often the program searches for one
 begin "without a headset" wear nothing --lesson none --hand "by itself" < <(echo 'headset = false')
 check "the window shows the cabin" within 20 shows_desktop
-sleep 3 # another search
-check "one sentence" one_line
-check "it says so" warned "^gearshift: no headset is connected to gearshift test runtime.*; the desktop shows the cabin"
+sleep 3 # the program searches again meanwhile
+check "one message" one_line
+check "the missing headset is reported" warned "^gearshift: no headset is connected to gearshift test runtime.*; the desktop shows the cabin"
 xdotool windowfocus "$window"
-check "its key ends it" ended_by End
+check "the End key ends it" ended_by End
 
 # --- rejected options
-refused() { # exit code, part of the error, arguments of train ...
+refused() { # takes the exit code, part of the error, and the arguments of train
   timeout 20 "$gearshift" train "${@:3}" >refused.txt 2>refused.err
   [ $? -eq "$1" ] && [ ! -s refused.txt ] && [ "$(wc -l <refused.err)" = 1 ] && grep -q -- "$2" refused.err
 }
@@ -45,7 +45,7 @@ done
 check "the seat is unchanged" grep -q '^seat_height_m = 0.05$' "$seat"
 sed -i 's/^seat_height_m.*/seat_height_m = 7.5/' "$seat"
 check "a bad seat in the file" refused 1 "headset.toml:4.*seat_height_m.*7\.5.*-0\.3.*0\.3" --xr --silent
-check "the file stays" grep -q "7.5" "$seat"
+check "the file is unchanged" grep -q "7.5" "$seat"
 
 check "no validation message" validates
 [ -n "${GEARSHIFT_PICTURES:-}" ] && cp ./*.png ./*.txt ./*.err "$GEARSHIFT_PICTURES"

@@ -7,8 +7,8 @@ import pathlib
 import re
 import sys
 
-ALONE, BUSY, CABIN = ("jitter", "alone"), ("jitter", "beside one busy thread per core"), ("beside", "beside the cabin drawn flat out")
-# Placeholders for any words in the name of a row.
+ALONE, BUSY, CABIN = ("jitter", "alone"), ("jitter", "beside one busy thread per core"), ("beside", "beside the cabin drawn at full speed")
+# Placeholders in the name of a row, which match any words.
 ANY_WORDS = ("RATE", "DRIVE", "LOAD", "...", "N")
 
 
@@ -36,18 +36,18 @@ class Rows:
 def lateness(rows, how):
     """Lateness relative to cyclictest's, and absolute: idle, beside busy threads, beside the cabin."""
     words = []
-    for (family, where), said in ((ALONE, "alone"), (BUSY, "beside a busy thread per core"), (CABIN, "beside the cabin")):
+    for (family, where), label in ((ALONE, "alone"), (BUSY, "beside a busy thread per core"), (CABIN, "beside the cabin")):
         ratios = [rows.of(family, f"ours / cyclictest, {how}, {q}, {where}") for q in ("p99", "p99.9")]
         us = [rows.of(family, f"ours, {how}, {q}, {where}") for q in ("p99", "p99.9")]
-        words.append("{:.2f} and {:.2f} {} ({:.0f} and {:.0f} us)".format(*ratios, said, *us))
+        words.append("{:.2f} and {:.2f} {} ({:.0f} and {:.0f} us)".format(*ratios, label, *us))
     return ", ".join(words)
 
 
 def quoted(rows):
     """The cells as the bench's README must quote them."""
     of, beside = rows.of, rows.beside
-    ripple = lambda place: of("contact", f"{place}: last peak-to-peak, p95")
-    taken = [-beside("energy", f"made by the wall, worst impact, {rate} Hz", "worst share of the impact") for rate in (500, 1000, 2000)]
+    ripple = lambda place: of("contact", f"{place}: final peak-to-peak motion, p95")
+    fractions = [-beside("energy", f"energy added by the wall, worst impact, {rate} Hz", "worst fraction of the impact energy") for rate in (500, 1000, 2000)]
     p50, p99 = ("cycle", "whole cycle p50"), ("cycle", "whole cycle p99")
     cabin, driver = (("picture", f"cabin 1280x720, 1x, {what}") for what in ("shadow and mirror", "as the driver sees it"))
     at_once = max(value for value in rows.all("faults", "^(?!overruns)"))
@@ -56,7 +56,7 @@ def quoted(rows):
     yield "{:.3f}, {:.3f}, {:.3f} mm | 0.02, 0.04, 0.10 |".format(*map(ripple, ("2000 Hz", "1000 Hz", "500 Hz")))
     yield "{:.3f}, {:.3f}, {:.3f} mm; with two".format(*(ripple(f"1000 Hz, delay {n}") for n in (1, 2, 3)))
     yield "at least {:.1f} % | 97 % |".format(min(rows.all_beside("contact", "displayed")))
-    yield "it takes {:.0f} to {:.0f} % of it".format(min(taken), max(taken))
+    yield "it takes {:.0f} to {:.0f} % of it".format(min(fractions), max(fractions))
     yield "within {:.1f} % | 3 % |".format(of("delivered", "tip force against a steady push of 6 to 31 N, mean over 50 ms"))
     levers = ("boundary", "predicted against simulated, 100 random levers")
     yield "{:.2f} % median, {:.1f} % worst | 2 % |".format(beside(*levers, "median"), of(*levers))
@@ -71,14 +71,14 @@ def quoted(rows):
     yield "{:.0e} and {:.0e} %; {:.0e} and {:.0e} | 0.01 %; rounding |".format(
         *(of("driveline", name) for name in ("lock-up time against Jr dw / T", "slip energy against Jr dw^2 / 2",
                                              "momentum balance", "energy balance, worst drive")))
-    yield "{:.0f} x, {:.0f} x real time | 400 x |".format(of("headless", "the same with the driveline"), of("headless", "a whole lesson"))
+    yield "{:.0f} x, {:.0f} x real time | 400 x |".format(of("headless", "simulation at 1 kHz with the driveline"), of("headless", "a whole lesson"))
     yield "{:.1e} relative at 1 ms, {:.1f} ns a step | 1e-12 |".format(of("plant", "exact at 1 ms"), beside("plant", "exact at 1 ms", "cost"))
     yield "within {:.2f} % of the peak | 3 % |".format(of("feel", "commanded force along a slot, worst error"))
     yield "{:.2f} % (worst gate) to {:g} % | 99 % |".format(min(rows.all("intent", "")), max(rows.all("intent", "")))
     yield lateness(rows, "sleep only")
     yield lateness(rows, "spin 50 us")
     for fault in ("frozen", "drifts out of the workspace", "far outside the workspace"):
-        yield "| reading {} | {:.0f} |".format(fault, of("faults", f"reading {fault}: to zero force"))
+        yield "| reading {} | {:.0f} |".format(fault, of("faults", f"reading {fault}: time to zero force"))
 
 
 def named_rows(page):
@@ -108,8 +108,8 @@ def main():
     if len(named) < 25:
         failures.append(f"app/lab/bench/README.md names {len(named)} rows: the page is not read as it was meant")
     for families, name in named:
-        there = [what for family, what in rows.rows if family in families]
-        if not any(re.search(pattern(name), what) for what in there):
+        candidates = [what for family, what in rows.rows if family in families]
+        if not any(re.search(pattern(name), what) for what in candidates):
             failures.append(f'no row of {", ".join(families)} is named "{name}"')
     checks = len(list(quoted(rows))) + len(named) + 7
     print("".join(f"FAILED: {failure}\n" for failure in failures), end="")

@@ -9,19 +9,19 @@ unset DISPLAY WAYLAND_DISPLAY
 export GEARSHIFT_VALIDATION=1 XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/runtime
 mkdir -m 700 runtime
 
-render() { # picture, arguments ...
+render() { # takes the picture and the arguments
   local picture=$1
   shift
   "$gearshift" render "$@" --out "$picture" >"$picture.txt" 2>"$picture.err" && is_png "$picture" && [ ! -s "$picture.err" ]
 }
 size_of() { od -An -t u1 -j 16 -N 8 "$1" | awk '{print $3*256+$4 "x" $7*256+$8}'; }
-refused() { # exit code, error, arguments ...
+refused() { # takes the exit code, error, and the arguments
   local code=$1 sentence=$2
   shift 2
   "$gearshift" render "$@" >refused.txt 2>refused.err
   [ $? = "$code" ] && [ "$(wc -l <refused.err)" = 1 ] && grep -qE -- "$sentence" refused.err
 }
-alike() { # two pictures, maximum RMS difference
+alike() { # takes two pictures and the maximum RMS difference
   [ "$(compare -metric RMSE "$1" "$2" null: 2>&1 | sed "s/.*(\(.*\))/\1/" | awk "{print (\$1 < $3)}")" = 1 ]
 }
 not_alike() { ! alike "$@"; }
@@ -36,7 +36,7 @@ for model in "$models"/*.glb; do
   check "$(basename "$model")" render "$(basename "$model").png" "$model" --size 160x120
 done
 
-# A cube of any size fills the same fraction of the picture when the camera fits it.
+# A cube of any size fills the same fraction of the picture when the camera is fitted to it.
 cube() { # edge in metres
   python3 - "$1" <<'END'
 import base64, json, struct, sys
@@ -61,12 +61,12 @@ for edge in 1 0.05 0.01; do
   cube $edge >"cube_$edge.gltf"
   check "a cube of $edge m" render "cube_$edge.png" "cube_$edge.gltf" --size 96x96
 done
-check "one of 5 cm looks like one of 1 m: no corner is clipped" alike cube_0.05.png cube_1.png 0.01
-check "one of 1 cm, too, except for the grain of its shadow" alike cube_0.01.png cube_1.png 0.08
-check "one seen from afar does not" render afar.png cube_1.gltf --size 96x96 --camera 3,3,5:0,0,0
-check "and that is noticed" not_alike afar.png cube_1.png 0.08
+check "the cube of 5 cm looks like that of 1 m: no corner is clipped" alike cube_0.05.png cube_1.png 0.01
+check "the cube of 1 cm, too, except for the grain of its shadow" alike cube_0.01.png cube_1.png 0.08
+check "the cube of 1 m from afar" render afar.png cube_1.gltf --size 96x96 --camera 3,3,5:0,0,0
+check "which differs, as the comparison notices" not_alike afar.png cube_1.png 0.08
 
-# The cube of 5 cm on one joint that scales it by twenty and moves it away.
+# The cube of 5 cm, skinned to one joint that scales it by twenty and moves it away.
 python3 - >skinned.gltf <<'END'
 import base64, json, struct
 model = json.load(open("cube_0.05.gltf"))
@@ -88,9 +88,9 @@ END
 check "a skinned cube" render skinned.png skinned.gltf --size 96x96
 check "it fits where its joint places it" alike skinned.png cube_1.png 0.01
 sed 's/"primitives": \[{/"primitives": [{"mode": 1, /' skinned.gltf >skinned_lines.gltf
-lines_alone() { "$gearshift" render skinned_lines.gltf --size 96x96 --out lines.png 2>&1 | grep -q "not drawn: lines" && is_png lines.png; }
-check "a skin with only lines is named and not drawn" lines_alone
-check "two eyes of half a pixel more each are rejected" refused 2 "width must be even" cube_1.gltf --out x.png --stereo --size 161x91
+reports_only_lines() { "$gearshift" render skinned_lines.gltf --size 96x96 --out lines.png 2>&1 | grep -q "not drawn: lines" && is_png lines.png; }
+check "a skin with only lines is named and not drawn" reports_only_lines
+check "an odd width for two eyes is rejected" refused 2 "width must be even" cube_1.gltf --out x.png --stereo --size 161x91
 
 printf 'glTF' >short.glb
 printf '{"asset":{"version":"2.0"},"extensionsRequired":["EXT_nobody_knows"]}' >required.gltf

@@ -11,7 +11,7 @@ report() { # arguments ...
   "$gearshift" report "$@" >out 2>err </dev/null
 }
 says() { grep -qF -- "$1" out; }
-refuse() { # exit code, part of the error, arguments ...
+refuse() { # takes the exit code, part of the error, and the arguments
   local code=$1 part=$2
   shift 2
   "$gearshift" report "$@" >out 2>err </dev/null
@@ -22,7 +22,7 @@ refuse() { # exit code, part of the error, arguments ...
 
 ada="Ada <i>Löwe</i>"
 check "no history yet: reported, and none is created" report
-check "in words" says "No lesson has been driven yet."
+check "the list says that there is none" says "No lesson has been driven yet."
 check "nothing was made" test ! -e data
 refuse 1 "history not found" --learner Ada
 refuse 1 "nowhere.db" --database nowhere.db
@@ -34,26 +34,26 @@ check "a history" "$fill" data/gearshift/history.db near.trace
 
 check "learners are listed" report
 check "with runs and next lesson" grep -Eq "^Ada <i>Löwe</i> +1 +12 +20[0-9-]+ +start_and_stop$" out
-check "and those who have not driven" grep -Eq "^Bob +0 +0 +- " out
+check "and a learner who has not driven" grep -Eq "^Bob +0 +0 +- " out
 report --learner "$ada"
 check "a learner's runs" test "$(grep -c up_through_the_gears out)" -eq 12
 
 check "a comment is accepted" report --learner "$ada" --comment 3 'Calmer, "much" <calmer>' --by "Bo & Di"
 check "the next lesson is set" report --learner "$ada" --next hill_start
 report
-check "and listed" says "hill_start (chosen by instructor)"
+check "and is listed" says "hill_start (chosen by the instructor)"
 
 check "the page and tables" report --learner "$ada" --out "a folder/ä" --csv
 page="a folder/ä/index.html"
 check "what was written is reported" says "$page"
-check "the page is whole" grep -q "</html>" "$page"
+check "the page is complete" grep -q "</html>" "$page"
 check "the name is text" grep -qF "<h1>Ada &lt;i&gt;Löwe&lt;/i&gt;</h1>" "$page"
-check "the comment stands beside the grade" grep -qF "Calmer, &quot;much&quot; &lt;calmer&gt;" "$page"
+check "the comment is shown with the grade" grep -qF "Calmer, &quot;much&quot; &lt;calmer&gt;" "$page"
 check "the next lesson" grep -qF "Next lesson: <strong>Hill start</strong>, chosen by the instructor." "$page"
 check "a curve was fitted" grep -q "A = 9\.0. ± " "$page"
 check "force and path of recorded shifts" test "$(grep -c 'class="path"' "$page")" -eq 6
 check "nothing runs and nothing is fetched" test "$(grep -cE '<script|src=|https?://[^w]' "$page")" -eq 0
-check "12 runs, 36 shifts, 12 faults" \
+check "the tables have 12 runs, 36 shifts, 12 faults" \
   test "$(cat "a folder/ä/"{runs,shifts,faults}.csv | grep -c $'\r$')" -eq $((13 + 37 + 13))
 check "a comment in the table is quoted" grep -qF '""much"" <calmer>' "a folder/ä/runs.csv"
 cp "$page" first.html
@@ -61,16 +61,16 @@ report --learner "$ada" --out "a folder/ä"
 check "the same history, the same page" cmp -s first.html "$page"
 check "an empty value restores the suggestion" report --learner "$ada" --next ""
 report
-check "as suggested again" grep -Eq "start_and_stop$" out
+check "the suggested lesson is listed again" grep -Eq "start_and_stop$" out
 
 refuse 1 "known learners: Ada <i>Löwe</i>, Bob" --learner Eve
-refuse 1 "known: 1, 2, 3" --learner "$ada" --comment 99 text --by Bo
-refuse 1 "known: none yet" --learner Bob --comment 1 text --by Bo
+refuse 1 "runs that do: 1, 2, 3" --learner "$ada" --comment 99 text --by Bo
+refuse 1 "runs that do: none" --learner Bob --comment 1 text --by Bo
 refuse 2 "--by" --learner "$ada" --comment 1 text
 refuse 2 "--comment" --learner "$ada" --by Bo
 refuse 2 "--comment" --learner "$ada" --comment one text --by Bo
-refuse 1 "; shipped lessons: start_and_stop, " --learner "$ada" --next flying
-refuse 1 "; shipped lessons: " --learner "$ada" --next "$2/assets/lessons/reverse.toml"
+refuse 1 "; the shipped lessons are start_and_stop, " --learner "$ada" --next flying
+refuse 1 "; the shipped lessons are " --learner "$ada" --next "$2/assets/lessons/reverse.toml"
 cp data/gearshift/history.db a\ folder/runs.csv
 refuse 2 "different files" --database "a folder/runs.csv" --learner "$ada" --out "a folder/../a folder" --csv
 check "no report over its history" cmp -s data/gearshift/history.db "a folder/runs.csv"
@@ -88,30 +88,31 @@ refuse 2 "--delete" --learner "$ada" --delete --out t
 refuse 1 "/proc" --learner "$ada" --out /proc/nowhere
 head -c 4096 /dev/urandom >noise.db
 cp noise.db noise.before
-refuse 1 "it is not a history of this program; left unchanged" --database noise.db
-check "and it is" cmp -s noise.db noise.before
+refuse 1 "it is not a history of this program; the file is unchanged" --database noise.db
+check "and the file is unchanged" cmp -s noise.db noise.before
 
-# Deletion requires the name to be typed again; another name or none is rejected.
-deletes() { # the typed name
+# Deletion requires the name to be typed again; a different name or no name is rejected.
+deletes() { # takes the typed name
   printf '%s\n' "$1" | "$gearshift" report --learner "$ada" --delete >out 2>err
 }
-check "another name deletes nothing" test "$(deletes Bob; echo $?)" -eq 1
-# on its own line, not after the prompt
-refusal_alone() { [ "$(tail -n 1 err)" = "gearshift: $ada was not deleted: $1" ]; }
-check "and it reports it, got: $(tail -n 1 err)" refusal_alone "the name does not match"
+check "a different name deletes nothing" test "$(deletes Bob; echo $?)" -eq 1
+# The message must be on its own line, not after the prompt.
+refusal_on_own_line() { [ "$(tail -n 1 err)" = "gearshift: $ada was not deleted: $1" ]; }
+check "and it reports it, got: $(tail -n 1 err)" refusal_on_own_line "the name does not match"
 check "nor does an empty name" test "$(report --learner "$ada" --delete; echo $?)" -eq 1
 report --learner "$ada" --delete
-check "and it reports it, got: $(tail -n 1 err)" refusal_alone "no answer given"
+check "and it reports it, got: $(tail -n 1 err)" refusal_on_own_line "no answer given"
 report --learner "$ada"
 check "all runs are there" test "$(grep -c up_through_the_gears out)" -eq 12
 check "the name deletes" deletes "$ada"
-check "and the deleted files are listed" says "1 session, 12 runs, 36 shifts, 12 faults, 1 comment, 1 recording"
+check "and the deleted files are listed" says "1 session, 12 runs, 36 shifts, 12 driving errors, 1 comment, 1 recording"
 check "the recording is deleted" test ! -e data/gearshift/near.trace
 check "no byte of the name is left" test "$(cat data/gearshift/* | grep -ac Löwe)" -eq 0
 report
-check "the other one is there" says Bob
+check "the other learner is still there" says Bob
 
-# While another program reads, deleted rows are still in the log: this is reported, and a second deletion removes them.
+# While a second program reads, the deleted rows are still in the database's log: this is reported, and a second
+# deletion removes them.
 python3 -c '
 import sqlite3, time
 reader = sqlite3.connect("data/gearshift/history.db", isolation_level=None)
@@ -122,12 +123,12 @@ time.sleep(60)' >reads.out &
 reader=$!
 until grep -qs reads reads.out; do sleep 0.05; done
 report --learner Bob --delete --yes
-check "without a question, while another one reads: exit 1" test $? -eq 1
+check "--yes while a second program reads: exit 1" test $? -eq 1
 check "the deleted files are listed" says "deleted Bob: 0 sessions"
 check "and those not deleted, got: $(cat err)" test "$(wc -l <err)" -eq 1 -a -n "$(grep -F "not yet erased from the file" err)"
 kill $reader
 wait $reader 2>/dev/null
-check "the second deletion ends it" report --learner Bob --delete --yes
+check "the second deletion succeeds" report --learner Bob --delete --yes
 check "and reports it" says "an earlier, incomplete deletion is now finished"
 check "no byte of the name is left" test "$(cat data/gearshift/history.db* | grep -ac Bob)" -eq 0
 refuse 1 "no learner named \"Bob\"" --learner Bob --delete --yes

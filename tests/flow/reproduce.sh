@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# The paper's figures from one command: some sections with their files and their places on the page, the complete page
-# once, errors before any folder is made, and figures that depend on the preset: 5 % of mass changes Figs 4, 8 and 9.
+# The paper's figures from one command: the complete page; some sections with their files; errors before any folder is
+# made; and figures that depend on the preset: 5 % more mass changes Figs 4, 8 and 9.
 # Usage: reproduce.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 presets=$2/assets/presets
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-reproduce() { # folder, arguments ...
+reproduce() { # takes the folder and the arguments
   local folder=$1
   shift
   "$gearshift" reproduce --out "$folder" "$@" >"$folder.txt" 2>"$folder.err"
 }
-refuses() { # exit code, arguments ...
+refuses() { # takes the exit code and the arguments
   local code=$1
   shift
   reproduce refused "$@"
@@ -22,8 +22,8 @@ is_svg() { grep -q "</svg>" "$1"; }
 differs() { ! cmp -s "whole/$1" "heavier/$1"; }
 has_units() { head -n 1 "$1" | grep -qE '_(mm|deg|n|hz|s|gw|raw|1)(,|$)'; }
 
-# Every picture, link and table named on the page exists; every opened tag is closed.
-page_is_whole() {
+# Every picture, link and table named on the page exists, and every opened tag is closed.
+page_is_complete() {
   [ -s "$1/index.html" ] || return 1
   local link
   for link in $(grep -oE '(src|href)="[^#"][^"]*"' "$1/index.html" | cut -d '"' -f 2); do
@@ -38,22 +38,22 @@ page_is_whole() {
 
 check "the whole page" reproduce whole
 check "nothing on stderr if nothing is limited" [ ! -s whole.err ]
-check "the page names the existing files" page_is_whole whole
+check "the page names the existing files" page_is_complete whole
 check "thirteen sections" [ "$(grep -c '<section' whole/index.html)" -eq 13 ]
 order_of() { grep -oE '<section id="[a-z_]+' "$1/index.html" | cut -d '"' -f 2 | tr '\n' ' '; }
 check "in the order of the paper" [ "$(order_of whole)" = \
   "workspace force_map calibration bode table elements deferred_force over_push oscillation rate gate wall tour " ]
 for picture in whole/*.png; do check "$picture is a picture" is_png "$picture"; done
-for picture in whole/*.svg; do check "$picture is whole" is_svg "$picture"; done
+for picture in whole/*.svg; do check "$picture is complete" is_svg "$picture"; done
 for table in whole/*.csv; do
   case $table in */table_2.csv) continue ;; esac
   check "units in the header of $table" has_units "$table"
 done
 
-# The same preset gives the same figures; a different mass does not.
+# The same preset gives the same figures; a preset with a different mass does not.
 figures=(bode_x bode_y wall tour)
-check "a part of it" reproduce again --only tour bode wall
-check "without more on the page" [ "$(grep -c '<section' again/index.html)" -eq 3 ]
+check "a page of three sections" reproduce again --only tour bode wall
+check "it has no other sections" [ "$(grep -c '<section' again/index.html)" -eq 3 ]
 for name in "${figures[@]}"; do check "$name again" cmp -s "whole/$name.csv" "again/$name.csv"; done
 sed 's/^mass_kg = 0.095/mass_kg = 0.09975/; s/^mass_kg = 0.086/mass_kg = 0.0903/' "$presets/default.toml" >heavier.toml
 check "a heavier lever" reproduce heavier --preset heavier.toml --only tour bode wall
@@ -64,16 +64,16 @@ done
 
 sed 's/^name = .*/name = "<b>\&\\""/' "$presets/default.toml" >markup.toml
 check "a name with markup" reproduce markup --preset markup.toml --only table
-check "is only text" grep -qF '&lt;b&gt;&amp;&quot;' markup/index.html
+check "the markup is only text" grep -qF '&lt;b&gt;&amp;&quot;' markup/index.html
 check "the paper's own wall" reproduce paper --preset paper --only gate
 
 # A section that fails does not affect the others.
 sed 's/^coulomb_friction_n = .*/coulomb_friction_n = 20/' "$presets/default.toml" >stuck.toml
 reproduce stuck --preset stuck.toml --only bode gate
-check "a lever that is stuck fails" [ $? -eq 1 ]
-check "and says what" grep -q "^gearshift: bode: " stuck.err
-check "on the page, too" grep -q "Failed: " stuck/index.html
-check "the gate is there anyway" [ -s stuck/gate.svg ]
+check "a section with a stuck lever fails: exit 1" [ $? -eq 1 ]
+check "and the section is named" grep -q "^gearshift: bode: " stuck.err
+check "also on the page" grep -q "Failed: " stuck/index.html
+check "the gate is drawn anyway" [ -s stuck/gate.svg ]
 
 check "no such section" refuses 2 --only nothing
 check "no such preset" refuses 1 --preset nothing
@@ -82,8 +82,8 @@ check "a rate out of range" refuses 1 --preset slow.toml
 sed 's/^radius_m = .*/radius_m = 0.03/' "$presets/default.toml" >small.toml
 check "a lever that is too small for the gate" refuses 1 --preset small.toml
 
-# Ended early by Ctrl-C at a terminal: all its child processes receive the signal, and no figure is truncated.
-ended() { # command while gnuplot draws, files that exist
+# Ended early by Ctrl-C at a terminal: all child processes receive the signal, too, and no figure is truncated.
+ended() { # file: interrupts the program when the file appears
   setsid env --default-signal=INT "$gearshift" reproduce --out ended --only wall tour >ended.txt 2>ended.err &
   until [ -e "ended/$1" ] || ! kill -0 $!; do sleep 0.001; done
   kill -INT -- -$!
@@ -94,15 +94,15 @@ for begun in wall.svg tour.csv; do
   rm -rf ended
   check "ended at $begun" ended $begun
   check "it says where, got: $(cat ended.err)" [ "$(cat ended.err)" = \
-    "gearshift: interrupted during \"${begun%.*}\"; finished files kept, no page written" ]
+    "gearshift: interrupted during \"${begun%.*}\"; finished files were kept, but no page was written" ]
   check "there is no page" [ ! -e ended/index.html ]
   check "nothing is half written, got: $(ls ended)" [ -z "$(ls ended | grep part)" ]
   for file in ended/*; do
     case $file in
-      *.svg) check "$file is whole" is_svg "$file" ;;
-      *.png) check "$file is whole" grep -qa IEND "$file" ;;
+      *.svg) check "$file is complete" is_svg "$file" ;;
+      *.png) check "$file is complete" grep -qa IEND "$file" ;;
       *.trace) check "$file replays" "$gearshift" replay "$file" ;;
-      *.csv) check "$file is whole" cmp -s "$file" "whole/${file#*/}" ;;
+      *.csv) check "$file is complete" cmp -s "$file" "whole/${file#*/}" ;;
     esac
   done
 done

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Hours of lessons in real time: the simulated driver at the lever, in a window that is hidden except for a few seconds
-# a minute; or a week of simulated driving, headless. Memory, open files, threads and the loop's missed deadlines go
-# into a table. Growth is the slope of the second half of the table over the hours driven, minus twice its standard
-# error, and is bounded.
+# Hours of lessons in real time, with the simulated driver at the lever, in a window that is hidden except for a few
+# seconds per minute; or a week of simulated driving without a window. Memory, open files, threads and the loop's missed
+# deadlines go into a table. Growth is the slope against the hours driven in the second half of the table, minus twice
+# its standard error; it must not exceed a bound.
 # Usage: soak.sh GEARSHIFT SOURCE_FOLDER HOURS|week [CSV [HOURS_OF_WEEK]]: by hand, or shortened by ./test --full
 set -u
 gearshift=$1 sources=$2 hours=$3 csv=$(realpath -m "${4:-soak.csv}") week=${5:-168}
@@ -11,7 +11,7 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 echo "what,seconds,rss_kb,files,threads,lessons,missed,too_long" >"$csv"
 
-sample() { # prints a row: what, process, seconds driven, lessons, deadlines missed, cycles too long
+sample() { # appends a row: what, process, seconds driven, lessons, deadlines missed, cycles too long
   local of=/proc/$2 rss threads files
   rss=$(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\).*/\1/p' "$of/status" 2>/dev/null)
   threads=$(sed -n 's/^Threads:[^0-9]*//p' "$of/status" 2>/dev/null)
@@ -19,10 +19,11 @@ sample() { # prints a row: what, process, seconds driven, lessons, deadlines mis
   [ -z "$rss" ] || [ -z "$threads" ] || echo "$1,$3,$rss,$files,$threads,$4,$5,$6" >>"$csv"
 }
 
-# Uses the second half of each process's rows, because warming up is not growth. 1 MB an hour is 24 in a day; saving a
-# learner's lessons needs less: sixty lessons take a person an hour, and a simulated driver a quarter of that. A
-# headless process may keep one loop's free channels, 3.4 MB: a step, which looks like a slope in a short run.
-check_growth() { # [kB] of a step that is allowed
+# Judges the second half of each process's rows, because warming up is not growth. The bound of 1 MB per hour is 24 MB
+# per day; saving a learner's lessons needs less. Without a window, sixty lessons count as an hour, which is what a
+# learner needs for them; a simulated driver needs a quarter of that. A process without a window may keep the free
+# channels of one loop, 3.4 MB: this is a step, but looks like a slope in a short run.
+check_growth() { # takes the largest step that is allowed [kB]
   python3 - "$csv" "$1" <<'END_OF_PYTHON'
 import collections, csv, sys
 bound = {"rss_kb": 1000.0, "files": 0.5, "threads": 0.5}  # per hour
@@ -33,7 +34,7 @@ for row in csv.DictReader(open(sys.argv[1])):
 def hours(row):
     return float(row["seconds"]) / 3600 if row["what"] == "window" else float(row["lessons"]) / 60
 
-def slope(half, column):  # per hour, and its standard error
+def slope(half, column):  # returns the slope per hour, and its standard error
     x = [hours(row) for row in half]
     y = [float(row[column]) for row in half]
     mx, my = sum(x) / len(x), sum(y) / len(y)
@@ -48,18 +49,18 @@ for what, all_rows in rows.items():
     if len({row["seconds"] for row in half}) < 4:
         sys.exit(f"{what}: {len(all_rows)} samples are too few to judge")
     words = []
-    for column, most in bound.items():
+    for column, limit in bound.items():
         k, error = slope(half, column)
         is_step = column == "rss_kb" and int(half[-1][column]) - int(half[0][column]) <= int(sys.argv[2])
-        grown = grown or (k - 2 * error > most and not is_step)
-        words.append(f"{column} {half[0][column]} to {half[-1][column]}, {k:+.1f} +- {error:.1f} an hour (bound {most:g})")
+        grown = grown or (k - 2 * error > limit and not is_step)
+        words.append(f"{column} {half[0][column]} to {half[-1][column]}, {k:+.1f} +- {error:.1f} an hour (bound {limit:g})")
     last = all_rows[-1]
     print(f"{what}, {last['seconds']} s, {last['lessons']} lessons: " + "; ".join(words))
 sys.exit(grown)
 END_OF_PYTHON
 }
 
-# After a lesson, Enter offers the next one and then begins it, as for a person.
+# After a lesson, the first Enter offers the next lesson and the second begins it.
 loop_sum() { sed -n "s/^loop: \([0-9]*\) deadlines missed, \([0-9]*\) cycles.*/\\$1/p" soak.txt | paste -sd+ | bc; }
 over() { grep -c ' is over: ' soak.txt; }
 drives() { [[ "$(grep "  lesson .* \(begins\|is over\|offered\)" soak.txt | tail -n 1)" == *begins ]]; }
@@ -86,27 +87,27 @@ soak_in_window() {
     missed=$(loop_sum 1) long=$(loop_sum 2)
     sample window "$process" "$(bc <<<"$EPOCHREALTIME - $began")" "$(over)" "${missed:-0}" "${long:-0}"
   done
-  check "it is alive at the end" alive
+  check "the trainer is alive at the end" alive
   xdotool windowmap "$window" windowfocus "$window"
-  check "its key ends it" ended_by End
+  check "the End key ends it" ended_by End
   check "nothing on stderr, got: $(head -n 3 soak.err)" [ ! -s soak.err ]
   check "lessons were driven" [ "$(over)" -ge 1 ]
   check "no event was lost" bash -c '! grep "^loop: " soak.txt | grep -qv ", 0 events lost"'
   echo "$(over) lessons, $(loop_sum 1) deadlines missed, $(loop_sum 2) cycles too long"
 }
 
-# One process drives each lesson for its fraction of the week. Its last drive equals that of a fresh process, word for
-# word: no error has accumulated.
-driven_seconds() { # in this fraction of the week
+# For each lesson, one process drives it for its fraction of the week. The last drive must equal that of a fresh
+# process, word for word: then no error has accumulated.
+driven_seconds() { # prints the seconds driven in this fraction of the week
   awk 'match($0, / in [0-9.]+ s\. /) {split(substr($0, RSTART + 4), word, " "); sum += word[1]}
        END {printf "%.0f", sum}' week.txt
 }
-drive_share() { # lesson
-  local lesson=$1 share=$((week * 3600 / 13)) seconds runs program
+drive_fraction() { # lesson
+  local lesson=$1 lesson_seconds=$((week * 3600 / 13)) seconds runs program
   "$gearshift" lesson "$lesson" >first.txt
   seconds=$(sed -n 's/.* in \([0-9]*\)\.[0-9] s\. .*/\1/p' first.txt | tail -n 1)
-  runs=$((share / seconds + 1))
-  stdbuf -oL "$gearshift" lesson "$lesson" --runs $runs --seed 1 >week.txt & # progress, line by line
+  runs=$((lesson_seconds / seconds + 1))
+  stdbuf -oL "$gearshift" lesson "$lesson" --runs $runs --seed 1 >week.txt & # line-buffered, for the progress
   program=$!
   while kill -0 $program 2>/dev/null; do
     sample "$lesson" $program "$(driven_seconds)" "$(grep -c ' in .* s\. ' week.txt)" 0 0
@@ -123,7 +124,7 @@ soak_headless() {
   local lesson simulated=0 driven=0 pause=2
   [ "$week" -gt 24 ] || pause=0.2
   began=$EPOCHREALTIME
-  for lesson in "$sources"/assets/lessons/*.toml; do drive_share "$(basename "$lesson" .toml)"; done
+  for lesson in "$sources"/assets/lessons/*.toml; do drive_fraction "$(basename "$lesson" .toml)"; done
   echo "$driven lessons, $((simulated / 3600)) h simulated in $(bc <<<"($EPOCHREALTIME - $began) / 1") s"
 }
 

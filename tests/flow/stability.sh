@@ -12,12 +12,12 @@ answers() { # arguments ...
 says() { grep -qF -- "$1" out; }
 value() { grep -m 1 "\"$1\":" out | sed 's/.*: //; s/,$//; s/"//g'; }
 is() { [ "$(value "$1")" = "$2" ]; }
-near() { # key, expected value, relative tolerance
+near() { # key, value, tolerance: compares the key's value; the tolerance is relative
   value "$1" | awk -v want="$2" -v part="$3" \
     '{ off = $1 - want; ok = off <= part * want && -off <= part * want } END { exit !ok }'
 }
 
-refuse() { # exit code, part of the error, arguments ...
+refuse() { # takes the exit code, part of the error, and the arguments
   local code=$1 part=$2
   shift 2
   "$gearshift" stability "$@" >out 2>err </dev/null
@@ -26,12 +26,12 @@ refuse() { # exit code, part of the error, arguments ...
     test $got -eq "$code" -a "$(wc -l <err)" -eq 1 -a ! -s out -a -n "$(grep -F -- "$part" err)"
 }
 
-# tests/haptics/analysis/stability_table_test.cpp: 6032 N/m exact and 6000 passive at 1 kHz; 217 with one sample of
-# delay at 100 Hz.
+# Expected values from tests/haptics/analysis/stability_table_test.cpp: 6032 N/m exact and 6000 passive at 1 kHz; 217
+# with one sample of delay at 100 Hz.
 check "1 kHz answers" answers --json
 check "1 kHz: exact" near k_max_n_per_m 6032 0.001
 check "1 kHz: passive" near passive_k_max_n_per_m 6000 1e-9
-check "1 kHz: may be used" is may_use true
+check "1 kHz: the wall may be used" is may_use true
 check "1 kHz: passive" is passive true
 check "1 kHz: every input is listed" test "$(grep -cE '"(mass_kg|rate_hz|delay_samples|window_samples|hold)"' out)" -ge 5
 answers --rate 100 --delay 1 --json
@@ -48,13 +48,13 @@ check "the bare lever decides" is deciding_hand bare
 answers --mass 1000 --damping 10000 --rate 20000 --wall-damping 1e5 --json
 check "an infinite limit is null" is k_max_n_per_m null
 answers --mass 1000 --damping 10000 --rate 20000 --wall-damping 1e5
-check "and in words" says "any K up to 1e9 N/m"
+check "and is printed in words" says "any K up to 1e9 N/m"
 answers --hold observer --delay 3 --json
 check "the observed hold: no passive limit is known" is passive_k_max_n_per_m null
 check "the observed hold: 5000 N/m three samples late" is stable true
 answers --window 15 --wall-damping 10
 check "a 15 ms window fails by its damping" says "No: K up to 3465.76 N/m"
-check "passivity is not the last word" says "sufficient"
+check "passivity is called sufficient, not necessary" says "sufficient"
 
 check "the map is made" answers --hand all --svg map.svg --csv map.csv
 check "the drawing is whole" grep -q "</svg>" map.svg
@@ -65,30 +65,30 @@ check "the table begins with the answer" \
   awk -F, 'NR == 2 { ok = $1 == 0 && int($2) == 6031 && $6 == 6000 } END { exit !ok }' map.csv
 check "the table ends where nothing is stable" awk -F, 'END { exit !($1 > 190 && $2 == 0 && $6 == 0) }' map.csv
 
-# A handle on a stiff spring, without damping and with a delay of two samples: no wall is stable at any damping.
+# A handle on a stiff spring, without damping and with a delay of two samples: no wall is stable with any damping.
 check "a map where nothing is stable ends" \
   timeout 10 "$gearshift" stability --damping 0 --stiffness 95000 --delay 2 --svg none.svg --csv none.csv >out 2>err
 check "and reports it" says "not even a soft wall is stable"
 check "its drawing is whole" grep -q "</svg>" none.svg
 check "its table has a width" awk -F, 'END { exit !(NR == 122 && $1 > 0 && $2 == 0) }' none.csv
 
-# How the loop's guard limits the same wall.
+# How the trainer would limit the same wall.
 answers --hold half_sample --rate 100 --wall-damping 10 --json
 check "the trainer: K" near admitted_wall_stiffness_n_per_m 332.5 1e-9
 check "the trainer: B" near admitted_wall_damping_n_s_per_m 3.325 1e-9
 check "the trainer: hold" is admitted_hold half_sample
-check "the trainer: K, B and the loop's own damping are limited" test "$(grep -c '"law": "quiet' out)" -eq 3
+check "the trainer: K, B and the loop's own damping are limited" test "$(grep -c '"law": ".*quiet only if' out)" -eq 3
 answers --hold half_sample --rate 100 --wall-damping 10
-check "the trainer in words" says "The trainer would use K = 332.5 N/m, B = 3.325 N s/m, half-sample hold:"
-check "and why" says "wall_stiffness_n_per_m limited from 5000 to 332.5 (quiet half-sample hold: K <= 0.35 m / tau^2"
+check "the trainer's limits in words" says "The trainer would use K = 332.5 N/m, B = 3.325 N s/m, half-sample hold:"
+check "with the reason" says "wall_stiffness_n_per_m limited from 5000 to 332.5 (the half-sample hold is quiet only if K <= 0.35 m / tau^2"
 answers --hold half_sample --wall-damping 10 --json
 check "the shipped wall is used unchanged" is admitted_wall_stiffness_n_per_m 5000.0
 check "nothing is limited" is limited "[]"
 answers --hold half_sample --rate 4000 --wall-stiffness 90000 --wall-damping 500 --json
-check "within the trainer's limits" is asked_wall_stiffness_n_per_m 20000.0
-check "of damping too" is asked_wall_damping_n_s_per_m 100.0
+check "the requested stiffness is limited to the trainer's maximum" is asked_wall_stiffness_n_per_m 20000.0
+check "the requested damping, too" is asked_wall_damping_n_s_per_m 100.0
 answers --hold half_sample --rate 4000 --wall-stiffness 90000
-check "and that is reported" says "asked for K = 20000 N/m, B = 0 N s/m, the largest that it accepts"
+check "and that is reported" says "(requested: K = 20000 N/m, B = 0 N s/m, the largest values that it accepts)"
 for place in "--rate 50" "--rate 8000" "--window 2"; do
   answers $place --json
   check "the trainer does not run at $place: null" is admitted_wall_stiffness_n_per_m null

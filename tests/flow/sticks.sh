@@ -1,5 +1,5 @@
-# Sourced by the flows with force-feedback sticks, emulated beneath the real libusb. These are called with GEARSHIFT
-# SOURCE_FOLDER STICK_EMULATOR.
+# Sourced by the flow tests with force-feedback sticks, which are emulated beneath the real libusb. These tests are
+# called with GEARSHIFT SOURCE_FOLDER STICK_EMULATOR.
 gearshift=$1
 emulator=$3
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
@@ -10,9 +10,9 @@ mkdir -p "$sticks"
 running=()
 end_all() { kill "${running[@]}" 2>/dev/null; }
 
-with_stick() { timeout 120 umockdev-wrapper "$emulator" "$@"; } # options -- command
-printed() { [ "$(cat "$2.txt" 2>/dev/null | grep -c -- "$1")" -ge "${3:-1}" ]; } # pattern, log, minimum count
-within() { # seconds, command ...: until it succeeds
+with_stick() { timeout 120 umockdev-wrapper "$emulator" "$@"; } # takes OPTIONS -- COMMAND
+printed() { [ "$(cat "$2.txt" 2>/dev/null | grep -c -- "$1")" -ge "${3:-1}" ]; } # takes a pattern, the log, and the minimum count
+within() { # seconds, command ...: repeats the command until it succeeds, for at most this time
   local end=$((SECONDS + $1))
   shift
   until "$@"; do
@@ -21,12 +21,13 @@ within() { # seconds, command ...: until it succeeds
   done
 }
 
-# Calibration files of the emulated families. A person's part of it: forward counts down. With "whole", all values, as
-# the calibration finds them when two cores run program and emulation.
-known() { # file name, vendor, product, serial, low, rest, high, whole or nothing
+# Writes a calibration file for an emulated stick. Without "complete", it has only what the user enters (counts decrease
+# forward). With "complete", it has all values, as the calibration measures them when program and emulation share two
+# cores.
+write_calibration() { # takes the file name, vendor, product, serial, low, rest, high, "complete" or nothing
   local travel=0 force=0 select=0 shift=0 spring=0 spring_force=0 damper_force=0 mass=0 damping=0 stiffness=0
   local interval=0 delay=0 jitter=0
-  [ "${8:-}" = whole ] && travel=0.14 force=20 select=-1 shift=1 spring=1 spring_force=350 damper_force=20 \
+  [ "${8:-}" = complete ] && travel=0.14 force=20 select=-1 shift=1 spring=1 spring_force=350 damper_force=20 \
     mass=0.09 damping=3 stiffness=15 interval=0.001 delay=0.001 jitter=0.004
   cat >"$sticks/$1.toml" <<END
 vendor = $2
@@ -75,19 +76,19 @@ lift = 2
 stop = 0
 END
 }
-all_known() { # whole or nothing
-  known 045e_001b 0x045e 0x001b "" -512 -0.5 511 "${1:-}"
-  known 1209_ffb0_EMULATED01 0x1209 0xffb0 EMULATED01 -32767 0 32767 "${1:-}"
-  known 1234_bead_2_2_2 0x1234 0xbead 2.2.2 0 16383.5 32767 "${1:-}"
+write_calibrations() { # "complete" or nothing
+  write_calibration 045e_001b 0x045e 0x001b "" -512 -0.5 511 "${1:-}"
+  write_calibration 1209_ffb0_EMULATED01 0x1209 0xffb0 EMULATED01 -32767 0 32767 "${1:-}"
+  write_calibration 1234_bead_2_2_2 0x1234 0xbead 2.2.2 0 16383.5 32767 "${1:-}"
 }
 families="sidewinder openffboard vjoy"
 declare -A name=([sidewinder]=SideWinder [openffboard]=FFBoard [vjoy]=vJoy)
 declare -A id=([sidewinder]=045e:001b [openffboard]=1209:ffb0 [vjoy]=1234:bead)
 
-# A loop that tolerates the lateness of a busy machine.
+# A preset whose guard tolerates the lateness of a busy machine.
 printf 'name = "patient"\n[guard]\nstale_time_s = 0.2\noverruns_in_row = 200\n' >patient.toml
 
-# A gate for a hand that shifts where the paper's gate has its wall, and so presses into it.
+# A gate for the hand that leads it to where the paper's gate has a wall, so that it presses into the wall.
 cat >elsewhere.toml <<END
 name = "Elsewhere"
 [gate]
@@ -104,22 +105,22 @@ position_mm = 15
 back = "2"
 END
 
-# The six-gear tour with the emulated hand, which shifts while the motors are on; Enter whenever the program asks for
-# it.
+# The six-gear tour with the emulated hand, which shifts while the motors are on. Enter is sent whenever the program
+# asks for it.
 tour_seconds=100 # at most
 enters=100       # at most
 hand_gate=paper  # the gate that the hand follows
-answer_to() { # log: sends Enter on file 9 for each request, until the run is over
-  local answered=0
+confirm_requests() { # log, process: sends an Enter to file 9 for each request, until the process ends
+  local confirmed=0
   while kill -0 "$2" 2>/dev/null; do
-    if [ $answered -lt $enters ] && printed "press Enter" "$1" $((answered + 1)); then
-      answered=$((answered + 1))
+    if [ $confirmed -lt $enters ] && printed "press Enter" "$1" $((confirmed + 1)); then
+      confirmed=$((confirmed + 1))
       echo >&9
     fi
     sleep 0.1
   done
 }
-tour() { # name, family, options of the emulator ...
+tour() { # takes the name, the family, and options of the emulator
   local name_of_run=$1 family=$2
   shift 2
   mkfifo "$name_of_run.in"
@@ -127,22 +128,22 @@ tour() { # name, family, options of the emulator ...
   with_stick --family "$family" --tour "$hand_gate" "$@" -- "$gearshift" tour --device "${id[$family]}" --gate paper \
     --preset ./patient.toml --seconds $tour_seconds --out "$name_of_run" <&9 >"$name_of_run.txt" 2>"$name_of_run.err" &
   local run=$!
-  answer_to "$name_of_run" $run
+  confirm_requests "$name_of_run" $run
   wait $run
 }
 in_order() { # checks in the log that every gear was engaged in the tour's order
   local wanted gear
-  wanted="$(sed -n 's/^The tour: \(.*\)\.$/\1/p' "$1.txt" | tr -d ,) "
+  wanted="$(sed -n 's/^Gears of the tour: \(.*\)\.$/\1/p' "$1.txt" | tr -d ,) "
   for gear in $(awk '/ engaged at/{print $1}' "$1.txt"); do
     [ "$gear" = "${wanted%% *}" ] && wanted=${wanted#* }
   done
   [ -z "$wanted" ]
 }
-replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^bit for bit"; }
-zero_force() { # log, start: the longest time [ms] for which the motors kept pushing
+replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^identical bit for bit"; }
+zero_force() { # log, event: prints the longest time [ms] for which the motors still pushed after the event
   sed -n "s/^stick_emulator: zero force \([0-9]*\) ms after $2.*/\1/p" "$1.err" | sort -n | tail -n 1
 }
-silent_within() { # [ms], log, start; an effect lasts 300 ms
+silent_within() { # time [ms], log, event: the motors stopped within this time after the event; an effect lasts 300 ms
   local ms
   ms=$(zero_force "$2" "$3")
   [ -n "$ms" ] && [ "$ms" -le "$1" ]

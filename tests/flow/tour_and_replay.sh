@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
-# The tour as a user runs it: every shipped gate, readable plots, a trace that replays bit for bit in another process,
-# the same hash twice, and a damaged trace rejected.
+# The tour as a user runs it: every shipped gate, readable plots, a trace that replays bit for bit in a second process,
+# the same hash in two runs, and a damaged trace that is rejected.
 # Usage: tour_and_replay.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 gates=$2/assets/gates
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-tour() { # name of the result, arguments ...
+tour() { # takes the name of the result and the arguments
   local name=$1
   shift
   "$gearshift" tour --out "$name" "$@" >"$name.txt" 2>"$name.err"
 }
-replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^bit for bit"; }
+replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^identical bit for bit"; }
 describes() { "$gearshift" gate "$1" --json >"$1.json"; }
 draws() { "$gearshift" gate "$1" --svg "$1.svg" >/dev/null 2>&1 && grep -q "</svg>" "$1.svg"; }
 hash_of() { grep -o 'hash.*' "$1.txt"; }
@@ -28,52 +28,53 @@ for layout in "$gates"/*.toml; do
 done
 check "a trace names the program that recorded it" grep -aq "$("$gearshift" --version | head -n 1)" paper/tour.trace
 check "order of Fig. 9" [ "$(order_of paper)" = "1 2 3 4 5 R " ]
-check "nothing on stderr if it is no terminal" [ ! -s paper.err ]
+check "nothing on stderr, because it is no terminal" [ ! -s paper.err ]
 
 for plot in trajectory force; do
   check "$plot.png is a picture" is_png "paper/$plot.png"
-  check "$plot.svg is whole" grep -q "</svg>" "paper/$plot.svg"
+  check "$plot.svg is complete" grep -q "</svg>" "paper/$plot.svg"
 done
 head -n 1 paper/tour.csv >header
 check "units in the header of tour.csv" grep -q "time_s,.*lever_x_mm" header
 
-# Implausible readings repeatedly switch the forces off, so the tour does not show the gate's feel.
+# With a low speed limit, the guard finds readings implausible and repeatedly switches the forces off, so the tour does
+# not show the gate's feel.
 sed 's/^speed_limit_m_per_s = 10 .*/speed_limit_m_per_s = 0.1/' "$2/assets/presets/default.toml" >doubts.toml
 check "without forces: exit 1" [ "$(tour doubts --preset doubts.toml; echo $?)" -eq 1 ]
-falls() { # in the table's format: from no fault to one
+falls() { # counts in the table how often the guard's fault column changes from none to a fault
   tail -n +2 doubts/tour.csv | cut -d, -f27 | awk '$0 != "none" && was == "none" {n++} {was = $0} END {print n}'
 }
 check "without forces: reported once, with number and times, got: $(cat doubts.err), $(falls)" \
-  [ "$(grep -cE "the guard switched the forces off $(falls) times, first after 0\.[0-9]+ s: stale reading$" doubts.err)" -eq 1 ]
+  [ "$(grep -cE "the force guard switched the forces off $(falls) times, first after 0\.[0-9]+ s; fault: stale reading$" doubts.err)" -eq 1 ]
 
 spaces="a folder with spaces, ä"
 check "a path with spaces" tour "$spaces"
 check "two runs, one hash" same_hash "$spaces" paper
 in_turkish() { env LC_ALL=tr_TR.UTF-8 "$gearshift" tour --out turkish >turkish.txt 2>/dev/null; }
 check "Turkish locale" in_turkish
-check "another locale, the same hash" same_hash turkish paper
+check "in the Turkish locale, the same hash" same_hash turkish paper
 for rate in 100 250 4000; do check "$rate Hz" tour "rate$rate" --rate $rate; done
 for hand in light arm 0.3,8,400; do check "hand $hand" tour "hand$hand" --hand $hand; done
-check "another seed" tour seed --seed 2
+check "a different seed" tour seed --seed 2
 
-# Presets: another lever, a delay that enables the observer, and the paper's own wall.
+# Presets: a different lever, a delay that enables the observer, and the paper's own wall.
 printf 'name = "wide"\n[lever.yoke]\nradius_m = 0.15\n[lever]\ndelay_cycles = 2\nhand = "grip"\n' >wide.toml
 for preset in measured paper wide.toml; do
   tour "preset_$preset" --preset "$preset" --hand grip
   [ $? -le 1 ] || check "tour with preset $preset" false
   check "it replays" replays "preset_$preset"
 done
-check "the paper's wall is reported as beyond its bound" grep -q "used anyway, limit" preset_paper.err
-check "another seed, other targets" [ "$(hash_of seed)" != "$(hash_of paper)" ]
+check "the paper's wall is reported as beyond its bound" grep -q "used anyway; the limit is" preset_paper.err
+check "a different seed gives different targets" [ "$(hash_of seed)" != "$(hash_of paper)" ]
 
-# Shifts in a lesson's drive; a tour has no car.
+# Shifts in the drive of a lesson; a tour has no car, and so no shifts.
 "$gearshift" lesson skip_shifts --trace lesson.trace >lesson.txt
-check "a lesson's trace replays" sh -c '"$1" replay lesson.trace | grep -q "^bit for bit"' sh "$gearshift"
+check "a lesson's trace replays" sh -c '"$1" replay lesson.trace | grep -q "^identical bit for bit"' sh "$gearshift"
 "$gearshift" replay lesson.trace --shifts >shifts.txt
 check "it lists as many shifts as the lesson had" \
   test "$(grep -c ' -> ' shifts.txt)" -eq "$(grep -oE '^[0-9]+ shifts?' lesson.txt | grep -oE '[0-9]+')"
 check "numbered, with gears" grep -Eq "^ +2 .* [1-5] -> [1-5] " shifts.txt
-check "a drive without a car has none" sh -c '"$1" replay paper/tour.trace --shifts | grep -q "no shifts"' sh "$gearshift"
+check "a drive without a car has none" sh -c '"$1" replay paper/tour.trace --shifts | grep -q "no shifts to list"' sh "$gearshift"
 
 # Flips one bit in the middle of the file.
 flip_a_bit() {

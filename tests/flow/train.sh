@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The trainer as a person uses it, in a window under Xvfb: the mouse moves the lever through 1-2-3-4-5-R and the gears
+# The trainer as a user runs it, in a window under Xvfb: the mouse moves the lever through 1-2-3-4-5-R and the gears
 # engage; keys, panel, cameras, full screen, rapid resizing, a recording; and validation reports nothing.
 # Usage: train.sh GEARSHIFT SOURCE_FOLDER
 set -u
@@ -8,9 +8,9 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 source "$flows/window.sh"
 
-size=320x200 # short frames read the mouse quickly
+size=320x200 # small, because short frames read the mouse sooner
 check "it starts" start drive --car none --gate paper --hand grip --no-panel
-check "its window is there" [ -n "$window" ]
+check "its window exists" [ -n "$window" ]
 xdotool windowfocus "$window" mousemove --window "$window" 160 100 click 1
 sleep 2 # until the mouse moves the lever; there is no message for it
 while read -r gear x y; do
@@ -37,43 +37,43 @@ sleep 0.5
 check "rapid resizing and hiding of the window" alive
 xdotool windowsize "$window" 640 400 windowfocus "$window"
 sleep 0.5
-check "the large red button" press_for space released 1
-check "armed again" press_for Return ramping 2
+check "the large red button" press_for space "motors off" 1
+check "the forces are turned on again" press_for Return "forces starting" 2
 stops=1
 for _ in 1 2 3; do
   xdotool mousemove --window "$window" 150 150
   sleep 0.7
-  xdotool mousemove --window "$window" 565 365 click 1 # all in one frame
+  xdotool mousemove --window "$window" 565 365 click 1 # moves and clicks within one frame
   stops=$((stops + 1))
-  check "STOP by a click with the mouse coming from the cabin" wait_for released $stops
-  check "and armed again" press_for Return ramping $((stops + 1))
+  check "STOP by a click with the mouse coming from the cabin" wait_for "motors off" $stops
+  check "the forces are turned on again" press_for Return "forces starting" $((stops + 1))
 done
 recorded() { ls data/gearshift/recordings/*.trace >/dev/null 2>&1; }
-replays() { "$gearshift" replay data/gearshift/recordings/*.trace 2>/dev/null | grep -q "^bit for bit"; }
+replays() { "$gearshift" replay data/gearshift/recordings/*.trace 2>/dev/null | grep -q "^identical bit for bit"; }
 key F9
 check "a recording" within 20 recorded
 sleep 1 # of driving
 key F9
 check "it replays" within 20 replays
 key F9
-check "its key ends it" ended_by End
-check "and closes the recording, and reports its place" grep -q "^recorded: .*\.trace" drive.txt
-check "it is whole" bash -c '"$0" replay "$(sed -n "s/^recorded: //p" drive.txt)" | grep -q "^bit for bit"' "$gearshift"
-check "nothing on stderr but that there is no sound" [ "$(grep -vci 'sound' drive.err)" = 0 ]
+check "the End key ends it" ended_by End
+check "it closes the recording and prints its path" grep -q "^recorded: .*\.trace" drive.txt
+check "the recording is complete" bash -c '"$0" replay "$(sed -n "s/^recorded: //p" drive.txt)" | grep -q "^identical bit for bit"' "$gearshift"
+check "nothing on stderr except that there is no sound" [ "$(grep -vci 'sound' drive.err)" = 0 ]
 
-check "again, stereo, another gate" start stereo --stereo --gate five_speed_r_left_up --hand "by itself" --silent
+check "it starts in stereo with a different gate" start stereo --stereo --gate five_speed_r_left_up --hand "by itself" --silent
 check "the automatic hand shifts" wait_for "1 engaged"
 xdotool windowfocus "$window"
-check "its key ends it, too" ended_by End
+check "the End key ends it, too" ended_by End
 check "nothing on stderr" [ ! -s stereo.err ]
 
-check "a lesson that is driven" start left --lesson moving_off --hand grip --no-help --silent --no-panel
+check "it starts with a lesson" start left --lesson moving_off --hand grip --no-help --silent --no-panel
 xdotool windowfocus "$window"
-check "begins" press_for Return "lesson moving_off begins" 1
-check "its key ends it" ended_by End
+check "the lesson begins" press_for Return "lesson moving_off begins" 1
+check "the End key ends it" ended_by End
 check "and it is reported as left" printed "lesson moving_off is over: not graded.*You left"
 
-check "a lesson in memory" "$gearshift" train --offscreen memory --hand "by itself" --lesson moving_off --seconds 60 \
+check "a lesson without a window" "$gearshift" train --offscreen memory --hand "by itself" --lesson moving_off --seconds 60 \
   --size 64x36 --no-help --silent >memory.txt
 for words in "lesson moving_off begins" "step 6 of 6" "lesson moving_off is over: grade .*, passed"; do
   check "prints: $words" grep -q "$words" memory.txt
@@ -81,13 +81,13 @@ done
 ended_in_memory() {
   "$gearshift" train --offscreen ended --lesson up_through_the_gears --seconds 600 --size 64x36 --no-help --silent \
     >ended.txt 2>ended.err &
-  until [ -d ended ] || ! kill -0 $!; do sleep 0.005; done # then the drive begins
+  until [ -d ended ] || ! kill -0 $!; do sleep 0.005; done # afterwards the drive begins
   kill $!
   wait $!
   [ $? -eq 1 ]
 }
 check "ended early" ended_in_memory
-check "it says when, got: $(cat ended.err)" grep -q "^gearshift: stopped after [0-9.]* of 600 s$" ended.err
+check "the time is reported, got: $(cat ended.err)" grep -q "^gearshift: stopped after [0-9.]* of 600 s$" ended.err
 check "in one sentence" [ "$(wc -l <ended.err)" -eq 1 ]
 check "the lesson counts as left" grep -q "is over: not graded.*You left" ended.txt
 check "its last picture is there" is_png ended/train.png

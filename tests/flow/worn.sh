@@ -1,13 +1,15 @@
-# Sourced after window.sh by the flows with a headset: the OpenXR test runtime of $manifest, with a script for each run.
+# Sourced after window.sh by the flow tests with a headset: the OpenXR test runtime of $manifest, with a script for each
+# run.
 grep -q library_path "$manifest" || { echo "no manifest of the test runtime: $manifest"; exit 1; }
 unset XR_LOADER_DEBUG
 
 seat=config/gearshift/headset.toml
-found="gearshift test headset at gearshift test runtime"
-lost="; the desktop shows the cabin, the lever keeps running$"
+found="gearshift test headset connected through gearshift test runtime"
+lost="; the desktop shows the cabin. The lever keeps running.$"
 
-# Name of the script and of all results, arguments ...; the rest of the script on stdin. Small eye pictures, because a
-# CPU draws them. The controllers hang down, so that they do not point at the card.
+# wear() takes the name of the script and of all results, and arguments; the rest of the script comes from stdin. The
+# eyes' pictures are small, because the CPU draws them. The controllers hang down, so that they do not point at the
+# card.
 hang="left -0.3 right 0.3"
 puts_on=start panel=--no-panel
 hanging() { printf '%s = {aim = [{position = [%s, -0.6, 0], pitch = -80}]}\n' "$@"; }
@@ -21,65 +23,66 @@ wear() {
   export XR_RUNTIME_JSON=$manifest GEARSHIFT_XR_SCRIPT=$work/$1.toml GEARSHIFT_XR_OUT=$work/$1
   $puts_on "$1" --xr --silent $panel "${@:2}"
 }
-begin() { # description, command ...; ends the flow on failure, because nothing can follow
+begin() { # takes a description and a command; ends the test if the trainer has ended, because nothing can follow
   check "$@"
   alive && return
   cat "$log.err"
   finish
   exit $?
 }
-# Like within, but fails at once when the trainer has ended.
-is_so_or_gone() { "$@" || is_gone; }
-soon() { within "$1" is_so_or_gone "${@:2}" && "${@:2}"; }
-at() { # [s] in the script, event, its parameters
+# Like within, but fails at once if the trainer has ended.
+succeeds_or_has_ended() { "$@" || has_ended; }
+soon() { within "$1" succeeds_or_has_ended "${@:2}" && "${@:2}"; }
+at() { # prints an event for the script; takes its time [s], the event, its parameters
   printf '[[event]]\nat = %s\nwhat = "%s"\n' "$1" "$2"
   printf '%s\n' "${@:3}"
 }
-fails() { # nth call of a function, the function, its result
+fails() { # prints a failure for the script: the nth call, the function, its result
   printf '[[failure]]\nnth = %s\nfunction = "%s"\nresult = "%s"\n' "$1" "$2" "$3"
 }
 warned() { [ "$(grep -c -- "$1" "$log.err")" -ge "${2:-1}" ]; }
 is_reported_times() { [ "$(grep -c -- "$1" "$log.err")" = "$2" ]; }
-ended_by_itself() { within 60 is_gone && wait $trainer; } # with exit code 0
+ended_by_itself() { within 60 has_ended && wait $trainer; } # with exit code 0
 frames() { grep -c "^frame .* shown" "$log/log.txt"; }
 has_more_frames() { [ "$(frames)" -gt "$1" ]; }
 broke_no_rule() { grep -q "^frame" "$log/log.txt" && ! grep "^violation\|^leak" "$log/log.txt"; }
-# The eyes' poses are queried a second time when the rest of the frame is done.
-each_frame_is_whole() {
+# locates=2: the eyes' poses are queried a second time when the rest of the frame is done.
+each_frame_is_complete() {
   grep "^frame .* shown" "$log/log.txt" >shown && ! grep -v " layers=2 locates=2 projection+depth quad$" shown
 }
 validates() { ! grep "validation:" ./*.err; }
 colours() { convert "$@" -format %k info:; }
 is_picture() { [ "$(colours "$1")" -gt 500 ]; }
-differs() { [ "$(compare -metric AE "$1" "$2" null: 2>&1)" -gt "$3" ]; } # in more than that many pixels
+differs() { [ "$(compare -metric AE "$1" "$2" null: 2>&1)" -gt "$3" ]; } # true if more pixels differ than the third argument
 looks_like() { compare -metric RMSE "$1" "$2" null: 2>&1 | python3 -c '
 import re, sys
 sys.exit(float(re.search(r"\((.*)\)", sys.stdin.read())[1]) > 0.08)'; }
 window_picture() { import -window "$window" "$log.png" 2>/dev/null; }
 shows_picture() { window_picture && is_picture "$log.png"; }
-# The headset's picture is narrower than the window, which is black beside it.
+# True if the window shows the cabin at its left edge. The headset's picture is narrower than the window, whose edges
+# would then be black.
 shows_desktop() { window_picture && [ "$(colours "$log.png" -crop 40x300+0+50)" -gt 50 ]; }
 engaged() { grep -c " engaged" "$log.txt"; }
 shifts_after() { [ "$(engaged)" -gt "$1" ]; }
 one_line() { [ "$(wc -l <"$log.err")" = 1 ]; }
 
 recorded() { ls data/gearshift/recordings/*.trace >/dev/null 2>&1; }
-record() { # [s] default 6
+record() { # takes the duration [s], default 6
   rm -rf data/gearshift/recordings
   xdotool windowfocus "$window"
   key F9
   within 10 recorded && sleep "${1:-6}" && key F9 && within 10 replays
 }
-replays() { "$gearshift" replay data/gearshift/recordings/*.trace --csv "$log.csv" 2>/dev/null | grep "^bit for bit"; }
-# The loop's cycles as a fraction of those due, and the longest time without one [ms]. A stall of half a second exceeds
-# the bound, a busy machine does not.
-never_stopped() { # [s] minimum, default 5
+replays() { "$gearshift" replay data/gearshift/recordings/*.trace --csv "$log.csv" 2>/dev/null | grep "^identical bit for bit"; }
+# Prints the cycles in the recording as a fraction of those that were due, and the longest gap between two cycles [ms].
+# The bound of 0.25 s is shorter than the stalls of half a second, but longer than the gaps on a busy machine.
+never_stopped() { # takes the minimum duration [s], default 5
   python3 - "$log.csv" "${1:-5}" <<'END'
 import csv, sys
 times = [float(row["time_s"]) for row in csv.DictReader(open(sys.argv[1]))]
 longest = max(b - a for a, b in zip(times, times[1:]))
-share = len(times) / (1 + round(1000 * (times[-1] - times[0])))
-print(f"    {len(times)} cycles in {times[-1] - times[0]:.2f} s, {100 * share:.2f} %, longest gap {1e3 * longest:.0f} ms")
-sys.exit(not (times[-1] - times[0] > float(sys.argv[2]) and share > 0.8 and longest < 0.25))
+fraction = len(times) / (1 + round(1000 * (times[-1] - times[0])))
+print(f"    {len(times)} cycles in {times[-1] - times[0]:.2f} s, {100 * fraction:.2f} %, longest gap {1e3 * longest:.0f} ms")
+sys.exit(not (times[-1] - times[0] > float(sys.argv[2]) and fraction > 0.8 and longest < 0.25))
 END
 }

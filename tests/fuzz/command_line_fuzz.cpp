@@ -1,6 +1,6 @@
-// Fuzzes the arguments, one per line: they are parsed, or rejected in one sentence. No verb is run; texts that a verb
-// parses only when it runs (a hand, a size, a camera) are tried with every line. The first line sets the environment's
-// user folders.
+// Fuzzes the command line, one argument per input line: it is parsed, or rejected in one sentence. No verb runs; texts
+// that a verb parses only when it runs (a hand, a size, a camera) are parsed from every line. The first line also
+// becomes the value of the environment variables that locate the user's folders.
 #include <stdlib.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMaxArguments = 64;
 
-// Cuts each line at a zero byte, as the system would.
+// Splits the text into lines and drops zero bytes, which an argument cannot contain.
 std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines(1);
   for (const char c : text) {
@@ -41,7 +41,7 @@ void check_folders(const std::string& value) {
   for (const char* variable : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "HOME"}) {
     setenv(variable, value.c_str(), 1);
     for (const auto& folder : {user_config_folder(), user_data_folder(), user_presets_folder()}) {
-      hold(folder.is_absolute(), "a user's folder does not depend on where the program was started");
+      check_invariant(folder.is_absolute(), "a user's folder does not depend on where the program was started");
     }
   }
 }
@@ -53,42 +53,42 @@ void check_arguments(const std::vector<std::string>& arguments) {
   app.set_version_flag("--version", "1.2.3");
   try {
     const VerbAction action = parse_command_line(app, static_cast<int>(argv.size()), argv.data());
-    hold(static_cast<bool>(action), "accepted arguments are valid");
+    check_invariant(static_cast<bool>(action), "accepted arguments are valid");
   } catch (const CLI::Success&) {
-    hold(!app.help().empty(), "help is printed");
+    check_invariant(!app.help().empty(), "help is printed");
   } catch (const CLI::ParseError& refusal) {
-    hold_sentence(std::runtime_error(usage_sentence(refusal)), "");
+    check_sentence(std::runtime_error(usage_sentence(refusal)), "");
   }
 }
 
-// read: throws CLI::ValidationError for invalid input.
+// `read` throws CLI::ValidationError for invalid input.
 template <class Read>
 void check_text(const Read& read) {
   try {
     read();
   } catch (const CLI::ValidationError& refusal) {
-    hold_sentence(std::runtime_error(usage_sentence(refusal)), "");
+    check_sentence(std::runtime_error(usage_sentence(refusal)), "");
   }
 }
 
 void check_hand(const std::string& text) {
   const HandImpedance hand = driving_hand(text);
-  hold(std::isfinite(hand.mass) && std::isfinite(hand.damping) && std::isfinite(hand.stiffness) && hand.mass >= 0.0 &&
-           hand.damping >= 0.0 && hand.stiffness > 0.0,
-       "a hand that leads the lever is one");
+  check_invariant(std::isfinite(hand.mass) && std::isfinite(hand.damping) && std::isfinite(hand.stiffness) &&
+                      hand.mass >= 0.0 && hand.damping >= 0.0 && hand.stiffness > 0.0,
+                  "a hand that leads the lever is one");
 }
 
 void check_size(const std::string& text, bool stereo) {
   const PictureSize size = picture_size(text, stereo);
   for (const int side : {size.width, size.height})
-    hold(side >= kMinPictureSide && side <= kMaxPictureSide, "a picture has a valid size");
-  hold(!stereo || size.width % 2 == 0, "two eyes have the same integer width");
+    check_invariant(side >= kMinPictureSide && side <= kMaxPictureSide, "a picture has a valid size");
+  check_invariant(!stereo || size.width % 2 == 0, "two eyes have the same integer width");
 }
 
 void check_camera_text(const std::string& text) {
   try {
     check_camera(text);
-  } catch (const std::invalid_argument& refusal) {  // as the verb handles it
+  } catch (const std::invalid_argument& refusal) {  // the verb converts it in the same way
     throw CLI::ValidationError(refusal.what());
   }
 }
@@ -102,7 +102,7 @@ void check_texts(const std::string& line) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer requires this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<std::string> lines = lines_of(text_of(data, size));
   check_folders(lines[0]);

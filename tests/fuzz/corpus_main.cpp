@@ -11,15 +11,15 @@
 
 namespace fs = std::filesystem;
 
-// NOLINTBEGIN(readability-identifier-naming,readability-redundant-declaration): libFuzzer gives the names
+// NOLINTBEGIN(readability-identifier-naming,readability-redundant-declaration): libFuzzer requires these names
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-// without libFuzzer there is no mutation
+// Without libFuzzer, inputs are not mutated.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t*, std::size_t size, std::size_t) {
   return size;
 }
 // NOLINTEND(readability-identifier-naming,readability-redundant-declaration)
 
-int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): what throws has failed
+int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): an exception fails the test
   int inputs = 0;
   for (int i = 1; i < argc; ++i) {
     for (const fs::directory_entry& entry : fs::directory_iterator(argv[i])) {
@@ -32,6 +32,6 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): what th
       ++inputs;
     }
   }
-  std::printf("%d inputs, %d read whole\n", inputs, gearshift::test::read_whole);
+  std::printf("%d inputs, %d read whole\n", inputs, gearshift::test::accepted_inputs);
   return inputs > 0 ? 0 : 1;
 }

@@ -1,4 +1,4 @@
-// Checks for all harnesses: a violated invariant ends the program and prints its name, which libFuzzer counts as a
+// Checks for all harnesses: a violated invariant prints its name and ends the program, which libFuzzer counts as a
 // finding.
 #pragma once
 
@@ -16,19 +16,19 @@
 
 namespace gearshift::test {
 
-inline int read_whole = 0;  // accepted inputs: a corpus without any would test only rejections
+inline int accepted_inputs = 0;  // if a corpus has none, it only tests rejections
 
-inline void hold(bool law, std::string_view name) {
-  if (law) return;
+inline void check_invariant(bool condition, std::string_view name) {
+  if (condition) return;
   std::fprintf(stderr, "broken: %.*s\n", static_cast<int>(name.size()), name.data());
   std::abort();
 }
 
 // An error message must be one line of printable text, and name its subject.
-inline void hold_sentence(const std::exception& refusal, std::string_view begins) {
-  const std::string_view words = refusal.what();
-  const bool is_sentence = words.starts_with(begins) && words.size() > begins.size() && words.size() < 4000;
-  hold(is_sentence && haptics::is_printable(words), "one sentence, not \"" + std::string(words) + '"');
+inline void check_sentence(const std::exception& refusal, std::string_view prefix) {
+  const std::string_view message = refusal.what();
+  const bool is_sentence = message.starts_with(prefix) && message.size() > prefix.size() && message.size() < 4000;
+  check_invariant(is_sentence && haptics::is_printable(message), "one sentence, not \"" + std::string(message) + '"');
 }
 
 // A file with the fuzzed bytes, for readers that need a file.

@@ -1,5 +1,5 @@
-// Fuzzes a device's descriptor: parse_report_descriptor() rejects it or gives valid fields, and the results of
-// find_lever_report() and find_pid() are encoded and decoded within the reports.
+// Fuzzes a device's report descriptor: parse_report_descriptor() rejects it or returns valid fields, and the results of
+// find_lever_report() and find_pid() are encoded and decoded without leaving the reports' bytes.
 #include <cstdio>
 #include <cstdlib>
 
@@ -7,7 +7,7 @@
 
 using namespace gearshift::test;
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer requires this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string broken = HidLaws({data, size}).broken_by({data, size});
   if (broken.empty()) return 0;

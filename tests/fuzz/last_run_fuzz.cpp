@@ -1,5 +1,5 @@
-// Fuzzes the file of the bench's last run: it is read, or rejected in one sentence and set aside; results that were
-// read are saved again and read back the same.
+// Fuzzes the file of the bench's last run: the file is read, or rejected in one sentence and set aside. Results that
+// were read are saved again and read back the same.
 #include "app/lab/bench/last_run.h"
 #include "tests/fuzz/fuzz_checks.h"
 
@@ -25,30 +25,32 @@ bool same(const LastRun& a, const LastRun& b) {
 }
 
 // A file that cannot be read is kept aside, because the user may want to look at it.
-void hold_aside(const std::filesystem::path& file, std::string_view bytes) {
+void check_set_aside(const std::filesystem::path& file, std::string_view bytes) {
   std::filesystem::path aside = file;
   aside += ".unreadable";
   std::ifstream in(aside, std::ios::binary);
-  const std::string kept{std::istreambuf_iterator<char>(in), {}};
-  hold(in && kept == bytes && !std::filesystem::exists(file), "an unreadable file is set aside, byte for byte");
+  const std::string saved{std::istreambuf_iterator<char>(in), {}};
+  check_invariant(in && saved == bytes && !std::filesystem::exists(file),
+                  "an unreadable file is set aside, byte for byte");
   std::filesystem::remove(aside);
 }
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer requires this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static FuzzedFile file("machine.json");
   int warnings = 0;
-  const auto tell = [&warnings](const std::string& problem) {
-    hold_sentence(std::runtime_error(problem), file.path().string() + ":");
+  const auto report = [&warnings](const std::string& problem) {
+    check_sentence(std::runtime_error(problem), file.path().string() + ":");
     ++warnings;
   };
-  const LastRun last = read_last_run(file.put(text_of(data, size)), tell);
-  hold(warnings <= 1 && (warnings == 0 || last.empty()), "an unreadable file is reported once");
-  if (warnings > 0) return hold_aside(file.path(), text_of(data, size)), 0;
-  ++read_whole;
+  const LastRun last = read_last_run(file.put(text_of(data, size)), report);
+  check_invariant(warnings <= 1 && (warnings == 0 || last.empty()), "an unreadable file is reported once");
+  if (warnings > 0) return check_set_aside(file.path(), text_of(data, size)), 0;
+  ++accepted_inputs;
   save_run(file.path(), last, {});
-  hold(same(read_last_run(file.path(), tell), last) && warnings == 0, "a run is saved and read back the same");
+  check_invariant(same(read_last_run(file.path(), report), last) && warnings == 0,
+                  "a run is saved and read back the same");
   return 0;
 }

@@ -1,6 +1,6 @@
-// Fuzzes every kind of TOML file that users or the program write: it is read, or rejected in one sentence that names
-// it; what was read and can be written is written and read back the same. The first letter selects the kind: Bindings,
-// Car, Device's calibration, Gate, Headset's seat, Lesson, Preset.
+// Fuzzes every kind of TOML file that users or the program write: the file is read, or rejected in one sentence that
+// names it. If its kind can be written, the contents are written and read back the same. The first letter of the input
+// selects the kind: Bindings, Car, Device's calibration, Gate, Headset's seat, Lesson, Preset.
 #include <cmath>
 
 #include "app/cabin/headset/seat_file.h"
@@ -29,67 +29,73 @@ FuzzedFile& the_file() {
 
 void read_gate(std::string_view text) {
   const GateLayout layout = parse_gate_layout(text, the_file().path().string());
-  hold(layout.text == text, "a layout keeps its text");
-  constexpr double kHalf = 0.08;  // [m] about the travel of the paper's joystick
+  check_invariant(layout.text == text, "a layout keeps its text");
+  constexpr double kHalf = 0.08;  // [m] about the half travel of the paper's joystick
   const Gate gate = compile_gate(layout, {kHalf, kHalf});
-  hold(!slots(gate).empty(), "a gate has slots");
+  check_invariant(!slots(gate).empty(), "a gate has slots");
 }
 
 void read_car(std::string_view text) {
   const CarSpec car = parse_car(text, the_file().path().string());
   for (const double speed : {-1e3, 0.0, 50.0, 300.0, 1e4}) {
-    hold(std::isfinite(full_torque(car.engine, speed)), "torque is a number");
-    hold(std::isfinite(friction_torque(car.engine, speed)), "friction is a number");
+    check_invariant(std::isfinite(full_torque(car.engine, speed)), "torque is a number");
+    check_invariant(std::isfinite(friction_torque(car.engine, speed)), "friction is a number");
   }
   for (const double pedal : {0.0, 0.5, 1.0}) {
     const double carried = clutch_capacity(car.clutch, pedal);
-    hold(carried >= 0.0 && carried <= car.clutch.capacity, "a clutch carries its capacity");
+    check_invariant(carried >= 0.0 && carried <= car.clutch.capacity, "a clutch carries its capacity");
   }
   for (int gear = kReverseGear; gear <= kMaxGear; ++gear) {
-    hold(std::isfinite(shaft_per_road(car, gear)), "a ratio is a number");
+    check_invariant(std::isfinite(shaft_per_road(car, gear)), "a ratio is a number");
   }
 }
 
 void read_a_lesson(std::string_view text) {
   const Lesson lesson = parse_lesson(text, the_file().path().string());
-  hold(!lesson.steps.empty(), "a lesson has steps");
-  hold(is_printable(failing_errors_sentence(lesson)), "the errors that fail a lesson are described in one line");
+  check_invariant(!lesson.steps.empty(), "a lesson has steps");
+  check_invariant(is_printable(failing_errors_sentence(lesson)),
+                  "the errors that fail a lesson are described in one line");
 }
 
 void read_a_preset(std::string_view text) {
   const std::string first = preset_text(read_preset(the_file().put(text).string()));
-  hold(preset_text(read_preset(the_file().put(first).string())) == first, "a preset is written and read back the same");
+  check_invariant(preset_text(read_preset(the_file().put(first).string())) == first,
+                  "a preset is written and read back the same");
 }
 
 void read_keys(std::string_view text) {
   const Bindings bindings = read_bindings(the_file().put(text));
   const std::string first = bindings_text(bindings);
-  const Bindings again = read_bindings(the_file().put(first));
-  hold(bindings_text(again) == first && help_text(again) == help_text(bindings), "bindings are written and read back");
+  const Bindings reread = read_bindings(the_file().put(first));
+  check_invariant(bindings_text(reread) == first && help_text(reread) == help_text(bindings),
+                  "bindings are written and read back");
 }
 
 void read_device(std::string_view text) {
   const std::string first = calibration_text(*read_calibration(the_file().put(text)));
-  hold(calibration_text(*read_calibration(the_file().put(first))) == first, "a calibration is written and read back");
+  check_invariant(calibration_text(*read_calibration(the_file().put(first))) == first,
+                  "a calibration is written and read back");
 }
 
-// An angle passes through a quaternion: the first write may change its last bit, later ones must not add to that.
+// Writing converts the orientation's quaternion to an angle, which may change its last bits, so orientations are
+// compared with a tolerance.
 void read_a_seat(std::string_view text) {
   const SeatSettings seat = read_seat(the_file().put(text));
   write_seat(seat, the_file().path());
-  const SeatSettings again = read_seat(the_file().path());
-  hold(again.drive == seat.drive && again.height == seat.height && again.touch_error == seat.touch_error &&
-           again.knob.has_value() == seat.knob.has_value() && again.touched.has_value() == seat.touched.has_value(),
-       "a seat is written and read back");
+  const SeatSettings reread = read_seat(the_file().path());
+  check_invariant(reread.drive == seat.drive && reread.height == seat.height &&
+                      reread.touch_error == seat.touch_error && reread.knob.has_value() == seat.knob.has_value() &&
+                      reread.touched.has_value() == seat.touched.has_value(),
+                  "a seat is written and read back");
   if (seat.knob)
-    hold(again.knob->right == seat.knob->right && again.knob->down == seat.knob->down &&
-             again.knob->ahead == seat.knob->ahead,
-         "a knob is written and read back");
+    check_invariant(reread.knob->right == seat.knob->right && reread.knob->down == seat.knob->down &&
+                        reread.knob->ahead == seat.knob->ahead,
+                    "a knob is written and read back");
   if (!seat.touched) return;
-  hold(again.touched->position == seat.touched->position, "a touched position is written and read back");
-  // q is the same rotation as -q
-  const double same_turn = std::abs(glm::dot(again.touched->orientation, seat.touched->orientation));
-  hold(same_turn > 1.0 - 1e-12, "an orientation is written and read back");
+  check_invariant(reread.touched->position == seat.touched->position, "a touched position is written and read back");
+  // q and -q are the same rotation
+  const double alignment = std::abs(glm::dot(reread.touched->orientation, seat.touched->orientation));
+  check_invariant(alignment > 1.0 - 1e-12, "an orientation is written and read back");
 }
 
 void read_as(char kind, std::string_view text) {
@@ -113,14 +119,14 @@ void read_as(char kind, std::string_view text) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer requires this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   try {
     read_as(static_cast<char>(data[0]), text_of(data + 1, size - 1));
-    ++read_whole;
+    ++accepted_inputs;
   } catch (const FileError& refusal) {  // the only exception allowed
-    hold_sentence(refusal, the_file().path().string() + ":");
+    check_sentence(refusal, the_file().path().string() + ":");
   }
   return 0;
 }

@@ -1,7 +1,6 @@
 // Fuzzes traces: a file is rejected in one sentence, or its cycles are read, exported, written and read back the same,
-// and replayed as `replay` and the trainer do. The mutator changes the blocks' contents and keeps their checksums
-// valid, because every input would be rejected there otherwise; it starts from a drive without a car and one with a
-// car.
+// and replayed as `replay` and the trainer do. The mutator changes the contents of the blocks and keeps their checksums
+// valid, because otherwise every input would be rejected at a checksum. It starts from a drive with or without a car.
 #include <algorithm>
 #include <optional>
 #include <random>
@@ -23,7 +22,7 @@ using namespace gearshift::lessons;
 using namespace gearshift::test;
 using namespace gearshift::vehicle;
 
-// NOLINTBEGIN(readability-identifier-naming): libFuzzer gives the names
+// NOLINTBEGIN(readability-identifier-naming): libFuzzer requires these names
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
 namespace {
@@ -39,19 +38,19 @@ FuzzedFile& the_trace() {
 }
 
 std::unique_ptr<LeverLoad> make_load(const std::string& name, const Gate& gate) {
-  std::unique_ptr<LeverLoad> nothing = make_no_load(name, gate);
-  return nothing ? std::move(nothing) : make_lesson_load(name, gate);
+  std::unique_ptr<LeverLoad> no_load = make_no_load(name, gate);
+  return no_load ? std::move(no_load) : make_lesson_load(name, gate);
 }
 
-// A drive of a few cycles.
-Trace made_trace(bool with_car) {
+// Records a drive of a few cycles.
+Trace sample_trace(bool with_car) {
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   SimulatedRunConfig config;
   config.gate = compile_gate(layout, kPaperWorkspace);
   const CarSpec car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");
-  NoLoad nothing;
+  NoLoad no_load;
   CarLoad hatchback(car, config.gate, 30.0);
-  LeverLoad& load = with_car ? static_cast<LeverLoad&>(hatchback) : nothing;
+  LeverLoad& load = with_car ? static_cast<LeverLoad&>(hatchback) : no_load;
   IdleHand hand;
   SimulatedRun run(config, hand, &load);
   const TraceHeader header{
@@ -68,12 +67,12 @@ std::optional<Trace> trace_in(std::string_view bytes) {
     Trace trace{reader.header(), {}, 0};
     for (TraceSample sample; reader.next(sample);) trace.samples.push_back(sample);
     if (!trace.samples.empty()) return trace;
-  } catch (const FileError&) {  // created again
+  } catch (const FileError&) {  // the caller then records a new trace
   }
   return std::nullopt;
 }
 
-// Mutates all bytes, or eight of them in place: a number.
+// Mutates either all bytes, which may change their count, or eight bytes in place, which are then a changed number.
 void mutate(Bytes& bytes, Random& random) {
   auto* const data = reinterpret_cast<std::uint8_t*>(bytes.data());
   if (bytes.size() < 8 || random() % 4 != 0) {
@@ -90,8 +89,9 @@ void append(std::string& file, std::span<const std::byte> bytes) {
   file.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-// A file with valid checksums, whatever its contents. The hash is that of the header as parsed.
-std::string sealed(const Bytes& header, const std::vector<EncodedSample>& samples) {
+// Builds a trace file with valid checksums, whatever its contents. The run's hash begins with the header as the reader
+// will decode it.
+std::string with_checksums(const Bytes& header, const std::vector<EncodedSample>& samples) {
   Bytes plain, coded;
   RunHash hash = begin_hash(decode_header(header).value_or(TraceHeader{}));
   for (const EncodedSample& sample : samples) {
@@ -125,7 +125,7 @@ std::string mutated(const Trace& trace, Random& random) {
     bytes.resize(kSampleBytes);
     std::copy(bytes.begin(), bytes.end(), sample.begin());
   }
-  return sealed(header, samples);
+  return with_checksums(header, samples);
 }
 
 bool same(const Trace& a, const Trace& b) {
@@ -134,14 +134,14 @@ bool same(const Trace& a, const Trace& b) {
                     [](const TraceSample& x, const TraceSample& y) { return encode_sample(x) == encode_sample(y); });
 }
 
-// Runs `work`. False if it was rejected, in one sentence.
+// Runs `work`. Returns false if it rejected the file, which it must do in one sentence.
 template <class Work>
-bool is_done(const Work& work) {
+bool is_accepted(const Work& work) {
   try {
     work();
     return true;
   } catch (const FileError& refusal) {  // the only exception allowed
-    hold_sentence(refusal, the_trace().path().string() + ":");
+    check_sentence(refusal, the_trace().path().string() + ":");
     return false;
   }
 }
@@ -150,14 +150,15 @@ void check_csv(const Trace& trace) {
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
   for (const TraceSample& sample : trace.samples) {
     const std::string line = trace_csv_line(sample, trace.samples.front().deadline_ns);
-    hold(is_printable(line) && commas(line) == commas(trace_csv_header()), "each cycle is one line of the table");
+    check_invariant(is_printable(line) && commas(line) == commas(trace_csv_header()),
+                    "each cycle is one line of the table");
   }
 }
 
-void check_again(const Trace& trace) {
+void check_round_trip(const Trace& trace) {
   static FuzzedFile copy("copy.trace");
   write_trace(copy.path(), trace.header, trace.samples);
-  hold(same(read_trace(copy.path()), trace), "a trace is written and read back the same");
+  check_invariant(same(read_trace(copy.path()), trace), "a trace is written and read back the same");
 }
 
 void check_replay(const Trace& trace) {
@@ -165,17 +166,17 @@ void check_replay(const Trace& trace) {
   for (const TraceSample& sample : trace.samples)
     if (!replayer.step(sample)) break;
   const ReplayResult result = replayer.finish(trace.hash);
-  hold(result.cycles <= trace.samples.size(), "no more cycles are run than recorded");
-  hold(!result.first || !result.first->field.empty(), "a difference has a name");
+  check_invariant(result.cycles <= trace.samples.size(), "no more cycles are run than recorded");
+  check_invariant(!result.first || !result.first->field.empty(), "a difference has a name");
 }
 
 void check_drive() {
   const RecordedDrive drive(the_trace().path());
-  hold(!drive.samples().empty(), "a drive has a sample");
-  hold(drive.begin() <= drive.end(), "a drive ends after it began");
+  check_invariant(!drive.samples().empty(), "a drive has a sample");
+  check_invariant(drive.begin() <= drive.end(), "a drive ends after it began");
   const auto falls = [](const DriveSample& a, const DriveSample& b) { return !(a.time() < b.time()); };
-  hold(std::adjacent_find(drive.samples().begin(), drive.samples().end(), falls) == drive.samples().end(),
-       "the times of a drive rise");
+  check_invariant(std::adjacent_find(drive.samples().begin(), drive.samples().end(), falls) == drive.samples().end(),
+                  "the times of a drive rise");
 }
 
 }  // namespace
@@ -185,7 +186,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   Random random(seed);
   if (random() % 8 == 0) return LLVMFuzzerMutate(data, size, max_size);
   const std::optional<Trace> trace = trace_in(text_of(data, size));
-  const std::string file = mutated(trace ? *trace : made_trace(random() % 2 == 0), random);
+  const std::string file = mutated(trace ? *trace : sample_trace(random() % 2 == 0), random);
   const std::size_t copied = std::min(file.size(), max_size);
   std::copy_n(file.begin(), copied, data);
   return copied;
@@ -194,17 +195,18 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   the_trace().put(text_of(data, size));
   Trace trace;
-  const bool is_whole = is_done([&] { trace = read_trace(the_trace().path()); });
-  is_done([&] {
+  const bool is_complete = is_accepted([&] { trace = read_trace(the_trace().path()); });
+  is_accepted([&] {
     const auto salvaged = TraceReader(the_trace().path(), TornTrace::salvage);
-    hold(!is_whole || salvaged.cycles() == trace.samples.size(), "a complete trace is salvaged completely");
+    check_invariant(!is_complete || salvaged.cycles() == trace.samples.size(),
+                    "a complete trace is salvaged completely");
   });
-  is_done(check_drive);
-  if (!is_whole) return 0;
-  ++read_whole;
+  is_accepted(check_drive);
+  if (!is_complete) return 0;
+  ++accepted_inputs;
   check_csv(trace);
-  check_again(trace);
-  is_done([&] { check_replay(trace); });
+  check_round_trip(trace);
+  is_accepted([&] { check_replay(trace); });
   return 0;
 }
 // NOLINTEND(readability-identifier-naming)

@@ -27,13 +27,13 @@ constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr std::uint32_t kFromDevice = 1;
 constexpr const char* kController = "/sys/devices/platform/vhci_hcd.0/";
 constexpr int kFullSpeed = 2;                            // enum usb_device_speed
-constexpr unsigned kDevice = 0x10002;                    // bus 1, device 2, of a fictitious host
+constexpr unsigned kDevice = 0x10002;                    // bus 1, device 2, of an invented host
 constexpr std::chrono::microseconds kPollInterval{500};  // between two polls for reports of the stick
 
-// Each message starts with a header of 48 bytes; numbers are big-endian.
+// The header of a USB/IP message, with big-endian numbers.
 struct Message {
   std::uint32_t command = 0, number = 0, device = 0, direction = 0, endpoint = 0;
-  // submit: flags, length, ...; unlink: the request's number; replies: status, length, ...
+  // Their meaning: submit: flags, length, ...; unlink: the request's number; replies: status, length, ...
   std::array<std::uint32_t, 5> word{};
   std::array<std::uint8_t, 8> setup{};
 };
@@ -56,7 +56,7 @@ bool read_all(int fd, void* to, std::size_t size) {
   return true;
 }
 
-// Errors are ignored: a closed connection is detected when reading requests.
+// Ignores errors: a closed connection is detected when the next request is read.
 void send_all(int fd, const void* from, std::size_t size) {
   [[maybe_unused]] const ssize_t sent = send(fd, from, size, MSG_NOSIGNAL);
 }
@@ -83,37 +83,37 @@ struct AttachedStick::Wire {
   Wire(EmulatedStick& its, std::mutex& guard) : stick(its), mutex(guard) {
     std::array<int, 2> pair{};
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair.data()) != 0) throw std::runtime_error("No socket for USB/IP");
-    ours = pair[0];
-    theirs = pair[1];
+    server_socket = pair[0];
+    kernel_socket = pair[1];
   }
   ~Wire() {
-    close(ours);
-    close(theirs);
+    close(server_socket);
+    close(kernel_socket);
   }
 
-  void serve();
+  void handle_requests();
   void run_clock();
   void submit(const Message& request, std::vector<std::uint8_t> data);
   void unlink(const Message& request);
-  void answer(const Message& request, std::int32_t status, std::size_t length, std::span<const std::uint8_t> data);
-  void answer_inputs();
+  void send_reply(const Message& request, std::int32_t status, std::size_t length, std::span<const std::uint8_t> data);
+  void reply_to_inputs();
 
   EmulatedStick& stick;
-  std::mutex& mutex;  // guards the stick, the waiting requests and the writing
-  int ours = -1, theirs = -1;
-  std::deque<Message> waiting;  // requests that wait for a report
+  std::mutex& mutex;  // guards the stick, the pending requests and writing to the socket
+  int server_socket = -1, kernel_socket = -1;
+  std::deque<Message> pending;  // requests for a report that is not available yet
   bool is_ending = false;
   std::thread server, clock;
 };
 
-// Serves the kernel's requests until it closes the connection.
-void AttachedStick::Wire::serve() {
+// Serves the kernel's requests until the connection is closed.
+void AttachedStick::Wire::handle_requests() {
   Message request;
-  while (read_all(ours, &request, sizeof request)) {
+  while (read_all(server_socket, &request, sizeof request)) {
     request = swapped(request);
     const bool sends = request.command == kSubmit && request.direction != kFromDevice;
     std::vector<std::uint8_t> data(sends ? request.word[1] : 0);
-    if (!read_all(ours, data.data(), data.size())) return;
+    if (!read_all(server_socket, data.data(), data.size())) return;
     if (request.command == kUnlink) {
       unlink(request);
     } else {
@@ -122,7 +122,7 @@ void AttachedStick::Wire::serve() {
   }
 }
 
-// Advances the stick's time, and answers with reports as soon as there are any.
+// Advances the stick's time, and answers pending requests as soon as the stick has a report.
 void AttachedStick::Wire::run_clock() {
   auto next = std::chrono::steady_clock::now();
   for (;;) {
@@ -131,59 +131,59 @@ void AttachedStick::Wire::run_clock() {
     const std::lock_guard lock(mutex);
     if (is_ending) return;
     stick.advance(monotonic_ns());
-    answer_inputs();
+    reply_to_inputs();
   }
 }
 
 void AttachedStick::Wire::submit(const Message& request, std::vector<std::uint8_t> data) {
-  const bool controls = request.endpoint == 0;
+  const bool is_control = request.endpoint == 0;
   std::unique_lock lock(mutex);
-  if (controls && stick.faults.slow > 0.0) {
+  if (is_control && stick.faults.slow > 0.0) {
     const std::chrono::duration<double> slow(stick.faults.slow);
     lock.unlock();
     std::this_thread::sleep_for(slow);
     lock.lock();
   }
   stick.advance(monotonic_ns());
-  if (controls) {
+  if (is_control) {
     const auto reply = stick.control(setup_of(request.setup), data);
     const std::size_t length = !reply ? 0 : request.direction == kFromDevice ? reply->size() : data.size();
-    answer(request, reply ? 0 : -EPIPE, length, reply ? std::span(*reply) : std::span<const std::uint8_t>{});
+    send_reply(request, reply ? 0 : -EPIPE, length, reply ? std::span(*reply) : std::span<const std::uint8_t>{});
   } else if (request.direction == kFromDevice) {
-    waiting.push_back(request);
-    answer_inputs();
+    pending.push_back(request);
+    reply_to_inputs();
   } else {
     const bool accepted = stick.output(data);
-    answer(request, accepted ? 0 : -EPIPE, accepted ? data.size() : 0, {});
+    send_reply(request, accepted ? 0 : -EPIPE, accepted ? data.size() : 0, {});
   }
 }
 
-void AttachedStick::Wire::answer_inputs() {
-  while (!waiting.empty()) {
+void AttachedStick::Wire::reply_to_inputs() {
+  while (!pending.empty()) {
     std::optional<std::vector<std::uint8_t>> report = stick.input();
     if (!report) return;
-    const Message request = waiting.front();
-    waiting.pop_front();
+    const Message request = pending.front();
+    pending.pop_front();
     report->resize(std::min<std::size_t>(report->size(), request.word[1]));
-    answer(request, 0, report->size(), *report);
+    send_reply(request, 0, report->size(), *report);
   }
 }
 
 void AttachedStick::Wire::unlink(const Message& request) {
   const std::lock_guard lock(mutex);
   const auto has_number = [&](const Message& m) { return m.number == request.word[0]; };
-  const auto found = std::find_if(waiting.begin(), waiting.end(), has_number);
+  const auto found = std::find_if(pending.begin(), pending.end(), has_number);
   Message reply;
   reply.command = kUnlinked;
   reply.number = request.number;
-  reply.word[0] = found == waiting.end() ? 0 : static_cast<std::uint32_t>(-ECONNRESET);
-  if (found != waiting.end()) waiting.erase(found);
+  reply.word[0] = found == pending.end() ? 0 : static_cast<std::uint32_t>(-ECONNRESET);
+  if (found != pending.end()) pending.erase(found);
   reply = swapped(reply);
-  send_all(ours, &reply, sizeof reply);
+  send_all(server_socket, &reply, sizeof reply);
 }
 
-void AttachedStick::Wire::answer(const Message& request, std::int32_t status, std::size_t length,
-                                 std::span<const std::uint8_t> data) {
+void AttachedStick::Wire::send_reply(const Message& request, std::int32_t status, std::size_t length,
+                                     std::span<const std::uint8_t> data) {
   Message reply;
   reply.command = kSubmitted;
   reply.number = request.number;
@@ -193,13 +193,13 @@ void AttachedStick::Wire::answer(const Message& request, std::int32_t status, st
   std::vector<std::uint8_t> bytes(sizeof reply);
   std::memcpy(bytes.data(), &reply, sizeof reply);
   bytes.insert(bytes.end(), data.begin(), data.end());
-  send_all(ours, bytes.data(), bytes.size());
+  send_all(server_socket, bytes.data(), bytes.size());
 }
 
 AttachedStick::AttachedStick(EmulatedStick& stick, std::mutex& mutex) : wire_(std::make_unique<Wire>(stick, mutex)) {
-  write_controller_file("attach", "0 " + std::to_string(wire_->theirs) + " " + std::to_string(kDevice) + " " +
+  write_controller_file("attach", "0 " + std::to_string(wire_->kernel_socket) + " " + std::to_string(kDevice) + " " +
                                       std::to_string(kFullSpeed));
-  wire_->server = std::thread([this] { wire_->serve(); });
+  wire_->server = std::thread([this] { wire_->handle_requests(); });
   wire_->clock = std::thread([this] { wire_->run_clock(); });
 }
 
@@ -213,7 +213,7 @@ AttachedStick::~AttachedStick() {
     wire_->is_ending = true;
     wire_->stick.unplug();
   }
-  shutdown(wire_->ours, SHUT_RDWR);
+  shutdown(wire_->server_socket, SHUT_RDWR);
   wire_->server.join();
   wire_->clock.join();
 }

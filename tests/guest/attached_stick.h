@@ -11,8 +11,9 @@ namespace gearshift::test {
 
 class AttachedStick {
  public:
-  // Plugs it in. From then on, its own threads advance it by CLOCK_MONOTONIC and answer the kernel; the mutex guards
-  // it. Stick and mutex must outlive this object. Throws std::runtime_error if the kernel does not accept it.
+  // Plugs the stick in. From then on, threads of this object advance the stick by CLOCK_MONOTONIC and answer the
+  // kernel; the mutex guards the stick. Stick and mutex must outlive this object. Throws std::runtime_error if the
+  // kernel does not accept the stick.
   AttachedStick(EmulatedStick& stick, std::mutex& mutex);
   ~AttachedStick();  // unplugs the stick, which loses its power
 

@@ -1,4 +1,4 @@
-// Common code of the programs in the guest: waiting for the kernel, and hands on the sticks.
+// Common code of the programs in the guest: waiting for a condition, and sticks plugged into the kernel.
 #pragma once
 
 #include <chrono>
@@ -14,11 +14,11 @@ namespace gearshift::test {
 
 inline constexpr StickFamily kFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy};
 
-// Waits until the condition holds; false if it did not within that time.
+// Waits until the condition holds, for at most `seconds`. Returns false if it did not hold in that time.
 template <class Condition>
-bool becomes_true(Condition what, double seconds) {
+bool becomes_true(Condition condition, double seconds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  while (!what()) {
+  while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

@@ -1,5 +1,6 @@
-// The Linux kernel's driver for PID sticks (drivers/hid/usbhid/hid-pidff.c) against the emulated families. It is an
-// independent implementation, so its acceptance is evidence that the emulation is right. Runs only in the guest.
+// Tests the Linux kernel's driver for PID sticks (drivers/hid/usbhid/hid-pidff.c) with the emulated families. The
+// driver is an independent implementation, so its acceptance is evidence that the emulation is right. Runs only in the
+// guest.
 #include <fcntl.h>
 #include <linux/input.h>
 #include <sys/ioctl.h>
@@ -49,7 +50,7 @@ EmulatedStickConfig config_of(StickFamily family) {
   return config;
 }
 
-// A stick driven by the kernel's driver, and its event device.
+// A stick operated by the kernel's driver, and its event device.
 struct KernelStick {
   explicit KernelStick(const EmulatedStickConfig& config) : plugged(config, hand) {
     const auto ready = [&] {
@@ -101,7 +102,7 @@ ff_effect constant_force(int direction, int milliseconds) {
 
 TEST_CASE("hid-pidff accepts each family as a PID device, and knows its effects") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(std::string(stick_family_name(family)));
+    CAPTURE(std::string(to_string(family)));
     const int before = count_in_kernel_log("Force feedback for USB HID PID devices");
     KernelStick stick(config_of(family));
     const auto is_logged = [&] { return count_in_kernel_log("Force feedback for USB HID PID devices") == before + 1; };
@@ -117,11 +118,11 @@ TEST_CASE("hid-pidff accepts each family as a PID device, and knows its effects"
   }
 }
 
-TEST_CASE("a constant force of the kernel has the direction of linux/input.h, and ends on time") {
+TEST_CASE("a constant force from the kernel has the direction of linux/input.h, and ends on time") {
   // Directions: 0 down (towards the user), 0x4000 left, 0x8000 up, 0xC000 right.
   const std::array<glm::dvec2, 4> pushes{{{0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}};
   for (StickFamily family : kFamilies) {
-    CAPTURE(std::string(stick_family_name(family)));
+    CAPTURE(std::string(to_string(family)));
     KernelStick stick(config_of(family));
     input_event centring_off{};
     centring_off.type = EV_FF;
@@ -155,25 +156,25 @@ TEST_CASE("a constant force of the kernel has the direction of linux/input.h, an
   }
 }
 
-TEST_CASE("the event device says where the lever is: right is X +, away from the user Y -") {
+TEST_CASE("the event device reports the lever's position: right is X +, away from the user Y -") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(std::string(stick_family_name(family)));
+    CAPTURE(std::string(to_string(family)));
     EmulatedStickConfig config = config_of(family);
     config.lever.hand = kGripHand;
     KernelStick stick(config);
     stick.with_stick_state([&](EmulatedStick&) { return stick.hand.target.position = {0.04, 0.04}; });
-    const auto share = [&](unsigned axis) {
+    const auto fraction = [&](unsigned axis) {
       input_absinfo info{};
       ioctl(stick.events, EVIOCGABS(axis), &info);
       return (info.value - info.minimum) / static_cast<double>(info.maximum - info.minimum);
     };
-    CHECK(becomes_true([&] { return share(ABS_X) > 0.6 && share(ABS_Y) < 0.4; }, 5.0));
+    CHECK(becomes_true([&] { return fraction(ABS_X) > 0.6 && fraction(ABS_Y) < 0.4; }, 5.0));
   }
 }
 
-TEST_CASE("a spring of the kernel follows its law: x = F / K") {
+TEST_CASE("a spring from the kernel yields to a push by x = F / K") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(std::string(stick_family_name(family)));
+    CAPTURE(std::string(to_string(family)));
     EmulatedStickConfig config = config_of(family);
     config.lever.axis_x.stiffness = config.lever.axis_y.stiffness = 0.0;
     KernelStick stick(config);
@@ -194,17 +195,17 @@ TEST_CASE("a spring of the kernel follows its law: x = F / K") {
       stick.hand.target.push = {6.0, -4.0};
       return 0;
     });
-    const glm::dvec2 wanted{6.0 / 400.0, -4.0 / 400.0};
-    const auto off = [&] {
-      return stick.with_stick_state([&](EmulatedStick& s) { return glm::length(s.position() - wanted); });
+    const glm::dvec2 expected{6.0 / 400.0, -4.0 / 400.0};
+    const auto error = [&] {
+      return stick.with_stick_state([&](EmulatedStick& s) { return glm::length(s.position() - expected); });
     };
-    CHECK(becomes_true([&] { return off() < 1e-4; }, 10.0));
+    CHECK(becomes_true([&] { return error() < 1e-4; }, 10.0));
   }
 }
 
-TEST_CASE("a full pool rejects another effect, and accepts it once one was removed") {
+TEST_CASE("a full pool rejects a further effect, and accepts it after one was removed") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(std::string(stick_family_name(family)));
+    CAPTURE(std::string(to_string(family)));
     EmulatedStickConfig config = config_of(family);
     config.blocks = 4;
     KernelStick stick(config);
@@ -217,14 +218,15 @@ TEST_CASE("a full pool rejects another effect, and accepts it once one was remov
     ff_effect more = constant_force(0, 100);
     CHECK(stick.upload(more) == -ENOSPC);
     CHECK(ioctl(stick.events, EVIOCRMFF, last) == 0);
-    // The kernel frees a block through the output pipe and creates one through the control pipe, which may be faster.
+    // The kernel frees a block through the output pipe and creates one through the control pipe, which may be faster,
+    // so the first attempts may fail.
     CHECK(becomes_true([&] { return stick.upload(more) >= 0; }, 5.0));
   }
 }
 
 TEST_CASE("unplugging a stick while it pushes does no harm to the kernel") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(std::string(stick_family_name(family)));
+    CAPTURE(std::string(to_string(family)));
     EmulatedStickConfig config = config_of(family);
     int events = -1;
     {

@@ -9,7 +9,7 @@ modules=(usb-common usbcore usbip-core vhci-hcd hid usbhid hid-generic evdev)
 mkdir -p "$folder"
 cd "$folder"
 
-get_kernel() { # extracts vmlinuz and the modules to kernel/
+get_kernel() { # downloads the kernel's package and extracts vmlinuz and the modules to kernel/
   local package new
   package=$(apt-cache depends linux-image-amd64 | awk '/Depends: linux-image/ { print $2; exit }')
   [ -n "$package" ] || { echo "No package linux-image-amd64 is known: apt-get update" >&2; return 1; }
@@ -24,7 +24,7 @@ get_kernel() { # extracts vmlinuz and the modules to kernel/
 }
 [ -f kernel/vmlinuz ] || get_kernel
 
-copy_program() { # copies a program with its libraries, and appends it with its arguments to the list
+copy_program() { # copies a program with its libraries, and appends the program and its arguments to the list
   cp "$1" "root/$(basename "$1")"
   echo "/$(basename "$1") ${*:2}" >>root/tests
   local library
@@ -43,11 +43,11 @@ for module in "${modules[@]}"; do cp "kernel/$module.ko" root/modules/; echo "$m
 cp -r "$sources/tests/data/hid" "root$sources/tests/data/"
 cp -r "$sources"/assets/{gates,presets} "root$sources/assets/"
 : >root/tests
-for program in "$@"; do copy_program $program; done  # unquoted, to split it into words
+for program in "$@"; do copy_program $program; done  # $program is unquoted, to split it into words
 (cd root && find . | busybox cpio -o -H newc 2>/dev/null | gzip -1) >initrd
 
-# The guest's clock counts its instructions, one nanosecond each, and skips idle time: a millisecond stays a millisecond
-# for the guest, however slow the emulating machine is.
+# The guest's clock counts its instructions, one nanosecond each, and skips idle time. So a millisecond stays a
+# millisecond for the guest, however slow the emulating machine is.
 timeout 1200 qemu-system-x86_64 -accel tcg -icount shift=0,sleep=off -rtc clock=vm -cpu max -smp 1 -m 512 \
   -nographic -nodefaults -serial stdio -no-reboot -kernel kernel/vmlinuz -initrd initrd \
   -append "console=ttyS0 loglevel=3 panic=-1 mitigations=off" </dev/null | tee log

@@ -1,5 +1,6 @@
-// The whole program below the screen, with the real libusb and the real kernel: the driver takes the stick over from
-// the kernel's driver, calibrates it, drives the tour with a hand on it, and returns it. Runs only in the guest.
+// Device driver, calibration and haptic loop with the real libusb and the real kernel: takes a stick over from the
+// kernel's driver, calibrates it, shifts through a tour with a simulated hand, and returns the stick. Runs only in the
+// guest.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -36,7 +37,7 @@ std::int64_t monotonic_ns() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Name of the kernel driver bound to the stick's interface; empty: none.
+// Name of the kernel driver that is bound to the stick's interface; empty: none.
 std::string kernel_driver() {
   std::error_code none;
   return std::filesystem::read_symlink("/sys/bus/usb/devices/1-1:1.0/driver", none).filename();
@@ -49,7 +50,7 @@ HidIdentity identity_of(const PluggedStick& plugged) {
   return identity;
 }
 
-// The driver on a stick, set up as in the program.
+// Our driver on a stick, set up as in the program.
 struct DrivenStick {
   explicit DrivenStick(const PluggedStick& plugged)
       : driver(plugged.stick.report_descriptor()),
@@ -61,7 +62,7 @@ struct DrivenStick {
   StickConnection connection;
 };
 
-// A calibration as taught and measured by a user: the stops in counts, the travel, the force.
+// The part of a calibration that the user teaches: the stops in counts, the travel, the full force.
 DeviceCalibration taught_calibration(const EmulatedStickConfig& config, const PluggedStick& plugged) {
   const bool sidewinder = config.family == StickFamily::sidewinder, vjoy = config.family == StickFamily::vjoy;
   LeverAxisCalibration axis;
@@ -79,13 +80,13 @@ DeviceCalibration taught_calibration(const EmulatedStickConfig& config, const Pl
   return calibration;
 }
 
-void take_over(LeverAxisCalibration& axis, const LeverAxisCalibration& measured) {
+void copy_measured(LeverAxisCalibration& axis, const LeverAxisCalibration& measured) {
   axis.handle = measured.handle;
   axis.spring_stiffness = measured.spring_stiffness;
 }
 
-// Only the polarity is measured. The rest is measured for one family and reused for the others, which have the same
-// mechanism: measuring takes most of the guest's time.
+// Calibrates a stick. Without `measured`, measures everything; otherwise only the polarity, and copies the rest from
+// `measured`: the families have the same mechanism, and measuring takes most of the guest's time.
 DeviceCalibration calibrated(const EmulatedStickConfig& config, const DeviceCalibration* measured) {
   IdleHand idle_hand;
   PluggedStick plugged(config, idle_hand);
@@ -111,33 +112,33 @@ DeviceCalibration calibrated(const EmulatedStickConfig& config, const DeviceCali
   DeviceCalibration calibration = calibrator.calibration();
   if (measured == nullptr) return calibration;
   calibration.timing = measured->timing;
-  take_over(calibration.select, measured->select);
-  take_over(calibration.shift, measured->shift);
+  copy_measured(calibration.select, measured->select);
+  copy_measured(calibration.shift, measured->shift);
   return calibration;
 }
 
-// Stays at the start position until it is led.
+// Stays at the start position until begin() is called, then follows the script.
 class WaitingHand final : public HandDriver {
  public:
   WaitingHand(glm::dvec2 start, std::vector<HandStroke> strokes, double period)
       : start_(start), script_(touring_hand(start), std::move(strokes), period) {}
 
-  void begin() { led_ = true; }
+  void begin() { started_ = true; }
   double duration() const { return script_.duration(); }
 
   HandTarget next(double time, glm::dvec2 lever) noexcept override {
     HandTarget target;
     target.position = start_;
-    if (!led_) return target;
-    if (begun_ < 0.0) begun_ = time;
-    return script_.next(time - begun_, lever);
+    if (!started_) return target;
+    if (start_time_ < 0.0) start_time_ = time;
+    return script_.next(time - start_time_, lever);
   }
 
  private:
   glm::dvec2 start_;
   ScriptedHand script_;
-  std::atomic<bool> led_{false};
-  double begun_ = -1.0;  // [s]
+  std::atomic<bool> started_{false};
+  double start_time_ = -1.0;  // [s]
 };
 
 HapticConfig config_at_500_hz() {
@@ -146,7 +147,7 @@ HapticConfig config_at_500_hz() {
   return config;
 }
 
-// The loop on its thread, and the events that it reports.
+// The haptic loop on its own thread, and the events that the loop reports.
 class RunningLoop {
  public:
   RunningLoop(const DeviceCalibration& calibration, PidDriver& driver, const Gate& gate)
@@ -173,7 +174,7 @@ class RunningLoop {
     channels_.commands.push(LoopCommand::arm);
     return becomes_true([&] { return guard() == GuardState::running; }, 5.0);
   }
-  // Gears engaged since the last call.
+  // Returns the gears engaged since the last call.
   std::vector<int> gears() {
     std::vector<int> engaged;
     for (HapticEvent event; channels_.events.pop(event);) {
@@ -196,7 +197,7 @@ bool is_silent(PluggedStick& plugged) {
       [](EmulatedStick& stick) { return stick.force() == glm::dvec2(0.0) && !stick.actuators_on(); });
 }
 
-// Drives through every gear in order; then the force must be silent before the stick is returned.
+// Shifts through every gear in order. Afterwards the motors must be off before the stick is returned.
 void drive_tour(PluggedStick& plugged, WaitingHand& hand, const DeviceCalibration& calibration, const Gate& gate) {
   DrivenStick driven(plugged);
   std::vector<int> engaged;
@@ -223,13 +224,13 @@ void drive_tour(PluggedStick& plugged, WaitingHand& hand, const DeviceCalibratio
 
 }  // namespace
 
-TEST_CASE("the six-gear tour through the kernel: taken from its driver, calibrated, driven, returned") {
+TEST_CASE("the six-gear tour: a stick is taken from the kernel's driver, calibrated, driven and returned") {
   const Gate gate = paper_gate();
   const glm::dvec2 start = rest_position(gate, kNeutralGear);
   std::optional<DeviceCalibration> measured;
   for (StickFamily family : {StickFamily::openffboard, StickFamily::sidewinder, StickFamily::vjoy}) {
-    CAPTURE(std::string(stick_family_name(family)));
-    std::printf("%s\n", stick_family_name(family));
+    CAPTURE(std::string(to_string(family)));
+    std::printf("%s\n", to_string(family));
     EmulatedStickConfig config;
     config.family = family;
     config.input_interval = 0.002;
@@ -247,18 +248,18 @@ TEST_CASE("the six-gear tour through the kernel: taken from its driver, calibrat
     drive_tour(plugged, hand, calibration, gate);
     CHECK(becomes_true([] { return kernel_driver() == "usbhid"; }, 5.0));
   }
-  // The true mechanism: 0.095 and 0.086 kg, springs of 400 N/m.
+  // True values of the mechanism: 0.095 kg and 0.086 kg, springs of 400 N/m.
   CHECK(measured->select.handle.mass == doctest::Approx(0.095).epsilon(0.1));
   CHECK(measured->shift.handle.mass == doctest::Approx(0.086).epsilon(0.1));
   CHECK(measured->select.spring_stiffness == doctest::Approx(400.0).epsilon(0.1));
 }
 
-TEST_CASE("unplugged while it pushes: found again without udev, and silent until a person arms it") {
+TEST_CASE("a stick unplugged while it pushes is found again without udev, silent until the forces are turned on") {
   const Gate gate = paper_gate();
   EmulatedStickConfig config;
   config.family = StickFamily::openffboard;
   config.input_interval = 0.002;
-  StillHand hand(hand_pushing({6.0, 0.0}));  // to the end of the neutral aisle
+  StillHand hand(hand_pushing({6.0, 0.0}));  // pushes to the end of the neutral aisle
   PluggedStick plugged(config, hand);
   DeviceCalibration calibration = taught_calibration(config, plugged);
   calibration.timing = {0.002, 0.001, 0.001, 0.0};

@@ -1,4 +1,5 @@
-// Light in the cabin: the engine's windows and lining against rays in the model, and which nodes are lit by it.
+// Light in the cabin: compares the engine's windows and lining with rays cast in the model, and checks which nodes the
+// cabin's light affects.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -62,7 +63,8 @@ std::vector<Face> lining(const Model& model) {
   return faces;
 }
 
-// Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997. Null if the ray leaves through a window.
+// Returns the nearest face that a ray from kProbe hits; null if the ray leaves through a window (Möller, Trumbore.
+// Fast, Minimum Storage Ray/Triangle Intersection. 1997).
 const Face* first_hit(const std::vector<Face>& faces, vec3 direction) {
   const Face* hit = nullptr;
   float nearest = std::numeric_limits<float>::max();
@@ -81,7 +83,7 @@ const Face* first_hit(const std::vector<Face>& faces, vec3 direction) {
 
 }  // namespace
 
-TEST_CASE("the engine's cabin has its windows where rays leave the model, and its lining's albedo") {
+TEST_CASE("car_cabin() has windows where rays leave the model, and the albedo of the model's lining") {
   const std::vector<Face> faces = lining(read_gltf(GEARSHIFT_ASSETS "/models/cabin.glb"));
   const Enclosure cabin = car_cabin();
   constexpr int kRays = 1500;
@@ -90,7 +92,7 @@ TEST_CASE("the engine's cabin has its windows where rays leave the model, and it
     vec3 albedo{0.0f}, in_model{0.0f};
     float rays = 0.0f;
   };
-  std::array<Lining, 2> half;  // below and above eye height
+  std::array<Lining, 2> half;  // [0] below and [1] above the height of kProbe
   for (int i = 0; i < kRays; ++i) {
     const float y = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / kRays, r = std::sqrt(1.0f - y * y);
     const float phi = 2.39996323f * static_cast<float>(i);
@@ -101,10 +103,10 @@ TEST_CASE("the engine's cabin has its windows where rays leave the model, and it
     open_in_model += hit == nullptr ? 1 : 0;
     agree += is_open == (hit == nullptr) ? 1 : 0;
     if (is_open || hit == nullptr) continue;
-    Lining& there = half[y > 0.0f ? 1 : 0];
-    there.albedo += cabin.albedo(direction);
-    there.in_model += hit->albedo;
-    there.rays += 1.0f;
+    Lining& hemisphere = half[y > 0.0f ? 1 : 0];
+    hemisphere.albedo += cabin.albedo(direction);
+    hemisphere.in_model += hit->albedo;
+    hemisphere.rays += 1.0f;
   }
   MESSAGE("windows: " << 100.0 * open / kRays << " % of all directions, in the model " << 100.0 * open_in_model / kRays
                       << " %; " << 100.0 * agree / kRays << " % of the rays agree");
@@ -118,8 +120,7 @@ TEST_CASE("the engine's cabin has its windows where rays leave the model, and it
   }
 }
 
-TEST_CASE(
-    "with the cabin's light taken for the sky's the console changes; what is seen through the windscreen does not") {
+TEST_CASE("lit by the open sky, the console looks different; the view through the windscreen does not") {
   RenderConfig config;
   config.width = 320;
   config.height = 240;
@@ -129,14 +130,14 @@ TEST_CASE(
   FrameScene as_open = rig.stage.scene();
   for (NodeState& node : as_open.nodes) node.indoors = false;
   const auto photograph = [&](const FrameScene& scene, const EyePose& eye, double field) {
-    const View view = seen_from(eye, config, field);
+    const View view = cabin_view(eye, config, field);
     rig.renderer.draw(scene, {&view, 1});
     return rig.renderer.read_eye(0);
   };
   const ImageDifference lever =
       difference(photograph(rig.stage.scene(), camera("lever"), 40.0), photograph(as_open, camera("lever"), 40.0), 3);
   CHECK(lever.fraction_beyond > 0.5);
-  // In front of the windscreen: road, land, bonnet.
+  // An eye in front of the windscreen sees road, land and bonnet.
   const EyePose outside = look_at({0.335, 0.8, -1.3}, {0.335, 0.2, -4.0});
   const ImageDifference road =
       difference(photograph(rig.stage.scene(), outside, 40.0), photograph(as_open, outside, 40.0), 0);

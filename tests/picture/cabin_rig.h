@@ -47,8 +47,8 @@ struct CabinRig {
   engine::Renderer renderer;
 };
 
-inline engine::View seen_from(const engine::EyePose& eye, const engine::RenderConfig& config,
-                              double vertical_fov_deg = 40.0, double near_plane = 0.05) {
+inline engine::View cabin_view(const engine::EyePose& eye, const engine::RenderConfig& config,
+                               double vertical_fov_deg = 40.0, double near_plane = 0.05) {
   const double vertical = vertical_fov_deg * 3.14159265358979 / 180.0;
   return engine::view_from(eye, engine::symmetric_fov(vertical, static_cast<double>(config.width) / config.height),
                            near_plane);

@@ -40,8 +40,8 @@ constexpr Region kSeat[] = {kRegions[2]};
 
 // Renders the views of the given cameras, with the left-hand-drive cabin's sun or its mirror image.
 template <std::size_t kCameras>
-std::array<Image, kCameras> seen_on(DriveSide side, const Region (&regions)[kCameras], bool mirror_sun,
-                                    bool normal_maps = true) {
+std::array<Image, kCameras> render_side(DriveSide side, const Region (&regions)[kCameras], bool mirror_sun,
+                                        bool normal_maps = true) {
   StageConfig cabin;
   cabin.gate = shipped_gate("paper");
   cabin.drive = side;
@@ -50,11 +50,11 @@ std::array<Image, kCameras> seen_on(DriveSide side, const Region (&regions)[kCam
   FrameScene scene = rig.stage.scene();
   if (mirror_sun) scene.sun.towards.x = -scene.sun.towards.x;
   const Radiance open = day_sky(scene.sun.towards);
-  rig.renderer.set_environment(open, inside(car_cabin(), open, scene.sun.towards, scene.sun.irradiance));
+  rig.renderer.set_environment(open, indoor_radiance(car_cabin(), open, scene.sun.towards, scene.sun.irradiance));
   std::array<Image, kCameras> pictures;
   for (std::size_t i = 0; i < kCameras; ++i) {
     const char* name = regions[i].camera;
-    const View view = seen_from(camera(name, side), rig.renderer.config(), camera_field(name));
+    const View view = cabin_view(camera(name, side), rig.renderer.config(), camera_field(name));
     rig.renderer.draw(scene, {&view, 1});
     pictures[i] = rig.renderer.read_eye(0);
   }
@@ -73,27 +73,28 @@ Image part(const Image& image, const Region& r) {
   return crop(image, r.x, r.y, r.width, r.height);
 }
 
-// Edges differ, because the sample positions of a pixel are not mirror-symmetric.
+// Fraction of pixels that may differ: edges do, because the sample positions of a pixel are not mirror-symmetric.
 constexpr double kEdges = 0.04;
 
-ImageDifference apart_in(const Region& region, const Image& left, const Image& right) {
-  const ImageDifference apart = difference(part(left, region), part(in_mirror(right), region), 3);
-  MESSAGE(std::string(region.camera) << ": " << 100.0 * apart.fraction_beyond << " % beyond 3/255");
-  return apart;
+ImageDifference mirror_difference(const Region& region, const Image& left, const Image& right) {
+  const ImageDifference mirror_error = difference(part(left, region), part(in_mirror(right), region), 3);
+  MESSAGE(std::string(region.camera) << ": " << 100.0 * mirror_error.fraction_beyond << " % beyond 3/255");
+  return mirror_error;
 }
 
 }  // namespace
 
-TEST_CASE("body and hand on the right look as in a mirror, and the dials do not") {
-  const auto left = seen_on(DriveSide::left, kRegions, false), right = seen_on(DriveSide::right, kRegions, true);
+TEST_CASE("body and hand of the right-hand-drive cabin are a mirror image; the dials are not") {
+  const auto left = render_side(DriveSide::left, kRegions, false),
+             right = render_side(DriveSide::right, kRegions, true);
   for (std::size_t i = 0; i < std::size(kRegions); ++i)
-    CHECK((apart_in(kRegions[i], left[i], right[i]).fraction_beyond < kEdges) == (i != kDials));
+    CHECK((mirror_difference(kRegions[i], left[i], right[i]).fraction_beyond < kEdges) == (i != kDials));
 }
 
-TEST_CASE("with the sun not mirrored, or without normal maps, the seat on the right is not a mirror image") {
-  const auto [left] = seen_on(DriveSide::left, kSeat, false);
-  const auto [same_sun] = seen_on(DriveSide::right, kSeat, false);
-  const auto [smooth] = seen_on(DriveSide::right, kSeat, true, false);
-  CHECK(apart_in(kSeat[0], left, same_sun).fraction_beyond > 4.0 * kEdges);
-  CHECK(apart_in(kSeat[0], left, smooth).fraction_beyond > 4.0 * kEdges);
+TEST_CASE("with an unmirrored sun, or without normal maps, the seat on the right is not a mirror image") {
+  const auto [left] = render_side(DriveSide::left, kSeat, false);
+  const auto [same_sun] = render_side(DriveSide::right, kSeat, false);
+  const auto [smooth] = render_side(DriveSide::right, kSeat, true, false);
+  CHECK(mirror_difference(kSeat[0], left, same_sun).fraction_beyond > 4.0 * kEdges);
+  CHECK(mirror_difference(kSeat[0], left, smooth).fraction_beyond > 4.0 * kEdges);
 }

@@ -8,28 +8,28 @@ using namespace gearshift::cabin;
 using namespace gearshift::engine;
 using namespace gearshift::test;
 
-TEST_CASE("from gate to gate and back: the renderer uses no more memory than before") {
+TEST_CASE("switching between two gates does not increase the memory that the renderer uses") {
   RenderConfig config;
   config.width = 64;
   config.height = 48;
   CabinRig rig(config);
   StageConfig other = open_gate_cabin();
   other.gate = shipped_gate("six_speed_r_left_up");
-  Stage beside(other, GEARSHIFT_ASSETS "/models");
+  Stage other_stage(other, GEARSHIFT_ASSETS "/models");
   const auto change_gates = [&](int times) {
     for (int i = 0; i < times; ++i) {
-      for (Stage* stage : {&beside, &rig.stage}) {
+      for (Stage* stage : {&other_stage, &rig.stage}) {
         rig.renderer.set_model(stage->model());
         stage->place(resting_in(rig.gate, 1));
-        const View view = seen_from(stage->driver_eye(), config);
+        const View view = cabin_view(stage->driver_eye(), config);
         rig.renderer.draw(stage->scene(), {&view, 1});
         rig.renderer.read_eye(0);
       }
     }
     return memory_in_use();
   };
-  const std::size_t once = change_gates(2), often = change_gates(8);
-  // Sixteen changes, with a limit below the size of one scene (about 70 MB). The driver caches up to 12 MB of compiled
-  // code.
-  CHECK(often < once + 40'000'000);
+  const std::size_t few_changes = change_gates(2), many_changes = change_gates(8);
+  // The limit for sixteen changes is less than one scene (about 70 MB) and more than the compiled code that the driver
+  // caches (up to 12 MB).
+  CHECK(many_changes < few_changes + 40'000'000);
 }

@@ -1,4 +1,4 @@
-// The lever in its gate against a reviewed reference picture, and pictures that must not match it.
+// Compares the lever in its gate with a reviewed reference picture, and with pictures that must not match it.
 //
 // GEARSHIFT_WRITE_GOLDEN=1 rewrites the reference: review it before you commit it.
 #include <cstdlib>
@@ -15,7 +15,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// The design goal: at most 3/255 per channel on 99.5 % of the pixels.
+// The design goal: differences of at most 3/255 per channel on 99.5 % of the pixels.
 constexpr int kTolerance = 3;
 constexpr double kMaxFractionBeyond = 0.005;
 
@@ -29,24 +29,24 @@ RenderConfig config_of_golden() {
   return config;
 }
 
-// The knob, the rod, the plate and some of the console.
+// The part of the picture with the knob, the rod, the plate and some of the console.
 Image around_lever(const Image& picture) {
   return crop(picture, 200, 60, 240, 240);
 }
 
 Image lever_picture(CabinRig& rig, const StageInput& input) {
-  return around_lever(rig.picture(input, seen_from(camera("lever"), rig.renderer.config())));
+  return around_lever(rig.picture(input, cabin_view(camera("lever"), rig.renderer.config())));
 }
 
-bool same_as_golden(const Image& picture) {
-  const ImageDifference apart = difference(picture, read_png(kGolden), kTolerance);
-  MESSAGE("PSNR ", apart.psnr, " dB, ", 100.0 * apart.fraction_beyond, " % of the pixels beyond ", kTolerance, "/255");
-  return apart.fraction_beyond <= kMaxFractionBeyond;
+bool matches_golden(const Image& picture) {
+  const ImageDifference error = difference(picture, read_png(kGolden), kTolerance);
+  MESSAGE("PSNR ", error.psnr, " dB, ", 100.0 * error.fraction_beyond, " % of the pixels beyond ", kTolerance, "/255");
+  return error.fraction_beyond <= kMaxFractionBeyond;
 }
 
 }  // namespace
 
-TEST_CASE("the lever in third looks as it did; 2 mm of lever, or no normal maps, do not pass for it") {
+TEST_CASE("the lever in third matches the reference; moved by 2 mm, or without normal maps, it does not") {
   RenderConfig config = config_of_golden();
   StageInput third;
   {
@@ -54,14 +54,14 @@ TEST_CASE("the lever in third looks as it did; 2 mm of lever, or no normal maps,
     third = resting_in(rig.gate, 3);
     const Image picture = lever_picture(rig, third);
     if (std::getenv("GEARSHIFT_WRITE_GOLDEN")) write_png(kGolden, picture);
-    CHECK(same_as_golden(picture));
+    CHECK(matches_golden(picture));
 
     StageInput moved = third;
     moved.lever.proxy.x += 0.002;
-    CHECK_FALSE(same_as_golden(lever_picture(rig, moved)));
-    CHECK(same_as_golden(lever_picture(rig, third)));
+    CHECK_FALSE(matches_golden(lever_picture(rig, moved)));
+    CHECK(matches_golden(lever_picture(rig, third)));
   }
   config.normal_maps = false;
   CabinRig smooth(config);
-  CHECK_FALSE(same_as_golden(lever_picture(smooth, third)));
+  CHECK_FALSE(matches_golden(lever_picture(smooth, third)));
 }

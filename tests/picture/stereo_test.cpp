@@ -1,5 +1,5 @@
-// Stereo pictures of the real cabin, in one pass or two, against single views; with a camera whose near plane
-// intersects the steering wheel.
+// Compares stereo pictures of the real cabin, drawn in one pass or two, with single views; with a camera whose near
+// plane intersects the steering wheel.
 #include <array>
 
 #include <doctest/doctest.h>
@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kCutsTheWheel = 0.42;  // [m] near plane; the rim is 0.40 m in front of the driver's eye
 
-// Visible to each eye as a whole: the sun's map is fitted to the visible part, so it is identical for one eye and for
-// two. [m]
-constexpr ShadowRoom kAboutTheGate{{0.22f, 0.0f, -0.40f}, {0.44f, 0.25f, -0.20f}};
+// [m] A box that each eye sees completely. The shadow map is fitted to the visible part of the box, so the map is the
+// same for one eye and for two.
+constexpr ShadowBounds kAboutTheGate{{0.22f, 0.0f, -0.40f}, {0.44f, 0.25f, -0.20f}};
 
 RenderConfig small(int eyes, int samples, EyePasses passes = EyePasses::automatic) {
   RenderConfig config;
@@ -41,15 +41,15 @@ void check_against_single_views(int samples, EyePasses passes) {
   const StageInput input = resting_in(stereo.gate, 3);
   stereo.stage.place(input);
   FrameScene scene = stereo.stage.scene();
-  scene.shadow_room = kAboutTheGate;
+  scene.shadow_bounds = kAboutTheGate;
   stereo.renderer.draw(scene, views);
 
   CabinRig mono(small(1, samples));
   for (int eye = 0; eye < 2; ++eye) {
     mono.renderer.draw(scene, {&views[static_cast<std::size_t>(eye)], 1});
     const Image reference = mono.renderer.read_eye(0);
-    const ImageDifference apart = difference(stereo.renderer.read_eye(eye), reference, 1);
-    CHECK_MESSAGE(apart.fraction_beyond == 0.0, "eye ", eye, ", worst ", apart.worst, "/255");
+    const ImageDifference error = difference(stereo.renderer.read_eye(eye), reference, 1);
+    CHECK_MESSAGE(error.fraction_beyond == 0.0, "eye ", eye, ", worst ", error.worst, "/255");
   }
   const ImageDifference eyes = difference(stereo.renderer.read_eye(0), stereo.renderer.read_eye(1), 3);
   CHECK(eyes.fraction_beyond > 0.05);  // the eyes see different pictures
@@ -57,12 +57,12 @@ void check_against_single_views(int samples, EyePasses passes) {
 
 }  // namespace
 
-TEST_CASE("each eye of one pass is the single view, geometry cut at the near plane") {
+TEST_CASE("each eye drawn in one pass equals its single view, with geometry cut at the near plane") {
   check_against_single_views(1, EyePasses::layered);
   check_against_single_views(4, EyePasses::layered);
 }
 
-TEST_CASE("each eye of two passes is the single view") {
+TEST_CASE("each eye drawn in a pass of its own equals its single view") {
   check_against_single_views(1, EyePasses::one_by_one);
   check_against_single_views(4, EyePasses::one_by_one);
 }

@@ -1,8 +1,8 @@
-// Simulates a full disk: the test program overrides the C library's write functions.
+// Simulates a full disk: the test program overrides the C library's pwrite64(), with which SQLite writes.
 #pragma once
 
 namespace gearshift::test {
 
-extern bool disk_is_full;  // while set, writing to any file fails
+extern bool disk_is_full;  // while set, every call of pwrite64() fails
 
 }  // namespace gearshift::test

@@ -9,7 +9,8 @@
 
 namespace gearshift::test {
 
-inline constexpr glm::dvec2 kPaperWorkspace{0.077134, 0.068829};  // [m] 0.12 sin(40 deg), 0.12 sin(35 deg)
+// [m] largest deflections, select and shift: 0.12 sin(40 deg), 0.12 sin(35 deg)
+inline constexpr glm::dvec2 kPaperWorkspace{0.077134, 0.068829};
 
 inline haptics::Gate shipped_gate(const std::string& name) {
   return haptics::compile_gate(haptics::read_gate_layout(GEARSHIFT_ASSETS "/gates/" + name + ".toml"), kPaperWorkspace);

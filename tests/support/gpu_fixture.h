@@ -18,7 +18,8 @@
 
 namespace gearshift::test {
 
-// Selects the same driver everywhere, because pictures are compared. Does not override variables that are already set.
+// Selects the software driver on every machine, because tests compare pictures. Variables that are already set stay
+// unchanged.
 inline void choose_software_driver() {
   const std::filesystem::path drivers = "/usr/share/vulkan/icd.d";
   if (std::filesystem::is_directory(drivers)) {
@@ -43,7 +44,7 @@ class GpuFixture {
     REQUIRE_MESSAGE(gpu_->validates(), "the package vulkan-validationlayers is not installed");
   }
   ~GpuFixture() {
-    gpu_.reset();  // the layer reports objects that outlive the device
+    gpu_.reset();  // now the validation layer reports objects that outlive the device
     for (const std::string& message : messages_) FAIL_CHECK(message);
   }
   GpuFixture(const GpuFixture&) = delete;
@@ -51,7 +52,7 @@ class GpuFixture {
 
   engine::Gpu& gpu() { return *gpu_; }
   bool silent() const { return messages_.empty(); }
-  // Takes the validation messages so far; messages taken by a test do not fail it.
+  // Returns and clears the validation messages so far; these do not fail the test.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
  private:

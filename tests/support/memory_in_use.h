@@ -1,5 +1,5 @@
-// Memory held through malloc: allocated minus freed. It reveals leaks more precisely than the system's figure, which
-// includes fragmentation and caches.
+// Memory held through malloc: allocated minus freed. Leaks show up in it more precisely than in the process size that
+// the system reports, which includes fragmentation and caches.
 #pragma once
 
 #include <malloc.h>
@@ -8,7 +8,7 @@
 
 namespace gearshift::test {
 
-// [bytes] allocated and not freed, over all arenas. Meaningless under a sanitizer, which has its own allocator.
+// [bytes] allocated and not freed, in all arenas. Meaningless under a sanitizer, which has its own allocator.
 inline std::size_t memory_in_use() {
   const struct mallinfo2 all = mallinfo2();
   return all.uordblks + all.hblkhd;

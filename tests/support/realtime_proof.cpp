@@ -41,7 +41,8 @@ struct Report {
   std::uint64_t locks = 0;
 };
 
-constinit thread_local Report* active_report = nullptr;  // set during the proof, and only on its thread
+// Set only in the proof's child process, on the thread that runs the work.
+constinit thread_local Report* active_report = nullptr;
 
 void count_allocation() noexcept {
   if (active_report != nullptr) ++active_report->allocations;
@@ -50,7 +51,8 @@ void count_lock() noexcept {
   if (active_report != nullptr) ++active_report->locks;
 }
 
-// The C library's function behind an override. Condition variables have an old and a new version.
+// Finds the C library's function that an override replaces. Condition variables have an old and a new version of some
+// functions; GLIBC_2.3.2 is the new one.
 template <class F>
 F next(const char* name) noexcept {
   void* found = dlvsym(RTLD_NEXT, name, "GLIBC_2.3.2");
@@ -62,7 +64,7 @@ F next(const char* name) noexcept {
 
 extern "C" {
 
-// The C library's own names for the functions behind malloc and related functions.
+// The C library's internal names of malloc and related functions.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 void* __libc_malloc(size_t) noexcept;
 void* __libc_calloc(size_t, size_t) noexcept;
@@ -99,8 +101,8 @@ void free(void* old) noexcept {
   __libc_free(old);
 }
 
-// One override per function: counts the call, then forwards it. Its macro arguments are a parameter list and a
-// specifier, which cannot have parentheses of their own.
+// Defines an override that counts the call and then forwards it. The macro's arguments are parameter lists and
+// specifiers, which must not be put in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
 #define GEARSHIFT_COUNT_LOCK(name, parameters, arguments, specifier) \
   int name parameters specifier {                                    \
@@ -136,9 +138,9 @@ void note_system_call(int, siginfo_t* info, void*) {
   syscall(SYS_exit, 0);
 }
 
-// From here on, every system call of this thread raises SIGSYS, except exit and write() to the given descriptor.
-bool forbid_system_calls(int written) {
-  const auto descriptor = static_cast<std::uint32_t>(written);  // a write to -1 has no effect
+// After this call, every system call of this thread raises SIGSYS, except exit and write() to the given descriptor.
+bool forbid_system_calls(int writable_fd) {
+  const auto descriptor = static_cast<std::uint32_t>(writable_fd);  // a write to -1 would have no effect
   sock_filter rules[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_exit, 4, 0),
@@ -157,11 +159,11 @@ bool forbid_system_calls(int written) {
   return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
 }
 
-[[noreturn]] void run_child(Report* report, const std::function<void()>& work, int written) {
-  // The crash handlers of a test framework would make system calls and so hide the crash.
+[[noreturn]] void run_child(Report* report, const std::function<void()>& work, int writable_fd) {
+  // A test framework's crash handlers would make system calls, and the proof would report these instead of the crash.
   for (const int crash : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP}) signal(crash, SIG_DFL);
   active_report = report;
-  report->filtered = forbid_system_calls(written);
+  report->filtered = forbid_system_calls(writable_fd);
   if (report->filtered) work();
   report->finished = report->filtered;
   while (true) syscall(SYS_exit, 0);
@@ -182,14 +184,14 @@ RealtimeProof judge(const Report& report, int status) {
 
 }  // namespace
 
-RealtimeProof prove_realtime(const std::function<void()>& work, int written) {
+RealtimeProof prove_realtime(const std::function<void()>& work, int writable_fd) {
   void* page = mmap(nullptr, sizeof(Report), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   RealtimeProof proof;
   proof.problem = "no memory or no process for it";
   if (page == MAP_FAILED) return proof;
   Report* report = new (page) Report;
   const pid_t child = fork();
-  if (child == 0) run_child(report, work, written);
+  if (child == 0) run_child(report, work, writable_fd);
   int status = 0;
   if (child > 0 && waitpid(child, &status, 0) == child) proof = judge(*report, status);
   munmap(page, sizeof(Report));

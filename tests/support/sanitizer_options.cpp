@@ -1,5 +1,5 @@
 // Sanitizer settings for the Vulkan driver and the validation layer, which are not instrumented. Compiled into each
-// test program that opens a device, with exported symbols (-rdynamic).
+// test program that opens a GPU, with exported symbols (-rdynamic).
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
@@ -11,7 +11,8 @@
 #endif
 
 #if defined(GEARSHIFT_ASAN) || defined(__SANITIZE_THREAD__)
-// Libraries stay loaded, so that reports of leaks and races name them and can be told apart from our code.
+// Libraries stay loaded, so that the sanitizers can name them in reports of leaks and races, and the suppressions below
+// match.
 extern "C" int dlclose(void*) {
   return 0;
 }

@@ -1,4 +1,4 @@
-// Limits the size of files, as on a full disk.
+// Limits the size of files during its lifetime: writing beyond the limit fails, as on a full disk.
 #pragma once
 
 #include <signal.h>
@@ -9,20 +9,20 @@ namespace gearshift::test {
 class SmallFiles {
  public:
   explicit SmallFiles(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &was_);
+    getrlimit(RLIMIT_FSIZE, &old_limit_);
     handler_ = signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{bytes, was_.rlim_max};
+    const rlimit small{bytes, old_limit_.rlim_max};
     setrlimit(RLIMIT_FSIZE, &small);
   }
   ~SmallFiles() {
-    setrlimit(RLIMIT_FSIZE, &was_);
+    setrlimit(RLIMIT_FSIZE, &old_limit_);
     signal(SIGXFSZ, handler_);
   }
   SmallFiles(const SmallFiles&) = delete;
   SmallFiles& operator=(const SmallFiles&) = delete;
 
  private:
-  rlimit was_{};
+  rlimit old_limit_{};
   void (*handler_)(int) = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// A temporary folder that is deleted with the object; its name is unique per test program.
+// A temporary folder with a unique name, which is deleted with the object.
 #pragma once
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-// Simulates the letters of a Turkish locale, which may not be installed, during its lifetime: std::tolower('I') is 'I'.
+// Selects the letters of a Turkish locale during its lifetime: std::tolower('I') is 'I'. It compiles the locale into a
+// temporary folder, because none may be installed.
 #pragma once
 
 #include <cctype>
@@ -15,8 +16,8 @@ namespace gearshift::test {
 class TurkishLetters {
  public:
   TurkishLetters() : locpath_("LOCPATH", folder_.path().c_str()) {
-    const std::string made = (folder_ / "tr_TR.UTF-8").string();
-    if (std::system(("localedef -i tr_TR -f UTF-8 " + made).c_str()) != 0 ||
+    const std::string locale_folder = (folder_ / "tr_TR.UTF-8").string();
+    if (std::system(("localedef -i tr_TR -f UTF-8 " + locale_folder).c_str()) != 0 ||
         std::setlocale(LC_CTYPE, "tr_TR.UTF-8") == nullptr || std::tolower('I') != 'I')
       throw std::runtime_error("no Turkish locale can be made: install the package locales");
   }

@@ -1,4 +1,4 @@
-// Sets or unsets an environment variable during its lifetime.
+// Sets or unsets an environment variable during its lifetime, then restores its old value.
 #pragma once
 
 #include <stdlib.h>
@@ -11,10 +11,10 @@ namespace gearshift::test {
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {
-    if (const char* was = getenv(name)) was_ = was;
+    if (const char* old_value = getenv(name)) old_value_ = old_value;
     set(value);
   }
-  ~Variable() { set(was_ ? was_->c_str() : nullptr); }
+  ~Variable() { set(old_value_ ? old_value_->c_str() : nullptr); }
   Variable(const Variable&) = delete;
   Variable& operator=(const Variable&) = delete;
 
@@ -26,7 +26,7 @@ class Variable {
       unsetenv(name_);
   }
   const char* name_;
-  std::optional<std::string> was_;
+  std::optional<std::string> old_value_;
 };
 
 }  // namespace gearshift::test

@@ -7,15 +7,15 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kDistance = 1.4;    // [m]
-constexpr double kWidth = 1.5;       // [m] of the whole panel
-constexpr double kCardWidth = 0.75;  // [m]
+constexpr double kDistance = 1.4;    // [m] from the driver's eyes
+constexpr double kWidth = 1.5;       // [m] width of the whole panel
+constexpr double kCardWidth = 0.75;  // [m] width of the lesson card's part
 
 struct Direction {
-  double aside, above;  // [rad] towards the passenger, up
+  double aside, above;  // [rad] towards the passenger +, up +
 };
 constexpr Direction kPanel{36.0 * kDegree, 2.0 * kDegree};
-constexpr Direction kCardFoot{23.0 * kDegree, -6.5 * kDegree};  // of the card's lower edge
+constexpr Direction kCardFoot{23.0 * kDegree, -6.5 * kDegree};  // direction of the card's lower edge
 
 glm::dvec3 towards(Direction direction, DriveSide side) {
   const double aside = side == DriveSide::left ? direction.aside : -direction.aside;
@@ -23,7 +23,7 @@ glm::dvec3 towards(Direction direction, DriveSide side) {
           -std::cos(aside) * std::cos(direction.above)};
 }
 
-// The pose's -Z points away from the driver.
+// A panel in the direction `along` from the driver's eyes; the -Z of its pose points away from the driver.
 HangingPanel panel_at(glm::dvec3 driver_eye, glm::dvec3 along) {
   const glm::dvec3 at = driver_eye + kDistance * along;
   HangingPanel panel;

@@ -13,24 +13,24 @@ namespace gearshift::cabin {
 
 struct HeadsetReport {
   std::string headset, runtime, state;
-  glm::ivec2 eye{0};  // [px]
+  glm::ivec2 eye{0};  // [px] size of an eye's image
   engine::HeadsetTiming timing;
   bool is_tracked = false;
-  bool orientation_only = false;  // orientation is tracked, position is not known yet
+  bool orientation_only = false;  // the head's orientation is tracked, its position is not known yet
   SeatSettings seat;
-  bool is_touched = false;   // the lever's position comes from touches
-  double touch_error = 0.0;  // [m] distance of real and drawn lever
-  bool touching = false;     // the next trigger pulls count as touches of the knob
-  std::size_t touches = 0;
-  double worst_touch = 0.0;  // [m]
+  bool is_touched = false;   // the lever's position was determined by touches
+  double touch_error = 0.0;  // [m] distance between real and drawn lever
+  bool touching = false;     // a touch calibration is running: trigger pulls count as touches of the knob
+  std::size_t touches = 0;   // number of touches so far
+  double worst_touch = 0.0;  // [m] largest distance of a touch from the drawn knob
 };
 
 struct HeadsetRequests {
   bool recentre = false;
-  bool touch = false, touched = false;  // start touching; save the touches
-  bool forget_touches = false;          // discard the current touches, or those in use
-  std::optional<double> height;         // [m]
-  std::optional<KnobDistance> knob;     // [m]
+  bool start_touching = false, save_touches = false;
+  bool forget_touches = false;       // cancel a running touch calibration, or else discard the saved one
+  std::optional<double> height;      // [m] new SeatSettings::height
+  std::optional<KnobDistance> knob;  // [m] new SeatSettings::knob
   bool forget_knob = false;
 };
 

@@ -14,17 +14,18 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr glm::dvec3 kUp{0.0, 1.0, 0.0}, kAhead{0.0, 0.0, -1.0};
-constexpr double kMinHorizontal = 0.3;  // [1] a view direction with a smaller horizontal part gives no heading
-constexpr double kMinSpread = 0.020;    // [m] RMS distance of the touches from their mean
+constexpr double kMinHorizontal = 0.3;  // [1] a view direction whose horizontal part is smaller gives no heading
+constexpr double kMinSpread = 0.020;    // [m] minimum RMS distance of the touches from their mean
 
-// [rad] to the right of the room's -Z. For someone looking straight down, the top of the head points ahead.
+// The heading of the head [rad], positive to the right of the room's -Z. If the user looks straight down, the top of
+// the head points ahead and gives the heading.
 double heading(const glm::dquat& head) {
   glm::dvec3 look = head * kAhead;
   if (std::hypot(look.x, look.z) < kMinHorizontal) look = (look.y < 0.0 ? 1.0 : -1.0) * (head * kUp);
   return std::atan2(look.x, -look.z);
 }
 
-// A pose with the given rotation that maps the point `room` to `cabin`.
+// The pose that turns by `turn` [rad] about the vertical and maps the point `room` to the point `cabin`.
 engine::EyePose placed(double turn, glm::dvec3 room, glm::dvec3 cabin) {
   const glm::dquat orientation = glm::angleAxis(turn, kUp);
   return {cabin - orientation * room, orientation};
@@ -40,9 +41,9 @@ void check_knob(const KnobDistance& knob, DriveSide drive) {
   const double away = drive == DriveSide::left ? knob.right : -knob.right;
   if (away > 0.0) return;
   const bool left = drive == DriveSide::left;
-  throw std::invalid_argument(fmt::format("a driver on the {} has the knob on the {}: {} m to the right is impossible",
-                                          left ? "left" : "right", left ? "right" : "left",
-                                          haptics::number_text(knob.right)));
+  throw std::invalid_argument(
+      fmt::format("with the driver on the {}, the knob must be on the {}, but {} m to the right was given",
+                  left ? "left" : "right", left ? "right" : "left", haptics::number_text(knob.right)));
 }
 
 engine::EyePose seat_at_eyes(const engine::EyePose& head, const SeatPlaces& places, double height) {
@@ -55,9 +56,9 @@ engine::EyePose seat_at_lever(const engine::EyePose& head, const SeatPlaces& pla
   return placed(turn, head.position + away, places.knob);
 }
 
-// An error e of the tip in controller axes is an error R e in the room, R the controller's orientation. What the fit's
-// translation and rotation do not absorb of it is linear in e; the smallest RMS over all directions of e is the
-// smallest singular value (pivot calibration).
+// As in pivot calibration: an error e of the tip in controller axes is an error R e in the room, where R is the
+// controller's orientation. The part of it that the fit's translation and rotation cannot absorb is linear in e, so its
+// smallest RMS over all directions of e follows from the smallest singular value of this linear map.
 double LeverTouches::tip_error_fraction() const {
   if (touches_.size() < 3) return 0.0;
   const double count = static_cast<double>(touches_.size());
@@ -83,8 +84,8 @@ double LeverTouches::tip_error_fraction() const {
   return std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / count);
 }
 
-// Turned by a about y, (x, z) becomes (x cos a + z sin a, z cos a - x sin a): the sum of squares is smallest where the
-// sum of products is largest.
+// A turn by a about y maps (x, z) to (x cos a + z sin a, z cos a - x sin a). The sum of squared distances between
+// turned room points and cabin points is smallest where the sum of their scalar products is largest.
 std::optional<LeverTouches::Fit> LeverTouches::fit(const engine::EyePose& now) const {
   if (touches_.empty()) return std::nullopt;
   const double count = static_cast<double>(touches_.size());

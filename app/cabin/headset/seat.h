@@ -1,6 +1,7 @@
-// The pose of the room (the headset's tracking space) in the cabin, such that the real lever is where it is drawn.
+// Determines the pose of the room (the headset's tracking space) in the cabin so that the real lever is where the lever
+// is drawn.
 //
-// The room is only turned about the vertical, since both share the direction of gravity.
+// The room is turned only about the vertical, since room and cabin share the direction of gravity.
 #pragma once
 
 #include <optional>
@@ -15,11 +16,11 @@ namespace gearshift::cabin {
 
 // Positions in cabin axes. [m]
 struct SeatPlaces {
-  glm::dvec3 eye{0.0};   // of a seated driver
-  glm::dvec3 knob{0.0};  // centre of the knob, lever in neutral
+  glm::dvec3 eye{0.0};   // between the eyes of a seated driver
+  glm::dvec3 knob{0.0};  // centre of the knob with the lever in neutral
 };
 
-// From the eyes of a seated driver, looking ahead, to the knob. [m] positive to the right, down and ahead
+// Distances [m] from the eyes of a seated driver who looks ahead to the knob; positive to the right, down and ahead.
 struct KnobDistance {
   double right = 0.0, down = 0.0, ahead = 0.0;
 };
@@ -28,32 +29,35 @@ struct KnobDistance {
 // on the right, and vice versa.
 void check_knob(const KnobDistance& knob, DriveSide drive);
 
-// Cabin from room, with the head at the driver's eyes, raised by `height` [m], looking ahead. head: in the room;
-// upright or looking down or up.
+// The pose of the room in the cabin that puts the head at the driver's eyes, raised by `height` [m], looking ahead.
+// head: pose in the room; the user may be looking ahead, down or up.
 engine::EyePose seat_at_eyes(const engine::EyePose& head, const SeatPlaces& places, double height);
 
-// Cabin from room, with the knob at its drawn position instead of the head at the driver's eyes.
+// The pose of the room in the cabin that puts the real knob where it is drawn, instead of the head at the driver's
+// eyes. knob: distances measured from the user's eyes.
 engine::EyePose seat_at_lever(const engine::EyePose& head, const SeatPlaces& places, const KnobDistance& knob);
 
-// Touches of the knob at several lever positions: tracked controller tip against the drawn knob.
+// Touches of the real knob with the tip of a tracked controller, at several lever positions. Each one pairs a point in
+// the room (the tip) with a point in the cabin (the drawn knob).
 class LeverTouches {
  public:
-  // tip: position of the tip in the room and orientation of the controller.
+  // tip: position of the tip and orientation of the controller, in the room. cabin: position of the drawn knob.
   void add(const engine::EyePose& tip, glm::dvec3 cabin) { touches_.push_back({tip.position, cabin, tip.orientation}); }
   void forget() { touches_.clear(); }
   std::size_t count() const noexcept { return touches_.size(); }
 
   struct Fit {
     engine::EyePose cabin_from_room;
-    double worst = 0.0;   // [m] largest distance of a touch from the drawn knob
-    bool turned = false;  // the touches are far enough apart to determine the direction, too
+    double worst = 0.0;   // [m] largest distance between a touch and the drawn knob
+    bool turned = false;  // the touches are far enough apart to determine the rotation too
   };
-  // Least-squares rotation about the vertical and translation (Horn 1987, with a given axis). If the touches are less
-  // than 20 mm RMS apart, the direction of `now` is kept. Empty without touches.
+  // Least-squares rotation about the vertical and translation (Horn 1987, with a given axis). If the RMS distance of
+  // the touches from their mean is below 20 mm, the rotation of `now` is kept. Empty without touches.
   std::optional<Fit> fit(const engine::EyePose& now) const;
 
-  // [1] Smallest fraction of an error in the tip's assumed position on the controller that shows up in the residual
-  // (RMS, worst direction). 0 if the controller was turned about at most one axis, or with fewer than three touches.
+  // [1] The fraction of an error in the assumed position of the tip on the controller that shows up in the fit's RMS
+  // residual, for an error in the least visible direction. 0 if the controller was turned about at most one axis or
+  // there are fewer than three touches.
   double tip_error_fraction() const;
 
  private:

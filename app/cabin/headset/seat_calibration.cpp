@@ -10,8 +10,8 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr std::size_t kMinTouches = 3;
-constexpr double kMinErrorFraction = 0.15;  // [1] of a tip error that must show up: 45 degrees about two axes give 0.26
-constexpr double kMaxEyeOffset = 0.6;       // [m] a seated driver's head is closer than this to the driver's eyes
+constexpr double kMinErrorFraction = 0.15;  // [1] minimum of tip_error_fraction(); 45 deg about two axes give 0.26
+constexpr double kMaxEyeOffset = 0.6;       // [m] a seated driver's head is closer than this to the eye point
 
 }  // namespace
 
@@ -43,13 +43,14 @@ void SeatCalibration::seat_if_needed(const engine::EyePose& head, glm::dvec3 kno
     cabin_from_room_ = seat_at_eyes(head, places_, settings_.height);
 }
 
-// If the room was set up again while this program was not running, the saved touch is wrong. We only notice if the head
-// is then far from the driver's seat.
+// Uses the saved touch calibration again. It is wrong if the room was set up again while this program was not running,
+// which can be detected only if the head is far from the driver's seat as a result.
 void SeatCalibration::restore_touch(const engine::EyePose& head) {
   if (glm::distance(*settings_.touched * head.position, places_.eye) > kMaxEyeOffset) {
     message_ =
-        "your head is far from the wheel according to the saved touches: sit down and recentre, or touch the knob "
-        "again";
+        "according to the saved touch points, your head is far from the steering wheel. Sit down and recentre, or "
+        "touch "
+        "the knob again.";
     return;
   }
   touched_ = settings_.touched;
@@ -72,8 +73,8 @@ void SeatCalibration::on_headset_lost() noexcept {
   touched_.reset();
 }
 
-// When the origin of the tracking space moves, the real lever stays where it is, so the calibration is transformed. If
-// the user recentred, the user is seated again, except with a touched lever, whose position counts.
+// Adapts to a change of the tracking space. If its origin has moved, transforms the calibration, because the real lever
+// has not moved. If the user has recentred, seats the user again; a touched lever still determines the position.
 void SeatCalibration::follow(const engine::SpaceChange& change, bool is_room_persistent) {
   if (!change.is_session_space) {
     recentre();
@@ -92,7 +93,7 @@ void SeatCalibration::follow(const engine::SpaceChange& change, bool is_room_per
     return;
   }
   if (touched_ || (settings_.touched && is_room_persistent))
-    message_ = "the room was set up again: touch the knob again";
+    message_ = "the room was set up again, so the touch points no longer apply. Touch the knob again.";
   touched_.reset();
   recentre();
   if (!settings_.touched || !is_room_persistent) return;
@@ -108,18 +109,20 @@ void SeatCalibration::touch(const engine::EyePose& tip, glm::dvec3 knob_top) {
 
 void SeatCalibration::finish_touching(double bound, bool is_room_persistent) {
   if (touches_.count() < kMinTouches || !fit_.turned) {
-    message_ = "touch the knob in three gears or more that are far apart";
+    message_ = "touch the knob in at least three positions that are far apart, then save again";
     return;
   }
   const double fraction = touches_.tip_error_fraction();
   if (fraction < kMinErrorFraction) {
-    message_ = "turn the controller to the side for one touch and tilt it for another, by 45 degrees, then save again";
+    message_ =
+        "turn the controller sideways by 45 degrees for one touch and tilt it by 45 degrees for another, then save "
+        "again";
     return;
   }
-  const double error = fit_.worst / fraction;  // [m] possible error of the tip, of which only this fraction shows up
+  const double error = fit_.worst / fraction;  // [m] possible error of the tip: `worst` shows only this fraction of it
   if (error > bound) {
     message_ = fmt::format(
-        "the lever may be up to {:.0f} mm from where it is drawn, but only {:.0f} mm are allowed: touch it again",
+        "the lever may be up to {:.0f} mm from where it is drawn; at most {:.0f} mm is allowed. Touch the knob again.",
         1e3 * error, 1e3 * bound);
     stop_touching();
     return;
@@ -130,7 +133,8 @@ void SeatCalibration::finish_touching(double bound, bool is_room_persistent) {
   touches_.forget();
   if (!is_room_persistent) {
     message_ =
-        "the lever is drawn where you touched it, but only for today: the runtime will not recognise the room tomorrow";
+        "the lever is drawn where you touched it, but only for this session, because the headset's runtime cannot "
+        "recognise the room again";
     return;
   }
   settings_.touched = touched_;
@@ -139,11 +143,11 @@ void SeatCalibration::finish_touching(double bound, bool is_room_persistent) {
 }
 
 void SeatCalibration::apply_requests(const HeadsetRequests& requests, double bound, bool is_room_persistent) {
-  if (requests.touch && !touching_) {
+  if (requests.start_touching && !touching_) {
     touching_ = true;
     before_touching_ = cabin_from_room_;
   }
-  if (requests.touched && touching_) finish_touching(bound, is_room_persistent);
+  if (requests.save_touches && touching_) finish_touching(bound, is_room_persistent);
   if (requests.forget_touches && touching_) {
     stop_touching();
   } else if (requests.forget_touches) {

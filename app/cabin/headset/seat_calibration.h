@@ -1,5 +1,5 @@
-// Places the headset's user in the cabin: sitting down, changes of the tracking space, touching the lever. Holds the
-// calibration in use and saves it for later sessions.
+// Places the headset's user in the cabin: after sitting down, after changes of the tracking space, and by touching the
+// lever. Holds the calibration in use and saves it for later sessions.
 #pragma once
 
 #include <filesystem>
@@ -15,29 +15,29 @@ namespace gearshift::cabin {
 
 class SeatCalibration {
  public:
-  // file: where the settings are saved; empty: nowhere. driver_eye: in cabin axes.
+  // file: the file in which the settings are saved; empty: they are not saved. driver_eye: in cabin axes.
   SeatCalibration(const SeatSettings& settings, std::filesystem::path file, glm::dvec3 driver_eye);
 
   const engine::EyePose& cabin_from_room() const noexcept { return cabin_from_room_; }
   const SeatSettings& settings() const noexcept { return settings_; }
   void save_settings();
 
-  // Call for each frame shown. If the user is not seated yet, places the head at the driver's eyes, or at the known
-  // lever. is_room_persistent: the tracking space is the same in the next session.
+  // Call for each displayed frame. If the user is not seated yet, places the head at the driver's eyes, or relative to
+  // the lever if its position is known. is_room_persistent: the tracking space is the same in the next session.
   void seat_if_needed(const engine::EyePose& head, glm::dvec3 knob_at_rest, bool is_room_persistent);
   void recentre() noexcept { is_seated_ = false; }
-  void on_headset_removed() noexcept;  // taken off: the next user is seated again
-  void on_headset_lost() noexcept;     // connection lost: forgets its tracking space except for the saved settings
+  void on_headset_removed() noexcept;  // call when the headset is taken off: the next user is seated again
+  void on_headset_lost() noexcept;     // call when the connection is lost: only the saved settings are kept
   void follow(const engine::SpaceChange& change, bool is_room_persistent);
 
   bool is_touching() const noexcept { return touching_; }
-  void touch(const engine::EyePose& tip, glm::dvec3 knob_top);  // tip in the room, knob_top in the cabin
-  // bound [m]: allowed distance of real and drawn lever.
+  void touch(const engine::EyePose& tip, glm::dvec3 knob_top);  // tip: in the room; knob_top: in the cabin
+  // bound [m]: allowed distance between real and drawn lever.
   void apply_requests(const HeadsetRequests& requests, double bound, bool is_room_persistent);
 
-  double touch_error() const noexcept { return touched_ ? touch_error_ : 0.0; }  // [m] distance of real and drawn lever
+  double touch_error() const noexcept { return touched_ ? touch_error_ : 0.0; }  // [m] between real and drawn lever
   void report(HeadsetReport& report) const;
-  std::string take_message();  // returns a message once, one sentence; empty: none
+  std::string take_message();  // returns each message once, one sentence; empty: no message
 
  private:
   void restore_touch(const engine::EyePose& head);
@@ -49,8 +49,8 @@ class SeatCalibration {
   SeatPlaces places_;
   engine::EyePose cabin_from_room_;
   bool is_seated_ = false;
-  std::optional<engine::EyePose> touched_;  // in use
-  double touch_error_ = 0.0;                // [m] of touched_
+  std::optional<engine::EyePose> touched_;  // the touch calibration in use: pose of the room in the cabin
+  double touch_error_ = 0.0;                // [m] error of touched_
   bool touching_ = false;
   engine::EyePose before_touching_;
   LeverTouches touches_;

@@ -13,14 +13,15 @@ namespace gearshift::cabin {
 
 struct SeatSettings {
   DriveSide drive = DriveSide::left;       // the driver's side
-  double height = 0.0;                     // [m] -0.3 to 0.3, raises the seat; unused if the lever's position is known
-  std::optional<KnobDistance> knob;        // measured from the eyes; [m] each -1.5 to 1.5
-  std::optional<engine::EyePose> touched;  // cabin from room, as determined by touching the lever
-  double touch_error = 0.0;                // [m] 0 to 0.1: error of the touches
+  double height = 0.0;                     // [m] -0.3 to 0.3: raises the seat; unused if the lever's position is known
+  std::optional<KnobDistance> knob;        // [m] measured from the eyes, each -1.5 to 1.5
+  std::optional<engine::EyePose> touched;  // pose of the room in the cabin, from touching the lever
+  double touch_error = 0.0;                // [m] 0 to 0.1: error of `touched`
 };
 
 // Returns default settings if the file does not exist. Throws FileError.
 SeatSettings read_seat(const std::filesystem::path& file);
-void write_seat(const SeatSettings& seat, const std::filesystem::path& file);  // and its folder. Throws FileError
+// Creates the file's folder if it is missing. Throws FileError.
+void write_seat(const SeatSettings& seat, const std::filesystem::path& file);
 
 }  // namespace gearshift::cabin

@@ -10,12 +10,12 @@ namespace gearshift::cabin {
 
 namespace {
 
-// Ahead of the dashboard. The engine is in the car's middle, 0.37 m to the right, but the whole bulkhead radiates its
-// sound.
+// Place of the engine's sound: ahead of the dashboard, 0.2 m to the driver's right. The engine itself is in the car's
+// middle, 0.37 m to the right, but the whole bulkhead radiates its sound.
 constexpr glm::vec3 kEnginePlace{0.2f, 0.2f, -1.5f};  // [m]
 constexpr glm::vec3 kCluster{0.0f, 0.37f, -0.70f};    // [m]
 constexpr float kWarningGain = 0.55f, kOverRevGain = 0.45f;
-constexpr float kWarningRadius = 0.5f;  // [m] large enough that both ears hear it, wherever the driver looks
+constexpr float kWarningRadius = 0.5f;  // [m] so large that both ears hear a warning, wherever the driver looks
 
 }  // namespace
 
@@ -26,9 +26,9 @@ CabinSound::CabinSound(engine::SoundWorld& world, const CabinSoundConfig& config
       gear_in_(world.add_clip(gear_in_click())),
       gear_out_(world.add_clip(gear_out_click())),
       car_(world),
-      over_push_{silent_loop(world, over_push_loop()), {kWarningLength, 0.0}},
-      saturation_{silent_loop(world, saturation_loop()), {kWarningLength, kSaturationHold}},
-      over_rev_{silent_loop(world, over_rev_loop()), {kWarningLength, kSaturationHold}} {
+      over_push_{start_silent_loop(world, over_push_loop()), {kWarningLength, 0.0}},
+      saturation_{start_silent_loop(world, saturation_loop()), {kWarningLength, kSaturationHold}},
+      over_rev_{start_silent_loop(world, over_rev_loop()), {kWarningLength, kSaturationHold}} {
   set_config(config);
 }
 
@@ -36,7 +36,7 @@ void CabinSound::set_config(const CabinSoundConfig& config) {
   for (const auto& [cylinders, engine] : engines_) engine.set(world_, 0.0, 0.0, 0.0, kEnginePlace);
   config_ = config;
   config_.cylinders = std::clamp(config.cylinders, 1, 12);
-  if (config_.engine) engine_voices();  // synthesised now, because it would delay a frame
+  if (config_.engine) engine_voices();  // synthesised now, because synthesis in update() would delay a frame
   world_.set_volume(config_.volume);
 }
 
@@ -56,7 +56,7 @@ void CabinSound::on_event(const haptics::HapticEvent& event, glm::vec3 knob) {
     case haptics::EventKind::saturation_begin:
       return saturation_.hold.begin();
     default:
-      return;  // the ends are in the snapshot's flags; other events have no sound
+      return;  // a warning's end is in the snapshot's flags; other events have no sound
   }
 }
 

@@ -1,5 +1,4 @@
-// The sounds of the cabin: engine, starter, stall, grind, knocks, detents, warnings. All are synthesised, none is
-// recorded.
+// The sounds of the cabin: engine, starter, stall, grind, knocks, detents, warnings. All sounds are synthesised.
 #pragma once
 
 #include <map>
@@ -19,24 +18,24 @@ namespace gearshift::cabin {
 struct CabinSoundConfig {
   float volume = 0.7f;  // [1] 0 to 1
   bool engine = true;
-  int cylinders = 4;            // 1 to 12, four-stroke: fires cylinders / 2 times per revolution
+  int cylinders = 4;            // 1 to 12; the four-stroke engine fires cylinders / 2 times per revolution
   double dog_teeth = 36.0;      // [1] > 0; number of dog teeth, sets the pitch of the grind
-  double loudest_impact = 0.5;  // [m/s] impact speed for full gain of the knock; below, gain is proportional to speed
+  double loudest_impact = 0.5;  // [m/s] impact speed for full gain of the knock; proportionally less below it
 };
 
 inline constexpr double kWarningLength = 0.3;  // [s] minimum length of a warning
-inline constexpr double kSaturationHold =
-    0.25;  // [s] saturation or over-rev that returns within this time continues the same warning
+// [s] Saturation or over-rev that returns within this time continues the same warning.
+inline constexpr double kSaturationHold = 0.25;
 
 class CabinSound {
  public:
-  // The world must outlive it.
+  // The world must outlive this object.
   CabinSound(engine::SoundWorld& world, const CabinSoundConfig& config);
 
   void on_event(const haptics::HapticEvent& event, glm::vec3 knob);  // call once for each event of the loop
-  // Call in each frame, after the events: updates the engine by speed and load, starter, judder, limiter and grind;
-  // plays a chime when the engine stalls; sounds warnings while over-push, saturation or over-rev last. Ends with the
-  // world's update(time). Coordinates are the cabin's: metres, +X right, +Y up, -Z ahead.
+  // Call in each frame, after on_event(). Updates the sounds of engine (by speed and load), starter, judder, limiter
+  // and grind; plays a chime when the engine stalls; sounds warnings while over-push, saturation or over-rev last.
+  // Calls the world's update(time) at the end. Coordinates are the cabin's: metres, +X right, +Y up, -Z ahead.
   void update(const haptics::HapticSnapshot& lever, const vehicle::VehicleState& car, const engine::EyePose& ears,
               glm::vec3 knob, double time);
   void set_config(const CabinSoundConfig& config);
@@ -58,7 +57,7 @@ class CabinSound {
   engine::ClipId knock_, gear_in_, gear_out_;
   CarVoices car_;
   Warning over_push_, saturation_, over_rev_;
-  // By number of cylinders: a world keeps its clips, so each engine is synthesised only once
+  // The engines by number of cylinders. A SoundWorld never drops its clips, so each engine is synthesised only once.
   std::map<int, EngineVoices> engines_;
 };
 

@@ -13,10 +13,10 @@ namespace gearshift::cabin {
 
 namespace {
 
-constexpr double kFiringsAt1Rpm = 2.0 / 60.0;  // [Hz] firing rate of four cylinders at 1 / min
+constexpr double kFiringsAt1Rpm = 2.0 / 60.0;  // [Hz] firing rate of four cylinders per 1/min of engine speed
 
 struct Partial {
-  double frequency;  // [Hz] must fit the loop a whole number of times
+  double frequency;  // [Hz] a whole number of periods must fit in the loop
   double amplitude;
 };
 
@@ -28,19 +28,19 @@ void add_partials(std::vector<float>& loop, std::initializer_list<Partial> parti
   }
 }
 
-// Phase of sample n between two of `count` beats in the loop, 0 to 1.
+// Phase of sample n between two beats of a loop with `count` beats and `size` samples, 0 to 1.
 double phase_of(std::size_t n, std::size_t count, std::size_t size) {
   return static_cast<double>(n * count % size) / static_cast<double>(size);
 }
 
-// Envelope that rises at each beat and decays. rise, fall: [1] fraction of the beat period.
+// Envelope that rises at the beat and then decays. rise, fall: durations as fractions of the beat period [1].
 double beat(double phase, double rise, double fall) {
   return std::min(phase / rise, 1.0) * std::exp(-phase / fall);
 }
 
-// The same strike at every beat of a loop; its tail wraps from the end to the beginning.
+// A loop with the same strike at every beat; the tail of the last strike continues at the beginning of the loop.
 std::vector<float> repeated_strikes(std::size_t size, std::size_t beats, std::initializer_list<Mode> modes) {
-  constexpr double kTail = 0.3;  // [s] the slowest mode has decayed to exp(-10)
+  constexpr double kTail = 0.3;  // [s] by then the slowest mode has decayed to exp(-10)
   std::vector<float> hit(samples_in(kTail)), out(size);
   strike(hit, 0.0, 1.0, modes);
   fade_out(hit, 0.05);
@@ -52,9 +52,9 @@ std::vector<float> repeated_strikes(std::size_t size, std::size_t beats, std::in
 
 }  // namespace
 
-// The strength varies from tooth to tooth.
+// Noise bursts, one per tooth, whose strength varies from tooth to tooth.
 std::vector<float> grind_loop() {
-  constexpr auto kTeeth = static_cast<std::size_t>(kGrindLoopRate);  // per second
+  constexpr auto kTeeth = static_cast<std::size_t>(kGrindLoopRate);  // number of teeth in the loop of 1 s
   constexpr double kRise = 0.05, kFall = 0.3;
   std::vector<float> out = looping_noise(samples_in(1.0), 1);
   loop_high_pass(out, 700.0);
@@ -107,7 +107,7 @@ std::vector<float> judder_loop() {
 }
 
 std::vector<float> limiter_loop() {
-  constexpr auto kPops = static_cast<std::size_t>(kLimiterRate);  // per second
+  constexpr auto kPops = static_cast<std::size_t>(kLimiterRate);  // number of pops in the loop of 1 s
   std::vector<float> out = looping_noise(samples_in(1.0), 31);
   loop_high_pass(out, 200.0);
   loop_low_pass(out, 1200.0);
@@ -129,7 +129,7 @@ std::vector<float> over_rev_loop() {
 }
 
 std::vector<float> stall_chime() {
-  constexpr double kApart = 0.22;  // [s]
+  constexpr double kApart = 0.22;  // [s] from the first bell to the second
   std::vector<float> out(samples_in(1.2));
   for (const int n : {0, 1}) {
     const double f = kStallTones[n];

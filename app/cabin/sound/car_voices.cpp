@@ -11,14 +11,14 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr double kMinGrindGain = 0.32, kMaxGrindGain = 0.50;  // [1]
-constexpr double kLoudGrind = 100.0;                          // [W] when the hand pushes hard
+constexpr double kLoudGrind = 100.0;                          // [W] power for kMaxGrindGain: the hand pushes hard
 constexpr double kStarterGain = 0.30, kJudderGain = 0.60, kLimiterGain = 0.22, kChimeGain = 0.8;  // [1]
-constexpr double kCutHold = 0.12;                                                                 // [s]
-constexpr float kChimeRadius = 0.5f;  // [m] large enough for both ears
+constexpr double kCutHold = 0.12;     // [s] longer than the limiter's pauses between fuel cuts
+constexpr float kChimeRadius = 0.5f;  // [m] so large that both ears hear the chime
 
-// Pitch of a loop made for one speed and played at another.
-float pitch_of(double speed, double made_at) {
-  return static_cast<float>(speed / made_at);
+// Pitch at which a loop made for `loop_speed` must be played for `speed`.
+float pitch_of(double speed, double loop_speed) {
+  return static_cast<float>(speed / loop_speed);
 }
 
 double rpm(const vehicle::VehicleState& car) {
@@ -27,7 +27,7 @@ double rpm(const vehicle::VehicleState& car) {
 
 }  // namespace
 
-engine::VoiceId silent_loop(engine::SoundWorld& world, const std::vector<float>& samples) {
+engine::VoiceId start_silent_loop(engine::SoundWorld& world, const std::vector<float>& samples) {
   return world.loop(world.add_clip(samples), {.gain = 0.0f});
 }
 
@@ -40,10 +40,10 @@ double grind_gain(double power) noexcept {
 }
 
 CarVoices::CarVoices(engine::SoundWorld& world)
-    : grind_(silent_loop(world, grind_loop())),
-      starter_(silent_loop(world, starter_loop())),
-      judder_(silent_loop(world, judder_loop())),
-      limiter_(silent_loop(world, limiter_loop())),
+    : grind_(start_silent_loop(world, grind_loop())),
+      starter_(start_silent_loop(world, starter_loop())),
+      judder_(start_silent_loop(world, judder_loop())),
+      limiter_(start_silent_loop(world, limiter_loop())),
       chime_(world.add_clip(stall_chime())),
       cut_(kCutHold, kCutHold) {}
 

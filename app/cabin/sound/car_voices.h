@@ -11,13 +11,14 @@
 
 namespace gearshift::cabin {
 
-// Rate at which teeth pass each other, |difference| [rad/s] * teeth / (2 pi). [Hz]
+// Rate at which teeth pass each other [Hz]: |difference| * teeth / (2 pi). difference [rad/s]: of the two speeds.
 double tooth_pass_rate(double difference, double teeth) noexcept;
-// Gain, 0 to 1, of dogs that rattle with this power [W]: grows with its square root from an audible minimum.
+// Gain, 0 to 1, of the sound of dogs that rattle with this power [W]. It grows from an audible minimum with the square
+// root of the power.
 double grind_gain(double power) noexcept;
 
 // Starts a loop at gain 0.
-engine::VoiceId silent_loop(engine::SoundWorld& world, const std::vector<float>& samples);
+engine::VoiceId start_silent_loop(engine::SoundWorld& world, const std::vector<float>& samples);
 
 class CarVoices {
  public:
@@ -26,7 +27,7 @@ class CarVoices {
   struct Place {
     glm::vec3 engine{0.0f}, knob{0.0f}, cluster{0.0f};  // [m] world
   };
-  // Call in each frame. engine: play starter, judder and limiter as well. teeth: of the dogs. time in [s].
+  // Call in each frame. engine: also play starter, judder and limiter. teeth: number of dog teeth. time [s].
   void set(engine::SoundWorld& world, const vehicle::VehicleState& car, bool engine, double teeth, const Place& at,
            double time);
 
@@ -37,8 +38,8 @@ class CarVoices {
 
   engine::VoiceId grind_, starter_, judder_, limiter_;
   engine::ClipId chime_;
-  WarningHold cut_;      // the limiter switches the fuel on and off: hold turns that into one stutter
-  bool stalled_ = true;  // in the previous frame; initially true, so that a car that starts stalled stays silent
+  WarningHold cut_;      // joins the limiter's many short fuel cuts into one continuous stutter
+  bool stalled_ = true;  // state in the previous frame; at first true: a car that starts stalled is silent
 };
 
 }  // namespace gearshift::cabin

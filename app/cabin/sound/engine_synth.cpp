@@ -13,25 +13,26 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr double kTau = 2.0 * std::numbers::pi;
-constexpr std::size_t kCycles = 40;  // 2 s: long enough that the noise does not seem to repeat
+constexpr std::size_t kCycles = 40;  // engine cycles per loop: 2 s, so long that the noise does not seem to repeat
 constexpr std::size_t kCycleSamples = static_cast<std::size_t>(engine::kSoundRate * 120.0 / kEngineLoopSpeed);
-constexpr double kMaxFrequency = 4000.0;  // [Hz] as heard at the band's own speed
+constexpr double kMaxFrequency = 4000.0;  // [Hz] highest frequency heard at the band's own speed
 constexpr std::array<double, kEngineBands.size()> kLevels = {0.10, 0.14, 0.18, 0.22};  // RMS of the tone, full load
 
-// Heard frequency at the band's own speed, for 1 Hz of the loop.
+// Ratio of the frequency heard at the band's own speed to the frequency in the loop.
 double audible_per_loop_hertz(std::size_t band) {
   return kEngineBands[band] / kEngineLoopSpeed;
 }
 
-// Highest frequency in the loop: higher ones would alias at the highest pitch of this band.
+// [Hz] Highest frequency allowed in the loop: at most kMaxFrequency when heard, and not so high that it would alias at
+// the highest pitch of this band.
 double loop_limit(std::size_t band) {
   const double fastest = band + 1 < kEngineBands.size() ? kEngineBands[band + 1] : 8000.0;
   return std::min(kMaxFrequency / audible_per_loop_hertz(band), 0.45 * engine::kSoundRate * kEngineLoopSpeed / fastest);
 }
 
-// Amplitude of order k (of the engine cycle) of a pulse train with one pulse per cylinder: 1 if k is a multiple of the
-// number of cylinders. Other orders only have the differences between the cylinders' strengths, the half orders of a
-// real engine.
+// Amplitude of an order (multiple of the engine cycle's frequency) in a pulse train with one pulse per cylinder: about
+// 1 if the order is a multiple of the number of cylinders. The other orders, like the half orders of a real engine,
+// come only from differences between the cylinders' strengths.
 double pulse_train(int order, int cylinders) {
   constexpr float kSpread = 0.12f;
   Noise strengths(7);
@@ -43,8 +44,8 @@ double pulse_train(int order, int cylinders) {
   return std::abs(sum) / cylinders;
 }
 
-// Body resonances: amplifies frequencies where panels and exhaust ring, by less than a pulse loses from one firing
-// harmonic to the next, so that the firing frequency stays strongest.
+// Gain of the body's resonances, where panels and exhaust ring. The gain is smaller than the loss of a pulse from one
+// firing harmonic to the next, so that the firing frequency stays strongest.
 double resonances(double hertz) {
   const auto bump = [hertz](double centre, double gain) {
     const double octaves = std::log2(hertz / centre) / 0.35;
@@ -53,7 +54,7 @@ double resonances(double hertz) {
   return 1.0 + bump(125.0, 0.25) + bump(310.0, 0.3) + bump(640.0, 0.3) + bump(1500.0, 0.4);
 }
 
-// The bulkhead's low pass: muffled when coasting; more throttle raises corner frequency and level.
+// Gain of the bulkhead's low pass: the sound is muffled when coasting; full throttle raises corner frequency and level.
 double throttle_filter(double hertz, EngineLoad load) {
   constexpr double kCoasting = 0.3;
   if (load == EngineLoad::full) return std::pow(1.0 + std::pow(hertz / 450.0, 2.0), -0.9);
@@ -66,7 +67,7 @@ double partial(int order, int cylinders, std::size_t band, EngineLoad load) {
   return pulse_train(order, cylinders) * pulse * resonances(hertz) * throttle_filter(hertz, load);
 }
 
-// RMS of the tone at full load before levelling: partials of different orders add in power.
+// RMS of the tone at full load before its level is set; partials of different orders add in power.
 double full_tone_rms(int cylinders, std::size_t band, int orders) {
   double power = 0.0;
   for (int order = 1; order <= orders; ++order) {
@@ -75,14 +76,14 @@ double full_tone_rms(int cylinders, std::size_t band, int orders) {
   return std::sqrt(power);
 }
 
-// Sine table of one cycle; order k steps through it k entries at a time.
+// A table with one period of a sine; order k steps through it k entries at a time.
 std::array<double, kCycleSamples> sine_of_cycle() {
   std::array<double, kCycleSamples> table{};
   for (std::size_t n = 0; n < table.size(); ++n) table[n] = std::sin(kTau * static_cast<double>(n) / kCycleSamples);
   return table;
 }
 
-// One cycle; phases are random but the same in every loop.
+// The tone of one engine cycle. Its phases are random but the same in every loop.
 std::vector<double> tone_cycle(int cylinders, std::size_t band, EngineLoad load) {
   static const auto sine = sine_of_cycle();
   const int orders = static_cast<int>(loop_limit(band) * 120.0 / kEngineLoopSpeed);
@@ -100,8 +101,8 @@ std::vector<double> tone_cycle(int cylinders, std::size_t band, EngineLoad load)
   return cycle;
 }
 
-// Intake and exhaust noise, gated by the firings; always from the same seed, so that the loops' noise also mixes in
-// phase.
+// The noise of intake and exhaust, gated by the firings. The seed is always the same, so that the noise of different
+// loops also mixes in phase.
 std::vector<float> rush(int cylinders, std::size_t band, EngineLoad load) {
   const bool is_full = load == EngineLoad::full;
   const double to_loop = 1.0 / audible_per_loop_hertz(band);
@@ -126,17 +127,17 @@ std::vector<float> engine_loop(int cylinders, std::size_t band, EngineLoad load)
 }
 
 std::array<double, kEngineBands.size()> band_weights(double speed) {
-  std::array<double, kEngineBands.size()> shares{};
+  std::array<double, kEngineBands.size()> weights{};
   std::size_t upper = 0;
   while (upper < kEngineBands.size() && kEngineBands[upper] <= speed) ++upper;
   if (upper == 0 || upper == kEngineBands.size()) {
-    shares[upper == 0 ? 0 : upper - 1] = 1.0;
-    return shares;
+    weights[upper == 0 ? 0 : upper - 1] = 1.0;
+    return weights;
   }
   const double low = kEngineBands[upper - 1], high = kEngineBands[upper];
-  shares[upper] = std::log(speed / low) / std::log(high / low);
-  shares[upper - 1] = 1.0 - shares[upper];
-  return shares;
+  weights[upper] = std::log(speed / low) / std::log(high / low);
+  weights[upper - 1] = 1.0 - weights[upper];
+  return weights;
 }
 
 }  // namespace gearshift::cabin

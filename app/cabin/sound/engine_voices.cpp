@@ -20,12 +20,12 @@ EngineVoices::EngineVoices(engine::SoundWorld& world, int cylinders) {
 }
 
 void EngineVoices::set(engine::SoundWorld& world, double speed, double load, double gain, glm::vec3 position) const {
-  const auto shares = band_weights(speed);
+  const auto weights = band_weights(speed);
   const double throttle = std::clamp(load, 0.0, 1.0);
   const double running = gain * std::clamp(speed / kRunning, 0.0, 1.0);
   const auto pitch = static_cast<float>(speed / kEngineLoopSpeed);
   for (std::size_t band = 0; band < kEngineBands.size(); ++band) {
-    const double level = running * shares[band];
+    const double level = running * weights[band];
     world.set(voices_[band][0], {position, static_cast<float>(level * (1.0 - throttle)), pitch});
     world.set(voices_[band][1], {position, static_cast<float>(level * throttle), pitch});
   }

@@ -1,4 +1,4 @@
-// Seeded noise, and filters for loops: their output continues from the end into the beginning.
+// Seeded noise, and filters for loops, whose output continues from the end of the loop into its beginning.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace gearshift::cabin {
 
-// Uniform in [-1, 1). The same numbers on every machine, which the distributions of std do not guarantee.
+// Uniform random numbers, -1 <= x < 1, the same on every machine, which the distributions of std do not guarantee.
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) : state_(seed) {}
@@ -19,7 +19,7 @@ class Noise {
 
 std::vector<float> looping_noise(std::size_t samples, std::uint64_t seed);
 
-// First order, in place; corner frequency in [Hz] at kSoundRate.
+// First-order filters, in place. corner: corner frequency [Hz] at kSoundRate.
 void loop_low_pass(std::vector<float>& samples, double corner);
 void loop_high_pass(std::vector<float>& samples, double corner);
 

@@ -31,7 +31,7 @@ std::vector<float> gear_out_click() {
 }
 
 std::vector<float> over_push_loop() {
-  constexpr double kEach = 0.2;  // [s]
+  constexpr double kEach = 0.2;  // [s] length of each tone
   std::vector<float> out(samples_in(2.0 * kEach));
   for (const int n : {0, 1}) tone(out, n * kEach, kEach, kOverPushTones[n]);
   normalise(out, 0.9f);

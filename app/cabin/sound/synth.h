@@ -1,19 +1,19 @@
-// Synthesises the lever's sounds and its warnings: mono samples in [-1, 1] at kSoundRate. Pure functions: identical
-// samples at every call. Loops repeat without a click.
+// Synthesises the lever's sounds and its warnings: mono samples from -1 to 1 at kSoundRate, identical in every call.
+// Loops repeat without a click.
 #pragma once
 
 #include <vector>
 
 namespace gearshift::cabin {
 
-// Played once.
+// Sounds that are played once.
 std::vector<float> wall_knock();     // the lever against the gate: steel on steel, damped by the lever
 std::vector<float> gear_in_click();  // the detent falls in, then the sleeve meets its stop
 std::vector<float> gear_out_click();
 
-// Loops.
-std::vector<float> over_push_loop();   // two alternating tones, 2.5 times per second, without a pause
-std::vector<float> saturation_loop();  // three short beeps of one higher tone, then a pause
+// Sounds that are played as loops.
+std::vector<float> over_push_loop();   // two alternating tones of 0.2 s each, without a pause
+std::vector<float> saturation_loop();  // three short beeps of a higher tone, then a pause
 
 inline constexpr double kOverPushTones[2] = {1200.0, 1600.0};  // [Hz]
 inline constexpr double kSaturationTone = 2500.0;              // [Hz]

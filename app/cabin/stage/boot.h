@@ -10,9 +10,11 @@
 
 namespace gearshift::cabin {
 
-// The bottom on the console is fixed, the collar moves with the lever, and in between w = smoothstep(y / H) blends:
-//   p' = p + w (P + R (p - P) - p), H = 0.058 m the collar's height, P = (0, -0.030, 0) the pivot, R the lever's turn.
-// Normals and tangents follow from the derivative of that map. rest and out are in the boot's frame; out is resized.
+// Bends the boot. Its bottom on the console is fixed, its collar moves with the lever, and between them the weight
+// w = smoothstep(y / H) blends the position p at rest:
+//   p' = p + w (P + R (p - P) - p)
+// with the collar's height H = 0.058 m, the pivot P = (0, -0.030, 0) m and the lever's rotation R. Normals and tangents
+// follow from the derivative of this map. rest and out are in the boot's frame; out is resized.
 void deform_boot(std::span<const engine::Vertex> rest, const glm::dquat& lever, std::vector<engine::Vertex>& out);
 
 }  // namespace gearshift::cabin

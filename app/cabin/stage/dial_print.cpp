@@ -15,18 +15,18 @@ namespace gearshift::cabin {
 namespace {
 
 // Layout of the dial in the upper left corner of the texture atlas, as drawn by assets/models/craft/prints.py.
-constexpr int kDial = 672;                                 // [px]
-constexpr double kUnit = kDial / 512.0;                    // [px] unit of the radii below
+constexpr int kDial = 672;                                 // [px] side of the square dial
+constexpr double kUnit = kDial / 512.0;                    // [px] unit of the following radii
 constexpr double kNumbersFrom = 132.0;                     // inner radius of the numbers
 constexpr double kTicksFrom = 200.0;                       // inner radius of ticks and arc
-constexpr double kArcFrom = 227.0, kEnd = 240.0;           // the arc's radii
-constexpr double kRim = 242.0;                             // beyond is only the rim
-constexpr double kTickStep = 250.0, kNumberStep = 1000.0;  // [1/min]
-constexpr double kGround = 30.0;                           // of 255: darker pixels are background
+constexpr double kArcFrom = 227.0, kEnd = 240.0;           // inner and outer radius of the red arc
+constexpr double kRim = 242.0;                             // radius beyond which there is only the rim
+constexpr double kTickStep = 250.0, kNumberStep = 1000.0;  // [1/min] between neighbouring ticks, numbers
+constexpr double kGround = 30.0;                           // 0 to 255: darker pixels are background
 
-using Colour = std::array<double, 3>;  // of 255, sRGB
+using Colour = std::array<double, 3>;  // sRGB, 0 to 255
 
-// Ink colours of one of the two textures.
+// Ink colours of one of the dial's two textures.
 struct Print {
   Colour red, arc;
 };
@@ -34,24 +34,24 @@ constexpr std::array<Print, 2> kPrints{{{{235.0, 50.0, 40.0}, {205.0, 28.0, 24.0
                                         {{188.0, 40.0, 32.0}, {150.0, 12.0, 8.0}}}};  // emissive
 constexpr Colour kWhite{236.0, 238.0, 240.0};
 
-glm::dvec2 off_middle(int x, int y) {  // [px] right, up
+glm::dvec2 off_middle(int x, int y) {  // [px] from the dial's middle, right and up +
   return {x + 0.5 - 0.5 * kDial, 0.5 * kDial - (y + 0.5)};
 }
 
-// [1/min] The value a needle pointing there would show; below 0 or above the top beyond the scale.
+// [1/min] The value that a needle pointing at this place would show; below 0 or above kTachTop outside the scale.
 double value_at(glm::dvec2 off) {
   const double zero = needle_angle(0.0, kTachTop), top = needle_angle(kTachTop, kTachTop);
   return kTachTop * (zero + std::atan2(off.x, off.y)) / (zero - top);
 }
 
-// Coverage 0 to 1 of a pixel whose centre is `inside` [px] inside an edge.
+// Coverage, 0 to 1, of a pixel whose centre is `inside` [px] inside an edge.
 double soft(double inside) {
   return std::clamp(0.5 + inside, 0.0, 1.0);
 }
 
 class RedLinePainter {
  public:
-  // before: the dial as in the file. from [1/min]: start of the red range
+  // before: the dial as in the file. picture: the texture to paint. from [1/min]: start of the red range.
   RedLinePainter(const engine::Image& before, engine::Image& picture, const Print& print, double from)
       : before_(before), picture_(picture), print_(print), from_(from) {}
 
@@ -66,13 +66,14 @@ class RedLinePainter {
   }
 
  private:
-  // The scale is symmetric, and the file's arc covers only ticks in the right half, so use the left half.
+  // Paints one pixel. Copies ticks from the left half of the file's dial, which is free of the file's red arc; this
+  // works in the right half too, because the scale is symmetric.
   void paint(int x, int y, double radius, glm::dvec2 off) {
     const bool is_tick = radius > kTicksFrom;
     const std::uint8_t* printed = before_.pixel(is_tick ? std::min(x, kDial - 1 - x) : x, y);
     std::uint8_t* out = picture_.pixel(x, y);
     std::copy(printed, printed + 3, out);
-    if (printed[0] <= kGround && radius < kArcFrom - 1.0) return;  // most of the dial
+    if (printed[0] <= kGround && radius < kArcFrom - 1.0) return;  // background, most of the dial
     const double value = value_at(off);
     Colour colour{static_cast<double>(printed[0]), static_cast<double>(printed[1]), static_cast<double>(printed[2])};
     const double ink = std::clamp((colour[0] - kGround) / (print_.red[0] - kGround), 0.0, 1.0);
@@ -84,7 +85,7 @@ class RedLinePainter {
     }
   }
 
-  // A tick or number has a single colour, so its nominal value decides.
+  // True if the tick or number nearest to the value is red. Its nominal value decides, so that it has a single colour.
   bool is_red(double value, double step) const { return step * std::round(value / step) >= from_; }
 
   Colour inked(double strength, bool red) const {

@@ -1,4 +1,4 @@
-// The tachometer's red line, drawn for the current car.
+// Draws the tachometer's red line for the current car.
 #pragma once
 
 #include <array>
@@ -7,21 +7,21 @@
 
 namespace gearshift::cabin {
 
-// The dial in the cabin's file has its own red line. This recolours arc, ticks and numbers in the base-colour and
-// emissive textures: red from the car's red line to the end of the scale. With a red line beyond the scale nothing is
-// red.
+// The dial in the cabin's file has a red line of its own. This class recolours arc, ticks and numbers in the
+// base-colour and emissive textures so that they are red from the car's red line to the end of the scale. If the car's
+// red line is beyond the scale, nothing is red.
 class DialPrint {
  public:
   // Saves the dial textures of the model. Throws std::runtime_error if the model has none.
   explicit DialPrint(const engine::Model& model);
 
-  // Draws into that model's textures. red_line [rad/s]; 0 or less: no car, the dial is unchanged. True if it changed.
+  // Draws into the model's textures. red_line [rad/s]; <= 0: no car, the dial stays. Returns true if the dial changed.
   bool print(engine::Model& model, double red_line);
 
  private:
-  std::array<int, 2> texture_;             // base colour, emissive
-  std::array<engine::Image, 2> original_;  // the dial's part of each, as in the file
-  double red_line_ = 0.0;                  // [rad/s] drawn last; 0: that of the file
+  std::array<int, 2> texture_;             // indices of the base-colour and the emissive texture
+  std::array<engine::Image, 2> original_;  // the dial's part of these textures, as in the file
+  double red_line_ = 0.0;                  // [rad/s] red line drawn last; 0: the dial is as in the file
 };
 
 }  // namespace gearshift::cabin

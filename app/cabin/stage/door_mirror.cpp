@@ -5,8 +5,8 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr float kRadius = 1.2f;  // [m] minimum for door mirrors in UN Regulation 46
-constexpr float kTilt = 0.035f;  // [rad] towards the ground
+constexpr float kRadius = 1.2f;  // [m] minimum radius of curvature of door mirrors in UN Regulation 46
+constexpr float kTilt = 0.035f;  // [rad] tilt towards the ground
 
 }  // namespace
 

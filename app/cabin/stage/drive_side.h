@@ -7,9 +7,9 @@ namespace gearshift::cabin {
 
 enum class DriveSide { left, right };
 
-// [m] The right-hand-drive cabin is the left-hand-drive one mirrored at this plane, which passes through the lever, 5
-// mm beside the car's centre plane. Lever and gate therefore stay in place within the console's opening. The car shifts
-// 1 cm to the left, which is not visible because the road shifts with it.
+// [m] x of the plane at which the left-hand-drive cabin is mirrored to get the right-hand-drive one. The plane passes
+// through the lever, 5 mm from the car's centre plane, so that lever and gate stay in place within the console's
+// opening. The car is thereby shifted by 1 cm, which is not visible because the road is shifted too.
 inline constexpr double kMirrorPlane = 0.330;
 
 inline glm::dvec3 on_side(DriveSide side, glm::dvec3 point) noexcept {

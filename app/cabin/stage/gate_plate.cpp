@@ -10,17 +10,17 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr glm::dvec2 kPlinthHalf{0.0640, 0.0680};          // [m] of the plinth's foot, like the boot's frame
+constexpr glm::dvec2 kPlinthHalf{0.0640, 0.0680};          // [m] half size of the plinth's foot, as of the boot's frame
 constexpr glm::dvec2 kMinHalf{0.034, 0.040};               // [m] minimum half size of the plate
-constexpr double kSideMargin = 0.009, kEndMargin = 0.006;  // [m] beyond openings and labels
-constexpr double kLampRoom = 0.010;                        // [m] ahead of the labels
-constexpr double kCorner = 0.010;                          // [m]
+constexpr double kSideMargin = 0.009, kEndMargin = 0.006;  // [m] metal beyond openings and labels
+constexpr double kLampRoom = 0.010;                        // [m] room for the lamp ahead of the labels
+constexpr double kCorner = 0.010;                          // [m] radius of the plate's corners
 constexpr int kCornerSteps = 6;
 constexpr double kBevel = 0.0004;     // [m] bevel of the outer edge
-constexpr double kLip = 0.0022;       // [m] metal above the plinth
-constexpr double kInkAbove = 0.0001;  // [m] the enamel is slightly raised
+constexpr double kLip = 0.0022;       // [m] height of the metal edge above the plinth
+constexpr double kInkAbove = 0.0001;  // [m] height of the labels' enamel above the face
 constexpr double kSign = 0.0090;      // [m] maximum label height
-constexpr double kSignGap = 0.0025;   // [m] between opening and label
+constexpr double kSignGap = 0.0025;   // [m] distance between opening and label
 constexpr double kSignWidth = 0.6;    // width of a label relative to its height
 constexpr glm::vec3 kInk{0.015f}, kReverseInk{0.42f, 0.012f, 0.010f}, kBright{1.0f}, kDeep{0.22f};
 
@@ -30,8 +30,8 @@ Loop scaled(const Loop& loop, double factor) {
   return copy;
 }
 
-// The face, its bevelled edges, the plinth, and the walls of the opening. The walls converge towards the pivot, so that
-// they are parallel to the leaning lever.
+// Makes the face, its bevelled edges, the plinth, and the walls of the opening. The walls converge towards the pivot,
+// so that they are parallel to the leaning lever.
 void make_metal(GatePlate& plate) {
   const Loop& path = plate.opening.loop;
   const double edge = kPlateHeight - plate.opening.bevel, floor = kPlateHeight - kPlateThickness;
@@ -56,8 +56,8 @@ void make_metal(GatePlate& plate) {
   add_wall(plate.metal, {throat, edge, bright}, {bottom, floor, deep}, WallFace::from_left);
 }
 
-// Smallest distance of neighbouring columns, at the knob. [m]
-double sign_room(const haptics::Gate& gate) {
+// Smallest distance between neighbouring columns, measured at the knob. [m]
+double label_room(const haptics::Gate& gate) {
   double room = 1.0;
   for (int i = 0; i + 1 < gate.column_count; ++i) {
     room = std::min(room, haptics::column_of(gate, i + 1).center - haptics::column_of(gate, i).center);
@@ -70,7 +70,7 @@ void add_label(GatePlate& plate, const haptics::Gate& gate, const haptics::YokeG
   const double side = static_cast<int>(slot.side);
   const double x = haptics::column_of(gate, slot.column).center;
   const glm::dvec2 end = plate_point(yoke, {x, side * slot.end}, kPlateHeight);
-  const double height = std::min(kSign, sign_room(gate) * kPlateHeight / yoke.radius / kSignWidth * 0.8);
+  const double height = std::min(kSign, label_room(gate) * kPlateHeight / yoke.radius / kSignWidth * 0.8);
   const glm::dvec2 centre = end + glm::dvec2(0.0, side * (plate.opening.widened + kSignGap + 0.5 * height));
   plate.labels.push_back({slot.gear, centre, height});
   const glm::vec3 colour = slot.gear == haptics::kReverseGear ? kReverseInk : kInk;
@@ -79,8 +79,9 @@ void add_label(GatePlate& plate, const haptics::Gate& gate, const haptics::YokeG
   }
 }
 
-// Sizes the plate: as small as openings and labels allow, symmetric about the pivot, with room for the lamp in front.
-void measure(GatePlate& plate) {
+// Determines the size of the plate: as small as openings and labels allow, symmetric about the pivot, with room for the
+// lamp in front of the labels.
+void size_plate(GatePlate& plate) {
   plate.half = kMinHalf;
   double foremost = 0.0;
   for (const glm::dvec2 p : plate.opening.face) {
@@ -103,7 +104,7 @@ GatePlate make_gate_plate(const haptics::Gate& gate, const haptics::YokeGeometry
   GatePlate plate;
   plate.opening = slot_opening(gate, yoke, kPlateHeight);
   for (const haptics::Slot& slot : haptics::slots(gate)) add_label(plate, gate, yoke, slot);
-  measure(plate);
+  size_plate(plate);
   make_metal(plate);
   return plate;
 }

@@ -1,4 +1,4 @@
-// The open gate: a plate with the slots of the loaded gate and the gear labels beside them.
+// The open gate: a plate with the slots of the loaded gate and a gear label at the end of each.
 #pragma once
 
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace gearshift::cabin {
 
-// [m] The plate is on a plinth, half way from the lever's pivot to the knob. Lower, at the boot's frame, the central
-// projection would leave no metal between the slots unless the lever were as thin as a needle.
-inline constexpr double kPlateHeight = 0.062;   // the plate's face above the pivot
-inline constexpr double kPlinthHeight = 0.030;  // the plinth's foot (the console) above the pivot
-inline constexpr double kPlateThickness = 0.004;
+// The plate is on a plinth, half way from the lever's pivot to the knob. At the height of the boot's frame the slots
+// would be so close together (see slot_opening.h) that only a lever as thin as a needle would leave metal between them.
+inline constexpr double kPlateHeight = 0.062;     // [m] height of the plate's face above the pivot
+inline constexpr double kPlinthHeight = 0.030;    // [m] height of the plinth's foot (the console) above the pivot
+inline constexpr double kPlateThickness = 0.004;  // [m]
 
 struct PlateLabel {
   int gear = haptics::kNeutralGear;
-  glm::dvec2 centre{0.0};  // [m] on the plate
+  glm::dvec2 centre{0.0};  // [m] position on the plate
   double height = 0.0;     // [m]
 };
 
@@ -26,12 +26,12 @@ struct GatePlate {
   std::vector<PlateLabel> labels;
   glm::dvec2 half{0.0};  // [m] half size of the plate, which depends on the gate
   glm::dvec2 lamp{0.0};  // [m] place for a lamp of 4 mm radius, ahead of the labels
-  MeshData metal;        // all three meshes: origin at the lever's pivot; x right, y up, z back
+  MeshData metal;        // origin of all three meshes: the lever's pivot; x right, y up, z back
   MeshData plinth;
   MeshData ink;
 };
 
-// Throws std::runtime_error if the gate's slots do not fit the plate. All gates that fit the paper's joystick do.
+// Throws std::runtime_error if the gate's slots do not fit on the plate. All gates that fit the paper's joystick fit.
 GatePlate make_gate_plate(const haptics::Gate& gate, const haptics::YokeGeometry& yoke);
 
 }  // namespace gearshift::cabin

@@ -15,17 +15,17 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr glm::vec3 kPlace{0.70f, 0.19f, -0.42f};  // [m] in the cabin: in front of the passenger's knees
-constexpr double kMaxWidth = 0.54;                 // [m] available there
+constexpr glm::vec3 kPlace{0.70f, 0.19f, -0.42f};  // [m] position in the cabin: in front of the passenger's knees
+constexpr double kMaxWidth = 0.54;                 // [m] width available at kPlace
 constexpr double kFingerReach = 0.030;             // [m] from the finger's axis to the middle of its tip
 constexpr double kRingTravel = 0.0005;             // [m] travel of the ring until the cone grips
-constexpr double kKeysMeet = 0.003;                // [m] of sleeve travel at which the keys press the ring
-constexpr double kTurnPerMetre = 0.5;              // [rad/m] of the hub: slow enough to watch
-constexpr double kTurnPerTurn = 0.02;              // turns of a free gear per turn of the engine
-constexpr double kMaxStep = 0.1;                   // [s]
+constexpr double kKeysMeet = 0.003;                // [m] sleeve travel at which the keys begin to press on the ring
+constexpr double kTurnPerMetre = 0.5;              // [rad/m] turn of the hub per metre driven: slow enough to watch
+constexpr double kTurnPerTurn = 0.02;              // [1] turns of a free gear per turn of the engine, at ratio 1
+constexpr double kMaxStep = 0.1;                   // [s] limit of the time step between two frames
 constexpr double kGearSign = 0.030;                // [m] height of a gear's label
 constexpr const char* kEndName[2] = {"Forward", "Back"};
-constexpr double kDirection[2] = {1.0, -1.0};  // along the shift axis
+constexpr double kDirection[2] = {1.0, -1.0};  // direction of the two ends along the shift axis
 
 const haptics::Slot* slot_at(const haptics::Gate& gate, int column, int end) {
   const haptics::Column& c = haptics::column_of(gate, column);
@@ -39,8 +39,9 @@ std::vector<MeshPart> both(const engine::Model& model, const char* a, const char
   return parts;
 }
 
-// One material for all single-sided materials: their colours go to the vertices, metallic and roughness to one texel
-// per material, packed as in glTF (roughness green, metallic blue).
+// Adds a material that can replace all single-sided ones and returns its index. Their metallic and roughness values go
+// to one texel per material, packed as in glTF (roughness green, metallic blue); their colours go to the vertices, see
+// use_shared_material().
 int add_shared_material(engine::Model& box) {
   engine::Texture surfaces;
   surfaces.pixels.width = static_cast<int>(box.materials.size());
@@ -59,17 +60,17 @@ int add_shared_material(engine::Model& box) {
   return static_cast<int>(box.materials.size()) - 1;
 }
 
-void share_material(engine::Model& box) {
+void use_shared_material(engine::Model& box) {
   const auto count = static_cast<float>(box.materials.size());
   const int shared = add_shared_material(box);
   for (std::size_t i = 0; i < box.nodes.size(); ++i) {
     std::vector<MeshPart> parts = parts_of(box, static_cast<int>(i));
     if (parts.empty()) continue;
     for (MeshPart& part : parts) {
-      const engine::Material& own = box.materials[static_cast<std::size_t>(part.material)];
-      if (own.double_sided) continue;
+      const engine::Material& original = box.materials[static_cast<std::size_t>(part.material)];
+      if (original.double_sided) continue;
       for (engine::Vertex& vertex : part.mesh_data.vertices) {
-        vertex.colour = linear_rgba(glm::vec3(own.base_colour));
+        vertex.colour = linear_rgba(glm::vec3(original.base_colour));
         vertex.uv0 = {(static_cast<float>(part.material) + 0.5f) / count, 0.5f};
       }
       part.material = shared;
@@ -78,11 +79,11 @@ void share_material(engine::Model& box) {
   }
 }
 
-// Merges parts that move together into one mesh, which is one draw.
+// Merges parts that move together into one mesh, which saves draws.
 void join_parts(engine::Model& box) {
   set_parts(box, required_node(box, "Rail"), both(box, "Rail", "Fork"));
   set_parts(box, required_node(box, "Hub"), both(box, "Hub", "Shaft"));
-  share_material(box);
+  use_shared_material(box);
 }
 
 int add_group(engine::Model& model, std::string name, glm::vec3 translation, int parent) {
@@ -94,8 +95,8 @@ int add_group(engine::Model& model, std::string name, glm::vec3 translation, int
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
-// A gear's number floats at the gear's end of the set: above it at the front, below it at the rear, so that both are
-// visible beside the gears when looking down from the seat.
+// Adds the number of a gear, which floats at the gear's end of the set: higher at the front end than at the rear end,
+// so that the gears hide neither number when the user looks down from the seat.
 void add_sign(MeshData& ink, const haptics::Slot& slot, double x) {
   const double direction = static_cast<int>(slot.side);
   for (const Stroke& stroke :
@@ -232,11 +233,12 @@ void Gearbox::place(const haptics::Gate& gate, glm::dvec2 lever, const vehicle::
   node(finger_).rotation = turned_about({1.0f, 0.0f, 0.0f}, std::asin(finger_shift / kFingerReach));
 }
 
-// A free gear turns with the engine. Once the sleeve meets the dogs, it turns with the hub, tooth in gap.
+// Turns the gears and rings of a set. A free gear turns with the engine. Once the sleeve meets its dogs, the gear turns
+// with the hub, at an angle at which the teeth fit into the gaps.
 void Gearbox::turn_gears(const haptics::Gate& gate, int column, double shift, const vehicle::VehicleState& car,
                          double step, Set& set, std::vector<engine::Node>& pose) {
   constexpr double kPitch = 2.0 * std::numbers::pi / kDogTeeth;
-  constexpr double kDogsMeet = 0.007;  // [m]
+  constexpr double kDogsMeet = 0.007;  // [m] sleeve travel at which the dogs meet
   for (int k = 0; k < 2; ++k) {
     const haptics::Slot* slot = slot_at(gate, column, k);
     if (slot == nullptr) continue;

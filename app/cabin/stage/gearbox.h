@@ -1,7 +1,8 @@
-// The cut-away gearbox: for every column of the gate a rail with fork, sleeve, rings and gears, side by side like the
-// columns, to show which rail the lever moves and how far the sleeve has travelled.
+// The cut-away gearbox: for every column of the gate a set of rail, fork, sleeve, rings and gears. The sets are side by
+// side like the columns, to show which rail the lever moves and how far the sleeve has travelled.
 //
-// A teaching model: in a real gearbox the sets are one behind the other on one shaft and turn hundreds of times faster.
+// It is a teaching model: in a real gearbox the sets are one behind the other on one shaft and turn hundreds of times
+// faster.
 #pragma once
 
 #include <string>
@@ -17,18 +18,18 @@
 
 namespace gearshift::cabin {
 
-inline constexpr double kRailTravel = 0.009;   // [m] travel of a sleeve to an engaged gear
+inline constexpr double kRailTravel = 0.009;   // [m] travel of a sleeve from neutral to an engaged gear
 inline constexpr double kSetDistance = 0.112;  // [m] between neighbouring sets, before the box is scaled to fit
-inline constexpr int kDogTeeth = 30;           // on sleeves, rings and gears: a gear can engage every 12 deg
+inline constexpr int kDogTeeth = 30;           // on each sleeve, ring and gear: a gear can engage every 12 deg
 
-// Lateral position of a column's set, from the middle of the box. [m] right +
+// Lateral position of a column's set, measured from the middle of the gearbox. [m] right +
 double set_x(const haptics::Gate& gate, int column) noexcept;
 
-// Displacement of the column's rail: the lever moves it by kRailTravel from the aisle's wall to the gear's rest
-// position. [m] forward +
+// Displacement of the column's rail: the lever moves the rail by kRailTravel on its way from the aisle's wall to the
+// gear's rest position. [m] forward +
 double rail_shift(const haptics::Gate& gate, int column, glm::dvec2 lever) noexcept;
 
-// Lateral position of the selector finger: at a set when the lever is at its column. [m] right +
+// Lateral position of the selector finger: at a column's set when the lever is at this column. [m] right +
 double finger_x(const haptics::Gate& gate, double select) noexcept;
 
 class Gearbox {
@@ -37,20 +38,20 @@ class Gearbox {
   // std::runtime_error if a node is missing.
   static void add_to(engine::Model& model, const engine::Model& gear_model, const haptics::Gate& gate);
 
-  // Names of the moving nodes, which must not be merged with static ones.
+  // Names of the moving nodes, which must not be merged with static nodes.
   static std::vector<std::string> moving_names(const haptics::Gate& gate);
 
   // Finds the nodes that add_to() made.
   Gearbox(const engine::Model& model, const haptics::Gate& gate);
 
-  // Sets translations and rotations in `pose`. time [s]: if it decreases, nothing turns.
+  // Sets the translations and rotations in `pose`. time [s]: if it decreases, the free gears do not turn.
   void place(const haptics::Gate& gate, glm::dvec2 lever, const vehicle::VehicleState& car, double time,
              std::vector<engine::Node>& pose);
 
  private:
   struct Set {
     int rail = engine::kNone, sleeve = engine::kNone, hub = engine::kNone;
-    int gear[2] = {engine::kNone, engine::kNone}, ring[2] = {engine::kNone, engine::kNone};  // forward, back
+    int gear[2] = {engine::kNone, engine::kNone}, ring[2] = {engine::kNone, engine::kNone};  // at front and back end
     double gear_angle[2] = {0.0, 0.0};                                                       // [rad]
   };
   void turn_gears(const haptics::Gate& gate, int column, double shift, const vehicle::VehicleState& car, double step,

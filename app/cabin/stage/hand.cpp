@@ -13,14 +13,14 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr glm::dvec3 kElbow{-0.085, 0.055, 0.325};  // [m] from the knob of the upright lever (assets/models/README.md)
+constexpr glm::dvec3 kElbow{-0.085, 0.055, 0.325};  // [m] from the upright lever's knob, see assets/models/README.md
 
 glm::dquat turn_of(const glm::mat4& world) {
   return glm::normalize(glm::dquat(glm::quat_cast(glm::mat3(world))));
 }
 
-// Merges adjacent primitives of the same material, which saves a draw. (The general merging in pieces.h does not
-// support skinned meshes.)
+// Merges adjacent primitives with the same material, which saves draws. (The functions of mesh_parts.h do not support
+// skinned meshes.)
 void join_neighbours(engine::Mesh& mesh) {
   std::vector<engine::Primitive> joined;
   for (const engine::Primitive& next : mesh.primitives) {
@@ -47,7 +47,8 @@ void Hand::add_to(engine::Model& model, const engine::Model& hand_model, glm::ve
   const int skin = required_node(model, "HandMesh");
   join_neighbours(model.meshes[static_cast<std::size_t>(model.nodes[static_cast<std::size_t>(skin)].mesh)]);
   const int ghost = add_twin(model, skin, "GhostHand", engine::kNone);
-  model.nodes[static_cast<std::size_t>(ghost)].skin = engine::kNone;  // uses the hand's already skinned vertices
+  // The ghost needs no skin: it uses the hand's vertices after skinning.
+  model.nodes[static_cast<std::size_t>(ghost)].skin = engine::kNone;
 }
 
 Hand::Hand(const engine::Model& model, DriveSide side)
@@ -67,7 +68,7 @@ Hand::Hand(const engine::Model& model, DriveSide side)
 }
 
 void Hand::place(glm::dvec3 knob, const glm::dquat& lever, std::vector<engine::Node>& pose) const {
-  const glm::dquat lean = glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), lever, kWristShare);
+  const glm::dquat lean = glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), lever, kWristLeanFraction);
   engine::Node& root = pose[static_cast<std::size_t>(root_)];
   root.translation = glm::vec3(knob);
   root.rotation = glm::quat(lean);

@@ -13,7 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);
 constexpr double kPedalTravel = 20.0 * kDegree;
 constexpr double kHandBrakeTravel = 30.0 * kDegree;
-constexpr double kIdleLimit = 300.0;  // [1/min] below this there is no oil pressure and no charging
+constexpr double kIdleLimit = 300.0;  // [1/min] below this engine speed there is no oil pressure and no charging
 
 bool blinks_now(double time) noexcept {
   const double phase = time * kBlinkRate;
@@ -63,7 +63,7 @@ double vibration(const vehicle::VehicleState& car, double time) noexcept {
 }
 
 glm::vec2 gear_field(int gear) noexcept {
-  constexpr float kField = 176.0f / 2048.0f;  // of the atlas' width (assets/models/README.md)
+  constexpr float kField = 176.0f / 2048.0f;  // [1] width of a field relative to the atlas (assets/models/README.md)
   return {kField * static_cast<float>(std::clamp(gear, haptics::kReverseGear, haptics::kMaxGear)), 0.0f};
 }
 

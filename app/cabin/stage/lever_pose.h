@@ -1,4 +1,4 @@
-// The lever in the cabin's axes: x right (select), y up, z back (against shift).
+// The lever's pose in the cabin's axes: x right (select), y up, z back (against shift).
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -11,11 +11,11 @@ namespace gearshift::cabin {
 
 inline constexpr double kDrawnLever = 0.120;  // [m] pivot to knob centre in the cabin model
 
-// Unit vector along the lever with its tip above a point of the gate plane, from the yoke's joint angles. Points out of
-// reach are limited to 0.98 of the yoke's radius.
+// Unit vector along the lever when its tip is above this point of the gate plane, from the yoke's joint angles. Points
+// further away than 0.98 of the yoke's radius are limited to this distance.
 glm::dvec3 lever_direction(const haptics::YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
-// The shortest rotation of the upright lever into that direction, without twist.
+// The shortest rotation, without twist, of the upright lever into lever_direction().
 glm::dquat lever_rotation(const haptics::YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
 }  // namespace gearshift::cabin

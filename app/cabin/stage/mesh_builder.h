@@ -1,4 +1,4 @@
-// Procedurally made triangles, before they are added to a model.
+// Builds meshes from triangles and adds them to a model.
 #pragma once
 
 #include <array>
@@ -14,35 +14,37 @@ namespace gearshift::cabin {
 
 struct MeshData {
   std::vector<engine::Vertex> vertices;
-  std::vector<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from outside
+  std::vector<std::uint32_t> indices;  // three per triangle, counter-clockwise as seen from outside
 };
 
-std::uint32_t linear_rgba(glm::vec3 colour) noexcept;  // for Vertex::colour, opaque
+std::uint32_t linear_rgba(glm::vec3 colour) noexcept;  // packs an opaque linear colour for Vertex::colour
 
 // Converts plate coordinates (select, shift) and a height to cabin axes: x right, y up, z back.
 glm::vec3 above(glm::dvec2 plate, double height) noexcept;
 
-// Adds horizontal triangles visible from above. corners: three per triangle, counter-clockwise.
+// Adds horizontal triangles that are visible from above. corners: three per triangle, counter-clockwise.
 void add_flat(MeshData& mesh_data, std::span<const glm::dvec2> corners, double height, std::uint32_t colour);
 
-// Adds a wall between two loops with equal numbers of points, visible from the left or right side of `top`'s direction.
-// Smooth shading where neighbouring faces turn by less than 40 deg.
+// A horizontal edge of a wall.
 struct Rim {
   const Loop& loop;
   double height;  // [m]
   std::uint32_t colour = 0xffffffffu;
 };
 enum class WallFace { from_left, from_right };
+// Adds a wall between two loops with equal numbers of points, visible from the left or the right side of the direction
+// of `top`. Neighbouring faces that turn by less than 40 deg get smooth shading.
 void add_wall(MeshData& mesh_data, Rim top, Rim bottom, WallFace visible_side);
 
-// Adds a mesh with one part per material and returns its index. Parts without triangles are left out.
+// The triangles of a mesh that have the same material.
 struct MaterialPart {
   const MeshData& mesh_data;
   int material = engine::kNone;
 };
+// Adds a mesh and returns its index. Parts without triangles are left out.
 int add_mesh(engine::Model& model, std::string name, std::span<const MaterialPart> parts);
 
-// Adds the mesh at a new node and returns the node's index.
+// Adds the mesh with a new node and returns the node's index.
 int add_mesh_node(engine::Model& model, std::string name, std::span<const MaterialPart> parts, glm::vec3 translation,
                   int parent);
 

@@ -9,14 +9,15 @@
 namespace gearshift::cabin {
 namespace {
 
-// S L S with the mirror S at x = 0: the node's frame is mirrored in both its parent's x and its own.
+// Replaces the node's local matrix L by S L S, where S mirrors at x = 0. This mirrors the node at the x = 0 plane of
+// its parent, and the node's own axes at their x = 0 plane.
 void mirror_place(engine::Node& node) {
   node.translation.x = -node.translation.x;
   node.rotation.y = -node.rotation.y;
   node.rotation.z = -node.rotation.z;
 }
 
-// Mirrors the bind matrices like the joints' frames: from mirrored mesh to mirrored joint.
+// Mirrors the bind matrices like the joints, so that they map from the mirrored mesh to the mirrored joint.
 void mirror_skin(engine::Skin& skin) {
   const glm::mat4 mirror = glm::scale(glm::mat4(1.0f), {-1.0f, 1.0f, 1.0f});
   for (glm::mat4& bind : skin.inverse_bind) bind = mirror * bind * mirror;
@@ -39,7 +40,7 @@ void mirror_mesh(engine::Model& model, int mesh) {
     vertex.position.x = -vertex.position.x;
     vertex.normal.x = -vertex.normal.x;
     vertex.tangent.x = -vertex.tangent.x;
-    vertex.tangent.w = -vertex.tangent.w;  // the bitangent is a cross product
+    vertex.tangent.w = -vertex.tangent.w;  // the bitangent, a cross product, changes its sign
   });
   for (engine::Primitive& primitive : mirrored.primitives) mirror_primitive(model, primitive);
 }

@@ -14,16 +14,16 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr double kMinPathLength = 1e-4;  // [m] shorter paths count as a point
+constexpr double kMinPathLength = 1e-4;  // [m] shorter paths are treated as a point
 
-struct Measured {
+struct MeasuredPath {
   std::vector<glm::dvec2> points;
-  std::vector<double> at;  // [m] along the path, increasing
+  std::vector<double> at;  // [m] distance of each point along the path, increasing
 };
 
-// Drops non-finite points and repeated ones.
-Measured measured(std::span<const glm::dvec2> path) {
-  Measured out;
+// Measures the path along its points; drops non-finite and repeated points.
+MeasuredPath measure_path(std::span<const glm::dvec2> path) {
+  MeasuredPath out;
   for (const glm::dvec2 point : path) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
     const double step = out.points.empty() ? 0.0 : glm::distance(out.points.back(), point);
@@ -34,7 +34,7 @@ Measured measured(std::span<const glm::dvec2> path) {
   return out;
 }
 
-glm::dvec2 point_at(const Measured& path, double along) {
+glm::dvec2 point_at(const MeasuredPath& path, double along) {
   const auto after = std::upper_bound(path.at.begin() + 1, path.at.end() - 1, along);
   const auto i = static_cast<std::size_t>(after - path.at.begin());
   const double fraction = (along - path.at[i - 1]) / (path.at[i] - path.at[i - 1]);
@@ -45,7 +45,8 @@ bool is_gap(const PathStyle& style, double along) {
   return style.gap > 0.0 && std::fmod(along, style.dash + style.gap) > style.dash;
 }
 
-// A unit vector across the path and tangential to the knob's sphere; `last` where the path turns back on itself.
+// A unit vector across the path and tangential to the sphere on which the knob moves. Returns `last` where the path
+// turns back on itself.
 glm::dvec3 side_of(glm::dvec3 before, glm::dvec3 here, glm::dvec3 after, glm::dvec3 last) {
   const glm::dvec3 side = glm::cross(after - before, glm::normalize(here));
   const double length = glm::length(side);
@@ -76,7 +77,7 @@ int add_path(engine::Model& model, const std::string& name, glm::vec3 pivot, con
 
 bool shape_path(std::span<const glm::dvec2> path, const haptics::YokeGeometry& yoke, const PathStyle& style,
                 std::vector<engine::Vertex>& out) {
-  const Measured line = measured(path);
+  const MeasuredPath line = measure_path(path);
   if (line.points.size() < 2 || line.at.back() < kMinPathLength) return false;
   std::array<glm::dvec3, kPathRings> knob;
   const double step = line.at.back() / (kPathRings - 1);

@@ -8,18 +8,18 @@
 namespace gearshift::cabin {
 
 struct Beam {
-  glm::dvec3 from{0.0}, to{0.0};  // [m] cabin
+  glm::dvec3 from{0.0}, to{0.0};  // [m] ends of the beam in the cabin
 };
 
-inline constexpr const char* kBeamNode = "PointerBeam";  // one metre along its -Z, 4 mm thick
+inline constexpr const char* kBeamNode = "PointerBeam";  // the beam: 1 m long along its -Z, 4 mm thick
 inline constexpr const char* kBeamEndNode = "PointerEnd";
 
-// Blended, because blended meshes cast no shadow.
+// Below 1 so that the beam is blended, because blended meshes cast no shadow.
 inline constexpr float kBeamOpacity = 0.9f;
 
 void add_pointer_beam(engine::Model& model);
 
-// from and to must differ.
+// Places the beam's node. beam.from and beam.to must differ.
 void place_beam_stick(const Beam& beam, engine::Node& stick);
 
 }  // namespace gearshift::cabin

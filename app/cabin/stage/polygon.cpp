@@ -26,7 +26,7 @@ double distance_to_chord(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) noexcept {
   return glm::distance(p, a + along * chord);
 }
 
-// Marks the points to keep between `first` and `last`, which are kept themselves.
+// Marks the points between `first` and `last` that must be kept; these two are kept anyway.
 void keep_corners(const Loop& line, std::size_t first, std::size_t last, double tolerance, std::vector<char>& keep) {
   double worst = tolerance;
   std::size_t corner = first;
@@ -93,16 +93,17 @@ class EarClipper {
   std::vector<std::uint32_t> triangles_;
 };
 
-// A vertex of the convex outline visible from the hole's rightmost point: of the outline's edge to the right of it, the
-// end further to the right, so that no point of the hole can be between them.
+// Finds a vertex of the convex outline that is visible from `from`, the hole's rightmost point: takes the edge of the
+// outline to the right of this point, and of this edge the end that is further to the right. No point of the hole can
+// then be between the two.
 std::size_t bridge_end(const Loop& outline, glm::dvec2 from) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const std::size_t next = (i + 1) % outline.size();
     const glm::dvec2 a = outline[i], b = outline[next];
     if (a.y <= from.y && from.y < b.y)
-      return a.x >= b.x ? i : next;  // upward: the right side of a counter-clockwise loop
+      return a.x >= b.x ? i : next;  // an upward edge is on the right side of a counter-clockwise loop
   }
-  throw std::runtime_error("the slots of a gate reach beyond its plate");
+  throw std::runtime_error("the gate's slots reach beyond its plate");
 }
 
 }  // namespace
@@ -115,8 +116,8 @@ double signed_area(const Loop& loop) noexcept {
 
 Loop simplified(const Loop& loop, double tolerance) {
   if (loop.size() < 4) return loop;
-  // Splits the loop at two points that are certainly corners: the one furthest from the first point, and the one
-  // furthest from that.
+  // Splits the loop at two points that are certainly corners: the point furthest from the loop's first point, and the
+  // point furthest from that corner.
   const auto furthest = [&](std::size_t from) {
     std::size_t best = from;
     for (std::size_t i = 0; i < loop.size(); ++i) {

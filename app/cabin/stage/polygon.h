@@ -10,17 +10,18 @@ namespace gearshift::cabin {
 
 using Loop = std::vector<glm::dvec2>;  // [m] closed polygon: the last point is connected to the first
 
-double signed_area(const Loop& loop) noexcept;  // [m^2] > 0: counter-clockwise
+double signed_area(const Loop& loop) noexcept;  // [m^2] positive for a counter-clockwise loop
 
-// Simplifies the polygon so that dropped points are within `tolerance` [m] of the result (Douglas & Peucker 1973).
+// Simplifies the polygon; all dropped points are within `tolerance` [m] of the result (Douglas & Peucker 1973).
 Loop simplified(const Loop& loop, double tolerance);
 
-// Triangulates the area inside the outline and outside the hole; returns indices into outline followed by hole. Joins
-// the two with a bridge and clips ears (Eberly, Triangulation by Ear Clipping, 2002). outline: counter-clockwise and
-// convex; hole: clockwise, inside it. Throws std::runtime_error if a loop crosses itself so that no ear is left.
+// Triangulates the area inside the outline and outside the hole: joins the two loops with a bridge and clips ears
+// (Eberly, Triangulation by Ear Clipping, 2002). Returns three indices per triangle, into the points of the outline
+// followed by those of the hole. outline: counter-clockwise and convex. hole: clockwise, inside the outline. Throws
+// std::runtime_error if a loop crosses itself so that no ear is left.
 std::vector<std::uint32_t> triangulate(const Loop& outline, const Loop& hole);
 
-// Rectangle around the origin with rounded corners, counter-clockwise.
+// A rectangle around the origin with rounded corners, counter-clockwise. half: half its width and height.
 Loop rounded_rectangle(glm::dvec2 half, double radius, int steps_per_corner);
 
 }  // namespace gearshift::cabin

@@ -15,19 +15,21 @@
 namespace gearshift::cabin {
 namespace {
 
-// [m] The car is in the middle of the lane; the road is under the tyres (assets/models/README.md).
+// [m] Position of the road relative to the car, which is in the middle of the lane with its tyres on the road
+// (assets/models/README.md).
 constexpr glm::vec3 kRoadPlace{0.335f, -0.53f, 0.0f};
 constexpr int kTilesAhead = 36, kTilesBehind = 11;
-constexpr double kLeftEdge = -5.7, kRightEdge = 2.2;  // [m] of the asphalt, from the middle of the lane
+constexpr double kLeftEdge = -5.7, kRightEdge = 2.2;  // [m] edges of the asphalt, relative to the middle of the lane
 
-// An object of road.glb at x [m] right of the lane's middle and `ahead` [m] of the block's near end; yaw [rad].
-struct Thing {
+// A copy of an object of road.glb. x [m]: to the right of the lane's middle; ahead [m]: from the block's near end; yaw
+// [rad].
+struct RoadsideObject {
   const char* name;
   double x, ahead;
   double yaw = 0.0, size = 1.0;
 };
 
-// Height of the ground beside the road, matching the verge of the tile. [m]
+// [m] Height of the ground at x; it continues the verge of the road tile.
 double ground(double x) {
   constexpr double kProfile[][2] = {{0.0, 0.0},   {0.6, -0.05}, {1.6, -0.28},  {2.4, -0.30},
                                     {3.6, -0.06}, {8.0, 0.02},  {16.0, -0.05}, {30.0, -0.45}};
@@ -46,7 +48,7 @@ class Dice {
  public:
   explicit Dice(int block) : block_(block) {}
   double between(double low, double high) { return low + (high - low) * road_dice(block_, next_++); }
-  double side(double near, double far) {  // beside the road, left or right
+  double side(double near, double far) {  // x at this distance from the road's left or right edge
     const double off = between(near, far);
     return between(0.0, 1.0) < 0.5 ? kLeftEdge - off : kRightEdge + off;
   }
@@ -56,55 +58,55 @@ class Dice {
   int next_ = 0;
 };
 
-// Repeats an object along the block.
-void add_row(const char* name, double x, double first, double step, int count, std::vector<Thing>& things) {
-  for (int i = 0; i < count; ++i) things.push_back({name, x, first + step * i});
+// Repeats an object along the block, the first one at `first`, then at every `step` [m].
+void add_row(const char* name, double x, double first, double step, int count, std::vector<RoadsideObject>& objects) {
+  for (int i = 0; i < count; ++i) objects.push_back({name, x, first + step * i});
 }
 
-void add_furniture(int block, std::vector<Thing>& things) {
-  add_row("Post", kRightEdge + 0.5, 6.0, 24.0, 5, things);
-  add_row("Post", kLeftEdge - 0.5, 18.0, 24.0, 5, things);
-  add_row("Pole", kLeftEdge - 6.5, 20.0, 40.0, 3, things);
-  if (block % 3 == 0) add_row("Sign", kRightEdge + 1.0, 57.0, 0.0, 1, things);
-  if (block % 3 == 1) add_row("GuardRail", kRightEdge + 0.9, 40.0, 4.0, 11, things);
+void add_furniture(int block, std::vector<RoadsideObject>& objects) {
+  add_row("Post", kRightEdge + 0.5, 6.0, 24.0, 5, objects);
+  add_row("Post", kLeftEdge - 0.5, 18.0, 24.0, 5, objects);
+  add_row("Pole", kLeftEdge - 6.5, 20.0, 40.0, 3, objects);
+  if (block % 3 == 0) add_row("Sign", kRightEdge + 1.0, 57.0, 0.0, 1, objects);
+  if (block % 3 == 1) add_row("GuardRail", kRightEdge + 0.9, 40.0, 4.0, 11, objects);
 }
 
-void add_landmarks(int block, std::vector<Thing>& things) {
-  if (block == 2) things.push_back({"House", kRightEdge + 17.0, 60.0});
-  if (block == 5) things.push_back({"Barn", kRightEdge + 21.0, 75.0});
+void add_landmarks(int block, std::vector<RoadsideObject>& objects) {
+  if (block == 2) objects.push_back({"House", kRightEdge + 17.0, 60.0});
+  if (block == 5) objects.push_back({"Barn", kRightEdge + 21.0, 75.0});
   if (block == 4) {
-    for (int i = 0; i < 4; ++i) things.push_back({"Bale", kRightEdge + 12.0 + 3.7 * (i % 2), 30.0 + 9.0 * i, 0.4 * i});
+    for (int i = 0; i < 4; ++i) objects.push_back({"Bale", kRightEdge + 12.0 + 3.7 * (i % 2), 30.0 + 9.0 * i, 0.4 * i});
   }
 }
 
-std::vector<Thing> make_things(int block) {
-  std::vector<Thing> things;
-  add_furniture(block, things);
-  add_landmarks(block, things);
+std::vector<RoadsideObject> place_objects(int block) {
+  std::vector<RoadsideObject> objects;
+  add_furniture(block, objects);
+  add_landmarks(block, objects);
   Dice dice(block);
   const bool has_house = block == 2 || block == 5;
   for (int i = 0; i < 5; ++i) {
     const char* tree = dice.between(0.0, 1.0) < 0.6 ? "TreeBroad" : "TreeSpruce";
     const double x = has_house ? kLeftEdge - dice.between(9.0, 24.0) : dice.side(9.0, 24.0);
     const double ahead = (i + dice.between(0.1, 0.9)) * kBlockLength / 5.0;
-    things.push_back({tree, x, ahead, dice.between(0.0, 2.0 * std::numbers::pi), dice.between(0.8, 1.35)});
+    objects.push_back({tree, x, ahead, dice.between(0.0, 2.0 * std::numbers::pi), dice.between(0.8, 1.35)});
   }
   for (int i = 0; i < 5; ++i) {
     const double x = dice.side(3.8, 7.0), ahead = dice.between(0.0, kBlockLength);
-    things.push_back({"Bush", x, ahead, dice.between(0.0, 2.0 * std::numbers::pi), dice.between(0.7, 1.4)});
+    objects.push_back({"Bush", x, ahead, dice.between(0.0, 2.0 * std::numbers::pi), dice.between(0.7, 1.4)});
   }
-  return things;
+  return objects;
 }
 
 void stamp(const engine::Model& road, const char* name, const glm::mat4& placed, std::vector<MeshPart>& parts) {
   for (MeshPart& part : transformed_parts(road, required_node(road, name), placed)) parts.push_back(std::move(part));
 }
 
-glm::mat4 resolve_path(const Thing& thing) {
-  const glm::vec3 at(glm::dvec3(thing.x, ground(thing.x), -thing.ahead));
+glm::mat4 transform_of(const RoadsideObject& object) {
+  const glm::vec3 at(glm::dvec3(object.x, ground(object.x), -object.ahead));
   const glm::mat4 turned =
-      glm::rotate(glm::translate(glm::mat4(1.0f), at), static_cast<float>(thing.yaw), {0.0f, 1.0f, 0.0f});
-  return glm::scale(turned, glm::vec3(static_cast<float>(thing.size)));
+      glm::rotate(glm::translate(glm::mat4(1.0f), at), static_cast<float>(object.yaw), {0.0f, 1.0f, 0.0f});
+  return glm::scale(turned, glm::vec3(static_cast<float>(object.size)));
 }
 
 std::vector<MeshPart> strip_of_tiles(const engine::Model& road) {
@@ -116,7 +118,7 @@ std::vector<MeshPart> strip_of_tiles(const engine::Model& road) {
   return strip;
 }
 
-// Adds a node for parts whose material indices start at `first_material` of the model.
+// Adds a node for parts whose material 0 is material `first_material` of the model.
 void add_node(engine::Model& model, std::string name, std::vector<MeshPart> parts, int first_material) {
   for (MeshPart& part : parts) part.material += first_material;
   engine::Node node;
@@ -126,7 +128,7 @@ void add_node(engine::Model& model, std::string name, std::vector<MeshPart> part
   set_parts(model, static_cast<int>(model.nodes.size()) - 1, parts);
 }
 
-// The hills stay level while the fields tilt, so their feet reach down far enough that no gap opens.
+// Extends the feet of the hills so far down that no gap opens when the fields tilt while the hills stay level.
 void sink_feet(std::vector<MeshPart>& hills) {
   constexpr float kBelowFields = -1.0f, kFoot = -100.0f;  // [m]
   for (MeshPart& part : hills) {
@@ -144,7 +146,7 @@ std::string block_name(int block) {
 
 void Roadside::add_to(engine::Model& model, const engine::Model& road_model) {
   const auto first_material = static_cast<int>(model.materials.size());
-  engine::Model paints;  // only materials and textures
+  engine::Model paints;  // contains only materials and textures
   paints.materials = road_model.materials;
   paints.textures = road_model.textures;
   engine::append_model(model, paints);
@@ -156,11 +158,12 @@ void Roadside::add_to(engine::Model& model, const engine::Model& road_model) {
   stamp(road_model, "Hills", glm::mat4(1.0f), hills);
   sink_feet(hills);
   add_node(model, "Hills", std::move(hills), first_material);
-  // Leaves and the other objects share one texture, so both are drawn with the masked material in one draw.
+  // Leaves and the other objects share a texture, so both are drawn in one draw with the masked material of the leaves.
   const int masked = required_material(road_model, "Leaves"), opaque = required_material(road_model, "Roadside");
   for (int block = 0; block < kBlocks; ++block) {
     std::vector<MeshPart> parts;
-    for (const Thing& thing : make_things(block)) stamp(road_model, thing.name, resolve_path(thing), parts);
+    for (const RoadsideObject& object : place_objects(block))
+      stamp(road_model, object.name, transform_of(object), parts);
     for (MeshPart& part : parts) {
       if (part.material == opaque) part.material = masked;
     }
@@ -169,7 +172,7 @@ void Roadside::add_to(engine::Model& model, const engine::Model& road_model) {
 }
 
 std::vector<std::string> Roadside::moving_names() {
-  std::vector<std::string> names{"RoadStrip", "Land", "Hills"};  // listed so that they are not merged with the cabin
+  std::vector<std::string> names{"RoadStrip", "Land", "Hills"};  // so that they are not merged with the cabin
   for (int block = 0; block < kBlocks; ++block) names.push_back(block_name(block));
   return names;
 }

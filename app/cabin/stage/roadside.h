@@ -1,4 +1,4 @@
-// Meshes of the road: a strip of tiles, the surrounding land, and roadside blocks with trees, posts and houses.
+// The meshes of road and roadside: a strip of tiles, the surrounding land, and blocks with trees, posts and houses.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@ namespace gearshift::cabin {
 
 class Roadside {
  public:
-  // Adds nodes "RoadStrip", "Land", "Hills" and "RoadBlock0" ... to the model, made of objects of road.glb placed with
-  // road_dice(). Throws std::runtime_error if an object is missing.
+  // Adds nodes "RoadStrip", "Land", "Hills" and "RoadBlock0" ... to the model, made of the objects of road_model
+  // (road.glb), which are placed with road_dice(). Throws std::runtime_error if an object is missing.
   static void add_to(engine::Model& model, const engine::Model& road_model);
 
   static std::vector<std::string> moving_names();
 
   explicit Roadside(const engine::Model& model);  // finds the nodes that add_to() made
 
-  // Moves the road back by the distance that the car has driven [m], and tilts road and fields about the car by the
-  // slope [rad, positive uphill]; cabin and hills stay level.
+  // Moves the road back by the distance [m] that the car has driven, and tilts road and fields about the car by the
+  // slope [rad], positive uphill; cabin and hills stay level.
   void place(double distance, double slope, std::vector<engine::Node>& pose) const;
 
  private:

@@ -8,15 +8,15 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr glm::vec3 kOffPanel{0.0f, 0.0285f, 0.0006f};                          // [m] between the turn signal lamps
+constexpr glm::vec3 kOffPanel{0.0f, 0.0285f, 0.0006f};                          // [m] offset from the gear display
 constexpr glm::vec3 kGreen{0.02f, 0.42f, 0.06f}, kAmber{0.55f, 0.14f, 0.005f};  // emission
 
-// Triangles of the arrow pointing up, counter-clockwise: one for the head, two for the shaft. [m]
+// Corners [m] of the arrow that points up, as counter-clockwise triangles: one for the head, two for the shaft.
 constexpr glm::vec2 kArrow[] = {{-0.0062f, 0.0f},     {0.0062f, 0.0f},     {0.0f, 0.0060f},
                                 {-0.0024f, -0.0055f}, {0.0024f, -0.0055f}, {0.0024f, 0.0f},
                                 {-0.0024f, -0.0055f}, {0.0024f, 0.0f},     {-0.0024f, 0.0f}};
 
-// An arrow facing the driver. direction: +1 up, -1 down (turned by 180 deg).
+// An arrow that faces the driver. direction: +1 points up, -1 points down (turned by 180 deg).
 MeshData arrow(float direction) {
   MeshData mesh_data;
   for (const glm::vec2 corner : kArrow) {

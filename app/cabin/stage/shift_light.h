@@ -8,11 +8,11 @@
 
 namespace gearshift::cabin {
 
-// Node names.
+// Names of the arrows' nodes.
 inline constexpr const char* kShiftUp = "ShiftUp";
 inline constexpr const char* kShiftDown = "ShiftDown";
 
-// Adds both arrows, lit, to a model with the cluster's "GearPanel". Throws std::runtime_error if it has none.
+// Adds both arrows, lit, next to the node "GearPanel" of the model. Throws std::runtime_error if the node is missing.
 void add_shift_light(engine::Model& model);
 
 }  // namespace gearshift::cabin

@@ -14,12 +14,12 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr double kMaxRodRadius = 0.0030;    // [m] radius
-constexpr double kRodFraction = 0.39;       // rod's radius relative to the metal between two slots
-constexpr double kWallStep = 0.001;         // [m] at the knob: chord length of a projected wall; error below 2 um
-constexpr double kMaxCell = 0.0002;         // [m]
-constexpr double kSlotBevel = 0.0004;       // [m]
-constexpr double kLoopTolerance = 0.00001;  // [m]
+constexpr double kMaxRodRadius = 0.0030;    // [m] maximum radius of the rod
+constexpr double kRodFraction = 0.39;       // [1] ratio of the rod's radius to the distance between two slots
+constexpr double kWallStep = 0.001;         // [m] length of a wall's chords, at the knob: projection error below 2 um
+constexpr double kMaxCell = 0.0002;         // [m] maximum cell size of the grid
+constexpr double kSlotBevel = 0.0004;       // [m] maximum bevel of the opening's edge
+constexpr double kLoopTolerance = 0.00001;  // [m] tolerance when the outline is simplified
 
 struct Segment {
   glm::dvec2 from{0.0}, to{0.0};
@@ -39,7 +39,8 @@ std::vector<Segment> projected_walls(const haptics::Gate& gate, const haptics::Y
   return walls;
 }
 
-// Ratio of a rod's longest section with the plane to its diameter, where the lever leans most: rho / p_z.
+// Ratio of the length of the rod's section with the plane to the rod's diameter, where the lever leans most: rho / p_z,
+// with the yoke's radius rho and the knob's height p_z.
 double longest_section(const haptics::Gate& gate, const haptics::YokeGeometry& yoke) {
   double longest = 1.0;
   for (const haptics::WallInfo& wall : haptics::describe_gate(gate).walls) {
@@ -49,7 +50,7 @@ double longest_section(const haptics::Gate& gate, const haptics::YokeGeometry& y
   return longest;
 }
 
-// Smallest distance between two neighbouring slots, at the knob. [m]
+// Smallest distance between two neighbouring slots, measured at the knob. [m]
 double thinnest_wall(const haptics::Gate& gate) {
   double thinnest = std::numeric_limits<double>::infinity();
   for (int i = 0; i + 1 < gate.column_count; ++i) {
@@ -62,7 +63,7 @@ double thinnest_wall(const haptics::Gate& gate) {
   return thinnest;
 }
 
-// Signed distance from the edge of the opening on the nodes of a square grid: negative inside the opening.
+// Signed distance from the opening's edge at the nodes of a square grid, negative inside the opening.
 class Field {
  public:
   Field(glm::dvec2 low, glm::dvec2 high, double cell)
@@ -78,7 +79,7 @@ class Field {
     return value_[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)];
   }
 
-  // Updates the minimum distance of all nodes within `reach` of a segment.
+  // Updates the minimum distance to walls at all nodes within `reach` of the segment.
   void near(const Segment& segment, double reach) {
     const glm::dvec2 from = (glm::min(segment.from, segment.to) - reach - low_) / cell_;
     const glm::dvec2 to = (glm::max(segment.from, segment.to) + reach - low_) / cell_;
@@ -102,8 +103,8 @@ class Field {
   std::vector<double> value_;
 };
 
-// Marching squares. Crossings are numbered by grid edge; lines are stored as a map to the next crossing, with the
-// opening on the left.
+// Finds the contour at value 0 by marching squares. A crossing has the number of the grid edge on which it lies. Lines
+// are stored as a map from each crossing to the next one, with the opening on their left.
 class Contour {
  public:
   explicit Contour(Field& field) : field_(field) {
@@ -112,7 +113,7 @@ class Contour {
     }
   }
 
-  // The line that encloses the largest area.
+  // The closed line that encloses the largest area.
   Loop largest() {
     Loop best;
     while (!next_.empty()) {
@@ -123,8 +124,8 @@ class Contour {
   }
 
  private:
-  // Walks around the cell's corners. A line starts where the walk leaves a run of corners inside the opening, and ends
-  // where the walk entered that run.
+  // Adds the lines in a cell. Walks around the cell's corners: each run of consecutive corners inside the opening gives
+  // a line, which starts where the walk leaves the run and ends where the walk entered it.
   void cell(int i, int j) {
     const int corner_i[5] = {i, i + 1, i + 1, i, i};
     const int corner_j[5] = {j, j, j + 1, j + 1, j};
@@ -169,8 +170,9 @@ class Contour {
   std::unordered_map<int, glm::dvec2> point_;
 };
 
-// Moves a counter-clockwise loop inward, each point along the mean of its edges' normals. No edge flips as long as all
-// corner radii exceed `by`, which holds here because the loops are offset by more than that.
+// Moves a counter-clockwise loop inward by `by`, each point along the mean of the normals of its two edges. No edge
+// flips if all corner radii exceed `by`. This holds here, because the loop is itself an offset curve with a larger
+// offset.
 Loop inset(const Loop& loop, double by) {
   const std::size_t n = loop.size();
   Loop moved(n);
@@ -178,7 +180,7 @@ Loop inset(const Loop& loop, double by) {
     const glm::dvec2 in = glm::normalize(loop[i] - loop[(i + n - 1) % n]);
     const glm::dvec2 out = glm::normalize(loop[(i + 1) % n] - loop[i]);
     const glm::dvec2 left{-in.y - out.y, in.x + out.x};
-    moved[i] = loop[i] + 2.0 * by / glm::dot(left, left) * left;  // a mitre: `by` from both edges
+    moved[i] = loop[i] + 2.0 * by / glm::dot(left, left) * left;  // a mitre, at the distance `by` from both edges
   }
   return moved;
 }
@@ -196,11 +198,11 @@ glm::dvec2 gate_point(const haptics::YokeGeometry& yoke, glm::dvec2 plate_point,
 SlotOpening slot_opening(const haptics::Gate& gate, const haptics::YokeGeometry& yoke, double height) {
   SlotOpening opening;
   const double lean = longest_section(gate, yoke);
-  // Between two slots, the plate has at least height / rho of the distance at the knob.
+  // The distance between two slots on the plate is at least height / yoke.radius times their distance at the knob.
   const double metal = thinnest_wall(gate) * height / yoke.radius;
   opening.rod_radius = std::min(kMaxRodRadius, kRodFraction * metal / lean);
   opening.widened = lean * opening.rod_radius;
-  const double rib = metal - 2.0 * opening.widened;  // metal left between two slots
+  const double rib = metal - 2.0 * opening.widened;  // [m] width of the metal left between two slots
   opening.bevel = std::min(kSlotBevel, 0.15 * rib);
 
   const std::vector<Segment> walls = projected_walls(gate, yoke, height);

@@ -1,7 +1,8 @@
-// The opening for a gate in a plate above the lever's pivot.
+// Computes the opening for a gate in a plate above the lever's pivot.
 //
-// The gate is defined at the knob. The lever is straight and turns about the yoke's centre, so it crosses a plane at
-// height h above the centre at the central projection of the knob: q = h p / p_z, p_z the knob's height.
+// The gate is defined at the knob. The lever is straight and turns about the yoke's centre. It therefore crosses a
+// plane at the height h above the centre at the central projection of the knob: q = h p / p_z, with the knob's position
+// p and its height p_z.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -12,19 +13,19 @@
 
 namespace gearshift::cabin {
 
-// The projection and its inverse. [m]; x = select, y = shift, height above the yoke's centre.
+// The projection and its inverse. All values in [m]; x: select, y: shift, height: above the yoke's centre.
 glm::dvec2 plate_point(const haptics::YokeGeometry& yoke, glm::dvec2 gate_point, double height) noexcept;
 glm::dvec2 gate_point(const haptics::YokeGeometry& yoke, glm::dvec2 plate_point, double height) noexcept;
 
 struct SlotOpening {
   Loop loop;                // outline of the opening, counter-clockwise
-  Loop face;                // the same widened by the bevel, its edge on the plate's face; same number of points
+  Loop face;                // `loop` widened by the bevel: the edge on the plate's face; same number of points
   double rod_radius = 0.0;  // [m] largest lever radius that leaves metal between the slots
-  double widened = 0.0;     // [m] added to the path on all sides: fits the elliptical section of a leaning rod
-  double bevel = 0.0;       // [m]
+  double widened = 0.0;     // [m] added to the lever's path on all sides: room for the section of the leaning rod
+  double bevel = 0.0;       // [m] width of the bevel
 };
 
-// The region swept by the lever's axis, widened by the rod.
+// The region that the lever's axis sweeps on the plate, widened so that the rod fits.
 SlotOpening slot_opening(const haptics::Gate& gate, const haptics::YokeGeometry& yoke, double height);
 
 }  // namespace gearshift::cabin

@@ -27,13 +27,13 @@ namespace {
 constexpr double kKnobRadius = 0.024;  // [m] radius of the knob in the cabin model
 constexpr float kGhostOpacity = 0.4f;
 constexpr float kTransparentHand = 0.25f;  // opacity of the hand while paths are shown below it
-constexpr float kExposure = 3.0f;          // for a view from inside: the cabin is darker than the road
-constexpr engine::ShadowRoom kCabin{{-0.45f, -0.31f, -1.25f}, {1.12f, 0.96f, 1.45f}};  // [m]
+constexpr float kExposure = 3.0f;          // for views from inside the cabin, which is darker than the road
+constexpr engine::ShadowBounds kCabin{{-0.45f, -0.31f, -1.25f}, {1.12f, 0.96f, 1.45f}};  // [m]
 constexpr glm::vec3 kX{1.0f, 0.0f, 0.0f}, kZ{0.0f, 0.0f, 1.0f};
 
-engine::ShadowRoom room_of(DriveSide side) {
+engine::ShadowBounds room_of(DriveSide side) {
   if (side == DriveSide::left) return kCabin;
-  engine::ShadowRoom room = kCabin;
+  engine::ShadowBounds room = kCabin;
   room.low.x = static_cast<float>(2.0 * kMirrorPlane) - kCabin.high.x;
   room.high.x = static_cast<float>(2.0 * kMirrorPlane) - kCabin.low.x;
   return room;
@@ -48,12 +48,12 @@ glm::quat about(glm::vec3 axis, double angle) {
 struct Stage::State {
   StageConfig config;
   engine::Model model;
-  std::vector<engine::Node> pose;  // nodes of this frame
+  std::vector<engine::Node> pose;  // nodes as placed in this frame
   engine::FrameScene scene;
   std::vector<engine::Vertex> boot_at_rest;
-  std::size_t hand_mesh = 0;     // index in scene.deformed
-  std::size_t first_path = 0;    // index in scene.deformed of the paths shown in this frame
-  std::vector<glm::mat4> world;  // node transforms of this frame
+  std::size_t hand_mesh = 0;     // index of the hand in scene.deformed
+  std::size_t first_path = 0;    // index of the first path in scene.deformed
+  std::vector<glm::mat4> world;  // node transforms in this frame
   DialPrint dial;
   bool dial_changed = false;
   Roadside road;
@@ -65,7 +65,7 @@ struct Stage::State {
   int clutch = engine::kNone, brake = engine::kNone, throttle = engine::kNone, hand_brake = engine::kNone;
   int shift_up = engine::kNone, shift_down = engine::kNone, driven_path = engine::kNone, ideal_path = engine::kNone;
   int beam = engine::kNone, beam_end = engine::kNone;
-  glm::dvec3 pivot{0.0};  // [m] world
+  glm::dvec3 pivot{0.0};  // [m] the lever's pivot in the world
   glm::dvec3 knob{0.0}, ghost_knob{0.0};
 
   State(const StageConfig& stage_config, const std::filesystem::path& folder)
@@ -78,7 +78,7 @@ struct Stage::State {
     find_nodes();
     scene.nodes.resize(model.nodes.size());
     scene.exposure = kExposure;
-    scene.shadow_room = room_of(config.drive);
+    scene.shadow_bounds = room_of(config.drive);
     for (engine::NodeState& state : scene.nodes) state.indoors = true;
     for (const std::string& name : outdoor_names())
       scene.nodes[static_cast<std::size_t>(required_node(model, name))].indoors = false;
@@ -128,7 +128,7 @@ struct Stage::State {
   const engine::Node& node(int index) const { return model.nodes[static_cast<std::size_t>(index)]; }
   void turn(int index, glm::quat rotation) { pose[static_cast<std::size_t>(index)].rotation = rotation; }
 
-  // The lever vibrates with the engine in both directions.
+  // Adds the vibration of a labouring engine to the lever's position, along both axes.
   static glm::dvec2 with_vibration(glm::dvec2 plane, const vehicle::VehicleState& car, double time) {
     return plane + kLeverVibration * glm::dvec2(vibration(car, time + 0.3), vibration(car, time));
   }
@@ -191,7 +191,7 @@ struct Stage::State {
     if (hand) set_hand_transparent(is_driven || is_ideal);
   }
 
-  // A transparent hand is drawn without a ghost.
+  // Makes the hand transparent or opaque. A transparent hand is drawn without its ghost.
   void set_hand_transparent(bool is_glass) {
     scene.nodes[static_cast<std::size_t>(hand->skin_node())].opacity = is_glass ? kTransparentHand : 1.0f;
     if (is_glass) scene.nodes[static_cast<std::size_t>(hand->ghost_node())].visible = false;
@@ -223,7 +223,8 @@ struct Stage::State {
     }
     if (!hand) return;
     engine::skin_vertices(model, hand->skin_node(), world, scene.deformed[hand_mesh].vertices);
-    scene.nodes[static_cast<std::size_t>(hand->skin_node())].world = glm::mat4(1.0f);  // skinned into the world
+    // The skinned vertices are already in world coordinates.
+    scene.nodes[static_cast<std::size_t>(hand->skin_node())].world = glm::mat4(1.0f);
   }
 };
 

@@ -1,4 +1,4 @@
-// Places everything in the cabin from the state of loop and car. Uses meshes and nodes only, no GPU.
+// The stage: places everything in the cabin according to the state of loop and car. Uses only meshes and nodes, no GPU.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ namespace gearshift::cabin {
 struct StageConfig {
   haptics::Gate gate;
   haptics::YokeGeometry yoke;  // the drawn lever turns about the same centre as the device's yoke
-  bool cutaway = false;        // show the gearbox beside the console
+  bool cutaway = false;        // show the cut-away gearbox next to the console
   bool open_gate = false;      // show a slotted plate of the loaded gate instead of the boot
   bool hand = true;            // show a hand on the knob
   DriveSide drive = DriveSide::left;
@@ -35,9 +35,9 @@ struct StageConfig {
 struct StageInput {
   haptics::HapticSnapshot lever;
   vehicle::VehicleState car;
-  double time = 0.0;  // [s] for blinking lamps
-  // For a replayed shift: the driven and the shortest path, drawn just above the knob. In the gate plane [m]; empty:
-  // none. The hand is then drawn transparent.
+  double time = 0.0;  // [s] for blinking and vibration
+  // The driven and the shortest path of a replayed shift, in the gate plane [m]; empty: no path. They are drawn just
+  // above the knob, with a transparent hand.
   std::span<const glm::dvec2> driven_path{}, ideal_path{};
   std::optional<Beam> pointer{};  // beam of a pointing controller
 };
@@ -48,7 +48,7 @@ class Stage {
   Stage(const StageConfig& config, const std::filesystem::path& folder);
   ~Stage();
 
-  const engine::Model& model() const noexcept;  // static parts merged; gate plate and gearbox match the gate
+  const engine::Model& model() const noexcept;  // static parts are merged; gate plate and gearbox match the gate
   // True once after place() changed the dial's textures in model(), because the car's red line changed.
   bool take_dial_change() noexcept;
 
@@ -57,12 +57,12 @@ class Stage {
   void place(const StageInput& input);
   const engine::FrameScene& scene() const noexcept;
 
-  glm::dvec3 knob() const noexcept;        // [m] world, centre of the drawn knob
-  glm::dvec3 ghost_knob() const noexcept;  // [m] world, at the lever point
-  // [m] world: the knob's centre with the lever upright, and the centre of the knob's top at the lever point.
-  glm::dvec3 knob_at_rest() const noexcept;
-  glm::dvec3 knob_top() const noexcept;
-  engine::EyePose driver_eye() const;  // at rest, looking ahead and a little down
+  // Positions in the world [m].
+  glm::dvec3 knob() const noexcept;          // centre of the drawn knob
+  glm::dvec3 ghost_knob() const noexcept;    // centre of a knob at the lever point
+  glm::dvec3 knob_at_rest() const noexcept;  // centre of the knob with the lever upright
+  glm::dvec3 knob_top() const noexcept;      // centre of the top of a knob at the lever point
+  engine::EyePose driver_eye() const;        // pose of the camera "driver"
 
  private:
   struct State;
@@ -70,8 +70,9 @@ class Stage {
 };
 
 // Named cameras: "driver", "ahead", "lever", "gate", "cluster", "gearbox". Each has its subject in the middle square of
-// the image, because the panel may cover the sides. For an unknown name, throw std::invalid_argument listing all names.
+// the image, because the panel may cover the sides. For an unknown name, both functions throw std::invalid_argument,
+// which lists all names.
 engine::EyePose camera(std::string_view name, DriveSide side = DriveSide::left);
-double camera_field(std::string_view name);  // [deg] across the shorter side of the image
+double camera_field(std::string_view name);  // [deg] field of view across the shorter side of the image
 
 }  // namespace gearshift::cabin

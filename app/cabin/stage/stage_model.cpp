@@ -26,15 +26,15 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr glm::vec3 kCapGround{0.012f}, kCapInk{0.75f}, kCapReverse{0.62f, 0.035f, 0.025f};  // linear
-constexpr int kCapSide = 256;                                                                // [px]
+constexpr glm::vec3 kCapGround{0.012f}, kCapInk{0.75f}, kCapReverse{0.62f, 0.035f, 0.025f};  // linear colours
+constexpr int kCapSide = 256;               // [px] side of the cap's texture
 constexpr float kModelRod = 0.006f;         // [m] radius of LeverRod in the cabin model
-constexpr glm::dvec2 kLamp{-0.052, 0.059};  // [m] on the boot's frame, front left, where the hand does not hide it
+constexpr glm::dvec2 kLamp{-0.052, 0.059};  // [m] on the boot's frame, front left, where no hand hides the lamp
 constexpr double kLampRadius = 0.0040;      // [m]
 constexpr const char* kBodywork = "Bodywork";
 constexpr std::array kPedals{"PedalClutch", "PedalBrake", "PedalThrottle"};
 
-// Nodes that are moved but not mirrored in a right-hand-drive car: print, controls, parts that turn.
+// Nodes that are moved but not mirrored to make a right-hand-drive car: print, controls, parts that turn.
 constexpr std::string_view kUpright[] = {
     "Cluster",    "RadioScreen",   "ClimatePrint", "HazardButton", "SteeringColumn", "PedalClutch",
     "PedalBrake", "PedalThrottle", "LeverPivot",   "GhostPivot",   "Boot",           "GatePlate",
@@ -48,8 +48,8 @@ void hide(engine::Model& model, std::string_view name) {
   node_of(model, name).mesh = engine::kNone;
 }
 
-// Saves draws with no visible effect: small faces get another material of the same part, and parts that turn about
-// their own axis of symmetry become static.
+// Saves draws without a visible effect: small faces get a different material that the same part already uses, and parts
+// that turn about their own axis of symmetry become static.
 void reduce_draws(engine::Model& cabin) {
   for (const char* pedal : kPedals) {
     replace_material(cabin, pedal, "PlasticHard", "PlasticSoft");
@@ -58,13 +58,13 @@ void reduce_draws(engine::Model& cabin) {
   replace_material(cabin, "SteeringWheel", "PlasticSoft", "PlasticHard");
   split_static_part(cabin, "TachNeedle", "PlasticGloss");
   split_static_part(cabin, "SpeedNeedle", "PlasticGloss");
-  engine::Node& ring = node_of(cabin, "BootRing");  // the boot bends, its ring does not
+  engine::Node& ring = node_of(cabin, "BootRing");  // made static: unlike the boot, its ring does not bend
   const engine::Node& boot = node_of(cabin, "Boot");
   ring.translation += boot.translation;
   ring.parent = boot.parent;
 }
 
-// Moves the parts of the cabin's file that are lit by the open sky into one mesh at a node of its own.
+// Moves the parts of the cabin's file that are lit by the open sky into one mesh with a node of its own.
 void gather_bodywork(engine::Model& cabin) {
   const std::vector<glm::mat4> world = engine::rest_pose(cabin);
   std::vector<MeshPart> parts;
@@ -109,8 +109,8 @@ void draw_knob_cap(engine::Model& model, const haptics::Gate& gate) {
   material.base_colour_map.texture = static_cast<int>(model.textures.size()) - 1;
 }
 
-// A red lamp beside the gate, where the driver looks when pushing too hard.
-void add_lever_lamp(engine::Model& model, const engine::Node& beside, glm::vec3 offset) {
+// Adds a red lamp next to the gate, where the driver looks when pushing too hard.
+void add_lever_lamp(engine::Model& model, const engine::Node& plate, glm::vec3 offset) {
   engine::Material red = plain_material("LampLever", glm::vec3(0.25f, 0.01f, 0.01f), 0.0f, 0.25f);
   red.emissive = glm::vec3(1.5f, 0.03f, 0.02f);
   const int lit = add_material(model, red);
@@ -131,10 +131,10 @@ void add_lever_lamp(engine::Model& model, const engine::Node& beside, glm::vec3 
     add_wall(lens, {ring[i + 1], height[i + 1]}, {ring[i], height[i]}, WallFace::from_right);
   }
   const std::array<MaterialPart, 1> parts{MaterialPart{lens, lit}};
-  add_mesh_node(model, "LampLever", parts, beside.translation + offset, beside.parent);
+  add_mesh_node(model, "LampLever", parts, plate.translation + offset, plate.parent);
 }
 
-// Adds the plate at the pivot's place, as a static node, hides boot and frame, and makes the lever as thin as the slots
+// Adds the gate plate above the pivot as a static node, hides boot and frame, and makes the lever as thin as the slots
 // require.
 void add_open_gate(engine::Model& model, const StageConfig& config) {
   const GatePlate plate = make_gate_plate(config.gate, config.yoke);
@@ -155,7 +155,7 @@ void join_lever(engine::Model& model) {
   for (const char* part : {"LeverRod", "LeverCollar"}) merge_into(model, part, "Knob");
 }
 
-// A second, translucent lever without a boot, which shows the lever point.
+// Adds a second, translucent lever without a boot, which shows the lever point.
 void add_ghost(engine::Model& model) {
   const int pivot = required_node(model, "LeverPivot");
   const int ghost = add_twin(model, pivot, "GhostPivot", model.nodes[static_cast<std::size_t>(pivot)].parent);
@@ -171,9 +171,9 @@ glm::vec3 knob_at_rest(const engine::Model& model) {
   return pivot_at_rest(model) + glm::vec3(0.0f, static_cast<float>(kDrawnLever), 0.0f);
 }
 
-// Mirrors the cabin before static parts are merged. The pedals keep their order, with the clutch to the left of the
-// brake. The footrest is now beside the throttle: the tunnel leaves no room on the other side, and without the footrest
-// the floor would show the hole and the shadow baked behind it.
+// Mirrors the cabin; call before static parts are merged. The pedals keep their order, with the clutch to the left of
+// the brake. The mirrored footrest ends up next to the throttle: the tunnel leaves no room on the other side, and
+// without the footrest the floor would show the hole and the baked shadow behind it.
 void make_right_hand_drive(engine::Model& model) {
   mirror_model(model, static_cast<float>(kMirrorPlane), kUpright);
   for (const char* pedal : kPedals) {
@@ -182,8 +182,9 @@ void make_right_hand_drive(engine::Model& model) {
   }
 }
 
-// The sign must stay readable, so it is mirrored twice in a right-hand-drive car.
-engine::Model road_things(const StageConfig& config, const std::filesystem::path& folder) {
+// Reads the road's model. For a right-hand-drive car the sign is mirrored here and once more with the whole model, so
+// that it stays readable.
+engine::Model road_parts(const StageConfig& config, const std::filesystem::path& folder) {
   engine::Model road = engine::read_gltf(folder / "road.glb");
   if (config.drive == DriveSide::right) mirror_mesh(road, node_of(road, "Sign").mesh);
   return road;
@@ -233,7 +234,7 @@ engine::Model make_stage_model(const StageConfig& config, const std::filesystem:
   add_path(model, kIdealPath, pivot_at_rest(model), kIdealStyle);
   add_ghost(model);
   if (config.hand) Hand::add_to(model, engine::read_gltf(folder / "hand.glb"), knob_at_rest(model));
-  Roadside::add_to(model, road_things(config, folder));
+  Roadside::add_to(model, road_parts(config, folder));
   if (config.cutaway) Gearbox::add_to(model, gearbox_parts(config, folder), config.gate);
   if (config.drive == DriveSide::right) make_right_hand_drive(model);
   add_pointer_beam(model);

@@ -1,4 +1,5 @@
-// All meshes and nodes of the stage: the files of assets/models and the parts made for the gate, merged into few draws.
+// Makes all meshes and nodes of the stage from the files of assets/models and the parts made for the gate, merged into
+// few draws.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace gearshift::cabin {
 // Throws GltfError (bad model file), std::runtime_error (a required node is missing).
 engine::Model make_stage_model(const StageConfig& config, const std::filesystem::path& folder);
 
-// Nodes lit by the open sky: road, land, bodywork. All others are in the cabin.
+// Names of the nodes that are lit by the open sky: road, land, bodywork. All other nodes are inside the cabin.
 std::vector<std::string> outdoor_names();
 
 }  // namespace gearshift::cabin

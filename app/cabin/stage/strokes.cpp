@@ -10,10 +10,10 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr double kSharp = 0.7;  // cosine: sharper corners are made of two rounded ends
+constexpr double kSharp = 0.7;  // cosine of the largest turn with a mitre; sharper corners get two rounded ends
 constexpr int kCapSteps = 6;
 
-// Adds an arc from one angle to another [deg], counter-clockwise if increasing.
+// Adds an arc from angle `from` to angle `to` [deg], counter-clockwise if from < to.
 void arc(Line& line, glm::dvec2 centre, glm::dvec2 radii, double from, double to) {
   const int steps = std::max(3, static_cast<int>(std::ceil(std::abs(to - from) / 15.0)));
   for (int i = 0; i <= steps; ++i) {
@@ -29,7 +29,7 @@ std::vector<Line> six() {
   return {line};
 }
 
-// A glyph in a box 0.6 wide and 1 high.
+// The glyph of a gear, in a box that is 0.6 wide and 1 high.
 std::vector<Line> glyph(int gear) {
   Line a, b;
   switch (gear) {
@@ -80,7 +80,7 @@ glm::dvec2 left_of(glm::dvec2 direction) {
   return {-direction.y, direction.x};
 }
 
-// Half disc behind the end of a line.
+// Adds a half disc at the end of a line.
 void cap(std::vector<glm::dvec2>& corners, glm::dvec2 end, glm::dvec2 outward, double half) {
   const auto rim = [&](int i) {
     const double angle = std::numbers::pi * (static_cast<double>(i) / kCapSteps - 0.5);
@@ -89,7 +89,7 @@ void cap(std::vector<glm::dvec2>& corners, glm::dvec2 end, glm::dvec2 outward, d
   for (int i = 0; i < kCapSteps; ++i) corners.insert(corners.end(), {end, rim(i), rim(i + 1)});
 }
 
-// A line without sharp corners, with mitred joints.
+// Adds a line that has no sharp corners, with mitred joints.
 void ribbon(std::vector<glm::dvec2>& corners, const Line& line, double half) {
   std::vector<glm::dvec2> side(line.size());  // from the line to its left edge
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -110,7 +110,7 @@ double srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// Coverage of the pixel around p by the stroke, from the distance of its centre line. [1]
+// Coverage [1] by the stroke of the pixel around p, from the distance of p to the stroke's centre line.
 double coverage(const Stroke& stroke, glm::dvec2 p, double pixel) {
   double nearest = 1e9;
   for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {
@@ -152,7 +152,7 @@ std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, doubl
 
 std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour) {
   constexpr double kSignHeight = 0.15, kLine = 0.030;
-  constexpr glm::dvec2 kHalf{0.25, 0.19};  // of the lines; the labels are beyond
+  constexpr glm::dvec2 kHalf{0.25, 0.19};  // half size of the pattern without the labels
   const double left = haptics::column_of(gate, 0).center,
                right = haptics::column_of(gate, gate.column_count - 1).center;
   double deepest = gate.half_aisle;

@@ -1,4 +1,4 @@
-// Lines with a width: the stroke font of gear labels, and the shift pattern on a knob.
+// Strokes, i.e. lines with a width: the font of the gear labels, and the shift pattern on the knob.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace gearshift::cabin {
 
-using Line = std::vector<glm::dvec2>;  // a polyline; closed if its ends are equal
+using Line = std::vector<glm::dvec2>;  // a polyline; closed if its first and last point are equal
 
 struct Stroke {
   Line line;
@@ -19,13 +19,14 @@ struct Stroke {
   glm::vec3 colour{1.0f};  // linear
 };
 
-// Strokes of "R", "N", "1" ... "9", centred at `centre`, with lines of that width; a box for any other gear.
+// Strokes of "R", "N", "1" ... "9", centred at `centre`, with lines `width` wide. An unknown gear gives a box.
 std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, double width, glm::vec3 colour);
 
-// The shift pattern of a gate as on a knob, in the unit square, y up: aisles to scale, gears at their ends.
+// The shift pattern of a gate as printed on a knob, in the unit square, y up: columns at their relative distances,
+// slots of equal length, gear labels at their ends.
 std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour);
 
-// Triangles of a stroke with rounded ends and corners; three points each, counter-clockwise.
+// The triangles of a stroke with rounded ends and corners; three points per triangle, counter-clockwise.
 std::vector<glm::dvec2> stroke_triangles(const Stroke& stroke);
 
 // Draws the unit square into an sRGB image, row 0 at y = 1, with edges antialiased over one pixel.

@@ -1,4 +1,4 @@
-// How much of the lever mechanism is visible in the cabin.
+// Defines how much of the lever mechanism is visible in the cabin.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,8 @@
 
 namespace gearshift::cabin {
 
-// closed: boot and hand; open_gate: slotted plate without them; cutaway: also the cut-away gearbox beside it.
+// closed: boot and hand; open_gate: slotted plate instead of boot and hand; cutaway: like open_gate, and in addition
+// the cut-away gearbox.
 enum class Cabin { closed, open_gate, cutaway };
 
 Cabin cabin_for_camera(std::string_view camera);  // see camera()

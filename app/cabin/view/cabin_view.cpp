@@ -31,7 +31,7 @@ std::vector<engine::View> views_of(const ViewConfig& config, const engine::EyePo
           engine::view_from(eyes.pose[1], eyes.fov[1], config.near_plane)};
 }
 
-// Blits the eyes into the window's image.
+// Copies the image of the eye or both eyes into the window's image.
 class PresentFinish final : public engine::Renderer::Finish {
  public:
   PresentFinish(engine::Swapchain& swapchain, bool stereo) : swapchain_(swapchain), stereo_(stereo) {
@@ -55,12 +55,12 @@ class PresentFinish final : public engine::Renderer::Finish {
 
 }  // namespace
 
-glm::ivec2 eye_size(const ViewConfig& config, glm::ivec2 whole) {
-  return {std::max(1, whole.x / (config.stereo ? 2 : 1)), std::max(1, whole.y)};
+glm::ivec2 eye_size(const ViewConfig& config, glm::ivec2 full_size) {
+  return {std::max(1, full_size.x / (config.stereo ? 2 : 1)), std::max(1, full_size.y)};
 }
 
-glm::dvec2 mouse_in_eye(const ViewConfig& config, glm::dvec2 mouse, glm::ivec2 whole) {
-  return {std::fmod(mouse.x, eye_size(config, whole).x), mouse.y};
+glm::dvec2 mouse_in_eye(const ViewConfig& config, glm::dvec2 mouse, glm::ivec2 full_size) {
+  return {std::fmod(mouse.x, eye_size(config, full_size).x), mouse.y};
 }
 
 engine::Fov fov_around(double field, glm::dvec2 size, const VisibleRegion& part) {
@@ -98,7 +98,7 @@ struct CabinView::State {
     return config;
   }
 
-  // Resizes the image to the window.
+  // Resizes the rendered image to the window's size.
   void fit() {
     const VkExtent2D extent = swapchain->extent();
     const engine::RenderConfig wanted =

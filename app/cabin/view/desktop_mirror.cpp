@@ -15,17 +15,17 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kPeriod = std::chrono::microseconds(33'000);
 
-// Fits the picture into the region of the canvas and centres it. [px]
+// [px] The place of the picture when it is fitted into the visible part of the canvas and centred in it.
 VkRect2D place_in(const VisibleRegion& part, VkExtent2D canvas, VkExtent2D picture) {
   const glm::dvec2 size(canvas.width, canvas.height);
   const glm::dvec2 low = part.low * size, room = (part.high - part.low) * size;
   const double scale = std::min(room.x / picture.width, room.y / picture.height);
   const glm::dvec2 shown = scale * glm::dvec2(picture.width, picture.height);
   const glm::dvec2 corner = low + 0.5 * (room - shown);
-  const auto whole = [](double px) { return static_cast<std::int32_t>(std::floor(px)); };
-  const VkOffset2D at{std::max(0, whole(corner.x)), std::max(0, whole(corner.y))};
+  const auto to_pixel = [](double px) { return static_cast<std::int32_t>(std::floor(px)); };
+  const VkOffset2D at{std::max(0, to_pixel(corner.x)), std::max(0, to_pixel(corner.y))};
   const auto length = [&](double px, std::int32_t from, std::uint32_t side) {
-    return std::min(static_cast<std::uint32_t>(std::max(1, whole(px))), side - static_cast<std::uint32_t>(from));
+    return std::min(static_cast<std::uint32_t>(std::max(1, to_pixel(px))), side - static_cast<std::uint32_t>(from));
   };
   return {at, {length(shown.x, at.x, canvas.width), length(shown.y, at.y, canvas.height)}};
 }
@@ -50,7 +50,7 @@ struct DesktopMirror::State {
 };
 
 glm::dvec2 in_mirrored_panel(glm::dvec2 mouse, glm::ivec2 panel, glm::ivec2 window) {
-  if (std::min(window.x, window.y) <= 0) return mouse;  // minimised
+  if (std::min(window.x, window.y) <= 0) return mouse;  // the window is minimised
   const VkRect2D place = engine::placement_of(engine::ShownLayer{}, extent_of(panel), extent_of(window));
   const glm::dvec2 corner(place.offset.x, place.offset.y), shown(place.extent.width, place.extent.height);
   return (mouse - corner) / shown * glm::dvec2(panel);

@@ -1,6 +1,6 @@
-// Mirrors the learner's view with the panel over it in a window for the instructor: one image as large as the headset's
-// panel image, fitted into the middle of the window. It never delays the headset: if the window has no free image, the
-// last one stays.
+// Mirrors the learner's view, with the panel over it, in a window for the instructor: an image as large as the panel's
+// image in the headset, fitted into the middle of the window. The mirror never delays the headset: if the window has no
+// free image, the last one stays.
 #pragma once
 
 #include <memory>
@@ -12,18 +12,19 @@
 
 namespace gearshift::cabin {
 
-// Converts a mouse position in the window to one in a panel of that size; beside the image, the result is outside. [px]
+// [px] Converts a mouse position in the window to a position in a panel of this size. If the mouse is not over the
+// image, the result is outside the panel.
 glm::dvec2 in_mirrored_panel(glm::dvec2 mouse, glm::ivec2 panel, glm::ivec2 window);
 
 class DesktopMirror {
  public:
-  // All arguments must outlive the mirror. size [px]: of the panel. Throws GpuError.
+  // All arguments must outlive the mirror. size [px]: size of the panel's image. Throws GpuError.
   DesktopMirror(engine::Gpu& gpu, engine::Window& window, engine::UiContext& ui, glm::ivec2 size);
   ~DesktopMirror();
 
-  bool is_due() const;  // 30 times a second: more is not visible and costs GPU time of the headset
-  // Shows the first layer of `picture` (in state copy_from), fitted into that region of the panel, with the panel over
-  // it.
+  bool is_due() const;  // true 30 times per second; a higher rate would cost the headset GPU time
+  // Shows the first layer of `picture`, which must be in state copy_from, fitted into this part of the panel's image,
+  // with the panel over it.
   void show(engine::GpuImage& picture, const VisibleRegion& part);
 
  private:

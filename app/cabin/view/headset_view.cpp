@@ -13,7 +13,7 @@
 namespace gearshift::cabin {
 namespace {
 
-// [1] of the tangents: see RenderConfig::late_margin
+// [1] see RenderConfig::late_margin
 constexpr float kLateMargin = 0.1f;
 constexpr std::chrono::milliseconds kFrameTimeout(50);
 
@@ -23,7 +23,7 @@ engine::GpuConfig shared_with(engine::HeadsetRuntime& runtime) {
   return config;
 }
 
-// The scaled size as an even number, limited to what the runtime supports.
+// The scaled size [px] as an even number, limited to `largest`, the most that the runtime supports.
 int scaled(int recommended, int largest, double scale) {
   const int wanted = static_cast<int>(std::lround(0.5 * scale * recommended)) * 2;
   return std::clamp(wanted, 2, std::max(2, largest));
@@ -83,23 +83,23 @@ struct HeadsetView::State {
   engine::Renderer renderer;
   engine::HeadsetSession session;
   UiCanvas panel;
-  std::optional<DesktopMirror> mirror;  // none: the window failed; the headset still works
+  std::optional<DesktopMirror> mirror;  // empty if the window has failed; the headset still works then
   engine::FrameTimes times;
   std::optional<engine::HeadsetFrame> frame;  // the frame that has begun
-  bool is_shown = false;                      // the last frame was displayed
+  bool is_shown = false;                      // the headset displays the frame that has begun last
   std::string message;
   engine::HeadsetEyes eyes, shown_eyes, at_origin;
-  bool drawn = false;  // there is an image to mirror
+  bool drawn = false;  // true once there is an image to mirror
 };
 
 namespace {
 
-// Copies the rendered images into the headset's images, and updates the eye poses as late as possible.
-class ToHeadset final : public engine::Renderer::Finish {
+// Ends a frame: copies the rendered images into the headset's images, and updates the eye poses as late as possible.
+class HeadsetFinish final : public engine::Renderer::Finish {
  public:
-  ToHeadset(engine::HeadsetSession& session, const engine::HeadsetFrame& frame,
-            const engine::HeadsetSession::Images& images, engine::GpuImage& depth, UiCanvas& panel,
-            const engine::EyePose& seat, double near_plane)
+  HeadsetFinish(engine::HeadsetSession& session, const engine::HeadsetFrame& frame,
+                const engine::HeadsetSession::Images& images, engine::GpuImage& depth, UiCanvas& panel,
+                const engine::EyePose& seat, double near_plane)
       : session_(session),
         frame_(frame),
         images_(images),
@@ -129,7 +129,7 @@ class ToHeadset final : public engine::Renderer::Finish {
  private:
   static void put(VkCommandBuffer commands, const engine::GpuImage& from, engine::GpuImage* to) {
     engine::transition(commands, *to, engine::ImageUse::copy_to);
-    engine::copy_whole(commands, from, *to);
+    engine::copy_image(commands, from, *to);
   }
 
   engine::HeadsetSession& session_;
@@ -239,14 +239,15 @@ void HeadsetView::draw(const engine::FrameScene& scene, const engine::EyePose& c
   engine::HeadsetSession::Images images;
   if (s.frame && s.frame->should_render) images = s.session.acquire_images(panel != nullptr);
   if (images.colour) {
-    ToHeadset finish(s.session, *s.frame, images, s.renderer.depth(), s.panel, cabin_from_room, s.config.near_plane);
+    HeadsetFinish finish(s.session, *s.frame, images, s.renderer.depth(), s.panel, cabin_from_room,
+                         s.config.near_plane);
     s.draw_cabin(scene, cabin_from_room, s.eyes, &finish);
     s.eyes = s.shown_eyes = finish.eyes();
   } else if (mirror_is_due) {
     s.draw_cabin(scene, cabin_from_room, is_shown() ? s.eyes : s.at_origin, nullptr);
   }
   if (s.frame) {
-    // If no image could be acquired, the last one is shown again with its own eye poses.
+    // If no image could be acquired, the last image is shown again with the eye poses from which it was drawn.
     const bool shows = s.frame->should_render;
     s.session.end(*s.frame, shows ? &s.shown_eyes : nullptr, s.config.near_plane, shows ? panel : nullptr);
     s.times.add(*s.frame, s.session.now_ns(), images.colour ? s.renderer.times().all : 0.0);

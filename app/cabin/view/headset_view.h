@@ -1,4 +1,5 @@
-// The cabin in a headset with the panel as an image hanging in it, and a mirror window for the instructor.
+// Draws the cabin in a headset, with the panel as an image that hangs in the cabin, and a mirror window for the
+// instructor.
 #pragma once
 
 #include <array>
@@ -17,37 +18,37 @@
 namespace gearshift::cabin {
 
 struct HeadsetViewConfig {
-  double scale = 1.0;            // [1] 0.3 to 2, relative to the image size recommended by the headset
+  double scale = 1.0;            // [1] 0.3 to 2, ratio of the image size to the size recommended by the headset
   int samples = 0;               // 1, 4, or 0: 4 on a GPU, 1 on a software driver
   double near_plane = 0.05;      // [m]
-  glm::ivec2 panel{1920, 1080};  // [px] size of its image: 32 px per degree on the lesson card
+  glm::ivec2 panel{1920, 1080};  // [px] size of the panel's image: 32 px per degree on the lesson card
 };
 
 class HeadsetView {
  public:
-  // window and ui must outlive the view. Throws HeadsetError with one sentence, GpuError.
+  // window and ui must outlive the view. Throws HeadsetError with one sentence, or GpuError.
   HeadsetView(const HeadsetViewConfig& config, std::unique_ptr<engine::HeadsetRuntime> runtime, engine::Window& window,
               engine::UiContext& ui);
   ~HeadsetView();
 
   void set_model(const engine::Model& model);
 
-  // Polls the headset. If it is in use, waits for its next frame, locates the eyes and returns true; draw() must
-  // follow. If the runtime holds the frame back for more than 50 ms, no frame begins, so that the lever's keys are not
-  // delayed. This and the other functions throw HeadsetLost, after which the view must be recreated.
+  // Polls the headset. If the headset is in use, waits for its next frame, locates the eyes and returns true; draw()
+  // must follow. If the runtime withholds the frame for more than 50 ms, no frame begins, so that the keys for the
+  // lever are not delayed. This and the other functions throw HeadsetLost, after which the view must be recreated.
   bool begin();
-  bool has_begun() const noexcept;                   // a frame has begun
-  bool is_waiting() const noexcept;                  // the runtime holds a frame back: the destructor waits for it
-  void release_window();                             // ends the mirror, so that another view can use the window
-  bool is_shown() const noexcept;                    // the runtime displays the last frame
-  const engine::HeadsetEyes& eyes() const noexcept;  // in the room
-  // For the frame that has begun.
-  std::array<engine::HeadsetHand, 2> hands();  // in the room: left, right
+  bool has_begun() const noexcept;                   // true if a frame has begun
+  bool is_waiting() const noexcept;                  // the runtime withholds a frame, for which the destructor waits
+  void release_window();                             // ends the mirror, so that a different view can use the window
+  bool is_shown() const noexcept;                    // the headset displays the frame that has begun last
+  const engine::HeadsetEyes& eyes() const noexcept;  // poses of the eyes in the room
+  // The next two functions need a frame that has begun.
+  std::array<engine::HeadsetHand, 2> hands();  // left and right, poses in the room
   std::optional<engine::SpaceChange> take_due_space_change();
 
-  // Draws from the current eye poses, submits the frame, and then updates the mirror in that region of the window.
-  // cabin_from_room: see SeatCalibration. panel: in the room; null: hidden. If no frame is shown, only the mirror is
-  // drawn, from the room's origin.
+  // Draws from the current eye poses, submits the frame, and then updates the mirror. cabin_from_room: see
+  // SeatCalibration. panel: its place in the room; null: hidden. region: the part of the mirror's image for the view.
+  // If the headset displays no frames, only the mirror is drawn, from the room's origin.
   void draw(const engine::FrameScene& scene, const engine::EyePose& cabin_from_room, const engine::HeadsetPanel* panel,
             const VisibleRegion& region);
 
@@ -57,7 +58,7 @@ class HeadsetView {
   const engine::HeadsetTiming& timing() const noexcept;
   glm::ivec2 eye_size() const noexcept;  // [px]
   std::uint64_t validation_messages() const;
-  std::string take_message();  // returns once why the mirror failed; empty: no failure
+  std::string take_message();  // returns once the reason why the mirror failed; empty: no failure
 
  private:
   struct State;

@@ -1,4 +1,4 @@
-// Draws the panel into its own image: for a quad layer in a headset, or over a window's content.
+// Draws the panel into an image of its own, for a quad layer in a headset or over a window's content.
 #pragma once
 
 #include "engine/gpu/gpu_image.h"
@@ -10,11 +10,12 @@ class UiCanvas {
  public:
   UiCanvas(engine::Gpu& gpu, engine::UiContext& ui) : gpu_(gpu), overlay_(gpu, ui) {}
 
-  void fit(VkExtent2D extent);  // recreates the image if its size changes; then waits until the device is idle
+  void fit(VkExtent2D extent);  // waits until the GPU is idle and recreates the image, if its size changes
 
   // Clears the image to transparent black and leaves it in state copy_to.
   engine::GpuImage& begin(VkCommandBuffer commands);
-  // Draws the panel over the content, with premultiplied alpha; leaves the image in state copy_from. slot: see Overlay.
+  // Draws the panel over the image's content, with premultiplied alpha; leaves the image in state copy_from. slot: see
+  // Overlay.
   engine::GpuImage& draw(VkCommandBuffer commands, int slot);
 
  private:

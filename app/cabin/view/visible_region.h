@@ -1,11 +1,11 @@
-// The region of an image that nothing covers.
+// The region of an image that is not covered by the panel.
 #pragma once
 
 #include <glm/vec2.hpp>
 
 namespace gearshift::cabin {
 
-// In fractions of the image, from its upper left corner. [1]
+// Corners of the region, as fractions of the image, from its upper left corner. [1]
 struct VisibleRegion {
   glm::dvec2 low{0.0}, high{1.0};
 };

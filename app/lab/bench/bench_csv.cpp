@@ -1,29 +1,24 @@
 #include <fmt/format.h>
 
+#include "app/base/csv.h"
 #include "app/lab/bench/bench_files.h"
 
 namespace gearshift::lab {
 namespace {
 
-std::string quoted_field(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string beside_field(const BenchRow& row) {
+std::string related_field(const BenchRow& row) {
   std::string text;
   for (const RelatedFigure& more : row.related)
     text += fmt::format("{}{} = {} {}", text.empty() ? "" : "; ", more.what, more.value, more.unit);
-  return quoted_field(text);
+  return base::csv_field(text);
 }
 
 // Columns: contest, method, cost, cost_unit, error, error_unit, chosen.
 std::string trade_fields(const std::optional<Trade>& trade) {
   if (!trade) return ",,,,,,";
-  return fmt::format("{},{},{},{},{},{},{}", quoted_field(trade->contest), quoted_field(trade->method),
-                     trade->cost.value, quoted_field(trade->cost.unit), trade->error.value,
-                     quoted_field(trade->error.unit), trade->chosen ? "yes" : "no");
+  return fmt::format("{},{},{},{},{},{},{}", base::csv_field(trade->contest), base::csv_field(trade->method),
+                     trade->cost.value, base::csv_field(trade->cost.unit), trade->error.value,
+                     base::csv_field(trade->error.unit), trade->chosen ? "yes" : "no");
 }
 
 std::string row_fields(const BenchRun& run, const MeasuredRow& measured) {
@@ -31,11 +26,11 @@ std::string row_fields(const BenchRun& run, const MeasuredRow& measured) {
   const auto number = [](bool there, double value) { return there ? fmt::format("{}", value) : std::string(); };
   const Quartiles spread = row.spread.value_or(Quartiles{});
   return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.family, quoted_field(row.name),
-      number(row.measured, row.value), quoted_field(row.unit), number(row.goal.has_value(), row.goal.value_or(0.0)),
-      goal_direction(row), format_verdict(row), design_row_name(row), quoted_field(row.note), beside_field(row),
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.family, base::csv_field(row.name),
+      number(row.measured, row.value), base::csv_field(row.unit), number(row.goal.has_value(), row.goal.value_or(0.0)),
+      goal_direction(row), format_verdict(row), design_row_name(row), base::csv_field(row.note), related_field(row),
       number(row.spread.has_value(), spread.low), number(row.spread.has_value(), spread.high), trade_fields(row.trade),
-      number(measured.since.has_value(), measured.since ? measured.since->value : 0.0), quoted_field(run.program),
+      number(measured.since.has_value(), measured.since ? measured.since->value : 0.0), base::csv_field(run.program),
       run.date);
 }
 

@@ -9,6 +9,6 @@ namespace gearshift::lab {
 
 std::string bench_table(const BenchRun& run);
 std::string bench_csv(const BenchRun& run);   // RFC 4180 except that lines end with LF; program and date on each line
-std::string bench_json(const BenchRun& run);  // values that are not finite are null
+std::string bench_json(const BenchRun& run);  // non-finite values are null
 
 }  // namespace gearshift::lab

@@ -65,7 +65,7 @@ std::string facts(const BenchRun& run) {
          row("Processor", fmt::format("{}, {} cores", m.cpu, m.cores)) + row("GPU", m.gpu) + row("System", m.system) +
          row("Build", fmt::format("{}, {}", m.build, m.compiler)) +
          row("CPU time used by others", run.contention ? format_contention(*run.contention) : "") +
-         row("Run", run.quick ? "quick: not figures to quote" : "full") + "</table>\n";
+         row("Run", run.quick ? "quick (its figures should not be quoted)" : "full") + "</table>\n";
 }
 
 std::string verdict_cell(const BenchRow& row) {
@@ -81,11 +81,11 @@ std::string format_figure(const BenchRow& row) {
   return row.measured ? fmt::format("{} {}", format_value(row.value), row.unit) : "not measured";
 }
 
-std::string number_cell(const std::string& words) {
-  return fmt::format("<td class=\"number\">{}</td>", base::html_text(words));
+std::string number_cell(const std::string& text) {
+  return fmt::format("<td class=\"number\">{}</td>", base::html_text(text));
 }
 
-// A row without a verdict is followed by a row that says why.
+// A row without a verdict is followed by a table row with its note.
 std::string answer_row(const BenchRow& row) {
   const bool is_judged = verdict_of(row) != Verdict::none;
   const std::string why = is_judged || row.note.empty() ? ""
@@ -93,22 +93,22 @@ std::string answer_row(const BenchRow& row) {
                                                               "<tr class=\"why\"><td colspan=\"5\" "
                                                               "class=\"soft\">{}</td></tr>\n",
                                                               base::html_text(row.note));
-  return fmt::format("<tr class=\"row\"><td>{}: {}</td>{}{}{}{}</tr>\n", base::html_text(row.family),
+  return fmt::format("<tr class=\"row\"><td>{}, {}</td>{}{}{}{}</tr>\n", base::html_text(row.family),
                      base::html_text(row.name), number_cell(format_figure(row)), number_cell(format_spread(row.spread)),
                      number_cell(format_goal(row)), verdict_cell(row)) +
          why;
 }
 
-// A row of the design table and the rows of this run that answer it.
-std::string answers_to(const DesignRow& asked, const BenchRun& run) {
+// A row of the design table, and the rows of this run that answer it.
+std::string requirement_rows(const DesignRow& requirement, const BenchRun& run) {
   std::string answers;
   for (const MeasuredRow& measured : run.rows) {
-    if (measured.row.design == asked.key) answers += answer_row(measured.row);
+    if (measured.row.design == requirement.key) answers += answer_row(measured.row);
   }
   return fmt::format(
              "<tr class=\"ask\" id=\"design-{}\"><td>{}</td><td colspan=\"3\">{}</td><td "
              "class=\"soft\">{}</td></tr>\n",
-             asked.name, base::html_text(asked.what), base::html_text(asked.figure),
+             requirement.name, base::html_text(requirement.what), base::html_text(requirement.figure),
              answers.empty() ? "not in this run" : "") +
          answers;
 }
@@ -120,7 +120,7 @@ std::string design_section(const BenchRun& run) {
       "<th class=\"number\">Measured</th><th class=\"number\">Quartiles</th><th "
       "class=\"number\">Goal</th><th></th>"
       "</tr></thead>\n<tbody>\n";
-  for (const DesignRow& asked : kDesignRows) text += answers_to(asked, run);
+  for (const DesignRow& requirement : kDesignRows) text += requirement_rows(requirement, run);
   return text + "</tbody>\n</table>\n</section>\n";
 }
 
@@ -135,17 +135,15 @@ std::string trades_section(const BenchRun& run) {
   }
   if (figures.empty()) return {};
   return "<section id=\"trades\">\n<h2>Methods compared</h2>\n<p>Cost increases to the right, error upwards. The line "
-         "is "
-         "the Pareto front; methods on the line are dark, methods beaten in both are lighter, the default is ringed. "
-         "Bars are "
-         "quartiles.</p>\n" +
+         "is the Pareto front: methods on the line are dark, and methods that others beat in both cost and error are "
+         "lighter. The default has a ring. Bars show the quartiles.</p>\n" +
          figures + "</section>\n";
 }
 
 std::string change_row(const BenchRow& row, const std::optional<SinceLast>& since) {
   if (!since || !since->changed) return {};
   const std::string contention = since->contention.empty() ? "" : fmt::format("; CPU time: {}", since->contention);
-  return fmt::format("<tr><td>{}: {}</td>{}{}{}<td>{}</td></tr>\n", base::html_text(row.family),
+  return fmt::format("<tr><td>{}, {}</td>{}{}{}<td>{}</td></tr>\n", base::html_text(row.family),
                      base::html_text(row.name), number_cell(fmt::format("{} {}", format_value(since->value), row.unit)),
                      number_cell(format_figure(row)), number_cell(format_change(since)),
                      base::html_text(fmt::format("{}, {}{}", since->date, since->program, contention)));
@@ -168,7 +166,7 @@ std::string changes_section(const BenchRun& run) {
          table + "</tbody>\n</table>\n</section>\n";
 }
 
-std::string beside_cell(const BenchRow& row) {
+std::string notes_cell(const BenchRow& row) {
   std::string text = base::html_text(row.note);
   for (const RelatedFigure& more : row.related) {
     text += fmt::format("{}{} {} {}", text.empty() ? "" : "; ", base::html_text(more.what), format_value(more.value),
@@ -191,7 +189,7 @@ std::string family_section(const std::string& family, const BenchRun& run) {
     text += fmt::format("<tr{}><td>{}</td>{}{}{}{}{}{}</tr>\n", changed ? " class=\"changed\"" : "",
                         base::html_text(row.name), number_cell(format_figure(row)),
                         number_cell(format_spread(row.spread)), number_cell(format_goal(row)), verdict_cell(row),
-                        number_cell(format_change(measured)), beside_cell(row));
+                        number_cell(format_change(measured)), notes_cell(row));
   }
   return text + "</tbody>\n</table>\n</section>\n";
 }
@@ -202,7 +200,7 @@ std::size_t count_of(const BenchRun& run, Verdict verdict) {
   }));
 }
 
-// The first thing a reader looks for: how many goals are met, and which are not.
+// Summary: how many goals are met, and which are not.
 std::string summary(const BenchRun& run) {
   const auto needs_mention = [](const BenchRow& row) { return verdict_of(row) == Verdict::missed || is_open(row); };
   const std::size_t met = count_of(run, Verdict::met), goals = met + count_of(run, Verdict::missed);
@@ -211,14 +209,15 @@ std::string summary(const BenchRun& run) {
   for (const MeasuredRow& measured : run.rows) {
     const BenchRow& row = measured.row;
     if (!needs_mention(row)) continue;
-    table += fmt::format("<tr><td><a href=\"#family-{0}\">{0}</a>: {1}</td>{2}{3}{4}</tr>\n",
+    table += fmt::format("<tr><td><a href=\"#family-{0}\">{0}</a>, {1}</td>{2}{3}{4}</tr>\n",
                          base::html_text(row.family), base::html_text(row.name), number_cell(format_figure(row)),
                          number_cell(format_goal(row)), verdict_cell(row));
   }
   std::string text = fmt::format("<p id=\"summary\"><b>{} of {} goals are met</b>{}.", met, goals,
                                  run.quick ? " in a quick run, which takes fewer samples than a full run" : "");
   const bool any_open = std::any_of(run.rows.begin(), run.rows.end(), [](const auto& m) { return is_open(m.row); });
-  if (any_open) text += " Open: the goal lies between the quartiles, so the next run may give the other verdict.";
+  if (any_open)
+    text += " \"Open\" means that the goal lies between the quartiles, so the next run may give the other verdict.";
   text += "</p>\n";
   if (table.empty()) return text;
   return text + "<table class=\"figures\">\n<tbody>\n" + table + "</tbody>\n</table>\n";

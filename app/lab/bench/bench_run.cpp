@@ -35,9 +35,9 @@ std::string_view goal_direction(const BenchRow& row) {
 }
 
 std::string_view design_row_name(const BenchRow& row) {
-  const auto* asked =
+  const auto* found =
       std::find_if(kDesignRows.begin(), kDesignRows.end(), [&](const auto& r) { return r.key == row.design; });
-  return asked == kDesignRows.end() ? "" : asked->name;
+  return found == kDesignRows.end() ? "" : found->name;
 }
 
 std::string format_spread(const std::optional<Quartiles>& spread) {

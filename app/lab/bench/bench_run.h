@@ -14,17 +14,17 @@ namespace gearshift::lab {
 
 // Comparison of a row with the last full run on this machine.
 struct SinceLast {
-  std::string date, program, contention;  // of that run; contention: text of format_contention(), or empty
+  std::string date, program, contention;  // of the last run; contention: text of format_contention(), or empty
   double value = 0.0;                     // then
-  double ratio = 1.0;                     // [1] now over then; infinite if it was 0 then
-  // True if the quartile ranges then and now do not overlap; without a spread, if the first four digits differ.
+  double ratio = 1.0;                     // [1] value now divided by value then; infinite if it was 0 then
+  // True if the quartile ranges of then and now do not overlap; without quartiles, if the first four digits differ.
   bool changed = false;
 };
 
 struct MeasuredRow {
   BenchRow row;
   std::optional<SinceLast> since = {};
-  std::optional<SinceLast> cost_since = {};  // for the cost in the row's trade
+  std::optional<SinceLast> cost_since = {};  // comparison of the cost in the row's trade
 };
 
 // The cost of a row's method as a separate row, "NAME (cost)". Empty for a row without a trade.
@@ -40,15 +40,15 @@ struct BenchRun {
 
 enum class Verdict { none, met, missed };  // none: no goal, or not measured
 Verdict verdict_of(const BenchRow& row) noexcept;
-bool is_open(const BenchRow& row) noexcept;  // the goal lies between the quartiles: the next verdict may differ
+bool is_open(const BenchRow& row) noexcept;  // the goal is between the quartiles: a new run may differ
 
 std::string format_value(double value);                             // four digits
 std::string format_goal(const BenchRow& row);                       // "<= 0.1"; empty without a goal
 std::string format_verdict(const BenchRow& row);                    // "met", "NOT MET (open)"; empty without a goal
 std::string_view goal_direction(const BenchRow& row);               // "at most", "at least"; empty without a goal
-std::string_view design_row_name(const BenchRow& row);              // its row in the design table; empty if none
-std::string format_spread(const std::optional<Quartiles>& spread);  // "180 to 195"; empty without
-std::string format_change(const std::optional<SinceLast>& since);   // "1.03 x", " *" behind what changed
-std::string format_change(const MeasuredRow& measured);             // of the value, and of the cost where there is one
+std::string_view design_row_name(const BenchRow& row);              // of the design row that it answers; empty if none
+std::string format_spread(const std::optional<Quartiles>& spread);  // "180 to 195"; empty without quartiles
+std::string format_change(const std::optional<SinceLast>& since);   // "1.03 x", followed by " *" if it changed
+std::string format_change(const MeasuredRow& measured);             // for the value, and for the cost if there is one
 
 }  // namespace gearshift::lab

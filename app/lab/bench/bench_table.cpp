@@ -23,7 +23,7 @@ std::string row_note(const BenchRow& row) {
 
 std::string bench_table(const BenchRun& run) {
   const bool compared = std::any_of(run.rows.begin(), run.rows.end(), [](const auto& r) { return r.since; });
-  const auto last = [&](const std::string& words) { return compared ? fmt::format(" {:<24}", words) : ""; };
+  const auto last = [&](const std::string& text) { return compared ? fmt::format(" {:<24}", text) : ""; };
   std::string table = fmt::format("{:<9} {:<58} {:>12} {:<20} {:>10}{}  {}\n", "family", "what", "value", "unit",
                                   "goal", last(" since last"), "");
   for (const MeasuredRow& measured : run.rows) {
@@ -32,7 +32,7 @@ std::string bench_table(const BenchRun& run) {
                          row.measured ? format_value(row.value) : "-", row.unit, format_goal(row),
                          last(" " + format_change(measured)), format_verdict(row), row_note(row));
   }
-  if (run.contention) table += fmt::format("CPU time used meanwhile: {}\n", format_contention(*run.contention));
+  if (run.contention) table += fmt::format("CPU time used by others: {}\n", format_contention(*run.contention));
   return table;
 }
 

@@ -10,17 +10,17 @@ namespace gearshift::lab {
 // Processor time since boot, summed over all processors. [s]
 struct ProcessorTime {
   double all = 0.0;
-  double host = 0.0;  // "steal": used by the host of a virtual machine for others
+  double host = 0.0;  // "steal": time in which the virtual machine's host ran something else
   double used = 0.0;  // by all programs
-  double own = 0.0;   // by this program and its children
+  double own = 0.0;   // by this program and its child processes
 };
 
 struct CpuContention {
   double by_host = 0.0, by_programs = 0.0;  // [1] fractions of the processor time
 };
 
-// Parses the first line of /proc/stat, whose unit is 1 / ticks [s] (proc(5)). Empty if it has another form. own stays
-// 0.
+// Parses the first line of /proc/stat, which counts in ticks (`ticks` per second, see proc(5)). Empty if the line has a
+// different format. Leaves `own` at 0.
 std::optional<ProcessorTime> processor_time(std::string_view stat, double ticks);
 
 std::optional<ProcessorTime> processor_time_now();

@@ -38,7 +38,7 @@ Json to_json(const LastRun& last) {
   return {{"families", families}};
 }
 
-// Accepts only "2026-01-02T03:04:05Z", because the text is printed to pages and terminals unchanged.
+// Accepts only the form "2026-01-02T03:04:05Z", because the text is printed unchanged on pages and terminals.
 bool is_date(std::string text) {
   for (char& c : text) c = c >= '0' && c <= '9' ? '0' : c;
   return text == "0000-00-00T00:00:00Z";
@@ -63,7 +63,7 @@ LastRun from_json(const Json& json) {
   return last;
 }
 
-std::string set_aside(const fs::path& file) {
+std::string rename_unreadable(const fs::path& file) {
   std::error_code problem;
   fs::path aside = file;
   aside += ".unreadable";
@@ -72,7 +72,8 @@ std::string set_aside(const fs::path& file) {
     aside += fmt::format(".unreadable{}", n);
   }
   fs::rename(file, aside, problem);
-  return problem ? "cannot rename it: " + problem.message() : "it is kept as " + aside.string();
+  return problem ? "the file could not be renamed (" + problem.message() + ")"
+                 : "the file was renamed to " + aside.string();
 }
 
 // Compares the values as the table prints them.
@@ -106,9 +107,9 @@ LastRun read_last_run(const fs::path& file, const std::function<void(const std::
   } catch (const haptics::FileError& error) {
     problem = error.what();
   } catch (const std::exception&) {
-    problem = file.string() + ": not a saved run of the bench";
+    problem = file.string() + ": this is not a saved bench run";
   }
-  report(fmt::format("{}, so this run is not compared with it; {}", problem, set_aside(file)));
+  report(fmt::format("{}, so this run is not compared with the last one; {}", problem, rename_unreadable(file)));
   return {};
 }
 
@@ -134,12 +135,12 @@ void compare(BenchRun& run, const LastRun& last) {
 }
 
 void save_run(const fs::path& file, LastRun last, const BenchRun& run) {
-  const auto counts = [](const BenchRow& row) { return row.measured && std::isfinite(row.value); };
+  const auto is_saved = [](const BenchRow& row) { return row.measured && std::isfinite(row.value); };
   for (const MeasuredRow& measured : run.rows) {
-    if (counts(measured.row)) last.erase(measured.row.family);
+    if (is_saved(measured.row)) last.erase(measured.row.family);
   }
-  const auto keep = [&](const BenchRow& row) {
-    if (!counts(row)) return;
+  const auto save = [&](const BenchRow& row) {
+    if (!is_saved(row)) return;
     LastFamily& family = last[row.family];
     family.date = run.date;
     family.program = run.program;
@@ -147,12 +148,13 @@ void save_run(const fs::path& file, LastRun last, const BenchRun& run) {
     family.figures[row.name] = {row.value, row.spread};
   };
   for (const MeasuredRow& measured : run.rows) {
-    keep(measured.row);
-    if (const auto cost = cost_row(measured.row)) keep(*cost);
+    save(measured.row);
+    if (const auto cost = cost_row(measured.row)) save(*cost);
   }
   std::error_code problem;
   fs::create_directories(file.parent_path(), problem);
-  if (problem) throw haptics::FileError(file.parent_path().string(), 0, "cannot be created: " + problem.message());
+  if (problem)
+    throw haptics::FileError(file.parent_path().string(), 0, "cannot be created (" + problem.message() + ")");
   haptics::write_text_file(file, to_json(last).dump(1) + "\n");
 }
 

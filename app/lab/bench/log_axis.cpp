@@ -6,9 +6,9 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kMargin = 0.06;     // [1] fraction of the span, beyond the outermost values
+constexpr double kMargin = 0.06;     // [1] margin beyond the outermost values, as a fraction of the span
 constexpr double kMinSpan = 0.6;     // [decades]
-constexpr double kFewDecades = 2.5;  // [decades] up to this span, ticks at 1, 2 and 5 are labelled
+constexpr double kFewDecades = 2.5;  // [decades] on axes of at most this span, ticks at 1, 2 and 5 are labelled
 constexpr int kMaxNamedTicks = 7;
 
 std::vector<LogAxis::Tick> ticks_within(double low, double high) {
@@ -28,25 +28,25 @@ std::vector<LogAxis::Tick> ticks_within(double low, double high) {
 }  // namespace
 
 LogAxis::LogAxis(const std::vector<double>& figures) {
-  double least = INFINITY, most = -INFINITY;
+  double low = INFINITY, high = -INFINITY;
   for (const double figure : figures) {
     if (!std::isfinite(figure)) continue;
     if (figure <= 0.0) {
       zero_ = true;
       continue;
     }
-    least = std::min(least, std::log10(figure));
-    most = std::max(most, std::log10(figure));
+    low = std::min(low, std::log10(figure));
+    high = std::max(high, std::log10(figure));
   }
-  if (least > most) least = most = 0.0;
-  const double span = std::max(kMinSpan, most - least), middle = 0.5 * (least + most);
+  if (low > high) low = high = 0.0;
+  const double span = std::max(kMinSpan, high - low), middle = 0.5 * (low + high);
   low_ = middle - (0.5 + kMargin) * span;
   high_ = middle + (0.5 + kMargin) * span;
   ticks_ = ticks_within(low_, high_);
   if (zero_) low_ -= 1.0;
 }
 
-double LogAxis::share(double figure) const noexcept {
+double LogAxis::fraction(double figure) const noexcept {
   return figure > 0.0 ? (std::log10(figure) - low_) / (high_ - low_) : 0.0;
 }
 

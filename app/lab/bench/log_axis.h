@@ -7,10 +7,10 @@ namespace gearshift::lab {
 
 class LogAxis {
  public:
-  // Values <= 0 are placed at the start of the axis, one decade below the smallest positive value.
+  // Values <= 0 are placed at the start of the axis, which is then at least a decade below the smallest positive value.
   explicit LogAxis(const std::vector<double>& figures);
 
-  double share(double figure) const noexcept;  // [1] 0 at the start, 1 at the end of the axis; figure must be finite
+  double fraction(double figure) const noexcept;  // [1] position: 0 at the start, 1 at the end; figure must be finite
   struct Tick {
     double value = 0.0;
     bool named = true;

@@ -10,7 +10,7 @@ namespace gearshift::lab {
 struct Machine {
   std::string cpu;     // model
   int cores = 0;       // logical
-  std::string gpu;     // device and driver; empty if there is none
+  std::string gpu;     // GPU and driver; empty if there is none
   std::string host;    // name
   std::string system;  // kernel
   std::string compiler, build;

@@ -36,11 +36,11 @@ std::vector<Contest> contests_of(std::string_view family, const std::vector<Benc
     if (contest == contests.end()) contest = contests.insert(contests.end(), Contest{});
     contest->push_back(&*row.trade);
   }
-  std::erase_if(contests, [](const Contest& contest) { return contest.size() < 2; });  // nothing to compare with
+  std::erase_if(contests, [](const Contest& contest) { return contest.size() < 2; });  // one method: nothing to compare
   return contests;
 }
 
-bool has_place(const Trade& trade) {
+bool is_plottable(const Trade& trade) {
   return std::isfinite(trade.cost.value) && std::isfinite(trade.error.value);
 }
 
@@ -53,7 +53,7 @@ std::string figure_text(double value) {
 }
 
 std::string name_of(const Trade& trade) {
-  return trade.method + (trade.chosen ? " (the default)" : "") + (has_place(trade) ? "" : ", not in the plot");
+  return trade.method + (trade.chosen ? " (the default)" : "") + (is_plottable(trade) ? "" : ", not in the plot");
 }
 
 std::string axis_name(const RelatedFigure& figure) {
@@ -63,9 +63,9 @@ std::string axis_name(const RelatedFigure& figure) {
 std::vector<double> all_of(const Contest& contest, const RelatedFigure Trade::*figure) {
   std::vector<double> values;
   for (const Trade* trade : contest) {
-    const RelatedFigure& has = trade->*figure;
-    values.push_back(has.value);
-    if (has.spread) values.insert(values.end(), {has.spread->low, has.spread->high});
+    const RelatedFigure& shown = trade->*figure;
+    values.push_back(shown.value);
+    if (shown.spread) values.insert(values.end(), {shown.spread->low, shown.spread->high});
   }
   return values;
 }
@@ -89,15 +89,15 @@ class Panel {
     grid();
     front_line();
     for (std::size_t i = 0; i < contest_.size(); ++i)
-      if (has_place(*contest_[i])) dot(i);
+      if (is_plottable(*contest_[i])) dot(i);
     for (std::size_t i = 0; i < contest_.size(); ++i)
-      if (has_place(*contest_[i])) number(i);
+      if (is_plottable(*contest_[i])) number(i);
     names();
   }
 
  private:
   glm::dvec2 at(double cost, double error) const {
-    return {box_.x + box_.width * cost_.share(cost), box_.bottom() - box_.height * error_.share(error)};
+    return {box_.x + box_.width * cost_.fraction(cost), box_.bottom() - box_.height * error_.fraction(error)};
   }
   glm::dvec2 at(const Trade& trade) const { return at(trade.cost.value, trade.error.value); }
   bool on_front(std::size_t i) const { return std::find(front_.begin(), front_.end(), i) != front_.end(); }
@@ -107,25 +107,25 @@ class Panel {
 
   void grid() {
     svg_.frame(box_, "none", {base::kGridInk, 1.0});
-    const base::Type below{11.0, base::kSoftInk, "middle"}, related{11.0, base::kSoftInk, "end"};
-    const auto words = [](double value) { return fmt::format("{:g}", value); };
+    const base::Type below{11.0, base::kSoftInk, "middle"}, left{11.0, base::kSoftInk, "end"};
+    const auto label = [](double value) { return fmt::format("{:g}", value); };
     for (const LogAxis::Tick& tick : cost_.ticks()) {
-      const double x = box_.x + box_.width * cost_.share(tick.value);
+      const double x = box_.x + box_.width * cost_.fraction(tick.value);
       svg_.line({x, box_.y}, {x, box_.bottom()}, {base::kGridInk, 1.0});
-      if (tick.named) svg_.text({x, box_.bottom() + 16.0}, below, words(tick.value));
+      if (tick.named) svg_.text({x, box_.bottom() + 16.0}, below, label(tick.value));
     }
     for (const LogAxis::Tick& tick : error_.ticks()) {
-      const double y = box_.bottom() - box_.height * error_.share(tick.value);
+      const double y = box_.bottom() - box_.height * error_.fraction(tick.value);
       svg_.line({box_.x, y}, {box_.right(), y}, {base::kGridInk, 1.0});
-      if (tick.named) svg_.text({box_.x - 7.0, y + 4.0}, related, words(tick.value));
+      if (tick.named) svg_.text({box_.x - 7.0, y + 4.0}, left, label(tick.value));
     }
     if (cost_.begins_with_zero()) svg_.text({box_.x, box_.bottom() + 16.0}, below, "0");
-    if (error_.begins_with_zero()) svg_.text({box_.x - 7.0, box_.bottom() + 4.0}, related, "0");
+    if (error_.begins_with_zero()) svg_.text({box_.x - 7.0, box_.bottom() + 4.0}, left, "0");
     svg_.text({box_.right(), box_.bottom() + 34.0}, {12.0, base::kSoftInk, "end"}, axis_name(contest_.front()->cost));
     svg_.text({box_.x, box_.y - 9.0}, {12.0, base::kSoftInk}, axis_name(contest_.front()->error));
   }
 
-  // Draws the front as steps: between two methods, the error is that of the cheaper one.
+  // Draws the front as steps: between two methods, the reachable error is that of the cheaper one.
   void front_line() {
     std::vector<glm::dvec2> line;
     for (const std::size_t i : front_) {
@@ -158,32 +158,32 @@ class Panel {
     if (trade.chosen) svg_.ring(at(trade), kDot + 3.0, {kChosen, 1.6});
   }
 
-  // Places the number beside its dot, away from other dots and numbers.
+  // Places the number next to its dot, away from other dots and numbers.
   void number(std::size_t i) {
     const glm::dvec2 dot = at(*contest_[i]);
     constexpr std::array<glm::dvec2, 8> kPlaces{
         {{12, -9}, {12, 12}, {-12, -9}, {-12, 12}, {0, -15}, {0, 16}, {17, 2}, {-17, 2}}};
     glm::dvec2 best = dot + kPlaces[0];
-    double most_room = -1.0;
+    double best_clearance = -1.0;
     for (const glm::dvec2 place : kPlaces) {
-      const double has = room(dot + place, i);
-      if (has > most_room + 2.0) most_room = has, best = dot + place;
+      const double distance = clearance(dot + place, i);
+      if (distance > best_clearance + 2.0) best_clearance = distance, best = dot + place;
     }
     numbers_.push_back(best);
     svg_.text(best + glm::dvec2(0.0, 4.0), {kNumber, base::kInk, "middle", contest_[i]->chosen}, std::to_string(i + 1));
   }
 
-  // [px] distance to the nearest dot or number that would be covered, at most kEnough.
-  double room(glm::dvec2 place, std::size_t own) const {
+  // [px] distance to the nearest dot or number that would be covered, limited to kEnough.
+  double clearance(glm::dvec2 place, std::size_t index) const {
     constexpr double kEnough = 14.0;
-    double least = kEnough;
+    double nearest = kEnough;
     for (std::size_t i = 0; i < contest_.size(); ++i) {
-      if (i != own && has_place(*contest_[i])) least = std::min(least, glm::distance(place, at(*contest_[i])));
+      if (i != index && is_plottable(*contest_[i])) nearest = std::min(nearest, glm::distance(place, at(*contest_[i])));
     }
-    for (const glm::dvec2 number : numbers_) least = std::min(least, glm::distance(place, number));
+    for (const glm::dvec2 number : numbers_) nearest = std::min(nearest, glm::distance(place, number));
     const bool outside = place.x < box_.x + 6.0 || place.x > box_.right() - 6.0 || place.y < box_.y + 6.0 ||
                          place.y > box_.bottom() - 6.0;
-    return outside ? 0.5 * least : least;
+    return outside ? 0.5 * nearest : nearest;
   }
 
   void names() {

@@ -16,19 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kShowCommand = "gearshift train --replay ";
-constexpr double kLeadTime = 2.0;       // [s] shown before the violation; covers the window in which a hold is judged
-constexpr std::size_t kMaxLines = 100;  // read from the text, whatever file has that name
+constexpr const char* kReplayCommand = "gearshift train --replay ";
+constexpr double kLeadTime = 2.0;       // [s] shown before the violation; covers the window in which a hold is checked
+constexpr std::size_t kMaxLines = 100;  // lines read at most, even from a file that is not ours
 
-fs::path text_beside(fs::path trace) {
+fs::path text_file_of(fs::path trace) {
   return trace.replace_extension(".txt");
 }
 
-std::string line_of(const LawBroken& one, std::uint64_t campaign_seed) {
+std::string line_of(const BrokenLaw& one, std::uint64_t campaign_seed) {
   const LawText& law_info = law_text(one.law);
   return fmt::format("case {} of seed {} breaks {} ({}): {:.4g} {}, bound {:.4g}, at {:.3f} s", one.number,
-                     campaign_seed, std::string(law_info.name), std::string(law_info.requirement), one.seen.value,
-                     std::string(law_info.unit), one.seen.bound, one.seen.time);
+                     campaign_seed, std::string(law_info.name), std::string(law_info.requirement), one.result.value,
+                     std::string(law_info.unit), one.result.bound, one.result.time);
 }
 
 // Start time for the replay command, rounded down to 0.1 s. [s]
@@ -49,34 +49,35 @@ std::string shell_word(const std::string& text) {
 
 }  // namespace
 
-void write_broken_laws(const fs::path& trace, std::uint64_t campaign_seed, std::span<const LawBroken> broken) {
+void write_broken_laws(const fs::path& trace, std::uint64_t campaign_seed, std::span<const BrokenLaw> broken) {
   const std::string name = trace.filename().string();
   std::string text;
-  for (const LawBroken& one : broken)
-    text += fmt::format("{}: {}\n{}{} --from {:.1f}\n", name, line_of(one, campaign_seed), kShowCommand, name,
-                        replay_start(one.seen.time));
-  std::error_code nothing_there;
+  for (const BrokenLaw& one : broken)
+    text += fmt::format("{}: {}\n{}{} --from {:.1f}\n", name, line_of(one, campaign_seed), kReplayCommand, name,
+                        replay_start(one.result.time));
+  std::error_code ignored;
   if (text.empty()) {
-    fs::remove(text_beside(trace), nothing_there);
+    fs::remove(text_file_of(trace), ignored);
   } else {
-    haptics::write_text_file(text_beside(trace), text);
+    haptics::write_text_file(text_file_of(trace), text);
   }
 }
 
 std::string broken_laws_text(const fs::path& trace) {
-  const fs::path beside = text_beside(trace);
+  const fs::path file = text_file_of(trace);
   std::error_code error;
-  if (!fs::is_regular_file(beside, error)) return {};
+  if (!fs::is_regular_file(file, error)) return {};
   const std::string name_prefix = trace.filename().string() + ": ",
-                    command_prefix = kShowCommand + trace.filename().string() + " ";
-  std::ifstream in(beside);
+                    command_prefix = kReplayCommand + trace.filename().string() + " ";
+  std::ifstream in(file);
   std::string text;
   std::size_t lines = 0;
   for (std::string line; lines < kMaxLines && std::getline(in, line); ++lines) {
     if (line.starts_with(name_prefix)) text += haptics::printable(line) + "\n";
     if (line.starts_with(command_prefix))
-      text += haptics::printable(kShowCommand + shell_word(trace.string()) + " " + line.substr(command_prefix.size())) +
-              "\n";
+      text +=
+          haptics::printable(kReplayCommand + shell_word(trace.string()) + " " + line.substr(command_prefix.size())) +
+          "\n";
   }
   return text;
 }

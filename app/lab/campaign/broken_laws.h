@@ -13,10 +13,10 @@ namespace gearshift::lab {
 
 // Writes the text, or deletes it if no law is broken. Throws FileError.
 void write_broken_laws(const std::filesystem::path& trace, std::uint64_t campaign_seed,
-                       std::span<const LawBroken> broken);
+                       std::span<const BrokenLaw> broken);
 
-// The lines of the text about this trace, with the trace's full path in the commands; empty if the text names another
-// trace or does not exist.
+// The lines of the text about this trace, with the trace's full path in the commands; empty if the text names a
+// different trace or does not exist.
 std::string broken_laws_text(const std::filesystem::path& trace);
 
 }  // namespace gearshift::lab

@@ -34,12 +34,13 @@ class CarText {
 // The speeds are drawn in the order that a car file requires.
 void write_engine(CarText& car, Chance& chance) {
   const double limiter = chance.decades(1500.0, 15000.0), idle = limiter * chance.between(0.1, 0.25);
-  const double most = chance.decades(1.0, 5000.0);
+  const double max_torque = chance.decades(1.0, 5000.0);
   car.line("[engine]\nfull_load = [");
-  for (const double share : {0.05, 0.3, 0.6, 1.1})
-    car.line(fmt::format("  {{ rpm = {}, nm = {} }},", share * limiter, most * chance.between(0.2, 1.0)));
+  for (const double speed_fraction : {0.05, 0.3, 0.6, 1.1})
+    car.line(
+        fmt::format("  {{ rpm = {}, nm = {} }},", speed_fraction * limiter, max_torque * chance.between(0.2, 1.0)));
   car.line("]");
-  car.between("friction_nm", 0.0, 0.3 * most);
+  car.between("friction_nm", 0.0, 0.3 * max_torque);
   car.between("friction_nm_per_krpm", 0.0, 1.0);
   car.between("friction_nm_per_krpm2", 0.0, 1.0);
   car.decades("inertia_kgm2", 0.01, 10.0);
@@ -70,7 +71,7 @@ void write_gearbox(CarText& car, Chance& chance) {
   double ratio = chance.decades(1.0, 20.0);
   for (int gear = 1; gear <= haptics::kMaxGear; ++gear) {
     car.put(fmt::format("ratio_{}", gear).c_str(), ratio);
-    ratio *= chance.between(0.78, 0.99);  // after eight of these factors the ratio is still in range
+    ratio *= chance.between(0.78, 0.99);  // after eight of these steps the ratio is still in the allowed range
   }
   car.decades("ratio_r", 0.5, 20.0);
   car.decades("final_drive", 0.5, 20.0);
@@ -135,7 +136,7 @@ CampaignPedals::CampaignPedals(std::uint64_t seed) : chance_(seed ^ kFeetSeed) {
 const haptics::DriverControls& CampaignPedals::at(double time) {
   if (time < next_) return controls_;
   next_ = time + chance_.decades(0.05, 3.0);
-  const auto pedal = [&](double share) { return chance_.happens(share) ? chance_.between(0.0, 1.0) : 0.0; };
+  const auto pedal = [&](double probability) { return chance_.happens(probability) ? chance_.between(0.0, 1.0) : 0.0; };
   controls_.throttle = pedal(0.7);
   controls_.brake = pedal(0.2);
   controls_.hand_brake = pedal(0.1);

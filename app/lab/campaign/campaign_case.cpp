@@ -11,9 +11,9 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr std::uint64_t kWideSeed = 0x8f14e45fceea167a;  // independent of what every case draws
+constexpr std::uint64_t kWideSeed = 0x8f14e45fceea167a;  // makes draws of wide cases independent of the others
 constexpr double kCountPerDegree =
-    haptics::YokeGeometry{}.radius * std::numbers::pi / 180.0;  // [m] at one count per degree
+    haptics::YokeGeometry{}.radius * std::numbers::pi / 180.0;  // [m] encoder count at the tip, at one count per degree
 
 haptics::HandImpedance hand_of(CaseHand kind, Chance& chance) {
   switch (kind) {
@@ -51,7 +51,7 @@ CaseManner manner_of(CaseHand kind, Chance& chance) {
   return manner;
 }
 
-// Each value is the shipped one in half of the cases, otherwise anything allowed.
+// In half of the cases each value is the shipped one, otherwise any allowed value.
 haptics::HapticTuning tuning_of(Chance& chance) {
   haptics::HapticTuning tuning;
   if (chance.happens(0.5)) tuning.wall_stiffness = chance.decades(100.0, 20000.0);
@@ -78,7 +78,7 @@ haptics::HapticConfig haptics_of(Chance& chance) {
   config.contact = contact_of(chance);
   if (chance.happens(0.2)) config.estimator.smoothing = chance.decades(1e-5, 1.0);
   if (chance.happens(0.02))
-    config.estimator.window = 1 + chance.below(haptics::kMaxWindow);  // above 1 it needs allow_unstable
+    config.estimator.window = 1 + chance.below(haptics::kMaxWindow);  // a fraction above 1 needs allow_unstable
   if (chance.happens(0.2)) config.guard.slew = chance.decades(1.5, 100.0);
   config.guard.ramp_time = chance.decades(0.001, 0.5);
   if (chance.happens(0.2)) config.guard.stale_time = chance.decades(0.001, 1.0);
@@ -100,7 +100,7 @@ haptics::SimulatedLeverConfig lever_of(CaseHand kind, std::uint64_t seed, Chance
   lever.seed = seed;
   lever.hand = hand_of(kind, chance);
   lever.delay = chance.below(4);
-  const bool is_promised = chance.happens(0.7);  // within the 5 % and 10 % for which the laws were established
+  const bool is_promised = chance.happens(0.7);  // errors that the laws allow: 5 %, 10 %
   lever.model_error = chance.between(0.0, is_promised ? 0.05 : 0.2);
   if (chance.happens(0.6)) lever.period_jitter = chance.between(0.0, is_promised ? 0.1 : 0.5);
   if (chance.happens(0.7)) lever.encoder_counts = kCountPerDegree / chance.decades(1e-6, 0.5e-3);
@@ -155,8 +155,8 @@ CampaignCase drawn_case(std::uint64_t campaign_seed, std::uint64_t number, int s
   drawn.manner = manner_of(drawn.hand, chance);
   drawn.haptics = haptics_of(chance);
   drawn.lever = lever_of(drawn.hand, drawn.seed, chance);
-  Chance apart(drawn.seed ^ kWideSeed);
-  if (number % kWideEvery == kFirstWide) widen(drawn, apart);
+  Chance wide_chance(drawn.seed ^ kWideSeed);
+  if (number % kWideEvery == kFirstWide) widen(drawn, wide_chance);
   return drawn;
 }
 

@@ -14,9 +14,9 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kHold = 3.0;                              // [s] length of a hold
-constexpr double kSpringPatience = 0.15;                   // [s] at the aisle's spring per unit of feel_scale above 1
-constexpr std::uint64_t kScriptSeed = 0xd1b54a32d192ed03;  // independent of what the case draws
+constexpr double kHold = 3.0;                              // [s] length of each hold
+constexpr double kSpringPatience = 0.15;                   // [s] extra time in neutral per unit of feel_scale above 1
+constexpr std::uint64_t kScriptSeed = 0xd1b54a32d192ed03;  // makes the hand's draws independent of those of the case
 
 // Writes the script, stroke by stroke.
 class ScriptWriter {
@@ -27,7 +27,7 @@ class ScriptWriter {
   double between(double low, double high) {
     return low + (high - low) * 0x1p-53 * static_cast<double>(random_() >> 11);
   }
-  bool happens(double share) { return between(0.0, 1.0) < share; }
+  bool happens(double probability) { return between(0.0, 1.0) < probability; }
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(random_() % count); }
 
   void add(haptics::HandStroke stroke) {
@@ -35,9 +35,9 @@ class ScriptWriter {
     time_ += stroke.duration + stroke.dwell;
     at_ = stroke.to;
   }
-  void go(dvec2 to, double dwell) {
-    const double way = std::hypot(to.x - at_.x, to.y - at_.y);
-    add({to, 0.05 + way / drawn_.manner.pace, dwell});
+  void move_to(dvec2 to, double dwell) {
+    const double distance = std::hypot(to.x - at_.x, to.y - at_.y);
+    add({to, 0.05 + distance / drawn_.manner.pace, dwell});
   }
   void push(dvec2 force, double time) { add({at_, 0.1, time, force}); }
   void hold(dvec2 force) {
@@ -55,10 +55,10 @@ class ScriptWriter {
           haptics::slot_of(gate_, static_cast<int>(below(static_cast<std::size_t>(gate_.slot_count))));
       aim = {haptics::column_of(gate_, slot.column).center, static_cast<int>(slot.side) * slot.end};
     }
-    if (happens(0.5)) go({aim.x, 0.0}, 0.02);
-    go(aim, 0.15);
-    go({aim.x, 0.0}, 0.05);
-    go(home, 0.05);
+    if (happens(0.5)) move_to({aim.x, 0.0}, 0.02);
+    move_to(aim, 0.15);
+    move_to({aim.x, 0.0}, 0.05);
+    move_to(home, 0.05);
   }
 
   void push_sideways() {
@@ -107,8 +107,8 @@ void write_kicks(ScriptWriter& writer, const CampaignCase& drawn) {
     writer.push(force * dvec2{std::cos(angle), std::sin(angle)}, writer.between(0.0, 0.3));
     writer.push({0.0, 0.0}, writer.between(0.1, 0.6));
   }
-  const double way = drawn.manner.leans_aside ? 0.0 : 0.5 * std::numbers::pi;
-  writer.hold(drawn.manner.last_push * dvec2{std::cos(way), std::sin(way)});
+  const double angle = drawn.manner.leans_aside ? 0.0 : 0.5 * std::numbers::pi;
+  writer.hold(drawn.manner.last_push * dvec2{std::cos(angle), std::sin(angle)});
   writer.hold({0.0, 0.0});
 }
 
@@ -139,12 +139,13 @@ void write_shifts(ScriptWriter& writer, const haptics::Gate& gate, const Campaig
     if (writer.happens(drawn.manner.side_pushes)) writer.push_sideways();
     if (static_cast<int>(writer.script.shifts.size()) == drawn.shifts / 2) writer.hold({0.0, 0.0});
   }
-  const double way = writer.at().y > 0.0 ? 1.0 : -1.0;
-  writer.hold(drawn.manner.leans_aside ? dvec2{drawn.manner.last_push, 0.0} : dvec2{0.0, way * drawn.manner.last_push});
+  const double side = writer.at().y > 0.0 ? 1.0 : -1.0;
+  writer.hold(drawn.manner.leans_aside ? dvec2{drawn.manner.last_push, 0.0}
+                                       : dvec2{0.0, side * drawn.manner.last_push});
 }
 
-// A person pushes as hard as the gate and the damping require, but not faster: a hand whose effort grows faster than
-// b k / m would oscillate.
+// A hand pushes as hard as gate and damping require, but its effort must not grow faster than b k / m, or it would
+// oscillate.
 haptics::ScriptedHandConfig hand_config(const CampaignCase& drawn, dvec2 start) {
   if (drawn.hand == CaseHand::bare) return {start};
   haptics::ScriptedHandConfig hand = haptics::touring_hand(start);

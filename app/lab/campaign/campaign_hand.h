@@ -9,14 +9,14 @@
 
 namespace gearshift::lab {
 
-// A tried shift: the gear should be engaged at `end`.
+// A shift to be tried: the gear should be engaged at `end`.
 struct TriedShift {
   int gear = haptics::kNeutralGear;
-  double end = 0.0;    // [s] after the hand's dwell
-  bool clean = false;  // aimed directly at the gear, without noise or detours
+  double end = 0.0;    // [s] after the hand has rested in the gear
+  bool clean = false;  // aimed straight at the gear, without noise or detours
 };
 
-// A time in which the hand keeps still: target and push stay as they were kSettling after `begin`.
+// A time in which the hand is still: target and push keep the values that they had kSettling after `begin`.
 struct Hold {
   double begin = 0.0, end = 0.0;  // [s]
 };
@@ -30,7 +30,7 @@ struct HandScript {
 
 HandScript make_script(const haptics::Gate& gate, const CampaignCase& drawn, glm::dvec2 start);
 
-// Follows the script, trembles, and keeps still in the holds.
+// Follows the script with its tremor, and is still in the holds.
 class CampaignHand final : public haptics::HandDriver {
  public:
   // The script must outlive the hand.
@@ -48,7 +48,7 @@ class CampaignHand final : public haptics::HandDriver {
   const HandScript& script_;
   CaseManner manner_;
   haptics::ScriptedHand script_hand_;
-  std::size_t hold_ = 0;  // current or next hold
+  std::size_t hold_ = 0;  // index of the current or next hold
   bool is_still_ = false;
   double time_ = 0.0;
   haptics::HandTarget last_;

@@ -17,26 +17,28 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kRounding = 1e-9;         // [m], [N], [J] far below what can be felt
-constexpr double kMaxCommandError = 1e-6;  // [N] commanded against delivered, from rounding in the yoke
+constexpr double kRounding = 1e-9;         // [m], [N], [J] rounding error, far too small to feel
+constexpr double kMaxCommandError = 1e-6;  // [N] difference of commanded and delivered force by rounding in the yoke
 constexpr double kQuietRipple = 1e-3;  // [m] limit for a single case; the goal is a p95 of 0.3 mm, shown in the summary
-constexpr double kQuietCounts = 6.0;   // [counts] the limiter detects a reversal of four counts, plus one at each end
+constexpr double kQuietCounts = 6.0;   // [counts] the limiter detects a reversal of 4 counts; plus 1 count at each end
 
-constexpr double kSmallSwing = 0.8e-3;  // [m] width of a swing by a hand's tremor, see reversal_limiter.cpp
+constexpr double kSmallSwing = 0.8e-3;  // [m] width of a swing caused by a hand's tremor, see reversal_limiter.cpp
 
 constexpr std::array<LawText, kCampaignLaws> kLawTexts{{
-    {"finite", "every number that comes out is finite", "bad cycles"},
-    {"free space", "the drawn lever is in free space", "cycles outside"},
-    {"no wall", "the drawn lever crosses no wall, and goes no further than the lever and 0.5 m/s T", "of that way"},
-    {"lockout", "the drawn lever passes no closed lockout", "crossings"},
-    {"force", "the command is within the device's force", "N"},
-    {"slew", "the command changes by no more than the guard's slew", "N"},
-    {"energy", "bounded: no energy beyond what was stored and the device's own damping took", "J"},
-    {"guard", "the guard has nothing to stop", "as GuardFault"},
-    {"quiet", "held still, the lever is still", "m"},
-    {"fades", "held still, a swing dies away within seconds, whatever is promised", "m"},
-    {"gear holds", "held still, the gear changes once at most; one that comes again was really left", "changes"},
-    {"reached", "a gear that a gripping hand cleanly aims at is in", "missed"},
+    {"finite", "every output is a finite number", "bad cycles"},
+    {"free space", "the displayed lever stays in free space", "cycles outside"},
+    {"no wall", "the displayed lever crosses no wall and moves no further than the lever plus 0.5 m/s per cycle",
+     "of the allowed distance"},
+    {"lockout", "the displayed lever passes no closed lockout", "crossings"},
+    {"force", "the commanded force is within the device's maximum", "N"},
+    {"slew", "the commanded force changes by no more per cycle than the guard allows", "N"},
+    {"energy", "with energy bounding, no more energy is released than was stored or taken by the device's damping",
+     "J"},
+    {"guard", "the guard finds no fault", "(number of the fault)"},
+    {"quiet", "a lever that is held still does not vibrate", "m"},
+    {"fades", "while the lever is held still, a swing dies away within seconds", "m"},
+    {"gear holds", "while the lever is held still, the gear changes at most once", "changes"},
+    {"reached", "every gear that a gripping hand cleanly aims at is engaged", "missed"},
     {"told", "no event is lost", "events"},
 }};
 
@@ -55,17 +57,17 @@ double min_exit_path(const haptics::Gate& gate, int slot_number, dvec2 in, dvec2
 
 // Lower bound of the length of a path through free space from a to b. [m]
 double min_free_path(const haptics::Gate& gate, dvec2 a, dvec2 b) noexcept {
-  // At the aisle's wall, rounding may put the point into a slot; that does not count.
+  // Rounding may put a point on the aisle's wall into a slot; that does not count.
   const auto slot_of_point = [&](dvec2 p) {
     return std::abs(p.y) <= gate.half_aisle + kRounding ? haptics::kNoSlot : haptics::slot_at(gate, p);
   };
   const int from = slot_of_point(a), to = slot_of_point(b);
-  double way = glm::distance(a, b);
-  if (from == to) return way;
-  if (from != haptics::kNoSlot) way = std::max(way, min_exit_path(gate, from, a, b));
-  if (to != haptics::kNoSlot) way = std::max(way, min_exit_path(gate, to, b, a));
-  if (from == haptics::kNoSlot || to == haptics::kNoSlot) return way;
-  return std::max(way, std::abs(a.y) + std::abs(b.y) - 2.0 * gate.half_aisle);
+  double length = glm::distance(a, b);
+  if (from == to) return length;
+  if (from != haptics::kNoSlot) length = std::max(length, min_exit_path(gate, from, a, b));
+  if (to != haptics::kNoSlot) length = std::max(length, min_exit_path(gate, to, b, a));
+  if (from == haptics::kNoSlot || to == haptics::kNoSlot) return length;
+  return std::max(length, std::abs(a.y) + std::abs(b.y) - 2.0 * gate.half_aisle);
 }
 
 // True if p is beyond that lockout's wall.
@@ -74,7 +76,7 @@ bool is_past(const haptics::Gate& gate, const haptics::Lockout& lockout, dvec2 p
   const haptics::Slot& slot = haptics::slot_of(gate, lockout.slot);
   const haptics::Column& column = haptics::column_of(gate, slot.column);
   const double mouth = gate.half_aisle + gate.chamfer;
-  // At the side wall of its slot, rounding may alternate between in and out; that is not a crossing.
+  // Rounding may put a point on the slot's side wall outside the slot; that is not a crossing.
   const bool in_column = std::abs(p.x - column.center) <= column.half_width + gate.chamfer + kRounding;
   return in_column && static_cast<int>(slot.side) * p.y > mouth + kRounding;
 }
@@ -85,7 +87,7 @@ bool is_out_of_column(const haptics::Gate& gate, int gear, dvec2 p) noexcept {
   return std::abs(p.x - column.center) > column.half_width + gate.chamfer;
 }
 
-bool is_up(haptics::GuardState state) noexcept {
+bool is_active(haptics::GuardState state) noexcept {
   return state == haptics::GuardState::armed || state == haptics::GuardState::ramping ||
          state == haptics::GuardState::running;
 }
@@ -106,15 +108,15 @@ const LawText& law_text(CampaignLaw law) noexcept {
 }
 
 void LawRecord::note(CampaignLaw law, double value, double bound, double time) noexcept {
-  LawResult& seen = seen_[static_cast<std::size_t>(law)];
-  const bool is_first = seen.checks++ == 0;
-  const double worst = seen.value - seen.bound;
+  LawResult& result = results_[static_cast<std::size_t>(law)];
+  const bool is_first = result.checks++ == 0;
+  const double worst = result.value - result.bound;
   const bool is_worse = !std::isnan(worst) && !(value - bound <= worst);
-  if (is_first || is_worse) seen.value = value, seen.bound = bound, seen.time = time;
+  if (is_first || is_worse) result.value = value, result.bound = bound, result.time = time;
 }
 
 bool LawRecord::any_broken() const noexcept {
-  return std::any_of(seen_.begin(), seen_.end(), [](const LawResult& seen) { return seen.broken(); });
+  return std::any_of(results_.begin(), results_.end(), [](const LawResult& result) { return result.broken(); });
 }
 
 LawLimits law_limits(const haptics::HapticConfig& config, const haptics::SimulatedLeverConfig& lever,
@@ -125,7 +127,7 @@ LawLimits law_limits(const haptics::HapticConfig& config, const haptics::Simulat
   limits.slew = config.guard.slew;
   limits.ramp = std::min(1.0, limits.period / config.guard.ramp_time);
   limits.can_drop_at_once = config.contact.energy_control == haptics::EnergyControl::energy_bounding;
-  // Bounding may return half of the energy that the nominal damping dissipates in a nominal period.
+  // Energy bounding may return half of the energy that the nominal damping dissipates in a nominal period.
   const bool is_enough = 1.0 - lever.model_error >= 0.5 * (1.0 + lever.period_jitter);
   limits.energy_bounded =
       limits.can_drop_at_once && is_enough && spec.delay == 0 && spec.device_wall_stiffness == dvec2(0.0);
@@ -140,26 +142,27 @@ LawLimits law_limits(const haptics::HapticConfig& config, const haptics::Simulat
   return limits;
 }
 
-void finite_law(const CyclePair& cycle, LawRecord& book) noexcept {
+void finite_law(const CyclePair& cycle, LawRecord& record) noexcept {
   const haptics::HapticSnapshot& now = cycle.now;
   const bool all = haptics::is_finite(now.lever) && haptics::is_finite(now.velocity) && haptics::is_finite(now.proxy) &&
                    haptics::is_finite(now.wall_force) && haptics::is_finite(now.feel_force) &&
                    haptics::is_finite(now.commanded) && haptics::is_finite(now.f_h) && haptics::is_finite(now.f_a);
-  book.note(CampaignLaw::finite, bad(!all), 0.0, 1e-9 * static_cast<double>(now.time_ns));
+  record.note(CampaignLaw::finite, bad(!all), 0.0, 1e-9 * static_cast<double>(now.time_ns));
 }
 
-void free_space_law(const CyclePair& cycle, const haptics::Gate& gate, LawRecord& book) noexcept {
+void free_space_law(const CyclePair& cycle, const haptics::Gate& gate, LawRecord& record) noexcept {
   const bool is_free = haptics::in_free_space(gate, cycle.now.proxy, kRounding);
-  book.note(CampaignLaw::free_space, bad(!is_free), 0.0, 1e-9 * static_cast<double>(cycle.now.time_ns));
+  record.note(CampaignLaw::free_space, bad(!is_free), 0.0, 1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
-void no_wall_law(const CyclePair& cycle, const haptics::Gate& gate, const LawLimits& limits, LawRecord& book) noexcept {
+void no_wall_law(const CyclePair& cycle, const haptics::Gate& gate, const LawLimits& limits,
+                 LawRecord& record) noexcept {
   const double max_path = glm::distance(cycle.now.lever, cycle.before.lever) + haptics::kHandOverSpeed * limits.period;
   const double path = min_free_path(gate, cycle.before.proxy, cycle.now.proxy) - kRounding;
-  book.note(CampaignLaw::no_wall, path / max_path, 1.0 + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
+  record.note(CampaignLaw::no_wall, path / max_path, 1.0 + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
-void LockoutLaw::update(const CyclePair& cycle, const haptics::Gate& gate, LawRecord& book) noexcept {
+void LockoutLaw::update(const CyclePair& cycle, const haptics::Gate& gate, LawRecord& record) noexcept {
   const double time = 1e-9 * static_cast<double>(cycle.now.time_ns);
   std::uint32_t bit = 1u;
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
@@ -178,54 +181,55 @@ void LockoutLaw::update(const CyclePair& cycle, const haptics::Gate& gate, LawRe
       closed = (closed_ & bit) != 0;
     }
     const bool crossed = is_past(gate, lockout, cycle.now.proxy) && !is_past(gate, lockout, cycle.before.proxy);
-    if (crossed) book.note(CampaignLaw::lockout, bad(closed), 0.0, time);
+    if (crossed) record.note(CampaignLaw::lockout, bad(closed), 0.0, time);
     bit <<= 1;
   }
 }
 
-void force_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& book) noexcept {
+void force_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& record) noexcept {
   const dvec2 force = glm::abs(cycle.now.commanded);
   const int axis = force.x - limits.max_force.x > force.y - limits.max_force.y ? 0 : 1;
-  book.note(CampaignLaw::force, force[axis], limits.max_force[axis], 1e-9 * static_cast<double>(cycle.now.time_ns));
+  record.note(CampaignLaw::force, force[axis], limits.max_force[axis], 1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
-// While the guard's ramp rises, it adds to the change. In state `armed` there is no force yet; the command shown then
-// is the end of a previous fall.
-void slew_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& book) noexcept {
-  if (!is_up(cycle.now.guard) || !is_up(cycle.before.guard) || cycle.before.guard == haptics::GuardState::armed) return;
+// While the guard's ramp rises, its step adds to the allowed change. In state `armed` there is no force yet, and the
+// command shown is the end of an earlier ramp-down.
+void slew_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& record) noexcept {
+  if (!is_active(cycle.now.guard) || !is_active(cycle.before.guard) || cycle.before.guard == haptics::GuardState::armed)
+    return;
   const dvec2 now = cycle.now.commanded, before = cycle.before.commanded;
   // A force may drop to zero at once, but not beyond it.
-  const dvec2 kept = glm::max(dvec2(0.0), glm::sign(now) * before);
-  const dvec2 change = limits.can_drop_at_once ? glm::abs(now) - kept : glm::abs(now - before);
+  const dvec2 allowed_drop = glm::max(dvec2(0.0), glm::sign(now) * before);
+  const dvec2 change = limits.can_drop_at_once ? glm::abs(now) - allowed_drop : glm::abs(now - before);
   const bool is_ramping = cycle.before.guard != haptics::GuardState::running;
-  const double most = std::max(limits.max_force.x, limits.max_force.y);
-  const double bound = limits.slew + (is_ramping ? limits.ramp * most : 0.0) + kRounding;
-  book.note(CampaignLaw::slew, std::max(change.x, change.y), bound, 1e-9 * static_cast<double>(cycle.now.time_ns));
+  const double max_force = std::max(limits.max_force.x, limits.max_force.y);
+  const double bound = limits.slew + (is_ramping ? limits.ramp * max_force : 0.0) + kRounding;
+  record.note(CampaignLaw::slew, std::max(change.x, change.y), bound, 1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
-void guard_law(const CyclePair& cycle, LawRecord& book) noexcept {
+void guard_law(const CyclePair& cycle, LawRecord& record) noexcept {
   const haptics::GuardState state = cycle.now.guard;
   const double fault = static_cast<double>(cycle.now.fault);
-  book.note(CampaignLaw::guard, is_up(state) ? fault : std::max(1.0, fault), 0.0,
-            1e-9 * static_cast<double>(cycle.now.time_ns));
+  record.note(CampaignLaw::guard, is_active(state) ? fault : std::max(1.0, fault), 0.0,
+              1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
-void EnergyLaw::update(const CyclePair& cycle, dvec2 true_travel, const LawLimits& limits, LawRecord& book) noexcept {
-  const dvec2 was = cycle.before.commanded, is = cycle.now.commanded, acted = -cycle.now.f_a;
-  const bool is_delivered = glm::length(acted - was) < kMaxCommandError;  // an overheated motor gives less
-  if (!limits.energy_bounded || !is_up(cycle.now.guard) || !is_delivered) return reset();
+void EnergyLaw::update(const CyclePair& cycle, dvec2 true_travel, const LawLimits& limits, LawRecord& record) noexcept {
+  const dvec2 previous = cycle.before.commanded, command = cycle.now.commanded, delivered = -cycle.now.f_a;
+  const bool is_delivered = glm::length(delivered - previous) < kMaxCommandError;  // an overheated motor delivers less
+  if (!limits.energy_bounded || !is_active(cycle.now.guard) || !is_delivered) return reset();
   const dvec2 slope = limits.damping / limits.period;  // [N/m] c
-  const dvec2 taken = limits.min_damping / limits.max_period * true_travel * true_travel;
-  const dvec2 net = acted * true_travel + (is * is - was * was) / (2.0 * slope) - taken;
-  const dvec2 told = cycle.now.lever - cycle.before.lever;
-  const dvec2 mistaken =
-      glm::abs(is - was) + slope * (glm::abs(true_travel - last_travel_) + glm::abs(true_travel) + glm::abs(told));
-  if (surplus_ == 0.0) allowed_ = limits.count * (glm::abs(was.x) + glm::abs(was.y));
+  const dvec2 dissipated = limits.min_damping / limits.max_period * true_travel * true_travel;
+  const dvec2 net = delivered * true_travel + (command * command - previous * previous) / (2.0 * slope) - dissipated;
+  const dvec2 measured_travel = cycle.now.lever - cycle.before.lever;
+  const dvec2 mistaken = glm::abs(command - previous) + slope * (glm::abs(true_travel - last_travel_) +
+                                                                 glm::abs(true_travel) + glm::abs(measured_travel));
+  if (surplus_ == 0.0) allowed_ = limits.count * (glm::abs(previous.x) + glm::abs(previous.y));
   const double sum = surplus_ + net.x + net.y;
   surplus_ = sum < 0.0 ? 0.0 : sum;  // also keeps NaN
   allowed_ += 0.5 * limits.count * (mistaken.x + mistaken.y);
   last_travel_ = true_travel;
-  book.note(CampaignLaw::energy, surplus_, allowed_ + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
+  record.note(CampaignLaw::energy, surplus_, allowed_ + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
 void EnergyLaw::reset() noexcept {
@@ -233,17 +237,17 @@ void EnergyLaw::reset() noexcept {
   last_travel_ = dvec2(0.0);
 }
 
-void GearLaw::update(const CyclePair& cycle, const haptics::Gate& gate, bool held_still, LawRecord& book) noexcept {
+void GearLaw::update(const CyclePair& cycle, const haptics::Gate& gate, bool held_still, LawRecord& record) noexcept {
   const double time = 1e-9 * static_cast<double>(cycle.now.time_ns);
   const int gear = cycle.now.gear, before = cycle.before.gear;
   changes_ = held_still ? changes_ + (gear != before) : 0;
-  if (held_still) book.note(CampaignLaw::gear_holds, bad(changes_ > 1), 0.0, time);
+  if (held_still) record.note(CampaignLaw::gear_holds, bad(changes_ > 1), 0.0, time);
   if (last_ != haptics::kNeutralGear) {
     const haptics::Slot& slot = haptics::slot_of(gate, haptics::slot_of_gear(gate, last_));
     const bool is_in = haptics::slot_at(gate, cycle.now.proxy) == haptics::slot_of_gear(gate, last_);
     nearest_ = std::min(nearest_, is_in ? std::abs(cycle.now.proxy.y) : 0.0);
     if (gear == last_ && before != gear)
-      book.note(CampaignLaw::gear_holds, bad(nearest_ > slot.release_depth), 0.0, time);
+      record.note(CampaignLaw::gear_holds, bad(nearest_ > slot.release_depth), 0.0, time);
   }
   if (gear != haptics::kNeutralGear && gear != before) {
     last_ = gear;
@@ -263,12 +267,12 @@ double HeldSwing::span() const noexcept {
   return std::max(both.x, both.y);
 }
 
-void quiet_law(double span, const LawLimits& limits, double time, LawRecord& book) noexcept {
-  book.note(CampaignLaw::quiet, span, limits.ripple, time);
+void quiet_law(double span, const LawLimits& limits, double time, LawRecord& record) noexcept {
+  record.note(CampaignLaw::quiet, span, limits.ripple, time);
 }
 
-void fades_law(double before, double after, const LawLimits& limits, double time, LawRecord& book) noexcept {
-  book.note(CampaignLaw::fades, after, std::max(limits.small_swing, limits.remaining_swing * before), time);
+void fades_law(double before, double after, const LawLimits& limits, double time, LawRecord& record) noexcept {
+  record.note(CampaignLaw::fades, after, std::max(limits.small_swing, limits.remaining_swing * before), time);
 }
 
 }  // namespace gearshift::lab

@@ -19,7 +19,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kQuietWindow = 0.5;        // [s] at the end of a hold; long enough for a swing of 2 Hz
+constexpr double kQuietWindow = 0.5;        // [s] window at the end of a hold; long enough for a swing of 2 Hz
 constexpr double kGearSettleTime = 1.0;     // [s] into a hold, after which the gear must not change
 constexpr std::uint64_t kPumpEvery = 4096;  // [cycles]
 
@@ -38,21 +38,21 @@ haptics::SimulatedRunConfig run_config(const CampaignCase& drawn, const haptics:
   return config;
 }
 
-// Clean aims only count for a gripping hand without a car: it does not ring and is as strong as the gate, but not as
-// strong as a synchroniser.
+// Only a gripping hand without a car must reach the gears it aims at cleanly: it does not ring, and is as strong as the
+// gate but not as a synchroniser.
 bool can_shift(const CampaignCase& drawn) {
   return drawn.hand == CaseHand::grip && !drawn.has_car;
 }
 
-// The loop's checks promise quiet and no guard faults for the plant error and jitter they were established with and for
-// the listed hands (a trembling one keeps still in a hold). With energy bounding a wall is passive but not quiet.
+// The loop's checks promise quiet and no guard faults for the listed hands (a trembling one is still in a hold) and for
+// the plant error and jitter with which they were established. With energy bounding a wall is passive but not quiet.
 bool is_promised(const CampaignCase& drawn) {
   const bool is_listed = drawn.hand != CaseHand::heavy && drawn.hand != CaseHand::stiff;
   const bool is_bounded = drawn.haptics.contact.energy_control == haptics::EnergyControl::energy_bounding;
   return drawn.lever.model_error <= 0.05 && drawn.lever.period_jitter <= 0.1 && is_listed && !is_bounded;
 }
 
-// The configurations that the loop's checks must reject, and no others: those that need allow_unstable, and too low a
+// True for exactly the configurations that the loop's checks must reject: those that need allow_unstable, and too low a
 // slew.
 bool is_forbidden(const CampaignCase& drawn) {
   const haptics::HapticConfig& config = drawn.haptics;
@@ -60,8 +60,8 @@ bool is_forbidden(const CampaignCase& drawn) {
          config.guard.slew < 2.0;
 }
 
-// True if a lockout of this gear requires leaving another column first. A lagging hand may come back before the lever
-// has left it; then the lockout is rightly closed.
+// True if a lockout of this gear requires leaving a different column first. A lagging hand may return before the lever
+// has left that column; then the lockout is rightly closed.
 bool has_detour(const haptics::Gate& gate, int gear) {
   return std::any_of(
       haptics::lockouts(gate).begin(), haptics::lockouts(gate).end(), [&](const haptics::Lockout& lockout) {
@@ -99,12 +99,13 @@ class CaseRun {
   void drive(haptics::TraceRecorder* recorder) {
     haptics::HapticSnapshot before = run_.step();
     true_position_ = run_.lever().true_position();
-    const double most = 1.0 + 2.0 * hand_.duration() / run_.period();  // a period is at least half its nominal length
+    const double max_cycles =
+        1.0 + 2.0 * hand_.duration() / run_.period();  // a period lasts at least half its nominal length
     while (hand_.time() < hand_.duration()) {
       if (drawn_.has_car) run_.channels().controls.write(feet_.at(run_.time()));
       const haptics::HapticSnapshot& now = run_.step();
-      if (static_cast<double>(now.cycle) > most)
-        throw std::runtime_error(fmt::format("case {} does not terminate", out.number));
+      if (static_cast<double>(now.cycle) > max_cycles)
+        throw std::runtime_error(fmt::format("case {} does not end", out.number));
       check_cycle({now, before, hand_.last().pressed_down, hand_.last().lifted});
       if (recorder && now.cycle % kPumpEvery == 0) recorder->pump();
       before = now;
@@ -141,7 +142,7 @@ class CaseRun {
     force_law(cycle, limits_, out.laws);
     slew_law(cycle, limits_, out.laws);
     check_guard(cycle);
-    // The estimator drops implausible readings, so the energy over that travel is not bounded.
+    // The estimator drops implausible readings, so the energy of that travel is not bounded.
     if (is_plausible_) energy_.update(cycle, run_.lever().true_position() - true_position_, limits_, out.laws);
     true_position_ = run_.lever().true_position();
     const bool is_in_or_out = is_held_still() && !drawn_.has_car;  // a synchroniser may delay the gear
@@ -167,16 +168,16 @@ class CaseRun {
   void check_hold(const haptics::HapticSnapshot& now) {
     if (hold_ >= script_.holds.size()) return;
     const Hold& hold = script_.holds[hold_];
-    was_tired_ = was_tired_ || is_tired(now);
+    was_overheated_ = was_overheated_ || is_overheated(now);
     if (hand_.time() >= hold.end) {
-      out.ripple = std::max(out.ripple, was_tired_ ? 0.0 : quiet_.span());
-      const bool is_shaken = drawn_.has_car;  // a stalling engine shakes the lever on purpose
-      if (!was_tired_ && !is_shaken && is_plausible_ && out.promised)
+      out.ripple = std::max(out.ripple, was_overheated_ ? 0.0 : quiet_.span());
+      const bool is_shaken = drawn_.has_car;  // a stalling engine vibrates the lever on purpose
+      if (!was_overheated_ && !is_shaken && is_plausible_ && out.promised)
         quiet_law(quiet_.span(), limits_, run_.time(), out.laws);
-      if (!was_tired_ && !is_shaken && is_plausible_ && out.stopped == 0)
+      if (!was_overheated_ && !is_shaken && is_plausible_ && out.stopped == 0)
         fades_law(before_.span(), quiet_.span(), limits_, run_.time(), out.laws);
       quiet_ = before_ = {};
-      was_tired_ = false;
+      was_overheated_ = false;
       ++hold_;
     } else if (hand_.time() >= hold.end - kQuietWindow) {
       quiet_.update(run_.lever().true_position());
@@ -185,12 +186,12 @@ class CaseRun {
     }
   }
 
-  // A motor that overheats gives way, so no wall can be quiet on it. This is reported as saturation.
-  bool is_tired(const haptics::HapticSnapshot& now) const {
+  // An overheated motor gives way, so no wall on it can be quiet. This is reported as saturation.
+  bool is_overheated(const haptics::HapticSnapshot& now) const {
     return drawn_.lever.actuator.overload_time < 100.0 && (now.flags & haptics::kFlagSaturated) != 0;
   }
 
-  // A shift is clean only if the previous gear was reached; otherwise it starts from another place than planned.
+  // A shift is clean only if the previous gear was reached; otherwise it starts from a different place than planned.
   void check_shift(const haptics::HapticSnapshot& now) {
     const std::size_t done = static_cast<std::size_t>(out.shifts);
     if (done >= script_.shifts.size() || hand_.time() < script_.shifts[done].end) return;
@@ -222,12 +223,12 @@ class CaseRun {
   LockoutLaw lockouts_;
   EnergyLaw energy_;
   GearLaw gears_;
-  HeldSwing quiet_, before_;  // at the end of a hold; from 2 kFading to kFading before its end
+  HeldSwing quiet_, before_;  // swing at the end of a hold; swing from 2 kFading to kFading before its end
   std::size_t hold_ = 0;
   glm::dvec2 true_position_{0.0};
   bool was_previous_reached_ = true;
-  bool was_tired_ = false;
-  bool is_plausible_ = true;  // all readings so far were below the speed above which the loop treats them as faults
+  bool was_overheated_ = false;
+  bool is_plausible_ = true;  // no reading so far implied a speed that the loop treats as a fault
 };
 
 }  // namespace
@@ -239,14 +240,15 @@ CaseOutcome run_case(const CampaignCase& drawn, std::span<const haptics::GateLay
   try {
     run.emplace(drawn, layout);
   } catch (const std::invalid_argument& refusal) {
-    if (!is_forbidden(drawn)) throw std::runtime_error(std::string("rejected without a reason: ") + refusal.what());
+    if (!is_forbidden(drawn))
+      throw std::runtime_error(std::string("the loop's checks rejected a valid case: ") + refusal.what());
     CaseOutcome out;
     out.number = drawn.number;
     out.refused = refusal.what();
-    std::replace(out.refused.begin(), out.refused.end(), ',', ';');  // a field of cases.csv
+    std::replace(out.refused.begin(), out.refused.end(), ',', ';');  // a field of cases.csv contains no comma
     return out;
   }
-  if (is_forbidden(drawn)) throw std::runtime_error("admitted, although the checks should reject it");
+  if (is_forbidden(drawn)) throw std::runtime_error("the loop's checks accepted an invalid case");
   if (planted) run->plant(planted);
   if (trace.empty()) {
     run->drive(nullptr);

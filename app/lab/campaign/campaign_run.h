@@ -14,18 +14,18 @@ namespace gearshift::lab {
 
 struct CaseOutcome {
   std::uint64_t number = 0;
-  std::string refused;  // why the loop rejected the configuration, without commas; if set, nothing was driven
+  std::string refused;  // why the loop rejected the configuration, without commas; if set, the case was not run
   int shifts = 0;       // tried
   int clean = 0;        // tried with a clean aim
-  int reached = 0;      // reached, of all tried
+  int reached = 0;      // tried shifts that reached their gear
   std::uint64_t cycles = 0;
   double seconds = 0.0;    // [s] simulated
   double stiffness = 0.0;  // [N/m] admitted
-  int limited = 0;         // number of limited parameters
-  bool promised = false;   // errors, jitter and hand are those for which the checks promise quiet and no faults
-  int stopped = 0;         // how often the guard switched the forces off
-  double ripple = 0.0;     // [m] peak-to-peak, in the worst hold
-  int softened = 0;        // how often the reversal limiter lowered the stiffness
+  int limited = 0;         // number of parameters that were limited
+  bool promised = false;   // for this plant error, jitter and hand the checks promise quiet and no faults
+  int stopped = 0;         // number of times the guard switched the forces off
+  double ripple = 0.0;     // [m] largest peak-to-peak motion in a hold
+  int softened = 0;        // number of times the reversal limiter lowered the stiffness
   double fastest = 0.0;    // [m/s] largest true speed of the lever
   LawRecord laws;
 };

@@ -10,9 +10,9 @@ namespace gearshift::lab {
 namespace {
 
 constexpr std::array<double, 6> kRateBands{100.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0};  // [Hz]
-constexpr int kLongDelay = 4;  // [cycles] delays from here on are counted together
+constexpr int kLongDelay = 4;  // [cycles] longer delays are counted with this one
 
-// True if `a` is nearer to its bound than `b`, or further beyond it.
+// True if `a` is further beyond its bound than `b`, or nearer to it.
 bool is_worse(const LawResult& a, const LawResult& b) {
   if (a.broken() != b.broken()) return a.broken();
   if (a.bound > 0.0 && b.bound > 0.0) return a.value / a.bound > b.value / b.bound;
@@ -21,20 +21,20 @@ bool is_worse(const LawResult& a, const LawResult& b) {
 
 void add_laws(CampaignSummary& summary, const CampaignCase& drawn, const CaseOutcome& outcome) {
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
-    const LawResult& seen = outcome.laws.seen(static_cast<CampaignLaw>(i));
-    if (seen.checks == 0) continue;
+    const LawResult& result = outcome.laws.result(static_cast<CampaignLaw>(i));
+    if (result.checks == 0) continue;
     LawSummary& law = summary.laws[i];
-    if (law.cases++ == 0 || is_worse(seen, law.worst)) law.worst = seen, law.worst_case = outcome.number;
-    law.checks += seen.checks;
-    law.broken += seen.broken();
-    if (seen.broken()) summary.broken.push_back({outcome.number, drawn.seed, static_cast<CampaignLaw>(i), seen});
+    if (law.cases++ == 0 || is_worse(result, law.worst)) law.worst = result, law.worst_case = outcome.number;
+    law.checks += result.checks;
+    law.broken += result.broken();
+    if (result.broken()) summary.broken.push_back({outcome.number, drawn.seed, static_cast<CampaignLaw>(i), result});
   }
 }
 
 void add_to_group(CampaignSummary& summary, const std::string& of, const std::string& name,
                   const CaseOutcome& outcome) {
-  const auto is_it = [&](const CaseGroup& group) { return group.of == of && group.name == name; };
-  auto found = std::find_if(summary.groups.begin(), summary.groups.end(), is_it);
+  const auto is_same_group = [&](const CaseGroup& group) { return group.of == of && group.name == name; };
+  auto found = std::find_if(summary.groups.begin(), summary.groups.end(), is_same_group);
   if (found == summary.groups.end()) found = summary.groups.insert(found, CaseGroup{of, name});
   ++found->cases;
   found->shifts += static_cast<std::uint64_t>(outcome.shifts);
@@ -62,14 +62,17 @@ void add_groups(CampaignSummary& summary, const CampaignCase& drawn, const CaseO
   add("gate", drawn.shipped_gate >= 0 ? "shipped" : "random");
   add("rate", band_name(drawn.haptics.rate));
   add("delay", drawn.lever.delay < kLongDelay ? std::to_string(drawn.lever.delay) : "4 to 8");
-  add("drawn from", drawn.is_wide ? "wide" : "narrow");
-  add("behind the lever", drawn.has_car ? "a car" : "nothing");
+  add("range of values", drawn.is_wide ? "wide" : "narrow");
+  add("load", drawn.has_car ? "a car" : "none");
   add("hold", kHolds[static_cast<int>(drawn.haptics.contact.hold)]);
-  add("energy", is_bounded ? "bounded" : "free");
-  add("count", count == 0.0 ? "none" : count < 20e-6 ? "below 20 um" : count < 150e-6 ? "20 to 150 um" : "coarser");
-  add("plant error, jitter", is_beyond ? "more" : "up to 5 %, 10 %");
-  add("promised quiet", outcome.promised ? "yes" : "no");
-  add("walls of its own", drawn.lever.device_wall_stiffness > 0.0 ? "yes" : "no");
+  add("energy bounding", is_bounded ? "yes" : "no");
+  add("encoder step", count == 0.0     ? "none"
+                      : count < 20e-6  ? "below 20 um"
+                      : count < 150e-6 ? "20 to 150 um"
+                                       : "above 150 um");
+  add("plant error, jitter", is_beyond ? "above 5 %, 10 %" : "up to 5 %, 10 %");
+  add("quiet promised", outcome.promised ? "yes" : "no");
+  add("device walls", drawn.lever.device_wall_stiffness > 0.0 ? "yes" : "no");
 }
 
 std::string without_values(const std::string& refusal) {
@@ -113,7 +116,7 @@ CampaignSummary summarise(std::uint64_t campaign_seed, std::span<const CaseOutco
     summary.seconds += outcome.seconds;
     add_laws(summary, drawn, outcome);
     add_groups(summary, drawn, outcome);
-    if (outcome.laws.seen(CampaignLaw::fades).checks > 0)
+    if (outcome.laws.result(CampaignLaw::fades).checks > 0)
       ripple[{outcome.promised, band_name(drawn.haptics.rate), std::min(drawn.lever.delay, kLongDelay)}].push_back(
           outcome.ripple);
   }

@@ -13,16 +13,16 @@
 namespace gearshift::lab {
 
 struct LawSummary {
-  std::uint64_t cases = 0, checks = 0;  // cases in which it was checked, and number of checks
+  std::uint64_t cases = 0, checks = 0;  // number of cases in which the law was checked, and of checks
   std::uint64_t broken = 0;             // cases
-  LawResult worst;                      // nearest to its bound, or furthest beyond
+  LawResult worst;                      // the value nearest to its bound, or furthest beyond it
   std::uint64_t worst_case = 0;
 };
 
-struct LawBroken {
+struct BrokenLaw {
   std::uint64_t number = 0, seed = 0;  // of the case
   CampaignLaw law = CampaignLaw::finite;
-  LawResult seen;
+  LawResult result;
 };
 
 // Cases with a common property.
@@ -34,17 +34,17 @@ struct CaseGroup {
 
 struct RippleCell {
   double slowest = 0.0, fastest = 0.0;  // [Hz] of the loop
-  int delay = 0;                        // [cycles] 4 means 4 or more
+  int delay = 0;                        // [cycles] delay; 4 means 4 or more
   bool promised = true;                 // quiet is promised
   std::uint64_t cases = 0;
-  double median = 0.0, p95 = 0.0, most = 0.0;  // [m] peak-to-peak, in the worst hold of each case
+  double median = 0.0, p95 = 0.0, max = 0.0;  // [m] peak-to-peak motion in the worst hold of each case
 };
 
 struct CampaignSummary {
   std::uint64_t seed = 0, cases = 0, refused = 0, shifts = 0, clean = 0, cycles = 0;
   double seconds = 0.0;  // [s] simulated
   std::array<LawSummary, kCampaignLaws> laws;
-  std::vector<LawBroken> broken;                  // by case
+  std::vector<BrokenLaw> broken;                  // by case
   std::map<std::string, std::uint64_t> refusals;  // number of rejections by reason, without its values
   std::vector<CaseGroup> groups;
   std::vector<RippleCell> ripple;

@@ -38,8 +38,8 @@ std::string case_line(const CaseOutcome& out) {
                                  out.clean, out.reached, out.cycles, out.seconds, out.stiffness, out.limited,
                                  out.promised ? 1 : 0, out.stopped, out.ripple, out.softened, out.fastest);
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
-    const LawResult& seen = out.laws.seen(static_cast<CampaignLaw>(i));
-    line += fmt::format(",{},{},{},{}", seen.checks, seen.value, seen.bound, seen.time);
+    const LawResult& result = out.laws.result(static_cast<CampaignLaw>(i));
+    line += fmt::format(",{},{},{},{}", result.checks, result.value, result.bound, result.time);
   }
   return line + "\n";
 }
@@ -60,7 +60,7 @@ class LineReader {
   LineReader(std::string_view line, const std::vector<std::string_view>& columns)
       : columns_(columns), fields_(fields_of(line)) {
     if (fields_.size() == columns.size()) return;
-    throw std::runtime_error(fmt::format("{} fields, not {}", fields_.size(), columns.size()));
+    throw std::runtime_error(fmt::format("the line has {} fields instead of {}", fields_.size(), columns.size()));
   }
 
   std::string_view text() {
@@ -68,11 +68,11 @@ class LineReader {
     return fields_[at_++];
   }
   template <typename Number>
-  void number(Number& value, Number least = 0, Number most = std::numeric_limits<Number>::max()) {
-    if (!parse(value) || !(value >= least && value <= most)) refuse(fmt::format("a number from {} to {}", least, most));
+  void number(Number& value, Number min = 0, Number max = std::numeric_limits<Number>::max()) {
+    if (!parse(value) || !(value >= min && value <= max)) refuse(fmt::format("a number from {} to {}", min, max));
     ++at_;
   }
-  void any_number(double& value) {  // a diverged lever gives infinite values or NaN
+  void any_number(double& value) {  // the values of a diverged lever may be infinite or NaN
     if (!parse(value)) refuse("a number");
     ++at_;
   }
@@ -94,7 +94,7 @@ class LineReader {
   std::size_t at_ = 0;
 };
 
-// before: number of lines above. Cases are handed out in order, filling gaps first.
+// before: number of lines before this one. Cases are handed out in order, filling gaps first.
 CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>& columns, std::uint64_t before) {
   LineReader in(line, columns);
   CaseOutcome out;
@@ -115,11 +115,11 @@ CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>
   in.number(out.softened);
   in.any_number(out.fastest);
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
-    LawResult& seen = out.laws.seen(static_cast<CampaignLaw>(i));
-    in.number(seen.checks);
-    in.any_number(seen.value);
-    in.any_number(seen.bound);
-    in.number(seen.time);
+    LawResult& result = out.laws.result(static_cast<CampaignLaw>(i));
+    in.number(result.checks);
+    in.any_number(result.value);
+    in.any_number(result.bound);
+    in.number(result.time);
   }
   return out;
 }
@@ -129,10 +129,10 @@ void check_plain(const std::filesystem::path& file) {
   const auto status = std::filesystem::status(file, error);
   const bool is_there = status.type() != std::filesystem::file_type::not_found;
   if (is_there && !std::filesystem::is_regular_file(status))
-    throw std::runtime_error(file.string() + ": is not a regular file");
+    throw std::runtime_error(file.string() + ": this is not a regular file");
 }
 
-std::string whole_text(const std::filesystem::path& file) {
+std::string read_text(const std::filesystem::path& file) {
   std::string text(std::filesystem::file_size(file), '\0');
   std::ifstream in(file, std::ios::binary);
   if (!in.read(text.data(), static_cast<std::streamsize>(text.size())))
@@ -150,20 +150,22 @@ CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : n
   const std::string head = "# " + of + "\n" + column_line();
   check_plain(file);
   file_.reset(std::fopen(name_.c_str(), "ab"));
-  if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
+  if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written ({})", name_, std::strerror(errno)));
   if (flock(fileno(file_.get()), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw std::runtime_error(name_ + ": another campaign is writing to it");
-  std::string text = whole_text(file);
-  const std::size_t had = text.size();
-  if (text.size() < head.size() && head.starts_with(text)) text.clear();  // stopped while writing the first lines
+    throw std::runtime_error(name_ + ": another campaign is writing to this file; choose another folder with --out");
+  std::string text = read_text(file);
+  const std::size_t old_size = text.size();
+  if (text.size() < head.size() && head.starts_with(text)) text.clear();  // the program was stopped in the first lines
   if (!text.empty() && !text.starts_with(head)) {
     throw std::runtime_error(
-        fmt::format("{}: belongs to another campaign: \"{}\", this one is \"# {}\"", name_, first_line_of(text), of));
+        fmt::format("{}: the file belongs to another campaign (\"{}\" instead of \"# {}\"); choose another folder with "
+                    "--out",
+                    name_, first_line_of(text), of));
   }
-  const std::size_t good = text.empty() ? 0 : read_cases(text, head.size());
+  const std::size_t valid_size = text.empty() ? 0 : read_cases(text, head.size());
   std::error_code error;
-  if (good < had) std::filesystem::resize_file(file, good, error);
-  if (error) throw std::runtime_error(name_ + ": cannot be written: " + error.message());
+  if (valid_size < old_size) std::filesystem::resize_file(file, valid_size, error);
+  if (error) throw std::runtime_error(name_ + ": cannot be written (" + error.message() + ")");
   if (text.empty()) std::fputs(head.c_str(), file_.get());
 }
 
@@ -179,7 +181,7 @@ std::size_t CaseFile::read_cases(std::string_view text, std::size_t begin) {
       if (!cases_.emplace(of_case, std::move(out)).second)
         throw std::runtime_error(fmt::format("case {} occurs twice", of_case));
     } catch (const std::runtime_error& problem) {
-      throw std::runtime_error(fmt::format("{}: line {}: {}", name_, number, problem.what()));
+      throw std::runtime_error(fmt::format("{}:{}: {}", name_, number, problem.what()));
     }
   }
   return begin;
@@ -190,8 +192,8 @@ void CaseFile::add(const CaseOutcome& outcome) {
   const bool is_written = file_ && std::fputs(line.c_str(), file_.get()) >= 0 && std::fflush(file_.get()) == 0;
   if (is_written) return;
   if (file_) why_ = std::strerror(errno);
-  file_.reset();  // stop writing, so that a cut-off line stays the last one
-  throw std::runtime_error(fmt::format("{}: cannot be written: {}", name_, why_));
+  file_.reset();  // write nothing more, so that a truncated line remains the last one
+  throw std::runtime_error(fmt::format("{}: cannot be written ({})", name_, why_));
 }
 
 }  // namespace gearshift::lab

@@ -1,4 +1,4 @@
-// Saves the finished cases of a campaign, one line per case, in a file that may be cut off at any moment.
+// Saves the finished cases of a campaign, one per line, in a file that may be truncated at any moment.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace gearshift::lab {
 
-inline constexpr int kMaxThreads = 256;  // that run a campaign
+inline constexpr int kMaxThreads = 256;  // maximum number of threads of a campaign
 
 class CaseFile {
  public:
-  // Reads the existing lines, drops an unfinished last line and appends after it. of: identifies the campaign in one
-  // line (seed, gates, program). Throws std::runtime_error with one sentence if the file belongs to another campaign,
-  // is invalid (names line, column, value and range; a case number cannot exceed the number of lines by more than the
-  // threads), is being written by another program, or cannot be read or written; the file is then unchanged.
+  // Reads the existing lines, drops an incomplete last line and appends after it. of: identifies the campaign in one
+  // line (seed, gates, program). Throws std::runtime_error with one sentence if the file belongs to a different
+  // campaign, is invalid (names line, column, value and range; a case number cannot exceed the number of lines by more
+  // than the threads), is being written by another program, or cannot be read or written; the file is then unchanged.
   CaseFile(const std::filesystem::path& file, const std::string& of);
 
   const std::map<std::uint64_t, CaseOutcome>& cases() const noexcept { return cases_; }
@@ -33,7 +33,7 @@ class CaseFile {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
   };
 
-  std::string name_, why_;  // why_: reason of the first failed write, after which nothing is written
+  std::string name_, why_;  // why_: reason of the first failed write, after which no more lines are written
   std::map<std::uint64_t, CaseOutcome> cases_;
   std::unique_ptr<std::FILE, Close> file_;
 };

@@ -26,7 +26,7 @@
 namespace gearshift::lab {
 namespace {
 
-// Identifies the campaign: with another program or other gates, the same numbers give other cases.
+// Identifies the campaign: a different program or different gates would give different cases for the same numbers.
 std::string campaign_id(const CampaignPlan& plan, std::span<const haptics::GateLayout> shipped) {
   std::string gates;
   for (const haptics::GateLayout& layout : shipped) gates += layout.text;
@@ -34,7 +34,7 @@ std::string campaign_id(const CampaignPlan& plan, std::span<const haptics::GateL
                      plan.program);
 }
 
-// CPU time of a thread, which does not advance while the program is stopped or another one has the core. [s]
+// CPU time of a thread; unlike elapsed time, it does not advance while the thread is stopped or preempted. [s]
 double processor_time(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
@@ -54,7 +54,7 @@ class CampaignWork {
     if (plan.folder.empty()) return;
     file_.emplace(plan.folder / "cases.csv", campaign_id(plan, shipped));
     cases_ = file_->cases();
-    count_whole();
+    count_finished();
   }
 
   std::optional<std::uint64_t> next() {
@@ -70,7 +70,7 @@ class CampaignWork {
     const std::lock_guard lock(mutex_);
     if (file_) file_->add(outcome);
     cases_.emplace(outcome.number, std::move(outcome));
-    count_whole();
+    count_finished();
   }
 
   void fail(std::exception_ptr problem) {
@@ -86,14 +86,14 @@ class CampaignWork {
   void leave() {
     const std::lock_guard lock(mutex_);
     running_.erase(std::this_thread::get_id());
-    ++left_;
+    ++finished_threads_;
     changed_.notify_all();
   }
 
-  // Returns true when that many threads have finished.
+  // Waits until `threads` threads have finished; returns false after `timeout`.
   bool wait(std::chrono::milliseconds timeout, std::size_t threads) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, timeout, [&] { return left_ == threads; });
+    return changed_.wait_for(lock, timeout, [&] { return finished_threads_ == threads; });
   }
 
   CampaignStatus status() {
@@ -104,11 +104,11 @@ class CampaignWork {
     return status;
   }
 
-  std::vector<CaseOutcome> take() {
+  std::vector<CaseOutcome> take_outcomes() {
     if (problem_) std::rethrow_exception(problem_);
     std::vector<CaseOutcome> outcomes;
     for (auto& [number, outcome] : cases_)
-      if (number < whole_) outcomes.push_back(std::move(outcome));
+      if (number < finished_cases_) outcomes.push_back(std::move(outcome));
     return outcomes;
   }
 
@@ -116,16 +116,17 @@ class CampaignWork {
   struct Running {
     std::uint64_t number = 0;  // of the case
     clockid_t clock{};
-    double begin = 0.0;  // [s] on that clock
+    double begin = 0.0;  // [s] start time of the case on the thread's CPU clock
   };
 
   bool is_enough() const { return shifts_ >= plan_.shifts; }
 
-  // Advances whole_ over cases that are finished without a gap.
-  void count_whole() {
-    for (auto found = cases_.find(whole_); !is_enough() && found != cases_.end(); found = cases_.find(whole_)) {
+  // Advances finished_cases_ to the first case that is not finished.
+  void count_finished() {
+    for (auto found = cases_.find(finished_cases_); !is_enough() && found != cases_.end();
+         found = cases_.find(finished_cases_)) {
       shifts_ += static_cast<std::uint64_t>(found->second.shifts);
-      ++whole_;
+      ++finished_cases_;
     }
   }
 
@@ -134,16 +135,16 @@ class CampaignWork {
   std::condition_variable changed_;
   std::optional<CaseFile> file_;
   std::map<std::uint64_t, CaseOutcome> cases_;
-  std::uint64_t next_ = 0;    // next case to hand out
-  std::uint64_t whole_ = 0;   // all cases before this one are finished
-  std::uint64_t shifts_ = 0;  // tried in those
+  std::uint64_t next_ = 0;            // next case to hand out
+  std::uint64_t finished_cases_ = 0;  // all cases before this one are finished
+  std::uint64_t shifts_ = 0;          // tried in those
   std::map<std::thread::id, Running> running_;
   bool is_ended_ = false;
-  std::size_t left_ = 0;  // finished threads
+  std::size_t finished_threads_ = 0;
   std::exception_ptr problem_;
 };
 
-// Any unexpected exception ends the campaign and names the case, so that it can be run on its own.
+// An unexpected exception ends the campaign; its message names the case, so that it can be run on its own.
 CaseOutcome outcome_of(std::uint64_t number, const CampaignPlan& plan, std::span<const haptics::GateLayout> shipped) {
   try {
     return run_case(drawn_case(plan.seed, number, static_cast<int>(shipped.size())), shipped);
@@ -170,32 +171,32 @@ std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<cons
   try {
     while (static_cast<int>(threads.size()) < plan.threads) threads.emplace_back([&] { work(shared, plan, shipped); });
   } catch (const std::system_error&) {
-    if (threads.empty()) throw;  // otherwise continue with fewer threads
+    if (threads.empty()) throw;  // if a thread cannot be started, continue with fewer
   }
   while (!shared.wait(std::chrono::milliseconds(100), threads.size()))
     if (progress && !progress(shared.status())) shared.end();
   threads.clear();
-  return shared.take();
+  return shared.take_outcomes();
 }
 
-std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken> broken,
+std::size_t record_failures(const CampaignPlan& plan, std::span<const BrokenLaw> broken,
                             std::span<const haptics::GateLayout> shipped, const CampaignProgress& progress) {
-  std::map<std::uint64_t, std::vector<LawBroken>> cases;
-  for (const LawBroken& one : broken) cases[one.number].push_back(one);
+  std::map<std::uint64_t, std::vector<BrokenLaw>> cases;
+  for (const BrokenLaw& one : broken) cases[one.number].push_back(one);
   const std::filesystem::path folder = plan.folder / "failures";
   std::error_code error;
   if (!cases.empty()) std::filesystem::create_directories(folder, error);
-  if (error) throw haptics::FileError(folder.string(), 0, "cannot be created: " + error.message());
-  std::size_t kept = 0;
+  if (error) throw haptics::FileError(folder.string(), 0, "cannot be created (" + error.message() + ")");
+  std::size_t saved = 0;
   for (const auto& [number, of_case] : cases) {
-    if (kept == kMaxTraces) break;
+    if (saved == kMaxTraces) break;
     const CampaignCase drawn = drawn_case(plan.seed, number, static_cast<int>(shipped.size()));
     const std::filesystem::path trace = folder / fmt::format("{:016x}.trace", drawn.seed);
     run_case(drawn, shipped, trace);
     write_broken_laws(trace, plan.seed, of_case);
-    ++kept;
-    const double share = static_cast<double>(kept) / static_cast<double>(std::min(cases.size(), kMaxTraces));
-    if (progress && !progress({share, std::nullopt})) break;
+    ++saved;
+    const double fraction = static_cast<double>(saved) / static_cast<double>(std::min(cases.size(), kMaxTraces));
+    if (progress && !progress({fraction, std::nullopt})) break;
   }
   return cases.size();
 }

@@ -19,30 +19,30 @@ struct CampaignPlan {
   std::uint64_t seed = 1;
   std::string program;  // program and commit; another one may not resume the campaign. Uncommitted changes are not
                         // distinguished
-  std::uint64_t shifts = 1'000'000;  // least number tried: cases are run completely and in order
+  std::uint64_t shifts = 1'000'000;  // minimum number of shifts tried; cases are run completely and in order
   std::filesystem::path folder;      // must exist; receives cases.csv, one line per case. Empty: nothing is saved
   int threads = 1;                   // at most kMaxThreads
   double case_time_limit = 60.0;     // [s] of CPU time; a case normally takes 0.1 s
 };
 
 struct CampaignStatus {
-  double share = 0.0;                    // 0 to 1
+  double fraction = 0.0;                 // 0 to 1
   std::optional<std::uint64_t> overdue;  // a case beyond the time limit, which may never end
 };
 
-// Called a few times a second on the calling thread. Returning false stops the campaign from starting more cases.
+// Called a few times per second on the calling thread. After false is returned, no more cases are started.
 using CampaignProgress = std::function<bool(const CampaignStatus& status)>;
 
-// Runs the first cases that together try that many shifts and returns them in order; fewer if it was stopped. Throws
-// FileError or std::runtime_error with one sentence if the folder holds another campaign or cannot be written.
+// Runs the first cases that together try `plan.shifts` shifts and returns them in order; fewer if stopped. Throws
+// FileError or std::runtime_error with one sentence if the folder holds a different campaign or cannot be written.
 std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<const haptics::GateLayout> shipped,
                                         const CampaignProgress& progress);
 
 inline constexpr std::size_t kMaxTraces = 100;
 
-// Runs the failed cases again, at most kMaxTraces, and records them as failures/SEED.trace in the plan's folder for
+// Runs failed cases again, at most kMaxTraces, and records them as failures/SEED.trace in the plan's folder for
 // `gearshift replay`. Returns the number of failed cases. Throws FileError or std::runtime_error with one sentence.
-std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken> broken,
+std::size_t record_failures(const CampaignPlan& plan, std::span<const BrokenLaw> broken,
                             std::span<const haptics::GateLayout> shipped, const CampaignProgress& progress);
 
 }  // namespace gearshift::lab

@@ -46,7 +46,7 @@ Json walls_json(const haptics::GateDescription& list) {
   for (const haptics::WallInfo& wall : list.walls) {
     all.push_back({{"from_mm", point_json(wall.from)},
                    {"to_mm", point_json(wall.to)},
-                   {"role", haptics::wall_role_name(wall.role)},
+                   {"role", haptics::to_string(wall.role)},
                    {"pair", wall.pair >= 0 ? Json(wall.pair) : Json(nullptr)}});
   }
   return all;
@@ -70,7 +70,7 @@ Json gears_json(const GateReport& report) {
   for (const haptics::Slot& slot : haptics::slots(report.gate)) {
     all.push_back({{"name", haptics::gear_name(slot.gear)},
                    {"junction", junction_name(report, slot)},
-                   {"side", side_name(slot.side)},
+                   {"side", to_string(slot.side)},
                    {"rest_mm", point_json(haptics::rest_position(report.gate, slot.gear))},
                    {"engage_depth_mm", millimetres(slot.engage_depth)},
                    {"release_depth_mm", millimetres(slot.release_depth)},
@@ -84,7 +84,7 @@ Json lockouts_json(const haptics::Gate& gate) {
   Json all = Json::array();
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
     Json one = {{"gear", haptics::gear_name(haptics::slot_of(gate, lockout.slot).gear)},
-                {"kind", haptics::lockout_kind_name(lockout.kind)}};
+                {"kind", haptics::to_string(lockout.kind)}};
     one["barrier_x_mm"] = lockout.lateral ? Json(millimetres(lockout.barrier)) : Json(nullptr);
     if (lockout.kind == haptics::LockoutKind::after_gear) one["after"] = haptics::gear_name(lockout.after_gear);
     if (lockout.kind == haptics::LockoutKind::speed) {

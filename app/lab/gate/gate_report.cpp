@@ -22,10 +22,6 @@ const char* axis_name(bool horizontal) {
   return horizontal ? "select" : "shift";
 }
 
-const char* side_name(haptics::Side side) {
-  return side == haptics::Side::forward ? "forward" : "back";
-}
-
 const std::string& junction_name(const GateReport& report, const haptics::Slot& slot) {
   return report.description.junctions.at(static_cast<std::size_t>(slot.column)).name;
 }

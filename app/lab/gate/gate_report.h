@@ -25,11 +25,10 @@ std::string gate_json(const GateReport& report);
 double millimetres(double metres);                                                // rounded to a nanometre
 std::vector<std::string> open_directions(const haptics::JunctionInfo& junction);  // "left", "right", ...
 const char* axis_name(bool horizontal);                                           // "select" or "shift"
-const char* side_name(haptics::Side side);                                        // "forward" or "back"
 const std::string& junction_name(const GateReport& report,
-                                 const haptics::Slot& slot);  // of the slot's column: "I", ...
+                                 const haptics::Slot& slot);  // name of the slot's column: "I", ...
 
-// The two walls of a pair: their distance, and the length over which they face each other. [m]
+// Two facing walls: their distance, and the length over which they face each other. [m]
 struct PairSize {
   double width = 0.0, length = 0.0;
   std::vector<std::size_t> walls;  // indices into GateDescription::walls

@@ -15,7 +15,7 @@
 namespace gearshift::lab {
 namespace {
 
-// Sizes on the page, in millimetres of the gate.
+// Sizes on the page, in millimetres of the real gate.
 constexpr double kPixelsPerMillimetre = 7.0;
 constexpr double kMargin = 6.0;
 constexpr double kTitleHeight = 9.0;
@@ -33,7 +33,7 @@ void draw_buffers(base::Svg& svg, const haptics::Gate& gate) {
   }
 }
 
-// A junction's name is centred in it, or beside its buffer.
+// Place of a junction's name: centred in it, or beside its buffer.
 struct NamePlace {
   double x = 0.0;  // [mm]
   const char* anchor = "middle";
@@ -60,7 +60,7 @@ void draw_junctions(base::Svg& svg, const haptics::Gate& gate, const haptics::Ga
   }
 }
 
-// Several lockouts at one place share one bar; the legend says what they are.
+// Lockouts at the same place share one bar; the legend lists them.
 void draw_lockouts(base::Svg& svg, const haptics::Gate& gate) {
   const base::Pen pen{base::kLockoutColour, 1.2, kLongDash};
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
@@ -104,7 +104,7 @@ class Legend {
   glm::dvec2 at_;
 };
 
-// Lists only what this gate has.
+// Lists only the elements that this gate has.
 void draw_legend(base::Svg& svg, const haptics::Gate& gate, glm::dvec2 at) {
   Legend legend(svg, at);
   legend.ring("neutral: the lever returns here");

@@ -37,7 +37,7 @@ void add_gears(Text out, const GateReport& report) {
                  "engages at", "releases at", "end [mm]", "pull-out [N]");
   for (const haptics::Slot& slot : haptics::slots(report.gate)) {
     fmt::format_to(out, "{:<6}{:<10}{:<10}{:>10.1f}{:>12.1f}{:>12.1f}{:>12.1f}{:>14.1f}\n",
-                   haptics::gear_name(slot.gear), junction_name(report, slot), side_name(slot.side),
+                   haptics::gear_name(slot.gear), junction_name(report, slot), to_string(slot.side),
                    millimetres(slot.rest), millimetres(slot.engage_depth), millimetres(slot.release_depth),
                    millimetres(slot.end), report.layout.feel.lock_force);
   }

@@ -11,7 +11,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kStep = 0.1e-3;      // [m] of the drawn curve
+constexpr double kStep = 0.1e-3;      // [m] step of the drawn curve
 constexpr double kForceTick = 4.0;    // [N]
 constexpr double kDepthTick = 0.010;  // [m]
 
@@ -88,7 +88,7 @@ class SlotPlot {
 }  // namespace
 
 void draw_slot_plot(base::Svg& svg, const haptics::Gate& gate, const haptics::Slot& slot, const base::Rect& box) {
-  svg.text({box.x, box.y - 3.0}, {2.9, base::kInk, "start", true}, "Force along a slot [N] over depth [mm]");
+  svg.text({box.x, box.y - 3.0}, {2.9, base::kInk, "start", true}, "Force along a slot [N] against depth [mm]");
   SlotPlot plot(svg, gate, slot, box);
   plot.zones();
   plot.axes();

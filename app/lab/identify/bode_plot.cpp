@@ -64,7 +64,7 @@ set format x ""
 set ylabel "gain [dB re 1 m/N]"
 set arrow 1 from edge,graph 0 to edge,graph 1 nohead dashtype 2 linecolor "{soft}"
 set arrow 2 from 0.1,gain(edge) to edge,gain(edge) nohead dashtype 2 linecolor "{soft}"
-set label 2 sprintf("-3 dB of the gain at rest: %.2f Hz", edge) at edge,graph 0.10 offset 1,0 textcolor "{soft}"
+set label 2 sprintf("3 dB below the gain at rest: %.2f Hz", edge) at edge,graph 0.10 offset 1,0 textcolor "{soft}"
 plot gain0(x) with lines linewidth 4 linecolor "{pale}" title "{nominal}", \
   gain(x) with lines linewidth 1.5 linecolor "{blue}" title "fitted", \
   "bode_{axis}.csv" using "frequency_hz":(20 * log10(column("gain_m_per_n"))) with points pointtype 3 pointsize 1.2 \
@@ -83,7 +83,7 @@ plot phase0(x) with lines linewidth 4 linecolor "{pale}", phase(x) with lines li
 unset multiplot
 )gp",
       fmt::arg("m", model.mass), fmt::arg("b", model.damping), fmt::arg("k", model.stiffness), fmt::arg("edge", edge),
-      fmt::arg("axis", lever_axis_name(axis.response.axis)), fmt::arg("grid", base::kAisleShade),
+      fmt::arg("axis", to_string(axis.response.axis)), fmt::arg("grid", base::kAisleShade),
       fmt::arg("soft", base::kSoftInk), fmt::arg("blue", base::kGearColour), fmt::arg("red", base::kLockoutColour),
       fmt::arg("m0", axis.nominal.mass), fmt::arg("b0", axis.nominal.damping), fmt::arg("k0", axis.nominal.stiffness),
       fmt::arg("pale", base::kGridInk), fmt::arg("nominal", nominal));
@@ -93,7 +93,7 @@ unset multiplot
 
 void draw_bode(const std::filesystem::path& folder, const AxisIdentification& axis, std::string_view nominal,
                const std::function<void()>& waiting) {
-  const std::string name = fmt::format("bode_{}", lever_axis_name(axis.response.axis));
+  const std::string name = fmt::format("bode_{}", to_string(axis.response.axis));
   write_points(folder / (name + ".csv"), axis);
   draw_figure(folder, {name, 900, 720, bode_commands(axis, nominal)}, waiting);
 }

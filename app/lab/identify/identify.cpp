@@ -19,10 +19,10 @@ haptics::SweepConfig literal_config() {
   return config;
 }
 
-haptics::FrequencyResponse whole(haptics::FrequencyResponse response) {
+haptics::FrequencyResponse require_complete(haptics::FrequencyResponse response) {
   if (response.problem.empty()) return response;
   throw std::runtime_error(
-      fmt::format("axis {}: the sweep ended early: {}", lever_axis_name(response.axis), response.problem));
+      fmt::format("the sweep of axis {} ended early: {}", to_string(response.axis), response.problem));
 }
 
 }  // namespace
@@ -48,17 +48,13 @@ AxisIdentification identify_axis(const haptics::Preset& preset, haptics::LeverAx
   AxisIdentification found;
   found.nominal = axis == haptics::LeverAxis::x ? preset.lever.axis_x : preset.lever.axis_y;
   try {
-    found.response = whole(sweep_lever(preset, axis, preset_sweep(preset), progress));
+    found.response = require_complete(sweep_lever(preset, axis, preset_sweep(preset), progress));
     found.fit = haptics::fit_axis(found.response);
-    found.literal = whole(sweep_lever(preset, axis, literal_config())).points.at(0);
+    found.literal = require_complete(sweep_lever(preset, axis, literal_config())).points.at(0);
   } catch (const std::invalid_argument& refused) {
-    throw std::runtime_error(fmt::format("axis {}: {}", lever_axis_name(axis), refused.what()));
+    throw std::runtime_error(fmt::format("axis {} cannot be measured, because {}", to_string(axis), refused.what()));
   }
   return found;
-}
-
-const char* lever_axis_name(haptics::LeverAxis axis) noexcept {
-  return axis == haptics::LeverAxis::x ? "x" : "y";
 }
 
 Identification identify_lever(const haptics::Preset& preset, const std::vector<haptics::LeverAxis>& axes,
@@ -70,8 +66,8 @@ Identification identify_lever(const haptics::Preset& preset, const std::vector<h
   found.sensor = preset.lever.force_sensor;
   for (const haptics::LeverAxis axis : axes) {
     const double before = static_cast<double>(found.axes.size()), all = static_cast<double>(axes.size());
-    found.axes.push_back(identify_axis(preset, axis, [&](double share) {
-      if (progress) progress("sweep", (before + share) / all);
+    found.axes.push_back(identify_axis(preset, axis, [&](double fraction) {
+      if (progress) progress("sweep", (before + fraction) / all);
     }));
   }
   found.calibration =

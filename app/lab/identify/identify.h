@@ -17,7 +17,7 @@ namespace gearshift::lab {
 struct AxisIdentification {
   haptics::FrequencyResponse response;
   haptics::AxisFit fit;
-  haptics::AxisModel nominal;       // the axis as given by spec()
+  haptics::AxisModel nominal;       // the axis as spec() describes it
   haptics::FrequencyPoint literal;  // measured at 1 Hz with the paper's amplitude, even if that exceeds the stroke
 };
 
@@ -29,11 +29,10 @@ struct Identification {
   haptics::SensorCalibration calibration;
 };
 
-const char* lever_axis_name(haptics::LeverAxis axis) noexcept;  // "x", "y"
+using IdentifyProgress = std::function<void(std::string_view what, double fraction)>;
 
-using IdentifyProgress = std::function<void(std::string_view what, double share)>;
-
-// Sweeps down to 0.2 Hz, starting at 65 Hz, where the paper stopped, or at a quarter of the rate if that is lower.
+// The sweep of the preset: from 65 Hz, where the paper stopped, or a quarter of the rate if that is lower, down to 0.2
+// Hz.
 haptics::SweepConfig preset_sweep(const haptics::Preset& preset);
 
 // Sweeps one axis of the preset's lever without a hand. Each call simulates its own lever, so sweeps are independent.

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kTau = 2.0 * std::numbers::pi;
-constexpr double kMaxPlausibleMisfit = 3.0;  // above this, noise does not explain the distance of points from the curve
+constexpr double kMaxPlausibleMisfit = 3.0;  // above this, noise cannot explain how far the points are from the curve
 
 struct Quantity {
   const char* name;
@@ -50,8 +50,8 @@ double needed_stroke(const AxisIdentification& axis) {
 
 std::string axis_text(const AxisIdentification& axis) {
   const haptics::AxisFit& fit = axis.fit;
-  std::string text = fmt::format("axis {:<10}{:>12}{:>14}{:>14}{:>10}\n", lever_axis_name(axis.response.axis), "found",
-                                 "uncertainty", "nominal", "off");
+  std::string text = fmt::format("axis {:<10}{:>12}{:>14}{:>14}{:>10}\n", to_string(axis.response.axis), "found",
+                                 "uncertainty", "nominal", "deviation");
   for (const Quantity& q : kQuantities) {
     const double found = fit.model.*q.value, nominal = axis.nominal.*q.value;
     const std::string off = nominal > 0.0 ? fmt::format("{:+.2f} %", 100.0 * (found / nominal - 1.0)) : "-";
@@ -61,24 +61,26 @@ std::string axis_text(const AxisIdentification& axis) {
   text += has_spring(fit)
               ? fmt::format("  damping ratio {:.2f}, {}, bandwidth {:.2f} Hz\n", haptics::damping_ratio(fit.model),
                             poles_text(fit.model), haptics::bandwidth(fit.model))
-              : "  no spring, so no damping ratio and no bandwidth\n";
+              : "  the axis has no spring, so no damping ratio and no bandwidth\n";
   text +=
       fmt::format("  {} points from {:.3g} to {:.3g} Hz, misfit {:.2g}{}\n", fit.points,
                   axis.response.points.front().frequency, axis.response.points.back().frequency, fit.misfit,
-                  fit.misfit > kMaxPlausibleMisfit ? ": mass, damping and stiffness alone do not explain them" : "");
-  text += fmt::format("  one third of the maximum, {:.1f} N, at 1 Hz {}: it would move the lever by {:.0f} mm\n\n",
-                      axis.literal.amplitude,
-                      axis.literal.end == haptics::PointEnd::hit_stop ? "hits the stop" : "does not reach the stop",
-                      1e3 * needed_stroke(axis));
+                  fit.misfit > kMaxPlausibleMisfit ? "; mass, damping and stiffness alone do not explain them" : "");
+  text +=
+      fmt::format("  at 1 Hz, one third of the maximum force, {:.1f} N, {} (it would move the lever by {:.0f} mm)\n\n",
+                  axis.literal.amplitude,
+                  axis.literal.end == haptics::PointEnd::hit_stop ? "drives the lever to the stop"
+                                                                  : "does not drive the lever to the stop",
+                  1e3 * needed_stroke(axis));
   return text;
 }
 
 std::string bandwidths_text(const Identification& found) {
-  std::vector<std::string> words;
+  std::vector<std::string> texts;
   for (const AxisIdentification& axis : found.axes) {
-    words.push_back(has_spring(axis.fit) ? fmt::format("{:.2f} Hz", haptics::bandwidth(axis.fit.model)) : "no spring");
+    texts.push_back(has_spring(axis.fit) ? fmt::format("{:.2f} Hz", haptics::bandwidth(axis.fit.model)) : "no spring");
   }
-  return fmt::format("{}", fmt::join(words, ", "));
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 // The paper's X axis is a rotation axis; turning about it moves the tip along our y.
@@ -86,8 +88,8 @@ std::string table2_text(const Identification& found) {
   const haptics::DeviceRow row = haptics::device_row(found.spec);
   constexpr const char* kLine = "{:<24}{:>22}{:>18}{:>14}{:>14}\n";
   std::string text = fmt::format(kLine, "Table 2", "this lever", "developed", "SideWinder", "Immersion");
-  const auto line = [&](const char* what, const std::string& ours, const PrintedLine& printed) {
-    text += fmt::format(kLine, what, ours, printed.developed, printed.sidewinder, printed.immersion);
+  const auto line = [&](const char* what, const std::string& here, const PrintedLine& printed) {
+    text += fmt::format(kLine, what, here, printed.developed, printed.sidewinder, printed.immersion);
   };
   line("range about X (shift)", fmt::format("{:.1f} deg", row.range_deg.y), kPrintedRangeX);
   line("range about Y (select)", fmt::format("{:.1f} deg", row.range_deg.x), kPrintedRangeY);
@@ -95,32 +97,33 @@ std::string table2_text(const Identification& found) {
   line("precision", fmt::format("{:.2f} counts/deg", row.counts_per_deg), kPrintedPrecision);
   line("  at the tip", fmt::format("{:.1f} um", 1e6 * row.step), {"", "", ""});
   line("bandwidth (2)", bandwidths_text(found), kPrintedBandwidth);
-  text += "(1) printed in Nm, but it is a force at the tip in newtons: 1.3 N m of the motor over 0.12 m\n";
+  text += "(1) printed in Nm, but actually a force at the tip in newtons: the motor's 1.3 N m divided by 0.12 m\n";
   text +=
-      "(2) the printed bandwidth does not follow from (11) and (12), which give 0.92 and 1.02 Hz: -3 dB of the gain at "
-      "rest\n";
+      "(2) the printed bandwidth does not follow from (11) and (12), whose gain is 3 dB below the gain at rest at 0.92 "
+      "and 1.02 Hz\n";
   if (row.step > 0.0) {
     const haptics::AxisModel& axis = found.axes.front().fit.model;
     text += fmt::format(
-        "    One newton moves axis {} by one encoder count up to {:.0f} Hz, and by a count less 3 dB up to "
-        "{:.0f} Hz.\n    That may be why the paper's sweep ended at 65 Hz.\n",
-        lever_axis_name(found.axes.front().response.axis), haptics::frequency_at_gain(axis, row.step),
+        "    One newton moves axis {} by at least one encoder count up to {:.0f} Hz, and by at least 3 dB less than a\n"
+        "    count up to {:.0f} Hz. This may be why the paper's sweep ended at 65 Hz.\n",
+        to_string(found.axes.front().response.axis), haptics::frequency_at_gain(axis, row.step),
         haptics::frequency_at_gain(axis, row.step / std::numbers::sqrt2));
   }
   return text + "\n";
 }
 
 std::string line_text(const char* axis, const haptics::SensorLine& line) {
-  return fmt::format("  {}: f_s = {:.2f} +- {:.2f} + ({:.5f} +- {:.5f}) f_e, farthest reading off the line {:.1f} gw\n",
-                     axis, line.offset, line.offset_deviation, line.gain, line.gain_deviation, line.nonlinearity);
+  return fmt::format(
+      "  {}: f_s = {:.2f} +- {:.2f} + ({:.5f} +- {:.5f}) f_e, largest deviation from the line: {:.1f} gw\n", axis,
+      line.offset, line.offset_deviation, line.gain, line.gain_deviation, line.nonlinearity);
 }
 
 std::string calibration_text(const Identification& found) {
   const haptics::SensorCalibration& sensor = found.calibration;
-  return fmt::format("force sensor, 7 weights in 8 directions; the preset's is f_s = {:g} + {:g} f_e, in gw, eq (7)\n",
+  return fmt::format("force sensor, 7 weights in 8 directions; the preset has f_s = {:g} + {:g} f_e, in gw, eq (7)\n",
                      found.sensor.offset, found.sensor.gain) +
          line_text("x", sensor.x) + line_text("y", sensor.y) +
-         fmt::format("  directions agree within {:.2f} %; at most {:.1f} gw read perpendicular to the weight\n",
+         fmt::format("  directions agree within {:.2f} %; at most {:.1f} gw are read perpendicular to the weight\n",
                      100.0 * sensor.direction_spread, sensor.cross_force);
 }
 
@@ -135,7 +138,7 @@ Json point_json(const haptics::FrequencyPoint& point) {
 }
 
 Json axis_json(const AxisIdentification& axis) {
-  Json json{{"axis", lever_axis_name(axis.response.axis)}};
+  Json json{{"axis", to_string(axis.response.axis)}};
   for (const Quantity& q : kQuantities) {
     json[q.key] = {{"found", axis.fit.model.*q.value},
                    {"uncertainty", axis.fit.deviation.*q.value},

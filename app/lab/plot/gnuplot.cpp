@@ -28,8 +28,8 @@ std::string script_of(const Figure& figure) {
   return script;
 }
 
-// Ctrl-C in a terminal is sent to all of its programs. gnuplot blocks it, because it finishes soon anyway and an
-// interrupted one would leave an incomplete figure under its final name.
+// A terminal sends Ctrl-C to all programs in it. gnuplot ignores it: it finishes soon anyway, and if interrupted would
+// leave an incomplete figure under its final name.
 void ignore_terminal_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -72,7 +72,7 @@ void draw_figure(const std::filesystem::path& folder, const Figure& figure, cons
   const std::string script = figure.name + ".gp";
   haptics::write_text_file(folder / script, script_of(figure));
   const int code = run_gnuplot(folder, script, waiting);
-  if (code == 127) throw std::runtime_error("cannot start gnuplot: install the package gnuplot-nox");
+  if (code == 127) throw std::runtime_error("gnuplot cannot be started; install the package gnuplot-nox");
   if (code != 0)
     throw std::runtime_error(fmt::format("{}: gnuplot failed (exit code {})", (folder / script).string(), code));
 }

@@ -23,7 +23,7 @@ constexpr int kMaxSlotLength = 600;       // [0.1 mm] maximum slot length: beyon
 constexpr int kWall = 20;                 // [0.1 mm] minimum wall between two mouths
 constexpr double kMaxStiffness = 4000.0;  // [N/m] maximum stiffness
 
-// The random engine is standardised, the library's distributions are not.
+// Random draws that are the same on every machine: the random engine is standardised, the distributions are not.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -52,7 +52,7 @@ struct Plan {
   int aisle, slot_width, chamfer, slot_length;           // [0.1 mm]
   int center, aisle_force, mouth, detent, lock, buffer;  // [0.1 N]
   std::vector<int> position;                             // [0.1 mm]
-  std::vector<std::string> forward, back;                // gears; "" = none
+  std::vector<std::string> forward, back;                // names of the gears; "" = none
   std::size_t neutral = 0;
 };
 
@@ -87,14 +87,14 @@ void plan_wide_sizes(Dice& dice, Plan& plan) {
 // A smooth step of height F over a length l has a maximum slope of 1.5 F/l, so the slot must be long enough. As
 // fractions from mouth to end stop: bump 0.14, rise of the detent 0.14, rise of the lock 0.24, fall of the lock 0.20.
 void plan_length(Dice& dice, Plan& plan) {
-  const auto need = [](int tenths_of_newton, double share) {
-    return 1.5 * 0.1 * tenths_of_newton / share / kMaxStiffness * 1e4;  // [0.1 mm]
+  const auto need = [](int tenths_of_newton, double fraction) {
+    return 1.5 * 0.1 * tenths_of_newton / fraction / kMaxStiffness * 1e4;  // [0.1 mm]
   };
   const double slot = std::max({100.0, need(std::max(plan.mouth, plan.aisle_force), 0.14), need(plan.detent, 0.14),
                                 need(plan.detent + plan.lock, 0.24), need(plan.lock, 0.20)});
   const int mouth = (plan.aisle + 1) / 2 + plan.chamfer;
-  const int least = mouth + static_cast<int>(std::ceil(slot)) + 1;
-  plan.slot_length = dice.between(std::min(least, kMaxSlotLength), kMaxSlotLength);
+  const int min_length = mouth + static_cast<int>(std::ceil(slot)) + 1;
+  plan.slot_length = dice.between(std::min(min_length, kMaxSlotLength), kMaxSlotLength);
 }
 
 // Maximum lateral position of a wall such that the corner of its slot and the margin behind it are reachable. The stop
@@ -106,19 +106,19 @@ int max_lateral_position(int slot_length) {
   return static_cast<int>(std::min(side(kHalfX, kRadius), side(kRadius, kHalfY))) - kMargin;
 }
 
-// False if two columns do not fit.
+// Returns false if two columns do not fit.
 bool plan_positions(Dice& dice, Plan& plan) {
-  const int least = plan.slot_width + 2 * plan.chamfer + kWall;
+  const int min_pitch = plan.slot_width + 2 * plan.chamfer + kWall;
   const int reach = max_lateral_position(plan.slot_length);
   const int span = 2 * reach - plan.slot_width - 1;
-  if (span < least) return false;
-  const int count = dice.between(2, std::min(5, span / least + 1));
-  int spare = span - (count - 1) * least;
+  if (span < min_pitch) return false;
+  const int count = dice.between(2, std::min(5, span / min_pitch + 1));
+  int spare = span - (count - 1) * min_pitch;
   std::vector<int> gaps;
   for (int i = 1; i < count; ++i) {
     const int extra = dice.between(0, spare / 2);
     spare -= extra;
-    gaps.push_back(least + extra);
+    gaps.push_back(min_pitch + extra);
   }
   int x = -reach + plan.slot_width / 2 + 1 + dice.between(0, spare);
   plan.position.push_back(x);

@@ -1,4 +1,4 @@
-// Random gate layouts for property tests: like those a person could write, valid by construction.
+// Random gate layouts for property tests: valid by construction, and like those that a user could write.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,13 @@
 
 namespace gearshift::lab {
 
-// The same seed produces the same file on every machine. It fits the paper's joystick, corners included.
+// The text of a layout file. The same seed gives the same text on every machine. The gate fits the paper's joystick,
+// corners included.
 std::string random_layout_text(std::uint64_t seed);
 haptics::GateLayout random_layout(
-    std::uint64_t seed);  // the same, parsed; in messages its file name is "random_SEED.toml"
+    std::uint64_t seed);  // the same layout, parsed; error messages call the file "random_SEED.toml"
 
-// Sizes and forces from their whole ranges, drawn until the gate compiler accepts them.
+// A layout with sizes and forces from their whole ranges, drawn repeatedly until the gate compiler accepts it.
 haptics::GateLayout random_wide_layout(std::uint64_t seed);
 
 }  // namespace gearshift::lab

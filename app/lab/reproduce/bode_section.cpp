@@ -20,9 +20,10 @@ AxisIdentification identify(const Study& study, haptics::LeverAxis axis) {
   return identify_axis(study.preset, axis, [&](double) { report_progress(study, "frequency sweep"); });
 }
 
-void draw_beside(const Study& study, AxisIdentification axis, const haptics::AxisModel& paper, std::string_view words) {
+void draw_with_paper(const Study& study, AxisIdentification axis, const haptics::AxisModel& paper,
+                     std::string_view paper_label) {
   axis.nominal = paper;
-  draw_bode(study.folder, axis, words, [&] { report_progress(study, "frequency sweep"); });
+  draw_bode(study.folder, axis, paper_label, [&] { report_progress(study, "frequency sweep"); });
 }
 
 double third_of_peak(const Study& study) {
@@ -32,7 +33,7 @@ double stop_on_x_arc(const Study& study) {
   return study.preset.lever.yoke.radius * study.preset.lever.yoke.theta_limit;
 }
 
-// The lever hits the stop at the paper's literal amplitude, so its motion is computed from the fit.
+// With the paper's literal amplitude the lever hits its stop, so its motion is computed from the fit.
 void draw_amplitudes(const Study& study, const AxisIdentification& x, const haptics::FrequencyResponse& literal) {
   const double third = third_of_peak(study);
   CsvFile csv(study, "bode_amplitude", "frequency_hz,used_n,used_mm,third_n,third_mm,third_hit_the_stop_1");
@@ -51,9 +52,9 @@ set key horizontal center tmargin maxrows 2
 set ylabel "amplitude of the force [N]"
 set yrange [0.5:50]
 plot "bode_amplitude.csv" using "frequency_hz":"third_n" \
-    with lines dashtype 3 linewidth 1.4 linecolor "{red}" title "the paper's: one third of the peak force", \
+    with lines dashtype 3 linewidth 1.4 linecolor "{red}" title "the paper: one third of the peak force", \
   "bode_amplitude.csv" using "frequency_hz":"used_n" \
-    with linespoints pointtype 7 pointsize 0.5 linewidth 1.4 linecolor "{blue}" title "used"
+    with linespoints pointtype 7 pointsize 0.5 linewidth 1.4 linecolor "{blue}" title "used here"
 set ylabel "amplitude of the motion [mm]"
 set yrange [0.1:2000]
 plot "bode_amplitude.csv" using "frequency_hz":"third_mm" \
@@ -61,7 +62,7 @@ plot "bode_amplitude.csv" using "frequency_hz":"third_mm" \
   "bode_amplitude.csv" using "frequency_hz":($6 == 1 ? $5 : NaN) \
     with points pointtype 2 linecolor "{red}" title "hits the stop", \
   "bode_amplitude.csv" using "frequency_hz":"used_mm" \
-    with linespoints pointtype 7 pointsize 0.5 linewidth 1.4 linecolor "{blue}" title "used", \
+    with linespoints pointtype 7 pointsize 0.5 linewidth 1.4 linecolor "{blue}" title "used here", \
   {stop} with lines linewidth 1.4 linecolor "{ink}" title "the stop"
 unset multiplot
 )gp",
@@ -80,17 +81,18 @@ Finding model_finding(const char* paper_text, const haptics::AxisFit& fit, const
 }
 
 std::string describe_bandwidth(const haptics::AxisModel& axis) {
-  if (haptics::bandwidth(axis) == 0.0) return "never, it has no spring";
-  return fmt::format("at {:.2f} Hz, {:.0f} dB below at 100 Hz", haptics::bandwidth(axis),
+  if (haptics::bandwidth(axis) == 0.0) return "none, because it has no spring";
+  return fmt::format("{:.2f} Hz (at 100 Hz, {:.0f} dB below)", haptics::bandwidth(axis),
                      decibels(std::abs(haptics::compliance(axis, 0.0) / haptics::compliance(axis, 100.0))));
 }
 
 Finding bandwidth_finding(const haptics::AxisModel& x, const haptics::AxisModel& y) {
   return {
       "Section 2.4: the transfer function shows a 3 dB output at about 100 Hz, the bandwidth",
-      fmt::format("3 dB below the gain at rest: X {}, Y {}", describe_bandwidth(x), describe_bandwidth(y)),
-      fmt::format("does not follow from (11) and (12), whose bandwidths are {:.2f} and {:.2f} Hz: over-damped, damping "
-                  "ratios {:.2f} and {:.2f}. 100 Hz cannot be verified",
+      fmt::format("frequency at which the gain is 3 dB below the gain at rest: X {}; Y {}", describe_bandwidth(x),
+                  describe_bandwidth(y)),
+      fmt::format("100 Hz does not follow from (11) and (12), whose bandwidths are {:.2f} and {:.2f} Hz, because both "
+                  "axes are over-damped (damping ratios {:.2f} and {:.2f}); it cannot be verified",
                   haptics::bandwidth(haptics::kPaperAxisX), haptics::bandwidth(haptics::kPaperAxisY),
                   haptics::damping_ratio(haptics::kPaperAxisX), haptics::damping_ratio(haptics::kPaperAxisY))};
 }
@@ -104,24 +106,25 @@ Finding amplitude_finding(const Study& study, const AxisIdentification& x, const
     if (point.end == haptics::PointEnd::hit_stop) highest = std::max(highest, point.frequency);
   }
   const double third = third_of_peak(study);
-  return {"Section 2.4: amplitude one third of the maximum output torque",
-          fmt::format("{:.1f} N drives the X axis to its stop at {} of {} test points, up to {:.1f} Hz: at 1 Hz it "
-                      "would need {:.0f} mm, but the stop is at {:.0f} mm of arc",
-                      third, hits, literal.points.size(), highest,
-                      1e3 * third * std::abs(haptics::compliance(x.fit.model, 1.0)), 1e3 * stop_on_x_arc(study)),
-          "impossible at low frequencies, so we use that third or 60 % of the stroke, whichever is smaller"};
+  return {
+      "Section 2.4: amplitude one third of the maximum output torque",
+      fmt::format("{:.1f} N drives the X axis to its stop at {} of {} test points, up to {:.1f} Hz; at 1 Hz the "
+                  "lever would need {:.0f} mm, but the stop is at {:.0f} mm of arc",
+                  third, hits, literal.points.size(), highest,
+                  1e3 * third * std::abs(haptics::compliance(x.fit.model, 1.0)), 1e3 * stop_on_x_arc(study)),
+      "impossible at low frequencies, so the amplitude is one third of the maximum or 60 % of the stroke, whichever "
+      "is smaller"};
 }
 
 // If the gain is measured in encoder counts per newton, 0 dB means one count per newton.
 std::string describe_counts(const haptics::AxisModel& x, double step, double moved) {
-  if (step == 0.0) return "the preset's lever has no encoder";
+  if (step == 0.0) return "cannot be compared, because the preset's lever has no encoder";
   const auto crossing = [&](double level) {
     return haptics::frequency_at_gain(x, step * std::pow(10.0, level / 20.0));
   };
   return fmt::format(
-      "{:.0f} counts. In counts per newton the gain is +3, 0, -3 dB at {:.0f}, {:.0f}, {:.0f} Hz: the paper does not "
-      "say "
-      "what its 3 dB refer to; it may be the encoder's resolution",
+      "{:.0f} encoder counts. In counts per newton, the gain is +3, 0 and -3 dB at {:.0f}, {:.0f} and {:.0f} Hz. The "
+      "paper does not say what its 3 dB refer to; they may refer to the encoder's resolution",
       moved / step, crossing(3.0), crossing(0.0), crossing(-3.0));
 }
 
@@ -129,7 +132,8 @@ Finding end_finding(const Study& study, const haptics::AxisModel& x) {
   const double gain = std::abs(haptics::compliance(x, haptics::SweepConfig{}.highest));
   const double moved = third_of_peak(study) * gain, rest = std::abs(haptics::compliance(x, 0.0));
   return {"Section 2.4: the output reached 3 dB at about 65 Hz",
-          fmt::format("at 65 Hz X is {:.1f} dB below its gain at rest; one third of the peak force moves it {:.2f} mm",
+          fmt::format("at 65 Hz, the gain of X is {:.1f} dB below its gain at rest; one third of the peak force moves "
+                      "the lever by {:.2f} mm",
                       decibels(rest / gain), 1e3 * moved),
           describe_counts(x, study.device.position_step, moved)};
 }
@@ -141,8 +145,8 @@ Section bode_section(const Study& study) {
   haptics::SweepConfig paper_amplitude = preset_sweep(study.preset);
   paper_amplitude.literal = true;
   const haptics::FrequencyResponse literal = sweep_lever(study.preset, haptics::LeverAxis::x, paper_amplitude);
-  draw_beside(study, x, haptics::kPaperAxisX, "the paper's (11)");
-  draw_beside(study, y, haptics::kPaperAxisY, "the paper's (12)");
+  draw_with_paper(study, x, haptics::kPaperAxisX, "the paper's (11)");
+  draw_with_paper(study, y, haptics::kPaperAxisY, "the paper's (12)");
   draw_amplitudes(study, x, literal);
   return {"bode",
           "Fig. 4: identification of both axes",
@@ -159,7 +163,7 @@ Section bode_section(const Study& study) {
           {{"bode_x", "Fig. 4 (a): the X axis. Test points (*), the fitted curve, and the paper's curve behind it."},
            {"bode_y", "Fig. 4 (b): the Y axis."},
            {"bode_amplitude",
-            "Why one third of the maximum is not used at all frequencies: force and resulting motion, X axis."}}};
+            "Why less than one third of the maximum is used at low frequencies: force and resulting motion, X axis."}}};
 }
 
 }  // namespace gearshift::lab

@@ -46,7 +46,7 @@ set key left top Left reverse
 plot {offset} + {gain} * x with lines linecolor "{ink}" title "fitted line, X", \
   "calibration.csv" using "force_x_gw":"reading_x_raw" with points pointtype 1 linecolor "{red}" title "X", \
   "calibration.csv" using "force_y_gw":"reading_y_raw" with points pointtype 2 linecolor "{blue}" title "Y"
-set ylabel "reading minus line [gw]"
+set ylabel "reading minus fitted line [gw]"
 set key right top
 set yrange [-40:40]
 plot "calibration.csv" using "force_x_gw":"residual_x_gw" with points pointtype 1 linecolor "{red}" title "X", \
@@ -67,7 +67,8 @@ Finding line_finding(const char* axis, const haptics::SensorLine& line) {
 Finding directions(const haptics::SensorCalibration& fit) {
   return {
       "Section 2.3: consistent readings in all those directions",
-      fmt::format("the gain of the worst direction is {:.1f} % off; at most {:.0f} gw read perpendicular to the weight",
+      fmt::format("the gain of the worst direction is {:.1f} % off; at most {:.0f} gw are read perpendicular to the "
+                  "weight",
                   100.0 * fit.direction_spread, fit.cross_force),
       "explained by the resolution"};
 }
@@ -92,14 +93,14 @@ Section calibration_section(const Study& study) {
       "calibration",
       "(7): calibration of the force sensor",
       fmt::format(
-          "No load and weights of 100, 200, 300, 500, 750 and 1000 g in eight directions on the preset's "
-          "sensor: offset {:g}, gain {:g} per gw, resolution {:g} gw, noise {:g} gw. Each reading is the mean of {} "
-          "samples. The simulated sensor follows (7); the calibration does not use that, but recovers it within the "
+          "The preset's sensor (offset {:g}, gain {:g} per gw, resolution {:g} gw, noise {:g} gw) is read without load "
+          "and with weights of 100, 200, 300, 500, 750 and 1000 g in eight directions. Each reading is the mean of {} "
+          "samples. The simulated sensor follows (7); the calibration does not use (7), but recovers it within the "
           "resolution.",
           sensor.offset, sensor.gain, sensor.resolution_gw, sensor.noise_gw, kSamples),
       {line_finding("X", fit.x), line_finding("Y", fit.y), directions(fit), linearity(sensor, fit)},
       {{"calibration",
-        "Left: sensor reading of each weight over its component along the axis. Right: residuals of the fitted "
+        "Left: sensor reading of each weight against its component along the axis. Right: residuals of the fitted "
         "line."}}};
 }
 

@@ -20,26 +20,26 @@ using glm::dvec2;
 
 struct Crosstalk {
   double angle = 0.0;   // [deg] offset of the lever in Y, and stroke in X
-  double motion = 0.0;  // [%] motion in Y over motion in X
-  double force = 0.0;   // [%] force in Y over force in X
+  double motion = 0.0;  // [%] ratio of the motion in Y to the motion in X
+  double force = 0.0;   // [%] ratio of the force in Y to the force in X
 };
 
 // Pushes the lever along x with springs on both axes and measures the effect on y.
 Crosstalk couple_axes(const Study& study, double degrees, bool joints) {
-  constexpr double kCouplingShare = 0.4;  // [1] fraction of (14), so that the motors can hold the largest angle
-  constexpr double kMove = 0.5;           // [s] each way
+  constexpr double kCouplingFraction = 0.4;  // [1] fraction of limit (14); the motors can hold the largest angle
+  constexpr double kMove = 0.5;              // [s] each way
   Trial trial = free_trial(study, kPaperRate);
   const haptics::SimulatedLeverConfig& lever = trial.lever;
-  const double spring_x = kCouplingShare * element_limits(lever.axis_x, 1.0 / kPaperRate).spring;
-  const double spring_y = kCouplingShare * element_limits(lever.axis_y, 1.0 / kPaperRate).spring;
+  const double spring_x = kCouplingFraction * element_limits(lever.axis_x, 1.0 / kPaperRate).spring;
+  const double spring_y = kCouplingFraction * element_limits(lever.axis_y, 1.0 / kPaperRate).spring;
   trial.start = haptics::plane_position(lever.yoke, {0.0, -degrees * kDegree});
   const double push = spring_x * lever.yoke.radius * std::sin(degrees * kDegree);
   const double upright = lever.axis_y.stiffness * lever.yoke.radius * degrees * kDegree / std::cos(degrees * kDegree);
   trial.hand = [=](double time, dvec2) {
-    const double going = haptics::minimum_jerk({0.0, 0.0}, {1.0, 0.0}, time, kMove).position.x;
-    const double coming = haptics::minimum_jerk({0.0, 0.0}, {1.0, 0.0}, time - kMove, kMove).position.x;
+    const double forward_part = haptics::minimum_jerk({0.0, 0.0}, {1.0, 0.0}, time, kMove).position.x;
+    const double return_part = haptics::minimum_jerk({0.0, 0.0}, {1.0, 0.0}, time - kMove, kMove).position.x;
     haptics::HandTarget target;
-    target.push = {push * (going - coming), upright};  // also holds the lever against its own spring in Y
+    target.push = {push * (forward_part - return_part), upright};  // also holds the handle against its spring in Y
     return target;
   };
   trial.lever.hand = haptics::kBareHand;
@@ -63,7 +63,7 @@ std::string coupling_panel(const char* quantity, const char* label) {
 plot "coupling.csv" using "angle_deg":"joints_{what}_percent" \
     with linespoints pointtype 7 linecolor "{red}" title "each joint separately, as in the paper", \
   "" using "angle_deg":"plane_{what}_percent" \
-    with linespoints pointtype 7 linecolor "{blue}" title "in the plane, exact kinematics"
+    with linespoints pointtype 7 linecolor "{blue}" title "in the plane, with exact kinematics"
 )gp",
                      fmt::arg("label", label), fmt::arg("what", quantity), fmt::arg("red", base::kLockoutColour),
                      fmt::arg("blue", base::kGearColour));
@@ -74,8 +74,8 @@ void draw_coupling(const Study& study) {
        {"coupling", 1100, 430,
         fmt::format("set multiplot layout 1,2 margins 0.08, 0.98, 0.14, 0.94 spacing 0.1\nset key top left\n"
                     "set xlabel \"angle of the other axis, and stroke [deg]\"\nset yrange [0:*]\n{}{}unset multiplot\n",
-                    coupling_panel("motion", "motion of Y over that of X [%]"),
-                    coupling_panel("force", "force on Y over that on X [%]"))});
+                    coupling_panel("motion", "motion of Y / motion of X [%]"),
+                    coupling_panel("force", "force on Y / force on X [%]"))});
 }
 
 }  // namespace
@@ -86,11 +86,11 @@ void add_coupling(const Study& study, Section& section) {
               "angle_deg,joints_motion_percent,joints_force_percent,plane_motion_percent,plane_force_percent");
   std::string joints, plane;
   for (const double angle : {5.0, 10.0, 15.0, 20.0, 25.0, 30.0}) {
-    const Crosstalk each = couple_axes(study, angle, true), exact = couple_axes(study, angle, false);
-    csv.row({angle, each.motion, each.force, exact.motion, exact.force});
+    const Crosstalk per_joint = couple_axes(study, angle, true), exact = couple_axes(study, angle, false);
+    csv.row({angle, per_joint.motion, per_joint.force, exact.motion, exact.force});
     if (angle != 5.0 && angle != 10.0 && angle != 20.0 && angle != 30.0) continue;
     joints += fmt::format("{}{:.2g} % of the motion and {:.2g} % of the force at {:g} deg", joints.empty() ? "" : "; ",
-                          each.motion, each.force, angle);
+                          per_joint.motion, per_joint.force, angle);
     plane +=
         fmt::format("{}{:.2g} and {:.2g} % at {:g} deg", plane.empty() ? "" : "; ", exact.motion, exact.force, angle);
   }
@@ -101,8 +101,8 @@ void add_coupling(const Study& study, Section& section) {
                               "springs in the gate plane with the exact kinematics: " + plane});
   section.pictures.push_back(
       {"coupling",
-       "Effect on Y when the lever is pushed along X, with springs on both axes and Y offset by the same "
-       "angle: insignificant near the middle, as the paper says; it is caused by the kinematics."});
+       "Effect on Y when the lever is pushed along X, with springs on both axes and Y offset by the same angle. The "
+       "effect is caused by the kinematics and is insignificant near the middle, as the paper says."});
 }
 
 }  // namespace gearshift::lab

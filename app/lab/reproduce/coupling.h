@@ -1,4 +1,5 @@
-// Section 3: coupling between the axes. With springs on both, pushes along one axis and measures the other.
+// Section 3 of the paper: coupling between the axes. With springs on both, pushes along one axis and measures the
+// other.
 #pragma once
 
 #include "app/lab/reproduce/section.h"

@@ -13,13 +13,13 @@
 namespace gearshift::lab {
 namespace {
 
-// Fig. 6 (b): 200 Hz, the lever enters the wall at 188 ms and leaves it at 213 ms.
+// The paper's Fig. 6 (b): 200 Hz, the lever enters the wall at 188 ms and leaves it at 213 ms.
 constexpr double kPeriod = 1.0 / 200.0;             // [s]
 constexpr double kEnters = 0.188, kLeaves = 0.213;  // [s]
 constexpr double kEntrySpeed = 0.3;                 // [m/s] not in the paper; the percentages do not depend on it
 constexpr int kFirst = 36, kLast = 44;              // [samples] 180 to 220 ms
 
-// Depth of the lever at that time: a parabola through both instants, as if a constant force threw it back. [m]
+// Depth of the lever at `time` [m]: a parabola through entry and exit, as if a constant force threw it back.
 double depth(double time) {
   const double half = 0.5 * (kLeaves - kEnters), middle = 0.5 * (kLeaves + kEnters);
   const double u = (time - middle) / half;
@@ -29,7 +29,7 @@ double sampled_depth(int sample) {
   return depth(sample * kPeriod);
 }
 
-// Energy stored in a spring at that depth. [J]
+// Energy stored in a spring at the depth `at`. [J]
 double stored(double stiffness, double at) {
   return 0.5 * stiffness * std::max(0.0, at) * std::max(0.0, at);
 }
@@ -45,8 +45,8 @@ double coupled_force(const haptics::Coupling& coupling, int sample) {
   return -haptics::contact_force(coupling, gate, passage, haptics::place_proxy(gate, motion.position), motion).force.x;
 }
 
-// The observed hold with an exact prediction of where the hold ends. The path is prescribed, so the force does not move
-// it.
+// Force of the observed hold if it predicts the end of the hold exactly. The path is prescribed, so the force does not
+// change it. [N]
 double observed_force(const haptics::Coupling& coupling, int sample) {
   constexpr double kRigid = 1e-9;  // [m/N] practically rigid
   return haptics::solved_force(coupling, sampled_depth(sample), sampled_depth(sample + 1), kRigid);
@@ -57,10 +57,10 @@ struct Hold {
   const char* tag;
   std::array<double, kLast> force{};  // [N] by sample
   double first = 0.0, second = 0.0;   // [J] energy generated in region I and in region II
-  double whole = 0.0;                 // [J] energy generated over the whole contact
+  double total = 0.0;                 // [J] energy generated over the whole contact
 };
 
-// Sums the energy that the held force gives the lever beyond that of the ideal spring.
+// Sums the energy that the held force supplies to the lever beyond what the ideal spring does.
 void sum_energy(Hold& hold, double stiffness) {
   for (int i = kFirst; i < kLast; ++i) {
     const double begin = sampled_depth(i), end = sampled_depth(i + 1);
@@ -68,14 +68,14 @@ void sum_energy(Hold& hold, double stiffness) {
     const double surplus = work - (stored(stiffness, begin) - stored(stiffness, end));
     if (begin <= 0.0 && end > 0.0) hold.first += surplus;
     if (begin > 0.0 && end <= 0.0) hold.second += surplus;
-    hold.whole += surplus;
+    hold.total += surplus;
   }
 }
 
 std::array<Hold, 3> make_holds(double stiffness) {
-  std::array<Hold, 3> holds{Hold{"zero-order hold, the paper's", "zero_order"},
+  std::array<Hold, 3> holds{Hold{"zero-order hold, as in the paper", "zero_order"},
                             Hold{"half-sample hold, the shipped default", "half_sample"},
-                            Hold{"ideal: end of the hold known", "observed"}};
+                            Hold{"ideal hold, which knows where it ends", "observed"}};
   haptics::Coupling coupling{stiffness, 0.0, kPeriod, 0, haptics::ContactHold::zero_order};
   for (int i = kFirst; i < kLast; ++i) {
     const auto sample = static_cast<std::size_t>(i);
@@ -89,7 +89,7 @@ std::array<Hold, 3> make_holds(double stiffness) {
   return holds;
 }
 
-// Position, and held forces divided by g, as in the paper's figure: g = 1, one scale for both.
+// Writes position and held forces divided by g, as in the paper's figure: g = 1, so both use one scale.
 void write_curves(const Study& study, const std::array<Hold, 3>& holds, double stiffness) {
   constexpr int kFine = 50;  // points per hold
   CsvFile csv(study, "deferred_force",
@@ -105,14 +105,16 @@ void write_curves(const Study& study, const std::array<Hold, 3>& holds, double s
 
 // The paper's regions I and II: from a wall crossing to the next sample, which detects it.
 std::string regions(const char* force) {
-  const double noticed = std::ceil(kEnters / kPeriod) * kPeriod, left = std::ceil(kLeaves / kPeriod) * kPeriod;
+  const double entry_detected = std::ceil(kEnters / kPeriod) * kPeriod,
+               exit_detected = std::ceil(kLeaves / kPeriod) * kPeriod;
   return fmt::format(
       R"gp("" using ($1>={0}&&$1<={1}?$1:1/0):(column("depth_mm")):(column("{4}")) \
     with filledcurves fillcolor "{5}" fillstyle solid 0.45 title "region I", \
   "" using ($1>={2}&&$1<={3}?$1:1/0):(column("depth_mm")):(column("{4}")) \
     with filledcurves fillcolor "{6}" fillstyle solid 0.45 title "region II", \
 )gp",
-      1e3 * kEnters, 1e3 * noticed, 1e3 * kLeaves, 1e3 * left, force, base::kBufferColour, base::kLockoutColour);
+      1e3 * kEnters, 1e3 * entry_detected, 1e3 * kLeaves, 1e3 * exit_detected, force, base::kBufferColour,
+      base::kLockoutColour);
 }
 
 std::string panel(const Hold& hold) {
@@ -133,13 +135,13 @@ void draw_curves(const Study& study, const std::array<Hold, 3>& holds) {
                            panel(holds[0]), panel(holds[1]), panel(holds[2]))});
 }
 
-std::string energy(double joule, double whole) {
-  return fmt::format("{:+.3g} mJ ({:+.3g} %)", 1e3 * joule, 100.0 * joule / whole);
+std::string energy(double joule, double peak_energy) {
+  return fmt::format("{:+.3g} mJ ({:+.3g} %)", 1e3 * joule, 100.0 * joule / peak_energy);
 }
 
-std::string energies(const Hold& hold, double whole) {
-  return fmt::format("I {}, II {}, whole contact {}", energy(hold.first, whole), energy(hold.second, whole),
-                     energy(hold.whole, whole));
+std::string energies(const Hold& hold, double peak_energy) {
+  return fmt::format("region I {}, region II {}, whole contact {}", energy(hold.first, peak_energy),
+                     energy(hold.second, peak_energy), energy(hold.total, peak_energy));
 }
 
 // Start of the first and end of the last hold with a force. [ms]
@@ -158,40 +160,37 @@ std::array<double, 2> force_times(const Hold& hold) {
 Section deferred_force_section(const Study& study) {
   const double stiffness = study.preset.haptics.tuning.wall_stiffness;
   const std::array<Hold, 3> holds = make_holds(stiffness);
-  const double most = stored(stiffness, depth(0.5 * (kEnters + kLeaves)));
+  const double peak_energy = stored(stiffness, depth(0.5 * (kEnters + kLeaves)));
   write_curves(study, holds, stiffness);
   draw_curves(study, holds);
 
   const auto [begins, ends] = force_times(holds[0]);
   Section section{"deferred_force", "Fig. 6 (b): deferred force generation", "", {}, {}};
   section.text = fmt::format(
-      "A prescribed path enters the wall at {:g} ms and leaves it at {:g} ms, sampled at {:g} Hz; entry speed {:g} "
-      "m/s. The "
-      "force is that of the shipped coupling fed with these samples, a spring of {:g} N/m without damping. The third "
-      "hold "
-      "is an ideal: it knows where the hold ends, as an observer with a perfect model would. Energy is "
-      "what the "
-      "held force gives the lever beyond an ideal spring, in the hold in which the lever enters (region I) and "
-      "in the "
-      "one in which it leaves (region II); percentages are of the {:.3g} mJ stored at the deepest point.",
-      1e3 * kEnters, 1e3 * kLeaves, 1.0 / kPeriod, kEntrySpeed, stiffness, 1e3 * most);
-  section.findings = {
-      {"Fig. 6 (b): entered at 188 ms, \"the simulated reflective force was computed until 190 ms\"; "
-       "left at 213 ms, until "
-       "215 ms",
-       fmt::format("zero-order force from {:g} to {:g} ms", begins, ends),
-       fmt::format("{:+.2g} and {:+.2g} ms", begins - 190.0, ends - 215.0)},
-      {"Section 3.1: \"late energy generation\" in regions I and II", "zero-order hold: " + energies(holds[0], most),
-       "the paper gives no numbers"},
-      {"Section 3.1: the cure is \"a sampling rate up to 1 K Hz\" or a slow joystick",
-       "half-sample hold at the same 200 Hz: " + energies(holds[1], most) + "; the ideal: " + energies(holds[2], most),
-       fmt::format("{:+.0f} % and {:+.0f} % of the zero-order hold's energy", 100.0 * holds[1].whole / holds[0].whole,
-                   100.0 * holds[2].whole / holds[0].whole)}};
+      "A prescribed path enters the wall at {:g} ms and leaves it at {:g} ms, sampled at {:g} Hz; the entry speed is "
+      "{:g} m/s. The wall force is computed from these samples as in the trainer, for a spring of {:g} N/m without "
+      "damping. The third hold is an ideal one, which knows where the lever will be when the hold ends, like an "
+      "observer with a perfect model. The energy is what the held force gives the lever beyond an ideal spring, during "
+      "the hold in which the lever enters the wall (region I) and the one in which it leaves the wall (region II). "
+      "Percentages refer to the {:.3g} mJ stored at the deepest point.",
+      1e3 * kEnters, 1e3 * kLeaves, 1.0 / kPeriod, kEntrySpeed, stiffness, 1e3 * peak_energy);
+  section.findings = {{"Fig. 6 (b): entered at 188 ms, \"the simulated reflective force was computed until 190 ms\"; "
+                       "left at 213 ms, until "
+                       "215 ms",
+                       fmt::format("zero-order hold: force from {:g} to {:g} ms", begins, ends),
+                       fmt::format("{:+.2g} and {:+.2g} ms", begins - 190.0, ends - 215.0)},
+                      {"Section 3.1: \"late energy generation\" in regions I and II",
+                       "zero-order hold: " + energies(holds[0], peak_energy), "the paper gives no numbers"},
+                      {"Section 3.1: the cure is \"a sampling rate up to 1 K Hz\" or a slow joystick",
+                       "half-sample hold at the same 200 Hz: " + energies(holds[1], peak_energy) +
+                           "; ideal hold: " + energies(holds[2], peak_energy),
+                       fmt::format("{:+.0f} % and {:+.0f} % of the zero-order hold's energy",
+                                   100.0 * holds[1].total / holds[0].total, 100.0 * holds[2].total / holds[0].total)}};
   section.pictures = {
       {"deferred_force",
-       "Position and held force on one scale. Region I: inside the wall without a force; region II: outside the "
-       "wall with a force. The half-sample hold starts before the wall is reached, because it extrapolates the "
-       "speed."}};
+       "Position and held force on one scale. Region I: the lever is inside the wall without a force; region II: it is "
+       "outside the wall with a force. The half-sample hold starts before the wall is reached, because it extrapolates "
+       "the motion."}};
   return section;
 }
 

@@ -12,10 +12,10 @@
 namespace gearshift::lab {
 
 inline constexpr double kPaperRate = 100.0;  // [Hz] section 3: "the maximum updating frequency of the system at 100 Hz"
-inline constexpr double kElementShare = 0.8;  // [1] fraction of the limits (14), (16), (18), (20) that is used
+inline constexpr double kElementFraction = 0.8;  // [1] used fraction of the paper's limits (14), (16), (18), (20)
 
 struct ElementLimits {
-  double spring, damper, mass;  // [N/m], [N s/m], [kg] for each element on its own
+  double spring, damper, mass;  // [N/m], [N s/m], [kg] limit of each element if it is the only one
 };
 ElementLimits element_limits(const haptics::AxisModel& handle, double period);
 
@@ -28,8 +28,8 @@ TrialRun run_with_hand(Trial trial, const std::vector<haptics::HandStroke>& stro
 // One hold: the force against the hand, and the true motion as (position, velocity, acceleration). [m], [m/s], [m/s^2]
 struct ElementHold {
   double time, force;
-  glm::dvec3 sampled;  // as (19) computes it from samples: velocity half a period old, acceleration a whole one
-  glm::dvec3 actual;   // in the middle of the hold
+  glm::dvec3 sampled;  // as the paper's (19) computes it: velocity is half a period old, acceleration a whole one
+  glm::dvec3 actual;   // true motion in the middle of the hold
 };
 
 std::vector<ElementHold> holds_of(const TrialRun& run, int axis);

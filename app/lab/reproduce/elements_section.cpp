@@ -28,22 +28,23 @@ constexpr const char* kBlue = base::kGearColour;
 
 // ---- limits ----
 
-Finding limit_row(const char* paper, double ours_x, double ours_y, double paper_x, double paper_y, const char* unit,
+Finding limit_row(const char* paper, double x, double y, double paper_x, double paper_y, const char* unit,
                   const std::string& why) {
-  return {paper, fmt::format("{:.4g} and {:.4g} {}", ours_x, ours_y, unit),
-          fmt::format("{} and {}{}", relative(ours_x, paper_x), relative(ours_y, paper_y), why)};
+  return {paper, fmt::format("{:.4g} and {:.4g} {}", x, y, unit),
+          fmt::format("{} and {}{}", relative(x, paper_x), relative(y, paper_y), why)};
 }
 
 void add_limits(const Study& study, Section& section) {
   const haptics::AxisModel &x = study.preset.lever.axis_x, &y = study.preset.lever.axis_y;
   const ElementLimits lx = element_limits(x, 1.0 / kPaperRate), ly = element_limits(y, 1.0 / kPaperRate);
-  const std::string why = fmt::format(": 605 and 566 are those of b = {:.3f} and {:.2f}, the device's is {:g} and {:g}",
-                                      605.0 / (2.0 * kPaperRate), 566.0 / (2.0 * kPaperRate), x.damping, y.damping);
+  const std::string why =
+      fmt::format("; 605 and 566 would follow from b = {:.3f} and {:.2f}, but the device has {:g} and {:g}",
+                  605.0 / (2.0 * kPaperRate), 566.0 / (2.0 * kPaperRate), x.damping, y.damping);
   section.findings.push_back(
       limit_row("(14): K < 605 and 566 N/m in X and Y at 100 Hz", lx.spring, ly.spring, 605.0, 566.0, "N/m", why));
   section.findings.push_back(limit_row("(16): B < 3.0 and 2.9 N s/m", lx.damper, ly.damper, 3.0, 2.9, "N s/m", ""));
   section.findings.push_back(limit_row("(18): M < 0.015 and 0.014 kg", lx.mass, ly.mass, 0.015, 0.014, "kg",
-                                       fmt::format(": 2.9 T/2 = {:g} is printed as 0.014", 2.9 / (2.0 * kPaperRate))));
+                                       fmt::format("; 2.9 T/2 = {:g} is printed as 0.014", 2.9 / (2.0 * kPaperRate))));
   section.findings.push_back({"(21): K + 200 B + 200^2 M < 605 and 566",
                               fmt::format("K + {:.4g} B + {:.5g} M < {:.4g} and {:.4g}", lx.spring / lx.damper,
                                           lx.spring / lx.mass, lx.spring, ly.spring),
@@ -56,16 +57,17 @@ struct Emulation {
   const char* name;
   double spring, damper, mass;  // [1] fractions of the element's limits
 };
-// The fractions of each emulation add up to kElementShare, as (20) requires.
-constexpr std::array<Emulation, 4> kEmulations{{{"spring", kElementShare, 0.0, 0.0},
-                                                {"damper", 0.0, kElementShare, 0.0},
-                                                {"mass", 0.0, 0.0, kElementShare},
+// The fractions of each emulation add up to kElementFraction, as the paper's (20) requires.
+constexpr std::array<Emulation, 4> kEmulations{{{"spring", kElementFraction, 0.0, 0.0},
+                                                {"damper", 0.0, kElementFraction, 0.0},
+                                                {"mass", 0.0, 0.0, kElementFraction},
                                                 {"impedance", 0.3, 0.3, 0.2}}};
 
-// Spring and damper have the values of 100 Hz at every rate, to be comparable; (18) allows a faster loop less mass.
+// Spring and damper keep their values of 100 Hz at every rate, to be comparable. At a higher rate the paper's (18)
+// allows less mass.
 haptics::AxisModel element_of(const Emulation& emulation, const haptics::AxisModel& handle, double rate) {
-  const ElementLimits slow = element_limits(handle, 1.0 / kPaperRate), own = element_limits(handle, 1.0 / rate);
-  return {emulation.mass * std::min(slow.mass, own.mass), emulation.damper * slow.damper,
+  const ElementLimits slow = element_limits(handle, 1.0 / kPaperRate), at_rate = element_limits(handle, 1.0 / rate);
+  return {emulation.mass * std::min(slow.mass, at_rate.mass), emulation.damper * slow.damper,
           emulation.spring * slow.spring};
 }
 
@@ -85,7 +87,7 @@ constexpr std::array<dvec2, 5> kAlongX{{{1, 0}, {-1, 0}, {1, 0}, {-1, 0}, {0, 0}
 constexpr std::array<dvec2, 5> kAlongY{{{0, 1}, {0, -1}, {0, 1}, {0, -1}, {0, 0}}};
 constexpr std::array<dvec2, 6> kBothAxes{{{0.6, 0.6}, {-0.6, 0.6}, {-0.6, -0.6}, {0.6, -0.6}, {0.6, 0.6}, {0, 0}}};
 
-// Fits F = K x + B v + M a to the true motion by least squares.
+// Fits F = K x + B v + M a to the sampled or true motion by least squares.
 dvec3 fit(const std::vector<ElementHold>& holds, dvec3 ElementHold::*motion) {
   glm::dmat3 normal(0.0);
   dvec3 projected(0.0);
@@ -99,9 +101,9 @@ dvec3 fit(const std::vector<ElementHold>& holds, dvec3 ElementHold::*motion) {
 // The wanted and the fitted elements as (K, B, M).
 struct Emulated {
   dvec3 x, y;                      // wanted
-  dvec3 alone_x, alone_y;          // fitted to the sampled motion, one axis at a time
+  dvec3 single_x, single_y;        // fitted to the sampled motion, one axis at a time
   dvec3 both_x, both_y;            // fitted to the sampled motion, both axes at once
-  dvec3 actual;                    // fitted to the actual motion, only X
+  dvec3 actual;                    // fitted to the true motion, only X
   std::vector<ElementHold> curve;  // only X
 };
 
@@ -118,16 +120,16 @@ Emulated emulate(const Study& study, const Emulation& emulation, double rate) {
   out.x = vector_of(x);
   out.y = vector_of(y);
   out.curve = holds_of(run_with_hand(trial, strokes_through(kAlongX), &only_x), 0);
-  out.alone_x = fit(out.curve, &ElementHold::sampled);
+  out.single_x = fit(out.curve, &ElementHold::sampled);
   out.actual = fit(out.curve, &ElementHold::actual);
-  out.alone_y = fit(holds_of(run_with_hand(trial, strokes_through(kAlongY), &only_y), 1), &ElementHold::sampled);
+  out.single_y = fit(holds_of(run_with_hand(trial, strokes_through(kAlongY), &only_y), 1), &ElementHold::sampled);
   const TrialRun together = run_with_hand(trial, strokes_through(kBothAxes), &both);
   out.both_x = fit(holds_of(together, 0), &ElementHold::sampled);
   out.both_y = fit(holds_of(together, 1), &ElementHold::sampled);
   return out;
 }
 
-using EmulatedPair = std::array<Emulated, 2>;  // at 100 Hz and at the preset's rate
+using EmulatedPair = std::array<Emulated, 2>;  // runs at 100 Hz and at the preset's rate
 
 constexpr std::array<const char*, 3> kNumber{"K", "B", "M"};
 constexpr std::array<const char*, 3> kUnit{"N/m", "N s/m", "kg"};
@@ -146,11 +148,11 @@ std::string values(dvec3 kbm, dvec3 wanted) {
 // Largest deviation of element i (K, B or M) over all fits. [%]
 double deviation(const Emulated& emulated, int i) {
   const double x = emulated.x[i], y = emulated.y[i];
-  double most = 0.0;
+  double max_deviation = 0.0;
   for (const double ratio :
-       {emulated.alone_x[i] / x, emulated.both_x[i] / x, emulated.alone_y[i] / y, emulated.both_y[i] / y})
-    most = std::max(most, 100.0 * std::abs(ratio - 1.0));
-  return most;
+       {emulated.single_x[i] / x, emulated.both_x[i] / x, emulated.single_y[i] / y, emulated.both_y[i] / y})
+    max_deviation = std::max(max_deviation, 100.0 * std::abs(ratio - 1.0));
+  return max_deviation;
 }
 
 // "K 0.03 %, B 0.4 %"
@@ -175,8 +177,8 @@ void write_fits(const Study& study, const std::array<EmulatedPair, 4>& all) {
                              rate == 0 ? kPaperRate : study.preset.haptics.rate, axes, wanted.x, found.x, wanted.y,
                              found.y, wanted.z, found.z));
       };
-      row("x alone", emulated.x, emulated.alone_x);
-      row("y alone", emulated.y, emulated.alone_y);
+      row("x alone", emulated.x, emulated.single_x);
+      row("y alone", emulated.y, emulated.single_y);
       row("x of both", emulated.x, emulated.both_x);
       row("y of both", emulated.y, emulated.both_y);
     }
@@ -214,7 +216,7 @@ plot "elements.csv" using "{name}_preset_{x}":"{name}_preset_force_n" \
   "" using "{name}_100hz_{x}":"{name}_100hz_force_n" \
     with points pointtype 6 pointsize 0.6 linecolor "{red}" title "100 Hz", \
   "" using "{name}_100hz_{x}":"{name}_100hz_ideal_n" \
-    with lines linewidth 1.2 linecolor "{ink}" title "ideal element of 100 Hz"
+    with lines linewidth 1.2 linecolor "{ink}" title "ideal element (100 Hz)"
 )gp",
                      fmt::arg("label", label), fmt::arg("name", emulation.name), fmt::arg("x", abscissa),
                      fmt::arg("blue", kBlue), fmt::arg("red", kRed), fmt::arg("rate", rate),
@@ -238,21 +240,20 @@ void draw_elements(const Study& study, const std::array<EmulatedPair, 4>& all) {
 std::string mass_noise(const Study& study, const Emulated& fast, double rate) {
   const double count = study.device.position_step, mass = fast.x.z;
   return fmt::format(
-      "there one encoder count makes {:.2g} N of inertial force, M q/T^2, and the condition allows {:.2g} g",
+      "at this rate one encoder count causes an inertial force M q/T^2 of {:.2g} N, and the condition allows {:.2g} g",
       mass * count * rate * rate, 1e3 * mass);
 }
 
-// The hand feels a spring force that is half a period old and a damper force that is a whole one old; (14) and (16)
-// compensate this lag with b.
+// The hand feels a spring force that is half a period old, and a damper force that is a whole period old. The device's
+// damping b makes up for this lag in (14) and (16).
 Finding lag_row(const Emulated& spring, const Emulated& damper) {
-  const double lost = -0.5 * spring.x.x / kPaperRate, mass = -damper.x.y / kPaperRate;
+  const double hold_damping = -0.5 * spring.x.x / kPaperRate, mass = -damper.x.y / kPaperRate;
   return {"(14): b must exceed K T/2",
-          fmt::format("fitted to the middle of its holds, the 100 Hz spring has {:.4g} N/m and {:.3g} N s/m, the "
-                      "damper {:.3g} N s/m "
-                      "and {:.2g} g",
+          fmt::format("fitted to the middle of each hold, the 100 Hz spring has {:.4g} N/m and {:.3g} N s/m; the "
+                      "damper has {:.3g} N s/m and {:.2g} g",
                       spring.actual.x, spring.actual.y, damper.actual.y, 1e3 * damper.actual.z),
-          fmt::format("effect of the hold: -K T/2 = {:.3g} N s/m of damping ({}), -B T = {:.2g} g of mass", lost,
-                      relative(spring.actual.y, lost), 1e3 * mass)};
+          fmt::format("effect of the hold: a damping of -K T/2 = {:.3g} N s/m ({}), a mass of -B T = {:.2g} g",
+                      hold_damping, relative(spring.actual.y, hold_damping), 1e3 * mass)};
 }
 
 void add_emulation(const Study& study, Section& section) {
@@ -263,20 +264,21 @@ void add_emulation(const Study& study, Section& section) {
     all[i] = {emulate(study, kEmulations[i], kPaperRate), emulate(study, kEmulations[i], rate)};
     const Emulated &slow = all[i][0], &fast = all[i][1];
     section.findings.push_back(
-        {fmt::format("Section 3: \"the joystick well emulated these objects\": {}", kEmulations[i].name),
-         fmt::format("X at 100 Hz, {}: {} on its own, {} with Y. At {:g} Hz, {}: {} on its own, {} with Y",
-                     values(slow.x, slow.x), values(slow.alone_x, slow.x), values(slow.both_x, slow.x), rate,
-                     values(fast.x, fast.x), values(fast.alone_x, fast.x), values(fast.both_x, fast.x)),
-         fmt::format("both axes, separately and together, at most {} off at 100 Hz and {} at {:g} Hz{}",
+        {fmt::format("Section 3: \"the joystick well emulated these objects\" ({})", kEmulations[i].name),
+         fmt::format("X at 100 Hz, wanted {}: {} alone, {} together with Y. X at {:g} Hz, wanted {}: {} alone, {} "
+                     "together with Y",
+                     values(slow.x, slow.x), values(slow.single_x, slow.x), values(slow.both_x, slow.x), rate,
+                     values(fast.x, fast.x), values(fast.single_x, fast.x), values(fast.both_x, fast.x)),
+         fmt::format("both axes, alone and together: at most {} off at 100 Hz and {} off at {:g} Hz{}",
                      deviations(slow), deviations(fast), rate,
-                     kEmulations[i].mass > 0.0 ? ": " + mass_noise(study, fast, rate) : "")});
+                     kEmulations[i].mass > 0.0 ? "; " + mass_noise(study, fast, rate) : "")});
   }
   write_fits(study, all);
   section.findings.push_back(lag_row(all[0][0], all[1][0]));
   draw_elements(study, all);
   section.pictures.push_back(
       {"elements",
-       "Force of emulated elements on X over the true motion in the middle of each hold; a gripping hand "
+       "Force of emulated elements on X against the true motion in the middle of each hold; a gripping hand "
        "moves the lever. The width of the 100 Hz curves is the lag of the hold."});
 }
 
@@ -285,11 +287,11 @@ void add_emulation(const Study& study, Section& section) {
 Section elements_section(const Study& study) {
   Section section{"elements", "Emulated spring, damper, mass and impedance: (13) to (21)", "", {}, {}};
   section.text = fmt::format(
-      "A virtual element (19) loads the lever in a wide aisle without walls, feel or damping by the loop, at "
-      "{:g} % of what the conditions allow at 100 Hz. A gripping hand moves the lever; the encoder is the preset's. "
-      "Stiffness, damping and mass are fitted by least squares to the motors' force over the true motion at the "
+      "A virtual element (19) with {:g} % of the values that the conditions allow at 100 Hz acts on the lever, without "
+      "walls, gate forces or damping by the loop. A gripping hand moves the lever; the encoder is the preset's. "
+      "Stiffness, damping and mass are fitted by least squares to the motors' force against the true motion at the "
       "samples.",
-      100.0 * kElementShare);
+      100.0 * kElementFraction);
   add_limits(study, section);
   add_emulation(study, section);
   add_coupling(study, section);

@@ -18,7 +18,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr int kSteps = 28;  // of the map, in each direction
+constexpr int kSteps = 28;  // steps of the force map, in each direction
 
 struct MotorTorques {
   double rated = 0.0, peak = 0.0;  // [N m]
@@ -32,7 +32,7 @@ double force_of(const haptics::YokeGeometry& yoke, haptics::JointAngles q, hapti
   return glm::length(haptics::tip_force(yoke, q, torque));
 }
 
-// Maps one motor at a time; the forces of both add as vectors.
+// Maps one motor at a time; the forces of both motors add as vectors.
 void write_map(const Study& study) {
   const haptics::YokeGeometry& yoke = study.preset.lever.yoke;
   const auto [rated, peak] = motor_torques(study.preset.lever);
@@ -71,13 +71,13 @@ void draw_map(const Study& study) {
            map_panel(fmt::format("shift motor, peak {:.2f} N m", peak).c_str(), "shift_peak_n"))});
 }
 
-// Relative error of (6): x component of the exact force over that of (6), minus 1.
+// Relative error of the paper's (6): ratio of the exact force's x component to that of (6), minus 1.
 double small_angle_excess(const haptics::YokeGeometry& yoke, haptics::JointAngles q) {
   const haptics::JointTorques torque{1.0, 0.0};
   return haptics::tip_force(yoke, q, torque).x / haptics::tip_force_small_angle(yoke, torque).x - 1.0;
 }
 
-// (5) as printed, with sin(phi) instead of cos(phi). Used only to show its error.
+// The paper's (5) as printed, with sin(phi) instead of cos(phi). Used only to show its error.
 double printed_x_force(const haptics::YokeGeometry& yoke, haptics::JointAngles q, double torque) {
   const double st = std::sin(q.theta), sp = std::sin(q.phi);
   return std::sqrt(1.0 - sp * sp * st * st) / yoke.radius * torque * std::cos(q.theta) / sp;
@@ -86,11 +86,11 @@ double printed_x_force(const haptics::YokeGeometry& yoke, haptics::JointAngles q
 void draw_errors(const Study& study) {
   const haptics::YokeGeometry& yoke = study.preset.lever.yoke;
   const double rated = motor_torques(study.preset.lever).rated;
-  const double most = std::min(yoke.theta_limit, yoke.phi_limit);
+  const double max_angle = std::min(yoke.theta_limit, yoke.phi_limit);
   CsvFile csv(study, "force_errors",
               "angle_deg,both_percent,theta_only_percent,phi_only_percent,printed_x_n,corrected_x_n");
   for (int i = 1; i <= 70; ++i) {
-    const double angle = most * i / 70;
+    const double angle = max_angle * i / 70;
     const haptics::JointAngles pose{10.0 * kDegree, angle};
     csv.row({angle / kDegree, 100.0 * small_angle_excess(yoke, {angle, angle}),
              100.0 * small_angle_excess(yoke, {angle, 0.0}), 100.0 * small_angle_excess(yoke, {0.0, angle}),
@@ -101,7 +101,7 @@ void draw_errors(const Study& study) {
                fmt::format(R"gp(set multiplot layout 1,2 margins 0.07, 0.98, 0.13, 0.9 spacing 0.09
 set key left bottom Left reverse
 set xlabel "angle [deg]"
-set ylabel "exact x force against (6) [%]"
+set ylabel "exact x force minus (6) [%]"
 plot "force_errors.csv" using "angle_deg":"both_percent" \
     with lines linewidth 1.6 linecolor "{blue}" title "theta = phi = angle", \
   "force_errors.csv" using "angle_deg":"theta_only_percent" \
@@ -121,8 +121,8 @@ unset multiplot
                            fmt::arg("orange", base::kBufferColour))});
 }
 
-// Largest relative difference between the power at the tip and at the motors, over the workspace with both joints
-// moving [1]. The motion is the numeric derivative of (2), so that the check depends on neither map.
+// Largest relative difference between the power at the tip and at the motors [1], over the workspace with both joints
+// moving. The motion is the numeric derivative of (2), so the check depends on neither force map.
 double power_mismatch(const haptics::YokeGeometry& yoke) {
   constexpr double kStep = 1e-6;  // [rad]
   const haptics::JointTorques torque{1.0, -0.7}, rate{0.6, 0.8};
@@ -142,12 +142,12 @@ double power_mismatch(const haptics::YokeGeometry& yoke) {
 }
 
 struct ForceFlow {
-  double hand = 0.0;   // [N] largest push
-  double moved = 0.0;  // [N] largest force needed for the motion
-  double apart = 0.0;  // [N] root mean square of f_j minus that force
+  double hand = 0.0;      // [N] largest push
+  double moved = 0.0;     // [N] largest force that the motion requires
+  double mismatch = 0.0;  // [N] root mean square of f_j minus the required force
 };
 
-// Force along the arcs needed for a motion: m a + b v + k x of the handle, from the true motion of two samples.
+// Force along the arcs that the motion requires: m a + b v + k x of the handle, from the true motion of two samples.
 class MotionForce {
  public:
   MotionForce(const haptics::DeviceSpec& device, const haptics::YokeGeometry& yoke, double period)
@@ -199,7 +199,7 @@ ForceFlow drive_force_flow(const Study& study) {
     squares += glm::dot(f_j - needed, f_j - needed);
   }
   csv.finish();
-  flow.apart = std::sqrt(squares * run.period() / run.time());
+  flow.mismatch = std::sqrt(squares * run.period() / run.time());
   return flow;
 }
 
@@ -207,7 +207,7 @@ std::string flow_panel(const char* axis, const char* label) {
   return fmt::format(R"gp(set ylabel "{1} [N]"
 plot "force_flow.csv" using "time_s":"f_h_{0}_n" with lines linecolor "{2}" title "f_h, hand", \
   "force_flow.csv" using "time_s":"f_a_{0}_n" with lines linecolor "{3}" title "f_a, motors", \
-  "force_flow.csv" using "time_s":"f_j_{0}_n" with lines linewidth 1.4 linecolor "{4}" title "f_j, moves the lever"
+  "force_flow.csv" using "time_s":"f_j_{0}_n" with lines linewidth 1.4 linecolor "{4}" title "f_j, moving the lever"
 )gp",
                      axis, label, base::kLockoutColour, base::kGearColour, base::kInk);
 }
@@ -226,9 +226,9 @@ Finding small_angles(const haptics::YokeGeometry& yoke) {
   };
   return {
       "(6): for small angles f_a = (tau_theta, -tau_phi) / rho",
-      fmt::format("both joints at 10, 20, 35 deg: the true component differs by {:+.2f}, {:+.1f}, {:+.1f} %",
+      fmt::format("with both joints at 10, 20 and 35 deg, the true component differs by {:+.2f}, {:+.1f} and {:+.1f} %",
                   both(10.0), both(20.0), both(35.0)),
-      fmt::format("there the errors of both joints cancel; 35 deg only of theta give {:+.0f} %, only of phi {:+.0f} %",
+      fmt::format("the errors of the two joints cancel; 35 deg in theta alone gives {:+.0f} %, in phi alone {:+.0f} %",
                   100.0 * small_angle_excess(yoke, {35.0 * kDegree, 0.0}),
                   100.0 * small_angle_excess(yoke, {0.0, 35.0 * kDegree}))};
 }
@@ -241,31 +241,33 @@ Finding misprint(const Study& study) {
                true_force = haptics::tip_force(yoke, pose, {rated, 0.0}).x;
   return {
       "(5): f_ax = sqrt D / rho tau_theta cos(theta) / sin(phi), f_ay = sqrt D / rho tau_phi cos(phi) / cos(theta)",
-      fmt::format("with cos(phi) in the denominator of x and a minus in y, f . dp = tau . dq to {:.0e}",
+      fmt::format("with cos(phi) in the denominator of x and a minus sign in y, f . dp = tau . dq holds to {:.0e}",
                   power_mismatch(yoke)),
       fmt::format(
-          "a misprint: at 10, 10 deg and the rated torque it gives {:.1f} N instead of {:.1f} N, at phi = 0 infinity",
+          "a misprint; at 10, 10 deg and the rated torque the printed form gives {:.1f} N instead of {:.1f} N, and at "
+          "phi = 0 infinity",
           printed, true_force)};
 }
 
 Finding flow_finding(const Study& study, const ForceFlow& flow) {
   const double resolution = study.preset.lever.force_sensor.resolution_gw * haptics::kNewtonPerGramWeight;
   return {"(4): f_j = f_h - f_a, the combined force on the joystick",
-          fmt::format("in a shift with pushes of up to {:.1f} N, f_j equals m a + b v + k x of the true motion, up to "
-                      "{:.1f} N, within "
-                      "{:.2f} N rms",
-                      flow.hand, flow.moved, flow.apart),
-          fmt::format("the sensor's rounding to {:.2f} N accounts for {:.2f} N rms on two axes", resolution,
+          fmt::format("in a shift with pushes of up to {:.1f} N, f_j equals m a + b v + k x of the true motion (up to "
+                      "{:.1f} N) within {:.2f} N rms",
+                      flow.hand, flow.moved, flow.mismatch),
+          fmt::format("the sensor rounds to {:.2f} N, which explains {:.2f} N rms on two axes", resolution,
                       resolution / std::sqrt(6.0))};
 }
 
 Finding motors(const Study& study) {
   const auto [rated, peak] = motor_torques(study.preset.lever);
   const double radius = study.preset.lever.yoke.radius;
-  return {"Section 2.2: maximum output torque 3.8 \"N/m\"; Table 2: 10.83 \"Nm\"",
-          fmt::format("{:.2f} N m give {:.1f} N at the tip for a short time, {:.2f} N m give {:.2f} N continuously",
-                      peak, peak / radius, rated, rated / radius),
-          fmt::format("the peak {}; the units are N m and N. Neither reaches a person's 60 N", relative(peak, 3.8))};
+  return {
+      "Section 2.2: maximum output torque 3.8 \"N/m\"; Table 2: 10.83 \"Nm\"",
+      fmt::format("{:.2f} N m give {:.1f} N at the tip for a short time; {:.2f} N m give {:.2f} N continuously", peak,
+                  peak / radius, rated, rated / radius),
+      fmt::format("peak torque {}; the correct units are N m and N. Neither force reaches the 60 N of a person's push",
+                  relative(peak, 3.8))};
 }
 
 }  // namespace
@@ -280,12 +282,12 @@ Section force_map_section(const Study& study) {
       "force_map",
       "(4)-(6): forces of the motors at the tip",
       "The motors' torques give a force tangential to the sphere on which the tip moves; the map follows from "
-      "virtual work. The last picture shows a shift into the first gear through the shipped cycle, with the preset's "
-      "lever in a simulated hand.",
+      "virtual work. The last picture shows a shift into first gear, simulated with the same haptic cycle as in the "
+      "trainer and with the preset's lever in a simulated hand.",
       {small_angles(yoke), misprint(study), flow_finding(study, flow), motors(study)},
-      {{"force_map", "Force at the tip with one motor at its rated torque (above) or its peak torque (below)."},
+      {{"force_map", "Force at the tip with one motor at its rated torque (top) or its peak torque (bottom)."},
        {"force_errors", "Left: error of the small-angle form (6). Right: (5) as printed and corrected."},
-       {"force_flow", "The flow of forces, eq (4), during a shift from neutral into the first gear."}}};
+       {"force_flow", "The forces of eq (4) during a shift from neutral into first gear."}}};
 }
 
 }  // namespace gearshift::lab

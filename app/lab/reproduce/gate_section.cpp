@@ -24,7 +24,7 @@ void write_walls(const Study& study, const haptics::GateDescription& list) {
   CsvFile csv(study, "gate", "from_x_mm,from_y_mm,to_x_mm,to_y_mm,role,pair");
   for (const haptics::WallInfo& wall : list.walls) {
     csv.line(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{},{}", 1e3 * wall.from.x, 1e3 * wall.from.y, 1e3 * wall.to.x,
-                         1e3 * wall.to.y, haptics::wall_role_name(wall.role),
+                         1e3 * wall.to.y, haptics::to_string(wall.role),
                          wall.pair < 0 ? "" : list.wall_pairs[static_cast<std::size_t>(wall.pair)].name));
   }
   csv.finish();
@@ -102,7 +102,7 @@ haptics::SimulatedRunConfig run_without_hand(const Study& study, glm::dvec2 star
 }
 
 struct NeutralReturn {
-  double time = 0.0;    // [s] until it stays within a millimetre of neutral; infinite if it does not
+  double time = 0.0;    // [s] until the lever stays within a millimetre of neutral; infinite if it does not
   double offset = 0.0;  // [m] final distance from neutral
 };
 
@@ -122,7 +122,7 @@ NeutralReturn time_neutral_return(const Study& study, glm::dvec2 start) {
   return result;
 }
 
-// Leaves the lever alone for kIdleTime and then pulls with increasing force.
+// Does not touch the lever for kIdleTime, then pulls with increasing force.
 class PullingHand final : public haptics::HandDriver {
  public:
   explicit PullingHand(glm::dvec2 direction) : direction_(direction) {}
@@ -183,24 +183,25 @@ Finding pairs_finding(const haptics::GateDescription& list) {
       fmt::format("{} horizontal and {} vertical aisles, {} pairs: {} horizontal and {} vertical", rows,
                   static_cast<std::ptrdiff_t>(list.aisles.size()) - rows, all, horizontal, all - horizontal),
       fmt::format(
-          "{:+d} pairs. A pair is two parallel walls of one aisle segment; end stops and closed sides are not paired",
+          "{:+d} pairs. A pair consists of two parallel walls of one aisle segment; end stops and closed sides are not "
+          "paired",
           all - 8)};
 }
 
 Finding junctions_finding(const haptics::GateDescription& list) {
   return {"Section 4: junctions I and III are closed on one side, II is open in all four directions",
-          fmt::format("closed on one side: {}; open in all four: {}", junctions_where(list, true),
+          fmt::format("closed on one side: {}; open in all four directions: {}", junctions_where(list, true),
                       junctions_where(list, false)),
-          "the paper prints no sizes; they come from the layout file"};
+          "the paper prints no sizes, so they come from the layout file"};
 }
 
 Finding buffer_finding(const haptics::Gate& gate, const haptics::GateDescription& list, double layout_force) {
-  double most = 0.0;
+  double max_force = 0.0;
   constexpr int kBufferSteps = 60;
   for (const haptics::Buffer& buffer : haptics::buffers(gate)) {
     for (int i = 0; i <= kBufferSteps; ++i) {
       const glm::dvec2 at{buffer.wall, gate.half_aisle * (2.0 * i / kBufferSteps - 1.0)};
-      most = std::max(most, std::abs(haptics::gate_feel(gate, at).y));
+      max_force = std::max(max_force, std::abs(haptics::gate_feel(gate, at).y));
     }
   }
   const auto with_buffer = std::count_if(list.junctions.begin(), list.junctions.end(),
@@ -208,24 +209,24 @@ Finding buffer_finding(const haptics::Gate& gate, const haptics::GateDescription
   return {
       "Section 4: a rectangular buffer region at their closed ends; force from the vertical direction deviates the "
       "joystick into the vertical aisle",
-      fmt::format("{} buffers, a force of up to {:.1f} N across the aisle", with_buffer, most),
-      fmt::format("the paper names no force; it is the layout's {:g} N minus the centring force of the aisle",
+      fmt::format("{} buffers with a force of up to {:.1f} N across the aisle", with_buffer, max_force),
+      fmt::format("the paper names no force; here it is the layout's {:g} N minus the centring force of the aisle",
                   layout_force)};
 }
 
 Finding lock_finding(const Study& study) {
-  double drift = 0.0, least = std::numeric_limits<double>::infinity(), most = 0.0;
+  double drift = 0.0, min_pull = std::numeric_limits<double>::infinity(), max_pull = 0.0;
   for (const haptics::Slot& slot : haptics::slots(study.gate)) {
     report_progress(study, "locks");
     const LockTrial trial = pull_out(study, slot);
     drift = std::max(drift, trial.drift);
-    least = std::min(least, trial.pull);
-    most = std::max(most, trial.pull);
+    min_pull = std::min(min_pull, trial.pull);
+    max_pull = std::max(max_pull, trial.pull);
   }
   return {"Section 4: a locking function when the joystick rests in the six gear positions",
-          fmt::format("all {} gears hold the lever against a pull of {:.1f} to {:.1f} N; untouched it moves {:.2f} mm "
-                      "along the slot",
-                      study.gate.slot_count, least, most, 1e3 * drift),
+          fmt::format("all {} gears hold the lever against a pull of {:.1f} to {:.1f} N; an untouched lever moves by "
+                      "{:.2f} mm along the slot",
+                      study.gate.slot_count, min_pull, max_pull, 1e3 * drift),
           fmt::format("the paper names no force; the layout specifies {:g} N, and the yoke's spring helps the hand",
                       study.layout.feel.lock_force)};
 }
@@ -242,7 +243,7 @@ Finding return_finding(const Study& study, const haptics::GateDescription& list)
   }
   return {"Section 4: an automatic return to the neutral position, at junction II, away from the gears",
           fmt::format("released, the lever returns to within 1 mm: {}", times),
-          fmt::format("it comes to rest {:.2f} mm from the middle", 1e3 * offset)};
+          fmt::format("the lever comes to rest {:.2f} mm from the middle", 1e3 * offset)};
 }
 
 }  // namespace
@@ -255,9 +256,10 @@ Section gate_section(const Study& study) {
       "gate",
       "Fig. 7: the gate, its junctions and buffers",
       fmt::format(
-          "The gate \"{}\" is assembled from its layout file ({} columns): this is the systematic assembly that "
-          "section 5 leaves to future work. Locks and the return to neutral are simulated through the shipped "
-          "cycle, on the preset's lever without a hand.",
+          "The gate \"{}\" is assembled from its layout file ({} columns). This is the systematic assembly that "
+          "section 5 leaves to future work. Locks and the return to neutral are simulated with the same haptic cycle "
+          "as "
+          "in the trainer, with the preset's lever and without a hand.",
           study.layout.name, study.layout.columns.size()),
       {pairs_finding(list), junctions_finding(list), buffer_finding(study.gate, list, study.layout.feel.buffer_force),
        lock_finding(study), return_finding(study, list)},

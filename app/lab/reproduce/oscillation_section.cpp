@@ -16,30 +16,30 @@ namespace gearshift::lab {
 namespace {
 
 constexpr double kHardSpeed = 0.5, kGentleSpeed = 0.1;  // [m/s] of the first impact
-constexpr double kMinsky = 0.5;                         // [1] (22): B / (K T) above about 0.5
+constexpr double kMinsky = 0.5;                         // [1] paper's (22): B / (K T) above about 0.5
 constexpr double kDuration = 2.0;                       // [s]
-constexpr double kJudgedTime = 0.2;                     // [s] judged at the end of the run
+constexpr double kJudgedTime = 0.2;                     // [s] at the end of the run, in which the ripple is measured
 constexpr double kCalmRipple = 0.3e-3;                  // [m] peak-to-peak: four counts of the paper's encoder
-constexpr int kPhases = 16;                             // tried phases of the impact within a sampling period
+constexpr int kPhases = 16;                             // phases of the impact within a sampling period
 
 // A lever thrown at a wall of the aisle.
 struct Case {
   std::string tag, title;
   haptics::HapticConfig haptics;
-  haptics::HandImpedance hand;  // rests on the lever without pushing
+  haptics::HandImpedance hand;  // a resting hand that does not push
   double speed = kHardSpeed;
 };
 
 struct Outcome {
-  TrialRun run;  // of the worst phase
+  TrialRun run;  // run of the phase with the largest ripple
   haptics::Gate gate;
-  double ripple = 0.0;                 // [m] peak-to-peak at the end of that run
-  int calm = 0;                        // phases that came to rest
+  double ripple = 0.0;                 // [m] peak-to-peak at the end of `run`
+  int calm = 0;                        // number of phases in which the lever came to rest
   double radius = 0.0;                 // [1] spectral radius when pressed to one wall
-  double motor_energy_fraction = 0.0;  // [1] impact_energy_fraction(), mean over the phases
+  double motor_energy_fraction = 0.0;  // [1] impact_energy_fraction(), averaged over the phases
 };
 
-// Energy that the motors gave the lever in the first contact over the energy of the impact. [1]
+// Ratio of the energy that the motors supply in the first contact to the impact energy. [1]
 double impact_energy_fraction(const Trial& trial, const TrialRun& run) {
   const std::vector<TrialContact> all = contacts(run, trial.gate);
   if (all.empty()) return 0.0;
@@ -100,12 +100,13 @@ std::vector<Case> make_cures(const haptics::HapticConfig& wall) {
           {"both", "lower speed and damping", damped, haptics::kBareHand, kGentleSpeed}};
 }
 
-// Contacts, ripple and energy as text.
+// Describes contacts, ripple and energy.
 std::string describe(const Case& one, const Outcome& outcome) {
   return fmt::format(
       "{:g} m/s at {:g} Hz: {:.0f} contacts per second, {:.2f} mm peak-to-peak at the end; in the first impact the "
-      "motors "
-      "add {:+.0f} % of its energy; calm in {} of {} phases; spectral radius {:.3f} when pressed to one wall",
+      "motors change the impact's energy by {:+.0f} %; calm in {} of {} phases; spectral radius {:.3f} while pressed "
+      "to "
+      "one wall",
       one.speed, one.haptics.rate, static_cast<double>(contacts(outcome.run, outcome.gate).size()) / kDuration,
       1e3 * outcome.ripple, 100.0 * outcome.motor_energy_fraction, outcome.calm, kPhases, outcome.radius);
 }
@@ -134,11 +135,11 @@ std::vector<std::vector<double>> ripples(const Study& study, const haptics::Hapt
   return all;
 }
 
-// Lowest rate from which on all higher rates are calm; 0 if even the highest is not. [Hz]
+// Lowest rate at and above which all tried rates are calm; 0 if even the highest is not. [Hz]
 double sufficient_rate(const std::vector<double>& ripple) {
-  double enough = 0.0;
-  for (std::size_t i = ripple.size(); i-- > 0 && ripple[i] < kCalmRipple;) enough = rates()[i];
-  return enough;
+  double lowest = 0.0;
+  for (std::size_t i = ripple.size(); i-- > 0 && ripple[i] < kCalmRipple;) lowest = rates()[i];
+  return lowest;
 }
 
 // Lowest impact speed at which the bare handle keeps bouncing. [m/s]
@@ -211,28 +212,29 @@ void draw_rates(const Study& study, const std::vector<Case>& cases, const std::v
                     names, squares)});
 }
 
-std::string enough(const std::vector<double>& ripple) {
+std::string describe_sufficient_rate(const std::vector<double>& ripple) {
   const double rate = sufficient_rate(ripple);
-  return rate > 0.0 ? fmt::format("suffices from {:g} Hz", rate) : "not sufficient at any tested rate";
+  return rate > 0.0 ? fmt::format("sufficient from {:g} Hz upwards", rate) : "not sufficient at any tested rate";
 }
 
-// One row per case, in the order of make_cures(); the last is ours.
+// One finding per case, in the order of make_cures(); the last case is our default.
 std::vector<Finding> findings(const std::vector<Case>& cases, const std::vector<Outcome>& outcomes,
                               const std::vector<std::vector<double>>& ripple) {
   std::vector<Finding> all;
   const auto row = [&](const char* paper, std::size_t i) {
-    all.push_back({paper, cases[i].title + ", " + describe(cases[i], outcomes[i]),
-                   i < ripple.size() ? verdict(outcomes[i]) + "; " + enough(ripple[i]) : verdict(outcomes[i])});
+    all.push_back(
+        {paper, cases[i].title + ", " + describe(cases[i], outcomes[i]),
+         i < ripple.size() ? verdict(outcomes[i]) + "; " + describe_sufficient_rate(ripple[i]) : verdict(outcomes[i])});
   };
   row("Section 3.1: \"the joystick might bounce between the walls when it hit the wall hard\"", 0);
-  row("Section 3.1: \"alleviated with the operator's hand resting on the joystick\": light", 1);
-  row("same as above: grip", 2);
-  row("same as above: arm", 3);
+  row("Section 3.1: \"alleviated with the operator's hand resting on the joystick\" (light hand)", 1);
+  row("the same statement (grip)", 2);
+  row("the same statement (arm)", 3);
   row("Section 3.1: \"by introducing the damping into the virtual wall\", B/(K T) > 0.5 of (22)", 4);
   row("Section 3.1: \"speed reduction of the joystick\"", 5);
   row("Section 3.1: \"with both speed reduction ... and damping ... stability under a violated passivity condition\"",
       6);
-  row("(ours: the preset)", 7);
+  row("(not in the paper: the preset)", 7);
   return all;
 }
 
@@ -241,7 +243,7 @@ std::vector<Finding> findings(const std::vector<Case>& cases, const std::vector<
 Section oscillation_section(const Study& study) {
   const haptics::HapticConfig wall = paper_wall();
   std::vector<Case> cases = make_cures(wall);
-  cases.push_back({"ours", "ours (the preset)", study.preset.haptics, haptics::kBareHand, kHardSpeed});
+  cases.push_back({"ours", "the preset", study.preset.haptics, haptics::kBareHand, kHardSpeed});
   std::vector<Outcome> outcomes;
   outcomes.reserve(cases.size());
   for (const Case& one : cases) outcomes.push_back(throw_lever(study, one));
@@ -252,21 +254,21 @@ Section oscillation_section(const Study& study) {
 
   Section section{"oscillation", "Section 3.1: oscillation at a wall, and measures against it", "", {}, {}};
   section.text = fmt::format(
-      "The lever is moved to a wall of an aisle {:g} mm wide and released at the first sample inside it. The wall is "
-      "the "
-      "paper's, {:g} N/m held from sample to sample at {:g} Hz (presets/paper.toml), on the preset's device. Each row "
-      "shows the worst of {} phases between impact and sample; calm means below {:g} mm peak-to-peak over the last "
-      "{:g} s "
-      "of {:g} s.",
+      "The lever is moved towards a wall of an aisle {:g} mm wide and released at the first sample inside the wall. "
+      "The "
+      "wall is the paper's, {:g} N/m held from sample to sample at {:g} Hz (presets/paper.toml), on the preset's "
+      "device. "
+      "Each row shows the worst of {} phases between impact and sample; calm means less than {:g} mm peak-to-peak in "
+      "the last {:g} s of {:g} s.",
       2e3 * study.gate.half_aisle, wall.tuning.wall_stiffness, wall.rate, kPhases, 1e3 * kCalmRipple, kJudgedTime,
       kDuration);
   section.findings = findings(cases, outcomes, ripple);
   section.findings[5].difference += fmt::format("; below {:.2f} m/s the bare handle always comes to rest", critical);
   section.pictures = {
       {"oscillation",
-       "A lever thrown at the paper's wall, with the measures that the paper names against bouncing; the last panel is "
-       "ours. Dashed: the walls. The scales differ."},
-      {"oscillation_rates", "The same over the rate: the rate from which on each measure suffices."}};
+       "A lever thrown at the paper's wall, with the measures that the paper names against bouncing; the last panel "
+       "shows the preset. Dashed: the walls. The scales differ."},
+      {"oscillation_rates", "The same against the rate: the lowest rate from which each measure suffices."}};
   return section;
 }
 

@@ -12,7 +12,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kStrongest = 120.0, kRampTime = 4.0;  // [N], [s]: twice the paper's push
+constexpr double kStrongest = 120.0, kRampTime = 4.0;  // [N] twice the paper's push; [s] ramp to it
 constexpr double kPaperPush = 60.0;                    // [N] section 3.1
 constexpr double kStepTime = 1.0;                      // [s]
 
@@ -20,15 +20,15 @@ double ramp_push(double time) {
   return kStrongest * time / kRampTime;
 }
 
-// A hand whose spring holds it at the wall, and which pushes into the wall with a given force. tired: the motors give
+// The hand's spring holds it at the wall, and it pushes into the wall with a given force. overheated: the motors give
 // only their continuous force.
 TrialRun push(const Study& study, const haptics::HandImpedance& hand, double (*force)(double), double duration,
-              bool tired) {
+              bool overheated) {
   Trial trial;
   trial.haptics = study.preset.haptics;
   trial.lever = study.preset.lever;
   trial.lever.hand = hand;
-  if (tired) trial.lever.actuator.peak_force = trial.lever.actuator.continuous_force;
+  if (overheated) trial.lever.actuator.peak_force = trial.lever.actuator.continuous_force;
   trial.gate = wall_at_zero();
   trial.hand = [force](double time, glm::dvec2) {
     haptics::HandTarget target;
@@ -50,17 +50,17 @@ const TrialSample* first_with(const TrialRun& run, std::uint32_t flag) {
   return nullptr;
 }
 
-std::string at(const TrialSample* sample) {
+std::string describe_moment(const TrialSample* sample) {
   if (!sample) return "never";
-  return fmt::format("{:.2f} s, push {:.1f} N, felt {:.1f} N, {:.1f} mm deep", sample->time, ramp_push(sample->time),
-                     sample->hand.x, 1e3 * sample->position.x);
+  return fmt::format("after {:.2f} s, with a push of {:.1f} N, {:.1f} N at the sensor and {:.1f} mm deep", sample->time,
+                     ramp_push(sample->time), sample->hand.x, 1e3 * sample->position.x);
 }
 
 // Largest distance of the drawn lever outside the aisle. [m]
 double drawn_outside(const TrialRun& run) {
-  double most = 0.0;
-  for (const TrialSample& sample : run.samples) most = std::max(most, sample.proxy.x);
-  return most;
+  double max_distance = 0.0;
+  for (const TrialSample& sample : run.samples) max_distance = std::max(max_distance, sample.proxy.x);
+  return max_distance;
 }
 
 void draw_ramps(const Study& study, const TrialRun& bare, const TrialRun& grip) {
@@ -82,11 +82,11 @@ set xlabel "push of the hand [N]"
 set ylabel "depth in the wall [mm]"
 set yrange [-3:100]
 set key top left
-plot {ghost} with lines dashtype 2 linecolor "{soft}" title "above this, the true hand is drawn", \
+plot {ghost} with lines dashtype 2 linecolor "{soft}" title "above this, the real hand is shown", \
   "over_push.csv" using "push_n":"bare_depth_mm" \
-    with lines linewidth 1.5 linecolor "{orange}" title "pushed without a hand's impedance", \
+    with lines linewidth 1.5 linecolor "{orange}" title "push without a hand's impedance", \
   "" using "push_n":"grip_depth_mm" with lines linewidth 1.5 linecolor "{red}" title "gripping hand", \
-  "" using "push_n":"grip_drawn_mm" with lines linewidth 1.5 linecolor "{blue}" title "drawn lever (proxy)"
+  "" using "push_n":"grip_drawn_mm" with lines linewidth 1.5 linecolor "{blue}" title "displayed lever (proxy)"
 set ylabel "force [N]"
 set yrange [-5:150]
 plot {warn} with lines dashtype 2 linecolor "{soft}" title "the warning's threshold", \
@@ -101,12 +101,12 @@ unset multiplot
                     fmt::arg("blue", base::kGearColour), fmt::arg("warn", study.preset.haptics.over_push.warn_above))});
 }
 
-void draw_steps(const Study& study, const TrialRun& peak, const TrialRun& tired, const TrialRun& bare) {
+void draw_steps(const Study& study, const TrialRun& peak, const TrialRun& overheated, const TrialRun& bare) {
   TrialTable table;
   const auto depth = [](const TrialSample& sample) { return 1e3 * sample.position.x; };
   table.add("time_s", peak, [](const TrialSample& sample) { return sample.time; });
   table.add("grip_peak_mm", peak, depth);
-  table.add("grip_continuous_mm", tired, depth);
+  table.add("grip_continuous_mm", overheated, depth);
   table.add("bare_peak_mm", bare, depth);
   table.write(study, "over_push_step");
   draw(study,
@@ -131,38 +131,43 @@ void add_ramp_findings(const Study& study, const TrialRun& bare, const TrialRun&
   const double stiffness = grip.admitted.tuning.wall_stiffness, depth = lever.actuator.peak_force / stiffness;
   const TrialSample* saturated = first_with(grip, haptics::kFlagSaturated);
   section.findings.push_back(
-      {"(Table 2: 3.8 N m over 0.12 m) the motors give 31.7 N, so a wall of 5000 N/m saturates 6.3 mm deep",
-       fmt::format("saturation: bare {}; grip {}", at(first_with(bare, haptics::kFlagSaturated)), at(saturated)),
-       fmt::format("{:.1f} N over {:g} N/m is {:.2f} mm{}", lever.actuator.peak_force, stiffness, 1e3 * depth,
+      {"(from section 2.2: 3.8 N m divided by 0.12 m) the motors give 31.7 N, so a wall of 5000 N/m saturates 6.3 mm "
+       "deep",
+       fmt::format("saturation without a hand's impedance {}; with a grip {}",
+                   describe_moment(first_with(bare, haptics::kFlagSaturated)), describe_moment(saturated)),
+       fmt::format("{:.1f} N divided by {:g} N/m is {:.2f} mm{}", lever.actuator.peak_force, stiffness, 1e3 * depth,
                    saturated ? fmt::format(", measured {} with a grip", relative(saturated->position.x, depth)) : "")});
   section.findings.push_back(
       {"Section 3.1: \"the system will send out a sound warning when a very large pushing force occurs\", above 60 N",
-       fmt::format("warning at {:g} N measured: bare {}; grip {}", study.preset.haptics.over_push.warn_above,
-                   at(first_with(bare, haptics::kFlagOverPush)), at(first_with(grip, haptics::kFlagOverPush))),
-       "once the wall gives way, a gripping hand is held by its own spring, so the sensor reads 60 N only at the stop. "
-       "Therefore "
-       "saturation also triggers the warning"});
+       fmt::format("warning from a measured {:g} N: without a hand's impedance {}; with a grip {}",
+                   study.preset.haptics.over_push.warn_above, describe_moment(first_with(bare, haptics::kFlagOverPush)),
+                   describe_moment(first_with(grip, haptics::kFlagOverPush))),
+       "once the wall gives way, a gripping hand is held back by its own spring, so the sensor reads 60 N only at the "
+       "stop; therefore saturation triggers the warning, too"});
   section.findings.push_back(
       {"Section 3.1: \"retain the image of the joystick within the aisle\"",
        fmt::format(
-           "the drawn lever is at most {:.3g} mm outside; above {:g} mm the true hand is shown: bare {}; grip {}",
+           "the displayed lever is at most {:.3g} mm outside; from {:g} mm the real hand is shown: without a hand's "
+           "impedance {}; with a grip {}",
            1e3 * std::max(drawn_outside(bare), drawn_outside(grip)), 1e3 * study.preset.haptics.ghost_offset,
-           at(first_with(bare, haptics::kFlagGhost)), at(first_with(grip, haptics::kFlagGhost))),
-       "\"useful, when the real and virtual feeling were not that much different\": the paper gives no distance"});
+           describe_moment(first_with(bare, haptics::kFlagGhost)),
+           describe_moment(first_with(grip, haptics::kFlagGhost))),
+       "the paper calls this \"useful, when the real and virtual feeling were not that much different\", but gives no "
+       "distance"});
 }
 
-void add_step_finding(const Study& study, const TrialRun& peak, const TrialRun& tired, const TrialRun& bare,
+void add_step_finding(const Study& study, const TrialRun& peak, const TrialRun& overheated, const TrialRun& bare,
                       Section& section) {
   const haptics::SimulatedLeverConfig& lever = study.preset.lever;
   const double stop = lever.yoke.radius * std::sin(lever.yoke.theta_limit);
   section.findings.push_back(
       {"Section 3.1: a push \"up to more than 60 N ... may bend the joystick and make the virtual wall collapse\"",
-       fmt::format("sudden push of {:g} N: {:.0f} mm deep with a grip and {:g} N from the motors, {:.0f} mm with {:g} "
-                   "N, {:.0f} mm "
-                   "without a hand's impedance; the stop is at {:.0f} mm",
-                   kPaperPush, 1e3 * deepest(peak), lever.actuator.peak_force, 1e3 * deepest(tired),
-                   lever.actuator.continuous_force, 1e3 * deepest(bare), 1e3 * stop),
-       fmt::format("the wall resists {:.0f} % of that push with peak force, {:.0f} % continuously",
+       fmt::format(
+           "sudden push of {:g} N: {:.0f} mm deep with a grip and {:g} N from the motors, {:.0f} mm with a grip "
+           "and {:g} N, {:.0f} mm without a hand's impedance; the stop is at {:.0f} mm",
+           kPaperPush, 1e3 * deepest(peak), lever.actuator.peak_force, 1e3 * deepest(overheated),
+           lever.actuator.continuous_force, 1e3 * deepest(bare), 1e3 * stop),
+       fmt::format("the wall can resist {:.0f} % of this push with the peak force and {:.0f} % continuously",
                    100.0 * lever.actuator.peak_force / kPaperPush,
                    100.0 * lever.actuator.continuous_force / kPaperPush)});
 }
@@ -174,25 +179,25 @@ Section over_push_section(const Study& study) {
   const TrialRun bare = push(study, haptics::kBareHand, ramp_push, kRampTime, false);
   const TrialRun grip = push(study, haptics::kGripHand, ramp_push, kRampTime, false);
   const TrialRun peak = push(study, haptics::kGripHand, step_push, kStepTime, false);
-  const TrialRun tired = push(study, haptics::kGripHand, step_push, kStepTime, true);
+  const TrialRun overheated = push(study, haptics::kGripHand, step_push, kStepTime, true);
   const TrialRun thrown = push(study, haptics::kBareHand, step_push, kStepTime, false);
   draw_ramps(study, bare, grip);
-  draw_steps(study, peak, tired, thrown);
+  draw_steps(study, peak, overheated, thrown);
 
   Section section{"over_push", "Section 3.1: a push above 60 N", "", {}, {}};
   section.text = fmt::format(
-      "A push grows from 0 to {:g} N in {:g} s against the preset's wall, once without a hand's impedance and once by "
-      "a "
-      "gripping hand "
-      "whose spring ({:g} N/m) holds it at the wall; then a sudden push of {:g} N. Lever, loop and warning are the "
-      "preset's.",
+      "A push against the preset's wall grows from 0 to {:g} N in {:g} s, once without a hand's impedance and once "
+      "with "
+      "a gripping hand whose spring ({:g} N/m) holds it at the wall. A sudden push of {:g} N follows. Lever, loop and "
+      "warning are the preset's.",
       kStrongest, kRampTime, haptics::kGripHand.stiffness, kPaperPush);
   add_ramp_findings(study, bare, grip, section);
-  add_step_finding(study, peak, tired, thrown, section);
+  add_step_finding(study, peak, overheated, thrown, section);
   section.pictures = {
       {"over_push",
-       "Depth and forces over the push: the wall holds until the motors saturate; the drawn lever stays inside."},
-      {"over_push_step", "Sudden push of 60 N: how far the wall gives way, for two limits of the motors' force."}};
+       "Depth and forces against the push: the wall holds until the motors saturate; the displayed lever stays in the "
+       "aisle."},
+      {"over_push_step", "A sudden push of 60 N: how far the wall gives way, for two limits of the motors' force."}};
   return section;
 }
 

@@ -20,9 +20,9 @@ std::string table_row(std::string_view tag, const std::vector<std::string>& cell
   return row + "</tr>\n";
 }
 
-std::string link_if_there(const Study& study, const std::string& file, std::string_view words) {
+std::string link_if_there(const Study& study, const std::string& file, std::string_view label) {
   if (!std::filesystem::exists(study.folder / file)) return {};
-  return fmt::format(" <a href=\"{}\">{}</a>", base::html_text(file), words);
+  return fmt::format(" <a href=\"{}\">{}</a>", base::html_text(file), label);
 }
 
 std::string contents(const std::vector<Section>& sections) {
@@ -39,18 +39,20 @@ std::string format_axis(const haptics::AxisModel& axis) {
 }
 
 std::string describe_device(const haptics::DeviceSpec& device) {
-  return fmt::format("{:g} N peak, {:g} N continuous; encoder resolution {:.1f} um at the tip; delay {} cycles",
-                     device.max_force.x, device.continuous_force.x, 1e6 * device.position_step, device.delay);
+  return fmt::format("{:g} N peak, {:g} N continuous; encoder resolution {:.1f} um at the tip; delay {} cycle{}",
+                     device.max_force.x, device.continuous_force.x, 1e6 * device.position_step, device.delay,
+                     device.delay == 1 ? "" : "s");
 }
 
 std::string format_tuning(const haptics::AdmittedTuning& admitted) {
   const haptics::HapticTuning& t = admitted.tuning;
-  return fmt::format("wall {:g} N/m, {:g} N s/m, {}; aisles {:g} N s/m, above {:g} m/s {:g} N s/m; feel x {:g}",
-                     t.wall_stiffness, t.wall_damping, haptics::to_string(admitted.hold), t.aisle_damping,
-                     t.speed_limit, t.limit_damping, t.feel_scale);
+  return fmt::format(
+      "walls: {:g} N/m, {:g} N s/m, {}; aisles: {:g} N s/m; above {:g} m/s: {:g} N s/m; gate forces x {:g}",
+      t.wall_stiffness, t.wall_damping, haptics::to_string(admitted.hold), t.aisle_damping, t.speed_limit,
+      t.limit_damping, t.feel_scale);
 }
 
-// Table of the configuration that all sections were run with.
+// Table of the configuration with which all sections were computed.
 std::string configuration(const Study& study) {
   const auto row = [](std::string_view what, const std::string& value) {
     return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, base::html_text(value));
@@ -61,16 +63,16 @@ std::string configuration(const Study& study) {
       row("Device", describe_device(study.device)) + row("Cycle", fmt::format("{:g} Hz", study.preset.haptics.rate)) +
       row("Tuning in use", format_tuning(study.admitted)) + row("Gate", study.layout.name);
   if (study.preset.haptics.contact.allow_unstable)
-    table += row("allow_unstable", "parameters are not limited to stable values; only for simulated levers");
+    table += row("Unstable values", "allowed (study = true); only for simulated levers");
   for (const haptics::TuningLimit& limited : study.admitted.limits) table += row("Limited", haptics::describe(limited));
-  if (study.admitted.limits.empty()) table += row("Limited", "nothing: the preset's tuning is used unchanged");
+  if (study.admitted.limits.empty()) table += row("Limited", "nothing; the preset's tuning is used unchanged");
   return table + "</table>\n";
 }
 
 std::string findings_table(const std::vector<Finding>& findings) {
   if (findings.empty()) return {};
   std::string table = "<table class=\"findings\">\n" + table_row("th", {"Paper", "gearshift", "Difference"});
-  for (const Finding& finding : findings) table += table_row("td", {finding.paper, finding.ours, finding.difference});
+  for (const Finding& finding : findings) table += table_row("td", {finding.paper, finding.result, finding.difference});
   return table + "</table>\n";
 }
 
@@ -102,10 +104,10 @@ std::string section_text(const Study& study, const Section& section) {
 
 constexpr const char* kIntroduction =
     "W.-C. Lin, K.-Y. Young, “Design of Force-Reflection Joystick System for VR-Based Simulation”, section by "
-    "section: the paper's statement, the result of this program, and the difference. Every figure is computed from the "
-    "preset "
-    "below; all motion is simulated through the shipped haptic cycle. SVG, PNG and CSV files are in the folder of this "
-    "page.";
+    "section: the paper's statement, the result of this program, and the difference. All results are computed from the "
+    "preset below, and all motion is simulated with the same haptic cycle as in the trainer. The SVG, PNG and CSV "
+    "files "
+    "are in the folder of this page.";
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Writes the reproduction as one page: index.html beside the pictures that it shows.
+// Writes the reproduction as one page: index.html next to its pictures.
 #pragma once
 
 #include <vector>

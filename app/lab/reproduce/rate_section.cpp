@@ -17,7 +17,7 @@ namespace gearshift::lab {
 namespace {
 
 constexpr double kSpeed = 0.3, kPush = 20.0;              // [m/s], [N]
-constexpr double kRateDuration = 1.2, kRateJudged = 0.2;  // [s] length of a run, and its end that is judged
+constexpr double kRateDuration = 1.2, kRateJudged = 0.2;  // [s] length of a run, and its measured end
 constexpr double kSlowRate = 100.0;                       // [Hz] the paper's
 constexpr haptics::HandTarget kPushing{{0.0, 0.0}, {0.0, 0.0}, {kPush, 0.0}, false, false};
 
@@ -32,8 +32,8 @@ std::array<RateCase, 3> make_cases(const Study& study) {
   slow.rate = kSlowRate;
   return {RateCase{"paper", "the paper's wall, 100 Hz",
                    haptics::read_preset(base::find_asset("presets", "paper").string()).haptics},
-          RateCase{"ours", "ours, the preset", study.preset.haptics},
-          RateCase{"slow", "ours at 100 Hz, as limited", slow}};
+          RateCase{"ours", "the preset's wall", study.preset.haptics},
+          RateCase{"slow", "the preset's wall at 100 Hz, as limited", slow}};
 }
 
 Trial wall_trial(const Study& study, const RateCase& one, const haptics::HandImpedance& hand) {
@@ -46,7 +46,7 @@ Trial wall_trial(const Study& study, const RateCase& one, const haptics::HandImp
   return trial;
 }
 
-// The lever meets the wall at a steady speed and is then pushed into it.
+// The lever meets the wall at a steady speed, and the hand then pushes it into the wall.
 TrialRun impact(const Study& study, const RateCase& one, const haptics::HandImpedance& hand) {
   Trial trial = wall_trial(study, one, hand);
   trial.start = before(0.0, kSpeed, haptics::period_s(one.haptics));
@@ -84,17 +84,17 @@ std::vector<double> free_steps(const Study& study, const RateCase& one, const ha
   return steps;
 }
 
-constexpr std::size_t kMaxOrder = 4;  // states of a cycle without delay: lever (2), last sample, smoothed velocity
+constexpr std::size_t kMaxOrder = 4;  // states of the cycle without delay: lever (2), last sample, smoothed velocity
 
 // The linear recurrence of a given order that best predicts each step from the previous ones.
 struct Recurrence {
-  double radius = 0.0;  // [1] its largest root
-  double misfit = 0.0;  // [1] relative residual of the steps, root mean square
+  double radius = 0.0;  // [1] magnitude of its largest root
+  double misfit = 0.0;  // [1] root mean square of the residuals, relative to the steps
 };
 
-using NormalEquations = std::array<std::array<double, kMaxOrder + 1>, kMaxOrder>;  // the right side in the last column
+using NormalEquations = std::array<std::array<double, kMaxOrder + 1>, kMaxOrder>;  // last column: right-hand side
 
-NormalEquations solved(NormalEquations rows, std::size_t order) {
+NormalEquations solve(NormalEquations rows, std::size_t order) {
   for (std::size_t pivot = 0; pivot < order; ++pivot) {
     const double diagonal = rows[pivot][pivot];
     for (double& entry : rows[pivot]) entry /= diagonal;
@@ -121,7 +121,7 @@ Recurrence recurrence(const std::vector<double>& steps, std::size_t order) {
     squares += ago(0) * ago(0);
     count += 1.0;
   }
-  const NormalEquations found = solved(normal, order);
+  const NormalEquations found = solve(normal, order);
   std::array<double, kMaxOrder * kMaxOrder> companion{};  // column by column
   for (std::size_t k = 0; k < order; ++k) {
     squares -= found[k][kMaxOrder] * normal[k][kMaxOrder];
@@ -159,8 +159,8 @@ Result examine(const Study& study, const RateCase& one, const haptics::HandImped
 std::string describe(const RateCase& one, const Result& result) {
   const std::vector<TrialContact> all = contacts(result.run, wall_at_zero());
   return fmt::format(
-      "{}, {:.0f} N/m and {:.3g} N s/m: {:.1f} mm deep, {} contact{}, {:.3f} mm peak-to-peak at the end, the "
-      "motors gave {:+.2f} mJ in the first contact",
+      "{}, {:.0f} N/m and {:.3g} N s/m: {:.1f} mm deep, {} contact{}, {:.3f} mm peak-to-peak at the end; the "
+      "motors added {:+.2f} mJ in the first contact",
       one.title, result.run.stiffness, result.run.admitted.tuning.wall_damping, 1e3 * deepest(result.run), all.size(),
       all.size() == 1 ? "" : "s", 1e3 * peak_to_peak(result.run, kRateJudged),
       all.empty() ? 0.0 : 1e3 * all.front().energy);
@@ -168,8 +168,8 @@ std::string describe(const RateCase& one, const Result& result) {
 
 std::string radii(const Result& result) {
   if (result.measured == 0.0)
-    return fmt::format("growth per cycle {:.4f} predicted, too fast to measure", result.predicted);
-  return fmt::format("growth per cycle {:.4f} measured, {:.4f} predicted ({})", result.measured, result.predicted,
+    return fmt::format("predicted growth per cycle {:.4f}, too fast to measure", result.predicted);
+  return fmt::format("growth per cycle: {:.4f} measured, {:.4f} predicted ({})", result.measured, result.predicted,
                      relative(result.measured, result.predicted));
 }
 
@@ -197,15 +197,14 @@ std::string panel(const std::array<RateCase, 3>& cases, const char* hand, const 
 Section rate_section(const Study& study) {
   report_progress(study, "rate");
   const std::array<RateCase, 3> cases = make_cases(study);
-  Section section{"rate", "Section 3.1: 5000 N/m at 100 Hz, the paper's and ours", "", {}, {}};
+  Section section{"rate", "Section 3.1: 5000 N/m at 100 Hz, the paper's wall and the preset's", "", {}, {}};
   section.text = fmt::format(
-      "The lever meets the wall at {:g} m/s and is pushed with {:g} N, without a hand's impedance and by a gripping "
-      "hand, "
-      "for the paper's wall (presets/paper.toml with allow_unstable), the preset, and the preset at {:g} Hz with the "
-      "stiffness admitted there. The "
-      "growth per cycle is measured in the same simulation from a tiny disturbance of the pressed lever and compared "
-      "with "
-      "the spectral radius that the library predicts; above 1 the wall is unstable.",
+      "The lever meets the wall at {:g} m/s and is then pushed with {:g} N, once without a hand's impedance and once "
+      "by "
+      "a gripping hand. The wall is the paper's (presets/paper.toml, which allows unstable values), the preset's, and "
+      "the preset's at {:g} Hz with the stiffness that is accepted at that rate. The growth per cycle of a tiny "
+      "disturbance of the pressed lever is measured in the same simulation and compared with the predicted spectral "
+      "radius; a wall with more than 1 is unstable.",
       kSpeed, kPush, kSlowRate);
   TrialTable table;
   for (const haptics::NamedHand& named :
@@ -217,8 +216,10 @@ Section rate_section(const Study& study) {
       section.findings.push_back(
           {is_paper ? "Section 3.1: \"around 5000 N/m ... the constraint for the passivity condition, "
                       "specified in Eq. (21), is violated\""
-                    : "(ours)",
-           fmt::format("{}: {}", named.name, describe(one, result)), radii(result)});
+                    : "(not in the paper)",
+           fmt::format("{}, {}", named.name == "bare" ? "without a hand's impedance" : "gripping hand",
+                       describe(one, result)),
+           radii(result)});
     }
   }
   table.write(study, "rate");
@@ -227,11 +228,11 @@ Section rate_section(const Study& study) {
         fmt::format("set multiplot layout 1,2 margins 0.07, 0.98, 0.12, 0.82 spacing 0.09\nset xlabel \"time [s]\"\n"
                     "set ylabel \"position, the wall at 0 [mm]\"\nset key at screen 0.5, 0.98 center top horizontal\n"
                     "{}unset key\n{}unset multiplot\n",
-                    panel(cases, "bare", "pushed without a hand's impedance"), panel(cases, "grip", "gripping hand"))});
-  section.pictures = {
-      {"rate",
-       "A push of 20 N into the wall: the paper's bounces at 100 Hz, ours comes to rest; at 100 Hz ours is softened "
-       "until it is stable."}};
+                    panel(cases, "bare", "push without a hand's impedance"), panel(cases, "grip", "gripping hand"))});
+  section.pictures = {{"rate",
+                       "A push of 20 N into the wall: at the paper's wall at 100 Hz the lever bounces, at the preset's "
+                       "it comes to rest. "
+                       "At 100 Hz the preset's wall is softened until it is stable."}};
   return section;
 }
 

@@ -20,8 +20,8 @@ Study make_study(const haptics::Preset& preset, const haptics::GateLayout& layou
 // Called often with the current section and the fraction of all work that is done (0 to 1).
 using ReproduceProgress = std::function<void(std::string_view what, double fraction)>;
 
-// Makes the sections with these ids in the order of the paper; all if the list is empty. The folder must exist. A
-// section that fails says why; the others are still made.
+// Makes the sections with the ids in `only`, in the order of the paper; all if it is empty. The folder must exist. A
+// section that fails gives the reason; the others are still made.
 std::vector<Section> make_sections(Study study, const std::vector<std::string>& only,
                                    const ReproduceProgress& progress);
 

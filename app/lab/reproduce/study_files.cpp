@@ -39,8 +39,8 @@ void report_progress(const Study& study, std::string_view what) {
   if (study.on_progress) study.on_progress(what);
 }
 
-std::string relative(double ours, double paper) {
-  const double percent = 100.0 * (ours / paper - 1.0);
+std::string relative(double value, double paper) {
+  const double percent = 100.0 * (value / paper - 1.0);
   const double size = std::abs(percent);
   if (size < 1e-9) return "0 %";
   return size < 1.0 ? fmt::format("{:+.1g} %", percent) : fmt::format("{:+.1f} %", percent);

@@ -17,7 +17,7 @@ class CsvFile {
   CsvFile(const Study& study, std::string_view name, std::string_view header);
 
   void row(std::initializer_list<double> cells);
-  void line(std::string_view cells);  // verbatim, for text cells; an empty line makes gnuplot start a new curve
+  void line(std::string_view cells);  // written verbatim, for text cells; an empty line makes gnuplot start a new curve
   void finish();                      // writes the file. Throws FileError
 
  private:
@@ -25,13 +25,13 @@ class CsvFile {
   std::string text_;
 };
 
-// Writes NAME.gp, NAME.svg and NAME.png, reporting progress meanwhile. The figure's commands follow a prelude that sets
-// up CSV input and a pale grid.
+// Writes NAME.gp, NAME.svg and NAME.png, and reports progress meanwhile. Before the figure's commands it writes a
+// prelude that sets up CSV input and a pale grid.
 void draw(const Study& study, Figure figure);
 
 void report_progress(const Study& study, std::string_view what);
 
 // Deviation of our value from the paper's: "+1.3 %", "-0.02 %".
-std::string relative(double ours, double paper);
+std::string relative(double value, double paper);
 
 }  // namespace gearshift::lab

@@ -25,23 +25,23 @@ Finding order_finding(const TourResult& tour) {
   std::vector<std::string> gears;
   for (const GearTime& one : tour.engaged)
     gears.push_back(fmt::format("{} at {:.1f} s", haptics::gear_name(one.gear), one.time));
-  return {
-      "Section 4: from neutral to the five speed gear positions, and finally to reverse",
-      gears.empty() ? "no gear was engaged" : fmt::format("{}", fmt::join(gears, ", ")),
-      tour.complete() ? "none: every gear in this order and no other" : "the hand did not engage every gear in order"};
+  return {"Section 4: from neutral to the five speed gear positions, and finally to reverse",
+          gears.empty() ? "no gear was engaged" : fmt::format("{}", fmt::join(gears, ", ")),
+          tour.complete() ? "none; every gear in this order and no other"
+                          : "the simulated hand did not engage every gear in order"};
 }
 
 Finding confined_finding(const TourResult& tour) {
   return {"Section 4: the lever was confined to move within the aisles",
-          fmt::format("at most {:.2f} mm beyond a wall, in contact {:.0f} % of the cycles", 1e3 * tour.deepest,
+          fmt::format("at most {:.2f} mm beyond a wall, in contact in {:.0f} % of the cycles", 1e3 * tour.deepest,
                       100.0 * tour.contact_fraction()),
-          "the drawn lever, the proxy, never leaves the free space"};
+          "the displayed lever (the proxy) never leaves the free space"};
 }
 
 Finding force_finding(const TourResult& tour) {
   return {"Fig. 9 (b): the force response, which reflects how the joystick hit the wall",
           fmt::format("the hand pushes with up to {:.1f} N", tour.strongest),
-          "Fig. 9 is missing in our copy of the paper, and its text prints no numbers"};
+          "Fig. 9 is missing in our copy of the paper, and the text gives no numbers"};
 }
 
 std::string format_hand(const Study& study, const haptics::HandImpedance& hand) {
@@ -57,14 +57,15 @@ Section tour_section(const Study& study) {
   const TourProgress progress = [&](std::string_view what, double) { report_progress(study, what); };
   const TourResult tour = drive_tour(setup, progress);
   draw_tour(setup, tour, progress);
-  return {"tour",
-          "Fig. 9: the tour through the six gears",
-          fmt::format("{} moves the preset's lever in minimum-jerk strokes through every gear of the gate: {:.2f} s at "
-                      "{:g} Hz with the preset's tuning. tour.trace replays bit for bit (gearshift replay).",
-                      format_hand(study, setup.lever.hand), tour.duration, study.preset.haptics.rate),
-          {order_finding(tour), confined_finding(tour), force_finding(tour)},
-          {{"trajectory", "Fig. 9 (a): paths of the lever and of the drawn lever.", "tour"},
-           {"force", "Fig. 9 (b): position, the hand's force as measured, and the motors' commanded force.", "tour"}}};
+  return {
+      "tour",
+      "Fig. 9: the tour through the six gears",
+      fmt::format("{} moves the preset's lever in minimum-jerk strokes through every gear of the gate, in {:.2f} s at "
+                  "{:g} Hz with the preset's tuning. gearshift replay can replay tour.trace bit for bit.",
+                  format_hand(study, setup.lever.hand), tour.duration, study.preset.haptics.rate),
+      {order_finding(tour), confined_finding(tour), force_finding(tour)},
+      {{"trajectory", "Fig. 9 (a): paths of the real lever and of the displayed lever.", "tour"},
+       {"force", "Fig. 9 (b): position, the hand's force as measured, and the motors' commanded force.", "tour"}}};
 }
 
 }  // namespace gearshift::lab

@@ -15,10 +15,10 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kSettleTime = 0.050;  // [s] at full force before the start, so that filters and estimates settle
+constexpr double kSettleTime = 0.050;  // [s] at full force before the start; filters and estimates settle
 constexpr double kApproach = 0.015;    // [s] at a steady speed before a contact
 
-// The trial's hand. Before begin(), it holds the lever at the start position against motors and spring.
+// The trial's hand. Before begin() it holds the lever at the start position against motors and spring.
 class TrialHand final : public haptics::HandDriver {
  public:
   explicit TrialHand(const Trial& trial) : trial_(trial) {}
@@ -36,7 +36,7 @@ class TrialHand final : public haptics::HandDriver {
   void begin(double time) noexcept { begun_ = true, begin_ = time; }
 
  private:
-  // Force of the motors in the coming period. [N]
+  // Motor force in the coming period. [N]
   dvec2 due() const noexcept {
     const std::size_t age = 1 + static_cast<std::size_t>(trial_.lever.delay);
     return commanded_.size() < age ? dvec2(0.0) : commanded_[commanded_.size() - age];
@@ -152,9 +152,9 @@ double predicted_radius(const Trial& trial, const haptics::AdmittedTuning& admit
 }
 
 double deepest(const TrialRun& run) {
-  double most = run.samples.front().position.x;
-  for (const TrialSample& sample : run.samples) most = std::max(most, sample.position.x);
-  return most;
+  double max_x = run.samples.front().position.x;
+  for (const TrialSample& sample : run.samples) max_x = std::max(max_x, sample.position.x);
+  return max_x;
 }
 
 double peak_to_peak(const TrialRun& run, double seconds) {

@@ -23,7 +23,7 @@ struct Trial {
   haptics::HapticConfig haptics;
   haptics::SimulatedLeverConfig lever;
   haptics::Gate gate;
-  glm::dvec2 start{0.0};     // [m] the lever is held there until the motors are at full force
+  glm::dvec2 start{0.0};     // [m] the lever is held here until the motors are at full force
   glm::dvec2 velocity{0.0};  // [m/s] at the start
   HandFunction hand;
   haptics::LeverLoad* load = nullptr;
@@ -38,14 +38,14 @@ struct TrialSample {
   glm::dvec2 motor{0.0};      // [N] on the lever, over the period that ends at `time`
   glm::dvec2 hand{0.0};       // [N] as read by the force sensor
   glm::dvec2 wall{0.0};       // [N] wall force computed at `time`
-  glm::dvec2 commanded{0.0};  // [N] computed at `time`
-  std::uint32_t flags = 0;    // kFlag...: each is first set in the cycle of its event
+  glm::dvec2 commanded{0.0};  // [N] total command computed at `time`
+  std::uint32_t flags = 0;    // kFlag...: each flag is first set in the cycle of its event
 };
 
 struct TrialRun {
   double period = 0.0;  // [s]
   haptics::AdmittedTuning admitted;
-  double stiffness = 0.0;  // [N/m] in use at the end
+  double stiffness = 0.0;  // [N/m] wall stiffness in use at the end
   std::vector<TrialSample> samples;
 };
 
@@ -53,34 +53,33 @@ TrialRun run_trial(const Trial& trial);
 
 // Moves the lever along x at a steady speed until it is at the wall; from then on the hand's target is `after`.
 HandFunction carried_to(double wall, double speed, const haptics::AxisModel& axis, haptics::HandTarget after);
-// Start position of such a trial. phase: fraction of a period (0 to 1) at which the lever meets the wall between
-// samples.
+// Start position for carried_to(). phase: fraction of a period (0 to 1) after a sample at which the lever meets the
+// wall.
 glm::dvec2 before(double wall, double speed, double period, double phase = 0.5);
 
-// A gate with free space left of x = 0, so that the penetration of its wall is x.
+// A gate whose free space is x < 0, so that x is the penetration of its wall.
 haptics::Gate wall_at_zero();
 
 // One contact with a wall: x beyond an end of the gate's aisle.
 struct TrialContact {
   double begin = 0.0, end = 0.0;  // [s] `end` is the end of the run if the lever stays in the wall
   double speed = 0.0;             // [m/s] at the impact
-  double energy = 0.0;            // [J] given to the lever by the motors
+  double energy = 0.0;            // [J] supplied to the lever by the motors
   bool left = false;              // the lever left the wall again
 };
 std::vector<TrialContact> contacts(const TrialRun& run, const haptics::Gate& gate);
 
-// Spectral radius predicted by the library for that run's wall, pressed by that hand along x; above 1 it is unstable.
-// [1]
+// Spectral radius that the library predicts for the wall and hand of the trial, along x; above 1 it is unstable. [1]
 double predicted_radius(const Trial& trial, const haptics::AdmittedTuning& admitted);
 
 double deepest(const TrialRun& run);                       // [m] largest x
-double peak_to_peak(const TrialRun& run, double seconds);  // [m] of x, over the last `seconds`
+double peak_to_peak(const TrialRun& run, double seconds);  // [m] motion along x in the last `seconds`
 
 // A CSV table whose columns may have different lengths, for runs at different rates.
 class TrialTable {
  public:
   void add(std::string name, std::vector<double> cells);
-  // Adds a column with `value` of each sample of a run.
+  // Adds a column that contains `value` of each sample of a run.
   template <class Value>
   void add(std::string name, const TrialRun& run, Value value) {
     std::vector<double> cells;

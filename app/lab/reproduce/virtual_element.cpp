@@ -22,7 +22,7 @@ dvec2 VirtualElement::plane_force_of(dvec2 force, dvec2 plane) const noexcept {
   return haptics::plane_force(haptics::plane_pose(std::tan(q.theta), std::tan(q.phi)), force);
 }
 
-// In the first call the period is 0: nothing has moved yet.
+// In the first call the period is 0, because nothing has moved yet.
 haptics::LeverOutput VirtualElement::step(const haptics::LeverInput& in, double period) noexcept {
   const dvec2 position = coordinates(in.position);
   const dvec2 step = period > 0.0 ? position - position_ : dvec2(0.0);

@@ -1,4 +1,5 @@
-// The elements that the paper's joystick emulates: spring, damper, mass or all three, eq (19), independently per axis.
+// The elements that the paper's joystick emulates: spring, damper, mass or all three, the paper's (19), independently
+// per axis.
 #pragma once
 
 #include <array>
@@ -10,11 +11,11 @@
 
 namespace gearshift::lab {
 
-// E(z) = K + B (z - 1)/(T z) + M ((z - 1)/(T z))^2: backward differences of the samples, without filter.
+// E(z) = K + B (z - 1)/(T z) + M ((z - 1)/(T z))^2: backward differences of the samples, without a filter.
 class VirtualElement final : public haptics::LeverLoad {
  public:
   // rest: position in the gate plane at which the springs are relaxed [m]. A model of all zeros means no element. The
-  // elements act in the gate plane or, if a yoke is given, on each joint separately, as in the paper with (3) and (6).
+  // elements act in the gate plane or, if a yoke is given, on each joint separately, as with the paper's (3) and (6).
   VirtualElement(const haptics::AxisModel& x, const haptics::AxisModel& y, glm::dvec2 rest,
                  std::optional<haptics::YokeGeometry> joints) noexcept;
 
@@ -27,9 +28,9 @@ class VirtualElement final : public haptics::LeverLoad {
 
   std::array<haptics::AxisModel, 2> element_;
   std::optional<haptics::YokeGeometry> joints_;
-  glm::dvec2 rest_;           // [m] in the element's coordinates, like the following members
+  glm::dvec2 rest_;           // [m] in the element's coordinates, as are the two below
   glm::dvec2 position_{0.0};  // [m] of the last sample
-  glm::dvec2 step_{0.0};      // [m] from the sample before it
+  glm::dvec2 step_{0.0};      // [m] of the sample before the last
 };
 
 }  // namespace gearshift::lab

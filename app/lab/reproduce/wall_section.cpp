@@ -14,9 +14,9 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kAimBefore = -0.020, kAimBehind = 0.030;  // [m] the hand's aims; the wall is at 0
+constexpr double kAimBefore = -0.020, kAimBehind = 0.030;  // [m] targets of the hand; the wall is at 0
 constexpr double kStroke = 0.35, kRest = 0.20;             // [s]
-constexpr double kFirstPart = 0.005;                       // [s] of a contact, for measuring rate-hardness
+constexpr double kFirstPart = 0.005;                       // [s] start of a contact in which rate-hardness is measured
 
 // A gripping hand pushes into the wall, rests there and pulls out again, as in the paper's Fig. 8.
 TrialRun push_and_pull(const Study& study) {
@@ -36,11 +36,11 @@ TrialRun push_and_pull(const Study& study) {
   return run_trial(trial);
 }
 
-// Measured force over true penetration.
+// The wall's measured force against the true penetration.
 struct Reflection {
   double stiffness = 0.0;    // [N/m] slope
   double correlation = 0.0;  // [1]
-  double residual = 0.0;     // [N] root mean square of force - K x with the wanted K
+  double residual = 0.0;     // [N] root mean square of force - K x for the wanted K
   double peak = 0.0;         // [N]
   double depth = 0.0;        // [m] deepest
 };
@@ -55,18 +55,18 @@ Reflection reflect(const TrialRun& run, double wanted) {
   if (x.empty()) return {};
   const auto n = static_cast<double>(x.size());
   const double mx = std::reduce(x.begin(), x.end()) / n, mf = std::reduce(f.begin(), f.end()) / n;
-  double xx = 0.0, xf = 0.0, ff = 0.0, rest = 0.0;
+  double xx = 0.0, xf = 0.0, ff = 0.0, residual_squares = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     xx += (x[i] - mx) * (x[i] - mx);
     xf += (x[i] - mx) * (f[i] - mf);
     ff += (f[i] - mf) * (f[i] - mf);
-    rest += (f[i] - wanted * x[i]) * (f[i] - wanted * x[i]);
+    residual_squares += (f[i] - wanted * x[i]) * (f[i] - wanted * x[i]);
   }
-  return {xf / xx, xf / std::sqrt(xx * ff), std::sqrt(rest / n), *std::max_element(f.begin(), f.end()),
+  return {xf / xx, xf / std::sqrt(xx * ff), std::sqrt(residual_squares / n), *std::max_element(f.begin(), f.end()),
           *std::max_element(x.begin(), x.end())};
 }
 
-// Rate-hardness: rate of rise of the motors' force at the contact over the impact speed. [N/m]
+// Rate-hardness: initial rate of rise of the motor force divided by the impact speed. [N/m]
 double rate_hardness(const TrialRun& run, const TrialContact& contact) {
   double rise = 0.0;
   for (const TrialSample& sample : run.samples) {
@@ -91,14 +91,14 @@ set format x ""
 set ylabel "position [mm]"
 set offsets 0, 0, graph 0.15, graph 0.05
 plot 0 with lines linecolor "{soft}" dashtype 2 title "the wall", \
-  "wall.csv" using "time_s":"drawn_lever_mm" with lines linewidth 1.5 linecolor "{blue}" title "drawn lever", \
-  "" using "time_s":"position_mm" with lines linewidth 1.5 linecolor "{red}" title "true lever"
+  "wall.csv" using "time_s":"drawn_lever_mm" with lines linewidth 1.5 linecolor "{blue}" title "displayed lever", \
+  "" using "time_s":"position_mm" with lines linewidth 1.5 linecolor "{red}" title "real lever"
 set format x "%g"
 set xlabel "time [s]"
 set ylabel "force [N]"
 plot "wall.csv" using "time_s":"motor_force_n" with lines linewidth 1.2 linecolor "{blue}" title "motors", \
   "" using "time_s":"sensor_force_n" \
-    with lines linewidth 1.5 linecolor "{red}" title "hand, as read by the force sensor"
+    with lines linewidth 1.5 linecolor "{red}" title "hand, measured by the force sensor"
 unset multiplot
 )gp",
                            fmt::arg("soft", base::kSoftInk), fmt::arg("blue", base::kGearColour),
@@ -111,42 +111,43 @@ Section wall_section(const Study& study) {
   report_progress(study, "wall");
   const TrialRun run = push_and_pull(study);
   const double wanted = run.admitted.tuning.wall_stiffness;
-  const Reflection seen = reflect(run, wanted);
+  const Reflection reflection = reflect(run, wanted);
   draw_wall(study, run);
 
   Section section{"wall", "Fig. 8: pushing into a virtual wall and pulling out", "", {}, {}};
   section.text = fmt::format(
-      "A gripping hand ({:g} kg, {:g} N s/m, {:g} N/m) aims from {:g} mm before the wall to {:g} mm behind it and "
-      "back, "
-      "with the preset at {:g} Hz: {:g} N/m, {:g} N s/m. The force is read by the paper's sensor, in steps of {:.2f} "
-      "N.",
+      "A gripping hand ({:g} kg, {:g} N s/m, {:g} N/m) aims from {:g} mm before the wall to {:g} mm behind the wall "
+      "and "
+      "back, at {:g} Hz with the preset's wall of {:g} N/m and {:g} N s/m. The force is measured by the paper's sensor "
+      "in steps of {:.2f} N.",
       haptics::kGripHand.mass, haptics::kGripHand.damping, haptics::kGripHand.stiffness, -1e3 * kAimBefore,
       1e3 * kAimBehind, study.preset.haptics.rate, wanted, run.admitted.tuning.wall_damping,
       study.preset.lever.force_sensor.resolution_gw * haptics::kNewtonPerGramWeight);
   section.findings = {
       {"Section 3.1: \"we set the stiffness to be around 5000 N/m\"",
-       fmt::format("{:.0f} N/m: slope of the sensor's force over the true penetration", seen.stiffness),
-       relative(seen.stiffness, 5000.0)},
+       fmt::format("{:.0f} N/m (slope of the sensor's force against the true penetration)", reflection.stiffness),
+       relative(reflection.stiffness, 5000.0)},
       {"Section 4: \"the force response did reflect the penetration of the joystick into the wall\"",
-       fmt::format("correlation {:.4f}; force minus K x: {:.2f} N root mean square, peak {:.1f} N, {:.2f} mm deep",
-                   seen.correlation, seen.residual, seen.peak, 1e3 * seen.depth),
-       fmt::format("{:.1f} % of the peak", 100.0 * seen.residual / seen.peak)}};
-  const std::vector<TrialContact> met = contacts(run, wall_at_zero());
-  if (!met.empty()) {
-    const double hardness = rate_hardness(run, met.front());
+       fmt::format("correlation {:.4f}; root mean square of force minus K x: {:.2f} N; peak {:.1f} N; {:.2f} mm deep",
+                   reflection.correlation, reflection.residual, reflection.peak, 1e3 * reflection.depth),
+       fmt::format("{:.1f} % of the peak", 100.0 * reflection.residual / reflection.peak)}};
+  const std::vector<TrialContact> all_contacts = contacts(run, wall_at_zero());
+  if (!all_contacts.empty()) {
+    const double hardness = rate_hardness(run, all_contacts.front());
     section.findings.push_back(
         {"Section 4: \"a feeling of contacting with a stiff wall\"",
-         fmt::format("rate-hardness {:.0f} N/m: the motors' force rises by {:.0f} N/s after a contact at {:.2f} m/s; "
-                     "{} contact{}, the wall gave the lever {:+.2f} mJ in total",
-                     hardness, hardness * met.front().speed, met.front().speed, met.size(), met.size() == 1 ? "" : "s",
-                     1e3 * std::accumulate(met.begin(), met.end(), 0.0,
+         fmt::format("rate-hardness {:.0f} N/m; the motors' force rises by {:.0f} N/s after a contact at {:.2f} m/s; "
+                     "{} contact{}; the wall added {:+.2f} mJ to the lever's energy in total",
+                     hardness, hardness * all_contacts.front().speed, all_contacts.front().speed, all_contacts.size(),
+                     all_contacts.size() == 1 ? "" : "s",
+                     1e3 * std::accumulate(all_contacts.begin(), all_contacts.end(), 0.0,
                                            [](double sum, const TrialContact& one) { return sum + one.energy; })),
          fmt::format("{:.2f} of the stiffness", hardness / wanted)});
   }
-  section.pictures = {
-      {"wall",
-       "As in Fig. 8, free space is negative. The drawn lever stays at the wall while the true lever is inside; "
-       "the measured force follows the penetration."}};
+  section.pictures = {{"wall",
+                       "As in Fig. 8, positions in free space are negative. The displayed lever stays at the wall "
+                       "while the real lever is "
+                       "inside the wall; the measured force follows the penetration."}};
   return section;
 }
 

@@ -14,16 +14,16 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr int kLines = 8;          // of the joint grid, in each direction
+constexpr int kLines = 8;          // steps of the joint grid, in each direction
 constexpr int kStepsPerSide = 40;  // of a curve
 
-// Eq (2) as printed, with sin(theta) in y where (1) has cos(theta). Used only to show its error.
+// The paper's (2) as printed, with sin(theta) in y where (1) has cos(theta). Used only to show its error.
 glm::dvec3 printed_tip(const haptics::YokeGeometry& yoke, haptics::JointAngles q) {
   const double st = std::sin(q.theta), sp = std::sin(q.phi), cp = std::cos(q.phi);
   return yoke.radius / std::sqrt(1.0 - sp * sp * st * st) * glm::dvec3(cp * st, -sp * st, cp * std::cos(q.theta));
 }
 
-void add_place(CsvFile& csv, const haptics::YokeGeometry& yoke, haptics::JointAngles q) {
+void add_row(CsvFile& csv, const haptics::YokeGeometry& yoke, haptics::JointAngles q) {
   const glm::dvec3 tip = 1e3 * haptics::tip_position(yoke, q), small = 1e3 * haptics::tip_position_small_angle(yoke, q);
   csv.row({q.theta / kDegree, q.phi / kDegree, tip.x, tip.y, tip.z, small.x, small.y});
 }
@@ -37,8 +37,8 @@ void write_grid(const Study& study) {
       const double held = 2.0 * i / kLines - 1.0;
       for (int j = -kStepsPerSide; j <= kStepsPerSide; ++j) {
         const double moved = static_cast<double>(j) / kStepsPerSide;
-        add_place(csv, yoke,
-                  {yoke.theta_limit * (theta_held ? held : moved), yoke.phi_limit * (theta_held ? moved : held)});
+        add_row(csv, yoke,
+                {yoke.theta_limit * (theta_held ? held : moved), yoke.phi_limit * (theta_held ? moved : held)});
       }
       csv.line("");
     }
@@ -71,7 +71,7 @@ struct SmallAngleError {
   double component = 0.0, plane = 0.0, space = 0.0;  // [m]
 };
 
-// Error of (3) with both joints at the same angle.
+// Error of the paper's small-angle formula (3) with both joints at the same angle.
 SmallAngleError small_angle_error(const haptics::YokeGeometry& yoke, double angle) {
   const glm::dvec3 error =
       haptics::tip_position_small_angle(yoke, {angle, angle}) - haptics::tip_position(yoke, {angle, angle});
@@ -84,11 +84,11 @@ double printed_radius_error(const haptics::YokeGeometry& yoke, haptics::JointAng
 
 void draw_plane_errors(const Study& study) {
   const haptics::YokeGeometry& yoke = study.preset.lever.yoke;
-  const double most = std::min(yoke.theta_limit, yoke.phi_limit);
+  const double max_angle = std::min(yoke.theta_limit, yoke.phi_limit);
   CsvFile csv(study, "workspace_errors",
               "angle_deg,component_mm,plane_mm,space_mm,radius_theta_0_mm,radius_theta_half_mm,radius_theta_limit_mm");
   for (int i = 0; i <= kStepsPerSide; ++i) {
-    const double angle = most * i / kStepsPerSide;
+    const double angle = max_angle * i / kStepsPerSide;
     const SmallAngleError error = small_angle_error(yoke, angle);
     const auto radius = [&](double theta) { return 1e3 * printed_radius_error(yoke, {theta, angle}); };
     csv.row({angle / kDegree, 1e3 * error.component, 1e3 * error.plane, 1e3 * error.space, radius(0.0),
@@ -107,7 +107,7 @@ plot "workspace_errors.csv" using "angle_deg":"component_mm" \
   "workspace_errors.csv" using "angle_deg":"space_mm" with lines linewidth 1.6 linecolor "{red}" title "in space"
 set key left bottom Left reverse
 set xlabel "phi [deg]"
-set ylabel "radius by (2) as printed, minus rho [mm]"
+set ylabel "radius from (2) as printed, minus rho [mm]"
 plot "workspace_errors.csv" using "angle_deg":"radius_theta_0_mm" \
     with lines linewidth 1.6 linecolor "{red}" title "theta = 0", \
   "workspace_errors.csv" using "angle_deg":"radius_theta_half_mm" \
@@ -121,11 +121,11 @@ unset multiplot
                            fmt::arg("limit", yoke.theta_limit / kDegree))});
 }
 
-// Largest errors over a fine grid of poses.
+// Largest errors of the paper's tip position (2) over a fine grid of poses.
 struct GridSurvey {
-  double printed_radius = 0.0;  // [m] distance of (2) as printed from the sphere
-  double radius = 0.0;          // [m] the same for the corrected form
-  double round_trip = 0.0;      // [rad] difference between the angles and the inverse of their tip
+  double printed_radius = 0.0;  // [m] distance from the sphere of radius rho, with (2) as printed
+  double radius = 0.0;          // [m] distance from the sphere with the corrected (2)
+  double round_trip = 0.0;      // [rad] difference between the joint angles and those recomputed from the tip
 };
 
 GridSurvey survey(const haptics::YokeGeometry& yoke) {
@@ -151,37 +151,38 @@ Finding small_plane_angles(const haptics::YokeGeometry& yoke) {
   const auto [c10, p10, s10] = at(10.0);
   const auto [c20, p20, s20] = at(20.0);
   const auto [c35, p35, s35] = at(35.0);
-  return {"(3): for small angles p = rho (theta, -phi, 1)",
-          fmt::format("with both joints at 10, 20, 35 deg it is {:.2f}, {:.1f}, {:.1f} mm off per component", c10, c20,
-                      c35),
-          fmt::format("in the plane {:.2f}, {:.1f}, {:.0f} mm, in space {:.1f}, {:.0f}, {:.0f} mm: the exact form is "
-                      "used throughout",
-                      p10, p20, p35, s10, s20, s35)};
+  return {
+      "(3): for small angles p = rho (theta, -phi, 1)",
+      fmt::format("with both joints at 10, 20 and 35 deg, (3) is {:.2f}, {:.1f} and {:.1f} mm off per component", c10,
+                  c20, c35),
+      fmt::format("{:.2f}, {:.1f} and {:.0f} mm in the plane; {:.1f}, {:.0f} and {:.0f} mm in space; the exact form "
+                  "is used throughout",
+                  p10, p20, p35, s10, s20, s35)};
 }
 
 Finding misprint(const GridSurvey& worst) {
   return {"(2): p_y = -rho sin(phi) sin(theta) / sqrt D", "-rho sin(phi) cos(theta) / sqrt D, as in (1)",
-          fmt::format("a misprint: as printed the radius is up to {:.1f} mm off, corrected {:.1g} mm",
+          fmt::format("a misprint; the radius is up to {:.1f} mm off as printed, {:.1g} mm when corrected",
                       1e3 * worst.printed_radius, 1e3 * worst.radius)};
 }
 
 Finding ranges(const haptics::YokeGeometry& yoke) {
   const glm::dvec2 reach = 1e3 * haptics::workspace_half_extent(yoke);
   const glm::dvec3 corner = 1e3 * haptics::tip_position(yoke, {yoke.theta_limit, -yoke.phi_limit});
-  return {
-      "Section 2.1: phi in [-35, 35] deg, theta in [-40, 40] deg; rho about 120 mm",
-      fmt::format("phi to {:g} deg, theta to {:g} deg, rho {:g} mm: the tip reaches {:.1f} mm in x and {:.1f} mm in y, "
-                  "in the corners ({:.1f}, {:.1f}) mm",
-                  yoke.phi_limit / kDegree, yoke.theta_limit / kDegree, 1e3 * yoke.radius, reach.x, reach.y, corner.x,
-                  corner.y),
-      fmt::format("phi {}, theta {}, rho {}", relative(yoke.phi_limit, 35.0 * kDegree),
-                  relative(yoke.theta_limit, 40.0 * kDegree), relative(yoke.radius, 0.12))};
+  return {"Section 2.1: phi in [-35, 35] deg, theta in [-40, 40] deg; rho about 120 mm",
+          fmt::format(
+              "phi up to {:g} deg, theta up to {:g} deg, rho {:g} mm; the tip reaches {:.1f} mm in x and {:.1f} mm in "
+              "y, and ({:.1f}, {:.1f}) mm in the corners",
+              yoke.phi_limit / kDegree, yoke.theta_limit / kDegree, 1e3 * yoke.radius, reach.x, reach.y, corner.x,
+              corner.y),
+          fmt::format("phi {}, theta {}, rho {}", relative(yoke.phi_limit, 35.0 * kDegree),
+                      relative(yoke.theta_limit, 40.0 * kDegree), relative(yoke.radius, 0.12))};
 }
 
 Finding inverse(const GridSurvey& worst) {
   return {"Section 2.1: the intersection of T_x and T_y determines the yoke; no inverse is given",
           "theta = atan2(p_x, p_z), phi = atan2(-p_y, p_z)",
-          fmt::format("round trip over the whole workspace: {:.0e} rad", worst.round_trip)};
+          fmt::format("inverse of the forward map: within {:.0e} rad in the whole workspace", worst.round_trip)};
 }
 
 }  // namespace
@@ -194,16 +195,17 @@ Section workspace_section(const Study& study) {
   return {
       "workspace",
       "Fig. 1, 2: action space and workspace",
-      "Both joints of the preset's yoke move from stop to stop. The tip position is (2) with its y component "
-      "corrected. "
-      "The gate lies in the plane (x, y), where the workspace is not a rectangle: away from the axes a point needs "
-      "larger angles of both joints. D = 1 - sin^2(phi) sin^2(theta).",
+      "Both joints of the preset's yoke move from stop to stop. The tip position follows from (2) with a corrected y "
+      "component. The gate lies in the plane (x, y), where the workspace is not a rectangle, because a point away from "
+      "the axes needs larger angles of both joints. D = 1 - sin^2(phi) sin^2(theta).",
       {small_plane_angles(yoke), misprint(worst), ranges(yoke), inverse(worst)},
       {{"workspace",
-        "Left: the action space, a grid of joint angles. Right: the tip in the gate's plane, exactly and by the "
+        "Left: the action space, a grid of joint angles. Right: the tip in the gate's plane, by the exact form and by "
+        "the "
         "small-angle form (3)."},
        {"workspace_errors",
-        "Left: the error of (3), both joints at the same angle. Right: (2) as printed does not stay on the sphere."}}};
+        "Left: the error of (3) with both joints at the same angle. Right: (2) as printed does not stay on the "
+        "sphere."}}};
 }
 
 }  // namespace gearshift::lab

@@ -9,10 +9,10 @@
 namespace gearshift::lab {
 
 struct RuntimeAnswer {
-  std::string problem;               // why the trainer does not run with these values; empty if it does
-  double stiffness = 0.0;            // [N/m] requested: the wanted stiffness, clipped to what a tuning may have
-  double damping = 0.0;              // [N s/m] requested, clipped likewise
-  haptics::AdmittedTuning admitted;  // on a device with this handle on both axes, for every listed hand
+  std::string problem;               // why the trainer rejects these values; empty if it accepts them
+  double stiffness = 0.0;            // [N/m] the wanted stiffness, clipped to a tuning's valid range
+  double damping = 0.0;              // [N s/m] the wanted damping, clipped to a tuning's valid range
+  haptics::AdmittedTuning admitted;  // for a device with this handle on both axes, and every listed hand
 };
 
 RuntimeAnswer query_runtime(const StabilityQuestion& question);

@@ -8,7 +8,7 @@ namespace gearshift::lab {
 namespace {
 
 constexpr int kMapSteps = 120;
-constexpr double kMinMapEnd = 0.01;  // [1] of m / T: least width of the map, used if no damping is stable
+constexpr double kMinMapEnd = 0.01;  // [1] minimum width of the map divided by m / T; used if no damping is stable
 
 haptics::ContactLaw with_damping(haptics::ContactLaw wall, double damping) {
   wall.damping = damping;
@@ -29,7 +29,8 @@ double passive_limit(const StabilityQuestion& question, double damping) {
                                           question.period());
 }
 
-// Damping above which no stiffness is stable. If the observer tolerates any damping, a value well beyond practical use.
+// Damping above which no stiffness is stable. If the observer is stable with any damping, a value well beyond practical
+// use.
 double damping_end(const StabilityQuestion& question, const JudgedHand& judged) {
   const double inertia = (question.handle.mass + judged.hand.mass) / question.period();
   double good = 0.0, bad = 4.0 * (inertia + question.handle.damping + judged.hand.damping);

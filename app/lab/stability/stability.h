@@ -27,17 +27,18 @@ struct StabilityQuestion {
 };
 
 struct HandVerdict {
-  double limit = 0.0;   // [N/m] exact, 0 to infinite
-  double radius = 0.0;  // [1] spectral radius with the wanted wall
+  double limit = 0.0;   // [N/m] exact stability limit, 0 to infinite
+  double radius = 0.0;  // [1] spectral radius for the wanted wall
 };
 
 struct StabilityAnswer {
   std::vector<HandVerdict> hands;  // one per hand of the question
   std::size_t deciding = 0;        // the hand with the lowest limit
   double limit = 0.0;              // [N/m] limit of the deciding hand
-  double radius = 0.0;             // [1] largest spectral radius
+  double radius = 0.0;             // [1] largest spectral radius of all hands
   bool stable = false;             // the wanted wall is stable with every hand
-  // The wanted wall and every softer one are stable: a contact passes through the softer ones as it begins and ends.
+  // True if the wanted wall and all softer ones are stable: a contact passes through softer walls as it begins and
+  // ends.
   bool may_use = false;
   // Result of the paper's passivity conditions, valid for every passive hand. Empty for the observed hold, see
   // passivity.h.
@@ -50,8 +51,8 @@ StabilityAnswer answer(const StabilityQuestion& question);
 
 // The largest stable stiffness as a function of the wall's damping (the Z-width of the literature).
 struct StabilityMap {
-  std::vector<double> damping;              // [N s/m] from 0 to beyond the largest that is stable with every hand
-  std::vector<std::vector<double>> limits;  // [N/m] exact limits, per hand, over damping
+  std::vector<double> damping;              // [N s/m] from 0 to beyond the largest value that is stable with every hand
+  std::vector<std::vector<double>> limits;  // [N/m] exact limits for each hand and each damping
   std::vector<double> passive;              // [N/m] over damping
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kExactLaw = "spectral radius of one cycle of lever, hand and wall < 1";
+constexpr const char* kExactLaw = "spectral radius of one cycle of lever, hand and wall below 1";
 
 std::string format_law(const haptics::ContactLaw& wall) {
   if (wall.hold == haptics::ContactHold::observer)
@@ -64,7 +64,7 @@ std::string hand_table(const StabilityQuestion& question, const StabilityAnswer&
 std::string format_verdict(const StabilityQuestion& question, const StabilityAnswer& answer) {
   const std::string& hand = question.hands[answer.deciding].name;
   const std::string bound = answer.limit > 0.0 ? up_to(answer.limit) + " is stable" : "not even a soft wall is stable";
-  return fmt::format("{}: {}, the hand \"{}\" decides.\n", answer.may_use ? "Yes" : "No", bound, hand);
+  return fmt::format("{}: {} (least stable hand: {}).\n", answer.may_use ? "Yes" : "No", bound, hand);
 }
 
 std::string format_passive_answer(const haptics::ContactLaw& wall, const StabilityAnswer& answer) {
@@ -79,13 +79,13 @@ bool is_clipped(const haptics::ContactLaw& wall, const RuntimeAnswer& runtime) {
 
 std::string format_runtime_answer(const haptics::ContactLaw& wall, const RuntimeAnswer& runtime) {
   if (!runtime.problem.empty())
-    return fmt::format("The trainer does not run with these values: {}.\n", runtime.problem);
+    return fmt::format("The trainer does not run with these values, because {}.\n", runtime.problem);
   const haptics::AdmittedTuning& admitted = runtime.admitted;
   std::string text = fmt::format("The trainer would use {}, {}{}\n",
                                  format_wall(admitted.tuning.wall_stiffness, admitted.tuning.wall_damping),
                                  haptics::to_string(admitted.hold), admitted.limits.empty() ? "." : ":");
   if (is_clipped(wall, runtime))
-    text += fmt::format("  it was asked for {}, the largest that it accepts\n",
+    text += fmt::format("  (requested: {}, the largest values that it accepts)\n",
                         format_wall(runtime.stiffness, runtime.damping));
   for (const haptics::TuningLimit& limited : admitted.limits) text += fmt::format("  {}\n", haptics::describe(limited));
   return text;
@@ -94,7 +94,7 @@ std::string format_runtime_answer(const haptics::ContactLaw& wall, const Runtime
 Json limited_json(const haptics::TuningLimit& limited) {
   const auto value = [&](double number) {
     return limited.parameter == haptics::TuningParameter::hold
-               ? Json(haptics::hold_name(static_cast<haptics::ContactHold>(number)))
+               ? Json(haptics::hold_key(static_cast<haptics::ContactHold>(number)))
                : Json(number);
   };
   return {{"law", limited.law},
@@ -114,7 +114,7 @@ Json runtime_json(const RuntimeAnswer& runtime) {
           {"asked_wall_damping_n_s_per_m", known(runtime.damping)},
           {"admitted_wall_stiffness_n_per_m", known(tuning.wall_stiffness)},
           {"admitted_wall_damping_n_s_per_m", known(tuning.wall_damping)},
-          {"admitted_hold", known(haptics::hold_name(runtime.admitted.hold))},
+          {"admitted_hold", known(haptics::hold_key(runtime.admitted.hold))},
           {"limited", known(limited)}};
 }
 
@@ -153,7 +153,8 @@ std::string stability_text(const StabilityQuestion& question, const StabilityAns
   text += fmt::format("\nMay a wall of {} be used?\n{}", format_wall(wall), format_verdict(question, answer));
   text += fmt::format("  exact    {}: {:.6f}, {}\n", kExactLaw, answer.radius, up_to(answer.limit));
   text += "  passive  " + format_passive_answer(wall, answer);
-  text += "Passivity is sufficient for stability with every passive hand, not necessary: the exact limit decides.\n";
+  text +=
+      "Passivity is sufficient but not necessary for stability with every passive hand, so the exact limit decides.\n";
   return text + format_runtime_answer(wall, runtime);
 }
 
@@ -168,7 +169,7 @@ std::string stability_json(const StabilityQuestion& question, const StabilityAns
             {"period_s", question.period()},
             {"delay_samples", wall.delay},
             {"window_samples", wall.window},
-            {"hold", haptics::hold_name(wall.hold)},
+            {"hold", haptics::hold_key(wall.hold)},
             {"wall_stiffness_n_per_m", wall.stiffness},
             {"wall_damping_n_s_per_m", wall.damping},
             {"may_use", answer.may_use},

@@ -17,7 +17,7 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kPixels = 6.0;  // per unit of the page
+constexpr double kPixels = 6.0;  // [px] per unit of the page
 constexpr base::Rect kPage{0.0, 0.0, 198.0, 122.0};
 constexpr base::Rect kPlot{24.0, 28.0, 122.0, 78.0};
 constexpr double kLeft = 4.0;
@@ -26,7 +26,7 @@ constexpr const char* kStableColour = "#e3eef8";
 constexpr const char* kDash = "1.6 1.6";
 constexpr std::array<const char*, 4> kHandColours = {base::kGearColour, "#2e8b57", base::kBufferColour, "#7b4ba8"};
 
-// The next 1, 2 or 5 times a power of ten.
+// The next larger value of 1, 2 or 5 times a power of ten.
 double round_up(double number) {
   const double power = std::pow(10.0, std::floor(std::log10(number)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -72,7 +72,7 @@ class MapPlot {
     svg_.text({kLeft, kPlot.y - 3.5}, {3.0, base::kInk}, "stiffness K of the wall [N/m]");
   }
 
-  // Fills the area below the lowest curve of all hands.
+  // Fills the area below the limits of all hands.
   void stable_area(const StabilityMap& map) {
     std::vector<double> lowest = map.limits.front();
     for (const std::vector<double>& limits : map.limits) {
@@ -105,8 +105,8 @@ class MapPlot {
 
   double x(double damping) const { return kPlot.x + kPlot.width * damping / end_; }
   double y(double stiffness) const {
-    const double share = (std::log10(stiffness) - low_) / (high_ - low_);
-    return kPlot.bottom() - kPlot.height * std::clamp(share, 0.0, 1.0);
+    const double fraction = (std::log10(stiffness) - low_) / (high_ - low_);
+    return kPlot.bottom() - kPlot.height * std::clamp(fraction, 0.0, 1.0);
   }
   double bottom() const { return std::pow(10.0, low_); }
 
@@ -126,23 +126,23 @@ class MapPlot {
     std::vector<std::vector<dvec2>> all;
     const auto crossing = [&](std::size_t in, std::size_t out) {
       const double inside = std::min(limits[in], 1e9);
-      const double share = (inside - bottom()) / (inside - limits[out]);
-      return dvec2(x(damping[in] + share * (damping[out] - damping[in])), kPlot.bottom());
+      const double fraction = (inside - bottom()) / (inside - limits[out]);
+      return dvec2(x(damping[in] + fraction * (damping[out] - damping[in])), kPlot.bottom());
     };
     for (std::size_t i = 0; i < limits.size(); ++i) {
-      const bool on_page = limits[i] > bottom(), was = i > 0 && limits[i - 1] > bottom();
-      if (on_page && !was) all.emplace_back();
-      if (on_page && !was && i > 0) all.back().push_back(crossing(i, i - 1));
+      const bool on_page = limits[i] > bottom(), was_on_page = i > 0 && limits[i - 1] > bottom();
+      if (on_page && !was_on_page) all.emplace_back();
+      if (on_page && !was_on_page && i > 0) all.back().push_back(crossing(i, i - 1));
       if (on_page) all.back().emplace_back(x(damping[i]), y(limits[i]));
-      if (!on_page && was) all.back().push_back(crossing(i - 1, i));
+      if (!on_page && was_on_page) all.back().push_back(crossing(i - 1, i));
     }
     return all;
   }
 
   base::Svg& svg_;
-  double end_;                           // [N s/m] at the right
+  double end_;                           // [N s/m] at the right edge
   double wanted_;                        // [N/m]
-  double lowest_ = 1e9, highest_ = 1.0;  // [N/m] range that the plot must show
+  double lowest_ = 1e9, highest_ = 1.0;  // [N/m] range of K that the plot must include
   double low_ = 0.0, high_ = 1.0;        // log10 of K at the bottom and the top
 };
 
@@ -189,11 +189,11 @@ void draw_legend(base::Svg& svg, const StabilityQuestion& question, const Stabil
   }
   if (answer.passive_limit) {
     legend.line({base::kSoftInk, 0.6, kDash}, "passive limit");
-    legend.note("sufficient, not necessary");
+    legend.note("(sufficient, not necessary)");
   }
   legend.area(question.hands.size() > 1 ? "stable with all hands" : "stable");
   legend.point(answer.may_use ? base::kInk : base::kLockoutColour,
-               answer.may_use ? "wanted: admissible" : "wanted: not admissible");
+               answer.may_use ? "requested wall: allowed" : "requested wall: not allowed");
   legend.note(fmt::format("K = {:g} N/m", question.wall.stiffness));
   legend.note(fmt::format("B = {:g} N s/m", question.wall.damping));
 }
@@ -202,7 +202,7 @@ void draw_legend(base::Svg& svg, const StabilityQuestion& question, const Stabil
 
 std::string stability_svg(const StabilityQuestion& question, const StabilityAnswer& answer, const StabilityMap& map) {
   base::Svg svg(kPage, kPixels);
-  svg.text({kLeft, 7.5}, {4.6, base::kInk, "start", true}, "Stable walls: largest K over B (Z-width)");
+  svg.text({kLeft, 7.5}, {4.6, base::kInk, "start", true}, "Stable walls: largest K against B (Z-width)");
   svg.text({kLeft, 12.0}, {2.7, base::kSoftInk}, describe_device(question));
   svg.text({kLeft, 16.0}, {2.7, base::kSoftInk}, describe_loop(question));
   MapPlot plot(svg, question, map);

@@ -7,8 +7,8 @@
 
 namespace gearshift::lab {
 
-// A complete SVG document: the limit of each hand over the wall's damping, the passivity limit, the wanted wall, and
-// the area that is stable with every hand. K has a logarithmic scale.
+// A complete SVG document: each hand's limit against the wall's damping, the passivity limit, the wanted wall, and the
+// area that is stable with every hand. K has a logarithmic scale.
 std::string stability_svg(const StabilityQuestion& question, const StabilityAnswer& answer, const StabilityMap& map);
 
 }  // namespace gearshift::lab

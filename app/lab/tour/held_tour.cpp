@@ -16,8 +16,8 @@ namespace gearshift::lab {
 namespace {
 
 constexpr double kPollPeriod = 0.02;               // [s]
-constexpr double kOpenTimeout = 2.0;               // [s] longest time to open a stick that is plugged in
-constexpr std::int64_t kArmTimeout = 100'000'000;  // [ns] longest time until the loop has processed the arm command
+constexpr double kOpenTimeout = 2.0;               // [s] maximum time to open a stick that is plugged in
+constexpr std::int64_t kArmTimeout = 100'000'000;  // [ns] maximum time for the loop to process the arm command
 
 runtime::RuntimeConfig runtime_config(const TourSetup& setup, runtime::StickLever& stick) {
   runtime::RuntimeConfig config;
@@ -33,10 +33,18 @@ bool is_off(haptics::GuardState state) {
          state == haptics::GuardState::released;
 }
 
-// The fault in words for the person at the stick.
+// Describes the fault to the user at the stick.
 const char* describe_fault(haptics::GuardFault fault) {
-  if (fault == haptics::GuardFault::stale_reading) return "the stick sends no readings";
-  return fault == haptics::GuardFault::overruns ? "the computer was too late" : haptics::guard_fault_name(fault);
+  switch (fault) {
+    case haptics::GuardFault::stale_reading:
+      return "the stick sends no readings";
+    case haptics::GuardFault::overruns:
+      return "the computer was too late";
+    case haptics::GuardFault::stopped:
+      return "the motors were switched off";
+    default:
+      return haptics::to_string(fault);
+  }
 }
 
 // Start time of the running loop's first cycle. [ns]
@@ -46,7 +54,7 @@ std::int64_t first_cycle_of(runtime::Runtime& runtime) {
   return now.time_ns - static_cast<std::int64_t>(now.cycle) * period;
 }
 
-// A tour by a person: poll() is called until the tour is over.
+// A tour driven by the user: poll() is called until the tour is over.
 class HeldDrive {
  public:
   HeldDrive(runtime::Runtime& runtime, runtime::StickLever& stick, base::LineReader& answers, const TourOutput& output,
@@ -62,7 +70,7 @@ class HeldDrive {
     std::string order;
     for (const int gear : result_.wanted)
       order += fmt::format("{}{}", order.empty() ? "" : ", ", haptics::gear_name(gear));
-    output_(fmt::format("The tour: {}.", order));
+    output_(fmt::format("Gears of the tour: {}.", order));
   }
 
   void poll() {
@@ -83,9 +91,9 @@ class HeldDrive {
  private:
   void ask_to_arm() {
     if (!is_connected_ || is_awaiting_enter_) return;
-    while (answers_.read_line(0.0)) continue;  // discard input from before the prompt
+    while (answers_.read_line(0.0)) continue;  // discard input typed before the prompt
     is_awaiting_enter_ = true;
-    output_("The motors are off. Hold the stick, then press Enter to ramp up the forces.");
+    output_("The forces are off. Hold the stick, then press Enter to turn them on.");
   }
   void ask_for_gear() {
     if (next_ < result_.wanted.size())
@@ -105,9 +113,9 @@ class HeldDrive {
 
   // A stick that is unplugged loses its forces; when it returns, they stay off until the user arms it again.
   void follow_stick() {
-    while (const std::optional<std::string> news = stick_.take_message()) {
-      output_(*news);
-      has_reported_absence_ = true;  // the message says why
+    while (const std::optional<std::string> message = stick_.take_message()) {
+      output_(*message);
+      has_reported_absence_ = true;  // the connection's message gives the reason
     }
     const bool was_connected = std::exchange(is_connected_, stick_.connected());
     if (was_connected && !is_connected_) {
@@ -119,7 +127,7 @@ class HeldDrive {
     has_reported_absence_ = has_reported_absence_ || is_connected_ || runtime_.time() > kOpenTimeout;
   }
 
-  void ask_to_plug_in() { output_(fmt::format("{} is not ready: plug it in.", stick_.name())); }
+  void ask_to_plug_in() { output_(fmt::format("{} is not connected. Plug it in.", stick_.name())); }
 
   void follow_lever() {
     for (const vehicle::DriveSample& cycle : runtime_.drain_cycles()) {
@@ -131,7 +139,7 @@ class HeldDrive {
       if (event.time_ns >= begin_ns_) handle_event(event);
   }
 
-  // Time since the first recorded cycle, as in the table.
+  // Time since the first recorded cycle, as in tour.csv.
   double seconds_at(std::int64_t time_ns) const { return 1e-9 * static_cast<double>(time_ns - begin_ns_); }
 
   void handle_event(const haptics::HapticEvent& event) {
@@ -156,12 +164,13 @@ class HeldDrive {
     ask_to_arm();
   }
 
-  // No event reports that arming was rejected: the stop button is held, or the lever is too far outside.
+  // Rejected arming has no event: the stop button is held, or the lever is too far outside the gate.
   void watch_arming(const haptics::HapticSnapshot& now) {
     if (!is_armed_ || !is_off(now.guard) || now.time_ns < armed_at_ns_ + kArmTimeout) return;
     is_armed_ = false;
     const bool is_held = now.fault == haptics::GuardFault::stopped;
-    output_(fmt::format("no forces: {}", is_held ? "the stick's stop button is held" : describe_fault(now.fault)));
+    output_(fmt::format("the forces stay off: {}",
+                        is_held ? "the stick's stop button is held" : describe_fault(now.fault)));
     ask_to_arm();
   }
 
@@ -172,10 +181,10 @@ class HeldDrive {
   TourResult& result_;
   std::int64_t begin_ns_;
   std::size_t next_ = 0;   // index of the next wanted gear
-  bool is_armed_ = false;  // armed by the person, and the forces have not gone off since
+  bool is_armed_ = false;  // the user has armed, and the forces have not been switched off since
   std::int64_t armed_at_ns_ = 0;
   bool is_connected_ = false;
-  bool has_reported_absence_ = false;  // or the stick has been connected
+  bool has_reported_absence_ = false;  // true also if the stick has been connected
   bool is_awaiting_enter_ = false;
 };
 
@@ -185,7 +194,8 @@ void drive(runtime::Runtime& runtime, runtime::StickLever& stick, double seconds
   held.begin();
   while (!result.visited_in_order() && runtime.time() < seconds && !base::StopSignals::requested()) {
     held.poll();
-    if (held.cannot_continue()) throw std::runtime_error("nobody can arm the stick: standard input is closed");
+    if (held.cannot_continue())
+      throw std::runtime_error("the forces cannot be turned on, because standard input is closed");
   }
   runtime.disarm();
 }

@@ -1,4 +1,4 @@
-// The tour driven by a person with a stick: prompts for each gear, and switches forces on only after Enter.
+// The tour driven by the user with a stick: prompts for each gear, and switches forces on only after Enter.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace gearshift::lab {
 
-// Prints a line for the person at the stick.
+// Prints a line for the user at the stick.
 using TourOutput = std::function<void(const std::string& line)>;
 
 // Runs in real time and records like drive_tour() until every gear was engaged in order (other gears in between are

@@ -57,7 +57,7 @@ haptics::ScriptedHand hand_through(const std::vector<int>& gears, const TourSetu
   return {config, haptics::shift_strokes(setup.gate, start, gears, setup.style), haptics::period_s(setup.haptics)};
 }
 
-// before: the fault in the previous cycle. Arming again clears the fault.
+// before: the fault in the previous cycle. Arming again clears it.
 void count_force_loss(const haptics::HapticSnapshot& now, haptics::GuardFault before, double time, LostForces& lost) {
   if (now.fault == haptics::GuardFault::none || now.fault == before) return;
   if (lost.times++ == 0) lost.fault = now.fault, lost.time = time;
@@ -84,7 +84,7 @@ void drive(haptics::SimulatedRun& run, double duration, haptics::TraceRecorder& 
   result.duration = run.time();
 }
 
-// Returns the hash of the run.
+// Returns the recording's hash.
 std::uint64_t finish(haptics::TraceRecorder& recorder, const std::filesystem::path& trace) {
   const haptics::RecordingResult recording = recorder.finish();
   if (!recording.problem.empty()) throw haptics::FileError(trace.string(), 0, recording.problem);

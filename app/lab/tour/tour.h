@@ -20,14 +20,14 @@ namespace gearshift::lab {
 struct TourSetup {
   haptics::GateLayout layout;
   haptics::Gate gate;
-  haptics::SimulatedLeverConfig lever;  // its hand must be stiff enough to move the lever
+  haptics::SimulatedLeverConfig lever;  // the hand must be stiff enough to move the lever
   haptics::HapticConfig haptics;
-  std::uint64_t seed = 1;  // for the hand's aims
+  std::uint64_t seed = 1;  // seed of the hand's aims
   haptics::ShiftStyle style;
-  std::filesystem::path folder;  // exists; receives tour.trace and tour.csv
+  std::filesystem::path folder;  // must exist; receives tour.trace and tour.csv
 };
 
-// When a gear engaged.
+// The time at which a gear engaged.
 struct GearTime {
   int gear = haptics::kNeutralGear;
   double time = 0.0;  // [s]
@@ -41,11 +41,11 @@ struct LostForces {
 };
 
 struct TourResult {
-  std::vector<int> wanted;                   // gears in the order of the tour
-  std::vector<GearTime> engaged;             // in order of time
-  std::vector<haptics::TuningLimit> limits;  // parameters that the device did not admit as wanted
+  std::vector<int> wanted;                   // gears to engage, in order
+  std::vector<GearTime> engaged;             // gears that engaged, in order of time
+  std::vector<haptics::TuningLimit> limits;  // parameters that were limited for the device
   double admitted = 0.0;                     // [N/m] wall stiffness at the start
-  double softest = 0.0;                      // [N/m] lowest wall stiffness in use; lowered if the lever chattered
+  double softest = 0.0;                      // [N/m] lowest wall stiffness in use; lowered when the lever chatters
   double duration = 0.0;                     // [s] simulated
   double deepest = 0.0;                      // [m] largest distance of the lever from the drawn lever
   double strongest = 0.0;                    // [N] largest push of the hand
@@ -55,24 +55,24 @@ struct TourResult {
   LostForces lost;                           // only filled for a simulated hand
 
   bool complete() const;            // exactly the wanted gears were engaged, in order
-  bool visited_in_order() const;    // the same, with others between: as a person drives
-  double contact_fraction() const;  // [1] of the cycles
+  bool visited_in_order() const;    // the wanted gears were engaged in order, others between them allowed
+  double contact_fraction() const;  // [1] fraction of the cycles
 };
 
 // Called often with the current part of the work and the fraction of it that is done (0 to 1).
 using TourProgress = std::function<void(std::string_view what, double fraction)>;
 
-// Called every 1/60 s of the drive with the newest cycle and the events since the previous call.
+// Called every 1/60 s of the drive with the newest cycle and the events since the last call.
 inline constexpr double kWatchPeriod = 1.0 / 60.0;  // [s]
 using TourWatch = std::function<void(const haptics::HapticSnapshot& now, std::span<const haptics::HapticEvent> events)>;
 
-// Adds a cycle to the statistics of the result.
+// Adds a cycle to the statistics in the result.
 void measure(const haptics::HapticSnapshot& now, TourResult& result);
 
 // Drives and records the tour. Throws FileError if a file cannot be written.
 TourResult drive_tour(const TourSetup& setup, const TourProgress& progress, const TourWatch& watch = {});
 
-// Writes tour.csv from tour.trace in that folder. Returns the recording's hash. Throws FileError.
+// Writes tour.csv from the tour.trace in the folder. Returns the recording's hash. Throws FileError.
 std::uint64_t write_tour_table(const std::filesystem::path& folder, const TourProgress& progress);
 
 // Draws Fig. 9 (a) and (b) of the paper for this run from tour.csv: trajectory.{svg,png}, force.{svg,png}.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kWalls = "gate_walls.dat";
 constexpr const char* kTable = "tour.csv";
-// The hand's lever and the select axis are red; the drawn lever and the shift axis are blue.
+// The lever and the select axis are red; the drawn lever and the shift axis are blue.
 constexpr const char* kRed = base::kLockoutColour;
 constexpr const char* kBlue = base::kGearColour;
 
@@ -41,8 +41,8 @@ std::string gear_labels(const haptics::Gate& gate) {
   return labels;
 }
 
-// Formats a gnuplot source with two columns of tour.csv. `cut` selects them first, because gnuplot converts every cell
-// of every line that it reads.
+// Formats a gnuplot source with two columns of tour.csv. `cut` selects these columns first, because gnuplot converts
+// every cell that it reads.
 class Curves {
  public:
   explicit Curves(const std::filesystem::path& folder) {
@@ -74,21 +74,21 @@ set offsets 2, 2, 6, 6
 set key horizontal center tmargin
 set grid linecolor "{grid}"
 {labels}plot "{walls}" using 1:2 with lines linewidth 5 linecolor "{wall}" title "walls", \
-  {hand} linewidth 1.2 linecolor "{red}" title "hand's lever point", \
-  {drawn} linewidth 1.2 linecolor "{blue}" title "drawn lever (proxy)"
+  {hand} linewidth 1.2 linecolor "{red}" title "real lever", \
+  {drawn} linewidth 1.2 linecolor "{blue}" title "displayed lever (proxy)"
 )gp",
       fmt::arg("grid", base::kAisleShade), fmt::arg("labels", gear_labels(setup.gate)), fmt::arg("walls", kWalls),
       fmt::arg("wall", base::kGridInk), fmt::arg("red", kRed), fmt::arg("blue", kBlue),
       fmt::arg("hand", curve("lever_x_mm", "lever_y_mm")), fmt::arg("drawn", curve("proxy_x_mm", "proxy_y_mm")));
 }
 
-// Draws a dashed line where each gear was engaged. named: with the gear's name above it.
-std::string gear_marks(const TourResult& result, bool named) {
+// Draws a dashed line at each time when a gear engaged. has_labels: with the gear's name above it.
+std::string gear_marks(const TourResult& result, bool has_labels) {
   std::string marks = "unset arrow\nunset label\n";
   for (const GearTime& gear : result.engaged) {
     marks += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype 2 linecolor \"{1}\" back\n",
                          gear.time, base::kSoftInk);
-    if (named)
+    if (has_labels)
       marks += fmt::format("set label \"{}\" at {},graph 1.06 center textcolor \"{}\"\n", haptics::gear_name(gear.gear),
                            gear.time, base::kGearColour);
   }

@@ -9,17 +9,17 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kMaxReleaseTime = 5.0;  // [s] a clutch that slips longer is no longer one release [engineering value]
-constexpr double kMaxBrakeForJerk = 0.05;  // [1] pedal; above it the brake causes the jerk
-constexpr double kLaunchTime = 3.0;        // [s] typical launch [engineering value]
+constexpr double kMaxReleaseTime = 5.0;    // [s] a release is over after this time at the latest (engineering value)
+constexpr double kMaxBrakeForJerk = 0.05;  // [1] brake pedal; above this value the brake causes the jerk
+constexpr double kLaunchTime = 3.0;        // [s] typical launch (engineering value)
 constexpr double kGravity = 9.81;          // [m/s^2]
-constexpr double kHillHoldTime = 1.05;     // [s] at the bite point, until the handbrake is off [engineering value]
+constexpr double kHillHoldTime = 1.05;     // [s] the clutch holds the car before the launch (engineering value)
 
 }  // namespace
 
 namespace {
 
-// [kg] mass at the road, including the parts behind the clutch.
+// Effective mass of the car [kg], including the inertia of wheels, clutch disc and input shaft.
 double mass_in(const vehicle::CarSpec& car, double per_road) noexcept {
   return car.body.mass + car.body.rotating + car.clutch.disc_inertia * per_road * per_road;
 }
@@ -84,9 +84,9 @@ std::optional<DrivingError> ClutchRelease::judge() const noexcept {
   if (!stalled_ && burnt >= error_rule(ErrorKind::clutch_burn).raise) {
     return DrivingError{ErrorKind::clutch_burn, error_severity(ErrorKind::clutch_burn, burnt), begin_, heat_};
   }
-  const double share = jerk_peak_ / jerk_limit(car_, gear_);
-  if (!stalled_ && share >= error_rule(ErrorKind::jerk).raise) {
-    return DrivingError{ErrorKind::jerk, error_severity(ErrorKind::jerk, share), begin_, jerk_peak_};
+  const double jerk_ratio = jerk_peak_ / jerk_limit(car_, gear_);
+  if (!stalled_ && jerk_ratio >= error_rule(ErrorKind::jerk).raise) {
+    return DrivingError{ErrorKind::jerk, error_severity(ErrorKind::jerk, jerk_ratio), begin_, jerk_peak_};
   }
   return std::nullopt;
 }

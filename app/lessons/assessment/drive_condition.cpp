@@ -3,14 +3,14 @@
 namespace gearshift::lessons {
 namespace {
 
-// [1] positions that hold the car [engineering value]s
+// [1] Positions of brake pedal and handbrake above which they hold the car. Engineering values.
 constexpr double kMinHoldingBrake = 0.05, kMinHoldingHandBrake = 0.5;
 
-bool same(const std::optional<bool>& wanted, bool is) noexcept {
-  return !wanted || *wanted == is;
+bool matches(const std::optional<bool>& wanted, bool actual) noexcept {
+  return !wanted || *wanted == actual;
 }
 
-bool between(const std::optional<double>& above, const std::optional<double>& below, double value) noexcept {
+bool is_between(const std::optional<double>& above, const std::optional<double>& below, double value) noexcept {
   return !(above && value <= *above) && !(below && value >= *below);
 }
 
@@ -18,16 +18,18 @@ bool between(const std::optional<double>& above, const std::optional<double>& be
 
 bool holds(const DriveCondition& c, const vehicle::DriveSample& sample, const DriveProgress& progress) noexcept {
   const vehicle::VehicleState& car = sample.car;
-  return (!c.gear || *c.gear == car.gear) && same(c.ignition, car.ignition) && same(c.running, car.running) &&
-         same(c.clutch_locked, car.clutch_locked) && same(c.shift_light, car.shift_advice > 0) &&
-         same(c.braked, car.brake > kMinHoldingBrake || car.hand_brake > kMinHoldingHandBrake) &&
-         between(c.clutch_above, c.clutch_below, car.clutch) && between(c.clutch_torque_above, {}, car.clutch_torque) &&
-         between(c.throttle_above, c.throttle_below, car.throttle) &&
-         between(c.brake_above, c.brake_below, car.brake) &&
-         between(c.hand_brake_above, c.hand_brake_below, car.hand_brake) &&
-         between(c.engine_above, c.engine_below, car.engine_speed) &&
-         between(c.speed_above, c.speed_below, car.road_speed) && between(c.distance_above, {}, progress.distance) &&
-         between(c.rolled_back_above, {}, progress.rolled_back);
+  return (!c.gear || *c.gear == car.gear) && matches(c.ignition, car.ignition) && matches(c.running, car.running) &&
+         matches(c.clutch_locked, car.clutch_locked) && matches(c.shift_light, car.shift_advice > 0) &&
+         matches(c.braked, car.brake > kMinHoldingBrake || car.hand_brake > kMinHoldingHandBrake) &&
+         is_between(c.clutch_above, c.clutch_below, car.clutch) &&
+         is_between(c.clutch_torque_above, {}, car.clutch_torque) &&
+         is_between(c.throttle_above, c.throttle_below, car.throttle) &&
+         is_between(c.brake_above, c.brake_below, car.brake) &&
+         is_between(c.hand_brake_above, c.hand_brake_below, car.hand_brake) &&
+         is_between(c.engine_above, c.engine_below, car.engine_speed) &&
+         is_between(c.speed_above, c.speed_below, car.road_speed) &&
+         is_between(c.distance_above, {}, progress.distance) &&
+         is_between(c.rolled_back_above, {}, progress.rolled_back);
 }
 
 bool is_empty(const DriveCondition& c) noexcept {

@@ -7,15 +7,15 @@
 
 namespace gearshift::lessons {
 
-// Inputs of a condition that one sample does not contain.
+// Inputs of a condition that a single sample does not contain.
 struct DriveProgress {
-  double distance = 0.0;     // [m] forward, since the lesson began
-  double rolled_back = 0.0;  // [m] since the step began
+  double distance = 0.0;     // [m] driven forward since the lesson began
+  double rolled_back = 0.0;  // [m] rolled back since the step began
 };
 
 bool holds(const DriveCondition& condition, const vehicle::DriveSample& sample, const DriveProgress& progress) noexcept;
 
-// True if the condition has no terms: it would hold at once.
+// True if the condition has no terms and would therefore always hold.
 bool is_empty(const DriveCondition& condition) noexcept;
 
 // A condition that must hold for some time.
@@ -25,7 +25,7 @@ class HeldCondition {
   bool update(const DriveCondition& condition, const vehicle::DriveSample& sample,
               const DriveProgress& progress) noexcept;
   void reset() noexcept { *this = HeldCondition(); }
-  bool began_false() const noexcept { return began_false_; }  // at the first sample since the reset
+  bool began_false() const noexcept { return began_false_; }  // false at the first sample after the reset
 
  private:
   bool on_ = false;

@@ -22,11 +22,11 @@ enum class ErrorKind : std::uint8_t {
   rev_mismatch,       // value: speed difference when the clutch starts to transmit torque [rad/s]
   grind,              // value: energy lost at the dogs [J]
   blocked,            // pushing against a synchroniser that cannot finish; value: duration [s]
-  missed_shift,       // lever pushed towards a gear and pulled back without it; value: gear
-  wrong_gear,         // not the gear asked for; value: gear
-  wrong_column,       // entered a column off the path; value: how many
+  missed_shift,       // lever pushed towards a gear and pulled back without engaging it; value: gear
+  wrong_gear,         // a gear that was not asked for; value: gear
+  wrong_column,       // lever entered slots off its path; value: number of slots
   over_push,          // value: largest push [N]
-  step_order,         // pedals and lever not in the order taught; value: steps out of place
+  step_order,         // pedals and lever not in the order taught; value: number of steps out of place
   rollback,           // value: distance [m]
   jerk,               // value: largest jerk [m/s^3]
   early_shift,      // upshift below the engine speed band, or below the step's road speed; value: engine speed [rad/s]
@@ -39,8 +39,10 @@ enum class ErrorKind : std::uint8_t {
   clutch_burn,      // the clutch slipped too long or at too high an engine speed; value: heat in the clutch [J]
 };
 inline constexpr int kErrorKindCount = 28;
+std::string_view to_string(ErrorKind kind) noexcept;  // key in files and databases: "stall", "over_rev", ...
+std::optional<ErrorKind> error_kind_of(std::string_view key) noexcept;
 
-// The first thing out of order in a shift. Written to files: append new values at the end.
+// The first mistake in the order of a shift's steps. Files store the value: append new ones at the end.
 enum class OrderMistake : std::uint8_t {
   other,
   throttle_stayed,
@@ -51,23 +53,19 @@ enum class OrderMistake : std::uint8_t {
 };
 
 enum class Severity : std::uint8_t { note, minor, severe, very_severe };
+std::string_view to_string(Severity severity) noexcept;
 
 struct DrivingError {
   ErrorKind kind = ErrorKind::stall;
   Severity severity = Severity::minor;
   double time = 0.0;        // [s] on the loop's clock
-  double value = 0.0;       // in the unit of the kind
-  std::int64_t shift = -1;  // number of the shift record it belongs to, or -1
+  double value = 0.0;       // in the unit that ErrorKind gives
+  std::int64_t shift = -1;  // number of the shift record that the error belongs to, or -1
   std::string step{};       // slow_step: the prompt of the step; else empty
   // slow_step: allowed time [s]; wrong_gear: the gear asked for; early_shift, late_shift, early_downshift: the road
   // speed that the lesson asks for, if any [m/s]; step_order: OrderMistake; else 0
   double wanted = 0.0;
 };
-
-// Key in files and databases: "stall", "over_rev", ...
-std::string_view error_key(ErrorKind kind) noexcept;
-std::optional<ErrorKind> error_kind_of(std::string_view key) noexcept;
-std::string_view severity_key(Severity severity) noexcept;
 
 // Feedback for the learner: "The clutch came up 0.12 s before the gear was in."
 std::string error_sentence(const DrivingError& error);

@@ -31,7 +31,7 @@ class Episode {
     return is_due(gap_ >= kEpisodeGap);
   }
 
-  // As update(), at the end of the drive.
+  // Call at the end of the drive. Returns true if an open episode is to be reported.
   bool finish() noexcept { return is_due(true); }
 
   bool is_open() const noexcept { return open_; }

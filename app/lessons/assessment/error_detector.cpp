@@ -13,22 +13,23 @@
 namespace gearshift::lessons {
 namespace {
 
-// [engineering value]s.
-constexpr double kStallWindow = 1.0;         // [s] the reported speed of a stall is the highest within this time
+// Engineering values.
+constexpr double kStallWindow = 1.0;         // [s] a stall is reported with the highest engine speed within this time
 constexpr double kLugLoad = 0.7;             // [1] fraction of the available torque
-constexpr double kMaxRidingTime = 6.0;       // [s] reported after this time, even if it continues
+constexpr double kMaxRidingTime = 6.0;       // [s] riding or coasting is reported after this time, even if it continues
 constexpr double kMinRidingPedal = 0.08;     // [1] pedal
 constexpr double kMinRidingForce = 3.0;      // [N]
-constexpr double kMinDrivingSpeed = 4.0;     // [m/s] below it a driver may need the clutch to stop or to creep
+constexpr double kMinDrivingSpeed = 4.0;     // [m/s] a slower driver may need the clutch to stop or to creep
 constexpr double kBraking = 0.05;            // [1] pedal
 constexpr double kHardBraking = 0.5;         // [1] pedal: the driver wants to stop, whatever the speed
-constexpr double kMaxShiftTime = 6.0;        // [s] longer is no longer a shift, even with the clutch down
-constexpr double kMaxDownshiftFactor = 1.2;  // [1] of the car's shift_high
+constexpr double kMaxShiftTime = 6.0;        // [s] after this time an open clutch is coasting, no longer a shift
+constexpr double kMaxDownshiftFactor = 1.2;  // [1] factor for the car's shift_high
 constexpr double kMinBlockedPush = 3.0;      // [N] against a synchroniser
 constexpr double kMinRollbackSpeed = 0.01;   // [m/s]
 constexpr double kStartupTime = 1.0;         // [s] time for a started engine to reach idle
-constexpr double kSpeedTolerance = 0.07;     // [1] relative tolerance before a target speed, as read from a needle
-// [m/s] and beyond it: braking at 1.5 m/s^2 costs 12 km/h during reading (1.05 s, Green 2000) and shifting (1.2 s).
+constexpr double kSpeedTolerance = 0.07;     // [1] a shift may come this much before its target speed: needle accuracy
+// [m/s] A shift may come this much after its target speed: at 1.5 m/s^2 the car slows by 12 km/h while the driver reads
+// (1.05 s, Green 2000) and shifts (1.2 s).
 constexpr double kSpeedOvershoot = 12.0 / haptics::kKmhPerMps;
 
 bool is_moving(double speed) noexcept {
@@ -56,7 +57,7 @@ bool is_down(const ShiftRecord& record) noexcept {
   return is_between_gears(record) && record.to >= 1 && record.to < record.from;
 }
 
-// The throttle was released before the clutch went down, so a later rise of the engine speed is a blip.
+// True if the throttle was released before the clutch went down: a later rise of the engine speed is then a blip.
 bool lifted_first(const ShiftRecord& record) {
   const auto first = std::find_if(record.steps.begin(), record.steps.end(), [](ShiftStep step) {
     return step == ShiftStep::throttle_off || step == ShiftStep::clutch_down;
@@ -164,7 +165,7 @@ void ErrorDetector::watch_feet(const vehicle::DriveSample& now, double dt) {
   update_episode(riding_clutch_, rides, 0.0, now.time(), dt);
 }
 
-// Braking hard, or braking in a gear that is already too high for the speed.
+// True if the driver brakes hard, or brakes in a gear that is already too high for the speed.
 bool ErrorDetector::is_stopping(const vehicle::DriveSample& now) const noexcept {
   const double turns = std::abs(vehicle::shaft_per_road(car_, driven_gear_) * now.car.road_speed);
   return now.car.brake > kHardBraking || (now.car.brake > kBraking && turns < car_.engine.lug_below);
@@ -204,7 +205,7 @@ void ErrorDetector::watch_hand(const vehicle::DriveSample& now, bool shifting, d
   update_episode(over_push_, over, push, now.time(), dt);
 }
 
-// The gear of the slot that the lever is in, past its mouth or touching ring or dogs; else neutral.
+// The gear of the lever's slot, if the lever is past the detent or touches ring or dogs; else neutral.
 int ErrorDetector::gear_reached_for(const vehicle::DriveSample& now) const noexcept {
   if (now.lever.slot == haptics::kNoSlot) return haptics::kNeutralGear;
   const haptics::Slot& slot = haptics::slot_of(gate_, now.lever.slot);
@@ -212,7 +213,7 @@ int ErrorDetector::gear_reached_for(const vehicle::DriveSample& now) const noexc
                                                                                          : haptics::kNeutralGear;
 }
 
-// Pushing against the ring with the clutch down is `blocked`; with the clutch up it is a shift without clutch.
+// A push against the ring is reported as `blocked` with the clutch down, and as `no_clutch` with the clutch up.
 void ErrorDetector::watch_dogs(const vehicle::DriveSample& now, double dt) {
   const bool open = now.car.clutch >= car_.clutch.bite;
   const bool touching = vehicle::touches_dogs(now);
@@ -229,7 +230,7 @@ void ErrorDetector::watch_dogs(const vehicle::DriveSample& now, double dt) {
   update_episode(grind_, now.car.grinding, now.car.grind_power, now.time(), dt);
 }
 
-// Reverse while rolling forward, or a forward gear while rolling back: once per visit to the slot.
+// Reports reverse while rolling forward, or a forward gear while rolling back, once per visit to the slot.
 void ErrorDetector::watch_direction(const vehicle::DriveSample& now) {
   const int gear = gear_reached_for(now);
   if (gear == haptics::kNeutralGear) wrong_way_ = false;
@@ -238,7 +239,7 @@ void ErrorDetector::watch_direction(const vehicle::DriveSample& now) {
   if (arrives && !wrong_way_) wrong_way_ = report_if(ErrorKind::wrong_direction, now.time(), against);
 }
 
-// A gear that was not asked for. Going back to the gear just left does not count.
+// Reports a gear that was not asked for. Going back to the gear just left does not count.
 void ErrorDetector::watch_gear(const vehicle::DriveSample& now, int wanted_gear, double at) {
   const int gear = now.car.gear;
   const bool engaged = gear != last_.car.gear && gear != haptics::kNeutralGear;
@@ -256,12 +257,12 @@ void ErrorDetector::watch_gear(const vehicle::DriveSample& now, int wanted_gear,
   if (gear != haptics::kNeutralGear) last_gear_ = gear;
 }
 
-// After a stall the driver may start again from first gear, up to the gear before.
+// After a stall the driver may use any forward gear up to the wanted one, to move off again.
 bool ErrorDetector::is_moving_off_again(int gear, int wanted_gear) const noexcept {
   return has_stalled_ && gear >= 1 && gear <= wanted_gear;
 }
 
-// A gear engaged well before or after the speed it was meant for.
+// Reports a gear that was engaged well before or well after the road speed that the lesson asks for.
 void ErrorDetector::judge_speed(const vehicle::DriveSample& now, double at) {
   const double speed = now.car.road_speed;
   const bool up = now.car.gear > last_gear_;
@@ -271,16 +272,16 @@ void ErrorDetector::judge_speed(const vehicle::DriveSample& now, double at) {
   const bool early = up ? speed < min_speed : speed > max_speed;
   ErrorKind kind = ErrorKind::late_shift;
   if (early) kind = up ? ErrorKind::early_shift : ErrorKind::early_downshift;
-  const bool by_share = kind == ErrorKind::early_downshift;
+  const bool by_ratio = kind == ErrorKind::early_downshift;
   const double turned = vehicle::shaft_per_road(car_, last_gear_) * speed;
   const Severity severity =
-      error_severity(kind, by_share ? demanded_speed_ / max_downshift_speed(car_, band_) : turned);
-  errors_.push_back({kind, severity, now.time(), by_share ? demanded_speed_ : turned});
+      error_severity(kind, by_ratio ? demanded_speed_ / max_downshift_speed(car_, band_) : turned);
+  errors_.push_back({kind, severity, now.time(), by_ratio ? demanded_speed_ : turned});
   errors_.back().wanted = at;
   reported_speed_ = true;
 }
 
-// Rolling back without being in reverse.
+// Reports rolling back, except in reverse.
 void ErrorDetector::watch_rollback(const vehicle::DriveSample& now) {
   const bool rolls = now.car.road_speed < -kMinRollbackSpeed && last_gear_ != haptics::kReverseGear;
   if (rolls) return;
@@ -301,8 +302,8 @@ void ErrorDetector::report_episode(const WatchedEpisode& watched) {
   double value = episode.length();
   if (watched.measure == Measure::peak) value = episode.peak();
   if (watched.measure == Measure::sum) value = episode.sum();
-  const bool is_share = watched.kind == ErrorKind::over_rev;
-  const double rule_value = is_share ? value / car_.engine.red_line : value;
+  const bool is_ratio = watched.kind == ErrorKind::over_rev;
+  const double rule_value = is_ratio ? value / car_.engine.red_line : value;
   if (rule_value >= threshold(watched.kind)) {
     errors_.push_back({watched.kind, error_severity(watched.kind, rule_value), episode.begin(), value});
   }
@@ -324,7 +325,7 @@ void ErrorDetector::finish() {
 void ErrorDetector::judge(const ShiftRecord& record) {
   const std::size_t before = errors_.size();
   const bool without_clutch = judge_clutch(record);
-  // If the clutch was not used, that is the cause and already reported.
+  // A gear missed because the clutch was not used is already reported as no_clutch.
   const int missed = missed_gear(record);
   if (record.missed && !without_clutch && missed != haptics::kNeutralGear) {
     report_if(ErrorKind::missed_shift, record.end, missed, record.number);
@@ -340,8 +341,8 @@ void ErrorDetector::judge(const ShiftRecord& record) {
   reported_speed_ = false;
 }
 
-// The last gear that was tried and never engaged; else the gear that the lesson asks for. Never the gear that was left:
-// the lever passes it on its way out.
+// The last gear that was tried and never engaged; else the gear that the lesson asks for. The gear that was left cannot
+// be missed: the lever passes its detent on the way out.
 int ErrorDetector::missed_gear(const ShiftRecord& record) const noexcept {
   const auto missed = [&](int gear) { return gear != record.from && gear != record.to && !contains(engaged_, gear); };
   const auto tried = std::find_if(tried_.rbegin(), tried_.rend(), missed);
@@ -349,7 +350,7 @@ int ErrorDetector::missed_gear(const ShiftRecord& record) const noexcept {
   return missed(wanted_gear_) ? wanted_gear_ : haptics::kNeutralGear;
 }
 
-// True if the shift was made without the clutch and without matched revs.
+// Reports errors of clutch timing. Returns true for a shift without the clutch and without matched revs.
 bool ErrorDetector::judge_clutch(const ShiftRecord& record) {
   if (record.clutch_time == 0.0) {
     const double error = std::max(std::abs(touch_error_), std::abs(record.rev_error));
@@ -360,7 +361,7 @@ bool ErrorDetector::judge_clutch(const ShiftRecord& record) {
   return false;
 }
 
-// Rise of engine speed that the new gear requires: a blip is not a flare.
+// Rise of engine speed that the new gear requires [rad/s]; a blip that provides this rise is no flare.
 double ErrorDetector::flare_needed(const ShiftRecord& record) const noexcept {
   const double asked = vehicle::shaft_per_road(car_, record.to) * last_.car.road_speed;
   return std::max(0.0, asked - record.engine_speed);
@@ -370,8 +371,8 @@ const ErrorDetector::RollingTime& ErrorDetector::rolling_time_in(const ShiftReco
   return record.end < shift_began_ ? rolling_before_ : rolling_;
 }
 
-// At a standstill there is no hurry, and while braking to a stop the clutch is down anyway: then only the time of the
-// lever counts. A shift already reported as coasting is not reported again.
+// Only time while rolling counts: at a standstill there is no hurry. While the car is braked to a stop the clutch is
+// down anyway, so only the time between the gears counts. A shift already reported as coasting is not reported again.
 void ErrorDetector::judge_time(const ShiftRecord& record, const RollingTime& rolled) {
   const double took = std::min(rolled.relevant_time(), std::max(record.clutch_time, record.lever_time));
   const bool coasted = coasted_at_ >= record.begin && coasted_at_ <= record.end;
@@ -395,28 +396,28 @@ void ErrorDetector::judge_engine(const ShiftRecord& record) {
   if (speed > band_.to) report_if(ErrorKind::late_shift, record.begin, speed, record.number);
 }
 
-// An open throttle and mismatched revs are two separate mistakes. Into a lower gear a blip is correct; the rev error
-// judges its quality.
+// An open throttle and mismatched revs are two separate mistakes. In a downshift a blip is correct, and the rev error
+// shows how good it was.
 void ErrorDetector::judge_revs(const ShiftRecord& record) {
   const bool blips = is_down(record) && lifted_first(record);
   if (!blips) report_if(ErrorKind::throttle_in_shift, record.begin, record.flare - flare_needed(record), record.number);
   const double asked = vehicle::shaft_per_road(car_, record.to) * last_.car.road_speed;
-  // Below idle the clutch has to slip
+  // If the gear requires less than idle speed, the clutch has to slip.
   if (record.clutch_time > 0.0 && asked > car_.engine.idle) {
     report_if(ErrorKind::rev_mismatch, record.end, std::abs(record.rev_error), record.number);
   }
 }
 
-// Judged by the speed at which the gear was engaged.
+// Reports a downshift at too high a speed; the speed at which the gear was engaged counts.
 void ErrorDetector::judge_gear(const ShiftRecord& record) {
-  const double share = demanded_speed_ / max_downshift_speed(car_, band_);
-  if (!is_down(record) || reported_speed_ || share < threshold(ErrorKind::early_downshift)) return;
-  const Severity severity = error_severity(ErrorKind::early_downshift, share);
+  const double ratio = demanded_speed_ / max_downshift_speed(car_, band_);
+  if (!is_down(record) || reported_speed_ || ratio < threshold(ErrorKind::early_downshift)) return;
+  const Severity severity = error_severity(ErrorKind::early_downshift, ratio);
   errors_.push_back({ErrorKind::early_downshift, severity, record.end, demanded_speed_, record.number});
 }
 
-// Only between gears while driving: moving off needs throttle before clutch. Errors of clutch or throttle timing are
-// order errors too and already reported.
+// Judges the order only of shifts between gears while driving: moving off needs throttle before clutch. Errors of
+// clutch or throttle timing are errors of order, too, but already reported.
 void ErrorDetector::judge_order(const ShiftRecord& record, std::size_t errors_before) {
   if (!is_between_gears(record) || rolling_time_in(record).is_engine_not_ready || !is_moving(last_.car.road_speed))
     return;
@@ -426,7 +427,7 @@ void ErrorDetector::judge_order(const ShiftRecord& record, std::size_t errors_be
   };
   const auto first = errors_.begin() + static_cast<std::ptrdiff_t>(errors_before);
   if (std::any_of(first, errors_.end(), is_cause_reported)) return;
-  // Steps exchanged within the tolerance of the clutch timing are in order.
+  // Steps swapped within the tolerance of the clutch timing count as in order.
   const int forgiven = (record.clutch_lead < 0.0 ? 2 : 0) + (record.clutch_lag < 0.0 ? 2 : 0);
   if (report_if(ErrorKind::step_order, record.begin, record.steps_out_of_place - forgiven, record.number))
     errors_.back().wanted = static_cast<double>(first_order_mistake(record.steps, record.from, record.to));

@@ -17,25 +17,25 @@
 namespace gearshift::lessons {
 
 struct ShiftBand {
-  double from = 0.0, to = 1e9;  // [rad/s] engine speed at an upshift
+  double from = 0.0, to = 1e9;  // [rad/s] engine speeds for upshifts
 };
 
-// Highest engine speed at which a lower gear is appropriate: the upper end of the lesson's band, if it has one (above
-// it one would shift up again); else 1.2 times the car's own upper end, 3000 rpm in the hatchback, up to which
-// unhurried drivers go (UDRIVE: advised 2000 to 2500, actual 1400 to 3000). [rad/s]
+// Highest engine speed for which a downshift is appropriate [rad/s]: the upper end of the lesson's band, if it has one,
+// because above this a driver would shift up again; else 1.2 times the upper end of the car's band. In the hatchback
+// that is 3000 rpm, the most that unhurried drivers use (UDRIVE: advised 2000 to 2500, actual 1400 to 3000).
 double max_downshift_speed(const vehicle::CarSpec& car, const ShiftBand& band) noexcept;
 
-// Reports causes, not their consequences: error_detector.cpp says where a consequence is left out.
+// Reports causes, not their consequences; comments in error_detector.cpp explain which consequences are left out.
 class ErrorDetector {
  public:
-  // reading: time that the prompts within a shift take to read. [s]
+  // reading: time that it takes to read the prompts during a shift [s].
   ErrorDetector(const vehicle::CarSpec& car, const haptics::Gate& gate, ShiftBand band = {}, double reading = 0.0);
 
-  // Call every cycle, in order. wanted_gear: gear that the lesson asks for now, kNeutralGear if any. shifting:
-  // ShiftMeter::is_open. at: road speed at which that gear should be engaged; 0: any. [m/s]
+  // Call every cycle, in order. wanted_gear: gear that the lesson asks for now; kNeutralGear: none. shifting: result of
+  // ShiftMeter::is_open(). at: road speed at which wanted_gear should be engaged [m/s]; 0: any.
   void add(const vehicle::DriveSample& sample, int wanted_gear, bool shifting, double at = 0.0);
 
-  // Judges the record that ended with the last sample. Call after add().
+  // Judges the shift whose record ShiftMeter returned for the last sample. Call after add().
   void judge(const ShiftRecord& record);
 
   // End of the drive: reports conditions that still last.
@@ -52,11 +52,11 @@ class ErrorDetector {
     Episode episode;
   };
 
-  // How long a shift rolled above kMinDrivingSpeed.
+  // Time that the car rolled faster than kMinDrivingSpeed during a shift.
   struct RollingTime {
     double all = 0.0;                  // [s]
-    double left = 0.0, in = 0.0;       // [s] of `all`, when the first gear was left and when the last gear was engaged
-    bool is_braked_to_stop = false;    // the car was braked below that speed with the clutch down
+    double left = 0.0, in = 0.0;       // [s] value of `all` when the old gear was left; when the last gear was engaged
+    bool is_braked_to_stop = false;    // the car was braked below kMinDrivingSpeed with the clutch down
     bool is_engine_not_ready = false;  // engine off or just started: its speed says nothing about the driver
     double relevant_time() const noexcept { return is_braked_to_stop ? in - left : all; }
   };
@@ -100,28 +100,28 @@ class ErrorDetector {
   WatchedEpisode over_rev_, lugging_, riding_clutch_, riding_lever_, over_push_, grind_, block_, coasting_;
   vehicle::DriveSample last_;
   bool first_ = true;
-  bool has_run_ = false;         // by itself, since it was last off
-  bool has_stalled_ = false;     // and has not yet been in a requested gear again
+  bool has_run_ = false;         // the engine has run by itself since it was last off
+  bool has_stalled_ = false;     // the engine has stalled and not yet run in a requested gear again
   double runs_since_ = -1e9;     // [s]
-  bool shift_moved_ = false;     // the gear was left in the current shift
+  bool shift_moved_ = false;     // the gear has changed during the current shift
   double shift_moved_at_ = 0.0;  // [s]
   bool shifting_ = false;
   double shift_began_ = 0.0;                 // [s]
   double slow_from_ = 0.0, slow_to_ = -1.0;  // [s] begin and end of the last shift reported as too slow
   double coasted_at_ = -1.0;                 // [s] begin of the last coasting that was reported
-  std::vector<DrivingError> coasted_;        // held back while an open shift may be its cause
-  RollingTime rolling_, rolling_before_;     // of the current or last shift; of the one before
-  bool wrong_way_ = false;                   // already reported for this visit to the slot
+  std::vector<DrivingError> coasted_;        // coasting errors held back while an open shift may be the cause
+  RollingTime rolling_, rolling_before_;     // for the current or last shift; for the shift before that
+  bool wrong_way_ = false;                   // wrong direction already reported for this visit to the slot
   int last_gear_ = haptics::kNeutralGear;    // last gear that was engaged
   int driven_gear_ = haptics::kNeutralGear;  // last gear with the clutch locked
   std::vector<int> tried_;       // gears that the lever was pushed towards since the last record, newest last
-  std::vector<int> engaged_;     // gears that were engaged since then
-  bool reported_speed_ = false;  // the gear was engaged at another speed than the lesson asks for
+  std::vector<int> engaged_;     // gears that were engaged since the last record
+  bool reported_speed_ = false;  // reported that a gear was engaged at the wrong road speed
   double demanded_speed_ = 0.0;  // [rad/s] engine speed that the last gear required when it was engaged
   int wanted_gear_ = haptics::kNeutralGear;
   bool touching_ = false;
-  double touch_error_ = 0.0;  // [rad/s] engine speed minus the gear's, when the dogs first touch without the clutch
-  double highest_ = 0.0;      // [m] largest distance since the car last stood or rolled forward
+  double touch_error_ = 0.0;  // [rad/s] engine minus gear speed at the worst touch of ring or dogs with the clutch up
+  double highest_ = 0.0;      // [m] distance at which the car last stood or rolled forward
   std::vector<DrivingError> errors_;
 };
 

@@ -9,10 +9,10 @@
 
 namespace gearshift::lessons {
 
-// The shortest path between two points through free space, with all lockouts open: both ends and the corners between
-// them, no two consecutive points equal (a single point if the ends coincide). [m]
+// The shortest path between two points through free space, with all lockouts open: its two ends and the corners between
+// them [m]. Consecutive points differ; if the ends coincide, the path is a single point.
 //
-// A taut string in the gate bends only at the corners of the slots that contain its ends, at most two per end. If an
+// Like a taut string, the path bends only at the corners of the slots that contain its ends, at most two per end. If an
 // end lies outside free space, the path is the straight line.
 std::vector<glm::dvec2> shortest_path(const haptics::Gate& gate, glm::dvec2 from, glm::dvec2 to);
 

@@ -8,7 +8,7 @@
 namespace gearshift::lessons {
 namespace {
 
-// [engineering value]s: with a pass grade of 6, eight minor errors or two severe ones still pass, one more does not.
+// Engineering values: with a pass grade of 6, eight minor errors or two severe ones still pass, but not one more.
 constexpr std::array<double, 4> kPoints{0.0, 0.5, 2.0, 4.0};
 
 double points_of_all(std::span<const DrivingError> errors) noexcept {
@@ -17,14 +17,14 @@ double points_of_all(std::span<const DrivingError> errors) noexcept {
   return points;
 }
 
-// Slower than within_s, but not slow enough to fail the step.
+// True if a step was slower than within_s, but not slow enough to fail the lesson.
 bool is_within_tolerance(const Lesson& lesson, const DrivingError& error) {
   return std::any_of(lesson.steps.begin(), lesson.steps.end(), [&](const LessonStep& step) {
     return step.fails_after && step.prompt == error.step && error.value < *step.fails_after;
   });
 }
 
-// Even a minor error fails: the tolerance is in its threshold.
+// The first error that fails the lesson. Even a minor one does, because its threshold already includes a tolerance.
 const DrivingError* failing_error(const Lesson& lesson, const LessonResult& result) {
   const auto fails = [&](const DrivingError& error) {
     return fails_on(lesson, error.kind) && !is_within_tolerance(lesson, error);
@@ -36,16 +36,16 @@ const DrivingError* failing_error(const Lesson& lesson, const LessonResult& resu
 // Why the lesson was not passed; empty if it was. The message of an abort condition is kept.
 std::string reason(const Lesson& lesson, const LessonResult& result) {
   if (result.guided) return "Not graded: the lever was guiding you.";
-  if (!result.had_forces) return "Not graded: the lever had no forces.";
+  if (!result.had_forces) return "Not graded: the lever's forces were off.";
   if (!result.is_complete) return "Not graded: part of the drive was lost.";
   if (result.end == LessonEnd::aborted && !result.why.empty()) return result.why;
-  if (result.end == LessonEnd::left) return "You left the lesson.";  // whatever errors came before
+  if (result.end == LessonEnd::left) return "You left the lesson.";  // whichever errors came before
   if (const DrivingError* error = failing_error(lesson, result)) return error_sentence(*error);
-  if (result.end == LessonEnd::aborted) return "The lesson was aborted.";
+  if (result.end == LessonEnd::aborted) return "The lesson was stopped early.";
   if (result.end == LessonEnd::out_of_time) return fmt::format("Not finished within {:.0f} s.", lesson.time_limit);
   if (result.end == LessonEnd::running) return "The lesson is not over yet.";
   if (result.grade >= lesson.pass_grade) return {};
-  return fmt::format("Grade {:.1f} is below {:.1f}.", result.grade, lesson.pass_grade);
+  return fmt::format("Grade {:.1f} is below the pass grade of {:.1f}.", result.grade, lesson.pass_grade);
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 
 namespace gearshift::lessons {
 
-// More skill, less feedback: skills learnt with fading feedback are retained better than with feedback on every trial
-// (Aoyagi 2019; bandwidth feedback: Schmidt).
+// Feedback is reduced as skill grows: skills learnt with fading feedback are retained better than skills learnt with
+// feedback on every trial (Aoyagi 2019; bandwidth feedback: Schmidt).
 enum class HintStyle : std::uint8_t {
-  prescriptive,  // hints when a step takes long, and every error
-  bandwidth,     // only errors, which are outside the tolerance
-  summary        // no feedback on the way, all errors at the end
+  prescriptive,  // shows hints when a step takes long, and every error
+  bandwidth,     // shows only errors: actions outside the tolerance
+  summary        // shows all errors at the end, nothing during the drive
 };
 
 }  // namespace gearshift::lessons

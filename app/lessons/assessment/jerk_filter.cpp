@@ -10,7 +10,7 @@ constexpr double kDecay = kOmega * 0.70710678118654752440;  // [1/s] s, which is
 
 }  // namespace
 
-// With e = y - u: e(t) = exp(-s t) (e0 cos(s t) + (e0' + s e0) / s sin(s t)), and its derivative.
+// The solution is e(t) = exp(-s t) (e0 cos(s t) + (e0' + s e0) / s sin(s t)), where e = y - u.
 double JerkFilter::update(double acceleration, double dt) noexcept {
   if (!std::isfinite(acceleration) || !std::isfinite(dt)) return rate_;
   if (!filled_) {

@@ -16,8 +16,8 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr std::size_t kMinTrials = 5;
-constexpr double kFastest = 0.3;   // [1] trials: the second trial is already within 4 % of the level
-constexpr double kSlowest = 10.0;  // [1] relative to the number of trials
+constexpr double kFastest = 0.3;   // [1] shortest time constant, in trials: 4 % of the gain is left at the second trial
+constexpr double kSlowest = 10.0;  // [1] longest time constant, relative to the number of trials
 constexpr int kGrid = 200;
 constexpr double kNoGain = 1e-6;         // [1] rounding
 constexpr double kNarrowEnough = 1e-10;  // [1] relative
@@ -38,8 +38,8 @@ double products(std::span<const double> a, double a_offset, std::span<const doub
                                [&](double x, double y) { return (x - a_offset) * (y - b_offset); });
 }
 
-// For a given rate the fit is linear (variable projection), and its sum of squares is convex in the level. If the best
-// level is out of bounds, the best one within them is the nearer bound, with its optimal gain.
+// For a given time constant the fit is linear (variable projection), and its sum of squares is convex in the level. If
+// the best level is out of bounds, the best level within them is the nearer bound, with the optimal gain for it.
 LinearFit fit_for(std::span<const double> grades, double trials, const LevelBounds& bounds) {
   std::vector<double> decay(grades.size());
   for (std::size_t n = 0; n < decay.size(); ++n) decay[n] = std::exp(-static_cast<double>(n) / trials);
@@ -82,16 +82,16 @@ std::optional<double> best_trials(std::span<const double> grades, const LevelBou
   const double fastest = std::log(kFastest), slowest = std::log(kSlowest * static_cast<double>(grades.size()));
   const double step = (slowest - fastest) / kGrid;
   int best = 0;
-  double least = HUGE_VAL;
+  double min_square = HUGE_VAL;
   for (int i = 0; i <= kGrid; ++i) {
     const double square = fit_for(grades, std::exp(fastest + step * i), bounds).square;
-    if (square < least) least = square, best = i;
+    if (square < min_square) min_square = square, best = i;
   }
   if (best == 0 || best == kGrid) return std::nullopt;
   return std::exp(refine_trials(grades, bounds, fastest + step * (best - 1), fastest + step * (best + 1)));
 }
 
-// Variances of level, gain and trials: the diagonal of noise^2 (J^T J)^-1. A fixed level has none.
+// Variances of level, gain and trials: the diagonal of noise^2 (J^T J)^-1. A fixed level has variance 0.
 glm::dvec3 variances(const LearningCurve& curve, std::size_t count) {
   glm::dmat3 information(0.0);
   const double trials = curve.trials.value;
@@ -118,7 +118,7 @@ double LearningCurve::at(double n) const noexcept {
 
 std::optional<LearningCurve> fit_learning_curve(std::span<const double> grades, const LevelBounds& bounds) {
   if (grades.size() < kMinTrials) return std::nullopt;
-  // A bound bends even a straight line, so the bend must be there without the bounds, too.
+  // Bounds can turn even a straight line into a curve, so the fit must find a curve without bounds, too.
   if (!best_trials(grades, {})) return std::nullopt;
   const std::optional<double> trials = best_trials(grades, bounds);
   if (!trials) return std::nullopt;

@@ -1,4 +1,4 @@
-// Fits a learner's grades with an exponential, which describes one person's practice better than a power law.
+// Fits a learner's grades with an exponential, which describes one learner's practice better than a power law.
 //
 // This work is based on:
 // Andrew Heathcote, Scott Brown, D. J. K. Mewhort. The Power Law Repealed. 2000
@@ -22,7 +22,7 @@ struct LearningCurve {
   Estimate gain;       // [1] first trial minus the level; negative if the learner improves
   Estimate trials;     // [1] trials until 1/e of the gain is left
   double noise = 0.0;  // [1] standard deviation of a trial about the curve
-  // The level is fixed at a bound: its deviation is 0, and the others are those of a fit with the level given.
+  // True if the level lies at a bound. Its deviation is then 0, and the others are those of a fit with a fixed level.
   bool at_bound = false;
 
   double at(double n) const noexcept;
@@ -34,9 +34,9 @@ struct LevelBounds {
   double highest = std::numeric_limits<double>::infinity();  // [1] >= lowest
 };
 
-// Least squares with the level within its bounds. Empty with fewer than five trials, or if they show no learning: no
-// time constant below ten times the number of trials, with and without the bounds, or a gain within two of its standard
-// deviations.
+// Fits by least squares with the level within its bounds. Empty with fewer than five trials, or if they show no
+// learning: if the best time constant, with or without the bounds, is not between 0.3 trials and ten times the number
+// of trials, or if the gain differs from 0 by less than two of its standard deviations.
 std::optional<LearningCurve> fit_learning_curve(std::span<const double> grades, const LevelBounds& bounds = {});
 
 }  // namespace gearshift::lessons

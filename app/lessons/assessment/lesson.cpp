@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/lessons/assessment/drive_condition.h"
+#include "app/lessons/assessment/lever_path_text.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr double kRadPerSecond = 6.283185307179586 / 60.0;  // per rpm
 
-// Ranges of the file's values, in the file's units.
+// Allowed ranges of the file's values, in the file's units.
 constexpr haptics::Range kPedal{0.0, 1.0};
 constexpr haptics::Range kEngineRpm{0.0, 10000.0};
 constexpr haptics::Range kSpeedKmPerH{-60.0, 250.0};
@@ -30,16 +31,16 @@ constexpr haptics::Range kPassGrade{1.0, 10.0};
 constexpr haptics::Range kTimeLimitS{10.0, 1800.0};
 constexpr std::size_t kMaxSteps = 64;
 
-// Conditions of a shift_to step. [engineering value]s
-constexpr double kClutchDown = 0.8;        // [1] beyond the bite point of every car
+// Conditions of the steps that shift_to creates. Engineering values.
+constexpr double kClutchDown = 0.8;        // [1] pedal, beyond the bite point of every car
 constexpr double kClutchUp = 0.2;          // [1]
 constexpr double kFootOffThrottle = 0.05;  // [1]
 constexpr double kPedalPatience = 6.0;     // [s]
 
-// Tolerance of the car's band: the shift light comes on at its upper end, and seeing it and lifting the foot takes 1.05
-// s (Green 2000). At a third of the throttle in first gear the engine gains up to 580 rpm in that time. [engineering
-// value]s
-constexpr double kBandFrom = 0.9, kBandTo = 1.3;  // [1] of the band's ends
+// Tolerance of the car's band. The shift light comes on at the band's upper end; seeing the light and lifting the foot
+// takes 1.05 s (Green 2000). In this time, in first gear at a third of the throttle, the engine gains up to 580 rpm.
+// Engineering values.
+constexpr double kBandFrom = 0.9, kBandTo = 1.3;  // [1] factors for the ends of the car's band
 
 // "R", "N", "1", "2", ...
 const std::vector<std::string>& gear_labels() {
@@ -67,13 +68,13 @@ void read_limit(const haptics::TomlTable& table, const std::string& key, haptics
   if (table.has(key)) value = table.number(key, range) * unit;
 }
 
-// Reads NAME_above and NAME_below, followed by the unit.
+// Reads the keys NAME_above and NAME_below, each with the unit's suffix: "speed_above_km_per_h".
 void read_limits(const haptics::TomlTable& table, const std::string& name, const std::string& unit_name,
                  haptics::Range range, double unit, std::optional<double>& above, std::optional<double>& below) {
   read_limit(table, name + "_above" + unit_name, range, unit, above);
   read_limit(table, name + "_below" + unit_name, range, unit, below);
   if (above && below && *above >= *below) {
-    table.fail(name + "_above" + unit_name, "can never hold: it must be smaller than " + name + "_below" + unit_name);
+    table.fail(name + "_above" + unit_name, "can never be met: it must be smaller than " + name + "_below" + unit_name);
   }
 }
 
@@ -100,7 +101,7 @@ DriveCondition read_condition(const haptics::TomlTable& table) {
   read_limit(table, "rolled_back_above_m", kRolledBackM, 1.0, c.rolled_back_above);
   c.held = table.number_or("held_s", c.held, kHeldS);
   table.reject_unknown_keys();
-  if (is_empty(c)) table.fail({}, "names no condition: it would hold at once");
+  if (is_empty(c)) table.fail({}, "this condition is empty, so it would be met at once");
   return c;
 }
 
@@ -113,7 +114,7 @@ LessonStart read_start(const haptics::TomlTable& table) {
   start.running = table.flag_or("running", start.running);
   table.reject_unknown_keys();
   if (start.gear == haptics::kReverseGear && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 in gear R");
-  if (!start.running && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 if the engine is off");
+  if (!start.running && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 if the engine is not running");
   return start;
 }
 
@@ -121,10 +122,10 @@ LessonStart read_start(const haptics::TomlTable& table) {
 void read_at(const haptics::TomlTable& table, LessonStep& step) {
   read_limit(table, "at_km_per_h", kAtKmPerH, 1.0 / haptics::kKmhPerMps, step.at);
   if (step.at && step.until.gear.value_or(haptics::kNeutralGear) < 1)
-    table.fail("at_km_per_h", "needs a step that waits for a forward gear");
+    table.fail("at_km_per_h", "is allowed only in a step that waits for a forward gear");
 }
 
-// A step that waits for a gear guides to it unless the file names another; it cannot guide to a different gear.
+// A step that waits for a gear guides to this gear. guide_to names the gear of other steps; it must not contradict.
 LessonStep read_step(const haptics::TomlTable& table) {
   LessonStep step;
   step.prompt = table.text("prompt");
@@ -145,18 +146,19 @@ LessonStep read_step(const haptics::TomlTable& table) {
   if (table.has("guide_to")) step.gear = read_gear(table, "guide_to");
   if (step.until.gear && *step.until.gear != haptics::kNeutralGear && step.gear != *step.until.gear) {
     table.fail("guide_to", std::string("leads away from gear ") + haptics::gear_name(*step.until.gear) +
-                               ", for which this step waits");
+                               ", which this step waits for");
   }
   read_at(table, step);
   table.reject_unknown_keys();
   return step;
 }
 
-// shift_to = "3": clutch down, lever, clutch up. The first step prepares the second and may be skipped; the shift
-// itself may not.
+// Adds three steps for shift_to = "3": clutch down, lever, clutch up. The first step prepares the second and may be
+// skipped; the shift itself may not.
 void add_shift(const haptics::TomlTable& table, std::vector<LessonStep>& steps) {
   const int gear = read_gear(table, "shift_to");
-  if (gear == haptics::kNeutralGear) table.fail("shift_to", "must be a gear; for N write a step that waits for it");
+  if (gear == haptics::kNeutralGear)
+    table.fail("shift_to", "must be a gear; to shift into N, write a step that waits for N");
   LessonStep down, lever, up;
   down.prompt = "Off the throttle, clutch down.";
   down.hint = "Press the clutch pedal all the way down, past the bite point.";
@@ -164,7 +166,7 @@ void add_shift(const haptics::TomlTable& table, std::vector<LessonStep>& steps) 
   down.until.throttle_below = kFootOffThrottle;
   down.until.clutch_above = kClutchDown;
   down.may_be_skipped = true;
-  lever.prompt = std::string("Shift into ") + haptics::gear_name(gear) + ".";
+  lever.prompt = "Shift into " + gear_word(gear) + ".";
   lever.hint = text_or_none(table, "hint");
   lever.until.gear = gear;
   up.prompt = "Clutch up, then throttle.";
@@ -190,20 +192,20 @@ bool has(const std::vector<ErrorKind>& kinds, ErrorKind kind) noexcept {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-// [faults]: for each kind of error that this lesson checks, "counts" or "fails".
-void read_faults(const haptics::TomlTable& table, Lesson& lesson) {
+// Reads [faults]: "counts" or "fails" for each kind of error that this lesson checks.
+void read_error_rules(const haptics::TomlTable& table, Lesson& lesson) {
   for (int i = 0; i < kErrorKindCount; ++i) {
     const auto kind = static_cast<ErrorKind>(i);
-    if (!table.has(error_key(kind))) continue;
-    const bool fails = table.choice(error_key(kind), {"counts", "fails"}) == "fails";
+    if (!table.has(to_string(kind))) continue;
+    const bool fails = table.choice(to_string(kind), {"counts", "fails"}) == "fails";
     (fails ? lesson.fails_on : lesson.counted).push_back(kind);
   }
   table.reject_unknown_keys();
   if (lesson.fails_on.empty() && lesson.counted.empty())
-    table.fail({}, "names no error: without one the grade of this lesson would mean nothing");
+    table.fail({}, "[faults] must name at least one error, or the lesson's grade would mean nothing");
 }
 
-// A shift can be early or late only if the lesson has a band or a step has a speed.
+// True if a step has a target speed. Without one, a shift can be early or late only if the lesson has a band.
 bool has_speeds(const Lesson& lesson) {
   return std::any_of(lesson.steps.begin(), lesson.steps.end(),
                      [](const LessonStep& step) { return step.at.has_value(); });
@@ -213,7 +215,7 @@ void read_shift_band(const haptics::TomlTable& root, Lesson& lesson) {
   if (root.has("shift_band")) {
     lesson.band_of_car = root.choice("shift_band", {"car"}) == "car";
     for (const std::string_view key : {"shift_from_rpm", "shift_to_rpm"}) {
-      if (root.has(key)) root.fail(key, "contradicts shift_band: the car has its own");
+      if (root.has(key)) root.fail(key, "cannot be combined with shift_band, which uses the car's own limits");
     }
     return;
   }
@@ -222,10 +224,10 @@ void read_shift_band(const haptics::TomlTable& root, Lesson& lesson) {
   if (lesson.shift_from >= lesson.shift_to) root.fail("shift_from_rpm", "must be smaller than shift_to_rpm");
   if (has_speeds(lesson)) return;
   if (assesses(lesson, ErrorKind::early_shift) && !root.has("shift_from_rpm")) {
-    root.fail("shift_from_rpm", "is missing: this lesson checks early_shift");
+    root.fail("shift_from_rpm", "is missing, but this lesson checks early_shift");
   }
   if (assesses(lesson, ErrorKind::late_shift) && !root.has("shift_to_rpm")) {
-    root.fail("shift_to_rpm", "is missing: this lesson checks late_shift");
+    root.fail("shift_to_rpm", "is missing, but this lesson checks late_shift");
   }
 }
 
@@ -239,30 +241,30 @@ void read_steps(const haptics::TomlTable& root, Lesson& lesson) {
   }
   if (lesson.steps.empty()) root.fail("step", "is missing: write one [[step]] for each thing to do");
   if (lesson.steps.size() > kMaxSteps)
-    root.fail("step", "has more than 64 steps, three for each shift_to: split the lesson in two");
+    root.fail("step", "has more than 64 steps (each shift_to counts as three); split the lesson in two");
   for (const haptics::TomlTable& table : root.tables("abort")) lesson.aborts.push_back(read_abort(table));
 }
 
 // A gear can be wrong only if a step asks for one.
 void check_wrong_gear(const haptics::TomlTable& errors, const Lesson& lesson) {
   const auto asks = [](const LessonStep& step) { return step.gear != haptics::kNeutralGear; };
-  const std::string_view key = error_key(ErrorKind::wrong_gear);
+  const std::string_view key = to_string(ErrorKind::wrong_gear);
   if (!errors.has(key) || std::any_of(lesson.steps.begin(), lesson.steps.end(), asks)) return;
   errors.fail(key, "no step asks for a gear, so none could be wrong");
 }
 
-// A step can be slow only if a step has a time limit; and a time limit must be judged.
+// A step can be slow only if it has a time limit, and a lesson with a time limit for a step must check slow_step.
 void check_slow_step(const haptics::TomlTable& root, const Lesson& lesson) {
   const auto timed = [](const LessonStep& step) { return step.within.has_value(); };
   const bool has = std::any_of(lesson.steps.begin(), lesson.steps.end(), timed);
-  const std::string_view key = error_key(ErrorKind::slow_step);
+  const std::string_view key = to_string(ErrorKind::slow_step);
   const haptics::TomlTable errors = root.table("faults");
   if (errors.has(key) && !has) errors.fail(key, "no step sets within_s, so none could be slow");
-  if (has && !errors.has(key)) errors.fail(key, "is missing: a step sets within_s");
+  if (has && !errors.has(key)) errors.fail(key, "is missing, but a step sets within_s");
   const auto fails = [](const LessonStep& step) { return step.fails_after.has_value(); };
   const bool may_fail = std::any_of(lesson.steps.begin(), lesson.steps.end(), fails);
   if (may_fail && !fails_on(lesson, ErrorKind::slow_step))
-    errors.fail(key, "must be \"fails\": a step sets fails_after_s");
+    errors.fail(key, "must be \"fails\", because a step sets fails_after_s");
 }
 
 // The steps' hold times must fit into the lesson's time limit.
@@ -285,7 +287,7 @@ bool assesses(const Lesson& lesson, ErrorKind kind) noexcept {
 std::string failing_errors_sentence(const Lesson& lesson) {
   std::string names;
   for (const ErrorKind kind : lesson.fails_on) {
-    if (!names.empty()) names += ", ";
+    if (!names.empty()) names += kind == lesson.fails_on.back() ? " or " : ", ";
     names += error_action(kind);
   }
   return names.empty() ? names : "You fail if you " + names + ".";
@@ -318,7 +320,7 @@ Lesson parse_lesson(std::string_view text, const std::string& file_name) {
   lesson.time_limit = root.number_or("time_limit_s", lesson.time_limit, kTimeLimitS);
   if (root.has("start")) lesson.start = read_start(root.table("start"));
   read_steps(root, lesson);
-  read_faults(root.table("faults"), lesson);
+  read_error_rules(root.table("faults"), lesson);
   check_wrong_gear(root.table("faults"), lesson);
   check_slow_step(root, lesson);
   read_shift_band(root, lesson);

@@ -14,21 +14,21 @@
 
 namespace gearshift::lessons {
 
-// All conditions that are set must hold at once, for `held` seconds without a break.
+// All terms that are set must hold at the same time, for `held` seconds without a break.
 struct DriveCondition {
   std::optional<int> gear;
   std::optional<bool> ignition, running, clutch_locked;
-  std::optional<bool> shift_light;                           // it advises a higher gear
+  std::optional<bool> shift_light;                           // the shift light advises a higher gear
   std::optional<bool> braked;                                // foot brake or handbrake holds the car
   std::optional<double> clutch_above, clutch_below;          // [1] pedal
-  std::optional<double> clutch_torque_above;                 // [N m] transmitted into the gearbox
+  std::optional<double> clutch_torque_above;                 // [N m] torque that the clutch transmits into the gearbox
   std::optional<double> throttle_above, throttle_below;      // [1]
   std::optional<double> brake_above, brake_below;            // [1]
   std::optional<double> hand_brake_above, hand_brake_below;  // [1]
   std::optional<double> engine_above, engine_below;          // [rad/s]
   std::optional<double> speed_above, speed_below;            // [m/s]
-  std::optional<double> distance_above;                      // [m] forward, since the lesson began
-  std::optional<double> rolled_back_above;                   // [m] since the step began
+  std::optional<double> distance_above;                      // [m] driven forward since the lesson began
+  std::optional<double> rolled_back_above;                   // [m] rolled back since the step began
   double held = 0.0;                                         // [s]
 };
 
@@ -37,11 +37,11 @@ struct LessonStep {
   std::string hint;    // shown when the step takes too long; may be empty
   DriveCondition until;
   int gear = haptics::kNeutralGear;     // gear that the guidance leads to; kNeutralGear: none
-  double patience = 8.0;                // [s] before the hint
-  std::optional<double> within{};       // [s] slower is slow_step
-  std::optional<double> fails_after{};  // [s] slower fails a lesson that fails on slow_step; >= within; default: within
-  bool call = false;                    // shown in both modes: the learner cannot know when to do it
-  bool may_be_skipped = false;          // it prepares the next step and counts as done when that one is
+  double patience = 8.0;                // [s] time before the hint is shown
+  std::optional<double> within{};       // [s] a slower step is the error slow_step
+  std::optional<double> fails_after{};  // [s] if the lesson fails on slow_step, a slower step fails it; default: within
+  bool call = false;                    // prompt shown in both modes, because the learner cannot know when to act
+  bool may_be_skipped = false;          // prepares the next step, and is done when the next step is done
   std::optional<double> at{};           // [m/s] road speed at which the gear of this step should be engaged
 };
 
@@ -57,22 +57,22 @@ struct LessonStart {
   double hand_brake = 0.0;  // [1]
   bool running = true;
 };
-vehicle::CarStart car_start(const LessonStart& start) noexcept;  // the car's part of it
+vehicle::CarStart car_start(const LessonStart& start) noexcept;  // state of the car at the start
 
 struct Lesson {
   std::string key;  // the file's name without .toml
   std::string title;
-  std::string goal;  // shown first
-  std::string task;  // what its grade counts towards: "moving_off", "upshift", ...
-  std::string car;   // empty: the selected one
-  std::string gate;  // empty: the car's
+  std::string goal;  // shown before the drive
+  std::string task;  // skill that the lesson trains: "moving_off", "upshift", ...
+  std::string car;   // name; empty: the selected car
+  std::string gate;  // name; empty: the car's gate
   LessonStart start;
   std::vector<LessonStep> steps;
   std::vector<LessonAbort> aborts;
-  std::vector<ErrorKind> fails_on;          // "fails": one of these errors and the lesson is not passed
-  std::vector<ErrorKind> counted;           // "counts": these errors cost points; kinds in neither list are notes
+  std::vector<ErrorKind> fails_on;          // "fails" in the file: any of these errors fails the lesson
+  std::vector<ErrorKind> counted;           // "counts": these errors cost points. Kinds in neither list are notes
   double shift_from = 0.0, shift_to = 1e9;  // [rad/s] engine speed band for upshifts
-  bool band_of_car = false;                 // the band is the car's, see lesson_in_car
+  bool band_of_car = false;                 // the band is that of the car, see lesson_in_car()
   double pass_grade = 6.0;                  // [1] of 10
   double time_limit = 120.0;                // [s]
   std::string text;                         // the whole file
@@ -89,7 +89,7 @@ bool fails_on(const Lesson& lesson, ErrorKind kind) noexcept;
 // True if the lesson fails on that kind of error or deducts points for it.
 bool assesses(const Lesson& lesson, ErrorKind kind) noexcept;
 
-// The errors that fail the lesson, for the learner: "You fail if you stall, dump the clutch." Empty if there are none.
+// Tells the learner which errors fail the lesson: "You fail if you stall or dump the clutch." Empty if none does.
 std::string failing_errors_sentence(const Lesson& lesson);
 
 // The lesson as driven in that car: with the car's upshift band, if the lesson leaves the band to the car.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/lessons/assessment/driving_error.h"
@@ -10,8 +11,17 @@
 
 namespace gearshift::lessons {
 
-enum class LessonMode { follow_me, by_yourself };  // every step prompted; only the goal shown
+enum class LessonMode { follow_me, by_yourself };  // shows every step's prompt; shows only the goal
+constexpr std::string_view to_string(LessonMode mode) noexcept {
+  constexpr std::string_view kNames[] = {"follow_me", "by_yourself"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
+
 enum class LessonEnd { running, done, aborted, out_of_time, left };
+constexpr std::string_view to_string(LessonEnd end) noexcept {
+  constexpr std::string_view kNames[] = {"running", "done", "aborted", "out_of_time", "left"};
+  return kNames[static_cast<std::size_t>(end)];
+}
 
 // Points deducted, and the error they were deducted for.
 struct Deduction {
@@ -31,11 +41,11 @@ struct LessonResult {
   double duration = 0.0;    // [s]
   double grade = 0.0;       // [1] 0 to 10: 10 minus the deductions; 0 if not finished
   bool passed = false;
-  std::string why;  // why it was not passed: one sentence
+  std::string why;  // one sentence on why the run was not passed
   std::vector<DrivingError> errors;
   std::vector<ShiftRecord> shifts;
   std::vector<Deduction> deductions;
-  double slip_energy = 0.0;  // [J] of the whole lesson
+  double slip_energy = 0.0;  // [J] heat in the clutch during the whole lesson
   double fuel = 0.0;         // [J] work done by the engine, minus engine braking
 };
 

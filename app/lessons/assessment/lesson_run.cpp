@@ -17,17 +17,17 @@
 namespace gearshift::lessons {
 namespace {
 
-// [s] extra time for a shift in progress after the last step [engineering value]
+// [s] extra time for a shift in progress after the last step (engineering value)
 constexpr double kMaxShiftOverrun = 3.0;
-// [s] Two prompts appear while the clutch is down. Each takes 0.75 s to react to an expected signal and 0.3 s to read
-// (Green. How long does it take to stop? 2000).
+// [s] Time to read the two prompts that appear while the clutch is down: for each, 0.75 s to react to an expected
+// signal and 0.3 s to read (Green. How long does it take to stop? 2000).
 constexpr double kReading = 2.0 * 1.05;
-constexpr double kMaxOffCourseTime = 3.0;  // [s] in a gear that the step does not ask for [engineering value]
+constexpr double kMaxOffCourseTime = 3.0;  // [s] after this time in a wrong gear, a hint says so (engineering value)
 
 void check_gear(const Lesson& lesson, const haptics::Gate& gate, int gear) {
   if (gear == haptics::kNeutralGear || haptics::slot_of_gear(gate, gear) != haptics::kNoSlot) return;
   throw std::invalid_argument("lesson " + lesson.key + " needs gear " + haptics::gear_name(gear) +
-                              ", which this gate lacks");
+                              ", which this gate does not have; choose another gate");
 }
 
 void check_gears(const Lesson& lesson, const haptics::Gate& gate) {
@@ -79,7 +79,7 @@ struct LessonRun::State {
   ShiftMeter meter;
   ErrorDetector detector;
   HeldCondition held;
-  std::vector<HeldCondition> ahead;  // for the steps that can be reached by skipping
+  std::vector<HeldCondition> ahead;  // conditions of the steps that can be reached by skipping
   std::vector<HeldCondition> abort_held;
   LessonView view;
   LessonResult result;
@@ -90,7 +90,7 @@ struct LessonRun::State {
   double start_slip = 0.0;      // [J]
   double highest = 0.0;         // [m] largest distance since the step began
   double step_began = 0.0;      // [s]
-  double steps_done = 0.0;      // [s] when the last step was completed
+  double steps_done = 0.0;      // [s] when a step was last completed
   double on_course = 0.0;       // [s] when the gear was last one that the step allows
 };
 
@@ -172,14 +172,14 @@ void LessonRun::State::judge(std::vector<DrivingError> errors) {
   if (!errors.empty()) grade_result(lesson, result);
 }
 
-// An error during a shift belongs to it, whichever of the two is reported first.
+// Assigns an error to the shift during which it happened, whichever of the two is reported first.
 void LessonRun::State::attribute(DrivingError& error) const {
   for (const ShiftRecord& record : result.shifts) {
     if (error.shift < 0 && error.time >= record.begin && error.time <= record.end) error.shift = record.number;
   }
 }
 
-// Returns `gear` if this step, or one reachable by skipping, asks for it; otherwise the last gear they ask for.
+// Returns `gear` if this step, or one reachable by skipping, asks for it; else the last gear that these steps ask for.
 int LessonRun::State::gear_wanted(int gear) const noexcept {
   int wanted = haptics::kNeutralGear;
   for (std::size_t i = view.step; !all_done() && i <= view.step + ahead.size(); ++i) {
@@ -189,7 +189,7 @@ int LessonRun::State::gear_wanted(int gear) const noexcept {
   return wanted;
 }
 
-// Road speed at which this step, or one reachable by skipping, wants that gear engaged; 0: any. [m/s]
+// Road speed [m/s] at which this step, or one reachable by skipping, wants `gear` engaged; 0: any.
 double LessonRun::State::speed_wanted(int gear) const noexcept {
   for (std::size_t i = view.step; !all_done() && i <= view.step + ahead.size(); ++i) {
     if (lesson.steps[i].at && lesson.steps[i].until.gear == gear) return *lesson.steps[i].at;
@@ -254,12 +254,12 @@ void LessonRun::State::go_to(std::size_t step) {
   view.prompt = prompted ? lesson.steps[step].prompt : lesson.goal;
 }
 
-// In a wrong gear the step can never complete, so always say so, whatever the hint style.
+// In a wrong gear the step can never complete, so this hint is shown whatever the hint style.
 void LessonRun::State::update_hint(const vehicle::DriveSample& sample) {
   if (all_done()) return;
   const LessonStep& step = lesson.steps[view.step];
   if (is_off_course(sample)) {
-    view.hint = fmt::format("Shift into gear {} to continue.", haptics::gear_name(*step.until.gear));
+    view.hint = fmt::format("Shift into {} to continue.", gear_word(*step.until.gear));
   } else if (config.hints == HintStyle::prescriptive && sample.time() - step_began >= step.patience) {
     view.hint = hint_of(view.step);
   } else {
@@ -274,7 +274,7 @@ int LessonRun::State::gear_before(std::size_t index) const noexcept {
   return gear;
 }
 
-// The hint from the file; else, for a lever step, the lever's path in this gate.
+// Returns the hint from the file; if there is none and the step waits for a gear, the lever's path in this gate.
 std::string LessonRun::State::hint_of(std::size_t index) const {
   const LessonStep& step = lesson.steps[index];
   if (!step.hint.empty() || !step.until.gear) return step.hint;

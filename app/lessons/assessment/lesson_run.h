@@ -1,6 +1,6 @@
 // A lesson run: follows the samples, prompts, judges, and ends the lesson.
 //
-// It depends only on the samples: the same drive gives the same result, live or replayed.
+// The result depends only on the samples: the same drive gives the same result, live or replayed.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,13 @@ struct LessonRunConfig {
   HintStyle hints = HintStyle::prescriptive;
 };
 
-// What the coach shows now.
+// The prompts and feedback that the coach shows now.
 struct LessonView {
-  std::string prompt;  // of the current step, or the goal
+  std::string prompt;  // prompt of the current step, or the goal
   std::string hint;    // may be empty
   std::size_t step = 0, steps = 0;
   int guided_gear = haptics::kNeutralGear;
-  std::vector<std::string> feedback;  // so far, newest last: "The clutch came up 0.12 s before the gear was in."
+  std::vector<std::string> feedback;  // newest last: "The clutch came up 0.12 s before the gear was in."
 };
 
 class LessonRun {
@@ -39,15 +39,15 @@ class LessonRun {
             const LessonRunConfig& config);
   ~LessonRun();
 
-  void add(const vehicle::DriveSample& sample);  // every cycle, in order
-  void mark_incomplete();                        // samples were lost: no grade
-  void mark_forceless();                         // the lever had no forces: no grade
-  void leave();                                  // the learner leaves the lesson
+  void add(const vehicle::DriveSample& sample);  // call every cycle, in order
+  void mark_incomplete();                        // call if samples were lost: the run gets no grade
+  void mark_forceless();                         // call if the lever had no forces: the run gets no grade
+  void leave();                                  // call when the learner leaves the lesson
 
   const LessonView& view() const noexcept;
   bool is_over() const noexcept;
   bool is_in_shift() const noexcept;
-  // Up to now; final once is_over().
+  // The result so far; final once is_over().
   const LessonResult& result() const noexcept;
   // Shifts that ended since the last call, for the history.
   std::vector<ShiftRecord> drain_shifts();

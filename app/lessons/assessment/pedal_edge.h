@@ -1,12 +1,13 @@
-// Detects on which side of its bite point a clutch pedal is, with hysteresis.
+// Detects on which side of the bite point a clutch pedal is, with hysteresis.
 #pragma once
 
 namespace gearshift::lessons {
 
-// Down from the bite point on; up once it is kBand above it. The time of going up is that of passing the bite point.
+// The pedal counts as down from the bite point on, and as up once it is kBand above the bite point. Even so, up_at() is
+// the time at which the pedal passed the bite point.
 class PedalEdge {
  public:
-  // [1] of the pedal's travel: more than the noise of a potentiometer [engineering value]
+  // [1] fraction of the pedal's travel; more than the noise of a potentiometer (engineering value)
   static constexpr double kBand = 0.02;
 
   explicit PedalEdge(double bite) noexcept : bite_(bite) {}
@@ -28,11 +29,11 @@ class PedalEdge {
   }
 
   bool is_down() const noexcept { return down_; }
-  bool is_past() const noexcept { return down_ && !below_; }  // now, without hysteresis
+  bool is_past() const noexcept { return down_ && !below_; }  // beyond the bite point now, without hysteresis
   bool went_down() const noexcept { return went_down_; }      // in the last update
   bool went_up() const noexcept { return went_up_; }
-  double down_at() const noexcept { return down_at_; }  // [s] when it last passed the bite point downwards
-  double up_at() const noexcept { return up_at_; }      // [s] when it last passed the bite point upwards
+  double down_at() const noexcept { return down_at_; }  // [s] when the pedal last passed the bite point downwards
+  double up_at() const noexcept { return up_at_; }      // [s] when the pedal last passed the bite point upwards
 
  private:
   double bite_;

@@ -1,12 +1,12 @@
-// The quantities of a shift by name, with the unit: the names of database columns and CSV headers.
+// The names of a shift's quantities, with their units, as database columns and CSV headers use them.
 #pragma once
 
 #include "app/lessons/assessment/shift_record.h"
 
 namespace gearshift::lessons {
 
-// Calls visit(name, field) for every double and every count, in the order of shift_record.h. record: ShiftRecord, const
-// or not.
+// Calls visit(name, field) for every double and every count, in the order of shift_record.h. record: a ShiftRecord,
+// const or not.
 constexpr void each_figure(auto& record, auto&& visit) {
   visit("begin_s", record.begin);
   visit("end_s", record.end);

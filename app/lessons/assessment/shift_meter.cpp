@@ -13,19 +13,19 @@
 namespace gearshift::lessons {
 namespace {
 
-// All [engineering value]s, except the 5 % and the 2 s, which are defined in shift_record.h.
-constexpr double kTorqueWindow = 0.5;  // [s] before a shift: long enough to include lifting the throttle
+// Engineering values, except the 5 % and the 2 s, which are defined in shift_record.h.
+constexpr double kTorqueWindow = 0.5;  // [s] time before a shift, long enough to include lifting the throttle
 constexpr double kTorqueGapFraction = 0.05;
-constexpr double kMinTorque = 5.0;         // [N m] at the wheels; below it there was no drive that could be interrupted
-constexpr double kFirstTorque = 1.0;       // [N m] in the clutch: more than the drag of an open one
-constexpr double kGiveUpTime = 2.0;        // [s] with the clutch up and no further attempt
-constexpr double kMinPush = 3.0;           // [N] on ring or dogs: still trying
-constexpr double kMinLeverMotion = 0.002;  // [m] that an abandoned lever must move to count as used again
-constexpr double kMaxSlipTime = 5.0;       // [s] gear and clutch in, but not locked: the shift is then over anyway
+constexpr double kMinTorque = 5.0;         // [N m] at the wheels; with less torque before the shift there is no gap
+constexpr double kFirstTorque = 1.0;       // [N m] clutch torque, above the drag of an open clutch
+constexpr double kGiveUpTime = 2.0;        // [s] time with the clutch up and no attempt until the driver has given up
+constexpr double kMinPush = 3.0;           // [N] push on ring or dogs that counts as still trying
+constexpr double kMinLeverMotion = 0.002;  // [m] an abandoned lever is in use again once it has moved this far
+constexpr double kMaxSlipTime = 5.0;       // [s] after this much slip with gear and clutch engaged, the shift is over
 constexpr double kThrottleOn = 0.08;       // [1]
 constexpr double kThrottleOff = 0.04;      // [1]
-constexpr double kPedalOverlap = 0.2;      // [s] both pedals at once, in either order: time of a full pedal stroke
-constexpr double kMinChord = 5e-4;         // [m] of lever motion: seven counts of the paper's encoder
+constexpr double kPedalOverlap = 0.2;      // [s] pedals moved within this time count as moved together: one full stroke
+constexpr double kMinChord = 5e-4;         // [m] shortest lever motion that counts: seven counts of the paper's encoder
 constexpr double kMinPath = 0.005;         // [m] efficiency is not computed for shorter paths
 
 double area(double before, double now, double dt) noexcept {
@@ -67,7 +67,7 @@ std::optional<ShiftRecord> ShiftMeter::add(const vehicle::DriveSample& sample) {
     ended = close();
   }
   if (sample.controls.guidance > 0.0) guided_at_ = time;
-  if (!stays_where_left(sample)) left_slot_ = haptics::kNoSlot;
+  if (!is_where_abandoned(sample)) left_slot_ = haptics::kNoSlot;
   if (stage_ == Stage::idle && begins(sample)) {
     begin(sample, throttle_was_on);
     follow(sample, 0.0, throttle_was_on);
@@ -79,7 +79,7 @@ std::optional<ShiftRecord> ShiftMeter::add(const vehicle::DriveSample& sample) {
   return ended;
 }
 
-// True if the lever rests in the slot of that engaged gear.
+// True if `gear` is engaged and the lever rests in its slot.
 bool ShiftMeter::rests_in(const vehicle::DriveSample& now, int gear) const noexcept {
   const int index = haptics::slot_at(gate_, now.lever.proxy);
   if (now.car.gear != gear || index == haptics::kNoSlot) return false;
@@ -87,15 +87,15 @@ bool ShiftMeter::rests_in(const vehicle::DriveSample& now, int gear) const noexc
   return slot.gear == gear && std::abs(now.lever.proxy.y) >= slot.engage_depth;
 }
 
-// Slot that the lever is in, past its mouth.
-int ShiftMeter::slot_proper(const vehicle::DriveSample& now) const noexcept {
+// Slot that the lever is in, if it is past the mouth; else kNoSlot.
+int ShiftMeter::slot_past_mouth(const vehicle::DriveSample& now) const noexcept {
   const bool behind = std::abs(now.lever.proxy.y) > gate_.half_aisle + gate_.chamfer;
   return behind ? haptics::slot_at(gate_, now.lever.proxy) : haptics::kNoSlot;
 }
 
 // True if the lever touches ring or dogs of a gear other than the one it came from.
 bool ShiftMeter::is_trying_another(const vehicle::DriveSample& now) const noexcept {
-  const int slot = slot_proper(now);
+  const int slot = slot_past_mouth(now);
   return vehicle::touches_dogs(now) && slot != haptics::kNoSlot &&
          haptics::slot_of(gate_, slot).gear != open_.record.from;
 }
@@ -106,16 +106,16 @@ bool ShiftMeter::is_pushing(const vehicle::DriveSample& now) const noexcept {
 }
 
 // True if the lever is still where it was when the last shift was abandoned.
-bool ShiftMeter::stays_where_left(const vehicle::DriveSample& now) const noexcept {
+bool ShiftMeter::is_where_abandoned(const vehicle::DriveSample& now) const noexcept {
   return left_slot_ != haptics::kNoSlot && haptics::slot_at(gate_, now.lever.proxy) == left_slot_ &&
          std::abs(std::abs(now.lever.proxy.y) - left_depth_) < kMinLeverMotion;
 }
 
 bool ShiftMeter::begins(const vehicle::DriveSample& now) const noexcept {
   if (pedal_.went_down()) return true;
-  if (stays_where_left(now)) return now.car.gear != gear_ || is_pushing(now);
+  if (is_where_abandoned(now)) return now.car.gear != gear_ || is_pushing(now);
   if (gear_ != haptics::kNeutralGear) return !rests_in(now, gear_);
-  return slot_proper(now) != haptics::kNoSlot || now.car.gear != haptics::kNeutralGear;
+  return slot_past_mouth(now) != haptics::kNoSlot || now.car.gear != haptics::kNeutralGear;
 }
 
 // True if another shift begins while the last one is pending or its clutch still slips.
@@ -124,7 +124,7 @@ bool ShiftMeter::begins_next(const vehicle::DriveSample& now) const noexcept {
 }
 
 void ShiftMeter::begin(const vehicle::DriveSample& now, bool throttle_was_on) {
-  open_ = Open{};
+  open_ = OpenShift{};
   open_.record.number = number_;
   open_.record.begin = open_.rest_since = now.time();
   open_.record.from = open_.record.to = gear_;
@@ -132,7 +132,7 @@ void ShiftMeter::begin(const vehicle::DriveSample& now, bool throttle_was_on) {
   open_.torque_before = torque_.value();
   open_.slip_before = last_.car.slip_energy;
   open_.lever_path = {now.lever.proxy, now.lever.lever, 0.0};
-  // After the request ends the force still fades for a while.
+  // After the request for guidance ends, the force takes this time to fade.
   open_.record.guided = now.time() - guided_at_ <= vehicle::kGuidanceFadeTime;
   if (!throttle_was_on) open_.record.steps.push_back(ShiftStep::throttle_off);
   stage_ = Stage::open;
@@ -148,7 +148,7 @@ void ShiftMeter::follow(const vehicle::DriveSample& now, double dt, bool throttl
   integrate_comfort(now, dt);
   integrate_path(now);
   update_rest(now);
-  if (is_taken_back()) stage_ = Stage::idle;
+  if (is_cancelled()) stage_ = Stage::idle;
   if (stage_ == Stage::idle || !has_ended(now)) return;
   if (open_.rest == Rest::given_up) {
     left_slot_ = haptics::slot_at(gate_, now.lever.proxy);
@@ -173,7 +173,7 @@ void ShiftMeter::follow_clutch(const vehicle::DriveSample& now) {
 
 // A gear is left when the lever leaves its rest position; neutral is left when the lever enters a slot.
 void ShiftMeter::follow_lever(const vehicle::DriveSample& now) {
-  const int slot = slot_proper(now);
+  const int slot = slot_past_mouth(now);
   const bool is_out =
       open_.record.from == haptics::kNeutralGear ? slot != haptics::kNoSlot : !rests_in(now, open_.record.from);
   if (is_out && !open_.left) open_.left_at = now.time();
@@ -190,7 +190,7 @@ void ShiftMeter::follow_lever(const vehicle::DriveSample& now) {
   open_.last_slot = slot;
 }
 
-// Steps within one sample, and two pedals moved together, count in the order that is taught.
+// Steps within one sample, and two pedals moved together, are recorded in the order taught.
 void ShiftMeter::follow_steps(const vehicle::DriveSample& now, bool throttle_was_on) {
   auto& steps = open_.record.steps;
   const int gear = now.car.gear, before = last_.car.gear;
@@ -229,7 +229,7 @@ void ShiftMeter::follow_gear(const vehicle::DriveSample& now) {
   open_.coupled = open_.gear_in && !pedal_.is_down();
 }
 
-// Compares engine and new gear just before the clutch transmits torque.
+// Compares the speeds of engine and new gear just before the clutch transmits torque.
 void ShiftMeter::measure_rev_error(const vehicle::DriveSample& now) {
   if (!open_.gear_in || open_.has_rev_error) return;
   const bool locks = now.car.clutch_locked && !pedal_.is_down();
@@ -261,7 +261,7 @@ void ShiftMeter::integrate(const vehicle::DriveSample& now, double dt) {
   if (size > kMinTorque && drive < kTorqueGapFraction * size) record.torque_gap += dt;
 }
 
-// Also integrates after the end of the shift, while the filter still responds to it.
+// Also called after the end of the shift, while the filter still responds to the shift.
 void ShiftMeter::integrate_comfort(const vehicle::DriveSample& now, double dt) {
   open_.record.jerk_peak = std::max(open_.record.jerk_peak, std::abs(filter_.jerk()));
   open_.fourth_power += area(fourth(last_.car.acceleration), fourth(now.car.acceleration), dt);
@@ -281,7 +281,7 @@ void ShiftMeter::end_path(const vehicle::DriveSample& now) {
   open_.record.path_efficiency = shortest > kMinPath ? std::max(1.0, open_.record.path_length / shortest) : 1.0;
 }
 
-bool ShiftMeter::is_taken_back() const noexcept {
+bool ShiftMeter::is_cancelled() const noexcept {
   return !pedal_.is_down() && !open_.left && !open_.dogs_out && !open_.tried;
 }
 
@@ -289,7 +289,7 @@ bool ShiftMeter::is_shift() const noexcept {
   return open_.dogs_out || open_.tried;
 }
 
-// Independent of the lever's position: it may be in a mouth, or off the rest position of an engaged gear.
+// Does not depend on where the lever is: it may be in a mouth, or off the rest position of an engaged gear.
 void ShiftMeter::update_rest(const vehicle::DriveSample& now) {
   Rest rest = pedal_.is_down() || is_pushing(now) ? Rest::busy : Rest::given_up;
   if (open_.coupled) rest = Rest::coupled;
@@ -315,7 +315,7 @@ void ShiftMeter::end(const vehicle::DriveSample& at, bool is_complete) {
       record.to == haptics::kNeutralGear ? open_.tried && !was_in(open_.tried_gear) : record.to == record.from;
   if (open_.gear_in) record.lever_time = open_.gear_in_at - open_.left_at;
   if (open_.clutch_used && open_.left) record.clutch_lead = open_.left_at - open_.clutch_down_at;
-  // A clutch released too early counts even if it was pressed again because the gear would not go in.
+  // A clutch released too early counts even if the driver pressed it again because the gear would not go in.
   const double last_up = !is_complete && pedal_.is_down() ? at.time() : pedal_.up_at();
   const double up_at = open_.early_up_at > 0.0 ? open_.early_up_at : last_up;
   if (open_.clutch_used && open_.gear_in) record.clutch_lag = up_at - open_.gear_in_at;

@@ -19,7 +19,7 @@
 namespace gearshift::lessons {
 
 // Integrals use the trapezoidal rule; times are accurate to one period. README.md in this folder defines what
-// shift_record.h leaves open. Not for the haptic thread: a record allocates.
+// shift_record.h leaves open. Do not use on the haptic thread: records allocate memory.
 class ShiftMeter {
  public:
   ShiftMeter(const vehicle::CarSpec& car, const haptics::Gate& gate);
@@ -28,8 +28,8 @@ class ShiftMeter {
   // the next one begins. A shift that is abandoned before the gear was left leaves no record.
   std::optional<ShiftRecord> add(const vehicle::DriveSample& sample);
 
-  // End of the drive: returns the shift in progress or pending, if it counts as one (a gear was lost or another one
-  // tried). Steps that were still to come do not count against it.
+  // Call at the end of the drive. Returns a pending shift, or the shift in progress if a gear was left or a different
+  // gear tried. Steps that were still to come do not count as out of place.
   std::optional<ShiftRecord> finish();
 
   bool is_open() const noexcept { return stage_ == Stage::open; }  // a shift has begun and not ended
@@ -41,36 +41,36 @@ class ShiftMeter {
   // coupled: gear in, clutch up; given_up: clutch up without a new gear, and no further attempt
   enum class Rest { busy, coupled, given_up };
 
-  struct LeverPath {         // of the lever, as a sum of chords
-    glm::dvec2 begin{0.0};   // [m] of the drawn lever
-    glm::dvec2 anchor{0.0};  // [m]
-    double length = 0.0;     // [m] up to the anchor
+  struct LeverPath {         // path of the lever as a sum of chords
+    glm::dvec2 begin{0.0};   // [m] first position of the proxy
+    glm::dvec2 anchor{0.0};  // [m] end of the last chord
+    double length = 0.0;     // [m] length up to the anchor
   };
 
-  struct Open {  // state of the current shift
+  struct OpenShift {  // state of the current shift
     ShiftRecord record;
     double torque_before = 0.0;   // [N m]
     double slip_before = 0.0;     // [J]
     double flare_base = 0.0;      // [rad/s]
     double clutch_down_at = 0.0;  // [s]
-    double throttle_on_at = 0.0;  // [s] last time
+    double throttle_on_at = 0.0;  // [s] last time the throttle was pressed
     double early_up_at = 0.0;     // [s] first time the clutch came up while the lever pressed on ring or dogs; 0: never
     double left_at = 0.0;         // [s]
     double gear_in_at = 0.0;      // [s]
     double rest_since = 0.0;      // [s]
-    double fourth_power = 0.0;    // [m^4/s^7] of the acceleration
+    double fourth_power = 0.0;    // [m^4/s^7] integral of the acceleration's fourth power
     Rest rest = Rest::busy;
     bool left = false;      // the lever has left the gear's rest position, or neutral
     bool dogs_out = false;  // the old gear was disengaged
-    bool tried = false;     // another gear was tried
+    bool tried = false;     // a gear other than the old one was tried
     bool gear_in = false;   // a gear has been engaged since the old one was left
-    bool coupled = false;   // and the clutch is up
+    bool coupled = false;   // gear_in, and the clutch is up
     bool clutch_used = false;
     bool clutch_is_down = false;
     bool has_rev_error = false;
     int tried_gear = haptics::kNeutralGear;
     std::array<bool, haptics::kMaxSlots> engaged{};  // gears engaged during the shift
-    int last_slot = haptics::kNoSlot;                // last slot that the lever was in past the mouth
+    int last_slot = haptics::kNoSlot;                // slot that the lever was in at the last sample, past the mouth
     std::array<int, haptics::kMaxSlots> entered{};
     LeverPath lever_path;
   };
@@ -87,7 +87,7 @@ class ShiftMeter {
   void integrate_comfort(const vehicle::DriveSample& now, double dt);
   void integrate_path(const vehicle::DriveSample& now);
   void end_path(const vehicle::DriveSample& now);
-  bool is_taken_back() const noexcept;
+  bool is_cancelled() const noexcept;
   void update_rest(const vehicle::DriveSample& now);
   bool has_ended(const vehicle::DriveSample& now) const noexcept;
   bool is_shift() const noexcept;
@@ -96,10 +96,10 @@ class ShiftMeter {
   ShiftRecord close();
 
   bool rests_in(const vehicle::DriveSample& now, int gear) const noexcept;
-  int slot_proper(const vehicle::DriveSample& now) const noexcept;
+  int slot_past_mouth(const vehicle::DriveSample& now) const noexcept;
   bool is_trying_another(const vehicle::DriveSample& now) const noexcept;
   bool is_pushing(const vehicle::DriveSample& now) const noexcept;
-  bool stays_where_left(const vehicle::DriveSample& now) const noexcept;
+  bool is_where_abandoned(const vehicle::DriveSample& now) const noexcept;
 
   vehicle::CarSpec car_;
   haptics::Gate gate_;
@@ -107,11 +107,11 @@ class ShiftMeter {
   RecentPeak torque_;
   JerkFilter filter_;
   Stage stage_ = Stage::idle;
-  Open open_;
+  OpenShift open_;
   vehicle::DriveSample last_;
   bool first_ = true;
   bool throttle_on_ = false;
-  int gear_ = haptics::kNeutralGear;  // last gear at rest
+  int gear_ = haptics::kNeutralGear;  // gear at the end of the last shift
   int left_slot_ = haptics::kNoSlot;  // slot where the lever stayed when the last shift was abandoned
   double left_depth_ = 0.0;           // [m]
   double guided_at_ = -1e9;           // [s] last time guidance was requested

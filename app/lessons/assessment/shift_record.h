@@ -12,11 +12,11 @@
 
 namespace gearshift::lessons {
 
-// The steps of a shift, in the order that is taught.
+// The steps of a shift, in the order that the lessons teach.
 enum class ShiftStep : std::uint8_t { throttle_off, clutch_down, neutral, gear, clutch_up, throttle_on };
 
 struct ShiftRecord {
-  std::int64_t number = 0;  // in its lesson run, from 0
+  std::int64_t number = 0;  // number within its lesson run, from 0
   double begin = 0.0;       // [s] on the loop's clock
   double end = 0.0;         // [s]
   int from = haptics::kNeutralGear;
@@ -24,15 +24,15 @@ struct ShiftRecord {
   bool guided = false;             // a guidance force was active or still fading: never graded
 
   // Time
-  double clutch_time = 0.0;  // [s] from the pedal passing the bite point downwards until it passes it upwards
+  double clutch_time = 0.0;  // [s] time with the pedal pressed beyond the bite point
   double lever_time = 0.0;   // [s] from leaving one gear to engaging the next
-  double torque_gap = 0.0;   // [s] with less than 5 % of the drive torque before the shift
+  double torque_gap = 0.0;   // [s] time with less than 5 % of the drive torque before the shift
 
   // Engine and clutch
-  double engine_speed = 0.0;     // [rad/s] at the beginning
+  double engine_speed = 0.0;     // [rad/s] engine speed at the beginning
   double slip_energy = 0.0;      // [J]
   double slip_power_peak = 0.0;  // [W]
-  // [rad/s] engine minus shaft when the clutch first transmits torque after the gear was engaged
+  // [rad/s] engine speed minus shaft speed when the clutch first transmits torque after the gear was engaged
   double rev_error = 0.0;
   double flare = 0.0;        // [rad/s] rise of engine speed while the clutch was down
   double clutch_lead = 0.0;  // [s] from clutch down to gear left; negative: gear left first
@@ -40,7 +40,7 @@ struct ShiftRecord {
   double clutch_lag = 0.0;
 
   // Comfort
-  double jerk_peak = 0.0;       // [m/s^3] of the acceleration after a 15 Hz second-order low-pass
+  double jerk_peak = 0.0;       // [m/s^3] largest jerk of the acceleration after a 15 Hz second-order low-pass
   double vibration_dose = 0.0;  // [m/s^1.75] VDV, ISO 2631-1: fourth-power dose of the acceleration, unweighted
 
   // Lever
@@ -48,16 +48,16 @@ struct ShiftRecord {
   double impulse = 0.0;          // [N s] integral of the hand's force over time
   double wall_work = 0.0;        // [J] work against the walls while penetration increases
   double path_length = 0.0;      // [m] travelled by the lever
-  double path_efficiency = 1.0;  // [1] path length over shortest path through the gate, >= 1
+  double path_efficiency = 1.0;  // [1] path length divided by the shortest path through the gate, >= 1
   double overshoot = 0.0;        // [m] largest penetration: distance of the lever from the drawn lever
-  int wrong_columns = 0;         // mouths entered off the path, except those of gears that were engaged
-  double block_time = 0.0;       // [s] pushing against a blocking synchroniser
+  int wrong_columns = 0;         // number of slots entered off the path, without those of gears that were engaged
+  double block_time = 0.0;       // [s] time against a blocking synchroniser
   double grind_time = 0.0;       // [s]
   double grind_energy = 0.0;     // [J]
-  bool missed = false;           // gave up, or returned to the same gear
+  bool missed = false;           // the driver gave up, or returned to the same gear
 
-  std::vector<ShiftStep> steps;  // as they happened
-  int steps_out_of_place = 0;    // edit distance to the nearest order that is taught
+  std::vector<ShiftStep> steps;  // in the order in which they happened
+  int steps_out_of_place = 0;    // edit distance to the nearest order that the lessons teach
 };
 
 }  // namespace gearshift::lessons

@@ -12,9 +12,9 @@ namespace {
 
 using Steps = std::vector<ShiftStep>;
 
-// Edit distances between all of a and the first j steps of b, for each j.
+// For each j, the edit distance between the whole of a and the first j steps of b.
 std::vector<int> edit_distances(std::span<const ShiftStep> a, std::span<const ShiftStep> b) {
-  std::vector<int> row(b.size() + 1);  // distances between the first i of a and the first j of b
+  std::vector<int> row(b.size() + 1);  // [j] distance between the first i steps of a and the first j of b
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 0; i < a.size(); ++i) {
     int diagonal = row[0]++;
@@ -34,7 +34,7 @@ Steps double_declutched() {
 }
 
 // All variants of `order` with a blip that starts between its first clutch down and its last clutch up. The blip ends
-// there, right after the clutch is up, or is held into the drive, where it replaces the final throttle step.
+// in the same range or right after it, or is held into the drive and replaces the final throttle step.
 std::vector<Steps> with_blip(const Steps& order) {
   const auto first = std::find(order.begin(), order.end(), ShiftStep::clutch_down) - order.begin() + 1;
   const auto last = order.rend() - std::find(order.rbegin(), order.rend(), ShiftStep::clutch_up) - 1;
@@ -76,12 +76,13 @@ std::vector<ShiftStep> taught_steps(int from, int to) {
 }
 
 int steps_out_of_place(std::span<const ShiftStep> steps, int from, int to, bool is_complete) {
-  int least = std::numeric_limits<int>::max();
+  int min_distance = std::numeric_limits<int>::max();
   for (const Steps& order : taught_orders(from, to)) {
     const std::vector<int> distances = edit_distances(steps, order);
-    least = std::min(least, *std::min_element(is_complete ? distances.end() - 2 : distances.begin(), distances.end()));
+    min_distance = std::min(min_distance,
+                            *std::min_element(is_complete ? distances.end() - 2 : distances.begin(), distances.end()));
   }
-  return least;
+  return min_distance;
 }
 
 OrderMistake first_order_mistake(std::span<const ShiftStep> steps, int from, int to) {

@@ -10,29 +10,29 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr std::size_t kLastResults = 3;  // [engineering value]
+constexpr std::size_t kLastResults = 3;  // engineering value
 
 bool was_passed(std::span<const PastResult> past, std::string_view lesson) {
   return std::any_of(past.begin(), past.end(), [&](const PastResult& r) { return r.passed && r.lesson == lesson; });
 }
 
-bool is_weaker(const TaskForm& a, const TaskForm& b) noexcept {
+bool is_weaker(const RecentResults& a, const RecentResults& b) noexcept {
   const int more = a.failed * b.runs - b.failed * a.runs;  // compares the fractions of failed runs
   return more != 0 ? more > 0 : a.grade < b.grade;
 }
 
-// One bad run is no weakness while the lesson is still being learnt.
-bool is_weak(const TaskForm& form, bool passed_once) noexcept {
+// One failed run is no weakness while the lesson is still being learnt.
+bool is_weak(const RecentResults& form, bool passed_once) noexcept {
   const bool tried = passed_once || form.runs >= static_cast<int>(kLastResults);
   return tried && 2 * form.failed >= form.runs;
 }
 
-// The weakest lesson that was passed once; with `only_weak`, the weakest among those that have become weak.
+// The weakest lesson that was passed once; with `only_weak`, the weakest lesson for which is_weak() is true.
 const Lesson* weakest(std::span<const Lesson> lessons, std::span<const PastResult> past, bool only_weak) {
   const Lesson* found = nullptr;
-  TaskForm lowest;
+  RecentResults lowest;
   for (const Lesson& lesson : lessons) {
-    const std::optional<TaskForm> form = task_form(past, lesson.task);
+    const std::optional<RecentResults> form = recent_results(past, lesson.task);
     if (!form) continue;
     const bool passed_once = was_passed(past, lesson.key);
     if (only_weak ? !is_weak(*form, passed_once) : !passed_once) continue;
@@ -43,8 +43,8 @@ const Lesson* weakest(std::span<const Lesson> lessons, std::span<const PastResul
   return found;
 }
 
-std::string weak_lesson_text(const Lesson& lesson, const TaskForm& form) {
-  return fmt::format("{} needs practice: {} of the last {} not passed, average grade {:.1f}.", lesson.title,
+std::string weak_lesson_text(const Lesson& lesson, const RecentResults& form) {
+  return fmt::format("{} needs practice: {} of the last {} attempts failed (average grade {:.1f}).", lesson.title,
                      form.failed, form.runs, form.grade);
 }
 
@@ -55,8 +55,8 @@ std::optional<PastResult> past_result(const LessonResult& result) {
   return PastResult{result.lesson, result.task, result.grade, result.passed};
 }
 
-std::optional<TaskForm> task_form(std::span<const PastResult> past, std::string_view task) {
-  TaskForm form;
+std::optional<RecentResults> recent_results(std::span<const PastResult> past, std::string_view task) {
+  RecentResults form;
   for (std::size_t i = past.size(); i > 0 && form.runs < static_cast<int>(kLastResults); --i) {
     if (past[i - 1].task != task) continue;
     ++form.runs;
@@ -69,22 +69,22 @@ std::optional<TaskForm> task_form(std::span<const PastResult> past, std::string_
 }
 
 std::optional<double> task_grade(std::span<const PastResult> past, std::string_view task) {
-  const std::optional<TaskForm> form = task_form(past, task);
+  const std::optional<RecentResults> form = recent_results(past, task);
   return form ? std::optional(form->grade) : std::nullopt;
 }
 
 std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const PastResult> past) {
   if (lessons.empty()) return std::nullopt;
   if (const Lesson* lesson = weakest(lessons, past, true)) {
-    return Suggestion{lesson->key, weak_lesson_text(*lesson, *task_form(past, lesson->task))};
+    return Suggestion{lesson->key, weak_lesson_text(*lesson, *recent_results(past, lesson->task))};
   }
   const auto open =
       std::find_if(lessons.begin(), lessons.end(), [&](const Lesson& lesson) { return !was_passed(past, lesson.key); });
   if (open != lessons.end()) return Suggestion{open->key, fmt::format("You haven't passed {} yet.", open->title)};
   const Lesson* lesson = weakest(lessons, past, false);
-  return Suggestion{lesson->key,
-                    fmt::format("All lessons passed; {} is the weakest, with a recent average grade of {:.1f}.",
-                                lesson->title, *task_grade(past, lesson->task))};
+  return Suggestion{
+      lesson->key, fmt::format("You have passed all lessons; {} is the weakest, with a recent average grade of {:.1f}.",
+                               lesson->title, *task_grade(past, lesson->task))};
 }
 
 }  // namespace gearshift::lessons

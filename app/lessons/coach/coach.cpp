@@ -68,10 +68,10 @@ struct Coach::State {
   std::optional<std::string> startup_problem;  // reason why there is no history
   CoachView view;
   std::optional<Lesson> lesson;
-  std::optional<LessonMode> chosen_mode;  // by the user, for this lesson
+  std::optional<LessonMode> chosen_mode;  // mode that the user chose for this lesson
   std::unique_ptr<LessonRun> run;         // the current or last trial
   std::optional<std::uint64_t> cycle;     // number of the trial's last cycle
-  ForceGap forces;                        // forces missing in the trial
+  ForceGap forces;                        // time without forces in the trial
   bool has_saved_run = false;             // the displayed trial has a saved or pending run
   bool is_view_stale = false;             // cycles were judged since the view was updated
   std::string settings, recording;
@@ -123,7 +123,7 @@ void Coach::set_help(bool on) {
 void Coach::offer(const Lesson& lesson) {
   state_->leave();
   if (!state_->lesson || state_->lesson->key != lesson.key) state_->chosen_mode.reset();
-  state_->lesson = lesson;  // may be the same object
+  state_->lesson = lesson;  // both may be the same object
   state_->memory.reload();
   state_->refresh_view();
   state_->offer();
@@ -218,7 +218,7 @@ void Coach::set_next(std::string_view lesson) {
   state_->refresh_view();
 }
 
-void Coach::comment(std::int64_t run, const std::string& author, const std::string& text) {
+void Coach::add_comment(std::int64_t run, const std::string& author, const std::string& text) {
   state_->check_run(run);
   check_user_text(UserText::name, "an instructor's name", author);
   check_user_text(UserText::comment, "a comment", text);
@@ -242,7 +242,7 @@ void Coach::delete_comment(std::int64_t run, std::int64_t comment) {
 void Coach::State::check_run(std::int64_t number) const {
   const std::vector<RunRow>& runs = memory.runs();
   const bool known = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) { return row.id == number; });
-  if (!known) throw std::invalid_argument("run " + std::to_string(number) + " is not one of this learner's");
+  if (!known) throw std::invalid_argument("run " + std::to_string(number) + " does not belong to this learner");
 }
 
 void Coach::State::check_comment(std::int64_t number, std::int64_t comment) {
@@ -250,7 +250,8 @@ void Coach::State::check_comment(std::int64_t number, std::int64_t comment) {
   const std::vector<CommentRow> all = memory.comments(number);
   const bool known = std::any_of(all.begin(), all.end(), [&](const CommentRow& row) { return row.id == comment; });
   if (!known)
-    throw std::invalid_argument("comment " + std::to_string(comment) + " is not one of run " + std::to_string(number));
+    throw std::invalid_argument("comment " + std::to_string(comment) + " does not belong to run " +
+                                std::to_string(number));
 }
 
 void Coach::State::refresh_view() {
@@ -315,7 +316,7 @@ void Coach::State::plan() {
   view.retention = planned.retention;
 }
 
-// Without prompts once the learner has passed it.
+// Every step is prompted until the learner has passed the lesson once.
 LessonMode Coach::State::usual_mode() const {
   const std::vector<RunRow>& runs = memory.runs();
   const bool passed = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) {
@@ -353,13 +354,13 @@ bool Coach::State::process_samples(std::span<const vehicle::DriveSample> samples
   return run->is_over();
 }
 
-// Detects a lost cycle, or one of another loop whose numbers start again.
+// Detects a lost cycle, and a restarted loop, which numbers its cycles from the start again.
 void Coach::State::check_cycle(const vehicle::DriveSample& sample) {
   if (cycle && sample.lever.cycle != *cycle + 1) run->mark_incomplete();
   cycle = sample.lever.cycle;
 }
 
-// Without forces a trial shows nothing of what was learnt: walls, gates and synchronisers are not felt.
+// A trial without forces does not show what was learnt: the learner feels no walls and no synchronisers.
 void Coach::State::check_forces(const vehicle::DriveSample& sample) {
   const bool was_long = forces.is_long();
   forces.add(sample, run->is_in_shift());
@@ -390,7 +391,7 @@ void Coach::State::finish_trial() {
   view.result = run->result();
   has_saved_run = memory.in_run();
   if (has_saved_run) memory.end_run(run->result());
-  memory.reload();  // the instructor may have chosen another lesson
+  memory.reload();  // the instructor may have chosen a different lesson
   const LessonResult& result = run->result();
   const bool finished = is_graded(result) && result.end != LessonEnd::left;
   if (finished && memory.next_lesson() == result.lesson) memory.set_next_lesson("");

@@ -20,13 +20,13 @@ enum class LessonPhase {
   over  // the result is shown
 };
 
-// A lesson of the list with the learner's results in it.
+// A lesson of the list, with the learner's results in this lesson.
 struct LessonStanding {
   std::string key, title, task;
-  int trials = 0;                // graded
-  std::optional<double> grade;   // [1] of 10, of the last graded trial
+  int trials = 0;                // number of graded trials
+  std::optional<double> grade;   // [1] of 10, grade of the last graded trial
   bool passed = false;           // a graded trial was passed
-  std::optional<double> best{};  // [1] of 10, of all graded trials
+  std::optional<double> best{};  // [1] of 10, best grade of all graded trials
 };
 
 struct CoachView {
@@ -37,22 +37,22 @@ struct CoachView {
   bool learner_deleted = false;  // another program deleted the learner; nothing is saved until the user chooses one
 
   // Choice of the lesson
-  std::vector<LessonStanding> lessons;  // in the order of teaching
+  std::vector<LessonStanding> lessons;  // in teaching order
   std::string next, next_why;           // lesson key and reason in one sentence; empty: none
   bool next_by_instructor = false;
 
   // Current trial
   LessonPhase phase = LessonPhase::none;
-  std::string lesson, title, goal;  // key, then text; empty in phase none
+  std::string lesson, title, goal;  // the lesson's key, title and goal; empty in phase none
   LessonMode mode = LessonMode::follow_me;
-  bool help_wanted = true;  // by the user; false: no trial is guided
+  bool help_wanted = true;  // chosen by the user; false: no trial is guided
   double guidance = 0.0;    // [1] gain of this trial; 0: the trial is graded
   HintStyle hints = HintStyle::prescriptive;
   bool retention = false;   // first trial after a day: unguided, without hints
-  LessonView now;           // driving and over
-  LessonResult result;      // so far, or final
-  double time_limit = 0.0;  // [s] of the lesson; 0: unknown
-  std::int64_t run = 0;     // number in the history; 0: not saved
+  LessonView now;           // set in phases driving and over
+  LessonResult result;      // result so far, or final result
+  double time_limit = 0.0;  // [s] time limit of the lesson; 0: no lesson
+  std::int64_t run = 0;     // number of the run in the history; 0: not saved
 
   // Past runs
   std::vector<RunRow> runs;                       // the learner's runs, newest first, at most kMaxRunsShown

@@ -5,8 +5,8 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kMaxGapInShifts = 1.0;  // [s] [engineering value]
-constexpr double kMaxGap = 3.0;          // [s] [engineering value]
+constexpr double kMaxGapInShifts = 1.0;  // [s] engineering value
+constexpr double kMaxGap = 3.0;          // [s] engineering value
 
 // The ramp after arming counts as forces: it takes only half a second.
 bool has_forces(haptics::GuardState state) noexcept {

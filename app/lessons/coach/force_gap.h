@@ -1,4 +1,4 @@
-// Measures how long the lever was without forces in a trial: STOP, forces off, a fault, or never armed.
+// Measures how long the lever had no forces during a trial, because of STOP, forces off, a fault, or not being armed.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ class ForceGap {
 
  private:
   double in_all_ = 0.0, in_shifts_ = 0.0;  // [s]
-  std::optional<double> time_;             // [s] of the last sample
+  std::optional<double> time_;             // [s] time of the last sample
 };
 
 }  // namespace gearshift::lessons

@@ -12,8 +12,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// A known learner is looked up by number: another one with the same name is a different person. Returns number 0 if
-// there is none.
+// Looks up a learner by number if it is known: a learner with the same name may be a different person. Returns a row
+// with number 0 if there is none.
 template <class Person>
 LearnerRow row_of(std::vector<LearnerRow> rows, const Person& person) {
   for (LearnerRow& row : rows) {
@@ -23,23 +23,23 @@ LearnerRow row_of(std::vector<LearnerRow> rows, const Person& person) {
   return {};
 }
 
-// Replaces a run that the history has only in part; inserts others by date.
-void merge_pending(std::vector<RunRow>& runs, const RunRow& kept) {
-  const auto same = std::find_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.id == kept.id; });
+// Replaces a run of which the history has only a part; inserts any other run by date.
+void merge_pending(std::vector<RunRow>& runs, const RunRow& pending) {
+  const auto same = std::find_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.id == pending.id; });
   if (same != runs.end()) {
-    *same = kept;
+    *same = pending;
     return;
   }
   const auto later =
-      std::find_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.begun_at > kept.begun_at; });
-  runs.insert(later, kept);
+      std::find_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.begun_at > pending.begun_at; });
+  runs.insert(later, pending);
 }
 
 }  // namespace
 
 LearnerMemory::LearnerMemory(const std::filesystem::path& history, std::string program, Clock now,
                              milliseconds lock_timeout)
-    : file_(history), program_(std::move(program)), now_(std::move(now)), patience_(lock_timeout) {
+    : file_(history), program_(std::move(program)), now_(std::move(now)), lock_timeout_(lock_timeout) {
   open(kHistoryLockTimeout);
 }
 
@@ -65,7 +65,7 @@ void LearnerMemory::open(milliseconds lock_timeout) {
   }
 }
 
-// Repeats a sentence only after the history has saved something in between.
+// Reports the same sentence again only after the history has saved something in between.
 void LearnerMemory::report(const std::string& problem) {
   if (problem != reported_) problem_ = reported_ = problem;
 }
@@ -73,7 +73,7 @@ void LearnerMemory::report(const std::string& problem) {
 template <class Work>
 bool LearnerMemory::read(const Work& work) {
   if (!history_) return false;
-  history_->set_lock_timeout(std::exchange(is_read_blocked_, true) ? kNoWait : patience_);
+  history_->set_lock_timeout(std::exchange(is_read_blocked_, true) ? kNoWait : lock_timeout_);
   try {
     work();
     is_read_blocked_ = false;
@@ -105,7 +105,7 @@ std::vector<std::string> LearnerMemory::learners() {
   return names;
 }
 
-// The learner selected before under that name, or a new one.
+// Returns the learner selected before under this name, or a new one.
 LearnerMemory::PersonPtr LearnerMemory::find_or_add_person(const std::string& name) {
   const auto known = std::find_if(people_.begin(), people_.end(),
                                   [&](const PersonPtr& person) { return person->name == name && !person->deleted; });
@@ -119,7 +119,7 @@ void LearnerMemory::set_learner(const std::string& name) {
   runs_.clear();
   next_.clear();
   load();
-  if (person_->deleted) {  // deleted since the last selection: this is a different learner
+  if (person_->deleted) {  // the learner was deleted since the last selection: start a new one
     person_ = find_or_add_person(name);
     load();
   }
@@ -128,7 +128,7 @@ void LearnerMemory::set_learner(const std::string& name) {
 
 void LearnerMemory::reload() {
   if (!history_) {
-    open(patience_);
+    open(lock_timeout_);
     if (history_) load();
   }
   bool changed = false;
@@ -165,54 +165,52 @@ void LearnerMemory::load() {
 bool LearnerMemory::drop_deleted() {
   const auto is_deleted = [](const PersonPtr& person) { return person->deleted; };
   const bool any = std::any_of(people_.begin(), people_.end(), is_deleted);
-  for (const PersonPtr& gone : std::exchange(people_, {})) {
-    if (!gone->deleted) {
-      people_.push_back(gone);
+  for (const PersonPtr& person : std::exchange(people_, {})) {
+    if (!person->deleted) {
+      people_.push_back(person);
       continue;
     }
-    const bool waited = drop_pending_of(gone);
-    if (gone == person_) load();
-    if (waited && gone != person_)
-      report(haptics::printable(gone->name) + " was deleted by another program: unsaved results are dropped.");
+    const bool waited = drop_pending_of(person);
+    if (person == person_) load();
+    if (waited && person != person_)
+      report("Another program deleted " + haptics::printable(person->name) + ", so the unsaved results were dropped.");
   }
   if (any && person_->deleted)
-    report(haptics::printable(person_->name) +
-           " was deleted by another program: this session is no longer saved; choose or enter a learner to "
-           "continue.");
+    report("Another program deleted " + haptics::printable(person_->name) +
+           ", so this session is no longer saved. Choose or enter a learner to continue.");
   return any;
 }
 
 // Drops a deleted learner's pending writes. The current or last run stays visible but has no learner. Returns true if
 // anything was pending.
-bool LearnerMemory::drop_pending_of(const PersonPtr& gone) {
+bool LearnerMemory::drop_pending_of(const PersonPtr& person) {
   const std::size_t before = pending_runs_.size() + pending_comments_.size() + pending_choices_.size();
   for (PendingRun& run : pending_runs_) {
-    if (run.owner != gone) continue;
+    if (run.owner != person) continue;
     if (!run.row.recording.empty()) unreferenced_recordings_.push_back(std::exchange(run.row.recording, ""));
     renumber(run, --last_local_id_);
   }
-  const auto is_missing_parent = [&](const auto& kept) { return kept.owner == gone; };
-  std::erase_if(pending_runs_,
-                [&](const PendingRun& run) { return is_missing_parent(run) && run.row.id != last_run_; });
-  std::erase_if(pending_comments_, is_missing_parent);
-  std::erase_if(pending_choices_, is_missing_parent);
-  std::erase_if(pending_removals_, is_missing_parent);
+  const auto is_owned = [&](const auto& entry) { return entry.owner == person; };
+  std::erase_if(pending_runs_, [&](const PendingRun& run) { return is_owned(run) && run.row.id != last_run_; });
+  std::erase_if(pending_comments_, is_owned);
+  std::erase_if(pending_choices_, is_owned);
+  std::erase_if(pending_removals_, is_owned);
   return pending_runs_.size() + pending_comments_.size() + pending_choices_.size() < before;
 }
 
 std::vector<CommentRow> LearnerMemory::comments(std::int64_t run) {
   std::vector<CommentRow> all;
   if (run > 0) read([&] { all = history_->comments(run); });
-  for (const PendingComment& kept : pending_comments_) {
-    if (kept.run != run) continue;
+  for (const PendingComment& pending : pending_comments_) {
+    if (pending.run != run) continue;
     const auto same =
-        std::find_if(all.begin(), all.end(), [&](const CommentRow& row) { return row.id == kept.row.id; });
-    if (kept.row.id < 0)
-      all.push_back(kept.row);
-    else if (same != all.end() && kept.deleted)
+        std::find_if(all.begin(), all.end(), [&](const CommentRow& row) { return row.id == pending.row.id; });
+    if (pending.row.id < 0)
+      all.push_back(pending.row);
+    else if (same != all.end() && pending.deleted)
       all.erase(same);
     else if (same != all.end())
-      same->text = kept.row.text, same->edited_at = kept.row.edited_at;
+      same->text = pending.row.text, same->edited_at = pending.row.edited_at;
   }
   return all;
 }
@@ -226,28 +224,28 @@ void LearnerMemory::add_comment(std::int64_t run, const std::string& author, con
 // A comment that is not saved yet is changed in place.
 void LearnerMemory::edit_comment(std::int64_t run, std::int64_t comment, const std::string& text) {
   const std::int64_t now = now_();
-  PendingComment* kept = find_pending_comment(comment);
-  if (!kept) kept = &pending_comments_.emplace_back(PendingComment{person_, run, now, {{}, {}, {}, comment}});
-  kept->row.text = text;
-  if (comment > 0) kept->at = now, kept->row.edited_at = format_utc(now);
+  PendingComment* pending = find_pending_comment(comment);
+  if (!pending) pending = &pending_comments_.emplace_back(PendingComment{person_, run, now, {{}, {}, {}, comment}});
+  pending->row.text = text;
+  if (comment > 0) pending->at = now, pending->row.edited_at = format_utc(now);
   write_now();
 }
 
 void LearnerMemory::delete_comment(std::int64_t run, std::int64_t comment) {
-  PendingComment* kept = find_pending_comment(comment);
+  PendingComment* pending = find_pending_comment(comment);
   if (comment < 0) {
     std::erase_if(pending_comments_, [&](const PendingComment& each) { return each.row.id == comment; });
     return;
   }
-  if (!kept) kept = &pending_comments_.emplace_back(PendingComment{person_, run, now_(), {{}, {}, {}, comment}});
-  kept->deleted = true;
+  if (!pending) pending = &pending_comments_.emplace_back(PendingComment{person_, run, now_(), {{}, {}, {}, comment}});
+  pending->deleted = true;
   write_now();
 }
 
 LearnerMemory::PendingComment* LearnerMemory::find_pending_comment(std::int64_t comment) noexcept {
-  const auto kept = std::find_if(pending_comments_.begin(), pending_comments_.end(),
-                                 [&](const PendingComment& each) { return each.row.id == comment; });
-  return kept == pending_comments_.end() ? nullptr : &*kept;
+  const auto found = std::find_if(pending_comments_.begin(), pending_comments_.end(),
+                                  [&](const PendingComment& each) { return each.row.id == comment; });
+  return found == pending_comments_.end() ? nullptr : &*found;
 }
 
 void LearnerMemory::set_next_lesson(const std::string& lesson) {
@@ -284,7 +282,7 @@ void LearnerMemory::end_run(const LessonResult& result) {
   write_now();
 }
 
-// A recording that the history does not reference yet is simply not written.
+// If the history does not reference the recording yet, its path is simply not written.
 void LearnerMemory::clear_recording() {
   for (RunRow& row : runs_) {
     if (row.id == last_run_) row.recording.clear();
@@ -300,10 +298,10 @@ void LearnerMemory::clear_recording() {
 }
 
 std::int64_t LearnerMemory::run_number() const noexcept {
-  const auto kept = std::find_if(pending_runs_.begin(), pending_runs_.end(),
-                                 [&](const PendingRun& run) { return run.row.id == last_run_; });
-  if (kept == pending_runs_.end()) return std::max<std::int64_t>(last_run_, 0);
-  const bool has_all = !kept->over && kept->shifts == kept->row.result.shifts.size();
+  const auto pending = std::find_if(pending_runs_.begin(), pending_runs_.end(),
+                                    [&](const PendingRun& run) { return run.row.id == last_run_; });
+  if (pending == pending_runs_.end()) return std::max<std::int64_t>(last_run_, 0);
+  const bool has_all = !pending->over && pending->shifts == pending->row.result.shifts.size();
   return has_all && last_run_ > 0 ? last_run_ : 0;
 }
 

@@ -1,8 +1,7 @@
-// Saves a learner's runs, comments and choices in the history, and keeps them in memory until the history has taken
-// them.
+// Saves a learner's runs, comments and choices in the history, and keeps them in memory until they are saved.
 //
-// Runs in the frame that also polls STOP. It waits for a file locked by another program only once, up to the lock
-// timeout; while the file stays locked, further attempts do not wait.
+// It runs in the frame loop, which also polls STOP. So only the first attempt waits for a file that another program has
+// locked, up to the lock timeout; while the file stays locked, further attempts do not wait.
 #pragma once
 
 #include <chrono>
@@ -20,7 +19,8 @@ namespace gearshift::lessons {
 
 // Problems of the history do not throw; each is reported once, in one sentence. Data that the history could not save is
 // kept in order and retried at each write and by retry_pending(). Learners are identified by their number in the
-// history, not by name: a learner who was deleted there is reported, dropped and never created again by later writes.
+// history, not by name: if a learner was deleted there, this is reported, the learner's pending data is dropped, and
+// later writes never create the learner again.
 class LearnerMemory {
  public:
   LearnerMemory(const std::filesystem::path& history, std::string program, Clock now,
@@ -29,10 +29,10 @@ class LearnerMemory {
   LearnerMemory(const LearnerMemory&) = delete;
   LearnerMemory& operator=(const LearnerMemory&) = delete;
 
-  // Also true while the history is locked for a moment
+  // True while results can be saved, and also while the history is locked for a moment.
   bool is_usable() const noexcept { return history_ && is_usable_ && !is_learner_deleted(); }
   std::optional<std::string> take_problem();
-  std::string problem() const { return problem_.value_or(""); }  // not yet taken, or empty
+  std::string problem() const { return problem_.value_or(""); }  // problem not yet taken, or empty
   std::vector<std::string> learners();                           // sorted by name
 
   // Selects the learner of that name, or a new one. Empty: no learner. Writes nothing yet.
@@ -47,20 +47,20 @@ class LearnerMemory {
   // Runs of this learner, oldest first, including those not saved yet; these have negative numbers until they are
   // saved.
   const std::vector<RunRow>& runs() const noexcept { return runs_; }
-  std::vector<CommentRow> comments(std::int64_t run);  // numbers are negative until saved
+  std::vector<CommentRow> comments(std::int64_t run);  // comments have negative numbers until they are saved
   void add_comment(std::int64_t run, const std::string& author, const std::string& text);
   void edit_comment(std::int64_t run, std::int64_t comment, const std::string& text);
   void delete_comment(std::int64_t run, std::int64_t comment);
   const std::string& next_lesson() const noexcept { return next_; }  // key, or empty
   void set_next_lesson(const std::string& lesson);
 
-  // A run, starting with its first sample.
+  // begin_run() and end_run() enclose a run; it begins with its first sample.
   void begin_run(const LessonResult& result, const std::string& settings, const std::string& recording);
   bool in_run() const noexcept { return in_run_; }
   void add_shift(const ShiftRecord& shift);
   void end_run(const LessonResult& result);
-  void clear_recording();  // removes it from the current or last run
-  // Number of the current or last run; 0: not completely saved so far.
+  void clear_recording();  // removes the recording from the current or last run
+  // Number of the current or last run; 0: some of its data is not saved yet.
   std::int64_t run_number() const noexcept;
 
   // Retries pending writes, a few times per second however often it is called. True: something was written, or a
@@ -81,7 +81,7 @@ class LearnerMemory {
 
   struct Person {
     std::string name;     // empty: no learner
-    std::int64_t id = 0;  // in the history; 0: not in it yet
+    std::int64_t id = 0;  // number in the history; 0: not there yet
     bool deleted = false;
   };
   using PersonPtr = std::shared_ptr<Person>;  // shared by all pending writes of one learner
@@ -119,24 +119,24 @@ class LearnerMemory {
     std::optional<std::string> settings;  // last settings written
   };
 
-  static constexpr const char* kWaitsForRoom = "; results are kept in memory until there is space";
+  static constexpr const char* kWaitsForRoom = "; new results are kept in memory until there is space";
 
   void open(std::chrono::milliseconds lock_timeout);
   void report(const std::string& problem);
   std::chrono::milliseconds current_lock_timeout() const;
   template <class Work>
-  bool read(const Work& work);  // false: failed, or no history
+  bool read(const Work& work);  // returns false on failure or without a history
   template <class Work>
   WriteResult try_write(Person& owner, std::int64_t at, const Work& work);
   PersonPtr find_or_add_person(const std::string& name);
   void load();
   bool drop_deleted();
-  bool drop_pending_of(const PersonPtr& gone);
+  bool drop_pending_of(const PersonPtr& person);
   bool waits_for_history(const Person& owner) const noexcept;
   bool is_waiting(const PendingRun& run) const noexcept;
   bool is_waiting(const PendingComment& comment) const noexcept;
   bool is_waiting(const PendingChoice& next) const noexcept;
-  bool is_waiting(const PendingRemoval& loss) const noexcept;
+  bool is_waiting(const PendingRemoval& removal) const noexcept;
   bool has_pending() const noexcept;
   std::string describe_pending() const;
   void write_now();
@@ -144,25 +144,25 @@ class LearnerMemory {
   WriteResult write(PendingRun& run);
   WriteResult write(PendingComment& comment);
   WriteResult write(PendingChoice& next);
-  WriteResult write(PendingRemoval& loss);
+  WriteResult write(PendingRemoval& removal);
   PendingComment* find_pending_comment(std::int64_t comment) noexcept;
   void begin(PendingRun& run);
   void renumber(PendingRun& run, std::int64_t number);
   std::int64_t session_for(const PendingRun& run);
   std::int64_t id_for(Person& person);
 
-  static constexpr std::chrono::milliseconds kNoWait{0};  // when the file is known to be locked
+  static constexpr std::chrono::milliseconds kNoWait{0};  // used while the file is known to be locked
 
   std::filesystem::path file_;
   std::string program_;
   Clock now_;
-  std::chrono::milliseconds patience_;
+  std::chrono::milliseconds lock_timeout_;
   std::optional<Moment> flush_deadline_;
   std::optional<std::int64_t> write_time_;  // [s] since 1970: date of the current write; empty: now
   std::unique_ptr<History> history_;
   bool is_usable_ = true;                             // the last write succeeded
-  bool is_locked_ = false, is_read_blocked_ = false;  // by another program, at the last attempt
-  bool is_disk_full_ = false;                         // at the last attempt
+  bool is_locked_ = false, is_read_blocked_ = false;  // locked by another program at the last attempt
+  bool is_disk_full_ = false;                         // the disk was full at the last attempt
   bool flush_failed_ = false;                         // the last flush failed and nothing was added since
   std::string reported_, reason_;                     // last reported problem; last reason why a write is pending
   std::string loss_message_;                          // last message about unsaved data

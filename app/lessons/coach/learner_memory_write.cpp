@@ -12,10 +12,10 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kRetryInterval{500};  // between attempts in consecutive frames
+constexpr milliseconds kRetryInterval{500};  // shortest time between two attempts
 constexpr milliseconds kMaxWriteTime{50};    // limit per frame for all pending writes
 
-// ", 2 runs", or empty for 0.
+// For example ", 2 runs"; empty for 0.
 std::string counted(std::ptrdiff_t count, const char* one, const char* many) {
   return count == 0 ? std::string() : fmt::format(", {} {}", count, count == 1 ? one : many);
 }
@@ -23,7 +23,7 @@ std::string counted(std::ptrdiff_t count, const char* one, const char* many) {
 }  // namespace
 
 milliseconds LearnerMemory::current_lock_timeout() const {
-  if (!flush_deadline_) return patience_;
+  if (!flush_deadline_) return lock_timeout_;
   return std::max(kNoWait, std::chrono::duration_cast<milliseconds>(*flush_deadline_ - steady_clock::now()));
 }
 
@@ -44,7 +44,7 @@ LearnerMemory::WriteResult LearnerMemory::try_write(Person& owner, std::int64_t 
   } catch (const HistoryBusy& problem) {
     is_locked_ = true;
     reason_ = problem.what();
-    report(waiting_message_ = reason_ + "; results are kept in memory until then");
+    report(waiting_message_ = reason_ + "; new results are kept in memory until they can be saved");
   } catch (const HistoryFull& problem) {
     is_usable_ = false;
     is_disk_full_ = true;
@@ -60,7 +60,7 @@ LearnerMemory::WriteResult LearnerMemory::try_write(Person& owner, std::int64_t 
   return result;
 }
 
-// False without a learner, for a deleted learner, and without a history file.
+// False if there is no learner or no history file, or if the learner was deleted.
 bool LearnerMemory::waits_for_history(const Person& owner) const noexcept {
   return !owner.name.empty() && !owner.deleted && !file_.empty();
 }
@@ -70,7 +70,7 @@ bool LearnerMemory::is_waiting(const PendingRun& run) const noexcept {
          (run.over || run.row.id < 0 || run.shifts < run.row.result.shifts.size());
 }
 
-// A comment waits until its run has a number in the history.
+// A comment can be written only once its run has a number in the history.
 bool LearnerMemory::is_waiting(const PendingComment& comment) const noexcept {
   return waits_for_history(*comment.owner) && !comment.written && comment.run > 0;
 }
@@ -79,12 +79,12 @@ bool LearnerMemory::is_waiting(const PendingChoice& next) const noexcept {
   return waits_for_history(*next.owner) && !next.written;
 }
 
-bool LearnerMemory::is_waiting(const PendingRemoval& loss) const noexcept {
-  return waits_for_history(*loss.owner) && !loss.written;
+bool LearnerMemory::is_waiting(const PendingRemoval& removal) const noexcept {
+  return waits_for_history(*removal.owner) && !removal.written;
 }
 
 bool LearnerMemory::has_pending() const noexcept {
-  const auto is_pending = [this](const auto& kept) { return is_waiting(kept); };
+  const auto is_pending = [this](const auto& entry) { return is_waiting(entry); };
   return std::any_of(pending_runs_.begin(), pending_runs_.end(), is_pending) ||
          std::any_of(pending_comments_.begin(), pending_comments_.end(), is_pending) ||
          std::any_of(pending_choices_.begin(), pending_choices_.end(), is_pending) ||
@@ -93,7 +93,7 @@ bool LearnerMemory::has_pending() const noexcept {
 
 // For example "2 runs, 1 comment".
 std::string LearnerMemory::describe_pending() const {
-  const auto is_pending = [this](const auto& kept) { return is_waiting(kept); };
+  const auto is_pending = [this](const auto& entry) { return is_waiting(entry); };
   // Counts comments on unsaved runs as well.
   const auto is_unsaved = [this](const PendingComment& comment) {
     return waits_for_history(*comment.owner) && !comment.written;
@@ -125,27 +125,27 @@ void LearnerMemory::flush() {
   flush_deadline_.reset();
   flush_failed_ = has_pending();
   const std::string unsaved = describe_pending();
-  // It was saved after all
+  // Everything was saved after all: drop the message about unsaved data.
   if (!flush_failed_ && (problem_ == loss_message_ || problem_ == waiting_message_)) problem_.reset();
   if (!unsaved.empty()) report(loss_message_ = fmt::format("{}; not saved: {}", reason_, unsaved));
 }
 
-// Writes in order: an entry that must wait holds up those behind it. Returns true if anything was written or a learner
+// Writes in order: an entry that must wait delays all later ones. Returns true if anything was written or a learner was
 // dropped.
 bool LearnerMemory::write_pending(Moment until) {
   if (!history_ || !has_pending()) return false;
   bool any = false, keep_going = true;
-  const auto write_one = [&](auto& kept) {
-    if (!keep_going || !is_waiting(kept)) return;
-    const WriteResult result = write(kept);
+  const auto write_one = [&](auto& entry) {
+    if (!keep_going || !is_waiting(entry)) return;
+    const WriteResult result = write(entry);
     any = any || result == WriteResult::done;
     keep_going = result != WriteResult::retry && steady_clock::now() < until;
   };
   for (PendingRun& run : pending_runs_) write_one(run);
   for (PendingComment& comment : pending_comments_) write_one(comment);
   for (PendingChoice& next : pending_choices_) write_one(next);
-  for (PendingRemoval& loss : pending_removals_) write_one(loss);
-  const auto is_written = [](const auto& kept) { return kept.written; };
+  for (PendingRemoval& removal : pending_removals_) write_one(removal);
+  const auto is_written = [](const auto& entry) { return entry.written; };
   std::erase_if(pending_runs_, is_written);
   std::erase_if(pending_comments_, is_written);
   std::erase_if(pending_choices_, is_written);
@@ -153,7 +153,7 @@ bool LearnerMemory::write_pending(Moment until) {
   return drop_deleted() || any;
 }
 
-// Writes the run's begin, its new shifts and its end, as far as they are known.
+// Writes the begin of the run, its new shifts and its end, as far as they are known.
 LearnerMemory::WriteResult LearnerMemory::write(PendingRun& run) {
   const std::vector<ShiftRecord>& shifts = run.row.result.shifts;
   WriteResult result = WriteResult::done;
@@ -190,9 +190,9 @@ LearnerMemory::WriteResult LearnerMemory::write(PendingChoice& next) {
   return result;
 }
 
-LearnerMemory::WriteResult LearnerMemory::write(PendingRemoval& loss) {
-  const WriteResult result = try_write(*loss.owner, loss.at, [&] { history_->clear_recording(loss.run); });
-  loss.written = result == WriteResult::done;
+LearnerMemory::WriteResult LearnerMemory::write(PendingRemoval& removal) {
+  const WriteResult result = try_write(*removal.owner, removal.at, [&] { history_->clear_recording(removal.run); });
+  removal.written = result == WriteResult::done;
   return result;
 }
 
@@ -201,7 +201,7 @@ void LearnerMemory::begin(PendingRun& run) {
   renumber(run, history_->begin_run(run.row.session, run.row.result, run.row.recording));
 }
 
-// Replaces the run's number everywhere.
+// Replaces the run's number wherever it is used.
 void LearnerMemory::renumber(PendingRun& run, std::int64_t number) {
   const std::int64_t before = std::exchange(run.row.id, number);
   for (RunRow& row : runs_) {
@@ -223,8 +223,7 @@ std::int64_t LearnerMemory::session_for(const PendingRun& run) {
   return session_->id;
 }
 
-// Creates only learners that never were in the history: a deleted learner's number stays as it is, so writes to it
-// fail.
+// Creates the learner only if it never was in the history. A deleted learner keeps its old number, so its writes fail.
 std::int64_t LearnerMemory::id_for(Person& person) {
   if (person.id == 0) person.id = history_->find_or_add_learner(person.name);
   return person.id;

@@ -12,11 +12,11 @@ namespace gearshift::lessons {
 
 struct PlannedTrial {
   TrialPlan plan;
-  bool retention = false;  // first trial after the pause: unguided, without hints
+  bool retention = false;  // first trial after kRetentionPause: unguided, without hints
 };
 
-// Replays all completed runs of the lesson, retention tests included, through the policy; runs ended early are left
-// out. The same runs give the same plan in any program. runs: of this learner, oldest first; now: [s] since 1970.
+// Feeds all completed runs of the lesson, including retention tests, to the policy; runs that ended early are left out.
+// The same runs always give the same plan. runs: all runs of this learner, oldest first; now: [s] since 1970.
 PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::span<const RunRow> runs,
                         std::int64_t now);
 

@@ -7,7 +7,8 @@
 
 namespace gearshift::lessons {
 
-// In the order kTeachingOrder. Throws FileError or std::runtime_error if the program's own files are missing.
+// Returns the lessons in the order of kTeachingOrder. Throws FileError or std::runtime_error if the program's own files
+// are missing.
 std::vector<Lesson> shipped_lessons();
 
 }  // namespace gearshift::lessons

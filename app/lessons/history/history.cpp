@@ -19,8 +19,9 @@ History::History(const std::filesystem::path& file, Clock now, std::chrono::mill
   } catch (const HistoryFull&) {
     std::error_code none;
     const bool is_new = std::filesystem::file_size(file, none) == 0 || none;
-    throw HistoryFull(fmt::format("{}: the disk is full: the history cannot be {}", file.string(),
-                                  is_new ? "made" : "opened; its content is unchanged"));
+    throw HistoryFull(fmt::format(
+        "{}: the history cannot be {}", file.string(),
+        is_new ? "created because the disk is full" : "opened because the disk is full; the file is unchanged"));
   }
 }
 
@@ -42,22 +43,23 @@ void History::State::fail(const SQLite::Exception& problem) const {
   sqlite3* const handle = database ? database->getHandle() : nullptr;
   if (is_missing_parent(problem)) fail_as_deleted();
   if (is_full(problem, handle))
-    throw HistoryFull(fmt::format("{}: the disk is full: not saved; earlier results are kept", file.string()));
-  const std::string sentence = unusable(reason_of(problem, handle));
+    throw HistoryFull(
+        fmt::format("{}: the disk is full, so nothing more can be saved; earlier results are kept", file.string()));
+  const std::string sentence = unusable_message(reason_of(problem, handle));
   if (is_busy(problem)) throw HistoryBusy(sentence);
   throw HistoryError(sentence);
 }
 
 void History::State::refuse(const std::string& why) const {
-  throw HistoryError(unusable(why));
+  throw HistoryError(unusable_message(why));
 }
 
 void History::State::fail_as_deleted() const {
-  throw HistoryDeleted(unusable(kDeleted));
+  throw HistoryDeleted(unusable_message(kDeleted));
 }
 
-std::string History::State::unusable(const std::string& why) const {
-  return fmt::format("{}: the history cannot be used: {}", file.string(), why);
+std::string History::State::unusable_message(const std::string& why) const {
+  return fmt::format("{}: the history cannot be used because {}", file.string(), why);
 }
 
 }  // namespace gearshift::lessons

@@ -22,7 +22,7 @@
 
 namespace gearshift::lessons {
 
-// One sentence that names the file and the reason: damaged, from a newer program, read-only, disk full, ...
+// what() is one sentence with the file and the reason: damaged, from a newer program, read-only, disk full, ...
 struct HistoryError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -33,7 +33,7 @@ struct HistoryBusy : HistoryError {  // another program has locked the file, per
 struct HistoryDeleted : HistoryError {  // the learner was erased, so the call can never succeed
   using HistoryError::HistoryError;
 };
-struct HistoryFull : HistoryError {  // disk full: nothing of this call was written, earlier data is kept
+struct HistoryFull : HistoryError {  // disk full: the call has written nothing; earlier data is kept
   using HistoryError::HistoryError;
 };
 
@@ -49,7 +49,7 @@ struct RunRow {
   std::int64_t session = 0;
   std::string begun_at;   // ISO 8601, UTC
   std::string recording;  // trace file: relative to the history's folder if below it, else absolute; or empty
-  LessonResult result;    // with faults, deductions and shifts; all figures are finite even in a damaged file
+  LessonResult result;    // with driving errors, deductions and shifts; all figures are finite even in a damaged file
 };
 
 // True if the run was driven to its end, whatever the result: runs ended early or never ended count neither as practice
@@ -67,29 +67,29 @@ struct CommentRow {
 
 using RecordingRemover = std::function<void(const std::vector<std::string>&)>;  // must not throw
 
-// How long to wait for another program that is writing
+// Default time for which a call waits for another program that is writing.
 inline constexpr std::chrono::milliseconds kHistoryLockTimeout{3000};
 
 enum class HistoryUse {
   write,  // creates a missing file and migrates an older one
-  // Works on a copy in memory of the current state: neither file nor folder needs write permission; writing calls throw
-  // HistoryError
+  // Works on a copy of the current state in memory: neither file nor folder needs write permission, and writing calls
+  // throw HistoryError.
   read
 };
 
 class History {
  public:
-  // Opens the file, or creates it and its folder; `now` dates what is written. Like every other call, throws
-  // HistoryError, or HistoryBusy if the file stayed locked for longer than lock_timeout.
+  // Opens the file, or creates it and its folder; `now` provides the dates that are written. Like all other functions,
+  // throws HistoryError, or HistoryBusy if the file stayed locked for longer than lock_timeout.
   explicit History(const std::filesystem::path& file, Clock now = system_seconds,
                    std::chrono::milliseconds lock_timeout = kHistoryLockTimeout, HistoryUse use = HistoryUse::write);
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
-  void set_lock_timeout(std::chrono::milliseconds lock_timeout);  // for each call; 0: do not wait
+  void set_lock_timeout(std::chrono::milliseconds lock_timeout);  // applies to each call; 0: do not wait
 
-  // Finds or adds the learner and returns the number. Throws std::invalid_argument for an invalid name.
+  // Finds or adds the learner and returns its number. Throws std::invalid_argument for an invalid name.
   std::int64_t find_or_add_learner(std::string_view name);
   std::optional<LearnerRow> find_learner(std::string_view name);
   std::vector<LearnerRow> learners();
@@ -103,7 +103,7 @@ class History {
   // relative path, so that both can be moved or copied together.
   std::int64_t begin_run(std::int64_t session, const LessonResult& result, std::string_view recording);
   void add_shift(std::int64_t run, const ShiftRecord& shift);
-  // Stores the final result; adds shifts that add_shift() has not seen.
+  // Stores the final result; adds shifts that were not added by add_shift().
   void end_run(std::int64_t run, const LessonResult& result);
   void clear_recording(std::int64_t run);  // the run has no recording any more
 
@@ -122,13 +122,13 @@ class History {
   // Recordings of this learner's runs that no other learner's run references, as stored.
   std::vector<std::string> recordings(std::int64_t learner);
 
-  // A different number than before means that another program, or another History, has written since.
+  // Returns a number that changes whenever another program, or another History, writes to the file.
   std::int64_t changes();
 
-  // Deletes the learner's rows and, through `remove`, the recordings that no one else references, in one transaction:
-  // if killed within it, the learner can be erased again. Returns empty once all of it is erased from the file and its
-  // log. Otherwise returns in one sentence what prevents that; the erasure is then pending until finish_erasure()
-  // succeeds, which returns the same.
+  // Deletes the learner's rows and, through `remove`, the recordings that no other learner references, in one
+  // transaction: if the process is killed during it, the learner can be erased again. Returns an empty string once the
+  // data is erased from the file and its log; otherwise one sentence on what prevents that, and the erasure stays
+  // pending until finish_erasure() succeeds. finish_erasure() returns the same.
   [[nodiscard]] std::string erase_learner(std::int64_t learner, const RecordingRemover& remove);
   bool erasure_is_pending();
   [[nodiscard]] std::string finish_erasure();

@@ -18,13 +18,13 @@ std::vector<std::string> recordings_of(SQLite::Database& database, std::int64_t 
   return recordings;
 }
 
-// Empties the log. Returns what prevents that, or empty; SQLite does not treat a reader as an error.
+// Empties the write-ahead log. Returns what prevents that, or empty. SQLite reports no error if another program reads.
 std::string empty_log(SQLite::Database& database) {
-  const bool is_kept = database.execAndGet("PRAGMA wal_checkpoint(TRUNCATE)").getInt() != 0;
-  return is_kept ? "another program is reading it" : "";
+  const bool is_busy = database.execAndGet("PRAGMA wal_checkpoint(TRUNCATE)").getInt() != 0;
+  return is_busy ? "another program is reading it" : "";
 }
 
-// Returns the error of `work`, or its result.
+// Returns the result of `work`, or the reason why it failed.
 template <class Work>
 std::string try_to(SQLite::Database& database, const Work& work) {
   try {
@@ -55,8 +55,8 @@ std::string History::erase_learner(std::int64_t learner, const RecordingRemover&
       removed = !recordings.empty();
     });
   } catch (const HistoryFull&) {
-    throw HistoryFull(fmt::format("{}: the disk is full: {}; delete again when there is space", file().string(),
-                                  removed ? "the recordings were deleted, nothing else" : "nothing was deleted"));
+    throw HistoryFull(fmt::format("{}: the disk is full, so {}; delete again when there is space", file().string(),
+                                  removed ? "only the recordings were deleted" : "nothing was deleted"));
   }
   return finish_erasure();
 }
@@ -81,7 +81,8 @@ std::string History::finish_erasure() {
   if (left.empty()) left = log;
   if (left.empty()) left = exec("DELETE FROM pending_erasure");
   if (left.empty()) return {};
-  return fmt::format("{}: deleted data is not yet erased from the file: {}; delete again later", file().string(), left);
+  return fmt::format("{}: deleted data is not yet erased from the file because {}; delete again later", file().string(),
+                     left);
 }
 
 }  // namespace gearshift::lessons

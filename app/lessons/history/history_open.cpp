@@ -33,18 +33,18 @@ bool has_content(const fs::path& file) {
 
 // True if the log's index cannot be created: no permission or no space. If the disk itself does not respond, the second
 // attempt fails with the same error.
-bool lacks_index(const SQLite::Exception& problem) {
+bool cannot_create_index(const SQLite::Exception& problem) {
   const int code = primary_code(problem);
   return code == SQLITE_CANTOPEN || code == SQLITE_READONLY || code == SQLITE_IOERR;
 }
 
-// Checks write permission of the current user. Without it SQLite would open the file for reading and leave a log that
-// no one may write.
-bool may_be_written(const fs::path& file) {
+// Checks the current user's write permission. Without permission SQLite would open the file for reading and leave a log
+// that no one may write.
+bool is_writable(const fs::path& file) {
   return euidaccess(file.c_str(), W_OK) == 0;
 }
 
-bool is_there(const fs::path& file) {
+bool file_exists(const fs::path& file) {
   std::error_code ignored;
   return fs::exists(file, ignored);
 }
@@ -56,12 +56,12 @@ FileStamp stamp_of(const fs::path& file) {
   return {fs::last_write_time(file, ignored), fs::file_size(file, ignored)};
 }
 
-// sqlite.org/uri.html, section 3.1
+// The file as a URI that opens it as immutable: sqlite.org/uri.html, section 3.1.
 std::string immutable_uri(const std::string& absolute) {
   std::string uri = "file:";
   for (const char c : absolute) {
-    const bool has_meaning = c == '?' || c == '#' || c == '%';
-    uri += has_meaning ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
+    const bool is_reserved = c == '?' || c == '#' || c == '%';
+    uri += is_reserved ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
   }
   return uri + "?immutable=1";
 }
@@ -72,10 +72,10 @@ void History::State::open() {
   std::error_code problem;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), problem);
   if (problem == std::errc::no_space_on_device) throw HistoryFull(problem.message());
-  if (problem) refuse(fmt::format("its folder cannot be created: {}", problem.message()));
+  if (problem) refuse(fmt::format("its folder cannot be created ({})", problem.message()));
   const std::string from = absolute_path();
-  check_may_be_written(from);
-  const bool has_log = is_there(from + "-wal");
+  check_writable(from);
+  const bool has_log = file_exists(from + "-wal");
   translating_errors([&] {
     database = std::make_unique<SQLite::Database>(from, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                                                   static_cast<int>(lock_timeout.count()));
@@ -89,12 +89,13 @@ void History::State::open() {
   });
 }
 
-// A log left by a program without write permission blocks all writers, so it is named in the error, to be removed.
-void History::State::check_may_be_written(const std::string& from) const {
-  if (is_there(from) && !may_be_written(from)) refuse("no permission to write it");
-  for (const char* beside : {"-wal", "-shm"}) {
-    if (is_there(from + beside) && !may_be_written(from + beside))
-      refuse(fmt::format("no permission to write {}{} beside it", file.filename().string(), beside));
+// A log left by a program without write permission blocks all writers. The error names the log so that the user can
+// remove it.
+void History::State::check_writable(const std::string& from) const {
+  if (file_exists(from) && !is_writable(from)) refuse("you have no permission to write to it");
+  for (const char* suffix : {"-wal", "-shm"}) {
+    if (file_exists(from + suffix) && !is_writable(from + suffix))
+      refuse(fmt::format("you have no permission to write to {}{} beside it", file.filename().string(), suffix));
   }
 }
 
@@ -106,7 +107,7 @@ void History::State::open_copy() {
     try {
       copy_locked(from);
     } catch (const SQLite::Exception& problem) {
-      if (!lacks_index(problem)) throw;
+      if (!cannot_create_index(problem)) throw;
       copy_immutable(from);
     }
     if (checked_version() != kSchemaVersion) migrate();
@@ -117,15 +118,15 @@ void History::State::open_copy() {
 // Copies the file with its log, if there is one. For a file without write permission no log is created: a log made by
 // such a reader could not be written by anyone else either.
 void History::State::copy_locked(const std::string& from) {
-  const bool has_log = is_there(from + "-wal");
-  if (is_there(from) && !may_be_written(from) && !(has_log && is_there(from + "-shm"))) return copy_immutable(from);
+  const bool has_log = file_exists(from + "-wal");
+  if (file_exists(from) && !is_writable(from) && !(has_log && file_exists(from + "-shm"))) return copy_immutable(from);
   SQLite::Database source(from, SQLite::OPEN_READWRITE, static_cast<int>(lock_timeout.count()));
   if (has_log) keep_log_at_close(source, true);
   copy_from(source);
 }
 
 // Even a reader writes to the log's index. If the index cannot be created, the file is opened as immutable
-// (sqlite.org/wal.html, "Read-Only Databases"). So it must have no log and be unchanged afterwards.
+// (sqlite.org/wal.html, "Read-Only Databases"). So there must be no log, and the file must be unchanged afterwards.
 void History::State::copy_immutable(const std::string& from) {
   if (has_content(from + "-wal"))
     refuse("it has a write-ahead log, which only a program with write permission in that folder can read");
@@ -133,7 +134,7 @@ void History::State::copy_immutable(const std::string& from) {
   SQLite::Database source(immutable_uri(from), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
   copy_from(source);
   if (stamp_of(from) != before || has_content(from + "-wal"))
-    throw HistoryBusy(unusable("another program is writing it"));
+    throw HistoryBusy(unusable_message("another program is writing to it"));
 }
 
 void History::State::copy_from(SQLite::Database& source) {
@@ -146,17 +147,17 @@ void History::State::copy_from(SQLite::Database& source) {
 std::string History::State::absolute_path() const {
   std::error_code problem;
   std::string absolute = fs::absolute(file, problem).string();
-  if (problem) refuse(fmt::format("it cannot be found: {}", problem.message()));
-  if (fs::is_directory(absolute, problem)) refuse("it cannot be read: it is a folder");
-  if (is_there(absolute) && !fs::is_regular_file(absolute, problem)) refuse("it is not a regular file");
+  if (problem) refuse(fmt::format("it cannot be found ({})", problem.message()));
+  if (fs::is_directory(absolute, problem)) refuse("it is a folder, not a file");
+  if (file_exists(absolute) && !fs::is_regular_file(absolute, problem)) refuse("it is not a regular file");
   return absolute;
 }
 
 // Checks in one transaction, because another program may be creating the file at this moment.
 int History::State::checked_version() {
-  SQLite::Transaction look(*database);
+  SQLite::Transaction snapshot(*database);
   const int version = version_in_file();
-  if (database->execAndGet("PRAGMA quick_check(1)").getString() != "ok") refuse("it is damaged; left unchanged");
+  if (database->execAndGet("PRAGMA quick_check(1)").getString() != "ok") refuse("it is damaged; the file is unchanged");
   return version;
 }
 
@@ -165,16 +166,18 @@ int History::State::version_in_file() {
   const int application = database->execAndGet("PRAGMA application_id").getInt();
   const int version = database->execAndGet("PRAGMA user_version").getInt();
   const bool is_empty = database->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
-  const bool is_ours = application == kApplicationId;
-  if (is_ours && version > kSchemaVersion) refuse("it was made by a newer program; left unchanged");
-  const bool is_new = is_empty && version == 0 && (is_ours || application == 0);
-  if (!is_new && (is_empty || !is_ours || version < 1)) refuse("it is not a history of this program; left unchanged");
+  const bool is_history = application == kApplicationId;
+  if (is_history && version > kSchemaVersion)
+    refuse("it was written by a newer version of gearshift; the file is unchanged");
+  const bool is_new = is_empty && version == 0 && (is_history || application == 0);
+  if (!is_new && (is_empty || !is_history || version < 1))
+    refuse("it is not a history of this program; the file is unchanged");
   return version;
 }
 
 void History::State::migrate() {
   SQLite::Transaction transaction(*database, SQLite::TransactionBehavior::IMMEDIATE);
-  // Another program may have migrated it in the meantime.
+  // Another program may have migrated the file in the meantime.
   for (int from = version_in_file(); from < kSchemaVersion; ++from) {
     database->exec(kMigrations[static_cast<std::size_t>(from)]);
     if (from + 1 == kRelativeRecordingsVersion) make_recordings_relative();
@@ -184,14 +187,14 @@ void History::State::migrate() {
   transaction.commit();
 }
 
-// A deleted file accepts all writes, but no one could ever read them.
+// Fails if the file was removed, replaced or upgraded. A removed file would accept writes that no one can ever read.
 void History::State::check_still_current() {
   int has_moved = 0;
   sqlite3_file_control(database->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
   if (has_moved != 0) refuse("it was removed or replaced");
   const int version = database->execAndGet("PRAGMA user_version").getInt();
-  if (version > kSchemaVersion) refuse("a newer program has upgraded it; left unchanged");
-  if (version != kSchemaVersion) refuse("another program has changed its version; left unchanged");
+  if (version > kSchemaVersion) refuse("a newer version of gearshift has upgraded it; the file is unchanged");
+  if (version != kSchemaVersion) refuse("another program has changed its version; the file is unchanged");
 }
 
 // Switching to a write-ahead log needs exclusive access for a moment, and SQLite does not wait for that by itself.
@@ -205,7 +208,7 @@ void History::State::enable_write_ahead_log() {
       sqlite3_sleep(static_cast<int>(kRetryInterval.count()));
     }
   }
-  // A killed process loses nothing; a power failure loses the last seconds
+  // A killed process loses nothing; a power failure loses the last seconds.
   database->exec("PRAGMA synchronous = NORMAL");
 }
 

@@ -6,7 +6,7 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr double kMaxPoints = 10.0;
-constexpr std::int64_t kMaxShifts = 1'000'000;  // per run, numbered from 0
+constexpr std::int64_t kMaxShifts = 1'000'000;  // limit per run; shifts are numbered from 0
 
 bool is_shift_number(std::int64_t number) noexcept {
   return number >= 0 && number < kMaxShifts;
@@ -16,19 +16,20 @@ bool is_gear(std::int64_t gear) noexcept {
   return gear >= haptics::kReverseGear && gear <= haptics::kMaxGear;
 }
 
-// Reads shifts and faults run by run, with prepared statements.
+// Reads shifts and driving errors run by run, with prepared statements.
 class RunParts {
  public:
   explicit RunParts(SQLite::Database& database)
-      : shifts_(database, "SELECT number, from_gear, to_gear, guided, missed, steps" + figure_names() +
-                              " FROM shift WHERE run = ? ORDER BY number"),
-        faults_(database,
-                "SELECT kind, severity, time_s, value, shift, points, step, wanted_s FROM fault WHERE run = ? ORDER BY "
-                "number") {}
+      : shift_rows_(database, "SELECT number, from_gear, to_gear, guided, missed, steps" + figure_names() +
+                                  " FROM shift WHERE run = ? ORDER BY number"),
+        error_rows_(
+            database,
+            "SELECT kind, severity, time_s, value, shift, points, step, wanted_s FROM fault WHERE run = ? ORDER BY "
+            "number") {}
 
   void read(std::int64_t run, LessonResult& result) {
-    for (begin(shifts_, run); shifts_.executeStep();) read_shift(result);
-    for (begin(faults_, run); faults_.executeStep();) read_fault(result);
+    for (begin(shift_rows_, run); shift_rows_.executeStep();) read_shift(result);
+    for (begin(error_rows_, run); error_rows_.executeStep();) read_error(result);
   }
 
  private:
@@ -39,38 +40,38 @@ class RunParts {
 
   // Skips a shift between impossible gears, or with an impossible number.
   void read_shift(LessonResult& result) {
-    const std::int64_t from = shifts_.getColumn(1).getInt64(), to = shifts_.getColumn(2).getInt64();
-    const std::int64_t number = shifts_.getColumn(0).getInt64();
+    const std::int64_t from = shift_rows_.getColumn(1).getInt64(), to = shift_rows_.getColumn(2).getInt64();
+    const std::int64_t number = shift_rows_.getColumn(0).getInt64();
     if (!is_gear(from) || !is_gear(to) || !is_shift_number(number)) return;
     ShiftRecord shift;
     shift.number = number;
     shift.from = static_cast<int>(from);
     shift.to = static_cast<int>(to);
-    shift.guided = flag_in(shifts_, 3);
-    shift.missed = flag_in(shifts_, 4);
-    shift.steps = parse_steps(shifts_.getColumn(5).getString());
+    shift.guided = flag_in(shift_rows_, 3);
+    shift.missed = flag_in(shift_rows_, 4);
+    shift.steps = parse_steps(shift_rows_.getColumn(5).getString());
     int index = 6;
     each_figure(shift, [&](const char*, auto& value) {
-      value = static_cast<std::remove_reference_t<decltype(value)>>(figure_in(shifts_, index++));
+      value = static_cast<std::remove_reference_t<decltype(value)>>(figure_in(shift_rows_, index++));
     });
     result.shifts.push_back(std::move(shift));
   }
 
-  void read_fault(LessonResult& result) {
-    const std::optional<ErrorKind> kind = error_kind_of(faults_.getColumn(0).getString());
-    if (!kind) return;  // written by another version of the program
-    const double points = std::clamp(figure_in(faults_, 5), 0.0, kMaxPoints);
+  void read_error(LessonResult& result) {
+    const std::optional<ErrorKind> kind = error_kind_of(error_rows_.getColumn(0).getString());
+    if (!kind) return;  // written by a different version of the program
+    const double points = std::clamp(figure_in(error_rows_, 5), 0.0, kMaxPoints);
     if (points > 0.0) result.deductions.push_back({result.errors.size(), points});
-    const std::int64_t shift = faults_.getColumn(4).getInt64();
-    result.errors.push_back({*kind, enum_in(faults_, 1, Severity::very_severe), figure_in(faults_, 2),
-                             figure_in(faults_, 3), is_shift_number(shift) ? shift : -1,
-                             faults_.getColumn(6).getString(), figure_in(faults_, 7)});
+    const std::int64_t shift = error_rows_.getColumn(4).getInt64();
+    result.errors.push_back({*kind, enum_in(error_rows_, 1, Severity::very_severe), figure_in(error_rows_, 2),
+                             figure_in(error_rows_, 3), is_shift_number(shift) ? shift : -1,
+                             error_rows_.getColumn(6).getString(), figure_in(error_rows_, 7)});
   }
 
-  SQLite::Statement shifts_, faults_;
+  SQLite::Statement shift_rows_, error_rows_;
 };
 
-// In the order of the SELECT in History::runs().
+// The columns are in the order of the SELECT in History::runs().
 RunRow run_in(const SQLite::Statement& row) {
   RunRow run{row.getColumn(0).getInt64(),
              row.getColumn(1).getInt64(),

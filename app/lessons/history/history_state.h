@@ -1,4 +1,4 @@
-// Private to this folder: state shared by the parts of History. SQLite is not visible outside.
+// Private to this folder: the state that the parts of History share. SQLite is not visible outside this folder.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -15,25 +15,25 @@
 namespace gearshift::lessons {
 
 struct History::State {
-  State(const std::filesystem::path& path, Clock clock, std::chrono::milliseconds a_patience)
-      : file(path), now(std::move(clock)), lock_timeout(a_patience) {}
+  State(const std::filesystem::path& path, Clock clock, std::chrono::milliseconds timeout)
+      : file(path), now(std::move(clock)), lock_timeout(timeout) {}
 
   // history_open.cpp
-  void open();       // for writing; creates a missing file
-  void open_copy();  // for reading: copies whatever is readable into memory
+  void open();       // opens the file for writing; creates it if it is missing
+  void open_copy();  // copies the file into memory, for reading
 
   // history_write.cpp
   void insert_shift(std::int64_t run, const ShiftRecord& shift);
-  void replace_faults(std::int64_t run, const LessonResult& result);
+  void replace_errors(std::int64_t run, const LessonResult& result);
 
   // recording_path.cpp
-  std::string relative_recording(const std::string& recording) const;  // as stored in a row
+  std::string relative_recording(const std::string& recording) const;  // path as stored in a row
 
   std::string date() const { return format_utc(now()); }
   SQLite::Statement query(const std::string& text) { return {*database, text}; }
 
-  // Runs `work` in one transaction and translates errors to one sentence. Fails if the file is no longer the one that
-  // was opened.
+  // Runs `work` in one transaction and turns SQLite's exceptions into HistoryError. Fails if the file is no longer the
+  // one that was opened.
   template <class Work>
   auto write(const Work& work) {
     return translating_errors([&] {
@@ -57,10 +57,10 @@ struct History::State {
       fail(problem);
     }
   }
-  std::string unusable(const std::string& why) const;
+  std::string unusable_message(const std::string& why) const;
   [[noreturn]] void fail(const SQLite::Exception& problem) const;
   [[noreturn]] void refuse(const std::string& why) const;
-  [[noreturn]] void fail_as_deleted() const;  // the learner, run or comment it belongs to was deleted
+  [[noreturn]] void fail_as_deleted() const;  // the learner, run or comment to be written to was deleted
 
   std::filesystem::path file;
   Clock now;
@@ -70,7 +70,7 @@ struct History::State {
  private:
   std::string absolute_path() const;
   void check_still_current();
-  void check_may_be_written(const std::string& from) const;
+  void check_writable(const std::string& from) const;
   void make_recordings_relative();
   int checked_version();
   int version_in_file();

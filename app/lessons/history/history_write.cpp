@@ -26,7 +26,7 @@ void History::State::insert_shift(std::int64_t run, const ShiftRecord& shift) {
   insert.exec();
 }
 
-void History::State::replace_faults(std::int64_t run, const LessonResult& result) {
+void History::State::replace_errors(std::int64_t run, const LessonResult& result) {
   SQLite::Statement deletion = query("DELETE FROM fault WHERE run = ?");
   deletion.bind(1, run);
   deletion.exec();
@@ -37,7 +37,7 @@ void History::State::replace_faults(std::int64_t run, const LessonResult& result
     const DrivingError& error = result.errors[i];
     insert.bind(1, run);
     insert.bind(2, static_cast<std::int64_t>(i));
-    insert.bind(3, std::string(error_key(error.kind)));
+    insert.bind(3, std::string(to_string(error.kind)));
     insert.bind(4, static_cast<int>(error.severity));
     bind_figure(insert, 5, error.time);
     bind_figure(insert, 6, error.value);
@@ -139,7 +139,7 @@ void History::end_run(std::int64_t run, const LessonResult& result) {
     update.bind(11, run);
     if (update.exec() == 0) state_->fail_as_deleted();
     for (const ShiftRecord& shift : result.shifts) state_->insert_shift(run, shift);
-    state_->replace_faults(run, result);
+    state_->replace_errors(run, result);
   });
 }
 

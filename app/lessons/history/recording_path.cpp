@@ -38,7 +38,7 @@ fs::path folder_of(const fs::path& history) {
 
 }  // namespace
 
-// Compares the paths as given first, so that a link within the folder moves with it; then with links resolved.
+// First compares the paths as given, so that a link in the history's folder can move with it; then resolves links.
 std::string History::State::relative_recording(const std::string& recording) const {
   const fs::path trace(recording), folder = folder_of(file);
   if (!trace.is_absolute()) return recording;

@@ -1,4 +1,4 @@
-// The tables, and the migrations that bring an older file up to date.
+// The tables of the history, and the migrations that bring an older file up to date.
 #pragma once
 
 #include <array>
@@ -134,12 +134,12 @@ ALTER TABLE new_run RENAME TO lesson_run;
 CREATE INDEX session_of_learner ON session (learner);
 CREATE INDEX run_of_session ON lesson_run (session);
 )sql",
-    // 3: which step was slow, and its time limit.
+    // 3: for slow_step, stores the prompt of the slow step and its time limit.
     R"sql(
 ALTER TABLE fault ADD COLUMN step TEXT NOT NULL DEFAULT '';
 ALTER TABLE fault ADD COLUMN wanted_s REAL NOT NULL DEFAULT 0;
 )sql",
-    // 4: a row means that erased data may still be in the log or in free pages.
+    // 4: a row in pending_erasure means that erased data may still be in the log or in free pages.
     R"sql(
 CREATE TABLE pending_erasure (
   since TEXT NOT NULL);

@@ -14,7 +14,7 @@
 
 namespace gearshift::lessons {
 
-// Limits numbers to finite values below 1e9; a value that is not finite becomes 0, like one never measured.
+// Both functions limit numbers to 1e9 in magnitude; a value that is not finite becomes 0, like a value never measured.
 void bind_figure(SQLite::Statement& statement, int index, double value);
 double figure_in(const SQLite::Statement& row, int index);
 

@@ -7,7 +7,7 @@
 namespace gearshift::lessons {
 namespace {
 
-// Errors of a backup carry their code as the primary one.
+// An error from a backup has no extended code: its primary code contains it.
 int extended_code(const SQLite::Exception& problem) noexcept {
   return problem.getExtendedErrorCode() >= 0 ? problem.getExtendedErrorCode() : problem.getErrorCode();
 }
@@ -26,8 +26,8 @@ bool is_busy(const SQLite::Exception& problem) noexcept {
   return primary_code(problem) == SQLITE_BUSY || primary_code(problem) == SQLITE_LOCKED;
 }
 
-// SQLite reports a full disk only for the file: growing the log's index fails with another code, and an exceeded quota
-// with another errno.
+// SQLite reports SQLITE_FULL only for the database file: growing the log's index fails with a different code, and an
+// exceeded quota shows only in errno.
 bool is_full(const SQLite::Exception& problem, sqlite3* database) noexcept {
   if (primary_code(problem) == SQLITE_FULL || extended_code(problem) == SQLITE_IOERR_SHMSIZE) return true;
   if (primary_code(problem) != SQLITE_IOERR || database == nullptr) return false;
@@ -40,9 +40,9 @@ std::string reason_of(const SQLite::Exception& problem, sqlite3* database) {
   if (is_full(problem, database)) return "the disk is full";
   switch (primary_code(problem)) {
     case SQLITE_NOTADB:
-      return "it is not a history of this program; left unchanged";
+      return "it is not a history of this program; the file is unchanged";
     case SQLITE_CORRUPT:
-      return "it is damaged; left unchanged";
+      return "it is damaged; the file is unchanged";
     case SQLITE_READONLY:
     case SQLITE_PERM:
       return "it is read-only";

@@ -24,8 +24,8 @@ constexpr Span kBlanks[] = {{0x20, 0x20},     {0xa0, 0xa0},     {0x1680, 0x1680}
 // C0, DEL, C1, separators of lines and paragraphs.
 constexpr Span kControls[] = {{0x00, 0x1f}, {0x7f, 0x9f}, {0x2028, 0x2029}};
 
-// Characters without width or ink, or that change the writing direction: a name with one of them looks like another
-// name.
+// Characters without width or ink, or that change the writing direction: a name with such a character looks the same as
+// a different name.
 constexpr Span kInvisible[] = {
     {0xad, 0xad},     {0x34f, 0x34f},   {0x61c, 0x61c},   {0x115f, 0x1160},   {0x17b4, 0x17b5},  {0x180b, 0x180f},
     {0x200b, 0x200f}, {0x202a, 0x202e}, {0x2060, 0x206f}, {0x2800, 0x2800},   {0x3164, 0x3164},  {0xfe00, 0xfe0f},
@@ -41,12 +41,12 @@ bool is_blank(char32_t point) {
   return point == kLineBreak || is_in(kBlanks, point);
 }
 
-bool is_tail(unsigned char byte) {
+bool is_continuation(unsigned char byte) {
   return (byte & 0xc0u) == 0x80u;
 }
 
-// RFC 3629, section 3: length of the sequence that starts with this byte; 0: none does.
-std::size_t length_by(unsigned char byte) {
+// Length of the UTF-8 sequence that starts with this byte (RFC 3629, section 3); 0: no sequence starts with it.
+std::size_t sequence_length(unsigned char byte) {
   if (byte < 0x80) return 1;
   if (byte < 0xc2) return 0;
   if (byte < 0xe0) return 2;
@@ -57,11 +57,11 @@ std::size_t length_by(unsigned char byte) {
 // Removes the first code point from the text and returns it; empty if the text does not start with a valid one.
 std::optional<char32_t> take_point(std::string_view& text) {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
-  const std::size_t length = length_by(byte(0));
+  const std::size_t length = sequence_length(byte(0));
   if (length == 0 || length > text.size()) return std::nullopt;
   char32_t point = length == 1 ? byte(0) : byte(0) & (0xffu >> (length + 1));
   for (std::size_t at = 1; at < length; ++at) {
-    if (!is_tail(byte(at))) return std::nullopt;
+    if (!is_continuation(byte(at))) return std::nullopt;
     point = (point << 6) | (byte(at) & 0x3fu);
   }
   constexpr char32_t kMinPoint[] = {0x0, 0x0, 0x80, 0x800, 0x10000};
@@ -81,18 +81,18 @@ std::optional<std::u32string> points_of(std::string_view text) {
   return points;
 }
 
-// Returns the predicate of the sentence; empty: no problem.
+// Returns the problem as the predicate of a sentence, "must not be blank"; empty: no problem.
 std::string points_problem(UserText kind, const std::u32string& points) {
   for (const char32_t point : points) {
     if (is_in(kControls, point) && !(kind == UserText::comment && point == kLineBreak))
-      return fmt::format("must not contain control characters, this has U+{:04X}", static_cast<std::uint32_t>(point));
+      return fmt::format("must not contain control characters (found U+{:04X})", static_cast<std::uint32_t>(point));
     if (is_in(kInvisible, point))
-      return fmt::format("must not contain invisible characters, this has U+{:04X}", static_cast<std::uint32_t>(point));
+      return fmt::format("must not contain invisible characters (found U+{:04X})", static_cast<std::uint32_t>(point));
   }
   if (std::all_of(points.begin(), points.end(), is_blank)) return "must not be blank";
   if (is_blank(points.front()) || is_blank(points.back()))
-    return kind == UserText::name ? "must not begin or end with a blank"
-                                  : "must not begin or end with a blank or a line break";
+    return kind == UserText::name ? "must not begin or end with a space"
+                                  : "must not begin or end with a space or a line break";
   return {};
 }
 
@@ -100,20 +100,20 @@ std::string text_problem(UserText kind, std::string_view text) {
   const std::size_t max_bytes = kind == UserText::name ? kMaxNameBytes : kMaxCommentBytes;
   if (text.empty()) return "must not be empty";
   if (text.size() > max_bytes)
-    return fmt::format("must have at most {} bytes of UTF-8, this has {}", max_bytes, text.size());
+    return fmt::format("must have at most {} bytes in UTF-8, but has {}", max_bytes, text.size());
   const std::optional<std::u32string> points = points_of(text);
-  return points ? points_problem(kind, *points) : "must be text in UTF-8";
+  return points ? points_problem(kind, *points) : "must be valid UTF-8 text";
 }
 
 }  // namespace
 
-std::string user_text_problem(UserText kind, std::string_view what, std::string_view text) {
+std::string user_text_problem(UserText kind, std::string_view label, std::string_view text) {
   const std::string problem = text_problem(kind, text);
-  return problem.empty() ? problem : fmt::format("{} {}", what, problem);
+  return problem.empty() ? problem : fmt::format("{} {}", label, problem);
 }
 
-void check_user_text(UserText kind, std::string_view what, std::string_view text) {
-  if (const std::string problem = user_text_problem(kind, what, text); !problem.empty())
+void check_user_text(UserText kind, std::string_view label, std::string_view text) {
+  if (const std::string problem = user_text_problem(kind, label, text); !problem.empty())
     throw std::invalid_argument(problem);
 }
 

@@ -18,14 +18,14 @@ enum class UserText {
   comment  // may have line breaks: "\n"
 };
 
-// Returns why the text is rejected, in one sentence that begins with `what` ("a learner's name"); empty: accepted.
+// Returns why the text is rejected, in one sentence that begins with `label` ("a learner's name"); empty: accepted.
 // Rejected are: empty, blank or too long text and invalid UTF-8; blanks or line breaks at either end; control
 // characters; invisible characters and those that change the writing direction (U+200B to U+200F, U+202A to U+202E,
 // U+2060 to U+2069, U+FEFF and the like).
-std::string user_text_problem(UserText kind, std::string_view what, std::string_view text);
+std::string user_text_problem(UserText kind, std::string_view label, std::string_view text);
 
 // Throws std::invalid_argument with that sentence.
-void check_user_text(UserText kind, std::string_view what, std::string_view text);
+void check_user_text(UserText kind, std::string_view label, std::string_view text);
 void check_learner_name(std::string_view name);
 
 }  // namespace gearshift::lessons

@@ -12,13 +12,13 @@ namespace gearshift::lessons {
 class DriveLoader {
  public:
   explicit DriveLoader(const std::filesystem::path& file);
-  ~DriveLoader() = default;  // stops reading within milliseconds
+  ~DriveLoader() = default;  // stops loading within milliseconds
   DriveLoader(const DriveLoader&) = delete;
   DriveLoader& operator=(const DriveLoader&) = delete;
 
   const std::filesystem::path& file() const noexcept { return file_; }
-  bool is_over() const;  // loaded or failed
-  Player take();         // call once; waits until it is over. Throws FileError like Player
+  bool is_over() const;  // the drive is loaded, or loading has failed
+  Player take();         // call once; waits until loading is over. Throws FileError like Player
 
  private:
   std::filesystem::path file_;

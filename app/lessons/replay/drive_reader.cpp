@@ -15,9 +15,9 @@ const vehicle::CarLoad* car_in(const haptics::LeverLoad* load) noexcept {
   return dynamic_cast<const vehicle::CarLoad*>(load);
 }
 
-constexpr double kMaxMagnitude = 1e9;  // in any unit: its square must fit the floats of a picture [engineering value]
+constexpr double kMaxMagnitude = 1e9;  // in any unit; its square must fit a float for drawing (engineering value)
 
-// A device may read anything, but the loop's outputs and the driver's controls must be plausible numbers.
+// A device may report any number, but the loop's outputs and the driver's controls must be plausible.
 template <class T>
 bool is_plausible(const T& value) noexcept {
   if constexpr (std::is_same_v<T, double>) {
@@ -51,10 +51,10 @@ DriveReader::DriveReader(const std::filesystem::path& file, std::uint64_t max_cy
       replayer_(reader_.header(), file.string(),
                 [this](const std::string& name, const haptics::Gate& gate) { return make_load(name, gate); }) {}
 
-// The replayer owns the load, and its address does not change.
+// car_ stays valid: the replayer owns the load, and the load's address does not change.
 std::unique_ptr<haptics::LeverLoad> DriveReader::make_load(const std::string& name, const haptics::Gate& gate) {
   gate_ = gate;
-  if (std::unique_ptr<haptics::LeverLoad> nothing = haptics::make_no_load(name, gate)) return nothing;
+  if (std::unique_ptr<haptics::LeverLoad> no_load = haptics::make_no_load(name, gate)) return no_load;
   std::unique_ptr<haptics::LeverLoad> load = vehicle::make_lesson_load(name, gate);
   car_ = car_in(load.get());
   return load;
@@ -62,8 +62,8 @@ std::unique_ptr<haptics::LeverLoad> DriveReader::make_load(const std::string& na
 
 void DriveReader::check(const haptics::TraceSample& sample) const {
   if (is_plausible(sample.out) && is_plausible(sample.controls)) return;
-  throw haptics::FileError(name_, 0,
-                           "is damaged: cycle " + std::to_string(sample.out.cycle) + " holds an impossible number");
+  throw haptics::FileError(
+      name_, 0, "the trace is damaged; cycle " + std::to_string(sample.out.cycle) + " contains an impossible number");
 }
 
 bool DriveReader::next(vehicle::DriveSample& sample) {

@@ -17,23 +17,23 @@ namespace gearshift::lessons {
 
 class DriveReader {
  public:
-  static constexpr std::uint64_t kMaxCycles = 4'000'000;  // an hour at 1 kHz; even a file of 1 MB can claim as many
+  static constexpr std::uint64_t kMaxCycles = 4'000'000;  // an hour at 1 kHz; even a file of 1 MB can claim this many
 
-  // Reads the intact part of a torn trace. Throws FileError, as does next(): missing or damaged file, rejected car or
-  // gate, unknown lever load, recorded from the middle of a run, or an implausible number. Reads at most `max_cycles`
-  // cycles.
+  // Reads the intact part of a damaged trace, at most `max_cycles` cycles. Like next(), throws FileError if the file is
+  // missing or damaged, if its car or gate is rejected, if its lever load is unknown, if it was recorded from the
+  // middle of a run, or if it contains an implausible number.
   explicit DriveReader(const std::filesystem::path& file, std::uint64_t max_cycles = kMaxCycles);
 
   const haptics::TraceHeader& header() const noexcept { return reader_.header(); }
   const haptics::Gate& gate() const noexcept { return gate_; }
   const vehicle::CarSpec* car() const noexcept { return car_ ? &car_->spec() : nullptr; }    // null: no car
-  std::uint64_t cycles() const noexcept { return std::min(reader_.cycles(), max_cycles_); }  // upper limit
+  std::uint64_t cycles() const noexcept { return std::min(reader_.cycles(), max_cycles_); }  // next() returns no more
 
-  // Lever and controls are as recorded. The car is the simulated one. Without a car, or from the cycle on where the
-  // simulation diverges from the recording, pedals, gear and road speed are the recording's and the rest keeps its last
-  // value. Times increase strictly: a cycle with a time not after the previous one is skipped.
+  // Lever and controls are as recorded; the car is simulated. Without a car, or from the cycle on in which the
+  // simulation diverges from the recording, pedals, gear and road speed are the recorded ones and all else keeps its
+  // last value. Times increase strictly: a cycle whose time is not after the previous one is skipped.
   bool next(vehicle::DriveSample& sample);
-  bool has_diverged() const noexcept { return has_diverged_; }  // in any cycle read so far
+  bool has_diverged() const noexcept { return has_diverged_; }  // true if it did in any cycle read so far
 
  private:
   std::unique_ptr<haptics::LeverLoad> make_load(const std::string& name, const haptics::Gate& gate);

@@ -25,9 +25,9 @@ void LeverPath::add(double time, glm::dvec2 place) {
 
 // Drops every other point; later points are stored at the coarser spacing.
 void LeverPath::coarsen() {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points_.size(); i += 2) points_[kept++] = points_[i];
-  points_.resize(kept);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points_.size(); i += 2) points_[count++] = points_[i];
+  points_.resize(count);
   chord_ *= 2.0;
 }
 

@@ -12,17 +12,18 @@
 namespace gearshift::lessons {
 
 struct ShiftPaths {
-  // [m] from the old gear (from neutral: from its first movement) to the new one, or to the shift's end if none engaged
+  // [m] path from the old gear (or, from neutral, from the first movement) to the new gear. If no gear was engaged, the
+  // path ends with the shift.
   std::vector<glm::dvec2> driven;
   std::vector<glm::dvec2> ideal;  // [m] shortest path between the ends of `driven`, see shortest_path()
 };
 
-// Takes every cycle of a shift and stores chords, so the ends of a path are accurate to one chord length.
+// Receives every cycle of a shift and stores chords, so the ends of a path are accurate to one chord length.
 class LeverPath {
  public:
-  void clear();                             // starts the next shift
-  void add(double time, glm::dvec2 place);  // [s] on the loop's clock, increasing; [m] of the displayed lever
-  // Empty paths if nothing was added. gate: the one that the shift was driven in.
+  void clear();                             // call at the start of each shift
+  void add(double time, glm::dvec2 place);  // time: [s] on the loop's clock, increasing; place: [m] displayed lever
+  // Returns empty paths if nothing was added. gate: the gate in which the shift was driven.
   ShiftPaths paths(const ShiftRecord& shift, const haptics::Gate& gate) const;
 
   static constexpr double kChord = 5e-4;  // [m]; doubles when a path would exceed kMaxPoints

@@ -10,9 +10,9 @@ namespace gearshift::lessons {
 namespace {
 
 std::string no_shift_message(std::size_t shift, std::size_t count) {
-  const std::string wanted = "the drive has no shift " + std::to_string(shift + 1) + ": ";
-  if (count == 0) return wanted + "it has none";
-  return wanted + "it has 1 to " + std::to_string(count);
+  const std::string wanted = "the drive has no shift " + std::to_string(shift + 1);
+  if (count == 0) return wanted + ", because it contains no shifts";
+  return wanted + "; choose one from 1 to " + std::to_string(count);
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ void Player::seek(double time) {
 void Player::start_at(double time) {
   const double length = drive_.end() - drive_.begin();
   if (!(time >= 0.0 && time <= length))
-    throw std::invalid_argument(fmt::format("the drive lasts {:.3f} s: {:g} s is not in it", length, time));
+    throw std::invalid_argument(fmt::format("{:g} s is not within the drive, which lasts {:.3f} s", time, length));
   jump_to(drive_.begin() + time);
 }
 

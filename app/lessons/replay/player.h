@@ -12,7 +12,7 @@
 
 namespace gearshift::lessons {
 
-inline constexpr double kMinPace = 0.05, kMaxPace = 4.0;  // [1] relative to real time
+inline constexpr double kMinPace = 0.05, kMaxPace = 4.0;  // [1] speed of playback relative to real time
 inline constexpr double kShiftMargin = 0.5;               // [s]
 
 class Player {
@@ -23,17 +23,17 @@ class Player {
   const RecordedDrive& drive() const noexcept { return drive_; }
   const std::filesystem::path& file() const noexcept { return file_; }
 
-  // Advances by so much real time [s]. Returns false if it did not move: paused, or at the end of the selection, where
-  // it stops.
+  // Advances by `seconds` of real time. Returns false if the position did not change, because playback is paused or at
+  // the end of the selection, where it stops.
   bool advance(double seconds);
   void seek(double time);      // [s] on the loop's clock; clamped to the selection
-  void start_at(double time);  // [s] since the begin of the drive. Throws std::invalid_argument that names its length
-  void play(bool on);          // at the end: plays again from the begin
+  void start_at(double time);  // [s] since the drive began. Throws std::invalid_argument with its length
+  void play(bool on);          // at the end of the selection, plays it again from its begin
   void set_pace(double pace);  // kMinPace to kMaxPace; clamped
   // Selects a shift, with kShiftMargin before and after it, and plays it from its start. Empty: selects the whole drive
   // without moving. Throws std::invalid_argument that names the valid shifts.
   void select_shift(std::optional<std::size_t> shift);
-  // Selects the shift that begins nearest to `time` [s]; without shifts the whole drive
+  // Selects the shift that begins nearest to `time` [s]; if there are no shifts, the whole drive.
   void select_nearest_shift(double time);
 
   double time() const noexcept { return time_; }
@@ -41,12 +41,13 @@ class Player {
   double to() const noexcept { return to_; }
   double pace() const noexcept { return pace_; }
   bool is_playing() const noexcept { return is_playing_; }
-  std::optional<std::size_t> shift() const noexcept { return shift_; }  // selected; empty: the whole drive
+  std::optional<std::size_t> shift() const noexcept { return shift_; }  // selected shift; empty: the whole drive
   const vehicle::DriveSample& now() const noexcept { return drive_.at(time_); }
-  // Samples passed in the last advance(), for plots. Each sample is returned once; after a jump the first one is now().
+  // Samples passed in the last advance(), for plots. Each sample is returned once; after a jump, the sample at the
+  // jump's target is included.
   std::span<const vehicle::DriveSample> passed() const noexcept { return passed_; }
-  // True if seek or a selection has moved it since the last advance(), so that plots start again. Ask before the next
-  // advance().
+  // True if a seek or a selection has changed the position since the last advance(), so that plots start again. Call
+  // before the next advance().
   bool has_jumped() const noexcept { return has_jumped_; }
 
  private:

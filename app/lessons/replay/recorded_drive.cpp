@@ -14,7 +14,7 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr double kSampleSpacing = 0.004;  // [s] between kept samples
-constexpr double kRounding = 1e-9;        // [1] of a cycle
+constexpr double kRounding = 1e-9;        // [1] fraction of a cycle
 
 // Finds the shifts in a sequence of cycles, with their paths.
 class ShiftFinder {
@@ -24,7 +24,7 @@ class ShiftFinder {
   void add(const vehicle::DriveSample& sample) {
     const bool was_open = meter_.is_open();
     const std::optional<ShiftRecord> ended = meter_.add(sample);
-    if (ended) take(*ended);
+    if (ended) add_shift(*ended);
     if (!meter_.is_open()) return;
     if (ended || !was_open) path_.clear();
     path_.add(sample.time(), sample.lever.proxy);
@@ -33,7 +33,7 @@ class ShiftFinder {
   std::vector<RecordedShift> shifts() && { return std::move(shifts_); }
 
  private:
-  void take(const ShiftRecord& record) {
+  void add_shift(const ShiftRecord& record) {
     ShiftPaths paths = path_.paths(record, gate_);
     shifts_.push_back({record, std::move(paths.driven), std::move(paths.ideal)});
   }
@@ -66,7 +66,7 @@ RecordedDrive::RecordedDrive(const std::filesystem::path& file, const std::stop_
     if (finder && !reader.has_diverged()) finder->add(sample);
     if (cycle % every == 0) samples_.push_back(sample);
   }
-  if (samples_.empty()) throw haptics::FileError(file.string(), 0, "holds no cycles");
+  if (samples_.empty()) throw haptics::FileError(file.string(), 0, "the trace contains no cycles");
   if (sample.lever.time_ns != samples_.back().lever.time_ns) samples_.push_back(sample);
   if (finder) shifts_ = std::move(*finder).shifts();
   has_diverged_ = reader.has_diverged();

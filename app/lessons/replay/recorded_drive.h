@@ -1,4 +1,4 @@
-// A complete recorded drive: the trace, and from a second simulation what no trace contains, the car and its shifts.
+// A complete recorded drive: its trace, plus the car and the shifts, which no trace contains: they are simulated again.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +20,15 @@ namespace gearshift::lessons {
 struct RecordedShift {
   ShiftRecord record;
   std::vector<glm::dvec2> driven;  // [m] path of the displayed lever, from the old gear to the new one
-  std::vector<glm::dvec2> ideal;   // [m] shortest path between its ends, see shortest_path(); one point per corner
+  std::vector<glm::dvec2> ideal;   // [m] shortest path between the ends of `driven`; one point per corner
 };
 
 class RecordedDrive {
  public:
-  // Reads the intact part of a torn trace. Keeps samples 4 ms apart, or further if kMaxSamples requires; always keeps
-  // the last cycle. Throws FileError: missing or damaged file, rejected car or gate, or stopped. If the second
-  // simulation diverges from the recording, has_diverged() is true, the recorded values are used and no shifts are
-  // found from there on.
+  // Reads the intact part of a damaged trace. Keeps samples 4 ms apart, or further apart if kMaxSamples requires it;
+  // always keeps the last cycle. Throws FileError if the file is missing or damaged, if its car or gate is rejected, or
+  // on a stop request. If the second simulation diverges from the recording, has_diverged() is true, and from that
+  // cycle on the recorded values are used and no shifts are found.
   explicit RecordedDrive(const std::filesystem::path& file, const std::stop_token& stop = {});
 
   const haptics::TraceHeader& header() const noexcept { return header_; }
@@ -39,13 +39,13 @@ class RecordedDrive {
   double begin() const noexcept { return samples_.front().time(); }                    // [s] on the loop's clock
   double end() const noexcept { return samples_.back().time(); }                       // [s]
   std::span<const vehicle::DriveSample> samples() const noexcept { return samples_; }  // at least one; times increase
-  const vehicle::DriveSample& at(
-      double time) const noexcept;  // the last sample not after `time`, else the first sample
+  // The last sample that is not after `time`; before the drive, its first sample.
+  const vehicle::DriveSample& at(double time) const noexcept;
   std::span<const vehicle::DriveSample> between(double from, double to) const noexcept;  // from < time <= to
   const std::vector<RecordedShift>& shifts() const noexcept { return shifts_; }  // in order; empty without a car
 
   static constexpr std::size_t kMaxSamples = 150'000;
-  // Keeps one cycle in so many, for a drive of that many cycles at that rate [Hz].
+  // Number of cycles per kept sample, for a drive of `cycles` cycles at `rate` [Hz].
   static std::uint64_t stride(double rate, std::uint64_t cycles) noexcept;
 
  private:

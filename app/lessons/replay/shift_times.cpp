@@ -11,7 +11,7 @@ bool has(const ShiftRecord& shift, ShiftStep step) {
 
 }  // namespace
 
-// A shift begins with the clutch or the lever, whichever is first; the sign of clutch_lead tells which.
+// A shift begins with the clutch or the lever, whichever is first; the sign of clutch_lead shows which.
 ShiftTimes shift_times(const ShiftRecord& shift) {
   ShiftTimes times;
   times.end = shift.end - shift.begin;

@@ -7,11 +7,11 @@
 
 namespace gearshift::lessons {
 
-// Times in [s] since the shift began; empty if it did not happen. With more than one clutch press the record does not
-// tell when the pedal came up or went down again.
+// Times since the shift began [s]; empty for an event that did not happen. With more than one clutch press, the record
+// does not contain when the pedal came up or went down again.
 struct ShiftTimes {
   int presses = 0;                               // number of times the pedal went down past its bite point
-  std::optional<double> clutch_down, clutch_up;  // first press; no time up if there was more than one
+  std::optional<double> clutch_down, clutch_up;  // of the first press; clutch_up only if there was just one
   std::optional<double> lever_left, gear_in;
   double end = 0.0;
 };

@@ -9,7 +9,7 @@
 namespace gearshift::lessons {
 namespace {
 
-ChosenShift with_its_faults(const RunRow& run, const ShiftRecord& shift) {
+ChosenShift with_its_errors(const RunRow& run, const ShiftRecord& shift) {
   ChosenShift chosen{run.id, run.result.lesson, run.recording, shift, {}, 0.0};
   const std::vector<DrivingError>& errors = run.result.errors;
   for (const DrivingError& error : errors) {
@@ -26,8 +26,8 @@ bool is_bad(const ChosenShift& chosen) {
   return chosen.points > 0.0 || chosen.shift.missed || !chosen.errors.empty();
 }
 
-// Stricter than the fault rules, because the best shifts are examined closely. Only a block must be as long as a
-// fault's, because every synchroniser takes its time.
+// Stricter than the error rules, because the best shifts are examined closely. Only blocking is allowed up to its error
+// threshold, because every synchroniser takes some time.
 bool is_clean(const ShiftRecord& shift) {
   const bool in_order = shift.steps_out_of_place == 0 && shift.clutch_lead >= 0.0 && shift.clutch_lag >= 0.0;
   const bool went_in = shift.block_time < error_rule(ErrorKind::blocked).raise && shift.grind_time == 0.0;
@@ -63,7 +63,7 @@ ChosenShifts choose_shifts(const LearnerHistory& history) {
   for (const ReportedRun& run : history.runs) {
     if (!is_graded(run.row.result)) continue;
     for (const ShiftRecord& shift : run.row.result.shifts) {
-      ChosenShift one = with_its_faults(run.row, shift);
+      ChosenShift one = with_its_errors(run.row, shift);
       if (is_bad(one))
         chosen.worst.push_back(std::move(one));
       else if (is_good(one))

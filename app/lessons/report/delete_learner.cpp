@@ -36,41 +36,41 @@ DeletionReport count(History& history, const LearnerRow& learner) {
   return sum;
 }
 
-void remove_recording(const fs::path& file, DeletionReport& gone) {
+void remove_recording(const fs::path& file, DeletionReport& report) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(file, error))) {
-    gone.missing.push_back(file.string());
+    report.missing.push_back(file.string());
     return;
   }
   if (!is_trace(file)) {
-    gone.not_deleted.push_back(file.string() + ": not a recording");
+    report.not_deleted.push_back(file.string() + ": not a recording");
     return;
   }
   fs::remove(file, error);
   if (error) {
-    gone.not_deleted.push_back(file.string() + ": " + error.message());
+    report.not_deleted.push_back(file.string() + ": " + error.message());
   } else {
-    gone.recordings.push_back(file.string());
+    report.recordings.push_back(file.string());
   }
 }
 
-void remove_all(const History& history, const std::vector<std::string>& recordings, DeletionReport& gone) {
-  for (const std::string& recording : recordings) remove_recording(history.recording_file(recording), gone);
+void remove_all(const History& history, const std::vector<std::string>& recordings, DeletionReport& report) {
+  for (const std::string& recording : recordings) remove_recording(history.recording_file(recording), report);
 }
 
 }  // namespace
 
 DeletionReport remove_recordings(History& history, const LearnerRow& learner) {
-  DeletionReport gone;
-  remove_all(history, history.recordings(learner.id), gone);
-  return gone;
+  DeletionReport report;
+  remove_all(history, history.recordings(learner.id), report);
+  return report;
 }
 
 DeletionReport delete_learner(History& history, const LearnerRow& learner) {
-  DeletionReport gone = count(history, learner);
-  gone.remaining_data = history.erase_learner(
-      learner.id, [&](const std::vector<std::string>& recordings) { remove_all(history, recordings, gone); });
-  return gone;
+  DeletionReport report = count(history, learner);
+  report.remaining_data = history.erase_learner(
+      learner.id, [&](const std::vector<std::string>& recordings) { remove_all(history, recordings, report); });
+  return report;
 }
 
 }  // namespace gearshift::lessons

@@ -1,4 +1,4 @@
-// Deletes a learner: rows and recordings.
+// Deletes a learner: the rows in the history, and the recordings.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct DeletionReport {
   std::vector<std::string> recordings;   // deleted files
   std::vector<std::string> missing;      // referenced by the history but not found
   std::vector<std::string> not_deleted;  // referenced by the history but not deleted: "FILE: why"
-  std::string remaining_data;            // why the file still contains deleted data, one sentence; empty: it does not
+  std::string remaining_data;            // one sentence on why the file still contains deleted data; else empty
 };
 
 // Keeps a recording that another learner's run references, and any file that is not a trace, because a forged history

@@ -7,9 +7,9 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kPlateRim = 9.0;  // [mm] plate beyond the outermost wall
+constexpr double kPlateRim = 9.0;  // [mm] width of the plate beyond the outermost wall
 
-// Page coordinates of a point in a slot: x across it, depth along it. [m]
+// Page coordinates of a point in a slot: x across the slot, depth along the slot. [m]
 glm::dvec2 in_slot(const haptics::Slot& slot, double x, double depth) {
   return on_page({x, static_cast<int>(slot.side) * depth});
 }

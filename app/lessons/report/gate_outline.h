@@ -22,10 +22,10 @@ base::Rect gate_plate(const haptics::Gate& gate);  // bounding box of the walls 
 void across_slot(base::Svg& svg, const haptics::Gate& gate, const haptics::Slot& slot, double depth,
                  const base::Pen& pen);
 
-void draw_gate_ground(base::Svg& svg, const haptics::Gate& gate,
-                      const haptics::GateDescription& description);  // plate with the free space
+// Draws the plate and the free space on it.
+void draw_gate_ground(base::Svg& svg, const haptics::Gate& gate, const haptics::GateDescription& description);
 void draw_gate_walls(base::Svg& svg, const haptics::GateDescription& description);
-void draw_gears(base::Svg& svg,
-                const haptics::Gate& gate);  // depths of engaging, releasing and resting; gear names on the rim
+// Draws the depths at which gears engage, release and rest, and the gears' names on the rim.
+void draw_gears(base::Svg& svg, const haptics::Gate& gate);
 
 }  // namespace gearshift::lessons

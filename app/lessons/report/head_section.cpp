@@ -8,7 +8,7 @@
 namespace gearshift::lessons {
 namespace {
 
-std::string total(std::string_view id, std::string_view name, const std::string& value) {
+std::string total_item(std::string_view id, std::string_view name, const std::string& value) {
   return fmt::format("<div><dt>{}</dt><dd id=\"{}\">{}</dd></div>\n", name, id, value);
 }
 
@@ -24,7 +24,7 @@ std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> l
   const std::string wanted = is_chosen ? history.learner.next_lesson : std::string();
   if (wanted.empty() && !suggestion) return {};
   const std::string suggested =
-      suggestion ? fmt::format("{}: {}", lesson_title(lessons, suggestion->lesson), suggestion->why) : std::string();
+      suggestion ? fmt::format("{}. {}", lesson_title(lessons, suggestion->lesson), suggestion->why) : std::string();
   if (wanted.empty()) {
     return fmt::format("<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>. {}</p>\n",
                        base::html_text(lesson_title(lessons, suggestion->lesson)), base::html_text(suggestion->why));
@@ -32,7 +32,7 @@ std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> l
   return fmt::format(
       "<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>, chosen by the instructor.{}</p>\n",
       base::html_text(lesson_title(lessons, wanted)),
-      suggestion ? " The grades suggest " + base::html_text(suggested) : "");
+      suggestion ? " Going by the grades, the next lesson would be " + base::html_text(suggested) : "");
 }
 
 }  // namespace
@@ -41,11 +41,11 @@ std::string head_section(const LearnerHistory& history, std::span<const Lesson> 
   const Totals sum = totals(history);
   std::string head = fmt::format("<header>\n<h1>{}</h1>\n<p class=\"soft\">{}</p>\n",
                                  base::html_text(history.learner.name), base::html_text(format_days(sum)));
-  head += "<dl class=\"totals\">\n" + total("days", "days", std::to_string(sum.days)) +
-          total("sessions", "sessions", std::to_string(sum.sessions)) +
-          total("lesson-runs", "lesson runs", std::to_string(sum.runs)) +
-          total("shift-count", "shifts", std::to_string(sum.shifts)) +
-          total("minutes", "minutes driven", fmt::format("{:.1f}", sum.driven / 60.0)) + "</dl>\n";
+  head += "<dl class=\"totals\">\n" + total_item("days", "days", std::to_string(sum.days)) +
+          total_item("sessions", "sessions", std::to_string(sum.sessions)) +
+          total_item("lesson-runs", "lesson runs", std::to_string(sum.runs)) +
+          total_item("shift-count", "shifts", std::to_string(sum.shifts)) +
+          total_item("minutes", "minutes driven", fmt::format("{:.1f}", sum.driven / 60.0)) + "</dl>\n";
   return head + next_lesson(history, lessons) + "</header>\n";
 }
 

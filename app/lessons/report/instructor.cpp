@@ -11,15 +11,16 @@
 namespace gearshift::lessons {
 namespace {
 
-[[noreturn]] void refuse(const char* what, std::int64_t number, const LearnerRow& learner,
+[[noreturn]] void refuse(const char* kind, std::int64_t number, const LearnerRow& learner,
                          const std::vector<std::int64_t>& known) {
-  throw std::runtime_error(fmt::format("{} {} does not belong to {}; known: {}", what, number,
+  throw std::runtime_error(fmt::format("{0} {1} does not belong to {2}; {0}s that do: {3}", kind, number,
                                        haptics::printable(learner.name),
-                                       known.empty() ? "none yet" : fmt::format("{}", fmt::join(known, ", "))));
+                                       known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }
 
-void require(const char* what, std::int64_t number, const LearnerRow& learner, const std::vector<std::int64_t>& known) {
-  if (std::find(known.begin(), known.end(), number) == known.end()) refuse(what, number, learner, known);
+void require_known(const char* kind, std::int64_t number, const LearnerRow& learner,
+                   const std::vector<std::int64_t>& known) {
+  if (std::find(known.begin(), known.end(), number) == known.end()) refuse(kind, number, learner, known);
 }
 
 std::vector<std::int64_t> runs_of(History& history, const LearnerRow& learner) {
@@ -40,17 +41,17 @@ std::vector<std::int64_t> comments_of(History& history, const LearnerRow& learne
 
 std::int64_t comment_on_run(History& history, const LearnerRow& learner, std::int64_t run, const std::string& author,
                             const std::string& text) {
-  require("run", run, learner, runs_of(history, learner));
+  require_known("run", run, learner, runs_of(history, learner));
   return history.add_comment(run, author, text);
 }
 
 void edit_comment(History& history, const LearnerRow& learner, std::int64_t comment, const std::string& text) {
-  require("comment", comment, learner, comments_of(history, learner));
+  require_known("comment", comment, learner, comments_of(history, learner));
   if (!history.edit_comment(comment, text)) refuse("comment", comment, learner, comments_of(history, learner));
 }
 
 void delete_comment(History& history, const LearnerRow& learner, std::int64_t comment) {
-  require("comment", comment, learner, comments_of(history, learner));
+  require_known("comment", comment, learner, comments_of(history, learner));
   history.delete_comment(comment);
 }
 

@@ -8,8 +8,8 @@
 
 namespace gearshift::lessons {
 
-// All throw std::runtime_error with one sentence that lists the known numbers if the run or comment does not belong to
-// this learner; std::invalid_argument for an invalid name or comment (user_text.h); HistoryError.
+// All three functions throw std::runtime_error if the run or comment does not belong to this learner (one sentence that
+// lists the valid numbers), std::invalid_argument for an invalid name or comment (user_text.h), and HistoryError.
 std::int64_t comment_on_run(History& history, const LearnerRow& learner, std::int64_t run, const std::string& author,
                             const std::string& text);  // returns the comment's number
 void edit_comment(History& history, const LearnerRow& learner, std::int64_t comment, const std::string& text);

@@ -1,4 +1,4 @@
-// Everything in the history about one learner, as plain rows: the input of page and tables.
+// Everything in the history about one learner, as plain rows: the input for page and tables.
 #pragma once
 
 #include <vector>

@@ -13,7 +13,7 @@ namespace {
 
 std::string format_next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::string& wanted = history.learner.next_lesson;
-  if (is_lesson(lessons, wanted)) return haptics::printable(wanted) + " (chosen by instructor)";
+  if (is_lesson(lessons, wanted)) return haptics::printable(wanted) + " (chosen by the instructor)";
   const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
   return suggestion ? haptics::printable(suggestion->lesson) : "-";
 }
@@ -47,12 +47,13 @@ std::string learner_table(std::span<const LearnerHistory> learners, std::span<co
 
 std::string run_table(const LearnerHistory& history) {
   std::string table =
-      fmt::format("{:>5}  {:<10}  {:<24}  {:<11}  {:>5}  result\n", "run", "day", "lesson", "mode", "grade");
+      fmt::format("{:>5}  {:<10}  {:<24}  {:<14}  {:>5}  result\n", "run", "day", "lesson", "mode", "grade");
   for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) {
     const LessonResult& result = run->row.result;
-    table += fmt::format("{:>5}  {:<10}  {:<24}  {:<11}  {:>5}  {}\n", run->row.id,
+    table += fmt::format("{:>5}  {:<10}  {:<24}  {:<14}  {:>5}  {}\n", run->row.id,
                          haptics::printable(day_of(run->row.begun_at)), haptics::printable(result.lesson),
-                         lesson_mode_key(result.mode), is_graded(result) ? fmt::format("{:.1f}", result.grade) : "-",
+                         result.mode == LessonMode::follow_me ? "follow me" : "do it yourself",
+                         is_graded(result) ? fmt::format("{:.1f}", result.grade) : "-",
                          result.passed       ? "passed"
                          : is_graded(result) ? "not passed"
                                              : "not graded");

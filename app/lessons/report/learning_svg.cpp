@@ -19,7 +19,7 @@ constexpr base::Rect kPage{0.0, 0.0, 480.0, 280.0};
 constexpr base::Rect kBox{40.0, 28.0, 426.0, 206.0};
 
 constexpr const char* kBandColour = "#dce8f5";
-constexpr double kBandDeviations = 2.0;    // [1] half width in standard deviations: about 95 %
+constexpr double kBandDeviations = 2.0;    // [1] half width of the band in standard deviations: about 95 %
 constexpr std::size_t kMinAxisTrials = 6;  // shortest axis, in trials
 constexpr int kCurveSteps = 160;
 
@@ -71,7 +71,7 @@ class LearningPlot {
  private:
   // Trial number along the curve, from 0 for the first trial to the last.
   double trial_at(int step) const { return static_cast<double>(task_.trials.size() - 1) * step / kCurveSteps; }
-  // n counts from 0 as in the curve, the axis from 1. Points outside the scale are drawn at its edge.
+  // n counts from 0, as in the curve; the axis counts from 1. Points outside the scale are drawn at its edge.
   glm::dvec2 at(double n, double grade) const { return chart_.at(n + 1.0, std::clamp(grade, 0.0, kBestGrade)); }
 
   const TaskProgress& task_;

@@ -16,22 +16,22 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr std::size_t kMinRunsForCurve = 5;  // same as in fit_learning_curve()
+constexpr std::size_t kMinRunsForCurve = 5;  // same as kMinTrials in learning_curve.cpp
 constexpr std::size_t kMinRunsForChart = 3;
 
-std::string estimate(const Estimate& e) {
+std::string format_estimate(const Estimate& e) {
   return format_number(e.value, 2) + " ± " + format_number(e.deviation, 2);
 }
 
 std::string format_level(const LearningCurve& curve) {
-  return curve.at_bound ? format_number(curve.level.value, 0) + " (fixed at its limit)" : estimate(curve.level);
+  return curve.at_bound ? format_number(curve.level.value, 0) + " (fixed at its limit)" : format_estimate(curve.level);
 }
 
 std::string describe_fit(const TaskProgress& task) {
   if (task.curve) {
-    return fmt::format("A = {}, B = {}, τ = {} runs; runs scatter about the curve by {:.2f}.",
-                       format_level(*task.curve), estimate(task.curve->gain), estimate(task.curve->trials),
-                       task.curve->noise);
+    return fmt::format("A = {}, B = {}, τ = {} runs; grades scatter about the curve by {:.2f}.",
+                       format_level(*task.curve), format_estimate(task.curve->gain),
+                       format_estimate(task.curve->trials), task.curve->noise);
   }
   if (task.trials.size() < kMinRunsForCurve)
     return fmt::format("No curve yet: {} graded runs needed, {} so far.", kMinRunsForCurve, task.trials.size());
@@ -87,7 +87,7 @@ std::string charts(const std::vector<TaskProgress>& tasks, std::span<const Lesso
   return figures.empty() ? figures : "<div class=\"curves\">\n" + figures + "</div>\n";
 }
 
-// "Reverse: 8.0 (Run 3), 8.5 (Run 7)"
+// For example "Reverse: 8.0 (Run 3), 8.5 (Run 7)".
 std::string grades_item(const TaskProgress& task, std::span<const Lesson> lessons) {
   std::string grades;
   for (const GradedTrial& trial : task.trials) {
@@ -97,7 +97,7 @@ std::string grades_item(const TaskProgress& task, std::span<const Lesson> lesson
   return fmt::format("<li>{}: {}</li>", base::html_text(task_title(lessons, task.task)), grades);
 }
 
-// The tasks that a chart would be empty for, all in one row.
+// The tasks with too few runs for a chart, all in one row.
 std::string few_runs(const std::vector<TaskProgress>& tasks, std::span<const Lesson> lessons) {
   std::string items;
   for (const TaskProgress& task : tasks) {
@@ -116,9 +116,8 @@ constexpr const char* kHowToRead =
     "run: A is the level that practice leads to, B the distance of the first run from it (negative if below), and τ "
     "the "
     "number of runs until 37 % of that distance is left. The pale band contains the curve with about 95 % confidence; "
-    "± is one standard deviation. Grades lie between 0 and 10, and so does A: if the grades alone would lead beyond, A "
-    "is "
-    "fixed at its limit, and B and τ are fitted with that A.";
+    "± is one standard deviation. Grades lie between 0 and 10, and so does A: if the fit would "
+    "put A beyond that range, A is fixed at the limit, and B and τ are fitted for it.";
 
 // The newest retention trials of a lesson, after a day and after a week.
 struct RetentionRow {
@@ -145,13 +144,14 @@ std::string retention_cells(const std::optional<RetentionTrial>& trial) {
 }
 
 constexpr const char* kRetentionCaption =
-    "How much is left of a lesson after a break: the grade of the last graded run before it and of the first run after "
-    "it. A day means a break of at least 20 hours, a week at least six days; the newest of each is shown.";
+    "How much of a lesson is left after a break: the grades of the last graded run before the break and of the first "
+    "run after it. A day means a break of at least 20 hours, a week one of at least six days; the newest of each is "
+    "shown.";
 
 std::string retention_part(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::vector<RetentionRow> rows = retention_rows(history);
   const std::string head = "<h3>Retention</h3>\n";
-  if (rows.empty()) return head + paragraph("No lesson repeated after a day's break yet.");
+  if (rows.empty()) return head + paragraph("No lesson has been repeated after a day's break yet.");
   std::string table = fmt::format(
       "<table class=\"kept\">\n<caption>{}</caption>\n<thead><tr><th>Lesson</th><th class=\"number\">Before</th>"
       "<th class=\"number\">After a day</th><th></th><th class=\"number\">Before</th>"

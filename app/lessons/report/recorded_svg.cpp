@@ -40,17 +40,17 @@ constexpr const char* kIdealColour = "#2e7d4f";
 // Splits the recording into equal parts and keeps the lowest and highest force of each, so that no peak is lost.
 std::vector<RecordedCycle> thin_out(const std::vector<RecordedCycle>& cycles) {
   const std::size_t part = std::max<std::size_t>(1, cycles.size() / kMaxParts);
-  std::vector<RecordedCycle> kept;
+  std::vector<RecordedCycle> thinned;
   for (std::size_t i = 0; i < cycles.size(); i += part) {
     const auto from = cycles.begin() + static_cast<std::ptrdiff_t>(i);
     const auto to = cycles.begin() + static_cast<std::ptrdiff_t>(std::min(i + part, cycles.size()));
     auto [low, high] =
         std::minmax_element(from, to, [](const RecordedCycle& a, const RecordedCycle& b) { return a.force < b.force; });
     if (high < low) std::swap(low, high);
-    kept.push_back(*low);
-    if (high != low) kept.push_back(*high);
+    thinned.push_back(*low);
+    if (high != low) thinned.push_back(*high);
   }
-  return kept;
+  return thinned;
 }
 
 template <class Value>
@@ -120,7 +120,7 @@ class ShiftCharts {
     const Chart chart(svg_, box, time_, {0.0, 1.0});
     svg_.text({box.x - 8.0, box.bottom() - 4.0}, {12.0, base::kSoftInk, "end"}, "gear");
     chart.x_grid(grid_step(time_.to - time_.from, 8));
-    chart.x_name("s since the shift began");
+    chart.x_name("time since the shift began [s]");
     svg_.rect(box, base::kAisleShade, 2.0);
     for (std::size_t i = 0; i < cycles_.size();) {
       const std::size_t first = i;
@@ -168,9 +168,9 @@ base::Rect below(const base::Rect& box, double gap, double height) {
   return {box.x, box.bottom() + gap, box.width, height};
 }
 
-std::vector<glm::dvec2> path_on_page(const std::vector<glm::dvec2>& way) {
+std::vector<glm::dvec2> path_on_page(const std::vector<glm::dvec2>& path) {
   std::vector<glm::dvec2> points;
-  for (const glm::dvec2 place : way) points.push_back(on_page(place));
+  for (const glm::dvec2 place : path) points.push_back(on_page(place));
   return points;
 }
 

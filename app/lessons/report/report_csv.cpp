@@ -1,17 +1,14 @@
-// This work is based on:
-// Y. Shafranovich. RFC 4180, Common Format and MIME Type for Comma-Separated Values (CSV) Files. 2005
 #include "app/lessons/report/report_csv.h"
 
 #include <algorithm>
 #include <array>
-#include <concepts>
 #include <cstddef>
-#include <initializer_list>
 #include <iterator>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "app/base/csv.h"
 #include "app/lessons/assessment/shift_fields.h"
 #include "app/lessons/report/progress.h"
 #include "app/lessons/report/report_text.h"
@@ -19,12 +16,12 @@
 namespace gearshift::lessons {
 namespace {
 
-struct FaultUnit {
+struct ErrorUnit {
   std::string_view key, unit;
 };
 
-// Unit of a fault's value, by key, so that adding a kind does not shift the others.
-constexpr FaultUnit kUnits[] = {
+// Units of the errors' values, by key, so that a new kind of error does not shift the others.
+constexpr ErrorUnit kUnits[] = {
     {"stall", "rad/s"},        {"over_rev", "rad/s"},    {"lugging", "s"},
     {"clutch_dump", "W"},      {"clutch_early", "s"},    {"clutch_late", "s"},
     {"no_clutch", "rad/s"},    {"riding_clutch", "s"},   {"riding_lever", "s"},
@@ -39,37 +36,9 @@ constexpr FaultUnit kUnits[] = {
 
 std::string_view unit_of(ErrorKind kind) noexcept {
   const auto found = std::find_if(std::begin(kUnits), std::end(kUnits),
-                                  [key = error_key(kind)](const FaultUnit& of) { return of.key == key; });
+                                  [key = to_string(kind)](const ErrorUnit& of) { return of.key == key; });
   return found != std::end(kUnits) ? found->unit : std::string_view();
 }
-
-// Builds a table line by line; the first line names the columns.
-class Table {
- public:
-  Table& text(std::string_view field) {
-    if (!first_) text_ += ',';
-    first_ = false;
-    text_ += csv_field(field);
-    return *this;
-  }
-  // Adding 0.0 removes the sign of a negative zero.
-  Table& number(std::floating_point auto value) { return text(fmt::format("{:.{}g}", value + 0.0, kCsvDigits)); }
-  Table& number(std::integral auto value) { return text(fmt::format("{}", value)); }
-  Table& flag(bool on) { return text(on ? "1" : "0"); }
-  Table& texts(std::initializer_list<std::string_view> fields) {
-    for (const std::string_view field : fields) text(field);
-    return *this;
-  }
-  void end() {
-    text_ += "\r\n";
-    first_ = true;
-  }
-  std::string take() && { return std::move(text_); }
-
- private:
-  std::string text_;
-  bool first_ = true;
-};
 
 std::string comments_text(const std::vector<CommentRow>& comments) {
   std::string text;
@@ -98,18 +67,8 @@ double points_off(const LessonResult& result) {
 
 }  // namespace
 
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 std::string runs_csv(const LearnerHistory& history) {
-  Table table;
+  base::CsvTable table;
   table.texts({"run",    "session",    "learner",   "begun_at_utc", "lesson",        "task",
                "mode",   "guided",     "whole",     "ended",        "begin_s",       "duration_s",
                "grade",  "points_off", "passed",    "why",          "slip_energy_j", "engine_work_j",
@@ -118,8 +77,8 @@ std::string runs_csv(const LearnerHistory& history) {
   for (const ReportedRun& run : history.runs) {
     const LessonResult& result = run.row.result;
     table.number(run.row.id).number(run.row.session).text(history.learner.name).text(run.row.begun_at);
-    table.text(result.lesson).text(result.task).text(lesson_mode_key(result.mode));
-    table.flag(result.guided).flag(result.is_complete).text(lesson_end_key(result.end));
+    table.text(result.lesson).text(result.task).text(to_string(result.mode));
+    table.flag(result.guided).flag(result.is_complete).text(to_string(result.end));
     table.number(result.begin).number(result.duration);
     is_graded(result) ? table.number(result.grade) : table.text("");
     table.number(points_off(result)).flag(result.passed).text(result.why);
@@ -130,7 +89,7 @@ std::string runs_csv(const LearnerHistory& history) {
 }
 
 std::string shifts_csv(const LearnerHistory& history) {
-  Table table;
+  base::CsvTable table;
   table.texts({"run", "shift", "from_gear", "to_gear", "guided", "missed", "steps"});
   const ShiftRecord none;
   each_figure(none, [&](const char* name, const auto&) { table.text(name); });
@@ -149,8 +108,8 @@ std::string shifts_csv(const LearnerHistory& history) {
   return std::move(table).take();
 }
 
-std::string faults_csv(const LearnerHistory& history) {
-  Table table;
+std::string errors_csv(const LearnerHistory& history) {
+  base::CsvTable table;
   table.texts({"run", "fault", "kind", "severity", "time_s", "value", "unit", "shift", "points", "step", "wanted_s"});
   table.end();
   for (const ReportedRun& run : history.runs) {
@@ -159,7 +118,7 @@ std::string faults_csv(const LearnerHistory& history) {
     for (const Deduction& deduction : result.deductions) points[deduction.error] += deduction.points;
     for (std::size_t i = 0; i < result.errors.size(); ++i) {
       const DrivingError& error = result.errors[i];
-      table.number(run.row.id).number(i + 1).text(error_key(error.kind)).text(severity_key(error.severity));
+      table.number(run.row.id).number(i + 1).text(to_string(error.kind)).text(to_string(error.severity));
       table.number(error.time).number(error.value).text(unit_of(error.kind));
       error.shift >= 0 ? table.number(error.shift + 1) : table.text("");
       table.number(points[i]).text(error.step);

@@ -20,7 +20,7 @@ std::string names_of(std::span<const ReportFile> files) {
   return names.empty() ? "nothing" : names;
 }
 
-// A failed stream does not give the reason, so check for a full disk.
+// A failed stream does not report the reason, so check for a full disk.
 bool has_no_room(const fs::path& folder, std::size_t bytes) {
   std::error_code unknown;
   const fs::space_info room = fs::space(folder, unknown);
@@ -35,7 +35,7 @@ void write_report_files(const fs::path& folder, std::span<const ReportFile> file
     try {
       haptics::write_text_file(folder / files[i].name, files[i].text);
     } catch (const haptics::FileError& problem) {
-      const char* why = has_no_room(folder, files[i].text.size()) ? ": the disk is full" : "";
+      const char* why = has_no_room(folder, files[i].text.size()) ? "; the disk is full" : "";
       throw std::runtime_error(fmt::format("{}{}; written: {}; not written: {}", problem.what(), why,
                                            names_of(files.first(i)), names_of(files.subspan(i))));
     }

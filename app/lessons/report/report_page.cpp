@@ -76,7 +76,7 @@ table.runs tr:target { background: #fdf3e1; }
 }
 )css";
 
-ShownShift shown(const ChosenShift& chosen, const std::filesystem::path& folder) {
+ShownShift show_shift(const ChosenShift& chosen, const std::filesystem::path& folder) {
   ShownShift shift{chosen, {}, {}};
   if (chosen.recording.empty()) return shift;
   try {
@@ -92,8 +92,8 @@ ShownShift shown(const ChosenShift& chosen, const std::filesystem::path& folder)
 ShownShifts show_shifts(const LearnerHistory& history, const std::filesystem::path& folder) {
   const ChosenShifts chosen = choose_shifts(history);
   ShownShifts shifts;
-  for (const ChosenShift& worst : chosen.worst) shifts.worst.push_back(shown(worst, folder));
-  for (const ChosenShift& best : chosen.best) shifts.best.push_back(shown(best, folder));
+  for (const ChosenShift& worst : chosen.worst) shifts.worst.push_back(show_shift(worst, folder));
+  for (const ChosenShift& best : chosen.best) shifts.best.push_back(show_shift(best, folder));
   return shifts;
 }
 
@@ -113,7 +113,7 @@ std::string report_page(const LearnerHistory& history, const ShownShifts& shifts
   const std::string name = base::html_text(history.learner.name);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: shifting</title>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}: driving report</title>\n"
       "<style>{}{}</style>\n</head>\n<body>\n",
       name, base::html_style(), kStyle);
   page += head_section(history, lessons);

@@ -1,7 +1,6 @@
 #include "app/lessons/report/report_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -10,26 +9,12 @@
 #include "haptics/files/ascii.h"
 
 namespace gearshift::lessons {
-namespace {
-
-constexpr std::array<std::string_view, 5> kEnds{"running", "done", "aborted", "out_of_time", "left"};
-constexpr std::array<std::string_view, 2> kModes{"follow_me", "by_yourself"};
-
-}  // namespace
 
 std::string title_from_key(std::string_view key) {
   std::string words(key);
   std::replace(words.begin(), words.end(), '_', ' ');
   if (!words.empty()) words[0] = haptics::ascii_upper(words[0]);
   return words;
-}
-
-std::string_view lesson_end_key(LessonEnd end) noexcept {
-  return kEnds[static_cast<std::size_t>(end)];
-}
-
-std::string_view lesson_mode_key(LessonMode mode) noexcept {
-  return kModes[static_cast<std::size_t>(mode)];
 }
 
 std::string lesson_title(std::span<const Lesson> lessons, std::string_view key) {

@@ -1,4 +1,4 @@
-// Converts keys of files and enumerations, and values, to text for people.
+// Converts keys, enumeration values and numbers to text for readers.
 #pragma once
 
 #include <span>
@@ -10,9 +10,7 @@
 
 namespace gearshift::lessons {
 
-std::string title_from_key(std::string_view key);            // "Moving off" for "moving_off"
-std::string_view lesson_end_key(LessonEnd end) noexcept;     // "out_of_time"
-std::string_view lesson_mode_key(LessonMode mode) noexcept;  // "follow_me"
+std::string title_from_key(std::string_view key);  // "Moving off" for "moving_off"
 
 // The lesson's title, or its key as text if the lesson is unknown.
 std::string lesson_title(std::span<const Lesson> lessons, std::string_view key);
@@ -20,10 +18,10 @@ std::string lesson_title(std::span<const Lesson> lessons, std::string_view key);
 // The title of the first lesson that teaches the task, else the key as text.
 std::string task_title(std::span<const Lesson> lessons, std::string_view task);
 
-// True if `key` is one of the lessons: used for the instructor's choice.
+// True if `key` is the key of one of the lessons. The instructor's choice may be a key that no lesson has.
 bool is_lesson(std::span<const Lesson> lessons, std::string_view key);
 
-// Formats with so many decimals and a typographic minus sign; zero has no sign.
+// Formats the value with `digits` decimals and a typographic minus sign; zero has no sign.
 std::string format_number(double value, int digits);
 
 std::string gear_change(const ShiftRecord& shift);  // "2 → 3"

@@ -29,8 +29,8 @@ struct RetentionTrial {
 // first. Runs that ended early or never ended are ignored, and so are unreadable dates.
 std::vector<RetentionTrial> retention_trials(const LearnerHistory& history);
 
-std::map<std::int64_t, double> retention_pauses(
-    const LearnerHistory& history);  // run number to break [s]; other runs are not in the map
+// Maps the run numbers of retention trials to the break before each [s].
+std::map<std::int64_t, double> retention_pauses(const LearnerHistory& history);
 
 std::string format_pause(double seconds);  // "26 hours", "8 days"
 

@@ -13,7 +13,7 @@
 namespace gearshift::lessons {
 namespace {
 
-double points_of_fault(const LessonResult& result, std::size_t error) {
+double points_of_error(const LessonResult& result, std::size_t error) {
   double points = 0.0;
   for (const Deduction& deduction : result.deductions) {
     if (deduction.error == error) points += deduction.points;
@@ -21,16 +21,16 @@ double points_of_fault(const LessonResult& result, std::size_t error) {
   return points;
 }
 
-// The points that a fault cost or, if none, its severity: guided runs are not graded.
+// The points that an error cost or, if none, its severity: guided runs are not graded.
 std::string format_cost(const DrivingError& error, double points) {
   if (points > 0.0) return fmt::format("<strong>−{:.1f}</strong>", points);
-  return title_from_key(severity_key(error.severity)) + ":";
+  return title_from_key(to_string(error.severity)) + ":";
 }
 
-// For example "−2.0 The engine stalled, from 350 rpm. (12.4 s into the run, shift 3)", with advice if wanted.
-std::string fault_item(const LessonResult& result, std::size_t i, bool advised) {
+// For example "−2.0 The engine stalled at 350 rpm. (12.4 s into the run, shift 3)", plus advice if `advised`.
+std::string error_item(const LessonResult& result, std::size_t i, bool advised) {
   const DrivingError& error = result.errors[i];
-  const std::string cost = format_cost(error, points_of_fault(result, i));
+  const std::string cost = format_cost(error, points_of_error(result, i));
   const std::string shift = error.shift >= 0 ? fmt::format(", shift {}", error.shift + 1) : std::string();
   const std::string advice =
       advised ? fmt::format("<br><span class=\"soft\">{}</span>", base::html_text(error_advice(error.kind)))
@@ -39,14 +39,14 @@ std::string fault_item(const LessonResult& result, std::size_t i, bool advised) 
                      base::html_text(error_sentence(error)), error.time - result.begin, shift, advice);
 }
 
-// The advice is given once per kind of fault that cost points.
-std::string faults_list(const LessonResult& result) {
+// Adds advice once per kind of error that cost points.
+std::string error_list(const LessonResult& result) {
   if (result.errors.empty()) return {};
   std::string list = "<ul>";
   std::set<ErrorKind> advised;
   for (std::size_t i = 0; i < result.errors.size(); ++i) {
-    const bool costs = points_of_fault(result, i) > 0.0;
-    list += fault_item(result, i, costs && advised.insert(result.errors[i].kind).second);
+    const bool costs = points_of_error(result, i) > 0.0;
+    list += error_item(result, i, costs && advised.insert(result.errors[i].kind).second);
   }
   return list + "</ul>";
 }
@@ -56,10 +56,10 @@ std::string format_lost_points(const LessonResult& result) {
   double points = 0.0;
   for (const Deduction& deduction : result.deductions) points += deduction.points;
   if (!is_graded(result) || points <= kBestGrade) return {};
-  return fmt::format("<br><span class=\"soft\">{:.1f} points lost; no grade is below 0</span>", points);
+  return fmt::format("<br><span class=\"soft\">{:.1f} points lost; the lowest grade is 0</span>", points);
 }
 
-std::string outcome(const LessonResult& result) {
+std::string format_outcome(const LessonResult& result) {
   if (result.passed) return "<span class=\"passed\">passed</span>";
   if (result.end == LessonEnd::running) return "never finished";
   const std::string why = result.why.empty() ? std::string() : "<br>" + base::html_text(result.why);
@@ -87,7 +87,7 @@ std::string format_begin(const std::string& begun_at) {  // "2026-01-02<br>10:00
 
 // pause: [s] break before a retention trial; else 0.
 std::string format_mode(const LessonResult& result, double pause) {
-  std::string words = result.mode == LessonMode::follow_me ? "follow me" : "by yourself";
+  std::string words = result.mode == LessonMode::follow_me ? "follow me" : "do it yourself";
   if (result.guided) words += ", guided";
   return pause > 0.0 ? words + fmt::format("<br>after a break of {}", format_pause(pause)) : words;
 }
@@ -100,8 +100,8 @@ std::string run_row(const ReportedRun& run, std::span<const Lesson> lessons, dou
       "<td>{6}</td><td>{7}{8}</td></tr>\n",
       run.row.id, format_begin(run.row.begun_at), base::html_text(lesson_title(lessons, result.lesson)),
       format_mode(result, pause), result.shifts.size(),
-      is_graded(result) ? fmt::format("{:.1f}", result.grade) : std::string("–"), outcome(result), faults_list(result),
-      comments_list(run.comments));
+      is_graded(result) ? fmt::format("{:.1f}", result.grade) : std::string("–"), format_outcome(result),
+      error_list(result), comments_list(run.comments));
 }
 
 }  // namespace

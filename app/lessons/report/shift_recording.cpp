@@ -58,26 +58,26 @@ class Presses {
 }  // namespace
 
 ShiftRecording read_shift(const std::filesystem::path& trace, const ShiftRecord& shift) {
-  DriveReader reader(trace);  // an incomplete recording of a killed process is still useful
+  DriveReader reader(trace);  // an incomplete recording from a killed process is still useful
   ShiftRecording recorded;
   recorded.gate = reader.gate();
   recorded.alarm = reader.header().config.over_push.warn_above;
   recorded.end = shift.end - shift.begin;
-  LeverPath way;
+  LeverPath path;
   Presses presses(reader.car());
   for (vehicle::DriveSample sample; reader.next(sample);) {
     const double time = sample.time() - shift.begin;
     if (time > recorded.end + kRecordingMargin) break;
     if (time <= recorded.end) presses.add(sample, time);
     if (time >= -kRecordingMargin) recorded.cycles.push_back(cycle_of(sample, time));
-    if (time >= 0.0) way.add(sample.time(), sample.lever.proxy);
+    if (time >= 0.0) path.add(sample.time(), sample.lever.proxy);
   }
   const bool holds_it =
       !recorded.cycles.empty() && recorded.cycles.front().time <= recorded.end && recorded.cycles.back().time >= 0.0;
-  if (!holds_it) throw haptics::FileError(trace.string(), 0, "does not hold this shift");
+  if (!holds_it) throw haptics::FileError(trace.string(), 0, "does not contain this shift");
   recorded.has_car = reader.car() != nullptr && !reader.has_diverged();
   recorded.presses = presses.up_to(recorded.end);
-  recorded.ideal = way.paths(shift, recorded.gate).ideal;
+  recorded.ideal = path.paths(shift, recorded.gate).ideal;
   return recorded;
 }
 

@@ -20,28 +20,28 @@ struct RecordedCycle {
   double shaft_speed = 0.0;          // [rad/s] gearbox input shaft, at the clutch
   int gear = haptics::kNeutralGear;  // engaged gear
   glm::dvec2 hand{0.0};              // [m] the lever point, which may penetrate walls
-  glm::dvec2 lever{0.0};             // [m] the displayed lever, which does not
+  glm::dvec2 lever{0.0};             // [m] the displayed lever, which never penetrates walls
 };
 
 struct ClutchPress {
-  double from = 0.0, to = 0.0;  // [s] since the shift began: time with the pedal past the car's bite point
+  double from = 0.0, to = 0.0;  // [s] since the shift began; in between the pedal was past the bite point
 };
 
 struct ShiftRecording {
   haptics::Gate gate;
   double alarm = 0.0;                 // [N] threshold of the over-push warning
   double end = 0.0;                   // [s] duration of the shift
-  bool has_car = false;               // false: no speeds, and the gear is the lever's
+  bool has_car = false;               // false: no speeds, and `gear` is the lever's
   std::vector<RecordedCycle> cycles;  // from kRecordingMargin before the shift to kRecordingMargin after it
   std::vector<ClutchPress> presses;   // in order; empty without a car
   std::vector<glm::dvec2> ideal;  // [m] shortest path from where the old gear was left to where the new gear engaged
 };
 inline constexpr double kRecordingMargin = 0.3;  // [s]
 
-// Reads every cycle of the shift, however long the drive is. The car is simulated again up to there; if the result
-// differs from the recording (another version of this program), the recording counts as without a car. Throws FileError
-// if the file is not a trace, is damaged or of another program, if its gate or car is rejected, or if it does not
-// contain the shift.
+// Reads every cycle of the shift, however long the drive is. The car is simulated again up to the shift; if the result
+// differs from the recording (made by a different version of this program), the recording counts as one without a car.
+// Throws FileError if the file is not a trace, is damaged or from a different program, if its gate or car is rejected,
+// or if it does not contain the shift.
 ShiftRecording read_shift(const std::filesystem::path& trace, const ShiftRecord& shift);
 
 }  // namespace gearshift::lessons

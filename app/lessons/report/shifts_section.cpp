@@ -50,7 +50,7 @@ std::string timeline(std::span<const ShownShift> shifts) {
 
 constexpr const char* kMeeting = "engine and gearbox speeds, which the clutch brings together; ";
 
-std::string recording(const ShownShift& shown) {
+std::string recording_html(const ShownShift& shown) {
   const std::string name = fmt::format("{}, shift {}, {}", run_link(shown.chosen.run), shown.chosen.shift.number + 1,
                                        gear_change(shown.chosen.shift));
   if (!shown.problem.empty())
@@ -58,9 +58,9 @@ std::string recording(const ShownShift& shown) {
   if (!shown.recorded) return {};
   return fmt::format(
       "<div class=\"recording\">\n<figure class=\"force\">\n{}<figcaption>{}: hand force; {}the shift itself "
-      "is shaded</figcaption></figure>\n<figure class=\"path\">\n{}<figcaption>From ring to dot: "
-      "purple: the lever as displayed; orange: where the hand pushed it; green, dashed: the shortest "
-      "path</figcaption></figure>\n</div>\n",
+      "is shaded</figcaption></figure>\n<figure class=\"path\">\n{}<figcaption>From the ring to the dot: "
+      "the displayed lever (purple), where the hand pushed the lever (orange) and the shortest path (dashed "
+      "green)</figcaption></figure>\n</div>\n",
       force_svg(*shown.recorded), name, shown.recorded->has_car ? kMeeting : "", path_svg(*shown.recorded));
 }
 
@@ -69,7 +69,7 @@ std::string group(std::string_view title, std::span<const ShownShift> shifts, st
   std::string html = fmt::format("<h3>{}</h3>\n", title);
   if (shifts.empty()) return html + paragraph(none);
   html += timeline(shifts) + figures_table(shifts, lessons);
-  for (const ShownShift& shown : shifts) html += recording(shown);
+  for (const ShownShift& shown : shifts) html += recording_html(shown);
   return html;
 }
 
@@ -77,7 +77,7 @@ std::string group(std::string_view title, std::span<const ShownShift> shifts, st
 
 std::string shifts_section(const ShownShifts& shifts, std::span<const Lesson> lessons) {
   return section("shifts", "Shifts",
-                 group("Most points lost", shifts.worst, lessons, "No driving errors in a graded shift.") +
+                 group("Most points lost", shifts.worst, lessons, "No driving errors in graded shifts.") +
                      group("Best shifts", shifts.best, lessons, "No clean shift from gear to gear yet."));
 }
 

@@ -20,7 +20,7 @@ constexpr double kTop = 30.0;  // legend
 constexpr double kLabels = 130.0;
 constexpr double kNumbers = 96.0;  // for the bars' durations, right of the axis
 constexpr double kBar = 15.0, kBarGap = 4.0;
-constexpr double kLine = 17.0;  // height of a fault's sentence
+constexpr double kLine = 17.0;  // height of an error's sentence
 constexpr double kShiftGap = 18.0;
 constexpr double kAxisHeight = 40.0;
 
@@ -44,7 +44,7 @@ struct Clutch {
   bool is_known = true;  // false: pressed more than once, at unknown times
 };
 
-// From the recording, else from the shift's record if there was only one press.
+// Clutch presses from the recording; without one, from the shift's record if there was only one press.
 Clutch clutch_of(const ShownShift& shown, const ShiftTimes& times) {
   if (shown.recorded && !shown.recorded->presses.empty()) return {shown.recorded->presses, true};
   if (times.presses > 1) return {{}, false};
@@ -52,7 +52,7 @@ Clutch clutch_of(const ShownShift& shown, const ShiftTimes& times) {
   return {};
 }
 
-// An early clutch release happened before the end of the shift, when the fault was reported.
+// Time of an error since the shift began. An early clutch release is reported at the end of the shift, but came before.
 double moment_of(const DrivingError& error, const ShiftRecord& shift, const ShiftTimes& times) {
   const bool came_up = error.kind == ErrorKind::clutch_early && times.gear_in && shift.clutch_lag < 0.0;
   return came_up ? *times.gear_in + shift.clutch_lag : error.time - shift.begin;
@@ -65,7 +65,7 @@ class Timeline {
 
   void axis() {
     chart_.x_grid(grid_step(seconds_, 10));
-    chart_.x_name("s since the shift began");
+    chart_.x_name("time since the shift began [s]");
   }
 
   void legend() {
@@ -99,8 +99,8 @@ class Timeline {
   void bar(double from, double to, double top, const char* colour) {
     svg_.rect({x(from), top, std::max(1.5, x(to) - x(from)), kBar}, colour, 2.0);
   }
-  void number(double top, double seconds, std::string_view what) {
-    svg_.text({box_.right() + 8.0, top + 12.0}, {12.0, base::kInk}, fmt::format("{:.2f} s {}", seconds, what));
+  void number(double top, double seconds, std::string_view label) {
+    svg_.text({box_.right() + 8.0, top + 12.0}, {12.0, base::kInk}, fmt::format("{:.2f} s {}", seconds, label));
   }
 
   void clutch(const ShiftTimes& times, const Clutch& clutch, const ShiftRecord& shift, double top) {

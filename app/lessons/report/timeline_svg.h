@@ -8,7 +8,7 @@
 
 namespace gearshift::lessons {
 
-// Takes at least one shift. If the pedal went down more than once, its times come from the recording; without a
+// Requires at least one shift. If the pedal went down more than once, its times come from the recording; without a
 // recording the clutch bar is pale, and lever movement without the clutch is not marked.
 std::string timeline_svg(std::span<const ShownShift> shifts);
 

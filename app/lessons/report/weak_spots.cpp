@@ -11,23 +11,24 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kRare = 0.05 - 1e-9;  // [1] one-sided probability; exactly one in twenty is not below the limit
+constexpr double kRare = 0.05 - 1e-9;  // [1] one-sided limit of probability; exactly 5 % is not below it
 
-double log_ways(std::size_t k, std::size_t n) noexcept {
+double log_binomial(std::size_t k, std::size_t n) noexcept {
   const auto of = static_cast<double>(n), in = static_cast<double>(k);
   return std::lgamma(of + 1.0) - std::lgamma(in + 1.0) - std::lgamma(of - in + 1.0);
 }
 
-// Hypergeometric probabilities [1] of 0, 1, ... runs with the fault in the later half.
-std::vector<double> draws(const LessonHalves& lesson) {
+// Hypergeometric probabilities [1] of 0, 1, ... runs with the error in the later half.
+std::vector<double> later_half_distribution(const LessonHalves& lesson) {
   const std::size_t with = lesson.earlier + lesson.recent, all = 2 * lesson.runs;
   std::vector<double> chances(std::min(with, lesson.runs) + 1, 0.0);
   for (std::size_t k = with > lesson.runs ? with - lesson.runs : 0; k < chances.size(); ++k)
-    chances[k] = std::exp(log_ways(k, with) + log_ways(lesson.runs - k, all - with) - log_ways(lesson.runs, all));
+    chances[k] =
+        std::exp(log_binomial(k, with) + log_binomial(lesson.runs - k, all - with) - log_binomial(lesson.runs, all));
   return chances;
 }
 
-std::vector<double> sums(const std::vector<double>& a, const std::vector<double>& b) {
+std::vector<double> distribution_of_sum(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> chances(a.size() + b.size() - 1, 0.0);
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) chances[i + j] += a[i] * b[j];
@@ -97,7 +98,7 @@ WeakSpot spot_of(ErrorKind kind, std::span<const LessonResult* const> results) {
   return spot;
 }
 
-// A fault with notes only, or only in runs outside both halves, has no trend.
+// An error that occurs only as notes, or only in runs outside both halves, has no trend.
 void compare(WeakSpot& spot, const std::vector<LessonHalves>& lessons) {
   LessonHalves sum;
   for (const LessonHalves& lesson : lessons) {
@@ -117,7 +118,7 @@ Trend trend_of(std::span<const LessonHalves> lessons) {
   std::vector<double> chances{1.0};
   std::size_t recent = 0;
   for (const LessonHalves& lesson : lessons) {
-    chances = sums(chances, draws(lesson));
+    chances = distribution_of_sum(chances, later_half_distribution(lesson));
     recent += lesson.recent;
   }
   double as_few = 0.0, as_many = 0.0;

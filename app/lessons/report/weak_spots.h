@@ -16,17 +16,18 @@
 
 namespace gearshift::lessons {
 
-enum class Trend { unknown, falling, unclear, rising };  // unknown: not in the compared runs
+enum class Trend { unknown, falling, unclear, rising };  // unknown: the compared runs lack the error
 
 struct WeakSpot {
   ErrorKind kind = ErrorKind::stall;
   std::array<std::size_t, 4> by_severity{};  // note, minor, severe, very severe
   std::size_t count = 0;
-  double points = 0.0;                 // [1] total deduction
-  double earlier = 0.0, recent = 0.0;  // how many of 10 runs had it, in the first and second half of each lesson's runs
-  double per_ten = 0.0;                // per 10 shifts, without notes; 0 if there were no shifts
+  double points = 0.0;  // [1] total deduction
+  // [1] runs with the error per 10 runs, in the first and second half of each lesson's runs
+  double earlier = 0.0, recent = 0.0;
+  double per_ten = 0.0;  // [1] errors per 10 shifts, without notes; 0 if there were no shifts
   Trend trend = Trend::unknown;
-  std::optional<DrivingError> newest_step;  // the newest one that names a step of the lesson
+  std::optional<DrivingError> newest_step;  // newest error that names a step of the lesson
 };
 
 struct Weaknesses {
@@ -34,18 +35,19 @@ struct Weaknesses {
   std::vector<WeakSpot> spots;  // most points first
 };
 
-// Considers graded runs only. Each lesson's runs are split into halves, without the middle one of an odd number, so
-// that a different mix of lessons does not count as a change. A run counts once per kind of fault; notes do not count.
+// Considers graded runs only. The runs of each lesson are split into halves (without the middle run of an odd number),
+// so that a different mix of lessons does not count as a change. A run counts once per kind of error; notes do not
+// count.
 Weaknesses weaknesses(const LearnerHistory& history);
 
-// One lesson: `runs` runs in each half, and how many of them had the fault.
+// For one lesson: the number of runs in each half, and how many runs of each half had the error.
 struct LessonHalves {
   std::size_t runs = 0, earlier = 0, recent = 0;  // earlier, recent <= runs
 };
 
-// Rising or falling if the observed number of later runs with the fault, or a more extreme one, has a probability below
-// 5 % under the hypothesis of no change: within each lesson every run is equally likely to have the fault. So each
-// lesson's later half is a draw without replacement, and the draws of all lessons add up.
+// The trend is rising or falling if the number of later runs with the error, or a more extreme number, has a
+// probability below 5 % under the hypothesis of no change: that within each lesson every run is equally likely to have
+// the error. Then each lesson's later half is a draw without replacement, and the draws of all lessons add up.
 Trend trend_of(std::span<const LessonHalves> lessons);
 
 }  // namespace gearshift::lessons

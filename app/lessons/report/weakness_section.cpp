@@ -26,19 +26,20 @@ const char* trend_label(Trend trend) {
   return "–";
 }
 
-// Earlier rate above, recent rate below, on one scale. A dash if nothing was compared: that does not mean 0.
-std::string bars(const WeakSpot& spot, double most) {
+// Bars for the earlier rate above the recent rate, on one scale. A dash if no runs were compared, which does not mean
+// 0.
+std::string bars(const WeakSpot& spot, double max_rate) {
   if (spot.trend == Trend::unknown) return "–";
   const auto bar = [&](const char* kind, double rate) {
     return fmt::format("<span class=\"bar {}\" style=\"width:{:.2f}rem\"></span> {:.1f}", kind,
-                       most > 0.0 ? kMaxBarWidth * rate / most : 0.0, rate);
+                       max_rate > 0.0 ? kMaxBarWidth * rate / max_rate : 0.0, rate);
   };
-  return bar("earlier", spot.earlier) + "<br>" + bar("lately", spot.recent);
+  return bar("earlier", spot.earlier) + "<br>" + bar("recently", spot.recent);
 }
 
-// Adds the newest sentence, because "Slow step" alone is not informative, and the advice.
+// Adds the advice and, because "Slow step" says too little, the newest error's sentence.
 std::string format_spot_name(const WeakSpot& spot) {
-  std::string words = base::html_text(title_from_key(error_key(spot.kind)));
+  std::string words = base::html_text(title_from_key(to_string(spot.kind)));
   const auto add = [&](std::string_view line) {
     words += "<br><span class=\"soft\">" + base::html_text(line) + "</span>";
   };
@@ -47,14 +48,15 @@ std::string format_spot_name(const WeakSpot& spot) {
   return words;
 }
 
-std::string spot_row(const WeakSpot& spot, double most) {
+std::string spot_row(const WeakSpot& spot, double max_rate) {
   std::string row = fmt::format("<tr><td>{}</td>", format_spot_name(spot));
   for (std::size_t severity = spot.by_severity.size(); severity-- > 0;) {
     const std::size_t count = spot.by_severity[severity];
     row += fmt::format("<td class=\"number\">{}</td>", count == 0 ? std::string() : std::to_string(count));
   }
   row += fmt::format("<td class=\"number\">{:.1f}</td><td class=\"number\">{:.1f}</td>", spot.points, spot.per_ten);
-  return row + fmt::format("<td class=\"bars\">{}</td><td>{}</td></tr>\n", bars(spot, most), trend_label(spot.trend));
+  return row +
+         fmt::format("<td class=\"bars\">{}</td><td>{}</td></tr>\n", bars(spot, max_rate), trend_label(spot.trend));
 }
 
 }  // namespace
@@ -62,21 +64,18 @@ std::string spot_row(const WeakSpot& spot, double most) {
 std::string weakness_section(const LearnerHistory& history) {
   const Weaknesses found = weaknesses(history);
   if (found.spots.empty()) return section("weaknesses", "Weaknesses", paragraph("No driving errors in graded runs."));
-  double most = 0.0;
-  for (const WeakSpot& spot : found.spots) most = std::max({most, spot.earlier, spot.recent});
+  double max_rate = 0.0;
+  for (const WeakSpot& spot : found.spots) max_rate = std::max({max_rate, spot.earlier, spot.recent});
   std::string table = fmt::format(
-      "<table class=\"weaknesses\">\n<caption>Driving errors in graded runs, {} shifts. Earlier and recently: how many "
-      "of ten "
-      "runs had the error, in the first and second half of each lesson's runs; the middle run of an odd number is left "
-      "out. "
-      "Falling or rising: chance would cause such a change less than one time in twenty. Notes are counted only in "
-      "their "
-      "own column.</caption>\n"
+      "<table class=\"weaknesses\">\n<caption>Driving errors in graded runs ({} shifts). The bars \"earlier\" and "
+      "\"recently\" show in how many of ten runs the error occurred, in the first and the second half of each lesson's "
+      "runs; with an odd number of runs, the middle one is left out. A trend is shown as falling or rising if chance "
+      "alone would cause it less than one time in twenty. Notes are counted only in their own column.</caption>\n"
       "<thead><tr><th>Error</th><th class=\"number\">Very severe</th><th class=\"number\">Severe</th>"
       "<th class=\"number\">Minor</th><th class=\"number\">Notes</th><th class=\"number\">Points lost</th>"
       "<th class=\"number\">Per 10 shifts</th><th>Earlier, recently</th><th>Trend</th></tr></thead>\n<tbody>\n",
       found.shifts);
-  for (const WeakSpot& spot : found.spots) table += spot_row(spot, most);
+  for (const WeakSpot& spot : found.spots) table += spot_row(spot, max_rate);
   return section("weaknesses", "Weaknesses", table + "</tbody></table>\n");
 }
 

@@ -5,14 +5,15 @@
 #include <utility>
 
 #include "app/lessons/assessment/lesson_run.h"
+#include "app/lessons/assessment/lever_path_text.h"
 #include "app/lessons/simulated_driver/gear_steps.h"
 #include "app/lessons/simulated_driver/simulated_driver.h"
 
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kTopGearTime = 2.0;     // [s] in the highest gear [engineering value]
-constexpr double kBackUpDistance = 2.0;  // [m] [engineering value]
+constexpr double kTopGearTime = 2.0;     // [s] time in the highest gear (engineering value)
+constexpr double kBackUpDistance = 2.0;  // [m] engineering value
 constexpr double kTourLimit = 300.0;     // [s]
 
 LessonStart start_of(const vehicle::DriveSample& sample, const LessonStart& lesson) {
@@ -36,7 +37,7 @@ LessonStep back_up_step() {
 
 LessonStep slow_down_step(const vehicle::CarSpec& car, int high, int low) {
   LessonStep step;
-  step.prompt = std::string("Slow down in ") + haptics::gear_name(high) + ".";
+  step.prompt = "Slow down in " + gear_word(high) + ".";
   step.gear = high;
   step.until.gear = high;
   step.until.speed_below = downshift_speed(car, low);
@@ -108,7 +109,7 @@ Lesson tour_lesson(const vehicle::CarSpec& car, const haptics::Gate& gate) {
   lesson.goal = "Drive through every gear, up and down again, and reverse a little.";
   lesson.time_limit = kTourLimit;
   for (int kind = 0; kind < kErrorKindCount; ++kind) {
-    // The tour shifts down without blips: these are a lesson of their own.
+    // The tour shifts down without blips, which have a lesson of their own.
     if (static_cast<ErrorKind>(kind) != ErrorKind::rev_mismatch) lesson.counted.push_back(static_cast<ErrorKind>(kind));
   }
 

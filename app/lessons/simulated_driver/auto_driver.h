@@ -1,4 +1,4 @@
-// Drives the trainer in place of a person: a simulated driver that follows the lesson by itself, sample by sample.
+// Drives the trainer in place of a learner: a simulated driver that follows the lesson by itself, sample by sample.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct AutoDriverConfig {
   DeliberateErrors errors;
   std::uint64_t seed = 1;
   double period = 1e-3;  // [s] between samples
-  bool again = false;    // after the lesson: true: drive back and repeat it; false: stop and release hand and feet
+  bool again = false;    // after the lesson, drive back and repeat it; false: stop and let go
 };
 
 class AutoDriver {
@@ -37,7 +37,7 @@ class AutoDriver {
   std::unique_ptr<State> state_;
 };
 
-// A drive through every gear of the gate, up, down and back to a stop: what an automatic driver does without a lesson.
+// The lesson of an automatic driver that has no other: a drive through every gear, up, down and back to a stop.
 Lesson tour_lesson(const vehicle::CarSpec& car, const haptics::Gate& gate);
 
 }  // namespace gearshift::lessons

@@ -7,7 +7,7 @@
 
 namespace gearshift::lessons {
 
-// A deliberate error of the launch is still to be made.
+// True if a deliberate error of the launch is still to be made.
 bool SimulatedDriver::has_pending_error(const vehicle::DriveSample& now) const noexcept {
   if (now.car.gear == haptics::kNeutralGear) return false;
   const bool hill = std::abs(lesson_.start.slope) > kMinHillSlope;
@@ -21,13 +21,13 @@ bool SimulatedDriver::spoil_launch(const vehicle::DriveSample& now) {
   const bool dumps = is_due(ErrorKind::clutch_dump);
   const double revs = dumps ? kDumpSpeed : kJerkSpeed;
   if (feet_.hand_brake.value() > 0.05 && !is_due(ErrorKind::rollback) && !is_due(ErrorKind::stall)) {
-    // On a hill the engine speed comes first, or the car would roll back
+    // On a hill, revs first, handbrake second: otherwise the car would roll back.
     feet_.throttle.move_to(kHurryThrottle, 4.0);
     if (now.car.engine_speed >= revs) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
     return true;
   }
   if (feet_.hand_brake.value() > 0.05) {
-    if (intent().motion == Motion::bite) feet_.hand_brake.move_to(0.0, kHandBrakeRate);  // without waiting for it
+    if (intent().motion == Motion::bite) feet_.hand_brake.move_to(0.0, kHandBrakeRate);  // before the clutch bites
     hold_revs(launch_speed_);
     feet_.clutch.move_to(0.5 * (car_.clutch.bite + kClutchDown), kClutchRateToBite);
     rolls_since_ = now.time();
@@ -35,7 +35,7 @@ bool SimulatedDriver::spoil_launch(const vehicle::DriveSample& now) {
   }
   if (is_due(ErrorKind::rollback)) {
     hold_revs(launch_speed_);
-    const bool rolls = now.time() - rolls_since_ < 0.8 * faults_.of(ErrorKind::rollback);
+    const bool rolls = now.time() - rolls_since_ < 0.8 * errors_.of(ErrorKind::rollback);
     if (!rolls) mark_done(ErrorKind::rollback);
     return rolls;
   }
@@ -55,11 +55,11 @@ bool SimulatedDriver::make_over_rev(const vehicle::DriveSample& now) {
   if (!is_due(ErrorKind::over_rev) || !now.car.running) return false;
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
   const bool late = over_rev_late_ && coupled && now.car.gear >= 1 && now.car.gear <= 2;
-  const bool stands = std::abs(now.car.road_speed) < kMaxStandingSpeed;
-  const bool howls = !over_rev_late_ && clutch_is_down_ && (stands || feet_.brake.goal() < 0.5);
-  if (!late && !howls) return false;
+  const bool is_stopped = std::abs(now.car.road_speed) < kMaxStandingSpeed;
+  const bool with_open_clutch = !over_rev_late_ && clutch_is_down_ && (is_stopped || feet_.brake.goal() < 0.5);
+  if (!late && !with_open_clutch) return false;
   feet_.throttle.move_to(1.0, 8.0);
-  if (now.car.engine_speed > 1.01 * car_.engine.red_line && mark_done(ErrorKind::over_rev) && howls)
+  if (now.car.engine_speed > 1.01 * car_.engine.red_line && mark_done(ErrorKind::over_rev) && with_open_clutch)
     release_at_ = now.time() + kSettleAfterOverRev;
   return true;
 }
@@ -77,19 +77,19 @@ int SimulatedDriver::lugging_gear(const vehicle::DriveSample& now) const noexcep
 // Rolls on with the clutch down for no reason.
 bool SimulatedDriver::make_coasting(const vehicle::DriveSample& now) {
   if (!is_due(ErrorKind::coasting)) return false;
-  // If a shift came next, this would only make it slow.
+  // If a shift came next, an open clutch would only make that shift slow.
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 2 && !intent().next_gear;
   if (coasts_until_ == 0.0 && coupled && now.car.road_speed > kMinCoastingSpeed)
-    coasts_until_ = pause_until_ = now.time() + kCoastTime * faults_.of(ErrorKind::coasting);
+    coasts_until_ = pause_until_ = now.time() + kCoastTime * errors_.of(ErrorKind::coasting);
   if (coasts_until_ == 0.0 || (now.time() >= coasts_until_ && mark_done(ErrorKind::coasting))) return false;
   feet_.throttle.move_to(0.0, kLiftRate);
   feet_.brake.move_to(0.0, kBrakeRate);
-  // Open, but not as far as lessons call down, or a shift step would begin
+  // Open the clutch, but not as far as lessons require for "clutch down", or a step of a shift would be done.
   feet_.clutch.move_to(car_.clutch.bite + kOpenMargin, kPressRate);
   return true;
 }
 
-// Reverse while the car still rolls forward.
+// For a deliberate wrong_direction: reverse while the car still rolls forward.
 std::optional<int> SimulatedDriver::early_reverse_gear(const vehicle::DriveSample& now) const {
   const bool rolls = now.car.road_speed > kMinRollingSpeed && now.car.road_speed < kMinCoastingSpeed;
   const bool is_next = current_step_ + 1 < intents_.size() && intents_[current_step_ + 1].gear == haptics::kReverseGear;
@@ -97,7 +97,7 @@ std::optional<int> SimulatedDriver::early_reverse_gear(const vehicle::DriveSampl
   return clutch_is_down_ ? intents_[current_step_ + 1].gear : std::nullopt;
 }
 
-// The lower gear at once instead of slowing down first.
+// For a deliberate early_downshift: the lower gear at once, instead of slowing down first.
 std::optional<int> SimulatedDriver::early_downshift_gear(const vehicle::DriveSample& now) const {
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear > 1;
   if (!is_due(ErrorKind::early_downshift) || intent().motion != Motion::slow || !coupled) return std::nullopt;
@@ -130,11 +130,11 @@ bool SimulatedDriver::make_lugging(const vehicle::DriveSample& now) {
   return true;
 }
 
-// If the lesson ends with a stop, stalls there, else at once.
+// In a lesson with a stop the deliberate stall happens there, otherwise at once.
 bool SimulatedDriver::should_stall_by_brake(const vehicle::DriveSample& now) const noexcept {
   if (!is_due(ErrorKind::stall) || lesson_.start.speed <= 0.0 || now.car.gear == haptics::kNeutralGear) return false;
-  const auto stands = [](const LessonIntent& wants) { return wants.motion == Motion::stop; };
-  return intent().motion == Motion::stop || std::none_of(intents_.begin(), intents_.end(), stands);
+  const auto is_stop = [](const LessonIntent& wants) { return wants.motion == Motion::stop; };
+  return intent().motion == Motion::stop || std::none_of(intents_.begin(), intents_.end(), is_stop);
 }
 
 bool SimulatedDriver::make_brake_stall(const vehicle::DriveSample& now) {

@@ -1,4 +1,4 @@
-// Between shifts: moving off, driving, slowing down, stopping.
+// The pedals between shifts: moving off, driving, slowing down, stopping.
 #include <algorithm>
 #include <cmath>
 
@@ -51,7 +51,7 @@ void SimulatedDriver::drive(const vehicle::DriveSample& now) {
 
 void SimulatedDriver::drive_on(const vehicle::DriveSample& now) {
   feet_.brake.move_to(0.0, kBrakeRate);
-  const double rides = faults_.of(ErrorKind::riding_clutch);
+  const double rides = errors_.of(ErrorKind::riding_clutch);
   const double rest =
       rides > 0.0 && now.car.road_speed > kMinRollingSpeed ? kRestingPedal + kRestingPedalGain * rides : 0.0;
   const bool is_up = feet_.clutch.value() <= rest && now.car.clutch_locked;
@@ -97,54 +97,54 @@ bool SimulatedDriver::feels_bite(const vehicle::DriveSample& now) const noexcept
 }
 
 double SimulatedDriver::launch_target() const noexcept {
-  return launch_speed_ * (1.0 + kBurnSpeedGain * faults_.of(ErrorKind::clutch_burn));
+  return launch_speed_ * (1.0 + kBurnSpeedGain * errors_.of(ErrorKind::clutch_burn));
 }
 
 void SimulatedDriver::release(const vehicle::DriveSample& now) {
   if (now.time() < release_at_) {
     feet_.clutch.hold();
-    const bool too_soon = faults_.of(ErrorKind::step_order) > 0.0 && shift_.between_gears;
+    const bool too_soon = errors_.of(ErrorKind::step_order) > 0.0 && shift_.between_gears;
     feet_.throttle.move_to(too_soon ? kEarlyThrottle : 0.0, kThrottleRate);
     return;
   }
-  const double turns = std::abs(shaft_speed_in(now, now.car.gear));
-  if (clutch_is_down_) launching_ = turns < 1.05 * car_.engine.idle && lug_gear_ == haptics::kNeutralGear;
-  if (!launching_) return release_rolling(now, turns);
+  const double gear_speed = std::abs(shaft_speed_in(now, now.car.gear));
+  if (clutch_is_down_) launching_ = gear_speed < 1.05 * car_.engine.idle && lug_gear_ == haptics::kNeutralGear;
+  if (!launching_) return release_rolling(now, gear_speed);
   if (!now.car.clutch_locked) return launch(now);
   feet_.throttle.hold();
   feet_.clutch.move_to(0.0, kClutchRateAfterLaunch);
 }
 
-// turns: engine speed that the gear requires. [rad/s]
-void SimulatedDriver::release_rolling(const vehicle::DriveSample& now, double turns) {
+// gear_speed: engine speed that the gear requires [rad/s].
+void SimulatedDriver::release_rolling(const vehicle::DriveSample& now, double gear_speed) {
   const bool slips = !now.car.clutch_locked;
-  const bool jerks = faults_.of(ErrorKind::jerk) >= 0.5, dumps = is_due(ErrorKind::clutch_dump);
-  const bool blips = intent().blip && faults_.of(ErrorKind::rev_mismatch) <= 0.0 && !jerks;
-  if (slips && dumps && !match_revs(now, turns + kDumpSlip)) return;
-  if (slips && blips && !dumps && !match_revs(now, turns)) return;
+  const bool jerks = errors_.of(ErrorKind::jerk) >= 0.5, dumps = is_due(ErrorKind::clutch_dump);
+  const bool blips = intent().blip && errors_.of(ErrorKind::rev_mismatch) <= 0.0 && !jerks;
+  if (slips && dumps && !match_revs(now, gear_speed + kDumpSlip)) return;
+  if (slips && blips && !dumps && !match_revs(now, gear_speed)) return;
   if (!blips && !dumps) {
-    feet_.throttle.move_to(faults_.of(ErrorKind::step_order) > 0.0 ? kEarlyThrottle : 0.0, kThrottleRate);
+    feet_.throttle.move_to(errors_.of(ErrorKind::step_order) > 0.0 ? kEarlyThrottle : 0.0, kThrottleRate);
   }
   const double bite = car_.clutch.bite, pedal = feet_.clutch.value();
   const bool carries_nothing = pedal > bite + 0.01, holds = !slips && pedal < 0.5 * bite;
   if (pedal == 0.0) mark_done(ErrorKind::clutch_dump);
-  if (carries_nothing) abrupt_rate_ = std::abs(now.car.engine_speed - turns) < kNearRevs ? kDumpRate : kAbruptRate;
+  if (carries_nothing) abrupt_rate_ = std::abs(now.car.engine_speed - gear_speed) < kNearRevs ? kDumpRate : kAbruptRate;
   if (dumps) return feet_.clutch.move_to(0.0, kDumpRate);
   feet_.clutch.move_to(0.0, carries_nothing || holds ? kClutchRateToBite : jerks ? abrupt_rate_ : release_rate_);
 }
 
-// Brings the engine to that speed and holds it. True when it is reached, or after a time limit.
+// Brings the engine to `speed` and holds it there. Returns true once the speed is reached, or after a time limit.
 bool SimulatedDriver::match_revs(const vehicle::DriveSample& now, double speed) {
   if (blip_since_ < 0.0) blip_since_ = now.time();
   const double meant = speed * rev_bias_;
   hold_revs(meant);
   const bool fits = std::abs(perceived_speed_ - meant) < kRevTolerance + skill_.rev_spread * speed;
-  if (!fits && !are_revs_matched_) fit_since_ = now.time();
-  are_revs_matched_ = are_revs_matched_ || now.time() - fit_since_ > kRevSettleTime;
+  if (!fits && !are_revs_matched_) matched_since_ = now.time();
+  are_revs_matched_ = are_revs_matched_ || now.time() - matched_since_ > kRevSettleTime;
   return are_revs_matched_ || now.time() - blip_since_ > kMaxBlipTime;
 }
 
-// From a standstill: throttle first, then the pedal quickly to the bite point, then slowly until the clutch locks.
+// Moves off: throttle first, then the clutch quickly up to the bite point, then slowly until it locks.
 void SimulatedDriver::launch(const vehicle::DriveSample& now) {
   if (spoil_launch(now)) return;
   const double target = launch_target();

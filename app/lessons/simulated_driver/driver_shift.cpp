@@ -1,4 +1,4 @@
-// A shift: clutch and throttle, and the hand through the gate.
+// A shift: clutch, throttle, and the hand's way through the gate.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -43,15 +43,15 @@ std::optional<int> SimulatedDriver::wanted_gear(const vehicle::DriveSample& now)
   return other(wants.next_gear);
 }
 
-// For a deliberate grind: releases the clutch in neutral, so that the gearbox shaft turns.
+// True if, for a deliberate grind, the clutch should come up in neutral first, so that the gearbox shaft turns.
 bool SimulatedDriver::should_spin_shaft(const vehicle::DriveSample& now) const noexcept {
-  const bool stands_in_neutral =
+  const bool is_stopped_in_neutral =
       now.car.gear == haptics::kNeutralGear && std::abs(now.car.road_speed) < kMaxStandingSpeed;
-  return is_due(ErrorKind::grind) && stands_in_neutral && now.car.running &&
+  return is_due(ErrorKind::grind) && is_stopped_in_neutral && now.car.running &&
          now.car.shaft_speed < 0.8 * car_.engine.idle;
 }
 
-// Target speed of the step, or of the one it prepares. [m/s]
+// Target road speed of the step, or of the next step, which it may prepare [m/s].
 std::optional<double> SimulatedDriver::speed_to_shift(std::size_t step) const noexcept {
   for (std::size_t i = step; i < lesson_.steps.size() && i <= step + 1; ++i) {
     if (lesson_.steps[i].at) return lesson_.steps[i].at;
@@ -59,14 +59,14 @@ std::optional<double> SimulatedDriver::speed_to_shift(std::size_t step) const no
   return std::nullopt;
 }
 
-// Deliberate upshift below the lesson's band or the step's speed.
+// True for a deliberate upshift below the lesson's band or the step's speed.
 bool SimulatedDriver::should_shift_early(const vehicle::DriveSample& now) const noexcept {
   if (!is_due(ErrorKind::early_shift) || now.car.engine_speed < 1.25 * car_.engine.idle) return false;
   const std::optional<double> at = speed_to_shift(current_step_ + 1);
   return at ? now.car.road_speed < kEarlyShiftFactor * *at : now.car.engine_speed < lesson_.shift_from;
 }
 
-// Deliberate shift above the lesson's band, or far beyond the step's speed.
+// True while the driver delays a shift on purpose, until above the lesson's band or far beyond the step's speed.
 bool SimulatedDriver::should_shift_late(const vehicle::DriveSample& now) const noexcept {
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
   if (!is_due(ErrorKind::late_shift) || !coupled || !intent().next_gear) return false;
@@ -87,7 +87,7 @@ SimulatedDriver::Detour SimulatedDriver::detour_for(const vehicle::DriveSample& 
   return Detour::none;
 }
 
-// A gear too high, or else too low; never one that would take the engine over its red line.
+// A wrong gear that the gate has, preferably one that is too high; neutral if there is none.
 int SimulatedDriver::wrong_gear_for(int gear, int from) const noexcept {
   for (const int wrong : {gear + 1, gear + 2, gear - 2, gear - 1}) {
     if (wrong >= 1 && wrong != from && haptics::slot_of_gear(gate_, wrong) != haptics::kNoSlot) return wrong;
@@ -108,16 +108,16 @@ void SimulatedDriver::begin_shift(const vehicle::DriveSample& now, int gear) {
   if (is_lingering_) mark_done(ErrorKind::late_shift);
   shift_.uses_clutch = !is_due(ErrorKind::no_clutch);
   shift_.lift_at = now.time() + std::max(0.0, noise(skill_.timing_spread));
-  shift_.flares_until = now.time() + 0.6 * faults_.of(ErrorKind::throttle_in_shift);
+  shift_.flares_until = now.time() + 0.6 * errors_.of(ErrorKind::throttle_in_shift);
   shift_.press_at = now.time() + std::max(0.0, noise(skill_.timing_spread));
   shift_.hand_lead = kHandLead + noise(skill_.timing_spread);
-  const double late = faults_.of(ErrorKind::clutch_late);
+  const double late = errors_.of(ErrorKind::clutch_late);
   if (late > 0.0) shift_.press_at = now.time() + 0.35 * late, shift_.hand_lead = -10.0;
   const double lag = kClutchLag + noise(skill_.timing_spread);
-  const bool dawdles = faults_.of(ErrorKind::too_slow) > 0.0;
+  const bool dawdles = errors_.of(ErrorKind::too_slow) > 0.0;
   // If the foot is only slightly too early, the hand feels the ring still blocking, and the foot waits.
-  shift_.clutch_early = (lag < -kMaxClutchLead && !dawdles) || faults_.of(ErrorKind::clutch_early) > 0.0;
-  release_at_ = std::max(0.0, lag);  // relative to the engagement of the gear
+  shift_.clutch_early = (lag < -kMaxClutchLead && !dawdles) || errors_.of(ErrorKind::clutch_early) > 0.0;
+  release_at_ = std::max(0.0, lag);  // relative to the engagement of the gear until end_shift()
   if (is_due(ErrorKind::wrong_direction) && now.car.road_speed < -kMinRollingSpeed)
     mark_done(ErrorKind::wrong_direction);
 }
@@ -146,7 +146,7 @@ void SimulatedDriver::shift_feet(const vehicle::DriveSample& now) {
   const bool early = shift_.clutch_early && shift_.between_gears && hand_.in_last_stroke();
   shift_.releases_early = early && hand_.time_waiting(time) < kStuckTime && (shift_.releases_early || in_ring);
   if (shift_.releases_early) {
-    // Quickly past the bite point, then slowly: further up the ring would never let the gear in
+    // Quickly past the bite point, then slowly: with the pedal further up, the ring would never let the gear in.
     const double bite = car_.clutch.bite;
     feet_.clutch.move_to(bite - 0.08, feet_.clutch.value() > bite - 0.03 ? 8.0 : 0.15);
   } else if (time >= shift_.press_at) {
@@ -160,7 +160,7 @@ void SimulatedDriver::press_clutch() {
 
 // Reverse has no synchroniser: wait until the gearbox shaft has stopped.
 bool SimulatedDriver::waits_for_shaft(const vehicle::DriveSample& now) const noexcept {
-  if (shift_.gear != haptics::kReverseGear || faults_.of(ErrorKind::grind) > 0.0) return false;
+  if (shift_.gear != haptics::kReverseGear || errors_.of(ErrorKind::grind) > 0.0) return false;
   return now.time() - clutch_down_at_ < kShaftRestTime;
 }
 
@@ -177,16 +177,16 @@ void SimulatedDriver::shift_hand(const vehicle::DriveSample& now) {
   const bool pushes = now.car.sync == vehicle::SyncPhase::synchronising;
   const bool in_slot = hand_.in_last_stroke() && now.car.sync != vehicle::SyncPhase::free;
   if (shift_.detour == Detour::blocked) hand_.set_push_limit(pushes ? 4.0 : 0.0);
-  if (faults_.of(ErrorKind::over_push) > 0.0 && in_slot)
+  if (errors_.of(ErrorKind::over_push) > 0.0 && in_slot)
     hand_.set_extra(
-        {0.0, (kBaseOverPush + kOverPushGain * faults_.of(ErrorKind::over_push)) * side_of(gate_, shift_.gear)});
+        {0.0, (kBaseOverPush + kOverPushGain * errors_.of(ErrorKind::over_push)) * side_of(gate_, shift_.gear)});
   const double time_waiting = hand_.time_waiting(time);
   const bool at_ring = shift_.detour == Detour::missed && hand_.is_at_end(time) && is_behind_detent(now);
   const bool tired = shift_.detour == Detour::blocked && hand_.is_at_end(time) && time_waiting > 2.0;
   const bool no_use = !shift_.uses_clutch && !shift_.between_gears && time_waiting > 0.5;
   if (at_ring || tired || no_use) return draw_back(now);
-  const bool beside = now.lever.slot == haptics::kNoSlot;  // hit a wall beside the slot
-  const double patience = pushes ? kSyncPatience : beside ? kBesideSlotTime + skill_.reaction : kStuckTime;
+  const bool is_beside_slot = now.lever.slot == haptics::kNoSlot;  // the lever hit a wall next to the slot
+  const double patience = pushes ? kSyncPatience : is_beside_slot ? kBesideSlotTime + skill_.reaction : kStuckTime;
   if (time_waiting > patience) {
     if (!shift_.uses_clutch) return draw_back(now);
     reach(now, shift_.gear);
@@ -206,8 +206,8 @@ void SimulatedDriver::reach(const vehicle::DriveSample& now, int gear) {
     strokes = strokes_into_mouth(from, now.car.gear, wrong_gear_for(gear, now.car.gear));
   }
   const glm::dvec2 begin = strokes.empty() ? from : strokes.back().to;
-  const std::vector<haptics::HandStroke> way = strokes_to(begin, now.car.gear, gear);
-  strokes.insert(strokes.end(), way.begin(), way.end());
+  const std::vector<haptics::HandStroke> to_gear = strokes_to(begin, now.car.gear, gear);
+  strokes.insert(strokes.end(), to_gear.begin(), to_gear.end());
   if (shift_.detour == Detour::missed && gear != haptics::kNeutralGear) {
     const haptics::Slot& slot = haptics::slot_of(gate_, haptics::slot_of_gear(gate_, gear));
     const double depth = slot.release_depth + kRingFraction * (slot.engage_depth - slot.release_depth);
@@ -227,7 +227,7 @@ std::vector<haptics::HandStroke> SimulatedDriver::strokes_to(glm::dvec2 from, in
   return haptics::shift_strokes(gate_, from, gears, style);
 }
 
-// Strokes to just behind the mouth of that gear's slot.
+// Strokes to just beyond the mouth of the gear's slot.
 std::vector<haptics::HandStroke> SimulatedDriver::strokes_into_mouth(glm::dvec2 from, int old_gear, int gear) const {
   if (gear == haptics::kNeutralGear) return {};
   std::vector<haptics::HandStroke> strokes = strokes_to(from, old_gear, gear);
@@ -257,10 +257,10 @@ void SimulatedDriver::end_shift(const vehicle::DriveSample& now) {
   hand_.set_push_limit(0.0);
   gear_in_at_ = now.time();
   release_at_ += now.time();
-  if (shift_.between_gears && faults_.of(ErrorKind::step_order) > 0.0)
-    release_at_ = now.time() + kThrottleLead * faults_.of(ErrorKind::step_order);
+  if (shift_.between_gears && errors_.of(ErrorKind::step_order) > 0.0)
+    release_at_ = now.time() + kThrottleLead * errors_.of(ErrorKind::step_order);
   if (shift_.between_gears && std::abs(now.car.road_speed) > kMinCoastingSpeed && mark_done(ErrorKind::too_slow))
-    release_at_ = now.time() + kDawdleTime * faults_.of(ErrorKind::too_slow);
+    release_at_ = now.time() + kDawdleTime * errors_.of(ErrorKind::too_slow);
   release_rate_ = kClutchRateThroughBite * skill_.release_haste * std::exp(noise(skill_.release_spread));
   rev_bias_ = std::exp(noise(skill_.rev_spread));
   launch_speed_ = skill_.launch_speed_factor * kLaunchSpeed * rev_bias_;
@@ -274,8 +274,8 @@ void SimulatedDriver::rest_hand(const vehicle::DriveSample& now) {
     hand_.release_lever();
     hand_.set_extra({0.0, 0.0});
   }
-  const bool leans = now.car.gear != haptics::kNeutralGear && faults_.of(ErrorKind::riding_lever) > 0.0;
-  const double push = leans ? 6.0 * faults_.of(ErrorKind::riding_lever) * side_of(gate_, now.car.gear) : 0.0;
+  const bool leans = now.car.gear != haptics::kNeutralGear && errors_.of(ErrorKind::riding_lever) > 0.0;
+  const double push = leans ? 6.0 * errors_.of(ErrorKind::riding_lever) * side_of(gate_, now.car.gear) : 0.0;
   hand_.set_lean({0.0, push});
 }
 

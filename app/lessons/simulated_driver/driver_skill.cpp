@@ -5,9 +5,10 @@
 namespace gearshift::lessons {
 namespace {
 
-// [engineering value]s: roughly the difference between the first hour and routine.
+// A beginner in the first hour of practice. Engineering values.
 //
-// Brake: in the same emergency novices decelerated half as much as experienced drivers (Loeb, Kandadai, McDonald,
+// brake_effort: in the same emergency novices decelerated half as much as experienced drivers (Loeb, Kandadai,
+// McDonald,
 // Winston. Emergency Braking in Adults Versus Novice Teen Drivers. 2015). Launch: beginners rush the pedal through the
 // bite point and use too little throttle, which instructors name as the causes of stalls; there are no measurements of
 // how much.

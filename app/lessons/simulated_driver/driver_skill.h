@@ -1,4 +1,4 @@
-// Skill of a simulated driver, and the errors it makes on purpose.
+// Skill of a simulated driver, and the errors that it makes on purpose.
 #pragma once
 
 #include <array>
@@ -8,21 +8,21 @@
 
 namespace gearshift::lessons {
 
-// Defaults: a practised driver. [engineering value]s: reaction of 0.2 s to an expected event, foot accurate to 0.5 %.
+// Defaults: a practised driver who reacts to an expected event in 0.2 s. Engineering values.
 struct DriverSkill {
   double reaction = 0.20;            // [s] from seeing something to the first movement
   double timing_spread = 0.020;      // [s] standard deviation of the start of hand and foot movements
   double aim_noise = 0.001;          // [m] standard deviation of the end of a stroke, each axis
   double pedal_noise = 0.004;        // [1] standard deviation of a pedal held between its ends
-  double rev_spread = 0.03;          // [1] relative, of the intended engine speed
-  double release_spread = 0.08;      // [1] relative, of clutch release speed and braking force
+  double rev_spread = 0.03;          // [1] relative standard deviation of the intended engine speed
+  double release_spread = 0.08;      // [1] relative standard deviation of clutch release speed and braking force
   double pace = 0.35;                // [m/s] mean speed of a lever stroke
   double release_haste = 1.0;        // [1] clutch release speed, relative to the right one
   double hearing_delay = 0.08;       // [s] delay from engine sound to foot movement
-  double foot_change = 0.20;         // [s] right foot from throttle to brake
+  double foot_change = 0.20;         // [s] time of the right foot from throttle to brake
   double brake_effort = 1.0;         // [1] brake used where full brake is needed
   double launch_speed_factor = 1.0;  // [1] intended engine speed at a launch, relative to the right one
-  double reading_time = 0.0;         // [s] to read a prompt, before the reaction to it
+  double reading_time = 0.0;         // [s] time to read a prompt, before the reaction
   double max_bite_drop = 0.18;       // [1] relative drop of engine speed at the bite point before the left foot waits
   bool operator==(const DriverSkill&) const = default;
 };
@@ -30,8 +30,8 @@ struct DriverSkill {
 // Interpolates between a practised driver (error 0) and a beginner (error 1). error: [1] 0 to 1.
 DriverSkill skill_of(double error) noexcept;
 
-// How strongly the simulated driver makes each error on purpose. 0: not at all; 1: so clearly that nobody would
-// overlook it.
+// How strongly the simulated driver makes each error on purpose. 0: not at all; 1: so clearly that no one could miss
+// the error.
 //
 // Errors with a duration or strength are made at every opportunity and grow with the amount. All-or-nothing errors (a
 // wrong slot, a stall) are made once, at the first opportunity, if the amount is at least 0.5.
@@ -40,26 +40,26 @@ DriverSkill skill_of(double error) noexcept;
 //   over_rev           shifts too late, throttle open; if no low gear is driven: revs up with the clutch down
 //   lugging            too high a gear, throttle open
 //   clutch_dump        high revs, then takes the foot off the pedal
-//   clutch_early       lets the clutch past its bite point while the ring still turns
-//   clutch_late        pulls the lever 0.35 s (times the amount) before pressing the pedal
+//   clutch_early       lets the clutch up past its bite point before the gear is in
+//   clutch_late        moves the lever 0.35 s (times the amount) before pressing the pedal
 //   no_clutch          does not use the pedal
 //   riding_clutch      rests the foot on the pedal
 //   riding_lever       rests the hand on the knob, pushing with 6 N
-//   throttle_in_shift  lifts the throttle 0.6 s too late
-//   rev_mismatch       no blip where one is needed
+//   throttle_in_shift  keeps the throttle pressed for 0.6 s (times the amount) of the shift
+//   rev_mismatch       does not blip where a blip is needed
 //   grind              does not wait before reverse (a forward gear grinds only in a worn gearbox)
 //   blocked            pushes weakly towards first gear at speed
 //   missed_shift       pulls back before the gear is engaged and gives up for a while
 //   wrong_gear, wrong_column   enters a wrong gear, or the mouth of a wrong slot, first
 //   over_push          impatient with synchroniser and end stop: pushes with 55 N, plus 35 N times the amount
-//   step_order         throttle 0.6 s before the clutch comes up
+//   step_order         presses the throttle 0.6 s (times the amount) before the clutch comes up
 //   rollback           releases the handbrake before the bite point
 //   jerk               releases the clutch abruptly at high revs
-//   early_shift, late_shift    outside the lesson's band, or far from the speed that a step asks for
-//   too_slow           keeps the clutch down for 4 s
+//   early_shift, late_shift    shifts outside the lesson's band, or far from the speed that a step asks for
+//   too_slow           keeps the clutch down for 4 s (times the amount)
 //   wrong_direction    shifts before the car has stopped
-//   slow_step          starts a timed step only after 1.5 times its allowed time
-//   coasting           rolls for 5.5 s with the clutch open
+//   slow_step          starts a timed step only after 1.5 times its allowed time (times the amount)
+//   coasting           rolls for 5.5 s (times the amount) with the clutch open
 //   clutch_burn        launches at much too high an engine speed
 //   early_downshift    shifts into the lower gear at once instead of slowing down first
 struct DeliberateErrors {

@@ -6,7 +6,7 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kTremorTime = 0.15;  // [s] correlation time of the tremor [engineering value]
+constexpr double kTremorTime = 0.15;  // [s] correlation time of the tremor (engineering value)
 
 }  // namespace
 

@@ -5,18 +5,20 @@
 #include <string>
 #include <utility>
 
+#include "app/lessons/assessment/lever_path_text.h"
+
 namespace gearshift::lessons {
 namespace {
 
-// [engineering value]s
-constexpr double kMinPressed = 0.8;      // [1]
-constexpr double kClutchUp = 0.2;        // [1]
-constexpr double kMaxLifted = 0.05;      // [1] throttle
-constexpr double kMaxStopSpeed = 0.14;   // [m/s] 0.5 km/h
-constexpr double kMinPullFactor = 1.15;  // [1] of the speed below which the engine labours: lowest speed in a new gear
-constexpr double kDownshiftFactor = 0.85;  // [1] of the band's lower end: no immediate downshift after an upshift
-constexpr double kMaxShiftFactor = 0.85;   // [1] of the red line
-constexpr double kSpeedReached = 0.95;     // [1] of a target speed: counts as reached
+// Engineering values.
+constexpr double kMinPressed = 0.8;        // [1]
+constexpr double kClutchUp = 0.2;          // [1]
+constexpr double kMaxLifted = 0.05;        // [1] throttle
+constexpr double kMaxStopSpeed = 0.14;     // [m/s] 0.5 km/h
+constexpr double kMinPullFactor = 1.15;    // [1] lowest engine speed in a new gear, relative to EngineSpec::lug_below
+constexpr double kDownshiftFactor = 0.85;  // [1] times the band's lower end: no immediate downshift after an upshift
+constexpr double kMaxShiftFactor = 0.85;   // [1] fraction of the red line
+constexpr double kSpeedReached = 0.95;     // [1] fraction of a target that counts as reached
 constexpr double kMaxApproachTime = 90.0;  // [s]
 
 LessonStep step(std::string prompt, DriveCondition until) {
@@ -72,9 +74,7 @@ LessonStep stop_step() {
 LessonStep gear_step(int gear) {
   DriveCondition c;
   c.gear = gear;
-  return step(gear == haptics::kNeutralGear ? "Shift into neutral."
-                                            : std::string("Shift into ") + haptics::gear_name(gear) + ".",
-              c);
+  return step("Shift into " + gear_word(gear) + ".", c);
 }
 
 void add_shift(std::vector<LessonStep>& steps, int to) {
@@ -99,7 +99,7 @@ void add_upshifts(std::vector<LessonStep>& steps, const vehicle::CarSpec& car, c
     DriveCondition faster;
     faster.gear = gears[i];
     faster.engine_above = upshift_speed(car, gears[i], gears[i + 1]);
-    steps.push_back(step(std::string("Accelerate in ") + haptics::gear_name(gears[i]) + ".", faster));
+    steps.push_back(step("Accelerate in " + gear_word(gears[i]) + ".", faster));
   }
 }
 
@@ -122,7 +122,7 @@ Lesson approach_lesson(const Lesson& lesson, const vehicle::CarSpec& car, const 
   DriveCondition parked;
   if (to.hand_brake > 0.0) parked.hand_brake_above = kSpeedReached * to.hand_brake;
   if (!to.running) parked.ignition = false;
-  if (to.hand_brake > 0.0 || !to.running) approach.steps.push_back(step("Park.", parked));
+  if (to.hand_brake > 0.0 || !to.running) approach.steps.push_back(step("Park the car.", parked));
   return approach;
 }
 

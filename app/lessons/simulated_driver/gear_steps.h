@@ -18,17 +18,17 @@ double upshift_speed(const vehicle::CarSpec& car, int low, int high) noexcept;
 // Road speed [m/s] at which to shift down to `low`: the engine then turns slightly below the band.
 double downshift_speed(const vehicle::CarSpec& car, int low) noexcept;
 
-LessonStep stop_step();  // to a stop, clutch down
+LessonStep stop_step();  // brings the car to a stop, clutch down
 LessonStep gear_step(int gear);
-// Clutch down, lever to `to`, clutch up.
+// Adds the steps of a shift: clutch down, lever to `to`, clutch up.
 void add_shift(std::vector<LessonStep>& steps, int to);
-// From a stop with the clutch down: first gear, and up to the last of `gears`.
+// Adds the steps from a stop with the clutch down up to the last of `gears`, through all of them.
 void add_upshifts(std::vector<LessonStep>& steps, const vehicle::CarSpec& car, const std::vector<int>& gears);
 
-// From the car's current state `from` to the start of a lesson: to a stop, then to the lesson's gear and speed.
+// A drive from the car's state `from` to the start of `lesson`: to a stop, then to the lesson's gear and speed.
 Lesson approach_lesson(const Lesson& lesson, const vehicle::CarSpec& car, const haptics::Gate& gate,
                        const LessonStart& from);
-// Only stops the car, for a driver without a lesson.
+// A lesson that only stops the car, for a driver whose lesson is over.
 Lesson rest_lesson(const LessonStart& from);
 
 }  // namespace gearshift::lessons

@@ -41,7 +41,7 @@ bool is_reported(const LessonResult& result, ErrorKind kind) {
                      [&](const DrivingError& error) { return error.kind == kind && error.severity != Severity::note; });
 }
 
-// An abandoned lesson counts as not driven, however clean its first part was.
+// The grade; 0 for an unfinished lesson, however clean its first part was.
 double score(const LessonResult& result) noexcept {
   return result.end == LessonEnd::done ? result.grade : 0.0;
 }
@@ -51,7 +51,7 @@ double mean(std::span<const double> values) noexcept {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// One simulated driver on the way through the trials.
+// One simulated driver during a sequence of trials.
 struct Trainee {
   double error, rate;
   GuidancePolicy policy;
@@ -143,7 +143,7 @@ PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, cons
     guided += trainee.guided;
   }
   outcome.retention_grade = mean(retained);
-  outcome.guided_share = static_cast<double>(guided) / (static_cast<double>(learners) * trials);
+  outcome.guided_fraction = static_cast<double>(guided) / (static_cast<double>(learners) * trials);
   const int first_half = trials / 2;
   outcome.guided_early = static_cast<double>(early) / (static_cast<double>(learners) * first_half);
   return outcome;

@@ -19,8 +19,8 @@ namespace {
 constexpr const char* kProgram = "lesson drive";
 constexpr std::uint64_t kPumpEvery = 4096;  // [cycles] half the capacity of the loop's queue
 
-// The hand on the device: follows what the driver decided after the last cycle.
-class ExactHand final : public haptics::HandDriver {
+// The hand on the simulated lever. Its target is the driver's decision after the last cycle.
+class DecidedHand final : public haptics::HandDriver {
  public:
   haptics::HandTarget next(double, glm::dvec2) noexcept override { return target; }
   haptics::HandTarget target;
@@ -102,7 +102,7 @@ class Drive {
   haptics::SimulatedRunConfig setup_;
   vehicle::CarLoad car_;
   vehicle::GuidedLoad guided_;
-  ExactHand hand_;
+  DecidedHand hand_;
   haptics::SimulatedRun run_;
   SimulatedDriver driver_;
   vehicle::DriveSample sample_;
@@ -126,7 +126,7 @@ LessonResult drive_lesson(const LessonDriveConfig& config) {
     run.add(sample);
     return LessonProgress{run.view().step, run.view().guided_gear, run.is_over()};
   });
-  run.leave();  // if the driver has given up
+  run.leave();  // ends the run if the driver has given up
   return run.result();
 }
 

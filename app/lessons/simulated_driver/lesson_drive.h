@@ -27,15 +27,15 @@ struct LessonDriveConfig {
   LessonMode mode = LessonMode::by_yourself;
   HintStyle hints = HintStyle::prescriptive;
   double guidance = 0.0;                                      // [1] 0 to 1
-  std::uint64_t seed = 1;                                     // for the driver and the tooth positions
+  std::uint64_t seed = 1;                                     // seed of the driver and of the tooth positions
   double rate = 1000.0;                                       // [Hz] 100 to 4000
   std::filesystem::path trace;                                // empty: none
-  std::function<void(const vehicle::DriveSample&)> on_cycle;  // every cycle; may be empty
-  std::function<void(const haptics::HapticEvent&)>
-      on_event;  // for each event of a cycle, before on_cycle; may be empty
+  std::function<void(const vehicle::DriveSample&)> on_cycle;  // called every cycle; may be empty
+  // Called for each event of a cycle, before on_cycle; may be empty.
+  std::function<void(const haptics::HapticEvent&)> on_event;
 };
 
-// The gate compiled for the lever used here. Throws like compile_gate().
+// The gate compiled for the simulated lever that drive_lesson() uses. Throws like compile_gate().
 haptics::Gate driven_gate(const haptics::GateLayout& layout);
 
 // State of the lesson after a cycle, for the driver's next action.
@@ -46,13 +46,13 @@ struct LessonProgress {
 };
 using LessonJudge = std::function<LessonProgress(const vehicle::DriveSample&)>;
 
-// Drives until the judge reports the end or the driver gives up; the judge decides on mode and hints. Throws like the
+// Drives until `judge` reports the end or the driver gives up; the judge decides on mode and hints. Throws like the
 // overload below.
 void drive_lesson(const LessonDriveConfig& config, const LessonJudge& judge);
 
-// Drives with a LessonRun as judge. Exactly reproducible. Throws std::invalid_argument if lesson, car and gate do not
-// fit together, and FileError if the trace cannot be written: before the first cycle, or after the last one if the disk
-// is full.
+// Drives with a LessonRun as judge. The result is exactly reproducible. Throws std::invalid_argument if lesson, car and
+// gate do not fit together, and FileError if the trace cannot be written: before the first cycle, or after the last
+// cycle if the disk is full.
 LessonResult drive_lesson(const LessonDriveConfig& config);
 
 }  // namespace gearshift::lessons

@@ -1,4 +1,4 @@
-// What a lesson step asks the driver to do, derived only from its condition.
+// The driver's task in a lesson step, derived only from the step's condition.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace gearshift::lessons {
 enum class Motion {
   stay,   // no change
   go,     // clutch up and drive
-  bite,   // clutch to the bite point, the car still held
-  creep,  // on the clutch, at LessonIntent::speed
+  bite,   // clutch to the bite point, with the car still held by a brake
+  creep,  // drive with a slipping clutch, at LessonIntent::speed
   slow,   // off the throttle, on the brake
   stop    // to a standstill, clutch down in time
 };
@@ -21,8 +21,8 @@ struct LessonIntent {
   Motion motion = Motion::stay;
   double speed = 0.0;                // [m/s] for creep, >= 0
   bool accelerates = false;          // go: accelerate until the step is done
-  bool no_throttle = false;          // the step forbids it
-  bool clutch_down = false;          // and nothing else
+  bool no_throttle = false;          // the step forbids the throttle
+  bool clutch_down = false;          // press the clutch, and do nothing else
   bool blip = false;                 // raise the revs, then release the clutch
   std::optional<double> brake;       // [1] full brake if the step is a call
   bool at_once = false;              // the step is a call, whose time is not known in advance

@@ -14,7 +14,7 @@ SimulatedDriver::SimulatedDriver(const Lesson& lesson, const vehicle::CarSpec& c
       car_(car),
       gate_(gate),
       skill_(skill),
-      faults_(errors),
+      errors_(errors),
       random_(seed),
       period_(period),
       feet_{Foot(skill.pedal_noise, seed + 1), Foot(skill.pedal_noise, seed + 2), Foot(skill.pedal_noise, seed + 3),
@@ -89,27 +89,27 @@ bool SimulatedDriver::is_foot_free(double time) noexcept {
   return feet_.brake.value() > 0.0 || time - on_throttle_at_ >= skill_.foot_change;
 }
 
-// A step is acted on only after it is noticed and read.
+// The driver acts on a step only after noticing and reading it.
 void SimulatedDriver::notice(std::size_t step, double time) {
   if (noticed_at_ < 0.0) noticed_at_ = progress_at_ = time;
   if (step != noticed_step_) {
     noticed_step_ = step;
     noticed_at_ = progress_at_ = time;
     reaction_ = std::max(0.1, skill_.reaction + noise(skill_.timing_spread)) + reading_time_of(noticed_step_) +
-                kLateStepFactor * faults_.of(ErrorKind::slow_step) * lesson_.steps[step].within.value_or(0.0);
+                kLateStepFactor * errors_.of(ErrorKind::slow_step) * lesson_.steps[step].within.value_or(0.0);
   }
   has_given_up_ = time - progress_at_ > kMaxStepTime;
   if (time - noticed_at_ >= reaction_) current_step_ = noticed_step_;
 }
 
-// A prompt equal to the previous one was already read.
+// A prompt with the same text as the previous one needs no reading.
 double SimulatedDriver::reading_time_of(std::size_t step) const noexcept {
   const bool same = step > 0 && lesson_.steps[step].prompt == lesson_.steps[step - 1].prompt;
   return same ? 0.0 : skill_.reading_time;
 }
 
 bool SimulatedDriver::is_due(ErrorKind kind) const noexcept {
-  return faults_.of(kind) >= 0.5 && !done_errors_[static_cast<std::size_t>(kind)];
+  return errors_.of(kind) >= 0.5 && !done_errors_[static_cast<std::size_t>(kind)];
 }
 
 bool SimulatedDriver::mark_done(ErrorKind kind) noexcept {
@@ -118,12 +118,12 @@ bool SimulatedDriver::mark_done(ErrorKind kind) noexcept {
   return true;
 }
 
-// [rad/s] of the clutch shaft in that gear at the current road speed.
+// Speed of the clutch shaft in `gear` at the current road speed [rad/s].
 double SimulatedDriver::shaft_speed_in(const vehicle::DriveSample& now, int gear) const noexcept {
   return vehicle::shaft_per_road(car_, gear) * now.car.road_speed;
 }
 
-// The key: when the lesson asks for it, and after a stall.
+// Turns the key when the lesson asks for it, and after a stall. Returns true while the engine is being started.
 bool SimulatedDriver::handle_restart(const vehicle::DriveSample& now) {
   if (intent().ignition == false) ignition_ = false;
   const bool wanted = intent().start || (has_run_ && intent().ignition != false);

@@ -1,8 +1,8 @@
-// A simulated person who drives a lesson: it perceives what a driver perceives, and moves hand and feet as a person
+// A simulated driver of a lesson: it perceives what a real driver perceives, and moves hand and feet as a real driver
 // can.
 //
-// Its only instruction is the lesson: each step's condition defines what to do (lesson_intent.h). No code is specific
-// to one lesson.
+// The lesson is the driver's only instruction: each step's condition defines what to do (lesson_intent.h). No code is
+// specific to one lesson.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ class SimulatedDriver {
   // guidance. Allocates.
   vehicle::DriverAction act(const vehicle::DriveSample& now, std::size_t step);
 
-  // No progress for a long time: a person would ask for help.
+  // True if there was no progress for so long that a learner would ask for help.
   bool has_given_up() const noexcept { return has_given_up_; }
 
  private:
@@ -48,12 +48,12 @@ class SimulatedDriver {
     bool between_gears = false;
     bool uses_clutch = true;
     bool clutch_early = false;
-    bool releases_early = false;  // the clutch
+    bool releases_early = false;  // the clutch is coming up too early
     bool in_hand = false;         // the hand has started to move
-    double lift_at = 0.0;         // [s] throttle released
-    double flares_until = 0.0;    // [s] throttle kept pressed instead
-    double press_at = 0.0;        // [s] clutch pressed
-    double hand_lead = 0.0;       // [s] after the clutch has passed its bite point
+    double lift_at = 0.0;         // [s] when the throttle is released
+    double flares_until = 0.0;    // [s] until then the throttle stays pressed, as a deliberate error
+    double press_at = 0.0;        // [s] when the clutch is pressed
+    double hand_lead = 0.0;       // [s] from the clutch passing its bite point to the start of the hand
   };
 
   struct Feet {
@@ -99,7 +99,7 @@ class SimulatedDriver {
   void slow_down(const vehicle::DriveSample& now);
   void stop(const vehicle::DriveSample& now);
   void release(const vehicle::DriveSample& now);
-  void release_rolling(const vehicle::DriveSample& now, double turns);
+  void release_rolling(const vehicle::DriveSample& now, double gear_speed);
   bool match_revs(const vehicle::DriveSample& now, double speed);
   void launch(const vehicle::DriveSample& now);
   bool has_pending_error(const vehicle::DriveSample& now) const noexcept;
@@ -121,7 +121,7 @@ class SimulatedDriver {
   const vehicle::CarSpec& car_;
   const haptics::Gate& gate_;
   DriverSkill skill_;
-  DeliberateErrors faults_;
+  DeliberateErrors errors_;
   std::vector<LessonIntent> intents_;
   haptics::GaussianNoise random_;
   double period_;
@@ -132,27 +132,27 @@ class SimulatedDriver {
   std::size_t current_step_ = 0, noticed_step_ = 0;
   double noticed_at_ = -1.0;       // [s]
   double reaction_ = 0.0;          // [s] reaction time for the step noticed last
-  double on_throttle_at_ = -10.0;  // [s] right foot last on the throttle
+  double on_throttle_at_ = -10.0;  // [s] when the right foot was last on the throttle
   double progress_at_ = 0.0;
   bool has_given_up_ = false;
   bool ignition_ = false, starter_ = false;
-  bool has_run_ = false, was_running_ = false;  // the engine: ever; in the previous cycle
+  bool has_run_ = false, was_running_ = false;  // the engine has run before; ran in the last cycle
 
   bool shifting_ = false;
   Shift shift_;
-  double pause_until_ = 0.0;     // [s] no shift starts before
+  double pause_until_ = 0.0;     // [s] no shift starts before this time
   double gear_in_at_ = -10.0;    // [s]
-  double release_at_ = 0.0;      // [s] the clutch stays down until then
-  double clutch_down_at_ = 0.0;  // [s] passed its bite point downwards
+  double release_at_ = 0.0;      // [s] the clutch stays down until this time
+  double clutch_down_at_ = 0.0;  // [s] when the clutch passed its bite point downwards
   bool clutch_is_down_ = false;
-  double release_rate_ = 1.0;     // [1/s] of the current release
-  double abrupt_rate_ = 1.0;      // [1/s] the same, for a deliberate jerk
-  double rev_bias_ = 1.0;         // [1] intended over correct engine speed
+  double release_rate_ = 1.0;     // [1/s] rate of the current clutch release
+  double abrupt_rate_ = 1.0;      // [1/s] rate of a clutch release with a deliberate jerk
+  double rev_bias_ = 1.0;         // [1] intended engine speed divided by the correct one
   double launch_speed_ = 0.0;     // [rad/s] intended engine speed of the current launch
-  double brake_effort_ = 1.0;     // [1] on a call to stop
+  double brake_effort_ = 1.0;     // [1] brake pedal after a call to stop
   double blip_since_ = -1.0;      // [s]
   double perceived_speed_ = 0.0;  // [rad/s] engine speed as heard
-  double fit_since_ = 0.0;        // [s]
+  double matched_since_ = 0.0;    // [s]
   bool are_revs_matched_ = false;
   bool launching_ = false;
   bool is_rescuing_ = false;  // pressing the clutch to save the engine from stalling
@@ -160,10 +160,10 @@ class SimulatedDriver {
   double lug_time_ = 0.0;       // [s]
   double lug_since_ = 0.0;      // [s]
   double rolls_since_ = 0.0;    // [s]
-  double slow_since_ = 0.0;     // [s] engine speed first heard below the point where the clutch must be pressed
-  double coasts_until_ = 0.0;   // [s] 0: not started
+  double slow_since_ = 0.0;     // [s] when the engine was first heard to be so slow that the clutch must be pressed
+  double coasts_until_ = 0.0;   // [s] end of deliberate coasting; 0: not started
   bool is_lingering_ = false;   // staying too long in a gear that should be left
-  bool over_rev_late_ = false;  // over_rev by shifting a low gear too late; else by revving up with the clutch down
+  bool over_rev_late_ = false;  // makes over_rev by a late shift from a low gear; else with the clutch down
 };
 
 }  // namespace gearshift::lessons

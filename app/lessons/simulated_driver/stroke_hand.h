@@ -1,4 +1,5 @@
-// A hand that follows a list of strokes and sees where the lever is: each stroke begins when the last one has arrived.
+// A hand that follows a list of strokes and sees where the lever is: each stroke begins when the lever has arrived at
+// the end of the previous stroke.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +17,15 @@ class StrokeHand {
 
   void start(std::vector<haptics::HandStroke> strokes, glm::dvec2 from, double time);
   void release_lever() noexcept { strokes_.clear(); }
-  void set_lean(glm::dvec2 push) noexcept { lean_ = push; }          // [N] while it has let go
-  void set_extra(glm::dvec2 push) noexcept { extra_ = push; }        // [N] added to a stroke
-  void set_push_limit(double push) noexcept { push_limit_ = push; }  // [N] fixed weak push; 0: as much as needed
+  void set_lean(glm::dvec2 push) noexcept { lean_ = push; }          // [N] push while the hand has let go
+  void set_extra(glm::dvec2 push) noexcept { extra_ = push; }        // [N] push added to a stroke
+  void set_push_limit(double push) noexcept { push_limit_ = push; }  // [N] fixed weak push; 0: push as hard as needed
   haptics::HandTarget next(double time, glm::dvec2 lever) noexcept;
 
   bool has_released_lever() const noexcept { return strokes_.empty(); }
   bool in_last_stroke() const noexcept { return !strokes_.empty() && current_ + 1 == strokes_.size(); }
   bool is_at_end(double time) const noexcept;       // the last stroke is over, whether or not the lever followed
-  double time_waiting(double time) const noexcept;  // [s] since the stroke ended, if the lever has not arrived
+  double time_waiting(double time) const noexcept;  // [s] since the stroke's planned end, if the lever has not arrived
 
  private:
   glm::dvec2 effort(glm::dvec2 lag) noexcept;

@@ -26,7 +26,8 @@ void throw_if_stopped() {
   if (base::StopSignals::requested()) throw CalibrationEnded("Stopped: the motors are off.");
 }
 
-// Starts from the earlier calibration if it still fits, else from one with only the stick's identity.
+// The calibration to start from: the earlier one if the stick's reports are still the same and `again` is false, else a
+// new one that contains only the stick's identity.
 KnownStick starting_calibration(const ListedStick& stick, const fs::path& folder, bool again) {
   KnownStick fresh;
   fresh.calibration.vendor = stick.identity.vendor;
@@ -39,7 +40,7 @@ KnownStick starting_calibration(const ListedStick& stick, const fs::path& folder
   if (!known) return fresh;
   const bool is_same = known->report_descriptor.empty() || known->report_descriptor == fresh.report_descriptor;
   if (is_same) return KnownStick{known->calibration, fresh.report_descriptor};
-  base::print_line("The stick's reports have changed since it was calibrated: the old calibration is discarded.");
+  base::print_line("The stick's reports have changed since the last calibration, so that calibration is discarded.");
   return fresh;
 }
 
@@ -56,18 +57,18 @@ void wait_until_open(haptics::StickConnection& keeper, const std::string& name) 
 class OpenStick {
  public:
   OpenStick(const KnownStick& stick, haptics::PortOpener open)
-      : driver_(stick.report_descriptor), keeper_(driver_, std::move(open), kTickNs) {
-    wait_until_open(keeper_, stick_name(identity_of(stick.calibration)));
+      : driver_(stick.report_descriptor), connection_(driver_, std::move(open), kTickNs) {
+    wait_until_open(connection_, stick_name(identity_of(stick.calibration)));
   }
   haptics::PidDriver& driver() { return driver_; }
-  haptics::PidAbility ability() const { return keeper_.ability().value_or(haptics::PidAbility{}); }
+  haptics::PidAbility ability() const { return connection_.ability().value_or(haptics::PidAbility{}); }
   void report_message() {
-    while (const std::optional<std::string> news = keeper_.take_message()) base::print_line(*news);
+    while (const std::optional<std::string> news = connection_.take_message()) base::print_line(*news);
   }
 
  private:
   haptics::PidDriver driver_;
-  haptics::StickConnection keeper_;
+  haptics::StickConnection connection_;
 };
 
 std::int64_t tick(OpenStick& stick) {
@@ -83,11 +84,11 @@ std::string ask(OpenStick& stick, base::LineReader& answers, const std::string& 
     if (const std::optional<std::string> line = answers.read_line(0.2)) return *line;
     throw_if_stopped();
     stick.report_message();
-    if (answers.at_end()) throw CalibrationEnded("Stopped: standard input has ended.");
+    if (answers.at_end()) throw CalibrationEnded("Stopped: standard input was closed.");
   }
 }
 
-// Returns a list of what is still missing at the end.
+// Returns a list of the measurements that are still missing at the end.
 std::string run_dialog(OpenStick& stick, KnownStick& known, const fs::path& folder, int file) {
   base::LineReader answers(file);
   CalibrationDialog dialog;
@@ -114,14 +115,15 @@ int calibrate_stick(const std::string& wanted, const fs::path& folder, bool agai
   const base::StopSignals signals;
   const std::vector<ListedStick> plugged = list_sticks(haptics::usb_hid_devices(), again ? fs::path() : folder);
   const ListedStick stick = select_stick(wanted, plugged);
-  check_can_push(stick);
+  check_has_forces(stick);
   const auto open = [identity = stick.identity, interface = stick.interface] {
     return haptics::open_usb_hid(identity, interface);
   };
   KnownStick known = starting_calibration(stick, folder, again);
   OpenStick held(known, open);
   base::print_line(
-      fmt::format("{} ({}). Press Ctrl-C to stop at any time: the motors go off, finished measurements are kept.",
+      fmt::format("Calibrating {} ({}). You can press Ctrl-C at any time: the motors go off, and finished measurements "
+                  "are kept.",
                   stick_name(stick.identity), stick_id(stick.identity)));
   const std::string missing = run_dialog(held, known, folder, answers);
   const std::string file = haptics::calibration_file(folder, stick.identity).string();

@@ -1,4 +1,5 @@
-// `devices --calibrate` for a force-feedback stick: opens it, runs the dialog with the user and saves the results.
+// Implements `devices --calibrate` for a force-feedback stick: opens it, runs the dialog with the user and saves the
+// results.
 #pragma once
 
 #include <filesystem>
@@ -6,10 +7,11 @@
 
 namespace gearshift::runtime {
 
-// folder: of the calibrations; again: discard an earlier calibration; answers: a file descriptor with the lines of a
-// user or a script. Questions and results go to stdout. Ends after the last step, at the end of the input, or on a
-// signal such as Ctrl-C: motors off, device released, finished measurements saved. Returns the exit code. Throws
-// std::runtime_error with one sentence.
+// wanted: names the stick, see select_stick(). folder: the folder of the calibrations. again: discard an earlier
+// calibration. answers: the file descriptor from which the answers of a user or script are read. Questions and results
+// go to stdout. Ends after the last step, at the end of the input, or on a signal such as Ctrl-C, always with motors
+// off, the device released and finished measurements saved. Returns the exit code. Throws std::runtime_error with one
+// sentence.
 int calibrate_stick(const std::string& wanted, const std::filesystem::path& folder, bool again, int answers);
 
 }  // namespace gearshift::runtime

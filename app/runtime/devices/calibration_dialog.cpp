@@ -40,18 +40,22 @@ class DialogRunner {
         return run_numbers();
       case haptics::CalibrationStep::polarity:
         return measure_hands_off(
-            "Measures which way its forces push: it moves a little, with at most a tenth of its force.", Needed::yes,
-            [&] { return calibrator_.measure_polarity(); });
+            "This step measures in which direction the forces push. The stick moves a little, with at most a tenth of "
+            "its force.",
+            Needed::yes, [&] { return calibrator_.measure_polarity(); });
       case haptics::CalibrationStep::timing:
-        return measure_hands_off("Measures how fast it responds: it shakes a little for some seconds.", Needed::yes,
-                                 [&] { return calibrator_.measure_timing(); });
+        return measure_hands_off(
+            "This step measures how fast the stick responds. The stick shakes a little for some seconds.", Needed::yes,
+            [&] { return calibrator_.measure_timing(); });
       case haptics::CalibrationStep::handle:
         return measure_hands_off(
-            "Measures how heavy its handle is: it is pushed back and forth with up to 40 % of its force.", Needed::no,
-            [&] { return calibrator_.measure_handle(); });
+            "This step measures how heavy the handle is. The motors push the handle back and forth with up to 40 % of "
+            "their force.",
+            Needed::no, [&] { return calibrator_.measure_handle(); });
       case haptics::CalibrationStep::springs:
         return measure_hands_off(
-            "Measures its own springs and dampers: it is pulled to one side and held, then pushed back and forth.",
+            "This step measures the springs and dampers that the stick itself can render. The motors pull the handle "
+            "to one side, hold it there, and then push it back and forth.",
             Needed::no, [&] { return calibrator_.measure_springs(); });
     }
   }
@@ -59,15 +63,17 @@ class DialogRunner {
  private:
   enum class Needed { yes, no };
 
-  // Repeats a measurement until it succeeds or is skipped. Returns whether it succeeded.
+  // Repeats a measurement until it succeeds or is skipped. Returns true if it succeeded.
   template <class Measure>
   bool repeat_until_measured(const std::string& instruction, Needed needed, const Measure& measure) {
-    const char* answers = needed == Needed::yes ? "[Enter: start]" : "[Enter: start, -: skip]";
+    const char* answers = needed == Needed::yes ? "[Enter to start]" : "[Enter to start, - to skip]";
     for (;;) {
       const std::string answer = dialog_.ask(instruction + " " + answers);
       if (needed == Needed::no && answer == "-") return false;
       if (!answer.empty()) {
-        dialog_.print(fmt::format("\"{}\" is not a valid answer.", haptics::printable(answer)));
+        dialog_.print(
+            fmt::format("\"{}\" is not a valid answer. {}", haptics::printable(answer),
+                        needed == Needed::yes ? "Press Enter to start." : "Press Enter to start, or type - to skip."));
         continue;
       }
       try {
@@ -82,37 +88,44 @@ class DialogRunner {
   void save() const { dialog_.save(calibrator_.calibration()); }
 
   template <class Measure>
-  void measure_hands_off(const std::string& what, Needed needed, const Measure& measure) {
-    repeat_until_measured("HANDS OFF the stick: its motors will move it. " + what, needed, measure);
-    save();  // also after a skip: the springs may be measured without the dampers
+  void measure_hands_off(const std::string& instruction, Needed needed, const Measure& measure) {
+    repeat_until_measured("HANDS OFF the stick: its motors will move it. " + instruction, needed, measure);
+    save();  // even after a skipped measurement: part of it, such as the springs, may have succeeded
   }
 
-  // Buttons come before the range: until the range is known, this whole step is repeated.
+  // Finds the axes and buttons, then measures the range. The range comes last because a calibration without it repeats
+  // this whole step.
   void run_range() {
     dialog_.print("The motors stay off during this step.");
     repeat_until_measured(
         fmt::format(
-            "Leave the stick at rest and press Enter. Then, within {:g} s, push it all the way to the RIGHT and "
+            "Leave the stick at rest and press Enter. Then, within {:g} s, push the stick all the way to the RIGHT and "
             "hold it there.",
             times_.axis),
         Needed::yes, [&] { return calibrator_.find_axis(true, times_.axis); });
     repeat_until_measured(
-        fmt::format("Press Enter, then push it all the way FORWARD, away from you, within {:g} s and hold it.",
+        fmt::format("Press Enter. Then, within {:g} s, push the stick all the way FORWARD, away from you, and hold it "
+                    "there.",
                     times_.axis),
         Needed::yes, [&] { return calibrator_.find_axis(false, times_.axis); });
-    run_button(haptics::LeverButton::press, "for pushing the knob down, as for reverse in many cars");
-    run_button(haptics::LeverButton::lift, "for lifting the ring");
-    run_button(haptics::LeverButton::stop, "for an emergency stop of the motors");
+    run_button(haptics::LeverButton::press, "to push the knob down, as for reverse in many cars");
+    run_button(haptics::LeverButton::lift, "to lift the ring below the knob");
+    run_button(haptics::LeverButton::stop, "to stop the motors in an emergency");
     repeat_until_measured(
-        fmt::format("Move the stick around along all its stops for {:g} s, and LET GO of it for the last two.",
-                    times_.range),
+        fmt::format(
+            "Press Enter. Then move the stick along all its stops for {:g} s, and LET GO of it for the last two "
+            "seconds.",
+            times_.range),
         Needed::yes, [&] { return calibrator_.measure_range(times_.range); });
     save();
   }
 
-  void run_button(haptics::LeverButton button, const char* does) {
-    repeat_until_measured(fmt::format("Press the stick's button {}, within {:g} s.", does, times_.button), Needed::no,
-                          [&] { return calibrator_.find_button(button, times_.button); });
+  void run_button(haptics::LeverButton button, const char* purpose) {
+    repeat_until_measured(
+        fmt::format("Choose the button of the stick that you will use {}. Press Enter, and then press "
+                    "this button within {:g} s.",
+                    purpose, times_.button),
+        Needed::no, [&] { return calibrator_.find_button(button, times_.button); });
   }
 
   double ask_number(const std::string& question, double min, double max, std::string_view unit) {
@@ -128,11 +141,13 @@ class DialogRunner {
   void run_numbers() {
     const double select =
         ask_number("How far does the knob travel from the left stop to the right stop?", 20, 500, "mm");
-    const double shift = ask_number("And from the back stop to the forward stop?", 20, 500, "mm");
-    const double force =
-        ask_number("What is its maximum force at the knob, from the data sheet (torque / length) or a spring scale?",
-                   0.5, 100, "N");
-    dialog_.print("  Stored: " + calibrator_.set_numbers(1e-3 * select, 1e-3 * shift, force) + ".");
+    const double shift =
+        ask_number("How far does the knob travel from the back stop to the forward stop?", 20, 500, "mm");
+    const double force = ask_number(
+        "What is the stick's maximum force at the knob? Take it from the data sheet (torque divided by lever "
+        "length), or measure it with a spring scale.",
+        0.5, 100, "N");
+    dialog_.print("  Saved: " + calibrator_.set_numbers(1e-3 * select, 1e-3 * shift, force) + ".");
     save();
   }
 

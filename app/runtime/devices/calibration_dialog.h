@@ -1,5 +1,5 @@
-// Calibrates a stick in a dialog with the user: each step says what will happen before it starts, prints and saves its
-// result, and repeats after an invalid one. A script can answer as well.
+// Calibrates a stick in a dialog with the user. Each step announces what will happen, prints and saves its result, and
+// is repeated after an invalid result. A script can answer instead of the user.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace gearshift::runtime {
 
-// The input has ended, or the program was asked to stop: one sentence.
+// Thrown when the input has ended or the program was asked to stop. what(): one sentence.
 class CalibrationEnded : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,12 +24,12 @@ struct CalibrationDialog {
 
 // Time limits for the user. [s]
 struct CalibrationTimes {
-  double axis = 4.0;    // to push the lever to one side
-  double range = 10.0;  // to move it along all its stops, hands off in the last second
-  double button = 6.0;  // to press a button
+  double axis = 4.0;    // time to push the lever to one side
+  double range = 10.0;  // time to move the lever along all its stops and let go of it before the last second
+  double button = 6.0;  // time to press a button
 };
 
-// Runs the missing steps in order. springs: the stick renders springs. Throws whatever `ask` and `save` throw.
+// Runs the missing steps in order. springs: the stick renders springs. Exceptions from `ask` and `save` pass through.
 void calibrate(haptics::Calibrator& calibrator, bool springs, const CalibrationDialog& dialog,
                const CalibrationTimes& times = {});
 

@@ -20,7 +20,8 @@ fs::path descriptor_file(fs::path calibration) {
   return calibration.replace_extension(".hid");
 }
 
-// Empty if it cannot be read: then the stick can only be opened while plugged in, and counts as unchanged.
+// Reads the saved report descriptor. If that fails, returns an empty one: the stick can then only be opened while it is
+// plugged in, and counts as unchanged.
 std::vector<std::uint8_t> read_descriptor(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -53,13 +54,13 @@ std::string stick_name(const haptics::HidIdentity& identity) {
 
 std::string describe_missing(const haptics::DeviceCalibration& calibration) {
   std::string words;
-  const auto add = [&words](bool is_there, const char* what) {
-    if (!is_there) words += (words.empty() ? "" : ", ") + std::string(what);
+  const auto add = [&words](bool is_there, const char* part) {
+    if (!is_there) words += (words.empty() ? "" : ", ") + std::string(part);
   };
   add(calibration.has_stops(), "range");
   add(calibration.has_travel() && calibration.has_force(), "travel and force");
   add(calibration.has_timing(), "delay");
-  add(calibration.has_polarity(), "polarity");
+  add(calibration.has_polarity(), "force direction");
   return words;
 }
 
@@ -72,7 +73,8 @@ std::optional<KnownStick> read_known_stick(const fs::path& folder, const haptics
   if (!is_its)
     throw haptics::FileError(
         file.string(), 0,
-        fmt::format("is the calibration of {}, not of {}", stick_id(identity_of(found)), stick_id(device)));
+        fmt::format("this is the calibration of {}, not of {}; delete this file and calibrate the stick again",
+                    stick_id(identity_of(found)), stick_id(device)));
   return known;
 }
 
@@ -96,7 +98,7 @@ KnownSticks known_sticks(const fs::path& folder) {
 fs::path save_known_stick(const KnownStick& stick, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw haptics::FileError(folder.string(), 0, "cannot be created: " + error.message());
+  if (error) throw haptics::FileError(folder.string(), 0, "cannot be created (" + error.message() + ")");
   fs::path file = haptics::calibration_file(folder, identity_of(stick.calibration));
   const auto* bytes = reinterpret_cast<const char*>(stick.report_descriptor.data());
   haptics::write_text_file(descriptor_file(file), {bytes, stick.report_descriptor.size()});

@@ -54,17 +54,17 @@ const haptics::HidIdentity& listed_identity(const ListedStick& stick) {
 }
 
 [[noreturn]] void refuse_several(const std::string& wanted, const std::string& which) {
-  throw std::runtime_error(fmt::format("\"{}\" matches several sticks, choose one by serial or port: {}",
+  throw std::runtime_error(fmt::format("\"{}\" matches several sticks; choose one by its serial or port: {}",
                                        haptics::printable(wanted), which));
 }
 
 [[noreturn]] void refuse_absent(const std::string& wanted, std::span<const ListedStick> plugged) {
   const std::string none = fmt::format("no stick \"{}\" is plugged in", haptics::printable(wanted));
-  if (plugged.empty()) throw std::runtime_error(none + ", and no other stick either");
-  throw std::runtime_error(fmt::format("{}; found: {}", none, describe_sticks(plugged, listed_identity)));
+  if (plugged.empty()) throw std::runtime_error(none + ", and no other stick is plugged in either");
+  throw std::runtime_error(fmt::format("{}; available sticks: {}", none, describe_sticks(plugged, listed_identity)));
 }
 
-// Finds a known stick that is not plugged in.
+// Finds a calibrated stick by its saved data, because it is not plugged in.
 std::optional<KnownStick> absent_stick(const std::string& wanted, const std::filesystem::path& folder) {
   const std::vector<KnownStick> known = known_sticks(folder).sticks;
   const auto identity = [](const KnownStick& stick) { return identity_of(stick.calibration); };
@@ -84,7 +84,8 @@ void check_calibrated(const haptics::DeviceCalibration& calibration) {
                                        stick_name(stick), missing, stick_id(stick)));
 }
 
-// The identity without a port, so that it may be replugged elsewhere, unless only the port tells it from a twin.
+// The stick's identity, normally without the port, so that the stick may be replugged at a different port. It contains
+// the port if the user named the stick by its port or an identical stick is plugged in.
 haptics::HidIdentity identity_to_open(const ListedStick& stick, const std::string& wanted,
                                       std::span<const ListedStick> plugged) {
   const auto is_same = [&stick](const ListedStick& other) {
@@ -107,11 +108,12 @@ const ListedStick* find_plugged_stick(const std::string& wanted, std::span<const
   refuse_several(wanted, describe_sticks(candidates, listed_identity));
 }
 
-void check_can_push(const ListedStick& stick) {
+void check_has_forces(const ListedStick& stick) {
   if (!stick.problem.empty()) throw std::runtime_error(stick.problem);
   if (stick.force != StickForce::force_feedback)
-    throw std::runtime_error(fmt::format("{} cannot drive the lever ({}): use it without --device, like a gamepad",
-                                         stick_name(stick.identity), describe_forces(stick)));
+    throw std::runtime_error(
+        fmt::format("{} cannot be used with --device ({}); use it without --device, like a gamepad",
+                    stick_name(stick.identity), describe_forces(stick)));
 }
 
 const ListedStick& select_stick(const std::string& wanted, std::span<const ListedStick> plugged) {
@@ -124,7 +126,7 @@ ResolvedStick resolve_stick(const std::string& wanted, std::span<const ListedSti
                             const std::filesystem::path& folder) {
   ResolvedStick chosen;
   if (const ListedStick* stick = find_plugged_stick(wanted, plugged)) {
-    check_can_push(*stick);
+    check_has_forces(*stick);
     chosen.identity = identity_to_open(*stick, wanted, plugged);
     chosen.interface = stick->interface;
     haptics::DeviceCalibration nothing;

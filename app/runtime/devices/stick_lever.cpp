@@ -9,14 +9,15 @@
 namespace gearshift::runtime {
 namespace {
 
-// Another firmware may have different reports, and a calibration of the old ones could push the wrong way.
-haptics::PortOpener as_calibrated(haptics::PortOpener open, const KnownStick& stick) {
+// Rejects a stick whose reports have changed since its calibration, for example by a firmware update: forces based on
+// the old reports could push the wrong way.
+haptics::PortOpener with_descriptor_check(haptics::PortOpener open, const KnownStick& stick) {
   return [open = std::move(open), stick] {
     std::unique_ptr<haptics::HidPort> port = open();
     if (port->report_descriptor() == stick.report_descriptor) return port;
     const haptics::HidIdentity identity = identity_of(stick.calibration);
     throw haptics::HidError(
-        fmt::format("the reports of {} have changed since it was calibrated; run: gearshift devices --calibrate {}",
+        fmt::format("the reports of {} have changed since its calibration; run: gearshift devices --calibrate {}",
                     stick_name(identity), stick_id(identity)));
   };
 }
@@ -27,7 +28,7 @@ StickLever::StickLever(const KnownStick& stick, haptics::PortOpener open)
     : stick_(stick),
       idle_(stick.report_descriptor),
       driver_(stick.report_descriptor),
-      keeper_(driver_, as_calibrated(std::move(open), stick), kTickNs) {}
+      connection_(driver_, with_descriptor_check(std::move(open), stick), kTickNs) {}
 
 StickLever::~StickLever() = default;
 
@@ -40,9 +41,9 @@ std::unique_ptr<haptics::HapticDevice> StickLever::detached_lever(double period)
 }
 
 std::optional<std::string> StickLever::take_message() {
-  const std::optional<haptics::PidAbility> ability = keeper_.ability();
+  const std::optional<haptics::PidAbility> ability = connection_.ability();
   if (ability && notes_reported_ < ability->notes.size()) return ability->notes[notes_reported_++];
-  return keeper_.take_message();
+  return connection_.take_message();
 }
 
 }  // namespace gearshift::runtime

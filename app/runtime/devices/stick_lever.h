@@ -1,7 +1,7 @@
 // A force-feedback stick that stays open, and the lever device that it provides to haptic loops.
 //
 // One stick outlives many loops: each change of gate, car or preset starts a new loop, and the stick stays open in
-// between with its motors off. An unplugged stick is waited for.
+// between with its motors off. If the stick is unplugged, this class waits until it is plugged in again.
 #pragma once
 
 #include <cstdint>
@@ -16,36 +16,36 @@
 
 namespace gearshift::runtime {
 
-inline constexpr std::int64_t kTickNs = 1'000'000;  // [ns] frame of full-speed USB: a pipe carries one report per frame
+inline constexpr std::int64_t kTickNs = 1'000'000;  // [ns] full-speed USB frame: a pipe carries one report per frame
 
 class StickLever {
  public:
-  // Opens the stick, and reopens it after an unplug, on its own thread. Its reports must be the same as when it was
-  // calibrated. Throws HidError or std::invalid_argument with one sentence.
+  // Opens the stick, and reopens it when it has been replugged, on a separate thread. The stick's reports must be the
+  // same as when it was calibrated. Throws HidError or std::invalid_argument with one sentence.
   StickLever(const KnownStick& stick, haptics::PortOpener open);
-  ~StickLever();  // motors off, device released
+  ~StickLever();  // switches the motors off and releases the device
 
-  // The lever for a loop of that period [s]; creating it moves nothing. Only one may exist at a time, and it must not
-  // outlive the stick. Throws std::invalid_argument if the stick responds too slowly for a loop of that rate.
+  // The lever for a loop with this period [s]; creating it moves nothing. Only one may exist at a time, and it must not
+  // outlive this object. Throws std::invalid_argument if the stick responds too slowly for a loop at that rate.
   std::unique_ptr<haptics::HapticDevice> lever(double period);
-  // Like lever(), but not connected to the stick: to check limits while another lever is in use.
+  // Like lever(), but not connected to the stick: for checking limits while the connected lever is in use.
   std::unique_ptr<haptics::HapticDevice> detached_lever(double period);
 
   const haptics::DeviceCalibration& calibration() const noexcept { return stick_.calibration; }
   std::string name() const { return stick_name(identity_of(stick_.calibration)); }
   double answer_time() const noexcept { return haptics::answer_time(stick_.calibration.timing); }  // [s] worst case
-  bool connected() const noexcept { return keeper_.connected(); }
+  bool connected() const noexcept { return connection_.connected(); }
 
-  // Returns what happened to the stick, one sentence per call, in order: missing abilities, unplugged, connected again,
-  // faults.
+  // Returns the next message about the stick, in order, each once and in one sentence: missing abilities, unplugged,
+  // connected again, faults. Empty: no message.
   std::optional<std::string> take_message();
 
  private:
   KnownStick stick_;
   haptics::PidDriver idle_;  // not connected to any device
   haptics::PidDriver driver_;
-  haptics::StickConnection keeper_;
-  std::size_t notes_reported_ = 0;  // number of ability().notes reported
+  haptics::StickConnection connection_;
+  std::size_t notes_reported_ = 0;  // number of PidAbility::notes that take_message() has returned
 };
 
 }  // namespace gearshift::runtime

@@ -45,7 +45,7 @@ void apply_calibration(const std::filesystem::path& folder, ListedStick& stick) 
   }
 }
 
-// Returns empty if the device is not a stick.
+// The entry for the device; empty if the device is not a stick.
 std::optional<ListedStick> listed(const haptics::UsbHidDevice& device, const std::filesystem::path& folder) {
   ListedStick stick;
   stick.identity = device.identity;
@@ -92,7 +92,7 @@ std::vector<std::string> absent_problems(std::span<const ListedStick> plugged, c
   return problems;
 }
 
-bool lacks_permission(const ListedStick& stick) {
+bool needs_permission(const ListedStick& stick) {
   return stick.problem.find("may not be used by this user") != std::string::npos;
 }
 
@@ -109,9 +109,9 @@ std::string describe_forces(const ListedStick& stick) {
   }
   std::string words;
   for (const haptics::PidEffect effect : stick.effects)
-    if (is_used(effect)) words += (words.empty() ? "" : ", ") + std::string(haptics::pid_effect_name(effect));
+    if (is_used(effect)) words += (words.empty() ? "" : ", ") + std::string(haptics::to_string(effect));
   const auto others = std::count_if(stick.effects.begin(), stick.effects.end(), std::not_fn(is_used));
-  return others == 0 ? words : fmt::format("{}, {} others", words, others);
+  return others == 0 ? words : fmt::format("{}, {} {}", words, others, others == 1 ? "other" : "others");
 }
 
 std::string describe_calibration(const ListedStick& stick) {

@@ -1,4 +1,4 @@
-// Lists the plugged-in sticks and their abilities, from their descriptors only: moves nothing.
+// Lists the plugged-in sticks and their abilities. Reads only their descriptors, so that nothing moves.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 namespace gearshift::runtime {
 
 enum class StickForce : std::uint8_t {
-  unknown,  // its descriptor cannot be read
+  unknown,  // the stick's descriptor cannot be read
   none,
   rumble,  // vibration motors without a direction
   force_feedback
@@ -25,24 +25,25 @@ struct ListedStick {
   std::vector<std::uint8_t> report_descriptor;  // empty: unknown
   std::size_t axes = 0, buttons = 0;
   StickForce force = StickForce::unknown;
-  std::vector<haptics::PidEffect> effects;  // supported effects, if it has force feedback
-  bool calibrated = false;                  // has everything that forces require
-  std::string missing;                      // missing parts of its calibration, if it has force feedback
-  std::string problem;                      // one sentence; empty: none
+  std::vector<haptics::PidEffect> effects;  // supported effects, if the stick has force feedback
+  bool calibrated = false;                  // the calibration has everything that forces require
+  std::string missing;                      // missing parts of the calibration, if the stick has force feedback
+  std::string problem;                      // one sentence; empty: no problem
 };
 
-// Sticks, pads and wheels, and devices whose descriptor cannot be read. folder: of the calibrations.
+// Returns all sticks, pads and wheels among the devices, and the devices whose descriptor cannot be read. folder: the
+// folder of the calibrations.
 std::vector<ListedStick> list_sticks(std::span<const haptics::UsbHidDevice> devices,
                                      const std::filesystem::path& folder);
 
-// Problems of calibrations of sticks that are not plugged in, one sentence each.
+// Describes the damaged calibrations of sticks that are not plugged in, one sentence each.
 std::vector<std::string> absent_problems(std::span<const ListedStick> plugged, const std::filesystem::path& folder);
 
-bool lacks_permission(const ListedStick& stick);  // a udev rule would give this user access
+bool needs_permission(const ListedStick& stick);  // true if access is denied and a udev rule would grant it
 
-std::string describe_forces(
-    const ListedStick& stick);  // "constant force, spring, damper, 8 others", "no force feedback", ...
-std::string describe_calibration(
-    const ListedStick& stick);  // "yes", "no", "incomplete: ... missing", "-" where none is needed
+// "constant force, spring, damper, 8 others", "no force feedback", ...
+std::string describe_forces(const ListedStick& stick);
+// "yes", "no", "incomplete: ... missing", or "-" for a stick that needs no calibration.
+std::string describe_calibration(const ListedStick& stick);
 
 }  // namespace gearshift::runtime

@@ -12,7 +12,7 @@ bool same_letter(char a, char b) {
   return haptics::ascii_lower(a) == haptics::ascii_lower(b);
 }
 
-// Maps the part of 0 to 1 between the two zones to 0 to 1.
+// Rescales `value` (0 to 1) so that the range between dead zone and end zone becomes 0 to 1.
 double between_zones(const AxisBinding& axis, double value) noexcept {
   return std::clamp((value - axis.dead_zone) / (1.0 - axis.dead_zone - axis.end_zone), 0.0, 1.0);
 }

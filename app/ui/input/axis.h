@@ -11,12 +11,12 @@
 namespace gearshift::ui {
 
 struct AxisBinding {
-  int pad = 0;  // index among the matching sticks, 0: the first one plugged in
+  int pad = 0;  // index among the sticks that match `stick`; 0: the one plugged in first
   int axis = 0;
-  double from = -1.0;            // raw value that means 0 ...
-  double to = 1.0;               // ... and 1 (pedals), or -1 and 1 (lever)
-  double dead_zone = 0.0;        // [1] 0 to 0.9, around a lever's rest position or at a pedal's start
-  double end_zone = 0.0;         // [1] 0 to 0.9, at the end, already read as fully pressed; at most 0.95 with dead_zone
+  double from = -1.0;            // raw value of a released pedal, or of a lever at its left or back end
+  double to = 1.0;               // raw value of a fully pressed pedal, or of a lever at its right or forward end
+  double dead_zone = 0.0;        // [1] 0 to 0.9: ignored range around a lever's rest position or at a pedal's start
+  double end_zone = 0.0;         // [1] 0 to 0.9: end of the range that counts as full; dead_zone + end_zone <= 0.95
   std::optional<double> centre;  // raw value of a lever at rest, between `from` and `to`; default: their middle
   std::string stick;             // part of the stick's name, or its whole GUID; empty: any stick
 };

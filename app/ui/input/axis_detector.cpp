@@ -11,16 +11,16 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kMinMove = 0.2;        // [raw, range 2] less counts as no movement
-constexpr double kMaxSecondAxis = 0.5;  // [1] of the most moved axis: a second axis may move this far
-constexpr double kMinPedalSide = 0.75;  // [1] of a pedal's range must be on one side of its rest position
-constexpr double kMinLeverSide = 0.15;  // [1] of a lever's range must be on each side of its rest position
-constexpr int kMinRestFrames = 20;      // frames
-constexpr double kMaxDeadZone = 0.25;   // [1] of the range: a larger dead zone is rejected
-constexpr double kMinZone = 0.02;       // [1]
-constexpr double kNoiseMargin = 1.5;    // the noise of one second is not the maximum
+constexpr double kMinMove = 0.2;        // [1] smaller changes of the raw value (-1 to 1) count as no movement
+constexpr double kMaxSecondAxis = 0.5;  // [1] how far a second axis may move, as a fraction of the most moved axis
+constexpr double kMinPedalSide = 0.75;  // [1] minimum fraction of a pedal's range on one side of its rest position
+constexpr double kMinLeverSide = 0.15;  // [1] minimum fraction of a lever's range on each side of its rest position
+constexpr int kMinRestFrames = 20;      // minimum number of frames recorded at rest
+constexpr double kMaxDeadZone = 0.25;   // [1] of the range; an axis that needs a larger dead zone is rejected
+constexpr double kMinZone = 0.02;       // [1] minimum dead zone; also the end zone
+constexpr double kNoiseMargin = 1.5;    // [1] ratio of dead zone to measured noise, which may grow later
 
-// Rounds up to hundredths: the user may read and edit the number.
+// Rounds up to hundredths, because the user may read and edit the number in the bindings file.
 double rounded_up(double fraction) {
   return std::ceil(100.0 * fraction - 1e-9) / 100.0;
 }
@@ -29,7 +29,8 @@ double dead_zone(double wander, double range, const std::string& axis_name) {
   const double zone = std::max(kMinZone, rounded_up(kNoiseMargin * wander / range));
   if (zone > kMaxDeadZone)
     throw std::invalid_argument(
-        fmt::format("{} does not rest: untouched, it moved {:.2f} of its range; keep your hands off it and try again",
+        fmt::format("{} moved by {:.2f} of its range while it should be at rest. Don't touch the control after you "
+                    "release it.",
                     axis_name, wander / range));
   return zone;
 }
@@ -84,22 +85,26 @@ void AxisDetector::record_rest(const std::vector<engine::PadState>& sticks) {
   }
 }
 
-std::string AxisDetector::describe_axis(const Place& at) const {
-  return fmt::format("axis {} of {}", at.axis, haptics::printable(sticks_[at.stick].name));
+std::string AxisDetector::name_of(const Place& at) const {
+  return haptics::printable(sticks_[at.stick].name);
 }
 
-AxisDetector::Place AxisDetector::most_moved_axis() const {
+std::string AxisDetector::describe_axis(const Place& at) const {
+  return fmt::format("Axis {} of {}", at.axis, name_of(at));
+}
+
+AxisDetector::Place AxisDetector::axis_with_max_travel() const {
   std::vector<Place> places;
   for (std::size_t s = 0; s < sticks_.size(); ++s)
     for (std::size_t a = 0; a < sticks_[s].axes.size(); ++a) places.push_back({s, a});
-  if (places.empty()) throw std::invalid_argument("no stick with an axis is plugged in");
+  if (places.empty()) throw std::invalid_argument("No stick with an axis is plugged in. Plug one in.");
   const auto further = [this](const Place& a, const Place& b) { return range_of(a).span() > range_of(b).span(); };
   std::stable_sort(places.begin(), places.end(), further);
-  const double most = range_of(places[0]).span();
-  if (most < kMinMove) throw std::invalid_argument("nothing moved: move one control all the way and release it");
-  if (places.size() > 1 && range_of(places[1]).span() > kMaxSecondAxis * most)
-    throw std::invalid_argument(fmt::format("two axes moved together, {} and {}: move only one control",
-                                            describe_axis(places[0]), describe_axis(places[1])));
+  const double max_span = range_of(places[0]).span();
+  if (max_span < kMinMove) throw std::invalid_argument("Nothing moved. Move one control all the way and release it.");
+  if (places.size() > 1 && range_of(places[1]).span() > kMaxSecondAxis * max_span)
+    throw std::invalid_argument(fmt::format("Axis {} of {} and axis {} of {} moved together. Move only one control.",
+                                            places[0].axis, name_of(places[0]), places[1].axis, name_of(places[1])));
   return places[0];
 }
 
@@ -121,14 +126,14 @@ AxisBinding AxisDetector::pedal(const Place& at) const {
   axis.to = range.high - axis.from > axis.from - range.low ? range.high : range.low;
   const double travel = std::abs(axis.to - axis.from);
   if (travel < kMinMove || travel < kMinPedalSide * range.span())
-    throw std::invalid_argument(describe_axis(at) +
-                                " rests in the middle of its range: press the pedal down and release it");
+    throw std::invalid_argument(
+        describe_axis(at) + " rests in the middle of its range. Press the pedal all the way down, then release it.");
   axis.dead_zone = dead_zone(0.5 * (range.rest_high - range.rest_low), travel, describe_axis(at));
   axis.end_zone = kMinZone;
   return axis;
 }
 
-// The end that was reached first is left or back.
+// The end that the lever reached first is left or back (the prompt asks for this order).
 AxisBinding AxisDetector::lever(const Place& at) const {
   const AxisRange& range = range_of(at);
   AxisBinding axis = binding_of(at);
@@ -140,8 +145,9 @@ AxisBinding AxisDetector::lever(const Place& at) const {
   if (side < kMinLeverSide * range.span())
     throw std::invalid_argument(
         describe_axis(at) +
-        " moved to only one side of its rest position: move the lever to one end, then to the other");
-  const double before = std::abs(range.first - range.rest());  // where it was left before the motion
+        " moved to only one side of its rest position. Move the lever to one end, then to the other.");
+  // Distance between the lever's rest positions before and after the motion.
+  const double before = std::abs(range.first - range.rest());
   const double slack = before < 0.5 * side ? before : 0.0;
   axis.dead_zone = dead_zone(slack + 0.5 * (range.rest_high - range.rest_low), side, describe_axis(at));
   axis.end_zone = kMinZone;
@@ -149,11 +155,11 @@ AxisBinding AxisDetector::lever(const Place& at) const {
 }
 
 AxisBinding AxisDetector::result() const {
-  if (changed_) throw std::invalid_argument("a stick was plugged in or unplugged meanwhile: try again");
-  const Place at = most_moved_axis();
+  if (changed_) throw std::invalid_argument("A stick was plugged in or unplugged.");
+  const Place at = axis_with_max_travel();
   if (range_of(at).rests < kMinRestFrames)
     throw std::invalid_argument(describe_axis(at) +
-                                " was not recorded at rest: release it and don't touch it for a second");
+                                " was not recorded at rest. Release the control and don't touch it for a second.");
   return control_ == Control::pedal ? pedal(at) : lever(at);
 }
 

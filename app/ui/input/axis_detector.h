@@ -24,15 +24,15 @@ class AxisDetector {
   void record_move(const std::vector<engine::PadState>& sticks);
   void record_rest(const std::vector<engine::PadState>& sticks);
 
-  // Identifies the stick by name, or by GUID if the name cannot be written to a file. Throws std::invalid_argument with
-  // one sentence on what was wrong and what to do: no motion, two axes moved, too little motion, only to one side, no
-  // rest.
+  // The binding identifies the stick by name, or by GUID if the name cannot be written to a file. Throws
+  // std::invalid_argument with one sentence on what was wrong and what to do: no motion, two axes moved, too little
+  // motion, motion to one side only, not recorded at rest, or a stick plugged in or unplugged meanwhile.
   AxisBinding result() const;
 
  private:
-  struct AxisRange {                            // what one axis did
-    double first = 0.0, low = 0.0, high = 0.0;  // raw
-    int low_at = 0, high_at = 0;                // frames
+  struct AxisRange {                            // recorded motion of one axis
+    double first = 0.0, low = 0.0, high = 0.0;  // raw values
+    int low_at = 0, high_at = 0;                // numbers of the frames in which low and high were reached
     double rest_low = 0.0, rest_high = 0.0, rest_sum = 0.0;
     int rests = 0;
     double span() const { return high - low; }
@@ -43,14 +43,15 @@ class AxisDetector {
     std::vector<AxisRange> axes;
   };
 
-  struct Place {  // which axis
+  struct Place {  // identifies an axis
     std::size_t stick = 0, axis = 0;
   };
 
   bool check_sticks(const std::vector<engine::PadState>& sticks);
   const AxisRange& range_of(const Place& at) const { return sticks_[at.stick].axes[at.axis]; }
+  std::string name_of(const Place& at) const;
   std::string describe_axis(const Place& at) const;
-  Place most_moved_axis() const;
+  Place axis_with_max_travel() const;
   AxisBinding binding_of(const Place& at) const;
   AxisBinding pedal(const Place& at) const;
   AxisBinding lever(const Place& at) const;

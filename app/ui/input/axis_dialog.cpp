@@ -27,29 +27,30 @@ constexpr std::chrono::milliseconds kFrame{10};
 struct Control {
   std::optional<AxisBinding> Bindings::*axis;
   AxisDetector::Control kind;
-  const char* shown;  // prompt for the user
+  const char* prompt;
 };
 
 constexpr Control kControls[] = {
-    {&Bindings::clutch, AxisDetector::Control::pedal, "Press the CLUTCH pedal all the way and release it"},
-    {&Bindings::brake, AxisDetector::Control::pedal, "Press the BRAKE pedal all the way and release it"},
-    {&Bindings::throttle, AxisDetector::Control::pedal, "Press the THROTTLE pedal all the way and release it"},
+    {&Bindings::clutch, AxisDetector::Control::pedal, "Press the CLUTCH pedal all the way down, then release it."},
+    {&Bindings::brake, AxisDetector::Control::pedal, "Press the BRAKE pedal all the way down, then release it."},
+    {&Bindings::throttle, AxisDetector::Control::pedal, "Press the THROTTLE pedal all the way down, then release it."},
     {&Bindings::lever_select, AxisDetector::Control::lever,
-     "Move the LEVER to the left, then to the right, and let go"},
-    {&Bindings::lever_shift, AxisDetector::Control::lever, "Move the LEVER back, then forward, and let go"}};
+     "Move the LEVER to the left, then to the right, and let go."},
+    {&Bindings::lever_shift, AxisDetector::Control::lever, "Move the LEVER back, then forward, and let go."}};
 
 // Returns true if the axis was found, false if skipped.
-bool learn(const Control& control, Bindings& bindings, const AxisDialog& dialog) {
+bool assign_axis(const Control& control, Bindings& bindings, const AxisDialog& dialog) {
   for (;;) {
     AxisDetector detector(control.kind);
-    const std::string answer = dialog.ask(fmt::format("{}. [Enter: done, -: skip]", control.shown),
+    const std::string answer = dialog.ask(fmt::format("{} [Enter: done, -: skip]", control.prompt),
                                           [&] { detector.record_move(dialog.next_frame()); });
     if (answer == "-") return false;
     if (!answer.empty()) {
-      dialog.print(fmt::format("\"{}\" is not a valid answer.", haptics::printable(answer)));
+      dialog.print(fmt::format("\"{}\" is not a valid answer. Press Enter when done, or type - to skip.",
+                               haptics::printable(answer)));
       continue;
     }
-    dialog.print("Now leave everything at rest for a second.");
+    dialog.print("Now don't touch anything for a second.");
     for (int i = 0; i < kRestFrames; ++i) detector.record_rest(dialog.next_frame());
     try {
       bindings.*control.axis = detector.result();
@@ -58,17 +59,17 @@ bool learn(const Control& control, Bindings& bindings, const AxisDialog& dialog)
                                found.from, found.to));
       return true;
     } catch (const std::invalid_argument& refused) {
-      dialog.print(fmt::format("  Rejected: {}. Try again.", refused.what()));
+      dialog.print(fmt::format("  {} Try again.", refused.what()));
     }
   }
 }
 
 LeverMode ask_lever_mode(const AxisDialog& dialog) {
   for (;;) {
-    const std::string answer = dialog.ask("Does the lever stay where you leave it when you let go? [y or n]", [] {});
+    const std::string answer = dialog.ask("Does the lever stay in place when you let go of it? [y or n]", [] {});
     if (answer == "y") return LeverMode::places;
     if (answer == "n") return LeverMode::moves;
-    dialog.print(fmt::format("\"{}\" is not a valid answer.", haptics::printable(answer)));
+    dialog.print(fmt::format("\"{}\" is not a valid answer. Type y or n.", haptics::printable(answer)));
   }
 }
 
@@ -76,8 +77,8 @@ std::string ask_line(base::LineReader& answers, const std::string& question, con
   base::print_line(question);
   for (;;) {
     if (const std::optional<std::string> line = answers.read_line(0.0)) return *line;
-    if (base::StopSignals::requested()) throw runtime::CalibrationEnded("Stopped: nothing was changed.");
-    if (answers.at_end()) throw runtime::CalibrationEnded("Stopped: standard input has ended, nothing was changed.");
+    if (base::StopSignals::requested()) throw runtime::CalibrationEnded("Stopped. Nothing was changed.");
+    if (answers.at_end()) throw runtime::CalibrationEnded("Stopped because standard input ended. Nothing was changed.");
     frame();
     std::this_thread::sleep_for(kFrame / 2);
   }
@@ -98,7 +99,7 @@ namespace {
 void save_bindings(const Bindings& bindings, const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
-  if (error) throw haptics::FileError(file.parent_path().string(), 0, "cannot be created: " + error.message());
+  if (error) throw haptics::FileError(file.parent_path().string(), 0, "cannot be created (" + error.message() + ")");
   write_bindings(bindings, file);
 }
 
@@ -107,7 +108,7 @@ void save_bindings(const Bindings& bindings, const std::filesystem::path& file) 
 Bindings learn_axes(Bindings bindings, const AxisDialog& dialog) {
   bool has_lever = false;
   for (const Control& control : kControls) {
-    const bool found = learn(control, bindings, dialog);
+    const bool found = assign_axis(control, bindings, dialog);
     has_lever = has_lever || (found && control.kind == AxisDetector::Control::lever);
   }
   if (has_lever) bindings.lever_mode = ask_lever_mode(dialog);

@@ -16,9 +16,9 @@ namespace gearshift::ui {
 namespace {
 
 constexpr int kMaxPads = 16, kMaxAxes = 64, kMaxButtons = 128;
-constexpr double kMinSpan = 0.1;    // [1] minimum distance of `from` and `to`: a shorter range is a switch
-constexpr double kMinSide = 0.05;   // [1] of the range, on each side of a lever's centre
-constexpr double kMaxZones = 0.95;  // [1] dead zone and end zone together
+constexpr double kMinSpan = 0.1;    // [1] minimum distance between `from` and `to`: shorter ranges are switches
+constexpr double kMinSide = 0.05;   // [1] minimum fraction of a lever's range on each side of its centre
+constexpr double kMaxZones = 0.95;  // [1] maximum sum of dead zone and end zone
 
 // Splits "Left, Keypad 4" at the commas and trims the spaces.
 std::vector<std::string> words_of(const std::string& list) {
@@ -40,7 +40,8 @@ std::optional<int> button_of(std::string_view word) {
   return button < kMaxButtons ? std::optional(button) : std::nullopt;
 }
 
-// Reads a table of action = "name, name, ...". of: converts a name to its code; kind: what a name must be, for errors.
+// Reads a table with lines of the form action = "name, name, ...". of: converts a name to its key or button code.
+// kind: describes valid names in error messages.
 std::map<Action, std::vector<int>> read_actions(const haptics::TomlTable& table,
                                                 const std::function<std::optional<int>(std::string_view)>& of,
                                                 const std::string& kind) {
@@ -50,7 +51,7 @@ std::map<Action, std::vector<int>> read_actions(const haptics::TomlTable& table,
     if (!table.has(action.key)) continue;
     for (const std::string& word : words_of(table.text(action.key))) {
       const std::optional<int> code = of(word);
-      if (!code) table.fail(action.key, fmt::format("\"{}\" must be {}", word, kind));
+      if (!code) table.fail(action.key, fmt::format("\"{}\" is not valid; use {}", word, kind));
       const auto [other, is_new] = used.emplace(*code, action.key);
       if (!is_new) table.fail(action.key, fmt::format("\"{}\" is already bound to {}", word, other->second));
       bound[action.action].push_back(*code);
@@ -60,8 +61,8 @@ std::map<Action, std::vector<int>> read_actions(const haptics::TomlTable& table,
   return bound;
 }
 
-int read_integer(const haptics::TomlTable& table, std::string_view key, int most) {
-  const double number = table.number_or(key, 0.0, {0.0, static_cast<double>(most)});
+int read_integer(const haptics::TomlTable& table, std::string_view key, int max) {
+  const double number = table.number_or(key, 0.0, {0.0, static_cast<double>(max)});
   if (number != std::floor(number)) table.fail(key, "must be a whole number");
   return static_cast<int>(number);
 }
@@ -72,7 +73,7 @@ struct BoundAxis {
   AxisBinding axis;
 };
 
-// Two pedals may use the two halves of one axis.
+// True if both bindings use a common part of the same axis. Two pedals may use one half of an axis each.
 bool overlap(const AxisBinding& a, const AxisBinding& b) {
   if (a.stick != b.stick || a.pad != b.pad || a.axis != b.axis) return false;
   const auto [a_low, a_high] = std::minmax(a.from, a.to);
@@ -85,7 +86,8 @@ void read_centre(const haptics::TomlTable& table, AxisBinding& read) {
   read.centre = table.number("centre", {-1.0, 1.0});
   const double fraction = (*read.centre - read.from) / (read.to - read.from);
   if (!(fraction > kMinSide && fraction < 1.0 - kMinSide))
-    table.fail("centre", fmt::format("must be well between from = {} and to = {}", read.from, read.to));
+    table.fail("centre",
+               fmt::format("must be well inside the range between from ({}) and to ({})", read.from, read.to));
 }
 
 void read_axis(const haptics::TomlTable& axes, std::string_view key, std::optional<AxisBinding>& axis,
@@ -95,17 +97,17 @@ void read_axis(const haptics::TomlTable& axes, std::string_view key, std::option
   AxisBinding read;
   if (table.has("stick")) read.stick = table.text("stick");
   read.pad = read_integer(table, "pad", kMaxPads - 1);
-  (void)table.number("axis", {0.0, kMaxAxes - 1.0});  // required key
+  (void)table.number("axis", {0.0, kMaxAxes - 1.0});  // rejects a missing key, which read_integer() accepts
   read.axis = read_integer(table, "axis", kMaxAxes - 1);
   read.from = table.number_or("from", read.from, {-1.0, 1.0});
   read.to = table.number_or("to", read.to, {-1.0, 1.0});
   if (std::abs(read.to - read.from) < kMinSpan)
-    table.fail("to", fmt::format("must be at least {} away from from = {}", kMinSpan, read.from));
+    table.fail("to", fmt::format("must differ from \"from\" ({}) by at least {}", read.from, kMinSpan));
   if (key.starts_with("lever")) read_centre(table, read);
   read.dead_zone = table.number_or("dead_zone", read.dead_zone, {0.0, 0.9});
   read.end_zone = table.number_or("end_zone", read.end_zone, {0.0, 0.9});
   if (read.dead_zone + read.end_zone > kMaxZones)
-    table.fail("end_zone", fmt::format("must be at most {} together with dead_zone = {}", kMaxZones, read.dead_zone));
+    table.fail("end_zone", fmt::format("must not exceed {} together with dead_zone ({})", kMaxZones, read.dead_zone));
   const auto other = std::find_if(used.begin(), used.end(), [&](const auto& one) { return overlap(one.axis, read); });
   if (other != used.end()) table.fail("axis", fmt::format("is already bound to {}", other->action));
   table.reject_unknown_keys();
@@ -129,7 +131,7 @@ void read_buttons(const haptics::TomlTable& root, Bindings& bindings) {
   if (!root.has("pad_buttons")) return;
   const haptics::TomlTable table = root.table("pad_buttons");
   if (table.has("stick")) bindings.button_stick = table.text("stick");
-  bindings.pad_buttons = read_actions(table, button_of, fmt::format("a button's number, 0 to {}", kMaxButtons - 1));
+  bindings.pad_buttons = read_actions(table, button_of, fmt::format("a button number from 0 to {}", kMaxButtons - 1));
 }
 
 void read_lever(const haptics::TomlTable& root, Bindings& bindings) {
@@ -157,15 +159,11 @@ std::string joined(const std::vector<int>& codes, const std::function<std::strin
   return list;
 }
 
-// The help text of an axis: that of the action with the same key, if there is one.
+// The help text of an axis: that of the action with the same key, or else a text for the lever's axes.
 std::string_view axis_help(std::string_view key) {
   for (const ActionInfo& action : all_actions())
     if (action.key == key) return action.help;
   return key == "lever_select" ? "lever sideways" : "lever forward and back";
-}
-
-std::string device_label(const std::string& stick) {
-  return stick.empty() ? "Pad" : stick;
 }
 
 }  // namespace
@@ -181,7 +179,8 @@ Bindings read_bindings(const std::filesystem::path& file) {
   read_lever(root, bindings);
   read_pace(root, bindings);
   root.reject_unknown_keys();
-  if (!bindings.keys.contains(Action::stop)) root.fail({}, "[keys] has no stop: one key must turn the motors off");
+  if (!bindings.keys.contains(Action::stop))
+    root.fail({}, "[keys] has no stop; set a key for it, so that you can always turn forces off");
   return bindings;
 }
 
@@ -194,23 +193,26 @@ std::vector<DrivingKey> driving_keys(const Bindings& bindings) {
   std::vector<DrivingKey> keys;
   for (std::size_t i = 0; i < std::size(kInOrder); ++i)
     if (const auto bound = bindings.keys.find(kInOrder[i]); bound != bindings.keys.end() && !bound->second.empty())
-      keys.push_back({kShort[i], key_name(bound->second.front())});
+      keys.push_back({kShort[i], key_label(bound->second.front())});
   return keys;
 }
 
 std::string help_text(const Bindings& bindings) {
   std::string text;
-  const auto line = [&text](const std::string& what, std::string_view action) {
-    text += fmt::format("{}\t{}\n", what, action);
+  const auto line = [&text](const std::string& control, std::string_view action) {
+    text += fmt::format("{}\t{}\n", control, action);
   };
   for (const ActionInfo& action : all_actions())
     if (const auto keys = bindings.keys.find(action.action); keys != bindings.keys.end())
-      line(joined(keys->second, key_name), action.help);
-  line("Mouse", "moves the lever, after a click on the cabin");
+      line(joined(keys->second, key_label), action.help);
+  line("Mouse", "moves the lever after you click the cabin");
   for (const ActionInfo& action : all_actions())
     if (const auto buttons = bindings.pad_buttons.find(action.action); buttons != bindings.pad_buttons.end())
-      line(device_label(bindings.button_stick) + " button " +
-               joined(buttons->second, [](int button) { return std::to_string(button); }),
+      line(joined(buttons->second,
+                  [&](int button) {
+                    return bindings.button_stick.empty() ? "Pad " + pad_button_label(button)
+                                                         : fmt::format("{} button {}", bindings.button_stick, button);
+                  }),
            action.help);
   const std::pair<const std::optional<AxisBinding>&, std::string_view> axes[] = {
       {bindings.lever_select, "lever_select"},
@@ -219,7 +221,10 @@ std::string help_text(const Bindings& bindings) {
       {bindings.brake, "brake"},
       {bindings.clutch, "clutch"}};
   for (const auto& [axis, key] : axes)
-    if (axis) line(fmt::format("{} axis {}", device_label(axis->stick), axis->axis), axis_help(key));
+    if (axis)
+      line(axis->stick.empty() ? "Pad " + pad_axis_label(axis->axis)
+                               : fmt::format("{} axis {}", axis->stick, axis->axis),
+           axis_help(key));
   return text;
 }
 

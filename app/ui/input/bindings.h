@@ -13,23 +13,23 @@
 
 namespace gearshift::ui {
 
-// All input actions. Held actions act while the key is held, the others once when it is pressed.
+// All input actions. Held actions act as long as the key is held, the others once per key press.
 enum class Action {
-  // held: the hand
+  // held actions of the hand
   lever_left,
   lever_right,
   lever_forward,
   lever_back,
   push_down,
   lift,
-  // held: the car
+  // held actions of the car
   throttle,
   throttle_light,
   brake,
   clutch,
   clutch_hold,
   starter,
-  // once
+  // actions performed once per key press
   hand_brake,
   ignition,
   arm,
@@ -55,7 +55,7 @@ const std::vector<ActionInfo>& all_actions();
 
 // How a stick moves the hand.
 enum class LeverMode {
-  moves,  // deflection sets the hand's speed; released, the hand stays. For sticks with a centring spring
+  moves,  // deflection sets the hand's speed; released: the hand stays. For sticks with a centring spring
   places  // deflection sets the hand's position. For levers that stay where they are put
 };
 
@@ -65,32 +65,35 @@ struct Bindings {
   std::string button_stick;  // part of the name, or the GUID, of the sticks with these buttons; empty: all sticks
   std::optional<AxisBinding> lever_select, lever_shift, throttle, brake, clutch;
   LeverMode lever_mode = LeverMode::moves;
-  double stick_speed = 0.3;       // [m/s] hand speed at full deflection, with LeverMode::moves
+  double stick_speed = 0.3;       // [m/s] hand speed at full deflection of the stick, with LeverMode::moves
   double mouse_mm_per_px = 0.12;  // [mm] hand motion in the lever plane per mouse pixel
   double key_speed = 0.25;        // [m/s] hand speed while a lever key is held
-  double pedal_time = 0.25;       // [s] full pedal travel by key
-  double clutch_slip_time = 1.2;  // [s] clutch by key, on its way up through the bite zone
+  double pedal_time = 0.25;       // [s] time that a key needs to move a pedal over its full travel
+  double clutch_slip_time = 1.2;  // [s] time that the clutch pedal, by key, needs to rise through the bite zone
 };
 
-// Throws FileError with file, line, key, value and allowed range. A key, button or axis may have only one action.
+// Throws FileError, which names file, line, key, value and allowed range. Each key and each button may have only one
+// action; ranges of an axis that are bound to different actions must not overlap.
 Bindings read_bindings(const std::filesystem::path& file);
 
-// Writes a file that read_bindings() reads back unchanged. Throws FileError and then leaves an existing file as it was.
+// Writes a file that read_bindings() reads back unchanged. If it throws FileError, an existing file is unchanged.
 void write_bindings(const Bindings& bindings, const std::filesystem::path& file);
 std::string bindings_text(const Bindings& bindings);
 
-// Path of the user's bindings of that name, below the user's configuration folder; creates nothing. Throws
-// std::invalid_argument with one sentence for a name that cannot be a file name.
+// Path of the user's bindings file for `name`, below the user's configuration folder; creates nothing. Throws
+// std::invalid_argument with one sentence if the name cannot be a file name.
 std::filesystem::path user_bindings_file(const std::filesystem::path& config_folder, const std::string& name);
 
-// The text of the help window (F1): one line per bound action, then mouse and pad; input and action separated by a tab.
+// The text of the help window (F1): one line per bound action, then lines for mouse and pad; a tab separates the input
+// from the action.
 std::string help_text(const Bindings& bindings);
 
-// The first key of each driving action, in the order of use: "clutch", "A". Actions without a key are left out.
+// A driving action and the first key bound to it, for example "clutch" and "A".
 struct DrivingKey {
   std::string_view action;
   std::string key;
 };
+// In the order of use; actions without a key are left out.
 std::vector<DrivingKey> driving_keys(const Bindings& bindings);
 
 }  // namespace gearshift::ui

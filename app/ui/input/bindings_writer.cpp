@@ -67,9 +67,9 @@ void write_bindings(const Bindings& bindings, const fs::path& file) {
 fs::path user_bindings_file(const fs::path& config_folder, const std::string& name) {
   const bool is_file = !name.empty() && name.front() != '.' && name.find('/') == std::string::npos;
   if (!is_file)
-    throw std::invalid_argument(
-        fmt::format("\"{}\" cannot be the name of bindings: it is empty, begins with a dot or has a slash",
-                    haptics::printable(name)));
+    throw std::invalid_argument(fmt::format(
+        "\"{}\" is not a valid name for bindings: it must not be empty, start with a dot or contain a slash",
+        haptics::printable(name)));
   return config_folder / "bindings" / (name + ".toml");
 }
 

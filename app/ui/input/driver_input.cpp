@@ -13,9 +13,9 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kMinAxisMove = 0.02;  // [1] axis motion; less is noise
-constexpr double kPushTravel = 0.05;   // [m] mouse travel beyond reach, from no push to max_push
-constexpr double kBeyondGate = 0.02;   // [m]
+constexpr double kMinAxisMove = 0.02;  // [1] axis motion below this is noise
+constexpr double kPushTravel = 0.05;   // [m] mouse travel beyond the hand's reach that gives max_push
+constexpr double kBeyondGate = 0.02;   // [m] reach of the hand beyond the gate, see hand_reach()
 
 enum WatchedAxis : std::size_t { select_axis, shift_axis, throttle_axis, brake_axis, clutch_axis };
 
@@ -26,9 +26,9 @@ bool is_once(Action action) {
   return info != actions.end() && !info->held;
 }
 
-constexpr double kMaxKeyLead = 0.05;  // [m] hand ahead of the lever, by keys or stick: 25 N with a 500 N/m grip
-constexpr double kRestDelay = 0.3;    // [s] after their release the lever has stopped moving ...
-constexpr double kRestLead = 0.005;   // [m] ... and the hand moves this close to it: 2.5 N hold it against its centring
+constexpr double kMaxKeyLead = 0.05;  // [m] maximum lead of the hand with keys or stick: 25 N with a 500 N/m grip
+constexpr double kRestDelay = 0.3;    // [s] time after the release of keys or stick until kRestLead applies
+constexpr double kRestLead = 0.005;   // [m] maximum lead after kRestDelay: 2.5 N hold the lever against its centring
 
 }  // namespace
 
@@ -71,7 +71,7 @@ void DriverInput::update_keys(const engine::WindowInput& input, bool ui_has_keys
   }
 }
 
-// True for a key pressed with Ctrl or Alt, unless these are bound themselves.
+// True for a key pressed with Ctrl or Alt held, unless that modifier is itself bound to an action.
 bool DriverInput::is_chord(const engine::KeyEvent& key) const {
   const auto binds = [this](int left, int right) {
     return std::any_of(config_.bindings.keys.begin(), config_.bindings.keys.end(), [&](const auto& binding) {
@@ -136,12 +136,13 @@ bool DriverInput::any_bound_source(Action action, const Holds& holds) const {
   return any(config_.bindings.keys, false) || any(config_.bindings.pad_buttons, true);
 }
 
-// Held for at least part of this frame.
+// True if the action's key or button was held for at least part of this frame.
 bool DriverInput::is_held(Action action) const {
   return any_bound_source(action, [this](Source source) { return down_.contains(source); });
 }
 
-// Held at the end of this frame, or pressed and released within it, so that a short press is not lost.
+// True if the action's key or button is held at the end of this frame, or was pressed and released within it, so that
+// a short press is not lost.
 bool DriverInput::is_held_at_end(Action action) const {
   return any_bound_source(action, [this](Source source) {
     return down_.contains(source) && (!released_.contains(source) || newly_down_.contains(source));
@@ -188,7 +189,8 @@ glm::dvec2 DriverInput::key_speed() const {
                                                  direction(Action::lever_forward, Action::lever_back)};
 }
 
-// A key held too long must not push: the hand stops at its reach and stays close to a lever that is blocked.
+// Limits the hand to its reach and, if the lever is blocked, to a short distance from it, so that a key held too long
+// does not push.
 void DriverInput::aim_by_speed(glm::dvec2 speed, double seconds) {
   const bool moves = speed != glm::dvec2(0.0);
   if (moves) {
@@ -231,7 +233,7 @@ void DriverInput::set_car(bool ignition, double hand_brake) {
   controls_.hand_brake = hand_brake;
 }
 
-// The raw value; empty until the axis has moved.
+// The axis's raw value; empty until the axis has moved.
 std::optional<double> DriverInput::raw_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis,
                                             std::size_t watch) {
   if (!axis) return std::nullopt;

@@ -72,12 +72,44 @@ constexpr bool is_between(int key, int first, int last) {
 
 std::string key_name(int key) {
   if (is_between(key, GLFW_KEY_A, GLFW_KEY_Z) || is_between(key, GLFW_KEY_0, GLFW_KEY_9))
-    return {static_cast<char>(key)};  // GLFW's codes for these are ASCII
+    return {static_cast<char>(key)};  // GLFW's codes of letters and digits are ASCII
   if (is_between(key, GLFW_KEY_F1, GLFW_KEY_F25)) return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
   if (is_between(key, GLFW_KEY_KP_0, GLFW_KEY_KP_9)) return "Keypad " + std::to_string(key - GLFW_KEY_KP_0);
   for (const NamedKey& named : kNamedKeys)
     if (named.key == key) return std::string(named.name);
   return "Key " + std::to_string(key);
+}
+
+std::string key_label(int key) {
+  switch (key) {
+    case GLFW_KEY_APOSTROPHE:
+    case GLFW_KEY_COMMA:
+    case GLFW_KEY_MINUS:
+    case GLFW_KEY_PERIOD:
+    case GLFW_KEY_SLASH:
+    case GLFW_KEY_SEMICOLON:
+    case GLFW_KEY_EQUAL:
+    case GLFW_KEY_LEFT_BRACKET:
+    case GLFW_KEY_BACKSLASH:
+    case GLFW_KEY_RIGHT_BRACKET:
+    case GLFW_KEY_GRAVE_ACCENT:
+      return {static_cast<char>(key)};  // GLFW's codes of these keys are ASCII
+    default:
+      return key_name(key);
+  }
+}
+
+std::string pad_button_label(int button) {
+  constexpr std::array<const char*, 11> kNames{"A", "B", "X", "Y", "LB", "RB", "Back", "Start", "Guide", "LS", "RS"};
+  const auto index = static_cast<std::size_t>(button);
+  return button >= 0 && index < kNames.size() ? kNames[index] : "button " + std::to_string(button);
+}
+
+std::string pad_axis_label(int axis) {
+  constexpr std::array<const char*, 6> kNames{"left stick, left and right",  "left stick, up and down",  "LT",
+                                              "right stick, left and right", "right stick, up and down", "RT"};
+  const auto index = static_cast<std::size_t>(axis);
+  return axis >= 0 && index < kNames.size() ? kNames[index] : "axis " + std::to_string(axis);
 }
 
 std::optional<int> key_of(std::string_view name) {

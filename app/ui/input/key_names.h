@@ -1,5 +1,5 @@
-// Key names by position on a US keyboard, like GLFW's key codes. Unlike glfwGetKeyName(), they are the same on every
-// layout: "A" is the key right of Caps Lock, whatever is printed on it.
+// Names of keys and pad controls. A key is named after its position on a US keyboard, like GLFW's key codes. Unlike
+// those of glfwGetKeyName(), the names are the same on every layout: "A" is always the key to the right of Caps Lock.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,14 @@
 
 namespace gearshift::ui {
 
-std::string key_name(int key);                     // "A", "F1", "Left Shift", ...; "Key 999" for an unknown one
+std::string key_name(int key);                     // "A", "F1", "Left Shift", ...; "Key 999" for an unknown key
 std::optional<int> key_of(std::string_view name);  // GLFW_KEY_...
-bool types_text(int key) noexcept;                 // the key may enter a character in a text field
+std::string key_label(int key);                    // as printed on the key: "[", "A", "F1", "Left Shift"
+bool types_text(int key) noexcept;                 // true if the key may enter a character in a text field
+
+// Names of an Xbox pad's controls, by their numbers on Linux (the kernel's xpad driver): "RB", "LT". Unknown numbers
+// give "button 12", "axis 7".
+std::string pad_button_label(int button);
+std::string pad_axis_label(int axis);
 
 }  // namespace gearshift::ui

@@ -6,9 +6,9 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kLightThrottle = 0.2;  // [1] enough to move off
-constexpr double kFreeSpeed = 180.0;    // [rad/s] 1700 rpm: light throttle holds a free engine below this ...
-constexpr double kFreeBand = 50.0;      // [rad/s] ... and has its full value this much lower
+constexpr double kLightThrottle = 0.2;  // [1] enough throttle to move off
+constexpr double kFreeSpeed = 180.0;    // [rad/s] 1700 rpm: an uncoupled engine this fast gets no light throttle
+constexpr double kFreeBand = 50.0;      // [rad/s] light throttle falls to 0 in this range below kFreeSpeed
 
 // Limits the revs of an uncoupled engine, as a foot would: a fifth of the throttle would over-rev it.
 double light_throttle(double engine_speed, bool coupled) {
@@ -16,13 +16,14 @@ double light_throttle(double engine_speed, bool coupled) {
   return kLightThrottle * std::clamp((kFreeSpeed - engine_speed) / kFreeBand, 0.0, 1.0);
 }
 
-// Moves towards `to` at a speed that takes `time` for the full travel.
+// The pedal position after `seconds` of motion towards `to`. time [s]: duration of the full travel.
 double ramped(double pedal, double to, double seconds, double time) {
   const double step = seconds / time;
   return std::clamp(to, pedal - step, pedal + step);
 }
 
-// A clutch released for `seconds`: it moves quickly, but slowly from bite to closed.
+// The position of the released clutch pedal `seconds` later: it rises quickly, but slowly from clutch_bite to
+// clutch_closed.
 double release_clutch(double pedal, double seconds, const PedalTiming& pace) {
   const double edges[] = {pace.clutch_bite, pace.clutch_closed, 0.0};
   const double quick = 1.0 / pace.pedal_time, slow = (pace.clutch_bite - pace.clutch_closed) / pace.slip_time;

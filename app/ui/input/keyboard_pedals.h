@@ -13,9 +13,9 @@ struct PedalKeys {  // held now
 };
 
 struct PedalTiming {
-  double pedal_time = 0.25;                         // [s] full pedal travel
-  double slip_time = 1.2;                           // [s] the clutch on its way up, through the bite zone ...
-  double clutch_closed = 0.15, clutch_bite = 0.75;  // [1] ... between these pedal positions: 0 <= closed < bite
+  double pedal_time = 0.25;                         // [s] time for the full pedal travel
+  double slip_time = 1.2;                           // [s] time that the rising clutch pedal needs for the bite zone
+  double clutch_closed = 0.15, clutch_bite = 0.75;  // [1] pedal positions that bound the bite zone: 0 <= closed < bite
   bool operator==(const PedalTiming&) const = default;
 };
 
@@ -24,18 +24,18 @@ struct Pedals {
 };
 
 // throttle_light presses a fifth of the travel, or less while the engine turns fast and is not coupled to the wheels.
-// The released clutch comes up quickly, but slowly through the bite zone, and stops while clutch_hold is held. Any
-// thread.
+// The released clutch comes up quickly, but slowly through the bite zone, and stops while clutch_hold is held. All
+// functions may be called from any thread.
 class KeyboardPedals {
  public:
   void set_keys(const PedalKeys& keys);
-  void set_timing(const PedalTiming& pace);  // for another car
+  void set_timing(const PedalTiming& pace);  // call when the car changes
 
-  // When one lever replaces another, both run for a while: only calls with this number move the pedals.
+  // While one lever replaces another, both call move() for a while; only calls with this number move the pedals.
   void set_active_lever(int lever);
 
   // Moves the pedals by `seconds` of the car's time (negative counts as 0). engine_speed [rad/s]; coupled: the engine
-  // drives the wheels. lever: the caller's number; unless it is the active one (0 initially), the pedals are only read.
+  // drives the wheels. lever: the caller's number; if it is not the active lever's (initially 0), no pedal moves.
   Pedals move(double seconds, double engine_speed, bool coupled, int lever = 0);
 
  private:

@@ -7,13 +7,13 @@
 
 namespace gearshift::ui {
 
-inline constexpr float kBottomMargin = 0.8f;  // [em] at the sides; half of it below
+inline constexpr float kBottomMargin = 0.8f;  // [em] margin at the window's sides; the margin below it is half as wide
 
-// [px] Width available in `room`, at most `max` [em]. Below kMinBottomWidth no text fits.
+// [px] Width available in `room` without the margins, at most `max` [em]. Below kMinBottomWidth no text fits.
 float bottom_width(const ControlRect& room, float max);
 inline constexpr float kMinBottomWidth = 10.0f;  // [em]
 
-// Set the window's size before. As with ImGui::Begin(), always call ImGui::End().
+// Set the window's size before the call. As after ImGui::Begin(), always call ImGui::End().
 bool begin_at_bottom(const char* name, const ControlRect& room, ImGuiWindowFlags more);
 
 }  // namespace gearshift::ui

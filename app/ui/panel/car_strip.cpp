@@ -13,16 +13,16 @@ namespace gearshift::ui {
 namespace {
 
 constexpr float kBar = 3.2f;         // [em]
-constexpr double kBiteTorque = 5.0;  // [N m]
+constexpr double kBiteTorque = 5.0;  // [N m] a slipping clutch bites above this
 
-struct Zone {  // [1] bite zone in fractions of the pedal travel; not drawn where empty
+struct Zone {  // bite zone in fractions of the pedal travel [1]; not drawn if empty (from >= to)
   double from = 0.0, to = 0.0;
 };
 
 void pedal(const char* name, double pressed, ImU32 colour, bool first = false, Zone zone = {}) {
   const float em = engine::ui_em(), text = width_of(name, engine::UiFont::small), gap = 0.35f * em;
   const float height = engine::ui_font(engine::UiFont::small)->FontSize;
-  if (!first) beside(text + gap + kBar * em);
+  if (!first) same_line_if_fits(text + gap + kBar * em);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::Dummy({text + gap + kBar * em, height});
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -35,8 +35,8 @@ void pedal(const char* name, double pressed, ImU32 colour, bool first = false, Z
   if (zone.to > zone.from) list.AddRectFilled({at(zone.from), from.y}, {at(zone.to), to.y}, ink::kBiteZone);
 }
 
-void word(const std::string& text, ImU32 colour) {
-  beside(width_of(text, engine::UiFont::small));
+void draw_word(const std::string& text, ImU32 colour) {
+  same_line_if_fits(width_of(text, engine::UiFont::small));
   put(text, colour, engine::UiFont::small);
 }
 
@@ -53,16 +53,16 @@ void draw_car_strip(const vehicle::VehicleState& car, int gear) {
   pedal("brake", car.brake, ink::kBad);
   pedal("throttle", car.throttle, ink::kGood);
   if (car.stalled) {
-    word("stalled", ink::kBad);
+    draw_word("stalled", ink::kBad);
   } else {
-    word(format_rpm(car.engine_speed), car.over_revved ? ink::kBad : ink::kText);
+    draw_word(format_rpm(car.engine_speed), car.over_revved ? ink::kBad : ink::kText);
   }
-  word(format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0), ink::kText);
-  word(std::string("gear ") + haptics::gear_name(gear), car.grinding ? ink::kBad : ink::kText);
-  if (car.hand_brake > kHandBrakeOn) word("handbrake", ink::kBad);
-  if (!car.ignition) word("ignition off", ink::kWarn);
+  draw_word(format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0), ink::kText);
+  draw_word(std::string("gear ") + haptics::gear_name(gear), car.grinding ? ink::kBad : ink::kText);
+  if (car.hand_brake > kHandBrakeOn) draw_word("handbrake", ink::kBad);
+  if (!car.ignition) draw_word("ignition off", ink::kWarn);
   if (const double slope = slope_percent(car); slope != 0.0)
-    word(fmt::format("{:.0f} % {}", std::abs(slope), slope > 0.0 ? "uphill" : "downhill"), ink::kText);
+    draw_word(fmt::format("{:.0f} % {}", std::abs(slope), slope > 0.0 ? "uphill" : "downhill"), ink::kText);
 }
 
 }  // namespace gearshift::ui

@@ -8,12 +8,12 @@
 
 namespace gearshift::ui {
 
-inline constexpr double kHandBrakeOn = 0.05;  // [1] the lamp is lit above this
+inline constexpr double kHandBrakeOn = 0.05;  // [1] the handbrake lamp is lit above this
 
 double slope_percent(const vehicle::VehicleState& car);  // rounded as printed; positive uphill
 
 // Draws pedals, speeds and active warnings from the left edge, wrapping as needed. The clutch bar changes colour while
-// the clutch slips, i.e. at the bite point.
+// the clutch bites, i.e. slips and transmits torque.
 void draw_car_strip(const vehicle::VehicleState& car, int gear);
 
 }  // namespace gearshift::ui

@@ -1,4 +1,4 @@
-// Delivered (f_a) against rendered force: shows how much the device clips.
+// Compares the delivered force (f_a) with the rendered force: shows how much of it the device clips.
 #pragma once
 
 #include <imgui.h>
@@ -13,9 +13,9 @@ namespace gearshift::ui {
 class ClipMeter {
  public:
   void push(const haptics::HapticSnapshot& snapshot);
-  void draw(Controls& controls, const haptics::HapticSnapshot& now,
-            const haptics::DeviceSpec& device) const;  // full width
-  static float height();                               // [px]
+  // Uses the window's full width.
+  void draw(Controls& controls, const haptics::HapticSnapshot& now, const haptics::DeviceSpec& device) const;
+  static float height();  // [px]
 
  private:
   ClipRecord record_;

@@ -14,7 +14,7 @@ class ClipRecord {
   // time [s] must not decrease within a run; a smaller time starts a new run. wanted [N]: the larger axis component.
   void push(double time, double wanted, bool clipped) noexcept;
 
-  double fraction() const noexcept;  // [1] clipped samples within the span
+  double fraction() const noexcept;  // [1] fraction of the samples within the span that were clipped
   double peak() const noexcept;      // [N] largest wanted force within the span
 
  private:
@@ -23,7 +23,7 @@ class ClipRecord {
     double peak = 0.0;  // [N]
   };
   std::array<Bin, kBins> bins_{};  // ring buffer indexed by time
-  std::int64_t newest_ = 0;        // [bins] since time 0
+  std::int64_t newest_ = 0;        // [bins] time of the newest sample since time 0
   bool empty_ = true;
 };
 

@@ -13,10 +13,10 @@ namespace {
 
 constexpr float kEditLines = 4.0f;
 
-// Shows below the field why its text is rejected. Nothing is shown for an empty field.
-bool is_accepted(lessons::UserText kind, const char* what, const char* text) {
+// Returns true if the text is valid; otherwise shows the reason below the field, unless the field is empty.
+bool is_accepted(lessons::UserText kind, const char* label, const char* text) {
   if (*text == '\0') return false;
-  const std::string problem = lessons::user_text_problem(kind, what, text);
+  const std::string problem = lessons::user_text_problem(kind, label, text);
   if (!problem.empty()) put_wrapped(problem, ink::kWarn);
   return problem.empty();
 }
@@ -39,7 +39,7 @@ void CommentList::draw_comment(Controls& controls, std::int64_t run, const lesso
   const bool changes = change_ != Change::none && changed_ == comment.id;
   const std::string when = format_local_time(comment.at) + (comment.edited_at.empty() ? "" : ", edited");
   put(comment.author, ink::kAccent, engine::UiFont::small);
-  beside(width_of(when, engine::UiFont::small));
+  same_line_if_fits(width_of(when, engine::UiFont::small));
   put(when, ink::kSoft, engine::UiFont::small);
   if (!changes) draw_buttons(controls, comment);
   if (changes && change_ == Change::edits) return draw_edit(controls, run, out);
@@ -78,7 +78,7 @@ void CommentList::draw_edit(Controls& controls, std::int64_t run, LessonRequests
   if (comment_button(controls, "comment_cancel", "Cancel")) change_ = Change::none;
 }
 
-// Asks for confirmation: deleting cannot be undone.
+// Asks for confirmation before a comment is deleted, which cannot be undone.
 void CommentList::draw_delete(Controls& controls, std::int64_t run, LessonRequests& out) {
   const engine::WithFont small(engine::UiFont::small);
   if (controls.button("comment_delete_sure", "Delete permanently", {0.0f, 0.0f}, ink::kBadDeep)) {

@@ -15,7 +15,7 @@
 namespace gearshift::ui {
 namespace {
 
-// [em] wide
+// [em] Widths of the bar's parts.
 constexpr float kCar = 14.6f, kLamps = 6.2f, kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;
 constexpr float kEstimatedLamps = 8.2f, kMinMessageWidth = 9.0f;
 constexpr int kLampColumns = 3;
@@ -38,7 +38,7 @@ class BarCursor {
   float height_;
 };
 
-// zone_from, zone_to [1]: the bite zone in fractions of the pedal travel; not drawn where empty.
+// zone_from, zone_to [1]: the bite zone in fractions of the pedal travel; not drawn if empty (from >= to).
 void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colour, double zone_from = 0.0,
            double zone_to = 0.0) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -54,7 +54,7 @@ void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colo
   list.AddText(font, font->FontSize, {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
 }
 
-// An arrow beside the gear: up where the next higher gear would save fuel, down where the engine labours.
+// Draws an arrow to the right of the gear: up if the next higher gear would save fuel, down if the engine labours.
 void draw_shift_arrow(ImVec2 at, int advice) {
   if (advice == 0) return;
   const float em = engine::ui_em(), up = advice > 0 ? -1.0f : 1.0f;
@@ -111,23 +111,24 @@ struct Lamp {
   const char* tooltip;
 };
 
-// The slope lamp; empty name on a level road.
+// The slope lamp. Its name is empty on a level road, where the lamp is not drawn.
 Lamp slope_lamp(const vehicle::VehicleState& car) {
   const double slope = slope_percent(car);
   if (slope == 0.0) return {{}, false, 0, ""};
   return {fmt::format("Slope {:+.0f} %", slope), true, ink::kText, "Road slope; positive is uphill."};
 }
 
-// Without a force sensor the push is only estimated, and the warning says so.
+// The over-push warning says so if the push is only estimated, i.e. if the device has no force sensor.
 Lamp over_push_lamp(const haptics::HapticSnapshot& now) {
   const bool on = (now.flags & haptics::kFlagOverPush) != 0, estimated = (now.flags & haptics::kFlagPushEstimated) != 0;
   return {estimated && on ? "Push (estimated)" : "Over-push", on, ink::kBad,
-          estimated ? "You are pushing harder than the device can hold (estimated: it has no force sensor)."
+          estimated ? "You seem to be pushing harder than the device can hold. This is an estimate: the device has no "
+                      "force sensor."
                     : "You are pushing harder than the device can hold."};
 }
 
-// [em] Width of the first column: "Push (estimated)" is the longest name.
-float first_lamps(const PanelInput& input) {
+// [em] Width of the first column of lamps: wider if its longest name, "Push (estimated)", may appear.
+float first_lamp_width(const PanelInput& input) {
   return (input.now.flags & haptics::kFlagPushEstimated) != 0 ? kEstimatedLamps : kLamps;
 }
 
@@ -142,8 +143,8 @@ void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
         "More force was requested than the device can deliver."},
        {"Past wall", (now.flags & haptics::kFlagGhost) != 0, ink::kWarn,
         "Your hand has pushed the real lever through a wall; the drawn lever stays in the gate."}},
-      {{"Grinding", car.grinding, ink::kBad, "The gears are grinding: press the clutch."},
-       {"Over-rev", car.over_revved, ink::kBad, "The engine is above its redline: ease off the throttle."},
+      {{"Grinding", car.grinding, ink::kBad, "The gears are grinding. Press the clutch."},
+       {"Over-rev", car.over_revved, ink::kBad, "The engine is above its red line. Ease off the throttle."},
        {"Softened", softened, ink::kWarn, "The walls were softened because the lever chattered against one."}},
       {{"Handbrake", car.hand_brake > kHandBrakeOn, ink::kBad, "The handbrake is on."},
        {"Ignition", car.ignition, ink::kGood, "The ignition is on."},
@@ -152,7 +153,7 @@ void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
   const float above = 0.5f * (line - engine::ui_font(engine::UiFont::small)->FontSize);
   float x = parts.low().x;
   for (int column = 0; column < columns; ++column) {
-    const float width = (column == 0 ? first_lamps(input) : kLamps) * em;
+    const float width = (column == 0 ? first_lamp_width(input) : kLamps) * em;
     for (int row = 0; row < 3; ++row) {
       const Lamp& l = lamps[column][row];
       if (l.name.empty()) continue;
@@ -165,7 +166,7 @@ void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
   }
 }
 
-// Loop figures in one line, shortened to fit `width` [px].
+// Loop rate, lateness and missed cycles in one line; the less important ones are left out to fit `width` [px].
 std::string loop_line(const PanelInput& input, float width) {
   const runtime::LoopHealth& health = input.health;
   std::string rate = fmt::format("{:.0f} Hz", health.rate);
@@ -179,8 +180,8 @@ std::string loop_line(const PanelInput& input, float width) {
   return rate;
 }
 
-// The message uses the remaining width. If it is longer than two lines, a tooltip shows it all. Returns true if nothing
-// is cut off.
+// Draws the message, and one line of loop figures below it. If the message or a path in it is cut off, a tooltip shows
+// the whole text. Returns true if no line of the message is cut off.
 bool draw_message(Controls& controls, const BarCursor& parts, float width, const PanelInput& input) {
   const engine::WithFont small(engine::UiFont::small);
   const ImVec2 low = parts.low();
@@ -238,7 +239,7 @@ void draw_state(const BarCursor& parts, float width, const haptics::HapticSnapsh
               small = engine::ui_font(engine::UiFont::small)->FontSize;
   const float top = low.y + 0.5f * (parts.height() - title - (has_fault ? small : 0.0f));
   centred(engine::UiFont::title, state_label(now.guard), top, colour);
-  if (has_fault) centred(engine::UiFont::small, haptics::guard_fault_name(now.fault), top + title, ink::kText);
+  if (has_fault) centred(engine::UiFont::small, haptics::to_string(now.fault), top + title, ink::kText);
 }
 
 void draw_force_switch(Controls& controls, const BarCursor& parts, float width, const PanelInput& input,
@@ -256,7 +257,7 @@ void draw_force_switch(Controls& controls, const BarCursor& parts, float width, 
   }
 }
 
-// A lesson's own recording cannot be ended here: it ends with the lesson.
+// The button cannot end the recording of a lesson, which ends with the lesson.
 void draw_recording(Controls& controls, const BarCursor& parts, float width, const PanelInput& input,
                     PanelRequests& out) {
   const float gap = 0.25f * engine::ui_em();
@@ -275,21 +276,21 @@ void draw_recording(Controls& controls, const BarCursor& parts, float width, con
   out.replay = controls.button("replay", "Replay", size);
 }
 
-// Stops as soon as the button goes down, not on release: the mouse may then move off the button.
+// Stops on the press of the mouse button, not on its release, which is lost if the mouse leaves the button.
 void draw_stop(Controls& controls, const BarCursor& parts, float width, PanelRequests& out) {
   const engine::WithFont large(engine::UiFont::digits);
   controls.button("stop", "STOP", {width, parts.height()}, ink::kBadDeep);
   out.stop = ImGui::IsItemActivated();
 }
 
-// The parts that fit in the bar; the less important ones are left out first.
+// The parts of the bar that fit in its width; the least important ones are left out first.
 struct BarLayout {
   bool state, arm, car, recording;
-  int lamps;      // columns
-  float message;  // [em] width; 0: no message
+  int lamps;      // number of lamp columns
+  float message;  // [em] width of the message; 0: no message
 };
 
-BarLayout fit_layout(float room, float first_lamps) {
+BarLayout fit_layout(float room, float first_lamp_width) {
   const auto fits = [&room](float width) {
     const bool has_room = room >= width + 1.0f;
     if (has_room) room -= width + 1.0f;
@@ -301,7 +302,7 @@ BarLayout fit_layout(float room, float first_lamps) {
   shown.state = fits(kState);
   shown.car = fits(kCar);
   shown.recording = fits(kRecording);
-  if (fits(first_lamps)) shown.lamps = 1;
+  if (fits(first_lamp_width)) shown.lamps = 1;
   while (shown.lamps > 0 && shown.lamps < kLampColumns && fits(kLamps - 1.0f)) ++shown.lamps;
   if (room >= kMinMessageWidth + 1.0f) shown.message = room - 1.0f;
   return shown;
@@ -312,7 +313,7 @@ BarLayout fit_layout(float room, float first_lamps) {
 bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out) {
   const float em = engine::ui_em(), all = ImGui::GetContentRegionAvail().x;
   const float stop = std::min(kStop * em, all), right_group = ImGui::GetCursorScreenPos().x + all;
-  const BarLayout shown = fit_layout(all / em, first_lamps(input));
+  const BarLayout shown = fit_layout(all / em, first_lamp_width(input));
   BarCursor parts;
   if (shown.car) {
     draw_car(parts, input);
@@ -320,7 +321,7 @@ bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests
   }
   if (shown.lamps > 0) {
     draw_lamps(parts, shown.lamps, input);
-    parts.next((first_lamps(input) + static_cast<float>(shown.lamps - 1) * kLamps) * em);
+    parts.next((first_lamp_width(input) + static_cast<float>(shown.lamps - 1) * kLamps) * em);
   }
   const bool message_fits = shown.message > 0.0f && draw_message(controls, parts, shown.message * em, input);
   const float group = (shown.state ? kState + 1.0f : 0.0f) + (shown.arm ? kArm + 1.0f : 0.0f) +

@@ -6,7 +6,7 @@
 namespace gearshift::ui {
 namespace {
 
-// Removes the last UTF-8 character.
+// Removes the last UTF-8 character of the text.
 void drop_letter(std::string_view& text) {
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0u) == 0x80u) text.remove_suffix(1);
   if (!text.empty()) text.remove_suffix(1);

@@ -22,7 +22,7 @@ class Controls {
  public:
   void begin_frame() noexcept;
 
-  // Empty if the control was not drawn in this frame or is scrolled out of view.
+  // The control's place; empty if the control was not drawn in this frame or is scrolled out of view.
   std::optional<ControlRect> rect(std::string_view name) const;
   int shortened() const noexcept { return shortened_; }  // number of texts in this frame that did not fit
 
@@ -30,13 +30,13 @@ class Controls {
 
   bool button(const char* name, const char* label, ImVec2 size = {0.0f, 0.0f});
   bool button(const char* name, const char* label, ImVec2 size, ImU32 colour);
-  // A drop-down list; returns the option that was chosen, if it is not the current one. width [px]. label converts an
-  // option to its displayed text; null: displayed unchanged.
+  // Draws a drop-down list, `width` [px] wide. Returns the chosen option if it differs from the current one. label
+  // converts an option to its displayed text; null: options are displayed unchanged.
   std::optional<std::string> choice(const char* name, const std::string& current, std::span<const std::string> options,
                                     float width, std::string (*label)(const std::string&) = nullptr);
-  // Text in the small font after a dash in the curve's colour, e.g. "f_h 12.3 N".
+  // Draws a dash in the curve's colour, then the text in the small font, e.g. "f_h 12.3 N".
   void legend(ImU32 colour, std::string_view text);
-  // One line at most `width` [px] wide: in the small font if necessary, and with an ellipsis as a last resort.
+  // Draws one line, at most `width` [px] wide: in the small font if necessary, with an ellipsis as a last resort.
   void line(std::string_view text, float width, ImU32 colour);
 
  private:

@@ -9,8 +9,8 @@
 
 namespace gearshift::ui {
 
-// True where the advice for an error is shown: only once per kind (`listed` holds the errors above it), and never for a
-// note.
+// True if the advice for an error is to be shown: not for a note, and only once per kind. listed: the errors already
+// drawn above it.
 bool needs_advice(const lessons::LessonResult& result, std::size_t error, const std::vector<std::size_t>& listed);
 void put_advice(lessons::ErrorKind kind);
 

@@ -11,7 +11,7 @@ namespace gearshift::ui {
 class EventList {
  public:
   void add(std::span<const haptics::HapticEvent> events);
-  // Newest first, as many as fit in the rest of the window. push_estimated: the device has no force sensor.
+  // Draws the events that fit in the rest of the window, newest first. push_estimated: the device has no force sensor.
   void draw(bool push_estimated) const;
 
  private:

@@ -17,7 +17,8 @@ double along(PlotAxis axis, glm::dvec2 vector) {
   return axis == PlotAxis::select ? vector.x : vector.y;
 }
 
-// [mm] The range of the walls plus some margin for a hand that pushes through them, in whole centimetres.
+// Plot range [mm]: up to the outermost wall plus at least 5 mm, for a hand that pushes through it, rounded up to whole
+// centimetres.
 PlotRange reach_of(const haptics::Gate& gate, PlotAxis axis) {
   double reach = std::max(std::abs(gate.select_min), std::abs(gate.select_max));
   if (axis == PlotAxis::shift) {
@@ -44,8 +45,8 @@ void entry(Controls& controls, ImU32 colour, const char* name, double value, con
   controls.legend(colour, fmt::format("{} {}", name, format_value(value, unit, 1)));
 }
 
-PlotRange force_range(double greatest) {
-  const double half = std::isfinite(greatest) ? nice_above(1.05 * greatest, 10.0) : 10.0;
+PlotRange force_range(double max_force) {
+  const double half = std::isfinite(max_force) ? nice_above(1.05 * max_force, 10.0) : 10.0;
   return {-half, half};
 }
 
@@ -94,12 +95,12 @@ void ForcePlots::draw_forces(Controls& controls, float height, const haptics::Ha
   entry(controls, ink::kActuator, "f_a", along(axis_, now.f_a), "N");
   entry(controls, ink::kJoystick, "f_j", along(axis_, now.f_j), "N");
   Axis& a = axis();
-  double greatest = 0.0;
+  double max_force = 0.0;
   for (const Strip* strip : {&a.hand, &a.actuator, &a.joystick}) {
     const StripColumn extent = strip->extent();
-    greatest = std::max({greatest, -extent.min, extent.max});
+    max_force = std::max({max_force, -extent.min, extent.max});
   }
-  PlotArea plot({ImGui::GetContentRegionAvail().x, height}, {-kSpan, 0.0}, force_range(greatest), nullptr);
+  PlotArea plot({ImGui::GetContentRegionAvail().x, height}, {-kSpan, 0.0}, force_range(max_force), nullptr);
   const auto curve = [&](Strip& strip, ImU32 colour) {
     strip.set_columns(std::max(1, plot.columns()));
     plot.strip(strip, 1.0, colour);
@@ -128,9 +129,10 @@ void ForcePlots::draw_force_at_position(Controls& controls, float height, const 
                                         const haptics::HapticSnapshot& now, const Trail& trail) {
   header("Force at position");
   entry(controls, ink::kActuator, "commanded", along(axis_, now.commanded), "N");
-  double greatest = std::abs(along(axis_, now.commanded));
-  for (const TrailPoint& point : trail.points()) greatest = std::max(greatest, std::abs(along(axis_, point.commanded)));
-  PlotArea plot({ImGui::GetContentRegionAvail().x, height}, reach_of(gate, axis_), force_range(greatest), "mm");
+  double max_force = std::abs(along(axis_, now.commanded));
+  for (const TrailPoint& point : trail.points())
+    max_force = std::max(max_force, std::abs(along(axis_, point.commanded)));
+  PlotArea plot({ImGui::GetContentRegionAvail().x, height}, reach_of(gate, axis_), force_range(max_force), "mm");
   const auto place = [&](glm::dvec2 lever, glm::dvec2 force) {
     return plot.at(1e3 * along(axis_, lever), along(axis_, force));
   };

@@ -10,7 +10,7 @@
 
 namespace gearshift::ui {
 
-// Rounded to `decimals` decimals, without a minus sign before zero.
+// Rounds to `decimals` decimal places; adding 0.0 removes the sign of a negative zero.
 inline double round_as_printed(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
   return std::round(value * scale) / scale + 0.0;

@@ -12,13 +12,13 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kRim = 0.011;           // [m] plate beyond the outermost wall: room for the gear labels
-constexpr double kScaleLength = 0.020;   // [m]
-constexpr double kArrowFraction = 0.35;  // of the view's shorter side, at the device's maximum force
+constexpr double kRim = 0.011;           // [m] width of the plate beyond the outermost walls, for the gear labels
+constexpr double kScaleLength = 0.020;   // [m] length of the scale
+constexpr double kArrowFraction = 0.35;  // [1] of the view's shorter side: arrow length at the device's maximum force
 
 // Maps gate coordinates [m] to pixels; forward is up.
 struct GateFrame {
-  ImVec2 middle;      // [px] where `center` is drawn
+  ImVec2 middle;      // [px] place where `center` is drawn
   glm::dvec2 center;  // [m]
   double px_per_m = 1.0;
 
@@ -59,7 +59,8 @@ void draw_free_space(const Canvas& c, const haptics::GateDescription& gate) {
     c.list.AddRectFilled(c.frame.at({aisle.min.x, aisle.max.y}), c.frame.at({aisle.max.x, aisle.min.y}), ink::kFree);
   }
   for (const haptics::WallInfo& wall : gate.walls) {
-    if (wall.role != haptics::WallRole::chamfer) continue;  // the triangle that the corner opens
+    if (wall.role != haptics::WallRole::chamfer) continue;
+    // A chamfer adds a triangle of free space at the slot's corner.
     c.list.AddTriangleFilled(c.frame.at(wall.from), c.frame.at(wall.to), c.frame.at({wall.to.x, wall.from.y}),
                              ink::kFree);
   }
@@ -138,7 +139,7 @@ void draw_driven_path(const Canvas& c, std::span<const glm::dvec2> path) {
     c.list.AddLine(c.frame.at(path[i - 1]), c.frame.at(path[i]), ink::kDriven, 0.16f * c.em);
 }
 
-// The dash pattern continues around corners.
+// Draws the path dashed; the dash pattern continues around corners.
 void draw_ideal_path(const Canvas& c, std::span<const glm::dvec2> path) {
   const double dash = 0.5 * static_cast<double>(c.em) / c.frame.px_per_m, period = 1.7 * dash;
   double along = 0.0;  // [m] since the last dash began
@@ -168,7 +169,7 @@ void draw_arrow(const Canvas& c, ImVec2 from, glm::dvec2 force, double px_per_n,
                            colour);
 }
 
-// Draws the proxy filled and the lever point as a ring; their distance is the penetration.
+// Draws the proxy as a disc and the lever point as a ring; the line between them is the penetration.
 void draw_lever(const Canvas& c, const haptics::HapticSnapshot& now, double px_per_n) {
   const ImVec2 lever = c.frame.at(now.lever), proxy = c.frame.at(now.proxy);
   const bool ghost = (now.flags & haptics::kFlagGhost) != 0;
@@ -179,7 +180,7 @@ void draw_lever(const Canvas& c, const haptics::HapticSnapshot& now, double px_p
   draw_arrow(c, lever, now.commanded, px_per_n, ink::kActuator);
 }
 
-// Scales for lengths and force arrows, below the gate.
+// Draws the scales for lengths and force arrows below the gate.
 void draw_scales(const Canvas& c, ImVec2 low, ImVec2 size, double px_per_n) {
   ImFont* font = engine::ui_font(engine::UiFont::small);
   const float y = low.y + size.y - 0.5f * font->FontSize - 0.2f * c.em;

@@ -12,12 +12,12 @@
 
 namespace gearshift::ui {
 
-// The path driven in a replayed shift and the shortest path. [m] in the gate plane; may be empty
+// The path driven in a replayed shift, and the shortest path of that shift. [m] in the gate plane; may be empty.
 struct ShownPaths {
   std::span<const glm::dvec2> driven{}, ideal{};
 };
 
-// Draws at the cursor, `size` [px]. max_force [N]: the device's limit, which scales the arrows.
+// Draws the view at ImGui's cursor, `size` [px] large. max_force [N]: the device's limit, which scales the arrows.
 void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::HapticSnapshot& now, const Trail& trail,
                     double max_force, const ShownPaths& paths = {});
 

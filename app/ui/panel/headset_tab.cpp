@@ -40,7 +40,7 @@ void draw_frames(const cabin::HeadsetReport& headset) {
   ImGui::EndTable();
 }
 
-// A field in millimetres for a value in metres; returns the new value [m] if it was changed.
+// Draws a field that shows a value [m] in millimetres. Returns the new value [m] if the user changed it. max [m].
 std::optional<double> length_field(Controls& controls, const char* name, const char* label, double value, double max) {
   double shown = 1e3 * value;
   const double min_mm = -1e3 * max, max_mm = 1e3 * max;
@@ -57,50 +57,55 @@ std::optional<double> length_field(Controls& controls, const char* name, const c
 }
 
 // is_real: the lever is a physical stick, so its position matters.
-void draw_touched(Controls& controls, const cabin::HeadsetReport& headset, bool is_real, cabin::HeadsetRequests& out) {
-  out.touch = controls.button("headset_touch", "Touch the knob");
+void draw_touch_buttons(Controls& controls, const cabin::HeadsetReport& headset, bool is_real,
+                        cabin::HeadsetRequests& out) {
+  out.start_touching = controls.button("headset_touch", "Touch the knob");
   if (headset.is_touched) {
     ImGui::SameLine();
-    out.forget_touches = controls.button("headset_forget", "Forget touches");
-    put_wrapped(fmt::format("Located by touch: the lever is drawn within {:.0f} mm of the real one.",
+    out.forget_touches = controls.button("headset_forget", "Forget points");
+    put_wrapped(fmt::format("Calibrated by touch. The drawn lever is within {:.0f} mm of the real one.",
                             1e3 * headset.touch_error),
                 ink::kSoft);
   } else if (headset.seat.touched) {
     ImGui::SameLine();
-    out.forget_touches = controls.button("headset_forget", "Forget touches");
-    put_wrapped("The saved touches don't match this room: kept, but not used.", ink::kWarn);
+    out.forget_touches = controls.button("headset_forget", "Forget points");
+    put_wrapped("The saved touch points do not match this room. They are kept, but not used here.", ink::kWarn);
   } else if (is_real) {
-    put_wrapped("You haven't touched the lever yet: it may be drawn centimetres from the real one.", ink::kWarn);
+    put_wrapped(
+        "The lever's position is not calibrated and may be drawn several centimetres off. Choose \"Touch the knob\".",
+        ink::kWarn);
   }
 }
 
-void draw_touching(Controls& controls, const cabin::HeadsetReport& headset, cabin::HeadsetRequests& out) {
+std::string format_touches(const cabin::HeadsetReport& headset) {
+  if (headset.touches == 0) return "No points touched yet.";
+  if (headset.touches == 1) return "1 point touched.";
+  return fmt::format("{} points touched, at most {:.0f} mm apart.", headset.touches, 1e3 * headset.worst_touch);
+}
+
+void draw_touch_instructions(Controls& controls, const cabin::HeadsetReport& headset, cabin::HeadsetRequests& out) {
   put_wrapped(
-      "Hold the controller's tip, where its ray begins, on the centre of the knob's top and pull the trigger: in "
-      "neutral, "
-      "then in two other gears: turned sideways in one, tilted in the other.",
+      "Hold the controller's tip, where its ray begins, on the centre of the knob's top and pull the trigger. Do this "
+      "in neutral, then in two other gears: turn the controller sideways for one and tilt it for the other.",
       ink::kText);
-  out.touched = controls.button("headset_touched", "Save touches");
+  out.save_touches = controls.button("headset_touched", "Save points");
   ImGui::SameLine();
   out.forget_touches = controls.button("headset_forget", "Cancel");
-  put(headset.touches == 0
-          ? std::string("Not touched yet.")
-          : fmt::format("Touched {} times, at most {:.0f} mm apart.", headset.touches, 1e3 * headset.worst_touch),
-      ink::kSoft, engine::UiFont::small);
+  put(format_touches(headset), ink::kSoft, engine::UiFont::small);
 }
 
 void draw_seat(Controls& controls, const cabin::HeadsetReport& headset, bool is_real, cabin::HeadsetRequests& out) {
   const cabin::SeatSettings& seat = headset.seat;
   put("Seat", ink::kText, engine::UiFont::title);
-  out.recentre = controls.button("headset_recentre", "I'm seated: recentre");
+  out.recentre = controls.button("headset_recentre", "Recentre the seat");
   if (headset.touching)
-    draw_touching(controls, headset, out);
+    draw_touch_instructions(controls, headset, out);
   else
-    draw_touched(controls, headset, is_real, out);
-  if (headset.is_touched || headset.touching) return;  // the touches define the position
+    draw_touch_buttons(controls, headset, is_real, out);
+  if (headset.is_touched || headset.touching) return;  // the touches define the knob's position
   if (!seat.knob) {
     out.height = length_field(controls, "headset_height", "Seat raised by", seat.height, kMaxHeight);
-    // Initial values as in the drawn cabin.
+    // Initial values: the knob's position in the drawn cabin.
     const double right = seat.drive == cabin::DriveSide::left ? 0.33 : -0.33;
     if (controls.button("headset_knob", "Enter knob position")) out.knob = cabin::KnobDistance{right, 0.51, 0.32};
     return;
@@ -116,7 +121,7 @@ void draw_seat(Controls& controls, const cabin::HeadsetReport& headset, bool is_
   field("headset_knob_right", "right", knob.right);
   field("headset_knob_down", "down", knob.down);
   field("headset_knob_ahead", "ahead", knob.ahead);
-  out.forget_knob = controls.button("headset_knob", "Forget knob");
+  out.forget_knob = controls.button("headset_knob", "Forget knob position");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr std::string_view kPanelKeys =
     "Escape\tleave the panel\n"
     "Ctrl+click\ttype a number into a slider\n";
 
-void draw_keys(const char* id, std::string_view lines) {
+void draw_key_table(const char* id, std::string_view lines) {
   if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_BordersInnerH)) return;
   ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 12.0f * engine::ui_em());
   ImGui::TableSetupColumn("says", ImGuiTableColumnFlags_WidthStretch);
@@ -50,10 +50,10 @@ void draw_help(bool& open, const std::string& bindings) {
                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_AlwaysAutoResize;
   if (ImGui::Begin("Controls (F1)###help", &open, kFlags)) {
-    draw_keys("bindings", bindings);
+    draw_key_table("bindings", bindings);
     ImGui::Spacing();
     ImGui::TextDisabled("Panel keys");
-    draw_keys("panel", kPanelKeys);
+    draw_key_table("panel", kPanelKeys);
   }
   ImGui::End();
 }

@@ -5,7 +5,7 @@
 
 namespace gearshift::ui {
 
-// Sets `open` to false when the user closes the window. bindings: one per line, key and action separated by a tab.
+// Sets `open` to false when the user closes the window. bindings: one per line, a tab between key and action.
 void draw_help(bool& open, const std::string& bindings);
 
 }  // namespace gearshift::ui

@@ -16,22 +16,23 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kMinShownTime = 0.005;  // [s] shorter times are not shown
+constexpr double kMinShownTime = 0.005;  // [s] shorter times than this are not shown
 
-// Clutch timing and rev match, which grading checks first.
+// Describes clutch timing and rev match, the first things that grading checks.
 std::string describe_clutch_timing(const lessons::ShiftRecord& shift) {
   if (shift.to == haptics::kNeutralGear) return "no gear engaged";
   const char* when = shift.clutch_lag < 0.0 ? "before" : "after";
-  return fmt::format("clutch released {:.2f} s {} the gear, revs off by {}", std::abs(shift.clutch_lag), when,
+  return fmt::format("clutch released {:.2f} s {} the gear engaged; revs off by {}", std::abs(shift.clutch_lag), when,
                      format_rpm(std::abs(shift.rev_error)));
 }
 
 std::string describe_resistance(const lessons::ShiftRecord& shift) {
   std::string words;
-  if (shift.block_time > kMinShownTime) words = fmt::format("blocked for {:.2f} s", shift.block_time);
+  if (shift.block_time > kMinShownTime)
+    words = fmt::format("blocked by the synchroniser for {:.2f} s", shift.block_time);
   if (shift.grind_time > kMinShownTime)
-    words +=
-        fmt::format("{}ground for {:.2f} s, {:.1f} J", words.empty() ? "" : ", ", shift.grind_time, shift.grind_energy);
+    words += fmt::format("{}gears ground for {:.2f} s ({:.1f} J)", words.empty() ? "" : ", ", shift.grind_time,
+                         shift.grind_energy);
   return words;
 }
 
@@ -92,7 +93,7 @@ void HistoryView::draw(Controls& controls, const lessons::CoachView& coach, Pane
   }
 }
 
-// One line per run: lesson, time and outcome. Clicking opens or closes it.
+// Draws one line for a run: lesson, time and outcome. A click on it shows or hides the run's details.
 void HistoryView::draw_run(Controls& controls, const lessons::CoachView& coach, const lessons::RunRow& run) {
   const float em = engine::ui_em(), begin = ImGui::GetCursorPosX(), top = ImGui::GetCursorPosY();
   const float width = ImGui::GetContentRegionAvail().x, height = 2.35f * em;
@@ -120,13 +121,13 @@ void HistoryView::draw_run(Controls& controls, const lessons::CoachView& coach, 
 void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run,
                               const std::vector<lessons::CommentRow>& comments, PanelRequests& out) {
   ImGui::Indent(0.7f * engine::ui_em());
-  const char* mode = run.result.mode == lessons::LessonMode::follow_me ? "follow me" : "do it yourself";
+  const char* mode = run.result.mode == lessons::LessonMode::follow_me ? "Follow me" : "Do it yourself";
   put_wrapped(fmt::format("{}, {:.0f} s", mode, run.result.duration), ink::kSoft);
   if (!run.result.why.empty()) put_wrapped(run.result.why, ink::kText);
   draw_driving_errors(run.result, -1);
   ImGui::Spacing();
   if (run.recording.empty() && !run.result.shifts.empty())
-    put_wrapped("No replay: this run was not recorded.", ink::kSoft);
+    put_wrapped("This run was not recorded, so it cannot be replayed.", ink::kSoft);
   for (const lessons::ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out.playback);
   comments_.draw(controls, run.id, comments, out.lesson);
   ImGui::Unindent(0.7f * engine::ui_em());

@@ -17,8 +17,8 @@ class HistoryView {
   void draw_opened(Controls& controls, const lessons::RunRow& run, const std::vector<lessons::CommentRow>& comments,
                    PanelRequests& out);
 
-  std::int64_t opened_ = 0;  // RunRow::id; 0: none
-  CommentList comments_;     // of that run
+  std::int64_t opened_ = 0;  // RunRow::id of the run whose details are shown; 0: none
+  CommentList comments_;     // comments on the opened run
 };
 
 }  // namespace gearshift::ui

@@ -46,12 +46,12 @@ void draw_restart_prompt(const std::vector<KeyHint>& keys) {
   const auto starter = std::find_if(
       keys.begin(), keys.end(), [](const KeyHint& hint) { return hint.action.find("starter") != std::string::npos; });
   const std::string words = starter == keys.end() ? std::string("Press the clutch, then the starter.")
-                                                  : "Press the clutch, then the starter [" + starter->key + "]";
+                                                  : "Press the clutch, then the starter (" + starter->key + ").";
   put_wrapped(words, ink::kBad, engine::UiFont::title);
 }
 
 const char* mouse_prompt(bool mouse_moves_lever, bool panel_shown) {
-  if (mouse_moves_lever) return "The mouse is moving the lever (Esc to free it)";
+  if (mouse_moves_lever) return "The mouse controls the lever (Esc releases the mouse)";
   return panel_shown ? "Click the cabin to move the lever with the mouse" : "Click to move the lever with the mouse";
 }
 

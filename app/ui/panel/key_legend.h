@@ -10,10 +10,10 @@ namespace gearshift::ui {
 
 void draw_keys(const std::vector<KeyHint>& keys);  // key caps with their actions, wrapped
 
-// Tells how to restart a stalled engine, with the starter key if there is one.
+// Shows how to restart a stalled engine; names the starter key if one is bound.
 void draw_restart_prompt(const std::vector<KeyHint>& keys);
 
-// Tells whether the mouse moves the lever, and how to change that.
+// A prompt that says what the mouse does now and how to change that.
 const char* mouse_prompt(bool mouse_moves_lever, bool panel_shown);
 
 }  // namespace gearshift::ui

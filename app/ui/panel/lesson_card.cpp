@@ -17,12 +17,13 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr float kMaxCardWidth = 52.0f;                                                    // [em]
-constexpr float kHeightFraction = 0.25f, kMaxHeightFraction = 0.62f, kMinHeight = 10.8f;  // [1] of the room; [em]
-constexpr double kFreshTime = 5.0;        // [s] how long a new sentence is drawn large
-constexpr std::size_t kOlderShown = 2;    // older sentences still shown
-constexpr double kLittleTimeLeft = 20.0;  // [s] left
-constexpr float kDefaultFoot = 5.0f;      // [em] assumed until it has been drawn once
+constexpr float kMaxCardWidth = 52.0f;  // [em]
+// Height of the card: usual and maximum fraction of the room's height [1], and minimum [em].
+constexpr float kHeightFraction = 0.25f, kMaxHeightFraction = 0.62f, kMinHeight = 10.8f;
+constexpr double kFreshTime = 5.0;        // [s] how long a new feedback sentence is drawn large
+constexpr std::size_t kOlderShown = 2;    // number of older feedback sentences shown
+constexpr double kLittleTimeLeft = 20.0;  // [s] the time left is shown as a warning below this
+constexpr float kDefaultFoot = 5.0f;      // [em] assumed height of the controls until they have been drawn once
 
 bool begin_card(const ControlRect& room, ImVec2 size) {
   const float em = engine::ui_em();
@@ -33,18 +34,18 @@ bool begin_card(const ControlRect& room, ImVec2 size) {
   return open;
 }
 
-bool primary(Controls& controls, const char* name, const char* label, bool is_primary = true) {
+bool primary_button(Controls& controls, const char* name, const char* label, bool is_primary = true) {
   return controls.button(name, label, {0.0f, 0.0f}, is_primary ? ink::kPrimary : ink::kRaised);
 }
 
-// A small button at the right end of the line, or on the next line if there is no room.
+// Draws a small button at the right end of the line, or on the next line if there is no room.
 bool small_button(Controls& controls, const char* name, const char* label) {
   const engine::WithFont small(engine::UiFont::small);
   align_right(button_width(label));
   return controls.button(name, label);
 }
 
-// A two-way switch: a click anywhere on it selects the other option.
+// Draws a switch with two options. Returns true if it was clicked, which selects the option that is off.
 bool draw_switch(Controls& controls, const char* name, const char* first, const char* second, bool is_second) {
   const ImVec2 padding = ImGui::GetStyle().FramePadding, low = ImGui::GetCursorScreenPos();
   const float left = button_width(first), right = button_width(second), height = ImGui::GetFrameHeight();
@@ -62,6 +63,7 @@ bool draw_switch(Controls& controls, const char* name, const char* first, const 
 
 constexpr const char* kFollowMe = "Follow me";
 constexpr const char* kByYourself = "Do it yourself";
+constexpr const char* kGuideMyHand = "Guide my hand";
 
 const char* describe_attempt(const lessons::CoachView& coach) {
   const bool prompted = coach.mode == lessons::LessonMode::follow_me;
@@ -72,11 +74,11 @@ const char* describe_attempt(const lessons::CoachView& coach) {
                   : "Only the goal is shown; on some attempts the lever guides your hand.";
 }
 
-// A word on a background of its colour, in a line of buttons.
+// Draws a word on a background of its colour, in line with the last item if it fits.
 void draw_badge(const char* text, ImU32 colour) {
   const engine::WithFont small(engine::UiFont::small);
   const float em = engine::ui_em(), width = width_of(text) + 0.8f * em;
-  beside(width);
+  same_line_if_fits(width);
   const ImVec2 at = ImGui::GetCursorScreenPos(), low(at.x, at.y + ImGui::GetStyle().FramePadding.y);
   ImGui::Dummy({width, ImGui::GetFontSize()});
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -85,7 +87,7 @@ void draw_badge(const char* text, ImU32 colour) {
   list.AddText({low.x + 0.4f * em, low.y}, colour, text);
 }
 
-// A bar with one segment per step: done, current, to come.
+// Draws a bar with one segment per step, coloured by state: done, current, to come.
 void draw_progress(std::size_t step, std::size_t steps) {
   if (steps == 0) return;
   const float em = engine::ui_em(), all = ImGui::GetContentRegionAvail().x, gap = 0.25f * em;
@@ -115,20 +117,20 @@ void draw_time_left(const lessons::CoachView& coach) {
   if (coach.time_limit <= 0.0) return;
   const double left = coach.time_limit - coach.result.duration;
   const std::string words = format_time_left(left);
-  beside(width_of(words, engine::UiFont::small));
+  same_line_if_fits(width_of(words, engine::UiFont::small));
   put(words, left <= kLittleTimeLeft ? ink::kWarn : ink::kSoft, engine::UiFont::small);
 }
 
-// A replay says nothing about the current forces.
+// True if the live lever's forces are off. False during a replay, when input.now is the recording's state.
 bool are_forces_off(const PanelInput& input) {
   const haptics::GuardState guard = input.now.guard;
   return input.replay == nullptr && guard != haptics::GuardState::running && guard != haptics::GuardState::ramping;
 }
 
-const char* motors_off_text(const PanelInput& input) {
+const char* forces_off_text(const PanelInput& input) {
   const bool unplugged = input.stick && !input.stick->plugged_in;
-  return unplugged ? "Motors off. Plug the stick in, then press Enter to turn them on."
-                   : "Motors off. Press Enter to turn them on.";
+  return unplugged ? "Forces are off. Plug in the stick, then press Enter to turn them on."
+                   : "Forces are off. Press Enter to turn them on.";
 }
 
 void draw_title(const lessons::CoachView& coach) {
@@ -140,9 +142,9 @@ void draw_next(const lessons::CoachView& coach, bool has_next) {
   if (coach.next.empty()) return;
   put(has_next ? "Next" : "Repeat", ink::kSoft, engine::UiFont::small);
   const std::string title = lesson_title(coach, coach.next);
-  beside(width_of(title, engine::UiFont::small));
+  same_line_if_fits(width_of(title, engine::UiFont::small));
   put(title, ink::kAccent, engine::UiFont::small);
-  beside(width_of(coach.next_why, engine::UiFont::small));
+  same_line_if_fits(width_of(coach.next_why, engine::UiFont::small));
   put_wrapped(coach.next_why, ink::kSoft);
 }
 
@@ -169,7 +171,7 @@ double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_
   return room.max.y - static_cast<double>(size.y + kBottomMargin * em);
 }
 
-// Another lesson or screen size: the needed height is determined again.
+// Forgets the needed height if the lesson or the screen size changes.
 void LessonCard::follow(const lessons::CoachView& coach, ImVec2 size) {
   if (coach.lesson == lesson_ && size.x == size_.x && size.y == size_.y) return;
   lesson_ = coach.lesson;
@@ -177,23 +179,24 @@ void LessonCard::follow(const lessons::CoachView& coach, ImVec2 size) {
   needed_ = 0.0f;
 }
 
-// Runs even while the card is hidden: how long a sentence counts as new depends on the clock only.
+// Notes when the newest feedback sentence arrived. Called even while the card is hidden, so that a sentence's age does
+// not depend on when the card is shown.
 void LessonCard::note_new_feedback(const lessons::CoachView& coach) {
   const std::size_t feedback = coach.phase == lessons::LessonPhase::driving ? coach.now.feedback.size() : 0;
   if (feedback > feedback_count_) feedback_time_ = ImGui::GetTime();
   feedback_count_ = feedback;
 }
 
-// Draws the texts, which scroll if necessary, and the controls below them. body() returns how much of the texts must be
-// visible [px].
+// Draws the texts with body(), in an area that scrolls if necessary, and the controls below them with foot(). body()
+// returns the height of the texts that must be visible [px].
 template <class Body, class Foot>
 void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const Foot& foot) {
   float& foot_height = foot_[static_cast<std::size_t>(phase)];
   const bool is_known = foot_height > 0.0f;
   const float top = ImGui::GetCursorPosY(), reserved = is_known ? foot_height : kDefaultFoot * engine::ui_em();
   const float height = std::max(engine::ui_em(), ImGui::GetContentRegionAvail().y - reserved);
-  // No scroll bar beside a prompt, or before the height of the controls is known: it would flicker and rewrap the
-  // lines.
+  // No scroll bar next to a prompt, or before the height of the controls is known: it would appear for single frames
+  // and change the line breaks.
   const int bar = phase == lessons::LessonPhase::driving || !is_known ? ImGuiWindowFlags_NoScrollbar : 0;
   ImGui::BeginChild("texts", {0.0f, height}, false, ImGuiWindowFlags_NavFlattened | bar);
   const float visible_height = body();
@@ -204,7 +207,7 @@ void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const 
   needed_ = std::max(needed_, top + visible_height + foot_height + 0.5f * engine::ui_em());
 }
 
-// Keys, what moves the lever, and the car's state where the panel's bar is hidden.
+// Draws the key legend and the prompt that says what moves the lever; while the panel is hidden, also the car's state.
 void LessonCard::draw_controls_and_car(const FrameContext& now) {
   if (!now.input.keys.empty() && !now.input.is_automatic_hand) {
     draw_keys(now.input.keys);
@@ -227,21 +230,23 @@ void LessonCard::draw_offered(FrameContext& now) {
     if (!now.input.fail_conditions.empty()) put_wrapped(now.input.fail_conditions, ink::kSoft);
     put_wrapped(describe_attempt(coach), ink::kSoft);
     if (now.input.instructor_holds_pedals)
-      put_wrapped("The instructor is holding clutch and brake until you start. Not now to take over.", ink::kWarn);
+      put_wrapped("The instructor is holding the clutch and brake until you start. Press \"Not now\" to take over.",
+                  ink::kWarn);
     return ImGui::GetCursorPosY();
   };
   const auto foot = [&] {
-    if (primary(now.controls, "lesson_begin", now.forces_off ? "Motors on and start (Enter)" : "Start (Enter)")) {
+    if (primary_button(now.controls, "lesson_begin",
+                       now.forces_off ? "Turn forces on and start (Enter)" : "Start (Enter)")) {
       out.begin = true;
       now.out.arm = now.out.arm || now.forces_off;
     }
-    const bool alone = coach.mode == lessons::LessonMode::by_yourself;
-    beside(button_width(kFollowMe) + button_width(kByYourself));
-    if (draw_switch(now.controls, "mode", kFollowMe, kByYourself, alone))
-      out.mode = alone ? lessons::LessonMode::follow_me : lessons::LessonMode::by_yourself;
-    beside(ImGui::GetFrameHeight() + button_width("Help"));
+    const bool by_yourself = coach.mode == lessons::LessonMode::by_yourself;
+    same_line_if_fits(button_width(kFollowMe) + button_width(kByYourself));
+    if (draw_switch(now.controls, "mode", kFollowMe, kByYourself, by_yourself))
+      out.mode = by_yourself ? lessons::LessonMode::follow_me : lessons::LessonMode::by_yourself;
+    same_line_if_fits(ImGui::GetFrameHeight() + button_width(kGuideMyHand));
     bool help = coach.help_wanted;
-    if (ImGui::Checkbox("Help", &help)) out.help = help;
+    if (ImGui::Checkbox(kGuideMyHand, &help)) out.help = help;
     now.controls.mark("help");
     draw_controls_and_car(now);
   };
@@ -254,12 +259,12 @@ void LessonCard::draw_driving(FrameContext& now) {
   put(coach.title, ink::kSoft, engine::UiFont::small);
   if (coach.now.steps > 0) {
     const std::string words = format_step(coach.now);
-    beside(width_of(words, engine::UiFont::small));
+    same_line_if_fits(width_of(words, engine::UiFont::small));
     put(words, ink::kAccent, engine::UiFont::small);
   }
   draw_time_left(coach);
   if (coach.guidance > 0.0) draw_badge("guided, not graded", ink::kAccent);
-  if (coach.retention) draw_badge("test: no help", ink::kText);
+  if (coach.retention) draw_badge("test: no guidance", ink::kText);
   if (small_button(now.controls, "lesson_leave", "Leave")) now.out.lesson.leave = true;
   draw_progress(coach.now.step, coach.now.steps);
   draw_parts(
@@ -270,17 +275,18 @@ void LessonCard::draw_driving(FrameContext& now) {
 float LessonCard::draw_prompts(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
   put_wrapped(coach.now.prompt, ink::kText, engine::UiFont::prompt);
-  if (now.forces_off) put_wrapped(motors_off_text(now.input), ink::kBad, engine::UiFont::title);
+  if (now.forces_off) put_wrapped(forces_off_text(now.input), ink::kBad, engine::UiFont::title);
   if (now.input.car.stalled) draw_restart_prompt(now.input.keys);
   if (!coach.now.hint.empty()) put_wrapped(coach.now.hint, ink::kAccent, engine::UiFont::body);
   if (now.input.is_unpassable)
-    put_wrapped("You can no longer pass this attempt. Keep practising or restart.", ink::kWarn);
+    put_wrapped("You can no longer pass this attempt. Keep practising, or press \"Leave\" and start again.",
+                ink::kWarn);
   float visible_height = ImGui::GetCursorPosY();
   draw_feedback(coach.now.feedback, visible_height);
   return visible_height;
 }
 
-// Draws the newest sentence large while it is new, then small like the older ones.
+// Draws the newest sentence large for kFreshTime, then small like the older ones.
 void LessonCard::draw_feedback(const std::vector<std::string>& feedback, float& visible_height) {
   const float line = engine::ui_font(engine::UiFont::title)->FontSize + ImGui::GetStyle().ItemSpacing.y;
   const float begin = ImGui::GetCursorPosY();
@@ -299,7 +305,7 @@ void LessonCard::draw_feedback(const std::vector<std::string>& feedback, float& 
   }
 }
 
-// Enter does the same as the coloured button, whose label says so.
+// Draws the result and the next lesson. Enter has the same effect as the coloured button, whose label says so.
 void LessonCard::draw_over(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
   LessonRequests& out = now.out.lesson;
@@ -307,19 +313,19 @@ void LessonCard::draw_over(FrameContext& now) {
              can_continue = coach.result.passed && has_next;
   const auto foot = [&] {
     if (now.input.instructor_holds_pedals)
-      put_wrapped("The instructor is holding clutch and brake. Close to take over.", ink::kWarn);
+      put_wrapped("The instructor is holding the clutch and brake. Press \"Close\" to take over.", ink::kWarn);
     draw_next(coach, has_next);
     const char* again = can_continue     ? "Try again"
-                        : now.forces_off ? "Motors on and try again (Enter)"
+                        : now.forces_off ? "Turn forces on and retry (Enter)"
                                          : "Try again (Enter)";
-    if (primary(now.controls, "lesson_again", again, !can_continue)) {
+    if (primary_button(now.controls, "lesson_again", again, !can_continue)) {
       out.begin = true;
       now.out.arm = now.out.arm || now.forces_off;
     }
     const char* next = can_continue ? "Next lesson (Enter)" : "Next lesson";
     if (has_next) {
-      beside(button_width(next));
-      if (primary(now.controls, "lesson_next", next, can_continue)) out.offer = coach.next;
+      same_line_if_fits(button_width(next));
+      if (primary_button(now.controls, "lesson_next", next, can_continue)) out.offer = coach.next;
     }
     if (small_button(now.controls, "lesson_put_away", "Close")) out.dismiss_lesson = true;
   };

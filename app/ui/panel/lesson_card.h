@@ -19,7 +19,7 @@ class LessonCard {
               PanelRequests& out);
 
  private:
-  struct FrameContext {  // everything that one frame's drawing needs
+  struct FrameContext {  // everything needed to draw one frame
     Controls& controls;
     const PanelInput& input;
     const lessons::CoachView& coach;
@@ -38,7 +38,7 @@ class LessonCard {
   static void draw_controls_and_car(const FrameContext& now);
 
   std::size_t feedback_count_ = 0;  // number of feedback sentences in the last frame
-  double feedback_time_ = -1e9;     // [s] on ImGui's clock, when the newest one came
+  double feedback_time_ = -1e9;     // [s] arrival of the newest sentence, on ImGui's clock
   std::string lesson_;              // the lesson that size_ and needed_ belong to
   ImVec2 size_{0.0f, 0.0f};         // [px] minimum size of the card
   float needed_ = 0.0f;             // [px] largest height that this lesson's texts have needed

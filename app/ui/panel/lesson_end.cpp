@@ -14,13 +14,14 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr float kTwoColumns = 32.0f, kLeftFraction = 0.48f;  // [em] min width; [1] of the width
-constexpr float kVisibleErrors = 3.0f;                       // lines that must be visible
+// Minimum width for two columns [em], and the left column's fraction of the width [1].
+constexpr float kTwoColumns = 32.0f, kLeftFraction = 0.48f;
+constexpr float kVisibleErrors = 3.0f;  // number of error lines that must be visible
 
 const char* format_outcome(const lessons::LessonResult& result) {
   if (is_grade_shown(result)) return result.passed ? "Passed" : "Not passed";
   if (result.end == lessons::LessonEnd::left) return "Not finished";
-  return result.end == lessons::LessonEnd::done ? "Done" : "Not done";
+  return result.end == lessons::LessonEnd::done ? "Completed" : "Not completed";
 }
 
 // Draws the grade, or "not graded" in the same width.
@@ -53,7 +54,7 @@ void draw_outcome(const lessons::CoachView& coach) {
   ImGui::EndGroup();
 }
 
-// True for errors that cost points, or would have in a graded run.
+// True for errors that cost points, or would have cost points if the run were graded.
 bool is_listed(const lessons::LessonResult& result, std::size_t error) {
   return points_lost(result, error) > 0.0 ||
          (!is_grade_shown(result) && result.errors[error].severity != lessons::Severity::note);
@@ -73,7 +74,7 @@ void draw_driving_error(const lessons::LessonResult& result, std::size_t index, 
     put(fmt::format("-{:.1f}", points), severity_colour(error.severity), engine::UiFont::small);
 }
 
-// Why the run ended early, which costs all points; empty if it was completed.
+// The reason why the run ended early, which costs all points; empty if the run was completed.
 std::string format_end(const lessons::LessonResult& result) {
   std::string words;
   if (result.end == lessons::LessonEnd::out_of_time) words = "Time's up";
@@ -81,7 +82,7 @@ std::string format_end(const lessons::LessonResult& result) {
     words = is_grade_shown(result) && !result.why.empty() ? result.why : "Stopped early";
   if (words.empty()) return words;
   if (words.back() == '.') words.pop_back();
-  return words + (is_grade_shown(result) ? ": 0 points" : ".");
+  return words + (is_grade_shown(result) ? " (0 points)." : ".");
 }
 
 void draw_end(const lessons::LessonResult& result) {
@@ -92,7 +93,8 @@ void draw_end(const lessons::LessonResult& result) {
   put_wrapped(format_end(result), ink::kBad, engine::UiFont::small);
 }
 
-// In driving order, except that the reason for an early end comes first: the list may be too long to see its end.
+// Lists the errors in the order in which they happened. The reason for an early end comes first, because the end of a
+// long list may not be visible.
 void draw_driving_errors(const lessons::LessonResult& result) {
   std::vector<std::size_t> listed;
   for (std::size_t i = 0; i < result.errors.size(); ++i)

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <ctime>
 #include <numbers>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,7 +29,7 @@ bool is_grade_shown(const lessons::LessonResult& result) {
 }
 
 std::string format_verdict(const lessons::LessonResult& result) {
-  if (result.end == lessons::LessonEnd::left) return "left";
+  if (result.end == lessons::LessonEnd::left) return "left early";
   if (result.end == lessons::LessonEnd::running) return "cut off";  // the program ended during the run
   if (result.guided) return "guided";
   if (!result.is_complete) return "data lost";
@@ -90,6 +92,16 @@ std::string format_time_zone(std::time_t now) {
 }
 
 std::string readable_name(const std::string& key) {
+  static constexpr std::pair<std::string_view, std::string_view> kShippedGates[] = {
+      {"four_speed", "4-speed"},
+      {"dog_leg_five", "Dog-leg 5-speed"},
+      {"five_speed_r_left_up", "5-speed, R top left"},
+      {"five_speed_r_right_down", "5-speed, R bottom right"},
+      {"six_speed_r_left_up", "6-speed, R top left"},
+      {"six_speed_r_left_down", "6-speed, R bottom left"},
+      {"six_speed_r_right_down", "6-speed, R bottom right"}};
+  for (const auto& [gate, title] : kShippedGates)
+    if (key == gate) return std::string(title);
   std::string words = key;
   std::replace(words.begin(), words.end(), '_', ' ');
   if (!words.empty()) words[0] = haptics::ascii_upper(words[0]);

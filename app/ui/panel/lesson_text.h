@@ -10,7 +10,7 @@
 
 namespace gearshift::ui {
 
-std::string lesson_title(const lessons::CoachView& coach, const std::string& key);  // the key itself if unknown
+std::string lesson_title(const lessons::CoachView& coach, const std::string& key);  // returns an unknown key unchanged
 
 bool is_grade_shown(const lessons::LessonResult& result);         // graded and not left early
 std::string format_verdict(const lessons::LessonResult& result);  // "7.5", or why not graded: "guided", "data lost"
@@ -20,13 +20,13 @@ ImU32 severity_colour(lessons::Severity severity);
 double points_lost(const lessons::LessonResult& result, std::size_t error);  // [1] points out of 10
 
 std::string format_gears(const lessons::ShiftRecord& shift);  // "1 → 2"
-std::string format_rpm(double speed);                         // [rad/s]
+std::string format_rpm(double speed);                         // speed [rad/s]
 
-// "2026-01-02T10:00:00Z" in local time, "2026-01-02 11:00"; text that is no such time is returned unchanged.
+// Converts "2026-01-02T10:00:00Z" to local time: "2026-01-02 11:00". Any other text is returned unchanged.
 std::string format_local_time(const std::string& utc);
-std::string format_time_zone(std::time_t now);  // the zone of those times: "UTC+01:00"
+std::string format_time_zone(std::time_t now);  // the local time zone: "UTC+01:00"
 
-// A file name as display text: "dog_leg_five" becomes "Dog leg five".
+// Converts a file name to display text: "my_own_gate" becomes "My own gate". The shipped gates have their own titles.
 std::string readable_name(const std::string& key);
 
 }  // namespace gearshift::ui

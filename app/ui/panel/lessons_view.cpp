@@ -37,7 +37,7 @@ bool is_pressed(ImGuiKey_ key) {
   return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
 }
 
-// The known learners in a drop-down list, `width` [px] wide like the field before it.
+// Draws the known learners as a drop-down list, `width` [px] wide like the name field before it.
 void draw_known(Controls& controls, const lessons::CoachView& coach, float width, LessonRequests& out) {
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, 24.0f * engine::ui_em()});
   const bool open = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
@@ -52,7 +52,7 @@ void draw_known(Controls& controls, const lessons::CoachView& coach, float width
   ImGui::EndCombo();
 }
 
-// No installed font has all characters of all scripts.
+// False if the current font lacks a character of the name.
 bool has_all_glyphs(const std::string& name) {
   const ImFont* font = ImGui::GetFont();
   const char *at = name.data(), *end = at + name.size();
@@ -65,27 +65,27 @@ bool has_all_glyphs(const std::string& name) {
   return true;
 }
 
-// One line below the name; a blank one if there is nothing to report, so that the layout does not move.
+// Draws a line below the name field; the line is blank if there is nothing to report, so that the layout does not move.
 void draw_note(const lessons::CoachView& coach, const std::string& name, const std::string& problem, bool is_typing,
                bool is_automatic_hand) {
   if (!problem.empty()) return put_wrapped(problem, ink::kWarn);
   if (!has_all_glyphs(name))
-    put_wrapped("The name is saved as typed; characters missing from the fonts are shown as ?", ink::kWarn);
+    put_wrapped("The name is saved as typed. Characters that cannot be displayed are shown as \"?\".", ink::kWarn);
   if (is_typing && name != coach.learner)
     return put_wrapped(
-        name.empty() || is_known(coach, name) ? "Press Enter to switch learner." : "Press Enter to add this learner.",
+        name.empty() || is_known(coach, name) ? "Press Enter to switch learners." : "Press Enter to add this learner.",
         ink::kAccent);
   if (coach.learner_deleted)
     return put_wrapped(
-        "Another program deleted this learner: nothing is saved. To start again with this name, press Enter in this "
-        "field.",
+        "Another program deleted this learner, so nothing is being saved. Press Enter in this field to add the name "
+        "again.",
         ink::kWarn);
-  if (is_automatic_hand) return put_wrapped("The hand drives by itself, so nothing is saved.", ink::kSoft);
-  if (!coach.is_saving) return put_wrapped("The history is not open: nothing is saved.", ink::kWarn);
+  if (is_automatic_hand) return put_wrapped("The simulated driver is driving, so nothing is saved.", ink::kSoft);
+  if (!coach.is_saving) return put_wrapped("Your history could not be opened, so nothing is being saved.", ink::kWarn);
   put_wrapped(coach.learner.empty() ? "Enter a name to save your progress." : " ", ink::kSoft);
 }
 
-// Draws the next lesson, marked by a bar at its left.
+// Draws the next lesson, marked by a bar on its left.
 void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool can_offer, LessonRequests& out) {
   if (coach.next.empty()) return;
   const float em = engine::ui_em();
@@ -99,7 +99,7 @@ void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool ca
   if (controls.button("lesson_suggested", "Start", {0.0f, 0.0f}, ink::kPrimary)) out.offer = coach.next;
   ImGui::EndDisabled();
   if (coach.next_by_instructor) {
-    beside(button_width("Use suggestion"));
+    same_line_if_fits(button_width("Use suggestion"));
     if (controls.button("next_as_suggested", "Use suggestion")) out.next = std::string();
   }
   ImGui::EndGroup();
@@ -107,7 +107,7 @@ void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool ca
   ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 0.22f * em, ImGui::GetItemRectMax().y}, ink::kAccent, 1.0f);
 }
 
-// Passed: a tick on a disc. Tried: a ring. Otherwise nothing.
+// Draws a tick on a disc for a passed lesson, a ring for one that was tried, nothing for one that was not.
 void draw_standing(const lessons::LessonStanding& lesson) {
   const float em = engine::ui_em(), radius = 0.42f * em;
   const ImVec2 low = ImGui::GetCursorScreenPos();
@@ -125,7 +125,7 @@ void draw_standing(const lessons::LessonStanding& lesson) {
   }
 }
 
-// A dot, filled for the next lesson; clicking it sets the lesson as the next one.
+// Draws a ring, with a dot in it for the next lesson; a click makes this lesson the next one.
 void draw_next_choice(Controls& controls, const lessons::CoachView& coach, const std::string& key,
                       LessonRequests& out) {
   const float height = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
@@ -146,12 +146,12 @@ std::string format_grade(double grade) {
   return fmt::format("{:>4.1f}", grade);
 }
 
-// "7 attempts, best 8.5; last 5.5, passed"
+// "7 attempts, best 8.5, last 5.5; passed"
 std::string format_standing(const lessons::LessonStanding& lesson) {
   std::string words = fmt::format("{} attempt{}", lesson.trials, lesson.trials == 1 ? "" : "s");
   if (lesson.best) words += fmt::format(", best {:.1f}", *lesson.best);
-  if (lesson.grade) words += fmt::format("; last {:.1f}", *lesson.grade);
-  return words + (lesson.passed ? ", passed" : ", not passed yet");
+  if (lesson.grade) words += fmt::format(", last {:.1f}", *lesson.grade);
+  return words + (lesson.passed ? "; passed" : "; not passed yet");
 }
 
 void draw_lesson(Controls& controls, const lessons::CoachView& coach, const lessons::LessonStanding& lesson,
@@ -208,14 +208,14 @@ void LessonsView::draw(Controls& controls, const lessons::CoachView& coach, bool
                        LessonRequests& out) {
   draw_learner(controls, coach, is_automatic_hand, out);
   ImGui::Spacing();
-  // Clicking another lesson must not discard the one being driven.
+  // Disables the other lessons while one is driven: a click on them must not discard it.
   const bool can_offer = coach.phase != lessons::LessonPhase::driving;
   draw_suggested(controls, coach, can_offer, out);
   ImGui::Spacing();
   draw_list(controls, coach, can_offer, out);
 }
 
-// A typed name is applied by Enter or by leaving the field; Escape discards it.
+// Draws the learner's name field. Enter or leaving the field applies a typed name; Escape discards it.
 void LessonsView::draw_learner(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand,
                                LessonRequests& out) {
   if (coach.learner != shown_) fill(name_, shown_ = coach.learner);

@@ -11,14 +11,14 @@ namespace gearshift::ui {
 
 class LessonsView {
  public:
-  // is_automatic_hand: the simulated hand drives, so nothing is saved for the selected learner.
+  // is_automatic_hand: a simulated hand drives, so nothing is saved for the selected learner.
   void draw(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand, LessonRequests& out);
 
  private:
   void draw_learner(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand, LessonRequests& out);
 
   std::array<char, lessons::kMaxNameBytes + 1> name_{};  // the text field
-  std::string shown_;                                    // the learner whose name the field was last filled with
+  std::string shown_;                                    // learner whose name was last copied into the field
 };
 
 }  // namespace gearshift::ui

@@ -30,7 +30,7 @@ void draw_timing(const PanelInput& input) {
   table_row("Thread", health.realtime ? "real-time" : "not real-time", health.realtime ? ink::kGood : ink::kWarn);
   table_row("Cycle", fmt::format("{:.2f} µs, {:.2f} % of period", 1e-3 * health.cycle_ns,
                                  period > 0.0 ? 1e-7 * health.cycle_ns / period : 0.0));
-  table_row("Force scale", fmt::format("{:.0f} % of the real car's", 100.0 * input.car.force_scale));
+  table_row("Force scale", fmt::format("{:.0f} % of real forces", 100.0 * input.car.force_scale));
   table_row("Frame", fmt::format("{:.1f} ms", input.frame_ms));
   table_row("Stiffness in use", fmt::format("{:.0f} N/m", input.now.wall_stiffness),
             input.now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness ? ink::kWarn : ink::kText);

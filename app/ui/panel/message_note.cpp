@@ -15,11 +15,11 @@ constexpr float kOpaque = 0.86f;
 void MessageNote::draw(const std::string& message, bool is_in_bar, const std::string& to_do, const ControlRect& room) {
   if (message != message_) {
     message_ = message;
-    came_at_ = ImGui::GetTime();
+    arrived_at_ = ImGui::GetTime();
   }
   const float em = engine::ui_em();
   const float width = std::min(kMaxNoteWidth * em, static_cast<float>(room.max.x - room.min.x) - 2.0f * kMargin * em);
-  const bool is_new = ImGui::GetTime() - came_at_ < kShowTime;
+  const bool is_new = ImGui::GetTime() - arrived_at_ < kShowTime;
   const bool shows_message = !is_in_bar && is_new && !message.empty();
   if ((!shows_message && to_do.empty()) || width < kMinNoteWidth * em) return;
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |

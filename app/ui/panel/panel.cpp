@@ -31,7 +31,7 @@
 namespace gearshift::ui {
 namespace {
 
-// Two columns and a bar, with the cabin in the middle. If that would be too narrow, the left column is left out.
+// Two columns and a bar around the cabin. The left column is left out where the cabin would be too narrow.
 struct Layout {
   float bar, left, right;  // [px] 0: left out
   ImVec2 screen;
@@ -63,13 +63,18 @@ void title(const char* text) {
   ImGui::TextUnformatted(text);
 }
 
-// At the right end of the line.
+// Draws the button "Reset view" at the right end of the line.
 void draw_view_reset(Controls& controls, PanelRequests& out) {
   const engine::WithFont small(engine::UiFont::small);
   constexpr const char* kLabel = "Reset view";
   const float width = ImGui::CalcTextSize(kLabel).x + 2.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
   out.reset_view = controls.button("reset_view", kLabel);
+}
+
+// The label of a hand. On the command line, the hand that the simulated driver leads is called "by itself".
+std::string hand_label(const std::string& hand) {
+  return hand == "by itself" ? "simulated driver" : hand;
 }
 
 struct Tab {
@@ -79,7 +84,7 @@ struct Tab {
 // The learner's tabs first, then the engineer's.
 constexpr Tab kTabs[] = {{"tab_lesson", "Lessons"}, {"tab_history", "History"}, {"tab_tuning", "Tuning"},
                          {"tab_setup", "Setup"},    {"tab_loop", "Loop"},       {"tab_presets", "Presets"},
-                         {"tab_headset", "XR"}};  // the last one only while a headset is in use
+                         {"tab_headset", "XR"}};  // shown only while a headset is in use
 
 std::span<const Tab> tabs_of(const PanelInput& input) {
   return std::span(kTabs).first(std::size(kTabs) - (input.headset ? 0 : 1));
@@ -144,13 +149,13 @@ struct Panel::State {
   ReplayBar replay;
   EventList events;
   MessageNote note;
-  bool message_fits = false;  // in this frame, the bar shows the whole message
-  std::int64_t last_ns = -1;  // [ns] of the newest snapshot of this run
+  bool message_fits = false;  // true if the bar shows the whole message in this frame
+  std::int64_t last_ns = -1;  // [ns] time of the newest snapshot of this run
   std::uint64_t run = 0;
   ControlRect cabin_area, central_area;
 
-  void take(const PanelInput& input);
-  void take(const haptics::HapticSnapshot& snapshot);
+  void follow(const PanelInput& input);
+  void follow(const haptics::HapticSnapshot& snapshot);
   void draw_left(const Layout& layout, const PanelInput& input, PanelRequests& out);
   void draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out);
   void draw_choices(const PanelInput& input, PanelRequests& out);
@@ -159,7 +164,7 @@ struct Panel::State {
   void draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out);
 };
 
-void Panel::State::take(const haptics::HapticSnapshot& snapshot) {
+void Panel::State::follow(const haptics::HapticSnapshot& snapshot) {
   if (snapshot.time_ns <= last_ns) return;
   trail.push(snapshot);
   plots.push(snapshot);
@@ -168,16 +173,16 @@ void Panel::State::take(const haptics::HapticSnapshot& snapshot) {
 }
 
 // Runs even while the panel is hidden, so that the plots are complete when it is shown again.
-void Panel::State::take(const PanelInput& input) {
+void Panel::State::follow(const PanelInput& input) {
   if (std::exchange(run, input.run) != input.run) {
     trail = Trail();
     plots.clear();
     clip = ClipMeter();
     last_ns = -1;
   }
-  // `now` may be newer than the history: the snapshots between come with the next frame.
-  for (const haptics::HapticSnapshot& snapshot : input.history) take(snapshot);
-  if (input.history.empty()) take(input.now);
+  // `now` may be newer than the history: the snapshots in between arrive with the next frame.
+  for (const haptics::HapticSnapshot& snapshot : input.history) follow(snapshot);
+  if (input.history.empty()) follow(input.now);
   events.add(input.events);
 }
 
@@ -220,7 +225,7 @@ void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
   if (input.hands.empty())
     fixed_row("Hand", input.hand_name, ink::kText);
   else
-    row("hand", "Hand", input.hand_name, input.hands, out.hand);
+    row("hand", "Hand", input.hand_name, input.hands, out.hand, hand_label);
   fixed_row("Device", input.device_name, ink::kText);
   if (input.stick) fixed_row("", format_stick_state(*input.stick), input.stick->plugged_in ? ink::kSoft : ink::kBad);
 }
@@ -267,8 +272,8 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
   ImGui::End();
 }
 
-// The parts shown even while the panel is hidden. During a replay the card is hidden unless a lesson is being driven;
-// both reduce the cabin's area.
+// Draws the parts that are shown even while the panel is hidden: note, replay bar and lesson card. During a replay the
+// card is hidden unless a lesson is being driven. Bar and card reduce the cabin's area.
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
   const ControlRect room = central_area = cabin_area;
   note.draw(input.message, message_fits, stick_request(input), room);
@@ -291,9 +296,9 @@ PanelRequests Panel::draw(const PanelInput& input) {
   PanelRequests out;
   s.controls.begin_frame();
   update_keyboard_focus(kBarName, s.visible);
-  s.take(input);
+  s.follow(input);
   s.tuning.follow(input);
-  for (const TuningView::Step step : s.steps) s.tuning.take(step, input, out);
+  for (const TuningView::Step step : s.steps) s.tuning.apply_step(step, input, out);
   s.steps.clear();
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   s.message_fits = false;

@@ -21,43 +21,44 @@ struct KeyHint {
   std::string action, key;  // "clutch", "A"
 };
 
-// A physical stick in place of the simulated lever.
+// State of a physical stick that is used instead of the simulated lever.
 struct StickView {
   bool plugged_in = true;
-  double delay = 0.0;  // [s] measured from a reading to the effect of the resulting force
+  double delay = 0.0;  // [s] measured time from a reading to the effect of the force computed from it
 };
 
 struct PanelInput {
   const haptics::Gate* gate = nullptr;          // never null in draw()
   const haptics::DeviceSpec* device = nullptr;  // never null in draw()
-  haptics::HapticConfig haptics;                // in use, except that the tuning is the requested one
-  haptics::AdmittedTuning admitted;             // in use
+  haptics::HapticConfig haptics;                // configuration in use, but with the requested tuning
+  haptics::AdmittedTuning admitted;             // tuning in use
   haptics::HapticSnapshot now;
-  std::uint64_t run =
-      0;  // changes with another lever, a replay or a jump in it; trajectory, plots and clipping then start again
-  std::vector<haptics::HapticSnapshot> history;  // new since the last frame
-  std::vector<haptics::HapticEvent> events;      // new since the last frame; [ns] since the program's start
+  // Changes if the lever is replaced, a replay starts or ends, or a replay jumps in time; trajectory, plots and
+  // clipping are then cleared.
+  std::uint64_t run = 0;
+  std::vector<haptics::HapticSnapshot> history;  // snapshots since the last frame
+  std::vector<haptics::HapticEvent> events;      // events since the last frame; times [ns] since the program's start
   runtime::LoopHealth health;
   vehicle::VehicleState car;
   std::string gate_name, preset_name, hand_name, device_name;
   std::optional<StickView> stick;                  // none: a simulated lever
-  std::vector<std::string> gates, presets, hands;  // to choose from; no hands: a real hand
-  std::optional<haptics::Preset> compared;         // the preset of PanelRequests::compare; none if it could not be read
+  std::vector<std::string> gates, presets, hands;  // available choices; `hands` is empty if a real hand moves the lever
+  std::optional<haptics::Preset> compared;         // preset named by PanelRequests::compare; none if unreadable
   bool recording = false;
   std::string message;  // the last message, one sentence
   double frame_ms = 0.0;
   std::string car_name;
-  std::vector<std::string> cars;  // to choose from
+  std::vector<std::string> cars;  // available choices
   lessons::CoachView coach;
   const lessons::Player* replay = nullptr;      // not null during a replay; `now` and `car` then come from it
   std::string opening;                          // file name of a recorded drive that is still loading; empty: none
   std::vector<KeyHint> keys;                    // keys that drive the car, in the order of use; may be empty
-  bool mouse_moves_lever = false;               // the cursor is captured
+  bool mouse_moves_lever = false;               // the mouse is captured and moves the lever
   bool is_automatic_hand = false;               // a simulated hand drives: keys and mouse do nothing, nothing is saved
-  bool instructor_holds_pedals = false;         // after a lesson, until the next one or Close
+  bool instructor_holds_pedals = false;         // true after a lesson, until the next lesson or Close
   bool is_unpassable = false;                   // the current run can no longer be passed
   std::optional<cabin::HeadsetReport> headset;  // none: no headset in use
-  std::string fail_conditions;                  // what fails the lesson, one sentence; may be empty
+  std::string fail_conditions;                  // the errors that fail the lesson, one sentence; may be empty
 };
 
 struct LessonRequests {
@@ -66,15 +67,15 @@ struct LessonRequests {
   bool leave = false, dismiss_lesson = false;
   std::optional<lessons::LessonMode> mode;
   std::optional<bool> help;
-  std::optional<std::string> learner;  // a known or new learner; empty string: none
-  std::optional<std::string> next;     // the instructor's choice of the next lesson; empty string: as suggested
+  std::optional<std::string> learner;  // name of a known or new learner; empty string: no learner
+  std::optional<std::string> next;     // lesson that the instructor chose as the next; empty string: as suggested
   struct Comment {
     std::int64_t run = 0;
     std::string author, text;
   };
   std::optional<Comment> comment;
   struct CommentChange {
-    std::int64_t run = 0, comment = 0;  // CommentRow::id
+    std::int64_t run = 0, comment = 0;  // RunRow::id, CommentRow::id
     std::optional<std::string> text;    // none: delete the comment
   };
   std::optional<CommentChange> comment_change;
@@ -83,11 +84,11 @@ struct LessonRequests {
 struct ReplayRequests {
   struct Shift {
     std::string recording;
-    double begin = 0.0;  // [s] on the loop's clock
+    double begin = 0.0;  // [s] start of the shift on the loop's clock
   };
-  std::optional<Shift> open;         // replay a shift of the history
+  std::optional<Shift> open;         // replay this shift from the history
   std::optional<std::size_t> shift;  // show only this shift of the replayed drive
-  bool whole = false;                // show the whole drive
+  bool whole_drive = false;          // show the whole drive
   std::optional<double> seek;        // [s]
   std::optional<bool> play;
   std::optional<double> pace;
@@ -97,11 +98,11 @@ struct ReplayRequests {
 // The user's requests of this frame. The caller carries them out and shows problems in PanelInput::message.
 struct PanelRequests {
   bool arm = false, disarm = false, stop = false, record = false, replay = false, reset_view = false;
-  std::optional<haptics::HapticTuning> tuning;    // to be applied; already found admissible unchanged
+  std::optional<haptics::HapticTuning> tuning;    // to be applied; already checked to be admissible unchanged
   std::optional<haptics::HapticConfig> restart;   // restart the loop with this; values are within their ranges
-  std::optional<std::string> gate, preset, hand;  // change to this one
+  std::optional<std::string> gate, preset, hand;  // change to the file with this name
   std::optional<std::string> save_preset;         // preset name
-  std::optional<std::string> compare;             // preset to be read into PanelInput::compared
+  std::optional<std::string> compare;             // name of a preset to be read into PanelInput::compared
   std::optional<std::string> car;                 // change to this car and its gate
   LessonRequests lesson;
   ReplayRequests playback;
@@ -118,14 +119,14 @@ class Panel {
   // Call once per frame, between UiContext::begin and end.
   PanelRequests draw(const PanelInput& input);
 
-  // Between end() and the next begin(): does the panel use a mouse press at this place [px], or a key press? Based on
-  // the panel as last drawn. A drag that began on the panel belongs to it until the button is released.
+  // Call between UiContext::end and the next begin. True if the panel, as last drawn, uses a mouse press at this place
+  // [px], or a key press. A drag that began on the panel belongs to the panel until the button is released.
   bool covers(glm::dvec2 mouse) const;
   bool has_keyboard() const;
 
-  // [px] after the last draw(): the area left to the cabin by columns, bar, replay bar and lesson card.
+  // [px] The area that columns, bar, replay bar and lesson card leave to the cabin, as of the last draw().
   ControlRect cabin_area() const noexcept;
-  // [px] after the last draw(): the area left by columns and bar, for cabin, replay bar and card.
+  // [px] The area between columns and bar, for cabin, replay bar and card, as of the last draw().
   ControlRect central_area() const noexcept;
 
   void undo();  // takes effect in the next draw()
@@ -133,10 +134,10 @@ class Panel {
   bool visible() const noexcept;
   void set_visible(bool on) noexcept;
   bool shows_help() const noexcept;
-  // bindings_text: one binding per line, key and action separated by a tab.
+  // bindings_text: one binding per line, a tab between key and action.
   void show_help(bool on, const std::string& bindings_text);
 
-  // After the last draw(): where a control is, for a test or script, and how many texts did not fit.
+  // For tests and scripts, as of the last draw(): the place of a named control, and how many texts did not fit. Names:
   // Bar: "stop", "arm", "disarm", "record", "replay". Left column: "reset_view", "axis_shift", "axis_select".
   // Right column: "car", "gate", "preset", "hand", each with "gate: NAME" while open; "tab_lesson", "tab_history",
   // "tab_tuning", "tab_setup", "tab_loop", "tab_presets", and "tab_headset" while a headset is in use.

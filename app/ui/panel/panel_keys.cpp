@@ -33,11 +33,11 @@ void update_keyboard_focus(const char* first_window, bool shown) {
   if (by_mouse || (nowhere && is_key_pressed(ImGuiKey_Escape))) {
     ImGui::SetWindowFocus(nullptr);
   } else if (nowhere) {
-    enter(ui.NavWindow);  // by Ctrl+Tab
+    enter(ui.NavWindow);  // the user has chosen this window with Ctrl+Tab
   }
 }
 
-// Reads the context's state rather than WantCaptureKeyboard, which is only updated in NewFrame.
+// Reads the context's state instead of WantCaptureKeyboard, which ImGui updates only in NewFrame.
 bool panel_has_keyboard() {
   const ImGuiContext& ui = *ImGui::GetCurrentContext();
   return ui.IO.WantTextInput || ui.WantTextInputNextFrame == 1 || ui.NavWindowingTarget != nullptr ||

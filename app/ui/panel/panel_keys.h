@@ -3,11 +3,11 @@
 
 namespace gearshift::ui {
 
-// Call after NewFrame and before drawing the panel's windows. Tab enters the panel at the window `first_window`, if it
-// is shown; Escape leaves it. A click alone does not move the keyboard to the panel.
+// Call after NewFrame and before drawing the panel's windows. Tab enters the panel at the window `first_window`, if the
+// panel is shown; Escape leaves it. Clicking the panel does not move the keyboard focus to it.
 void update_keyboard_focus(const char* first_window, bool shown);
 
-// Between two frames: does the panel use the next key press?
+// Call between two frames. True if the panel uses the next key press.
 bool panel_has_keyboard();
 
 }  // namespace gearshift::ui

@@ -18,7 +18,7 @@ bool accepts_mouse(const ImGuiWindow& window) {
 
 }  // namespace
 
-// Checks the windows rather than WantCaptureMouse, which is only updated in NewFrame.
+// Checks the windows instead of WantCaptureMouse, which ImGui updates only in NewFrame.
 bool panel_covers(glm::dvec2 mouse) {
   constexpr ImGuiPopupFlags kAnyPopup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
   if (is_button_held(ImGui::GetIO()) || ImGui::IsPopupOpen(nullptr, kAnyPopup)) return true;

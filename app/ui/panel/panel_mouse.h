@@ -1,4 +1,4 @@
-// The mouse belongs to the panel while it is over the panel.
+// Decides whether the mouse belongs to the panel or to the cabin.
 #pragma once
 
 #include <glm/vec2.hpp>

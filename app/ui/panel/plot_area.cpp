@@ -24,16 +24,16 @@ double nice_above(double value, double min) {
   for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
     if (decade * factor >= value) return decade * factor;
   }
-  return value;  // not finite
+  return value;  // only reached if value is not finite
 }
 
-PlotArea::PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bool beside)
+PlotArea::PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bool numbers_outside)
     : list_(ImGui::GetWindowDrawList()),
       low_(ImGui::GetCursorScreenPos()),
       x_(x),
       y_(y),
       x_unit_(x_unit),
-      beside_(beside) {
+      numbers_outside_(numbers_outside) {
   const float below = x_unit == nullptr ? 0.0f : engine::ui_font(engine::UiFont::small)->FontSize + 2.0f;
   ImGui::Dummy(size);
   high_ = {low_.x + size.x, low_.y + size.y - below};
@@ -45,8 +45,8 @@ PlotArea::PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bo
 // Draws the numbers last, so that no curve hides them.
 PlotArea::~PlotArea() {
   list_->PopClipRect();
-  number_y();
-  if (x_unit_ != nullptr) number_x();
+  draw_y_numbers();
+  if (x_unit_ != nullptr) draw_x_numbers();
 }
 
 ImVec2 PlotArea::at(double x, double y) const {
@@ -79,39 +79,39 @@ void PlotArea::draw_grid() {
   each_x([&](double x) { list_->AddLine({at(x, 0.0).x, low_.y}, {at(x, 0.0).x, high_.y}, shade(x)); });
 }
 
-// Draws the outermost numbers first, then those in between that fit.
-void PlotArea::number_y() {
+// Draws the lowest and the highest number first, then those in between that do not overlap the others.
+void PlotArea::draw_y_numbers() {
   std::vector<double> all;
   each_y([&](double y) { all.push_back(y); });
   if (all.size() > 2) std::rotate(all.begin() + 1, all.end() - 1, all.end());
   const float min = engine::ui_font(engine::UiFont::small)->FontSize + 1.0f;
   std::vector<float> used_tops;
   for (const double y : all) {
-    const float top = number_top(y);
+    const float top = y_number_top(y);
     if (std::any_of(used_tops.begin(), used_tops.end(), [&](float other) { return std::abs(other - top) < min; }))
       continue;
     used_tops.push_back(top);
-    number_y_at(y);
+    draw_y_number(y);
   }
 }
 
-float PlotArea::number_top(double y) const {
+float PlotArea::y_number_top(double y) const {
   const float height = engine::ui_font(engine::UiFont::small)->FontSize;
   return std::clamp(at(0.0, y).y - 0.5f * height, low_.y, std::max(low_.y, high_.y - height));
 }
 
-void PlotArea::number_y_at(double y) {
+void PlotArea::draw_y_number(double y) {
   ImFont* font = engine::ui_font(engine::UiFont::small);
   const std::string text = fmt::format("{:g}", y);
   const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str());
-  const float inside = low_.x + 0.2f * engine::ui_em(), beside = low_.x - 0.3f * engine::ui_em() - size.x;
-  const ImVec2 place(beside_ ? beside : inside, number_top(y));
-  if (!beside_)
+  const float inside = low_.x + 0.2f * engine::ui_em(), outside = low_.x - 0.3f * engine::ui_em() - size.x;
+  const ImVec2 place(numbers_outside_ ? outside : inside, y_number_top(y));
+  if (!numbers_outside_)
     list_->AddRectFilled(place, {place.x + size.x, place.y + size.y}, engine::with_alpha(ink::kWell, 0.7f), 2.0f);
   list_->AddText(font, font->FontSize, place, ink::kSoft, text.c_str());
 }
 
-void PlotArea::number_x() {
+void PlotArea::draw_x_numbers() {
   ImFont* font = engine::ui_font(engine::UiFont::small);
   each_x([&](double x) {
     const std::string text = x == 0.0 ? fmt::format("0 {}", x_unit_) : fmt::format("{:g}", x);
@@ -121,7 +121,8 @@ void PlotArea::number_x() {
   });
 }
 
-// Two points per column, in the likely order of its extremes: minimum first where the column ends above its start.
+// Draws two points per column, its minimum and maximum, in their likely order in time: minimum first if the column's
+// last value is not below its first.
 void PlotArea::strip(const Strip& strip, double factor, ImU32 colour) {
   static thread_local std::vector<ImVec2> line;
   const float width = (high_.x - low_.x) / static_cast<float>(strip.columns());

@@ -11,23 +11,23 @@ struct PlotRange {
   double low = 0.0, high = 1.0;
 };
 
-// The smallest of 1, 2, 5, 10, 20, 50, ... (times `min`) that is not below `value`; both are positive.
+// The smallest of `min` times 1, 2, 5, 10, 20, 50, ... that is not below `value`. value, min > 0.
 double nice_above(double value, double min);
 
 class PlotArea {
  public:
-  // Takes `size` [px] at the cursor and draws background and grid. Numbers of y are inside, at the left; numbers of x,
-  // if it has a unit, below. Numbers that would touch another one are left out, except the outermost. beside: numbers
-  // of y are to the left of the cursor, where there must be room.
-  PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bool beside = false);
+  // Covers `size` [px] at ImGui's cursor and draws background and grid. The y axis has its numbers inside the plot, at
+  // the left; the x axis below it, but none if x_unit is null. Numbers on the y axis that would overlap are left out.
+  // numbers_outside: the y axis has its numbers to the left of the cursor, where the caller leaves room for them.
+  PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bool numbers_outside = false);
   ~PlotArea();
   PlotArea(const PlotArea&) = delete;
   PlotArea& operator=(const PlotArea&) = delete;
 
   ImVec2 at(double x, double y) const;
-  int columns() const { return static_cast<int>(high_.x - low_.x); }  // pixel columns
+  int columns() const { return static_cast<int>(high_.x - low_.x); }  // width of the plot in pixel columns
 
-  void strip(const Strip& strip, double factor, ImU32 colour);  // the strip's span fills the width
+  void strip(const Strip& strip, double factor, ImU32 colour);  // the strip's time span fills the width
   ImDrawList& list() { return *list_; }
 
  private:
@@ -38,16 +38,16 @@ class PlotArea {
   template <class Visit>
   void each_x(Visit visit) const;
   void draw_grid();
-  void number_y();
-  float number_top(double y) const;
-  void number_y_at(double y);
-  void number_x();
+  void draw_y_numbers();
+  float y_number_top(double y) const;
+  void draw_y_number(double y);
+  void draw_x_numbers();
 
   ImDrawList* list_;
-  ImVec2 low_, high_;  // [px] corners
+  ImVec2 low_, high_;  // [px] upper left and lower right corner
   PlotRange x_, y_;
   const char* x_unit_;
-  bool beside_;
+  bool numbers_outside_;
 };
 
 }  // namespace gearshift::ui

@@ -12,7 +12,7 @@
 namespace gearshift::ui {
 namespace {
 
-// Draws the lines that differ; equal ones are only counted.
+// Draws the settings that differ between two presets; equal ones are only counted.
 class Difference {
  public:
   void row(const char* label, const std::string& here, const std::string& there) {
@@ -65,7 +65,9 @@ void draw_difference(const PanelInput& input) {
     draw_rows(rows, here, input.compared->haptics);
     ImGui::EndTable();
   }
-  ImGui::TextDisabled("%d differ, %d are the same", rows.different(), rows.same());
+  ImGui::TextDisabled(
+      rows.different() == 1 ? "%d setting differs, %d are the same" : "%d settings differ, %d are the same",
+      rows.different(), rows.same());
 }
 
 }  // namespace
@@ -94,7 +96,7 @@ void PresetView::draw_save(Controls& controls, PanelRequests& out) {
 
 void PresetView::draw_compare(Controls& controls, const PanelInput& input, PanelRequests& out) {
   ImGui::TextUnformatted("Compare with");
-  const auto chosen = controls.choice("compare", compared_.empty() ? "a preset" : compared_, input.presets,
+  const auto chosen = controls.choice("compare", compared_.empty() ? "choose a preset" : compared_, input.presets,
                                       ImGui::GetContentRegionAvail().x);
   if (chosen) out.compare = compared_ = *chosen;
   if (!compared_.empty() && input.compared) draw_difference(input);

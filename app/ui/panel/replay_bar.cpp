@@ -21,9 +21,9 @@ namespace gearshift::ui {
 namespace {
 
 constexpr float kMaxBarWidth = 80.0f, kOpeningWidth = 36.0f;                    // [em]
-constexpr float kPedalHeight = 2.1f, kSpeedHeight = 2.5f, kForceHeight = 2.1f;  // [em] room for two numbers
+constexpr float kPedalHeight = 2.1f, kSpeedHeight = 2.5f, kForceHeight = 2.1f;  // [em] room for two axis numbers
 constexpr std::array<double, 5> kPaces{0.1, 0.25, 0.5, 1.0, 2.0};
-constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);  // per rad/s
+constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);  // [rpm] per rad/s
 constexpr double kMinSpan = 1e-3;                         // [s]
 
 bool begin_bar(const ControlRect& room, float width) {
@@ -32,19 +32,20 @@ bool begin_bar(const ControlRect& room, float width) {
   return begin_at_bottom("Replay", room, ImGuiWindowFlags_AlwaysAutoResize);
 }
 
-// Ends the bar and returns its upper edge. [px]
+// Ends the bar's window and returns its upper edge [px].
 double end_bar(const ControlRect& room) {
   const double top = static_cast<double>(ImGui::GetWindowPos().y);
   ImGui::End();
   return std::clamp(top, room.min.y, room.max.y);
 }
 
-// [px] Width for the numbers left of the curves; everything on the same time axis is indented by it.
+// [px] Width reserved for the numbers to the left of the curves. The slider and the shift marks are indented by it too,
+// so that they share the curves' time axis.
 float gutter() {
   return width_of("8888", engine::UiFont::small) + 0.6f * engine::ui_em();
 }
 
-// Title: lesson, learner and time of the run, or else the file name; then car and gate.
+// The bar's title: lesson, learner and time of the run if the history knows it, else the file name; then car and gate.
 std::string heading(const lessons::Player& replay, const lessons::CoachView& coach) {
   const std::filesystem::path file = replay.file().filename();
   const auto run = std::find_if(coach.runs.begin(), coach.runs.end(), [&](const lessons::RunRow& row) {
@@ -73,15 +74,15 @@ void draw_opening(Controls& controls, const std::string& file, ReplayRequests& o
   if (controls.button("replay_close", "Close")) out.close = true;
 }
 
-// The time axis of the whole drive, from left to right.
+// Maps the time of the whole drive to pixels, from left to right.
 struct Overview {
   ImVec2 low, size;    // [px]
   double begin, span;  // [s]
   float at(double time) const { return low.x + size.x * static_cast<float>((time - begin) / span); }
 };
 
-// A shift's button: as wide as the shift is long, or as its label where that fits before the next one. The last one may
-// extend to the left. [px]
+// Place of a shift's button [px]. The button is as wide as the shift is long, or as its label if that is wider and fits
+// before the next button. The last button may extend to the left for its label.
 struct Mark {
   float from, width;
   bool named;
@@ -131,10 +132,10 @@ void draw_shift_marks(Controls& controls, const lessons::Player& replay, ReplayR
   ImGui::Dummy(size);
 }
 
-// A legend entry as wide as its widest value, so that the entries after it do not move.
+// Draws a legend entry as wide as its widest value, so that the entries to its right do not move.
 void entry(Controls& controls, ImU32 colour, const std::string& text, const char* widest, bool first = false) {
   const float em = engine::ui_em(), width = width_of(widest, engine::UiFont::small) + 1.4f * em;
-  if (!first) beside(width);
+  if (!first) same_line_if_fits(width);
   const float begin = ImGui::GetCursorPosX();
   controls.legend(colour, text);
   ImGui::SameLine(begin + width, 0.0f);
@@ -145,7 +146,7 @@ double max_of(const Strip& one, const Strip& other) {
   return std::max({0.0, one.extent().max, other.extent().max});
 }
 
-// Draws the slider's handle exactly below the cursor line in the curves.
+// Draws the slider's handle exactly below the line that marks the current time in the curves.
 void draw_handle(double from, double to, double now) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const double fraction = std::clamp((now - from) / std::max(kMinSpan, to - from), 0.0, 1.0);
@@ -193,16 +194,16 @@ void draw_buttons(Controls& controls, const lessons::Player& replay, ReplayReque
     out.play = !replay.is_playing();
   const std::string time = fmt::format("{:.2f} s", replay.time() - replay.drive().begin());
   const float widest = width_of("888.88 s");
-  beside(widest);
+  same_line_if_fits(widest);
   const float begin = ImGui::GetCursorPosX();
   ImGui::AlignTextToFramePadding();
   put(time, ink::kText);
   ImGui::SameLine(begin + widest);
   if (ImGui::GetContentRegionAvail().x < paces_width()) ImGui::NewLine();
   draw_paces(controls, replay, out);
-  beside(button_width("Whole drive"));
+  same_line_if_fits(button_width("Whole drive"));
   if (controls.button("replay_whole", "Whole drive", {0.0f, 0.0f}, replay.shift() ? ink::kRaised : ink::kAccentDeep))
-    out.whole = true;
+    out.whole_drive = true;
   align_right(button_width("Close"));
   if (controls.button("replay_close", "Close")) out.close = true;
 }
@@ -250,19 +251,21 @@ double ReplayBar::draw(Controls& controls, const PanelInput& input, const Contro
   }
   follow(*replay);
   if (begin_bar(room, width)) {
-    const float beside = gutter();
+    const float indent = gutter();
     put_wrapped(heading(*replay, input.coach), ink::kText, engine::UiFont::body);
-    ImGui::Indent(beside);
+    ImGui::Indent(indent);
     draw_shift_marks(controls, *replay, out);
-    ImGui::Unindent(beside);
+    ImGui::Unindent(indent);
     if (replay->drive().has_diverged())
-      put_wrapped("This drive no longer replays as it was recorded; shifts after that point are not shown.",
-                  ink::kWarn);
+      put_wrapped(
+          "From some point on, this drive no longer replays as recorded. Shifts after the first difference are not "
+          "shown.",
+          ink::kWarn);
     draw_legend(controls, *replay);
-    ImGui::Indent(beside);
+    ImGui::Indent(indent);
     draw_curves(*replay);
     draw_time(controls, *replay, out);
-    ImGui::Unindent(beside);
+    ImGui::Unindent(indent);
     draw_buttons(controls, *replay, out);
   }
   return end_bar(room);
@@ -280,7 +283,7 @@ void ReplayBar::draw_legend(Controls& controls, const lessons::Player& replay) {
   entry(controls, ink::kIdeal, "shortest", "shortest");
 }
 
-// Pedals, speeds and force one below the other, on the slider's time axis.
+// Draws pedals, speeds and force one below the other, on the slider's time axis.
 void ReplayBar::draw_curves(const lessons::Player& replay) {
   const float em = engine::ui_em(), width = ImGui::GetContentRegionAvail().x;
   const double begin = replay.drive().begin();

@@ -17,7 +17,7 @@ class ReplayBar {
   double draw(Controls& controls, const PanelInput& input, const ControlRect& room, ReplayRequests& out);
 
  private:
-  // Curves of the replayed part; rebuilt when another part is selected.
+  // Curves of the replayed part; rebuilt when a different part is selected.
   struct Curves {
     explicit Curves(double span);
     void push(const vehicle::DriveSample& sample);

@@ -11,15 +11,15 @@ struct SetupField {
   const char* key;
   const char* label;
   const char* unit;
-  double factor;    // shown = factor x SI
-  double min, max;  // SI; the range check_config() accepts
+  double factor;    // shown value = factor x value in SI units
+  double min, max;  // in SI units; the range that check_config() accepts
   int decimals;
   bool logarithmic;
   double (*get)(const haptics::HapticConfig&);
   void (*set)(haptics::HapticConfig&, double);
 };
 
-// Getter and setter of a floating-point or integer member.
+// Initialises getter and setter for a floating-point or integer member of HapticConfig.
 #define GEARSHIFT_SETUP(path)                                    \
   [](const haptics::HapticConfig& c) { return double(c.path); }, \
       [](haptics::HapticConfig& c, double v) { c.path = static_cast<decltype(c.path)>(v); }
@@ -30,10 +30,10 @@ inline constexpr std::array<SetupField, 15> kSetupFields{{
     {"speed_limit_m_per_s", "Max plausible speed", "m/s", 1.0, 0.1, 1000.0, 1, true,
      GEARSHIFT_SETUP(estimator.speed_limit)},
     {"window_samples", "Velocity window", "samples", 1.0, 1.0, 64.0, 0, false, GEARSHIFT_SETUP(estimator.window)},
-    {"slew_n_per_cycle", "Slew", "N/cycle", 1.0, 2.0, 100.0, 1, false, GEARSHIFT_SETUP(guard.slew)},
+    {"slew_n_per_cycle", "Slew limit", "N/cycle", 1.0, 2.0, 100.0, 1, false, GEARSHIFT_SETUP(guard.slew)},
     {"ramp_time_s", "Ramp to full force", "s", 1.0, 0.001, 60.0, 3, true, GEARSHIFT_SETUP(guard.ramp_time)},
     {"stale_time_s", "Stale after", "ms", 1e3, 0.001, 1.0, 0, true, GEARSHIFT_SETUP(guard.stale_time)},
-    {"fade_time_s", "Fade", "ms", 1e3, 0.001, 1.0, 0, true, GEARSHIFT_SETUP(guard.fade_time)},
+    {"fade_time_s", "Fade-out", "ms", 1e3, 0.001, 1.0, 0, true, GEARSHIFT_SETUP(guard.fade_time)},
     {"overruns_in_row", "Overruns in a row", "cycles", 1.0, 1.0, 1000.0, 0, true,
      GEARSHIFT_SETUP(guard.overruns_in_row)},
     {"damped_damping_n_s_per_m", "Fallback damping", "N s/m", 1.0, 0.0, 50.0, 1, false,

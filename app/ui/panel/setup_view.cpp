@@ -61,15 +61,15 @@ SetupView::Values SetupView::values_of(const haptics::HapticConfig& config) {
   return values;
 }
 
-// A new run discards the staged values.
-void SetupView::follow(const haptics::HapticConfig& runs) {
-  const Values values = values_of(runs);
+// Discards the staged values when the running configuration changes.
+void SetupView::follow(const haptics::HapticConfig& running) {
+  const Values values = values_of(running);
   if (!has_values_ || values != running_) {
-    staged_ = runs;
+    staged_ = running;
     running_ = values;
     has_values_ = true;
   }
-  staged_.tuning = runs.tuning;
+  staged_.tuning = running.tuning;
 }
 
 void SetupView::draw_fields(Controls& controls) {
@@ -100,7 +100,7 @@ void SetupView::draw_choices(Controls& controls) {
   draw_checkbox(controls, "study", "Allow unstable", staged_.contact.allow_unstable);
 }
 
-// Checks the staged values, only after a change: it can take milliseconds.
+// Checks the staged values, but only after a change, because a check can take milliseconds.
 void SetupView::judge(const PanelInput& input) {
   const Values staged = values_of(staged_);
   if (staged == judged_) return;
@@ -134,7 +134,7 @@ void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests&
   draw_restart(controls, input, out);
 }
 
-// Below the fields, and always visible.
+// Draws the buttons and the verdict below the scrolling fields, where they are always visible.
 void SetupView::draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out) {
   const bool changed = values_of(staged_) != running_;
   if (changed) judge(input);

@@ -14,18 +14,18 @@ class SetupView {
   void draw(Controls& controls, const PanelInput& input, PanelRequests& out);
 
  private:
-  void follow(const haptics::HapticConfig& runs);
+  void follow(const haptics::HapticConfig& running);
   void draw_fields(Controls& controls);
   void draw_choices(Controls& controls);
   void draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out);
   void judge(const PanelInput& input);
 
-  using Values = std::array<double, kSetupFields.size() + 4>;  // fields, then the four choices
+  using Values = std::array<double, kSetupFields.size() + 4>;  // values of the fields, then of the four choices
   static Values values_of(const haptics::HapticConfig& config);
 
   haptics::HapticConfig staged_;
   Values running_{}, judged_{};
-  std::string rejection_, limits_text_;  // for the staged values
+  std::string rejection_, limits_text_;  // verdict on the staged values
   bool has_values_ = false;
 };
 

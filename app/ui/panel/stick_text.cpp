@@ -11,11 +11,11 @@ std::string format_stick_state(const StickView& stick) {
 
 std::string stick_request(const PanelInput& input) {
   if (!input.stick) return {};
-  if (!input.stick->plugged_in) return "The stick is unplugged: plug it in, then press Enter.";
+  if (!input.stick->plugged_in) return "The stick is unplugged. Plug it in, then press Enter.";
   const haptics::GuardState guard = input.now.guard;
   const bool has_forces = guard == haptics::GuardState::running || guard == haptics::GuardState::ramping ||
                           guard == haptics::GuardState::armed;
-  return has_forces ? "" : "The stick's motors are off: hold it, then press Enter.";
+  return has_forces ? "" : "The stick's forces are off. Hold the stick, then press Enter.";
 }
 
 }  // namespace gearshift::ui

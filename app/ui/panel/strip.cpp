@@ -35,7 +35,7 @@ void Strip::push(double time, double value) {
   while (samples_.front().time < time - span_) samples_.pop_front();
 }
 
-// Clears the columns between the last sample and this one; each column is cleared once as time passes it.
+// Adds the sample to its column and clears the columns between the last sample's and this one, which hold old values.
 void Strip::add(const Sample& sample) {
   const std::int64_t here = place(sample.time);
   const bool first = samples_.empty();

@@ -7,7 +7,7 @@
 
 namespace gearshift::ui {
 
-// Within BeginTable(..., 2).
+// Call between ImGui::BeginTable(..., 2) and EndTable().
 inline void table_row(const char* name, const std::string& value, ImU32 colour = ink::kText) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();

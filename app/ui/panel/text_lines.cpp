@@ -39,11 +39,11 @@ float button_width(std::string_view label) {
   return width_of(label) + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
 
-// UTF-8 characters of several bytes are never split.
+// Takes care not to split UTF-8 characters of several bytes.
 std::string without_middle(std::string_view text, float width) {
   const auto is_continuation = [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; };
   constexpr std::string_view kEllipsis = "\u2026";
-  constexpr float kHead = 0.2f;  // [1] of the width: the end of a path tells more than its beginning
+  constexpr float kHead = 0.2f;  // [1] of the width for the beginning of a path: its end is more informative
   const float room = width - width_of(kEllipsis);
   if (width_of(text) <= width) return std::string(text);
   std::size_t end = 0;
@@ -68,7 +68,7 @@ std::string with_short_paths(std::string_view words, float width) {
   return all;
 }
 
-void beside(float width) {
+void same_line_if_fits(float width) {
   ImGui::SameLine();
   if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
 }

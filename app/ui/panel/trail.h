@@ -17,13 +17,13 @@ class Trail {
  public:
   static constexpr double kSpan = 3.0;  // [s]
 
-  void push(const haptics::HapticSnapshot& snapshot);  // a time before the last one starts a new run
+  void push(const haptics::HapticSnapshot& snapshot);  // a time earlier than the last one clears the trail first
   const std::deque<TrailPoint>& points() const noexcept { return points_; }
-  double age(const TrailPoint& point) const noexcept;  // [1] 0: now, 1: about to be dropped
+  double age(const TrailPoint& point) const noexcept;  // [1] 0: new, 1: kSpan old, about to be dropped
 
  private:
   std::deque<TrailPoint> points_;  // oldest first
-  double now_ = 0.0;               // [s]
+  double now_ = 0.0;               // [s] time of the last snapshot
 };
 
 }  // namespace gearshift::ui

@@ -12,7 +12,7 @@
 namespace gearshift::ui {
 namespace {
 
-// A running loop cannot change its hold.
+// The configuration with the running loop's hold, which cannot change while the loop runs.
 haptics::HapticConfig with_running_hold(const TuningQuestion& question) {
   haptics::HapticConfig config = question.config;
   config.contact.hold = question.hold;
@@ -24,7 +24,8 @@ TuningQuestion with_value(TuningQuestion question, const TuningField& field, dou
   return question;
 }
 
-// The last admissible value between an admissible and an inadmissible one, to a thousandth of the interval.
+// Bisects between an admissible and an inadmissible value; returns an admissible one within a thousandth of the
+// interval from the limit.
 double last_admissible(const TuningQuestion& question, const TuningField& field, double good, double bad) {
   constexpr int kHalvings = 10;
   for (int i = 0; i < kHalvings; ++i) {
@@ -34,9 +35,9 @@ double last_admissible(const TuningQuestion& question, const TuningField& field,
   return good;
 }
 
-// The value to which the loop limits a field's extreme. If that would also limit another field, the last value that
-// does not.
-double reach(const TuningQuestion& question, const TuningField& field, double extreme, bool is_admissible) {
+// The value to which the loop limits a field's minimum or maximum. If that value would limit a different field too:
+// the last value that limits no field.
+double limited_extreme(const TuningQuestion& question, const TuningField& field, double extreme, bool is_admissible) {
   const TuningAnswer answered = answer(with_value(question, field, extreme));
   const double reached = answered.refused.empty() ? answered.admitted.tuning.*field.member : extreme;
   if (answered.admissible || !is_admissible) return reached;
@@ -59,7 +60,8 @@ TuningAnswer answer(const TuningQuestion& question) {
   try {
     haptics::check_tuning(question.config.tuning);
     out.admitted = haptics::admit_tuning(with_running_hold(question), question.device, *question.gate);
-    if (out.admitted.hold != question.hold) out.refused = "this needs a different hold from the running one";
+    if (out.admitted.hold != question.hold)
+      out.refused = "This needs another Hold setting. Change it in Setup and restart the loop.";
   } catch (const std::invalid_argument& refused) {
     out.refused = refused.what();
   }
@@ -74,9 +76,10 @@ StableRanges stable_ranges(const TuningQuestion& question) {
   StableRanges ranges;
   for (std::size_t i = 0; i < kTuningFields.size(); ++i) {
     const TuningField& field = kTuningFields[i];
-    ranges[i] = {reach(safe, field, field.min, is_admissible), reach(safe, field, field.max, is_admissible)};
+    ranges[i] = {limited_extreme(safe, field, field.min, is_admissible),
+                 limited_extreme(safe, field, field.max, is_admissible)};
   }
-  // The lower bound of the wall is the stiffness of the feel: a softer wall would limit the feel.
+  // The stable range of the wall begins at the stiffness of the feel: a softer wall would limit the feel.
   const std::size_t wall = tuning_field("wall_stiffness_n_per_m");
   const double feel = question.config.tuning.feel_scale * haptics::max_feel_stiffness(*question.gate);
   if (feel > 0.99 * ranges[wall].min && answer(with_value(safe, kTuningFields[wall], feel)).admissible)
@@ -85,7 +88,7 @@ StableRanges stable_ranges(const TuningQuestion& question) {
 }
 
 std::optional<haptics::HapticTuning> nearest_stable(const TuningQuestion& question) {
-  // Limiting one field may allow or forbid another, so repeat until nothing is limited.
+  // Limiting one field may change the limits of other fields, so repeat until nothing is limited.
   constexpr int kMaxRounds = 8;
   TuningQuestion next = question;
   for (int round = 0; round < kMaxRounds; ++round) {
@@ -101,9 +104,10 @@ std::string format_limit(const haptics::TuningLimit& limit) {
   const std::size_t index = tuning_field(haptics::to_string(limit.parameter));
   if (index == kTuningFields.size()) return fmt::format("{}: {}", haptics::to_string(limit.parameter), limit.law);
   const TuningField& field = kTuningFields[index];
-  return fmt::format("{}: {} is {} the stable limit {}. Rule: {}{}{}.", field.label, format_value(limit.wanted, field),
-                     limit.wanted > limit.bound ? "above" : "below", format_value(limit.bound, field), limit.law,
-                     limit.hand.empty() ? "" : "; deciding hand: ", limit.hand);
+  return fmt::format("{} {} is {} the stable limit of {}. Rule: {}{}{}.", field.label,
+                     format_value(limit.wanted, field), limit.wanted > limit.bound ? "above" : "below",
+                     format_value(limit.bound, field), limit.law,
+                     limit.hand.empty() ? "" : ". Deciding hand: ", limit.hand);
 }
 
 TuningJudge::Basis TuningJudge::basis_of(const TuningQuestion& q) {

@@ -1,4 +1,5 @@
-// Checks whether a tuning is stable as requested and, if not, why and what would be. Uses admit_tuning() like the loop.
+// Checks whether a tuning is stable as requested. If not, gives the reason and stable values. Uses admit_tuning() like
+// the loop.
 #pragma once
 
 #include <array>
@@ -10,9 +11,9 @@
 namespace gearshift::ui {
 
 struct TuningAnswer {
-  bool admissible = false;           // unchanged; with allow_unstable, any valid tuning is
-  haptics::AdmittedTuning admitted;  // what the loop would use; unchanged where the tuning is rejected
-  std::string refused;               // reason for rejection, one sentence; empty if only limited
+  bool admissible = false;           // can be used unchanged; true for any valid tuning with allow_unstable
+  haptics::AdmittedTuning admitted;  // what the loop would use; the requested tuning if it is rejected
+  std::string refused;               // reason for rejection, one sentence; empty if not rejected
 };
 
 // Stable range of one field while the others keep their requested values.
@@ -22,34 +23,34 @@ struct StableRange {
 using StableRanges = std::array<StableRange, kTuningFields.size()>;
 
 struct TuningQuestion {
-  haptics::HapticConfig config;  // with the requested tuning
+  haptics::HapticConfig config;  // contains the requested tuning
   haptics::DeviceSpec device;
   const haptics::Gate* gate = nullptr;                            // never null
-  haptics::ContactHold hold = haptics::ContactHold::half_sample;  // of the running loop: a tuning cannot change it
+  haptics::ContactHold hold = haptics::ContactHold::half_sample;  // hold of the running loop, which keeps it
 };
 
 TuningAnswer answer(const TuningQuestion& question);
 
-// Always for a lever that a person may touch, i.e. without allow_unstable. If the requested tuning is not admissible,
-// the ranges are those to which the loop would limit each field.
+// Ignores allow_unstable, so the ranges are those for a lever that a user may touch. If the requested tuning is not
+// admissible, the ranges are those to which the loop would limit each field.
 StableRanges stable_ranges(const TuningQuestion& question);
 
 // The admissible tuning nearest to the requested one, i.e. what the loop would use; empty if there is none.
 std::optional<haptics::HapticTuning> nearest_stable(const TuningQuestion& question);
 
-// A TuningLimit as a sentence: value, bound, rule and the hand that decides.
+// Describes a TuningLimit in a sentence: value, bound, rule, and the hand for which the bound is lowest.
 std::string format_limit(const haptics::TuningLimit& limited);
 
 // Caches the last answer until one of its inputs changes.
 class TuningJudge {
  public:
   const TuningAnswer& judge(const TuningQuestion& question);
-  // Needs many evaluations: milliseconds to tens of milliseconds. frozen: returns the last ranges without checking.
+  // Checks many tunings, which takes 1 to some tens of milliseconds. frozen: returns the last ranges without checking.
   const StableRanges& ranges(const TuningQuestion& question, bool frozen = false);
   int evaluations() const noexcept { return evaluations_; }  // number of evaluations not served from the cache
 
  private:
-  using Basis = std::array<double, 22>;  // everything an answer depends on
+  using Basis = std::array<double, 22>;  // all numbers on which an answer depends
   static Basis basis_of(const TuningQuestion& question);
 
   std::optional<TuningAnswer> answer_;

@@ -13,18 +13,18 @@ enum class TuningSlot : int { a, b };
 
 class TuningHistory {
  public:
-  explicit TuningHistory(const haptics::HapticTuning& start = {});  // in both slots
+  explicit TuningHistory(const haptics::HapticTuning& start = {});  // start: first tuning of both slots
 
   const haptics::HapticTuning& current() const noexcept;
   TuningSlot slot() const noexcept { return slot_; }
 
-  // Adds one step for undo. same_drag: merges with the last change, which came from the same drag of a slider.
+  // Adds an undo step. same_drag: both this change and the last one come from the same drag of a slider; merges them.
   void change(const haptics::HapticTuning& tuning, bool same_drag = false);
   void undo() noexcept;  // no effect if there is nothing to undo
   void redo() noexcept;
-  void reset();                                      // back to the start, as a step of its own
-  void switch_slot() noexcept;                       // not a step: each slot has its own history
-  void restart(const haptics::HapticTuning& start);  // for a new run: resets both slots and clears their history
+  void reset();                                      // returns to the start tuning; can be undone
+  void switch_slot() noexcept;                       // not an undo step: each slot has its own history
+  void restart(const haptics::HapticTuning& start);  // call for a new run; resets both slots and clears their history
 
   bool can_undo() const noexcept;
   bool can_redo() const noexcept;

@@ -21,7 +21,7 @@ std::string format_stable_range(const TuningField& field, const StableRange& sta
   return fmt::format("stable {:.{}f} to {}", stable.min, field.decimals, format_value(stable.max, field));
 }
 
-// Under the slider: the stable range and the running value.
+// Draws the stable range and the running value under the slider.
 void draw_stable_bar(const TuningField& field, const StableRange& stable, double running) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -81,10 +81,10 @@ void TuningView::edit(const haptics::HapticTuning& tuning, const PanelInput& inp
   request(tuning, out);
 }
 
-void TuningView::take(Step step, const PanelInput& input, PanelRequests& out) {
+void TuningView::apply_step(Step step, const PanelInput& input, PanelRequests& out) {
   switch (step) {
     case Step::undo:
-      if (!is_refused(input)) history_.undo();  // a rejected edit is discarded first
+      if (!is_refused(input)) history_.undo();  // if the last edit was rejected, undo only discards it
       break;
     case Step::redo:
       history_.redo();
@@ -101,7 +101,7 @@ void TuningView::take(Step step, const PanelInput& input, PanelRequests& out) {
 
 void TuningView::draw(Controls& controls, const PanelInput& input, PanelRequests& out) {
   draw_steps(controls, input, out);
-  // While a slider is dragged, its own range does not change, and the others can wait until it is released.
+  // While a slider is dragged, its own range does not change; the other ranges are updated after its release.
   ranges_ = judge_.ranges(question(input, edited_), ImGui::IsAnyItemActive());
   for (std::size_t i = 0; i < kTuningFields.size(); ++i) draw_field(i, controls, input, out);
   draw_verdict(controls, input, out);
@@ -113,12 +113,12 @@ void TuningView::draw_steps(Controls& controls, const PanelInput& input, PanelRe
   const auto slot_button = [&](TuningSlot slot, const char* name, const char* label) {
     const bool on = history_.slot() == slot;
     if (controls.button(name, label, {width, 0.0f}, on ? ink::kAccentDeep : ink::kRaised) && !on)
-      take(Step::switch_slot, input, out);
+      apply_step(Step::switch_slot, input, out);
     ImGui::SameLine();
   };
   const auto step_button = [&](Step step, const char* name, const char* label, bool possible) {
     ImGui::BeginDisabled(!possible);
-    if (controls.button(name, label, {width, 0.0f})) take(step, input, out);
+    if (controls.button(name, label, {width, 0.0f})) apply_step(step, input, out);
     ImGui::EndDisabled();
   };
   slot_button(TuningSlot::a, "slot_a", "A");
@@ -156,26 +156,25 @@ void TuningView::draw_field(std::size_t index, Controls& controls, const PanelIn
   if (changed) edit(wanted, input, out);
 }
 
-// The verdict on the edited values, in one or two sentences.
+// Draws the verdict on the edited values, one or two sentences.
 void TuningView::draw_verdict(Controls& controls, const PanelInput& input, PanelRequests& out) {
   ImGui::Separator();
   if (is_refused(input)) {
     draw_refusal(controls, input, out);
   } else if (input.haptics.contact.allow_unstable) {
-    put_wrapped("Unstable values are allowed: nothing is limited. Nobody may touch this lever.", ink::kBad);
+    put_wrapped("Unstable values are allowed and not limited. Keep your hands off the lever.", ink::kBad);
     for (const haptics::TuningLimit& limit : judged(input).admitted.limits)
       put_wrapped(format_limit(limit), ink::kWarn);
   } else {
-    put_wrapped(fmt::format("Stable with every listed hand ({}).", haptics::to_string(input.admitted.hold)),
-                ink::kGood);
+    put_wrapped(fmt::format("Stable with every hand model ({}).", haptics::to_string(input.admitted.hold)), ink::kGood);
     for (const haptics::TuningLimit& limit : input.admitted.limits)
-      put_wrapped("Limited at the start: " + format_limit(limit), ink::kWarn);
+      put_wrapped("Limited at the start. " + format_limit(limit), ink::kWarn);
   }
 }
 
 void TuningView::draw_refusal(Controls& controls, const PanelInput& input, PanelRequests& out) {
   const TuningAnswer answered = judged(input);
-  put_wrapped("Not applied; previous values still active.", ink::kBad);
+  put_wrapped("Not applied. The previous values are still in use.", ink::kBad);
   if (!answered.refused.empty()) put_wrapped(answered.refused, ink::kWarn);
   for (const haptics::TuningLimit& limit : answered.admitted.limits) put_wrapped(format_limit(limit), ink::kWarn);
   if (controls.button("use_stable", "Use stable values")) {

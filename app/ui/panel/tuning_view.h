@@ -1,6 +1,7 @@
 // Sliders for parameters that may change while the loop runs, each with its stable range.
 //
-// An admissible edit is applied at once. Otherwise the running value stays active and the reason is shown.
+// An admissible edit is applied at once. For an inadmissible one, the running value stays active and the reason is
+// shown.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ class TuningView {
   enum class Step { undo, redo, reset, switch_slot };
 
   void follow(const PanelInput& input);  // call first in each frame: the running values may have changed elsewhere
-  void take(Step step, const PanelInput& input, PanelRequests& out);
+  void apply_step(Step step, const PanelInput& input, PanelRequests& out);
   void draw(Controls& controls, const PanelInput& input, PanelRequests& out);
 
  private:
@@ -36,11 +37,11 @@ class TuningView {
 
   TuningHistory history_;
   TuningJudge judge_;
-  StableRanges ranges_{};  // as last drawn
+  StableRanges ranges_{};  // ranges as last drawn
   haptics::HapticTuning edited_, running_;
   std::array<haptics::HapticTuning, 8> requested_{};  // ring buffer: the caller may apply a request some frames later
   std::size_t request_count_ = 0;
-  bool same_drag_ = false;  // a change was already made in the current drag
+  bool same_drag_ = false;  // true after the first change in the current drag of a slider
   bool started_ = false;
 };
 

@@ -68,7 +68,7 @@ def build_dial(name, side):
     D = shifted(side * DIAL_DX, -0.0015, 0)
     scene.empty(name + "Dial", D, "Cluster")
     face = Part(name + "Face", D, name + "Dial")
-    size = 2 * DIAL_R * 256 / 250  # the printed face covers 250 of 256 px
+    size = 2 * DIAL_R * 256 / 250  # the printed face covers 250 of the picture's 256 px
     face.flat(D, circle(DIAL_R + 0.0008, 48), 0, "Prints", (prints.rect(name.lower()), D, size, size))
     face.build()
     needle = Part(name + "Needle", D, name + "Dial")
@@ -77,7 +77,7 @@ def build_dial(name, side):
     cap = [(0.0085, 0.001), (0.0085, 0.0065), (0.0075, 0.008), (0.0002, 0.0083)]
     needle.lathe(D, cap, "PlasticGloss", n=18)
     needle.build()
-    # At rest on zero: rotation about Blender's -Y, which is glTF's +Z.
+    # The needle rests on zero: turned about Blender's -Y, which is +Z in glTF.
     scene.rest_rotation(name + "Needle", Matrix.Rotation(radians(-DIAL_SWEEP / 2), 4, "Y"))
 
 
@@ -120,7 +120,7 @@ ENGINE = [(-4, -2.6), (2, -2.6), (3.2, -1.4), (4.4, -1.4), (4.4, 1.2), (3.2, 1.2
 ENGINE += [(-5.6, 1.0), (-5.6, -1.4), (-4, -1.4)]
 TRIANGLE_LEG = [(0, 3.4), (-4, -2.8), (-2.9, -2.8), (0, 1.7)]
 STALL = [TRIANGLE_LEG, mirrored(TRIANGLE_LEG), bar(0, -2.5, 6.4, 0.7), bar(0, -0.3, 0.8, 1.8), bar(0, -1.6, 0.8, 0.6)]
-LAMPS = (  # node, field of the print atlas, x and z in the cluster [mm], outlines [mm]
+LAMPS = (  # node, colour field in the print atlas, x and z in the cluster [mm], outlines [mm]
     ("LampTurnLeft", "green", -26, 45, [ARROW]),
     ("LampTurnRight", "green", 26, 45, [mirrored(ARROW)]),
     ("LampOil", "red", -13, -21, [OIL_CAN, DROP]),

@@ -4,7 +4,7 @@ from craft import scene
 from craft.geometry import frame, level_circle, rounded, smooth_path
 from craft.part import Part, bezel
 
-DECK_Z = GATE_Z - 0.004  # around the gate plate
+DECK_Z = GATE_Z - 0.004  # height of the deck around the gate plate
 SECTIONS = [  # y, half width, height of the upper edge
     (-0.42, 0.070, -0.075),
     (-0.405, 0.074, -0.060),

@@ -7,7 +7,7 @@ from cabin.dimensions import CENTRE_X, HANDBRAKE_PIVOT
 from craft.geometry import rounded, smooth_path
 from craft.part import Part
 
-REST = 9.0  # [deg] already contained in the node's mesh
+REST = 9.0  # [deg] the mesh is already turned by this
 
 
 def build():

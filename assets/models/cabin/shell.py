@@ -81,7 +81,7 @@ def add_b_pillar(part, side):
 def build_roof():
     """Lining, dome light, grab handle on the passenger's side."""
     part = Part("RoofLining", parent="Cabin", smooth=60)
-    stations = (  # y, height at the rails, in the middle
+    stations = (  # y, height at the rails, height in the middle
         (0.455, 0.870, 0.884),
         (0.40, 0.878, 0.902),
         (0.25, 0.895, 0.930),

@@ -10,8 +10,9 @@ from craft.geometry import at, bump, frame, lerp, rounded, smooth_path, superell
 from craft.part import Part, bezel, round_section
 
 F = frame(WHEEL_CENTRE, WHEEL_TILT)
-RADIUS = WHEEL_D / 2 - RIM_R  # to the centre of the rim's section
-SPOKES = ((-8, 0.056, 0.036), (188, 0.056, 0.036), (270, 0.060, 0.046))  # angle, widths
+RADIUS = WHEEL_D / 2 - RIM_R  # from the wheel's centre to the centre of the rim's section
+# Angle [deg], width at the hub and at the rim [m].
+SPOKES = ((-8, 0.056, 0.036), (188, 0.056, 0.036), (270, 0.060, 0.046))
 
 
 def build():
@@ -101,7 +102,7 @@ def add_airbag(part):
     outer = [(0.0170, -0.003), (0.0170, 0.001), (0.0156, 0.0020), (0.0144, 0.0010), (0.0141, -0.0004)]
     part.lathe(emblem, outer, "MetalSatin", n=28)
     part.lathe(emblem, [(0.0142, -0.0002), (0.0075, 0.0006), (0.0002, 0.0008)], "PlasticGloss", n=24)
-    for x in (-1, 0, 1):  # a gate of three slots: our own logo
+    for x in (-1, 0, 1):  # our own logo: a gate of three slots
         part.box((x * 0.0058, -0.0010, 0), (0.0016, 0.0012, 0.0140), "MetalSatin", emblem, bevel=0)
     part.box((0, -0.0010, 0), (0.0116, 0.0012, 0.0016), "MetalSatin", emblem, bevel=0)
 

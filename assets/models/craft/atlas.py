@@ -30,7 +30,7 @@ def islands(mesh, layer, chosen):
 
 
 def world_scale(ob, layer, loops_of_faces):
-    """Metres per unit of uv: the square root of world area over uv area of some faces."""
+    """Metres per unit of uv: the square root of the ratio of world area to uv area of some faces."""
     area = uv_area = 0.0
     uv = ob.data.uv_layers[layer].data
     for p in loops_of_faces:

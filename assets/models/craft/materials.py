@@ -2,7 +2,7 @@
 import bpy
 
 MATERIALS = {}
-REPEATS = {}  # texture repeats per metre of a material's box-projected UV0
+REPEATS = {}  # per material: texture repeats per metre in UV0, the box projection
 
 
 def clear():
@@ -40,8 +40,8 @@ def material(
     repeats=8.0,
     occlusion=True,
 ):
-    """colour, emit: linear; cutoff: texels with alpha below it are holes; occlusion: whether the baked
-    ambient occlusion is laid over it."""
+    """colour, emit: linear; cutoff: texels with a smaller alpha are holes; occlusion: whether the material uses the
+    baked ambient occlusion."""
     m = bpy.data.materials.new(name)
     m.use_nodes = True
     tree = m.node_tree

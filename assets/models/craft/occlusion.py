@@ -14,8 +14,8 @@ from craft.materials import MATERIALS, load_image
 
 SIZE = 2048  # texels per side
 NEAR, FAR = (SIZE, 0.25, 48), (SIZE // 2, 0.90, 48)  # texels per side, reach [m], rays per texel
-FAR_SHARE = 0.40  # weight of the far picture: most cabin walls are within its reach of another wall
-FLOOR = 0.26  # darkest value, because light bounces more than once
+FAR_SHARE = 0.40  # weight of the FAR picture: most cabin walls are within its reach of a different wall
+FLOOR = 0.26  # darkest value in the picture, because light bounces more than once
 
 
 def wanted(ob):
@@ -74,7 +74,8 @@ def openness(node, side, reach, rays):
     node.image = bpy.data.images.new("occlusion", side, side)
     node.image.colorspace_settings.name = "Non-Color"
     sc.render.engine, sc.cycles.samples, sc.cycles.seed = "CYCLES", rays, 0
-    sc.cycles.use_denoising = False  # Debian's Blender has no denoiser: with this setting on, the bake comes out black
+    # Debian's Blender has no denoiser: with denoising on, the bake comes out black.
+    sc.cycles.use_denoising = False
     sc.world = sc.world or bpy.data.worlds.new("world")
     sc.world.light_settings.distance = reach
     bpy.ops.object.bake(type="AO", margin=3, use_clear=True)
@@ -100,7 +101,7 @@ def bake(objects):
     layer.active_render = True
     near, far = openness(node, *NEAR), openness(node, *FAR)
     path = save_occlusion(near * (1 - FAR_SHARE + FAR_SHARE * far))
-    mesh = whole.data  # an orphan mesh with an empty slot crashes the exporter, so remove it, too
+    mesh = whole.data  # must be removed, too: the exporter crashes on an orphan mesh with an empty slot
     bpy.data.objects.remove(whole)
     bpy.data.meshes.remove(mesh)
     bpy.data.materials.remove(target)
@@ -114,14 +115,14 @@ def bake(objects):
 
 def save_occlusion(values):
     softened = FLOOR + (1 - FLOOR) * values**0.8
-    softened[-2:, :2] = 0.5  # the texel of all hidden faces
+    softened[-2:, :2] = 0.5  # the texel that all hidden faces use
     path = os.path.join(textures.FOLDER, "occlusion.jpg")
     Image.fromarray((softened * 255).astype(np.uint8)).convert("RGB").save(path, quality=88)
     return path
 
 
 def connect(path):
-    """glTF occlusionTexture: a group node of this very name with an input `Occlusion`, fed through UVAO."""
+    """Adds the glTF occlusionTexture: a group node of exactly this name with an input `Occlusion`, fed through UVAO."""
     group = bpy.data.node_groups.new("glTF Material Output", "ShaderNodeTree")
     group.inputs.new("NodeSocketFloat", "Occlusion")
     group.nodes.new("NodeGroupInput")
@@ -140,14 +141,14 @@ def connect(path):
         tree.links.new(texture.outputs[0], output.inputs["Occlusion"])
         first = tree.nodes.new("ShaderNodeUVMap")
         first.uv_map = "UVMap"
-        for n in tree.nodes:  # bpy wrappers: compare names, never identity
+        for n in tree.nodes:  # compare by name: bpy makes a new wrapper object for each access
             if n.type == "TEX_IMAGE" and n.name != texture.name:
                 tree.links.new(first.outputs[0], n.inputs[0])
 
 
 def add(seen, density):
-    """Second UV set, bake and connection for all objects whose materials take occlusion. seen: {object's name: one
-    flag a face}."""
+    """Adds the second UV set and the baked occlusion to all objects with a material that uses occlusion. seen: {object's
+    name: one flag per face}."""
     objects = [o for o in scene.meshes() if wanted(o)]
     hidden = {o.name: [not s for s in seen[o.name]] for o in objects}
     unwrap(objects, hidden, density)

@@ -11,9 +11,9 @@ from craft import textures
 
 WIDTH, HEIGHT = 2048, 1024
 DIAL = 672
-GEARS = "RN123456789"  # one cell per character; the gear panel's uv0 covers N
+GEARS = "RN123456789"  # one cell per character; uv0 of the gear panel covers N
 GEAR_CELL = 176
-GEAR_STEP = GEAR_CELL / WIDTH  # shift of uv0 in u from one character to the next
+GEAR_STEP = GEAR_CELL / WIDTH  # distance in u from one character's cell to the next
 PIXELS = {
     "tach": (0, 0, DIAL, DIAL),
     "speed": (DIAL, 0, 2 * DIAL, DIAL),
@@ -25,7 +25,7 @@ PIXELS = {
     "amber": (1568, 580, 1632, 644),
     "green": (1648, 580, 1712, 644),
 }
-LAMPS = {"red": (255, 48, 39), "amber": (255, 173, 39), "green": (63, 255, 112)}  # sRGB, when lit
+LAMPS = {"red": (255, 48, 39), "amber": (255, 173, 39), "green": (63, 255, 112)}  # sRGB colours of lit lamps
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
 OVER = 2  # supersampling
 WHITE, GREY = (236, 238, 240), (150, 158, 166)

@@ -6,7 +6,7 @@ lines; the world matrix of every node is kept here instead, so that no parent in
 import bpy
 from mathutils import Matrix, Vector
 
-WORLD = {}  # node name -> world matrix
+WORLD = {}  # world matrix by node name
 
 
 def clear():

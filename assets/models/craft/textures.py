@@ -4,7 +4,7 @@ import os
 import numpy as np
 from PIL import Image
 
-FOLDER = None  # folder for textures; set by build.py
+FOLDER = None  # folder for the textures; build.py sets it
 _random = np.random.default_rng(7)
 
 

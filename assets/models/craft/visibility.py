@@ -9,7 +9,7 @@ from mathutils.bvhtree import BVHTree
 from craft import scene
 from craft.facing import directions
 
-RAYS = 20000  # rays from each viewpoint in all directions: they find large faces whose corners are hidden
+RAYS = 20000  # from each viewpoint, in all directions; the rays find large faces whose corners are hidden
 
 
 def sees_through(ob):
@@ -21,7 +21,7 @@ class World:
 
     def __init__(self, objects):
         verts, faces = [], []
-        self.owner = []  # (object's name, index of the face in it)
+        self.owner = []  # (object's name, index of the face in the object)
         for o in objects:
             first, world = len(verts), scene.WORLD[o.name]
             verts += [world @ v.co for v in o.data.vertices]

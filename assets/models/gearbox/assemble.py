@@ -147,13 +147,13 @@ def build_fork():
     width = []
     for i in range(n + 1):
         t = abs(2 * i / n - 1)
-        width.append(lerp(0.0065, 0.0, t) + 0.012 * max(0.0, 1 - (t / 0.22) ** 2))  # a web up to the rail
+        width.append(lerp(0.0065, 0.0, t) + 0.012 * max(0.0, 1 - (t / 0.22) ** 2))  # widens into a web up to the rail
     outline = [(inner * cos(a), inner * sin(a)) for a in angles[::-1]]
     outline += [((outer + w) * cos(a), (outer + w) * sin(a)) for a, w in zip(angles, width)]
     part.panel(frame((0, 0, 0)), outline, -thick, thick, "PaintedFork", bevel=0.0007, seg=1)
     boss = [(d.RAIL_R + 0.0003, -0.012), (0.0115, -0.012), (0.0125, -0.011), (0.0125, 0.011), (0.0115, 0.012)]
     part.lathe(rail_frame(), boss + [(d.RAIL_R + 0.0003, 0.012)], "PaintedFork", n=24)
-    for a in (angles[0], angles[-1]):  # brass pads where the fork slides
+    for a in (angles[0], angles[-1]):  # brass pads, on which the fork slides
         turn = Matrix.Rotation(-a, 4, "Y")
         part.box((inner + 0.003, 0, 0), (0.006, 2 * thick + 0.0008, 0.010), "Brass", turn, bevel=0.0006, seg=1)
     part.build()
@@ -163,7 +163,7 @@ def build_finger():
     """Selector finger: turns about x above the rails; its tip is between the lugs of the selected rail."""
     axis = Vector((d.RAIL[0], 0, d.RAIL[1] + d.FINGER_AXIS))
     part = Part("Finger", axis, "Gearbox", smooth=40)
-    F = frame(axis, yaw=90)  # face along +x
+    F = frame(axis, yaw=90)  # its face (-y) looks along +x
     part.lathe(
         F,
         [(0.0063, -0.008), (0.0105, -0.008), (0.0110, -0.007), (0.0110, 0.007), (0.0105, 0.008), (0.0063, 0.008)],

@@ -49,7 +49,7 @@ def helical_gear(part, y0, y1, teeth, tip_r, root_r, helix, mat):
     """Trapezoid teeth twisted along the face width; open towards the body."""
     pitch = 2 * pi / teeth
     shape = ((-0.36, root_r), (-0.16, tip_r), (0.16, tip_r), (0.36, root_r))
-    twist = tan(radians(helix)) / ((tip_r + root_r) / 2)  # [rad/m]
+    twist = tan(radians(helix)) / ((tip_r + root_r) / 2)  # [rad/m] twist of the teeth along the shaft
 
     def ring(y, shrink=0.0):
         points = []

@@ -12,9 +12,10 @@ from craft import textures
 
 SIDE = 1024  # px
 LEATHER, SKIN, THREAD, STEEL = (47, 36, 31), (182, 126, 98), (196, 170, 130), (170, 172, 176)  # sRGB
-CUFF = (0.02, 0.02, 0.46, 0.115)  # u0, v0, u1, v1: outside the hand's islands; u around the wrist, v along it
+CUFF = (0.02, 0.02, 0.46, 0.115)  # u0, v0, u1, v1, outside the hand's UV islands; u runs around the wrist, v along it
 FINGERS = ("index", "middle", "ring", "pinky")
-OPENING = (np.array([1.0, -25.0]), np.array([9.5, 17.0]))  # on the back of the hand: centre and half axes, x and z
+# Opening on the back of the hand: centre and half axes, x and z [mm].
+OPENING = (np.array([1.0, -25.0]), np.array([9.5, 17.0]))
 
 
 def texels(hand):
@@ -37,12 +38,13 @@ def texels(hand):
             continue
         w = (np.stack([x + 0.5, y + 0.5], -1) - a) @ np.linalg.inv(edges).T
         w = np.concatenate([1 - w.sum(-1, keepdims=True), w], -1)
-        rim = 2 * np.linalg.norm(edges, axis=0).max() / size  # two texels in barycentric coordinates
+        rim = 2 * np.linalg.norm(edges, axis=0).max() / size  # two texels, in barycentric coordinates
         inside = (w.min(-1) >= -rim) & (y >= 0) & (y < SIDE) & (x >= 0) & (x < SIDE)
         weights = np.clip(w[inside], 0, 1)
         out.append((y[inside], x[inside], weights @ p[tri], weights @ normals[tri], w[inside].min(-1)))
     rows, columns, places, turned, depth = (np.concatenate(k) for k in zip(*out))
-    order = np.argsort(depth)  # the triangle in which a texel is deepest is written last and wins
+    # Each texel is written last, and so coloured, by the triangle in which it lies deepest.
+    order = np.argsort(depth)
     return rows[order], columns[order], places[order], turned[order]
 
 
@@ -94,7 +96,7 @@ def painted_hand(hand):
     painter = Painter(places, normals)
     joint = {n: m[:3, 3][[0, 2]] * 1e3 for n, m in hand["bind"].items()}
     knuckles = [joint[f + "-finger-phalanx-proximal"] for f in FINGERS]
-    for a, b in zip(knuckles, knuckles[1:]):  # seams from between the knuckles to the opening
+    for a, b in zip(knuckles, knuckles[1:]):  # seams that run from between the knuckles to the opening
         middle = (a + b) / 2
         away = OPENING[0] + np.array([0.25 * middle[0], -OPENING[1][1] - 3.0])
         painter.seam(middle + (away - middle) * 0.10, middle + (away - middle) * 0.80)
@@ -109,7 +111,7 @@ def paint_cuff(picture):
     """Leather between two seams, with a strap and snap fastener over the back of the wrist."""
     u0, v0, u1, v1 = (round(c * SIDE) for c in CUFF)
     v, u = np.mgrid[0 : v1 - v0, 0 : u1 - u0]
-    x, y = u / (u1 - u0) * 200.0, v / (v1 - v0) * 38.0  # mm around the wrist and along it
+    x, y = u / (u1 - u0) * 200.0, v / (v1 - v0) * 38.0  # [mm] around the wrist and along it
     colour = np.array(LEATHER) * (1 + 0.035 * np.random.default_rng(5).standard_normal(x.shape))[..., None]
     dark = np.array(LEATHER) * 0.5
 

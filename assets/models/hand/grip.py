@@ -8,9 +8,9 @@ from itertools import product
 import numpy as np
 
 KNOB_R = 0.0245  # [m] radius of the ball around which the fingers close
-KNOB = np.array([-0.004, -0.0395, -0.078])  # its centre, under the palm
-THUMB_TIP = KNOB + np.array([-0.030, -0.008, -0.010])  # along the knob's side
-FINGERS = {  # name -> radii of the three phalanges [m], range of the sideways turn at the root [deg]
+KNOB = np.array([-0.004, -0.0395, -0.078])  # centre of the knob, under the palm
+THUMB_TIP = KNOB + np.array([-0.030, -0.008, -0.010])  # target of the thumb's tip, on the knob's side
+FINGERS = {  # by name: radii of the three phalanges [m]; range of the sideways turn at the finger's root [deg]
     "index": ((0.0098, 0.0088, 0.0080), (-8, 6)),
     "middle": ((0.0098, 0.0088, 0.0080), (-5, 7)),
     "ring": ((0.0092, 0.0084, 0.0076), (0, 14)),

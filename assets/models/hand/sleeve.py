@@ -46,6 +46,6 @@ def jacket(start, along, across, length):
         k = d / length
         stations.append((d, 0.0385 + 0.0125 * k + folds(d), 0.0335 + 0.0145 * k + folds(d + 0.004)))
     end_w, end_h = stations[-1][1:]
-    for d, k in ((0.016, 0.93), (0.026, 0.72), (0.030, 0.02)):  # closed towards the elbow
+    for d, k in ((0.016, 0.93), (0.026, 0.72), (0.030, 0.02)):  # the sleeve is closed at the elbow
         stations.append((length + d, end_w * k, end_h * k))
     return tube(stations, start, along, across, 32, 10.0)

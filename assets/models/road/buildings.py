@@ -43,7 +43,7 @@ def build_house():
             if z > 2 or y != 1.6:
                 window(part, -4.2, y, z, h=1.2)
     part.block((-4.22, 1.6, 0.95), (0.12, 1.1, 2.1), "wood")
-    for x in (-2, 2):  # the gable end faces the traffic
+    for x in (-2, 2):  # windows in the gable that faces the traffic
         for y, a, b, colour in ((-5.53, 0.575, 0.7, "white"), (-5.56, 0.49, 0.6, "pane")):
             part.face([(x - a, y, 1.6 - b), (x + a, y, 1.6 - b), (x + a, y, 1.6 + b), (x - a, y, 1.6 + b)], colour)
     part.block((1.2, 2.5, 8.2), (0.7, 0.7, 1.6), "stone")

@@ -5,7 +5,8 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 OVER = 2  # supersampling
-GROUND = {"bough": (58, 84, 32), "spruce": (36, 58, 38)}  # sRGB, under the holes, because coarser mips mix it in
+# sRGB colours under the holes, because coarser mip levels mix them in.
+GROUND = {"bough": (58, 84, 32), "spruce": (36, 58, 38)}
 
 
 def sheet(size, ground):
@@ -52,7 +53,7 @@ def spruce(width, height, random):
     draw.line([(w / 2, h * 0.05), (w / 2, h)], (58, 46, 36, 255), int(w * 0.02))
     tiers = 40
     for k in range(tiers):
-        t = 1 - k / (tiers - 1)  # 1 at the ground
+        t = 1 - k / (tiers - 1)  # 1 at the ground, 0 at the tip
         top, reach = h * (0.015 + 0.87 * t), w * (0.02 + 0.46 * t**0.85)
         for side in (-1, 1):
             for j in range(2):

@@ -6,7 +6,7 @@ import numpy as np
 from road.pieces import Thing
 
 FIELD_R = 460.0
-LEVEL = -0.5  # height of the fields, below the verges
+LEVEL = -0.5  # [m] height of the fields, which are below the verges
 _random = np.random.default_rng(5)
 
 

@@ -57,7 +57,7 @@ def build_broad_leaved():
         k = 1.22 * _random.uniform(0.85, 1.15)
         middle = (crown[0] + k * r * cos(a), crown[1] + k * r * sin(a), crown[2] + 1.45 * z)
         bough(part, middle, _random.uniform(2.0, 2.5), a + _random.uniform(-0.7, 0.7), 0.5 * z)
-    for i in range(3):  # upright through the stem: a full outline from every side
+    for i in range(3):  # upright cards through the stem, for a full outline from every side
         bough(part, (crown[0], crown[1], crown[2] + 0.2), 3.4, pi * i / 3 + 0.3, 0.0)
     part.build()
     part.light_leaves_from((crown[0], crown[1], crown[2] - 0.5))

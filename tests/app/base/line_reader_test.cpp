@@ -1,4 +1,4 @@
-// Lines from a pipe arrive whole and in order, and reading never waits longer than requested.
+// LineReader on a pipe: lines arrive complete and in order, and no read waits longer than its timeout.
 #include "app/base/line_reader.h"
 
 #include <unistd.h>
@@ -29,7 +29,7 @@ struct Pipe {
 
 }  // namespace
 
-TEST_CASE("lines arrive one by one, split anywhere, and the end of file ends the last one") {
+TEST_CASE("lines arrive one by one however the pipe splits them, and the end of file ends the last one") {
   Pipe pipe;
   LineReader answers(pipe.ends[0]);
   CHECK_FALSE(answers.read_line(0.0).has_value());
@@ -48,9 +48,9 @@ TEST_CASE("lines arrive one by one, split anywhere, and the end of file ends the
   CHECK_FALSE(answers.read_line(1.0).has_value());
 }
 
-// At the end of the input, a read must still wait for its timeout: otherwise a polling caller would spin on the core
-// that the loop needs.
-TEST_CASE("at the end of input a read waits for its timeout, and unreadable input is at its end") {
+// At the end of the input, a read must still wait for its timeout: a caller that polls would otherwise occupy the core
+// that the haptic loop needs.
+TEST_CASE("at the end of the input a read still waits for its timeout; an unreadable file counts as ended") {
   const auto waits = [](LineReader& answers) {
     const auto begin = std::chrono::steady_clock::now();
     CHECK_FALSE(answers.read_line(0.05).has_value());
@@ -61,7 +61,7 @@ TEST_CASE("at the end of input a read waits for its timeout, and unreadable inpu
   LineReader answers(pipe.ends[0]);
   while (!answers.at_end()) CHECK_FALSE(answers.read_line(1.0).has_value());
   CHECK(waits(answers));
-  LineReader closed(1'000'000);  // no such file
+  LineReader closed(1'000'000);  // no file is open under this descriptor
   (void)closed.read_line(0.0);
   CHECK(closed.at_end());
   CHECK(waits(closed));

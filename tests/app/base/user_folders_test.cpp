@@ -1,4 +1,4 @@
-// The XDG base directory specification, variable by variable.
+// The variables of the XDG base directory specification and their defaults.
 #include "app/base/user_folders.h"
 
 #include <string>
@@ -17,7 +17,7 @@ TEST_CASE("the variables name the base folders") {
   CHECK(user_presets_folder() == "/c/gearshift/presets");
 }
 
-TEST_CASE("without them, or if they are empty or relative, the defaults below the home folder") {
+TEST_CASE("variables that are missing, empty or relative: the default folders below the home folder are used") {
   for (const char* value : {static_cast<const char*>(nullptr), "", "relative/path"}) {
     const Variable config("XDG_CONFIG_HOME", value), data("XDG_DATA_HOME", value), home("HOME", "/h");
     CHECK(user_config_folder() == "/h/.config/gearshift");
@@ -25,7 +25,7 @@ TEST_CASE("without them, or if they are empty or relative, the defaults below th
   }
 }
 
-TEST_CASE("without HOME the system's home folder of this user, or one sentence") {
+TEST_CASE("without HOME, the user's home folder comes from the system's user database, or the error is one sentence") {
   const Variable config("XDG_CONFIG_HOME", nullptr), home("HOME", nullptr);
   try {
     CHECK(user_config_folder().is_absolute());

@@ -1,4 +1,4 @@
-// A lever held by a person: the program does not move it, only a person arms it, and its recordings replay.
+// A lever that a user holds: the program does not move it, only the user arms it, and its recordings replay.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -21,25 +21,25 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// The state of the stick and its failures. It outlives the trainers.
+// The emulated stick's state, commands and failures. Outlives the runtimes that use it.
 struct Stick {
   ScriptedHand hand = tour_of(paper_gate());
-  bool silent = false;       // no new readings
-  int delay = 0;             // [cycles]
-  double period = 0.0;       // [s] of the lever opened last
-  int made = 0, driven = 0;  // number of levers opened, and of cycles read
-  glm::dvec2 force{0.0};     // [N] the last command
-  double strongest = 0.0;    // [N] the largest command so far
-  bool on = false;           // whether its motors are on
+  bool silent = false;         // if true, read() repeats the last reading
+  int delay = 0;               // [cycles]
+  double period = 0.0;         // [s] cycle period for which the lever was last opened
+  int opened = 0, driven = 0;  // number of levers opened, and of readings taken
+  glm::dvec2 force{0.0};       // [N] the latest command
+  double strongest = 0.0;      // [N] magnitude of the largest command so far
+  bool on = false;             // whether the motors are on
 };
 
-// The simulated lever, presented as an ordinary device.
+// The simulated lever, presented to the runtime as a real device.
 class HeldLever final : public HapticDevice {
  public:
   HeldLever(Stick& stick, double period)
       : stick_(stick), lever_(config(stick), std::llround(1e9 * period), stick.hand), spec_(lever_.spec()) {
     spec_.simulated = spec_.measures_hand_force = false;
-    spec_.yoke_radius = 0.0;  // moves in a plane
+    spec_.yoke_radius = 0.0;  // this lever moves in a plane
     lever_.place({0.0, 0.003});
   }
   const DeviceSpec& spec() const noexcept override { return spec_; }
@@ -77,7 +77,7 @@ class HeldLever final : public HapticDevice {
 RuntimeConfig held(Stick& stick) {
   RuntimeConfig config = runtime_config(RuntimeClock::virtual_time);
   config.lever = [&stick](double period) -> std::unique_ptr<HapticDevice> {
-    ++stick.made;
+    ++stick.opened;
     stick.period = period;
     return std::make_unique<HeldLever>(stick, period);
   };
@@ -86,7 +86,7 @@ RuntimeConfig held(Stick& stick) {
 
 }  // namespace
 
-TEST_CASE("frame input does not move the lever, and it gets no force until a person arms it") {
+TEST_CASE("frame input does not move the lever, and no force acts until the user arms it") {
   Stick stick;
   Runtime runtime(held(stick));
   CHECK(stick.period == 1e-3);
@@ -95,14 +95,14 @@ TEST_CASE("frame input does not move the lever, and it gets no force until a per
   elsewhere.push = {50.0, 50.0};
   runtime.set_hand(elsewhere);
   runtime.advance(0.001);
-  CHECK(glm::distance(runtime.snapshot().lever, glm::dvec2(0.0, 0.003)) < 2e-4);  // two counts of its encoder
-  runtime.advance(20.0);                                                          // of a tour with forces off
+  CHECK(glm::distance(runtime.snapshot().lever, glm::dvec2(0.0, 0.003)) < 2e-4);  // 0.2 mm: two counts of its encoder
+  runtime.advance(20.0);                                                          // the hand tours the gate
   CHECK(runtime.snapshot().guard == GuardState::idle);
   CHECK(stick.strongest == 0.0);
   CHECK((runtime.snapshot().flags & kFlagPushEstimated) != 0);
 }
 
-TEST_CASE("its holder shifts through every gear, as on the simulated lever") {
+TEST_CASE("the user's hand shifts through every gear, as on the simulated lever") {
   Stick stick;
   Runtime runtime(held(stick));
   runtime.arm();
@@ -113,7 +113,7 @@ TEST_CASE("its holder shifts through every gear, as on the simulated lever") {
   CHECK(stick.strongest > 5.0);
 }
 
-TEST_CASE("after a fault only a person restores the forces") {
+TEST_CASE("after a fault only the user restores the forces") {
   Stick stick;
   Runtime runtime(held(stick));
   runtime.arm();
@@ -132,8 +132,8 @@ TEST_CASE("after a fault only a person restores the forces") {
   CHECK(runtime.snapshot().guard == GuardState::running);
 }
 
-TEST_CASE("a recording that begins after a fault, or during it, does not restore forces: a person does") {
-  for (const double after : {0.005, 0.5}) {  // while the last force fades, and long after
+TEST_CASE("a recording that begins during or after a fault does not restore forces; the user does") {
+  for (const double after : {0.005, 0.5}) {  // [s] during the fade-out of the last force, and long after it
     CAPTURE(after);
     const TempFolder folder;
     Stick stick;
@@ -160,7 +160,7 @@ TEST_CASE("a recording that begins after a fault, or during it, does not restore
   }
 }
 
-TEST_CASE("a recording begun while it runs, with a fault in it, replays bit for bit: the trace contains the device") {
+TEST_CASE("a recording begun during a run, with a fault in it, replays bit for bit: the trace contains the device") {
   const TempFolder folder;
   const std::filesystem::path file = folder / "held.trace";
   Stick stick;
@@ -181,18 +181,18 @@ TEST_CASE("a recording begun while it runs, with a fault in it, replays bit for 
   CHECK(replayed.cycles > 4500);
 }
 
-TEST_CASE("3 cycles of delay: the wall is limited by the law of the hold, and this is reported") {
+TEST_CASE("with 3 cycles of delay, the stability law lowers the wall stiffness, and this is reported") {
   Stick stick;
   stick.delay = 3;
   const Runtime runtime(held(stick));
   const AdmittedTuning& admitted = runtime.admitted();
-  const double tau = 4e-3, mass = kPaperAxisY.mass;  // the lighter axis
-  const double share = admitted.hold == ContactHold::observer ? 0.58 : 0.35;
-  CHECK(admitted.tuning.wall_stiffness <= share * mass / (tau * tau) * (1.0 + 1e-9));
+  const double tau = 4e-3, mass = kPaperAxisY.mass;  // [s] (delay + 1) cycles; [kg] the lighter axis
+  const double fraction = admitted.hold == ContactHold::observer ? 0.58 : 0.35;
+  CHECK(admitted.tuning.wall_stiffness <= fraction * mass / (tau * tau) * (1.0 + 1e-9));
   CHECK_FALSE(admitted.limits.empty());
 }
 
-TEST_CASE("an invalid setup is rejected before the lever is opened, and a check alone opens nothing") {
+TEST_CASE("an invalid setup is rejected before the lever is opened, and a mere check opens nothing") {
   Stick stick;
   (void)check_runtime(held(stick));
   RuntimeConfig driven = held(stick);
@@ -200,7 +200,7 @@ TEST_CASE("an invalid setup is rejected before the lever is opened, and a check 
   CHECK_THROWS_AS((void)check_runtime(driven), std::invalid_argument);
   CHECK_THROWS_AS(Runtime{driven}, std::invalid_argument);
   RuntimeConfig study = held(stick);
-  study.preset.haptics.contact.allow_unstable = true;  // which is not safe for a person to touch
+  study.preset.haptics.contact.allow_unstable = true;  // unsafe on a lever that a user holds
   CHECK_THROWS_AS((void)check_runtime(study), std::invalid_argument);
   CHECK_THROWS_AS(Runtime{study}, std::invalid_argument);
   CHECK(stick.driven == 0);

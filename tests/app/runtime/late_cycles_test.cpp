@@ -1,4 +1,4 @@
-// A late thread also reports the deadlines that it missed while sleeping.
+// After a late wake-up, the loop also reports the deadlines that passed while its thread slept.
 #include <doctest/doctest.h>
 
 #include "app/runtime/cycle_runner.h"
@@ -10,7 +10,7 @@ using namespace gearshift::haptics;
 using namespace gearshift::runtime;
 using namespace gearshift::test;
 
-TEST_CASE("every skipped deadline is reported, and separately the cycles that took too long") {
+TEST_CASE("skipped deadlines are counted, and separately the cycles that took too long") {
   const HapticConfig config;
   const Gate gate = paper_gate();
   LatestValue<HandTarget> person{HandTarget{}};
@@ -32,7 +32,7 @@ TEST_CASE("every skipped deadline is reported, and separately the cycles that to
     deadline += (1 + missed) * period_ns(config);
     runner.cycle({deadline, missed}, &statistics);
     runner.figures.update();
-    CHECK(runner.figures.value().skipped == skipped);  // immediately: the program may end before the next update
+    CHECK(runner.figures.value().skipped == skipped);  // immediately: the next update may never come
     CHECK(runner.figures.value().overruns == overruns);
   }
   runner.figures.update();

@@ -1,4 +1,4 @@
-// The trainer's callback keeps the guarantees of the haptic cycle: no allocation, no lock, no system call.
+// The runtime's cycle callback keeps the guarantees of the haptic cycle: no allocation, no lock, no system call.
 #include "tests/support/realtime_proof.h"
 
 #include <memory>
@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::int64_t kPeriod = 1'000'000;  // [ns]
 
-// First without a car, then with one that is recorded, with guidance switched on and off; all queues, the driver's too,
-// run full.
+// Proves it first without a car, then with a recorded car whose guidance is switched on and off. Every queue overflows,
+// including the scripted driver's.
 void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
   const Gate gate = paper_gate();
   ScriptedHand script = tour_of(gate);
@@ -42,7 +42,7 @@ void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
 
   const RealtimeProof proof = prove_realtime([&] {
     std::int64_t now = 0;
-    runner->cycle({now, 0}, statistics.get());  // before there is a loop
+    runner->cycle({now, 0}, statistics.get());  // no loop is set yet
     runner->switch_to(*first);
     for (int i = 0; i < 20'000; ++i) {
       const std::int64_t skipped = i % 500 == 0 ? 3 : 0;
@@ -64,20 +64,19 @@ void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
 
 }  // namespace
 
-TEST_CASE(
-    "the callback is real-time safe: queues full, late, recorded, handed over to a guided car, moved by a person") {
+TEST_CASE("the callback is real-time safe: queues full, late, recorded, switched to a guided car, moved by a user") {
   LatestValue<HandTarget> led;
   SmoothedHand hand(led, 1e-9 * static_cast<double>(kPeriod));
   prove(led, hand);
 }
 
-TEST_CASE("the same with a driver's hand") {
+TEST_CASE("the callback is real-time safe with a scripted driver's hand") {
   LatestValue<HandTarget> led;
   ExactHand hand(led);
   prove(led, hand);
 }
 
-TEST_CASE("the proof's tour continues after its hand-over, and ends before the proof does") {
+TEST_CASE("the hand tours the gate before and after the switch of loops, and finishes before the proof does") {
   CHECK(tour_of(paper_gate()).duration() > 6.0);
   CHECK(tour_of(paper_gate()).duration() < 20.0);
 }

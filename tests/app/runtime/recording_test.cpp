@@ -1,4 +1,4 @@
-// Recordings begun in the middle of a drive replay bit for bit.
+// Recordings that begin in the middle of a drive replay bit for bit.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -33,7 +33,8 @@ HapticTuning softer(const Runtime& runtime) {
   return tuning;
 }
 
-// A device whose stop, as its encoder reads it, is 8 um beyond what its guard allows: pushing it there causes a fault.
+// A device whose end stop reads 8 um beyond the range that its guard allows (encoder rounding): pushing the lever
+// against the stop causes a fault.
 RuntimeConfig breakable(RuntimeClock clock) {
   RuntimeConfig config = runtime_config(clock);
   config.preset.haptics.guard.position_margin = 0.0;
@@ -49,7 +50,8 @@ HandTarget against_the_stop() {
 
 }  // namespace
 
-TEST_CASE("a recording begun in gear, after tuning, pedals and a fault caused by the hand, replays bit for bit") {
+TEST_CASE(
+    "a recording begun in gear, with changes of tuning and pedals, a disarm and a stop in it, replays bit for bit") {
   const TempFolder folder;
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.arm();
@@ -64,11 +66,11 @@ TEST_CASE("a recording begun in gear, after tuning, pedals and a fault caused by
   const HapticSnapshot before = runtime.snapshot();
   runtime.start_recording(folder / "drive.trace");
   CHECK(runtime.is_recording());
-  runtime.change_tuning(runtime.config().preset.haptics.tuning);  // immediately, so that it lands in the second cycle
+  runtime.change_tuning(runtime.config().preset.haptics.tuning);  // applied in the recording's second cycle
   const HapticSnapshot after = runtime.snapshot();
   CHECK(after.time_ns == before.time_ns + 1'000'000);
-  CHECK(glm::distance(after.lever, before.lever) < 0.0005);  // the lever stays
-  CHECK(after.wall_stiffness == 1500.0);                     // and so does the tuning
+  CHECK(glm::distance(after.lever, before.lever) < 0.0005);  // the lever does not jump
+  CHECK(after.wall_stiffness == 1500.0);                     // the tuning does not change either
   person.shift_to(2);
   HapticTuning tuning = softer(runtime);
   tuning.aisle_damping = 5.0;
@@ -84,7 +86,7 @@ TEST_CASE("a recording begun in gear, after tuning, pedals and a fault caused by
   person.wait(10);
   CHECK_FALSE(runtime.stop_recording());
   CHECK_FALSE(runtime.is_recording());
-  person.wait(10);  // the drive continues
+  person.wait(10);  // the drive continues after the recording
 
   const Trace trace = read_trace(folder / "drive.trace");
   CHECK(trace.header.armed);
@@ -92,7 +94,7 @@ TEST_CASE("a recording begun in gear, after tuning, pedals and a fault caused by
   CHECK(trace.samples.front().controls.clutch == 0.7);
   CHECK(trace.samples.size() > 3000);
   CHECK(replay(trace).bit_for_bit());
-  // The replay would differ if it began a cycle late or had not recorded that the lever was armed.
+  // A trace without its armed state must differ in the replay, and a trace without its first cycle must be rejected.
   Trace unarmed = trace;
   unarmed.header.armed = false;
   CHECK_FALSE(replay(unarmed).bit_for_bit());
@@ -101,7 +103,7 @@ TEST_CASE("a recording begun in gear, after tuning, pedals and a fault caused by
   CHECK_THROWS_AS(replay(late), FileError);
 }
 
-TEST_CASE("consecutive recordings are complete; an engaged gear is engaged again in each") {
+TEST_CASE("consecutive recordings are complete, and each begins with an event for the engaged gear") {
   const TempFolder folder;
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.arm();
@@ -123,7 +125,7 @@ TEST_CASE("consecutive recordings are complete; an engaged gear is engaged again
   CHECK(runtime.snapshot().guard == GuardState::running);
 }
 
-TEST_CASE("no event is lost or out of order where a recording begins, and time continues") {
+TEST_CASE("the begin of a recording loses or reorders no event, and does not restart the clock") {
   const TempFolder folder;
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.arm();
@@ -141,7 +143,7 @@ TEST_CASE("no event is lost or out of order where a recording begins, and time c
   for (std::size_t i = 1; i < events.size(); ++i) CHECK(events[i].time_ns >= events[i - 1].time_ns);
 }
 
-TEST_CASE("a recording never switches forces on: disarmed, or stopped a moment ago") {
+TEST_CASE("a recording never switches forces on, neither in a disarmed runtime nor just after a stop") {
   const TempFolder folder;
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.advance(0.1);
@@ -152,7 +154,7 @@ TEST_CASE("a recording never switches forces on: disarmed, or stopped a moment a
   runtime.arm();
   runtime.advance(1.0);
   CHECK(runtime.snapshot().guard == GuardState::running);
-  runtime.stop();  // not yet processed by the loop
+  runtime.stop();  // the loop has not processed the stop yet
   runtime.start_recording(folder / "stopped.trace");
   runtime.advance(1.0);
   CHECK(runtime.snapshot().commanded == glm::dvec2(0.0));
@@ -179,10 +181,10 @@ TEST_CASE("a file that cannot be created changes nothing; a second recording is 
   CHECK_FALSE(std::filesystem::exists(folder / "b.trace"));
 }
 
-TEST_CASE("a fault while the file is being opened persists: the recording's loop gives no force") {
+TEST_CASE("a fault while the file is being opened persists: the recording's loop commands no force") {
   const TempFolder folder;
   const std::filesystem::path pipe = folder / "pipe.trace";
-  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);  // opening a FIFO for writing fails until somebody reads it
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);  // opening a FIFO for writing blocks until it is opened for reading
   Runtime runtime(breakable(RuntimeClock::real_time));
   runtime.arm();
   std::this_thread::sleep_for(std::chrono::milliseconds(800));
@@ -212,7 +214,7 @@ TEST_CASE("a fault while the file is being opened persists: the recording's loop
   CHECK(now.commanded == glm::dvec2(0.0));
 }
 
-TEST_CASE("a fault outlasts any number of recordings: only a person restores the forces") {
+TEST_CASE("a fault outlasts any number of recordings: only the user restores the forces") {
   const TempFolder folder;
   Runtime runtime(breakable(RuntimeClock::virtual_time));
   runtime.arm();
@@ -233,7 +235,7 @@ TEST_CASE("a fault outlasts any number of recordings: only a person restores the
   CHECK(runtime.snapshot().guard == GuardState::running);
 }
 
-TEST_CASE("a disk that fills up is reported during the recording, and again when it stops; the lever keeps running") {
+TEST_CASE("a full disk is reported during the recording, and again when it stops; the lever keeps running") {
   const TempFolder folder;
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.arm();
@@ -246,10 +248,10 @@ TEST_CASE("a disk that fills up is reported during the recording, and again when
     runtime.start_recording(folder / "drive.trace");
     CHECK_FALSE(runtime.poll_recording_problem());
     runtime.advance(3.0);
-    const std::optional<std::string> told = runtime.poll_recording_problem();
+    const std::optional<std::string> reported = runtime.poll_recording_problem();
     CHECK_FALSE(runtime.poll_recording_problem());
     problem = runtime.stop_recording();
-    CHECK(told == problem);
+    CHECK(reported == problem);
     CHECK_FALSE(runtime.poll_recording_problem());
   }
   CHECK(runtime.snapshot().guard == GuardState::running);
@@ -257,20 +259,20 @@ TEST_CASE("a disk that fills up is reported during the recording, and again when
   CHECK(problem->find("the recording failed after") != std::string::npos);
 }
 
-TEST_CASE("a destroyed trainer's recording is closed and complete") {
+TEST_CASE("a destroyed runtime's recording is closed and complete") {
   const TempFolder folder;
   {
     Runtime runtime(runtime_config(RuntimeClock::virtual_time));
     runtime.arm();
     runtime.start_recording(folder / "drive.trace");
-    runtime.advance(20.0);  // more than the queue holds
+    runtime.advance(20.0);  // more cycles than the recorder's queue holds
   }
   const Trace trace = read_trace(folder / "drive.trace");
   CHECK(trace.samples.size() == 20000);
   CHECK(replay(trace).bit_for_bit());
 }
 
-TEST_CASE("on the real clock, begun while the lever is moved and tuned, it replays bit for bit") {
+TEST_CASE("on the real clock, a recording begun while the lever is moved and tuned replays bit for bit") {
   const TempFolder folder;
   Runtime runtime(runtime_config(RuntimeClock::real_time));
   runtime.arm();

@@ -1,4 +1,4 @@
-// A trainer with a car behind its lever: driven, recorded in the middle, replayed.
+// A runtime with a car connected to its lever: driven, recorded from the middle of a drive, replayed.
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
@@ -29,7 +29,7 @@ void feet(Runtime& runtime, double throttle, double clutch) {
   runtime.set_controls(controls);
 }
 
-// From rest into second gear, as people drive.
+// Moves off in first gear and shifts into second, with clutch and throttle.
 void move_off(Runtime& runtime, LeadingPerson& person) {
   feet(runtime, 0.0, 1.0);
   person.shift_to(1);
@@ -52,7 +52,7 @@ TEST_CASE("moving off, shifting up and driving") {
   runtime.arm();
   LeadingPerson person(runtime, [&] { runtime.advance(LeadingPerson::kFrame); });
   runtime.advance(1.0);
-  CHECK(runtime.car().running);  // before anybody has touched the pedals
+  CHECK(runtime.car().running);  // the engine runs before any pedal input
   CHECK(runtime.car().force_scale == doctest::Approx(31.7 / 60.0));
   move_off(runtime, person);
   CHECK(runtime.car().gear == 2);
@@ -63,7 +63,7 @@ TEST_CASE("moving off, shifting up and driving") {
   CHECK(runtime.car().distance > 5.0);
 }
 
-TEST_CASE("a recording begun while driving: the car continues, and the trace replays bit for bit") {
+TEST_CASE("the car continues when a recording begins, and the trace replays bit for bit") {
   const TempFolder folder;
   Runtime runtime(hatchback(RuntimeClock::virtual_time));
   runtime.arm();
@@ -76,7 +76,7 @@ TEST_CASE("a recording begun while driving: the car continues, and the trace rep
   CHECK(after.running);
   CHECK(after.road_speed == doctest::Approx(before.road_speed).epsilon(0.001));
   CHECK(after.engine_speed == doctest::Approx(before.engine_speed).epsilon(0.001));
-  CHECK(after.distance == before.distance);  // a loop's first cycle has no duration
+  CHECK(after.distance == before.distance);  // the recording starts a new loop, whose first cycle has zero duration
   CHECK(after.slip_energy >= before.slip_energy);
   feet(runtime, 0.0, 1.0);
   person.shift_to(3);
@@ -88,14 +88,14 @@ TEST_CASE("a recording begun while driving: the car continues, and the trace rep
   const ReplayResult result = replay(trace, make_lesson_load);
   CHECK(result.bit_for_bit());
   CHECK(result.cycles > 1500);
-  // Without guidance the drive equals the bare car's, bit for bit.
+  // With guidance off, a replay with the car alone, without the guided load, gives the same cycles bit for bit.
   const auto bare = [](const std::string& name, const Gate& gate) {
     return make_car_load(name.substr(std::string("guided ").size()), gate);
   };
   CHECK(replay(trace, bare).bit_for_bit());
 }
 
-TEST_CASE("guidance on and off, to one gear and another: it has an effect, and its recording replays bit for bit") {
+TEST_CASE("guidance on, off and to a different gear has an effect, and its recording replays bit for bit") {
   const TempFolder folder;
   Runtime runtime(hatchback(RuntimeClock::virtual_time));
   runtime.arm();
@@ -123,7 +123,7 @@ TEST_CASE("guidance on and off, to one gear and another: it has an effect, and i
   person.wait(30);
   CHECK_FALSE(runtime.stop_recording());
   const Trace trace = read_trace(folder / "drive.trace");
-  CHECK(trace.samples[0].controls.guidance == 0.8);  // the recording begins in the middle of a lesson
+  CHECK(trace.samples[0].controls.guidance == 0.8);  // guidance was on when the recording began
   const ReplayResult result = replay(trace, make_lesson_load);
   CHECK(result.bit_for_bit());
   CHECK(result.cycles == trace.samples.size());
@@ -134,7 +134,7 @@ TEST_CASE("guidance on and off, to one gear and another: it has an effect, and i
   CHECK_FALSE(replay(trace, unguided).bit_for_bit());
 }
 
-TEST_CASE("it starts in gear at speed, also on the real clock") {
+TEST_CASE("the car can start in gear at speed, also on the real clock") {
   RuntimeConfig config = hatchback(RuntimeClock::real_time);
   config.start.gear = 4;
   config.start.road_speed = 20.0;

@@ -1,4 +1,4 @@
-// A trainer for tests, and a person who moves its lever through the gears.
+// A runtime for tests, and a simulated user who moves its lever through the gears.
 #pragma once
 
 #include <chrono>
@@ -30,9 +30,9 @@ inline runtime::RuntimeConfig hatchback(runtime::RuntimeClock clock) {
 
 inline const std::vector<int> kPaperTour{1, 2, 3, 4, 5, haptics::kReverseGear};
 
-// A hand at 60 frames a second: from its current position straight to the neutral line, along it to the slot's column
-// by way of the neutral column, and into the slot, 20 mm beyond the gear's rest. Knob and ring are held for reverse.
-// `frame` lets a frame pass.
+// A hand that moves at 60 frames per second: straight to the neutral line, along it through the neutral column to the
+// slot's column, and into the slot, 20 mm beyond the gear's rest position. Knob and ring are held for reverse. `frame`
+// is called after each hand position and must advance the runtime by one frame.
 class LeadingPerson {
  public:
   static constexpr double kFrame = 1.0 / 60.0;  // [s]
@@ -49,7 +49,7 @@ class LeadingPerson {
     for (int i = 1; i <= frames; ++i) lead(from + (to - from) * (static_cast<double>(i) / frames));
   }
 
-  // Frames in which the hand does not move.
+  // Holds the hand still for `frames` frames.
   void wait(int frames) {
     for (int i = 0; i < frames; ++i) lead(at_);
   }
@@ -85,7 +85,7 @@ class LeadingPerson {
   bool holds_ = false;
 };
 
-// A scripted driver: through every gear of the gate, from neutral.
+// A scripted hand that shifts from neutral through every gear of the gate.
 inline haptics::ScriptedHand tour_of(const haptics::Gate& gate, double period = 1e-3) {
   const glm::dvec2 start = haptics::rest_position(gate, haptics::kNeutralGear);
   return {haptics::touring_hand(start), haptics::shift_strokes(gate, start, haptics::tour_order(gate)), period};
@@ -106,12 +106,12 @@ inline void sleep_ms(int ms) {
 
 // Polls until the condition holds, for at most ten seconds.
 template <class Condition>
-bool comes_true(const Condition& condition) {
+bool becomes_true(const Condition& condition) {
   for (int i = 0; i < 2000 && !condition(); ++i) sleep_ms(5);
   return condition();
 }
 
-// Appends the gears among the events, in order.
+// Appends the gears engaged in `events` to `gears`, in order.
 inline void add_gears(const std::vector<haptics::HapticEvent>& events, std::vector<int>& gears) {
   for (const haptics::HapticEvent& event : events)
     if (event.kind == haptics::EventKind::gear_engaged) gears.push_back(static_cast<int>(event.value));

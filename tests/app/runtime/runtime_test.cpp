@@ -1,4 +1,4 @@
-// The running lever on its virtual clock: moved, armed, tuned, observed.
+// The runtime on its virtual clock: its lever is moved, armed, tuned and observed.
 #include "app/runtime/runtime.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// Moves the lever forward into third gear and 20 mm beyond its end stop, which is at 40 mm.
+// Pulls the lever forward into third gear, with the hand's target 20 mm beyond the end stop at 40 mm.
 void press_wall(Runtime& runtime) {
   HandTarget target;
   target.position = {0.0, 0.06};
@@ -29,7 +29,7 @@ void press_wall(Runtime& runtime) {
 
 }  // namespace
 
-TEST_CASE("moved through any shipped gate at 60 frames a second, the gears engage in order, and no others") {
+TEST_CASE("moved at 60 frames per second through any shipped gate, the gears engage in order, and no others") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     Runtime runtime(runtime_config(RuntimeClock::virtual_time, name));
@@ -51,7 +51,7 @@ TEST_CASE("moved through any shipped gate at 60 frames a second, the gears engag
   }
 }
 
-TEST_CASE("two such drives are bit-identical") {
+TEST_CASE("two equal drives are bit-identical") {
   HapticSnapshot last[2];
   for (HapticSnapshot& snapshot : last) {
     Runtime runtime(runtime_config(RuntimeClock::virtual_time));
@@ -65,7 +65,7 @@ TEST_CASE("two such drives are bit-identical") {
   CHECK(last[0].cycle == last[1].cycle);
 }
 
-TEST_CASE("it begins in neutral, disarmed, in any gate") {
+TEST_CASE("the runtime begins in neutral, disarmed, in any gate") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     Runtime runtime(runtime_config(RuntimeClock::virtual_time, name));
@@ -99,13 +99,13 @@ TEST_CASE("arm, disarm and stop: forces ramp up in half a second and are gone in
   CHECK(runtime.snapshot().guard == GuardState::released);
   CHECK(runtime.snapshot().commanded == glm::dvec2(0.0));
   runtime.advance(1.0);
-  CHECK(runtime.snapshot().guard == GuardState::released);  // only a person can arm it again
+  CHECK(runtime.snapshot().guard == GuardState::released);  // only the user can arm it again
   runtime.arm();
   runtime.advance(1.0);
   CHECK(runtime.snapshot().guard == GuardState::running);
 }
 
-TEST_CASE("the last command wins, however many wait while the clock stands still") {
+TEST_CASE("the last command wins, however many are waiting while the clock does not advance") {
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   for (int i = 0; i < 100; ++i) runtime.arm();
   runtime.stop();
@@ -126,7 +126,7 @@ TEST_CASE("the wall holds a lever that the hand pulls through it; without forces
   runtime.disarm();
   runtime.advance(1.0);
   CHECK(runtime.snapshot().lever.y > 0.055);
-  CHECK(runtime.snapshot().proxy.y <= 0.040 + 1e-9);  // the proxy stays in the gate
+  CHECK(runtime.snapshot().proxy.y <= 0.040 + 1e-9);  // with forces off the proxy still stays in the gate
 }
 
 TEST_CASE("a changed tuning is limited, used and stored; values out of range change nothing") {
@@ -141,11 +141,11 @@ TEST_CASE("a changed tuning is limited, used and stored; values out of range cha
   CHECK((runtime.admitted().tuning == wanted));
 
   HapticTuning soft = wanted;
-  soft.wall_stiffness = 1000.0;  // softer than the gate's feel allows, so it is limited
+  soft.wall_stiffness = 1000.0;  // [N/m] softer than the gate's feel, so feel_scale is limited
   const AdmittedTuning admitted = runtime.change_tuning(soft);
   CHECK(admitted.tuning.feel_scale < 1.0);
   CHECK(admitted.limits.size() == 1);
-  CHECK((runtime.config().preset.haptics.tuning == soft));  // as requested
+  CHECK((runtime.config().preset.haptics.tuning == soft));  // the configuration stores the requested tuning
   CHECK((runtime.admitted().tuning == admitted.tuning));
 
   HapticTuning impossible = wanted;
@@ -176,11 +176,11 @@ TEST_CASE("the virtual clock advances by whole cycles and carries the remainder"
   CHECK(runtime.drain_cycles().size() == 1001);
 }
 
-TEST_CASE("every cycle since the last call is returned, in order, each once") {
+TEST_CASE("every cycle since the last call is returned once, in order") {
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.advance(0.25);
   const std::vector<DriveSample> first = runtime.drain_cycles();
-  (void)runtime.health();  // reads without consuming
+  (void)runtime.health();  // does not consume any cycle
   DriverControls controls;
   controls.clutch = 0.25;
   runtime.set_controls(controls);
@@ -237,6 +237,6 @@ TEST_CASE("an invalid configuration is rejected with one sentence") {
   config.preset.haptics.rate = 0.0;
   CHECK_THROWS_AS(Runtime{config}, std::invalid_argument);
   config = runtime_config(RuntimeClock::virtual_time);
-  config.preset.lever.yoke.radius = 0.03;  // the gate does not fit
+  config.preset.lever.yoke.radius = 0.03;  // the gate does not fit into this yoke
   CHECK_THROWS_AS(Runtime{config}, std::runtime_error);
 }

@@ -1,4 +1,4 @@
-// The running lever on its own thread. No check depends on the machine's speed. Run it under the thread sanitizer.
+// The runtime on its own thread. No check depends on the machine's speed. Also run under the thread sanitizer.
 #include <chrono>
 #include <thread>
 
@@ -11,7 +11,7 @@ using namespace gearshift::runtime;
 using namespace gearshift::test;
 using namespace gearshift::vehicle;
 
-TEST_CASE("in real time, moved through the paper's gate, the gears engage in order") {
+TEST_CASE("on the real clock, moved through the paper's gate, the gears engage in order") {
   Runtime runtime(runtime_config(RuntimeClock::real_time));
   runtime.arm();
   std::vector<int> gears;
@@ -24,19 +24,19 @@ TEST_CASE("in real time, moved through the paper's gate, the gears engage in ord
   for (const int gear : kPaperTour) {
     CAPTURE(gear);
     person.shift_to(gear);
-    CHECK(comes_true([&] { return runtime.snapshot().gear == gear; }));
+    CHECK(becomes_true([&] { return runtime.snapshot().gear == gear; }));
   }
   add_gears(runtime.drain_events(), gears);
   CHECK(gears == kPaperTour);
 }
 
-TEST_CASE("a frame hangs for a second: the lever keeps running, its wall holds, and no event is lost") {
+TEST_CASE("while a frame hangs for a second, the lever keeps running, its wall holds, and no event is lost") {
   RuntimeConfig config = runtime_config(RuntimeClock::real_time);
-  config.preset.haptics.rate = 4000.0;  // fills the queues fastest
+  config.preset.haptics.rate = 4000.0;  // [Hz] the highest rate fills the queues fastest
   config.driver = touring_driver(paper_gate(), 1.0 / 4000.0);
   Runtime runtime(config);
   runtime.arm();
-  REQUIRE(comes_true([&] { return runtime.snapshot().guard == GuardState::running; }));
+  REQUIRE(becomes_true([&] { return runtime.snapshot().guard == GuardState::running; }));
   const HapticSnapshot before = runtime.snapshot();
   (void)runtime.drain_cycles();
   sleep_ms(1000);
@@ -46,28 +46,28 @@ TEST_CASE("a frame hangs for a second: the lever keeps running, its wall holds, 
   CHECK(after.cycle > before.cycle + 100);
   REQUIRE(cycles.size() > 100);
   for (std::size_t i = 1; i < cycles.size(); ++i)
-    CHECK(cycles[i].lever.cycle == cycles[i - 1].lever.cycle + 1);  // none is missing
+    CHECK(cycles[i].lever.cycle == cycles[i - 1].lever.cycle + 1);  // no cycle is missing
   CHECK(cycles.back().lever.cycle >= after.cycle);
   CHECK(runtime.health().events_lost == 0);
   // The loop still reacts to commands.
   runtime.stop();
-  CHECK(comes_true([&] { return runtime.snapshot().guard == GuardState::released; }));
+  CHECK(becomes_true([&] { return runtime.snapshot().guard == GuardState::released; }));
 }
 
-TEST_CASE("health on the real clock: lateness is measured, ordered, and restarts with each call") {
+TEST_CASE("on the real clock, lateness percentiles are ordered, and each call of health() starts a new measurement") {
   Runtime runtime(runtime_config(RuntimeClock::real_time));
   sleep_ms(200);
   const LoopHealth health = runtime.health();
   CHECK(health.late_worst > 0.0);
   CHECK(health.late_p50 <= health.late_p99);
-  CHECK(health.late_p99 <= 1.02 * health.late_worst);  // the histogram overestimates by at most 1/64
-  // a real-time loop may still report a problem with locking its memory
+  CHECK(health.late_p99 <= 1.02 * health.late_worst);  // the histogram rounds up by at most 1/64
+  // A loop with real-time priority may still report that it could not lock its memory.
   CHECK((health.realtime || !health.not_realtime_reason.empty()));
   const LoopHealth at_once = runtime.health();
   CHECK(at_once.late_p50 <= at_once.late_worst * 1.02);
 }
 
-TEST_CASE("it ends at once in any state") {
+TEST_CASE("the destructor returns at once in any state") {
   for (int i = 0; i < 3; ++i) {
     Runtime runtime(runtime_config(RuntimeClock::real_time));
     if (i > 0) runtime.arm();

@@ -1,5 +1,5 @@
-// A scripted driver sees every cycle and its hand target is used unchanged; road and guidance are set by the
-// instructor.
+// A scripted driver is called with every cycle, and its hand target is used unchanged. Only the instructor sets road
+// and guidance.
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -23,7 +23,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// Jumps and reverses, so that a filter would show. Depends on its input, so that an error grows.
+// A driver whose hand jumps and reverses, so that any filter between it and the lever would show. Its action depends on
+// its input, so that any deviation grows.
 DriverAction restless(const DriveSample& now) {
   const double t = now.time();
   DriverAction action;
@@ -33,7 +34,7 @@ DriverAction restless(const DriveSample& now) {
   action.controls.ignition = true;
   action.controls.throttle = 0.3 + 0.2 * std::sin(t) - 0.001 * now.car.engine_speed;
   action.controls.clutch = std::fmod(t, 1.0);
-  action.controls.guidance = 1.0;  // a driver cannot set that
+  action.controls.guidance = 1.0;  // ignored: only the instructor sets guidance and slope
   action.controls.guided_gear = 5;
   action.controls.slope = 0.5;
   return action;
@@ -53,7 +54,8 @@ class DriverHand final : public HandDriver {
   HandTarget target;
 };
 
-// Independent of the trainer: lever, loop and bare car on a virtual clock, the action used in the next cycle.
+// The reference, computed without Runtime: lever, loop and car without guidance on a virtual clock. Each action is
+// applied in the next cycle.
 std::vector<DriveSample> driven_without_runtime(const RuntimeConfig& config, const Gate& gate, int cycles) {
   SimulatedRunConfig setup;
   setup.haptics = config.preset.haptics;
@@ -89,49 +91,49 @@ std::vector<DriveSample> driven_without_runtime(const RuntimeConfig& config, con
 
 }  // namespace
 
-TEST_CASE("on the virtual clock the driver sees every cycle once, and its action is used exactly in the next") {
+TEST_CASE("on the virtual clock the driver gets every cycle once, and its action is applied exactly in the next") {
   RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
   config.hand_brake = 0.8;
-  const auto seen = std::make_shared<std::vector<DriveSample>>();
-  config.driver = [seen](const DriveSample& now) {
-    seen->push_back(now);
+  const auto driven = std::make_shared<std::vector<DriveSample>>();
+  config.driver = [driven](const DriveSample& now) {
+    driven->push_back(now);
     return restless(now);
   };
   Runtime runtime(config);
-  DriverControls teacher;
-  teacher.slope = 0.05;
-  runtime.set_controls(teacher);
+  DriverControls instructor;
+  instructor.slope = 0.05;
+  runtime.set_controls(instructor);
   runtime.arm();
   for (int i = 0; i < 300; ++i) runtime.advance(1.0 / 60.0);
   const std::vector<DriveSample> expected = driven_without_runtime(config, runtime.gate(), 5000);
   const std::vector<DriveSample> cycles = runtime.drain_cycles();
-  REQUIRE(seen->size() == 5000);
+  REQUIRE(driven->size() == 5000);
   REQUIRE(cycles.size() == 5000);
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    REQUIRE(same((*seen)[i], expected[i]));
+    REQUIRE(same((*driven)[i], expected[i]));
     REQUIRE(same(cycles[i], expected[i]));
     REQUIRE(cycles[i].lever.cycle == i);
   }
-  CHECK(cycles.back().car.engine_speed > 10.0);  // the car was really driven
+  CHECK(cycles.back().car.engine_speed > 10.0);  // [rad/s] the drive had an effect
 }
 
-TEST_CASE("the driver controls hand and pedals, the instructor road and guidance; neither affects the other's") {
+TEST_CASE("the driver controls hand and pedals, the instructor road and guidance, and neither overrides the other") {
   RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
   config.driver = restless;
   Runtime runtime(config);
-  DriverControls teacher;
-  teacher.slope = 0.02;
-  teacher.guidance = 0.4;
-  teacher.guided_gear = 3;
-  teacher.throttle = 0.9;
-  teacher.clutch = 0.9;
-  runtime.set_controls(teacher);
+  DriverControls instructor;
+  instructor.slope = 0.02;
+  instructor.guidance = 0.4;
+  instructor.guided_gear = 3;
+  instructor.throttle = 0.9;
+  instructor.clutch = 0.9;
+  runtime.set_controls(instructor);
   HandTarget idle_hand;
   idle_hand.position = {0.03, 0.03};
   runtime.set_hand(idle_hand);
   runtime.advance(0.005);
   CHECK(runtime.drain_cycles().back().lever.lever.x < 0.01);
-  runtime.set_controls(teacher);
+  runtime.set_controls(instructor);
   runtime.advance(0.002);
   for (const DriveSample& now : runtime.drain_cycles()) {
     CHECK(now.controls.slope == 0.02);
@@ -151,7 +153,7 @@ TEST_CASE("a driver shifts through the gears on either clock") {
     runtime.arm();
     std::vector<int> gears;
     const std::vector<int> first_three{1, 2, 3};
-    CHECK(comes_true([&] {
+    CHECK(becomes_true([&] {
       if (clock == RuntimeClock::virtual_time) runtime.advance(0.02);
       add_gears(runtime.drain_events(), gears);
       return gears == first_three;
@@ -162,9 +164,9 @@ TEST_CASE("a driver shifts through the gears on either clock") {
 TEST_CASE("recorded on the virtual clock, a scripted drive replays bit for bit and misses no cycle") {
   const TempFolder folder;
   RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
-  const auto seen = std::make_shared<std::vector<std::uint64_t>>();
-  config.driver = [seen](const DriveSample& now) {
-    seen->push_back(now.lever.cycle);
+  const auto driven = std::make_shared<std::vector<std::uint64_t>>();
+  config.driver = [driven](const DriveSample& now) {
+    driven->push_back(now.lever.cycle);
     return restless(now);
   };
   Runtime runtime(config);
@@ -173,25 +175,26 @@ TEST_CASE("recorded on the virtual clock, a scripted drive replays bit for bit a
   runtime.start_recording(folder / "a.trace");
   runtime.advance(0.8);
   CHECK_FALSE(runtime.stop_recording());
-  REQUIRE(seen->size() == 1500);
-  for (std::size_t i = 0; i < seen->size(); ++i) CHECK((*seen)[i] == (i < 700 ? i : i - 700));
+  REQUIRE(driven->size() == 1500);
+  for (std::size_t i = 0; i < driven->size(); ++i) CHECK((*driven)[i] == (i < 700 ? i : i - 700));
   const Trace trace = read_trace(folder / "a.trace");
   CHECK(trace.samples.size() == 800);
-  CHECK(trace.samples[0].controls.throttle != 0.0);  // the foot stays where it was
+  CHECK(trace.samples[0].controls.throttle != 0.0);  // the throttle is not reset when the recording begins
   CHECK(replay(trace, make_lesson_load).bit_for_bit());
 }
 
-TEST_CASE("on the real clock: in order, none twice, while the frame sets road and guidance and records") {
+TEST_CASE(
+    "on the real clock the driver gets each cycle at most once, in order, while road, guidance and recordings change") {
   const TempFolder folder;
   RuntimeConfig config = hatchback(RuntimeClock::real_time);
-  struct Seen {
+  struct DrivenCycles {
     std::mutex mutex;
     std::vector<DriveSample> cycles;
   };
-  const auto seen = std::make_shared<Seen>();
-  config.driver = [seen](const DriveSample& now) {
-    const std::lock_guard lock(seen->mutex);
-    seen->cycles.push_back(now);
+  const auto driven = std::make_shared<DrivenCycles>();
+  config.driver = [driven](const DriveSample& now) {
+    const std::lock_guard lock(driven->mutex);
+    driven->cycles.push_back(now);
     return restless(now);
   };
   {
@@ -199,12 +202,12 @@ TEST_CASE("on the real clock: in order, none twice, while the frame sets road an
     runtime.arm();
     for (const char* name : {"a.trace", "b.trace", "c.trace"}) {
       runtime.start_recording(folder / name);
-      DriverControls teacher;
+      DriverControls instructor;
       for (int i = 0; i < 60; ++i) {
-        teacher.slope = 0.001 * i;
-        teacher.guidance = i % 20 < 10 ? 0.0 : 0.8;
-        teacher.guided_gear = 2;
-        runtime.set_controls(teacher);
+        instructor.slope = 0.001 * i;
+        instructor.guidance = i % 20 < 10 ? 0.0 : 0.8;
+        instructor.guided_gear = 2;
+        runtime.set_controls(instructor);
         runtime.set_hand({});
         sleep_ms(3);
         (void)runtime.drain_cycles();
@@ -212,22 +215,22 @@ TEST_CASE("on the real clock: in order, none twice, while the frame sets road an
       CHECK_FALSE(runtime.stop_recording());
     }
   }
-  const std::size_t at_end = seen->cycles.size();
+  const std::size_t at_end = driven->cycles.size();
   sleep_ms(20);
-  CHECK(seen->cycles.size() == at_end);  // nobody is driving any more
+  CHECK(driven->cycles.size() == at_end);  // no call of the driver after the runtime has ended
   REQUIRE(at_end > 100);
   bool guided = false;
   for (std::size_t i = 1; i < at_end; ++i) {
-    CHECK(seen->cycles[i].lever.time_ns > seen->cycles[i - 1].lever.time_ns);
-    guided = guided || seen->cycles[i].controls.guidance == 0.8;
-    CHECK(seen->cycles[i].controls.slope < 0.06);
+    CHECK(driven->cycles[i].lever.time_ns > driven->cycles[i - 1].lever.time_ns);
+    guided = guided || driven->cycles[i].controls.guidance == 0.8;
+    CHECK(driven->cycles[i].controls.slope < 0.06);
   }
   CHECK(guided);
   for (const char* name : {"a.trace", "b.trace", "c.trace"})
     CHECK(replay(read_trace(folder / name), make_lesson_load).bit_for_bit());
 }
 
-TEST_CASE("a sleeping driver blocks neither lever nor instructor, and the trainer ends when the driver returns") {
+TEST_CASE("a sleeping driver blocks neither lever nor instructor, and the runtime ends when the driver returns") {
   RuntimeConfig config = hatchback(RuntimeClock::real_time);
   const auto calls = std::make_shared<std::atomic<int>>(0);
   config.driver = [calls](const DriveSample& now) {
@@ -235,16 +238,16 @@ TEST_CASE("a sleeping driver blocks neither lever nor instructor, and the traine
     return restless(now);
   };
   Runtime runtime(config);
-  REQUIRE(comes_true([&] { return *calls > 1; }));
+  REQUIRE(becomes_true([&] { return *calls > 1; }));
   const std::uint64_t before = runtime.snapshot().cycle;
-  DriverControls teacher;
-  teacher.guidance = 0.6;
-  runtime.set_controls(teacher);
+  DriverControls instructor;
+  instructor.guidance = 0.6;
+  runtime.set_controls(instructor);
   bool is_combined = false;
-  CHECK(comes_true([&] {
+  CHECK(becomes_true([&] {
     for (const DriveSample& now : runtime.drain_cycles())
       is_combined = is_combined || (now.controls.guidance == 0.6 && now.controls.throttle != 0.0);
     return is_combined;
   }));
-  CHECK(comes_true([&] { return runtime.snapshot().cycle > before + 50; }));
+  CHECK(becomes_true([&] { return runtime.snapshot().cycle > before + 50; }));
 }

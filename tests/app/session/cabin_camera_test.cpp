@@ -21,7 +21,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 glm::dvec3 ahead(const CabinCamera& look) {
   return look.pose().orientation * glm::dvec3(0.0, 0.0, -1.0);
 }
-double heading(const CabinCamera& look) {  // [deg] to the right of the driving direction, -Z
+double heading(const CabinCamera& look) {  // [deg] to the right of the driving direction (-Z)
   return std::atan2(ahead(look).x, -ahead(look).z) / kDegree;
 }
 double height(const CabinCamera& look) {  // [deg] above the horizon
@@ -30,7 +30,7 @@ double height(const CabinCamera& look) {  // [deg] above the horizon
 
 }  // namespace
 
-TEST_CASE("moving the mouse right looks right and moving it down looks down, a fifth of a degree per pixel") {
+TEST_CASE("moving the mouse right or down looks right or down, by a fifth of a degree per pixel") {
   for (const char* place : {"driver", "ahead"}) {
     CAPTURE(place);
     CabinCamera look(place);
@@ -51,7 +51,7 @@ TEST_CASE("moving the mouse right looks right and moving it down looks down, a f
   }
 }
 
-TEST_CASE("the horizon stays level and the eye in place; the limits are 80 deg to the side and 60 up") {
+TEST_CASE("the horizon stays level and the eye in place; the view turns at most 80 deg to the side and 60 deg up") {
   CabinCamera look("ahead");
   const glm::dvec3 eye = look.pose().position;
   const double heading_at_rest = heading(look), height_at_rest = height(look);
@@ -64,7 +64,7 @@ TEST_CASE("the horizon stays level and the eye in place; the limits are 80 deg t
   CHECK(height(look) == doctest::Approx(height_at_rest + 60.0));
 }
 
-TEST_CASE("the next camera begins straight ahead, and after the last comes the first") {
+TEST_CASE("the next camera begins straight ahead, and the first follows the last") {
   CabinCamera look("lever");
   std::string places;
   for (int i = 0; i < 6; ++i) {
@@ -80,7 +80,7 @@ TEST_CASE("the next camera begins straight ahead, and after the last comes the f
   CHECK_THROWS_AS(CabinCamera("roof"), std::invalid_argument);
 }
 
-TEST_CASE("watching a shift turns the driver's view to the lever and back; other cameras stay") {
+TEST_CASE("watching a shift turns the driver's view to the lever and back; other views do not change") {
   CabinCamera look("driver");
   CHECK_FALSE(look.follow_shift(false));
   look.turn({50.0, 0.0});
@@ -88,12 +88,12 @@ TEST_CASE("watching a shift turns the driver's view to the lever and back; other
   CHECK(look.place() == "lever");
   CHECK(look.field() == camera_field("lever"));
   look.turn({50.0, 0.0});
-  CHECK_FALSE(look.follow_shift(true));  // and keeps that direction
+  CHECK_FALSE(look.follow_shift(true));  // the user's direction is kept during the shift
   CHECK(look.pose().orientation != camera("lever").orientation);
   CHECK(look.follow_shift(false));
   CHECK(look.place() == "driver");
   CHECK(look.follow_shift(true));
-  look.next();  // chosen by the user
+  look.next();  // the user chooses a camera during the shift
   const std::string chosen(look.place());
   CHECK_FALSE(look.follow_shift(false));
   CHECK(look.place() == chosen);

@@ -1,4 +1,4 @@
-// The lines that a script can read about a lesson.
+// The lines about a lesson that the program prints for scripts.
 #include "app/session/lesson_lines.h"
 
 #include <doctest/doctest.h>
@@ -11,14 +11,14 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// The trial so far; its first cycle is at `begin` [s].
-CoachView trial(double begin, std::size_t step, Lines said = {}, double duration = 1.0) {
+// The coach's view during a trial whose first cycle was at `begin` [s], `duration` [s] ago.
+CoachView trial(double begin, std::size_t step, Lines feedback = {}, double duration = 1.0) {
   CoachView coach;
   coach.phase = LessonPhase::driving;
   coach.lesson = "moving_off";
   coach.result.begin = begin;
   coach.result.duration = duration;
-  coach.now = {"Go.", "", step, 3, kNeutralGear, std::move(said)};
+  coach.now = {"Go.", "", step, 3, kNeutralGear, std::move(feedback)};
   return coach;
 }
 
@@ -26,8 +26,8 @@ CoachView not_begun() {
   return trial(0.0, 0, {}, 0.0);
 }
 
-CoachView over(double begin, LessonEnd end, Lines said = {}) {
-  CoachView coach = trial(begin, 3, std::move(said), 20.0);
+CoachView over(double begin, LessonEnd end, Lines feedback = {}) {
+  CoachView coach = trial(begin, 3, std::move(feedback), 20.0);
   coach.phase = LessonPhase::over;
   coach.result.end = end;
   coach.result.grade = 9.5;
@@ -38,9 +38,9 @@ CoachView over(double begin, LessonEnd end, Lines said = {}) {
 
 }  // namespace
 
-TEST_CASE("a trial is reported from its first cycle on; each step, each message and its end once") {
+TEST_CASE("a trial is reported from its first cycle on; its steps, its messages and its end are each reported once") {
   LessonLines lines;
-  CHECK(lines.new_lines(not_begun()) == Lines{});  // no cycle yet
+  CHECK(lines.new_lines(not_begun()) == Lines{});  // the trial has no cycle yet
   CHECK(lines.new_lines(trial(2.0, 0)) == Lines{"lesson moving_off begins", "step 1 of 3: Go."});
   CHECK(lines.new_lines(trial(2.0, 0)) == Lines{});
   CHECK(lines.new_lines(trial(2.0, 1, {"a"})) == Lines{"step 2 of 3: Go.", "a"});
@@ -49,25 +49,24 @@ TEST_CASE("a trial is reported from its first cycle on; each step, each message 
   CHECK(lines.new_lines(over(2.0, LessonEnd::done, {"a", "b"})) == Lines{});
 }
 
-TEST_CASE("a trial that follows within a frame is a new one, in the same step, too, with its own messages") {
+TEST_CASE("a trial that replaces the previous one within a frame is reported as new, even if the step is the same") {
   LessonLines lines;
   (void)lines.new_lines(trial(2.0, 0, {"a"}));
   CHECK(lines.new_lines(trial(5.0, 0, {"c"})) ==
         Lines{"previous attempt ended early", "lesson moving_off begins", "step 1 of 3: Go.", "c"});
   CHECK(lines.new_lines(over(5.0, LessonEnd::done, {"c"})).size() == 1);
-  CHECK(lines.new_lines(not_begun()) == Lines{});  // the next trial
+  CHECK(lines.new_lines(not_begun()) == Lines{});  // the next trial, before its first cycle
   CHECK(lines.new_lines(trial(9.0, 0)) == Lines{"lesson moving_off begins", "step 1 of 3: Go."});
 }
 
-TEST_CASE("without a grade none is reported") {
+TEST_CASE("a trial without a grade is reported as not graded") {
   LessonLines lines;
   (void)lines.new_lines(trial(2.0, 0));
   CHECK(lines.new_lines(over(2.0, LessonEnd::left)) ==
-        Lines{"lesson moving_off is over: not graded, not passed: You left the lesson."});
+        Lines{"lesson moving_off is over: not graded. You left the lesson."});
 }
 
-TEST_CASE(
-    "a trial whose first cycle is at 0 s, as on a virtual clock, is reported like any other, and so is the next") {
+TEST_CASE("trials whose first cycle is at 0 s, as on a virtual clock, are reported like any others") {
   LessonLines lines;
   for (int i = 0; i < 2; ++i) {
     CHECK(lines.new_lines(trial(0.0, 0)) == Lines{"lesson moving_off begins", "step 1 of 3: Go."});
@@ -80,7 +79,7 @@ TEST_CASE(
         Lines{"previous attempt ended early", "lesson moving_off begins", "step 1 of 3: Go."});
 }
 
-TEST_CASE("a trial replaced by another offer, or by none, was left, which is reported once") {
+TEST_CASE("a trial replaced by a different offer, or by none, is reported once as ended early") {
   for (const LessonPhase next : {LessonPhase::offered, LessonPhase::none}) {
     LessonLines lines;
     (void)lines.new_lines(trial(2.0, 0));
@@ -88,9 +87,9 @@ TEST_CASE("a trial replaced by another offer, or by none, was left, which is rep
     coach.phase = next;
     coach.lesson = next == LessonPhase::none ? "" : "hill_start";
     coach.goal = "Go up.";
-    Lines told{"lesson moving_off ended early"};
-    if (next == LessonPhase::offered) told.emplace_back("lesson hill_start offered: Go up.");
-    CHECK(lines.new_lines(coach) == told);
+    Lines expected{"lesson moving_off ended early"};
+    if (next == LessonPhase::offered) expected.emplace_back("lesson hill_start offered: Go up.");
+    CHECK(lines.new_lines(coach) == expected);
     CHECK(lines.new_lines(coach) == Lines{});
   }
 }

@@ -1,4 +1,4 @@
-// The panel's pointer: the controller that points at the panel, or the mouse on the desk.
+// Who controls the panel's pointer: the controller that points at the panel, or the mouse on the desk.
 #include "app/session/panel_hand_pointer.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ std::optional<LearnerHeadset::Pointer> at(double x, double y, bool selects = fal
 
 }  // namespace
 
-TEST_CASE("a hand that points at the panel has the pointer until the mouse moves; its trigger takes it back") {
+TEST_CASE("a controller on the panel has the pointer until the mouse moves; its trigger takes the pointer back") {
   PointingHand pointing;
   WindowInput desk;
   const auto follow = [&](const std::optional<LearnerHeadset::Pointer>& hand, bool desk_leads_lever = false) {
@@ -28,19 +28,19 @@ TEST_CASE("a hand that points at the panel has the pointer until the mouse moves
   REQUIRE(came);
   CHECK(came->at == glm::dvec2(500.0, 100.0));
   CHECK_FALSE(came->down);
-  CHECK(came->scroll.y == doctest::Approx(0.6));  // half of 12 lines/s for 0.1 s
+  CHECK(came->scroll.y == doctest::Approx(0.6));  // thumbstick half forward: 0.5 x 12 lines/s x 0.1 s
   desk.mouse_moved = {3.0, 0.0};
-  CHECK(follow(at(0.5, 0.2), true));  // it moves the lever
+  CHECK(follow(at(0.5, 0.2), true));  // a mouse that moves the lever does not take the pointer
   CHECK_FALSE(follow(at(0.5, 0.2)));
   desk.mouse_moved = {0.0, 0.0};
-  CHECK_FALSE(follow(at(0.5, 0.2)));  // it did not leave and return
+  CHECK_FALSE(follow(at(0.5, 0.2)));  // the ray has stayed on the panel
   const auto clicks = follow(at(0.5, 0.2, true));
   REQUIRE(clicks);
   CHECK(clicks->down);
   CHECK_FALSE(follow(std::nullopt));
 }
 
-TEST_CASE("a trigger pulled elsewhere clicks nothing when the ray reaches the panel") {
+TEST_CASE("a trigger pulled before the ray reaches the panel clicks nothing") {
   PointingHand pointing;
   const WindowInput desk;
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Keyboard pedals follow the car's clock: their path does not depend on the frame rate.
+// Keyboard pedals move on the car's clock, so their path does not depend on the frame rate.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,8 +23,8 @@ using namespace gearshift::vehicle;
 namespace {
 
 constexpr double kCycle = 1e-3;               // [s]
-constexpr double kClosed = 0.2, kBite = 0.7;  // [1] of the pedal
-constexpr double kSlip = 1.0, kPedal = 0.25;  // [s]
+constexpr double kClosed = 0.2, kBite = 0.7;  // [1] clutch pedal positions
+constexpr double kSlip = 1.0, kPedal = 0.25;  // [s] time from bite to closed, time for the full travel
 
 struct FeetRig {
   TempFolder folder;
@@ -41,7 +41,7 @@ struct FeetRig {
   }
 };
 
-// The clutch, pressed from 0 s on and released at 0.5 s: by hand, from the pace.
+// [1] The expected clutch position for a key pressed at 0 s and released at 0.5 s, derived from the pace above.
 double clutch_at(double time) {
   if (time <= 0.5) return std::min(1.0, time / kPedal);
   const double quick = (1.0 - kBite) * kPedal, left = time - 0.5 - quick;
@@ -50,7 +50,7 @@ double clutch_at(double time) {
   return std::max(0.0, kClosed - (left - kSlip) / kPedal);
 }
 
-// The clutch in each cycle as the car received it, at a frame rate at which each frame reads the keys.
+// The clutch position [1] that the car received in each cycle. The keys are read once per frame.
 std::vector<double> clutch_driven(Session& session, double frames_per_second) {
   std::vector<double> path;
   session.set_foot_pace({kPedal, kSlip, kClosed, kBite});
@@ -66,7 +66,7 @@ std::vector<double> clutch_driven(Session& session, double frames_per_second) {
 
 }  // namespace
 
-TEST_CASE("at 10, 30 and 144 frames a second a keyboard pedal follows the same path, to three cycles") {
+TEST_CASE("at 10, 30 and 144 frames per second a keyboard pedal follows the same path within three cycles") {
   for (const double rate : {10.0, 30.0, 144.0}) {
     CAPTURE(rate);
     const FeetRig rig;
@@ -78,7 +78,7 @@ TEST_CASE("at 10, 30 and 144 frames a second a keyboard pedal follows the same p
   }
 }
 
-TEST_CASE("a pedal continues from one lever to the next, and a pad's pedal counts if it is deeper") {
+TEST_CASE("a pedal keeps its position when the lever is replaced, and a pad's pedal counts if it is pressed further") {
   const FeetRig rig;
   Session session(rig.choice(RuntimeClock::virtual_time, "none"));
   session.set_driver({}, {}, {.clutch = true});
@@ -98,21 +98,21 @@ TEST_CASE("a pedal continues from one lever to the next, and a pad's pedal count
   CHECK(session.car().brake == 1.0);
 }
 
-TEST_CASE("in real time a pedal moves while the picture hangs") {
+TEST_CASE("on the real clock a pedal moves even while no frame is drawn") {
   const FeetRig rig;
   SessionChoice choice = rig.choice(RuntimeClock::real_time, "none");
   Session session(choice);
   session.set_driver({}, {}, {.brake = true});
   session.advance(0.0);
-  std::set<double> seen;
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // no frame
-  for (const DriveSample& cycle : session.runtime().drain_cycles()) seen.insert(cycle.controls.brake);
-  CHECK(seen.size() > 20);  // one or two if it moved only with the frames
-  CHECK(*seen.rbegin() == 1.0);
+  std::set<double> brakes;
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // no frame in this time
+  for (const DriveSample& cycle : session.runtime().drain_cycles()) brakes.insert(cycle.controls.brake);
+  CHECK(brakes.size() > 20);  // per frame, it would be one or two
+  CHECK(*brakes.rbegin() == 1.0);
 }
 
-TEST_CASE("in real time a keyboard clutch keeps its pace through a change of gate, while both levers run") {
-  constexpr double kAllTheWay = 8.0;  // [s]
+TEST_CASE("on the real clock a keyboard clutch keeps its pace through a change of gate, while both levers run") {
+  constexpr double kAllTheWay = 8.0;  // [s] time for the whole release
   const FeetRig rig;
   Session session(rig.choice(RuntimeClock::real_time, "none"));
   session.set_foot_pace({.pedal_time = kPedal, .slip_time = kAllTheWay, .clutch_closed = 0.0, .clutch_bite = 1.0});
@@ -124,7 +124,7 @@ TEST_CASE("in real time a keyboard clutch keeps its pace through a change of gat
   }
   session.set_driver({}, {}, {});
   using Steady = std::chrono::steady_clock;
-  double passed = 0.0, went = 0.0;  // [s], [1]
+  double passed = 0.0, went = 0.0;  // [s] elapsed; [1] pedal travel
   for (const char* gate : {"dog_leg_five", "five_speed_r_right_down", "dog_leg_five"}) {
     const Steady::time_point begin = Steady::now();
     session.advance(0.0);
@@ -137,5 +137,5 @@ TEST_CASE("in real time a keyboard clutch keeps its pace through a change of gat
     passed += std::chrono::duration<double>(Steady::now() - begin).count();
   }
   CHECK(went > 0.0);
-  CHECK(went <= (passed + 0.03) / kAllTheWay);  // a snapshot may be several cycles old
+  CHECK(went <= (passed + 0.03) / kAllTheWay);  // 30 ms: a snapshot may be several cycles old
 }

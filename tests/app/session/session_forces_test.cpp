@@ -1,4 +1,4 @@
-// Who may switch the forces on: after a person has switched them off, no change of gate, preset or hand restores them.
+// Forces that the user switched off stay off after any change of gate, preset or hand, until the user arms the lever.
 #include <chrono>
 #include <string>
 #include <thread>
@@ -36,12 +36,12 @@ struct ForcesRig {
   void go(double seconds) {
     for (double time = 0.0; time < seconds; time += 1.0 / 60.0) session.advance(1.0 / 60.0);
   }
-  void ask(bool PanelRequests::*what) {
+  void ask(bool PanelRequests::*request) {
     PanelRequests requests;
-    requests.*what = true;
+    requests.*request = true;
     session.apply(requests);
   }
-  // A change that creates a new trainer.
+  // Makes a change that needs a new runtime.
   void change(int which) {
     PanelRequests requests;
     if (which == 0) requests.gate = "four_speed";
@@ -59,13 +59,13 @@ struct ForcesRig {
 }  // namespace
 
 TEST_CASE("after STOP or Forces off, no gate, preset, hand or restart restores the forces; only arming does") {
-  for (const auto taken : {&PanelRequests::stop, &PanelRequests::disarm}) {
+  for (const auto request : {&PanelRequests::stop, &PanelRequests::disarm}) {
     for (int which = 0; which < 4; ++which) {
       CAPTURE(which);
       ForcesRig rig;
       REQUIRE(rig.has_forces());
-      rig.ask(taken);
-      if (which % 2 == 0) rig.go(0.5);  // otherwise within the same frame
+      rig.ask(request);
+      if (which % 2 == 0) rig.go(0.5);  // in the other cases, the change comes within the same frame
       rig.change(which);
       rig.go(2.0);
       CHECK_FALSE(rig.has_forces());
@@ -79,7 +79,7 @@ TEST_CASE("after STOP or Forces off, no gate, preset, hand or restart restores t
   }
 }
 
-TEST_CASE("a lever with forces keeps them after a change, and after two changes within a frame") {
+TEST_CASE("an armed lever keeps its forces after a change, and after two changes within a frame") {
   for (int which = 0; which < 4; ++which) {
     CAPTURE(which);
     ForcesRig rig;
@@ -90,7 +90,7 @@ TEST_CASE("a lever with forces keeps them after a change, and after two changes 
   }
 }
 
-TEST_CASE("events have the time since the session's start, across every change of gate") {
+TEST_CASE("event times are relative to the session's start, across every change of gate") {
   for (const RuntimeClock clock : {RuntimeClock::virtual_time, RuntimeClock::real_time}) {
     const auto start = std::chrono::steady_clock::now();
     ForcesRig rig(clock);
@@ -121,7 +121,7 @@ TEST_CASE("events have the time since the session's start, across every change o
 TEST_CASE("forces removed by a fault are not restored by two changes or the start of a lesson; only arming does") {
   for (const bool lesson : {false, true}) {
     ForcesRig rig;
-    // With a position margin of zero, a hand at the device's end causes a fault.
+    // With a position margin of zero, a hand that pushes against the device's end stop causes a fault.
     PanelRequests restart;
     restart.restart = rig.session.runtime().config().preset.haptics;
     restart.restart->guard.position_margin = 0.0;

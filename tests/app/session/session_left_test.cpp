@@ -1,4 +1,4 @@
-// The ways in which a lesson can end early, who controls the car afterwards, and the message about it.
+// The ways in which a lesson can end early, the message about each, and who controls the car afterwards.
 #include <functional>
 #include <string>
 
@@ -38,9 +38,9 @@ struct LeftRig {
     choice.sound = SoundOutput::none;
     return choice;
   }
-  void ask(const std::function<void(PanelRequests&)>& what) {
+  void ask(const std::function<void(PanelRequests&)>& request) {
     PanelRequests requests;
-    what(requests);
+    request(requests);
     session.apply(requests);
   }
   void go(double seconds) {
@@ -52,7 +52,7 @@ struct LeftRig {
     REQUIRE(session.coach().view().phase == LessonPhase::driving);
   }
   bool says(const std::string& words) const { return session.message().find(words) != std::string::npos; }
-  // With both feet off, any brake that is down is held by the instructor.
+  // Whether the learner controls the car: no pedal is pressed, so a pressed pedal would be the instructor's.
   bool has_car() {
     DriverControls free;
     free.ignition = true;
@@ -64,10 +64,10 @@ struct LeftRig {
 
 }  // namespace
 
-TEST_CASE("every way to end a lesson early reports that it was left, and why") {
+TEST_CASE("every way to end a lesson early is reported with its reason") {
   struct Case {
     const char* why;
-    std::function<void(PanelRequests&)> what;
+    std::function<void(PanelRequests&)> request;
   };
   const Case cases[] = {{"the learner changed", [](PanelRequests& r) { r.lesson.learner = "Bo"; }},
                         {"the learner changed", [](PanelRequests& r) { r.lesson.learner = ""; }},
@@ -80,17 +80,17 @@ TEST_CASE("every way to end a lesson early reports that it was left, and why") {
     CAPTURE(one.why);
     LeftRig rig;
     rig.begin();
-    rig.ask(one.what);
+    rig.ask(one.request);
     CHECK(rig.session.coach().view().phase != LessonPhase::driving);
     CAPTURE(rig.session.message());
     CHECK(rig.says("ended early"));
     CHECK(rig.says(one.why));
-    rig.ask(one.what);  // again: no lesson is running
+    rig.ask(one.request);  // the same request while no lesson is running
     CHECK_FALSE(rig.says("ended early"));
   }
 }
 
-TEST_CASE("after a lesson, left or not, the instructor holds the car and the panel shows it; choosing one returns it") {
+TEST_CASE("after a lesson the instructor holds the car, and the panel shows it, until a new choice returns it") {
   for (const auto& choose :
        {std::function<void(PanelRequests&)>([](PanelRequests& r) { r.car = "diesel"; }),
         std::function<void(PanelRequests&)>([](PanelRequests& r) { r.gate = "four_speed"; }),
@@ -103,7 +103,8 @@ TEST_CASE("after a lesson, left or not, the instructor holds the car and the pan
     rig.ask([](PanelRequests& requests) { requests.lesson.leave = true; });
     CHECK_FALSE(rig.has_car());
     CHECK(rig.session.panel_input().instructor_holds_pedals);
-    rig.ask([](PanelRequests& requests) { requests.lesson.offer = "hill_start"; });  // until it begins
+    // Offering a lesson does not return the car yet.
+    rig.ask([](PanelRequests& requests) { requests.lesson.offer = "hill_start"; });
     CHECK_FALSE(rig.has_car());
     CHECK(rig.session.panel_input().instructor_holds_pedals);
     rig.ask(choose);
@@ -117,7 +118,7 @@ TEST_CASE("after a lesson, left or not, the instructor holds the car and the pan
   CHECK(rig.has_car());
 }
 
-TEST_CASE("the errors that fail a lesson are listed with its goal, and nothing if there are none") {
+TEST_CASE("the errors that fail a lesson are listed with its goal; without a lesson there is no list") {
   LeftRig rig;
   CHECK(rig.session.panel_input().fail_conditions == failing_errors_sentence(*rig.session.coach().lesson()));
   CHECK_FALSE(rig.session.panel_input().fail_conditions.empty());
@@ -125,14 +126,14 @@ TEST_CASE("the errors that fail a lesson are listed with its goal, and nothing i
   CHECK(rig.session.panel_input().fail_conditions.empty());
 }
 
-TEST_CASE("a car chosen during a lesson belongs to the learner") {
+TEST_CASE("a car chosen during a lesson is controlled by the learner") {
   LeftRig rig;
   rig.begin();
   rig.ask([](PanelRequests& requests) { requests.car = "diesel"; });
   CHECK(rig.has_car());
 }
 
-TEST_CASE("a rejected name selects nobody and is reported once; a good one removes the message") {
+TEST_CASE("a rejected name selects nobody and is reported once; a valid one removes the message") {
   for (const std::string& hand : {std::string("grip"), std::string(kAutomaticHand)}) {
     CAPTURE(hand);
     LeftRig rig(hand);
@@ -149,11 +150,11 @@ TEST_CASE("a rejected name selects nobody and is reported once; a good one remov
   }
 }
 
-TEST_CASE("the panel is notified when a trial can no longer be passed, from the failing error on") {
+TEST_CASE("the panel shows that a trial can no longer be passed, from the failing error on") {
   LeftRig rig;
   rig.begin();
   CHECK_FALSE(rig.session.panel_input().is_unpassable);
-  DriverControls stalls;  // the clutch comes up at once, without throttle
+  DriverControls stalls;  // the clutch will be released at once, without throttle
   stalls.ignition = true;
   stalls.clutch = 1.0;
   HandTarget first;

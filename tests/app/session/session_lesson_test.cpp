@@ -1,4 +1,4 @@
-// A lesson in the running trainer with an automatic hand, on the virtual clock: driven, saved, replayed.
+// Lessons in a running session, on the virtual clock: driven, saved, replayed.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -54,9 +54,9 @@ struct LessonRig {
   }
 };
 
-void ask(Session& session, const std::function<void(LessonRequests&)>& what) {
+void ask(Session& session, const std::function<void(LessonRequests&)>& request) {
   PanelRequests requests;
-  what(requests.lesson);
+  request(requests.lesson);
   session.apply(requests);
 }
 
@@ -67,7 +67,7 @@ void go(Session& session, double seconds) {
   }
 }
 
-// A competent driver with mouse and pedals, one frame per millisecond.
+// Drives the lesson to its end as a competent user would, through the hand and pedal inputs, one frame per millisecond.
 const CoachView& drive_as_person(Session& session) {
   if (session.coach().view().phase == LessonPhase::offered)
     ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
@@ -99,13 +99,13 @@ const CoachView& drive_to_the_end(Session& session) {
 
 }  // namespace
 
-TEST_CASE("a competent driver passes a lesson in the running trainer; run, shifts and recording are saved") {
+TEST_CASE("a competent driver passes a lesson in the running session; run, shifts and recording are saved") {
   LessonRig rig;
   Session session(rig.choice("hill_start", "grip"));
   const CoachView& coach = drive_as_person(session);
   CHECK(coach.result.passed);
   CHECK(coach.result.grade >= 9.0);
-  CHECK(session.car().slope == doctest::Approx(std::atan(0.1)));  // the lesson's road: 10 %
+  CHECK(session.car().slope == doctest::Approx(std::atan(0.1)));  // the lesson's slope is 10 %
   History history(rig.history);
   const auto runs = history.runs(history.find_learner("Ada").value().id);
   REQUIRE(runs.size() == 1);
@@ -114,14 +114,14 @@ TEST_CASE("a competent driver passes a lesson in the running trainer; run, shift
   CHECK_FALSE(session.recording());
   const Trace trace = read_trace(history.recording_file(runs[0].recording).string());
   CHECK(replay(trace, make_lesson_load).bit_for_bit());
-  // The recording covers the lesson: it contains every shift.
+  // The recording covers the whole lesson, with every shift.
   for (const ShiftRecord& shift : runs[0].result.shifts) {
     CHECK(shift.begin > 1e-9 * static_cast<double>(trace.samples.front().out.time_ns));
     CHECK(shift.end < 1e-9 * static_cast<double>(trace.samples.back().out.time_ns) + 0.5);
   }
 }
 
-TEST_CASE("a lesson begins as its file says: gear, speed, engine, handbrake, with the user's switches to match") {
+TEST_CASE("a lesson begins with the gear, speed, engine and handbrake in its file, and the user's switches follow") {
   LessonRig rig;
   Session session(rig.choice("emergency_stop", "grip"));
   CHECK(session.coach().view().phase == LessonPhase::offered);
@@ -145,7 +145,7 @@ TEST_CASE("a lesson begins as its file says: gear, speed, engine, handbrake, wit
   CHECK(session.car().hand_brake == 1.0);
 }
 
-TEST_CASE("another gate or a replay does not continue under a lesson: a gate ends it, a replay is refused") {
+TEST_CASE("during a lesson, a change of gate ends the lesson, and a replay is refused") {
   LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
@@ -191,20 +191,21 @@ TEST_CASE("any shift in the history can be replayed in the cabin as it was recor
     const auto then = std::find_if(trace.samples.begin(), trace.samples.end(), [time](const TraceSample& sample) {
       return 1e-9 * static_cast<double>(sample.out.time_ns) > time - 4.1e-3;
     });
-    // a movement of at most 0.5 m/s, sampled every 4 ms
+    // The lever moves at most 0.5 m/s, and a sample is at most 4 ms old, so the error is at most 2 mm.
     CHECK(glm::length(session.shown().proxy - then->out.proxy) < 2e-3);
     CHECK(session.car().clutch == doctest::Approx(then->controls.clutch).epsilon(0.05));
     CHECK(session.car().engine_speed > 50.0);
   }
 }
 
-TEST_CASE("a car brings its gate, a gate without the car's gears another car, and no car has a stopped engine") {
+TEST_CASE(
+    "a car brings its gate; a gate that lacks the car's gears brings a different car; without a car no engine runs") {
   LessonRig rig;
   Session session(rig.choice(std::string(kNoLesson), "grip"));
   CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
-  const auto ask_for = [&session](std::optional<std::string> PanelRequests::*what, const std::string& name) {
+  const auto ask_for = [&session](std::optional<std::string> PanelRequests::*request, const std::string& name) {
     PanelRequests requests;
-    requests.*what = name;
+    requests.*request = name;
     session.apply(requests);
     go(session, 0.05);
     return session.panel_input();
@@ -216,7 +217,7 @@ TEST_CASE("a car brings its gate, a gate without the car's gears another car, an
   CHECK(session.car().engine_speed == 0.0);
 }
 
-TEST_CASE("a lesson's own gate ends with it: the next lesson uses the user's gate") {
+TEST_CASE("a lesson's own gate is used only in that lesson: the next one uses the user's gate") {
   LessonRig rig;
   Session session(rig.choice("another_gate", "grip"));
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
@@ -227,11 +228,11 @@ TEST_CASE("a lesson's own gate ends with it: the next lesson uses the user's gat
   session.apply(tune);
   ask(session, [](LessonRequests& lesson) { lesson.offer = "moving_off"; });
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
-  CHECK(session.runtime().config().preset.haptics.tuning.wall_stiffness == 4321.0);  // the tuning does not change
+  CHECK(session.runtime().config().preset.haptics.tuning.wall_stiffness == 4321.0);  // [N/m] the user's tuning is kept
   CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
 }
 
-TEST_CASE("the user cannot stop a lesson's recording, or start one during it") {
+TEST_CASE("the user can neither stop a lesson's recording nor start one during the lesson") {
   LessonRig rig;
   SessionChoice choice = rig.choice("moving_off", "grip");
   for (const char* learner : {"Ada", ""}) {
@@ -251,7 +252,7 @@ TEST_CASE("the user cannot stop a lesson's recording, or start one during it") {
   }
 }
 
-TEST_CASE("automatic driving is not saved for the learner; when a person takes over, runs are saved again") {
+TEST_CASE("automatic driving is not saved for the learner; after the user takes over, runs are saved again") {
   LessonRig rig;
   Session session(rig.choice("moving_off"));
   CHECK(drive_to_the_end(session).result.passed);
@@ -265,7 +266,7 @@ TEST_CASE("automatic driving is not saved for the learner; when a person takes o
   CHECK(History(rig.history).runs(History(rig.history).find_learner("Ada").value().id).size() == 1);
 }
 
-TEST_CASE("without a learner nothing is saved, and lessons work anyway") {
+TEST_CASE("without a learner nothing is saved, and lessons still work") {
   LessonRig rig;
   SessionChoice choice = rig.choice("moving_off");
   choice.learner.clear();
@@ -288,7 +289,7 @@ TEST_CASE("a damaged history is reported in one sentence and left unchanged; the
 TEST_CASE("a lesson whose recording fails is still assessed and saved") {
   LessonRig rig;
   {
-    History history(rig.history);  // created before file sizes are limited
+    History history(rig.history);  // the database must exist before file sizes are limited
     (void)history.find_or_add_learner("Ada");
   }
   const SmallFiles small(200'000);  // [bytes]
@@ -296,20 +297,20 @@ TEST_CASE("a lesson whose recording fails is still assessed and saved") {
   CHECK(drive_to_the_end(session).result.passed);
 }
 
-TEST_CASE("a guided trial has the instructor's hand on the lever and no grade; without help none is guided") {
+TEST_CASE("in a guided trial the lever guides and no grade is given; without help no trial is guided") {
   LessonRig rig;
-  SessionChoice alone = rig.choice("up_through_the_gears", "grip");
+  SessionChoice unguided = rig.choice("up_through_the_gears", "grip");
   for (int trial = 0; trial < 6; ++trial) {
-    Session session(alone);
+    Session session(unguided);
     ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
     CHECK(session.coach().guidance() == 0.0);
-    alone.learner += "a";
+    unguided.learner += "a";
   }
-  // The lever starts in 1; the first step that names a gear names 2, so the guidance leads there. Two of four trials
-  // are guided.
+  // The lever starts in first gear, and the first step that names a gear names second, so that is the guided gear. Two
+  // of the first four trials are guided.
   SessionChoice person = rig.choice("up_through_the_gears", "grip");
   person.help = true;
-  person.learner = "Bo";  // so that Ada's trials do not count for the guidance
+  person.learner = "Bo";  // a new learner, so that Ada's trials do not affect the guidance
   for (int trial = 0; trial < 4; ++trial) {
     Session driven(person);
     const CoachView& coach = drive_as_person(driven);
@@ -339,7 +340,7 @@ TEST_CASE("a replay requested during a lesson neither ends its recording nor sho
   CHECK(session.panel_input().replay == nullptr);
 }
 
-TEST_CASE("dismissing a lesson removes its hill, and recordings are stored beside their history") {
+TEST_CASE("dismissing a lesson removes its slope, and recordings are stored next to their history") {
   LessonRig rig;
   rig.history = rig.folder / "elsewhere" / "history.db";
   fs::create_directories(rig.history.parent_path());
@@ -355,7 +356,8 @@ TEST_CASE("dismissing a lesson removes its hill, and recordings are stored besid
   CHECK_FALSE(fs::exists(rig.folder / "gearshift/recordings"));
 }
 
-TEST_CASE("after a lesson the instructor holds the car, also on a hill, until the next one begins or is dismissed") {
+TEST_CASE(
+    "after a lesson the instructor holds the car, also on a slope, until the next lesson begins or is dismissed") {
   LessonRig rig;
   Session session(rig.choice("hill_start", "grip"));
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
@@ -364,7 +366,7 @@ TEST_CASE("after a lesson the instructor holds the car, also on a hill, until th
   rolls.clutch = 1.0;
   session.set_driver({}, rolls);
   for (int i = 0; i < 20 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kLessonFrame);
-  REQUIRE(session.coach().view().phase == LessonPhase::over);  // rolls back one metre
+  REQUIRE(session.coach().view().phase == LessonPhase::over);  // the lesson ended because the car rolled back one metre
   CHECK(session.car().road_speed < -0.5);
   go(session, 2.0);
   CHECK(session.car().road_speed == 0.0);
@@ -388,7 +390,7 @@ TEST_CASE(
   }
   ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
   go(session, 0.5);
-  CHECK(session.panel_input().message.find("Ada was deleted by another program") != std::string::npos);
+  CHECK(session.panel_input().message.find("Another program deleted Ada") != std::string::npos);
   CHECK(session.panel_input().coach.learner_deleted);
   CHECK(session.save_and_stop().empty());
   CHECK(fs::is_empty(rig.folder / "recordings"));

@@ -1,5 +1,5 @@
-// A recorded drive is loaded in the background: the lever keeps running, loading can be cancelled, and a rejected file
-// is reported.
+// A recorded drive loads in the background: the lever keeps running, loading can be cancelled, and a rejected file is
+// reported.
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -32,7 +32,7 @@ struct OpeningRig {
     choice.sound = SoundOutput::none;
     return Session(choice);
   }
-  // A drive of that length, recorded faster than real time.
+  // Records a drive of `seconds` seconds on the virtual clock, which is faster than real time.
   fs::path recorded(double seconds) const {
     fs::path file = folder / "long.trace";
     Session driven = session(RuntimeClock::virtual_time);
@@ -55,7 +55,7 @@ ReplayRequests open(const fs::path& file) {
   return playback;
 }
 
-// Frames until loading has ended; returns their number.
+// Runs frames until loading has ended, and returns their number.
 int wait(Session& session) {
   int frames = 0;
   for (; frames < 6000 && !session.panel_input().opening.empty(); ++frames) {
@@ -83,7 +83,7 @@ TEST_CASE("a long recording is loaded while frames continue, with a message") {
   MESSAGE("60 s of a drive: requested in " << 1e3 * asked << " ms, loaded after " << frames << " frames of 10 ms");
 }
 
-TEST_CASE("loading can be cancelled, and another gate cancels it, too") {
+TEST_CASE("loading can be cancelled, and a change of gate cancels it too") {
   const OpeningRig rig;
   const fs::path file = rig.recorded(60.0);
   Session session = rig.session(RuntimeClock::real_time);

@@ -1,4 +1,4 @@
-// When the session reports a new run to the panel, on the virtual clock.
+// Which changes the session reports to the panel as a new run, on the virtual clock.
 #include <cstdint>
 #include <functional>
 
@@ -15,7 +15,7 @@ using namespace gearshift::session;
 using namespace gearshift::test;
 using namespace gearshift::ui;
 
-TEST_CASE("a new lever, a replay's start and its end are new runs for the panel; tuning and recording are not") {
+TEST_CASE("a new lever and the start or end of a replay are new runs for the panel; tuning and recording are not") {
   const TempFolder folder;
   const Variable config{"XDG_CONFIG_HOME", folder.path().c_str()}, data{"XDG_DATA_HOME", folder.path().c_str()};
   SessionChoice choice;
@@ -23,9 +23,9 @@ TEST_CASE("a new lever, a replay's start and its end are new runs for the panel;
   choice.clock = RuntimeClock::virtual_time;
   choice.sound = SoundOutput::none;
   Session session(choice);
-  const auto changes = [&](const std::function<void(PanelRequests&)>& what, int frames = 30) {
+  const auto changes = [&](const std::function<void(PanelRequests&)>& request, int frames = 30) {
     PanelRequests requests;
-    what(requests);
+    request(requests);
     const std::uint64_t before = session.panel_input().run;
     session.apply(requests);
     for (int i = 0; i < frames; ++i) session.advance(1.0 / 60.0);
@@ -36,7 +36,7 @@ TEST_CASE("a new lever, a replay's start and its end are new runs for the panel;
   CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
   CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
   CHECK(changes([](PanelRequests& r) { r.replay = true; }, 1));
-  CHECK_FALSE(changes([](PanelRequests&) {}, 60));  // the recorded half second is over
+  CHECK_FALSE(changes([](PanelRequests&) {}, 60));  // the replay has reached its end, after 0.5 s
   CHECK(changes([](PanelRequests& r) { r.playback.seek = 0.0; }, 1));
   CHECK(changes([](PanelRequests& r) { r.playback.close = true; }));
   CHECK(changes([](PanelRequests& r) { r.gate = "four_speed"; }));

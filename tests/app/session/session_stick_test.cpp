@@ -1,4 +1,4 @@
-// A session with a stick in a person's hand: who may arm it, the effect of changes, and a stick that is unplugged.
+// A session with a stick in the user's hand: what arms it, what changes affect it, and how unplugging it is handled.
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-KnownStick late_by(double delay) {  // [s]
+KnownStick late_by(double delay) {  // [s] delay of the stick's responses
   IdleHand idle_hand;
   KnownStick known{sidewinder_calibration(), EmulatedStick({}, idle_hand).report_descriptor()};
   known.calibration.timing.delay = delay;
@@ -51,30 +51,30 @@ struct HeldRig {
     choice.help = false;
     choice.sound = SoundOutput::none;
     session = std::make_unique<Session>(choice);
-    REQUIRE(comes_true([&] { return held.lever->connected() && session->panel_input().stick->plugged_in; }));
+    REQUIRE(becomes_true([&] { return held.lever->connected() && session->panel_input().stick->plugged_in; }));
   }
 
   void frame() {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     session->advance(0.005);
   }
-  // Runs frames until the condition holds, for at most ten seconds.
-  bool comes_true(const std::function<bool()>& condition) {
+  // Runs frames of 5 ms until the condition holds, at most 2000.
+  bool becomes_true(const std::function<bool()>& condition) {
     for (int i = 0; i < 2000 && !condition(); ++i) frame();
     return condition();
   }
-  void ask(const std::function<void(PanelRequests&)>& what) {
+  void ask(const std::function<void(PanelRequests&)>& request) {
     PanelRequests requests;
-    what(requests);
+    request(requests);
     session->apply(requests);
   }
   void arm() {
     ask([](PanelRequests& requests) { requests.arm = true; });
   }
   GuardState guard() { return session->runtime().snapshot().guard; }
-  // A busy machine sometimes trips the guard; then the person arms again.
+  // Runs frames until the guard is running. On a busy machine the guard sometimes trips; then arms it again.
   bool runs() {
-    return comes_true([&] {
+    return becomes_true([&] {
       const GuardState now = guard();
       if (now == GuardState::damped || now == GuardState::released) arm();
       return now == GuardState::running;
@@ -87,7 +87,8 @@ struct HeldRig {
     }
     return held.force() == 0.0;
   }
-  // The paper's gate, enlarged to 900 mm; the stick's travel is 140 mm.
+  // The paper's gate with a 9 in front of every length, which makes it about 900 mm wide: too large for the stick's
+  // travel of 140 mm.
   fs::path wide_gate() const {
     std::ifstream paper(GEARSHIFT_ASSETS "/gates/paper.toml");
     std::string text{std::istreambuf_iterator<char>(paper), {}};
@@ -100,7 +101,7 @@ struct HeldRig {
 
 }  // namespace
 
-TEST_CASE("only Enter arms it: not the start, nor another gate, car, preset or setup") {
+TEST_CASE("only Enter arms the stick: not the start, nor a change of gate, car, preset or setup") {
   HeldRig rig;
   CHECK(rig.stays_off());
   CHECK(rig.session->panel_input().device_name == "SideWinder");
@@ -119,21 +120,21 @@ TEST_CASE("only Enter arms it: not the start, nor another gate, car, preset or s
   }
 }
 
-TEST_CASE("the cost of its delay to the walls is reported until it is armed") {
+TEST_CASE("the message that the stick's delay makes the walls softer is shown until it is armed") {
   HeldRig rig(std::string(kNoLesson), 0.004);
-  CHECK(rig.says("SideWinder responds after 7.0 ms: walls are softer, "));
-  CHECK(rig.says(" N/m instead of 5000"));
+  CHECK(rig.says("SideWinder takes 7.0 ms to respond, so the walls were softened from 5000 to "));
+  CHECK(rig.says(" N/m"));
   rig.arm();
   CHECK(rig.session->message().empty());
 }
 
-TEST_CASE("the lever follows the stick, and the mouse's hand has no effect") {
+TEST_CASE("the lever follows the stick, and the mouse has no effect") {
   HeldRig rig;
   rig.held.hand.go({0.020, 0.0});
   HandTarget mouse;
   mouse.position = {-0.05, 0.0};
   rig.session->set_driver(mouse, {});
-  CHECK(rig.comes_true([&] { return std::abs(rig.session->shown().lever.x - 0.020) < 0.002; }));
+  CHECK(rig.becomes_true([&] { return std::abs(rig.session->shown().lever.x - 0.020) < 0.002; }));
 }
 
 TEST_CASE("a rejected change leaves lever, forces and gate unchanged") {
@@ -154,20 +155,22 @@ TEST_CASE("a rejected change leaves lever, forces and gate unchanged") {
   CHECK(rig.guard() == GuardState::running);
 }
 
-TEST_CASE("unplugged in a recorded lesson: forces off, the lesson continues, and a person arms it when it is back") {
+TEST_CASE(
+    "unplugged in a recorded lesson: forces off, the lesson continues, and the user arms it again when it is back") {
   HeldRig rig("moving_off");
-  rig.ask([](PanelRequests& requests) { requests.arm = requests.lesson.begin = true; });  // as the card's button does
+  // The button on the lesson card makes both requests at once.
+  rig.ask([](PanelRequests& requests) { requests.arm = requests.lesson.begin = true; });
   REQUIRE(rig.session->coach().view().phase == LessonPhase::driving);
   CHECK(rig.session->recording());
   CHECK(rig.runs());
   rig.held.unplug();
-  CHECK(rig.comes_true([&] { return !rig.session->panel_input().stick->plugged_in; }));
+  CHECK(rig.becomes_true([&] { return !rig.session->panel_input().stick->plugged_in; }));
   CHECK(rig.says("was unplugged"));
   rig.arm();
   CHECK(rig.says("not plugged in"));
   CHECK(rig.session->coach().view().phase == LessonPhase::driving);
   rig.held.plug_in();
-  CHECK(rig.comes_true([&] { return rig.session->panel_input().stick->plugged_in; }));
+  CHECK(rig.becomes_true([&] { return rig.session->panel_input().stick->plugged_in; }));
   CHECK(rig.stays_off());
   rig.arm();
   CHECK(rig.runs());
@@ -196,20 +199,20 @@ TEST_CASE("a session that ends while the stick is unplugged still saves its less
   CHECK(TraceReader(history.recording_file(runs.front().recording)).cycles() > 100);
 }
 
-TEST_CASE("a lesson that begins in a gear begins when the stick is in it") {
-  HeldRig rig("eco_driving");  // in first gear
+TEST_CASE("a lesson that starts in a gear begins only when the stick is in that gear") {
+  HeldRig rig("eco_driving");  // this lesson starts in first gear
   rig.ask([](PanelRequests& requests) { requests.lesson.begin = true; });
-  CHECK(rig.says("starts in 1, but the stick is in N"));
+  CHECK(rig.says("starts in first, but the stick is in neutral"));
   CHECK(rig.session->coach().view().phase == LessonPhase::offered);
   DriverControls feet;
   feet.ignition = true;
-  feet.clutch = 1.0;  // otherwise the synchroniser keeps the gear out
+  feet.clutch = 1.0;  // with the clutch closed, the synchroniser would block the gear
   rig.session->set_driver({}, feet);
   const glm::dvec2 first = rest_position(rig.session->runtime().gate(), 1);
   rig.held.hand.go({first.x, 0.0});
-  CHECK(rig.comes_true([&] { return std::abs(rig.session->shown().lever.x - first.x) < 0.003; }));
+  CHECK(rig.becomes_true([&] { return std::abs(rig.session->shown().lever.x - first.x) < 0.003; }));
   rig.held.hand.go(first);
-  CHECK(rig.comes_true([&] { return rig.session->shown().gear == 1; }));
+  CHECK(rig.becomes_true([&] { return rig.session->shown().gear == 1; }));
   rig.ask([](PanelRequests& requests) { requests.lesson.begin = true; });
   CHECK(rig.session->coach().view().phase == LessonPhase::driving);
 }

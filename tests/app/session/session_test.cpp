@@ -1,4 +1,4 @@
-// What a user can request at the panel, on the virtual clock and without window, GPU and sound card.
+// The user's requests at the panel, on the virtual clock, without window, GPU or sound card.
 #include "app/session/session.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A user folder of its own, and a session that drives itself through the paper's gate.
+// An empty user folder, and a session whose automatic hand moves the lever through the paper's gate.
 struct Rig {
   TempFolder folder;
   Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
@@ -51,14 +51,14 @@ struct Rig {
   void go(double seconds) {
     for (double time = 0.0; time < seconds; time += 1.0 / 60.0) session.advance(1.0 / 60.0);
   }
-  void ask(std::optional<std::string> PanelRequests::*what, const std::string& name) {
+  void ask(std::optional<std::string> PanelRequests::*request, const std::string& name) {
     PanelRequests requests;
-    requests.*what = name;
+    requests.*request = name;
     session.apply(requests);
   }
-  void ask(bool PanelRequests::*what) {
+  void ask(bool PanelRequests::*request) {
     PanelRequests requests;
-    requests.*what = true;
+    requests.*request = true;
     session.apply(requests);
   }
   bool says(const std::string& words) const { return session.message().find(words) != std::string::npos; }
@@ -85,7 +85,7 @@ bool has_node(const Session& session, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("the tuning stays when gate or hand change; a chosen preset brings its own") {
+TEST_CASE("a change of gate or hand keeps the tuning; a chosen preset brings its own") {
   Rig rig;
   PanelRequests requests;
   requests.tuning = softer(rig.tuning());
@@ -98,7 +98,7 @@ TEST_CASE("the tuning stays when gate or hand change; a chosen preset brings its
   CHECK(rig.tuning() == read_preset(GEARSHIFT_ASSETS "/presets/measured.toml").haptics.tuning);
 }
 
-TEST_CASE("a restart's configuration stays, too, and later tuning on top of it") {
+TEST_CASE("a change of hand also keeps a restart's configuration and the tuning after it") {
   Rig rig;
   PanelRequests restart;
   restart.restart = rig.session.runtime().config().preset.haptics;
@@ -112,10 +112,10 @@ TEST_CASE("a restart's configuration stays, too, and later tuning on top of it")
   CHECK(rig.tuning().wall_stiffness == 4321.0);
 }
 
-TEST_CASE("a failed recording is reported in the same frame, and is over") {
+TEST_CASE("a failed recording is reported in the same frame, and has ended") {
   Rig rig;
   {
-    const SmallFiles small(60'000);  // [bytes] a few tenths of a second
+    const SmallFiles small(60'000);  // [bytes] enough for a few tenths of a second
     rig.ask(&PanelRequests::record);
     CHECK(rig.says("recording to"));
     rig.go(3.0);
@@ -125,7 +125,7 @@ TEST_CASE("a failed recording is reported in the same frame, and is over") {
   CHECK_FALSE(rig.session.panel_input().recording);
 }
 
-TEST_CASE("another gate ends the recording and reports where it is, or how it failed") {
+TEST_CASE("a change of gate ends the recording and reports where the file is, or how it failed") {
   Rig rig;
   rig.ask(&PanelRequests::record);
   rig.go(0.5);
@@ -137,7 +137,7 @@ TEST_CASE("another gate ends the recording and reports where it is, or how it fa
   CHECK(replay(trace, make_lesson_load).bit_for_bit());
   CHECK(trace.header.program == program_name());
   {
-    // [bytes] more than the header, less than a block: the error shows only when the file is closed
+    // [bytes] More than the header and less than a block, so the error occurs only when the file is closed.
     const SmallFiles small(10'000);
     rig.ask(&PanelRequests::record);
     rig.go(0.1);
@@ -156,7 +156,7 @@ TEST_CASE("two recordings within a second are two complete files") {
   for (const fs::path& file : rig.traces()) CHECK(replay(read_trace(file), make_lesson_load).bit_for_bit());
 }
 
-TEST_CASE("a replay shows only the trace: its events in order, each once; the running lever's guard stays visible") {
+TEST_CASE("a replay shows the trace's cycles in order, each once, and the running lever's guard") {
   Rig rig;
   rig.go(1.0);
   rig.ask(&PanelRequests::record);
@@ -182,10 +182,11 @@ TEST_CASE("a replay shows only the trace: its events in order, each once; the ru
     events += input.events.size();
   }
   REQUIRE(cycles.size() > 235);
-  for (std::size_t i = 1; i < cycles.size(); ++i) REQUIRE(cycles[i] == cycles[i - 1] + 4);  // 4 ms apart
+  for (std::size_t i = 1; i < cycles.size(); ++i) REQUIRE(cycles[i] == cycles[i - 1] + 4);  // one snapshot every 4 ms
   CHECK(events == 0);
   rig.go(1.5);
-  CHECK(rig.session.panel_input().now.time_ns == trace.samples.back().out.time_ns);  // the replay is at its end
+  // The replay stops at the trace's end.
+  CHECK(rig.session.panel_input().now.time_ns == trace.samples.back().out.time_ns);
   PanelRequests close;
   close.playback.close = true;
   rig.session.apply(close);
@@ -195,7 +196,7 @@ TEST_CASE("a replay shows only the trace: its events in order, each once; the ru
     CHECK(snapshot.time_ns > trace.samples.back().out.time_ns);
 }
 
-TEST_CASE("a trace of another gate is shown in its own gate, and another gate ends a replay") {
+TEST_CASE("a trace is shown in the gate of its recording, and a change of gate ends the replay") {
   Rig rig;
   rig.ask(&PanelRequests::record);
   rig.go(1.0);
@@ -205,7 +206,7 @@ TEST_CASE("a trace of another gate is shown in its own gate, and another gate en
   const glm::dvec2 shown = rig.session.shown().lever;
   rig.ask(&PanelRequests::gate, "four_speed");
   rig.session.advance(1.0 / 60.0);
-  CHECK_FALSE(rig.session.panel_input().events.empty());  // the running lever's events, e.g. that it was armed
+  CHECK_FALSE(rig.session.panel_input().events.empty());  // events of the running lever, e.g. that it was armed
   CHECK(rig.session.panel_input().gate->slot_count == 5);
   (void)rig.session.take_new_model();
   rig.ask(&PanelRequests::replay);
@@ -220,7 +221,7 @@ TEST_CASE("a trace of another gate is shown in its own gate, and another gate en
   CHECK(rig.session.panel_input().gate->slot_count == 5);
 }
 
-TEST_CASE("an unreadable preset is not shown as the active one") {
+TEST_CASE("if the preset to compare with is unreadable, nothing is compared, and a message says so") {
   Rig rig;
   rig.ask(&PanelRequests::compare, "measured");
   CHECK(rig.session.panel_input().compared.has_value());
@@ -229,12 +230,12 @@ TEST_CASE("an unreadable preset is not shown as the active one") {
   CHECK(rig.says("no_such_preset"));
 }
 
-TEST_CASE("a preset is saved under the user's name, and is in the list at once, only once") {
+TEST_CASE("a preset is saved under the user's name and is listed at once, only once") {
   Rig rig;
   for (const char* name : {"", ".", "..", ".hidden", "a/b", "../x", "default", "paper"}) {
     CAPTURE(name);
     rig.ask(&PanelRequests::save_preset, name);
-    CHECK(rig.says("cannot be the name of a preset"));
+    CHECK(rig.says("is not a valid preset name"));
   }
   CHECK_FALSE(fs::exists(rig.folder / "gearshift/presets"));
   rig.ask(&PanelRequests::save_preset, (rig.folder / "x").string());
@@ -260,7 +261,7 @@ TEST_CASE("a file named like a shipped preset neither replaces it nor is listed 
   CHECK(rig.tuning().wall_stiffness != 4321.0);
 }
 
-TEST_CASE("the stage is created again for another gate or another yoke only") {
+TEST_CASE("the stage is created again only for a different gate or yoke") {
   Rig rig;
   CHECK(rig.session.take_new_model());
   rig.ask(&PanelRequests::hand, "grip");
@@ -275,7 +276,7 @@ TEST_CASE("the stage is created again for another gate or another yoke only") {
   CHECK(rig.session.take_new_model());
 }
 
-TEST_CASE("the cabin is opened for the cameras that look into it") {
+TEST_CASE("the cameras that look into the mechanism open the cabin") {
   SessionChoice choice = Rig::choice_by_itself();
   choice.camera = "gearbox";
   Rig rig(choice);
@@ -290,13 +291,13 @@ TEST_CASE("the cabin is opened for the cameras that look into it") {
   rig.session.set_camera("gate");
   CHECK(rig.session.take_new_model());
   CHECK(rig.session.stage().model().triangle_count() != closed);
-  rig.ask(&PanelRequests::gate, "four_speed");  // still open
+  rig.ask(&PanelRequests::gate, "four_speed");  // the new stage is opened too
   rig.session.set_camera("gate");
   CHECK(rig.session.take_new_model());
   CHECK_FALSE(rig.session.take_new_model());
 }
 
-TEST_CASE("from gate to gate and back: a session's memory does not grow") {
+TEST_CASE("repeated changes of gate do not increase a session's memory") {
   Rig rig;
   const auto there_and_back = [&](int times) {
     for (int i = 0; i < times; ++i) {

@@ -1,4 +1,4 @@
-// Panel and driver share one window, with the shipped bindings: which input goes to which, frame by frame.
+// Panel and driver share one window with the shipped bindings. Tests which of them gets which input, frame by frame.
 #include "app/session/shared_input.h"
 
 #include <string>
@@ -25,7 +25,7 @@ struct Desk {
   SharedInput shared{read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml")};
   DriverInput& driver = shared.driver();
   WindowInput window;
-  std::optional<glm::dvec2> mouse;  // [px] in the panel's picture; none: the window is the panel's picture
+  std::optional<glm::dvec2> mouse;  // [px] position in the panel's picture, if it differs from the window's
 
   Desk() {
     rig.input.now.guard = GuardState::running;
@@ -42,7 +42,7 @@ struct Desk {
     window.keys.clear();
     return rig.asked;
   }
-  // The requests made on the way.
+  // Presses and releases a key, and returns all requests made meanwhile.
   PanelRequests key(int code, bool control = false) {
     window.keys = {{code, true, false, control, false}};
     PanelRequests all = frame();
@@ -59,7 +59,7 @@ struct Desk {
 
 }  // namespace
 
-TEST_CASE("a click on STOP counts on press, in the frame in which the mouse arrives from the cabin, once") {
+TEST_CASE("a click on STOP counts once, on press, in the frame in which the mouse comes from the cabin") {
   for (const char* name : {"stop", "disarm"}) {
     CAPTURE(name);
     Desk desk;
@@ -81,7 +81,8 @@ TEST_CASE("a click on STOP counts on press, in the frame in which the mouse arri
     CHECK(all.disarm == (std::string(name) == "disarm"));
     CHECK_FALSE(desk.driver.mouse_moves_lever());
   }
-  Desk desk;  // and the reverse: a click on the cabin belongs to the hand, though the mouse was on the panel before
+  Desk desk;  // In the reverse direction, a click on the cabin moves the hand, although the mouse was on the panel
+              // before.
   desk.window.mouse = desk.middle("stop");
   desk.frame();
   desk.window.mouse = {640.0, 300.0};
@@ -90,7 +91,7 @@ TEST_CASE("a click on STOP counts on press, in the frame in which the mouse arri
   CHECK(desk.driver.mouse_moves_lever());
 }
 
-TEST_CASE("a mouse button pressed on the panel belongs to it until released") {
+TEST_CASE("a mouse button pressed on the panel is the panel's until it is released") {
   Desk desk;
   desk.window.mouse = desk.middle("wall_stiffness_n_per_m");
   desk.frame();
@@ -107,7 +108,7 @@ TEST_CASE("a mouse button pressed on the panel belongs to it until released") {
   CHECK_FALSE(desk.driver.mouse_moves_lever());
 }
 
-TEST_CASE("with the shipped bindings Tab enters the panel: its arrows do not move the lever") {
+TEST_CASE("with the shipped bindings Tab enters the panel, and its arrow keys do not move the lever") {
   Desk desk;
   desk.frame();
   desk.window.keys = {{GLFW_KEY_TAB, true, false, false, false}};
@@ -122,7 +123,7 @@ TEST_CASE("with the shipped bindings Tab enters the panel: its arrows do not mov
   desk.key(GLFW_KEY_UP);
   CHECK(desk.driver.hand().position == glm::dvec2(0.0));
   CHECK(desk.rig.panel.visible());
-  for (int i = 0; i < 3; ++i) desk.key(GLFW_KEY_ESCAPE);  // out again
+  for (int i = 0; i < 3; ++i) desk.key(GLFW_KEY_ESCAPE);  // leaves the panel again
   CHECK_FALSE(desk.rig.panel.has_keyboard());
   CHECK_FALSE(desk.driver.mouse_moves_lever());
   desk.window.keys = {{GLFW_KEY_RIGHT, true, false, false, false}};
@@ -130,7 +131,7 @@ TEST_CASE("with the shipped bindings Tab enters the panel: its arrows do not mov
   CHECK(desk.driver.hand().position.x > 0.02);
 }
 
-TEST_CASE("Ctrl+Tab cycles through the parts, and Space presses the focused control") {
+TEST_CASE("Ctrl+Tab cycles through the panel's parts, and Space presses the focused control") {
   Desk desk;
   desk.frame();
   desk.key(GLFW_KEY_TAB);
@@ -149,12 +150,12 @@ TEST_CASE("Ctrl+Tab cycles through the parts, and Space presses the focused cont
   desk.key(GLFW_KEY_G, true);
   CHECK_FALSE(desk.driver.mouse_moves_lever());
   for (int i = 0; i < 3; ++i) desk.key(GLFW_KEY_ESCAPE);
-  desk.key(GLFW_KEY_TAB);  // the first control of the bar
+  desk.key(GLFW_KEY_TAB);  // focuses the first control of the status bar
   CHECK(desk.key(GLFW_KEY_SPACE).disarm);
   CHECK(desk.driver.pressed().empty());
 }
 
-TEST_CASE("F2 shows and hides the panel; with Ctrl or Alt held only STOP's keys work") {
+TEST_CASE("F2 shows and hides the panel; with Ctrl or Alt held only the keys for STOP work") {
   Desk desk;
   const auto pressed = [&](int key, bool control, bool alt) {
     desk.window.keys = {{key, true, false, control, alt}, {key, false, false, control, alt}};
@@ -169,7 +170,7 @@ TEST_CASE("F2 shows and hides the panel; with Ctrl or Alt held only STOP's keys 
   CHECK(pressed(GLFW_KEY_SPACE, true, false) == std::vector{Action::stop});
 }
 
-TEST_CASE("Ctrl+click on a slider types a number, and its digits do not reach the driver") {
+TEST_CASE("Ctrl+click on a slider lets the user type a number, and its digits do not reach the driver") {
   Desk desk;
   desk.window.keys = {{GLFW_KEY_LEFT_CONTROL, true, false, false, false}};
   desk.window.mouse = desk.middle("wall_damping_n_s_per_m");
@@ -190,7 +191,7 @@ TEST_CASE("Ctrl+click on a slider types a number, and its digits do not reach th
   CHECK(all.tuning->wall_damping == 7.0);
 }
 
-TEST_CASE("in stereo the mouse over either eye's panel is over the panel") {
+TEST_CASE("in stereo, the mouse on the panel in either eye's picture is on the panel") {
   Desk desk;
   ViewConfig stereo;
   stereo.stereo = true;
@@ -206,7 +207,7 @@ TEST_CASE("in stereo the mouse over either eye's panel is over the panel") {
   }
 }
 
-TEST_CASE("the right button, pressed beside the panel, turns the view until released") {
+TEST_CASE("the right button, pressed outside the panel, turns the view until released") {
   Desk desk;
   const auto drag = [&](glm::dvec2 from, glm::dvec2 to) {
     desk.window.mouse = from;

@@ -24,7 +24,7 @@ TEST_CASE("the panel grows with the picture above 1080 lines, and with the displ
   CHECK(scale.follow(2160, 1.5f) == 2.0f);
 }
 
-TEST_CASE("an edge dragged from 1080 to 2160 lines gives four other scales, and never one too large for the picture") {
+TEST_CASE("a height dragged from 1080 to 2160 lines gives five scales in all, none too large for the picture") {
   UiScale scale;
   std::set<float> scales;
   for (int height = 1080; height <= 2160; ++height) {
@@ -41,10 +41,10 @@ TEST_CASE("a minimised window keeps its scale") {
   CHECK(scale.follow(0, 1.0f) == 2.0f);
 }
 
-// The learner's card, seen from the driver's eyes: current headsets have 20 to 35 px per degree, and ISO 9241-303
-// requires capitals of 20 minutes of arc (see hanging_panel_test.cpp for the fonts).
+// The learner's card, seen from the driver's eyes. Current headsets have 20 to 35 px per degree, and ISO 9241-303
+// requires capitals at least 20 minutes of arc high (see hanging_panel_test.cpp for the fonts).
 TEST_CASE(
-    "in a headset the card's picture has at least 30 px per degree, with the same text size with and without columns") {
+    "in a headset, the card has at least 30 px per degree, and its text has the same size with and without columns") {
   const glm::ivec2 size = HeadsetViewConfig{}.panel;
   for (const bool columns : {true, false}) {
     CAPTURE(columns);

@@ -1,4 +1,4 @@
-// The view straight ahead is centred in the area that the panel leaves free.
+// The view straight ahead is centred in the part of the window that the panel leaves free.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,18 +11,18 @@ using namespace gearshift::cabin;
 using namespace gearshift::engine;
 using doctest::Approx;
 
-TEST_CASE("the cabin is centred in the free area, and the field of view spans that area's shorter side") {
+TEST_CASE("the cabin is centred in the free part, and the field of view spans that part's shorter side") {
   const double field = 72.0 * std::numbers::pi / 180.0;
   struct Case {
     glm::dvec2 size;
-    VisibleRegion seen, counts;
+    VisibleRegion visible, expected;
   };
-  const VisibleRegion all, beside{{0.25, 0.0}, {0.75, 0.9}}, right{{0.0, 0.0}, {0.52, 0.8}},
+  const VisibleRegion all, next_to_panel{{0.25, 0.0}, {0.75, 0.9}}, right{{0.0, 0.0}, {0.52, 0.8}},
       slit{{0.48, 0.0}, {0.52, 0.9}};
-  for (const Case& c : {Case{{1280, 720}, all, all}, Case{{1280, 720}, beside, beside}, Case{{640, 720}, right, right},
-                        Case{{640, 720}, slit, all}, Case{{320, 900}, all, all}}) {
-    const View view = view_from(EyePose{}, fov_around(field, c.size, c.seen), 0.05);
-    const glm::dvec2 low = c.counts.low * c.size, high = c.counts.high * c.size, middle = 0.5 * (low + high);
+  for (const Case& c : {Case{{1280, 720}, all, all}, Case{{1280, 720}, next_to_panel, next_to_panel},
+                        Case{{640, 720}, right, right}, Case{{640, 720}, slit, all}, Case{{320, 900}, all, all}}) {
+    const View view = view_from(EyePose{}, fov_around(field, c.size, c.visible), 0.05);
+    const glm::dvec2 low = c.expected.low * c.size, high = c.expected.high * c.size, middle = 0.5 * (low + high);
     const glm::dvec3 ahead = project(view, {0.0, 0.0, -3.0}, c.size);
     CHECK(ahead.x == Approx(middle.x).epsilon(1e-5));
     CHECK(ahead.y == Approx(middle.y).epsilon(1e-5));

@@ -1,4 +1,4 @@
-// The car's curves, at points known by hand.
+// The car's curves and the engine's control, compared with values computed by hand.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -81,12 +81,12 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until the starte
   control.update(300.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(300.0, 1.0) == 0.0);
-  control.add_crank_angle(100.0);  // not caused by the starter
+  control.add_crank_angle(100.0);  // turned by the car, not by the starter
   control.turn_key(true, true);
   control.add_crank_angle(12.5);
   control.update(15.0);
   CHECK_FALSE(control.running());
-  control.add_crank_angle(0.1);  // two turns: 12.566
+  control.add_crank_angle(0.1);  // now two turns, 12.566 rad
   control.update(14.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(0.0, 0.0) == 60.0);
@@ -96,7 +96,7 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until the starte
   control.turn_key(true, false);
   control.update(15.0);
   CHECK_FALSE(control.running());
-  control.turn_key(true, true);  // from the beginning
+  control.turn_key(true, true);  // the count of turns starts again
   control.update(15.0);
   CHECK_FALSE(control.running());
 }
@@ -111,8 +111,8 @@ TEST_CASE("without ignition there is neither spark nor starter") {
 
 TEST_CASE("the limiter cuts above its speed, and resumes only below its band") {
   EngineControl control(small_engine());
-  const double way[][2] = {{499.0, 1}, {501.0, 0}, {490.0, 0}, {481.0, 0}, {479.0, 1}, {499.0, 1}};
-  for (const auto& [speed, fires] : way) {
+  const double cycles[][2] = {{499.0, 1}, {501.0, 0}, {490.0, 0}, {481.0, 0}, {479.0, 1}, {499.0, 1}};
+  for (const auto& [speed, fires] : cycles) {
     control.update(speed);
     CHECK(control.load(speed, 1.0) == fires);
     CHECK(control.running());

@@ -1,4 +1,4 @@
-// Whole shifts: a hand on the simulated lever, feet on the pedals, the car behind the gate.
+// Complete shifts: a hand on the simulated lever, feet on the pedals, the car connected to the lever.
 #include "app/vehicle/car_load.h"
 
 #include <algorithm>
@@ -18,13 +18,13 @@ using glm::dvec2;
 
 namespace {
 
-// Statistics of a drive, and invariants checked in every cycle.
+// Statistics of a drive. drive() also checks invariants in every cycle.
 struct CarDrive {
-  double blocked = 0.0, ground = 0.0;  // [s]
+  double blocked = 0.0, ground = 0.0;  // [s] with the ring blocking, with the dogs grinding
   double deepest = 0.0;                // [m] largest depth of the proxy in a slot
-  double push = 0.0;                   // [N] maximum
+  double push = 0.0;                   // [N] largest push along the slot
   bool stalled = false;
-  std::vector<int> gears;  // in the order of engagement
+  std::vector<int> gears;  // in the order in which they engaged
 
   void drive(CarRun& run, double seconds) {
     const double end = run.time() + seconds;
@@ -33,7 +33,7 @@ struct CarDrive {
       const HapticSnapshot& lever = run.step();
       const VehicleState& car = run.state();
       if (lever.gear != before && lever.gear != kNeutralGear) {
-        REQUIRE(car.gear == lever.gear);  // a gear counts only with its dogs engaged
+        REQUIRE(car.gear == lever.gear);  // a gear counts as engaged only with its dogs engaged
         gears.push_back(lever.gear);
       }
       before = lever.gear;
@@ -52,15 +52,15 @@ SleeveStations stations_of(const Gate& gate, int gear) {
   return sleeve_stations(slot_of(gate, slot_of_gear(gate, gear)));
 }
 
-double way_of(const Gate& gate, int gear) {
+double direction_of(const Gate& gate, int gear) {
   return static_cast<double>(static_cast<int>(slot_of(gate, slot_of_gear(gate, gear)).side));
 }
 
-// Stays in front of that gear's slot, and pushes into it with that force after 0.2 s.
+// A hand that holds the lever in front of the gear's slot and, from 0.2 s on, pushes it into the slot with `push` [N].
 PushingHand leaning_hand(const Gate& gate, int gear, double push) {
-  const double way = way_of(gate, gear), across = rest_position(gate, gear).x;
+  const double direction = direction_of(gate, gear), across = rest_position(gate, gear).x;
   return PushingHand([=](double time, dvec2 lever) {
-    return dvec2{2000.0 * (across - lever.x), time < 0.2 ? 0.0 : way * push};
+    return dvec2{2000.0 * (across - lever.x), time < 0.2 ? 0.0 : direction * push};
   });
 }
 
@@ -93,7 +93,7 @@ class Lever final : public HapticDevice {
   DeviceSpec spec_;
 };
 
-// [s] for which a hand is blocked on its way 2-3-2-1, or 100 s if it missed a gear.
+// [s] How long the ring blocks a hand in total while it shifts 2-3-2-1; 100 if first gear is not reached.
 double blocked_time(const CarSpec& car, double rate, int delay, bool measures) {
   const Gate gate = gate_of(car);
   HapticConfig haptics;
@@ -124,7 +124,8 @@ double blocked_time(const CarSpec& car, double rate, int delay, bool measures) {
 
 }  // namespace
 
-TEST_CASE("every shift with the clutch down, up, down and skipping, in both cars: synchronised, in, and never ground") {
+TEST_CASE(
+    "with the clutch down every shift, up, down or skipping gears, is synchronised and does not grind: both cars") {
   for (const char* name : {"hatchback", "diesel"}) {
     const CarSpec car = shipped_car(name);
     const Gate gate = gate_of(car);
@@ -159,7 +160,7 @@ TEST_CASE("every shift with the clutch down, up, down and skipping, in both cars
   }
 }
 
-TEST_CASE("half a clutch press is enough if it transmits nothing: pedal just past the bite point") {
+TEST_CASE("pressing the clutch just past its bite point is enough for a shift") {
   const CarSpec car = shipped_car("hatchback");
   ScriptedHand hand = shifting_hand(gate_of(car), 2, {3});
   CarRun run(car, rolling_in(car, 2, 250.0), hand, [&](double time) {
@@ -173,7 +174,7 @@ TEST_CASE("half a clutch press is enough if it transmits nothing: pedal just pas
   CHECK(drive.ground == 0.0);
 }
 
-TEST_CASE("without the clutch a gear is behind a hard wall, however long and hard the hand leans on it") {
+TEST_CASE("without the clutch a hard wall blocks the gear, however long and hard the hand pushes") {
   for (const char* name : {"hatchback", "diesel"}) {
     const CarSpec car = shipped_car(name);
     const Gate gate = gate_of(car);
@@ -193,7 +194,7 @@ TEST_CASE("without the clutch a gear is behind a hard wall, however long and har
           const HapticSnapshot& lever = run.step();
           REQUIRE(lever.gear == kNeutralGear);
           REQUIRE(std::abs(lever.proxy.y) <= block + 1e-9);
-          REQUIRE(lever.load_force == dvec2(0.0));  // a plain wall: no rattle, no vibration
+          REQUIRE(lever.load_force == dvec2(0.0));  // a plain wall, without rattle or vibration
         }
         CHECK(std::abs(run.loop().snapshot().proxy.y) == doctest::Approx(block));
         CHECK(load.state().sync == SyncPhase::synchronising);
@@ -202,7 +203,7 @@ TEST_CASE("without the clutch a gear is behind a hard wall, however long and har
   }
 }
 
-TEST_CASE("without the clutch a gear engages when the revs match, as in a real gearbox: the engine falls to them") {
+TEST_CASE("without the clutch a gear engages when the falling engine speed matches, as in a real gearbox") {
   for (const char* name : {"hatchback", "diesel"}) {
     const CarSpec car = shipped_car(name);
     const Gate gate = gate_of(car);
@@ -227,9 +228,10 @@ TEST_CASE("without the clutch a gear engages when the revs match, as in a real g
   }
 }
 
-// Behaviours that users of other simulators complain about.
+// Users of other simulators complain about gears that engage while they grind, and about grinding that ignores the
+// push.
 TEST_CASE(
-    "a worn synchroniser grinds behind a hard wall, louder with more push, and no gear is accepted before it fits") {
+    "a worn synchroniser grinds at a hard wall, louder with more push, and no gear engages before the speeds match") {
   CarSpec car = shipped_car("hatchback");
   car.synchro.friction = 0.5 * critical_friction(car.synchro);
   const Gate gate = gate_of(car);
@@ -244,7 +246,7 @@ TEST_CASE(
     SimulatedRun run(before_slot(gate, 2), hand, &load);
     run.channels().controls.write(clutch_down());
     const double dogs = stations_of(gate, 2).dogs;
-    double power = 0.0, most_step = 0.0, ground = 0.0;
+    double power = 0.0, max_step = 0.0, ground = 0.0;
     dvec2 before{0.0};
     while (run.time() < 4.0 && run.loop().snapshot().gear == kNeutralGear) {
       const HapticSnapshot& lever = run.step();
@@ -252,24 +254,25 @@ TEST_CASE(
       if (load.state().grinding) REQUIRE(std::abs(load.state().dog_difference) > 0.0);
       power = std::max(power, load.state().grind_power);
       ground += load.state().grinding ? 0.001 : 0.0;
-      most_step = std::max(most_step, std::abs(lever.load_force.y - before.y));
+      max_step = std::max(max_step, std::abs(lever.load_force.y - before.y));
       before = lever.load_force;
-      REQUIRE(lever.load_force.y * way_of(gate, 2) <= 0.0);  // it never pulls the lever in
+      REQUIRE(lever.load_force.y * direction_of(gate, 2) <= 0.0);  // no force pulls the lever into the slot
     }
     CHECK(run.loop().snapshot().gear == 2);
     CHECK(ground > 0.05);
     CHECK(power > 1.4 * quieter);
-    CHECK(most_step < 3.0);  // [N] from one cycle to the next
+    CHECK(max_step < 3.0);  // [N] change from one cycle to the next
     quieter = power;
   }
 }
 
-TEST_CASE("torque lock: under load the gear is clamped, coasting it is held lightly, with the clutch down it is free") {
+TEST_CASE(
+    "torque lock: under load the gear is clamped, while coasting it is held lightly, with the clutch down it is free") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   const auto pulled_out = [&](int gear, double pull, const DriverControls& feet) {
-    const double way = way_of(gate, gear);
-    PushingHand hand([=](double time, dvec2) { return dvec2{0.0, time < 0.5 ? 0.0 : -way * pull}; });
+    const double direction = direction_of(gate, gear);
+    PushingHand hand([=](double time, dvec2) { return dvec2{0.0, time < 0.5 ? 0.0 : -direction * pull}; });
     CarLoad load(car, gate, kPaperForce, rolling_in(car, gear, 250.0));
     SimulatedRunConfig config = gripped(gate, gear);
     config.lever.hand = kBareHand;
@@ -282,11 +285,11 @@ TEST_CASE("torque lock: under load the gear is clamped, coasting it is held ligh
     }
     return false;
   };
-  const double lock_feel = 12.0;  // [N] the gate's own
+  const double lock_feel = 12.0;  // [N] pull-out force of the gate's own feel
   for (const int gear : {1, 2, 3}) {
     CAPTURE(gear);
     CHECK_FALSE(pulled_out(gear, 31.0, clutch_up(1.0)));
-    CHECK_FALSE(pulled_out(gear, 60.0, clutch_up(1.0)));  // even beyond the device's force
+    CHECK_FALSE(pulled_out(gear, 60.0, clutch_up(1.0)));  // a pull that exceeds the device's force
     CHECK(pulled_out(gear, lock_feel + 2.0, clutch_down()));
     DriverControls full_throttle = clutch_down();
     full_throttle.throttle = 1.0;
@@ -297,7 +300,7 @@ TEST_CASE("torque lock: under load the gear is clamped, coasting it is held ligh
 }
 
 TEST_CASE(
-    "neutral is always within reach with the clutch down: every gear, both cars, from full throttle and braking") {
+    "with the clutch down every gear can be left for neutral, in both cars, after full throttle and while braking") {
   for (const char* name : {"hatchback", "diesel"}) {
     const CarSpec car = shipped_car(name);
     const Gate gate = gate_of(car);
@@ -323,7 +326,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("no gear sticks in neutral, and no force remains: an hour in town, shortened") {
+TEST_CASE("over many shifts, no gear stays engaged in neutral, and no force remains there") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   ScriptedHand hand =
@@ -337,7 +340,7 @@ TEST_CASE("no gear sticks in neutral, and no force remains: an hour in town, sho
     const HapticSnapshot& lever = run.step();
     in_neutral = lever.slot == kNoSlot ? in_neutral + 0.001 : 0.0;
     if (lever.slot == kNoSlot) REQUIRE(run.state().gear == kNeutralGear);
-    if (lever.slot == kNoSlot) REQUIRE(lever.load_force == dvec2(0.0));  // no rumble in the aisle
+    if (lever.slot == kNoSlot) REQUIRE(lever.load_force == dvec2(0.0));  // no rattle or bump outside the slots
     if (in_neutral > 0.012) REQUIRE(lever.gear == kNeutralGear);
     times += in_neutral > 0.012 && in_neutral < 0.0135 ? 1 : 0;
   }
@@ -345,12 +348,12 @@ TEST_CASE("no gear sticks in neutral, and no force remains: an hour in town, sho
   CHECK(run.state().gear == 3);
 }
 
-TEST_CASE("a stall is reported: the clutch dumped at idle") {
+TEST_CASE("a stall is reported after the clutch was dumped at idle") {
   const CarSpec car = shipped_car("hatchback");
-  ScriptedHand nobody = shifting_hand(gate_of(car), 1, {});
+  ScriptedHand idle_hand = shifting_hand(gate_of(car), 1, {});
   CarStart start;
   start.gear = 1;
-  CarRun run(car, start, nobody, [](double time) {
+  CarRun run(car, start, idle_hand, [](double time) {
     DriverControls feet = time < 0.3 ? clutch_down() : clutch_up();
     feet.brake = 1.0;
     return feet;
@@ -364,7 +367,7 @@ TEST_CASE("a stall is reported: the clutch dumped at idle") {
   CHECK(run.state().engine_speed == 0.0);
 }
 
-TEST_CASE("reverse: locked out by the gate at 30 km/h, blocked by its dogs at walking pace, engaged at rest") {
+TEST_CASE("reverse is locked out by the gate at 30 km/h, blocked by its dogs at walking pace, and engages at rest") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   const auto drive_at = [&](double speed, double wait, CarDrive& drive) {
@@ -382,13 +385,13 @@ TEST_CASE("reverse: locked out by the gate at 30 km/h, blocked by its dogs at wa
   CHECK(drive_at(2.0, 2.0, walking) == kNeutralGear);
   CHECK(walking.deepest == doctest::Approx(dogs));
   CHECK(walking.ground > 0.2);
-  CHECK(drive_at(0.0, 2.0, resting) == kReverseGear);  // the shaft has slowed down meanwhile
+  CHECK(drive_at(0.0, 2.0, resting) == kReverseGear);  // after 2 s the shaft has slowed down
   CHECK(resting.ground == 0.0);
-  CHECK(drive_at(0.0, 0.1, hasty) == kReverseGear);  // the shaft still turns, until the dogs have ground it to a stop
+  CHECK(drive_at(0.0, 0.1, hasty) == kReverseGear);  // after 0.1 s the shaft still turns, and the grinding dogs stop it
   CHECK(hasty.ground > 0.1);
 }
 
-TEST_CASE("energy: the ledger balances over a whole drive, and the cone's heat follows from the hand's push") {
+TEST_CASE("the energy ledger balances over a whole drive, and the cone's heat follows from the hand's push") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   ScriptedHand hand = shifting_hand(gate, 1, {2, 3, 2}, 1.0, 1.0);
@@ -398,7 +401,7 @@ TEST_CASE("energy: the ledger balances over a whole drive, and the cone's heat f
   });
   const double before = run.load.driveline().kinetic_energy();
   const double gain = car.synchro.lever_ratio * car.synchro.efficiency * cone_gain(car.synchro);
-  double heat = 0.0, work = 0.0, push = 0.0, way = run.run.lever().true_position().y;
+  double heat = 0.0, work = 0.0, push = 0.0, position = run.run.lever().true_position().y;
   while (run.time() < hand.duration()) {
     const HapticSnapshot& lever = run.step();
     const VehicleState& now = run.state();
@@ -406,8 +409,8 @@ TEST_CASE("energy: the ledger balances over a whole drive, and the cone's heat f
       heat += 0.001 * gain * std::max(0.0, push) / now.force_scale * std::abs(now.dog_difference);
     push = lever.slot == kNoSlot ? 0.0 : std::copysign(1.0, lever.proxy.y) * lever.f_h.y;
     const double here = run.run.lever().true_position().y;
-    work += lever.load_force.y * (here - way);
-    way = here;
+    work += lever.load_force.y * (here - position);
+    position = here;
   }
   const EnergyLedger& went = run.load.driveline().energy();
   const double out = went.friction + went.clutch + went.cone + went.shaft_drag + went.rolling + went.brakes +
@@ -418,14 +421,14 @@ TEST_CASE("energy: the ledger balances over a whole drive, and the cone's heat f
   CHECK(work < 0.001);  // [J] the car does no work on the hand
 }
 
-TEST_CASE("the scale: a device of 31.7 N shows 0.53 of the real forces, a strong one all of them") {
+TEST_CASE("a device of 31.7 N renders 0.53 of the real forces, a strong device all of them") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   CHECK(CarLoad(car, gate, 31.7).state().force_scale == doctest::Approx(31.7 / 60.0));
   CHECK(CarLoad(car, gate, 90.0).state().force_scale == 1.0);
 }
 
-TEST_CASE("the start: engine, shaft and car at one speed, in neutral at idle; it can start in any state") {
+TEST_CASE("at the start engine, shaft and car turn together, in neutral at idle, or in any given state") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   CHECK(CarLoad(car, gate, 31.7).state().engine_speed == doctest::Approx(car.engine.idle));
@@ -457,7 +460,8 @@ TEST_CASE("the start: engine, shaft and car at one speed, in neutral at idle; it
   CHECK(later.state().slip_energy == 500.0);
 }
 
-TEST_CASE("on a slope a car in neutral rolls back, m a = m g sin s - a, and the loop receives its speed") {
+TEST_CASE(
+    "on a slope a car in neutral rolls back with m a = m g sin(slope) - resistance, and the loop receives its speed") {
   const CarSpec car = shipped_car("hatchback");
   CarLoad load(car, gate_of(car), 31.7);
   LeverInput in;
@@ -471,7 +475,7 @@ TEST_CASE("on a slope a car in neutral rolls back, m a = m g sin s - a, and the 
   CHECK(load.state().slope == 0.1);
 }
 
-TEST_CASE("whatever the input, the output is finite and bounded") {
+TEST_CASE("for any input, the output is finite and bounded") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   CarLoad load(car, gate, 31.7);
@@ -504,8 +508,7 @@ TEST_CASE("whatever the input, the output is finite and bounded") {
 }
 
 TEST_CASE(
-    "the same from 1 to 4 kHz, with and without a sample of delay, and without a force sensor: the wall gives the "
-    "push") {
+    "blocking takes equally long at 1 and 4 kHz, with and without a sample of delay, with and without a force sensor") {
   const CarSpec car = shipped_car("hatchback");
   const double usual = blocked_time(car, 1000.0, 0, true);
   CHECK(usual > 0.5);

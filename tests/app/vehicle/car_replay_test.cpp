@@ -1,4 +1,5 @@
-// A drive with a car behind the lever, recorded and replayed from only its inputs and the load's name.
+// A drive with a car connected to the lever is recorded, and replayed from its inputs and the load's replay parameters
+// only.
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// Up and down with the clutch, once without it, a stall and a restart, on a hill.
+// The clutch is pressed most of the time and then stays up, so that one shift lacks it and the engine stalls; it is
+// restarted at 8 s. The slope varies all the time.
 DriverControls busy_feet(double time) {
   DriverControls feet = std::fmod(time, 1.1) < 0.9 ? clutch_down() : clutch_up(0.37);
   if (time > 5.0) feet = clutch_up();
@@ -56,7 +58,7 @@ std::string refusal(const Trace& trace) {
 
 }  // namespace
 
-TEST_CASE("a drive replays bit for bit from the load's name, complete car included: both cars") {
+TEST_CASE("a drive replays bit for bit from the load's replay parameters, which contain the complete car: both cars") {
   for (const char* name : {"hatchback", "diesel"}) {
     CAPTURE(name);
     const Trace trace = recorded(shipped_car(name));
@@ -70,7 +72,7 @@ TEST_CASE("a drive replays bit for bit from the load's name, complete car includ
   }
 }
 
-TEST_CASE("it does not with another seed, another start or another car") {
+TEST_CASE("a drive does not replay with a different seed, device force, car or start") {
   const Trace trace = recorded(shipped_car("hatchback"));
   const auto changed = [&](const std::string& from, const std::string& to) {
     Trace other = trace;
@@ -102,10 +104,10 @@ TEST_CASE("a load's name gives the same load; without a car name there is none, 
     CHECK(make_car_load(name, gate) == nullptr);
 
   for (const auto& [running, stalled] : {std::pair(true, false), std::pair(false, true), std::pair(false, false)}) {
-    CarStart stands;
-    stands.running = running;
-    stands.stalled = stalled;
-    const CarLoad engine(car, gate, 31.7, stands);
+    CarStart parked;
+    parked.running = running;
+    parked.stalled = stalled;
+    const CarLoad engine(car, gate, 31.7, parked);
     const std::unique_ptr<CarLoad> same = make_car_load(engine.replay_parameters(), gate);
     REQUIRE(same);
     CHECK(same->state().running == running);
@@ -113,13 +115,14 @@ TEST_CASE("a load's name gives the same load; without a car name there is none, 
     LeverInput in;
     in.controls.ignition = true;
     same->step(in, 0.001);
-    CHECK(same->state().stalled == stalled);  // the ignition is on
+    CHECK(same->state().stalled == stalled);  // the ignition stays on, so a stall stays reported
     CHECK(start_from(same->state()).stalled == stalled);
   }
 
   Trace trace = recorded(car);
   trace.header.load.replace(trace.header.load.find("ratio_2 = 1.94"), 14, "ratio_2 = 9.94");
-  CHECK(refusal(trace).find("cannot be replayed: its lever load is refused: hatchback.toml:") != std::string::npos);
+  CHECK(refusal(trace).find("cannot be replayed, because its lever load is invalid: hatchback.toml:") !=
+        std::string::npos);
   CHECK(refusal(trace).find("must be less than ratio_1") != std::string::npos);
   trace.header.load = "a \x1b[31mship\nof wood";
   CHECK(refusal(trace).find("its lever load \"a ?[31mship\" is not known to this program") != std::string::npos);

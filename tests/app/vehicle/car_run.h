@@ -1,4 +1,4 @@
-// Hand, feet, lever, loop and car on a virtual clock.
+// Runs hand, feet, lever, loop and car together on a virtual clock.
 #pragma once
 
 #include <functional>
@@ -63,7 +63,7 @@ struct CarRun {
   Feet feet_;
 };
 
-// Waits, then shifts through the gears like a practised hand.
+// A hand that waits for `wait` seconds and then shifts through `gears` as a practised driver does.
 inline haptics::ScriptedHand shifting_hand(const haptics::Gate& gate, int from, std::vector<int> gears,
                                            double wait = 0.2, double dwell = 0.5) {
   const glm::dvec2 start = haptics::rest_position(gate, from);
@@ -74,7 +74,7 @@ inline haptics::ScriptedHand shifting_hand(const haptics::Gate& gate, int from, 
   return {haptics::touring_hand(start), std::move(strokes), 0.001};
 }
 
-// In that gear, with the shaft at that speed, and engine and clutch to match.
+// A start in `gear` at the road speed at which the shaft turns at `shaft_speed` [rad/s]. The engine turns with it.
 inline vehicle::CarStart rolling_in(const vehicle::CarSpec& car, int gear, double shaft_speed) {
   vehicle::CarStart start;
   start.gear = gear;

@@ -1,4 +1,4 @@
-// Reading cars, and rejecting bad ones with file, line and reason in one sentence.
+// Car files are read, and invalid ones are rejected in one sentence with file, line and reason.
 #include "app/vehicle/car_spec.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Hostile {
   const char* sentence;  // the expected message after the file name
 };
 
-// Lines and reasons, found by reading tests/data/hostile_cars.
+// Expected lines and reasons, written down by reading the files in tests/data/hostile_cars.
 constexpr Hostile kHostile[] = {
     {"bite_beyond_pedal", ":34: bite_pedal = 1.2: must be between 0 and 1"},
     {"capacity_missing", ":32: capacity_nm is missing: it must be a number between 1 and 10000"},
@@ -51,27 +51,29 @@ constexpr Hostile kHostile[] = {
     {"no_title", ":1: title is missing: it must be text in quotes"},
     {"not_toml", ":32: not valid TOML: "},
     {"one_point",
-     ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, this has 1"},
+     ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, but has 1"},
     {"point_of_power", ":10: kw is not a known key; known keys: rpm, nm"},
     {"point_without_torque", ":10: nm is missing: it must be a number between 0 and 5000"},
     {"points_of_numbers", ":4: full_load must be a list of tables: write each as [[full_load]]"},
-    {"ratio_gap", ":40: ratio_4 = 0.97: there is no ratio_3"},
+    {"ratio_gap", ":40: ratio_4 = 0.97: needs ratio_3, which is missing"},
     {"ratio_text", ":39: ratio_2 = \"35:18\": must be a number between 0.1 and 20"},
     {"ratios_rise", ":41: ratio_4 = 1.3: must be less than ratio_3"},
     {"red_line_above_limiter", ":23: red_line_rpm = 6500: must be less than limiter_rpm"},
     {"shift_above_red_line", ":29: shift_to_rpm = 6300: must be less than red_line_rpm"},
     {"shift_band_turned", ":28: shift_from_rpm = 2000: must be less than shift_to_rpm"},
     {"shudder_of_a_hammer", ":31: shudder_n = 300: must be between 0 and 10"},
-    {"speeds_do_not_rise", ":9: rpm = 2000: must be larger than the rpm of the point before"},
+    {"speeds_do_not_rise", ":9: rpm = 2000: must be greater than the rpm of the previous point"},
     {"starter_infinite", ":26: starter_nm = inf: must be between 1 and 1000"},
     {"tenth_gear", ":44: ratio_10 is not a known key; known keys: ratio_1"},
     {"title_with_escape", ":1: title = \"?[31mHostile\": must be one line without control characters"},
     {"too_many_points",
-     ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, this has 25"},
+     ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, but has 25"},
     {"torque_begins_late",
-     ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, this has 1500 to 7000"},
+     ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, but reaches from 1500 to "
+     "7000"},
     {"torque_stops_short",
-     ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, this has 600 to 6000"},
+     ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, but reaches from 600 to "
+     "6000"},
     {"unknown_key", ":68: abs is not a known key; known keys: mass_kg"},
     {"unknown_table", ":69: turbo is not a known key; known keys: title, gate, engine, clutch, gearbox, synchro, body"},
     {"wheel_in_metres", ":63: wheel_radius_mm = 0.303: must be between 100 and 1000"},
@@ -124,7 +126,7 @@ TEST_CASE("the hatchback is the car used for the other methods, in SI units") {
   CHECK(car.synchro.cone_angle == doctest::Approx(0.11345).epsilon(1e-4));
   CHECK(car.synchro.radius == doctest::Approx(0.03));
   CHECK(car.body.wheel_radius == doctest::Approx(0.3032));
-  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // by hand, from ratios and wheel
+  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // computed by hand from ratios and wheel
   for (int gear = 1; gear <= 5; ++gear)
     CHECK(3.6 * road_speed_at(car, gear, 1000.0 * kRpm) == doctest::Approx(kmh_per_krpm[gear - 1]).epsilon(0.007));
   CHECK(shaft_per_road(car, 6) == 0.0);
@@ -149,6 +151,6 @@ TEST_CASE("a gate with a gear that the car lacks is rejected when they are combi
   const Gate six = shipped_gate("six_speed_r_left_up");
   const std::string sentence = "this gate has a gear 6, but the car \"hatchback\" does not";
   CHECK_THROWS_WITH_AS(CarLoad(car, six, kPaperForce), sentence.c_str(), std::invalid_argument);
-  CHECK_NOTHROW(CarLoad(car, shipped_gate("four_speed"), kPaperForce));  // fifth just cannot be reached
+  CHECK_NOTHROW(CarLoad(car, shipped_gate("four_speed"), kPaperForce));  // this gate only lacks fifth gear
   CHECK_THROWS_AS(CarLoad(car, gate_of(car), 0.0), std::invalid_argument);
 }

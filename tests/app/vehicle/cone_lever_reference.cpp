@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLocate = 1e-13;  // [s]
 
-enum { arc, speed, smooth, shaft, road, heat, states };  // arc and its speed are the lever's
+enum { arc, speed, smooth, shaft, road, heat, states };  // arc and speed: the lever's position and speed along its arc
 using Y = std::array<double, states>;
 
 Y sum(Y y, double h, const Y& d) {
@@ -23,14 +23,15 @@ int side(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
 }
 
-// Rises from 0 to 1 with zero slope at both ends.
+// Rises from 0 at u = 0 to 1 at u = 1, with zero slope at both ends.
 double rise(double u) {
   return u <= 0.0 ? 0.0 : u >= 1.0 ? 1.0 : 3.0 * u * u - 2.0 * u * u * u;
 }
 
 class Reference {
  public:
-  Reference(const ConeLeverCase& what, const ConeLeverStart& start) : case_(what), car_(what.car), slot_(what.slot) {
+  Reference(const ConeLeverCase& reference_case, const ConeLeverStart& start)
+      : case_(reference_case), car_(reference_case.car), slot_(reference_case.slot) {
     per_road_ = vehicle::shaft_per_road(car_, case_.gear);
     ratio_ = std::abs(per_road_) * car_.body.wheel_radius / car_.gearbox.final_drive;
     const vehicle::SynchroSpec& s = car_.synchro;
@@ -45,7 +46,7 @@ class Reference {
 
   ConeLeverOutcome run() {
     ConeLeverOutcome out;
-    const int steps = static_cast<int>(std::lround(case_.most / case_.step));
+    const int steps = static_cast<int>(std::lround(case_.max_time / case_.step));
     const int each = static_cast<int>(std::lround(0.001 / case_.step));
     for (int i = 0; i < steps && out.open < 0.0; ++i) {
       if (i % each == 0) out.samples.push_back({depth(y_), push(y_, i * case_.step), y_[shaft], y_[road], y_[heat]});
@@ -56,7 +57,8 @@ class Reference {
   }
 
  private:
-  // Detent bump at the mouth, a dip, the crest of the detent, then the pull of the lock.
+  // [N] The gate's feel at a depth: the detent's bump at the mouth, a dip, the detent's crest, then the pull of the
+  // lock.
   double feel(double at) const {
     const RingSlot& s = slot_;
     const auto between = [at](double a, double from, double b, double to) {
@@ -73,7 +75,7 @@ class Reference {
   double depth(const Y& y) const { return case_.lever.depth(y[arc]); }
   double slope_at(const Y& y) const { return case_.lever.slope(y[arc]); }
 
-  // [N] in the plane of the gate
+  // [N] The motor's force in the plane of the gate.
   double motor(const Y& y) const {
     const RingSlot& s = slot_;
     const double at = depth(y), pressed = s.wall_stiffness * (at - s.block) + s.wall_damping * slope_at(y) * y[speed];
@@ -84,7 +86,7 @@ class Reference {
     return std::clamp(wanted, -s.max_motor_force, s.max_motor_force);
   }
 
-  // [N] the hand's force along the arc, without its own inertia
+  // [N] The hand's force along the arc, without the inertia of the hand.
   double drive(const Y& y, double t) const {
     const SlotHand& hand = case_.hand;
     if (hand.speed == 0.0) return hand.push * slope_at(y) - hand.grip.damping * y[speed];
@@ -93,23 +95,24 @@ class Reference {
     return hand.grip.stiffness * (goal - y[arc]) + hand.grip.damping * (goes - y[speed]);
   }
 
-  // [m/s^2] along the arc
+  // [m/s^2] The lever's acceleration along the arc.
   double acceleration(const Y& y, double t) const {
-    const double own = haptics::kPaperAxisY.damping * y[speed] + haptics::kPaperAxisY.stiffness * y[arc];
-    return (drive(y, t) + slope_at(y) * motor(y) - own) / (haptics::kPaperAxisY.mass + case_.hand.grip.mass);
+    const double passive = haptics::kPaperAxisY.damping * y[speed] + haptics::kPaperAxisY.stiffness * y[arc];
+    return (drive(y, t) + slope_at(y) * motor(y) - passive) / (haptics::kPaperAxisY.mass + case_.hand.grip.mass);
   }
 
-  // [N] the hand's force on the knob, in the plane of the gate
+  // [N] The hand's force on the knob, in the plane of the gate.
   double push(const Y& y, double t) const {
     return (drive(y, t) - case_.hand.grip.mass * acceleration(y, t)) / slope_at(y);
   }
 
   double slip(const Y& y) const { return y[shaft] - per_road_ * y[road]; }
 
-  // [N m] on the shaft: the force on the ring grows from the detent's crest to where the ring blocks.
+  // [N m] The cone's torque at the shaft. The ring is pressed with a fraction of the push, which rises from 0 at the
+  // detent's crest to 1 at the depth where the ring blocks.
   double cone(const Y& y, double t) const {
-    const double share = rise((depth(y) - slot_.crest) / (slot_.block - slot_.crest));
-    return torque_per_push_ * std::max(0.0, push(y, t)) * share;
+    const double fraction = rise((depth(y) - slot_.crest) / (slot_.block - slot_.crest));
+    return torque_per_push_ * std::max(0.0, push(y, t)) * fraction;
   }
 
   double engine(double w) const {
@@ -121,7 +124,7 @@ class Reference {
     return opened * (vehicle::full_torque(e, w) + friction) - friction;
   }
 
-  // The torque on the shaft without its Coulomb drag.
+  // [N m] The torque on the shaft without the Coulomb drag.
   double shaft_torque(const Y& y, double t) const {
     return engine(y[shaft]) - side(slip(y)) * cone(y, t) - car_.gearbox.drag_slope * y[shaft];
   }
@@ -183,12 +186,12 @@ class Reference {
   const ConeLeverCase& case_;
   const vehicle::CarSpec& car_;
   const RingSlot& slot_;
-  double per_road_ = 0.0, ratio_ = 1.0;  // [rad/m] of the shaft; [1] shaft to gear
-  double torque_per_push_ = 0.0;         // [m] at the shaft, at full engagement
+  double per_road_ = 0.0, ratio_ = 1.0;  // [rad/m] shaft per road; [1] shaft to gear
+  double torque_per_push_ = 0.0;         // [m] cone torque at the shaft divided by the push
   double inertia_ = 0.0;                 // [kg m^2]
   Y y_{};
   bool touches_ = false;
-  int turn_ = 0;  // direction of the shaft; 0: its drag holds it
+  int turn_ = 0;  // direction in which the shaft turns; 0: its drag holds it still
 };
 
 }  // namespace
@@ -209,8 +212,8 @@ double SlotHand::place(double time) const {
   return std::min(from + speed * time, to);
 }
 
-ConeLeverOutcome cone_lever_reference(const ConeLeverCase& what, const ConeLeverStart& start) {
-  return Reference(what, start).run();
+ConeLeverOutcome cone_lever_reference(const ConeLeverCase& reference_case, const ConeLeverStart& start) {
+  return Reference(reference_case, start).run();
 }
 
 }  // namespace gearshift::test

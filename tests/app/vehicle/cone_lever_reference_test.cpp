@@ -1,4 +1,4 @@
-// Cone and lever coupled: hand, haptic loop and car as shipped, compared with the same laws in continuous time.
+// Cone and lever coupled: the shipped hand, haptic loop and car, compared with the same laws in continuous time.
 #include "tests/app/vehicle/cone_lever_reference.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kReady = 0.05;    // [s] until the hand starts moving: the guard has ramped up
-constexpr double kHeld = 2000.0;   // [N/m] of the hand until then, and across the slot throughout
-constexpr double kStart = 0.012;   // [m] of the lever: in the slot, past its mouth
+constexpr double kReady = 0.05;    // [s] start of the hand's motion, after the guard has ramped up
+constexpr double kHeld = 2000.0;   // [N/m] the hand's stiffness until then, and always across the slot
+constexpr double kStart = 0.012;   // [m] the lever's first depth, past the slot's mouth
 constexpr double kStraight = 1.0;  // [m] yoke radius of the nearly straight lever
 
-// The feel of the hatchback's gate according to its layout file and the README of haptics/gate.
+// The feel of the hatchback's gate, from its layout file and the README of haptics/gate.
 RingSlot ring_slot(const Slot& slot) {
   RingSlot ring;
   ring.mouth = 0.010;
@@ -42,39 +42,39 @@ RingSlot ring_slot(const Slot& slot) {
   return ring;
 }
 
-// The same hand for the product: sampled once per period, at its middle.
+// SlotHand as a HandDriver for the product. Its target is computed once per period, for the middle of the period.
 class InSlot final : public HandDriver {
  public:
-  InSlot(const SlotHand& hand, double way, double across, double period)
-      : hand_(hand), way_(way), across_(across), period_(period) {}
+  InSlot(const SlotHand& hand, double direction, double across, double period)
+      : hand_(hand), direction_(direction), across_(across), period_(period) {}
   HandTarget next(double time, dvec2 lever) noexcept override {
     HandTarget target;
     target.position = lever;
     target.push = {kHeld * (across_ - lever.x), 0.0};
     const double since = time - kReady, middle = since + 0.5 * period_;
     if (since < -1e-9) {
-      target.push.y = kHeld * (way_ * kStart - lever.y);
+      target.push.y = kHeld * (direction_ * kStart - lever.y);
     } else if (hand_.speed == 0.0) {
-      target.push.y = way_ * hand_.push;
+      target.push.y = direction_ * hand_.push;
     } else {
-      target.position.y = way_ * hand_.place(middle);
-      target.velocity.y = hand_.place(middle) < hand_.to ? way_ * hand_.speed : 0.0;
+      target.position.y = direction_ * hand_.place(middle);
+      target.velocity.y = hand_.place(middle) < hand_.to ? direction_ * hand_.speed : 0.0;
     }
     return target;
   }
 
  private:
   SlotHand hand_;
-  double way_, across_, period_;
+  double direction_, across_, period_;
 };
 
 struct Shift {
   std::string name;
   int from, to;
-  double shaft;  // [rad/s] in `from`, at the start
+  double shaft;  // [rad/s] shaft speed at the start, in gear `from`
   SlotHand hand;
   bool clutch_closed = false;
-  double road = 0.0;  // [m/s] if `from` is neutral
+  double road = 0.0;  // [m/s] used if `from` is neutral
 };
 
 SlotHand pushing(double real) {
@@ -100,12 +100,12 @@ LeverArc arc_of(bool straight, double across) {
 struct ProductResult {
   ConeLeverStart start;
   ConeLeverOutcome out;
-  std::vector<double> push;  // [N] in each cycle
-  double imbalance = 0.0;    // [1] relative to the energy turned over
+  std::vector<double> push;  // [N] one per cycle
+  double imbalance = 0.0;    // [1] energy balance error divided by the energy turned over
   bool ground = false, locked = true;
 };
 
-// A lever with nearly straight arcs and a force sensor without steps, or the shipped lever.
+// The shipped lever or, if `straight`, one with a nearly straight path and a force sensor of infinite resolution.
 SimulatedLeverConfig lever_of(bool straight) {
   SimulatedLeverConfig lever;
   lever.hand = kGripHand;
@@ -136,43 +136,43 @@ double out_of(const EnergyLedger& e) {
 ProductResult product(const CarSpec& car, const Shift& shift, double rate, bool straight) {
   const Gate gate = gate_of(car);
   const Slot& slot = slot_of(gate, slot_of_gear(gate, shift.to));
-  const double way = static_cast<double>(static_cast<int>(slot.side)), across = rest_position(gate, shift.to).x;
+  const double direction = static_cast<double>(static_cast<int>(slot.side)), across = rest_position(gate, shift.to).x;
   SimulatedRunConfig config = gripped(gate, kNeutralGear);
   config.haptics.rate = rate;
   config.lever = lever_of(straight);
-  config.start = {across, way * kStart};
-  InSlot hand(shift.hand, way, across, 1.0 / rate);
+  config.start = {across, direction * kStart};
+  InSlot hand(shift.hand, direction, across, 1.0 / rate);
   CarLoad load(car, gate, kPaperForce, car_start(car, shift));
   SimulatedRun run(config, hand, &load);
   run.channels().controls.write(shift.clutch_closed ? clutch_up() : clutch_down());
-  ProductResult seen;
+  ProductResult result;
   const double before = load.driveline().kinetic_energy();
   const auto sample_of = [&](const HapticSnapshot& lever) {
     const VehicleState& car_now = load.state();
-    return ConeLeverSample{way * run.lever().true_position().y, way * lever.f_h.y, car_now.shaft_speed,
+    return ConeLeverSample{direction * run.lever().true_position().y, direction * lever.f_h.y, car_now.shaft_speed,
                            car_now.road_speed, load.driveline().energy().cone};
   };
   const int each = static_cast<int>(std::lround(0.001 * rate)), ready = static_cast<int>(std::lround(kReady * rate));
-  for (int i = 0; i < 4.0 * rate && seen.out.open < 0.0; ++i) {
+  for (int i = 0; i < 4.0 * rate && result.out.open < 0.0; ++i) {
     const HapticSnapshot& lever = run.step();
     if (i < ready) continue;
     const double time = (i - ready) / rate;
     const VehicleState& now = load.state();
     if (i == ready)
-      seen.start = {way * run.lever().true_position().y, way * run.lever().true_velocity().y, now.engine_speed,
-                    now.shaft_speed, now.road_speed};
-    if ((i - ready) % each == 0) seen.out.samples.push_back(sample_of(lever));
-    if (shift.clutch_closed) seen.locked = seen.locked && now.clutch_locked;
-    if (seen.out.touch < 0.0 && now.sync == SyncPhase::synchronising) seen.out.touch = time;
-    if (now.sync == SyncPhase::passing) seen.out.open = time;
-    if (now.sync == SyncPhase::passing) seen.out.heat = load.driveline().energy().cone;
-    seen.push.push_back(way * lever.f_h.y);
-    seen.ground = seen.ground || now.grinding;
+      result.start = {direction * run.lever().true_position().y, direction * run.lever().true_velocity().y,
+                      now.engine_speed, now.shaft_speed, now.road_speed};
+    if ((i - ready) % each == 0) result.out.samples.push_back(sample_of(lever));
+    if (shift.clutch_closed) result.locked = result.locked && now.clutch_locked;
+    if (result.out.touch < 0.0 && now.sync == SyncPhase::synchronising) result.out.touch = time;
+    if (now.sync == SyncPhase::passing) result.out.open = time;
+    if (now.sync == SyncPhase::passing) result.out.heat = load.driveline().energy().cone;
+    result.push.push_back(direction * lever.f_h.y);
+    result.ground = result.ground || now.grinding;
   }
-  const EnergyLedger& went = load.driveline().energy();
-  seen.imbalance =
-      std::abs(before + went.engine - out_of(went) - load.driveline().kinetic_energy()) / (before + turned_over(went));
-  return seen;
+  const EnergyLedger& spent = load.driveline().energy();
+  result.imbalance = std::abs(before + spent.engine - out_of(spent) - load.driveline().kinetic_energy()) /
+                     (before + turned_over(spent));
+  return result;
 }
 
 std::vector<Shift> shifts() {
@@ -188,18 +188,18 @@ std::vector<Shift> shifts() {
 
 ConeLeverCase case_of(const CarSpec& car, const Shift& shift, bool straight) {
   const Gate gate = gate_of(car);
-  ConeLeverCase what{car};
-  what.slot = ring_slot(slot_of(gate, slot_of_gear(gate, shift.to)));
-  what.lever = arc_of(straight, rest_position(gate, shift.to).x);
-  what.hand = shift.hand;
-  what.gear = shift.to;
-  what.force_scale = kPaperForce / 60.0;
-  what.clutch_closed = shift.clutch_closed;
-  what.step = 1e-5;  // converged: see the last test
-  return what;
+  ConeLeverCase reference_case{car};
+  reference_case.slot = ring_slot(slot_of(gate, slot_of_gear(gate, shift.to)));
+  reference_case.lever = arc_of(straight, rest_position(gate, shift.to).x);
+  reference_case.hand = shift.hand;
+  reference_case.gear = shift.to;
+  reference_case.force_scale = kPaperForce / 60.0;
+  reference_case.clutch_closed = shift.clutch_closed;
+  reference_case.step = 1e-5;  // converged, as the last test shows
+  return reference_case;
 }
 
-// [N] over the second half of the time at the ring
+// [N] The mean push during the second half of the contact with the ring.
 double plateau(const std::vector<double>& push, double rate, const ConeLeverOutcome& out) {
   const double middle = 0.5 * (out.touch + out.open);
   double total = 0.0, count = 0.0;
@@ -216,55 +216,56 @@ std::vector<double> push_of(const ConeLeverOutcome& out) {
   return push;
 }
 
-// [rad/s] maximum difference between the two shafts.
-double shaft_off(const ConeLeverOutcome& seen, const ConeLeverOutcome& truth) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < std::min(seen.samples.size(), truth.samples.size()); ++i)
-    most = std::max(most, std::abs(seen.samples[i].shaft - truth.samples[i].shaft));
-  return most;
+// [rad/s] The largest difference between the two shaft speeds.
+double shaft_off(const ConeLeverOutcome& measured, const ConeLeverOutcome& truth) {
+  double max = 0.0;
+  for (std::size_t i = 0; i < std::min(measured.samples.size(), truth.samples.size()); ++i)
+    max = std::max(max, std::abs(measured.samples[i].shaft - truth.samples[i].shaft));
+  return max;
 }
 
 double steepest(const ConeLeverOutcome& truth) {
-  double most = 0.0;  // [rad/s^2]
+  double max = 0.0;  // [rad/s^2]
   for (std::size_t i = 1; i < truth.samples.size(); ++i)
-    most = std::max(most, 1000.0 * std::abs(truth.samples[i].shaft - truth.samples[i - 1].shaft));
-  return most;
+    max = std::max(max, 1000.0 * std::abs(truth.samples[i].shaft - truth.samples[i - 1].shaft));
+  return max;
 }
 
-// Tolerances for the compared values, and for the force sensor's steps.
-struct Within {
-  double share, force;  // [1], [N]
+// Tolerances: `fraction` of the compared value, and `force` for the steps of the force sensor.
+struct Tolerance {
+  double fraction, force;  // [1], [N]
 };
 
-void compare(const CarSpec& car, const Shift& shift, bool straight, const Within& within) {
+void compare(const CarSpec& car, const Shift& shift, bool straight, const Tolerance& tolerance) {
   ConeLeverOutcome truth;
   for (const double rate : {1000.0, 4000.0}) {
     CAPTURE(rate);
-    const ProductResult seen = product(car, shift, rate, straight);
-    if (truth.open < 0.0) truth = cone_lever_reference(case_of(car, shift, straight), seen.start);
+    const ProductResult measured = product(car, shift, rate, straight);
+    if (truth.open < 0.0) truth = cone_lever_reference(case_of(car, shift, straight), measured.start);
     REQUIRE(truth.open > truth.touch);
-    REQUIRE(seen.out.open > seen.out.touch);
-    CHECK(seen.locked);
-    CHECK_FALSE(seen.ground);
+    REQUIRE(measured.out.open > measured.out.touch);
+    CHECK(measured.locked);
+    CHECK_FALSE(measured.ground);
     const double period = 1.0 / rate;
-    const double late = seen.out.open - truth.open, touched = seen.out.touch - truth.touch;
+    const double late = measured.out.open - truth.open, touched = measured.out.touch - truth.touch;
     CHECK(std::abs(touched) < 2.0 * period);
-    CHECK(late < 3.0 * period + within.share * truth.open);
-    CHECK(late > -within.share * truth.open);
-    CHECK(shaft_off(seen.out, truth) < 1.5 * period * steepest(truth) + within.share * truth.samples[0].shaft);
-    CHECK(seen.out.heat == doctest::Approx(truth.heat).epsilon(0.003));
-    const double felt = plateau(seen.push, rate, seen.out), pushed = plateau(push_of(truth), 1000.0, truth);
-    CHECK(std::abs(felt - pushed) < 0.005 * pushed + within.force);
-    CHECK(seen.imbalance < 1e-13);
+    CHECK(late < 3.0 * period + tolerance.fraction * truth.open);
+    CHECK(late > -tolerance.fraction * truth.open);
+    CHECK(shaft_off(measured.out, truth) <
+          1.5 * period * steepest(truth) + tolerance.fraction * truth.samples[0].shaft);
+    CHECK(measured.out.heat == doctest::Approx(truth.heat).epsilon(0.003));
+    const double felt = plateau(measured.push, rate, measured.out), pushed = plateau(push_of(truth), 1000.0, truth);
+    CHECK(std::abs(felt - pushed) < 0.005 * pushed + tolerance.force);
+    CHECK(measured.imbalance < 1e-13);
   }
 }
 
 }  // namespace
 
-// The ring uses speeds that are one period old; the cone uses a push that is one period old and rises linearly over the
-// next; and everything is sampled at whole periods. That makes up to three periods and nothing else. The relative
-// tolerance covers the encoder's counts, which affect the damping of walls and aisles.
-TEST_CASE("cone and moving lever against the reference: when the ring opens, shaft, heat and the hand's force") {
+// The product may be late by up to three periods: the ring uses speeds that are one period old; the cone uses a push
+// that is one period old and then rises linearly over one period; and events are seen only at whole periods. The
+// relative tolerance covers the encoder's resolution, which affects the damping of walls and aisles.
+TEST_CASE("cone and lever match the reference: when the ring opens, shaft speed, heat, the hand's force") {
   const CarSpec car = shipped_car("hatchback");
   for (const Shift& shift : shifts()) {
     CAPTURE(shift.name);
@@ -272,45 +273,48 @@ TEST_CASE("cone and moving lever against the reference: when the ring opens, sha
   }
 }
 
-// The sensor's step is 44 gram-force: half of that is 1.4 % of a push of 16 N, and the cone follows it.
-TEST_CASE("the same with the shipped yoke and force sensor: to within half a step of the sensor") {
+// The sensor's resolution is 44 gram-force. Half of it is 1.4 % of a push of 16 N, and the cone's torque is
+// proportional to the push.
+TEST_CASE("with the shipped yoke and force sensor they match within half the sensor's resolution") {
   const CarSpec car = shipped_car("hatchback");
   const double half_step = 0.5 * 44.0 * kNewtonPerGramWeight;
   int counted = 0;
   for (const Shift& shift : shifts()) {
-    if (counted++ % 3 != 0 && !is_whole_campaign()) continue;
+    if (counted++ % 3 != 0 && !is_full_campaign()) continue;
     CAPTURE(shift.name);
     compare(car, shift, false, {half_step / 15.85, half_step});
   }
 }
 
-TEST_CASE("the reference itself: converged, closed form on the plateau, heat consistent with its speeds") {
+TEST_CASE(
+    "the reference has converged, matches a closed form on the plateau, and its heat is consistent with its speeds") {
   const CarSpec car = shipped_car("hatchback");
   const Shift shift = shifts()[0];
-  ConeLeverCase what = case_of(car, shift, true);
+  ConeLeverCase reference_case = case_of(car, shift, true);
   const double road = road_speed_at(car, 1, shift.shaft);
   const ConeLeverStart start{kStart, 0.0, shift.shaft, shift.shaft, road};
-  const ConeLeverOutcome coarse = cone_lever_reference(what, start);
-  what.step = 2e-6;
-  const ConeLeverOutcome fine = cone_lever_reference(what, start);
+  const ConeLeverOutcome coarse = cone_lever_reference(reference_case, start);
+  reference_case.step = 2e-6;
+  const ConeLeverOutcome fine = cone_lever_reference(reference_case, start);
   CHECK(coarse.open == doctest::Approx(fine.open).epsilon(1e-7));
   CHECK(coarse.touch == doctest::Approx(fine.touch).epsilon(1e-7));
   CHECK(coarse.heat == doctest::Approx(fine.heat).epsilon(1e-7));
 
-  // t = J dw / (T + drag), T = n F mu R / sin a through the lever, divided by the ratio.
+  // t = J dw / (T + drag), with T = n F mu R / sin(a), times the lever ratio, divided by the gear ratio.
   const double inertia = car.clutch.disc_inertia, drag = car.gearbox.drag, ratio = ratio_of(car, 2);
   const double torque = 30.0 * 9.0 * 0.8 * 0.10 * 0.030 / std::sin(6.5 * std::numbers::pi / 180.0) / ratio;
   const ConeLeverSample& still = fine.samples[160];
   const double slip = still.shaft - shaft_per_road(car, 2) * still.road;
-  CHECK(still.push == doctest::Approx(30.0 * what.force_scale).epsilon(1e-3));
+  CHECK(still.push == doctest::Approx(30.0 * reference_case.force_scale).epsilon(1e-3));
   CHECK(fine.open - 0.160 ==
         doctest::Approx(inertia * (slip - car.synchro.dog_speed * ratio) / (torque + drag)).epsilon(0.01));
 
-  // What the shaft lost, minus what its drag took, went through the cone: part became heat, the rest went into the car.
+  // The energy that the shaft lost, minus its drag losses, entered the cone: part became heat, the rest accelerated the
+  // car.
   double dragged = 0.0, pushed = 0.0;
   for (std::size_t i = 1; i < fine.samples.size(); ++i) {
     const ConeLeverSample &a = fine.samples[i - 1], &b = fine.samples[i];
-    const double passed = inertia * (a.shaft - b.shaft) - 0.001 * drag;  // [N m s]
+    const double passed = inertia * (a.shaft - b.shaft) - 0.001 * drag;  // [N m s] impulse through the cone
     dragged += 0.001 * drag * 0.5 * (a.shaft + b.shaft);
     pushed += passed * shaft_per_road(car, 2) * 0.5 * (a.road + b.road);
   }

@@ -1,4 +1,4 @@
-// The energy ledger balances to rounding, whatever the feet do.
+// The energy ledger balances to rounding for any use of the pedals.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -23,16 +23,16 @@ double turnover(const EnergyLedger& e) {
   return std::abs(e.engine) + e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.teeth + e.mesh;
 }
 
-// Only the slope's energy may decrease.
+// Every loss must be non-decreasing. The slope's energy is no loss and may decrease.
 bool losses_only_grow(const EnergyLedger& a, const EnergyLedger& b, double rounding) {
-  const double EnergyLedger::*kept[] = {&EnergyLedger::friction, &EnergyLedger::clutch, &EnergyLedger::cone,
-                                        &EnergyLedger::rolling,  &EnergyLedger::brakes, &EnergyLedger::shaft_drag,
-                                        &EnergyLedger::teeth,    &EnergyLedger::mesh};
-  return std::all_of(std::begin(kept), std::end(kept),
+  const double EnergyLedger::*losses[] = {&EnergyLedger::friction, &EnergyLedger::clutch, &EnergyLedger::cone,
+                                          &EnergyLedger::rolling,  &EnergyLedger::brakes, &EnergyLedger::shaft_drag,
+                                          &EnergyLedger::teeth,    &EnergyLedger::mesh};
+  return std::all_of(std::begin(losses), std::end(losses),
                      [&](const double EnergyLedger::*part) { return b.*part >= a.*part - rounding; });
 }
 
-// Drifting pedals, random gears, sometimes ignition and cone.
+// A driver with random pedals and gears, who sometimes switches the ignition off or uses a cone.
 class RandomDriver {
  public:
   explicit RandomDriver(unsigned seed) : random_(seed) {}
@@ -46,7 +46,7 @@ class RandomDriver {
     if (random_() % 100 == 0) in_.cone_torque = number(0.0, 40.0);
     if (random_() % 3000 == 0) in_.ignition = !in_.ignition;
     if (!in_.ignition && random_() % 200 == 0) in_.ignition = true;
-    // Starting takes at least half a second.
+    // The starter is on for 1.5 s on average, because starting takes at least half a second.
     in_.starter = random_() % (in_.starter ? 1500 : 400) == 0 ? !in_.starter : in_.starter;
     return in_;
   }
@@ -59,8 +59,8 @@ class RandomDriver {
 
 }  // namespace
 
-TEST_CASE("energy: the input of engine and slope is kinetic or dissipated, to 1e-12 over a minute of random input") {
-  const unsigned seeds = is_whole_campaign() ? 20 : 6;
+TEST_CASE("the energy from engine and slope is kinetic or dissipated, to 1e-12 over a minute of random input") {
+  const unsigned seeds = is_full_campaign() ? 20 : 6;
   for (unsigned seed = 0; seed < seeds; ++seed) {
     CAPTURE(seed);
     CarSpec car = hatchback();
@@ -112,8 +112,8 @@ TEST_CASE("with the engine off the car only loses energy") {
   CHECK(line.energy().engine == 0.0);
 }
 
-// Teeth with an efficiency of 0.9 in a long pull lose a tenth of the energy through them.
-TEST_CASE("teeth take (1 - efficiency) of what goes through them") {
+// With an efficiency of 0.9, a long pull loses a tenth of the transmitted energy in the teeth.
+TEST_CASE("gear teeth dissipate (1 - efficiency) of the transmitted energy") {
   CarSpec car = bare_car(0.1, 0.6, 300.0, 100.0);
   car.gearbox.efficiency = 0.9;
   Driveline line(car);
@@ -124,7 +124,7 @@ TEST_CASE("teeth take (1 - efficiency) of what goes through them") {
   CHECK(line.energy().teeth == doctest::Approx(gained / 9.0).epsilon(1e-9));
 }
 
-TEST_CASE("momentum: without external torque it is constant, slipping, locking and locked") {
+TEST_CASE("without external torque momentum is constant while the clutch slips, locks and is locked") {
   const CarSpec car = bare_car(0.15, 0.569, 200.0);
   Driveline line(car);
   line.place(300.0, 30.0, 3.0, false);

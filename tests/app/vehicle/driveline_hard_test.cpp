@@ -26,7 +26,7 @@ Driveline at_rest(const CarSpec& car) {
   return line;
 }
 
-// The pedal position at which the clutch transmits that torque.
+// The pedal position at which the clutch transmits `torque` [N m].
 double pedal_for(const ClutchSpec& clutch, double torque) {
   return clutch.bite - (clutch.bite - clutch.closed) * std::sqrt(torque / clutch.capacity);
 }
@@ -40,8 +40,9 @@ bool same_bits(const VehicleState& a, const VehicleState& b) {
 
 }  // namespace
 
-// Slope 20 %: the clutch holds the car in both directions while G T is within the rolling resistance of m g sin.
-TEST_CASE("on a hill the slipping clutch holds the car exactly, but not beyond the rolling resistance") {
+// On a slope of 20 %, a slipping clutch holds the car while its torque T, times shaft_per_road(), differs from
+// m g sin(slope) by no more than the rolling resistance.
+TEST_CASE("on a hill a slipping clutch holds the car only while the rolling resistance covers the remaining force") {
   CarSpec car = hatchback();
   car.gearbox.drag = car.gearbox.drag_slope = 0.0;
   const double ratio = shaft_per_road(car, 1), slope = std::atan(0.2);
@@ -68,7 +69,7 @@ TEST_CASE("on a hill the slipping clutch holds the car exactly, but not beyond t
   }
 }
 
-TEST_CASE("foot brake and handbrake hold on a hill for a minute with trembling feet, and nothing creeps") {
+TEST_CASE("foot brake and handbrake hold the car on a hill for a minute with trembling feet, and nothing creeps") {
   const CarSpec car = hatchback();
   std::mt19937 random(7);
   for (const bool hand : {false, true}) {
@@ -98,8 +99,8 @@ TEST_CASE("a car released on a hill rolls back, and stops when braked") {
   CHECK(line.state().road_speed == 0.0);
 }
 
-// The engine does not turn backwards, so uphill in first a stopped engine holds as much as the clutch transmits;
-// downhill it holds as much as its friction.
+// The engine cannot turn backwards. So on an uphill slope in first gear a stopped engine holds the car with all that
+// the clutch can transmit; on a downhill slope it holds the car only with its friction.
 TEST_CASE("a stopped engine in gear holds the car on a hill") {
   const CarSpec car = hatchback();
   DrivelineInput in = pedals(1, 0.0, 0.0);
@@ -140,11 +141,11 @@ TEST_CASE("a dumped clutch stalls the engine; the starter restarts it, also repe
     in.ignition = false;
     drive(line, in, 3.0);
     CHECK_FALSE(line.state().running);
-    CHECK_FALSE(line.state().stalled);  // switching off is not a stall
+    CHECK_FALSE(line.state().stalled);  // switching off is not reported as a stall
   }
 }
 
-TEST_CASE("only an engine that had run by itself stalls: not one that never started, nor one that was switched off") {
+TEST_CASE("only an engine that ran by itself can stall, not one that never started or was switched off") {
   const CarSpec car = hatchback();
   Driveline line(car);
   line.place(0.0, 0.0, 0.0, false);
@@ -152,7 +153,7 @@ TEST_CASE("only an engine that had run by itself stalls: not one that never star
   DrivelineInput cranks = on, off = on;
   cranks.starter = true;
   off.ignition = false;
-  // Cranks only until the engine fires, not until it runs by itself: when released, it dies again.
+  // Releases the starter as soon as the engine fires, before it can run by itself, so that it dies again.
   const auto start_badly = [&] {
     for (int i = 0; i < 5000 && !line.state().running; ++i) line.step(cranks, 0.001);
     REQUIRE(line.state().engine_speed < car.engine.stall);
@@ -177,15 +178,15 @@ TEST_CASE("only an engine that had run by itself stalls: not one that never star
   drive(line, on, 1.0);
   CHECK_FALSE(line.state().stalled);
   drive(line, cranks, 2.0);
-  drive(line, off, 0.01);  // switched off while running
+  drive(line, off, 0.01);  // the running engine is switched off
   CHECK_FALSE(line.state().running);
   drive(line, on, 3.0);
   CHECK_FALSE(line.state().stalled);
 }
 
-TEST_CASE("the starter alone drives the car in gear with the clutch up, when the engine cannot fire") {
+TEST_CASE("with the clutch up the starter drives the car in gear while the engine does not fire") {
   CarSpec car = hatchback();
-  car.engine.starter_torque = 10.0;  // against a friction of 8: it turns, but too slowly to fire
+  car.engine.starter_torque = 10.0;  // [N m] more than the engine's friction of 8 and not enough to move the car
   Driveline line(car);
   line.place(0.0, 0.0, 0.0, false);
   DrivelineInput in = pedals(1, 0.0, 0.0);
@@ -209,7 +210,7 @@ TEST_CASE("rolling does not start a stalled engine") {
   CHECK_FALSE(line.state().running);
 }
 
-TEST_CASE("fifth at 5 m/s lugs and pulls, at 2.5 m/s it stalls") {
+TEST_CASE("in fifth at 5 m/s the engine lugs and pulls; at 2.5 m/s it stalls") {
   const CarSpec car = hatchback();
   for (const double speed : {5.0, 2.5}) {
     Driveline line(car);
@@ -221,7 +222,7 @@ TEST_CASE("fifth at 5 m/s lugs and pulls, at 2.5 m/s it stalls") {
   }
 }
 
-TEST_CASE("the limiter cuts and resumes within its band, and needs no impulses") {
+TEST_CASE("the limiter cuts and resumes within its band without the impulse fallback") {
   const CarSpec car = hatchback();
   Driveline line = at_rest(car);
   drive(line, pedals(0, 1.0, 1.0), 3.0);
@@ -244,7 +245,8 @@ TEST_CASE("the limiter cuts and resumes within its band, and needs no impulses")
   CHECK(line.fallbacks() == 0);
 }
 
-TEST_CASE("a limiter without a band would toggle forever: impulses finish the step, and it holds the speed") {
+TEST_CASE(
+    "a limiter without a band would toggle forever: the impulse fallback finishes the step, and the speed is held") {
   CarSpec car = hatchback();
   car.engine.limiter_band = 0.0;
   Driveline line = at_rest(car);
@@ -256,7 +258,7 @@ TEST_CASE("a limiter without a band would toggle forever: impulses finish the st
   CHECK(begin + e.engine - e.friction == Approx(line.kinetic_energy()).epsilon(1e-9));
 }
 
-// Steps are missing during the gap, and the pedals move linearly through it, as they really do in this test.
+// One long step replaces the steps of the gap. It takes the pedals to move linearly, as they do in this test.
 TEST_CASE("a late step of 33, 100 or 500 ms gives the same result as steps of 1 ms") {
   const auto foot = [](double t) { return pedals(1, ramp(t, 0.0, 0.5, 0.0, 0.25), ramp(t, 0.25, 1.75, 1.0, 0.0)); };
   for (const int late : {33, 100, 500}) {
@@ -297,8 +299,8 @@ TEST_CASE("a step of zero length applies the pedals and updates the outputs") {
   CHECK(line.state().road_speed == 0.0);
 }
 
-// The car stops, and within the same millisecond its shaft becomes slower than the engine.
-TEST_CASE("with the clutch down the engine does not notice that the car stops") {
+// The car stops, and within the same millisecond its shaft would become slower than the engine.
+TEST_CASE("with the clutch down the car's stopping does not affect the engine") {
   const CarSpec car = hatchback();
   Driveline line(car);
   line.place(0.15, 0.2, 0.2 / shaft_per_road(car, 1), false);
@@ -327,7 +329,7 @@ TEST_CASE("a trembling clutch pedal locks once and does not chatter") {
   CHECK(line.fallbacks() == 0);
 }
 
-TEST_CASE("a locked clutch stays locked exactly, in drive and overrun, whatever the throttle does") {
+TEST_CASE("a locked clutch stays exactly locked under drive and overrun, for any throttle") {
   const CarSpec car = hatchback();
   Driveline line(car);
   line.place(300.0, 300.0, 300.0 / shaft_per_road(car, 3), true);
@@ -342,9 +344,9 @@ TEST_CASE("a locked clutch stays locked exactly, in drive and overrun, whatever 
   CHECK(locked);
 }
 
-// J w' = -(d + s w) until it stops.
+// The shaft's motion is J w' = -(d + s w), until it stops.
 TEST_CASE(
-    "in neutral the shaft turns with the engine while the clutch is up, and runs down by its drag when it is not") {
+    "in neutral the shaft turns with the engine while the clutch is up, and its drag stops it with the clutch down") {
   const CarSpec car = hatchback();
   Driveline line = at_rest(car);
   drive(line, pedals(0, 0.0, 0.0), 1.0);
@@ -380,7 +382,7 @@ TEST_CASE("zero capacity transmits nothing; infinite capacity locks at once, con
   }
 }
 
-TEST_CASE("non-finite input counts as zero, and leaves no trace") {
+TEST_CASE("non-finite input counts as zero and has no later effect") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
   for (const double bad : {kNan, kInf, -kInf}) {
     Driveline line(hatchback()), other(hatchback());
@@ -413,7 +415,7 @@ TEST_CASE("a gear that the gearbox lacks is neutral") {
   }
 }
 
-TEST_CASE("reverse drives backwards, and the wheels' torque has the right sign") {
+TEST_CASE("reverse drives backwards, and the wheel torque has the right sign") {
   Driveline line = at_rest(hatchback());
   for (int i = 0; i < 3000; ++i) line.step(pedals(kReverseGear, 0.3, ramp(0.001 * i, 0.2, 1.7, 1.0, 0.0)), 0.001);
   CHECK(line.state().road_speed < -1.0);
@@ -424,7 +426,7 @@ TEST_CASE("reverse drives backwards, and the wheels' torque has the right sign")
   CHECK(line.state().distance < 0.0);
 }
 
-TEST_CASE("the same drive again is bit-identical") {
+TEST_CASE("repeated drives are bit-identical") {
   for (const Drive& d : all_drives()) {
     Driveline one(d.car), other(d.car);
     one.place(d.engine, d.shaft, d.road, true);
@@ -439,7 +441,7 @@ TEST_CASE("the same drive again is bit-identical") {
   }
 }
 
-TEST_CASE("the lever's part of the state is not changed") {
+TEST_CASE("the driveline does not change the lever's part of the state") {
   Driveline line = at_rest(hatchback());
   drive(line, pedals(1, 0.5, 0.0), 1.0);
   const VehicleState untouched;

@@ -1,4 +1,4 @@
-// The driveline compared with fourth-order Runge-Kutta at 10 us, with each mode written out by hand.
+// The driveline compared with fourth-order Runge-Kutta at 10 us, in which each mode of motion was written out by hand.
 #include <algorithm>
 #include <cmath>
 
@@ -13,73 +13,74 @@ using namespace gearshift::test;
 
 namespace {
 
-struct Off {
-  double engine = 0.0, shaft = 0.0, road = 0.0;  // largest at any sample
-  double end = 0.0;                              // [rad/s] of the engine at the end
-  double clutch = 0.0, cone = 0.0;               // [1] relative, of the heat
+struct DriveDeviation {
+  double engine = 0.0, shaft = 0.0, road = 0.0;  // [rad/s], [rad/s], [m/s] largest error of any sample
+  double end = 0.0;                              // [rad/s] error of the engine speed at the end
+  double clutch = 0.0, cone = 0.0;               // [1] relative error of the heat
 };
 
-Off off(const Drive& drive, const DriveOutcome& has, const DriveOutcome& should, double step) {
-  Off worst;
+DriveDeviation deviation(const Drive& drive, const DriveOutcome& actual, const DriveOutcome& expected, double step) {
+  DriveDeviation worst;
   const std::size_t each = static_cast<std::size_t>(std::lround(step / 0.001));
-  for (std::size_t i = 0; i < has.samples.size(); ++i) {
-    const ReferenceSample &a = has.samples[i], &b = should.samples[i * each];
+  for (std::size_t i = 0; i < actual.samples.size(); ++i) {
+    const ReferenceSample &a = actual.samples[i], &b = expected.samples[i * each];
     worst.engine = std::max(worst.engine, std::abs(a.engine - b.engine));
     worst.shaft = std::max(worst.shaft, std::abs(a.shaft - b.shaft));
     worst.road = std::max(worst.road, std::abs(a.road - b.road));
   }
-  worst.end = std::abs(has.samples.back().engine - should.samples.back().engine);
-  if (should.slip_energy > 0.0) worst.clutch = std::abs(has.slip_energy / should.slip_energy - 1.0);
-  if (should.cone_energy > 0.0) worst.cone = std::abs(has.cone_energy / should.cone_energy - 1.0);
-  REQUIRE(has.samples.size() == static_cast<std::size_t>(std::lround(drive.duration / step)) + 1);
+  worst.end = std::abs(actual.samples.back().engine - expected.samples.back().engine);
+  if (expected.slip_energy > 0.0) worst.clutch = std::abs(actual.slip_energy / expected.slip_energy - 1.0);
+  if (expected.cone_energy > 0.0) worst.cone = std::abs(actual.cone_energy / expected.cone_energy - 1.0);
+  REQUIRE(actual.samples.size() == static_cast<std::size_t>(std::lround(drive.duration / step)) + 1);
   return worst;
 }
 
 }  // namespace
 
-TEST_CASE("every hard drive follows the reference: at 1 ms to 0.01 rad/s and 0.005 % of the heat, at 4 ms to 0.06") {
+TEST_CASE(
+    "every hard drive matches the reference: at 1 ms to 0.01 rad/s and 0.005 % of the heat, at 4 ms to 0.06 rad/s") {
   std::vector<Drive> drives = all_drives();
-  drives.push_back(launch_of(shipped_car("hatchback")));  // teeth with losses
+  drives.push_back(launch_of(shipped_car("hatchback")));  // these cars lose energy in the gear teeth
   drives.push_back(launch_of(shipped_car("diesel")));
   for (const Drive& drive : drives) {
     CAPTURE(drive.name);
-    const DriveOutcome should = reference_of(drive);
+    const DriveOutcome expected = reference_of(drive);
     for (const double step : {0.001, 0.004}) {
       CAPTURE(step);
-      const DriveOutcome has = drive_by(DriveMethod::events, drive, step);
-      const Off worst = off(drive, has, should, step);
+      const DriveOutcome actual = drive_by(DriveMethod::events, drive, step);
+      const DriveDeviation worst = deviation(drive, actual, expected, step);
       CHECK(worst.engine < (step < 0.002 ? 0.01 : 0.06));
       CHECK(worst.shaft < (step < 0.002 ? 0.002 : 0.06));
       CHECK(worst.road < (step < 0.002 ? 1e-4 : 2e-4));
       CHECK(worst.end < 2.5e-3);
       CHECK(worst.clutch < (step < 0.002 ? 5e-5 : 1e-4));
       CHECK(worst.cone < (step < 0.002 ? 5e-5 : 1e-4));
-      CHECK(has.running == should.running);
+      CHECK(actual.running == expected.running);
     }
   }
 }
 
-// Two methods without common event logic agree, so the reference does not just copy the driveline.
-TEST_CASE("plain impulses without events converge to the reference as the step shrinks") {
+// The impulse method shares no event logic with the reference, so their agreement shows that both are right.
+TEST_CASE("impulses without events converge to the reference as the step shrinks") {
   int counted = 0;
   for (const Drive& drive : all_drives()) {
-    if (counted++ % 3 != 0 && !is_whole_campaign()) continue;
+    if (counted++ % 3 != 0 && !is_full_campaign()) continue;
     CAPTURE(drive.name);
-    const DriveOutcome should = reference_of(drive);
+    const DriveOutcome expected = reference_of(drive);
     const auto error = [&](double step) {
-      const DriveOutcome has = drive_by(DriveMethod::impulses, drive, step);
-      return std::abs(has.samples.back().road - should.samples.back().road);
+      const DriveOutcome actual = drive_by(DriveMethod::impulses, drive, step);
+      return std::abs(actual.samples.back().road - expected.samples.back().road);
     };
     CHECK(error(1e-5) < 1e-5);
   }
 }
 
-TEST_CASE("the drives match their names") {
+TEST_CASE("each drive does what its name says") {
   for (const Drive& drive : {launch(), launch_of(shipped_car("hatchback"))}) {
     const DriveOutcome runs = reference_of(drive);
     CHECK(runs.running);
     CHECK(runs.samples.back().road > 1.0);
-    CHECK(runs.samples.back().engine == runs.samples.back().shaft);  // locked
+    CHECK(runs.samples.back().engine == runs.samples.back().shaft);  // the clutch has locked
   }
   Drive hard = launch_of(shipped_car("hatchback"));
   hard.input = launch().input;
@@ -98,8 +99,8 @@ TEST_CASE("the drives match their names") {
   CHECK(reference_of(first_backwards()).samples.back().road > 1.0);
 }
 
-// 2.02 kJ, locked after 1.303 s: results of a separate program's Runge-Kutta.
-TEST_CASE("the launch matches another program's result") {
+// A separate program's Runge-Kutta gave 2.02 kJ of clutch heat, and a clutch that locks after 1.303 s.
+TEST_CASE("the launch matches a separate program's result") {
   const DriveOutcome runs = reference_of(launch());
   CHECK(runs.slip_energy == doctest::Approx(2020.0).epsilon(0.003));
   const auto locks = std::find_if(runs.samples.begin() + 1, runs.samples.end(),
@@ -107,10 +108,10 @@ TEST_CASE("the launch matches another program's result") {
   CHECK(static_cast<double>(locks - runs.samples.begin()) == doctest::Approx(1303.0).epsilon(0.001));
 }
 
-// Negative control: the usual tanh clutch is wrong by more than these tests tolerate.
-TEST_CASE("a tanh clutch fails these tolerances") {
+// Negative control: a clutch with tanh friction, the usual model, has larger errors than these tests tolerate.
+TEST_CASE("a tanh clutch exceeds these tolerances") {
   const Drive drive = launch();
-  const Off worst = off(drive, drive_by(DriveMethod::tanh, drive, 0.001), reference_of(drive), 0.001);
+  const DriveDeviation worst = deviation(drive, drive_by(DriveMethod::tanh, drive, 0.001), reference_of(drive), 0.001);
   CHECK(worst.engine > 1.0);
   CHECK(worst.clutch > 1e-3);
 }

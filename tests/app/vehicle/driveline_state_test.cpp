@@ -1,4 +1,4 @@
-// The driveline's engine state for sound and instruments.
+// The state that the driveline reports for sound and instruments: fuel cut, clutch points, starting and stalling.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,8 @@ using namespace gearshift::lab;
 using namespace gearshift::test;
 using namespace gearshift::vehicle;
 
-TEST_CASE("the fuel is cut from the limiter down to its band, 6500 to 6400 rpm, and reported as cut; never below") {
+TEST_CASE(
+    "the fuel is cut from the limiter down to its band, 6500 to 6400 rpm, is reported as cut, and never cut below") {
   Driveline line(shipped_car("hatchback"));
   int cuts = 0;
   bool before = false;
@@ -30,27 +31,26 @@ TEST_CASE("the fuel is cut from the limiter down to its band, 6500 to 6400 rpm, 
   CHECK(cuts > 10);
 }
 
-TEST_CASE(
-    "at the reported bite point the clutch begins to transmit, and at the reported closed point it transmits all") {
+TEST_CASE("the clutch begins to transmit at the reported bite point, and transmits all at the reported closed point") {
   for (const char* name : {"hatchback", "diesel"}) {
     CAPTURE(name);
     const CarSpec car = shipped_car(name);
     Driveline line(car);
-    const VehicleState said = line.state();  // before the first step
-    CHECK(said.clutch_bite > said.clutch_closed);
+    const VehicleState initial = line.state();  // the points are reported before the first step
+    CHECK(initial.clutch_bite > initial.clutch_closed);
     const auto carries = [&](double pedal) {
       line.step(pedals(kNeutralGear, 0.0, pedal), 1e-3);
       return line.state().clutch_capacity;
     };
-    CHECK(carries(said.clutch_bite + 1e-6) == 0.0);
-    CHECK(carries(said.clutch_bite - 1e-6) > 0.0);
-    CHECK(carries(said.clutch_closed + 1e-6) < car.clutch.capacity);
-    CHECK(carries(said.clutch_closed - 1e-6) == car.clutch.capacity);
-    CHECK(line.state().clutch_bite == said.clutch_bite);
+    CHECK(carries(initial.clutch_bite + 1e-6) == 0.0);
+    CHECK(carries(initial.clutch_bite - 1e-6) > 0.0);
+    CHECK(carries(initial.clutch_closed + 1e-6) < car.clutch.capacity);
+    CHECK(carries(initial.clutch_closed - 1e-6) == car.clutch.capacity);
+    CHECK(line.state().clutch_bite == initial.clutch_bite);
   }
 }
 
-TEST_CASE("it cranks while the starter turns it, and no longer once it runs, though the key is held") {
+TEST_CASE("cranking is reported while the starter turns the engine, and not once it runs, even if the key is held") {
   const CarSpec car = shipped_car("hatchback");
   Driveline line(car);
   line.place(0.0, 0.0, 0.0, false);
@@ -67,10 +67,10 @@ TEST_CASE("it cranks while the starter turns it, and no longer once it runs, tho
   drive(line, in, 5.0);
   in.starter = true;
   line.step(in, 1e-3);
-  CHECK_FALSE(line.state().cranking);  // without ignition
+  CHECK_FALSE(line.state().cranking);  // the ignition is off
 }
 
-TEST_CASE("starting takes two engine turns, at least half a second; released before, the engine stays off") {
+TEST_CASE("starting takes two engine turns and at least half a second; released earlier, the engine stays off") {
   for (const char* name : {"hatchback", "diesel"}) {
     CAPTURE(name);
     const CarSpec car = shipped_car(name);
@@ -98,7 +98,7 @@ TEST_CASE("starting takes two engine turns, at least half a second; released bef
   }
 }
 
-TEST_CASE("an engine stopped by the car stands at 0 and not at -0: reverse engaged at 5 m/s forwards") {
+TEST_CASE("an engine stopped by reverse at 5 m/s forwards has speed 0 and not -0") {
   const CarSpec car = shipped_car("hatchback");
   Driveline line(car);
   line.place(car.engine.idle, shaft_per_road(car, kReverseGear) * 5.0, 5.0, true);

@@ -17,8 +17,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// The hatchback's engine: idle 800, stall 350, so shuddering begins at 800 - 450 / 4 = 687.5 rpm; 8.586 N m of friction
-// at idle.
+// The shudder [1] of the hatchback's engine. It idles at 800 rpm and stalls at 350 rpm, so shuddering begins at 800 -
+// 450 / 4 = 687.5 rpm. At idle its friction is 8.586 N m.
 double shudder_at(double rpm, double clutch_torque, bool running = true) {
   static const EngineSpec engine = shipped_car("hatchback").engine;
   VehicleState car;
@@ -28,16 +28,16 @@ double shudder_at(double rpm, double clutch_torque, bool running = true) {
   return engine_shudder(engine, car);
 }
 
-struct Shaken {
-  double most = 0.0, last = 0.0, highest_step = 0.0;
+struct ShudderOutcome {
+  double max = 0.0, last = 0.0, highest_step = 0.0;
   bool stalled = false;
 };
 
-// In first from idle, clutch and throttle as functions of time, brake on or off.
+// Starts in first gear at idle; `feet` gives clutch and throttle at a time [s], `brake` is constant.
 template <typename Pedals>
-Shaken drive_off(const Pedals& feet, double seconds, double brake) {
+ShudderOutcome drive_off(const Pedals& feet, double seconds, double brake) {
   Driveline line(shipped_car("hatchback"));
-  Shaken out;
+  ShudderOutcome out;
   for (int i = 0; i < std::lround(seconds / 1e-4); ++i) {
     DrivelineInput in = feet(1e-4 * i);
     in.meshed = 1;
@@ -45,7 +45,7 @@ Shaken drive_off(const Pedals& feet, double seconds, double brake) {
     line.step(in, 1e-4);
     out.highest_step = std::max(out.highest_step, std::abs(line.state().shudder - out.last));
     out.last = line.state().shudder;
-    out.most = std::max(out.most, out.last);
+    out.max = std::max(out.max, out.last);
     out.stalled = out.stalled || line.state().stalled;
   }
   return out;
@@ -69,19 +69,19 @@ DriverControls dump(double time) {
 
 }  // namespace
 
-TEST_CASE("by hand: none at idle and above 687.5 rpm, half at 518.75, all at the stall speed, gone at rest") {
+TEST_CASE("computed by hand: no shudder from 687.5 rpm up, half at 518.75, all at the stall speed, none at rest") {
   for (const double rpm : {6000.0, 800.0, 687.5}) CHECK(shudder_at(rpm, 50.0) == 0.0);
   CHECK(shudder_at(518.75, 50.0) == doctest::Approx(0.5));
   CHECK(shudder_at(350.0, 50.0) == doctest::Approx(1.0));
-  CHECK(shudder_at(350.0, 4.293) == doctest::Approx(0.5).epsilon(1e-3));  // half of its own friction
-  CHECK(shudder_at(500.0, 0.0) == 0.0);                                   // the clutch is down
-  CHECK(shudder_at(500.0, -50.0) == 0.0);                                 // the car drives the engine
+  CHECK(shudder_at(350.0, 4.293) == doctest::Approx(0.5).epsilon(1e-3));  // [N m] half of the engine's friction at idle
+  CHECK(shudder_at(500.0, 0.0) == 0.0);                                   // with the clutch down
+  CHECK(shudder_at(500.0, -50.0) == 0.0);                                 // while the car drives the engine
   CHECK(shudder_at(350.0, 0.0, false) == doctest::Approx(1.0));
   CHECK(shudder_at(175.0, 0.0, false) == doctest::Approx(0.5));
   CHECK(shudder_at(0.0, 0.0, false) == 0.0);
 }
 
-TEST_CASE("a starter that turns a stopped engine, and a switched-off ignition, are no stall") {
+TEST_CASE("cranking and a switched-off ignition cause no shudder") {
   const EngineSpec engine = shipped_car("hatchback").engine;
   VehicleState car;
   car.engine_speed = 250.0 * kRpm;
@@ -94,46 +94,47 @@ TEST_CASE("a starter that turns a stopped engine, and a switched-off ignition, a
   CHECK(engine_shudder(engine, car) == 0.0);
 }
 
-TEST_CASE("a practised launch does not shudder; a dumped clutch does, fully, without a step, and it ends") {
-  const Shaken launch = drive_off([](double t) { return let_up(t, 0.5, 1.5, 0.4); }, 4.0, 0.0);
+TEST_CASE(
+    "a practised launch does not shudder; a dumped clutch does, fully and continuously, until the engine is at rest") {
+  const ShudderOutcome launch = drive_off([](double t) { return let_up(t, 0.5, 1.5, 0.4); }, 4.0, 0.0);
   CHECK_FALSE(launch.stalled);
-  CHECK(launch.most == 0.0);
-  const Shaken dumped = drive_off([](double t) { return let_up(t, 0.5, 0.03, 0.0); }, 3.0, 1.0);
+  CHECK(launch.max == 0.0);
+  const ShudderOutcome dumped = drive_off([](double t) { return let_up(t, 0.5, 0.03, 0.0); }, 3.0, 1.0);
   CHECK(dumped.stalled);
-  CHECK(dumped.most > 0.95);
+  CHECK(dumped.max > 0.95);
   CHECK(dumped.highest_step < 0.05);
   CHECK(dumped.last == 0.0);
-  const Shaken slow = drive_off([](double t) { return let_up(t, 0.5, 3.0, 0.0); }, 6.0, 0.0);
+  const ShudderOutcome slow = drive_off([](double t) { return let_up(t, 0.5, 3.0, 0.0); }, 6.0, 0.0);
   CHECK(slow.stalled);  // without throttle the engine lugs until it dies
-  CHECK(slow.most > 0.95);
+  CHECK(slow.max > 0.95);
 }
 
-TEST_CASE("the lever is shaken at the firing frequency, 20 Hz at 600 rpm, about nothing and within its amplitude") {
+TEST_CASE("the lever vibrates at the firing frequency, 20 Hz at 600 rpm, with zero mean and within its amplitude") {
   LeverVibration shake(3.0);
   std::vector<double> force;
   for (int i = 0; i < 1000; ++i) force.push_back(shake.step(0.5, 600.0 * kRpm, 1e-3));
   int crossings = 0;
-  double mean = 0.0, most = 0.0;
+  double mean = 0.0, max = 0.0;
   for (std::size_t i = 0; i < force.size(); ++i) {
     crossings += i > 0 && force[i - 1] < 0.0 && force[i] >= 0.0 ? 1 : 0;
     mean += force[i] / 1000.0;
-    most = std::max(most, std::abs(force[i]));
+    max = std::max(max, std::abs(force[i]));
   }
   CHECK(force.front() == 0.0);
   CHECK(crossings >= 19);
   CHECK(crossings <= 20);
   CHECK(std::abs(mean) < 1e-3);
-  CHECK(most <= 1.5);
-  CHECK(most > 1.49);
+  CHECK(max <= 1.5);
+  CHECK(max > 1.49);
   CHECK(shake.step(0.0, 600.0 * kRpm, 1e-3) == 0.0);
-  CHECK(shake.step(1.0, 600.0 * kRpm, 1e-3) == 0.0);  // starts from zero again
+  CHECK(shake.step(1.0, 600.0 * kRpm, 1e-3) == 0.0);  // the sine starts from zero again
 }
 
-TEST_CASE("without a shudder a drive is unchanged, bit for bit: shifts, full throttle, grinding") {
+TEST_CASE("without shudder a drive is bit-identical to one with a shudder force of 0: shifts, throttle, grinding") {
   std::vector<double> forces[2];
   for (const int shaken : {0, 1}) {
     CarSpec car = shipped_car("hatchback");
-    car.synchro.friction = 0.06;  // worn
+    car.synchro.friction = 0.06;  // a worn ring, so that the dogs grind
     car.engine.shudder = shaken == 0 ? 0.0 : 10.0;
     ScriptedHand hand = shifting_hand(gate_of(car), 2, {3, 4, 3, kNeutralGear, 2});
     CarRun run(car, rolling_in(car, 2, 250.0), hand,
@@ -147,7 +148,7 @@ TEST_CASE("without a shudder a drive is unchanged, bit for bit: shifts, full thr
   CHECK(forces[0] == forces[1]);
 }
 
-TEST_CASE("a stall vibrates the lever, within the scaled amplitude, and leaves it in its gear and at rest") {
+TEST_CASE("a stall vibrates the lever within the scaled amplitude, and leaves it in its gear and at rest") {
   for (const double rate : {1000.0, 4000.0}) {
     const CarSpec car = shipped_car("hatchback");
     const Gate gate = gate_of(car);
@@ -157,22 +158,23 @@ TEST_CASE("a stall vibrates the lever, within the scaled amplitude, and leaves i
     config.lever.hand = kBareHand;
     CarLoad load(car, gate, kPaperForce, in_first());
     SimulatedRun run(config, idle_hand, &load);
-    const double most = car.engine.shudder * load.state().force_scale;
+    const double max_force = car.engine.shudder * load.state().force_scale;
     double shaken = 0.0, moved = 0.0;
     glm::dvec2 rest{0.0};
     while (run.time() < 3.0) {
       run.channels().controls.write(dump(run.time()));
       const HapticSnapshot& lever = run.step();
       if (run.time() < 0.29) rest = lever.lever;
-      REQUIRE(std::abs(lever.load_force.y) <= most);
+      REQUIRE(std::abs(lever.load_force.y) <= max_force);
       shaken = std::max(shaken, std::abs(lever.load_force.y));
       if (run.time() > 0.3) moved = std::max(moved, std::abs(lever.lever.y - rest.y));
       REQUIRE((run.time() < 0.1 || lever.gear == 1));
       if (run.time() > 2.0) REQUIRE(lever.load_force == glm::dvec2(0.0));
       if (run.time() > 2.5) REQUIRE(std::abs(lever.lever.y - rest.y) < 2e-4);
     }
-    MESSAGE("at " << rate << " Hz: " << shaken << " N of " << most << ", the lever moved " << 1e3 * moved << " mm");
-    CHECK(shaken > 0.2 * most);
+    MESSAGE("at " << rate << " Hz: " << shaken << " N of " << max_force << ", the lever moved " << 1e3 * moved
+                  << " mm");
+    CHECK(shaken > 0.2 * max_force);
     CHECK(moved < 0.003);
   }
 }

@@ -1,5 +1,5 @@
-// Hands faster and stronger than any person's: in a sound gearbox none of them can grind a forward gear, in a worn one
-// all can.
+// Hands faster and stronger than any human hand: with sound rings none of them can grind a forward gear; with worn
+// rings every shift grinds.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -16,29 +16,29 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kHandReady = 0.05;  // [s] until the hand starts moving: the guard has ramped up
+constexpr double kHandReady = 0.05;  // [s] start of the hand's motion, after the guard has ramped up
 
 struct Rush {
-  double speed, push, rate;  // [m/s] of the hand, [N] its maximum push, [Hz]
+  double speed, push, rate;  // [m/s] hand speed; [N] its largest push; [Hz] loop rate
 };
 
 struct Shifted {
   bool in = false;
-  double ground = 0.0;      // [J]
+  double ground = 0.0;      // [J] dissipated by grinding
   double difference = 0.0;  // [rad/s] largest speed difference at which the ring let the sleeve pass
 };
 
-// Follows a target that moves into the slot, with whatever force it takes.
+// A hand that follows a target into the slot and pushes with up to `rush.push` [N].
 PushingHand rushing_hand(const Slot& slot, double across, const Rush& rush) {
-  const double way = static_cast<double>(static_cast<int>(slot.side)), end = slot.end + 0.01;
+  const double direction = static_cast<double>(static_cast<int>(slot.side)), end = slot.end + 0.01;
   return PushingHand([=](double time, dvec2 lever) {
     const double goal = std::clamp((time - kHandReady) * rush.speed, 0.0, end);
-    const double force = std::clamp(2e4 * (goal - way * lever.y), -rush.push, rush.push);
-    return dvec2{2000.0 * (across - lever.x), time < kHandReady ? 0.0 : way * force};
+    const double force = std::clamp(2e4 * (goal - direction * lever.y), -rush.push, rush.push);
+    return dvec2{2000.0 * (across - lever.x), time < kHandReady ? 0.0 : direction * force};
   });
 }
 
-// Out of neutral into that gear, clutch down, with shaft and car as the previous gear left them.
+// Shifts from neutral into `to` with the clutch down. Shaft and car have the speeds that they had in gear `from`.
 Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush& rush, double brake) {
   const Slot& slot = slot_of(gate, slot_of_gear(gate, to));
   SimulatedRunConfig config = gripped(gate, kNeutralGear);
@@ -57,8 +57,8 @@ Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush
   Shifted shifted;
   bool was_through = false;
   while (run.time() < 2.5 && !shifted.in) {
-    const VehicleState seen = load.state();  // the state on which the ring's decision is based
-    const double difference = std::abs(seen.shaft_speed - shaft_per_road(car, to) * seen.road_speed);
+    const VehicleState before = load.state();  // the ring decides by this state
+    const double difference = std::abs(before.shaft_speed - shaft_per_road(car, to) * before.road_speed);
     shifted.in = run.step().gear == to;
     const VehicleState& now = load.state();
     shifted.ground += now.grind_power / rush.rate;
@@ -98,7 +98,7 @@ constexpr Rush kRushes[] = {{0.2, 20.0, 4000.0}, {0.2, 120.0, 500.0},  {0.7, 60.
 
 }  // namespace
 
-TEST_CASE("a sound ring: no forward gear grinds with the clutch down, from 0.2 to 2 m/s, to 120 N, at 500 to 4000 Hz") {
+TEST_CASE("sound rings: no forward gear grinds with the clutch down, at 0.2 to 2 m/s, up to 120 N, 500 to 4000 Hz") {
   for (const std::string model : {"hatchback", "diesel"}) {
     const CarSpec car = shipped_car(model);
     CAPTURE(model);
@@ -106,7 +106,7 @@ TEST_CASE("a sound ring: no forward gear grinds with the clutch down, from 0.2 t
     each_shift(car, [&](const Gate& gate, int from, int to) {
       for (const Rush& rush : kRushes) {
         for (const double brake : {0.0, 1.0}) {
-          if (counted++ % 5 != 0 && !is_whole_campaign()) continue;
+          if (counted++ % 5 != 0 && !is_full_campaign()) continue;
           CAPTURE(from);
           CAPTURE(to);
           CAPTURE(rush.speed);
@@ -121,11 +121,11 @@ TEST_CASE("a sound ring: no forward gear grinds with the clutch down, from 0.2 t
         }
       }
     });
-    CHECK(shifts > (is_whole_campaign() ? 500 : 100));
+    CHECK(shifts > (is_full_campaign() ? 500 : 100));
   }
 }
 
-TEST_CASE("a worn ring: every such shift grinds") {
+TEST_CASE("worn rings: every shift between forward gears grinds") {
   CarSpec car = shipped_car("hatchback");
   car.synchro.friction = 0.07;
   each_shift(car, [&](const Gate& gate, int from, int to) {

@@ -1,4 +1,5 @@
-// Which contacts stick, compared with the minimum principle that the motion must satisfy, searched for independently.
+// The motion of the friction chain, compared with the minimum principle that it must satisfy. The minimum is searched
+// for independently.
 #include "app/vehicle/friction_chain.h"
 
 #include <cmath>
@@ -11,8 +12,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// Gauss' constraint plus the friction dissipation, per unit of time, of bodies that are all in contact: strictly
-// convex.
+// The sum of Gauss' constraint and the rate of friction dissipation, when nothing slips yet at any contact. It is
+// strictly convex in `rate`.
 double cost(const FrictionChain& chain, const ChainLoads& loads, const PerBody& rate) {
   double sum = 0.0;
   for (std::size_t b = 0; b < 3; ++b) {
@@ -55,18 +56,18 @@ TEST_CASE("bodies at rest start to move so that Gauss' constraint plus friction 
     const Solution s = solve_modes(d.chain, d.loads, {}, {});
     REQUIRE(s.motion.violation == 0.0);
     CHECK(s.motion.rate[engine_body] >= 0.0);
-    const double least = cost(d.chain, d.loads, s.motion.rate);
+    const double min_cost = cost(d.chain, d.loads, s.motion.rate);
     (s.motion.rate == PerBody{} ? held : moved) += 1;
     for (const double size : {1.0, 1e-3}) {
       for (int n = 0; n < 20; ++n) {
         PerBody other = s.motion.rate;
         for (double& r : other) r += size * normal(random);
-        // Samples along each contact's sticking line, too, where the minimum has its kinks.
+        // Also samples the line on which each contact sticks, because the cost has its kinks there.
         if (n % 4 == 0) other[0] = other[1];
         if (n % 4 == 1) other[1] = d.chain.per_road * other[2];
         if (d.chain.link == GearLink::dogs) other[1] = d.chain.per_road * other[2];
         if (other[0] < 0.0) continue;  // the engine does not turn backwards
-        CHECK(cost(d.chain, d.loads, other) >= least - 1e-9);
+        CHECK(cost(d.chain, d.loads, other) >= min_cost - 1e-9);
       }
     }
   }
@@ -74,7 +75,7 @@ TEST_CASE("bodies at rest start to move so that Gauss' constraint plus friction 
   CHECK(moved > 1000);
 }
 
-TEST_CASE("the contact torques explain the motion: inertia times acceleration is the sum of torques") {
+TEST_CASE("inertia times acceleration is the sum of the contact torques and the push, for each body") {
   std::mt19937 random(2);
   for (int i = 0; i < 3000; ++i) {
     Draw d = draw(random);
@@ -90,7 +91,7 @@ TEST_CASE("the contact torques explain the motion: inertia times acceleration is
   }
 }
 
-TEST_CASE("an initial guess changes only the time to find the solution") {
+TEST_CASE("an initial guess does not change the solution") {
   std::mt19937 random(3);
   for (int i = 0; i < 1000; ++i) {
     const Draw d = draw(random);
@@ -103,23 +104,23 @@ TEST_CASE("an initial guess changes only the time to find the solution") {
   }
 }
 
-// When driven, the wheels get 0.9 of what the engine gives; when they drive the engine, they give 1 / 0.9 of what it
-// takes.
-TEST_CASE("teeth that lose take their share in the direction of the power") {
+// When the engine drives, the wheels get 0.9 of its torque; when the wheels drive the engine, they supply 1 / 0.9 of
+// the torque that it takes.
+TEST_CASE("gear losses depend on the direction of the power") {
   FrictionChain chain{{0.2, 0.01, 1000.0}, GearLink::dogs, 10.0, 0.9};
   ChainLoads loads;
   loads.push = {50.0, 0.0, 0.0};
   loads.clutch = 200.0;
   const FrictionMode ahead{0, 0, {1, 1, 1}};
-  const ChainMotion pulls = move(chain, loads, ahead);
+  const ChainMotion pulls = motion_in_mode(chain, loads, ahead);
   CHECK(pulls.rate[2] == doctest::Approx(0.9 * 10.0 * 50.0 / (1000.0 + 0.9 * 100.0 * 0.21)).epsilon(1e-12));
   CHECK(pulls.drive == doctest::Approx(0.9 * 10.0 * pulls.gear).epsilon(1e-12));
   loads.push = {-50.0, 0.0, 0.0};
-  const ChainMotion drags = move(chain, loads, ahead);
+  const ChainMotion drags = motion_in_mode(chain, loads, ahead);
   CHECK(drags.rate[2] == doctest::Approx(-10.0 * 50.0 / 0.9 / (1000.0 + 100.0 * 0.21 / 0.9)).epsilon(1e-12));
 }
 
-TEST_CASE("an impact of bodies that reach one speed conserves their momentum, with or without teeth") {
+TEST_CASE("an impact that brings bodies to one speed conserves their momentum, with or without gear losses") {
   const FrictionChain chain{{0.2, 0.01, 50.0}, GearLink::dogs, -8.0, 0.8};
   const PerBody before{100.0, 40.0, 3.0}, after = collide(chain, before, {0, 0, {1, 1, -1}});
   CHECK(after[0] == after[1]);

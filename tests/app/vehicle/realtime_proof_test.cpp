@@ -9,9 +9,9 @@
 
 namespace gearshift::test {
 
-TEST_CASE("the car behind the loop is real-time safe: shifts, grinding, stall, restart, hill, late cycles") {
+TEST_CASE("the car's load is real-time safe: shifts, grinding, stall, restart, hill, late cycles") {
   vehicle::CarSpec car = shipped_car("hatchback");
-  car.synchro.friction = 0.06;  // worn
+  car.synchro.friction = 0.06;  // a worn ring, so that the dogs grind
   const haptics::Gate gate = gate_of(car);
   haptics::ScriptedHand hand = shifting_hand(gate, 1, {2, 1, haptics::kReverseGear, 2, 3});
   vehicle::CarLoad load(car, gate, kPaperForce, rolling_in(car, 1, 300.0));

@@ -20,7 +20,7 @@ namespace {
 constexpr double kT = 0.001;  // [s]
 constexpr double kScale = kPaperForce / kMaxHandForce;
 
-// A sleeve that is pushed against whatever stops it, in a car with the clutch down or up.
+// A sleeve that is pushed against the ring or the dogs, in a car with the clutch down or up.
 struct Bench {
   explicit Bench(const CarSpec& spec, double scale = kScale, std::uint64_t seed = 1)
       : car(spec),
@@ -29,7 +29,7 @@ struct Bench {
         driveline(spec),
         force_scale(scale) {}
 
-  // Enters that gear's slot, with the shaft and the car at these speeds.
+  // Enters the slot of gear `wanted` with these speeds of shaft [rad/s] and car [m/s].
   void enter(int wanted, double shaft, double road) {
     gear = wanted;
     input.slot = slot_of_gear(gate, gear);
@@ -38,7 +38,7 @@ struct Bench {
     input.depth = at.block;
   }
 
-  // One cycle with this push of a person [N] at the real knob. The sleeve moves as far as it can.
+  // One cycle with `push` [N] by a hand at the real knob.
   void step(double push) {
     const VehicleState& now = driveline.state();
     input.push = force_scale * push;
@@ -64,7 +64,7 @@ struct Bench {
   double force_scale;
   bool clutch_down = true;
   double throttle = 0.0;
-  bool moves = false;  // moves on where it can, at 0.3 m/s
+  bool moves = false;  // whether the sleeve moves inwards where it can, at 0.3 m/s
   int gear = kNeutralGear;
   SleeveStations at;
   SleeveInput input;
@@ -74,13 +74,13 @@ struct Bench {
 
 struct TimedShift {
   int from, to;
-  double push, time;  // [N], [s] computed by a separate program
+  double push, time;  // [N]; [s] computed by a separate program
 };
 const TimedShift kShifts[] = {{1, 2, 60.0, 0.109}, {2, 3, 60.0, 0.057}, {3, 4, 60.0, 0.032}, {4, 5, 60.0, 0.022},
                               {1, 2, 30.0, 0.205}, {2, 3, 30.0, 0.109}, {3, 4, 30.0, 0.062}, {4, 5, 30.0, 0.043},
                               {2, 1, 60.0, 0.42},  {3, 2, 60.0, 0.14}};
 
-// At the shaft: J w' = -+T_c/i - T_drag, and the reaction acts on the car: m v' = +-G T_c/i. The drag helps an upshift.
+// At the shaft, J w' = -+T_c/i - T_drag; the reaction on the car is m v' = +-G T_c/i. The drag helps an upshift.
 double closed_form(const CarSpec& car, const TimedShift& shift, double difference) {
   const double ratio = ratio_of(car, shift.to), per_road = shaft_per_road(car, shift.to);
   const double cone = shift.push * car.synchro.lever_ratio * car.synchro.efficiency * cone_gain(car.synchro) / ratio;
@@ -89,14 +89,14 @@ double closed_form(const CarSpec& car, const TimedShift& shift, double differenc
   return ratio * difference / (cone * (1.0 / shaft + per_road * per_road / mass) + drag / shaft);
 }
 
-// A car without any resistance during the shift.
+// The hatchback without rolling and air resistance, so that it does not slow down during the shift.
 CarSpec rolling_hatchback() {
   CarSpec car = shipped_car("hatchback");
   car.body.resistance = car.body.resistance_slope = car.body.resistance_square = 0.0;
   return car;
 }
 
-// The time for which the ring holds the sleeve until synchronised, at most 5 s.
+// [s] The time until the ring lets the sleeve pass, at most 5 s.
 double synchronising_time(Bench& bench, double push) {
   do bench.step(push);
   while (bench.out.depth_max == bench.at.block && bench.time < 5.0);
@@ -105,7 +105,7 @@ double synchronising_time(Bench& bench, double push) {
 
 }  // namespace
 
-TEST_CASE("cone and ring: gains, and the friction below which the ring no longer blocks") {
+TEST_CASE("gains of cone and ring, and the friction below which the ring no longer blocks") {
   CarSpec car = shipped_car("hatchback");
   CHECK(cone_gain(car.synchro) == doctest::Approx(0.0265).epsilon(0.001));
   CHECK(60.0 * 9.0 * 0.8 * cone_gain(car.synchro) == doctest::Approx(11.4).epsilon(0.005));
@@ -117,7 +117,7 @@ TEST_CASE("cone and ring: gains, and the friction below which the ring no longer
   CHECK(critical_friction(car.synchro) == doctest::Approx(0.068).epsilon(0.008));
 }
 
-TEST_CASE("a synchroniser takes J dw i^2 / (T_c +- T_drag i): up and down, 60 N and 30 N, at 2500 rpm") {
+TEST_CASE("synchronising takes J dw i^2 / (T_c +- T_drag i): up and down, 60 N and 30 N, at 2500 rpm") {
   const CarSpec car = rolling_hatchback();
   for (const TimedShift& shift : kShifts) {
     CAPTURE(shift.from);
@@ -131,12 +131,12 @@ TEST_CASE("a synchroniser takes J dw i^2 / (T_c +- T_drag i): up and down, 60 N 
     bench.enter(shift.to, 2500.0 * kRpm, road);
     const double took = synchronising_time(bench, shift.push);
     const double wanted = closed_form(car, shift, difference - car.synchro.dog_speed);
-    // half of the first cycle has no cone yet, the last uses the previous push
+    // The cone acts only in half of the first cycle, and the last cycle uses the previous push.
     CHECK(std::abs(took - wanted) < 2.5 * kT);
   }
 }
 
-TEST_CASE("the cone's heat is half of its torque times the difference times the time, whatever the push") {
+TEST_CASE("for any push, the cone's heat is half of its torque times the speed difference times the time") {
   const CarSpec car = shipped_car("hatchback");
   for (const double push : {15.0, 30.0, 60.0, 120.0}) {
     CAPTURE(push);
@@ -171,12 +171,12 @@ TEST_CASE("the ring is a hard wall: no push opens it while the speeds differ") {
   }
 }
 
-TEST_CASE("a lever that crosses the ring within one cycle is still held there: only equal speeds let it through") {
+TEST_CASE("a lever that crosses the ring within one cycle is still held there: only equal speeds let it pass") {
   CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   for (const bool worn : {false, true}) {
     if (worn) car.synchro.friction = 0.9 * critical_friction(car.synchro);
-    for (const double before : {50.0, 0.9 * car.synchro.dog_speed}) {  // on the way to the ring
+    for (const double before : {50.0, 0.9 * car.synchro.dog_speed}) {  // [rad/s] difference in the cycle before the ring
       Synchroniser sleeve(car.synchro, gate, kScale, kNeutralGear, 1);
       SleeveInput in;
       in.slot = slot_of_gear(gate, 3);
@@ -194,7 +194,7 @@ TEST_CASE("a lever that crosses the ring within one cycle is still held there: o
       CHECK(out.phase == (worn ? SyncPhase::clashing : SyncPhase::synchronising));
       CHECK((out.grind_power > 0.0) == worn);
       CHECK(out.depth_max == (worn ? at.dogs : at.block));
-      const double full = 10.0 / kScale * 9.0 * 0.8 * cone_gain(car.synchro);  // [N m] at full push
+      const double full = 10.0 / kScale * 9.0 * 0.8 * cone_gain(car.synchro);  // [N m] cone torque at the full push
       if (!worn) CHECK(out.cone_torque == doctest::Approx(full));
       CHECK(out.meshed == kNeutralGear);
       in.difference = 0.9 * car.synchro.dog_speed;
@@ -204,14 +204,14 @@ TEST_CASE("a lever that crosses the ring within one cycle is still held there: o
   }
 }
 
-TEST_CASE("with the clutch up the cone would have to turn the engine: 60 N cannot, for 2.5 s") {
+TEST_CASE("with the clutch up the cone would have to accelerate the engine: 60 N cannot do that in 2.5 s") {
   const CarSpec car = shipped_car("hatchback");
   for (const double throttle : {0.0, 0.3}) {
     CAPTURE(throttle);
     Bench bench(car);
     bench.clutch_down = false;
     bench.throttle = throttle;
-    bench.enter(1, throttle > 0.0 ? 300.0 : car.engine.idle, 5.0);  // first gear needs 235 rad/s
+    bench.enter(1, throttle > 0.0 ? 300.0 : car.engine.idle, 5.0);  // first gear needs 235 rad/s at 5 m/s
     for (int i = 0; i < 2500; ++i) {
       bench.step(60.0);
       REQUIRE(bench.out.depth_max == bench.at.block);
@@ -219,7 +219,7 @@ TEST_CASE("with the clutch up the cone would have to turn the engine: 60 N canno
   }
 }
 
-TEST_CASE("with the clutch up, revs that match let it pass: the engine falls to them") {
+TEST_CASE("with the clutch up the sleeve passes when the falling engine speed matches") {
   const CarSpec car = shipped_car("hatchback");
   Bench bench(car);
   bench.clutch_down = false;
@@ -232,7 +232,7 @@ TEST_CASE("with the clutch up, revs that match let it pass: the engine falls to 
   CHECK(bench.driveline.energy().mesh < 1.0);
 }
 
-TEST_CASE("worn: below the critical friction the ring lets the sleeve through, above it does not") {
+TEST_CASE("a worn ring lets the sleeve through below the critical friction, and not above it") {
   CarSpec car = shipped_car("hatchback");
   const double critical = critical_friction(car.synchro);
   for (const double worn : {0.6, 0.9, 0.99, 1.01, 1.1}) {
@@ -245,7 +245,7 @@ TEST_CASE("worn: below the critical friction the ring lets the sleeve through, a
   }
 }
 
-TEST_CASE("dogs that clash are a hard wall; they grind with F mu R dw, and go in once the speeds are near") {
+TEST_CASE("clashing dogs are a hard wall, dissipate F mu R dw, and engage once the speeds are close") {
   CarSpec car = shipped_car("hatchback");
   car.synchro.friction = 0.05;
   double longer = std::numeric_limits<double>::infinity();
@@ -268,17 +268,17 @@ TEST_CASE("dogs that clash are a hard wall; they grind with F mu R dw, and go in
     CHECK(bench.out.meshed == 2);
     CHECK(bench.driveline.energy().mesh < 0.1);
     CHECK(ground > 0.1);
-    CHECK(ground < longer);  // a harder push grinds louder and shorter
+    CHECK(ground < longer);  // a harder push grinds for a shorter time
     longer = ground;
   }
 }
 
-TEST_CASE("reverse has no cone: the shaft slows only by its drag, and only then do the dogs engage") {
+TEST_CASE("reverse has no cone: only drag slows the shaft down, and only then the dogs engage") {
   const CarSpec car = shipped_car("hatchback");
   Bench bench(car);
   const double start = car.engine.idle;
   bench.enter(kReverseGear, start, 0.0);
-  bench.input.depth = bench.at.block;  // at the ring and not at the dogs: nothing grinds
+  bench.input.depth = bench.at.block;  // nothing grinds at the ring, before the dogs
   const double near = car.synchro.dog_speed * ratio_of(car, kReverseGear);
   const double run_down = car.clutch.disc_inertia * (start - near) / car.gearbox.drag;
   while (std::abs(bench.driveline.state().shaft_speed) > near) bench.step(20.0);
@@ -290,7 +290,7 @@ TEST_CASE("reverse has no cone: the shaft slows only by its drag, and only then 
   CHECK(bench.out.meshed == kReverseGear);
 }
 
-TEST_CASE("reverse pushed at its turning dogs grinds and stays out; rubbing, they stop the shaft sooner") {
+TEST_CASE("reverse pushed against its turning dogs grinds and does not engage; the rubbing stops the shaft sooner") {
   const CarSpec car = shipped_car("hatchback");
   Bench bench(car);
   bench.enter(kReverseGear, car.engine.idle, 0.0);
@@ -305,23 +305,23 @@ TEST_CASE("reverse pushed at its turning dogs grinds and stays out; rubbing, the
   CHECK(bench.time == doctest::Approx(run_down).epsilon(0.01));
 }
 
-TEST_CASE("the second bump is at most a third of the effort, random, and the same for the same seed") {
+TEST_CASE("the second bump is at most a third of the push, random, and equal for equal seeds") {
   const CarSpec car = shipped_car("hatchback");
   const auto peak = [&](std::uint64_t seed, double push) {
     Bench bench(car, kScale, seed);
     bench.moves = true;
     bench.enter(3, 2500.0 * kRpm, road_speed_at(car, 2, 2500.0 * kRpm));
-    double most = 0.0;
+    double max_push = 0.0;
     for (int i = 0; i < 1000; ++i) {
       bench.step(push);
       REQUIRE(bench.out.force <= 0.0);
-      most = std::max(most, -bench.out.force);
+      max_push = std::max(max_push, -bench.out.force);
     }
     REQUIRE(bench.out.meshed == 3);
     REQUIRE(bench.out.phase == SyncPhase::meshed);
-    return most;
+    return max_push;
   };
-  const double effort = 15.0;  // [N] at the real knob; small enough for the device to render the whole bump
+  const double effort = 15.0;  // [N] push at the real knob, small enough for the device to render the whole bump
   std::vector<double> peaks;
   for (std::uint64_t seed = 0; seed < 200; ++seed) peaks.push_back(peak(seed, effort));
   std::sort(peaks.begin(), peaks.end());
@@ -334,7 +334,7 @@ TEST_CASE("the second bump is at most a third of the effort, random, and the sam
     for (std::uint64_t seed = 0; seed < 20; ++seed) CHECK(peak(seed, push) <= kScale * push / 3.0);
 }
 
-TEST_CASE("the bump is continuous with its slope, and is felt only on the way in") {
+TEST_CASE("the bump's force and slope are continuous, and it is felt only on the way in") {
   const CarSpec car = shipped_car("hatchback");
   Bench bench(car, kScale, 3);
   bench.enter(3, 2500.0 * kRpm, road_speed_at(car, 2, 2500.0 * kRpm));
@@ -342,7 +342,7 @@ TEST_CASE("the bump is continuous with its slope, and is felt only on the way in
   bench.input.depth = bench.at.dogs;
   while (bench.out.meshed == kNeutralGear) bench.step(60.0);
   const double step = 1e-6, width = bench.at.home - bench.at.dogs;
-  double before = 0.0, slope_before = 0.0, most = 0.0, steepest = 0.0;
+  double before = 0.0, slope_before = 0.0, max_push = 0.0, steepest = 0.0;
   for (double depth = bench.at.dogs; depth <= bench.at.home + 0.001; depth += step) {
     bench.input.depth = depth;
     bench.step(60.0);
@@ -350,10 +350,10 @@ TEST_CASE("the bump is continuous with its slope, and is felt only on the way in
     REQUIRE(std::abs(slope - slope_before) < 1.1 * step * 2.0 * 2000.0 * std::numbers::pi / width);
     before = bench.out.force;
     slope_before = slope;
-    most = std::max(most, -bench.out.force);
+    max_push = std::max(max_push, -bench.out.force);
     steepest = std::max(steepest, std::abs(slope));
   }
-  CHECK(most > 0.3);
+  CHECK(max_push > 0.3);
   CHECK(steepest < 2000.0);
   for (double depth = bench.at.home; depth >= bench.at.out; depth -= 1e-5) {
     bench.input.depth = depth;
@@ -362,15 +362,15 @@ TEST_CASE("the bump is continuous with its slope, and is felt only on the way in
   }
 }
 
-TEST_CASE("under load the gear stays in; light when coasting; free with the clutch down, whatever the load") {
+TEST_CASE("under load the gear cannot be pulled out; coasting needs a light pull, and the clutch down none") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   const int slot = slot_of_gear(gate, 3);
   const double rest = slot_of(gate, slot).rest;
-  // T = F i eta R / (mu + taper): the torque that a hand of 60 N can just overcome.
-  const double most = kMaxHandForce * 9.0 * 0.8 * car.synchro.index_radius / (car.synchro.index_friction + 0.07);
-  CHECK(most > 80.0);
-  CHECK(most < 120.0);  // [N m] in third: 60 to 90 N m at the engine
+  // T = F i eta R / (mu + taper): the load torque at which a hand of 60 N can just pull the gear out.
+  const double max_torque = kMaxHandForce * 9.0 * 0.8 * car.synchro.index_radius / (car.synchro.index_friction + 0.07);
+  CHECK(max_torque > 80.0);
+  CHECK(max_torque < 120.0);  // [N m] at third gear; 60 to 90 N m at the engine
   const auto draws_out = [&](double load, double pull, bool clutch_open) {
     Synchroniser sleeve(car.synchro, gate, kScale, 3, 1);
     SleeveInput in;
@@ -387,21 +387,22 @@ TEST_CASE("under load the gear stays in; light when coasting; free with the clut
     }
     return out.meshed == kNeutralGear;
   };
-  for (const double load : {1.02 * most, -1.02 * most, 1000.0}) {
+  for (const double load : {1.02 * max_torque, -1.02 * max_torque, 1000.0}) {
     CHECK_FALSE(draws_out(load, 60.0, false));
     CHECK_FALSE(draws_out(load, 1000.0, false));
     CHECK(draws_out(load, 15.0, true));
   }
-  CHECK(draws_out(0.98 * most, 61.0, false));
-  CHECK_FALSE(draws_out(0.98 * most, 55.0, false));
-  for (const double load : {0.2 * most, -0.2 * most}) {
+  CHECK(draws_out(0.98 * max_torque, 61.0, false));
+  CHECK_FALSE(draws_out(0.98 * max_torque, 55.0, false));
+  for (const double load : {0.2 * max_torque, -0.2 * max_torque}) {
     CHECK(draws_out(load, 13.0, false));
     CHECK_FALSE(draws_out(load, 11.0, false));
   }
   CHECK(draws_out(0.0, 0.5, false));
 }
 
-TEST_CASE("the dogs are in before the gear counts, in every slot of every gate, and out before the crest") {
+TEST_CASE(
+    "in every slot of every gate, the dogs engage before the gear counts, and disengage before the detent's crest") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
@@ -417,7 +418,7 @@ TEST_CASE("the dogs are in before the gear counts, in every slot of every gate, 
   }
 }
 
-TEST_CASE("drawn out slowly, the dogs leave before the detent's crest, and the gear must be synchronised again") {
+TEST_CASE("pulled out slowly, the dogs disengage before the detent's crest, and the gear must be synchronised again") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   Synchroniser sleeve(car.synchro, gate, kScale, 4, 1);
@@ -435,7 +436,7 @@ TEST_CASE("drawn out slowly, the dogs leave before the detent's crest, and the g
   CHECK(sleeve.step(in, kT).depth_max == at.block);
 }
 
-TEST_CASE("a sleeve that starts in gear is in gear; one that starts elsewhere is not, wherever it moves") {
+TEST_CASE("a sleeve that starts in gear is engaged; one that starts elsewhere is not, wherever it moves") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   SleeveInput in;
@@ -449,7 +450,7 @@ TEST_CASE("a sleeve that starts in gear is in gear; one that starts elsewhere is
   CHECK(elsewhere.step(in, kT).meshed == kNeutralGear);
 }
 
-TEST_CASE("on any path in and out, the bump does no positive work on the hand") {
+TEST_CASE("on any path in and out of a slot, the bump does no positive work on the hand") {
   const CarSpec car = shipped_car("hatchback");
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Bench bench(car, kScale, seed);
@@ -460,20 +461,20 @@ TEST_CASE("on any path in and out, the bump does no positive work on the hand") 
       row = row * 6364136223846793005u + 1442695040888963407u;
       return static_cast<double>(row >> 11) * 0x1.0p-53;
     };
-    double work = 0.0, last = 0.0, most = 0.0;
+    double work = 0.0, last = 0.0, max_work = 0.0;
     for (int i = 0; i < 20000; ++i) {
       const double before = bench.input.depth;
-      const double way = 0.0004 * (chance() - 0.49);
+      const double step = 0.0004 * (chance() - 0.49);
       bench.input.depth =
-          std::clamp(before + way, bench.at.block, std::min(bench.out.depth_max, bench.at.home + 0.003));
+          std::clamp(before + step, bench.at.block, std::min(bench.out.depth_max, bench.at.home + 0.003));
       bench.input.depth = std::max(bench.input.depth, bench.out.depth_min);
       bench.step(10.0);
       work += 0.5 * (bench.out.force + last) * (bench.input.depth - before);
       last = bench.out.force;
-      most = std::max(most, work);
+      max_work = std::max(max_work, work);
       REQUIRE(bench.out.phase != SyncPhase::clashing);
     }
-    CHECK(most < 2e-5);  // [J] the trapezoidal rule's error
+    CHECK(max_work < 2e-5);  // [J] error of the trapezoidal rule
     CHECK(work < 0.0);
   }
 }

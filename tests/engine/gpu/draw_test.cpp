@@ -20,7 +20,7 @@ struct Point {
 };
 using Triangle = std::array<Point, 3>;
 
-// Red and green by specialization constants, blue and alpha by push constants.
+// Shaders that take red and green from specialization constants, and blue and alpha from push constants.
 constexpr const char* kVertex = R"(#version 450
 layout(location = 0) in vec3 position;
 void main() { gl_Position = vec4(position, 1.0); })";
@@ -78,7 +78,7 @@ std::array<int, 4> colour_at(const Image& image, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("a cleared target reads back as what it was cleared to, in every pixel") {
+TEST_CASE("a cleared target reads back as its clear value in every pixel") {
   GpuFixture fixture;
   Canvas canvas(fixture.gpu(), 37, 23);
   run_once(fixture.gpu(), [&](VkCommandBuffer commands) {
@@ -126,7 +126,7 @@ TEST_CASE("a triangle covers the pixels whose centres lie inside it and no other
   CHECK(undecided < 20);
 }
 
-TEST_CASE("reverse-Z: the greater depth is nearer, whatever is drawn first; without a test the last wins") {
+TEST_CASE("reverse-Z: the greater depth is nearer, in any drawing order; without a depth test the last drawn wins") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   Canvas canvas(gpu, 8, 8);
@@ -142,8 +142,7 @@ TEST_CASE("reverse-Z: the greater depth is nearer, whatever is drawn first; with
   CHECK(drawn([&](auto c) { green.stroke(c, far, 0, 1), red.stroke(c, near, 0, 1); }) == red_wins);
   CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), without_depth_test.stroke(c, far, 1, 1); }) ==
         std::array{0, 0, 255, 255});
-  // Testing without writing leaves the depth unchanged, so something behind the tester but in front of the background
-  // is still visible.
+  // Testing without writing leaves the depth unchanged, so a triangle behind the tested one is still visible.
   CHECK(drawn([&](auto c) { test_only.stroke(c, near, 0, 1), green.stroke(c, far, 0, 1); }) ==
         std::array{0, 255, 0, 255});
   CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), test_only.stroke(c, far, 0, 1); }) == red_wins);
@@ -159,17 +158,17 @@ TEST_CASE("alpha blending is source over: s a + d (1 - a)") {
     run_once(gpu, [&](VkCommandBuffer commands) {
       canvas.draw(commands, {0.2f, 0.4f, 0.8f, 0.5f}, [&] { brush.stroke(commands, vertices, 1.0f, alpha); });
     });
-    const auto seen = colour_at(read_back(gpu, canvas.colour), 2, 2);
+    const auto blended = colour_at(read_back(gpu, canvas.colour), 2, 2);
     const std::array source{240.0f / 255.0f, 60.0f / 255.0f, 1.0f}, under{0.2f, 0.4f, 0.8f};
     for (std::size_t i = 0; i < 3; ++i) {
       const float expected = source[i] * alpha + under[i] * (1.0f - alpha);
-      CHECK(std::abs(static_cast<float>(seen[i]) - 255.0f * expected) <= 1.0f);
+      CHECK(std::abs(static_cast<float>(blended[i]) - 255.0f * expected) <= 1.0f);
     }
-    CHECK(std::abs(static_cast<float>(seen[3]) - 255.0f * (alpha + 0.5f * (1.0f - alpha))) <= 1.0f);
+    CHECK(std::abs(static_cast<float>(blended[3]) - 255.0f * (alpha + 0.5f * (1.0f - alpha))) <= 1.0f);
   }
 }
 
-TEST_CASE("a texture is sampled through a set: texel by texel what was uploaded") {
+TEST_CASE("a texture sampled through a descriptor set has the uploaded texels") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   Image picture{.width = 16, .height = 8, .rgba = {}};

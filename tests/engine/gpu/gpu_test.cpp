@@ -119,7 +119,7 @@ TEST_CASE("timeline values grow with each submission and are reached when the wo
   CHECK(gpu.is_done(last));
 }
 
-TEST_CASE("a frame ring gives its slots in turn, never one whose frame is still drawn") {
+TEST_CASE("a frame ring uses its slots in turn, and waits while the frame of a slot is still being drawn") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   FrameRing ring(gpu);

@@ -14,7 +14,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// Requirements of each use according to the specification (Vulkan 1.3, "Image Layouts" and table "Supported access
+// What each use requires according to the specification (Vulkan 1.3, "Image Layouts" and table "Supported access
 // types").
 struct UseRequirement {
   ImageUse use;
@@ -58,7 +58,7 @@ TEST_CASE("a barrier between two uses flushes writes, waits for reads and sets t
   }
 }
 
-TEST_CASE("a new image waits for all earlier work, a discarded one for its last use; both drop the content") {
+TEST_CASE("a new image waits for all earlier work, a discarded image for its last use; both drop the content") {
   for (const UseRequirement& to : kUseRequirements) {
     const auto fresh = barrier_between(ImageUse::none, to.use, kColour);
     REQUIRE(fresh.has_value());
@@ -66,18 +66,18 @@ TEST_CASE("a new image waits for all earlier work, a discarded one for its last 
     CHECK(fresh->srcStageMask == VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
     CHECK(fresh->srcAccessMask == VK_ACCESS_2_MEMORY_WRITE_BIT);
     for (const UseRequirement& last : kUseRequirements) {
-      const auto forgotten = barrier_between(ImageUse::none, to.use, kColour, last.use);
-      REQUIRE(forgotten.has_value());
-      CHECK(forgotten->oldLayout == VK_IMAGE_LAYOUT_UNDEFINED);
-      CHECK(forgotten->srcStageMask == last.stages);
-      CHECK(forgotten->srcAccessMask == last.writes);
-      CHECK(forgotten->newLayout == to.layout);
+      const auto discarded = barrier_between(ImageUse::none, to.use, kColour, last.use);
+      REQUIRE(discarded.has_value());
+      CHECK(discarded->oldLayout == VK_IMAGE_LAYOUT_UNDEFINED);
+      CHECK(discarded->srcStageMask == last.stages);
+      CHECK(discarded->srcAccessMask == last.writes);
+      CHECK(discarded->newLayout == to.layout);
     }
   }
   CHECK_THROWS_AS(barrier_between(ImageUse::sampled, ImageUse::none, kColour), std::logic_error);
 }
 
-TEST_CASE("an image knows its state level by level, and a use in the wrong one throws with both names") {
+TEST_CASE("an image tracks its use per mip level, and a wrong use throws with both names") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   GpuImage image(
@@ -114,7 +114,7 @@ TEST_CASE("a moved image keeps its state, and the source is empty") {
 
 // Random operations in frames in flight, on images that are copied, cleared, drawn to and discarded. If validation
 // reports nothing, the barriers are sufficient; if the bytes are correct, they order the right accesses.
-TEST_CASE("any sequence of uses keeps validation silent and the content right") {
+TEST_CASE("any sequence of uses keeps validation silent and the content correct") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   constexpr std::uint32_t side = 64;

@@ -14,15 +14,15 @@
 using namespace gearshift::engine;
 using namespace gearshift::test;
 
-TEST_CASE("ranges of a block never overlap, are aligned, are first fit, and are all returned") {
+TEST_CASE("ranges of a block never overlap, are aligned and first-fit, and can all be released") {
   constexpr VkDeviceSize size = 4096;
   std::mt19937 random(3);
   FreeRanges ranges(size);
-  std::array<bool, size> taken{};  // reference: one flag per byte
-  std::vector<std::pair<VkDeviceSize, VkDeviceSize>> pieces;
+  std::array<bool, size> used{};  // reference: one flag per byte
+  std::vector<std::pair<VkDeviceSize, VkDeviceSize>> allocated;
   const auto first_fit = [&](VkDeviceSize wanted, VkDeviceSize alignment) -> std::optional<VkDeviceSize> {
     for (VkDeviceSize start = 0; start + wanted <= size; start += alignment) {
-      const auto begin = taken.begin() + static_cast<std::ptrdiff_t>(start);
+      const auto begin = used.begin() + static_cast<std::ptrdiff_t>(start);
       if (std::find(begin, begin + static_cast<std::ptrdiff_t>(wanted), true) ==
           begin + static_cast<std::ptrdiff_t>(wanted)) {
         return start;
@@ -32,31 +32,31 @@ TEST_CASE("ranges of a block never overlap, are aligned, are first fit, and are 
   };
   int refused = 0;
   for (int step = 0; step < 5000; ++step) {
-    if (random() % 5 < 3 || pieces.empty()) {
+    if (random() % 5 < 3 || allocated.empty()) {
       const VkDeviceSize wanted = 1 + random() % 200, alignment = VkDeviceSize{1} << random() % 8;
       const auto expected = first_fit(wanted, alignment);
       const auto offset = ranges.allocate(wanted, alignment);
       REQUIRE(offset == expected);
       refused += !offset;
       if (!offset) continue;
-      std::fill_n(taken.begin() + static_cast<std::ptrdiff_t>(*offset), wanted, true);
-      pieces.emplace_back(*offset, wanted);
+      std::fill_n(used.begin() + static_cast<std::ptrdiff_t>(*offset), wanted, true);
+      allocated.emplace_back(*offset, wanted);
     } else {
-      std::swap(pieces[random() % pieces.size()], pieces.back());
-      const auto [offset, length] = pieces.back();
-      pieces.pop_back();
+      std::swap(allocated[random() % allocated.size()], allocated.back());
+      const auto [offset, length] = allocated.back();
+      allocated.pop_back();
       ranges.release(offset, length);
-      std::fill_n(taken.begin() + static_cast<std::ptrdiff_t>(offset), length, false);
+      std::fill_n(used.begin() + static_cast<std::ptrdiff_t>(offset), length, false);
     }
-    REQUIRE(ranges.is_unused() == pieces.empty());
+    REQUIRE(ranges.is_unused() == allocated.empty());
   }
   CHECK(refused > 0);
-  for (const auto& [offset, length] : pieces) ranges.release(offset, length);
+  for (const auto& [offset, length] : allocated) ranges.release(offset, length);
   CHECK(ranges.is_unused());
   CHECK(ranges.allocate(size, 1) == VkDeviceSize{0});
 }
 
-TEST_CASE("buffers that come and go keep their bytes, and the memory is returned") {
+TEST_CASE("buffers created and destroyed in any order keep their bytes, and their memory is freed") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   std::mt19937 random(5);
@@ -74,9 +74,9 @@ TEST_CASE("buffers that come and go keep their bytes, and the memory is returned
     if (random() % 2 == 0 || owned.empty()) {
       const VkDeviceSize size = 1 + random() % (VkDeviceSize{1} << (4 + random() % 16));
       const MemoryKind kind = random() % 2 == 0 ? MemoryKind::upload : MemoryKind::read_back;
-      Owned made{GpuBuffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kind), step % 256};
-      std::memset(made.buffer.mapped(), made.byte, made.buffer.size());
-      owned.push_back(std::move(made));
+      Owned owned_buffer{GpuBuffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kind), step % 256};
+      std::memset(owned_buffer.buffer.mapped(), owned_buffer.byte, owned_buffer.buffer.size());
+      owned.push_back(std::move(owned_buffer));
     } else {
       std::swap(owned[random() % owned.size()], owned.back());
       CHECK(is_intact(owned.back()));
@@ -89,7 +89,7 @@ TEST_CASE("buffers that come and go keep their bytes, and the memory is returned
   CHECK(gpu.allocated() == 0);
 }
 
-TEST_CASE("small allocations share a block, large ones have their own, buffers and images never share") {
+TEST_CASE("small allocations share a block, large ones get their own; buffers and images never share one") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   const auto needs = [](VkDeviceSize size) {
@@ -105,11 +105,11 @@ TEST_CASE("small allocations share a block, large ones have their own, buffers a
   CHECK(large.memory != a.memory);
   CHECK(large.offset == 0);
   CHECK(gpu.allocated() == 3000 + (VkDeviceSize{40} << 20));
-  for (const Allocation& each : {a, b, image, large}) gpu.free(each);
+  for (const Allocation& allocation : {a, b, image, large}) gpu.free(allocation);
   CHECK(gpu.allocated() == 0);
 }
 
-TEST_CASE("too large an allocation throws GpuError, and others still work") {
+TEST_CASE("an allocation that is too large throws GpuError, and others still work") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   const VkMemoryRequirements absurd{.size = VkDeviceSize{1} << 50, .alignment = 1, .memoryTypeBits = ~0u};

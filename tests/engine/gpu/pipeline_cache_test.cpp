@@ -23,7 +23,7 @@ VkPhysicalDeviceProperties some_device() {
   return device;
 }
 
-// Data like a driver's: the header of the specification followed by arbitrary bytes.
+// Data like a driver's: the header that Vulkan specifies, followed by arbitrary bytes.
 std::vector<std::byte> content_for(const VkPhysicalDeviceProperties& device) {
   VkPipelineCacheHeaderVersionOne header{.headerSize = sizeof(VkPipelineCacheHeaderVersionOne),
                                          .headerVersion = VK_PIPELINE_CACHE_HEADER_VERSION_ONE,
@@ -52,7 +52,7 @@ void compile_something(Gpu& gpu) {
 
 }  // namespace
 
-TEST_CASE("a cache comes back as it was saved, for the device that it was made on and for no other") {
+TEST_CASE("a saved cache is loaded unchanged for the device that it was made on, and for no other") {
   const TempFolder folder;
   const auto file = folder / "deep/down/pipelines";
   const auto device = some_device();
@@ -82,19 +82,19 @@ TEST_CASE("a cache that is truncated or has any byte changed is ignored") {
   const TempFolder folder;
   const auto file = folder / "pipelines";
   save_pipeline_cache(file, content_for(some_device()));
-  const std::string whole = bytes_of(file);
-  REQUIRE(whole.size() > 100);
-  for (std::size_t length = 0; length < whole.size(); ++length) {
-    write(file, whole.substr(0, length));
+  const std::string complete = bytes_of(file);
+  REQUIRE(complete.size() > 100);
+  for (std::size_t length = 0; length < complete.size(); ++length) {
+    write(file, complete.substr(0, length));
     CHECK(load_pipeline_cache(file, some_device()).empty());
   }
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    std::string changed = whole;
+  for (std::size_t i = 0; i < complete.size(); ++i) {
+    std::string changed = complete;
     changed[i] = static_cast<char>(changed[i] ^ 0x10);
     write(file, changed);
     CHECK(load_pipeline_cache(file, some_device()).empty());
   }
-  write(file, whole);
+  write(file, complete);
   CHECK_FALSE(load_pipeline_cache(file, some_device()).empty());
 }
 
@@ -119,11 +119,11 @@ TEST_CASE("a device starts with its own cache, with a truncated one and with non
     compile_something(fixture.gpu());
   };
   run();
-  const std::string whole = bytes_of(config.pipeline_cache);
-  CHECK_FALSE(whole.empty());
+  const std::string complete = bytes_of(config.pipeline_cache);
+  CHECK_FALSE(complete.empty());
   run();
   CHECK_FALSE(bytes_of(config.pipeline_cache).empty());
-  write(config.pipeline_cache, whole.substr(0, whole.size() / 2));
+  write(config.pipeline_cache, complete.substr(0, complete.size() / 2));
   run();
-  CHECK(bytes_of(config.pipeline_cache).size() >= whole.size());  // rewritten
+  CHECK(bytes_of(config.pipeline_cache).size() >= complete.size());  // rewritten
 }

@@ -51,7 +51,8 @@ double to_srgb(double l) {
   return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1.0 / 2.4) - 0.055;
 }
 
-// Mean of the four texels above: colour in linear light if the format is sRGB, alpha unchanged. [0, 255]
+// [0, 255] Mean of the four texels in the next larger level; the colours of an sRGB format are averaged in linear
+// light.
 double box(const std::vector<std::uint8_t>& above, std::size_t width, std::size_t x, std::size_t y, std::size_t channel,
            bool srgb) {
   double sum = 0.0;
@@ -64,7 +65,7 @@ double box(const std::vector<std::uint8_t>& above, std::size_t width, std::size_
 
 }  // namespace
 
-TEST_CASE("a picture uploaded and read back is the same bytes, sRGB or not") {
+TEST_CASE("a picture uploaded and read back has the same bytes, sRGB or not") {
   GpuFixture fixture;
   const Image picture = noise(61, 37);
   for (const bool srgb : {false, true}) {
@@ -79,7 +80,7 @@ TEST_CASE("a picture uploaded and read back is the same bytes, sRGB or not") {
   }
 }
 
-TEST_CASE("each mip level is the box average of the one above, of light where the format is sRGB, down to one texel") {
+TEST_CASE("each mip level, down to one texel, is the box average of the next larger one, in linear light for sRGB") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   for (const bool srgb : {false, true}) {
@@ -87,19 +88,19 @@ TEST_CASE("each mip level is the box average of the one above, of light where th
     REQUIRE(texture.desc().levels == 7);
     double worst = 0.0;
     for (std::uint32_t level = 1; level < 6; ++level) {  // in smaller levels, one side has only one texel
-      const auto above = level_bytes(gpu, texture, level - 1, 0, 4), here = level_bytes(gpu, texture, level, 0, 4);
+      const auto above = level_bytes(gpu, texture, level - 1, 0, 4), current = level_bytes(gpu, texture, level, 0, 4);
       const std::size_t width = 64u >> level, height = 32u >> level;
       for (std::size_t i = 0; i < width * height * 4; ++i) {
         const std::size_t x = i / 4 % width, y = i / 4 / width;
-        worst = std::max(worst, std::abs(here[i] - box(above, 2 * width, x, y, i % 4, srgb)));
+        worst = std::max(worst, std::abs(current[i] - box(above, 2 * width, x, y, i % 4, srgb)));
       }
     }
-    CHECK(worst < 1.01);  // one code value: the driver truncates
+    CHECK(worst < 1.01);  // one step of 255, because the driver truncates
     CHECK(level_bytes(gpu, texture, 6, 0, 4).size() == 4);
   }
 }
 
-TEST_CASE("an sRGB mip of black and white is half the light, 188, not half the code") {
+TEST_CASE("an sRGB mip of black and white has half the light, 188, not half the value") {
   GpuFixture fixture;
   Image board{.width = 2, .height = 2, .rgba = {}};
   for (const std::uint8_t v : std::array<std::uint8_t, 4>{255, 0, 0, 255}) {
@@ -111,7 +112,7 @@ TEST_CASE("an sRGB mip of black and white is half the light, 188, not half the c
   CHECK(std::abs(level_bytes(fixture.gpu(), code, 1, 0, 4)[0] - 128) <= 1);
 }
 
-TEST_CASE("raw levels reach their level and layer: a cube of half floats, a table of two channels") {
+TEST_CASE("raw texels reach their level and layer: a cube of half floats, a table of two channels") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   std::vector<std::vector<std::byte>> cube;
@@ -140,7 +141,7 @@ TEST_CASE("raw levels reach their level and layer: a cube of half floats, a tabl
   CHECK_THROWS_AS(make_texture(gpu, {.levels = 2}, one), std::logic_error);
 }
 
-TEST_CASE("read_back takes the layer that it is asked for") {
+TEST_CASE("read_back() reads the requested layer") {
   GpuFixture fixture;
   std::vector<std::vector<std::byte>> one_level{std::vector<std::byte>(32, std::byte{1})};
   std::fill(one_level[0].begin() + 16, one_level[0].end(), std::byte{2});
@@ -150,7 +151,7 @@ TEST_CASE("read_back takes the layer that it is asked for") {
   CHECK(read_back(fixture.gpu(), image, 1).rgba == std::vector<std::uint8_t>(16, 2));
 }
 
-TEST_CASE("one image is seen as sRGB and as UNORM") {
+TEST_CASE("one image can be viewed as sRGB and as UNORM") {
   GpuFixture fixture;
   const GpuImage image(fixture.gpu(), {.width = 8,
                                        .height = 8,

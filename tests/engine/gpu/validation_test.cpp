@@ -13,7 +13,7 @@ using namespace gearshift::test;
 
 namespace {
 
-bool any_has(const std::vector<std::string>& messages, const std::string& part) {
+bool any_contains(const std::vector<std::string>& messages, const std::string& part) {
   for (const std::string& message : messages) {
     if (message.find(part) != std::string::npos) return true;
   }
@@ -46,7 +46,7 @@ TEST_CASE("core validation reports a buffer used against its usage flags, and th
   CHECK(gpu.validation_messages() >= 1);
   const auto messages = fixture.take_messages();
   CHECK(messages.size() == gpu.validation_messages());
-  CHECK(any_has(messages, "VUID-vkCmdFillBuffer-dstBuffer-00029"));
+  CHECK(any_contains(messages, "VUID-vkCmdFillBuffer-dstBuffer-00029"));
 }
 
 TEST_CASE("core validation reports an image copied from in another layout") {
@@ -61,7 +61,7 @@ TEST_CASE("core validation reports an image copied from in another layout") {
                                  .imageExtent = {4, 4, 1}};
     vkCmdCopyImageToBuffer(commands, image.get(), layout_of(ImageUse::copy_from), buffer.get(), 1, &copy);
   });
-  CHECK(any_has(fixture.take_messages(), "srcImageLayout"));
+  CHECK(any_contains(fixture.take_messages(), "srcImageLayout"));
 }
 
 TEST_CASE("synchronization validation reports two writes without a barrier, and nothing else") {
@@ -69,7 +69,7 @@ TEST_CASE("synchronization validation reports two writes without a barrier, and 
   fill_twice(fixture.gpu(), true);
   CHECK(fixture.silent());
   fill_twice(fixture.gpu(), false);
-  CHECK(any_has(fixture.take_messages(), "SYNC-HAZARD-WRITE-AFTER-WRITE"));
+  CHECK(any_contains(fixture.take_messages(), "SYNC-HAZARD-WRITE-AFTER-WRITE"));
 }
 
 TEST_CASE("validation names objects that outlive the device") {
@@ -82,10 +82,10 @@ TEST_CASE("validation names objects that outlive the device") {
     const Gpu gpu(config);
     const VkBufferCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 64, .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    VkBuffer forgotten = VK_NULL_HANDLE;
-    check(vkCreateBuffer(gpu.device(), &info, nullptr, &forgotten), "vkCreateBuffer");
+    VkBuffer leaked = VK_NULL_HANDLE;
+    check(vkCreateBuffer(gpu.device(), &info, nullptr, &leaked), "vkCreateBuffer");
   }
-  CHECK(any_has(messages, "VUID-vkDestroyDevice-device-00378"));
+  CHECK(any_contains(messages, "VUID-vkDestroyDevice-device-00378"));
 }
 
 TEST_CASE("without validation there are no messages") {

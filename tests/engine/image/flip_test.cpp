@@ -1,4 +1,4 @@
-// FLIP against its own properties and its authors' program.
+// Checks FLIP against its own properties and against its authors' program.
 #include "engine/image/flip.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ Image plain(int width, int height, std::uint8_t r, std::uint8_t g, std::uint8_t 
   return image;
 }
 
-// Ramps, a chequered corner and a disc: smooth areas, fine detail and edges.
+// A test picture of ramps, a chequered corner and a disc: smooth areas, fine detail and edges.
 Image scene(int shift, int tint) {
   Image image = plain(96, 64, 0, 0, 0);
   for (int y = 0; y < 64; ++y) {
@@ -43,7 +43,7 @@ double plain_error(const Image& a, const Image& b) {
 
 }  // namespace
 
-TEST_CASE("a picture does not differ from itself, nor by its alpha") {
+TEST_CASE("a picture does not differ from itself, and alpha makes no difference") {
   const Image image = scene(0, 0);
   Image clear = image;
   for (std::size_t i = 3; i < clear.rgba.size(); i += 4) clear.rgba[i] = 7;
@@ -51,13 +51,14 @@ TEST_CASE("a picture does not differ from itself, nor by its alpha") {
   CHECK(flip(image, image).map.size() == 96 * 64);
 }
 
-TEST_CASE("the scale ends at green against blue, and black against white has the value of the paper's formulas") {
+TEST_CASE(
+    "green against blue has the largest error, 1, and black against white has the value of the paper's formulas") {
   const Image black = plain(40, 30, 0, 0, 0), white = plain(40, 30, 255, 255, 255);
   const Image green = plain(40, 30, 0, 255, 0), blue = plain(40, 30, 0, 0, 255);
   CHECK(plain_error(green, blue) == Approx(1.0).epsilon(1e-6));
-  // HyAB distance of black and white is 100, of Hunt-adjusted green (87.735, -75.61, 72.97) and blue (32.297, 25.58,
-  // -34.84) 203.23. Calculated by hand with exponent 0.7; the lowest 0.4 of the range is mapped to 0.95, the rest to
-  // the rest.
+  // The HyAB distance between black and white is 100; between Hunt-adjusted green (87.735, -75.61, 72.97) and blue
+  // (32.297, 25.58, -34.84) it is 203.23. The expected error is calculated by hand: exponent 0.7; the lowest 0.4 of the
+  // range is mapped to [0, 0.95], the rest to [0.95, 1].
   const double max_distance = std::pow(203.23, 0.7), error = std::pow(100.0, 0.7);
   const double expected = 0.95 + 0.05 * (error - 0.4 * max_distance) / (0.6 * max_distance);
   CHECK(plain_error(black, white) == Approx(expected).epsilon(1e-4));
@@ -71,7 +72,7 @@ TEST_CASE("the order of the pictures does not matter, and every error is between
   CHECK_THROWS_AS(flip(a, plain(96, 63, 0, 0, 0)), std::invalid_argument);
 }
 
-TEST_CASE("a larger difference is a larger error, and distance forgives fine ones") {
+TEST_CASE("a larger difference gives a larger error, and a greater viewing distance hides fine differences") {
   const Image image = scene(0, 0);
   CHECK(flip(image, scene(0, 10)).mean < flip(image, scene(0, 40)).mean);
   CHECK(flip(image, scene(1, 0)).mean < flip(image, scene(4, 0)).mean);
@@ -85,8 +86,8 @@ TEST_CASE("a larger difference is a larger error, and distance forgives fine one
 }
 
 TEST_CASE("the authors' program gives the same means") {
-  // FLIP.h 1.6 of github.com/NVlabs/flip, LDR, on these pictures; it uses single precision. Per pixel, the two differ
-  // by less than 1e-4.
+  // The expected values are from FLIP.h 1.6 (github.com/NVlabs/flip, LDR) on these pictures. It uses single precision;
+  // per pixel, it differs from ours by less than 1e-4.
   CHECK(flip(scene(0, 0), scene(1, 0)).mean == Approx(0.082336).epsilon(1e-4));
   CHECK(flip(scene(0, 0), scene(0, 25)).mean == Approx(0.318675).epsilon(1e-4));
   CHECK(flip(scene(0, 0), scene(3, 60)).mean == Approx(0.645464).epsilon(1e-4));

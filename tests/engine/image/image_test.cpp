@@ -29,7 +29,7 @@ Image noise(int width, int height, unsigned seed) {
   return image;
 }
 
-// Each pixel contains its own number.
+// Each pixel stores its x, its y and the number of the picture.
 Image numbered(int width, int height, std::uint8_t picture = 0) {
   Image image = noise(width, height, 1);
   for (int y = 0; y < height; ++y) {
@@ -83,7 +83,7 @@ TEST_CASE("a picture is identical after writing and reading, alpha included") {
   }
 }
 
-TEST_CASE("the file is a PNG as the standard has it: signature, size, eight bits of RGBA") {
+TEST_CASE("the file is a standard PNG: signature, size, eight bits of RGBA") {
   TempFolder folder;
   write_png(folder / "image.png", noise(5, 3, 2));
   const std::vector<std::uint8_t> bytes = file_bytes(folder / "image.png");
@@ -117,7 +117,7 @@ TEST_CASE("links and pipes are kept: their target is written") {
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 3);
 }
 
-TEST_CASE("a write replaces the file and leaves nothing beside it; a failed one leaves the old picture") {
+TEST_CASE("a write replaces the file and leaves no other file; a failed write leaves the old picture") {
   TempFolder folder;
   const Image first = noise(4, 4, 1), second = noise(5, 5, 2);
   write_png(folder / "image.png", first);
@@ -168,7 +168,7 @@ TEST_CASE("the size of an encoded picture is known without its pixels") {
   CHECK_THROWS_AS(decode_image(bytes), std::runtime_error);
 }
 
-TEST_CASE("a cut holds the pixels of its rectangle, and must lie inside") {
+TEST_CASE("a crop has the pixels of its rectangle, which must lie inside the image") {
   const Image image = numbered(20, 10);
   const Image part = crop(image, 7, 2, 5, 6);
   REQUIRE(part.width == 5);
@@ -185,7 +185,7 @@ TEST_CASE("a cut holds the pixels of its rectangle, and must lie inside") {
   for (const auto& r : outside) CHECK_THROWS_AS(crop(image, r[0], r[1], r[2], r[3]), std::invalid_argument);
 }
 
-TEST_CASE("two halves lie side by side, left on the left") {
+TEST_CASE("two images are placed side by side, the left one on the left") {
   const Image left = numbered(3, 5, 100), right = numbered(4, 5, 200);
   const Image both = side_by_side(left, right);
   REQUIRE(both.width == 7);
@@ -194,7 +194,7 @@ TEST_CASE("two halves lie side by side, left on the left") {
   CHECK_THROWS_AS(side_by_side(left, numbered(3, 4)), std::invalid_argument);
 }
 
-TEST_CASE("the difference of pictures: none, a known error, the fraction beyond the tolerance") {
+TEST_CASE("the difference between pictures: none, a known error, the fraction beyond the tolerance") {
   const Image image = noise(10, 10, 4);
   const ImageDifference none = difference(image, image);
   CHECK(none.psnr == std::numeric_limits<double>::infinity());

@@ -1,4 +1,4 @@
-// The split-sum table against the usual sum, in which half vectors follow the normal distribution.
+// Compares the split-sum table with the usual sum, in which half vectors follow the normal distribution.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -40,12 +40,12 @@ Error error_of(Method method) {
 }  // namespace
 
 TEST_CASE("128 evaluations beat 1024 Hammersley points against the 16,384-sample sum") {
-  const Error ours = error_of([](double v, double r) { return environment_brdf(v, r, 128); });
-  const Error usual = error_of([](double v, double r) { return hammersley_sum(v, r, 1024); });
-  MESSAGE("rms and worst: " << ours.rms << " " << ours.worst << ", 1024 Hammersley points " << usual.rms << " "
-                            << usual.worst);
-  CHECK(ours.rms < 0.0010);
-  CHECK(ours.rms < usual.rms);
+  const Error quadrature = error_of([](double v, double r) { return environment_brdf(v, r, 128); });
+  const Error hammersley = error_of([](double v, double r) { return hammersley_sum(v, r, 1024); });
+  MESSAGE("rms and worst: " << quadrature.rms << " " << quadrature.worst << ", 1024 Hammersley points "
+                            << hammersley.rms << " " << hammersley.worst);
+  CHECK(quadrature.rms < 0.0010);
+  CHECK(quadrature.rms < hammersley.rms);
 }
 
 TEST_CASE("the baked table, as a GPU filters it, is within .0010 RMS of the 16,384-sample sum") {
@@ -80,7 +80,7 @@ TEST_CASE("more evaluations converge") {
   }
 }
 
-TEST_CASE("a smooth surface reflects by Fresnel's term alone; nothing reflects more than it gets") {
+TEST_CASE("a smooth surface reflects by Fresnel's term only; no surface reflects more light than it receives") {
   for (const double v : {0.1, 0.4, 0.9}) {
     const double fresnel = std::pow(1.0 - v, 5.0);
     const dvec2 mirror = environment_brdf(v, 0.0, 256);

@@ -1,4 +1,4 @@
-// Irradiance from nine coefficients against known integrals.
+// Compares irradiance from nine coefficients with known integrals.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -33,7 +33,7 @@ vec3 summed(const Radiance& radiance, vec3 n, int count = 40000) {
 
 }  // namespace
 
-TEST_CASE("a constant sky lights every surface by itself: E / pi = L") {
+TEST_CASE("under a constant sky L, every surface has E / pi = L") {
   const Irradiance irradiance = project_irradiance([](vec3) { return vec3(0.3f, 0.7f, 1.5f); });
   std::mt19937 random(1);
   for (int i = 0; i < 100; ++i) {
@@ -58,7 +58,7 @@ TEST_CASE("radiance of degree 1 comes back by 2/3, of degree 2 by 1/4: exact for
   }
 }
 
-TEST_CASE("degree 2 of a clamped cosine sky is off by less than 1 % of its peak, as its own series says") {
+TEST_CASE("under a clamped cosine sky, degree 2 is off by less than 1 % of the peak, as the series predicts") {
   // A surface lit by max(d.a, 0): E / pi at n.a = 1 is 2/3. The terms of degree 4 and up are neglected; the largest is
   // c_4 A_4 / pi P_4 = (-3/32)(-1/24) = 1/256.
   const Irradiance irradiance = project_irradiance([](vec3 d) { return vec3(std::max(d.y, 0.0f)); }, 128);
@@ -73,7 +73,7 @@ TEST_CASE("degree 2 of a clamped cosine sky is off by less than 1 % of its peak,
   CHECK(worst > 0.001f);  // degree 2 is not exact here, so the comparison can detect errors
 }
 
-TEST_CASE("the day sky's irradiance is within 4 % of its peak of the summed one") {
+TEST_CASE("the day sky's irradiance differs from the summed one by less than 4 % of the peak") {
   const Radiance sky = day_sky({0.35f, 0.80f, -0.48f});
   const Irradiance irradiance = project_irradiance(sky);
   const vec3 up = summed(sky, {0.0f, 1.0f, 0.0f});

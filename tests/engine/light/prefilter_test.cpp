@@ -22,7 +22,7 @@ vec3 texel(const PrefilteredCube& cube, int level, int face, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("faces lie as Vulkan has them: the middle texels look along their axis, neighbours share an edge") {
+TEST_CASE("faces are oriented as in Vulkan: middle texels look along their axis, neighbours share an edge") {
   const vec3 axis[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   for (int face = 0; face < 6; ++face) {
     CHECK(cube_direction(face, 1, 0, 0) == axis[face]);
@@ -38,12 +38,12 @@ TEST_CASE("level 0 is the radiance itself, as half floats") {
   const Radiance sky = day_sky({0.3f, 0.8f, -0.5f});
   const PrefilteredCube cube = prefilter(sky, 16, 3, 16);
   for (int face = 0; face < 6; ++face) {
-    const vec3 seen = texel(cube, 0, face, 5, 11), there = sky(cube_direction(face, 16, 5, 11));
-    CHECK(glm::length(seen - there) < 1e-3f * glm::length(there));
+    const vec3 measured = texel(cube, 0, face, 5, 11), expected = sky(cube_direction(face, 16, 5, 11));
+    CHECK(glm::length(measured - expected) < 1e-3f * glm::length(expected));
   }
 }
 
-TEST_CASE("a constant sky stays what it is at every roughness") {
+TEST_CASE("a constant sky stays the same at every roughness") {
   const PrefilteredCube cube = prefilter([](vec3) { return vec3(0.5f, 1.0f, 2.0f); }, 8, 4, 32);
   REQUIRE(cube.levels.size() == 4);
   for (int level = 0; level < 4; ++level)
@@ -59,17 +59,17 @@ TEST_CASE("the last level of a linear sky is its n.l weighted GGX lobe at roughn
   CHECK(texel(cube, 3, 0, 0, 0).x == doctest::Approx(2.0).epsilon(2e-3));
 }
 
-TEST_CASE("64 samples of the day sky are within 5 % RMS of 4096, and the rougher the flatter") {
+TEST_CASE("64 samples of the day sky are within 5 % RMS of 4096 samples, and rougher levels are flatter") {
   const Radiance sky = day_sky({0.35f, 0.80f, -0.48f});
-  const PrefilteredCube few = prefilter(sky, 32, 6), many = prefilter(sky, 32, 6, 4096);
-  float spread_before = 1e9f;
+  const PrefilteredCube coarse = prefilter(sky, 32, 6), fine = prefilter(sky, 32, 6, 4096);
+  float last_spread = 1e9f;
   for (int level = 1; level < 6; ++level) {
     const int side = 32 >> level;
     float squares = 0.0f, low = 1e9f, high = 0.0f;
     for (int face = 0; face < 6; ++face)
       for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x) {
-          const vec3 a = texel(few, level, face, x, y), b = texel(many, level, face, x, y);
+          const vec3 a = texel(coarse, level, face, x, y), b = texel(fine, level, face, x, y);
           squares += glm::dot(a - b, a - b) / glm::dot(b, b) / static_cast<float>(6 * side * side);
           low = std::min(low, b.x);
           high = std::max(high, b.x);
@@ -77,7 +77,7 @@ TEST_CASE("64 samples of the day sky are within 5 % RMS of 4096, and the rougher
     CAPTURE(level);
     CHECK(std::sqrt(squares) < 0.05f);
     MESSAGE("level " << level << ": " << 100.0f * std::sqrt(squares) << " % RMS");
-    CHECK(high - low < spread_before);
-    spread_before = high - low;
+    CHECK(high - low < last_spread);
+    last_spread = high - low;
   }
 }

@@ -132,7 +132,7 @@ Model random_model(unsigned seed) {
   return model;
 }
 
-bool below(const Model& model, std::size_t node, const std::set<std::string_view>& names) {
+bool is_below(const Model& model, std::size_t node, const std::set<std::string_view>& names) {
   for (int n = static_cast<int>(node); n != kNone; n = model.nodes[static_cast<std::size_t>(n)].parent) {
     if (names.count(model.nodes[static_cast<std::size_t>(n)].name) != 0) return true;
   }
@@ -147,13 +147,13 @@ TEST_CASE("merging static meshes keeps every world-space triangle, with fewer dr
     const Model model = random_model(seed);
     const std::vector<std::string_view> moving{"node5", "node7", "node20"};
     const Model merged = merge_static(model, moving);
-    REQUIRE(lawful(model));
-    REQUIRE(lawful(merged));
+    REQUIRE(is_valid(model));
+    REQUIRE(is_valid(merged));
     CHECK(merged.triangle_count() == model.triangle_count());
     CHECK(sorted_triangles(merged) == sorted_triangles(model));
     int moving_draws = 0;
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-      const bool moves = below(model, i, {moving.begin(), moving.end()});
+      const bool moves = is_below(model, i, {moving.begin(), moving.end()});
       CHECK(merged.nodes[i].name == model.nodes[i].name);
       CHECK(merged.nodes[i].local() == model.nodes[i].local());
       CHECK((merged.nodes[i].mesh == kNone) == (model.nodes[i].mesh == kNone || !moves));
@@ -166,7 +166,7 @@ TEST_CASE("merging static meshes keeps every world-space triangle, with fewer dr
     CHECK(draw_count(merged) ==
           moving_draws + static_cast<int>(merged.meshes[static_cast<std::size_t>(root.mesh)].primitives.size()));
     CHECK(draw_count(merged) <=
-          moving_draws + static_cast<int>(model.materials.size()) + 1);  // and the default material
+          moving_draws + static_cast<int>(model.materials.size()) + 1);  // 1: the default material
     CHECK(draw_count(merged) < draw_count(model));
   }
 }
@@ -185,7 +185,7 @@ TEST_CASE("the comparison detects a moved corner, a reversed triangle and a mirr
   CHECK_FALSE(changed([](Model&) {}));
 }
 
-TEST_CASE("a merged normal stands on its triangle, under any scale, shear and mirror") {
+TEST_CASE("a merged normal stays perpendicular to its triangle, for any scale, shear and mirroring") {
   std::mt19937 random(8);
   std::uniform_real_distribution<float> number(-1.0f, 1.0f);
   const auto vector = [&] { return vec3(number(random), number(random), number(random)); };
@@ -231,7 +231,7 @@ TEST_CASE("a skinned mesh is never merged, and keeps its joints") {
   model.vertex_joints.resize(model.vertices.size());
   for (std::uint32_t i = 0; i < 12; ++i) model.vertex_joints[model.meshes[2].first_vertex + i].joint[0] = 1;
   const Model merged = merge_static(model, {});
-  REQUIRE(lawful(merged));
+  REQUIRE(is_valid(merged));
   REQUIRE(merged.nodes[4].mesh != kNone);
   const Mesh& mesh = merged.meshes[static_cast<std::size_t>(merged.nodes[4].mesh)];
   for (std::uint32_t i = 0; i < 12; ++i) CHECK(merged.vertex_joints[mesh.first_vertex + i].joint[0] == 1);
@@ -242,37 +242,37 @@ TEST_CASE("unknown names of moving nodes are rejected, and names must match comp
   const Model model = random_model(2);
   const std::string_view unknown[] = {"node"};
   CHECK_THROWS_WITH_AS(merge_static(model, unknown), doctest::Contains("'node'"), std::invalid_argument);
-  const std::string_view whole[] = {"node2"};
-  const Model merged = merge_static(model, whole);
+  const std::string_view moving[] = {"node2"};
+  const Model merged = merge_static(model, moving);
   for (std::size_t i = 20; i < 30; ++i) {  // "node20" ... have the same prefix, but must not count as moving
-    if (!below(model, i, {"node2"})) CHECK(merged.nodes[i].mesh == kNone);
+    if (!is_below(model, i, {"node2"})) CHECK(merged.nodes[i].mesh == kNone);
   }
 }
 
 TEST_CASE("an appended model is drawn as before, with its own materials, textures and joints") {
-  Model whole = random_model(3), part = random_model(4);
+  Model base = random_model(3), part = random_model(4);
   part.skins.push_back({{3, 4}, {glm::mat4(1), glm::mat4(1)}});
   part.nodes[6].mesh = 1;
   part.nodes[6].skin = 0;
   part.vertex_joints.resize(part.vertices.size());
   part.skipped = {"cameras", "lines"};
   for (Material& m : part.materials) m.name = "part";
-  Model both = whole;
+  Model both = base;
   const int first = append_model(both, part);
-  REQUIRE(lawful(both));
-  CHECK(first == static_cast<int>(whole.nodes.size()));
-  CHECK(both.nodes.size() == whole.nodes.size() + part.nodes.size());
+  REQUIRE(is_valid(both));
+  CHECK(first == static_cast<int>(base.nodes.size()));
+  CHECK(both.nodes.size() == base.nodes.size() + part.nodes.size());
   CHECK(both.nodes[static_cast<std::size_t>(first)].parent == kNone);
   CHECK(both.nodes[static_cast<std::size_t>(first) + 6].skin == 0);
   CHECK(both.skins[0].joints == std::vector<int>{first + 3, first + 4});
   CHECK(both.skipped == std::vector<std::string>{"cameras", "lines"});
   CHECK(both.textures.size() == 4);
   CHECK(both.materials[7].normal_map.texture == 2 + part.materials[2].normal_map.texture);
-  CHECK(draw_count(both) == draw_count(whole) + draw_count(part));
-  // The part's triangles, with material indices offset by the number of materials in the whole.
-  std::vector<Triangle> expected = sorted_triangles(whole);
+  CHECK(draw_count(both) == draw_count(base) + draw_count(part));
+  // The part's triangles, with material indices offset by the number of materials of the base.
+  std::vector<Triangle> expected = sorted_triangles(base);
   for (Triangle t : sorted_triangles(part)) {
-    if (t.first != kNone) t.first += static_cast<int>(whole.materials.size());
+    if (t.first != kNone) t.first += static_cast<int>(base.materials.size());
     expected.push_back(t);
   }
   std::sort(expected.begin(), expected.end());
@@ -280,16 +280,16 @@ TEST_CASE("an appended model is drawn as before, with its own materials, texture
 }
 
 TEST_CASE("a model appended to a node moves with it") {
-  Model whole = random_model(5);
+  Model base = random_model(5);
   const Model part = random_model(6);
-  const std::vector<glm::mat4> alone = rest_pose(part);
-  const int first = append_model(whole, part, 11);
-  const std::vector<glm::mat4> world = rest_pose(whole);
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    const glm::mat4 expected = world[11] * alone[i], world_corner = world[static_cast<std::size_t>(first) + i];
+  const std::vector<glm::mat4> part_pose = rest_pose(part);
+  const int first = append_model(base, part, 11);
+  const std::vector<glm::mat4> world = rest_pose(base);
+  for (std::size_t i = 0; i < part_pose.size(); ++i) {
+    const glm::mat4 expected = world[11] * part_pose[i], world_corner = world[static_cast<std::size_t>(first) + i];
     for (int c = 0; c < 4; ++c) CHECK(glm::distance(world_corner[c], expected[c]) < 1e-4f);
   }
-  CHECK_THROWS_AS(append_model(whole, part, 1000), std::invalid_argument);
+  CHECK_THROWS_AS(append_model(base, part, 1000), std::invalid_argument);
 }
 
 TEST_CASE("every shipped model is valid, fully drawn, and unchanged by merging") {
@@ -298,10 +298,10 @@ TEST_CASE("every shipped model is valid, fully drawn, and unchanged by merging")
     if (entry.path().extension() != ".glb") continue;
     CAPTURE(entry.path().string());
     const Model model = read_gltf(entry.path());
-    CHECK(lawful(model));
+    CHECK(is_valid(model));
     CHECK(model.skipped.empty());
     const Model merged = merge_static(model, {});
-    CHECK(lawful(merged));
+    CHECK(is_valid(merged));
     CHECK(merged.triangle_count() == model.triangle_count());
     CHECK(draw_count(merged) <= static_cast<int>(model.materials.size() + 1 + model.skins.size()));
     ++count;

@@ -17,7 +17,7 @@ using namespace gearshift::test;
 
 namespace {
 
-const int kByteFlips = is_whole_campaign() ? 4000 : 1000;  // tests/fuzz covers more
+const int kByteFlips = is_full_campaign() ? 4000 : 1000;  // tests/fuzz covers more
 const int kValueSwaps = kByteFlips;
 
 // Returns whether the file is rejected. A rejection must be one sentence that names the file; a model that was read
@@ -27,7 +27,7 @@ bool is_rejected(const std::string& content) {
   write_bytes(folder / "model.gltf", content);
   try {
     const Model model = read_gltf(folder / "model.gltf");
-    REQUIRE(lawful(model));
+    REQUIRE(is_valid(model));
     return false;
   } catch (const GltfError& e) {
     const std::string sentence = e.what();
@@ -188,7 +188,7 @@ const std::vector<Hostile>& hostile_files() {
 
 TEST_CASE("the base of the hostile files is valid and complete") {
   const Model model = read_back(everything().glb());
-  CHECK(lawful(model));
+  CHECK(is_valid(model));
   CHECK(model.triangle_count() == 3);
   CHECK(model.textures.size() == 2);
   CHECK(model.nodes.size() == 3);
@@ -286,7 +286,7 @@ TEST_CASE("images with a false size, and files that are not images, reject the f
   write_png(folder / "dot.png", Image{2, 2, std::vector<std::uint8_t>(16, 128)});
   const std::vector<std::uint8_t> good = read_bytes(folder / "dot.png");
   CHECK_FALSE(with_picture(good));
-  // The header stores width and height in bytes 16 to 23, big-endian.
+  // A PNG's header stores width and height in bytes 16 to 23, big-endian.
   const auto resized = [&](std::uint8_t b0, std::uint8_t b1, std::uint8_t b2, std::uint8_t b3) {
     std::vector<std::uint8_t> bytes = good;
     const std::uint8_t side[4] = {b0, b1, b2, b3};
@@ -304,7 +304,7 @@ TEST_CASE("images with a false size, and files that are not images, reject the f
   CHECK(with_picture({'n', 'o'}));
 }
 
-TEST_CASE("an image in a buffer is read there, however often it is referenced") {
+TEST_CASE("an image in a buffer is read from there, however often it is referenced") {
   const TempFolder folder;
   write_bytes(folder / "model.gltf", everything().gltf());
   GltfDocument document = open_gltf(folder / "model.gltf");
@@ -313,9 +313,9 @@ TEST_CASE("an image in a buffer is read there, however often it is referenced") 
   CHECK(bytes.data() > buffer.data());
   CHECK(bytes.data() + bytes.size() <= buffer.data() + buffer.size());
   CHECK(document.images.empty());
-  const auto beside = image_bytes(document, 1);
+  const auto in_data_uri = image_bytes(document, 1);
   REQUIRE(document.images.size() == 1);
-  CHECK(beside.data() == document.images.front().data());
+  CHECK(in_data_uri.data() == document.images.front().data());
 }
 
 TEST_CASE("skins with too many matrices reject the file before they are read") {
@@ -357,25 +357,25 @@ TEST_CASE("text that is not glTF is rejected with one sentence") {
 
 TEST_CASE("a .glb with a false header or chunk size is rejected with one sentence") {
   const std::string good = everything().glb();
-  const auto with_word = [&](std::size_t at, std::size_t value) {
-    return std::string(good).replace(at, 4, GltfMaker::word(value));
+  const auto with_integer = [&](std::size_t at, std::size_t value) {
+    return std::string(good).replace(at, 4, GltfMaker::little_endian(value));
   };
   std::uint32_t json_length = 0;
   std::memcpy(&json_length, good.data() + 12, 4);
   const std::size_t binary = 20 + json_length;
   for (const std::string& file :
-       {with_word(4, 1), with_word(4, 3), with_word(8, 0), with_word(8, 11), with_word(8, 20),
-        with_word(8, good.size() + 1), with_word(8, 0xffffffff), with_word(12, 0xffffffff), with_word(12, 0),
-        with_word(12, json_length - 4), with_word(12, json_length + 4), with_word(12, good.size()),
-        with_word(16, 0x004E4942), with_word(binary, 0xffffffff), with_word(binary, good.size() - binary),
-        with_word(binary, 4), with_word(binary + 4, 0x12345678)}) {
+       {with_integer(4, 1), with_integer(4, 3), with_integer(8, 0), with_integer(8, 11), with_integer(8, 20),
+        with_integer(8, good.size() + 1), with_integer(8, 0xffffffff), with_integer(12, 0xffffffff),
+        with_integer(12, 0), with_integer(12, json_length - 4), with_integer(12, json_length + 4),
+        with_integer(12, good.size()), with_integer(16, 0x004E4942), with_integer(binary, 0xffffffff),
+        with_integer(binary, good.size() - binary), with_integer(binary, 4), with_integer(binary + 4, 0x12345678)}) {
     CHECK(is_rejected(file));
   }
 }
 
 TEST_CASE("a file truncated anywhere is rejected") {
-  for (const std::string& whole : {everything().glb(), everything().gltf()}) {
-    for (std::size_t size = 0; size < whole.size(); size += 2) CHECK(is_rejected(whole.substr(0, size)));
+  for (const std::string& content : {everything().glb(), everything().gltf()}) {
+    for (std::size_t size = 0; size < content.size(); size += 2) CHECK(is_rejected(content.substr(0, size)));
   }
 }
 
@@ -386,7 +386,7 @@ TEST_CASE("a file with any bytes changed is rejected or gives a valid model") {
   int refused = 0;
   for (int i = 0; i < kByteFlips; ++i) {
     std::string bad = good;
-    const std::size_t first = i % 2 == 0 ? 0 : binary;  // anywhere, or only in the binary data
+    const std::size_t first = i % 2 == 0 ? 0 : binary;  // changes bytes anywhere, or only in the binary data
     for (std::uint64_t k = 0; k <= random() % 8; ++k) {
       bad[first + random() % (bad.size() - first)] = static_cast<char>(random());
     }

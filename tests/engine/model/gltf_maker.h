@@ -84,22 +84,23 @@ struct GltfMaker {
   }
 
   std::string gltf() const {
-    json whole = root;
-    if (!bytes.empty()) whole["buffers"] = {{{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}}};
-    return whole.dump();
+    json document = root;
+    if (!bytes.empty()) document["buffers"] = {{{"byteLength", bytes.size()}, {"uri", data_uri(bytes)}}};
+    return document.dump();
   }
 
   std::string glb() const {
-    json whole = root;
-    if (!bytes.empty()) whole["buffers"] = {{{"byteLength", bytes.size()}}};
-    std::string text = whole.dump();
+    json document = root;
+    if (!bytes.empty()) document["buffers"] = {{{"byteLength", bytes.size()}}};
+    std::string text = document.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::string file = "glTF" + word(2) + word(0) + word(text.size()) + "JSON" + text;
-    if (!bytes.empty()) file += word(bytes.size()) + std::string("BIN\0", 4) + std::string(bytes.begin(), bytes.end());
-    return file.replace(8, 4, word(file.size()));
+    std::string file = "glTF" + little_endian(2) + little_endian(0) + little_endian(text.size()) + "JSON" + text;
+    if (!bytes.empty())
+      file += little_endian(bytes.size()) + std::string("BIN\0", 4) + std::string(bytes.begin(), bytes.end());
+    return file.replace(8, 4, little_endian(file.size()));
   }
 
-  static std::string word(std::size_t value) {
+  static std::string little_endian(std::size_t value) {
     const auto bits = static_cast<std::uint32_t>(value);
     std::string text(4, '\0');
     std::memcpy(text.data(), &bits, 4);

@@ -22,7 +22,7 @@ const std::vector<float> square_uv{0, 1, 1, 1, 1, 0, 0, 0};
 const std::vector<float> square_normals{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
 const std::vector<std::uint16_t> square_indices{0, 1, 2, 0, 2, 3};
 
-bool names(const Model& model, const std::string& what) {
+bool lists_as_skipped(const Model& model, const std::string& what) {
   return std::find(model.skipped.begin(), model.skipped.end(), what) != model.skipped.end();
 }
 
@@ -42,7 +42,7 @@ int add_normal_mapped_material(GltfMaker& maker) {
 
 }  // namespace
 
-TEST_CASE("a triangle without normals is flat, faces where its corners turn, and has the box of its corners") {
+TEST_CASE("a triangle without normals is flat, faces the side of its winding, and has the box of its corners") {
   const Model model = read_back(triangle());
   REQUIRE(model.vertices.size() == 3);
   REQUIRE(model.indices == std::vector<std::uint32_t>{0, 1, 2});
@@ -62,7 +62,7 @@ TEST_CASE("a triangle without normals is flat, faces where its corners turn, and
   CHECK(model.triangle_count() == 1);
 }
 
-TEST_CASE("text and .glb of one model are one model") {
+TEST_CASE("a model is the same read from text and from .glb") {
   GltfMaker maker = triangle();
   maker.append("nodes", {{"name", "other"}, {"mesh", 0}, {"translation", {1, 2, 3}}});
   const Model text = read_back(maker.gltf()), binary = read_back(maker.glb());
@@ -96,7 +96,7 @@ TEST_CASE("indices of one, two and four bytes, and none, give the same triangles
 }
 
 TEST_CASE("a strip and a fan become the triangles of the specification, all facing one way") {
-  // Strip 0 1 2 3: 0 1 2 and 1 3 2 (p_i = v_i, v_(i+1+i%2), v_(i+2-i%2)); fan: 1 2 0 and 2 3 0.
+  // The strip 0 1 2 3 becomes 0 1 2 and 1 3 2 (p_i = v_i, v_(i+1+i%2), v_(i+2-i%2)); the fan becomes 1 2 0 and 2 3 0.
   const std::vector<float> strip{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
   GltfMaker maker;
   maker.add_primitive({{"POSITION", maker.accessor(strip, "VEC3", f32)}}, {{"mode", 5}});
@@ -109,7 +109,7 @@ TEST_CASE("a strip and a fan become the triangles of the specification, all faci
   for (const Vertex& v : model.vertices) CHECK(v.normal == vec3(0, 0, 1));
 }
 
-TEST_CASE("points and lines are not drawn, and named once") {
+TEST_CASE("points and lines are not drawn, and are reported once") {
   GltfMaker maker = triangle();
   for (const int mode : {0, 1, 2, 3, 0}) maker.add_primitive({{"POSITION", 0}}, {{"mode", mode}});
   const Model model = read_back(maker);
@@ -156,8 +156,8 @@ TEST_CASE("normalised UV coordinates are fractions, in both sets") {
   }
 }
 
-TEST_CASE("vertex colours of every format are the same colour") {
-  // 1, 0.2, 0.4 and alpha 0.6 or none.
+TEST_CASE("vertex colours in every format give the same colour") {
+  // Reads a triangle whose colour is (1, 0.2, 0.4), with alpha 0.6 or without alpha.
   const auto read = [](auto values, const char* type, int component) {
     GltfMaker maker;
     const bool normalized = component != f32;
@@ -175,7 +175,7 @@ TEST_CASE("vertex colours of every format are the same colour") {
   CHECK(read(std::vector<float>{7.0f, -1.0f, 0.4f}, "VEC3", f32) == 0xff6600ffu);  // clamped
 }
 
-TEST_CASE("a sparse accessor replaces what it names, over stored elements and over zeros") {
+TEST_CASE("a sparse accessor replaces the elements that it names, whether they are stored or zero") {
   GltfMaker maker;
   const int base = maker.accessor(triangle_corners, "VEC3", f32);
   const int indices = maker.view(std::vector<std::uint16_t>{0, 2});
@@ -196,7 +196,7 @@ TEST_CASE("a sparse accessor replaces what it names, over stored elements and ov
   CHECK(corner(model, 5) == vec3(0, 6, 0));
 }
 
-TEST_CASE("meshes share no vertices, and indices are whole") {
+TEST_CASE("meshes share no vertices, and indices count from the first vertex of the model") {
   GltfMaker maker = triangle();
   maker.add_primitive({{"POSITION", 0}});
   maker.root["meshes"][1]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}});
@@ -207,7 +207,7 @@ TEST_CASE("meshes share no vertices, and indices are whole") {
   CHECK(model.indices == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8});
 }
 
-TEST_CASE("a fold without normals gets a normal a face, not one shared along the crease") {
+TEST_CASE("a fold without normals gets one normal per face, none shared along the crease") {
   GltfMaker maker;  // one triangle in z = 0, one in x = 0, sharing an edge along y
   const std::vector<float> fold{0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, -1};
   maker.add_primitive({{"POSITION", maker.accessor(fold, "VEC3", f32)}},
@@ -218,7 +218,7 @@ TEST_CASE("a fold without normals gets a normal a face, not one shared along the
   for (std::size_t i = 3; i < 6; ++i) CHECK(model.vertices[i].normal == vec3(1, 0, 0));
 }
 
-TEST_CASE("normals are made unit, and one without length is taken from its triangles") {
+TEST_CASE("normals are normalised, and one of zero length is computed from its triangles") {
   GltfMaker maker;
   std::vector<float> normals{0, 0, 3, 0, 0, 0, 0, 2, 0, 0, 0, 1};
   maker.add_primitive(
@@ -231,7 +231,7 @@ TEST_CASE("normals are made unit, and one without length is taken from its trian
   CHECK(model.vertices[2].normal == vec3(0, 1, 0));
 }
 
-TEST_CASE("tangents run along u, and the bitangent up the picture") {
+TEST_CASE("tangents point along u, and bitangents up the picture") {
   for (const bool mirrored : {false, true}) {
     GltfMaker maker;
     std::vector<float> uv = square_uv;
@@ -265,7 +265,7 @@ TEST_CASE("tangents follow the transform of the normal map") {
   for (const Vertex& v : model.vertices) CHECK(v.tangent.y == Approx(1.0));
 }
 
-TEST_CASE("where a mirrored triangle meets a plain one, each keeps its own tangents") {
+TEST_CASE("where a mirrored triangle meets an unmirrored one, each keeps its own tangents") {
   GltfMaker maker;  // two adjacent squares with u growing from both ends to the middle
   const std::vector<float> positions{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0};
   const std::vector<float> uv{0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 0, 0};
@@ -288,7 +288,7 @@ TEST_CASE("where a mirrored triangle meets a plain one, each keeps its own tange
   }
 }
 
-TEST_CASE("tangents of the file are kept, unit and across the normal") {
+TEST_CASE("tangents in the file are kept, as unit vectors perpendicular to the normal") {
   GltfMaker maker;
   const int material = add_normal_mapped_material(maker);
   maker.add_primitive(
@@ -299,11 +299,11 @@ TEST_CASE("tangents of the file are kept, unit and across the normal") {
   const Model model = read_back(maker);
   CHECK(model.vertices[0].tangent == vec4(0, 1, 0, -1));
   CHECK(model.vertices[1].tangent == vec4(0, 1, 0, 1));
-  CHECK(glm::length(vec3(model.vertices[2].tangent)) == Approx(1.0));  // it had none
+  CHECK(glm::length(vec3(model.vertices[2].tangent)) == Approx(1.0));  // its tangent had zero length
   CHECK(model.vertices[2].tangent.z == 0.0f);
 }
 
-TEST_CASE("what is not drawn is named, once each") {
+TEST_CASE("each feature that is not drawn is reported once") {
   GltfMaker maker = triangle();
   json& primitive = maker.root["meshes"][0]["primitives"][0];
   primitive["targets"] = {{{"POSITION", 0}}, {{"POSITION", 0}}};
@@ -316,7 +316,7 @@ TEST_CASE("what is not drawn is named, once each") {
   for (const char* what :
        {"morph targets", "attribute TEXCOORD_2", "animations", "cameras", "extension KHR_materials_clearcoat"}) {
     CAPTURE(what);
-    CHECK(names(model, what));
+    CHECK(lists_as_skipped(model, what));
   }
   CHECK(model.skipped.size() == 5);
   CHECK(model.triangle_count() == 1);

@@ -56,7 +56,7 @@ GltfMaker with_material(json material) {
 
 }  // namespace
 
-TEST_CASE("children named before their parents come after them, and stand where the file puts them") {
+TEST_CASE("children listed before their parents come after them in the model, at the place that the file gives them") {
   GltfMaker maker = triangle();  // node 0: "node"
   const float half = std::sqrt(0.5f);
   maker.append("nodes", {{"name", "hand"}, {"translation", {0, 1, 0}}, {"children", {0}}});
@@ -67,12 +67,12 @@ TEST_CASE("children named before their parents come after them, and stand where 
   CHECK(model.nodes[static_cast<std::size_t>(model.node("node"))].mesh == 0);
   CHECK(model.nodes[static_cast<std::size_t>(model.node("hand"))].parent == model.node("arm"));
   // A step of 1 along y, then a quarter turn about z, then a scale of 2: (-2, 0, 0).
-  const vec4 place = rest_pose(model)[static_cast<std::size_t>(model.node("node"))][3];
-  CHECK(glm::distance(place, vec4(-2, 0, 0, 1)) < 1e-6f);
+  const vec4 position = rest_pose(model)[static_cast<std::size_t>(model.node("node"))][3];
+  CHECK(glm::distance(position, vec4(-2, 0, 0, 1)) < 1e-6f);
   CHECK(model.node("nobody") == kNone);
 }
 
-TEST_CASE("a matrix and its translation, rotation and scale are one node, mirrored or not") {
+TEST_CASE("a matrix gives the same node as its translation, rotation and scale, mirrored or not") {
   for (const vec3 scale : {vec3(1, 2, 3), vec3(-1, 2, 3), vec3(1, 2, -0.5f)}) {
     mat4 expected = glm::translate(mat4(1), vec3(4, 5, 6));
     expected = glm::rotate(expected, 0.7f, glm::normalize(vec3(1, 2, 3)));
@@ -85,7 +85,7 @@ TEST_CASE("a matrix and its translation, rotation and scale are one node, mirror
   }
 }
 
-TEST_CASE("a matrix with shear or perspective is refused") {
+TEST_CASE("a matrix with shear or perspective is rejected") {
   mat4 shear(1), perspective(1);
   shear[1][0] = 0.5f;
   perspective[2][3] = 1.0f;
@@ -96,7 +96,7 @@ TEST_CASE("a matrix with shear or perspective is refused") {
   }
 }
 
-TEST_CASE("only the default scene is read, the others named") {
+TEST_CASE("only the default scene is read, and skipped scenes are reported") {
   GltfMaker maker = triangle();
   maker.append("nodes", {{"name", "attic"}, {"mesh", 0}});
   maker.root["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
@@ -108,7 +108,7 @@ TEST_CASE("only the default scene is read, the others named") {
   CHECK(model.skipped == std::vector<std::string>{"scenes other than the default one"});
 }
 
-TEST_CASE("a file that needs glTF 2.0 and no more is read") {
+TEST_CASE("a file that requires version 2.0 of glTF is read") {
   GltfMaker maker = triangle();
   maker.root["asset"]["minVersion"] = "2.0";
   CHECK(read_back(maker).nodes.size() == 1);
@@ -124,7 +124,7 @@ TEST_CASE("a mesh scaled out of range is not drawn, and not reported as scaled t
   CHECK(huge.skipped[0].find("out of range") != std::string::npos);
 }
 
-TEST_CASE("a mesh scaled to nothing is not drawn and named; a mirrored one is drawn") {
+TEST_CASE("a mesh scaled to zero is not drawn, and reported; a mirrored one is drawn") {
   GltfMaker maker = triangle();
   maker.root["nodes"][0]["scale"] = {1, 0, 1};
   const Model flat = read_back(maker);
@@ -134,7 +134,7 @@ TEST_CASE("a mesh scaled to nothing is not drawn and named; a mirrored one is dr
   CHECK(read_back(maker).nodes[0].mesh == 0);
 }
 
-TEST_CASE("a material keeps every number the file gives, and glTF's defaults for the rest") {
+TEST_CASE("a material has every number that the file gives, and glTF's defaults for the rest") {
   const Model plain = read_back(with_material(json::object()));
   const Material& defaults = plain.materials.at(0);
   CHECK(defaults.base_colour == vec4(1));
@@ -168,7 +168,7 @@ TEST_CASE("a material keeps every number the file gives, and glTF's defaults for
   CHECK(read_back(with_material({{"alphaMode", "BLEND"}})).materials[0].alpha_mode == AlphaMode::blend);
 }
 
-TEST_CASE("every map of a material finds its picture, its UV set and its colour space") {
+TEST_CASE("every map of a material has its picture, its UV set and its colour space") {
   GltfMaker maker = with_material(
       {{"pbrMetallicRoughness",
         {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}, {"texCoord", 1}}}}},
@@ -216,9 +216,9 @@ TEST_CASE("a texture transform is translation * rotation * scale and takes the e
   CHECK_FALSE(use.plain());
   const auto moved = [&](float u, float v) { return vec2(use.matrix() * vec3(u, v, 1)); };
   for (const vec2 uv : {moved(0, 0), moved(1, 0), moved(0, 1), moved(1, 1), moved(0.3f, 0.6f)}) {
-    CHECK(uv.x >= -1e-6f);  // left half: u of 0 to 0.5
+    CHECK(uv.x >= -1e-6f);  // left half: u from 0 to 0.5
     CHECK(uv.x <= 0.5f + 1e-6f);
-    CHECK(uv.y >= 0.5f - 1e-6f);  // lower half: v of 0.5 to 1, counted from the top
+    CHECK(uv.y >= 0.5f - 1e-6f);  // lower half: v from 0.5 to 1, counted from the top
     CHECK(uv.y <= 1.0f + 1e-6f);
   }
   // The other example in the extension: the t axis inverted.
@@ -235,19 +235,19 @@ TEST_CASE("a texture transform is translation * rotation * scale and takes the e
   CHECK(TextureUse{}.matrix() == glm::mat3(1));
 }
 
-TEST_CASE("a picture may lie in a data URI, in a buffer, or in a file beside; as PNG or JPEG") {
+TEST_CASE("a picture may be in a data URI, in a buffer, or in a file next to the model; as PNG or JPEG") {
   TempFolder folder;
   write_png(folder / "my dot.png", dot(77));
   GltfMaker maker = with_material({{"emissiveTexture", {{"index", 0}}}});
   maker.append("textures", {{"source", 0}});
   const std::vector<std::uint8_t> png = png_bytes(dot(77));
-  const json places[] = {{{"uri", data_uri(png, "image/png")}},
-                         {{"bufferView", maker.view(png)}, {"mimeType", "image/png"}},
-                         {{"uri", "my%20dot.png"}},
-                         {{"uri", "./my dot.png"}}};
-  for (const json& place : places) {
-    CAPTURE(place.dump());
-    maker.root["images"] = json::array({place});
+  const json sources[] = {{{"uri", data_uri(png, "image/png")}},
+                          {{"bufferView", maker.view(png)}, {"mimeType", "image/png"}},
+                          {{"uri", "my%20dot.png"}},
+                          {{"uri", "./my dot.png"}}};
+  for (const json& source : sources) {
+    CAPTURE(source.dump());
+    maker.root["images"] = json::array({source});
     const Model model = read_back(maker.gltf(), folder);
     REQUIRE(model.textures.size() == 1);
     CHECK(model.textures[0].pixels.rgba == dot(77).rgba);
@@ -261,7 +261,7 @@ TEST_CASE("a picture may lie in a data URI, in a buffer, or in a file beside; as
   for (std::size_t i = 0; i < jpeg.rgba.size(); ++i) CHECK(std::abs(jpeg.rgba[i] - expected[i % 4]) <= 3);
 }
 
-TEST_CASE("buffers may lie in files beside or below, longer than asked for") {
+TEST_CASE("buffers may be in files in or below the model's folder, and longer than needed") {
   TempFolder folder;
   GltfMaker maker = triangle();
   std::filesystem::create_directory(folder / "data");
@@ -290,7 +290,7 @@ TEST_CASE("no path leads out of the file's folder") {
   }
 }
 
-TEST_CASE("a skin keeps its joints, bind matrices and weights, the weights made to sum to 1") {
+TEST_CASE("a skin keeps its joints, bind matrices and weights, and the weights are scaled to a sum of 1") {
   GltfMaker maker;
   const mat4 bind = glm::translate(mat4(1), vec3(0, -1, 0));
   std::vector<float> matrices;
@@ -314,13 +314,13 @@ TEST_CASE("a skin keeps its joints, bind matrices and weights, the weights made 
   CHECK(model.vertex_joints[0].weight[1] == 0.75f);
   CHECK(model.vertex_joints[0].joint[2] == 0);  // joint 9 had no weight
   CHECK(model.vertex_joints[1].joint[0] == 1);
-  CHECK(model.vertex_joints[2].weight[0] == 1.0f);  // it had none
+  CHECK(model.vertex_joints[2].weight[0] == 1.0f);  // the vertex had no weights
 
   maker.root["skins"][0].erase("inverseBindMatrices");
   CHECK(read_back(maker).skins[0].inverse_bind[1] == mat4(1));
 }
 
-TEST_CASE("a skin that the scene does not use is not read, whatever it names") {
+TEST_CASE("a skin that the scene does not use is not read, whatever it refers to") {
   GltfMaker maker = triangle();
   maker.append("nodes", {{"name", "elsewhere"}});
   maker.append("skins", {{"joints", {1}}});

@@ -11,25 +11,25 @@
 
 namespace gearshift::test {
 
-inline bool finite(glm::vec3 v) {
+inline bool is_finite(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-inline bool lawful_vertex(const engine::Vertex& v) {
+inline bool is_valid_vertex(const engine::Vertex& v) {
   const glm::vec3 tangent(v.tangent);
-  return finite(v.position) && std::abs(glm::length(v.normal) - 1.0f) < 1e-3f &&
+  return is_finite(v.position) && std::abs(glm::length(v.normal) - 1.0f) < 1e-3f &&
          std::abs(glm::length(tangent) - 1.0f) < 1e-3f && std::abs(v.tangent.w) == 1.0f;
 }
 
-inline bool in_list(int index, std::size_t count) {
+inline bool is_index(int index, std::size_t count) {
   return index >= engine::kNone && index < static_cast<int>(count);
 }
 
-inline bool lawful_mesh(const engine::Model& model, const engine::Mesh& mesh) {
+inline bool is_valid_mesh(const engine::Model& model, const engine::Mesh& mesh) {
   const std::uint64_t end = std::uint64_t{mesh.first_vertex} + mesh.vertex_count;
   if (end > model.vertices.size()) return false;
   return std::all_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const engine::Primitive& p) {
-    if (p.index_count == 0 || p.index_count % 3 != 0 || !in_list(p.material, model.materials.size())) return false;
+    if (p.index_count == 0 || p.index_count % 3 != 0 || !is_index(p.material, model.materials.size())) return false;
     if (std::uint64_t{p.first_index} + p.index_count > model.indices.size()) return false;
     const auto first = model.indices.begin() + p.first_index;
     return std::all_of(first, first + p.index_count, [&](std::uint32_t i) {
@@ -39,20 +39,21 @@ inline bool lawful_mesh(const engine::Model& model, const engine::Mesh& mesh) {
   });
 }
 
-inline bool lawful_material(const engine::Model& model, const engine::Material& m) {
+inline bool is_valid_material(const engine::Model& model, const engine::Material& m) {
   for (const engine::TextureUse* use :
        {&m.base_colour_map, &m.metal_rough_map, &m.normal_map, &m.occlusion_map, &m.emissive_map}) {
-    if (!in_list(use->texture, model.textures.size()) || use->uv_set < 0 || use->uv_set > 1) return false;
+    if (!is_index(use->texture, model.textures.size()) || use->uv_set < 0 || use->uv_set > 1) return false;
   }
-  const auto share = [](float v) { return v >= 0.0f && v <= 1.0f; };
-  return share(m.metallic) && share(m.roughness) && share(m.occlusion_strength) && finite(m.emissive);
+  const auto is_fraction = [](float v) { return v >= 0.0f && v <= 1.0f; };
+  return is_fraction(m.metallic) && is_fraction(m.roughness) && is_fraction(m.occlusion_strength) &&
+         is_finite(m.emissive);
 }
 
-inline bool lawful_nodes(const engine::Model& model) {
+inline bool has_valid_nodes(const engine::Model& model) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const engine::Node& n = model.nodes[i];
     if (n.parent < engine::kNone || n.parent >= static_cast<int>(i)) return false;
-    if (!in_list(n.mesh, model.meshes.size()) || !in_list(n.skin, model.skins.size())) return false;
+    if (!is_index(n.mesh, model.meshes.size()) || !is_index(n.skin, model.skins.size())) return false;
     if (n.skin == engine::kNone) continue;
     const engine::Mesh& mesh = model.meshes[static_cast<std::size_t>(n.mesh)];
     const std::size_t joints = model.skins[static_cast<std::size_t>(n.skin)].joints.size();
@@ -68,7 +69,7 @@ inline bool lawful_nodes(const engine::Model& model) {
   return true;
 }
 
-inline bool lawful(const engine::Model& model) {
+inline bool is_valid(const engine::Model& model) {
   const std::size_t joints = model.vertex_joints.size();
   if (joints != 0 && joints != model.vertices.size()) return false;
   for (const engine::Texture& t : model.textures) {
@@ -77,9 +78,9 @@ inline bool lawful(const engine::Model& model) {
       return false;
     }
   }
-  const auto mesh = [&](const engine::Mesh& m) { return lawful_mesh(model, m); };
-  const auto material = [&](const engine::Material& m) { return lawful_material(model, m); };
-  return lawful_nodes(model) && std::all_of(model.vertices.begin(), model.vertices.end(), lawful_vertex) &&
+  const auto mesh = [&](const engine::Mesh& m) { return is_valid_mesh(model, m); };
+  const auto material = [&](const engine::Material& m) { return is_valid_material(model, m); };
+  return has_valid_nodes(model) && std::all_of(model.vertices.begin(), model.vertices.end(), is_valid_vertex) &&
          std::all_of(model.meshes.begin(), model.meshes.end(), mesh) &&
          std::all_of(model.materials.begin(), model.materials.end(), material);
 }

@@ -35,12 +35,12 @@ Node random_node(std::mt19937& random, int parent) {
 
 }  // namespace
 
-TEST_CASE("a node's matrix scales, then turns, then moves") {
+TEST_CASE("a node's matrix scales, then rotates, then translates") {
   Node node;
   node.translation = {1, 2, 3};
   node.rotation = glm::angleAxis(std::acos(0.0f), vec3(0, 0, 1));
   node.scale = {2, 3, 4};
-  const vec4 moved = node.local() * vec4(1, 1, 1, 1);  // (2, 3, 4), rotated to (-3, 2, 4)
+  const vec4 moved = node.local() * vec4(1, 1, 1, 1);  // scaled to (2, 3, 4), rotated to (-3, 2, 4)
   CHECK(glm::distance(moved, vec4(-2, 4, 7, 1)) < 1e-5f);
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("the rest pose of a tree is the product of the matrices up to its root
   CHECK_THROWS_AS(world_from_local(model, {}), std::invalid_argument);
 }
 
-TEST_CASE("two joints bend an arm as by hand: the far half turns, the elbow is the mean") {
+TEST_CASE("two joints bend an arm as calculated by hand: the far half turns, the elbow is the mean") {
   // An arm of length 2 along x; joint 0 at the shoulder, joint 1 at x = 1, rotated by 90 degrees about z.
   Model model;
   model.nodes.resize(3);

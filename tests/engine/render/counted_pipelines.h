@@ -1,4 +1,4 @@
-// Counts compiled pipelines: the test program overrides the loader's function.
+// Counts compiled pipelines: the test program replaces vkCreateGraphicsPipelines of the Vulkan loader.
 #pragma once
 
 namespace gearshift::test {

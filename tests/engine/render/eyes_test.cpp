@@ -1,4 +1,4 @@
-// Positions of drawn objects, and stereo pictures against single views.
+// Checks the positions of drawn objects, and compares stereo pictures with single views.
 #include "tests/engine/render/render_bench.h"
 
 using namespace gearshift::engine;
@@ -17,7 +17,7 @@ std::vector<View> stereo_views(const RenderConfig& config, const EyePose& head, 
   return {view_from(eyes.pose[0], eyes.fov[0], near_plane), view_from(eyes.pose[1], eyes.fov[1], near_plane)};
 }
 
-// A floor that passes under and behind the eye, boxes near and far, glass, a sun with shadows, a mirror.
+// A model of a floor that passes under and behind the eye, boxes near and far, glass and a mirror.
 Model street() {
   Model model;
   add_floor(model, "Floor", 20.0f, add_material(model, paint({0.5f, 0.5f, 0.4f})), -0.2f);
@@ -33,8 +33,8 @@ Model street() {
   return model;
 }
 
-FrameScene lit(const Model& model) {
-  FrameScene scene = still(model);
+FrameScene sunlit_scene(const Model& model) {
+  FrameScene scene = scene_at_rest(model);
   scene.sun = Sun{};
   scene.mirror = model.node("Mirror");
   return scene;
@@ -42,7 +42,7 @@ FrameScene lit(const Model& model) {
 
 }  // namespace
 
-TEST_CASE("the corners of a cube are drawn within 0.5 px of a pinhole, in each eye") {
+TEST_CASE("the corners of a cube are drawn within 0.5 px of a pinhole camera's picture, in each eye") {
   GpuFixture fixture;
   RenderConfig config = small_picture(320, 240);
   config.eyes = 2;
@@ -59,7 +59,7 @@ TEST_CASE("the corners of a cube are drawn within 0.5 px of a pinhole, in each e
   double worst = 0.0;
   for (int i = 0; i < 8; ++i) {
     const dvec3 at{i & 1 ? 0.15 : -0.15, i & 2 ? 0.15 : -0.15, (i & 4 ? 0.15 : -0.15) - 0.6};
-    FrameScene scene = still(model);
+    FrameScene scene = scene_at_rest(model);
     scene.nodes[static_cast<std::size_t>(corner)].world = glm::translate(glm::mat4(1.0f), vec3(at));
     renderer.draw(scene, views);
     for (int eye = 0; eye < 2; ++eye) {
@@ -76,8 +76,7 @@ TEST_CASE("the corners of a cube are drawn within 0.5 px of a pinhole, in each e
   CHECK(worst < 0.5);
 }
 
-TEST_CASE(
-    "each eye is what one eye would see there, with geometry across the near plane: at 1 and 4 samples, both ways") {
+TEST_CASE("each eye's picture equals a single view: geometry across the near plane, 1 and 4 samples, 1 and 2 passes") {
   GpuFixture fixture;
   const Model model = street();
   for (const int samples : {1, 4}) {
@@ -88,15 +87,15 @@ TEST_CASE(
     Renderer single(fixture.gpu(), config);
     single.set_model(model);
     const std::vector<View> views = stereo_views(config, look_at({0, 0, 0}, {0, -0.05, -1}));
-    FrameScene scene = lit(model);
-    // visible to both eyes as a whole, so that both use the same shadow map
-    scene.shadow_room = {{-1.5f, -0.25f, -5.0f}, {1.5f, 0.9f, -3.0f}};
+    FrameScene scene = sunlit_scene(model);
+    // Both eyes see this box completely, so the shadow map is the same for both.
+    scene.shadow_bounds = {{-1.5f, -0.25f, -5.0f}, {1.5f, 0.9f, -3.0f}};
     std::array<Image, 2> reference;
     for (std::size_t eye = 0; eye < 2; ++eye) {
       single.draw(scene, {&views[eye], 1});
       reference[eye] = single.read_eye(0);
     }
-    // the eyes differ, so swapped eyes would be detected
+    // The two eyes see different pictures, so swapped eyes would be detected.
     REQUIRE(difference(reference[0], reference[1]).fraction_beyond > 0.1);
     for (const EyePasses passes : {EyePasses::layered, EyePasses::one_by_one}) {
       config.eyes = 2;
@@ -113,7 +112,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what is out of sight costs no draw, and what is in sight is not lost") {
+TEST_CASE("objects out of sight are not drawn, and objects in sight are") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   Model model;
@@ -122,9 +121,9 @@ TEST_CASE("what is out of sight costs no draw, and what is in sight is not lost"
     add_cube(model, "Cube", 0.2f, white, at);
   renderer.set_model(model);
   const View view = view_at(renderer.config(), look_at({0, 0, 0}, {0, 0, -1}));
-  renderer.draw(still(model), {&view, 1});
-  CHECK(renderer.draws() == 2);  // the one ahead, and the one that just reaches into the picture
-  FrameScene hidden = still(model);
+  renderer.draw(scene_at_rest(model), {&view, 1});
+  CHECK(renderer.draws() == 2);  // the cube ahead, and the cube that just reaches into the picture
+  FrameScene hidden = scene_at_rest(model);
   hidden.nodes[0].visible = false;
   renderer.draw(hidden, {&view, 1});
   CHECK(renderer.draws() == 1);

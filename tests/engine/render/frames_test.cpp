@@ -1,4 +1,4 @@
-// Sequences of frames: in flight, resized, rejected.
+// Sequences of frames: in flight, with changed models, with rejected input.
 #include <cstring>
 
 #include "engine/gpu/gpu_buffer.h"
@@ -30,7 +30,7 @@ struct PictureCopy final : Renderer::Finish {
   GpuBuffer buffer;
 };
 
-// Fills the left half of the picture with the colour of its slot.
+// Fills the left half of the picture with one colour.
 struct HalfCover final : Overlay {
   void draw(VkCommandBuffer commands, VkExtent2D extent, int) override {
     const VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .clearValue = {{{0.5f, 0.25f, 1.0f, 1.0f}}}};
@@ -56,16 +56,16 @@ DeformedMesh shifted_patch(float x) {
 
 }  // namespace
 
-TEST_CASE("frames in flight: every one shows its own deformed mesh, also far from where the mesh was") {
+TEST_CASE("each frame in flight shows its own deformed mesh, even far away from the original mesh") {
   GpuFixture fixture;
   const RenderConfig config = small_picture();
   Renderer renderer(fixture.gpu(), config);
   renderer.set_environment(constant_sky(vec3(0.0f)));
   const Model model = patch();
   renderer.set_model(model);
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   scene.nodes[0].world =
-      glm::translate(glm::mat4(1.0f), vec3(-4.0f, 0.0f, 0.0f));  // outside the view, apart from its deformed vertices
+      glm::translate(glm::mat4(1.0f), vec3(-4.0f, 0.0f, 0.0f));  // outside the view; its deformed vertices are inside
   const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
   std::vector<PictureCopy> copies;
   for (int i = 0; i < 7; ++i) copies.emplace_back(fixture.gpu(), config.width, config.height);
@@ -77,13 +77,13 @@ TEST_CASE("frames in flight: every one shows its own deformed mesh, also far fro
   fixture.gpu().wait(last);
   for (int i = 0; i < 7; ++i) {
     const glm::dvec3 expected = project(view, {0.25 * (i - 3), 0.0, 0.0}, {160, 120});
-    const glm::dvec2 seen = centroid(copies[static_cast<std::size_t>(i)].picture(160, 120), 1);
+    const glm::dvec2 measured = centroid(copies[static_cast<std::size_t>(i)].picture(160, 120), 1);
     CAPTURE(i);
-    CHECK(std::abs(seen.x - expected.x) < 0.5);
+    CHECK(std::abs(measured.x - expected.x) < 0.5);
   }
 }
 
-TEST_CASE("two nodes of one mesh show each its own vertices, and a third one those of the model") {
+TEST_CASE("two nodes with one mesh each show their own vertices, and a third node shows those of the model") {
   GpuFixture fixture;
   const RenderConfig config = small_picture();
   Renderer renderer(fixture.gpu(), config);
@@ -91,7 +91,7 @@ TEST_CASE("two nodes of one mesh show each its own vertices, and a third one tho
   Model model = patch();
   for (const char* name : {"Second", "Third"}) add_node(model, name, 0, {});
   renderer.set_model(model);
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   scene.deformed = {shifted_patch(-1.0f), shifted_patch(1.0f)};
   scene.deformed[0].node = 0;
   scene.deformed[1].node = 1;
@@ -105,13 +105,13 @@ TEST_CASE("two nodes of one mesh show each its own vertices, and a third one tho
   }
 }
 
-TEST_CASE("a deformed mesh of another size, a scene of another model and a wrong number of views are rejected") {
+TEST_CASE("a deformed mesh of the wrong size, a scene of a different model and a wrong number of views are rejected") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   const Model model = patch();
   renderer.set_model(model);
   const View view = view_at(renderer.config(), look_at({0, 0, 3}, {0, 0, 0}));
-  FrameScene good = still(model), scene = good;
+  FrameScene good = scene_at_rest(model), scene = good;
   scene.deformed = {{0, std::vector<Vertex>(3)}};
   CHECK_THROWS_AS(renderer.draw(scene, {&view, 1}), std::invalid_argument);
   scene.deformed = {{7, rectangle(1, 1)}};
@@ -142,7 +142,7 @@ TEST_CASE("a configuration out of range is rejected, and the renderer stays unch
   CHECK(renderer.config().width == 160);
 }
 
-TEST_CASE("another model replaces the one before, also while frames are in flight") {
+TEST_CASE("a new model replaces the previous one, even while frames are in flight") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   renderer.set_environment(constant_sky(vec3(0.0f)));
@@ -152,15 +152,15 @@ TEST_CASE("another model replaces the one before, also while frames are in fligh
     add_rectangle(model, "Patch", {0.3f, 0.3f}, add_material(model, lamp(i % 2 == 0 ? vec3(1, 0, 0) : vec3(0, 1, 0))),
                   {});
     renderer.set_model(model);
-    renderer.draw(still(model), {&view, 1});
-    renderer.draw(still(model), {&view, 1});
+    renderer.draw(scene_at_rest(model), {&view, 1});
+    renderer.draw(scene_at_rest(model), {&view, 1});
   }
   const Image last = renderer.read_eye(0);
   CHECK(centroid(last, 1).x > 0.0);
   CHECK(centroid(last, 0, 100).x < 0.0);
 }
 
-TEST_CASE("an overlay covers what it draws on in every eye, in display values, and leaves the rest") {
+TEST_CASE("an overlay covers only its part of every eye's picture, in display values") {
   GpuFixture fixture;
   for (const int samples : {1, 4}) {
     RenderConfig config = small_picture();
@@ -179,7 +179,7 @@ TEST_CASE("an overlay covers what it draws on in every eye, in display values, a
       CHECK(std::abs(picture.pixel(20, 60)[0] - 128) <= 1);
       CHECK(picture.pixel(20, 60)[1] == 64);
       CHECK(picture.pixel(20, 60)[2] == 255);
-      check_shown(picture, 140, 60, {0.1, 0.4, 0.1});
+      check_displayed(picture, 140, 60, {0.1, 0.4, 0.1});
     }
   }
 }
@@ -197,12 +197,12 @@ TEST_CASE("a frame of a million triangles is drawn to the last of them") {
   add_rectangle(model, "Last", {0.3f, 0.3f}, add_material(model, lamp({0, 1, 0})), {0.0f, 0.0f, 0.1f});
   renderer.set_model(model);
   const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
-  renderer.draw(still(model), {&view, 1});
-  const Image seen = renderer.read_eye(0);
-  CHECK(seen.pixel(16, 12)[1] > seen.pixel(16, 12)[0] + 100);  // green, in front of the white
+  renderer.draw(scene_at_rest(model), {&view, 1});
+  const Image picture = renderer.read_eye(0);
+  CHECK(picture.pixel(16, 12)[1] > picture.pixel(16, 12)[0] + 100);  // green is in front of white
 }
 
-TEST_CASE("the passes' times add up to the frame's") {
+TEST_CASE("the times of the passes add up to the time of the frame") {
   GpuFixture fixture;
   RenderConfig config = small_picture();
   config.shadow_side = 64;
@@ -210,7 +210,7 @@ TEST_CASE("the passes' times add up to the frame's") {
   const Model model = patch();
   renderer.set_model(model);
   const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
-  for (int i = 0; i < 4; ++i) renderer.draw(still(model), {&view, 1});
+  for (int i = 0; i < 4; ++i) renderer.draw(scene_at_rest(model), {&view, 1});
   const PassTimes& t = renderer.times();
   REQUIRE(fixture.gpu().traits().timestamp_bits > 0);
   CHECK(t.main > 0.0);

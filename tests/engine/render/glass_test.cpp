@@ -14,7 +14,7 @@ Material glass(vec3 colour, float alpha) {
   return material;
 }
 
-Image through(Renderer& renderer, const Model& model, const FrameScene& scene, glm::dvec3 eye) {
+Image picture_from(Renderer& renderer, const Model& model, const FrameScene& scene, glm::dvec3 eye) {
   renderer.set_model(model);
   const View view = view_at(renderer.config(), look_at(eye, {0, 0, 0}));
   renderer.draw(scene, {&view, 1});
@@ -23,7 +23,7 @@ Image through(Renderer& renderer, const Model& model, const FrameScene& scene, g
 
 }  // namespace
 
-TEST_CASE("glass is drawn back to front whatever its order in the file, from either side") {
+TEST_CASE("glass is drawn back to front, whatever its order in the file, seen from either side") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   renderer.set_environment(constant_sky(vec3(1.0f)));
@@ -34,10 +34,10 @@ TEST_CASE("glass is drawn back to front whatever its order in the file, from eit
   add_rectangle(one, "Blue", {1, 1}, add_material(one, blue), {0, 0, -0.5f});
   add_rectangle(other, "Blue", {1, 1}, add_material(other, blue), {0, 0, -0.5f});
   add_rectangle(other, "Red", {1, 1}, add_material(other, red), {0, 0, 0.5f});
-  const Image front = through(renderer, one, still(one), {0, 0, 2});
-  CHECK(difference(front, through(renderer, other, still(other), {0, 0, 2})).worst == 0);
+  const Image front = picture_from(renderer, one, scene_at_rest(one), {0, 0, 2});
+  CHECK(difference(front, picture_from(renderer, other, scene_at_rest(other), {0, 0, 2})).worst == 0);
   CHECK(front.pixel(80, 60)[0] > front.pixel(80, 60)[2]);  // the nearer one is red
-  const Image back = through(renderer, one, still(one), {0, 0, -2});
+  const Image back = picture_from(renderer, one, scene_at_rest(one), {0, 0, -2});
   CHECK(back.pixel(80, 60)[2] > back.pixel(80, 60)[0]);
 }
 
@@ -48,18 +48,19 @@ TEST_CASE("solid objects hide the glass behind them, and are visible through the
   Model model;
   add_rectangle(model, "Pane", {1, 1}, add_material(model, glass({0, 0, 0}, 0.25f)), {0, 0, 0.5f});
   add_rectangle(model, "Lamp", {0.3f, 0.3f}, add_material(model, lamp({0, 0.6f, 0})), {0, 0, -0.5f});
-  const Image seen = through(renderer, model, still(model), {0, 0, 2});
-  FrameScene alone = still(model);
-  alone.nodes[0].visible = false;
-  const Image bare = through(renderer, model, alone, {0, 0, 2});
-  // In display-referred values: three quarters of the light pass, minus the reflection of the pane (black here) at n.v
-  // = 1.
+  const Image picture = picture_from(renderer, model, scene_at_rest(model), {0, 0, 2});
+  FrameScene no_pane = scene_at_rest(model);
+  no_pane.nodes[0].visible = false;
+  const Image without_pane = picture_from(renderer, model, no_pane, {0, 0, 2});
+  // Linear display values. Three quarters of the light pass, minus the 4 % that the pane reflects at n.v = 1; the
+  // reflection itself is black here.
   const auto linear = [](int code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
-  CHECK(linear(seen.pixel(80, 60)[1]) / linear(bare.pixel(80, 60)[1]) == doctest::Approx(0.75 * 0.96).epsilon(0.03));
-  FrameScene behind = still(model);
+  CHECK(linear(picture.pixel(80, 60)[1]) / linear(without_pane.pixel(80, 60)[1]) ==
+        doctest::Approx(0.75 * 0.96).epsilon(0.03));
+  FrameScene behind = scene_at_rest(model);
   behind.nodes[0].world[3].z = -1.0f;
-  CHECK(difference(through(renderer, model, behind, {0, 0, 2}), bare).fraction_beyond < 1.0);
-  CHECK(through(renderer, model, behind, {0, 0, 2}).pixel(80, 60)[1] == bare.pixel(80, 60)[1]);
+  CHECK(difference(picture_from(renderer, model, behind, {0, 0, 2}), without_pane).fraction_beyond < 1.0);
+  CHECK(picture_from(renderer, model, behind, {0, 0, 2}).pixel(80, 60)[1] == without_pane.pixel(80, 60)[1]);
 }
 
 TEST_CASE("a ghost is blended by its opacity, and opacity 1 and 0 are exact") {
@@ -69,10 +70,10 @@ TEST_CASE("a ghost is blended by its opacity, and opacity 1 and 0 are exact") {
   Model model;
   add_rectangle(model, "Hand", {1, 1}, add_material(model, lamp({0.5f, 0, 0})), {0, 0, 0.5f});
   add_rectangle(model, "Behind", {1, 1}, add_material(model, lamp({0, 0, 0.5f})), {0, 0, -0.5f});
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   const auto pixel = [&](float opacity) {
     scene.nodes[0].opacity = opacity;
-    const Image picture = through(renderer, model, scene, {0, 0, 2});
+    const Image picture = picture_from(renderer, model, scene, {0, 0, 2});
     return std::array<int, 2>{picture.pixel(80, 60)[0], picture.pixel(80, 60)[2]};
   };
   const auto solid = pixel(1.0f), half = pixel(0.5f), none = pixel(0.0f);

@@ -1,4 +1,4 @@
-// Two environments: indoor nodes use theirs, all others use the sky.
+// Two environments: indoor nodes are lit by the indoor one, all others by the sky.
 #include "tests/engine/render/render_bench.h"
 
 using namespace gearshift::engine;
@@ -16,7 +16,7 @@ struct TwoWalls {
     const int paint = add_material(model, material);
     add_rectangle(model, "Left", {0.9f, 2.0f}, paint, {-1.0f, 0, 0});
     add_rectangle(model, "Right", {0.9f, 2.0f}, paint, {1.0f, 0, 0});
-    scene = still(model);
+    scene = scene_at_rest(model);
   }
   Model model;
   FrameScene scene;
@@ -24,8 +24,7 @@ struct TwoWalls {
 
 }  // namespace
 
-TEST_CASE(
-    "a wall indoors shows the light indoors by the split sum, within 1/255; its neighbour in the open the sky's") {
+TEST_CASE("an indoor wall reflects the indoor light by the split sum, within 1/255; an outdoor wall reflects the sky") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   renderer.set_environment(constant_sky(vec3(kOpen)), constant_sky(vec3(kInside)));
@@ -41,13 +40,14 @@ TEST_CASE(
       const glm::dvec2 ab = environment_brdf(1.0, 0.6, 4096);
       const dvec3 reflectance = f0 * ab.x + ab.y;
       CAPTURE(x);
-      check_shown(renderer.read_eye(0), 80, 60,
-                  (x < 0.0 ? kInside : kOpen) * (reflectance + dvec3(colour) * (1.0 - metallic) * (1.0 - reflectance)));
+      check_displayed(
+          renderer.read_eye(0), 80, 60,
+          (x < 0.0 ? kInside : kOpen) * (reflectance + dvec3(colour) * (1.0 - metallic) * (1.0 - reflectance)));
     }
   }
 }
 
-TEST_CASE("the light indoors changes a node indoors, and not a bit of one in the open nor of the sky") {
+TEST_CASE("the indoor light changes an indoor node, and not a bit of an outdoor node or of the sky") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   TwoWalls walls(paint({0.5f, 0.5f, 0.5f}, 0.4f));

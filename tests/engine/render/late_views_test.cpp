@@ -64,10 +64,10 @@ std::vector<float> read_depth(Gpu& gpu, GpuImage& depth, std::uint32_t eye) {
 
 }  // namespace
 
-TEST_CASE("what was recorded for one pose of the head and told a later one is seen from the later one") {
+TEST_CASE("a frame recorded for one head pose and given a later one is drawn from the later one") {
   GpuFixture fixture;
   const Model model = row_of_cubes();
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   scene.sun = Sun{};
   scene.mirror = model.node("Mirror");
   const EyePose before = look_at({0, 0, 0}, {0, 0, -1});
@@ -79,15 +79,15 @@ TEST_CASE("what was recorded for one pose of the head and told a later one is se
     renderer.set_model(model);
     const std::array<View, 2> early = eyes_of(config, before), late = eyes_of(config, after);
     renderer.draw(scene, late);
-    const std::array<Image, 2> wanted{renderer.read_eye(0), renderer.read_eye(1)};
+    const std::array<Image, 2> expected{renderer.read_eye(0), renderer.read_eye(1)};
     LaterEyes later(late);
     renderer.draw(scene, early, {}, later);
     for (int eye = 0; eye < 2; ++eye) {
       CAPTURE(eye);
-      CHECK(difference(renderer.read_eye(eye), wanted[static_cast<std::size_t>(eye)]).worst <= 1);
+      CHECK(difference(renderer.read_eye(eye), expected[static_cast<std::size_t>(eye)]).worst <= 1);
     }
-    renderer.draw(scene, early);  // without late views: shows that the test can tell the difference
-    CHECK(difference(renderer.read_eye(0), wanted[0], 3).fraction_beyond > 0.05);
+    renderer.draw(scene, early);  // without late views: shows that the comparison can fail
+    CHECK(difference(renderer.read_eye(0), expected[0], 3).fraction_beyond > 0.05);
   }
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("a frame that keeps its depth has near plane / distance at each pixel 
       Renderer renderer(fixture.gpu(), config);
       renderer.set_model(model);
       const std::array<View, 2> views = eyes_of(config, look_at({0, 0, 0}, {0, 0, -1}));
-      renderer.draw(still(model), views);
+      renderer.draw(scene_at_rest(model), views);
       for (std::uint32_t eye = 0; eye < 2; ++eye) {
         const std::vector<float> depth = read_depth(fixture.gpu(), renderer.depth(), eye);
         double worst = 0.0;
@@ -114,14 +114,14 @@ TEST_CASE("a frame that keeps its depth has near plane / distance at each pixel 
         for (int y = 0; y < config.height; ++y) {
           for (int x = 0; x < config.width; ++x) {
             const int at = y * config.width + x;
-            const double seen = depth[static_cast<std::size_t>(at)];
+            const double measured = depth[static_cast<std::size_t>(at)];
             const glm::dvec3 left = project(views[eye], {-0.2, 0.2, -0.8}, {config.width, config.height});
             const glm::dvec3 right = project(views[eye], {0.2, -0.2, -0.8}, {config.width, config.height});
             const bool inside = x > left.x + 1 && x + 2 < right.x && y > left.y + 1 && y + 2 < right.y;
             const bool outside = x + 2 < left.x || x > right.x + 1 || y + 2 < left.y || y > right.y + 1;
             if (!inside && !outside) continue;
             sign += inside;
-            worst = std::max(worst, std::abs(seen * (inside ? 0.8 : 2.5) / kNear - 1.0));
+            worst = std::max(worst, std::abs(measured * (inside ? 0.8 : 2.5) / kNear - 1.0));
           }
         }
         CAPTURE(eye);

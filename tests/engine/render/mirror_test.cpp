@@ -1,4 +1,4 @@
-// Mirror pictures against the law of reflection.
+// Compares mirror pictures with the law of reflection.
 #include "engine/render/mirror_view.h"
 #include "tests/engine/render/render_bench.h"
 
@@ -11,13 +11,13 @@ using glm::vec3;
 namespace {
 
 // A tilted mirror ahead, a green lamp behind the eye, a red one behind the mirror.
-struct Room {
-  Room() {
+struct MirrorScene {
+  MirrorScene() {
     const int silver = add_material(model, paint(vec3(1.0f), 0.0f, 1.0f));
     mirror = add_rectangle(model, "Mirror", {0.6f, 0.4f}, silver, {});
     green = add_cube(model, "Green", 0.05f, add_material(model, lamp({0, 2, 0})), {});
     red = add_cube(model, "Red", 0.05f, add_material(model, lamp({2, 0, 0})), {});
-    scene = still(model);
+    scene = scene_at_rest(model);
     plane = glm::rotate(glm::translate(glm::mat4(1.0f), vec3(0.1f, 0.0f, -1.5f)), 0.2f, vec3(0.3f, 1.0f, 0.0f));
     world(mirror) = plane;
     scene.mirror = mirror;
@@ -47,63 +47,63 @@ TEST_CASE("a lamp behind the eye is seen in the mirror within 1 px of the law of
   config.eyes = 2;
   Renderer renderer(fixture.gpu(), config);
   renderer.set_environment(constant_sky(vec3(0.0f)));
-  Room room;
-  renderer.set_model(room.model);
-  room.world(room.red) = glm::translate(glm::mat4(1.0f), vec3(0.0f, 50.0f, 0.0f));
+  MirrorScene rig;
+  renderer.set_model(rig.model);
+  rig.world(rig.red) = glm::translate(glm::mat4(1.0f), vec3(0.0f, 50.0f, 0.0f));
   const Fov fov = symmetric_fov(1.0, 4.0 / 3.0);
   const StereoEyes eyes = stereo_eyes(look_at({0, 0, 0}, {0.1, 0, -1.5}), fov, 0.064, 1.0);
   const std::vector<View> views{view_from(eyes.pose[0], eyes.fov[0], 0.05), view_from(eyes.pose[1], eyes.fov[1], 0.05)};
   for (const dvec3 lamp_at : {dvec3(0.9, 0.2, 0.5), dvec3(0.6, -0.1, 1.0), dvec3(1.2, 0.3, 0.3)}) {
-    room.world(room.green) = glm::translate(glm::mat4(1.0f), vec3(lamp_at));
-    renderer.draw(room.scene, views);
+    rig.world(rig.green) = glm::translate(glm::mat4(1.0f), vec3(lamp_at));
+    renderer.draw(rig.scene, views);
     for (int eye = 0; eye < 2; ++eye) {
-      const dvec3 expected = project(views[static_cast<std::size_t>(eye)], room.mirrored(lamp_at), {320, 240});
-      const dvec2 seen = centroid(renderer.read_eye(eye), 1);
+      const dvec3 expected = project(views[static_cast<std::size_t>(eye)], rig.mirrored(lamp_at), {320, 240});
+      const dvec2 measured = centroid(renderer.read_eye(eye), 1);
       CAPTURE(lamp_at.x);
-      CAPTURE(seen.x);
+      CAPTURE(measured.x);
       CAPTURE(expected.x);
-      CHECK(glm::length(seen - dvec2(expected)) < 1.0);
+      CHECK(glm::length(measured - dvec2(expected)) < 1.0);
     }
   }
 }
 
-TEST_CASE("what stands behind the mirror is not seen in it, and without a picture the mirror shows the sky") {
+TEST_CASE("objects behind the mirror are not visible in it, and without a picture the mirror shows the sky") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), with_mirror(120));
   renderer.set_environment(constant_sky(vec3(0.0f)));
-  Room room;
-  renderer.set_model(room.model);
+  MirrorScene rig;
+  renderer.set_model(rig.model);
   const View view = view_at(renderer.config(), look_at({0, 0, 0}, {0.1, 0, -1.5}));
-  room.world(room.green) = glm::translate(glm::mat4(1.0f), vec3(0.7f, 0.0f, 0.8f));
-  room.world(room.red) = glm::translate(glm::mat4(1.0f), vec3(0.1f, 0.0f, -2.2f));
-  renderer.draw(room.scene, {&view, 1});
+  rig.world(rig.green) = glm::translate(glm::mat4(1.0f), vec3(0.7f, 0.0f, 0.8f));
+  rig.world(rig.red) = glm::translate(glm::mat4(1.0f), vec3(0.1f, 0.0f, -2.2f));
+  renderer.draw(rig.scene, {&view, 1});
   const Image picture = renderer.read_eye(0);
   CHECK(centroid(picture, 1).x > 0.0);
   int redder = 0;
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) redder += picture.pixel(x, y)[0] > picture.pixel(x, y)[1] ? 1 : 0;
   CHECK(redder == 0);
-  room.world(room.red)[3] = glm::vec4(0.1f, 0.0f, -1.0f, 1.0f);  // in front of the mirror it would be visible
-  renderer.draw(room.scene, {&view, 1});
+  rig.world(rig.red)[3] = glm::vec4(0.1f, 0.0f, -1.0f, 1.0f);  // moved in front of the mirror, the red lamp is visible
+  renderer.draw(rig.scene, {&view, 1});
   CHECK(centroid(renderer.read_eye(0), 0, 150).x > 0.0);
 
-  room.world(room.red)[3].y = 50.0f;
+  rig.world(rig.red)[3].y = 50.0f;
   renderer.resize(with_mirror(0));
-  renderer.draw(room.scene, {&view, 1});
+  renderer.draw(rig.scene, {&view, 1});
   CHECK(centroid(renderer.read_eye(0), 1).x < 0.0);
 }
 
-TEST_CASE("seen from behind a mirror is a wall: no view, and the frame goes on") {
+TEST_CASE("an eye behind the mirror gets no mirrored view, and its frame is still drawn") {
   const MirrorWindow window = mirror_window(glm::mat4(1.0f), {{-0.5f, -0.2f, 0}, {0.5f, 0.2f, 0}});
   CHECK(mirror_view(window, {0, 0, 0.5f}).has_value());
   CHECK_FALSE(mirror_view(window, {0, 0, -0.5f}).has_value());
   CHECK_FALSE(mirror_view(window, {0, 0, 0}).has_value());
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), with_mirror(64));
-  Room room;
-  renderer.set_model(room.model);
+  MirrorScene rig;
+  renderer.set_model(rig.model);
   const View view = view_at(renderer.config(), look_at({0, 0, -4}, {0, 0, -1.5}));
-  CHECK_NOTHROW(renderer.draw(room.scene, {&view, 1}));
+  CHECK_NOTHROW(renderer.draw(rig.scene, {&view, 1}));
 }
 
 TEST_CASE("the window's corners are the picture's corners, for a mirror of any pose and scale") {
@@ -116,11 +116,11 @@ TEST_CASE("the window's corners are the picture's corners, for a mirror of any p
   REQUIRE(view.has_value());
   for (const glm::vec2 corner : {glm::vec2(-0.3f, -0.1f), glm::vec2(0.2f, -0.1f), glm::vec2(-0.3f, 0.15f)}) {
     const glm::vec4 point = world * glm::vec4(corner, 0.0f, 1.0f);
-    const dvec3 seen = project(*view, vec3(point), {1.0, 1.0});
-    CHECK(seen.x == doctest::Approx(corner.x < 0.0f ? 1.0 : 0.0).epsilon(1e-3));
-    CHECK(seen.y == doctest::Approx(corner.y < 0.0f ? 1.0 : 0.0).epsilon(1e-3));
-    CHECK(std::abs(seen.z) < 1e-4);  // on the near plane
-    CHECK(glm::dot(window.u_row(), point) == doctest::Approx(seen.x).epsilon(1e-3));
-    CHECK(glm::dot(window.v_row(), point) == doctest::Approx(seen.y).epsilon(1e-3));
+    const dvec3 projected = project(*view, vec3(point), {1.0, 1.0});
+    CHECK(projected.x == doctest::Approx(corner.x < 0.0f ? 1.0 : 0.0).epsilon(1e-3));
+    CHECK(projected.y == doctest::Approx(corner.y < 0.0f ? 1.0 : 0.0).epsilon(1e-3));
+    CHECK(std::abs(projected.z) < 1e-4);  // on the near plane
+    CHECK(glm::dot(window.u_row(), point) == doctest::Approx(projected.x).epsilon(1e-3));
+    CHECK(glm::dot(window.v_row(), point) == doctest::Approx(projected.y).epsilon(1e-3));
   }
 }

@@ -20,7 +20,7 @@ struct MovingYard {
     const int box = add_material(model, paint({0.7f, 0.3f, 0.2f}));
     add_cube(model, "Still", 0.2f, box, {0.3f, 0.1f, 0.0f});
     mover = add_cube(model, "Mover", 0.25f, box, {});
-    scene = still(model);
+    scene = scene_at_rest(model);
     scene.sun = Sun{};
     config.shadow_side = 256;
     view = view_at(config, look_at({0.5, 3.0, 3.0}, {0.0, -0.5, 0.0}));
@@ -38,7 +38,7 @@ struct MovingYard {
 
 }  // namespace
 
-TEST_CASE("a caster leaves no shadow behind: on any walk the picture is what a new renderer draws") {
+TEST_CASE("a moving caster leaves no shadow behind: on any path, the picture equals that of a new renderer") {
   GpuFixture fixture;
   MovingYard yard;
   Renderer renderer(fixture.gpu(), yard.config);
@@ -53,16 +53,17 @@ TEST_CASE("a caster leaves no shadow behind: on any walk the picture is what a n
     vec3 at;
     bool visible = true;
   };
-  // Moves it across the other shadow, out of the map and back, away and back.
+  // Moves the caster across the static cube's shadow, out of the map and back, and hides and shows it.
   for (const Step step : {Step{{-0.8f, 0.2f, 0.0f}}, Step{{-0.8f, 0.2f, 0.1f}}, Step{{0.1f, 0.3f, 0.3f}},
                           Step{{40.0f, 0.2f, 0.0f}}, Step{{0.9f, 0.2f, 0.8f}}, Step{{0.9f, 0.2f, 0.8f}, false},
                           Step{{0.9f, 0.2f, 0.8f}, false}, Step{{-2.7f, 0.0f, -2.7f}}, Step{{0.2f, 0.5f, 0.2f}}}) {
     yard.move(step.at, step.visible);
-    Renderer fresh(fixture.gpu(), yard.config);
-    fresh.set_model(yard.model);
-    const Image seen = yard.render_with(renderer);
+    Renderer new_renderer(fixture.gpu(), yard.config);
+    new_renderer.set_model(yard.model);
+    const Image picture = yard.render_with(renderer);
     CAPTURE(step.at.x);
-    CHECK(difference(seen, yard.render_with(fresh)).worst == 0);
-    CHECK(difference(seen, yard.render_with(unshadowed)).fraction_beyond > 0.01);  // missing shadows would be detected
+    CHECK(difference(picture, yard.render_with(new_renderer)).worst == 0);
+    CHECK(difference(picture, yard.render_with(unshadowed)).fraction_beyond >
+          0.01);  // shadows are visible, so missing ones would be detected
   }
 }

@@ -26,7 +26,7 @@ inline engine::Material paint(glm::vec3 colour, float roughness = 1.0f, float me
   return material;
 }
 
-// Black and emissive.
+// A black material that emits light.
 inline engine::Material lamp(glm::vec3 colour) {
   engine::Material material = paint(glm::vec3(0.0f));
   material.emissive = colour;
@@ -82,7 +82,7 @@ inline int add_rectangle(engine::Model& model, const std::string& name, glm::vec
   return add_node(model, name, add_mesh(model, rectangle(half.x, half.y), kRectangle, material), at);
 }
 
-// Horizontal, facing up.
+// Adds a horizontal square that faces up.
 inline int add_floor(engine::Model& model, const std::string& name, float half, int material, float height) {
   std::vector<engine::Vertex> corners = rectangle(half, half);
   for (engine::Vertex& corner : corners) {
@@ -113,7 +113,7 @@ inline int add_cube(engine::Model& model, const std::string& name, float half, i
   return add_node(model, name, add_mesh(model, vertices, indices, material), at);
 }
 
-inline engine::FrameScene still(const engine::Model& model) {
+inline engine::FrameScene scene_at_rest(const engine::Model& model) {
   engine::FrameScene scene;
   for (const glm::mat4& world : engine::rest_pose(model)) scene.nodes.push_back({.world = world});
   scene.sun.irradiance = glm::vec3(0.0f);
@@ -139,7 +139,7 @@ inline engine::View view_at(const engine::RenderConfig& config, const engine::Ey
 }
 
 // Display value of a radiance: Hill's ACES fit, then the transfer curve of IEC 61966-2-1, in double precision.
-inline std::array<double, 3> shown(glm::dvec3 radiance) {
+inline std::array<double, 3> display_values(glm::dvec3 radiance) {
   const glm::dmat3 to{{0.59719, 0.07600, 0.02840}, {0.35458, 0.90834, 0.13383}, {0.04823, 0.01566, 0.83777}};
   const glm::dmat3 from{{1.60475, -0.10208, -0.00327}, {-0.53108, 1.10813, -0.07276}, {-0.07367, -0.00605, 1.07602}};
   glm::dvec3 v = to * radiance;
@@ -154,8 +154,8 @@ inline std::array<double, 3> shown(glm::dvec3 radiance) {
   return codes;
 }
 
-inline void check_shown(const engine::Image& picture, int x, int y, glm::dvec3 radiance, double tolerance = 1.0) {
-  const std::array<double, 3> expected = shown(radiance);
+inline void check_displayed(const engine::Image& picture, int x, int y, glm::dvec3 radiance, double tolerance = 1.0) {
+  const std::array<double, 3> expected = display_values(radiance);
   for (std::size_t c = 0; c < 3; ++c) {
     CAPTURE(c);
     CHECK(std::abs(picture.pixel(x, y)[c] - expected[c]) <= tolerance);

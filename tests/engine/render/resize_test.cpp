@@ -1,4 +1,5 @@
-// A resized renderer draws the same as a new one with that configuration, and a change of size compiles nothing.
+// A resized renderer draws the same picture as a new one with that configuration, and a change of size compiles
+// nothing.
 #include "tests/engine/render/counted_pipelines.h"
 #include "tests/engine/render/render_bench.h"
 
@@ -27,8 +28,8 @@ RenderConfig sized(int width, int height) {
   return config;
 }
 
-std::vector<Image> drawn(Renderer& renderer, const Model& model) {
-  FrameScene scene = still(model);
+std::vector<Image> draw_eyes(Renderer& renderer, const Model& model) {
+  FrameScene scene = scene_at_rest(model);
   scene.sun.irradiance = vec3(3.0f);
   scene.mirror = 2;
   const View view = view_at(renderer.config(), look_at({0, 1.0, 2.0}, {0, 0.3, 0}));
@@ -41,7 +42,7 @@ std::vector<Image> drawn(Renderer& renderer, const Model& model) {
 
 }  // namespace
 
-TEST_CASE("resized in any way, a renderer draws the picture of a fresh one") {
+TEST_CASE("after any resize, a renderer draws the same picture as a new one") {
   GpuFixture fixture;
   const Model model = yard();
   Renderer renderer(fixture.gpu(), sized(160, 120));
@@ -56,34 +57,34 @@ TEST_CASE("resized in any way, a renderer draws the picture of a fresh one") {
   steps[5].samples = 4;
   steps[6] = sized(1, 1);
   steps[7] = sized(160, 120);
-  drawn(renderer, model);
+  draw_eyes(renderer, model);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     CAPTURE(i);
     renderer.resize(steps[i]);
     Renderer fresh(fixture.gpu(), steps[i]);
     fresh.set_model(model);
-    const std::vector<Image> actual = drawn(renderer, model), expected = drawn(fresh, model);
+    const std::vector<Image> actual = draw_eyes(renderer, model), expected = draw_eyes(fresh, model);
     REQUIRE(actual.size() == expected.size());
     for (std::size_t eye = 0; eye < actual.size(); ++eye) CHECK(difference(actual[eye], expected[eye]).worst == 0);
   }
 }
 
-TEST_CASE("another size compiles no shader; another number of samples does") {
+TEST_CASE("a changed size compiles no shader; a changed number of samples does") {
   GpuFixture fixture;
   const Model model = yard();
   Renderer renderer(fixture.gpu(), sized(160, 120));
   renderer.set_model(model);
-  drawn(renderer, model);
+  draw_eyes(renderer, model);
   const int before = compiled_pipelines;
   CHECK(before > 3);
   for (const int width : {161, 300, 80, 160}) {
     renderer.resize(sized(width, 100));
-    drawn(renderer, model);
+    draw_eyes(renderer, model);
   }
   CHECK(compiled_pipelines == before);
   RenderConfig smooth = sized(160, 120);
   smooth.samples = 4;
   renderer.resize(smooth);
-  drawn(renderer, model);
+  draw_eyes(renderer, model);
   CHECK(compiled_pipelines > before);
 }

@@ -1,4 +1,4 @@
-// Sun shadows against ray casting.
+// Compares sun shadows with ray casting.
 #include <algorithm>
 #include <random>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr float kHalf = 0.3f, kHeight = 0.6f;
 const vec3 kSun{0.5f, 1.0f, 0.3f};
 
-// Does the ray from a point of the floor towards the sun hit the blocker, a square around `centre`?
+// True if the ray from a point of the floor towards the sun hits the blocker, a square around `centre`.
 bool blocked(dvec3 point, dvec3 centre) {
   const dvec3 hit = point + dvec3(kSun) * (centre.y - point.y) / static_cast<double>(kSun.y);
   return std::abs(hit.x - centre.x) < kHalf && std::abs(hit.z - centre.z) < kHalf;
@@ -27,7 +27,7 @@ struct Yard {
     add_floor(model, "Floor", 1.5f, add_material(model, paint(vec3(0.6f))), 0.0f);
     Material thin = paint(vec3(0.6f));
     add_floor(model, "Blocker", kHalf, add_material(model, thin), kHeight);
-    scene = still(model);
+    scene = scene_at_rest(model);
     scene.sun = {kSun, vec3(3.0f)};
   }
   void move_blocker(vec3 to) { scene.nodes[1].world = glm::translate(glm::mat4(1.0f), to); }
@@ -35,7 +35,8 @@ struct Yard {
   FrameScene scene;
 };
 
-// Fraction of the floor's points whose lighting contradicts the ray. Points hidden by the blocker are skipped.
+// Fraction of the floor's points that are lit although the ray is blocked, or dark although it is not. Points hidden by
+// the blocker are skipped.
 double fraction_misjudged(Renderer& renderer, const FrameScene& scene, dvec3 blocker) {
   const View view = view_at(renderer.config(), look_at({0, 3.0, 1.8}, {0, 0, 0}));
   renderer.draw(scene, {&view, 1});
@@ -81,10 +82,11 @@ TEST_CASE("a blocker's shadow on a floor is where rays say: 1 % misjudged at 102
   Renderer renderer(fixture.gpu(), none);
   renderer.set_environment(constant_sky(vec3(0.02f)));
   renderer.set_model(yard.model);
-  CHECK(fraction_misjudged(renderer, yard.scene, at) > 0.03);  // of the shadow itself: the comparison can detect it
+  // Without shadows, the shadowed points are misjudged: the comparison can detect errors.
+  CHECK(fraction_misjudged(renderer, yard.scene, at) > 0.03);
 }
 
-TEST_CASE("a shadow follows its caster, from frame to frame, and goes with it") {
+TEST_CASE("a shadow follows its caster from frame to frame, and disappears with it") {
   GpuFixture fixture;
   Yard yard;
   Renderer renderer(fixture.gpu(), shadowed(512));
@@ -107,13 +109,13 @@ TEST_CASE("a shadow follows its caster, from frame to frame, and goes with it") 
   CHECK(ghost.pixel(int(shade.x), int(shade.y))[1] > 120);
 }
 
-TEST_CASE("the back of a double-sided face, where the sun is on that side, does not shadow itself") {
+TEST_CASE("a double-sided face with the sun behind it does not shadow its own back") {
   GpuFixture fixture;
   Model model;
   Material thin = paint(vec3(0.6f));
   thin.double_sided = true;
   add_floor(model, "Floor", 1.5f, add_material(model, thin), 0.0f);
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   scene.sun = {kSun, vec3(3.0f)};
   scene.nodes[0].world = glm::rotate(glm::mat4(1.0f), 3.14159265f, vec3(1.0f, 0.0f, 0.0f));
   std::array<Image, 2> pictures;
@@ -138,7 +140,7 @@ TEST_CASE("light falls through a mask's holes") {
   half.base_colour_map = {.texture = 0};
   add_floor(model, "Floor", 1.5f, add_material(model, paint(vec3(0.6f))), 0.0f);
   add_floor(model, "Blocker", kHalf, add_material(model, half), kHeight);
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   scene.sun = {kSun, vec3(3.0f)};
   Renderer renderer(fixture.gpu(), shadowed(512));
   renderer.set_environment(constant_sky(vec3(0.02f)));
@@ -154,7 +156,7 @@ TEST_CASE("light falls through a mask's holes") {
   CHECK(light(0.15) > 120);
 }
 
-TEST_CASE("a face that the sun sees at a slant does not shadow itself, nor a closed box its lit sides") {
+TEST_CASE("a face at a slant to the sun does not shadow itself, nor does a closed box shadow its lit sides") {
   GpuFixture fixture;
   Renderer with(fixture.gpu(), shadowed(256));
   RenderConfig config = shadowed(0);
@@ -162,7 +164,7 @@ TEST_CASE("a face that the sun sees at a slant does not shadow itself, nor a clo
   Model model;
   add_cube(model, "Box", 0.5f, add_material(model, paint(vec3(0.6f))), {0, 0.5f, 0});
   for (const vec3 sun : {vec3(1.0f, 1.0f, 1.0f), vec3(0.3f, 1.0f, 0.2f), vec3(0.15f, 0.2f, 1.0f)}) {
-    FrameScene scene = still(model);
+    FrameScene scene = scene_at_rest(model);
     scene.sun = {sun, vec3(3.0f)};
     std::array<Image, 2> pictures;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -195,7 +197,7 @@ glm::vec2 texels(const ShadowFit& fit, vec3 point) {
 
 }  // namespace
 
-TEST_CASE("the map moves in whole texels: a point's place in its texel stays while what is seen moves") {
+TEST_CASE("the map moves in whole texels: a point keeps its place within its texel while the view moves") {
   const vec3 centre(0.3f, 0.2f, -0.5f), mark(1.0f, 0.5f, -1.0f);
   const ShadowFit fit = fit_shadow(corners(centre, 1.0f), kSun, kSide);
   for (const vec3 step : {vec3(0.001f, 0, 0), vec3(0.0123f, 0.2f, -0.07f), vec3(-1, 0.5f, 2)}) {
@@ -206,21 +208,20 @@ TEST_CASE("the map moves in whole texels: a point's place in its texel stays whi
   }
 }
 
-TEST_CASE("of 400 small steps of the eye few change the map") {
+TEST_CASE("few of 400 small steps of the eye change the map") {
   int changes = 0;
-  glm::mat4 before(0.0f);
+  glm::mat4 last(0.0f);
   for (int i = 0; i < 400; ++i) {
     const vec3 at(0.3f + 0.0005f * float(i), 0.2f, -0.5f);
     const glm::mat4 now = fit_shadow(corners(at, 1.0f), kSun, kSide).clip_from_world;
-    changes += now != before ? 1 : 0;
-    before = now;
+    changes += now != last ? 1 : 0;
+    last = now;
   }
   MESSAGE("0.2 m in 400 steps: " << changes << " maps");
   CHECK(changes <= 6);
 }
 
-TEST_CASE(
-    "the map holds the points and a margin, and is no wider than they ask for by half; it keeps casters before them") {
+TEST_CASE("the map holds the points and a margin, is less than 1.5 times as wide, and keeps casters in front of them") {
   const vec3 sun = glm::normalize(kSun);
   for (const float half : {0.01f, 0.3f, 1.0f, 7.0f}) {
     const std::vector<vec3> points = corners({1.0f, 2.0f, 3.0f}, half);
@@ -243,19 +244,20 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the visible part of a box is inside its visible corners, for random points, from outside and inside") {
+TEST_CASE("the visible part of a box lies within its visible corners, for an eye outside or inside the box") {
   const Box box{{-1.0f, -0.5f, -2.0f}, {1.5f, 0.5f, 1.0f}};
   std::mt19937 dice(3);
   std::uniform_real_distribution<float> throws(0.0f, 1.0f);
   for (const dvec3 eye : {dvec3(0.1, 0.2, 0.3), dvec3(4.0, 3.0, 5.0), dvec3(0.0, 0.0, 1.5), dvec3(-3.0, 0.0, -1.0)}) {
     const View view = view_from(look_at(eye, {0.3, -0.1, -1.0}), symmetric_fov(0.6, 1.5), 0.05);
     const glm::mat4 clip = view.clip_from_view * view.view_from_world;
-    const std::vector<vec3> seen = visible_corners(box, {&clip, 1});
-    // Compares the extents of the hull along many axes: every visible point is within them, and they are reached.
+    const std::vector<vec3> visible = visible_corners(box, {&clip, 1});
+    // Compares extents along many axes: every visible point is within those of the corners, and some points come close
+    // to them.
     for (int k = 0; k < 20; ++k) {
       const vec3 axis = glm::normalize(vec3(throws(dice), throws(dice), throws(dice)) - 0.5f);
       float high = -1e9f, reached = -1e9f;
-      for (const vec3 corner : seen) high = std::max(high, glm::dot(axis, corner));
+      for (const vec3 corner : visible) high = std::max(high, glm::dot(axis, corner));
       for (int i = 0; i < 4000; ++i) {
         const vec3 point = glm::mix(box.low, box.high, vec3(throws(dice), throws(dice), throws(dice)));
         const glm::vec4 at = clip * glm::vec4(point, 1.0f);
@@ -291,7 +293,7 @@ TEST_CASE("the shadow of a straight edge is straight: within a fifth of a texel 
     const double s = picture.pixel(x, y)[1] / 255.0;
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
   };
-  const double per_pixel = 2.0 * 0.5 * std::tan(0.5) / 400.0;  // [m] on the floor
+  const double per_pixel = 2.0 * 0.5 * std::tan(0.5) / 400.0;  // [m] width of a pixel on the floor
   for (int y = 40; y < 360; ++y) {
     const double half = 0.5 * (light(0, y) + light(399, y));
     for (int x = 1; x < 400; ++x) {

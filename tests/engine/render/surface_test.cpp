@@ -1,4 +1,4 @@
-// Shaded surfaces against closed-form values.
+// Compares shaded surfaces with closed-form values.
 #include "engine/light/environment.h"
 #include "tests/engine/render/render_bench.h"
 
@@ -44,12 +44,12 @@ TEST_CASE("a wall under a constant sky shows the split sum, tone-mapped, within 
     for (const float metallic : {0.0f, 1.0f}) {
       const vec3 colour(0.7f, 0.35f, 0.1f);
       const Wall wall(paint(colour, roughness, metallic));
-      const Image picture = studio.photograph(wall.model, still(wall.model));
+      const Image picture = studio.photograph(wall.model, scene_at_rest(wall.model));
       const glm::dvec2 ab = environment_brdf(1.0, roughness, 4096);
       const dvec3 f0 = glm::mix(dvec3(0.04), dvec3(colour), double(metallic)), reflectance = f0 * ab.x + ab.y;
       CAPTURE(roughness);
       CAPTURE(metallic);
-      check_shown(picture, kX, kY, sky * (reflectance + dvec3(colour) * (1.0 - metallic) * (1.0 - reflectance)));
+      check_displayed(picture, kX, kY, sky * (reflectance + dvec3(colour) * (1.0 - metallic) * (1.0 - reflectance)));
     }
   }
 }
@@ -61,9 +61,10 @@ TEST_CASE("a wall under the sun alone shows Lambert and GGX, within 1/255") {
   const dvec3 colour(0.6, 0.5, 0.2), half = glm::normalize(sun + view);
   for (const double roughness : {0.25, 0.5, 0.9}) {
     const Wall wall(paint(vec3(colour), float(roughness)));
-    FrameScene scene = still(wall.model);
+    FrameScene scene = scene_at_rest(wall.model);
     scene.sun = {vec3(5.0 * sun), vec3(irradiance)};
-    // glTF 2.0, appendix B: GGX's D and V, Schlick's F; light of the sky that is reflected does not enter the surface.
+    // glTF 2.0, appendix B: GGX's D and V, Schlick's F. The diffuse part is reduced by the fraction of sky light that
+    // the surface reflects.
     const double a2 = std::pow(roughness, 4.0), nl = sun.z, nv = 1.0, nh = half.z, vh = glm::dot(view, half);
     const double d = a2 / (glm::pi<double>() * std::pow(nh * nh * (a2 - 1.0) + 1.0, 2.0));
     const double v = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
@@ -71,44 +72,43 @@ TEST_CASE("a wall under the sun alone shows Lambert and GGX, within 1/255") {
     const glm::dvec2 ab = environment_brdf(1.0, roughness, 4096);
     const dvec3 diffuse = colour * (1.0 - (0.04 * ab.x + ab.y)) / glm::pi<double>();
     CAPTURE(roughness);
-    check_shown(studio.photograph(wall.model, scene), kX, kY, irradiance * nl * (diffuse + d * v * f));
+    check_displayed(studio.photograph(wall.model, scene), kX, kY, irradiance * nl * (diffuse + d * v * f));
   }
 }
 
-TEST_CASE("the sky is shown as it is, exposed") {
+TEST_CASE("the sky is shown as it is, times the exposure") {
   Studio studio;
   studio.renderer.set_environment(constant_sky({0.2f, 0.5f, 0.9f}));
   FrameScene scene;
   scene.exposure = 1.5f;
   const Image picture = studio.photograph(Model{}, scene);
-  for (const int x : {0, 80, 159}) check_shown(picture, x, 7, 1.5 * dvec3(0.2, 0.5, 0.9));
+  for (const int x : {0, 80, 159}) check_displayed(picture, x, 7, 1.5 * dvec3(0.2, 0.5, 0.9));
 }
 
-TEST_CASE("a lamp shines by its factor and is dark at 0") {
+TEST_CASE("a lamp emits in proportion to its factor and is dark at 0") {
   Studio studio;
   studio.renderer.set_environment(constant_sky(vec3(0.0f)));
   const Wall wall(lamp({0.9f, 0.5f, 0.1f}));
-  FrameScene scene = still(wall.model);
+  FrameScene scene = scene_at_rest(wall.model);
   for (const float factor : {1.0f, 0.4f, 0.0f}) {
     scene.nodes[0].emissive = factor;
-    check_shown(studio.photograph(wall.model, scene), kX, kY, double(factor) * dvec3(0.9, 0.5, 0.1));
+    check_displayed(studio.photograph(wall.model, scene), kX, kY, double(factor) * dvec3(0.9, 0.5, 0.1));
   }
 }
 
-TEST_CASE(
-    "a face seen from behind is hidden, or lit on that side where it is double-sided; a mirrored node is neither") {
+TEST_CASE("a face seen from behind is hidden, or lit on that side if double-sided; a mirrored node shows its front") {
   Studio studio;
   studio.renderer.set_environment([](vec3 d) { return vec3(d.z > 0.0f ? 1.0f : 0.1f); });
   Material material = paint(vec3(0.5f));
   const Wall single(material);
   material.double_sided = true;
   const Wall both(material);
-  const Image front = studio.photograph(single.model, still(single.model));
+  const Image front = studio.photograph(single.model, scene_at_rest(single.model));
   // Seen from behind: only the sky on that side is visible.
-  check_shown(studio.photograph(single.model, still(single.model), {0, 0, -2}), kX, kY, dvec3(1.0), 2.0);
-  const Image back = studio.photograph(both.model, still(both.model), {0, 0, -2});
-  CHECK(back.pixel(kX, kY)[0] < front.pixel(kX, kY)[0] / 2);  // lit from the back
-  FrameScene mirrored = still(single.model);
+  check_displayed(studio.photograph(single.model, scene_at_rest(single.model), {0, 0, -2}), kX, kY, dvec3(1.0), 2.0);
+  const Image back = studio.photograph(both.model, scene_at_rest(both.model), {0, 0, -2});
+  CHECK(back.pixel(kX, kY)[0] < front.pixel(kX, kY)[0] / 2);  // lit by the darker sky on that side
+  FrameScene mirrored = scene_at_rest(single.model);
   mirrored.nodes[0].world = glm::scale(glm::mat4(1.0f), vec3(-1.0f, 1.0f, 1.0f));
   CHECK(difference(studio.photograph(single.model, mirrored), front).worst <= 1);
 }
@@ -116,7 +116,7 @@ TEST_CASE(
 TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, vertex colours, a mask's holes") {
   Studio studio;
   studio.renderer.set_environment(constant_sky(vec3(0.0f)));
-  // Top: red, green; bottom: blue, white.
+  // A texture of 2 x 2 texels; top: red, green; bottom: blue, white.
   Model model;
   model.textures.push_back(
       {.pixels = {2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 40}}, .linear = false});
@@ -139,7 +139,7 @@ TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, ver
   holes.base_colour_map = {.texture = 0};
   add_rectangle(model, "", {0.5f, 0.5f}, add_material(model, holes), {0, -1.2f, 0});
 
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   scene.nodes[0].uv_shift = {0.5f, 0.0f};  // shifts only the first UV set
   const View view = view_at(studio.config, look_at({0, 0, 4}, {0, 0, 0}));
   const auto colour_at = [&](const Image& picture, vec3 point) {
@@ -186,17 +186,17 @@ TEST_CASE("baked occlusion darkens the sky's light by its strength") {
   const double reflectance = 0.04 * ab.x + ab.y;
   // Lagarde & de Rousiers 2014, listing 26, at n.v = 1 and roughness 1.
   const double specular = std::min(1.0, std::pow(1.0 + open, std::exp2(-17.0)) - 1.0 + open);
-  check_shown(studio.photograph(model, still(model)), kX, kY,
-              dvec3(0.5 * (1.0 - reflectance) * open + reflectance * specular));
+  check_displayed(studio.photograph(model, scene_at_rest(model)), kX, kY,
+                  dvec3(0.5 * (1.0 - reflectance) * open + reflectance * specular));
 }
 
-TEST_CASE("a normal map turns the light; without it the picture is another one") {
+TEST_CASE("a normal map changes the shading; without it the picture differs") {
   Model model;
   model.textures.push_back({.pixels = {2, 1, {218, 128, 218, 255, 38, 128, 218, 255}}, .linear = false});  // +-45 deg
   Material material = paint(vec3(0.6f));
   material.normal_map = {.texture = 0};
   add_rectangle(model, "Wall", {3, 3}, add_material(model, material), {});
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   scene.sun = {{1.0f, 0.0f, 1.0f}, vec3(3.0f)};
 
   Studio with;
@@ -214,7 +214,7 @@ TEST_CASE("a normal map turns the light; without it the picture is another one")
 
 // A normal map is about directions, so the same wall is lit identically when modelled small and scaled up, or large and
 // scaled down.
-TEST_CASE("a normal map is as strong on a node of any scale") {
+TEST_CASE("a normal map has the same strength on a node of any scale") {
   const auto wall = [](float scale) {
     Model model;
     model.textures.push_back({.pixels = {2, 1, {218, 128, 218, 255, 38, 128, 218, 255}}, .linear = false});
@@ -228,7 +228,7 @@ TEST_CASE("a normal map is as strong on a node of any scale") {
   studio.renderer.set_environment(constant_sky(vec3(0.05f)));
   const auto lit = [&](float scale) {
     const Model model = wall(scale);
-    FrameScene scene = still(model);
+    FrameScene scene = scene_at_rest(model);
     scene.sun = {{1.0f, 0.0f, 1.0f}, vec3(3.0f)};
     return studio.photograph(model, scene);
   };
@@ -242,7 +242,7 @@ TEST_CASE("a normal map is as strong on a node of any scale") {
 
 // Masked holes are holes in every pass: where vertex alpha is below the cutoff, the background is visible with one
 // sample (depth prepass) as well as with four, and the sun shines through.
-TEST_CASE("a mask's holes by the vertices' alpha are holes at one sample, at four, and for the sun") {
+TEST_CASE("holes masked by vertex alpha are holes with one sample, with four samples, and for the sun") {
   Model model;
   std::vector<Vertex> fading = rectangle(1.0f, 1.0f);  // alpha 1 at the left edge, 0 at the right edge
   for (Vertex& vertex : fading) vertex.colour = vertex.position.x < 0.0f ? 0xffffffffu : 0x00ffffffu;
@@ -251,7 +251,7 @@ TEST_CASE("a mask's holes by the vertices' alpha are holes at one sample, at fou
   mask.alpha_cutoff = 0.5f;
   add_node(model, "Mask", add_mesh(model, fading, kRectangle, add_material(model, mask)), {0, 0, 0.5f});
   add_rectangle(model, "Wall", {3, 3}, add_material(model, paint(vec3(0.6f))), {});
-  FrameScene scene = still(model);
+  FrameScene scene = scene_at_rest(model);
   scene.sun = {{0.0f, 0.0f, 1.0f}, vec3(3.0f)};
   for (const int samples : {1, 4}) {
     CAPTURE(samples);

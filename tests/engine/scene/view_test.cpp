@@ -1,4 +1,4 @@
-// Views against pinhole geometry without matrices.
+// Compares views with pinhole geometry without matrices.
 #include "engine/scene/view.h"
 
 #include <cmath>
@@ -17,8 +17,7 @@ namespace {
 constexpr double kNear = 0.05;
 const dvec2 kSize{1280.0, 720.0};
 
-// A pinhole camera: where the ray to the point crosses the picture plane one unit ahead, as a fraction of the frustum's
-// width.
+// [px] A pinhole camera: where the ray from the eye to the point crosses the picture.
 dvec2 pinhole(const EyePose& eye, const Fov& fov, dvec3 point) {
   const dvec3 to = point - eye.position;
   const double ahead = glm::dot(to, eye.orientation * dvec3(0.0, 0.0, -1.0));
@@ -44,9 +43,9 @@ TEST_CASE("points are projected within 0.1 px of a pinhole, for each eye of any 
       const dvec3 point =
           head + pose.orientation * dvec3(0.8 * ahead * unit(random), 0.6 * ahead * unit(random), -ahead);
       const View view = view_from(eyes.pose[eye], eyes.fov[eye], kNear);
-      const dvec3 seen = project(view, point, kSize);
-      worst = std::max(worst, glm::length(dvec2(seen) - pinhole(eyes.pose[eye], eyes.fov[eye], point)));
-      CHECK(seen.z == doctest::Approx(ahead - kNear).epsilon(1e-4));
+      const dvec3 projected = project(view, point, kSize);
+      worst = std::max(worst, glm::length(dvec2(projected) - pinhole(eyes.pose[eye], eyes.fov[eye], point)));
+      CHECK(projected.z == doctest::Approx(ahead - kNear).epsilon(1e-4));
     }
   }
   MESSAGE("worst " << worst << " px");
@@ -68,7 +67,7 @@ TEST_CASE("disparity is f ipd (1 / z - 1 / distance)") {
   }
 }
 
-TEST_CASE("depth is 1 at the near plane, falls as its distance over z, and is 0 at infinity") {
+TEST_CASE("depth is 1 at the near plane, falls as near plane / z, and is 0 at infinity") {
   const glm::mat4 clip = off_axis_projection(symmetric_fov(1.0, 1.5), kNear);
   for (const double z : {kNear, 0.1, 1.0, 1e3, 1e6}) {
     const glm::vec4 at = clip * glm::vec4(0.0f, 0.0f, static_cast<float>(-z), 1.0f);
@@ -86,7 +85,7 @@ TEST_CASE("points behind the eye or nearer than the near plane have a negative d
   CHECK(project(view, {0.0, 0.0, 1.0}, kSize).z < 0.0);
 }
 
-TEST_CASE("up is up in the picture, right is right, and the target is in the middle") {
+TEST_CASE("up is up in the picture, right is right, and the target is at the centre") {
   for (const dvec3 target : {dvec3(0, 0, -3), dvec3(3, 0, 0), dvec3(-1, 2, 2), dvec3(0, -3, 0), dvec3(0, 3, 0)}) {
     const EyePose pose = look_at({0, 0, 0}, target);
     const View view = view_from(pose, symmetric_fov(1.0, kSize.x / kSize.y), kNear);

@@ -19,7 +19,7 @@ namespace {
 
 struct Socket {
   bool is_plugged = true;
-  int opened = 0, asked = 0;
+  int opened = 0, open_calls = 0;
 };
 
 class PluggedDevice : public SoundDevice {
@@ -38,7 +38,7 @@ class PluggedDevice : public SoundDevice {
 
 SoundDeviceOpener opener_of(Socket& socket) {
   return [&socket](SoundOutput output) -> std::unique_ptr<SoundDevice> {
-    ++socket.asked;
+    ++socket.open_calls;
     if (!socket.is_plugged) throw std::runtime_error("unplugged");
     ++socket.opened;
     return std::make_unique<PluggedDevice>(output, socket);
@@ -56,7 +56,7 @@ std::vector<float> hum(double frequency) {
 
 constexpr glm::vec3 kInFront{0.0f, 0.0f, -0.5f};
 
-// Runs one test case of this program in another environment. Returns its output.
+// Runs one test case of this program with additional environment variables. Returns its output.
 std::string run_case(const std::string& environment, const std::string& name) {
   const std::string command =
       "env " + environment + " /proc/$PPID/exe --no-skip --test-case='" + name + "' 2>&1; echo \"rc $?\"";
@@ -119,27 +119,27 @@ TEST_CASE("a reopened device has all clips and loops in their latest state") {
   CHECK(amplitude_at(channel(listen(world, 0.5), Ear::left), 300.0) < 1e-3 * before);
 }
 
-TEST_CASE("reopening a lost device is tried at once, then at most once a second, without end") {
+TEST_CASE("reopening a lost device is tried at once, then at most once per second, without end") {
   Socket socket;
   SoundWorld world(SoundOutput::memory, opener_of(socket));
-  CHECK(socket.asked == 1);
+  CHECK(socket.open_calls == 1);
   socket.is_plugged = false;
   for (int frame = 0; frame <= 600; ++frame) world.update(100.0 + frame / 60.0);  // 10 s
-  CHECK(socket.asked >= 1 + 10);
-  CHECK(socket.asked <= 1 + 11);
-  const int so_far = socket.asked;
+  CHECK(socket.open_calls >= 1 + 10);
+  CHECK(socket.open_calls <= 1 + 11);
+  const int so_far = socket.open_calls;
   world.update(5.0);  // the clock was set back: this costs one second at most
   world.update(6.1);
-  CHECK(socket.asked == so_far + 1);
+  CHECK(socket.open_calls == so_far + 1);
   socket.is_plugged = true;
   world.update(7.2);
   CHECK(world.output() == SoundOutput::memory);
   CHECK(socket.opened == 2);
   for (int frame = 0; frame < 600; ++frame) world.update(8.0 + frame / 60.0);
-  CHECK(socket.opened == 2);  // a working device is left alone
+  CHECK(socket.opened == 2);  // a working device is not reopened
 }
 
-TEST_CASE("ten losses in a row: it is reopened every time, and nothing leaks") {
+TEST_CASE("after each of ten losses in a row, the device is reopened, and nothing leaks") {
   Socket socket;
   SoundWorld world(SoundOutput::memory, opener_of(socket));
   world.loop(world.add_clip(hum(440.0)), {kInFront});
@@ -154,12 +154,12 @@ TEST_CASE("ten losses in a row: it is reopened every time, and nothing leaks") {
   }
 }
 
-TEST_CASE("an opener that fails in any way means silence, not an exception") {
+TEST_CASE("an opener that fails in any way causes silence, not an exception") {
   SoundWorld without_card(SoundOutput::card, [](SoundOutput) -> std::unique_ptr<SoundDevice> {
-    throw std::runtime_error("no sound card");
+    throw std::runtime_error("there is no sound card");
   });
   CHECK(without_card.output() == SoundOutput::none);
-  CHECK(without_card.silence_reason() == "no sound card");
+  CHECK(without_card.silence_reason() == "there is no sound card");
   use_everything(without_card);
   bool is_first = true;
   SoundWorld once(SoundOutput::memory, [&is_first](SoundOutput output) -> std::unique_ptr<SoundDevice> {
@@ -178,7 +178,7 @@ TEST_CASE("an opener that fails in any way means silence, not an exception") {
 TEST_CASE("child: without a sound card every call is safe and silent" * doctest::skip()) {
   SoundWorld world(SoundOutput::card);
   CHECK(world.output() == SoundOutput::none);
-  CHECK(world.silence_reason() == "no sound card");
+  CHECK(world.silence_reason() == "there is no sound card");
   use_everything(world);
   CHECK(SoundWorld(SoundOutput::memory).output() == SoundOutput::memory);  // the memory device needs no sound card
 }
@@ -200,7 +200,7 @@ TEST_CASE("without a sound card the world is silent, says so, prints nothing of 
   CHECK(printed.find("AL lib") == std::string::npos);
 }
 
-TEST_CASE("a sound card plays by the mixer's own thread while every call is made") {
+TEST_CASE("a sound card plays in the mixer's own thread while every call is made") {
   const std::string printed = run_case("ALSOFT_DRIVERS=null", "child: a null*");
   CAPTURE(printed);
   CHECK(printed.find("1 passed") != std::string::npos);

@@ -13,7 +13,7 @@
 
 namespace gearshift::test {
 
-// Renders `seconds` of sound in frames of a 60 Hz picture.
+// Renders `seconds` of sound in pieces of 1/60 s, like a program that draws at 60 Hz.
 inline std::vector<float> listen(engine::SoundWorld& world, double seconds) {
   constexpr std::size_t kFrame = 2 * engine::kSoundRate / 60;
   std::vector<float> stereo(static_cast<std::size_t>(std::lround(seconds * 60.0)) * kFrame);
@@ -101,7 +101,7 @@ inline double strongest_line(std::span<const double> x) {
   return (static_cast<double>(top) + 0.5 * (a - c) / (a - 2.0 * b + c)) * hertz;
 }
 
-// Fraction of the power between two frequencies. [Hz]
+// Sum of the power between two frequencies [Hz].
 inline double band_power(const Spectrum& s, double low, double high) {
   double sum = 0.0;
   for (std::size_t n = 0; n < s.power.size(); ++n) {

@@ -14,7 +14,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// Half a second with a whole number of periods, so that it loops without a step.
+// A sine. Half a second of it has a whole number of periods if the frequency is even, and then loops without a step.
 std::vector<float> sine(double frequency, double amplitude, double seconds = 0.5) {
   std::vector<float> out(static_cast<std::size_t>(std::lround(seconds * kSoundRate)));
   for (std::size_t n = 0; n < out.size(); ++n) {
@@ -49,14 +49,14 @@ TEST_CASE("a memory world reports memory, and a silent one reports its reason") 
   CHECK(!SoundWorld(SoundOutput::none).silence_reason().empty());
 }
 
-TEST_CASE("silence is exactly 0, before anything was asked and with voices at gain 0") {
+TEST_CASE("silence is exactly 0, before the first call and with voices at gain 0") {
   SoundWorld world(SoundOutput::memory);
   CHECK(peak(channel(listen(world, 0.5), Ear::left)) == 0.0);
   world.loop(world.add_clip(sine(440.0, 0.5)), {.gain = 0.0f});
   CHECK(peak(channel(listen(world, 0.5), Ear::left)) == 0.0);
 }
 
-TEST_CASE("pitch is the clip's pitch times the voice's, to the mixer's step of 1/4096") {
+TEST_CASE("pitch is the clip's pitch times the voice's, within the mixer's step of 1/4096") {
   for (const float pitch : {0.25f, 0.5f, 0.97f, 1.0f, 1.3f, 2.0f, 4.0f}) {
     CAPTURE(pitch);
     const double hertz = strongest_line(channel(render_voice({kAhead, 1.0f, pitch}), Ear::left));
@@ -66,7 +66,7 @@ TEST_CASE("pitch is the clip's pitch times the voice's, to the mixer's step of 1
   }
 }
 
-TEST_CASE("amplitude is proportional to the voice's gain and to the volume of all") {
+TEST_CASE("amplitude is proportional to the voice's gain and to the overall volume") {
   const double full = left_amplitude({kAhead});
   CHECK(full > 0.1);
   for (const float gain : {0.5f, 0.25f, 0.1f, 0.01f}) {
@@ -75,8 +75,8 @@ TEST_CASE("amplitude is proportional to the voice's gain and to the volume of al
   }
 }
 
-TEST_CASE("gain falls as reference / distance, and not below the reference distance") {
-  // so quiet that no gain reaches 1
+TEST_CASE("gain falls as reference / distance, and is constant within the reference distance") {
+  // The voices are so quiet that no gain reaches 1.
   const double near = left_amplitude({{0.0f, 0.0f, -kSoundReferenceDistance}, 0.1f});
   for (const float distance : {0.1f, 0.3f, 0.5f, 0.7f, 1.0f, 2.0f, 5.0f, 20.0f}) {
     CAPTURE(distance);
@@ -85,7 +85,7 @@ TEST_CASE("gain falls as reference / distance, and not below the reference dista
   }
 }
 
-TEST_CASE("what stands to the right is louder right, mirrored to the left, and turns with the listener") {
+TEST_CASE("a source on the right is louder in the right ear, mirrored on the left; turning the listener changes that") {
   const auto balance = [](glm::vec3 source, glm::vec3 forward) {  // [dB] right relative to left
     SoundWorld world(SoundOutput::memory);
     world.set_listener(glm::vec3(0.0f), forward, {0.0f, 1.0f, 0.0f});
@@ -125,29 +125,30 @@ TEST_CASE("moving the listener equals moving everything else the other way") {
     CHECK(left_there == doctest::Approx(left).epsilon(1e-3));
     CHECK(right_there == doctest::Approx(right).epsilon(1e-3));
   }
-  // A source at the origin, heard from 1 m and from 4 m: 12.04 dB.
+  // A source at the origin, heard from 1 m and from 4 m: a factor of 4, 12.04 dB.
   const double near = amplitudes_at({0.0f, 0.0f, 1.0f}, {}).first, far = amplitudes_at({0.0f, 0.0f, 4.0f}, {}).first;
   CHECK(decibels(near / far) == doctest::Approx(12.041).epsilon(1e-3));
 }
 
-TEST_CASE("a point beside the listener is heard with one ear, a source as wide as it is far with both") {
+TEST_CASE("a point source at the listener's side is heard in one ear, a source as wide as its distance in both") {
   const std::vector<float> point = render_voice({kRight}), wide = render_voice({.position = kRight, .radius = 0.5f});
   CHECK(rms(channel(point, Ear::left)) < 1e-3 * rms(channel(point, Ear::right)));
   CHECK(rms(channel(wide, Ear::left)) > 0.25 * rms(channel(wide, Ear::right)));
   CHECK(rms(channel(wide, Ear::left)) < 0.5 * rms(channel(wide, Ear::right)));
 }
 
-TEST_CASE("a loop runs through its joint as through any other sample") {
+TEST_CASE("a loop continues across its joint without a step") {
   const std::vector<double> left = channel(render_voice({kAhead}), Ear::left);
   const double amplitude = amplitude_at(left, 1000.0);
-  double residue = 0.0;  // compared with a sine of that amplitude, through the sampled form of x'' = -w^2 x
+  // Deviation from a 1 kHz sine, by the sampled form of x'' = -w^2 x.
+  double residue = 0.0;
   const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 1000.0 / kSoundRate);
   for (std::size_t n = 2; n < left.size(); ++n) {
     residue = std::max(residue, std::abs(left[n] - factor * left[n - 1] + left[n - 2]));
   }
   CHECK(residue < 1e-4 * amplitude);
 
-  SoundWorld world(SoundOutput::memory);  // the measure detects a joint that is off by a quarter of a period
+  SoundWorld world(SoundOutput::memory);  // the residue detects a joint that is off by a quarter of a period
   world.loop(world.add_clip(sine(1000.5, 0.5)), {kAhead});
   const std::vector<double> broken = channel(listen(world, 1.0), Ear::left);
   residue = 0.0;
@@ -157,7 +158,7 @@ TEST_CASE("a loop runs through its joint as through any other sample") {
   CHECK(residue > 0.1 * amplitude);
 }
 
-TEST_CASE("loops that keep one pitch stay in phase: two in opposition are silent through any change of pitch") {
+TEST_CASE("loops of equal pitch stay in phase: two in opposition are silent during any change of pitch") {
   SoundWorld world(SoundOutput::memory);
   const VoiceId one = world.loop(world.add_clip(sine(300.0, 0.5)), {kAhead, 0.8f, 0.9f});
   const VoiceId other = world.loop(world.add_clip(sine(300.0, -0.5)), {kAhead, 0.8f, 0.9f});
@@ -185,31 +186,31 @@ TEST_CASE("restart begins a loop at its first sample") {
   world.restart(voice);
   stereo.resize(960);
   world.render(stereo);
-  CHECK(stereo[stereo.size() - 2] == doctest::Approx(0.2 * half_way).epsilon(0.02));  // 480 of 2400 samples further
+  CHECK(stereo[stereo.size() - 2] == doctest::Approx(0.2 * half_way).epsilon(0.02));  // 480 frames, not 2400 as before
 }
 
-TEST_CASE("a one-shot is heard once, and 24 at a time: the oldest gives way") {
+TEST_CASE("a one-shot is heard once; beyond 24 at a time, the oldest is stopped") {
   SoundWorld world(SoundOutput::memory);
   std::vector<ClipId> clips;
   for (int n = 0; n < kOneShotVoices + 2; ++n) clips.push_back(world.add_clip(sine(200.0 + 100.0 * n, 0.04, 0.5)));
   for (int n = 0; n < kOneShotVoices; ++n) world.play(clips[static_cast<std::size_t>(n)], {kAhead});
-  const auto is_heard = [](std::span<const float> stereo, int n) {
+  const auto is_audible = [](std::span<const float> stereo, int n) {
     return amplitude_at(channel(stereo, Ear::left), 200.0 + 100.0 * n) > 0.01;
   };
   std::vector<float> stereo = listen(world, 0.1);
-  for (int n = 0; n < kOneShotVoices; ++n) CHECK(is_heard(stereo, n));
+  for (int n = 0; n < kOneShotVoices; ++n) CHECK(is_audible(stereo, n));
   world.play(clips[kOneShotVoices], {kAhead});
   world.play(clips[kOneShotVoices + 1], {kAhead});
   listen(world, 0.05);  // let it settle
   stereo = listen(world, 0.1);
   for (int n = 0; n < kOneShotVoices + 2; ++n) {
     CAPTURE(n);
-    CHECK(is_heard(stereo, n) == (n >= 2));
+    CHECK(is_audible(stereo, n) == (n >= 2));
   }
   listen(world, 0.5);
   CHECK(peak(channel(listen(world, 0.1), Ear::left)) == 0.0);  // all have ended
   world.play(clips[0], {kAhead});
-  CHECK(is_heard(listen(world, 0.1), 0));
+  CHECK(is_audible(listen(world, 0.1), 0));
 }
 
 TEST_CASE("the same calls give the same samples, bit for bit") {

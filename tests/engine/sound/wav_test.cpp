@@ -42,7 +42,7 @@ long number(const std::string& bytes, std::size_t at, int count) {
 TEST_CASE("a WAVE file has a correct header, and samples to half a 16-bit step, clipped at full scale") {
   std::vector<float> stereo;
   for (int n = 0; n < 1000; ++n) stereo.push_back(static_cast<float>(std::sin(0.01 * n * n)));
-  for (const float odd : {1.5f, -3.0f, std::numeric_limits<float>::quiet_NaN(), 0.0f}) stereo.push_back(odd);
+  for (const float special : {1.5f, -3.0f, std::numeric_limits<float>::quiet_NaN(), 0.0f}) stereo.push_back(special);
   const std::filesystem::path path = temporary_path();
   write_wav(path, stereo, 44100);
   const std::string bytes = bytes_of(path);
@@ -71,7 +71,7 @@ TEST_CASE("a file that cannot be written throws one sentence that names it") {
   const std::vector<float> frame = {0.0f, 0.0f};
   CHECK_THROWS_AS(write_wav("/nonexistent/a.wav", frame, 48000), std::runtime_error);
   CHECK_THROWS_WITH(write_wav("/nonexistent/a.wav", frame, 48000),
-                    "/nonexistent/a.wav: cannot be written: No such file or directory");
+                    "/nonexistent/a.wav: cannot be written (No such file or directory)");
   CHECK_THROWS_AS(write_wav(temporary_path(), std::span(frame).first(1), 48000), std::runtime_error);
   CHECK_THROWS_AS(write_wav(temporary_path(), frame, 0), std::runtime_error);
 }

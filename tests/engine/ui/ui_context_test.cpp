@@ -52,14 +52,14 @@ struct Form {
 
 }  // namespace
 
-TEST_CASE("a fed mouse presses a button once per click, and only there") {
+TEST_CASE("a click presses a button once, and only where the button is") {
   Form form;
   form.frame();
   form.click(form.button);
   CHECK(form.presses == 1);
   form.click({600, 500});
   CHECK(form.presses == 1);
-  form.events.has_mouse = false;  // captured by the lever, which then gets the mouse buttons
+  form.events.has_mouse = false;  // the lever has captured the mouse and gets its buttons
   form.events.mouse_down[0] = true;
   form.frame();
   form.events.mouse_down[0] = false;
@@ -67,7 +67,7 @@ TEST_CASE("a fed mouse presses a button once per click, and only there") {
   CHECK(form.presses == 1);
 }
 
-TEST_CASE("the mouse belongs to the interface where a window is, and to what lies behind it elsewhere") {
+TEST_CASE("the mouse belongs to the interface inside a window, and to the scene elsewhere") {
   Form form;
   form.frame();
   form.events.mouse = {static_cast<double>(form.button.x), static_cast<double>(form.button.y)};
@@ -114,19 +114,18 @@ TEST_CASE("keys navigate and press: GLFW's key codes are mapped") {
   form.frame();
 }
 
-TEST_CASE(
-    "a key that went down and up between two frames was pressed, as was the letter with Ctrl that came before it") {
+TEST_CASE("a key that goes down and up between two frames counts as pressed, as does a Ctrl shortcut before it") {
   constexpr int kControl = 341, kEnter = 257, kB = 66, kC = 67;
   Form form;
   form.frame();
-  form.click(form.button);  // presses it, and starts the keyboard navigation there
+  form.click(form.button);  // presses the button, and starts the keyboard navigation there
   form.events.keys = {{kKeyDown, true}, {kKeyDown, false}, {kKeyUp, true}, {kKeyUp, false}};
   for (int i = 0; i < 5; ++i) form.frame();
   form.events.keys = {{kKeySpace, true}, {kKeySpace, false}};
   for (int i = 0; i < 3; ++i) form.frame();
   CHECK(form.presses == 2);
   form.click(form.field);
-  // In one poll of a slow frame: types "Bb", selects all, types "Cc" over it, and deletes one letter.
+  // In one poll of a slow frame: types "Bb", selects all, types "Ccc" over it, and deletes one letter.
   constexpr int kBackspace = 259;
   form.events.text = U"BbCcc";
   form.events.keys = {{kB, true},       {kB, false},   {kB, true},         {kB, false},
@@ -163,7 +162,7 @@ TEST_CASE("pressed keys are released when the window loses focus") {
   CHECK_FALSE(ImGui::IsKeyDown(kKeySpace));
 }
 
-TEST_CASE("fonts and sizes follow the scale, and letters beyond ASCII have a shape of their own") {
+TEST_CASE("fonts and sizes follow the scale, and letters beyond ASCII have glyphs of their own") {
   UiContext ui;
   UiInput screen;
   ui.begin(screen);
@@ -178,7 +177,7 @@ TEST_CASE("fonts and sizes follow the scale, and letters beyond ASCII have a sha
   ui.end();
 }
 
-TEST_CASE("two contexts do not disturb each other") {
+TEST_CASE("two contexts do not affect each other") {
   Form one, other;
   one.frame();
   other.frame();

@@ -1,4 +1,4 @@
-// Our drawing of a Dear ImGui frame against the definition of its draw data.
+// Compares our drawing of a Dear ImGui frame with the definition of its draw data.
 #include <array>
 #include <functional>
 #include <string>
@@ -100,9 +100,9 @@ TEST_CASE("a rectangle has its colour, exactly, in its pixels and in no other") 
 TEST_CASE("half transparency blends half of the background, display-referred") {
   Screen screen;
   screen.build([](ImDrawList& list) { list.AddRectFilled({0, 0}, {8, 8}, IM_COL32(255, 255, 255, 128)); });
-  const std::array<int, 3> seen = at(screen.draw(), 4, 4);
+  const std::array<int, 3> blended = at(screen.draw(), 4, 4);
   for (std::size_t i = 0; i < 3; ++i)
-    CHECK(seen[i] == doctest::Approx(255.0 * 128.0 / 255.0 + kBackground[i] * 127.0 / 255.0).epsilon(0.01));
+    CHECK(blended[i] == doctest::Approx(255.0 * 128.0 / 255.0 + kBackground[i] * 127.0 / 255.0).epsilon(0.01));
 }
 
 TEST_CASE("nothing is drawn outside a clip rectangle, and one outside the screen is allowed") {
@@ -125,7 +125,7 @@ TEST_CASE("nothing is drawn outside a clip rectangle, and one outside the screen
   CHECK(pixels_unlike(image, kBackground) == 20 * 30 + 10 * 10);
 }
 
-TEST_CASE("text, curves and transparency are what the definition gives, to two steps of 255") {
+TEST_CASE("text, curves and transparency match the definition to within two steps of 255") {
   Screen screen;
   screen.build([](ImDrawList& list) {
     list.AddText({12, 10}, IM_COL32_WHITE, "Gearshift 5000 N/m");
@@ -135,15 +135,15 @@ TEST_CASE("text, curves and transparency are what the definition gives, to two s
     list.AddRect({150.5f, 20.5f}, {310.5f, 90.5f}, IM_COL32(255, 255, 255, 90), 8.0f, 0, 3.0f);
   });
   const Image image = screen.draw(), expected = screen.expected();
-  const ImageDifference apart = difference(image, expected, 2);
-  MESSAGE("psnr " << apart.psnr << " dB, worst " << apart.worst << "/255");
-  CHECK(apart.worst <= 2);
+  const ImageDifference error = difference(image, expected, 2);
+  MESSAGE("psnr " << error.psnr << " dB, worst " << error.worst << "/255");
+  CHECK(error.worst <= 2);
   CHECK(pixels_unlike(image, kBackground) > 3000);
   // Shifted by a pixel, the picture differs, so the comparison can fail.
   CHECK(difference(crop(image, 1, 0, 318, 200), crop(expected, 0, 0, 318, 200), 2).fraction_beyond > 0.02);
 }
 
-TEST_CASE("the buffers of a slot grow with the frame, beyond 65536 vertices too, and keep what they held") {
+TEST_CASE("the buffers of a slot grow with the frame, also beyond 65536 vertices, and the picture stays correct") {
   Screen screen;
   const auto tiles = [&screen](int count) {
     screen.build([count](ImDrawList& list) {
@@ -153,18 +153,18 @@ TEST_CASE("the buffers of a slot grow with the frame, beyond 65536 vertices too,
       }
     });
   };
-  for (const int count : {10, 4000, 16000, 100}) {  // four vertices each: up to 64,000
+  for (const int count : {10, 4000, 16000, 100}) {  // four vertices per tile: up to 64,000
     for (const int slot : {0, 1}) {
       tiles(count);
       CHECK(pixels_unlike(screen.draw(slot), kBackground) == count);
     }
   }
-  tiles(40000);  // 160,000 vertices: the tiles overlap, and the last ones are visible, too
+  tiles(40000);  // 160,000 vertices; 16,000 tiles fill the screen, the others overlap them
   CHECK(ImGui::GetDrawData()->TotalVtxCount > 65536);
   CHECK(pixels_unlike(screen.draw(0), kBackground) == 16000);
 }
 
-TEST_CASE("another scale builds another font, and drawing continues") {
+TEST_CASE("a changed scale rebuilds the font, and drawing continues") {
   Screen screen;
   const auto text = [](ImDrawList& list) { list.AddText({4, 4}, IM_COL32_WHITE, "neutral"); };
   screen.build(text);

@@ -31,15 +31,14 @@ extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkQueuePresentKHR(VkQueue queue, const
   return fault == VK_SUCCESS ? result : fault;
 }
 
-extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkGetPhysicalDeviceSurfaceCapabilitiesKHR(VkPhysicalDevice device,
-                                                                                    VkSurfaceKHR surface,
-                                                                                    VkSurfaceCapabilitiesKHR* can) {
+extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkGetPhysicalDeviceSurfaceCapabilitiesKHR(
+    VkPhysicalDevice device, VkSurfaceKHR surface, VkSurfaceCapabilitiesKHR* capabilities) {
   const VkResult fault = std::exchange(injected_faults.next_capabilities, VK_SUCCESS);
   if (fault != VK_SUCCESS) return fault;
   const auto real = reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR>(
       dlsym(RTLD_NEXT, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"));
-  const VkResult result = real(device, surface, can);
-  if (injected_faults.no_extent) can->currentExtent = {0, 0};
+  const VkResult result = real(device, surface, capabilities);
+  if (injected_faults.no_extent) capabilities->currentExtent = {0, 0};
   return result;
 }
 

@@ -1,4 +1,4 @@
-// Injects rare results of a driver: the test program overrides the loader's functions.
+// Injects rare results of a driver: the test program replaces functions of the Vulkan loader.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -8,7 +8,8 @@
 
 namespace gearshift::test {
 
-// Result of the next call; VK_SUCCESS: the driver's own. A failing present is still executed, the other calls are not.
+// Results of the next calls; VK_SUCCESS: the driver's own result. A present with an injected result is still executed;
+// the other calls are not executed if they are to fail.
 struct InjectedFaults {
   VkResult next_acquire = VK_SUCCESS;
   VkResult next_present = VK_SUCCESS;
@@ -16,8 +17,8 @@ struct InjectedFaults {
   VkResult next_create = VK_SUCCESS;
   bool no_extent = false;                  // while set, the surface reports a size of 0 x 0
   bool never_free = false;                 // while set, acquiring an image always times out
-  std::uint64_t waited_ns = 0;             // total wait for images that did not come
-  std::vector<VkSemaphore> acquired_with;  // semaphores of all acquisitions, in order
+  std::uint64_t waited_ns = 0;             // [ns] total timeout of acquisitions that timed out
+  std::vector<VkSemaphore> acquired_with;  // semaphores passed to all acquisitions, in order
 };
 extern InjectedFaults injected_faults;
 

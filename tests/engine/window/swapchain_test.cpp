@@ -24,7 +24,7 @@ namespace {
 constexpr int kWidth = 160, kHeight = 90;
 using Rgb = std::array<int, 3>;
 
-// Four quarters of one colour each, which reveal scale, position and orientation.
+// Colours of the four quarters of a picture, which reveal its scale, position and orientation.
 constexpr std::array<Rgb, 4> kQuarters{{{200, 30, 40}, {20, 180, 60}, {30, 60, 220}, {230, 200, 20}}};
 
 Image four_quarters() {
@@ -54,7 +54,7 @@ GpuConfig for_window() {
   return config;
 }
 
-// A window that presents a picture with two layers: four quarters, and grey.
+// A window that presents a picture with two layers, one with four coloured quarters and one plain grey.
 class PictureWindow {
  public:
   explicit PictureWindow(bool vsync = true) : fixture_(for_window()), swapchain_(gpu(), window, vsync), ring_(gpu()) {
@@ -145,7 +145,7 @@ bool shows_picture(const Image& image, int width, int height) {
 
 }  // namespace
 
-TEST_CASE("a picture is as large as its part allows, centred, with its aspect kept") {
+TEST_CASE("a picture is as large as its part of the window allows, centred, with its aspect kept") {
   const VkExtent2D picture{1600, 900};
   const auto is = [](VkRect2D r, int x, int y, std::uint32_t w, std::uint32_t h) {
     return r.offset.x == x && r.offset.y == y && r.extent.width == w && r.extent.height == h;
@@ -156,18 +156,18 @@ TEST_CASE("a picture is as large as its part allows, centred, with its aspect ke
   CHECK(is(placement_of({.from = 0.0f, .to = 0.5f}, picture, {1600, 900}), 0, 225, 800, 450));
   CHECK(is(placement_of({.from = 0.5f, .to = 1.0f}, picture, {1600, 900}), 800, 225, 800, 450));
   std::mt19937 random(2);
-  for (int i = 0; i < 2000; ++i) {  // never outside the window, whatever its size
+  for (int i = 0; i < 2000; ++i) {  // the placement is never outside the window, whatever its size
     const VkExtent2D window{1 + static_cast<std::uint32_t>(random() % 50),
                             1 + static_cast<std::uint32_t>(random() % 50)};
     const float cut = static_cast<float>(random() % 101) / 100.0f;
     for (const ShownLayer& layer : {ShownLayer{0, 0.0f, cut}, ShownLayer{1, cut, 1.0f}}) {
-      const VkRect2D place = placement_of(layer, picture, window);
-      CHECK(place.offset.x >= 0);
-      CHECK(place.offset.y >= 0);
-      CHECK(place.extent.width >= 1);
-      CHECK(place.extent.height >= 1);
-      CHECK(static_cast<std::uint32_t>(place.offset.x) + place.extent.width <= window.width);
-      CHECK(static_cast<std::uint32_t>(place.offset.y) + place.extent.height <= window.height);
+      const VkRect2D rect = placement_of(layer, picture, window);
+      CHECK(rect.offset.x >= 0);
+      CHECK(rect.offset.y >= 0);
+      CHECK(rect.extent.width >= 1);
+      CHECK(rect.extent.height >= 1);
+      CHECK(static_cast<std::uint32_t>(rect.offset.x) + rect.extent.width <= window.width);
+      CHECK(static_cast<std::uint32_t>(rect.offset.y) + rect.extent.height <= window.height);
     }
   }
 }
@@ -177,7 +177,7 @@ TEST_CASE("a picture of the window's size is shown byte for byte") {
     PictureWindow shown(vsync);
     shown.server.resize(shown.id, kWidth, kHeight);
     const Image expected = four_quarters();
-    CHECK(shown.eventually_shows([&](const Image& seen) { return seen.rgba == expected.rgba; }));
+    CHECK(shown.eventually_shows([&](const Image& screen) { return screen.rgba == expected.rgba; }));
     CHECK(shown.swapchain().extent().width == kWidth);
   }
 }
@@ -185,21 +185,23 @@ TEST_CASE("a picture of the window's size is shown byte for byte") {
 TEST_CASE("a scaled picture keeps its aspect, and the rest is black") {
   PictureWindow shown;
   shown.server.resize(shown.id, 500, 180);
-  CHECK(shown.eventually_shows([](const Image& seen) {
-    return shows_picture(seen, 500, 180) && is_colour(seen, 40, 90, {0, 0, 0}) && is_colour(seen, 460, 90, {0, 0, 0});
+  CHECK(shown.eventually_shows([](const Image& screen) {
+    return shows_picture(screen, 500, 180) && is_colour(screen, 40, 90, {0, 0, 0}) &&
+           is_colour(screen, 460, 90, {0, 0, 0});
   }));
   shown.server.resize(shown.id, 160, 300);
-  CHECK(shown.eventually_shows([](const Image& seen) {
-    return shows_picture(seen, 160, 300) && is_colour(seen, 80, 50, {0, 0, 0}) && is_colour(seen, 80, 250, {0, 0, 0});
+  CHECK(shown.eventually_shows([](const Image& screen) {
+    return shows_picture(screen, 160, 300) && is_colour(screen, 80, 50, {0, 0, 0}) &&
+           is_colour(screen, 80, 250, {0, 0, 0});
   }));
 }
 
-TEST_CASE("two layers lie side by side") {
+TEST_CASE("two layers are shown side by side") {
   PictureWindow shown;
   shown.layers = {{.layer = 0, .from = 0.0f, .to = 0.5f}, {.layer = 1, .from = 0.5f, .to = 1.0f}};
-  CHECK(shown.eventually_shows([](const Image& seen) {
-    return shows_quarters(seen, 0, 45, 160, 90) && is_colour(seen, 240, 90, {90, 90, 90}) &&
-           is_colour(seen, 240, 20, {0, 0, 0});
+  CHECK(shown.eventually_shows([](const Image& screen) {
+    return shows_quarters(screen, 0, 45, 160, 90) && is_colour(screen, 240, 90, {90, 90, 90}) &&
+           is_colour(screen, 240, 20, {0, 0, 0});
   }));
 }
 
@@ -230,12 +232,12 @@ TEST_CASE("a hundred sizes, sometimes minimised: each is shown, validation is si
     CHECK(extent.width == static_cast<std::uint32_t>(width));
     CHECK(extent.height == static_cast<std::uint32_t>(height));
   }
-  CHECK(shown.swapchain().rebuilt() >= 100);
-  CHECK(shown.eventually_shows([&](const Image& seen) { return shows_picture(seen, width, height); }));
+  CHECK(shown.swapchain().rebuild_count() >= 100);
+  CHECK(shown.eventually_shows([&](const Image& screen) { return shows_picture(screen, width, height); }));
   CHECK(shown.gpu().allocated() == before);
 }
 
-TEST_CASE("resized while it draws, by another program, the window shows the last size in the end") {
+TEST_CASE("a window that another program resizes while it draws shows the last size in the end") {
   PictureWindow shown;
   std::atomic<bool> done = false;
   std::thread other([&] {
@@ -252,29 +254,29 @@ TEST_CASE("resized while it draws, by another program, the window shows the last
   while (!done) presented += shown.frame();
   other.join();
   CHECK(presented > 0);
-  CHECK(shown.eventually_shows([](const Image& seen) { return shows_picture(seen, 480, 270); }));
+  CHECK(shown.eventually_shows([](const Image& screen) { return shows_picture(screen, 480, 270); }));
 }
 
 TEST_CASE("all results for a surface are handled: out of date, suboptimal, lost, timeout") {
   PictureWindow shown;
   REQUIRE(shown.frame_within(10));
-  for (const VkResult answer : {VK_ERROR_OUT_OF_DATE_KHR, VK_SUBOPTIMAL_KHR, VK_ERROR_SURFACE_LOST_KHR}) {
-    const std::uint64_t before = shown.swapchain().rebuilt();
-    injected_faults.next_acquire = answer;
-    CHECK(shown.frame() == (answer == VK_SUBOPTIMAL_KHR));
+  for (const VkResult result : {VK_ERROR_OUT_OF_DATE_KHR, VK_SUBOPTIMAL_KHR, VK_ERROR_SURFACE_LOST_KHR}) {
+    const std::uint64_t before = shown.swapchain().rebuild_count();
+    injected_faults.next_acquire = result;
+    CHECK(shown.frame() == (result == VK_SUBOPTIMAL_KHR));
     CHECK(shown.frame());
-    CHECK(shown.swapchain().rebuilt() == before + 1);
-    injected_faults.next_present = answer;
+    CHECK(shown.swapchain().rebuild_count() == before + 1);
+    injected_faults.next_present = result;
     CHECK(shown.frame());
     CHECK(shown.frame());
-    CHECK(shown.swapchain().rebuilt() == before + 2);
+    CHECK(shown.swapchain().rebuild_count() == before + 2);
   }
-  const std::uint64_t before = shown.swapchain().rebuilt();
+  const std::uint64_t before = shown.swapchain().rebuild_count();
   injected_faults.next_acquire = VK_TIMEOUT;
   CHECK_FALSE(shown.frame());
   CHECK(shown.frame());
-  CHECK(shown.swapchain().rebuilt() == before);
-  CHECK(shown.eventually_shows([](const Image& seen) { return shows_picture(seen, 320, 180); }));
+  CHECK(shown.swapchain().rebuild_count() == before);
+  CHECK(shown.eventually_shows([](const Image& screen) { return shows_picture(screen, 320, 180); }));
 }
 
 TEST_CASE("a surface lost while its images are recreated is recreated with them") {
@@ -285,25 +287,25 @@ TEST_CASE("a surface lost while its images are recreated is recreated with them"
     REQUIRE(shown.frame());
     injected_faults.*call = VK_ERROR_SURFACE_LOST_KHR;
     CHECK_FALSE(shown.frame());
-    CHECK(shown.eventually_shows([](const Image& seen) { return shows_picture(seen, 320, 180); }));
+    CHECK(shown.eventually_shows([](const Image& screen) { return shows_picture(screen, 320, 180); }));
   }
 }
 
-TEST_CASE("a surface without extent is polled, and used again when it has one") {
+TEST_CASE("a surface without extent is polled, and used again once it has one") {
   PictureWindow shown;
   REQUIRE(shown.frame_within(10));
-  const std::uint64_t before = shown.swapchain().rebuilt();
+  const std::uint64_t before = shown.swapchain().rebuild_count();
   injected_faults.no_extent = true;
   shown.server.resize(shown.id, 400, 300);
   while (shown.window.framebuffer() != glm::ivec2(400, 300)) shown.window.poll();
   for (int i = 0; i < 3; ++i) CHECK_FALSE(shown.frame());
   injected_faults.no_extent = false;
   CHECK(shown.frame());
-  CHECK(shown.swapchain().rebuilt() == before + 1);
+  CHECK(shown.swapchain().rebuild_count() == before + 1);
 }
 
 // VUID-vkAcquireNextImageKHR-semaphore-01779: the semaphore of an acquisition must not have a pending wait. If the
-// acquisition failed, its semaphore has none, but earlier ones may.
+// acquisition failed, its semaphore has no pending wait; those of earlier acquisitions may have one.
 TEST_CASE("an acquisition that failed is tried again with the same semaphore") {
   PictureWindow shown;
   REQUIRE(shown.frame_within(10));
@@ -333,5 +335,5 @@ TEST_CASE("a lost device throws GpuLost; recreated window, device and swapchain 
     CHECK_THROWS_AS(shown.frame(), GpuLost);
   }
   PictureWindow shown;
-  CHECK(shown.eventually_shows([](const Image& seen) { return shows_picture(seen, 320, 180); }));
+  CHECK(shown.eventually_shows([](const Image& screen) { return shows_picture(screen, 320, 180); }));
 }

@@ -75,17 +75,17 @@ TEST_CASE("a window has the requested size and title, follows a resize, and repo
   server.resize(id, 333, 222);
   CHECK(becomes_true(window, [&](const auto&) { return window.framebuffer() == glm::ivec2(333, 222); }));
   CHECK_FALSE(window.wants_close());
-  server.ask_to_close(id);
+  server.request_close(id);
   CHECK(becomes_true(window, [&](const auto&) { return window.wants_close(); }));
 }
 
-TEST_CASE("poll does not wait; minimised, in whichever way, the framebuffer is empty and polls are 20 a second") {
+TEST_CASE("poll() does not wait; minimised in either way, the framebuffer is empty and polls are 20 per second") {
   XServer server;
   gearshift::engine::Window window(400, 300, "minimised");
   window.poll();
   const ::Window id = server.find("minimised");
   REQUIRE(id != 0);
-  const auto ten_polls = [&] {  // best of three, because other processes may cause waits
+  const auto ten_polls = [&] {  // [s] best of three, because other processes may cause waits
     double best = 1e9;
     for (int attempt = 0; attempt < 3; ++attempt) {
       best = std::min(best, seconds_of([&] {
@@ -109,7 +109,7 @@ TEST_CASE("poll does not wait; minimised, in whichever way, the framebuffer is e
   CHECK(ten_polls() < 0.25);
 }
 
-TEST_CASE("the mouse is where it was put, in pixels of the window; what it moved adds up") {
+TEST_CASE("the mouse position is in pixels of the window, and its movements add up") {
   XServer server;
   gearshift::engine::Window window(400, 300, "mouse");
   window.poll();
@@ -127,7 +127,7 @@ TEST_CASE("the mouse is where it was put, in pixels of the window; what it moved
   CHECK(window.poll().mouse_moved == glm::dvec2(0.0));
 }
 
-TEST_CASE("a click shorter than a frame is seen for one poll; a held button until it is let go") {
+TEST_CASE("a click shorter than a frame is reported by one poll; a held button is reported until released") {
   XServer server;
   gearshift::engine::Window window(400, 300, "click");
   window.poll();
@@ -151,7 +151,7 @@ TEST_CASE("a click shorter than a frame is seen for one poll; a held button unti
   CHECK(scrolled == glm::dvec2(0, 1));
 }
 
-TEST_CASE("keys come as events, in order, with what was held beside them; text as characters") {
+TEST_CASE("keys arrive as events, in order, with their modifiers; text arrives as characters") {
   XServer server;
   gearshift::engine::Window window(400, 300, "keys");
   REQUIRE(becomes_true(window, [](const auto& in) { return in.focused; }));
@@ -179,7 +179,7 @@ TEST_CASE("keys come as events, in order, with what was held beside them; text a
   CHECK(window.poll().keys.empty());
 }
 
-TEST_CASE("a captured mouse moves without end, past the edge of the screen, and comes back where it was") {
+TEST_CASE("a captured mouse moves past the edge of the screen, and is released where it was captured") {
   XServer server;
   gearshift::engine::Window window(400, 300, "captured");
   REQUIRE(becomes_true(window, [](const auto& in) { return in.focused; }));
@@ -197,7 +197,7 @@ TEST_CASE("a captured mouse moves without end, past the edge of the screen, and 
     moved += in.mouse_moved;
     return moved.x >= 3000.0;
   });
-  CHECK(moved == glm::dvec2(3000, 0));  // the screen is 1280 wide
+  CHECK(moved == glm::dvec2(3000, 0));  // far beyond the screen, which is 1280 px wide
   CHECK(window.poll().mouse == glm::dvec2(200, 150));
   window.capture_mouse(false);
   moved = glm::dvec2(0.0);
@@ -209,7 +209,7 @@ TEST_CASE("a captured mouse moves without end, past the edge of the screen, and 
   CHECK(moved == glm::dvec2(10, 0));  // the jump of the pointer back is not a mouse movement
 }
 
-TEST_CASE("full screen covers the monitor, and back the window is what it was") {
+TEST_CASE("full screen covers the monitor; afterwards the window is as it was before") {
   XServer server;
   gearshift::engine::Window window(400, 300, "full");
   window.poll();

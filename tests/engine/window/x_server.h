@@ -18,7 +18,7 @@ namespace gearshift::test {
 class XServer {
  public:
   XServer() : display_(XOpenDisplay(nullptr)) {
-    // Xvfb resets when its last client disconnects
+    // One connection stays open, because Xvfb resets when its last client disconnects.
     [[maybe_unused]] static Display* const keep_server_alive = XOpenDisplay(nullptr);
     REQUIRE_MESSAGE(display_ != nullptr,
                     "this test needs an X server: xvfb-run -a -s \"-screen 0 1280x720x24\" PROGRAM");
@@ -27,7 +27,7 @@ class XServer {
   XServer(const XServer&) = delete;
   XServer& operator=(const XServer&) = delete;
 
-  // The window with that title, 0 if there is none.
+  // Returns the window with that title; 0 if there is none.
   ::Window find(const std::string& title) const {
     ::Window root = 0, parent = 0, *children = nullptr, found = 0;
     unsigned int count = 0;
@@ -50,7 +50,7 @@ class XServer {
     XMoveWindow(display_, window, x, y);
     XSync(display_, False);
   }
-  // Like a window manager that minimises by unmapping the window, and maps it again.
+  // unmap() and map() minimise and restore the window like a window manager that unmaps minimised windows.
   void unmap(::Window window) {
     XUnmapWindow(display_, window);
     XSync(display_, False);
@@ -59,7 +59,8 @@ class XServer {
     XMapWindow(display_, window);
     XSync(display_, False);
   }
-  // Like a window manager that keeps it mapped: ICCCM 4.1.3.1, WM_STATE is Iconic (3) or Normal (1).
+  // Minimises or restores the window like a window manager that keeps minimised windows mapped: ICCCM 4.1.3.1, WM_STATE
+  // is Iconic (3) or Normal (1).
   void set_iconic(::Window window, bool iconic) {
     const Atom state = XInternAtom(display_, "WM_STATE", False);
     const long value[2] = {iconic ? 3L : 1L, 0L};
@@ -67,7 +68,7 @@ class XServer {
                     2);
     XSync(display_, False);
   }
-  void ask_to_close(::Window window) {
+  void request_close(::Window window) {
     XEvent event{};
     event.xclient.type = ClientMessage;
     event.xclient.window = window;
@@ -78,20 +79,20 @@ class XServer {
     XSync(display_, False);
   }
 
-  // The window's content on the screen.
+  // Returns the window's content on the screen.
   engine::Image picture(::Window window) const {
     XWindowAttributes at;
     REQUIRE(XGetWindowAttributes(display_, window, &at) != 0);
-    XImage* seen = XGetImage(display_, window, 0, 0, static_cast<unsigned>(at.width), static_cast<unsigned>(at.height),
-                             AllPlanes, ZPixmap);
-    REQUIRE(seen != nullptr);
+    XImage* screenshot = XGetImage(display_, window, 0, 0, static_cast<unsigned>(at.width),
+                                   static_cast<unsigned>(at.height), AllPlanes, ZPixmap);
+    REQUIRE(screenshot != nullptr);
     engine::Image image{.width = at.width, .height = at.height, .rgba = {}};
     for (int i = 0; i < at.width * at.height; ++i) {
-      const unsigned long pixel = XGetPixel(seen, i % at.width, i / at.width);
+      const unsigned long pixel = XGetPixel(screenshot, i % at.width, i / at.width);
       for (const int shift : {16, 8, 0}) image.rgba.push_back(static_cast<std::uint8_t>(pixel >> shift));
       image.rgba.push_back(255);
     }
-    XDestroyImage(seen);
+    XDestroyImage(screenshot);
     return image;
   }
 

@@ -49,7 +49,7 @@ TEST_CASE("inputs reach the actions that are bound to them") {
   CHECK(stick.currentState.y == 0.125f);
 
   program.run(3);
-  CHECK(controls.read_float(controls.pull, 0).currentState == 0.25f);  // until the next sync
+  CHECK(controls.read_float(controls.pull, 0).currentState == 0.25f);  // the old value, until the next sync
   REQUIRE(controls.sync() == XR_SUCCESS);
   const XrActionStateFloat pulled = controls.read_float(controls.pull, 0);
   CHECK(pulled.currentState == 0.75f);
@@ -74,7 +74,7 @@ TEST_CASE("inputs reach the actions that are bound to them") {
   CHECK(xr.record.violations.empty());
 }
 
-TEST_CASE("without focus nothing is active; other controllers come with a sync") {
+TEST_CASE("without focus no action is active; changed controllers appear with the next sync") {
   Control& xr = control();
   xr.start();
   xr.script.timeline = {visible(0.06), focused(0.08), change_profile(0.12, kSimpleController),

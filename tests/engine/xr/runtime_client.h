@@ -1,5 +1,5 @@
-// A program that uses OpenXR correctly, through the real loader. The tests of the test runtime deviate from it at
-// chosen points. It draws by clearing. Vulkan's validation also checks the runtime's own commands.
+// A program that uses OpenXR correctly, through the real loader. The tests of the test runtime make it deviate from the
+// rules at chosen points. It draws by clearing images. Vulkan's validation also checks the runtime's own commands.
 #pragma once
 
 #include <time.h>
@@ -46,8 +46,8 @@ class Machine {
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.enabledExtensionNames = extensions.data();
     REQUIRE(xrCreateInstance(&info, &instance) == XR_SUCCESS);
-    const XrSystemGetInfo wanted{XR_TYPE_SYSTEM_GET_INFO, nullptr, XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
-    REQUIRE(xrGetSystem(instance, &wanted, &system) == XR_SUCCESS);
+    const XrSystemGetInfo system_info{XR_TYPE_SYSTEM_GET_INFO, nullptr, XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
+    REQUIRE(xrGetSystem(instance, &system_info, &system) == XR_SUCCESS);
   }
   ~Machine() {
     if (instance != XR_NULL_HANDLE) xrDestroyInstance(instance);
@@ -65,18 +65,19 @@ class Machine {
   Machine(const Machine&) = delete;
   Machine& operator=(const Machine&) = delete;
 
-  void ask_requirements() const {
+  void get_requirements() const {
     XrGraphicsRequirementsVulkan2KHR requirements{XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR};
-    const auto ask =
+    const auto get_graphics_requirements =
         xr_function<PFN_xrGetVulkanGraphicsRequirements2KHR>(instance, "xrGetVulkanGraphicsRequirements2KHR");
-    REQUIRE(ask(instance, system, &requirements) == XR_SUCCESS);
+    REQUIRE(get_graphics_requirements(instance, system, &requirements) == XR_SUCCESS);
   }
 
   void open_vulkan() {
     open_vulkan_instance();
     const XrVulkanGraphicsDeviceGetInfoKHR get{XR_TYPE_VULKAN_GRAPHICS_DEVICE_GET_INFO_KHR, nullptr, system, vulkan};
-    const auto which = xr_function<PFN_xrGetVulkanGraphicsDevice2KHR>(instance, "xrGetVulkanGraphicsDevice2KHR");
-    REQUIRE(which(instance, &get, &physical) == XR_SUCCESS);
+    const auto get_graphics_device =
+        xr_function<PFN_xrGetVulkanGraphicsDevice2KHR>(instance, "xrGetVulkanGraphicsDevice2KHR");
+    REQUIRE(get_graphics_device(instance, &get, &physical) == XR_SUCCESS);
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queues{
         .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
@@ -100,7 +101,8 @@ class Machine {
     return {XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR, nullptr, vulkan, physical, device, 0, 0};
   }
 
-  // Clears a whole image to one colour or depth (red). Starts and ends in the promised layout, and waits.
+  // Clears a whole image to one colour, or to the depth value[0]. Before and after, the image has the layout that
+  // OpenXR prescribes. Waits for the GPU.
   void clear(VkImage image, bool depth, std::array<float, 4> value) const;
 
   XrInstance instance = XR_NULL_HANDLE;
@@ -111,11 +113,11 @@ class Machine {
   VkQueue queue = VK_NULL_HANDLE;
   VkCommandPool pool = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-  std::vector<std::string> messages;  // of Vulkan's validation
+  std::vector<std::string> messages;  // messages from Vulkan's validation layer
 
  private:
-  static VkBool32 VKAPI_CALL listen(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
+  static VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                        const VkDebugUtilsMessengerCallbackDataEXT* data, void* self) {
     static_cast<Machine*>(self)->messages.emplace_back(data->pMessage);
     return VK_FALSE;
   }
@@ -143,7 +145,7 @@ class Machine {
         .messageSeverity =
             VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
         .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
-        .pfnUserCallback = listen,
+        .pfnUserCallback = on_message,
         .pUserData = this};
     REQUIRE(reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
                 vulkan, "vkCreateDebugUtilsMessengerEXT"))(vulkan, &messenger_info, nullptr, &messenger) == VK_SUCCESS);
@@ -203,7 +205,7 @@ class Client : public Machine {
   static constexpr std::uint32_t kWidth = 64, kHeight = 48;
 
   Client() {
-    ask_requirements();
+    get_requirements();
     open_vulkan();
     const XrGraphicsBindingVulkan2KHR vulkan_binding = binding();
     const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, &vulkan_binding, 0, system};
@@ -212,7 +214,7 @@ class Client : public Machine {
     eyes = chain(VK_FORMAT_R8G8B8A8_SRGB, XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT, 2);
     depth = chain(VK_FORMAT_D32_SFLOAT, XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, 2);
     panel = chain(VK_FORMAT_B8G8R8A8_UNORM, XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT, 1);
-    fit();
+    set_up_layers();
   }
   ~Client() { close(); }
 
@@ -249,15 +251,15 @@ class Client : public Machine {
 
   Chain chain(std::int64_t format, XrSwapchainUsageFlags usage, std::uint32_t slices) const {
     const XrSwapchainCreateInfo info = chain_info(format, usage, slices);
-    Chain made;
-    REQUIRE(xrCreateSwapchain(session, &info, &made.handle) == XR_SUCCESS);
+    Chain created;
+    REQUIRE(xrCreateSwapchain(session, &info, &created.handle) == XR_SUCCESS);
     std::uint32_t count = 0;
-    REQUIRE(xrEnumerateSwapchainImages(made.handle, 0, &count, nullptr) == XR_SUCCESS);
+    REQUIRE(xrEnumerateSwapchainImages(created.handle, 0, &count, nullptr) == XR_SUCCESS);
     std::vector<XrSwapchainImageVulkan2KHR> images(count, {XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR});
-    REQUIRE(xrEnumerateSwapchainImages(made.handle, count, &count,
+    REQUIRE(xrEnumerateSwapchainImages(created.handle, count, &count,
                                        reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data())) == XR_SUCCESS);
-    for (const auto& image : images) made.images.push_back(image.image);
-    return made;
+    for (const auto& image : images) created.images.push_back(image.image);
+    return created;
   }
 
   // Returns the session states that the runtime reported, in order.
@@ -330,8 +332,8 @@ class Client : public Machine {
     return xrEndFrame(session, &info);
   }
 
-  // One frame, drawn if it should be rendered.
-  void whole_frame() {
+  // Runs one frame, and draws it if the runtime asks for that.
+  void run_frame() {
     REQUIRE(wait() == XR_SUCCESS);
     REQUIRE(begin_frame() == XR_SUCCESS);
     REQUIRE(locate() == XR_SUCCESS);
@@ -342,7 +344,7 @@ class Client : public Machine {
   void run(int frames) {
     for (int i = 0; i < frames; ++i) {
       poll();
-      whole_frame();
+      run_frame();
     }
     poll();
   }
@@ -368,7 +370,7 @@ class Client : public Machine {
   std::function<void(const XrEventDataBuffer&)> on_event;
 
  private:
-  void fit() {
+  void set_up_layers() {
     const XrRect2Di all{{0, 0}, {static_cast<int>(kWidth), static_cast<int>(kHeight)}};
     for (std::uint32_t eye = 0; eye < 2; ++eye) {
       depths[eye] = {

@@ -14,9 +14,9 @@ inline constexpr const char* kTouchController = "/interaction_profiles/oculus/to
 inline constexpr const char* kSimpleController = "/interaction_profiles/khr/simple_controller";
 
 inline XrPath path(XrInstance instance, const std::string& text) {
-  XrPath made = XR_NULL_PATH;
-  REQUIRE(xrStringToPath(instance, text.c_str(), &made) == XR_SUCCESS);
-  return made;
+  XrPath created = XR_NULL_PATH;
+  REQUIRE(xrStringToPath(instance, text.c_str(), &created) == XR_SUCCESS);
+  return created;
 }
 
 inline XrActionSetCreateInfo set_info(const char* name, const char* localized) {
@@ -51,9 +51,9 @@ struct Controls {
     XrActionCreateInfo info = action_info(name, name, type);
     info.countSubactionPaths = 2;
     info.subactionPaths = hands;
-    XrAction made = XR_NULL_HANDLE;
-    REQUIRE(xrCreateAction(set, &info, &made) == XR_SUCCESS);
-    return made;
+    XrAction created = XR_NULL_HANDLE;
+    REQUIRE(xrCreateAction(set, &info, &created) == XR_SUCCESS);
+    return created;
   }
 
   XrResult suggest(const char* profile, const std::vector<std::pair<XrAction, std::string>>& bindings) const {

@@ -1,4 +1,4 @@
-// The OpenXR test runtime in a separate program: the script is a file, and so are the results.
+// The OpenXR test runtime in a separate program: the script and the results are files.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -88,7 +88,7 @@ TEST_CASE("script keys set the control's fields, and an unknown key is rejected"
   CHECK(script.fov[0].up == doctest::Approx(41 * kDegree));
   CHECK(script.fov[1].up == doctest::Approx(44 * kDegree));
   REQUIRE(script.timeline.size() == 1);
-  CHECK(script.timeline[0].what == Event::What::exit);
+  CHECK(script.timeline[0].kind == Event::Kind::exit);
   const auto& pull = script.inputs.at("/user/hand/left/input/trigger/value");
   CHECK(pull(0.4) == 0.0);
   CHECK(pull(0.5) == 0.25);

@@ -16,7 +16,7 @@ TEST_CASE("a correct program violates no rule and leaves no objects") {
     REQUIRE(program.begin() == XR_SUCCESS);
     States states;
     for (int i = 0; i < 4; ++i) {
-      program.whole_frame();
+      program.run_frame();
       for (const XrSessionState one : program.poll()) states.push_back(one);
     }
     CHECK(states == States{XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_VISIBLE, XR_SESSION_STATE_FOCUSED});
@@ -53,7 +53,7 @@ TEST_CASE("a correct program violates no rule and leaves no objects") {
   CHECK(quad.pose.position.z == -1.0);
   REQUIRE(!quad.picture.rgba.empty());
   const std::uint8_t* const green = quad.picture.pixel(0, 0);
-  CHECK(std::vector<int>(green, green + 4) == std::vector{0, 255, 0, 128});  // BGRA in the image
+  CHECK(std::vector<int>(green, green + 4) == std::vector{0, 255, 0, 128});  // stored as BGRA in the image
   CHECK(xr.record.frames[2].projection()->views[0].picture.rgba.empty());
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 struct PlantedViolation {
   const char* rule;
-  std::function<XrResult()> act;  // the violating call, and its result
+  std::function<XrResult()> act;  // makes the violating call and returns its result
 };
 
 // Violations recorded before the program is destroyed.
@@ -40,8 +40,8 @@ PlantedViolation focused_session(const char* rule, Act act) {
 }
 PlantedViolation controls(const char* rule, XrResult (*act)(Client&, Controls&)) {
   return focused_session(rule, [=](Client& program) {
-    Controls made(program);
-    return act(program, made);
+    Controls created(program);
+    return act(program, created);
   });
 }
 // A correctly drawn frame that is submitted after `corrupt` has modified it.
@@ -58,8 +58,8 @@ PlantedViolation submitted(const char* rule, void (*corrupt)(Client&)) {
 
 XrResult create_session(const Machine& program, const void* binding) {
   const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, binding, 0, program.system};
-  XrSession made = XR_NULL_HANDLE;
-  return xrCreateSession(program.instance, &info, &made);
+  XrSession created = XR_NULL_HANDLE;
+  return xrCreateSession(program.instance, &info, &created);
 }
 
 XrResult get_system(const Machine& program, XrSystemGetInfo info, bool with_id = true) {
@@ -69,14 +69,14 @@ XrResult get_system(const Machine& program, XrSystemGetInfo info, bool with_id =
 constexpr XrSystemGetInfo kHeadset{XR_TYPE_SYSTEM_GET_INFO, nullptr, XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
 
 XrResult create_swapchain(const Client& program, XrSwapchainCreateInfo info) {
-  XrSwapchain made = XR_NULL_HANDLE;
-  return xrCreateSwapchain(program.session, &info, &made);
+  XrSwapchain created = XR_NULL_HANDLE;
+  return xrCreateSwapchain(program.session, &info, &created);
 }
 
 XrResult create_set(const Machine& program, const char* name, const char* localized) {
   const XrActionSetCreateInfo info = set_info(name, localized);
-  XrActionSet made = XR_NULL_HANDLE;
-  return xrCreateActionSet(program.instance, &info, &made);
+  XrActionSet created = XR_NULL_HANDLE;
+  return xrCreateActionSet(program.instance, &info, &created);
 }
 
 XrSwapchainCreateInfo colour_info() {
@@ -151,12 +151,12 @@ const std::vector<PlantedViolation>& life() {
               }),
       machine("graphics_binding",
               [](Machine& program) {
-                program.ask_requirements();
+                program.get_requirements();
                 return create_session(program, nullptr);
               }),
       machine("graphics_binding",
               [](Machine& program) {
-                program.ask_requirements();
+                program.get_requirements();
                 program.open_vulkan();
                 XrGraphicsBindingVulkan2KHR binding = program.binding();
                 binding.physicalDevice = VK_NULL_HANDLE;
@@ -215,7 +215,7 @@ const std::vector<PlantedViolation>& frames() {
       submitted("layer_type", [](Client& program) { program.layers[1] = nullptr; }),
       submitted("layer_type",
                 [](Client& program) {
-                  // belongs to an extension that is not enabled
+                  // This layer type belongs to an extension that is not enabled.
                   program.quad.type = XR_TYPE_COMPOSITION_LAYER_CYLINDER_KHR;
                 }),
       submitted("view_count", [](Client& program) { program.projection.viewCount = 1; }),
@@ -320,13 +320,13 @@ const std::vector<PlantedViolation>& names() {
   static const std::vector<PlantedViolation> cases{
       machine("path_format",
               [](Machine& program) {
-                XrPath made = XR_NULL_PATH;
-                return xrStringToPath(program.instance, "/User/hand", &made);
+                XrPath created = XR_NULL_PATH;
+                return xrStringToPath(program.instance, "/User/hand", &created);
               }),
       machine("path_format",
               [](Machine& program) {
-                XrPath made = XR_NULL_PATH;
-                return xrStringToPath(program.instance, "/user/hand/", &made);
+                XrPath created = XR_NULL_PATH;
+                return xrStringToPath(program.instance, "/user/hand/", &created);
               }),
       machine("path_known",
               [](Machine& program) {
@@ -352,50 +352,50 @@ const std::vector<PlantedViolation>& names() {
 const std::vector<PlantedViolation>& actions() {
   static const std::vector<PlantedViolation> cases{
       controls("binding_path",
-               [](Client&, Controls& made) {
-                 return made.suggest(kSimpleController, {{made.pull, "/user/hand/left/input/trigger/value"}});
+               [](Client&, Controls& created) {
+                 return created.suggest(kSimpleController, {{created.pull, "/user/hand/left/input/trigger/value"}});
                }),
       controls("subaction_path",
-               [](Client& program, Controls& made) {
-                 made.suggest_all();
-                 made.attach();
-                 made.sync();
-                 XrActionStateGetInfo info = made.get(made.pull, 0);
+               [](Client& program, Controls& created) {
+                 created.suggest_all();
+                 created.attach();
+                 created.sync();
+                 XrActionStateGetInfo info = created.get(created.pull, 0);
                  info.subactionPath = path(program.instance, "/user/head");
                  XrActionStateFloat state{XR_TYPE_ACTION_STATE_FLOAT};
                  return xrGetActionStateFloat(program.session, &info, &state);
                }),
       controls("suggest_before_attach",
-               [](Client&, Controls& made) {
-                 made.attach();
-                 return made.suggest_all();
+               [](Client&, Controls& created) {
+                 created.attach();
+                 return created.suggest_all();
                }),
       controls("action_before_attach",
-               [](Client&, Controls& made) {
-                 made.attach();
+               [](Client&, Controls& created) {
+                 created.attach();
                  const XrActionCreateInfo info = action_info("late", "Late", XR_ACTION_TYPE_BOOLEAN_INPUT);
                  XrAction late = XR_NULL_HANDLE;
-                 return xrCreateAction(made.set, &info, &late);
+                 return xrCreateAction(created.set, &info, &late);
                }),
       controls("attach_once",
-               [](Client&, Controls& made) {
-                 made.attach();
-                 return made.attach();
+               [](Client&, Controls& created) {
+                 created.attach();
+                 return created.attach();
                }),
-      controls("set_attached", [](Client&, Controls& made) { return made.sync(); }),
+      controls("set_attached", [](Client&, Controls& created) { return created.sync(); }),
       controls("action_type",
-               [](Client& program, Controls& made) {
-                 made.attach();
-                 made.sync();
-                 const XrActionStateGetInfo info = made.get(made.pull, 0);
+               [](Client& program, Controls& created) {
+                 created.attach();
+                 created.sync();
+                 const XrActionStateGetInfo info = created.get(created.pull, 0);
                  XrActionStateBoolean state{XR_TYPE_ACTION_STATE_BOOLEAN};
                  return xrGetActionStateBoolean(program.session, &info, &state);
                }),
       controls("haptic",
-               [](Client&, Controls& made) {
-                 made.suggest_all();
-                 made.attach();
-                 return made.pulse(1.5f, made.buzz, 1);
+               [](Client&, Controls& created) {
+                 created.suggest_all();
+                 created.attach();
+                 return created.pulse(1.5f, created.buzz, 1);
                }),
   };
   return cases;

@@ -15,7 +15,7 @@ TimelineStates run_until(Client& program, XrSessionState state) {
   TimelineStates all;
   for (int i = 0; i < 100 && program.state != state; ++i) {
     for (const XrSessionState one : program.poll()) all.push_back(one);
-    if (program.state != state) program.whole_frame();
+    if (program.state != state) program.run_frame();
   }
   REQUIRE(program.state == state);
   return all;
@@ -67,7 +67,7 @@ TEST_CASE("a menu, a headset taken off and put on, and the exit: each in a legal
   CHECK(run_until(program, XR_SESSION_STATE_FOCUSED) == TimelineStates{XR_SESSION_STATE_FOCUSED});
   CHECK(run_until(program, XR_SESSION_STATE_SYNCHRONIZED) ==
         TimelineStates{XR_SESSION_STATE_VISIBLE, XR_SESSION_STATE_SYNCHRONIZED});
-  program.whole_frame();
+  program.run_frame();
   CHECK_FALSE(xr.record.frames.back().should_render);
   run_until(program, XR_SESSION_STATE_STOPPING);
   REQUIRE(xrEndSession(program.session) == XR_SUCCESS);
@@ -173,9 +173,9 @@ TEST_CASE("a planted failure occurs at its call, and leaks are reported") {
     Client program;
     program.poll();
     program.begin();
-    program.whole_frame();
+    program.run_frame();
     CHECK(program.wait() == XR_ERROR_RUNTIME_FAILURE);
-    program.whole_frame();
+    program.run_frame();
     std::uint32_t index = 0;
     CHECK(xrAcquireSwapchainImage(program.eyes.handle, nullptr, &index) == XR_ERROR_SESSION_LOST);
     program.reference(XR_REFERENCE_SPACE_TYPE_VIEW);
@@ -239,13 +239,13 @@ TEST_CASE("with real pacing a frame waits for its period, and a late one drops s
   program.poll();
   REQUIRE(program.begin() == XR_SUCCESS);
   const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < 10; ++i) program.whole_frame();
+  for (int i = 0; i < 10; ++i) program.run_frame();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  CHECK(took.count() > 8 * 0.02);  // ten frames: nine periods in between, the first one already partly over
+  CHECK(took.count() > 8 * 0.02);  // ten frames span nine periods, the first of which is already partly over
   const std::uint64_t before = xr.record.dropped;
   const timespec nap{.tv_sec = 0, .tv_nsec = 100'000'000};
   nanosleep(&nap, nullptr);
-  program.whole_frame();
+  program.run_frame();
   CHECK(xr.record.dropped >= before + 4);
   const double steps = (xr.record.frames[10].time - xr.record.frames[9].time) / 0.02;
   CHECK(steps >= 5.0 - 1e-6);

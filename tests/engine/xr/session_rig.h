@@ -23,11 +23,12 @@ constexpr glm::ivec2 kRigEye{48, 32}, kRigPanel{16, 8};  // [px]
 
 // Everything a program needs for a headset, used correctly.
 struct SessionRig {
-  // validates: false when memory is measured, because the layer keeps some data about every object ever created.
+  // validates: false when memory is measured, because the validation layer keeps some data about every object ever
+  // created.
   explicit SessionRig(bool validates = true)
       : runtime((choose_software_driver(), xr_test::control(), std::make_unique<engine::HeadsetRuntime>())),
-        fixture(validates ? std::make_unique<GpuFixture>(made_by(*runtime)) : nullptr),
-        gpu_without_fixture(validates ? nullptr : std::make_unique<engine::Gpu>(made_by(*runtime))),
+        fixture(validates ? std::make_unique<GpuFixture>(config_with(*runtime)) : nullptr),
+        gpu_without_fixture(validates ? nullptr : std::make_unique<engine::Gpu>(config_with(*runtime))),
         session(std::make_unique<engine::HeadsetSession>(*runtime, gpu(), engine::HeadsetConfig{kRigEye, kRigPanel})),
         ring(std::make_unique<engine::FrameRing>(gpu())),
         eyes_drawn(colour_image(gpu(), kRigEye, 2)),
@@ -39,7 +40,7 @@ struct SessionRig {
 
   engine::Gpu& gpu() { return fixture ? fixture->gpu() : *gpu_without_fixture; }
 
-  static engine::GpuConfig made_by(engine::HeadsetRuntime& factory) {
+  static engine::GpuConfig config_with(engine::HeadsetRuntime& factory) {
     engine::GpuConfig config;
     config.factory = &factory;
     return config;
@@ -63,18 +64,18 @@ struct SessionRig {
     vkCmdClearColorImage(commands, image.get(), engine::layout_of(engine::ImageUse::copy_to), &colour, 1, &range);
   }
 
-  static void put(VkCommandBuffer commands, engine::GpuImage& from, engine::GpuImage* to) {
+  static void copy_to_image(VkCommandBuffer commands, engine::GpuImage& from, engine::GpuImage* to) {
     engine::transition(commands, from, engine::ImageUse::copy_from);
     engine::transition(commands, *to, engine::ImageUse::copy_to);
-    engine::copy_whole(commands, from, *to);
+    engine::copy_image(commands, from, *to);
   }
 
-  // Left eye red, right eye green, panel blue, depth 1/4 everywhere.
+  // Draws the left eye red, the right eye green, the panel blue, and depth 1/4 everywhere.
   void draw(const engine::HeadsetSession::Images& images) {
     VkCommandBuffer commands = ring->begin();
     clear(commands, eyes_drawn, 0, {1.0f, 0.0f, 0.0f});
     clear(commands, eyes_drawn, 1, {0.0f, 1.0f, 0.0f});
-    put(commands, eyes_drawn, images.colour);
+    copy_to_image(commands, eyes_drawn, images.colour);
     if (images.depth) {
       engine::transition(commands, *images.depth, engine::ImageUse::copy_to);
       const VkClearDepthStencilValue quarter{.depth = 0.25f};
@@ -84,13 +85,13 @@ struct SessionRig {
     }
     if (images.panel) {
       clear(commands, panel_drawn, 0, {0.0f, 0.0f, 1.0f});
-      put(commands, panel_drawn, images.panel);
+      copy_to_image(commands, panel_drawn, images.panel);
     }
     session->transition_for_release(commands);
     ring->end();
   }
 
-  // One iteration of a program. Empty while the session is not running.
+  // One iteration of a program's loop. Empty while the session is not running.
   std::optional<engine::HeadsetFrame> run_frame() {
     session->poll();
     if (!session->is_running()) return std::nullopt;
@@ -106,7 +107,7 @@ struct SessionRig {
     return frame;
   }
 
-  // Runs frames until the session is in that state, up to a limit.
+  // Runs frames until the session is in that state, but at most max_frames. Returns true if the state was reached.
   bool reaches(engine::HeadsetState state, int max_frames = 40) {
     for (int i = 0; i < max_frames && session->state() != state; ++i) (void)run_frame();
     return session->state() == state;
@@ -122,8 +123,8 @@ struct SessionRig {
   engine::HeadsetEyes eyes;
 };
 
-// The runtime found no violation, and no object is left.
-inline void check_by_the_book() {
+// Checks that the runtime found no violation, and that no object is left.
+inline void check_no_violations() {
   const xr_test::Record& record = xr_test::control().record;
   for (const xr_test::Violation& broken : record.violations)
     FAIL_CHECK(broken.rule << ": " << broken.function << " " << broken.detail);
@@ -131,7 +132,7 @@ inline void check_by_the_book() {
   for (const std::string& leak : record.leaks) FAIL_CHECK(leak);
 }
 
-// Message of the exception that `function` throws; empty if it throws none.
+// Returns the message of the exception that `function` throws; empty if it throws none.
 template <class Error, class Function>
 std::string thrown(const Function& function) {
   try {

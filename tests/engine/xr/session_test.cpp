@@ -58,9 +58,9 @@ TEST_CASE("a correct session from first to last event: pictures, depth and panel
     REQUIRE(rig.reaches(HeadsetState::focused));
     for (int i = 0; i < 3; ++i) CHECK(rig.run_frame());
   }
-  check_by_the_book();
+  check_no_violations();
   const FrameRecord& frame = last_shown();
-  REQUIRE(frame.layers.size() == 2);  // the panel in front of the cabin
+  REQUIRE(frame.layers.size() == 2);  // the cabin, and the panel in front of it
   const LayerRecord& eyes = *frame.projection();
   CHECK(colour_at(eyes.views[0].picture, 5, 5) == std::array{255, 0, 0});
   CHECK(colour_at(eyes.views[1].picture, 40, 30) == std::array{0, 255, 0});
@@ -93,24 +93,24 @@ TEST_CASE("frames are submitted with the newest pose predicted for their display
     REQUIRE(rig.reaches(HeadsetState::focused));
     for (int i = 0; i < 20; ++i) (void)rig.run_frame();
   }
-  check_by_the_book();
-  int seen = 0;
+  check_no_violations();
+  int checked_frames = 0;
   for (const FrameRecord& frame : xr.record.frames) {
     if (frame.projection() == nullptr) continue;
-    ++seen;
+    ++checked_frames;
     CHECK(frame.locates == 2);
     for (std::size_t eye = 0; eye < 2; ++eye) {
       const xr_test::Pose head = moving_head(frame.time);
       const xr_test::Pose& reported = frame.projection()->views[eye].pose;  // in STAGE, whose origin is 1.2 m lower
-      const dvec3 place = head.position + head.orientation * dvec3(eye == 0 ? -0.0315 : 0.0315, 0.0, 0.0);
-      CHECK(glm::distance(reported.position, place + dvec3(0.0, 1.2, 0.0)) < 1e-6);
+      const dvec3 position = head.position + head.orientation * dvec3(eye == 0 ? -0.0315 : 0.0315, 0.0, 0.0);
+      CHECK(glm::distance(reported.position, position + dvec3(0.0, 1.2, 0.0)) < 1e-6);
       CHECK(turn_between(reported.orientation, head.orientation) < 1e-6);
     }
   }
-  CHECK(seen >= 20);
+  CHECK(checked_frames >= 20);
 }
 
-TEST_CASE("menu, another program, taken off and put on, hidden: states are reported, frames only while visible") {
+TEST_CASE("menu, another program, headset off and on, hidden: states are reported, and frames only while visible") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.timeline = {xr_test::visible(0.2),      xr_test::focused(0.3), xr_test::hidden(0.4, 0.1),
@@ -125,20 +125,20 @@ TEST_CASE("menu, another program, taken off and put on, hidden: states are repor
       if (states.empty() || states.back() != rig.session->state()) states.push_back(rig.session->state());
     }
   }
-  check_by_the_book();
+  check_no_violations();
   // Some states may come and go between two iterations: the observed ones must be in order, and no lasting state may be
   // missing.
   std::string order;
-  for (const HeadsetState state : states) order += std::string(name_of(state)) + " ";
+  for (const HeadsetState state : states) order += std::string(to_string(state)) + " ";
   CAPTURE(order);
   const auto at = [&](const char* name, std::size_t from) { return order.find(name, from); };
-  std::size_t place = 0;
+  std::size_t position = 0;
   for (const char* name : {"focused", "visible", "focused", "synchronised", "visible", "focused", "idle", "focused"}) {
-    place = at(name, place);
-    REQUIRE(place != std::string::npos);
-    ++place;
+    position = at(name, position);
+    REQUIRE(position != std::string::npos);
+    ++position;
   }
-  CHECK(empty_frames > 2);  // taken off: no waiting for frames
+  CHECK(empty_frames > 2);  // while the headset is off, no frames are waited for
   int hidden = 0;
   for (const FrameRecord& frame : xr.record.frames) {
     CHECK((frame.projection() != nullptr) == frame.should_render);
@@ -152,7 +152,7 @@ TEST_CASE("while tracking is lost, the lost part of the pose keeps its last valu
   xr.start();
   xr.script.stage = false;
   bool placed = false, turned = false;
-  double about = 0.0;  // [rad] yaw of the head, which also looks behind
+  double about = 0.0;  // [rad] yaw of the head, which later looks behind itself
   xr.script.head = [&](double seconds) {
     xr_test::Pose pose = moving_head(seconds);
     pose.orientation = glm::angleAxis(about, dvec3(0, 1, 0)) * pose.orientation;
@@ -184,11 +184,11 @@ TEST_CASE("while tracking is lost, the lost part of the pose keeps its last valu
     CHECK(glm::distance(aside, rig.eyes.pose[0].orientation * dvec3(0.063, 0.0, 0.0)) < 1e-6);
     CHECK(turn_between(rig.eyes.pose[0].orientation, last.pose[0].orientation) > 0.01);
     turned = false;
-    const glm::dquat kept = rig.eyes.pose[0].orientation;
+    const glm::dquat last_orientation = rig.eyes.pose[0].orientation;
     for (int i = 0; i < 5; ++i) (void)rig.run_frame();
-    CHECK(turn_between(rig.eyes.pose[0].orientation, kept) < 1e-9);
+    CHECK(turn_between(rig.eyes.pose[0].orientation, last_orientation) < 1e-9);
   }
-  check_by_the_book();
+  check_no_violations();
 }
 
 TEST_CASE("a moved origin is reported at its time, with the correct transform") {
@@ -209,7 +209,7 @@ TEST_CASE("a moved origin is reported at its time, with the correct transform") 
       const auto change = rig.session->take_due_space_change(*frame);
       const bool jumped = glm::distance(old.pose[0].position, rig.eyes.pose[0].position) > 1e-3;
       CAPTURE(i);
-      if (!stage) CHECK(jumped == change.has_value());  // in the same frame in which the eyes jump
+      if (!stage) CHECK(jumped == change.has_value());  // reported in the same frame in which the eyes jump
       if (change && change->is_session_space) {
         stage = change;
         REQUIRE(change->new_from_old);
@@ -220,7 +220,7 @@ TEST_CASE("a moved origin is reported at its time, with the correct transform") 
     CHECK(stage.has_value());
     CHECK(local.has_value());
   }
-  check_by_the_book();
+  check_no_violations();
 }
 
 TEST_CASE("a lost session or runtime throws HeadsetLost, and leaves nothing") {
@@ -234,7 +234,7 @@ TEST_CASE("a lost session or runtime throws HeadsetLost, and leaves nothing") {
       const std::string reported = thrown<HeadsetLost>([&] {
         for (int i = 0; i < 100; ++i) (void)rig.run_frame();
       });
-      // Reported by the event or by the first call after it, whichever comes first.
+      // The loss is reported by its event or by the first failing call, whichever comes first.
       const bool by_event = reported == (instance ? "the OpenXR runtime is shutting down" : "the headset was lost");
       const bool by_call =
           reported.find(instance ? "XR_ERROR_INSTANCE_LOST" : "XR_ERROR_SESSION_LOST") != std::string::npos;
@@ -245,9 +245,9 @@ TEST_CASE("a lost session or runtime throws HeadsetLost, and leaves nothing") {
   }
 }
 
-// Lets the first calls of each function used in a frame fail, one by one, also in the middle of a frame: the error is
-// reported with its kind, held images are released correctly, and everything can be recreated.
-TEST_CASE("an error of any call is reported, and the next session works normally") {
+// Makes the first calls of each function fail, one by one, also in the middle of a frame: the error is reported with
+// its kind, acquired images are released correctly, and everything can be recreated.
+TEST_CASE("an error from any call is reported, and the next session works normally") {
   constexpr const char* kCalls[] = {"xrCreateSession",
                                     "xrCreateReferenceSpace",
                                     "xrCreateSwapchain",
@@ -267,7 +267,8 @@ TEST_CASE("an error of any call is reported, and the next session works normally
     for (int plan = 0; plan < 9; ++plan) {
       constexpr std::array kResults{XR_ERROR_RUNTIME_FAILURE, XR_ERROR_SESSION_LOST, XR_ERROR_OUT_OF_MEMORY};
       const XrResult result = kResults[static_cast<std::size_t>(plan % 3)];
-      // eyes, panel, and depth of a later frame; swapchains are created in the order eyes, depth, panel
+      // The 1st, 3rd and 5th call: of the three swapchains, created in the order eyes, depth, panel, these are eyes,
+      // panel, and depth in a later frame.
       const int nth = 1 + plan / 3 * 2;
       CAPTURE(nth);
       CAPTURE(call);
@@ -297,7 +298,7 @@ TEST_CASE("an error of any call is reported, and the next session works normally
     SessionRig rig;
     CHECK(rig.reaches(HeadsetState::focused));
   }
-  check_by_the_book();
+  check_no_violations();
 }
 
 TEST_CASE("a frame held back by the runtime is waited for in the background, and resumes") {
@@ -324,11 +325,11 @@ TEST_CASE("a frame held back by the runtime is waited for in the background, and
       rig.session->end(*frame, nullptr, kRigNear, nullptr);
     }
     CHECK(held >= 15);
-    CHECK(longest < 0.3);  // otherwise it would be 0.67 s
-    // the wait is still pending when the session is destroyed
+    CHECK(longest < 0.3);  // a blocking wait would take 0.67 s
+    // The wait is still pending when the session is destroyed.
     CHECK_FALSE(rig.session->wait(std::chrono::milliseconds(0)));
   }
-  check_by_the_book();
+  check_no_violations();
 }
 
 TEST_CASE("no runtime, no headset, no Vulkan: one clear sentence each") {
@@ -343,7 +344,7 @@ TEST_CASE("no runtime, no headset, no Vulkan: one clear sentence each") {
   xr.start();
   xr.script.vulkan_enable2 = false;
   CHECK(thrown<HeadsetError>([] { HeadsetRuntime runtime; }).find("XR_KHR_vulkan_enable2") != std::string::npos);
-  check_by_the_book();
+  check_no_violations();
   // The loader remembers a runtime's extensions until an instance of it is destroyed.
   XrInstanceCreateInfo plain{XR_TYPE_INSTANCE_CREATE_INFO};
   std::strcpy(plain.applicationInfo.applicationName, "plain");
@@ -372,7 +373,7 @@ TEST_CASE("optional features may be missing: depth, the clock, the stage, our pr
       CHECK((frame->wait_end_ns == 0) == (missing == 1));
       CHECK(rig.session->is_stage() == (missing != 2));
     }
-    check_by_the_book();
+    check_no_violations();
     const auto& view = last_shown().projection()->views[0];
     CHECK(view.depth.is_present == (missing != 0 && missing != 4));
     CHECK(colour_at(view.picture, 5, 5) == std::array{255, 0, 0});
@@ -421,7 +422,7 @@ TEST_CASE("hands point, click and scroll while focused, and not under another pr
     }
     CHECK(rig.session->state() == HeadsetState::visible);
   }
-  check_by_the_book();
+  check_no_violations();
 }
 
 TEST_CASE("periods that a runtime drops are counted, and no others") {
@@ -434,7 +435,7 @@ TEST_CASE("periods that a runtime drops are counted, and no others") {
     for (int i = 0; i < 90; ++i)
       if (const auto frame = rig.run_frame()) times.add(*frame, rig.session->now_ns(), 1.0);
   }
-  check_by_the_book();
+  check_no_violations();
   CHECK(xr.record.dropped == 7);
   CHECK(times.timing().dropped == xr.record.dropped);
   CHECK(times.timing().period_ms == doctest::Approx(1e3 / 90.0));
@@ -469,7 +470,7 @@ TEST_CASE("restarting a session again and again leaks nothing") {
     CHECK(rig.reaches(HeadsetState::focused));
     CHECK(rig.run_frame());
   };
-  for (int i = 0; i < 5; ++i) again();  // one-time allocations
+  for (int i = 0; i < 5; ++i) again();  // these make the one-time allocations
   const std::size_t files = open_files(), memory = resident();
   const VkDeviceSize device = rig.gpu().allocated();
   const int handles = xr_test::control().record.live_handles();
@@ -483,7 +484,7 @@ TEST_CASE("restarting a session again and again leaks nothing") {
   CHECK(rig.gpu().allocated() == device);
   CHECK(xr_test::control().record.live_handles() == handles);
 #if !defined(GEARSHIFT_TEST_SANITIZED)  // a sanitizer keeps freed memory, and detects leaks itself
-  CHECK(resident() < memory + 1024);    // [KiB] for any number of restarts
+  CHECK(resident() < memory + 1024);    // [KiB] limit for any number of restarts
 #endif
   CHECK(xr_test::control().record.violations.empty());
 }

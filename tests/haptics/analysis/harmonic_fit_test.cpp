@@ -49,6 +49,6 @@ TEST_CASE("the stated deviation matches the scatter under white noise, and begin
     squares += std::norm(fit.phasor(0).value - 1.0) / 2.0;
     stated += fit.phasor(0).deviation / kRuns;
   }
-  CHECK(std::sqrt(squares / kRuns) == doctest::Approx(0.01).epsilon(0.1));  // sigma sqrt(2 / n)
+  CHECK(std::sqrt(squares / kRuns) == doctest::Approx(0.01).epsilon(0.1));  // expected deviation: sigma sqrt(2 / n)
   CHECK(stated == doctest::Approx(0.01).epsilon(0.03));
 }

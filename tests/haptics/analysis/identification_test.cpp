@@ -1,4 +1,4 @@
-// Section 2.4 on simulated levers and on another kind of device: the identification recovers the plant.
+// The paper's section 2.4 on simulated levers and on a different kind of device: the identification recovers the plant.
 #include "haptics/analysis/identification.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ std::array<double, 3> numbers_of(const AxisModel& axis) {
   return {axis.mass, axis.damping, axis.stiffness};
 }
 
-// Errors of mass, damping and stiffness in standard uncertainties.
+// Errors of mass, damping and stiffness, each divided by its standard uncertainty.
 std::array<double, 3> errors_in_deviations(const AxisFit& fit, const AxisModel& truth) {
   const auto found = numbers_of(fit.model), real = numbers_of(truth), deviation = numbers_of(fit.deviation);
   std::array<double, 3> z{};
@@ -141,7 +141,7 @@ class Sleds final : public HapticDevice {
   std::array<AxisState, 2> at_{};
   double max_position_ = 0.0, max_force_ = 0.0;
   double max_change_ = 0.0;     // [N/cycle]
-  double initial_force_ = 0.0;  // [N] during the half second of the guard's ramp
+  double initial_force_ = 0.0;  // [N] while the guard's ramp rises for half a second
   bool released_ = false;
   glm::dvec2 force_{0.0};
   DeviceSpec spec_;
@@ -190,7 +190,7 @@ TEST_CASE("five random plants, over- and under-damped, within 2 %") {
       for (const double z : errors_in_deviations(fit, truth)) squares += z * z;
     }
   }
-  const double scatter = std::sqrt(squares / 30.0);  // of 30 errors, each relative to its stated uncertainty
+  const double scatter = std::sqrt(squares / 30.0);  // RMS of 30 errors, each relative to its stated uncertainty
   CAPTURE(scatter);
   CHECK(scatter > 0.5);
   CHECK(scatter < 1.6);
@@ -211,7 +211,7 @@ TEST_CASE("without noise the hold causes no error, not even at 100 Hz, where the
   for (const double rate : {100.0, 1000.0}) {
     const FrequencyResponse response = sweep_lever(exact_lever(), LeverAxis::x, rate);
     CHECK(within(fit_axis(response), kPaperAxisX, 2e-5));
-    FrequencyResponse unaware = response;  // the same response, interpreted as that of a continuous force
+    FrequencyResponse unaware = response;  // the response, interpreted as that of a continuous force
     for (FrequencyPoint& point : unaware.points) point.held = 0.0;
     if (rate < 1000.0) CHECK_FALSE(within(fit_axis(unaware), kPaperAxisX, 2e-5));
   }
@@ -249,7 +249,7 @@ TEST_CASE("a device without yoke and force sensor, with an arbitrary clock origi
 }
 
 TEST_CASE("negative controls: an unreported delay, and points with a wrong gain") {
-  class Late final : public HapticDevice {  // delayed by two samples, which its spec does not report
+  class Late final : public HapticDevice {  // a delay of two samples that spec() does not report
    public:
     const DeviceSpec& spec() const noexcept override { return sleds_.spec(); }
     LeverReading read(std::int64_t now_ns) noexcept override { return sleds_.read(now_ns); }
@@ -323,7 +323,7 @@ TEST_CASE("the paper's amplitude at 1 Hz, taken literally, drives the lever to i
   CHECK(31.7 / 3.0 * std::abs(compliance(kPaperAxisX, 1.0)) == doctest::Approx(0.484).epsilon(2e-3));
   CHECK_THROWS_AS(fit_axis(response), std::invalid_argument);
   config.literal = false;
-  CHECK(sweep_frequencies(config, lever, LeverAxis::x, 1e-3, now).problem == "the lever came near its stop");
+  CHECK(sweep_frequencies(config, lever, LeverAxis::x, 1e-3, now).problem == "the lever came too close to its stop");
 
   Sleds real;
   config.literal = true;
@@ -334,7 +334,7 @@ TEST_CASE("an unpredicted resonance: the amplitude is reduced before the lever r
   Sleds sleds;
   sleds.spec_.max_force.x = 2.4;
   SweepConfig config;
-  config.highest = config.lowest = 2.757;  // sqrt(k / m) of the sled: 14 times the static response
+  config.highest = config.lowest = 2.757;  // at the sled's resonance, sqrt(k / m): 14 times the static response
   config.points = 1;
   std::int64_t now = 0;
   const FrequencyResponse response = sweep_frequencies(config, sleds, LeverAxis::x, 1e-3, now);
@@ -359,10 +359,10 @@ TEST_CASE("readings that stop, are not finite or are near the stop: motors off, 
   frozen.freeze_at_ = 5000;
   blind.nan_at_ = 5000;
   shoved.shove_at_ = 5000;
-  broken.break_at_ = 5000;  // on the other axis, which only the guard checks
+  broken.break_at_ = 5000;  // on the other axis, where only the guard checks
   CHECK(problem(frozen) == "no fresh reading for 20 ms");
   CHECK(problem(blind) == "a reading is not a number");
-  CHECK(problem(shoved) == "the lever came near its stop");
+  CHECK(problem(shoved) == "the lever came too close to its stop");
   CHECK(problem(broken) == "the lever is outside its workspace");
 }
 
@@ -380,7 +380,7 @@ TEST_CASE("the guard limits every force: none until it runs, and no change faste
   CHECK(sleds.max_change_ == doctest::Approx(25.0));
   REQUIRE(response.points.size() == 2);
   for (const FrequencyPoint& point : response.points) {
-    CHECK(point.amplitude < 0.99 * 80.0);  // limited; the response is relative to the force actually sent
+    CHECK(point.amplitude < 0.99 * 80.0);  // the force is limited; the response is relative to the force actually sent
     const std::complex<double> truth = compliance(Sleds::kX, point.frequency);
     CHECK(std::abs(point.response / truth - 1.0) < 2e-3);
   }
@@ -458,7 +458,8 @@ TEST_CASE("random responses: a fit that does not converge is rejected, not retur
     try {
       fit_axis(random);
     } catch (const std::invalid_argument& refused) {
-      unsettled += std::string(refused.what()) == "fit_axis: no axis fits: not converged after 30 iterations";
+      unsettled += std::string(refused.what()) ==
+                   "fit_axis: no axis fits this response, because the fit did not converge in 30 iterations";
     }
   }
   CHECK(unsettled > 0);
@@ -475,7 +476,7 @@ TEST_CASE("bandwidth, damping and poles of (11) and (12): 0.92 and 1.02 Hz, not 
     const double gain = std::abs(compliance(axis, bandwidth(axis)));
     CHECK(gain * axis.stiffness == doctest::Approx(std::sqrt(0.5)).epsilon(1e-12));
   }
-  // Frequencies at which one newton moves the paper's encoder by 1 count, and by -3 dB of it.
+  // Frequencies at which one newton moves the paper's lever by one encoder count, and by 3 dB less.
   const double count = 75.4e-6;
   CHECK(frequency_at_gain(kPaperAxisX, count) == doctest::Approx(59.0).epsilon(0.01));
   CHECK(frequency_at_gain(kPaperAxisX, count / std::numbers::sqrt2) == doctest::Approx(71.0).epsilon(0.01));

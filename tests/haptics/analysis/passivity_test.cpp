@@ -20,7 +20,7 @@ double between(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// (13) as printed, at 100,000 frequencies.
+// The paper's (13) as printed, evaluated at 100,000 frequencies.
 double demand_by_search(const Environment& environment, double period) {
   constexpr int kAngles = 100000;
   double largest = -1e300;
@@ -33,7 +33,7 @@ double demand_by_search(const Environment& environment, double period) {
   return largest;
 }
 
-// Spring and damper one sample late, with c = cos w T: (13) is K T/2 (1 + 2 c) - B (2 c^2 - 1).
+// Spring and damper one sample late: with c = cos w T, the paper's (13) is K T/2 (1 + 2 c) - B (2 c^2 - 1).
 double demand_one_late(double stiffness, double damping, double period) {
   const double kt = stiffness * period;
   if (kt >= 4.0 * damping) return 1.5 * kt - damping;
@@ -71,7 +71,7 @@ TEST_CASE("d samples late: a spring up to b / (T/2 + d T), a damper still up to 
   }
 }
 
-TEST_CASE("one sample late, spring and damper together") {
+TEST_CASE("spring and damper together, one sample late") {
   for (const double damping : {0.1, 0.5, 1.0, 2.0, 2.9}) {
     CAPTURE(damping);
     for (const double stiffness : {20.0, 300.0, 1500.0, 4000.0}) {
@@ -130,7 +130,7 @@ TEST_CASE("the half-sample hold is a spring and a damper of K (T/2 + d T), all o
   }
 }
 
-// Colgate & Schenkel's theorem, checked with sampled_loop.h, which shares only the law with passivity.h.
+// Colgate & Schenkel's theorem, checked with sampled_loop.h, which shares only the control law with passivity.h.
 TEST_CASE("a passive environment is stable in every passive hand") {
   std::mt19937_64 random(3);
   for (int i = 0; i < 300; ++i) {

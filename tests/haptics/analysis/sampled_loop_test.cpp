@@ -160,14 +160,14 @@ class PushedWall {
   std::uint64_t cycle_ = 0;
 };
 
-// Number of cycles in which a motion with that spectral radius grows or decays by about e^5, enough for a clear result.
+// Number of cycles in which a motion with this spectral radius grows or decays by about e^5, enough for a clear result.
 int decisive_cycles(Case c, double stiffness) {
   c.law.stiffness = stiffness;
   const double rate = std::abs(std::log(spectral_radius(c.handle, c.hand, c.law, c.period)));
   return static_cast<int>(std::clamp(5.0 / rate, 1000.0, 3e6));
 }
 
-// Factor by which the motion grew in that time.
+// Factor by which the motion grew within decisive_cycles().
 double growth(const Case& c, double stiffness) {
   PushedWall wall(c, stiffness);
   const double early = wall.max_distance(500);
@@ -175,7 +175,8 @@ double growth(const Case& c, double stiffness) {
   return wall.max_distance(500) / early;
 }
 
-// Pushes the simulated lever into the upper wall once the wall's first force takes effect, so that it starts at rest.
+// Pushes the simulated lever into the upper wall from the time when the wall's first force takes effect, so that the
+// lever starts at rest.
 class PushingHand final : public HandDriver {
  public:
   PushingHand(glm::dvec2 rest, double push, int delay) : push_(push), wait_(delay) { target_.position = rest; }
@@ -190,10 +191,10 @@ class PushingHand final : public HandDriver {
   int wait_;     // [cycles]
 };
 
-// The complete simulated lever at the same wall, along y, without quantisation.
+// The complete simulated lever at the wall of `c`, along y, without quantisation.
 class SimulatedWall {
  public:
-  // Starts on a soft wall that slowly stiffens to 0.98 of the limit, so that the start does not throw it off the wall.
+  // Starts on a soft wall that slowly stiffens to 0.98 of the limit, so that the lever is not thrown off the wall.
   SimulatedWall(const Case& c, double limit)
       : case_(c),
         stiffness_(0.3 * limit),
@@ -211,7 +212,7 @@ class SimulatedWall {
     max_speed(3000);
   }
 
-  // Factor by which the motion grows after a change to this stiffness; the change itself excites it.
+  // Factor by which the motion grows after a change to the given stiffness; the change itself excites the motion.
   double growth(double stiffness) {
     stiffness_ = stiffness;
     max_speed(50);
@@ -221,7 +222,7 @@ class SimulatedWall {
   }
 
  private:
-  static constexpr double kWall = 0.001, kDepth = 0.001;  // [m] near the centre, where arc and plane agree
+  static constexpr double kWall = 0.001, kDepth = 0.001;  // [m] near the centre, where positions in arc and plane agree
   static constexpr glm::dvec2 kRest{0.0, kWall + kDepth};
 
   static SimulatedLeverConfig config_of(const Case& c) {
@@ -292,7 +293,7 @@ TEST_CASE("a free mass: K T^2 / m < 2 h (2 - h) / (2 + h), h = B T / m, at most 
   }
 }
 
-// The same polynomial with B + K T / 2 for B: k^2 + 3 h k + 2 h^2 - 4 h < 0.
+// The polynomial of the previous case with B + K T / 2 for B: k^2 + 3 h k + 2 h^2 - 4 h < 0.
 TEST_CASE("a free mass under the half-sample hold: K T^2 / m < (sqrt(h^2 + 16 h) - 3 h) / 2") {
   const double mass = 0.3, period = 0.001;
   ContactLaw law;
@@ -398,14 +399,14 @@ TEST_CASE("the simulated lever does the same, with every hold and hand, within 1
         c.law.hold = hold;
         c.law.delay = delay;
         c.law.damping =
-            hold == ContactHold::observer && delay == 3 ? 80.0 : 12.0;  // 12 is raised to 50 for an observer
+            hold == ContactHold::observer && delay == 3 ? 80.0 : 12.0;  // for an observer 12 is raised to 50
         c.law.window = delay == 3 ? 2 : 1;
         c.law.free_damping = delay == 1 ? 5.0 : 0.0;
         const double limit = limit_of(c);
         CAPTURE(named.name);
         CAPTURE(delay);
         CAPTURE(limit);
-        if (std::isinf(limit)) continue;  // an observer with an exact model is stable at any wall
+        if (std::isinf(limit)) continue;  // an observer with an exact model is stable with any wall
         ++checked_cases;
         SimulatedWall wall(c, limit);
         CHECK(wall.growth(0.99 * limit) < 0.5);

@@ -1,4 +1,4 @@
-// Section 2.3: eq (7) from weights in eight directions.
+// The paper's section 2.3: its (7) from weights in eight directions.
 #include "haptics/analysis/sensor_calibration.h"
 
 #include <cmath>

@@ -29,7 +29,7 @@ constexpr double kNotPrinted = -1.0;
 struct Row {
   double period;          // [s]
   double printed[5];      // [N/m] for kDampings
-  double best_b, best_k;  // damping with the highest limit, and that limit
+  double best_b, best_k;  // damping with the highest limit [N s/m], and that limit [N/m]
 };
 
 void check_table(const Row& row, int delay) {
@@ -47,7 +47,7 @@ void check_table(const Row& row, int delay) {
   CHECK(best > limit(1.1 * row.best_b, delay, row.period));
 }
 
-// K = 5000 N/m is stable for B from first to last, each printed with the stated resolution.
+// The range of B, from first to last, in which K = 5000 N/m is stable. Both are printed with the stated resolution.
 struct Band {
   double period;
   int delay;
@@ -61,7 +61,7 @@ bool is_stable_at_5000(const Band& band, double damping) {
   return spectral_radius(kPaperAxisX, band.hand, law, band.period) < 1.0;
 }
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();  // the band extends beyond the search
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();  // the range extends beyond the search
 
 }  // namespace
 

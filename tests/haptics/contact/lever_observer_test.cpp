@@ -59,7 +59,7 @@ TEST_CASE("with an exact model it predicts the lever at the moment when the next
       const ObservedMotion predicted = observer.update(motion, command(n - 1));
       at.push_back(motion.position);
       predicted_begin.push_back(predicted.position);
-      // End of the hold that starts at n + delay. predicted.end excludes the motors, so their effect is added.
+      // True end of the hold that starts at n + delay. predicted.end excludes the motors, so their effect is added.
       predicted_end.push_back(predicted.end + predicted.compliance * command(n));
       const glm::dvec2 force = command(n - delay) + hand;
       select = x.step(select, force.x);
@@ -77,7 +77,7 @@ TEST_CASE("with an exact model it predicts the lever at the moment when the next
 
 namespace {
 
-// Free impact of a handle of known state on a wall with the solved hold: energy supplied by the wall as a fraction of
+// Free impact of a handle of known state on a wall with the solved hold: ratio of the energy supplied by the wall to
 // the impact energy.
 double wall_energy_fraction(const AxisModel& axis, const Coupling& wall, double speed, double phase) {
   const AxisStepper plant(axis, wall.period);
@@ -98,7 +98,8 @@ double wall_energy_fraction(const AxisModel& axis, const Coupling& wall, double 
 
 }  // namespace
 
-// When a stick is unplugged, 20 N of a hand against a wall, assumed constant, would move the model by metres.
+// The observer assumes a constant push: 20 N of a hand against a wall would move the model of an unplugged stick by
+// metres.
 TEST_CASE("without samples it stays at the last one, and restarts at the next") {
   constexpr double kPeriod = 0.001;
   DeviceSpec spec;

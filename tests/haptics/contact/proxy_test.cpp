@@ -105,7 +105,7 @@ TEST_CASE("a throw from one slot to another in one sample leaves the proxy in it
   for (const int from : {1, 2, 3, 4, 5, kReverseGear}) {
     for (const int to : {1, 2, 3, 4, 5, kReverseGear}) {
       const dvec2 a = rest_position(gate, from), b = rest_position(gate, to);
-      if (a.x == b.x) continue;  // same column: no wall between them
+      if (a.x == b.x) continue;  // both points are in one column: no wall between them
       const Proxy proxy = move_proxy(gate, open_passage(gate), {a, a}, b, kHandOver);
       CAPTURE(from);
       CAPTURE(to);
@@ -162,7 +162,7 @@ TEST_CASE("when the governing wall changes the force changes by at most K (2 |st
     REQUIRE(change <= kStiffness * (2.0 * step + kHandOver) + 1e-9);
     if (step < 2e-4) max_change = std::max(max_change, change);
   }
-  CHECK(max_change > 1.0);  // the test did reach large changes
+  CHECK(max_change > 1.0);  // checks that the test reached large changes
 }
 
 // Work along a path is measured from the forces only (trapezoid rule, 0.2 um steps). Energy still stored in the
@@ -172,7 +172,7 @@ TEST_CASE("kinematic closed paths give back at most 1e-9 J of position-only work
     const Gate gate = shipped_gate(name);
     std::mt19937_64 random(5);
     const double scale = std::min(1.0, kStiffness / max_feel_stiffness(gate));
-    for (int trial = 0; trial < (is_whole_campaign() ? 12 : 3); ++trial) {
+    for (int trial = 0; trial < (is_full_campaign() ? 12 : 3); ++trial) {
       CAPTURE(trial);
       const ClosedPath path(random);
       const int steps = 1'500'000;
@@ -221,7 +221,7 @@ TEST_CASE("a closed slot is a wall at its mouth, and a limit of depth is a wall:
     blocked.limited_slot = slot;
     blocked.depth_max = 0.020;
     CHECK(pushed(blocked, mouth, goal) == doctest::Approx(0.020));
-    Passage locked = open_passage(gate);  // torque lock: the lever cannot leave the gear
+    Passage locked = open_passage(gate);  // a torque lock: the lever cannot leave the gear
     locked.limited_slot = slot;
     locked.depth_min = 0.030;
     locked.depth_max = 1.0;
@@ -242,7 +242,7 @@ TEST_CASE("a free lever is exactly its proxy: rounding causes no contact") {
   }
 }
 
-TEST_CASE("a lever that is not finite moves nothing") {
+TEST_CASE("a lever position that is not finite moves nothing") {
   const Gate gate = paper_gate();
   const Proxy proxy{{0.01, 0.0}, {0.01, 0.0}};
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

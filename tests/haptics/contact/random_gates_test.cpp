@@ -49,7 +49,7 @@ TEST_CASE("200 random gates: a million steps and throws, walls opening and closi
       proxy = move_proxy(gate, passage, proxy, lever, 0.5e-3);
       REQUIRE(in_free_space(gate, proxy.position, 1e-9));
       REQUIRE(glm::distance(lever, proxy.position) <= glm::distance(lever, before) + 1e-12);
-      // It neither crosses a closed lateral wall nor enters a closed slot.
+      // The proxy neither crosses a closed lateral wall nor enters a closed slot.
       REQUIRE(proxy.position.x <= std::max(passage.select_max, before.x) + 1e-9);
       REQUIRE(proxy.position.x >= std::min(passage.select_min, before.x) - 1e-9);
       const int slot = slot_at(gate, proxy.position);

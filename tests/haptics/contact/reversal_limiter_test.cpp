@@ -19,7 +19,8 @@ DeviceSpec paper_spec() {
   return spec;
 }
 
-// How often the limiter softens the wall during `seconds` of an oscillation. frequency [Hz], span [m] peak to peak
+// Number of times the limiter softens the wall during `seconds` of an oscillation. frequency [Hz], span [m]
+// peak-to-peak
 int count_softenings(ReversalLimiter& limiter, double frequency, double span, double seconds, bool in_contact = true,
                      double wanted = 5000.0) {
   int count = 0;
@@ -30,8 +31,8 @@ int count_softenings(ReversalLimiter& limiter, double frequency, double span, do
   return count;
 }
 
-// The same at a wall of 5000 N/m while the load vibrates the lever with a sine. frequency [Hz], amplitude [N], lag of
-// the lever [periods of the vibration]
+// An oscillation at a wall of 5000 N/m while the load vibrates the lever with a sine. frequency [Hz], amplitude [N],
+// lag of the lever [periods of the vibration]
 struct Vibration {
   double frequency = 20.0, amplitude = 1.0, lag = 0.2;
 };
@@ -68,9 +69,9 @@ TEST_CASE("a fast rattle in a wall lowers it by a quarter, within a quarter of a
 
 TEST_CASE("a hand's tremor, encoder quantisation and motion in free space do not soften the wall") {
   ReversalLimiter limiter(paper_spec(), kLimiterPeriod);
-  CHECK(count_softenings(limiter, 8.0, 0.02, 5.0) == 0);            // 16 reversals/s: the fastest deliberate motion
+  CHECK(count_softenings(limiter, 8.0, 0.02, 5.0) == 0);            // 16 reversals/s, the fastest deliberate motion
   CHECK(count_softenings(limiter, 12.0, 0.0007, 5.0) == 0);         // the fastest tremor (Elble 2003)
-  CHECK(count_softenings(limiter, 100.0, 3.0 * kCount, 5.0) == 0);  // less than 4 counts
+  CHECK(count_softenings(limiter, 100.0, 3.0 * kCount, 5.0) == 0);  // less than 4 encoder counts
   CHECK(limiter.stiffness_fraction() == 1.0);
   ReversalLimiter free(paper_spec(), kLimiterPeriod);
   CHECK(count_softenings(free, 40.0, 0.002, 5.0, false) == 0);  // no wall
@@ -112,7 +113,7 @@ TEST_CASE("at the floor a bounce that decays does not soften the wall, however o
   }
   CHECK(limiter.stiffness_fraction() == 1.0);
   CHECK_FALSE(limiter.is_exhausted());
-  CHECK(count_softenings(limiter, 40.0, 0.002, 1.0) >= 1);  // one that does not decay
+  CHECK(count_softenings(limiter, 40.0, 0.002, 1.0) >= 1);  // a bounce that does not decay
   CHECK(limiter.stiffness_fraction() <= 0.5);
 }
 

@@ -50,7 +50,8 @@ HandTarget pushing(dvec2 force) {
 
 }  // namespace
 
-// Inside the wall m x'' + b x' + k x = -K (x - edge): a spring of k + K about K edge / (k + K), solved in closed form.
+// Inside the wall m x'' + b x' + k x = -K (x - edge): a spring of k + K with its rest at K edge / (k + K), solved in
+// closed form.
 TEST_CASE("a lever that flies into a device wall moves as a mass on that spring, and returns no faster") {
   for (const double stiffness : {400.0, 1000.0, 3000.0}) {
     CAPTURE(stiffness);
@@ -99,7 +100,7 @@ TEST_CASE("walls take effect with the delay of any command, and are rendered wit
   bench.lever.set_device_walls(kRoundMiddle);
   for (int i = 0; i < 5; ++i) CHECK(bench.run(1).actuator_force.x == 0.0);
   CHECK(bench.run(1).actuator_force.x < -1.0);
-  // From then on it bounces like the lever without delay.
+  // Once the delay has passed, it bounces like the lever without delay.
   bench.lever.place({0.001, 0.0}, {0.3, 0.0});
   prompt.lever.set_device_walls(kRoundMiddle);
   prompt.lever.place({0.001, 0.0}, {0.3, 0.0});

@@ -35,7 +35,7 @@ TEST_CASE("a minimum-jerk stroke is half way at half time with 15/8 of its mean 
   CHECK(minimum_jerk(a, b, 9.0, 0.4).position == b);
   CHECK(minimum_jerk(a, b, 9.0, 0.4).velocity == glm::dvec2(0.0));
 
-  // Starts without acceleration: position is 10 (b - a) (t/T)^3 to leading order.
+  // The stroke starts without acceleration: to leading order its position is 10 (b - a) (t/T)^3.
   CHECK(minimum_jerk(a, b, 4e-5, 0.4).position.x - a.x == doctest::Approx(10.0 * 0.04 * 1e-12).epsilon(1e-3));
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("aims scatter with the stated deviation, once per stroke, and the seed
 
 TEST_CASE("effort grows as gain x lag x time up to its limit, and fades within 50 ms of arrival") {
   ScriptedHandConfig config;
-  config.start = {0.0, 0.010};  // the lever stays 10 mm behind
+  config.start = {0.0, 0.010};  // the lever stays 10 mm behind the hand's target
   config.effort_gain = 2000.0;
   config.effort_limit = 12.0;
   ScriptedHand hand(config, {}, 1e-3);

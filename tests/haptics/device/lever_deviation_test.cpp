@@ -30,7 +30,7 @@ glm::dvec2 arc_of(const SimulatedLever& lever) {
   return arc_position(kLeverYoke, joint_angles_from_plane(kLeverYoke, lever.true_position()));
 }
 
-// Records the time at which it was last queried.
+// Records the time of the last query.
 class Clock final : public HandDriver {
  public:
   HandTarget next(double time, glm::dvec2) noexcept override {
@@ -81,7 +81,7 @@ Measured measure(const SimulatedLeverConfig& config) {
 
 void check_off(double measured, double nominal) {
   CHECK(std::abs(measured / nominal - 1.0) < 0.2);
-  CHECK(std::abs(measured / nominal - 1.0) > 1e-3);  // probability of a false failure: 1 in 200 per draw
+  CHECK(std::abs(measured / nominal - 1.0) > 1e-3);  // false failures: 1 in 200 per draw
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST_CASE("a value inside its range comes back, the ends included") {
   CHECK(require_between("delay", -0.5, -1.0, 1.0) == -0.5);
 }
 
-TEST_CASE("any other is refused in the wording of a file's reader") {
+TEST_CASE("any other value is refused with the wording of the file readers") {
   CHECK(refusal(9.0, 0.0, 8.0, "cycles") == "delay = 9: must be between 0 and 8 cycles");
   CHECK(refusal(9.0, 0.0, 8.0) == "delay = 9: must be between 0 and 8");
   CHECK(refusal(-1e-9, 0.0, 1e6) == "delay = -1e-09: must be between 0 and 1000000");

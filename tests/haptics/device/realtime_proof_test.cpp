@@ -1,4 +1,4 @@
-// Proof that the calls of the haptic cycle do not allocate, lock or make system calls.
+// Proves that the simulated lever's calls in the haptic cycle do not allocate, lock or make system calls.
 #include "tests/support/realtime_proof.h"
 
 #include <doctest/doctest.h>

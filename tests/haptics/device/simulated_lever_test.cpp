@@ -60,8 +60,8 @@ double position_led_to(const AxisModel& axis, const HandImpedance& hand, double 
   using Complex = std::complex<double>;
   const Complex m = axis.mass + hand.mass, b = axis.damping + hand.damping, k = axis.stiffness + hand.stiffness;
   const Complex root = std::sqrt(b * b - 4.0 * m * k), p1 = (-b + root) / (2.0 * m), p2 = (-b - root) / (2.0 * m);
-  const Complex share = (p2 * std::exp(p1 * time) - p1 * std::exp(p2 * time)) / (p1 - p2);
-  return (hand.stiffness * target / k * (1.0 + share)).real();
+  const Complex transient = (p2 * std::exp(p1 * time) - p1 * std::exp(p2 * time)) / (p1 - p2);
+  return (hand.stiffness * target / k * (1.0 + transient)).real();
 }
 
 std::string refusal(const SimulatedLeverConfig& config, std::int64_t period = kMillisecond) {
@@ -99,7 +99,7 @@ TEST_CASE("a written force rests where it is the gradient of the springs' energy
     return 0.5 * 14.8 * arc.x * arc.x + 0.5 * 15.7 * arc.y * arc.y;
   };
   const glm::dvec2 here = bench.lever.true_position(), dx{1e-5, 0.0}, dy{0.0, 1e-5};
-  CHECK(std::min(here.x, here.y) > 0.025);  // far off both axes
+  CHECK(std::min(here.x, here.y) > 0.025);  // far from the centre on both axes
   CHECK((stored(here + dx) - stored(here - dx)) / 2e-5 == doctest::Approx(force.x).epsilon(1e-7));
   CHECK((stored(here + dy) - stored(here - dy)) / 2e-5 == doctest::Approx(force.y).epsilon(1e-7));
   CHECK(glm::length(bench.reading.actuator_force - force) < 1e-13);
@@ -191,7 +191,7 @@ TEST_CASE("motors saturate at 31.7 N, and at 10.83 N once they are hot") {
   CHECK(bench.reading.actuator_force.x == doctest::Approx(hot.x).epsilon(1e-9));
 }
 
-TEST_CASE("60 N run to the stops: 77 mm to the side, 69 mm forward, and lean on them without a bounce") {
+TEST_CASE("60 N push the lever to its stops, 77 mm to the side and 69 mm forward, without a bounce") {
   Bench bench(exact(), hand_pushing({60.0, 0.0}));
   bench.lever.write({-31.7, 0.0});
   bench.run(1000);
@@ -218,7 +218,7 @@ TEST_CASE("dry friction holds the lever against smaller forces") {
   CHECK(bench.arc().x == doctest::Approx(0.1 / 14.8).epsilon(1e-3));  // k x = f cos(theta) - friction
 }
 
-TEST_CASE("time advances in whole periods: n periods are n sequence numbers; none or backward is stale") {
+TEST_CASE("time advances in whole periods: n periods are n sequence numbers; no advance, or backward, is stale") {
   StillHand hand;
   SimulatedLever lever(SimulatedLeverConfig{}, kMillisecond, hand);
   const std::int64_t start = 12'345'678'901;
@@ -236,7 +236,7 @@ TEST_CASE("time advances in whole periods: n periods are n sequence numbers; non
   CHECK(lever.read(start + 3'600'001 * kMillisecond).sequence == gap.sequence + 1);
 }
 
-TEST_CASE("one read over ten periods is ten reads over one") {
+TEST_CASE("one read after ten periods equals ten reads after one each") {
   Bench once(exact(kGripHand), hand_at({0.02, 0.03})), each(exact(kGripHand), hand_at({0.02, 0.03}));
   each.run(10);
   once.reading = once.lever.read(10 * kMillisecond);

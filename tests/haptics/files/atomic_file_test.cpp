@@ -82,8 +82,9 @@ TEST_CASE("a pipe is written to once and stays a pipe") {
     part.write("whole");
     part.commit();
   }
-  char got[16];
-  CHECK(std::string(got, static_cast<std::size_t>(std::max<ssize_t>(0, read(reader, got, sizeof got)))) == "whole");
+  char buffer[16];
+  CHECK(std::string(buffer, static_cast<std::size_t>(std::max<ssize_t>(0, read(reader, buffer, sizeof buffer)))) ==
+        "whole");
   CHECK(fs::is_fifo(pipe));
   CHECK(files_in(folder) == 1);
   close(reader);
@@ -106,7 +107,7 @@ TEST_CASE("a write-protected file is rejected by prepare(), and by commit() if i
   AtomicFile part(folder / "page.html");
   part.write("second");
   fs::permissions(folder / "page.html", fs::perms::owner_read);
-  const auto refusal = doctest::Contains("page.html: cannot be written: Permission denied");
+  const auto refusal = doctest::Contains("page.html: cannot be written (Permission denied)");
   CHECK_THROWS_WITH_AS(part.commit(), refusal, FileError);
   CHECK_THROWS_WITH_AS(AtomicFile(folder / "page.html").prepare(), refusal, FileError);
   CHECK_THROWS_WITH_AS(write_text_file(folder / "page.html", "third"), refusal, FileError);

@@ -44,19 +44,19 @@ TEST_CASE("the largest file is 1 MiB, not a byte more") {
   const TempFolder scratch;
   CHECK(read_text_file(write(scratch / "most", std::string(1048576, 'x'))).size() == 1048576);
   const fs::path larger = write(scratch / "more", std::string(1048577, 'x'));
-  CHECK(refusal(larger) == larger.string() + ": is larger than 1 MiB");
+  CHECK(refusal(larger) == larger.string() + ": the file is larger than 1 MiB");
 }
 
 TEST_CASE("anything that is not a readable file is rejected in one sentence") {
   const TempFolder scratch;
   const fs::path missing = scratch / "missing.toml";
   CHECK(refusal(missing) == missing.string() + ": there is no such file");
-  CHECK(refusal(scratch.path()) == scratch.path().string() + ": is a folder, not a file");
-  CHECK(refusal("/dev/zero") == "/dev/zero: is not a regular file");
+  CHECK(refusal(scratch.path()) == scratch.path().string() + ": this is a folder, not a file");
+  CHECK(refusal("/dev/zero") == "/dev/zero: this is not a regular file");
 
-  const fs::path loop = scratch / "loop";  // a link to itself, which cannot be resolved, not even by root
+  const fs::path loop = scratch / "loop";  // a link to itself, which not even root can resolve
   fs::create_symlink(loop, loop);
-  CHECK(refusal(loop) == loop.string() + ": cannot be read: Too many levels of symbolic links");
+  CHECK(refusal(loop) == loop.string() + ": cannot be read (Too many levels of symbolic links)");
 
   const fs::path secret = write(scratch / "secret", "x");
   fs::permissions(secret, fs::perms::none);

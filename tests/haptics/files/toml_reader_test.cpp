@@ -53,7 +53,7 @@ TEST_CASE("values come back as written") {
   CHECK_FALSE(table.has("absent"));
 }
 
-TEST_CASE("tables know their lines") {
+TEST_CASE("tables have their line numbers") {
   const TomlTable table = sample();
   CHECK(table.line("count") == 3);
   CHECK(table.table("inner").line() == 7);
@@ -138,7 +138,7 @@ TEST_CASE("invalid TOML is rejected in one sentence with its line") {
   // Found by the fuzzer: this reaches code that toml++ marks as unreachable.
   CHECK(parse("a = \u03cb0\n").find("bad.toml:1: not valid TOML: ") == 0);
   CHECK(parse("a = 99999999999999999999\n").find("bad.toml:1: not valid TOML: ") == 0);
-  CHECK(parse(std::string(1048577, '\n')) == "bad.toml: is larger than 1 MiB");
+  CHECK(parse(std::string(1048577, '\n')) == "bad.toml: the file is larger than 1 MiB");
   for (const char* text : {"a = \n", "[a\n", "a = 'x\n'", "= 1", "a = \"\"\"x", "\x1b[31m = 1\n", "a\x1b = 1",
                            "a = \x1b[31m", "\"k\\u001b\\n\" = 1\n\"k\\u001b\\n\" = 2\n", "\xc2\x9b = 1"}) {
     CAPTURE(text);

@@ -1,4 +1,4 @@
-// Compiling a layout to a gate: positions, curves, lockouts, list of walls; then random valid layouts.
+// Compiling a layout to a gate: positions, curves, lockouts and walls; then random valid layouts.
 #include "haptics/gate/gate_compiler.h"
 
 #include <algorithm>
@@ -35,14 +35,14 @@ const Slot& slot_for(const Gate& gate, int gear) {
   return slot_of(gate, slot);
 }
 
-const Slot& slot_for(const Gate&&, int) = delete;  // the reference would dangle
+const Slot& slot_for(const Gate&&, int) = delete;  // a slot of a temporary gate would dangle
 
 int count_role(const GateDescription& list, WallRole role) {
   return static_cast<int>(
       std::count_if(list.walls.begin(), list.walls.end(), [&](const WallInfo& w) { return w.role == role; }));
 }
 
-// Whether a point-like lever reaches every gear from neutral, by flood fill on a 0.5 mm grid, independent of the
+// True if a point-like lever reaches every gear from neutral, by flood fill on a 0.5 mm grid, independent of the
 // aisles.
 bool reaches_every_gear(const Gate& gate) {
   constexpr double step = 0.5e-3;
@@ -74,7 +74,7 @@ bool reaches_every_gear(const Gate& gate) {
   });
 }
 
-// Whether the wall has free space on exactly one side.
+// True if the wall has free space on exactly one side.
 bool separates(const Gate& gate, const WallInfo& wall) {
   const dvec2 middle = 0.5 * (wall.from + wall.to);
   const dvec2 along = wall.to - wall.from;
@@ -221,7 +221,7 @@ TEST_CASE("the paper's gate has the positions given in its file") {
 
   REQUIRE(gate.buffer_count == 2);
   CHECK(gate.buffer[0].wall == Approx(-0.035));
-  CHECK(gate.buffer[0].inner == Approx(-0.027));  // 0.8 of the slot's 10 mm
+  CHECK(gate.buffer[0].inner == Approx(-0.027));  // 0.8 of the slot's width of 10 mm
   CHECK(gate.buffer[1].wall == Approx(0.035));
   CHECK(gate.buffer[1].inner == Approx(0.027));
   CHECK((gate.buffer[1].back_open && gate.buffer[1].forward_open));
@@ -234,7 +234,7 @@ TEST_CASE("the feel along the paper's slots has the file's forces at the positio
   const Slot& slot = slot_for(gate, 3);
   const auto force = [&](double millimetres) { return feel_force(slot.feel, millimetres * 1e-3); };
   CHECK(force(0.0) == Approx(0.0));
-  CHECK(force(1.5) == Approx(-11.0 / 16.0));  // (3u - u^3)/2 at u = 1/2
+  CHECK(force(1.5) == Approx(-11.0 / 16.0));  // (3 u - u^3) / 2 at u = 1/2
   CHECK(force(3.0) == Approx(-1.0));
   CHECK(force(10.0) == Approx(-1.0));
   CHECK(force(14.2) == Approx(-4.0));
@@ -267,7 +267,7 @@ TEST_CASE("a lockout is lateral only if all gears of its column have the same ki
   layout.lockouts = {guard(kReverseGear, LockoutKind::push_down)};
   CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
 
-  layout.columns[1].forward.gear = kNeutralGear;  // only R in its column
+  layout.columns[1].forward.gear = kNeutralGear;  // R is the only gear in its column
   const Gate reverse_only = compile_gate(layout, kPaperWorkspace);
   CHECK(reverse_only.lockout[0].lateral);
   CHECK(reverse_only.lockout[0].barrier == Approx(0.015));
@@ -307,7 +307,7 @@ TEST_CASE("a layout built in code is checked like one from a file") {
   GateLayout layout = small_layout();
   CHECK(refused(layout) == "not refused");
   layout.aisle_width = 0.0039;
-  CHECK(refused(layout) == "small.toml: an aisle of 3.9 mm is too narrow: it needs at least 4 mm");
+  CHECK(refused(layout) == "small.toml: an aisle of 3.9 mm is too narrow; it must be at least 4 mm wide");
   layout.aisle_width = std::nan("");
   CHECK(refused(layout).find("is too narrow") != std::string::npos);
   layout = small_layout();
@@ -318,7 +318,7 @@ TEST_CASE("a layout built in code is checked like one from a file") {
   CHECK(refused(layout) == "small.toml: the neutral column is not one of the columns");
   layout = small_layout();
   layout.lockouts.assign(kMaxLockouts + 1, guard(1, LockoutKind::lift));
-  CHECK(refused(layout) == "small.toml: a gate has at most 16 lockouts");
+  CHECK(refused(layout) == "small.toml: a gate can have at most 16 lockouts");
 }
 
 TEST_CASE("the device's reach is that of its two joints, corners included") {
@@ -353,13 +353,13 @@ TEST_CASE("far columns or long slots are within reach, both together are not") {
   CHECK_NOTHROW(compile_gate(with(0.058, 0.040), kPaperWorkspace));
   CHECK_NOTHROW(compile_gate(with(0.012, 0.060), kPaperWorkspace));
   CHECK_THROWS_WITH_AS(compile_gate(with(0.058, 0.060), kPaperWorkspace),
-                       "small.toml: the column at -58 mm has its wall at 63 mm, outside the workspace: the device "
-                       "reaches less far in its corners; with end stops at 60 mm, walls must lie within 20.4 mm of "
+                       "small.toml: the column at -58 mm has its wall at 63 mm, outside the workspace, which is "
+                       "narrower at its corners; with end stops at 60 mm, walls must lie within 20.4 mm of "
                        "the centre",
                        FileError);
   CHECK_NOTHROW(compile_gate(with(0.058, 0.060), kPaperWorkspace, std::numeric_limits<double>::infinity()));
 
-  // The number in the message is the bound: a wall there compiles, one 0.2 mm further out does not.
+  // The number in the message is the bound: a wall there compiles, but not one 0.2 mm further out.
   CHECK_NOTHROW(compile_gate(with(0.0154, 0.060), kPaperWorkspace));
   CHECK_THROWS_AS(compile_gate(with(0.0156, 0.060), kPaperWorkspace), FileError);
 }
@@ -395,7 +395,7 @@ TEST_CASE("any valid layout compiles to a gate that satisfies the laws") {
   }
 }
 
-// The reader's ranges are 4 to 40, 4 to 30 and up to 10 mm, 1 to 25, up to 20 and up to 15 N.
+// Allowed ranges of sizes and forces: 4 to 40, 4 to 30 and up to 10 mm; 1 to 25, up to 20 and up to 15 N.
 TEST_CASE("wide random layouts cover the ranges that the reader allows") {
   double aisle = 0.0, slot = 0.0, chamfer = 0.0, lock = 0.0, detent = 0.0, mouth = 0.0, narrowest = 1.0,
          min_lock = 99.0;
@@ -430,7 +430,7 @@ TEST_CASE("random layouts are reproducible and differ from each other") {
     with_buffers += gate.buffer_count > 0;
     with_reverse += slot_of_gear(gate, kReverseGear) != kNoSlot;
   }
-  // Features that the generator never produced would not be tested.
+  // Checks that the generator produces every feature often enough to test it.
   CHECK(with_lockouts > kRandomLayouts / 4);
   CHECK(with_buffers > kRandomLayouts / 4);
   CHECK(with_reverse > kRandomLayouts / 4);

@@ -41,7 +41,7 @@ TEST_CASE("feel is the negative gradient of one energy, everywhere in every gate
     const Gate gate = shipped_gate(name);
     for (int i = 0; i < 20000; ++i) {
       const dvec2 p = random_free_point(gate, random);
-      if (std::abs(std::abs(p.y) - gate.half_aisle) < 1e-6) continue;  // the difference would straddle a seam
+      if (std::abs(std::abs(p.y) - gate.half_aisle) < 1e-6) continue;  // the central difference would straddle a seam
       REQUIRE(glm::distance(gate_feel(gate, p), minus_gradient(gate, p)) < 1e-4);
     }
   }
@@ -112,7 +112,7 @@ TEST_CASE("paper, Fig. 7 (c): in the buffer of junctions I and III a vertical fo
     const double inside = buffer.wall + 0.1 * (buffer.inner - buffer.wall);
     CHECK(gate_feel(gate, {inside, half}).y > 0.5);
     CHECK(gate_feel(gate, {inside, -half}).y < -0.5);
-    // There is none before the lever enters the buffer.
+    // Outside the buffer there is no force.
     const double outside = buffer.inner + 0.001 * (buffer.inner > buffer.wall ? 1.0 : -1.0);
     CHECK(gate_feel(gate, {outside, half}).y <= 0.0);
   }

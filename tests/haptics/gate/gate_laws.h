@@ -10,8 +10,8 @@
 
 namespace gearshift::test {
 
-// The paper's yoke reaches a point of the gate plane if both angles stay inside their stops. Eq (2) corrected:
-// px = rho tan(theta) / s, py = -rho tan(phi) / s, pz = rho / s with s = sqrt(1 + tan^2 theta + tan^2 phi).
+// True if the paper's yoke reaches this point of the gate plane with both angles inside their stops. The paper's (2),
+// corrected: px = rho tan(theta) / s, py = -rho tan(phi) / s, pz = rho / s with s = sqrt(1 + tan^2 theta + tan^2 phi).
 inline bool yoke_reaches(glm::dvec2 point) {
   constexpr double kRho = 0.120;
   const double height_squared = kRho * kRho - point.x * point.x - point.y * point.y;
@@ -22,8 +22,8 @@ inline bool yoke_reaches(glm::dvec2 point) {
   return theta < 40.0 && phi < 35.0;
 }
 
-// On the chamfers neither force may depend on the position along its own axis, or moving round the corner would supply
-// energy.
+// On the chamfers neither force may depend on the position along its own axis; otherwise moving round the corner would
+// supply energy.
 inline void check_constant_at_mouths(const haptics::Gate& gate) {
   constexpr int kSteps = 20;
   const double at_wall = haptics::feel_force(gate.aisle_feel, gate.half_aisle);

@@ -20,19 +20,19 @@ namespace {
 
 struct Hostile {
   const char* file;
-  const char* sentence;  // after the file's name
+  const char* sentence;  // text that follows the file's name in the message
 };
 
 // Lines and reasons for the files in tests/data/hostile_layouts.
 constexpr Hostile kHostile[] = {
     {"after_gear_elsewhere", ":29: a lockout of gear R after gear 4 needs both gears in the same column"},
-    {"after_itself", ":29: gear R could not be reached: its lockout waits for itself"},
+    {"after_itself", ":29: gear R could not be reached, because its lockout would wait for this same gear"},
     {"after_nothing", ":29: after is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"aisle_too_narrow", ":4: aisle_width_mm = 3.5: must be between 4 and 40"},
     {"barely_negative", ":7: chamfer_mm = -1e-09: must be between 0 and 10"},
     {"buffer_holds_the_lever",
-     ":9: buffer_force_n = 4 would hold the lever at a closed junction: it pulls the lever there with "
-     "2.62 N, and center_force_n is only 2"},
+     ":9: buffer_force_n = 4 would hold the lever at a closed junction; it pulls the lever there with "
+     "2.62 N, but center_force_n is only 2"},
     {"byte_order_of_utf16", ":1: not valid TOML: "},
     {"center_force_too_weak", ":5: center_force_n = 1: must be at least 1.6, or the lever would not return"},
     {"center_force_too_steep", ":9: center_force_n is too large for such a narrow slot"},
@@ -54,7 +54,7 @@ constexpr Hostile kHostile[] = {
     {"infinity", ":10: lock_force_n = inf: must be between 1 and 25"},
     {"junction_ajar", ":27: junction = \"ajar\": must be one of open, closed"},
     {"key_with_escape", ":7: chamfer?[31m _mm is not a known key; known keys: aisle_width_mm"},
-    {"lockout_of_no_gear", ":29: there is no gear 6 for this lockout to guard"},
+    {"lockout_of_no_gear", ":29: this lockout is for gear 6, but the gate has no such gear"},
     {"lockout_without_gear", ":29: gear is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"lower_case_reverse", ":26: back = \"r\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"missing_position", ":17: position_mm is missing: it must be a number between -200 and 200"},
@@ -70,40 +70,40 @@ constexpr Hostile kHostile[] = {
     {"neutral_not_a_flag", ":21: neutral = \"yes\": must be true or false"},
     {"no_columns", ":1: column is missing: write one [[column]] for every column of gears"},
     {"no_forward_gear", ":17: the column at 30 mm has no gear"},
-    {"no_neutral", ":12: no column is neutral: write neutral = true in exactly one [[column]]"},
+    {"no_neutral", ":12: no column is neutral; write neutral = true in exactly one [[column]]"},
     {"not_toml", ":4: not valid TOML: "},
     {"not_utf8", ":1: not valid TOML: "},
     {"number_for_a_gear", ":14: forward = 1: must be text in quotes"},
     {"number_past_double", ":10: not valid TOML: "},
-    {"one_column", ":3: a gate has between 2 and 8 columns, this one has 1"},
+    {"one_column", ":3: a gate must have between 2 and 8 columns, but this one has 1"},
     {"out_of_range", ":10: lock_force_n = 60: must be between 1 and 25"},
     {"outside_corner",
-     ":12: the column at -64 mm has its wall at 69 mm, outside the workspace: the device reaches less far in its "
+     ":12: the column at -64 mm has its wall at 69 mm, outside the workspace, which is narrower at its "
      "corners; with end stops at 61 mm, walls must lie within 11.5 mm of the centre"},
     {"outside_fore_aft", ":6: slot_length_mm puts the end stops at 62 mm, outside the workspace"},
     {"outside_sideways",
-     ":23: the column at 70 mm has its wall at 75 mm, outside the workspace: the device "
+     ":23: the column at 70 mm has its wall at 75 mm, outside the workspace; the device "
      "reaches 77.1 mm sideways and 68.8 mm fore and aft"},
     {"overlapping_columns",
-     ":23: the column at 19.9 mm overlaps the previous one: slots of this width and chamfer "
-     "need 20 mm from centre to centre, not 19.9 mm"},
+     ":23: the column at 19.9 mm overlaps the previous one, because slots of this width and chamfer "
+     "need 20 mm from centre to centre, but have 19.9 mm"},
     {"same_column_twice", ":23: the column at 0 mm is not to the right of the previous one"},
-    {"slot_too_short", ":6: slot_length_mm is too short: with this aisle and chamfer a slot needs at least 20 mm"},
-    {"slot_too_short_for_its_feel", ":6: slot_length_mm is too short for its feel: below 38.1 mm"},
+    {"slot_too_short", ":6: slot_length_mm is too short; with this aisle and chamfer it must be at least 20 mm"},
+    {"slot_too_short_for_its_feel", ":6: slot_length_mm is too short; below 38.1 mm"},
     {"speed_below_zero", ":33: open_below_kmh = -1: must be between 0 and 400"},
     {"speed_of_a_lift_ring", ":32: close_above_kmh is not a known key; known keys: gear, kind"},
     {"speeds_in_reverse", ":29: open_below_kmh must be smaller than close_above_kmh"},
     {"text_for_a_number", ":5: slot_width_mm = \"10 mm\": must be a number between 4 and 30"},
-    {"too_many_columns", ":44: a gate has between 2 and 8 columns, this one has 9"},
-    {"too_many_lockouts", ":95: a gate has at most 16 lockouts"},
-    {"two_neutrals", ":27: neutral = true: only one column can be neutral, and line 21 already says so"},
+    {"too_many_columns", ":44: a gate must have between 2 and 8 columns, but this one has 9"},
+    {"too_many_lockouts", ":95: a gate can have at most 16 lockouts"},
+    {"two_neutrals", ":27: neutral = true: only one column can be neutral, but the column on line 21 already is"},
     {"unknown_gear", ":14: forward = \"10\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"unknown_key", ":8: chamfer_in is not a known key; known keys: aisle_width_mm, slot_width_mm"},
     {"unknown_kind", ":31: kind = \"magnet\": must be one of push_down, lift, speed, after_gear"},
     {"unknown_table", ":9: sound is not a known key; known keys: name, gate, feel, column, lockout"},
     {"unreachable_gears",
-     ":17: only an end column can have a closed junction: here gear 5 and R could not be "
-     "reached"},
+     ":17: only an end column can have a closed junction; here it would block the "
+     "way to gear 5 and R"},
 };
 
 constexpr const char* kFolder = GEARSHIFT_TEST_DATA "/hostile_layouts";
@@ -151,7 +151,7 @@ TEST_CASE("every gear and every kind of lockout is read by its canonical name") 
   CHECK(std::string(gear_name(kMaxGear + 1)) == "?");
   for (const LockoutKind kind :
        {LockoutKind::push_down, LockoutKind::lift, LockoutKind::speed, LockoutKind::after_gear}) {
-    std::string lines = std::string("kind = \"") + lockout_kind_name(kind) + "\"\n";
+    std::string lines = std::string("kind = \"") + to_string(kind) + "\"\n";
     if (kind == LockoutKind::after_gear) lines += "after = \"1\"\n";
     CHECK(layout_with("1", lines).lockouts[0].kind == kind);
   }

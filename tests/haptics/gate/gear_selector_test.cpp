@@ -1,4 +1,5 @@
-// The engaged gear. The tests cover known bugs of similar software: flicker, hang after neutral, double engagement.
+// The engaged gear. The tests cover known bugs of similar software: flicker, a gear that stays engaged in neutral,
+// double engagement.
 #include "haptics/gate/gear_selector.h"
 
 #include <algorithm>
@@ -93,16 +94,16 @@ TEST_CASE("no double engagement: two gears in a row never without neutral in bet
   int before = hold(selector, gate, rest_position(gate, 1), 0.1);
   REQUIRE(before == 1);
   for (const int gear : {2, 3, 4, 5, kReverseGear, 1}) {
-    std::vector<int> seen;
+    std::vector<int> gears;
     const dvec2 from = rest_position(gate, before), to = rest_position(gate, gear);
     const dvec2 path[] = {from, {from.x, 0.0}, {to.x, 0.0}, to};
     for (int leg = 0; leg < 3; ++leg) {
       for (int i = 0; i <= 100; ++i) {
-        seen.push_back(selector.update(gate, path[leg] + (path[leg + 1] - path[leg]) * (i / 100.0), kPeriod));
+        gears.push_back(selector.update(gate, path[leg] + (path[leg + 1] - path[leg]) * (i / 100.0), kPeriod));
       }
     }
-    CHECK(std::count(seen.begin(), seen.end(), kNeutralGear) > 0);
-    CHECK(std::set<int>(seen.begin(), seen.end()) == std::set<int>{before, kNeutralGear, gear});
+    CHECK(std::count(gears.begin(), gears.end(), kNeutralGear) > 0);
+    CHECK(std::set<int>(gears.begin(), gears.end()) == std::set<int>{before, kNeutralGear, gear});
     before = gear;
   }
 }

@@ -15,7 +15,7 @@ using doctest::Approx;
 
 namespace {
 
-// A gate as engraved on a knob: the forward row and the back row, '-' for no gear.
+// A gate as engraved on a knob: the forward row and the back row; '-' means no gear.
 struct ShippedGate {
   const char* name;
   const char* forward;

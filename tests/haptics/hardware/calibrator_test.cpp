@@ -23,7 +23,7 @@ using glm::dvec2;
 
 namespace {
 
-// A stick, a person in front of it, and the calibrator, which uses the bench's ticks.
+// A stick, its user, and the calibrator, which is called at the bench's ticks.
 struct CalibrationBench : StickBench {
   explicit CalibrationBench(const EmulatedStickConfig& config, const DeviceCalibration& known = {})
       : StickBench(config, person),
@@ -38,19 +38,19 @@ struct CalibrationBench : StickBench {
     stick.logs = false;
   }
 
-  void show(const std::function<dvec2(double)>& way) {  // [m] over the time from now [s]
-    person.wants = [this, way, begin = time()] { return way(time() - begin); };
+  void move_along(const std::function<dvec2(double)>& path) {  // [m] position as a function of the time from now [s]
+    person.target_position = [this, path, begin = time()] { return path(time() - begin); };
   }
-  void hands_off() { person.wants = nullptr; }
+  void hands_off() { person.target_position = nullptr; }
 
   void find_axes() {
-    show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
+    move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
     calibrator.find_axis(true, 2.0);
-    show([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
+    move_along([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
     calibrator.find_axis(false, 2.0);
   }
-  std::string round_all_ends() {
-    show([](double t) { return 0.090 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
+  std::string measure_all_stops() {
+    move_along([](double t) { return 0.090 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
     every_tick = [this, begin = time()] {
       if (time() - begin > 4.0) hands_off();
     };
@@ -65,14 +65,14 @@ struct CalibrationBench : StickBench {
   Calibrator calibrator;
 };
 
-EmulatedStickConfig of(StickFamily family) {
+EmulatedStickConfig config_of(StickFamily family) {
   EmulatedStickConfig config;
   config.family = family;
   return config;
 }
 
 // A perfect calibration without timing and handle.
-DeviceCalibration shown(const EmulatedStickConfig& config) {
+DeviceCalibration unmeasured_calibration(const EmulatedStickConfig& config) {
   DeviceCalibration known = calibration_of(config);
   known.timing = {};
   for (LeverAxisCalibration* axis : {&known.select, &known.shift}) {
@@ -93,13 +93,13 @@ std::string refusal(const std::function<void()>& step) {
   return "";
 }
 
-// [N s/m] The damping that a damper D adds to a mass if its force is held for a period: the speed decays in each by phi
-// - D (1 - phi) / b, with phi = exp(-b T / m).
+// Damping that a sampled damper D adds to a mass if its force is held for a period T: in each period the speed decays
+// by phi - D (1 - phi) / b, with phi = exp(-b T / m). [N s/m]
 double sampled_damper(const AxisModel& handle, double damper) {
   constexpr double kPeriod = 0.001;  // [s]
   const double phi = std::exp(-handle.damping * kPeriod / handle.mass);
-  const double falls = phi - damper * (1.0 - phi) / handle.damping;
-  return -handle.mass * std::log(falls) / kPeriod - handle.damping;
+  const double decay = phi - damper * (1.0 - phi) / handle.damping;
+  return -handle.mass * std::log(decay) / kPeriod - handle.damping;
 }
 
 double counts_of(const LeverAxisCalibration& axis) {
@@ -114,7 +114,7 @@ TEST_CASE(
     for (const glm::ivec2 sign : {glm::ivec2(1, 1), glm::ivec2(-1, 1)}) {
       CAPTURE(name_of(family));
       CAPTURE(sign.x);
-      EmulatedStickConfig config = of(family);
+      EmulatedStickConfig config = config_of(family);
       config.constant_sign = sign;
       config.spring_sign = config.damper_sign = {sign.y, sign.x};
       config.delay = 0.002;
@@ -123,7 +123,7 @@ TEST_CASE(
       Calibrator& calibrator = bench.calibrator;
 
       bench.find_axes();
-      bench.round_all_ends();
+      bench.measure_all_stops();
       calibrator.set_numbers(0.14, 0.14, 20.0);
       bench.hands_off();
       bench.strongest = 0.0;
@@ -133,7 +133,7 @@ TEST_CASE(
       calibrator.measure_handle();
       calibrator.measure_springs();
 
-      const double fine = family == StickFamily::sidewinder ? 0.10 : 0.04;  // counts of 137 um, or of at most 4 um
+      const double fine = family == StickFamily::sidewinder ? 0.10 : 0.04;  // encoder counts of 137 or at most 4 um
       const DeviceCalibration& found = calibrator.calibration();
       CHECK(missing_steps(found, true).empty());
       CHECK(found.select.constant_sign == truth.select.constant_sign);
@@ -141,26 +141,26 @@ TEST_CASE(
       CHECK(found.select.spring_sign == truth.select.spring_sign);
       CHECK(found.shift.spring_sign == truth.shift.spring_sign);
       for (const bool select : {true, false}) {
-        const LeverAxisCalibration& is = select ? found.select : found.shift;
-        const LeverAxisCalibration& should = select ? truth.select : truth.shift;
-        const double count = 0.01 * counts_of(should);
-        CHECK(is.usage == should.usage);
-        CHECK(std::abs(is.low - should.low) < count);
-        CHECK(std::abs(is.high - should.high) < count);
-        CHECK(std::abs(is.centre - should.centre) < count);
-        CHECK(is.handle.mass == doctest::Approx(should.handle.mass).epsilon(0.05));
-        CHECK(is.handle.damping == doctest::Approx(should.handle.damping).epsilon(0.05));
-        CHECK(std::abs(is.handle.stiffness - should.handle.stiffness) < 4.0);
-        CHECK(is.spring_stiffness == doctest::Approx(400.0).epsilon(0.05));
-        CHECK(is.damper_sign == should.damper_sign);
-        CHECK(is.damper_strength == doctest::Approx(2.0 * sampled_damper(should.handle, 10.0)).epsilon(fine));
+        const LeverAxisCalibration& measured = select ? found.select : found.shift;
+        const LeverAxisCalibration& expected = select ? truth.select : truth.shift;
+        const double count = 0.01 * counts_of(expected);
+        CHECK(measured.usage == expected.usage);
+        CHECK(std::abs(measured.low - expected.low) < count);
+        CHECK(std::abs(measured.high - expected.high) < count);
+        CHECK(std::abs(measured.centre - expected.centre) < count);
+        CHECK(measured.handle.mass == doctest::Approx(expected.handle.mass).epsilon(0.05));
+        CHECK(measured.handle.damping == doctest::Approx(expected.handle.damping).epsilon(0.05));
+        CHECK(std::abs(measured.handle.stiffness - expected.handle.stiffness) < 4.0);
+        CHECK(measured.spring_stiffness == doctest::Approx(400.0).epsilon(0.05));
+        CHECK(measured.damper_sign == expected.damper_sign);
+        CHECK(measured.damper_strength == doctest::Approx(2.0 * sampled_damper(expected.handle, 10.0)).epsilon(fine));
       }
       CHECK(found.timing.input_interval == doctest::Approx(0.001));
       CHECK(found.timing.jitter == doctest::Approx(0.0));
       CHECK(found.timing.output_interval == doctest::Approx(0.001).epsilon(0.02));
       CHECK(std::abs(found.timing.delay - 0.002) < 3e-4);
 
-      // The result holds a wall: a hand presses into the neutral aisle's wall.
+      // The loop with this calibration renders a wall: a hand presses into the neutral aisle's wall.
       EmulatedStickConfig gripped = config;
       gripped.lever.hand = kGripHand;
       StillHand hand;
@@ -178,18 +178,18 @@ TEST_CASE(
         low = glm::min(low, run.stick.position());
         high = glm::max(high, run.stick.position());
       }
-      CHECK(glm::length(high - low) < 3e-4);  // two counts of the SideWinder
+      CHECK(glm::length(high - low) < 3e-4);  // two encoder counts of the SideWinder
     }
   }
 }
 
-TEST_CASE("delay: as configured in the emulation, within a third of a millisecond") {
+TEST_CASE("the measured delay is the emulation's, within a third of a millisecond") {
   for (const double delay : {0.0, 0.001, 0.003, 0.0055, 0.012}) {
     CAPTURE(delay);
-    EmulatedStickConfig config = of(StickFamily::sidewinder);  // the coarsest stick
+    EmulatedStickConfig config = config_of(StickFamily::sidewinder);  // the coarsest stick
     config.delay = delay;
     config.plant_period = 0.00025;
-    DeviceCalibration known = shown(config);
+    DeviceCalibration known = unmeasured_calibration(config);
     known.select.constant_sign = -1;
     known.shift.constant_sign = 1;
     CalibrationBench bench(config, known);
@@ -198,11 +198,11 @@ TEST_CASE("delay: as configured in the emulation, within a third of a millisecon
   }
 }
 
-TEST_CASE("intervals: those of the stick and its ticks") {
+TEST_CASE("the measured intervals are those of the stick and its ticks") {
   for (const double interval : {0.002, 0.004, 0.008}) {
-    EmulatedStickConfig config = of(StickFamily::vjoy);
+    EmulatedStickConfig config = config_of(StickFamily::vjoy);
     config.input_interval = interval;
-    DeviceCalibration known = shown(config);
+    DeviceCalibration known = unmeasured_calibration(config);
     known.select.constant_sign = -1;
     known.shift.constant_sign = 1;
     CalibrationBench bench(config, known);
@@ -219,31 +219,31 @@ TEST_CASE("missing steps are listed in order, and finished steps are not listed"
   DeviceCalibration known;
   CHECK(missing_steps(known, true) == std::vector{range, numbers, polarity, timing, handle, springs});
   CHECK(missing_steps(known, false) == std::vector{range, numbers, polarity, timing, handle});
-  known = calibration_of(of(StickFamily::vjoy));
+  known = calibration_of(config_of(StickFamily::vjoy));
   CHECK(missing_steps(known, true).empty());
   known.timing = {};
   known.shift.spring_stiffness = 0.0;
   CHECK(missing_steps(known, true) == std::vector{timing, springs});
-  known = shown(of(StickFamily::vjoy));
+  known = unmeasured_calibration(config_of(StickFamily::vjoy));
   CHECK(missing_steps(known, true) == std::vector{polarity, timing, handle, springs});
 }
 
-// A hand adds twice the mass and thirty times the stiffness; walls tuned for that vibrate without the hand.
+// A hand adds twice the mass and thirty times the stiffness; walls tuned with the hand would vibrate without it.
 TEST_CASE("the handle is not measured while a hand holds the lever") {
-  EmulatedStickConfig config = of(StickFamily::openffboard);
+  EmulatedStickConfig config = config_of(StickFamily::openffboard);
   DeviceCalibration known = calibration_of(config);
   known.select.handle = known.shift.handle = {};
   config.lever.hand = kGripHand;
   CalibrationBench bench(config, known);
-  CHECK(refusal([&] { bench.calibrator.measure_handle(); }).find("too stiff for its motors: take your hands off") !=
+  CHECK(refusal([&] { bench.calibrator.measure_handle(); }).find("too stiff for the motors. Take your hands off") !=
         std::string::npos);
   CHECK_FALSE(bench.calibrator.calibration().has_handle());
 }
 
-// The nudge is a spring of 400 N/m towards a point 8 mm off, for 50 ms, at times that fall into a pulse. With a single
-// fit of four pulses, three of them gave a damper of 1.68, 1.36 and 1.76 times its strength, the others a refusal.
+// The nudge is a spring of 400 N/m towards a point 8 mm off, for 50 ms, at times within a pulse. With a single fit to
+// all four pulses, three of these times gave 1.68, 1.36 and 1.76 times the true damping; the others were refused.
 TEST_CASE("a nudge during one of the pulses is outvoted by the other pulses") {
-  const EmulatedStickConfig config = of(StickFamily::openffboard);
+  const EmulatedStickConfig config = config_of(StickFamily::openffboard);
   const DeviceCalibration truth = calibration_of(config);
   const double damper = 2.0 * sampled_damper(truth.select.handle, 10.0);
   const auto nudged = [&](double from, const std::function<void(Calibrator&)>& measure) {
@@ -252,7 +252,7 @@ TEST_CASE("a nudge during one of the pulses is outvoted by the other pulses") {
     CalibrationBench bench(config, known);
     bench.every_tick = [&bench, from] {
       const bool now = bench.time() > from && bench.time() < from + 0.05;
-      bench.person.wants = now ? std::function<dvec2()>([] { return dvec2(0.008); }) : nullptr;
+      bench.person.target_position = now ? std::function<dvec2()>([] { return dvec2(0.008); }) : nullptr;
     };
     CHECK(refusal([&] { measure(bench.calibrator); }) == "");
     CHECK(bench.time() > from);
@@ -273,8 +273,8 @@ TEST_CASE("a nudge during one of the pulses is outvoted by the other pulses") {
 }
 
 TEST_CASE("resumed: the remaining steps need only what is in the file") {
-  const EmulatedStickConfig config = of(StickFamily::openffboard);
-  CalibrationBench bench(config, shown(config));
+  const EmulatedStickConfig config = config_of(StickFamily::openffboard);
+  CalibrationBench bench(config, unmeasured_calibration(config));
   bench.calibrator.measure_polarity();
   const DeviceCalibration half = bench.calibrator.calibration();
   CalibrationBench again(config, half);
@@ -284,21 +284,21 @@ TEST_CASE("resumed: the remaining steps need only what is in the file") {
 }
 
 TEST_CASE("invalid input while a person moves the lever is refused and changes nothing") {
-  const EmulatedStickConfig config = of(StickFamily::openffboard);
+  const EmulatedStickConfig config = config_of(StickFamily::openffboard);
   CalibrationBench bench(config);
   Calibrator& calibrator = bench.calibrator;
-  CHECK(refusal([&] { calibrator.measure_range(2.0); }) == "the lever's axes are not known yet: find them first");
+  CHECK(refusal([&] { calibrator.measure_range(2.0); }) == "the lever's axes are not known yet. Find the axes first");
 
-  bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.020, 0.0); });
+  bench.move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.020, 0.0); });
   CHECK(refusal([&] { calibrator.find_axis(true, 2.0); }).find("no axis moved by more than 1") == 0);
-  bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060); });
-  CHECK(refusal([&] { calibrator.find_axis(true, 2.0); }) == "two axes moved together: push the lever straight");
-  bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
+  bench.move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060); });
+  CHECK(refusal([&] { calibrator.find_axis(true, 2.0); }) == "two axes moved together. Push the lever straight");
+  bench.move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
   CHECK(calibrator.find_axis(true, 2.0) == "right is axis 1 of the stick, counting up");
-  bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
+  bench.move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
   CHECK(refusal([&] { calibrator.find_axis(false, 2.0); }) ==
-        "the same axis moved as for select: push the lever forward");
-  bench.show([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
+        "the same axis moved as when you pushed to the right. Push the lever forward");
+  bench.move_along([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
   CHECK(calibrator.find_axis(false, 2.0) == "forward is axis 2 of the stick, counting down");
 
   const auto lets_go_after = [&](double seconds) {
@@ -306,35 +306,37 @@ TEST_CASE("invalid input while a person moves the lever is refused and changes n
       if (bench.time() - begin > seconds) bench.hands_off();
     };
   };
-  bench.show([](double t) { return 0.010 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
+  bench.move_along([](double t) { return 0.010 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
   lets_go_after(4.0);
-  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("of its range: move the lever to all its stops") !=
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("of its range. Move the lever to all its stops") !=
         std::string::npos);
-  bench.show([](double t) { return dvec2(0.06 * std::sin(3.0 * t)); });
+  bench.move_along([](double t) { return dvec2(0.06 * std::sin(3.0 * t)); });
   lets_go_after(4.0);
-  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("the two axes move together") == 0);
-  // The lever is left leaning to the right.
-  bench.show([](double t) { return t < 3.0 ? 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)) : dvec2(0.055, 0.0); });
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("the two axes moved together") == 0);
+  // The user lets the lever lean to the right.
+  bench.move_along(
+      [](double t) { return t < 3.0 ? 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)) : dvec2(0.055, 0.0); });
   bench.every_tick = nullptr;
   CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("select rests at 8") == 0);
-  // The hand never lets go.
-  bench.show([](double t) { return 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
-  CHECK(refusal([&] { calibrator.measure_range(5.0); }) == "the lever does not come to rest: take your hands off it");
+  // The hand never releases the lever.
+  bench.move_along([](double t) { return 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }) ==
+        "the lever does not come to rest. Take your hands off the lever");
   CHECK_FALSE(calibrator.calibration().has_stops());
 
   CHECK(refusal([&] { calibrator.set_numbers(0.01, 0.1, 20.0); }) ==
-        "a travel of 0.01 m: it must be between 0.02 and 0.5 m");
+        "a travel of 0.01 m is not possible; it must be between 0.02 and 0.5 m");
   CHECK(refusal([&] { calibrator.set_numbers(0.1, 0.1, 500.0); }) ==
-        "a full force of 500 N: it must be between 0.5 and 100 N");
+        "a full force of 500 N is not possible; it must be between 0.5 and 100 N");
   CHECK(refusal([&] { calibrator.set_numbers(0.1, std::nan(""), 20.0); }).find("a travel of nan m") == 0);
   CHECK_FALSE(calibrator.calibration().has_force());
 }
 
 TEST_CASE("a range is measured despite readings that jump") {
-  CalibrationBench bench(of(StickFamily::vjoy));
+  CalibrationBench bench(config_of(StickFamily::vjoy));
   bench.find_axes();
   bench.stick.faults.jump = true;
-  bench.show([](double t) { return 0.050 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });  // not to the stops
+  bench.move_along([](double t) { return 0.050 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });  // short of the stops
   bench.every_tick = [&, begin = bench.time()] {
     if (bench.time() - begin > 4.0) bench.hands_off();
     if (bench.time() - begin > 3.9) bench.stick.faults.jump = false;
@@ -346,73 +348,75 @@ TEST_CASE("a range is measured despite readings that jump") {
 
 TEST_CASE(
     "polarity: refused where nothing moves, where a hand holds it, where it is moved by a hand, before the range") {
-  const EmulatedStickConfig config = of(StickFamily::vjoy);
+  const EmulatedStickConfig config = config_of(StickFamily::vjoy);
   CalibrationBench unknown(config);
   CHECK(refusal([&] { unknown.calibrator.measure_polarity(); }) ==
-        "the lever's stops are not known yet: measure the range first");
+        "the lever's stops are not known yet. Measure the range first");
 
   EmulatedStickConfig stiff = config;
-  stiff.lever.coulomb_friction = 3.0;  // more than 10 % of 20 N
-  CalibrationBench stuck(stiff, shown(stiff));
-  CHECK(refusal([&] { stuck.calibrator.measure_polarity(); }).find("select does not move by 10 % of the full force") ==
-        0);
+  stiff.lever.coulomb_friction = 3.0;  // friction above 10 % of the 20 N
+  CalibrationBench stuck(stiff, unmeasured_calibration(stiff));
+  CHECK(refusal([&] {
+          stuck.calibrator.measure_polarity();
+        }).find("select does not move with 10 % of the full force") == 0);
   CHECK(stuck.strongest <= 2.0 + 1e-9);
 
   EmulatedStickConfig in_hand = config;
   in_hand.lever.hand = kArmHand;
   in_hand.lever.hand.stiffness = 5000.0;
-  CalibrationBench held(in_hand, shown(in_hand));
+  CalibrationBench held(in_hand, unmeasured_calibration(in_hand));
   CHECK(refusal([&] { held.calibrator.measure_polarity(); }).find("select does not move") == 0);
 
-  CalibrationBench pushed(config, shown(config));
-  pushed.every_tick = [&] {  // pushes to one side all the time
+  CalibrationBench pushed(config, unmeasured_calibration(config));
+  pushed.every_tick = [&] {  // a hand that pushes to one side all the time
     if (glm::length(pushed.stick.force()) > 0.1)
-      pushed.person.wants = [] { return dvec2(0.03, 0.0); };
+      pushed.person.target_position = [] { return dvec2(0.03, 0.0); };
     else
       pushed.hands_off();
   };
   CHECK(refusal([&] { pushed.calibrator.measure_polarity(); }) ==
-        "select did not move one way and then the other: take your hands off the lever");
+        "select did not move in both directions. Take your hands off the lever");
 
-  CalibrationBench shaken(config, shown(config));
-  shaken.show([](double t) { return 0.02 * dvec2(std::sin(9.0 * t), 0.0); });
+  CalibrationBench shaken(config, unmeasured_calibration(config));
+  shaken.move_along([](double t) { return 0.02 * dvec2(std::sin(9.0 * t), 0.0); });
   CHECK(refusal([&] { shaken.calibrator.measure_polarity(); }) ==
-        "the lever does not come to rest: take your hands off it");
+        "the lever does not come to rest. Take your hands off the lever");
   for (CalibrationBench* bench : {&stuck, &held, &pushed, &shaken}) {
     CHECK_FALSE(bench->calibrator.calibration().has_polarity());
     bench->tick();
     bench->tick();
-    CHECK(bench->stick.force() == dvec2(0.0));  // no force is left on
+    CHECK(bench->stick.force() == dvec2(0.0));  // no force remains on
   }
 }
 
 TEST_CASE("a wrong axis, a wrong polarity, or a disconnected stick is refused") {
-  const EmulatedStickConfig config = of(StickFamily::sidewinder);
-  DeviceCalibration known = shown(config);
+  const EmulatedStickConfig config = config_of(StickFamily::sidewinder);
+  DeviceCalibration known = unmeasured_calibration(config);
   known.select.usage = 0x32;
   CalibrationBench other(config, known);
   CHECK_FALSE(refusal([&] { other.calibrator.measure_polarity(); }).empty());
 
-  known = shown(config);
+  known = unmeasured_calibration(config);
   known.select.constant_sign = 1;  // correct is -1
   known.shift.constant_sign = 1;
   CalibrationBench wrong(config, known);
   CHECK(refusal([&] { wrong.calibrator.measure_timing(); }) ==
-        "select moves against its polarity: measure the polarity again");
+        "select moves against the measured force direction. Measure the force direction again");
 
-  CalibrationBench lost(config, shown(config));
-  lost.every_tick = [&] {
-    if (lost.now_ns == 700'000'000) lost.prepare();  // unplugged and back
+  CalibrationBench disconnected(config, unmeasured_calibration(config));
+  disconnected.every_tick = [&] {
+    if (disconnected.now_ns == 700'000'000) disconnected.prepare();  // unplugged and back
   };
-  CHECK(refusal([&] { lost.calibrator.measure_polarity(); }) == "the stick was disconnected during the measurement");
+  CHECK(refusal([&] { disconnected.calibrator.measure_polarity(); }) ==
+        "the stick was disconnected during the measurement");
 
-  CalibrationBench silent(config, shown(config));
+  CalibrationBench silent(config, unmeasured_calibration(config));
   silent.every_tick = [&] { silent.stick.faults.silent = silent.time() > 0.1; };
   CHECK_THROWS(silent.calibrator.measure_polarity());
 }
 
 TEST_CASE("buttons: the pressed one counts, not a held one, and none is assigned twice") {
-  CalibrationBench bench(of(StickFamily::sidewinder));
+  CalibrationBench bench(config_of(StickFamily::sidewinder));
   const auto press = [&](std::uint64_t before, std::uint64_t after) {
     bench.stick.held_buttons = before;
     bench.tick();

@@ -87,7 +87,7 @@ bool same(const DeviceCalibration& a, const DeviceCalibration& b) {
          a.press_button == b.press_button && a.lift_button == b.lift_button && a.stop_button == b.stop_button;
 }
 
-// The paper's joystick as a stick with 140 mm travel, 20 N and that timing.
+// The paper's joystick as a stick with 140 mm travel, 20 N and the given timing.
 DeviceCalibration measured(const DeviceTiming& timing) {
   DeviceCalibration known;
   known.select = {0x30, 0.0, 500.0, 1000.0, 0.14, 20.0, 1, 1, 400.0, kPaperAxisX};
@@ -149,7 +149,7 @@ TEST_CASE("invalid values are refused with file, line, key, value and range") {
   CHECK(refusal(changed("low_counts", "low_counts = 600")) ==
         "c.toml:8: centre_counts = 500: must lie between low_counts and high_counts");
   CHECK(refusal(changed("travel_m", "travel_m = 0.003")) ==
-        "c.toml:10: travel_m = 0.003: must be 0 (not known) or between 0.01 and 1");
+        "c.toml:10: travel_m = 0.003: must be 0 (unknown) or between 0.01 and 1");
   CHECK(refusal(changed("constant_sign", "constant_sign = 2")) ==
         "c.toml:12: constant_sign = 2: must be between -1 and 1");
   CHECK(refusal(changed("constant_sign", "constant_sign = 0.5")) ==
@@ -175,23 +175,23 @@ TEST_CASE("a calibration that could not be read back is not written, and the old
 }
 
 TEST_CASE("cycles of delay: (1 + delay) T is at least the time from a reading to its answer") {
-  // Sums by hand: input interval + jitter + output interval + delay.
+  // Derived by hand: input interval + jitter + output interval + delay.
   CHECK(delay_cycles({0.001, 0.001, 0.0, 0.0}, 0.001) == 1);        // 2.0 ms
-  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.001) == 3);      // 4.0 ms: the force is seen 3 ms after it was sent
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.001) == 3);      // 4.0 ms, which includes one period
   CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0001}, 0.001) == 4);   // 4.1 ms
-  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.002) == 1);      // the same at 500 Hz
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.002) == 1);      // 4.0 ms at 500 Hz
   CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.00025) == 15);   // at 4 kHz
   CHECK(delay_cycles({0.000125, 0.000125, 0.0, 0.0}, 0.001) == 0);  // a fast bus
   CHECK_THROWS_WITH_AS(
       delay_cycles({0.008, 0.008, 0.004, 0.0}, 0.001),
-      "the stick answers after 20 ms, but at 1000 Hz the loop compensates at most 16 ms: 800 Hz would work",
+      "the stick responds after 20 ms, but at 1000 Hz the loop compensates at most 16 ms; a rate of 800 Hz would work",
       std::invalid_argument);
   CHECK(delay_cycles({0.008, 0.008, 0.004, 0.0}, 1.0 / 800.0) == 15);
-  CHECK_THROWS_WITH_AS(
-      delay_cycles({0.1, 0.1, 0.0, 0.0}, 0.001),
-      "the stick answers after 200 ms, but at 1000 Hz the loop compensates at most 16 ms: too slow for any "
-      "rate from 100 Hz up",
-      std::invalid_argument);
+  CHECK_THROWS_WITH_AS(delay_cycles({0.1, 0.1, 0.0, 0.0}, 0.001),
+                       "the stick responds after 200 ms, but at 1000 Hz the loop compensates at most 16 ms; the stick "
+                       "is too slow for any "
+                       "rate from 100 Hz up",
+                       std::invalid_argument);
 }
 
 TEST_CASE("the device specification from a calibration") {
@@ -201,7 +201,7 @@ TEST_CASE("the device specification from a calibration") {
   CHECK(spec.position_step == doctest::Approx(0.07 / 400.0));  // 400 counts from the centre to the nearer stop
   CHECK(spec.delay == 3);
   CHECK(spec.axis_x.mass == kPaperAxisX.mass);
-  CHECK(spec.device_wall_stiffness == glm::dvec2(300.0));  // the minimum of both axes
+  CHECK(spec.device_wall_stiffness == glm::dvec2(300.0));  // the smaller force of both axes
   CHECK_FALSE(spec.measures_hand_force);
   CHECK_FALSE(spec.simulated);
 
@@ -209,7 +209,7 @@ TEST_CASE("the device specification from a calibration") {
   unknown.shift.constant_sign = 0;
   unknown.select.handle = {};
   const DeviceSpec careful = spec_of(unknown, 0.001);
-  CHECK(careful.max_force == glm::dvec2(0.0));  // the polarity of one axis is not known
+  CHECK(careful.max_force == glm::dvec2(0.0));  // without the polarity of one axis
   CHECK(careful.device_wall_stiffness == glm::dvec2(0.0));
   CHECK(careful.delay == 7);  // assumes 8 ms
   CHECK(careful.axis_x.mass == kUnmeasuredHandle.mass);

@@ -34,7 +34,7 @@ bool wakes(int fd) {
   return read(fd, &count, sizeof count) == sizeof count;
 }
 
-std::vector<std::uint8_t> without_pid() {  // X and Y of a joystick and nothing else
+std::vector<std::uint8_t> without_pid() {  // only X and Y of a joystick
   return {0x05, 0x01, 0x09, 0x04, 0xa1, 0x01, 0x09, 0x30, 0x09, 0x31, 0x15,
           0x00, 0x26, 0xff, 0x03, 0x75, 0x10, 0x95, 0x02, 0x81, 0x02, 0xc0};
 }
@@ -43,10 +43,12 @@ std::vector<std::uint8_t> without_pid() {  // X and Y of a joystick and nothing 
 
 TEST_CASE("a device that is no stick, has no forces or no valid descriptor is refused in one sentence") {
   CHECK_THROWS_WITH_AS(PidDriver{without_pid()},
-                       "this stick has no force feedback: its descriptor has no force reports (PID class)", HidError);
+                       "this stick has no force feedback, because its descriptor has no force reports (PID class)",
+                       HidError);
   std::vector<std::uint8_t> no_axes = without_pid();
   no_axes[7] = no_axes[9] = 0x36;  // sliders
-  CHECK_THROWS_WITH_AS(PidDriver{no_axes}, "this device is not a stick: its descriptor has no X and Y axes", HidError);
+  CHECK_THROWS_WITH_AS(PidDriver{no_axes}, "this device is not a stick, because its descriptor has no X and Y axes",
+                       HidError);
   CHECK_THROWS_AS(PidDriver{std::vector<std::uint8_t>{0x05}}, HidError);
 }
 
@@ -62,7 +64,7 @@ TEST_CASE("commanded forces act on the lever of every family, and the state show
     CHECK(still.session == 1);
     CHECK(still.time_ns == bench.now_ns);
     CHECK_FALSE(still.actuators);
-    // PID 1.0 section 4.2: from 90 degrees pushes left; from 180 degrees, the user's side, pushes away.
+    // PID 1.0 section 4.2: a force from 90 degrees pushes left; one from 180 degrees, the user's side, pushes away.
     bench.tick_for(0.01, pushing(0.5, 0.25));
     const StickState pushed = bench.driver.state();
     CHECK(pushed.actuators);
@@ -130,14 +132,14 @@ TEST_CASE("after an unplug, commands of the old session drive nothing, even if t
     bench.stick.unplug();
     bench.driver.command(pushing(0.8, 0.8));  // streaming
     bench.prepare();
-    bench.driver.command(pushing(0.8, 0.8));  // computed from a state before the reconnect
+    bench.driver.command(pushing(0.8, 0.8));  // a command computed from a state before the reconnect
     for (int i = 0; i < 50; ++i) {
       bench.tick();
       bench.driver.command(pushing(0.8, 0.8));
       CHECK(bench.stick.force() == glm::dvec2(0.0));
       CHECK_FALSE(bench.stick.actuators_on());
     }
-    bench.tick_for(0.02, pushing(0.1, 0.0));  // now it has read the new session
+    bench.tick_for(0.02, pushing(0.1, 0.0));  // the haptic side has read the new session
     CHECK(bench.stick.force().x == doctest::Approx(-2.0).epsilon(0.02));
   }
 }
@@ -152,8 +154,9 @@ TEST_CASE("if the haptic side stops sending commands, the motors are off after 1
     CHECK(glm::length(bench.stick.force()) > 15.0);
     for (int i = 0; i < 3; ++i) bench.tick();
     CHECK(bench.stick.force() == glm::dvec2(0.0));
-    CHECK(bench.problems() == Lines{"no force was commanded for 100 ms: the motors are off until you arm them again"});
-    bench.driver.command(pushing(0.8, 0.0));  // without reading the state first
+    CHECK(bench.problems() ==
+          Lines{"no force was commanded for 100 ms; the motors are off until you turn them on again"});
+    bench.driver.command(pushing(0.8, 0.0));  // commands without reading the state first
     for (int i = 0; i < 50; ++i) bench.tick();
     CHECK(bench.stick.force() == glm::dvec2(0.0));
     CHECK(bench.driver.state().session == 2);
@@ -168,7 +171,7 @@ TEST_CASE("if the program dies, the device's forces end by themselves within 300
     bench.prepare();
     StickCommand command = pushing(0.5, 0.0);
     command.spring[0] = {0.0, 0.1, 1.0, 1.0};
-    for (int phase = 0; phase < 5; ++phase) {  // for different renewal times
+    for (int phase = 0; phase < 5; ++phase) {  // for different intervals of renewal
       bench.tick_for(0.5 + 0.021 * phase, command);
       REQUIRE(glm::length(bench.stick.force()) > 5.0);
       const std::int64_t died = bench.now_ns;
@@ -182,7 +185,8 @@ TEST_CASE("if the program dies, the device's forces end by themselves within 300
 
 namespace {
 
-// One second under a varying force with that fault: the reported problems, and the largest force beyond the command.
+// One second with the given fault under a varying force: the reported problems, and the largest force beyond the
+// command.
 struct FaultResult {
   Lines problems;
   double beyond = 0.0;  // [N]
@@ -214,7 +218,7 @@ TEST_CASE("a faulty stick: one sentence per fault, and no force beyond the comma
     CAPTURE(name_of(family));
     const FaultResult jumps = run_with_fault(family, 1.0, [](EmulatedFaults& faults) { faults.jump = true; });
     CHECK(jumps.problems.size() == 1);
-    CHECK(jumps.problems.front().find("the stick's position jumps by ") == 0);
+    CHECK(jumps.problems.front().find("the stick's position jumped by ") == 0);
 
     const FaultResult lengths = run_with_fault(family, 0.2, [](EmulatedFaults& faults) { faults.wrong_length = true; });
     CHECK(lengths.readings == 0);
@@ -222,15 +226,15 @@ TEST_CASE("a faulty stick: one sentence per fault, and no force beyond the comma
     const std::string size = std::to_string(family == StickFamily::sidewinder    ? 13
                                             : family == StickFamily::openffboard ? 25
                                                                                  : 97);
-    CHECK(lengths.problems.front().find("bytes, but its descriptor says " + size + ": it is ignored") !=
+    CHECK(lengths.problems.front().find("bytes, but its descriptor declares " + size + "; the report is ignored") !=
           std::string::npos);
 
     const FaultResult stuck = run_with_fault(family, 3.0, [](EmulatedFaults& faults) { faults.stuck = true; });
     CHECK(stuck.readings > 1900);  // two seconds
     CHECK(stuck.readings < 2300);
     CHECK(stuck.problems ==
-          Lines{"the stick's position has not changed for 2 s while its force changed: its sensor counts as "
-                "dead until it moves"});
+          Lines{"the stick's position has not changed for 2 s while the force changed; its readings are ignored "
+                "until the position changes"});
     for (const FaultResult* result : {&jumps, &lengths, &stuck}) CHECK(result->beyond < 0.1);
   }
 }
@@ -254,17 +258,17 @@ TEST_CASE("a lever at rest under an almost constant force is not reported as stu
   StickBench bench(held(StickFamily::sidewinder), hand);
   bench.prepare();
   bench.stick.faults.stuck = true;
-  double late = 0.0;  // [N] maximum in the last second
+  double late = 0.0;  // [N] largest force in the last second
   const std::uint64_t session = bench.driver.state().session;
   for (int i = 0; i < 6000; ++i) {
-    bench.driver.command(pushing(0.14 * std::sin(0.02 * i), 0.0));  // without reading the state
+    bench.driver.command(pushing(0.14 * std::sin(0.02 * i), 0.0));  // commands without reading the state
     bench.tick();
     if (i >= 5000) late = std::max(late, glm::length(bench.stick.force()));
   }
   CHECK(bench.problems() ==
-        Lines{"the stick's position has not changed for 3 s under force: the motors are off until you "
-              "arm them again"});
-  CHECK(bench.driver.state().sequence == 6000);  // its readings are accepted
+        Lines{"the stick's position has not changed for 3 s under force; the motors are off until you "
+              "turn them on again"});
+  CHECK(bench.driver.state().sequence == 6000);  // readings are accepted
   CHECK(bench.driver.state().session == session + 1);
   CHECK(late == 0.0);
 }
@@ -279,34 +283,34 @@ TEST_CASE("a stuck sensor under a constant force: the force fades out, and the f
     bench.tick_for(1.99, pushing(0.5, -0.1));
     CHECK(std::abs(bench.stick.force().x) == doctest::Approx(10.0).epsilon(0.01));
     bench.tick_for(0.5, pushing(0.5, -0.1));
-    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(5.0).epsilon(0.05));  // half after half the time
+    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(5.0).epsilon(0.05));  // half the force after half the fade
     bench.tick_for(0.6, pushing(0.5, -0.1));
     CHECK(bench.stick.force() == glm::dvec2(0.0));
     CHECK(bench.problems() ==
-          Lines{"the stick's position has not changed for 2 s while its force changed: its sensor counts as "
-                "dead until it moves"});
-    CHECK(bench.time() - 1e-9 * static_cast<double>(bench.driver.state().time_ns) > 0.3);  // its readings are dropped
+          Lines{"the stick's position has not changed for 2 s while the force changed; its readings are ignored "
+                "until the position changes"});
+    CHECK(bench.time() - 1e-9 * static_cast<double>(bench.driver.state().time_ns) > 0.3);  // readings are dropped
 
-    bench.stick.faults.stuck = false;  // moves for the first time
+    bench.stick.faults.stuck = false;  // the sensor moves for the first time
     bench.tick_for(0.2, pushing(0.5, -0.1));
     CHECK(std::abs(bench.stick.force().x) == doctest::Approx(10.0).epsilon(0.01));
   }
 }
 
-// The working axis moves all the time. A lever that rested for long before there was a force is not frozen.
+// The working axis moves all the time. A lever that was at rest for long before the first force is not frozen.
 TEST_CASE("one dead sensor of two; and a sensor that was only at rest") {
   StillHand hand;
   StickBench bench(held(StickFamily::openffboard), hand);
   LeverReport report = bench.driver.lever_report();
   InputWatch watch(report, {0, 1});
   LeverCounts counts;
-  double least = 1.0;
+  double min_fraction = 1.0;
   for (int ms = 0; ms < 2900; ++ms) {
     counts.axis[0] = ms % 2;
     watch.update(counts, {0.5, 0.2}, {}, std::int64_t{1'000'000} * ms);
-    least = std::min(least, watch.force_fraction(0));
+    min_fraction = std::min(min_fraction, watch.force_fraction(0));
   }
-  CHECK(least == 1.0);
+  CHECK(min_fraction == 1.0);
   CHECK(watch.force_fraction(1) == doctest::Approx(0.1).epsilon(0.05));
   CHECK_FALSE(watch.is_frozen());
 
@@ -318,7 +322,7 @@ TEST_CASE("one dead sensor of two; and a sensor that was only at rest") {
   }
 }
 
-// While the program was stopped nothing was read, and reports that waited on the bus are older than their time stamp.
+// While the program was stopped nothing was read, and reports that waited on the bus are older than their time stamps.
 TEST_CASE("a pause of the program is not a dead sensor, and the lever's motion during it is not a jump") {
   StillHand hand;
   StickBench bench(held(StickFamily::openffboard), hand);
@@ -337,7 +341,7 @@ TEST_CASE("a pause of the program is not a dead sensor, and the lever's motion d
   for (std::int64_t ms = 3502; ms < 4000; ++ms) report_at(ms);
   counts.axis[0] = -far;
   report_at(4000);
-  CHECK(watch.jump() == doctest::Approx(0.7).epsilon(0.01));  // of the range, between consecutive reports
+  CHECK(watch.jump() == doctest::Approx(0.7).epsilon(0.01));  // [1] fraction of the range, between consecutive reports
 }
 
 TEST_CASE("a device wall fades out under a dead sensor as well, however strong its springs are") {
@@ -345,7 +349,7 @@ TEST_CASE("a device wall fades out under a dead sensor as well, however strong i
   StickBench bench(held(StickFamily::vjoy), hand);
   bench.prepare();
   StickCommand command = pushing(0.0, 0.0);
-  command.spring[0] = {0.5, 0.1, 1.0, 1.0};  // the lever at 0 is outside the dead band
+  command.spring[0] = {0.5, 0.1, 1.0, 1.0};  // the lever is at 0, outside the dead band
   bench.tick_for(0.1, command);
   bench.stick.faults.stuck = true;
   CHECK(glm::length(bench.stick.force()) > 5.0);
@@ -354,30 +358,30 @@ TEST_CASE("a device wall fades out under a dead sensor as well, however strong i
   CHECK(bench.problems().size() == 1);
 }
 
-// Averaged over half a second, because a single late output proves nothing.
+// The delay is averaged over half a second, because a single late output proves nothing.
 TEST_CASE("a stick that is slower than its calibration is no longer driven") {
   StillHand hand;
   StickBench bench(held(StickFamily::vjoy), hand);
   bench.prepare();
-  const auto drive = [&bench](std::int64_t takes_ms) {
+  const auto drive = [&bench](std::int64_t transfer_ms) {
     bench.driver.state();
-    for (int output = 0; output < 1000 / takes_ms; ++output) {
+    for (int output = 0; output < 1000 / transfer_ms; ++output) {
       bench.driver.command(pushing(0.3 + 0.1 * (output % 2), 0.0));
       if (bench.driver.next_output(bench.now_ns).size == 0) continue;
-      bench.now_ns += 1'000'000 * takes_ms;
+      bench.now_ns += 1'000'000 * transfer_ms;
       bench.driver.on_sent(bench.now_ns);
     }
     return bench.driver.state().session;
   };
-  const std::uint64_t session = drive(50);  // no answer time is set
+  const std::uint64_t session = drive(50);  // no answer time is expected yet
   bench.driver.expect_answer(0.004);
   CHECK(drive(8) == session);
-  bench.now_ns += 1'000'000'000;  // no output for a while, then a single late one
+  bench.now_ns += 1'000'000'000;  // no output for a while, then one late output
   CHECK(drive(900) == session);
   CHECK(drive(8) == session);
   CHECK(drive(50) == session + 1);
-  CHECK(bench.problems() == Lines{"the stick takes 50 ms per output, but answered after 4 ms when it was calibrated: "
-                                  "the motors are off until you arm them again"});
+  CHECK(bench.problems() == Lines{"the stick takes 50 ms per output, but responded after 4 ms when it was calibrated; "
+                                  "the motors are off until you turn them on again"});
 }
 
 TEST_CASE("silence or blocked outputs: the port reports an error, and the device's forces end") {
@@ -405,7 +409,7 @@ TEST_CASE("a port that never confirms an output is reported") {
     bench.driver.command(pushing(0.5, 0.0));
     bench.driver.next_output(ms * 1'000'000);
   }
-  CHECK(bench.problems() == Lines{"the stick accepts no outputs: its force ends by itself"});
+  CHECK(bench.problems() == Lines{"the stick accepts no output; its last force ends by itself"});
 }
 
 TEST_CASE("reports that the descriptor does not define are ignored, and reported once") {
@@ -417,7 +421,8 @@ TEST_CASE("reports that the descriptor does not define are ignored, and reported
     bench.driver.on_input(unknown, 1);
     bench.driver.on_input(empty, 2);
   }
-  CHECK(bench.problems() == Lines{"the stick sends report 119, which its descriptor does not define: it is ignored"});
+  CHECK(bench.problems() ==
+        Lines{"the stick sends report 119, which its descriptor does not define; the report is ignored"});
   CHECK(bench.driver.state().sequence == 0);
   bench.driver.on_input(unknown, 3);
   CHECK(bench.problems().empty());
@@ -429,18 +434,18 @@ TEST_CASE("motors that switch themselves off stay off until a new session comman
     StickBench bench(held(family), hand);
     bench.prepare();
     bench.tick_for(0.2, pushing(0.5, 0.0));
-    // As if another program had sent it: off is number 2 on one device, bit 1 on the other.
+    // As if another program had sent the command: off is number 2 on one device, bit 1 on the other.
     bench.stick.output(std::vector<std::uint8_t>{0x0c, 0x02});
     CHECK(bench.stick.force() == glm::dvec2(0.0));
     const std::uint64_t session = bench.driver.state().session;
-    for (int ms = 0; ms < 100; ++ms) {  // the old command continues, without reading the state
+    for (int ms = 0; ms < 100; ++ms) {  // the old command stays valid, without reading the state
       bench.driver.command(pushing(0.5, 0.0));
       bench.tick();
       CHECK(bench.stick.force() == glm::dvec2(0.0));
     }
     CHECK(bench.driver.state().session == session + 1);
     CHECK(bench.problems() ==
-          Lines{"the stick switched its motors off by itself: they stay off until you arm them again"});
+          Lines{"the stick switched its motors off by itself; they stay off until you turn them on again"});
     bench.tick_for(0.1, pushing(0.5, 0.0));
     CHECK(bench.stick.force().x == doctest::Approx(-10.0).epsilon(0.01));
   }
@@ -451,11 +456,11 @@ TEST_CASE("an effect that the device stopped is started again, and it is reporte
   StickBench bench(held(StickFamily::sidewinder), hand);
   bench.prepare();
   bench.tick_for(0.185, pushing(0.5, 0.0));
-  bench.stick.output(std::vector<std::uint8_t>{0x0a, 0x02, 0x03, 0x00});  // stop block 2: constant X
+  bench.stick.output(std::vector<std::uint8_t>{0x0a, 0x02, 0x03, 0x00});  // stops block 2, the constant force on X
   CHECK(bench.stick.force() == glm::dvec2(0.0));
   bench.tick_for(0.005, pushing(0.5, 0.0));
   CHECK(bench.stick.force().x == doctest::Approx(-10.0).epsilon(0.01));
-  CHECK(bench.problems() == Lines{"the stick stopped an effect by itself: it was started again"});
+  CHECK(bench.problems() == Lines{"the stick stopped an effect by itself; the effect was started again"});
 }
 
 TEST_CASE("a stick that reports only changes is not dead while it stands still") {
@@ -467,12 +472,12 @@ TEST_CASE("a stick that reports only changes is not dead while it stands still")
     bench.prepare();
     const std::uint64_t before = bench.driver.state().sequence;
     bench.tick_for(1.0, {});
-    CHECK(bench.driver.state().sequence - before > 100);  // requested every 8 ms
+    CHECK(bench.driver.state().sequence - before > 100);  // the state is requested every 8 ms
     CHECK(bench.now_ns - bench.driver.state().time_ns < 10'000'000);
   }
 }
 
-TEST_CASE("finish: motors off, and later commands drive nothing") {
+TEST_CASE("finish() switches the motors off, and later commands drive nothing") {
   for (const StickFamily family : kStickFamilies) {
     StillHand hand;
     StickBench bench(held(family), hand);

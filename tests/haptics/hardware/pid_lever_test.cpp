@@ -1,4 +1,4 @@
-// Tests of PidLever: metres and newtons from the calibration, for any counts, signs and buttons.
+// Tests of PidLever: metres and newtons computed from the calibration, for any counts, signs and buttons.
 #include "haptics/hardware/pid_lever.h"
 
 #include <cmath>
@@ -25,7 +25,7 @@ EmulatedStickConfig held_fast(StickFamily family) {
   return config;
 }
 
-// A stick, its driver and lever. One cycle is read, write and a tick.
+// A stick, its driver and its lever. A cycle is read, write and one tick.
 struct LeverBench : StickBench {
   LeverBench(const EmulatedStickConfig& config, const DeviceCalibration& known, HandDriver& hand)
       : StickBench(config, hand), lever((prepare(), known), driver, 0.001) {}
@@ -46,7 +46,7 @@ struct LeverBench : StickBench {
 }  // namespace
 
 TEST_CASE("counts to metres: linear on either side of the centre, and beyond the stops") {
-  // 0 to 1000 counts, rest at 400, travel 100 mm: 50 mm are 400 counts below and 600 counts above.
+  // 0 to 1000 counts, rest at 400, travel 100 mm: the lower 50 mm are 400 counts, the upper 50 mm are 600 counts.
   const LeverAxisCalibration up{0x30, 0.0, 400.0, 1000.0, 0.1, 0.0, 0, 0, 0.0, {}};
   const LeverAxisCalibration down{0x30, 1000.0, 400.0, 0.0, 0.1, 0.0, 0, 0, 0.0, {}};
   const BitField field{0, 16, 0, 1000, 0};
@@ -63,8 +63,8 @@ TEST_CASE("counts to metres: linear on either side of the centre, and beyond the
     CHECK(rising.counts(rising.metres(counts)) == doctest::Approx(counts));
     CHECK(falling.counts(falling.metres(counts)) == doctest::Approx(counts));
   }
-  CHECK(rising.share(0.0) == doctest::Approx(-0.2));  // count 400 of 0 to 1000
-  CHECK(falling.share(0.05) == doctest::Approx(-1.0));
+  CHECK(rising.deflection(0.0) == doctest::Approx(-0.2));  // rest position: count 400 of 0 to 1000
+  CHECK(falling.deflection(0.05) == doctest::Approx(-1.0));
 }
 
 TEST_CASE("an unusable calibration is refused in one sentence") {
@@ -91,7 +91,7 @@ TEST_CASE("position and force are right for every family and every polarity") {
       StillHand hand(hand_at({0.030, -0.045}));
       LeverBench bench(config, calibration_of(config), hand);
       bench.cycle(dvec2(0.0), 500);
-      CHECK_FALSE(bench.stick.actuators_on());  // a zero force needs no motor
+      CHECK_FALSE(bench.stick.actuators_on());  // zero force leaves the motors off
       const LeverReading reading = bench.cycle({6.0, -11.0}, 200);
       CHECK(glm::distance(reading.position, bench.stick.position()) <
             0.6 * bench.lever.spec().position_step * std::sqrt(2.0));
@@ -99,8 +99,8 @@ TEST_CASE("position and force are right for every family and every polarity") {
       CHECK(glm::distance(reading.actuator_force, {6.0, -11.0}) < 1e-9);
       CHECK(reading.sequence == 699);
       CHECK_FALSE(reading.stop);
-      bench.cycle({400.0, -400.0}, 20);                                  // beyond the limit: full force
-      CHECK(glm::distance(bench.stick.force(), {20.0, -20.0}) < 0.003);  // vJoy rounds right angles
+      bench.cycle({400.0, -400.0}, 20);                                  // beyond the limit, so full force is applied
+      CHECK(glm::distance(bench.stick.force(), {20.0, -20.0}) < 0.003);  // vJoy rounds directions of 90 and 180 degrees
       bench.lever.release();
       bench.cycle(dvec2(0.0), 1);
       CHECK(bench.stick.force() == dvec2(0.0));
@@ -111,7 +111,7 @@ TEST_CASE("position and force are right for every family and every polarity") {
 TEST_CASE("a stick turned by a quarter: its Y axis is select") {
   EmulatedStickConfig config = held_fast(StickFamily::openffboard);
   DeviceCalibration known = calibration_of(config);
-  std::swap(known.select, known.shift);  // the knob's forward is now right
+  std::swap(known.select, known.shift);  // the knob's forward is now to the right
   StillHand hand(hand_at({0.010, 0.030}));
   LeverBench bench(config, known, hand);
   const LeverReading reading = bench.cycle({5.0, 2.0}, 500);
@@ -157,7 +157,7 @@ TEST_CASE("without measured polarity there is no force at all") {
   CHECK(bench.lines().empty());
 }
 
-TEST_CASE("nothing drives before a force is commanded, nor after a release until the next force") {
+TEST_CASE("the motors are off before a force is commanded, and after a release until the next force") {
   EmulatedStickConfig config = held_fast(StickFamily::sidewinder);
   StillHand hand;
   LeverBench bench(config, calibration_of(config), hand);
@@ -207,7 +207,7 @@ TEST_CASE(
   }
 }
 
-// A damper condition acts everywhere, so it is switched on only in a wall, on that axis.
+// A damper condition acts everywhere, so it is switched on only on the axis of a wall while the lever is in it.
 TEST_CASE("a device damper brakes in a wall, with either polarity, and nowhere else") {
   for (const int sign : {1, -1}) {
     CAPTURE(sign);
@@ -221,12 +221,12 @@ TEST_CASE("a device damper brakes in a wall, with either polarity, and nowhere e
     bench.cycle(dvec2(1e-3, 0.0), 200);
     double worst = 0.0, strongest = 0.0;
     for (int ms = 0; ms < 1000; ++ms) {
-      hand.target = hand_at({0.020 * std::sin(4e-3 * std::numbers::pi * ms), 0.0});  // at 2 Hz, up to 0.25 m/s
+      hand.target = hand_at({0.020 * std::sin(4e-3 * std::numbers::pi * ms), 0.0});  // motion at 2 Hz, up to 0.25 m/s
       const dvec2 before = bench.stick.position();
       bench.cycle(dvec2(1e-3, 0.0));
       const dvec2 now = bench.stick.position();
       const double expected = before.x > 0.0052 ? -0.5 * 20.0 * (now.x - before.x) / 0.001 : 0.0;
-      if (std::abs(now.x - 0.005) < 0.002) continue;  // near the switching point
+      if (std::abs(now.x - 0.005) < 0.002) continue;  // near the point where the damper is switched
       worst = std::max(worst, std::abs(bench.stick.force().x - expected));
       strongest = std::max(strongest, std::abs(expected));
       CHECK(std::abs(bench.stick.force().y) < 1e-9);
@@ -245,7 +245,7 @@ TEST_CASE("springs that push away and cannot be inverted, or were not measured, 
   CHECK(PidLever(known, bench.driver, 0.001).spec().device_wall_stiffness == dvec2(0.0));
 }
 
-TEST_CASE("buttons: pressed, lifted, stop; a stop button held at the start is ignored until released") {
+TEST_CASE("buttons: push-down, lift, stop; a stop button held at the start is ignored until released") {
   EmulatedStickConfig config = held_fast(StickFamily::sidewinder);
   StillHand hand;
   LeverBench bench(config, calibration_of(config), hand);
@@ -273,7 +273,7 @@ TEST_CASE("after a reconnect one reading has stop set, and the loop's command of
   for (int i = 0; i < 50; ++i) {
     const LeverReading reading = bench.lever.read(bench.now_ns);
     stops += reading.stop ? 1 : 0;
-    bench.lever.write(reading.stop ? dvec2{5.0, 5.0} : dvec2(0.0));  // a loop that reacts one cycle late
+    bench.lever.write(reading.stop ? dvec2{5.0, 5.0} : dvec2(0.0));  // as from a loop that reacts one cycle late
     bench.tick();
     CHECK_FALSE(bench.stick.actuators_on());
   }

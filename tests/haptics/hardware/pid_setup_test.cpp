@@ -1,6 +1,7 @@
 // Tests of the reports before and after streaming, byte by byte, and of the deviations that are tolerated. The lines
-// were derived by hand from the devices' report descriptors (tests/data/hid; README.md there names the sources): set =
-// SET_REPORT feature, get = GET_REPORT feature, out = an output report, with the ID first and numbers little-endian.
+// were derived by hand from the devices' report descriptors (tests/data/hid; its README.md names the sources): set =
+// SET_REPORT feature, get = GET_REPORT feature, out = an output report; the ID comes first, and numbers are
+// little-endian.
 #include "haptics/hardware/pid_setup.h"
 
 #include <deque>
@@ -22,7 +23,7 @@ using Lines = std::vector<std::string>;
 struct SetupResult {
   PidAbility ability;
   Lines before, after;
-  std::string error;  // thrown by prepare_stick; empty: none
+  std::string error;  // error thrown by prepare_stick(); empty: none
 };
 
 SetupResult prepared(const EmulatedStickConfig& config, const EmulatedFaults& faults = {}) {
@@ -65,7 +66,7 @@ TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
                                "set 01 01 00 00",
                                "get 02 02 01 c0 04",                                   // constant: block 2
                                "out 01 02 01 2c 01 00 00 00 00 ff 00 05 40 00 00 00",  // X, 90 degrees
-                               "get 02 02 01 c0 04",                                   // accepts a duration: no error
+                               "get 02 02 01 c0 04",                                   // accepts the duration: no error
                                "out 05 02 00 00",                                      // magnitude 0
                                "set 01 01 00 00",
                                "get 02 03 01 a0 04",                                   // constant: block 3
@@ -170,9 +171,8 @@ TEST_CASE("a device that refuses a duration gets endless effects, and a note say
     const SetupResult result = prepared(config);
     CHECK(result.error.empty());
     CHECK_FALSE(result.ability.finite);
-    CHECK(result.ability.notes ==
-          Lines{"its effects do not end by themselves: if this program dies, the last force stays "
-                "until you unplug the stick"});
+    CHECK(result.ability.notes == Lines{"the stick's effects do not end by themselves; if this program crashes, unplug "
+                                        "the stick to stop the last force"});
   }
 }
 
@@ -186,11 +186,13 @@ TEST_CASE("effects that do not fit into the pool are left out, except constant f
     CHECK_FALSE(three.ability.damper);
     CHECK(three.ability.blocks == 3);
     CHECK(three.ability.notes ==
-          Lines{"it is used without a damper: the stick refuses a damper: its memory for effects is full"});
+          Lines{"the stick is used without a damper; the stick refuses a damper, because its memory "
+                "for effects is full; unplug it and plug it in again"});
     config.blocks = 2;
     CHECK(prepared(config).ability.notes.size() == 2);
     config.blocks = 1;
-    CHECK(prepared(config).error == "the stick refuses a constant force: its memory for effects is full");
+    CHECK(prepared(config).error ==
+          "the stick refuses a constant force, because its memory for effects is full; unplug it and plug it in again");
   }
 }
 
@@ -198,11 +200,12 @@ TEST_CASE("a device that refuses every effect is refused in one sentence, and si
   for (const StickFamily family : kStickFamilies) {
     EmulatedFaults faults;
     faults.refuses_effects = true;
-    CHECK(prepared(stick_of(family), faults).error == "the stick refuses a constant force: it reports an error");
+    CHECK(prepared(stick_of(family), faults).error ==
+          "the stick refuses a constant force, because it reports an error");
     faults = {};
     faults.pool_full = true;
     CHECK(prepared(stick_of(family), faults).error ==
-          "the stick refuses a constant force: its memory for effects is full");
+          "the stick refuses a constant force, because its memory for effects is full; unplug it and plug it in again");
     faults = {};
     faults.stalls_outputs = true;
     CHECK_FALSE(prepared(stick_of(family), faults).error.empty());
@@ -235,17 +238,17 @@ class ScriptedPort final : public HidPort {
   }
   void set_feature(const HidBytes& report) override { sent.push_back(report.id()); }
   void send(const HidBytes& report) override {
-    if (gone_after-- == 0) throw HidGone("gone");
+    if (disconnect_after-- == 0) throw HidDisconnected("gone");
     sent.push_back(report.id());
   }
   void stream(const StreamConfig&, HidStream&) override {}
 
-  // Answers per feature report; the last one is repeated.
+  // Sets the answers for each feature report; the last answer is repeated.
   void answer(int block, int status) {
     loads_.push_back({static_cast<std::uint8_t>(block), static_cast<std::uint8_t>(status)});
   }
 
-  int gets = 0, gone_after = -1;
+  int gets = 0, disconnect_after = -1;
   std::vector<int> sent;
 
  private:
@@ -266,38 +269,39 @@ TEST_CASE("block load is polled until it has an answer, up to 60 times") {
   pid.pool = {};
   ScriptedPort patient;
   for (int i = 0; i < 7; ++i) patient.answer(0, 0);                  // no status yet
-  for (const int block : {1, 1, 2, 3, 4}) patient.answer(block, 1);  // block 1 twice: no error
+  for (const int block : {1, 1, 2, 3, 4}) patient.answer(block, 1);  // block 1 given twice: no error
   CHECK(prepare_stick(patient, pid).blocks == StickBlocks{1, 2, 3, 4});
   CHECK(patient.gets == 12);
 
   ScriptedPort silent;
   silent.answer(0, 0);
   CHECK_THROWS_WITH_AS(prepare_stick(silent, pid),
-                       "the stick refuses a constant force: it does not confirm that it is loaded", HidError);
+                       "the stick refuses a constant force, because it does not confirm the effect", HidError);
   CHECK(silent.gets == 60);
 
   ScriptedPort faulty;
-  faulty.answer(7, 1);  // the same block for every effect
-  CHECK_THROWS_WITH_AS(prepare_stick(faulty, pid), "the stick returned block 7 twice", HidError);
+  faulty.answer(7, 1);  // returns the same block for every effect
+  CHECK_THROWS_WITH_AS(prepare_stick(faulty, pid), "the stick assigned effect block 7 twice; this stick cannot be used",
+                       HidError);
   ScriptedPort blockless;
   blockless.answer(0, 1);
-  CHECK_THROWS_WITH_AS(prepare_stick(blockless, pid), "the stick refuses a constant force: it returns no block",
-                       HidError);
+  CHECK_THROWS_WITH_AS(prepare_stick(blockless, pid),
+                       "the stick refuses a constant force, because it assigns no effect block", HidError);
 }
 
 TEST_CASE("reports that a device lacks are left out") {
-  const PidLayout whole = vjoy_layout();
+  const PidLayout complete = vjoy_layout();
   const auto prepared_with = [](const PidLayout& pid, ScriptedPort& port) { return prepare_stick(port, pid); };
 
   ScriptedPort port;  // answers nothing
-  PidLayout pid = whole;
+  PidLayout pid = complete;
   pid.create = {};
   pid.block_load = {};
   const PreparedStick fixed = prepared_with(pid, port);
   CHECK(fixed.blocks == StickBlocks{1, 2, 3, 4});
-  CHECK(fixed.ability.notes == Lines{"it does not report how many effects it can hold"});
+  CHECK(fixed.ability.notes == Lines{"the stick does not report how many effects it can store"});
 
-  pid = whole;
+  pid = complete;
   pid.block_load = {};
   CHECK(prepared_with(pid, port).blocks == StickBlocks{1, 2, 3, 4});
 
@@ -307,7 +311,7 @@ TEST_CASE("reports that a device lacks are left out") {
   pid.block_free = {};
   const PreparedStick bare = prepared_with(pid, port);
   CHECK(bare.blocks == StickBlocks{1, 2, 0, 0});
-  CHECK(bare.ability.notes == Lines{"it has no spring", "it has no damper"});
+  CHECK(bare.ability.notes == Lines{"the stick has no spring effect", "the stick has no damper effect"});
 
   pid.device_control = {};
   port.sent.clear();
@@ -315,24 +319,24 @@ TEST_CASE("reports that a device lacks are left out") {
   CHECK(port.sent == std::vector<int>{0x11, 0x11, 0x15, 0x11, 0x11, 0x15});  // create, set, magnitude; twice
 }
 
-TEST_CASE("unplugged at any moment of the setup: HidGone, and nothing more is sent") {
+TEST_CASE("unplugged at any moment of the setup: HidDisconnected, and nothing more is sent") {
   const PidLayout pid = vjoy_layout();
   int outputs = 0;
-  for (bool whole = false; !whole; ++outputs) {
+  for (bool has_completed = false; !has_completed; ++outputs) {
     ScriptedPort port;
     for (const int block : {9, 1, 1, 2, 3, 4}) port.answer(block, 1);
-    port.gone_after = outputs;
+    port.disconnect_after = outputs;
     try {
       prepare_stick(port, pid);
-      whole = true;
-    } catch (const HidGone&) {
-      CHECK(port.gone_after == -1);
+      has_completed = true;
+    } catch (const HidDisconnected&) {
+      CHECK(port.disconnect_after == -1);
     }
   }
   CHECK(outputs ==
-        17);  // 4 to clear, 2 + 2 + 3 + 3 for the effects, 2 at the end: 16 that may fail, and one that succeeds
-  ScriptedPort gone;
-  gone.gone_after = 0;
-  silence_stick(gone, pid, {1, 2, 3, 4});
-  CHECK(gone.gone_after == -1);
+        17);  // 4 to clear, 2 + 2 + 3 + 3 for the effects, 2 at the end: each of the 16 fails once, then none
+  ScriptedPort disconnected;
+  disconnected.disconnect_after = 0;
+  silence_stick(disconnected, pid, {1, 2, 3, 4});
+  CHECK(disconnected.disconnect_after == -1);
 }

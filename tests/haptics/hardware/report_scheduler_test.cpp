@@ -1,4 +1,4 @@
-// Tests of ReportScheduler: laws that hold for every family, checked with a small model of a device.
+// Tests of ReportScheduler: laws that hold for every family of sticks, checked with a small model of a device.
 #include "haptics/hardware/report_scheduler.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ PidLayout layout_of(StickFamily family) {
   return PidDriver(EmulatedStick(config, hand).report_descriptor()).layout();
 }
 
-// Calls next() every millisecond and lets every report arrive; counts the reports by ID.
+// Calls next() every millisecond and delivers every report; counts the reports by ID.
 struct Wire {
   explicit Wire(StickFamily family, bool finite = true) : pid(layout_of(family)), stream(pid) {
     stream.begin(kBlocks, finite);
@@ -71,7 +71,7 @@ TEST_CASE("on: actuators, then each effect's values before its start, then only 
   CHECK(ids == std::vector<int>{0x1c, 0x15, 0x1a, 0x1a, 0});
   CHECK(wire.stream.force()[0] == 0.5);
   const int renewed = wire.count(pushing(0.5, 0.0), 1000, wire.pid.operate);
-  CHECK(renewed == 20);  // two effects, ten times a second each
+  CHECK(renewed == 20);  // two effects, ten renewals per second each
   CHECK(wire.count(pushing(0.5, 0.0), 1000, wire.pid.set_constant) == 0);
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("two axes that change all the time both get their turns, however diffe
       }
     }
     CHECK(longest[0] <= 5);
-    CHECK(longest[1] <= std::lround(2.0 / small) + 5);  // waits in proportion to its small change
+    CHECK(longest[1] <= std::lround(2.0 / small) + 5);  // the axis with the smaller change waits longer
   }
 }
 
@@ -132,8 +132,8 @@ TEST_CASE("under full load every effect is renewed long before it ends, and its 
     for (int block = 1; block <= 4; ++block)
       oldest = std::max(oldest, wire.now_ns - started[static_cast<std::size_t>(block)]);
   }
-  CHECK(oldest <= 104 * kMs);  // 100 ms, plus three others before it
-  CHECK(values >= 4700);       // of 5000: 40 renewals a second
+  CHECK(oldest <= 104 * kMs);  // 100 ms, plus the three reports sent before it
+  CHECK(values >= 4700);       // of 5000 reports, with 40 renewals per second
 }
 
 TEST_CASE("a release comes before anything else, and nothing drives until the old forces are gone") {
@@ -147,7 +147,7 @@ TEST_CASE("a release comes before anything else, and nothing drives until the ol
     CHECK_FALSE(wire.stream.drives());
     for (int i = 0; i < 40; ++i) {
       wire.tick(again);
-      CHECK(wire.stream.force()[0] == 0.0);  // never the old 0.9
+      CHECK(wire.stream.force()[0] == 0.0);  // never starts with the old 0.9
       const bool expected = wire.stream.force()[1] == 0.0 || wire.stream.force()[1] == 0.25;
       CHECK(expected);
     }
@@ -181,9 +181,9 @@ TEST_CASE("a report that does not arrive is sent again") {
   Wire wire(StickFamily::vjoy);
   for (int i = 0; i < 10; ++i) wire.tick(pushing(0.0, 0.0));
   wire.stream.set_command(pushing(0.7, 0.0));
-  const HidBytes lost = wire.stream.next(wire.now_ns + kMs);
-  CHECK(lost == encode_constant(wire.pid, 1, 0.7));
-  CHECK(wire.stream.next(wire.now_ns + 2 * kMs) == lost);
+  const HidBytes dropped = wire.stream.next(wire.now_ns + kMs);
+  CHECK(dropped == encode_constant(wire.pid, 1, 0.7));
+  CHECK(wire.stream.next(wire.now_ns + 2 * kMs) == dropped);
   CHECK(wire.stream.force()[0] == 0.0);
   wire.stream.arrived(wire.now_ns + 2 * kMs);
   CHECK(wire.stream.force()[0] == 0.7);
@@ -192,7 +192,7 @@ TEST_CASE("a report that does not arrive is sent again") {
 TEST_CASE("an effect that has run out starts again with its new force, not with its old one") {
   Wire wire(StickFamily::vjoy);
   for (int i = 0; i < 10; ++i) wire.tick(pushing(0.9, 0.0));
-  wire.now_ns += 400 * kMs;  // no call for longer than an effect lasts
+  wire.now_ns += 400 * kMs;  // no calls for longer than an effect lasts
   CHECK(wire.tick(pushing(0.1, 0.0)) == encode_constant(wire.pid, 1, 0.1));
   CHECK(wire.tick(pushing(0.1, 0.0)) == encode_operation(wire.pid, 1, PidOperation::start, 1));
 }
@@ -207,7 +207,7 @@ TEST_CASE("a device that reports its motors off, or an effect stopped, is correc
   status.playing = false;
   CHECK(wire.stream.on_report(status, wire.now_ns) == StickFault::effect_stopped);
   CHECK(wire.tick(pushing(0.5, 0.5)) == encode_operation(wire.pid, 1, PidOperation::start, 1));
-  CHECK(wire.stream.on_report(status, wire.now_ns) == StickFault::none);  // may be older than the command
+  CHECK(wire.stream.on_report(status, wire.now_ns) == StickFault::none);  // this state may be older than the command
   status = {};
   CHECK(wire.stream.on_report(status, wire.now_ns) == StickFault::switched_off);
   CHECK_FALSE(wire.stream.drives());
@@ -236,7 +236,7 @@ TEST_CASE("an effect that ran out without renewal was not stopped by the device"
 
 // Random commands, losses and gaps against an emulated firmware.
 TEST_CASE("after any losses and 20 ms without further ones, the device does what is commanded") {
-  constexpr double kHalfStep = 0.5 * 20.0 / 255.0 + 1e-9;  // [N] of the coarsest magnitude, on the SideWinder
+  constexpr double kHalfStep = 0.5 * 20.0 / 255.0 + 1e-9;  // [N] coarsest step of a magnitude, on the SideWinder
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     EmulatedStickConfig config;

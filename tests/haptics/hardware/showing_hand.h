@@ -1,4 +1,4 @@
-// A person in front of an emulated stick, who moves the lever as the calibrator asks or keeps the hands off.
+// The user of an emulated stick, who moves the lever as the calibrator asks or does not touch it.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@ class ShowingHand final : public haptics::HandDriver {
     haptics::HandTarget target;
     const glm::dvec2 velocity = (lever - lever_) / kPeriod;
     lever_ = lever;
-    if (wants) target.push = 400.0 * (wants() - lever) - 10.0 * velocity;
+    if (target_position) target.push = 400.0 * (target_position() - lever) - 10.0 * velocity;
     return target;
   }
 
-  std::function<glm::dvec2()> wants;  // [m] target of the hand; empty: hands off
+  std::function<glm::dvec2()> target_position;  // [m] target of the hand; empty: the lever is not touched
 
  private:
   glm::dvec2 lever_{0.0};

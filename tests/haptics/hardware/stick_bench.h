@@ -17,7 +17,7 @@ namespace gearshift::test {
 inline constexpr StickFamily kStickFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy};
 
 inline std::string name_of(StickFamily family) {
-  return stick_family_name(family);
+  return to_string(family);
 }
 
 class StickBench {
@@ -32,7 +32,7 @@ class StickBench {
     stick.log.clear();
   }
 
-  // Runs one period (one millisecond by default) with a command that is repeated, as a loop does.
+  // Runs one period (one millisecond by default) and repeats the command, as a loop does.
   void tick() {
     now_ns += period_ns;
     tick_stick(stick, stream, driver, now_ns);

@@ -45,12 +45,12 @@ struct ConnectedStick {
   explicit ConnectedStick(const std::function<void()>& before_open = [] {})
       : stick(gripped(), hand), driver(stick.report_descriptor()), before(before_open) {}
 
-  void keep() {
+  void connect() {
     connection = std::make_unique<StickConnection>(
         driver,
         [this]() -> std::unique_ptr<HidPort> {
           before();
-          if (!plugged) throw HidGone("the stick 045e:001b is not plugged in");
+          if (!plugged) throw HidDisconnected("the stick 045e:001b is not plugged in");
           return std::make_unique<StickPort>(stick, mutex, plugged);
         },
         1'000'000);
@@ -95,117 +95,117 @@ bool becomes_true(const std::function<bool()>& what) {
 }  // namespace
 
 TEST_CASE("unplugged and plugged in again 20 times while driving: reconnects each time, with forces off until armed") {
-  ConnectedStick kept;
-  kept.keep();
-  PidLever lever(calibration_of(gripped()), kept.driver, 0.001);
+  ConnectedStick rig;
+  rig.connect();
+  PidLever lever(calibration_of(gripped()), rig.driver, 0.001);
   bool armed = false;
-  const auto cycle = [&] {  // of a loop that follows the stop flag
+  const auto cycle = [&] {  // a command as from a loop that follows the stop flag
     if (lever.read(0).stop) armed = false;
     lever.write(armed ? dvec2{5.0, 0.0} : dvec2(0.0));
   };
   for (int time = 0; time < 20; ++time) {
-    REQUIRE(becomes_true([&] { return kept.connection->connected(); }));
+    REQUIRE(becomes_true([&] { return rig.connection->connected(); }));
     for (int ms = 0; ms < 20; ++ms) {
       cycle();
-      CHECK(kept.force() == dvec2(0.0));
+      CHECK(rig.force() == dvec2(0.0));
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     armed = true;
     REQUIRE(becomes_true([&] {
       cycle();
-      return glm::length(kept.force()) > 4.0;
+      return glm::length(rig.force()) > 4.0;
     }));
-    kept.unplug();
-    CHECK(kept.force() == dvec2(0.0));
+    rig.unplug();
+    CHECK(rig.force() == dvec2(0.0));
     REQUIRE(becomes_true([&] {
       cycle();
-      return !kept.connection->connected();
+      return !rig.connection->connected();
     }));
     if (time % 2 == 0) cycle();
-    kept.plugged = true;
+    rig.plugged = true;
   }
-  REQUIRE(becomes_true([&] { return kept.connection->connected(); }));
+  REQUIRE(becomes_true([&] { return rig.connection->connected(); }));
   Lines expected;
   for (int time = 0; time < 20; ++time) {
-    expected.push_back(std::string(kName) + " was unplugged: its motors are off");
-    expected.push_back(std::string(kName) + " is connected again: its motors are off");
+    expected.push_back(std::string(kName) + " was unplugged, so its motors are off");
+    expected.push_back(std::string(kName) + " is connected again; its motors are still off");
   }
-  CHECK(kept.messages() == expected);
-  CHECK(kept.connection->ability()->spring);
+  CHECK(rig.messages() == expected);
+  CHECK(rig.connection->ability()->spring);
 }
 
 TEST_CASE("destroying the connection switches the motors off, at any moment") {
   for (const int ms : {0, 1, 3, 10, 60}) {
-    ConnectedStick kept;
-    kept.keep();
-    PidLever lever(calibration_of(gripped()), kept.driver, 0.001);
+    ConnectedStick rig;
+    rig.connect();
+    PidLever lever(calibration_of(gripped()), rig.driver, 0.001);
     for (int i = 0; i < ms; ++i) {
       lever.read(0);
       lever.write({5.0, 0.0});
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    kept.connection.reset();
-    CHECK(kept.is_off());
-    kept.keep();  // and the driver streams again
-    CHECK(becomes_true([&] { return kept.connection->connected(); }));
+    rig.connection.reset();
+    CHECK(rig.is_off());
+    rig.connect();  // checks that the driver streams again
+    CHECK(becomes_true([&] { return rig.connection->connected(); }));
   }
 }
 
 TEST_CASE("a failure to open is reported once and retried: no exception leaves the thread") {
   std::atomic<int> tries{0};
   std::atomic<bool> works{false};
-  ConnectedStick kept([&] {
+  ConnectedStick rig([&] {
     if (works) return;
     const int turn = tries++ % 4;
     if (turn == 0) throw HidError("the stick may not be used by this user");
-    if (turn == 1) throw HidGone("the stick 045e:001b is not plugged in");
+    if (turn == 1) throw HidDisconnected("the stick 045e:001b is not plugged in");
     if (turn == 2) throw std::runtime_error("out of everything");
-    throw 7;  // NOLINT: an exception of any type
+    throw 7;  // NOLINT: an exception that is not a std::exception
   });
-  kept.keep();
+  rig.connect();
   REQUIRE(becomes_true([&] { return tries > 5; }));
   works = true;
-  REQUIRE(becomes_true([&] { return kept.connection->connected(); }));
-  CHECK(kept.messages() == Lines{"the stick may not be used by this user", "the stick 045e:001b is not plugged in",
-                                 "out of everything", "the stick cannot be used: unknown error"});
+  REQUIRE(becomes_true([&] { return rig.connection->connected(); }));
+  CHECK(rig.messages() == Lines{"the stick may not be used by this user", "the stick 045e:001b is not plugged in",
+                                "out of everything", "the stick cannot be used because of an unknown error"});
 }
 
-TEST_CASE("a stick that first refuses its effects, or its outputs, and then accepts them") {
-  ConnectedStick kept;
-  kept.stick.faults.refuses_effects = true;
-  kept.keep();
+TEST_CASE("a stick that first refuses its effects or outputs is retried until it accepts them") {
+  ConnectedStick rig;
+  rig.stick.faults.refuses_effects = true;
+  rig.connect();
   Lines messages;
-  const auto told = [&](const std::string& part) {
+  const auto was_reported = [&](const std::string& part) {
     return becomes_true([&] {
-      for (const std::string& sentence : kept.messages()) messages.push_back(sentence);
+      for (const std::string& sentence : rig.messages()) messages.push_back(sentence);
       return !messages.empty() && messages.back().find(part) != std::string::npos;
     });
   };
-  CHECK(told("the stick refuses a constant force: it reports an error"));
-  CHECK_FALSE(kept.connection->ability().has_value());
+  CHECK(was_reported("the stick refuses a constant force, because it reports an error"));
+  CHECK_FALSE(rig.connection->ability().has_value());
   {
-    const std::lock_guard lock(kept.mutex);
-    kept.stick.faults = {};
+    const std::lock_guard lock(rig.mutex);
+    rig.stick.faults = {};
   }
-  REQUIRE(becomes_true([&] { return kept.connection->connected(); }));
+  REQUIRE(becomes_true([&] { return rig.connection->connected(); }));
 
-  PidLever lever(calibration_of(gripped()), kept.driver, 0.001);
+  PidLever lever(calibration_of(gripped()), rig.driver, 0.001);
   REQUIRE(becomes_true([&] {
     lever.read(0);
     lever.write({5.0, 0.0});
-    return glm::length(kept.force()) > 4.0;
+    return glm::length(rig.force()) > 4.0;
   }));
   {
-    const std::lock_guard lock(kept.mutex);
-    kept.stick.faults.stalls_outputs = true;
+    const std::lock_guard lock(rig.mutex);
+    rig.stick.faults.stalls_outputs = true;
   }
-  CHECK(becomes_true([&] { return !kept.connection->connected(); }));
+  CHECK(becomes_true([&] { return !rig.connection->connected(); }));
   {
-    const std::lock_guard lock(kept.mutex);
-    kept.stick.faults = {};
+    const std::lock_guard lock(rig.mutex);
+    rig.stick.faults = {};
   }
-  CHECK(told(std::string(kName) + " is connected again: its motors are off"));
-  CHECK(kept.force() == dvec2(0.0));
+  CHECK(was_reported(std::string(kName) + " is connected again; its motors are still off"));
+  CHECK(rig.force() == dvec2(0.0));
   for (const std::string& sentence : messages) CHECK(std::count(messages.begin(), messages.end(), sentence) == 1);
 }
 
@@ -219,28 +219,28 @@ TEST_CASE("a slow failure is also reported only once") {
       throw HidError("the stick did not answer");
     }
   };
-  ConnectedStick kept;
+  ConnectedStick rig;
   std::atomic<int> opened{0};
-  kept.connection = std::make_unique<StickConnection>(
-      kept.driver,
+  rig.connection = std::make_unique<StickConnection>(
+      rig.driver,
       [&] {
         ++opened;
-        return std::make_unique<Deaf>(kept.stick, kept.mutex, kept.plugged);
+        return std::make_unique<Deaf>(rig.stick, rig.mutex, rig.plugged);
       },
       1'000'000);
   REQUIRE(becomes_true([&] { return opened == 3; }));
-  CHECK(kept.messages() == Lines{"the stick did not answer"});
+  CHECK(rig.messages() == Lines{"the stick did not answer"});
 }
 
-// Looking for an absent stick takes milliseconds, which a real-time thread would take from the loop.
+// Searching for an absent stick takes milliseconds; a real-time thread would take them from the loop.
 TEST_CASE("the thread is real-time while it streams, if permitted, and not while it looks for the stick") {
   bool allowed = false;
   std::thread([&] { allowed = schedule_fifo(70).empty(); }).join();
   std::atomic<int> opening{-1}, streaming{-1};
   class Watched final : public StickPort {
    public:
-    Watched(ConnectedStick& kept, std::atomic<int>& policy)
-        : StickPort(kept.stick, kept.mutex, kept.plugged), policy_(policy) {}
+    Watched(ConnectedStick& rig, std::atomic<int>& policy)
+        : StickPort(rig.stick, rig.mutex, rig.plugged), policy_(policy) {}
     void stream(const StreamConfig& config, HidStream& stream) override {
       policy_ = sched_getscheduler(0) & ~SCHED_RESET_ON_FORK;
       StickPort::stream(config, stream);
@@ -249,16 +249,16 @@ TEST_CASE("the thread is real-time while it streams, if permitted, and not while
    private:
     std::atomic<int>& policy_;
   };
-  ConnectedStick kept;
+  ConnectedStick rig;
   const auto open = [&] {
     opening = sched_getscheduler(0) & ~SCHED_RESET_ON_FORK;
-    if (!kept.plugged) throw HidGone("the stick is not plugged in");
-    return std::make_unique<Watched>(kept, streaming);
+    if (!rig.plugged) throw HidDisconnected("the stick is not plugged in");
+    return std::make_unique<Watched>(rig, streaming);
   };
-  kept.connection = std::make_unique<StickConnection>(kept.driver, open, 1'000'000);
+  rig.connection = std::make_unique<StickConnection>(rig.driver, open, 1'000'000);
   REQUIRE(becomes_true([&] { return streaming >= 0; }));
   CHECK(streaming == (allowed ? SCHED_FIFO : SCHED_OTHER));
-  kept.unplug();
+  rig.unplug();
   opening = -1;
   REQUIRE(becomes_true([&] { return opening >= 0; }));
   CHECK(opening == SCHED_OTHER);

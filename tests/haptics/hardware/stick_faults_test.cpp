@@ -1,4 +1,4 @@
-// Faults while a person holds the lever: how soon the motors are silent, and what switches them on again.
+// Faults while the user holds the lever: how soon the motors are off, and what switches them on again.
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -30,23 +30,23 @@ EmulatedStickConfig gripped(StickFamily family) {
   return config;
 }
 
-// A person presses the lever into a wall, then the fault happens and time continues.
+// The user presses the lever into a wall; then the fault happens, and time continues.
 struct Fault {
   const char* name;
-  std::function<void(StickLoop&)> happens;
-  std::function<void(StickLoop&)> goes_on;  // runs one millisecond
-  double most;                              // [s] longest time to silence
+  std::function<void(StickLoop&)> inject;
+  std::function<void(StickLoop&)> run_millisecond;  // runs one millisecond
+  double max_time;                                  // [s] maximum time until the motors are off
   bool own_power = false;
 };
 
-void usual(StickLoop& run) {
+void run_cycle(StickLoop& run) {
   run.cycle();
 }
 
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> all{
-      {"stop button on the stick", [](StickLoop& run) { run.stick.held_buttons = 0b100; }, usual, 0.005},
-      {"stop in the program", [](StickLoop& run) { run.channels.commands.push(LoopCommand::stop); }, usual, 0.005},
+      {"stop button on the stick", [](StickLoop& run) { run.stick.held_buttons = 0b100; }, run_cycle, 0.005},
+      {"stop in the program", [](StickLoop& run) { run.channels.commands.push(LoopCommand::stop); }, run_cycle, 0.005},
       {"release()", [](StickLoop& run) { run.lever.release(); }, [](StickLoop& run) { run.tick(); }, 0.002},
       {"unplugged", [](StickLoop& run) { run.stick.unplug(); },
        [](StickLoop& run) { run.loop.cycle(run.now_ns += 1'000'000, 0); }, 0.0},
@@ -56,8 +56,8 @@ const std::vector<Fault>& faults() {
          run.loop.cycle(run.now_ns, 0);
        },
        0.301, true},
-      {"no readings", [](StickLoop& run) { run.stick.faults.silent = true; }, usual, 0.060},
-      {"sensor stuck, in whatever place", [](StickLoop& run) { run.stick.faults.stuck = true; }, usual, 3.100},
+      {"no readings", [](StickLoop& run) { run.stick.faults.silent = true; }, run_cycle, 0.060},
+      {"sensor stuck, in whatever place", [](StickLoop& run) { run.stick.faults.stuck = true; }, run_cycle, 3.100},
       {"loop too late, every cycle", [](StickLoop&) {},
        [](StickLoop& run) {
          run.tick();
@@ -82,33 +82,33 @@ double time_to_silence(StickFamily family, const Fault& fault, double before) {
   REQUIRE(glm::length(run.stick.force()) > 3.0);
   const std::int64_t begin = run.now_ns;
   std::int64_t loud = begin;
-  fault.happens(run);
-  for (int ms = 0; ms < 1000 * fault.most + 300; ++ms) {
+  fault.inject(run);
+  for (int ms = 0; ms < 1000 * fault.max_time + 300; ++ms) {
     if (glm::length(run.stick.force()) > kSilent) loud = run.now_ns + 1'000'000;
-    if (ms > 240 && run.stick.faults.silent) break;  // then the port itself fails
-    fault.goes_on(run);
+    if (ms > 240 && run.stick.faults.silent) break;  // then the port also fails
+    fault.run_millisecond(run);
   }
-  if (fault.most < 0.2) CHECK_FALSE(run.stick.actuators_on());  // a responsive stick has been switched off
+  if (fault.max_time < 0.2) CHECK_FALSE(run.stick.actuators_on());  // a stick that still responds has been switched off
   return 1e-9 * static_cast<double>(loud - begin);
 }
 
-// The whole process is stopped for a while; then one of its threads runs first.
+// The whole process is stopped for a while; then one of its threads resumes first.
 struct Stall {
   std::int64_t ms = 0;
   bool loop_first = false;
 };
 
-void stand_still(StickLoop& run, const Stall& stall) {
+void stop_process(StickLoop& run, const Stall& stall) {
   run.stick.advance(run.now_ns += 1'000'000 * stall.ms);
 }
 
-void wake(StickLoop& run, const Stall& stall) {
+void resume_process(StickLoop& run, const Stall& stall) {
   run.now_ns += run.period_ns;
   if (!stall.loop_first) tick_stick(run.stick, run.stream, run.driver, run.now_ns);
   run.loop.cycle(run.now_ns, stall.ms);
 }
 
-// For each family, with the process stopped and resumed.
+// Calls `work` for each family, with the process stopped and resumed.
 template <class Work>
 void on_each_stall(std::initializer_list<std::int64_t> lengths, const Work& work) {
   for (const StickFamily family : kStickFamilies) {
@@ -141,7 +141,7 @@ TEST_CASE("from a fault to silent motors within the stated time, whenever it hap
     }
     std::sort(times.begin(), times.end());
     CAPTURE(std::string(fault.name));
-    CHECK(times.back() <= fault.most);
+    CHECK(times.back() <= fault.max_time);
     table += std::string(fault.name) + " | " + number_text(1e3 * times[times.size() / 2], 0) + " | " +
              number_text(1e3 * times.back(), 0) + '\n';
   }
@@ -153,10 +153,10 @@ TEST_CASE("the process is stopped and resumed, whichever thread wakes first: no 
     hand.target = hand_at({0.012, 0.020});
     run.cycle_for(0.5);
     REQUIRE(glm::length(run.stick.force()) > 3.0);
-    stand_still(run, stall);
-    const bool has_ended = stall.ms > 300;  // an effect does not last longer
+    stop_process(run, stall);
+    const bool has_ended = stall.ms > 300;  // longer than an effect lasts
     if (has_ended) CHECK(glm::length(run.stick.force()) < kSilent);
-    wake(run, stall);
+    resume_process(run, stall);
     for (int i = 0; i < 1000; ++i) {
       run.cycle();
       if (i > 4 || has_ended) CHECK(glm::length(run.stick.force()) < kSilent);
@@ -171,8 +171,8 @@ TEST_CASE("the process is stopped and resumed, whichever thread wakes first: no 
 
 TEST_CASE("a stop of up to 0.1 s does not interrupt the forces, whichever thread wakes first") {
   on_each_stall({15, 25, 60, 95}, [](StickLoop& run, StillHand&, const Stall& stall) {
-    stand_still(run, stall);
-    wake(run, stall);
+    stop_process(run, stall);
+    resume_process(run, stall);
     run.cycle_for(0.2);
     CHECK(run.loop.snapshot().guard == GuardState::running);
     CHECK(run.problems().empty());
@@ -196,7 +196,7 @@ TEST_CASE("unplugged at any moment of a tour: silent until a person arms it agai
       CHECK(run.loop.snapshot().guard == GuardState::running);
       run.stick.unplug();
       CHECK(run.stick.force() == dvec2(0.0));
-      for (int ms = 0; ms < 300; ++ms) {  // disconnected; the loop continues
+      for (int ms = 0; ms < 300; ++ms) {  // a disconnected stick; the loop continues
         run.stick.advance(run.now_ns += 1'000'000);
         run.loop.cycle(run.now_ns, 0);
       }
@@ -257,7 +257,7 @@ TEST_CASE("a faulty stick in a hand: jumps do not move it, and useless readings 
       hand.target = hand_at({0.012, 0.020});
       run.cycle_for(0.5);
       const auto strongest =
-          [&run] {  // [N] in a fifth of a second: one count of a coarse stick makes a kick of wall damping
+          [&run] {  // [N] per fifth of a second: one count of a coarse stick causes a kick of wall damping
             double force = 0.0;
             for (int ms = 0; ms < 200; ++ms) {
               run.cycle();
@@ -276,8 +276,8 @@ TEST_CASE("a faulty stick in a hand: jumps do not move it, and useless readings 
   }
 }
 
-// A hand without tremor is the hardest case, with counts of 137 um on one of the sticks. It leans on a wall, which
-// fades until the next count.
+// A hand without tremor is the hardest case, with counts of 137 um on one of the sticks. It leans on a wall, whose
+// force fades until the next count.
 TEST_CASE("leaning on a wall for half a minute is not mistaken for a dead sensor, and the fading is hardly felt") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
@@ -287,16 +287,16 @@ TEST_CASE("leaning on a wall for half a minute is not mistaken for a dead sensor
     run.cycle_for(0.7);
     hand.target = hand_at({0.012, 0.020});  // into the neutral aisle's wall
     run.cycle_for(1.5);
-    double least = 1e9, sum = 0.0;
+    double min_force = 1e9, sum = 0.0;
     for (int ms = 0; ms < 30'000; ++ms) {
       run.cycle();
-      least = std::min(least, glm::length(run.stick.force()));
+      min_force = std::min(min_force, glm::length(run.stick.force()));
       sum += glm::length(run.stick.force());
     }
-    MESSAGE(name_of(family), ": at least ", least, " N of ", sum / 30'000);
+    MESSAGE(name_of(family), ": at least ", min_force, " N of ", sum / 30'000);
     CHECK(run.loop.snapshot().guard == GuardState::running);
     CHECK(run.problems().empty());
-    CHECK(least > 0.75 * sum / 30'000);
+    CHECK(min_force > 0.75 * sum / 30'000);
   }
 }
 

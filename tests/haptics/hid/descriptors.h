@@ -21,9 +21,9 @@ inline constexpr const char* kOtherDevices[] = {"sony-dualshock4-v2-usb", "logit
 
 // Converts "05 01 ..." to bytes.
 inline std::vector<std::uint8_t> hex_bytes(const std::string& text) {
-  std::istringstream words(text);
+  std::istringstream input(text);
   std::vector<std::uint8_t> bytes;
-  for (std::string word; words >> word;) bytes.push_back(static_cast<std::uint8_t>(std::stoul(word, nullptr, 16)));
+  for (std::string word; input >> word;) bytes.push_back(static_cast<std::uint8_t>(std::stoul(word, nullptr, 16)));
   return bytes;
 }
 
@@ -45,7 +45,7 @@ inline std::vector<std::uint8_t> device_descriptor(const std::string& device) {
   return hex_bytes({std::istreambuf_iterator<char>(file), {}});
 }
 
-// Replaces the first occurrence of these bytes by those.
+// Replaces the first occurrence of `old_bytes`.
 inline std::vector<std::uint8_t> with(std::vector<std::uint8_t> descriptor, const std::string& old_bytes,
                                       const std::string& new_bytes) {
   const std::vector<std::uint8_t> out = hex_bytes(old_bytes), in = hex_bytes(new_bytes);

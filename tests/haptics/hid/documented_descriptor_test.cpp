@@ -25,10 +25,10 @@ std::string documented_hex() {
   REQUIRE(begin != std::string::npos);
   const auto from = begin + fence.size();
   std::string bytes;
-  bool is_said = false;
+  bool is_comment = false;
   for (const char c : page.substr(from, page.find("```", from) - from)) {
-    is_said = c == '#' || (is_said && c != '\n');
-    if (!is_said) bytes += c;
+    is_comment = c == '#' || (is_comment && c != '\n');
+    if (!is_comment) bytes += c;
   }
   return bytes;
 }
@@ -61,7 +61,7 @@ TEST_CASE("the builder's guide: its 257 bytes describe a lever of 16 bits with 8
   for (const std::size_t control : {0u, 1u, 2u, 3u}) CHECK(pid->device_control.control.supports(control));
   CHECK_FALSE(pid->create.exists());
 
-  // By hand: ID 3, block 2, half of 32767 = 16384 (rounded) = 4000h.
+  // Derived by hand: ID 3, block 2, half of 32767 = 16384 (rounded) = 4000h.
   const HidBytes half = encode_constant(*pid, 2, 0.5);
   CHECK(hex(half.view()) == "03 02 00 40");
 }

@@ -27,10 +27,11 @@ class HidLaws {
     haptics::ReportDescriptor descriptor;
     try {
       descriptor = haptics::parse_report_descriptor(bytes);
-    } catch (const haptics::HidError& error) {  // the only exception allowed
+    } catch (const haptics::HidError& error) {  // the only exception type allowed
       const std::string sentence = error.what();
-      hold(sentence.starts_with("report descriptor, byte ") && sentence.find('\n') == std::string::npos,
-           "one sentence");
+      expect(
+          sentence.starts_with("the report descriptor is invalid at byte ") && sentence.find('\n') == std::string::npos,
+          "one sentence");
       return broken_;
     }
     check_fields(descriptor);
@@ -42,46 +43,46 @@ class HidLaws {
   int levers = 0, pid_devices = 0;  // number found
 
  private:
-  void hold(bool law, const char* name) {
+  void expect(bool law, const char* name) {
     if (!law && broken_.empty()) broken_ = name;
   }
 
   void check_fields(const haptics::ReportDescriptor& descriptor) {
     for (std::size_t i = 0; i < descriptor.collections.size(); ++i) {
       const int parent = descriptor.collections[i].parent;
-      hold(parent >= -1 && parent < static_cast<int>(i), "a collection begins after the one that it is in");
+      expect(parent >= -1 && parent < static_cast<int>(i), "a collection begins after the one that it is in");
     }
     std::array<std::array<int, 256>, 3> ends{};
     for (const haptics::HidField& field : descriptor.fields) {
       int& end = ends[static_cast<std::size_t>(field.kind)][field.report_id];
-      hold(field.bits > 0 && field.count > 0, "a field is of something");
-      hold(field.offset == end, "fields lie side by side");
+      expect(field.bits > 0 && field.count > 0, "a field is of something");
+      expect(field.offset == end, "fields lie side by side");
       end += field.bits * field.count;
-      hold(end <= 8 * 65535, "a report's length fits into 16 bits");
-      hold(field.collection >= -1 && field.collection < static_cast<int>(descriptor.collections.size()),
-           "a field's collection exists");
-      hold(field.usages.size() <= 1024, "usages are bounded");
-      if (field.report_id != 0) hold(descriptor.numbered, "IDs are numbers of reports");
+      expect(end <= 8 * 65535, "a report's length fits into 16 bits");
+      expect(field.collection >= -1 && field.collection < static_cast<int>(descriptor.collections.size()),
+             "a field's collection exists");
+      expect(field.usages.size() <= 1024, "usages are bounded");
+      if (field.report_id != 0) expect(descriptor.numbered, "IDs are numbers of reports");
     }
     for (const haptics::HidField& field : descriptor.fields) {
       const int end = ends[static_cast<std::size_t>(field.kind)][field.report_id];
-      hold(descriptor.report_size(field.kind, field.report_id) == 1 + (static_cast<std::size_t>(end) + 7) / 8,
-           "a report is as long as its fields");
+      expect(descriptor.report_size(field.kind, field.report_id) == 1 + (static_cast<std::size_t>(end) + 7) / 8,
+             "a report is as long as its fields");
     }
   }
 
   void check_field(const haptics::BitField& field, std::size_t size) {
     if (!field.exists()) return;
-    hold(field.offset >= 0 && field.bits <= 32 && 8 + field.offset + field.bits <= static_cast<int>(8 * size),
-         "no field lies outside its report");
-    hold(field.min < field.max && field.zero >= field.min && field.zero <= field.max, "a field has a range");
+    expect(field.offset >= 0 && field.bits <= 32 && 8 + field.offset + field.bits <= static_cast<int>(8 * size),
+           "no field lies outside its report");
+    expect(field.min < field.max && field.zero >= field.min && field.zero <= field.max, "a field has a range");
     std::vector<std::uint8_t> report = salted(size);
     for (const std::int64_t value : {field.min, field.zero, field.max, field.min + (field.max - field.min) / 3}) {
       haptics::write_bits(report, field, value);
-      hold(haptics::read_bits(report, field) == value, "what is written is read");
+      expect(haptics::read_bits(report, field) == value, "what is written is read");
     }
     haptics::write_bits(report, field, field.max + 1);
-    hold(haptics::read_bits(report, field) == field.max, "no more than the most is written");
+    expect(haptics::read_bits(report, field) == field.max, "no more than the most is written");
   }
 
   std::vector<std::uint8_t> salted(std::size_t size) {
@@ -92,12 +93,12 @@ class HidLaws {
 
   void check_lever(const haptics::ReportDescriptor& descriptor, const haptics::LeverReport& lever) {
     ++levers;
-    hold(lever.size == descriptor.report_size(haptics::ReportKind::input, lever.id) &&
-             lever.size <= haptics::HidBytes::kMaxSize,
-         "a lever's report is one of the device's");
-    hold(lever.axes.size() >= 2 && lever.axes.size() <= haptics::kMaxAxes &&
-             lever.buttons.size() <= haptics::kMaxButtons,
-         "a lever has two axes and more");
+    expect(lever.size == descriptor.report_size(haptics::ReportKind::input, lever.id) &&
+               lever.size <= haptics::HidBytes::kMaxSize,
+           "a lever's report is one of the device's");
+    expect(lever.axes.size() >= 2 && lever.axes.size() <= haptics::kMaxAxes &&
+               lever.buttons.size() <= haptics::kMaxButtons,
+           "a lever has two axes and more");
     std::vector<std::uint8_t> report = salted(lever.size);
     report[0] = lever.id;
     for (const haptics::HidAxis& axis : lever.axes) {
@@ -106,25 +107,25 @@ class HidLaws {
     }
     for (const haptics::BitField& button : lever.buttons) check_field(button, lever.size);
     const auto counts = haptics::decode_lever(lever, report);
-    hold(counts.has_value(), "a report of its ID and length is read");
+    expect(counts.has_value(), "a report of its ID and length is read");
     for (std::size_t i = 0; counts && i < lever.axes.size(); ++i) {
-      hold(counts->axis[i] == lever.axes[i].field.zero, "an axis is read as it was written");
+      expect(counts->axis[i] == lever.axes[i].field.zero, "an axis is read as it was written");
     }
     report.push_back(0);
-    hold(!haptics::decode_lever(lever, report), "a report of another length is not read");
+    expect(!haptics::decode_lever(lever, report), "a report of another length is not read");
   }
 
-  // size: of the report, from the descriptor.
+  // layout.size: size of the report, from the descriptor.
   void check_bytes(const haptics::HidBytes& bytes, const haptics::PidReport& layout) {
     if (bytes.size == 0) return;
-    hold(bytes.size == layout.size && bytes.id() == layout.id, "an encoded report is as long as the device's");
+    expect(bytes.size == layout.size && bytes.id() == layout.id, "an encoded report is as long as the device's");
   }
 
   void check_report(const haptics::ReportDescriptor& descriptor, const haptics::PidReport& report,
                     haptics::ReportKind kind, std::initializer_list<haptics::BitField> fields) {
     if (!report.exists()) return;
-    hold(report.size == descriptor.report_size(kind, report.id) && report.size <= haptics::HidBytes::kMaxSize,
-         "a PID report is one of the device's");
+    expect(report.size == descriptor.report_size(kind, report.id) && report.size <= haptics::HidBytes::kMaxSize,
+           "a PID report is one of the device's");
     for (const haptics::BitField& field : fields) check_field(field, report.size);
   }
 
@@ -134,8 +135,8 @@ class HidLaws {
       if (!choice.supports(i)) continue;
       check_field(choice.bit[i], report.size);
       if (choice.bit[i].exists()) continue;
-      hold(choice.field.exists() && choice.number[i] >= choice.field.min && choice.number[i] <= choice.field.max,
-           "a number fits its field");
+      expect(choice.field.exists() && choice.number[i] >= choice.field.min && choice.number[i] <= choice.field.max,
+             "a number fits its field");
       check_field(choice.field, report.size);
     }
   }
@@ -144,8 +145,8 @@ class HidLaws {
     ++pid_devices;
     check_outputs(descriptor, pid);
     check_features(descriptor, pid);
-    check_told(pid);
-    check_heard(pid);
+    check_encoding(pid);
+    check_decoding(pid);
   }
 
   void check_outputs(const haptics::ReportDescriptor& descriptor, const haptics::PidLayout& pid) {
@@ -156,7 +157,7 @@ class HidLaws {
                   effect.trigger_button, effect.direction_enable, effect.start_delay, effect.axis_enable[0],
                   effect.axis_enable[1], effect.direction[0], effect.direction[1]});
     check_choice(effect.type, effect);
-    hold(effect.duration_unit > 0.0, "a count takes time");
+    expect(effect.duration_unit > 0.0, "a count takes time");
     check_report(descriptor, pid.set_constant, output, {pid.set_constant.block, pid.set_constant.magnitude});
     const haptics::PidSetCondition& condition = pid.set_condition;
     check_report(descriptor, condition, output,
@@ -185,18 +186,18 @@ class HidLaws {
                   state.override_switch, state.paused});
   }
 
-  void check_told(const haptics::PidLayout& pid) {
+  void check_encoding(const haptics::PidLayout& pid) {
     const auto block = static_cast<int>(std::min<std::int64_t>(pid.set_constant.block.max, 1000));
     for (const double magnitude : {-1.0, 0.0, 1.0}) {
       const haptics::HidBytes bytes = haptics::encode_constant(pid, block, magnitude);
       check_bytes(bytes, pid.set_constant);
       if (bytes.size == 0) continue;
       const haptics::BitField& field = pid.set_constant.magnitude;
-      hold(haptics::read_bits(bytes.view(), pid.set_constant.block) == block, "the block is encoded");
-      hold(haptics::read_bits(bytes.view(), field) == (magnitude < 0.0   ? field.min
-                                                       : magnitude > 0.0 ? field.max
-                                                                         : field.zero),
-           "the magnitude is encoded");
+      expect(haptics::read_bits(bytes.view(), pid.set_constant.block) == block, "the block is encoded");
+      expect(haptics::read_bits(bytes.view(), field) == (magnitude < 0.0   ? field.min
+                                                         : magnitude > 0.0 ? field.max
+                                                                           : field.zero),
+             "the magnitude is encoded");
     }
     for (std::size_t i = 0; i < haptics::kPidEffects; ++i) {
       const auto effect = static_cast<haptics::PidEffect>(i);
@@ -213,22 +214,22 @@ class HidLaws {
     for (std::size_t i = 0; i < haptics::kPidControls; ++i) {
       const haptics::HidBytes bytes = haptics::encode_control(pid, static_cast<haptics::PidControl>(i));
       check_bytes(bytes, pid.device_control);
-      hold((bytes.size == 0) == !pid.device_control.control.supports(i), "a supported control is encoded");
+      expect((bytes.size == 0) == !pid.device_control.control.supports(i), "a supported control is encoded");
     }
     check_bytes(haptics::encode_gain(pid, 1.0), pid.gain);
     check_bytes(haptics::encode_block_free(pid, block), pid.block_free);
   }
 
-  void check_heard(const haptics::PidLayout& pid) {
+  void check_decoding(const haptics::PidLayout& pid) {
     for (const std::size_t size :
          {pid.block_load.size, pid.pool.size, pid.state.size, std::size_t{0}, std::size_t{3}}) {
       std::vector<std::uint8_t> report = salted(size);
       for (const std::uint8_t id : {pid.block_load.id, pid.pool.id, pid.state.id}) {
         if (size > 0) report[0] = id;
-        hold(!haptics::decode_block_load(pid, report) || size == pid.block_load.size,
-             "a block load of its length is read");
-        hold(!haptics::decode_pool(pid, report) || size == pid.pool.size, "a pool of its length is read");
-        hold(!haptics::decode_state(pid, report) || size == pid.state.size, "a state of its length is read");
+        expect(!haptics::decode_block_load(pid, report) || size == pid.block_load.size,
+               "a block load of its length is read");
+        expect(!haptics::decode_pool(pid, report) || size == pid.pool.size, "a pool of its length is read");
+        expect(!haptics::decode_state(pid, report) || size == pid.state.size, "a state of its length is read");
       }
     }
     if (!pid.block_load.exists()) return;
@@ -236,8 +237,8 @@ class HidLaws {
     report[0] = pid.block_load.id;
     haptics::write_bits(report, pid.block_load.block, 7);
     const auto load = haptics::decode_block_load(pid, report);
-    hold(load && load->block == std::max<std::int64_t>(haptics::read_bits(report, pid.block_load.block), 0),
-         "the block is heard");
+    expect(load && load->block == std::max<std::int64_t>(haptics::read_bits(report, pid.block_load.block), 0),
+           "the block is heard");
   }
 
   std::span<const std::uint8_t> salt_;

@@ -1,4 +1,4 @@
-// Decodes lever positions from report bytes. The reports are written by hand from the devices' documents.
+// Decodes lever positions from report bytes, written by hand from the devices' documents.
 #include "haptics/hid/lever_report.h"
 
 #include <string>
@@ -56,7 +56,7 @@ TEST_CASE("SideWinder FF2: ten-bit X and Y, six-bit twist, seven-bit slider, eig
   CHECK(axis(lever, counts, kRz) == -1);
   CHECK(axis(lever, counts, kSlider) == 127);
   CHECK(counts.buttons == 0x81);
-  // Padding is ignored, such as the six bits above X.
+  // Padding, such as the six bits above X, is ignored.
   CHECK(axis(lever, decoded(lever, "01 01 FC 00 FC 00 00 00 00 00 00 00 00"), kX) == 1);
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("vJoy: has more axes than the maximum; X and Y are always kept") {
   CHECK(axis(lever, counts, kY) == 0x4000);
   CHECK(counts.buttons == 2);
 
-  // Eight other axes come first: Z to wheel of page 1 are seven, the rest is on the simulation page.
+  // Eight other axes come first: the seven of page 1 from Z to wheel; the rest are on the simulation page.
   const LeverReport late = lever_of(hex_bytes(
       "05 01 09 04 A1 01 15 00 26 FF 00 75 08 95 09 09 32 09 33 09 34 09 35 09 36 09 37 09 38 05 02 09 BA 09 BB "
       "81 02 05 01 09 30 09 31 95 02 81 02 C0"));
@@ -113,14 +113,14 @@ TEST_CASE("pads and wheels without force feedback also have a lever report") {
 TEST_CASE("no lever: a mouse, a stick of one axis, axes of a keyboard, axes that are padding") {
   const std::string axes = "09 30 09 31 15 81 25 7F 75 08 95 02 ";
   CHECK(has_lever("05 01 09 04 A1 01 " + axes + "81 02 C0"));
-  CHECK(has_lever("05 01 09 08 A1 01 A1 02 A1 02 " + axes + "81 02 C0 C0 C0"));  // multi-axis controller, nested deeper
+  CHECK(has_lever("05 01 09 08 A1 01 A1 02 A1 02 " + axes + "81 02 C0 C0 C0"));  // a multi-axis controller, nested
   CHECK_FALSE(has_lever("05 01 09 02 A1 01 " + axes + "81 06 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "81 06 C0"));  // relative
   CHECK_FALSE(has_lever("05 01 09 06 A1 01 " + axes + "81 02 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "81 03 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "91 02 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 09 30 75 08 95 01 81 02 85 02 09 31 81 02 C0"));  // X and Y in two reports
-  // The same, but longer than 256 bytes: 255 vendor bytes come first.
+  // A report with the same axes, but longer than 256 bytes: 255 vendor bytes come first.
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 75 08 96 FF 00 81 01 " + axes + "81 02 C0"));
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("bits: any offset, any width, with and without sign; nothing beyond th
     write_bits(full, field, -1);
     write_bits(full, field, field.min < 0 ? -1 : field.max);
     CHECK(hex(full) == "FF FF FF FF FF FF");
-    // One byte too short.
+    // The report is one byte too short.
     const std::size_t needed = static_cast<std::size_t>(8 + field.offset + field.bits + 7) / 8;
     bytes.resize(needed - 1);
     CHECK(read_bits(bytes, field) == 0);
@@ -190,8 +190,8 @@ TEST_CASE("a field's range is limited to what its bits can hold; its zero is whe
   CHECK(field("15 00 26 FF 7F").max == 255);                     // 32767 does not fit into the field
   CHECK(field("16 F0 D8 26 10 27").min == -128);                 // -10000 does not fit either
   CHECK(field("15 00 25 00").max == 255);                        // empty range: full range of the bits
-  CHECK(field("15 05 25 01").min == 0);                          // inverted range: the same
-  CHECK(field("15 00 26 FF 00 36 F0 D8 46 10 27").zero == 128);  // 127.5: half of 0 to 255, for -10000 to 10000
+  CHECK(field("15 05 25 01").min == 0);                          // inverted range: also the full range of the bits
+  CHECK(field("15 00 26 FF 00 36 F0 D8 46 10 27").zero == 128);  // 127.5, the middle of 0 to 255
   CHECK(field("15 00 26 FF 00 35 00 46 10 27").zero == 0);
   CHECK(field("15 01 25 64 35 01 45 64").zero == 1);
   CHECK_FALSE(bit_field(parse_report_descriptor(hex_bytes("75 21 95 01 91 02")).fields[0], 0).exists());

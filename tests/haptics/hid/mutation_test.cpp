@@ -1,5 +1,5 @@
-// Device descriptors with a few wrong bytes are refused with one sentence or read consistently.
-// tests/fuzz/hid_descriptor_fuzz.cpp checks the same laws for longer, with a search for new paths.
+// Device descriptors with a few wrong bytes are refused with one sentence, or read consistently.
+// tests/fuzz/hid_descriptor_fuzz.cpp checks the same laws for longer and searches for new code paths.
 #include <random>
 #include <string>
 #include <vector>
@@ -57,7 +57,7 @@ TEST_CASE("descriptors with a few wrong bytes break no law") {
       }
     }
   }
-  // Makes sure that many of them are accepted, so that the laws are tested.
+  // Checks that many descriptors are accepted, so that the laws are tested.
   CHECK(levers > 500);
   CHECK(pid_devices > 300);
   MESSAGE(levers << " levers, " << pid_devices << " PID devices of 3500");

@@ -49,8 +49,9 @@ std::string numbers(const PidChoice<N>& choice) {
 
 constexpr const char* kAllEffects = "1 2 3 4 5 6 7 8 9 10 11";
 
-// A minimal stick: Set Effect, Set Constant Force and Effect Operation, with additions to Set Effect and at the end.
-std::vector<std::uint8_t> least(const std::string& set_effect, const std::string& more = "") {
+// A minimal stick: Set Effect, Set Constant Force and Effect Operation. `set_effect` is added to Set Effect, `more` at
+// the end.
+std::vector<std::uint8_t> minimal_stick(const std::string& set_effect, const std::string& more = "") {
   return hex_bytes(
       "05 01 09 04 A1 01 05 0F 15 01 25 28 75 08 95 01 "
       "09 21 A1 02 85 01 09 22 91 02 " +
@@ -174,7 +175,7 @@ TEST_CASE("vJoy: its own IDs, blocks to 100, a turn of 32767, a state in a colle
   CHECK(place(pid.state.playing) == "0:1");
   CHECK(place(pid.state.actuators_enabled) == "2:1");
   CHECK(place(pid.state.actuator_power) == "5:1");
-  CHECK_FALSE(pid.state.block.exists());  // it is in a feature report with the same ID
+  CHECK_FALSE(pid.state.block.exists());  // the field is in a feature report with the same ID
 }
 
 TEST_CASE("Saitek: no type, direction, axes nor conditions; choices in an order of its own") {
@@ -228,7 +229,7 @@ TEST_CASE("a device that uses the PID page only for rumble is not a PID device, 
 }
 
 TEST_CASE("optional reports may be missing; required ones may not") {
-  const auto pid = pid_in(least(""));
+  const auto pid = pid_in(minimal_stick(""));
   REQUIRE(pid);
   CHECK(id_size(pid->set_effect) == "1:2");
   CHECK_FALSE(pid->set_effect.duration.exists());
@@ -242,13 +243,15 @@ TEST_CASE("optional reports may be missing; required ones may not") {
   CHECK_FALSE(pid->has_effect(PidEffect::spring));
   for (const char* usage : {"09 21", "09 73", "09 77", "09 70", "09 79"}) {
     CAPTURE(usage);
-    CHECK_FALSE(pid_in(with(least(""), usage, "09 01")));
+    CHECK_FALSE(pid_in(with(minimal_stick(""), usage, "09 01")));
   }
 }
 
 TEST_CASE("device control: an array, bits, or an array that is flagged as a variable, in either of its collections") {
   const std::string six = "09 97 09 98 09 99 09 9A 09 9B 09 9C ";
-  const auto control = [](const std::string& more) { return numbers(pid_in(least("", more))->device_control.control); };
+  const auto control = [](const std::string& more) {
+    return numbers(pid_in(minimal_stick("", more))->device_control.control);
+  };
   CHECK(control("09 96 A1 02 85 0C " + six + "15 01 25 06 75 08 95 01 91 00 C0") == "1 2 3 4 5 6");
   CHECK(control("09 95 A1 02 85 0C " + six + "15 01 25 06 75 08 95 01 91 00 C0") == "1 2 3 4 5 6");
   CHECK(control("09 95 A1 02 85 0C 09 96 A1 02 " + six + "15 01 25 06 75 08 95 01 91 02 C0 C0") ==
@@ -262,12 +265,12 @@ TEST_CASE("device control: an array, bits, or an array that is flagged as a vari
   CHECK(control("09 96 A1 02 85 0C 09 98 09 97 25 02 91 00 C0") == "2 1 - - - -");
   // A field of 255 bits cannot hold a number, not even 0 (found by fuzzing).
   CHECK(control("09 96 A1 02 85 0C " + six + "15 00 25 05 75 FF 95 01 91 00 C0") == "- - - - - -");
-  // In another report, outside the collection.
+  // A control field outside the Device Control collection, in another report.
   CHECK(control("09 21 A1 02 85 0C " + six + "15 01 25 06 75 08 95 01 91 00 C0") == "- - - - - -");
 }
 
 TEST_CASE("axes and directions: by axis or ordinal, one polar direction, 36000 hundredths or the device's counts") {
-  const auto effect = [](const std::string& items) { return pid_in(least(items))->set_effect; };
+  const auto effect = [](const std::string& items) { return pid_in(minimal_stick(items))->set_effect; };
   const std::string bits = "15 00 25 01 75 01 95 02 91 02 C0 75 06 95 01 91 03";
   CHECK(place(effect("09 55 A1 02 05 01 09 31 09 30 " + bits).axis_enable[0]) == "9:1");  // Y first
   CHECK(place(effect("09 55 A1 02 0B 01 00 0A 00 0B 02 00 0A 00 " + bits).axis_enable[1]) == "9:1");
@@ -276,7 +279,7 @@ TEST_CASE("axes and directions: by axis or ordinal, one polar direction, 36000 h
   CHECK(place(polar.direction[0]) == "8:8");
   CHECK_FALSE(polar.direction[1].exists());
   CHECK(polar.full_turn == doctest::Approx(179.0));
-  // 0 to 35999 hundredths of a degree in 0 to 35999 counts, so a full turn is one count more. Exponent -2.
+  // 0 to 35999 hundredths of a degree in 0 to 35999 counts with exponent -2, so a full turn is one count more.
   const PidSetEffect nearly =
       effect("09 57 A1 02 0B 01 00 0A 00 55 FE 15 00 27 9F 8C 00 00 35 00 47 9F 8C 00 00 75 10 95 01 91 02 55 00 C0");
   CHECK(nearly.full_turn == doctest::Approx(36000.0));
@@ -286,7 +289,9 @@ TEST_CASE("axes and directions: by axis or ordinal, one polar direction, 36000 h
 }
 
 TEST_CASE("the unit of durations: the field's unit, or milliseconds if it has none") {
-  const auto unit = [](const std::string& items) { return pid_in(least("09 50 " + items))->set_effect.duration_unit; };
+  const auto unit = [](const std::string& items) {
+    return pid_in(minimal_stick("09 50 " + items))->set_effect.duration_unit;
+  };
   CHECK(unit("75 10 95 01 91 02") == doctest::Approx(1e-3));
   CHECK(unit("15 00 26 FF 7F 35 00 46 FF 7F 66 03 10 55 FD 75 10 91 02") == doctest::Approx(1e-3));
   CHECK(unit("15 00 26 FF 7F 35 00 45 00 66 01 10 55 0C 75 10 91 02") == doctest::Approx(1e-4));
@@ -296,8 +301,8 @@ TEST_CASE("the unit of durations: the field's unit, or milliseconds if it has no
 }
 
 TEST_CASE("reports that are too long are not used") {
-  CHECK(pid_in(least("75 08 95 FE 91 01"))->set_effect.size == 256);
-  CHECK_FALSE(pid_in(least("75 08 96 FF 00 91 01")));
+  CHECK(pid_in(minimal_stick("75 08 95 FE 91 01"))->set_effect.size == 256);
+  CHECK_FALSE(pid_in(minimal_stick("75 08 96 FF 00 91 01")));
   // An optional report that is too long is ignored with all its fields (found by mutation): SideWinder's block load
   // with 236 x 16 bits.
   const auto pid =
@@ -309,6 +314,6 @@ TEST_CASE("reports that are too long are not used") {
 }
 
 TEST_CASE("effects have names") {
-  CHECK(std::string(pid_effect_name(PidEffect::constant)) == "constant force");
-  CHECK(std::string(pid_effect_name(PidEffect::friction)) == "friction");
+  CHECK(std::string(to_string(PidEffect::constant)) == "constant force");
+  CHECK(std::string(to_string(PidEffect::friction)) == "friction");
 }

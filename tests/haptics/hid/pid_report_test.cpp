@@ -26,7 +26,7 @@ PidLayout pid_of(const char* device) {
   return needed_pid_in(device_descriptor(device));
 }
 
-std::string told(const HidBytes& report) {
+std::string hex_of(const HidBytes& report) {
   return hex(report.view());
 }
 
@@ -43,7 +43,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr PidCondition kSpring{-0.25, 0.2, 0.5, 0.8};  // centre, half width of the dead band, coefficient, saturation
 
 std::string control(const PidLayout& pid, PidControl wanted) {
-  return told(encode_control(pid, wanted));
+  return hex_of(encode_control(pid, wanted));
 }
 
 }  // namespace
@@ -52,21 +52,21 @@ TEST_CASE("SideWinder FF2: Set Effect, 16 bytes") {
   const PidLayout pid = pid_of("microsoft-sidewinder-ff2");
   // ID, block, type 1 of 12, 300 ms = 012Ch, trigger repeat, sample period, gain 255, no button, X 1 + direction 4,
   // 255/4 = 63.75 -> 64 = 40h, second direction, delay
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
         "01 01 01 2C 01 00 00 00 00 FF 00 05 40 00 00 00");
   // Y 2 + direction 4, 255/2 = 127.5 -> 128 = 80h
-  CHECK(told(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
         "01 02 01 2C 01 00 00 00 00 FF 00 06 80 00 00 00");
   // Spring is type 8, damper type 9; both axes (1 + 2), no direction.
-  CHECK(told(encode_set_effect(pid, settings(3, PidEffect::spring, -1))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(3, PidEffect::spring, -1))) ==
         "01 03 08 2C 01 00 00 00 00 FF 00 03 00 00 00 00");
-  CHECK(told(encode_set_effect(pid, settings(40, PidEffect::damper, -1))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(40, PidEffect::damper, -1))) ==
         "01 28 09 2C 01 00 00 00 00 FF 00 03 00 00 00 00");
   // kForever is all ones (USB_DURATION_INFINITE); 32767 ms is the longest finite duration, 1 ms the shortest.
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0, kForever))).substr(9, 5) == "FF FF");
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0, 1000.0))).substr(9, 5) == "FF 7F");
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0, 0.0))).substr(9, 5) == "01 00");
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0, kNaN))).substr(9, 5) == "01 00");
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0, kForever))).substr(9, 5) == "FF FF");
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0, 1000.0))).substr(9, 5) == "FF 7F");
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0, 0.0))).substr(9, 5) == "01 00");
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0, kNaN))).substr(9, 5) == "01 00");
   PidEffectSettings faint = settings(1, PidEffect::constant, 0);
   faint.gain = 0.2;  // 51 = 33h
   CHECK(encode_set_effect(pid, faint).bytes[9] == 0x33);
@@ -76,35 +76,35 @@ TEST_CASE("SideWinder FF2: Set Effect, 16 bytes") {
 
 TEST_CASE("SideWinder FF2: constant force -255 to 255, conditions of a byte each") {
   const PidLayout pid = pid_of("microsoft-sidewinder-ff2");
-  CHECK(told(encode_constant(pid, 1, 1.0)) == "05 01 FF 00");
-  CHECK(told(encode_constant(pid, 1, -1.0)) == "05 01 01 FF");  // -255 = FF01h
-  CHECK(told(encode_constant(pid, 2, 0.2)) == "05 02 33 00");   // 51
-  CHECK(told(encode_constant(pid, 2, -0.4)) == "05 02 9A FF");  // -102 = FF9Ah
-  CHECK(told(encode_constant(pid, 2, 0.0)) == "05 02 00 00");
-  CHECK(told(encode_constant(pid, 2, 7.0)) == "05 02 FF 00");
-  CHECK(told(encode_constant(pid, 2, kNaN)) == "05 02 00 00");
+  CHECK(hex_of(encode_constant(pid, 1, 1.0)) == "05 01 FF 00");
+  CHECK(hex_of(encode_constant(pid, 1, -1.0)) == "05 01 01 FF");  // -255 = FF01h
+  CHECK(hex_of(encode_constant(pid, 2, 0.2)) == "05 02 33 00");   // 51
+  CHECK(hex_of(encode_constant(pid, 2, -0.4)) == "05 02 9A FF");  // -102 = FF9Ah
+  CHECK(hex_of(encode_constant(pid, 2, 0.0)) == "05 02 00 00");
+  CHECK(hex_of(encode_constant(pid, 2, 7.0)) == "05 02 FF 00");
+  CHECK(hex_of(encode_constant(pid, 2, kNaN)) == "05 02 00 00");
   // centre -0.25 x 128 = -32 = E0h; coefficient 0.5 x 127 = 63.5 -> 64 = 40h; saturation 0.8 x 255 = 204 = CCh; dead
   // band 0.2 x 255 = 51 = 33h
-  CHECK(told(encode_condition(pid, 3, 0, kSpring)) == "03 03 00 E0 40 40 CC CC 33");
-  CHECK(told(encode_condition(pid, 3, 1, kSpring)) == "03 03 01 E0 40 40 CC CC 33");
+  CHECK(hex_of(encode_condition(pid, 3, 0, kSpring)) == "03 03 00 E0 40 40 CC CC 33");
+  CHECK(hex_of(encode_condition(pid, 3, 1, kSpring)) == "03 03 01 E0 40 40 CC CC 33");
 }
 
 TEST_CASE("SideWinder FF2: operation, control, gain, free, create") {
   const PidLayout pid = pid_of("microsoft-sidewinder-ff2");
-  CHECK(told(encode_operation(pid, 1, PidOperation::start, 1)) == "0A 01 01 01");
-  CHECK(told(encode_operation(pid, 1, PidOperation::start_solo, 255)) == "0A 01 02 FF");
-  CHECK(told(encode_operation(pid, 2, PidOperation::stop, 0)) == "0A 02 03 00");
+  CHECK(hex_of(encode_operation(pid, 1, PidOperation::start, 1)) == "0A 01 01 01");
+  CHECK(hex_of(encode_operation(pid, 1, PidOperation::start_solo, 255)) == "0A 01 02 FF");
+  CHECK(hex_of(encode_operation(pid, 2, PidOperation::stop, 0)) == "0A 02 03 00");
   CHECK(control(pid, PidControl::enable_actuators) == "0C 01");
   CHECK(control(pid, PidControl::disable_actuators) == "0C 02");
   CHECK(control(pid, PidControl::stop_all) == "0C 03");
   CHECK(control(pid, PidControl::reset) == "0C 04");
   CHECK(control(pid, PidControl::pause) == "0C 05");
   CHECK(control(pid, PidControl::resume) == "0C 06");
-  CHECK(told(encode_gain(pid, 1.0)) == "0D FF");
-  CHECK(told(encode_gain(pid, 0.2)) == "0D 33");
-  CHECK(told(encode_block_free(pid, 3)) == "0B 03");
-  CHECK(told(encode_create(pid, PidEffect::constant)) == "01 01 00 00");
-  CHECK(told(encode_create(pid, PidEffect::spring)) == "01 08 00 00");
+  CHECK(hex_of(encode_gain(pid, 1.0)) == "0D FF");
+  CHECK(hex_of(encode_gain(pid, 0.2)) == "0D 33");
+  CHECK(hex_of(encode_block_free(pid, 3)) == "0B 03");
+  CHECK(hex_of(encode_create(pid, PidEffect::constant)) == "01 01 00 00");
+  CHECK(hex_of(encode_create(pid, PidEffect::spring)) == "01 08 00 00");
 }
 
 TEST_CASE("SideWinder FF2: block load, pool and state") {
@@ -145,27 +145,27 @@ TEST_CASE("OpenFFBoard: Set Effect, 22 bytes") {
   const PidLayout pid = pid_of("openffboard-2axis");
   // ID, block, type, 300 ms, trigger repeat, sample period, delay, gain, button, axes, 36000/4 = 9000 = 2328h, second
   // direction, two offsets. HidFFB.cpp: the axes get sin(90) = 1 and -cos(90) = 0.
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
         "01 01 01 2C 01 00 00 00 00 00 00 FF 00 05 28 23 00 00 00 00 00 00");
   // 18000 = 4650h: sin(180) = 0 and -cos(180) = 1.
-  CHECK(told(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
         "01 02 01 2C 01 00 00 00 00 00 00 FF 00 06 50 46 00 00 00 00 00 00");
-  CHECK(told(encode_set_effect(pid, settings(3, PidEffect::spring, -1))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(3, PidEffect::spring, -1))) ==
         "01 03 08 2C 01 00 00 00 00 00 00 FF 00 03 00 00 00 00 00 00 00 00");
   // FFB_EFFECT_DURATION_INFINITE is FFFFh.
-  CHECK(told(encode_set_effect(pid, settings(4, PidEffect::damper, -1, kForever))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(4, PidEffect::damper, -1, kForever))) ==
         "01 04 09 FF FF 00 00 00 00 00 00 FF 00 03 00 00 00 00 00 00 00 00");
 }
 
 TEST_CASE("OpenFFBoard: 16-bit magnitudes and conditions, a bit for each control") {
   const PidLayout pid = pid_of("openffboard-2axis");
-  CHECK(told(encode_constant(pid, 1, 1.0)) == "05 01 FF 7F");
-  CHECK(told(encode_constant(pid, 1, -1.0)) == "05 01 01 80");  // -32767 = 8001h
-  CHECK(told(encode_constant(pid, 1, 0.2)) == "05 01 99 19");   // 6553.4 -> 6553 = 1999h
+  CHECK(hex_of(encode_constant(pid, 1, 1.0)) == "05 01 FF 7F");
+  CHECK(hex_of(encode_constant(pid, 1, -1.0)) == "05 01 01 80");  // -32767 = 8001h
+  CHECK(hex_of(encode_constant(pid, 1, 0.2)) == "05 01 99 19");   // 6553.4 -> 6553 = 1999h
   // centre -0.25 x 32768 = -8192 = E000h; 0.5 x 32767 = 16383.5 -> 4000h; 0.8 x 32767 = 26213.6 -> 6666h; 0.2 -> 1999h
-  CHECK(told(encode_condition(pid, 2, 1, kSpring)) == "03 02 01 00 E0 00 40 00 40 66 66 66 66 99 19");
-  CHECK(told(encode_condition(pid, 2, 0, {0.0, 0.0, -1.0, 1.0})) == "03 02 00 00 00 00 80 00 80 FF 7F FF 7F 00 00");
-  CHECK(told(encode_operation(pid, 40, PidOperation::start, 1)) == "0A 28 01 01");
+  CHECK(hex_of(encode_condition(pid, 2, 1, kSpring)) == "03 02 01 00 E0 00 40 00 40 66 66 66 66 99 19");
+  CHECK(hex_of(encode_condition(pid, 2, 0, {0.0, 0.0, -1.0, 1.0})) == "03 02 00 00 00 00 80 00 80 FF 7F FF 7F 00 00");
+  CHECK(hex_of(encode_operation(pid, 40, PidOperation::start, 1)) == "0A 28 01 01");
   // HidFFB.cpp: 1 enable, 2 disable, 4 stop all, 8 reset, 16 pause, 32 continue
   CHECK(control(pid, PidControl::enable_actuators) == "0C 01");
   CHECK(control(pid, PidControl::disable_actuators) == "0C 02");
@@ -173,9 +173,9 @@ TEST_CASE("OpenFFBoard: 16-bit magnitudes and conditions, a bit for each control
   CHECK(control(pid, PidControl::reset) == "0C 08");
   CHECK(control(pid, PidControl::pause) == "0C 10");
   CHECK(control(pid, PidControl::resume) == "0C 20");
-  CHECK(told(encode_gain(pid, 1.0)) == "0D FF");
-  CHECK(told(encode_block_free(pid, 1)) == "0B 01");
-  CHECK(told(encode_create(pid, PidEffect::damper)) == "11 09 00 00");
+  CHECK(hex_of(encode_gain(pid, 1.0)) == "0D FF");
+  CHECK(hex_of(encode_block_free(pid, 1)) == "0B 01");
+  CHECK(hex_of(encode_create(pid, PidEffect::damper)) == "11 09 00 00");
   const auto load = decode_block_load(pid, hex_bytes("12 02 01 27 00"));
   REQUIRE(load);
   CHECK(load->block == 2);
@@ -194,20 +194,20 @@ TEST_CASE("OpenFFBoard: 16-bit magnitudes and conditions, a bit for each control
 TEST_CASE("vJoy: IDs from 11h, ranges of 10000, a turn of 32767") {
   const PidLayout pid = pid_of("vjoy-2axis-ffb-tlid1");
   // 32767/4 = 8191.75 -> 2000h, 32767/2 = 16383.5 -> 4000h
-  CHECK(told(encode_set_effect(pid, settings(100, PidEffect::constant, 0))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(100, PidEffect::constant, 0))) ==
         "11 64 01 2C 01 00 00 00 00 00 00 FF 00 05 00 20 00 00 00 00 00 00");
-  CHECK(told(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
         "11 02 01 2C 01 00 00 00 00 00 00 FF 00 06 00 40 00 00 00 00 00 00");
-  CHECK(told(encode_constant(pid, 1, 1.0)) == "15 01 10 27");
-  CHECK(told(encode_constant(pid, 1, -1.0)) == "15 01 F0 D8");
-  CHECK(told(encode_constant(pid, 1, 0.0123)) == "15 01 7B 00");
+  CHECK(hex_of(encode_constant(pid, 1, 1.0)) == "15 01 10 27");
+  CHECK(hex_of(encode_constant(pid, 1, -1.0)) == "15 01 F0 D8");
+  CHECK(hex_of(encode_constant(pid, 1, 0.0123)) == "15 01 7B 00");
   // -2500 = F63Ch, 5000 = 1388h, 8000 = 1F40h, 2000 = 07D0h
-  CHECK(told(encode_condition(pid, 3, 1, kSpring)) == "13 03 01 3C F6 88 13 88 13 40 1F 40 1F D0 07");
-  CHECK(told(encode_operation(pid, 3, PidOperation::stop, 0)) == "1A 03 03 00");
+  CHECK(hex_of(encode_condition(pid, 3, 1, kSpring)) == "13 03 01 3C F6 88 13 88 13 40 1F 40 1F D0 07");
+  CHECK(hex_of(encode_operation(pid, 3, PidOperation::stop, 0)) == "1A 03 03 00");
   CHECK(control(pid, PidControl::stop_all) == "1C 03");
-  CHECK(told(encode_gain(pid, 1.0)) == "1D FF");
-  CHECK(told(encode_block_free(pid, 100)) == "1B 64");
-  CHECK(told(encode_create(pid, PidEffect::friction)) == "11 0B 00 00");
+  CHECK(hex_of(encode_gain(pid, 1.0)) == "1D FF");
+  CHECK(hex_of(encode_block_free(pid, 100)) == "1B 64");
+  CHECK(hex_of(encode_create(pid, PidEffect::friction)) == "11 0B 00 00");
   CHECK(decode_block_load(pid, hex_bytes("12 64 01 00 00"))->block == 100);
   // playing 1, paused 2, actuators 4, safety 8, override 16, power 32
   const auto state = decode_state(pid, hex_bytes("14 25"));
@@ -221,24 +221,24 @@ TEST_CASE("vJoy: IDs from 11h, ranges of 10000, a turn of 32767") {
 TEST_CASE("Saitek: values without a field are left out") {
   const PidLayout pid = pid_of("saitek-gamepad-ff0d");
   // ID, block, button, 300 ms, trigger repeat, delay
-  CHECK(told(encode_set_effect(pid, settings(5, PidEffect::constant, 0))) == "0B 05 00 2C 01 00 00 00 00");
-  CHECK(told(encode_set_effect(pid, settings(5, PidEffect::constant, 1, kForever))) == "0B 05 00 FF FF 00 00 00 00");
-  CHECK(told(encode_constant(pid, 5, 1.0)) == "0D 05 7F");
-  CHECK(told(encode_constant(pid, 5, -1.0)) == "0D 05 81");  // -127
-  CHECK(told(encode_condition(pid, 5, 0, kSpring)).empty());
+  CHECK(hex_of(encode_set_effect(pid, settings(5, PidEffect::constant, 0))) == "0B 05 00 2C 01 00 00 00 00");
+  CHECK(hex_of(encode_set_effect(pid, settings(5, PidEffect::constant, 1, kForever))) == "0B 05 00 FF FF 00 00 00 00");
+  CHECK(hex_of(encode_constant(pid, 5, 1.0)) == "0D 05 7F");
+  CHECK(hex_of(encode_constant(pid, 5, -1.0)) == "0D 05 81");  // -127
+  CHECK(hex_of(encode_condition(pid, 5, 0, kSpring)).empty());
   // In order: stop, start, start solo; reset, stop all, enable, disable, pause, continue.
-  CHECK(told(encode_operation(pid, 5, PidOperation::start, 300)) == "51 05 02 FE");  // at most 254 loops
-  CHECK(told(encode_operation(pid, 5, PidOperation::stop, 0)) == "51 05 01 00");
+  CHECK(hex_of(encode_operation(pid, 5, PidOperation::start, 300)) == "51 05 02 FE");  // at most 254 loops
+  CHECK(hex_of(encode_operation(pid, 5, PidOperation::stop, 0)) == "51 05 01 00");
   CHECK(control(pid, PidControl::enable_actuators) == "52 03");
   CHECK(control(pid, PidControl::disable_actuators) == "52 04");
   CHECK(control(pid, PidControl::stop_all) == "52 02");
   CHECK(control(pid, PidControl::reset) == "52 01");
-  CHECK(told(encode_gain(pid, 1.0)) == "43 80");  // 0 to 128
-  CHECK(told(encode_gain(pid, 0.5)) == "43 40");
-  CHECK(told(encode_create(pid, PidEffect::constant)) == "15 01");
-  CHECK(told(encode_create(pid, PidEffect::sine)) == "15 04");
-  CHECK(told(encode_create(pid, PidEffect::spring)).empty());
-  CHECK(told(encode_block_free(pid, 254)) == "50 FE");
+  CHECK(hex_of(encode_gain(pid, 1.0)) == "43 80");  // 0 to 128
+  CHECK(hex_of(encode_gain(pid, 0.5)) == "43 40");
+  CHECK(hex_of(encode_create(pid, PidEffect::constant)) == "15 01");
+  CHECK(hex_of(encode_create(pid, PidEffect::sine)) == "15 04");
+  CHECK(hex_of(encode_create(pid, PidEffect::spring)).empty());
+  CHECK(hex_of(encode_block_free(pid, 254)) == "50 FE");
   const auto load = decode_block_load(pid, hex_bytes("16 02 05"));  // status comes first
   REQUIRE(load);
   CHECK(load->block == 5);
@@ -256,7 +256,7 @@ TEST_CASE("Saitek: values without a field are left out") {
   CHECK_FALSE(state->paused);
   CHECK(state->playing);
   CHECK(state->block == 5);
-  CHECK(state->actuator_power);  // not reported: assumed on
+  CHECK(state->actuator_power);  // the state does not report the actuators: assumed on
 }
 
 TEST_CASE("a block index outside the field's range is not encoded, because it would address another block") {
@@ -265,20 +265,20 @@ TEST_CASE("a block index outside the field's range is not encoded, because it wo
     const PidLayout pid = pid_of(device);
     for (const int block : {kNoBlock, -1, 256, 300, 100000}) {
       CAPTURE(block);
-      CHECK(told(encode_set_effect(pid, settings(block, PidEffect::constant, 0))).empty());
-      CHECK(told(encode_constant(pid, block, 1.0)).empty());
-      CHECK(told(encode_condition(pid, block, 0, kSpring)).empty());
-      CHECK(told(encode_operation(pid, block, PidOperation::start, 1)).empty());
-      CHECK(told(encode_block_free(pid, block)).empty());
+      CHECK(hex_of(encode_set_effect(pid, settings(block, PidEffect::constant, 0))).empty());
+      CHECK(hex_of(encode_constant(pid, block, 1.0)).empty());
+      CHECK(hex_of(encode_condition(pid, block, 0, kSpring)).empty());
+      CHECK(hex_of(encode_operation(pid, block, PidOperation::start, 1)).empty());
+      CHECK(hex_of(encode_block_free(pid, block)).empty());
     }
   }
-  CHECK(told(encode_constant(pid_of("microsoft-sidewinder-ff2"), 41, 1.0)).empty());
-  CHECK(told(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, 2, kSpring)).empty());  // only two axes
-  CHECK(told(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, -1, kSpring)).empty());
+  CHECK(hex_of(encode_constant(pid_of("microsoft-sidewinder-ff2"), 41, 1.0)).empty());
+  CHECK(hex_of(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, 2, kSpring)).empty());  // only two axes
+  CHECK(hex_of(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, -1, kSpring)).empty());
 }
 
 TEST_CASE("MOZA: six controls in one field that is flagged as a variable are still one number") {
-  // SideWinder's device control with 91 02 instead of 91 00
+  // SideWinder's device control, with item 91 02 instead of 91 00
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 9C 15 01 25 06 75 08 95 01 91 00",
                          "09 9C 15 01 25 06 75 08 95 01 91 02"));
@@ -296,19 +296,19 @@ TEST_CASE("adapt-ffb-joy: conditions with only centre and one coefficient, no st
   bytes = with(bytes, "09 A7 66 03 10 55 FD 15 00 26 FF 7F 35 00 46 FF 7F 75 10 95 01 91 02", "");
   bytes = with(bytes, "55 FE 15 00 26 FF 00 35 00 47", "55 FE 15 00 26 B4 00 35 00 47");
   const PidLayout pid = needed_pid_in(bytes);
-  CHECK(told(encode_condition(pid, 3, 1, kSpring)) == "03 03 01 E0 40");
+  CHECK(hex_of(encode_condition(pid, 3, 1, kSpring)) == "03 03 01 E0 40");
   // 180/4 = 45 = 2Dh, 180/2 = 90 = 5Ah
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
         "01 01 01 2C 01 00 00 00 00 FF 00 05 2D 00");
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 1))) ==
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 1))) ==
         "01 01 01 2C 01 00 00 00 00 FF 00 06 5A 00");
 }
 
 TEST_CASE("without a parameter block there is only one condition, for the first axis") {
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 23 15 00", "09 24 15 00"));
-  CHECK(told(encode_condition(pid, 3, 0, kSpring)) == "03 03 00 E0 40 40 CC CC 33");
-  CHECK(told(encode_condition(pid, 3, 1, kSpring)).empty());
+  CHECK(hex_of(encode_condition(pid, 3, 0, kSpring)) == "03 03 00 E0 40 40 CC CC 33");
+  CHECK(hex_of(encode_condition(pid, 3, 1, kSpring)).empty());
 }
 
 TEST_CASE("an unsigned magnitude with a signed physical range has its zero in the middle") {
@@ -316,16 +316,16 @@ TEST_CASE("an unsigned magnitude with a signed physical range has its zero in th
       needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 70 16 01 FF 26 FF 00 36 F0 D8 46 10 27",
                          "09 70 15 00 26 FE 00 36 F0 D8 46 10 27"));
   // 0 to 254 for -10000 to 10000: 127 is zero, 0.5 is 190.5 -> 191 = BFh
-  CHECK(told(encode_constant(pid, 1, 0.0)) == "05 01 7F 00");
-  CHECK(told(encode_constant(pid, 1, 1.0)) == "05 01 FE 00");
-  CHECK(told(encode_constant(pid, 1, -1.0)) == "05 01 00 00");
-  CHECK(told(encode_constant(pid, 1, 0.5)) == "05 01 BF 00");
+  CHECK(hex_of(encode_constant(pid, 1, 0.0)) == "05 01 7F 00");
+  CHECK(hex_of(encode_constant(pid, 1, 1.0)) == "05 01 FE 00");
+  CHECK(hex_of(encode_constant(pid, 1, -1.0)) == "05 01 00 00");
+  CHECK(hex_of(encode_constant(pid, 1, 0.5)) == "05 01 BF 00");
 }
 
 TEST_CASE("a signed direction: half a turn is its minimum") {
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("openffboard-2axis"), "15 00 27 A0 8C 00 00 35 00 47 A0 8C 00 00",
                          "16 B0 B9 26 50 46 36 B0 B9 46 50 46"));  // -18000 to 18000
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0))).substr(42, 5) == "28 23");
-  CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 1))).substr(42, 5) == "50 46");
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0))).substr(42, 5) == "28 23");
+  CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 1))).substr(42, 5) == "50 46");
 }

@@ -18,7 +18,7 @@ ReportDescriptor parsed(const std::string& text) {
   return parse_report_descriptor(hex_bytes(text));
 }
 
-// The single field that these items declare, in a report of eight bits unless they say otherwise.
+// The only field that these items declare; reports have eight bits unless the items specify a size.
 HidField field_of(const std::string& items) {
   const ReportDescriptor descriptor = parsed("75 08 95 01 " + items);
   REQUIRE(descriptor.fields.size() == 1);
@@ -56,7 +56,7 @@ TEST_CASE("a maximum is signed if the minimum is: 25 FF above 0 is 255, 26 FF FF
       {"16 00 80 26 FF 7F", -32768, 32767},
       {"16 F0 D8 26 10 27", -10000, 10000},
       {"15 80 25 FF", -128, -1},
-      {"14 24", 0, 0},  // no data is 0
+      {"14 24", 0, 0},  // an item without data has the value 0
       {"15 01 26 FF 00", 1, 255},
   };
   for (const auto& range : ranges) {
@@ -81,10 +81,10 @@ TEST_CASE("the unit's exponent is a signed nibble") {
 
 TEST_CASE("usages: of 32 bits, in ranges, fewer or more than elements, of several pages") {
   using Usages = std::vector<HidUsage>;
-  // 32-bit usages include their page, so the page before and after does not matter.
+  // 32-bit usages include their page; the current page does not matter, whether set before or after.
   CHECK(field_of("05 0F 0B 01 00 0A 00 0B 02 00 0A 00 95 02 91 02").usages == Usages{{0x0a, 1}, {0x0a, 2}});
   CHECK(field_of("0B 30 00 01 00 05 09 81 02").usages == Usages{{1, 0x30}});
-  // A range, also with its maximum first, and one of 32 bits.
+  // Usage ranges: normal, with the maximum first, and of 32 bits.
   CHECK(field_of("05 09 19 02 29 04 95 03 81 02").usages == Usages{{9, 2}, {9, 3}, {9, 4}});
   CHECK(field_of("05 09 29 04 19 02 95 03 81 02").usages == Usages{{9, 2}, {9, 3}, {9, 4}});
   CHECK(field_of("1B 01 00 09 00 2B 02 00 09 00 95 02 81 02").usages == Usages{{9, 1}, {9, 2}});
@@ -100,7 +100,7 @@ TEST_CASE("usages: of 32 bits, in ranges, fewer or more than elements, of severa
   // Each usage has the page under which it was declared; a single page after all of them applies to all.
   CHECK(field_of("05 01 09 30 05 02 09 BA 95 02 81 02").usages == Usages{{1, 0x30}, {2, 0xba}});
   CHECK(field_of("05 09 09 30 09 31 05 01 95 02 81 02").usages == Usages{{1, 0x30}, {1, 0x31}});
-  // Of alternative usages between delimiters the first counts.
+  // Only the first of several alternative usages between delimiters counts.
   CHECK(field_of("05 01 A9 01 09 30 09 36 A9 00 09 31 95 02 81 02").usages == Usages{{1, 0x30}, {1, 0x31}});
   // Usages belong to the main item that follows them.
   CHECK(parsed("75 08 95 01 05 01 09 30 81 02 81 02").fields[1].usages.empty());
@@ -123,18 +123,18 @@ TEST_CASE("global items persist, pushed ones are restored") {
 TEST_CASE("one report ID for inputs, outputs and features, each with its own size") {
   const ReportDescriptor descriptor = parsed("85 01 75 08 95 03 81 02 95 01 91 02 85 02 95 07 B1 02 85 01 75 02 81 02");
   CHECK(descriptor.numbered);
-  CHECK(descriptor.report_size(ReportKind::input, 1) == 1 + 5);  // 24 bits, and later 7 of 2 bits
+  CHECK(descriptor.report_size(ReportKind::input, 1) == 1 + 5);  // 24 bits, and later 7 fields of 2 bits
   CHECK(descriptor.report_size(ReportKind::output, 1) == 1 + 1);
   CHECK(descriptor.report_size(ReportKind::feature, 1) == 0);
   CHECK(descriptor.report_size(ReportKind::feature, 2) == 1 + 7);
   CHECK(descriptor.fields.back().offset == 24);
 }
 
-TEST_CASE("reports without an ID, on their own and beside numbered ones") {
-  const ReportDescriptor alone = parse_report_descriptor(device_descriptor("fanatec-clubsport-handbrake"));
-  CHECK_FALSE(alone.numbered);
-  CHECK(alone.report_size(ReportKind::input, 0) == 1 + 4);  // 1 axis, 3 vendor bytes
-  CHECK(alone.report_size(ReportKind::output, 0) == 1 + 2);
+TEST_CASE("reports without an ID, only such reports and mixed with numbered ones") {
+  const ReportDescriptor handbrake = parse_report_descriptor(device_descriptor("fanatec-clubsport-handbrake"));
+  CHECK_FALSE(handbrake.numbered);
+  CHECK(handbrake.report_size(ReportKind::input, 0) == 1 + 4);  // 1 axis, 3 vendor bytes
+  CHECK(handbrake.report_size(ReportKind::output, 0) == 1 + 2);
   const ReportDescriptor mixed = parsed("75 08 95 02 81 02 85 03 81 02");
   CHECK(mixed.numbered);
   CHECK(mixed.report_size(ReportKind::input, 0) == 1 + 2);
@@ -154,7 +154,7 @@ TEST_CASE("flags of a main item: padding, arrays, relative values, in one byte, 
   CHECK(field_of("B1 02").kind == ReportKind::feature);
 }
 
-TEST_CASE("fields wider than 32 bits take space, empty fields take none") {
+TEST_CASE("fields wider than 32 bits occupy space in the report, empty fields do not") {
   const ReportDescriptor wide = parsed("75 40 95 01 91 02 75 78 91 01 75 00 91 02 75 08 95 00 91 02 95 01 91 02");
   REQUIRE(wide.fields.size() == 3);
   CHECK(wide.fields[0].bits == 64);
@@ -193,44 +193,48 @@ TEST_CASE("trailing zeros, long items and unknown items are skipped") {
 }
 
 TEST_CASE("an invalid descriptor is refused with one sentence and the byte offset") {
-  CHECK(refusal("05") == "report descriptor, byte 0: the last item is cut off");
-  CHECK(refusal("75 08 95 01 81 02 26 FF") == "report descriptor, byte 6: the last item is cut off");
-  CHECK(refusal("05 01 FE 09 F0 01") == "report descriptor, byte 2: a long item is cut off");
-  CHECK(refusal("05 01 FE") == "report descriptor, byte 2: a long item is cut off");
-  CHECK(refusal("05 01 A1 01 A1 00 C0") == "report descriptor, byte 2: the collection that begins here never ends");
-  CHECK(refusal("A1 01 C0 C0") == "report descriptor, byte 3: end of a collection that never began");
-  CHECK(refusal("75 08 B4") == "report descriptor, byte 2: pops a state that was never pushed");
-  CHECK(refusal("86 2C 01") == "report descriptor, byte 0: report ID 300 is beyond 255");
+  CHECK(refusal("05") == "the report descriptor is invalid at byte 0 (the last item is cut off)");
+  CHECK(refusal("75 08 95 01 81 02 26 FF") == "the report descriptor is invalid at byte 6 (the last item is cut off)");
+  CHECK(refusal("05 01 FE 09 F0 01") == "the report descriptor is invalid at byte 2 (a long item is cut off)");
+  CHECK(refusal("05 01 FE") == "the report descriptor is invalid at byte 2 (a long item is cut off)");
+  CHECK(refusal("05 01 A1 01 A1 00 C0") ==
+        "the report descriptor is invalid at byte 2 (the collection that begins here never ends)");
+  CHECK(refusal("A1 01 C0 C0") ==
+        "the report descriptor is invalid at byte 3 (a collection that never began ends here)");
+  CHECK(refusal("75 08 B4") == "the report descriptor is invalid at byte 2 (a state that was never pushed is popped)");
+  CHECK(refusal("86 2C 01") == "the report descriptor is invalid at byte 0 (report ID 300 is above 255)");
   CHECK(refusal("75 08 96 FF FF 81 02") == "none");
   CHECK(refusal("75 08 96 FF FF 81 02 95 01 81 02") ==
-        "report descriptor, byte 9: the report becomes longer than 65535 bytes");
+        "the report descriptor is invalid at byte 9 (the report becomes longer than 65535 bytes)");
   CHECK(refusal("77 FF FF FF FF 97 FF FF FF FF 81 02") ==
-        "report descriptor, byte 10: the report becomes longer than 65535 bytes");
+        "the report descriptor is invalid at byte 10 (the report becomes longer than 65535 bytes)");
   CHECK(refusal("75 01 95 01 " + repeated("81 02 ", 4096)) == "none");
-  CHECK(refusal("75 01 95 01 " + repeated("81 02 ", 4097)) == "report descriptor, byte 8196: more than 4096 fields");
-  CHECK(refusal(repeated("A1 02 C0 ", 4097)) == "report descriptor, byte 12288: more than 4096 collections");
+  CHECK(refusal("75 01 95 01 " + repeated("81 02 ", 4097)) ==
+        "the report descriptor is invalid at byte 8196 (more than 4096 fields)");
+  CHECK(refusal(repeated("A1 02 C0 ", 4097)) ==
+        "the report descriptor is invalid at byte 12288 (more than 4096 collections)");
 }
 
 TEST_CASE("descriptors of real devices that are broken: one sentence each") {
   // A byte is lost after A1, so that the usage becomes a collection's type and one end is left over.
   CHECK(refusal(hex(device_descriptor("odd-saitek-x52-missing-byte"))) ==
-        "report descriptor, byte 117: end of a collection that never began");
+        "the report descriptor is invalid at byte 117 (a collection that never began ends here)");
   // 240 bytes are given, the rest of 4096 is zeros. The second collection begins after 16 x 10 + 4 bytes.
   CHECK(refusal(hex(device_descriptor("odd-zeroplus-xbox-wireless"))) ==
-        "report descriptor, byte 164: the collection that begins here never ends");
-  // Each of the others, truncated by one byte.
+        "the report descriptor is invalid at byte 164 (the collection that begins here never ends)");
+  // Each of the valid device descriptors, truncated by one byte.
   for (const char* device : kPidDevices) {
     CAPTURE(device);
     std::vector<std::uint8_t> bytes = device_descriptor(device);
     bytes.pop_back();
-    CHECK(refusal(hex(bytes)).ends_with("the collection that begins here never ends"));
+    CHECK(refusal(hex(bytes)).ends_with("(the collection that begins here never ends)"));
   }
 }
 
 TEST_CASE("the devices' reports are as long as documented") {
   const ReportDescriptor sidewinder = parse_report_descriptor(device_descriptor("microsoft-sidewinder-ff2"));
   CHECK(sidewinder.report_size(ReportKind::input, 1) == 13);
-  CHECK(sidewinder.report_size(ReportKind::output, 1) == 16);  // wMaxPacketSize of its OUT endpoint
+  CHECK(sidewinder.report_size(ReportKind::output, 1) == 16);  // limit: wMaxPacketSize of its OUT endpoint
   const ReportDescriptor board = parse_report_descriptor(device_descriptor("openffboard-2axis"));
   CHECK(board.report_size(ReportKind::input, 1) == 1 + 8 + 8 * 2);  // ffb_defs.h: 64 buttons, 8 axes
   CHECK(board.report_size(ReportKind::output, 3) == 15);            // FFB_SetCondition_Data_t

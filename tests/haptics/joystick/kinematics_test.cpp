@@ -106,7 +106,7 @@ TEST_CASE("the way back is tau = J^T f for any force at the tip") {
   });
 }
 
-TEST_CASE("forces in the gate plane do the torques' work, both ways") {
+TEST_CASE("forces in the gate plane do the same work as the torques, in both directions") {
   everywhere([](JointAngles q) {
     const glm::dvec2 f{11.0, -6.0};
     const JointTorques torque = joint_torques_from_plane(kYoke, q, f);

@@ -30,7 +30,7 @@ TEST_CASE("a force F lasts overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2), then Fc, 
     CHECK(std::abs(time - 5.0 * (900.0 - 100.0) / (force * force - 100.0)) < 2.5e-3);
     CHECK(motor.deliver(force, 1e-3) == 10.0);
 
-    // Without load it cools by Fc^2 per second: half of 4000 N^2 s takes 20 s.
+    // Without load, the overload decreases by Fc^2 per second: half of 4000 N^2 s takes 20 s.
     double rest = 0.0;
     while (motor.is_overloaded()) {
       motor.deliver(0.0, 1e-2);
@@ -56,15 +56,15 @@ TEST_CASE("eq (7): no force reads 19.04, a kilogram 19.04 + 155.1, and the force
   CHECK(force_from_reading(fine, sensor_reading(fine, -3.3)) == doctest::Approx(-3.3).epsilon(1e-13));
 }
 
-TEST_CASE("the sensor answers in steps of 44 gw = 0.43 N and saturates at 22 kgf") {
+TEST_CASE("the sensor reads in steps of 44 gw = 0.43 N and saturates at 22 kgf") {
   const ForceSensorModel sensor;
-  const double step = 0.044 * 9.80665, most = 22.0 * 9.80665;
+  const double step = 0.044 * 9.80665, range = 22.0 * 9.80665;
   for (int i = -20'000; i <= 20'000; ++i) {
     const double force = 0.0151 * i;
-    const double felt = force_from_reading(sensor, sensor_reading(sensor, force));
-    const double steps = felt / step;
+    const double measured = force_from_reading(sensor, sensor_reading(sensor, force));
+    const double steps = measured / step;
     CHECK(std::abs(steps - std::round(steps)) < 1e-9);
-    CHECK(std::abs(felt) <= most * (1.0 + 1e-12));
-    if (std::abs(force) < most) CHECK(std::abs(felt - force) <= 0.5 * step + 1e-9);
+    CHECK(std::abs(measured) <= range * (1.0 + 1e-12));
+    if (std::abs(force) < range) CHECK(std::abs(measured - force) <= 0.5 * step + 1e-9);
   }
 }

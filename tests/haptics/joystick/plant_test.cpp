@@ -32,11 +32,11 @@ void check_same(const AxisModel& axis, AxisState start, double force, double tim
   CAPTURE(axis.damping);
   CAPTURE(axis.stiffness);
   CAPTURE(time);
-  const AxisState expected = by_poles(axis, start, force, time), got = advance(axis, start, force, time);
+  const AxisState expected = by_poles(axis, start, force, time), actual = advance(axis, start, force, time);
   const double w = std::sqrt(axis.stiffness / axis.mass);
   const double size = std::abs(start.position) + std::abs(start.velocity) / w + std::abs(force) / axis.stiffness;
-  CHECK(std::abs(got.position - expected.position) <= 1e-12 * size);
-  CHECK(std::abs(got.velocity - expected.velocity) <= 1e-12 * size * w);
+  CHECK(std::abs(actual.position - expected.position) <= 1e-12 * size);
+  CHECK(std::abs(actual.velocity - expected.velocity) <= 1e-12 * size * w);
 }
 
 constexpr AxisState kThrown{0.02, -0.7};
@@ -68,11 +68,11 @@ TEST_CASE("a critically damped plant is x = (A + B t) exp(-a t), and it stays ac
   for (double nudge : {0.0, 1e-15, -1e-15, 1e-9, -1e-9}) {
     for (double time : {1e-3, 0.05, 0.11, 1.0}) {
       const double a = 20.0, m = 0.1;  // b = 2 m a, k = m a^2
-      const AxisState got = advance({m, 2.0 * m * a * (1.0 + nudge), m * a * a}, kThrown, 0.0, time);
+      const AxisState actual = advance({m, 2.0 * m * a * (1.0 + nudge), m * a * a}, kThrown, 0.0, time);
       const double slope = kThrown.velocity + a * kThrown.position, decay = std::exp(-a * time);
       const double tolerance = 1e-14 + 0.1 * std::abs(nudge);
-      CHECK(std::abs(got.position - (kThrown.position + slope * time) * decay) < tolerance);
-      CHECK(std::abs(got.velocity - (slope - a * (kThrown.position + slope * time)) * decay) < 20.0 * tolerance);
+      CHECK(std::abs(actual.position - (kThrown.position + slope * time) * decay) < tolerance);
+      CHECK(std::abs(actual.velocity - (slope - a * (kThrown.position + slope * time)) * decay) < 20.0 * tolerance);
     }
   }
 }
@@ -80,11 +80,11 @@ TEST_CASE("a critically damped plant is x = (A + B t) exp(-a t), and it stays ac
 TEST_CASE("without a spring the velocity relaxes to f/b; without a damper too the mass falls freely") {
   for (double time : {1e-4, 1e-3, 0.05, 0.5, 5.0}) {
     const double m = 0.1, b = 3.0, f = 2.0, rate = b / m;
-    const AxisState got = advance({m, b, 0.0}, kThrown, f, time);
+    const AxisState actual = advance({m, b, 0.0}, kThrown, f, time);
     const double relax = std::exp(-rate * time), beyond = kThrown.velocity - f / b;
-    CHECK(std::abs(got.velocity - (f / b + beyond * relax)) < 1e-15);
+    CHECK(std::abs(actual.velocity - (f / b + beyond * relax)) < 1e-15);
     const double travel = f / b * time - beyond / rate * std::expm1(-rate * time);
-    CHECK(std::abs(got.position - kThrown.position - travel) < 1e-12 * (0.02 + std::abs(travel)));
+    CHECK(std::abs(actual.position - kThrown.position - travel) < 1e-12 * (0.02 + std::abs(travel)));
 
     const AxisState falling = advance({m, 0.0, 0.0}, kThrown, f, time);
     CHECK(falling.velocity == doctest::Approx(kThrown.velocity + f / m * time).epsilon(1e-15));
@@ -139,7 +139,7 @@ TEST_CASE("a force below the friction moves nothing; above it, only the differen
   CHECK(advance_limited(mass, rough, {0.0, 0.0}, 1.5, 0.1).velocity == doctest::Approx(0.5).epsilon(1e-13));
 }
 
-TEST_CASE("a hard stop takes the whole velocity and holds against a push, not against a pull") {
+TEST_CASE("a hard stop takes the whole velocity; it resists a push but not a pull") {
   const AxisModel mass{0.1, 0.0, 0.0};
   const AxisLimits stops{0.05, 0.0};
   const AxisState hit = advance_limited(mass, stops, {0.0, 2.0}, 3.0, 1.0);
@@ -147,11 +147,11 @@ TEST_CASE("a hard stop takes the whole velocity and holds against a push, not ag
   CHECK(hit.velocity == 0.0);
   CHECK(inertial_force(mass, stops, hit, 3.0) == 0.0);
 
-  // Pulled off again from rest at the stop: half a t^2, a = f/m.
+  // Pulled away again from rest at the stop: x changes by a t^2 / 2, a = f/m.
   const AxisState off = advance_limited(mass, stops, hit, -1.0, 0.05);
   CHECK(off.position == doctest::Approx(0.05 - 0.5 * 10.0 * 0.05 * 0.05).epsilon(1e-13));
 
-  // On a spring: thrown at the stop it comes to rest there, then swings from there as x0 cos(w t).
+  // On a spring: the lever is thrown at the stop and comes to rest there, then swings as x0 cos(w t).
   const AxisModel spring{0.1, 0.0, 100.0};
   const double w = std::sqrt(1000.0), x0 = 0.04, v0 = 3.0, amplitude = std::hypot(x0, v0 / w);
   const double impact = (std::acos(x0 / amplitude) - std::acos(0.05 / amplitude)) / w;

@@ -1,4 +1,4 @@
-// The contact goals of the design's table, each on a sample of the cases of `gearshift bench`. Nothing here is timed.
+// The contact goals of the design table, each on a sample of the cases of `gearshift bench`. No timing is tested.
 #include <algorithm>
 
 #include <doctest/doctest.h>
@@ -60,7 +60,7 @@ TEST_CASE("time from a fault to no force") {
   check_rows(bench_faults);
 }
 
-TEST_CASE("the impact on a textbook spring of 5000 N/m computed by another program, through the whole cycle") {
+TEST_CASE("an impact on a textbook spring of 5000 N/m through the whole cycle agrees with an independent program") {
   ContactCase contact;
   contact.haptics.contact = {ContactHold::zero_order, EnergyControl::none, false, true};
   contact.haptics.tuning.wall_damping = 0.0;
@@ -69,7 +69,7 @@ TEST_CASE("the impact on a textbook spring of 5000 N/m computed by another progr
   const struct { double rate, percent; } found[] = {{4000.0, 8.0}, {2000.0, 16.0}, {1000.0, 33.0}, {500.0, 74.0}};
   for (const auto& other : found) {
     contact.haptics.rate = other.rate;
-    CHECK(100.0 * run_impacts(contact, is_whole_campaign() ? 50 : 20).mean_share ==
+    CHECK(100.0 * run_impacts(contact, is_full_campaign() ? 50 : 20).mean_fraction ==
           doctest::Approx(other.percent).epsilon(0.12));
   }
 }
@@ -79,7 +79,7 @@ TEST_CASE("the observer holds 5000 N/m at 1 ms with two samples of delay, where 
   campaign.contact.lever.delay = 2;
   campaign.contact.haptics.contact.allow_unstable = true;
   campaign.contact.haptics.contact.reversal_limiter = false;
-  campaign.runs = is_whole_campaign() ? 40 : 16;
+  campaign.runs = is_full_campaign() ? 40 : 16;
   campaign.contact.haptics.contact.hold = ContactHold::observer;
   const double observed = worst_ripple(run_campaign(campaign)).ripple_p95;
   campaign.contact.haptics.contact.hold = ContactHold::half_sample;

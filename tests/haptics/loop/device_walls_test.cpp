@@ -1,5 +1,5 @@
-// Device walls beside the loop's: they are sent where they must be, never obstruct a free lever, and no hand is thrown
-// when they change while the device still has the old ones.
+// Device walls in addition to the loop's: they are sent to the right places, never obstruct a free lever, and do not
+// throw a hand when they change while the device still has the old ones.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -32,32 +32,34 @@ namespace {
 class RecordingLever final : public HapticDevice {
  public:
   RecordingLever(const SimulatedLeverConfig& config, HandDriver& hand) : lever(config, kPeriodNs, hand) {}
-  const DeviceSpec& spec() const noexcept override { return claims; }
+  const DeviceSpec& spec() const noexcept override { return claimed_spec; }
   LeverReading read(std::int64_t now_ns) noexcept override { return lever.read(now_ns); }
   void write(dvec2 force) noexcept override { lever.write(force); }
   void set_device_walls(const LeverWalls& walls) noexcept override {
-    told = walls;
+    sent_walls = walls;
     ++times;
     lever.set_device_walls(walls);
   }
   void release() noexcept override { lever.release(); }
 
   SimulatedLever lever;
-  DeviceSpec claims = lever.spec();
-  LeverWalls told;
+  DeviceSpec claimed_spec = lever.spec();
+  LeverWalls sent_walls;
   int times = 0;
 };
 
-RecordingLever claiming(const SimulatedLeverConfig& config, HandDriver& hand, double device_wall_damping) {
+RecordingLever lever_claiming(const SimulatedLeverConfig& config, HandDriver& hand, double device_wall_damping) {
   RecordingLever lever(config, hand);
-  lever.claims.device_wall_damping = dvec2(device_wall_damping);
+  lever.claimed_spec.device_wall_damping = dvec2(device_wall_damping);
   return lever;
 }
 
 struct Rig {
   Rig(const SimulatedLeverConfig& lever, HandDriver& hand, const Gate& at = paper_gate(), HapticConfig config = {},
       double device_wall_damping = 0.0)
-      : gate(at), device(claiming(lever, hand, device_wall_damping)), loop(config, gate, device, load, channels) {}
+      : gate(at),
+        device(lever_claiming(lever, hand, device_wall_damping)),
+        loop(config, gate, device, load, channels) {}
   void run(int cycles, std::int64_t skipped = 0) {
     for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs * (1 + skipped), skipped);
   }
@@ -79,14 +81,15 @@ SimulatedLeverConfig lever_of(double own, int delay, const HandImpedance& hand =
   return config;
 }
 
-// A hand that moves from point to point, through walls if need be, with every lockout open, and leans about on the way.
+// A hand that moves from point to point with every lockout open, if necessary through walls, and pushes in changing
+// directions on the way.
 class WanderingHand final : public HandDriver {
  public:
   explicit WanderingHand(std::uint64_t seed) : random_(seed) {}
   HandTarget next(double time, dvec2) noexcept override {
     if (time >= end_) {
       from_ = to_;
-      to_ = {any(0.06), any(0.055)};
+      to_ = {random_within(0.06), random_within(0.055)};
       begin_ = time;
       end_ = time + std::max(0.05, glm::distance(from_, to_) / 0.4);
     }
@@ -97,14 +100,14 @@ class WanderingHand final : public HandDriver {
   }
 
  private:
-  double any(double most) { return most * (2.0 * static_cast<double>(random_() >> 11) * 0x1p-53 - 1.0); }
+  double random_within(double max) { return max * (2.0 * static_cast<double>(random_() >> 11) * 0x1p-53 - 1.0); }
 
   std::mt19937_64 random_;
   dvec2 from_{0.0}, to_{0.0};
   double begin_ = 0.0, end_ = 0.0;
 };
 
-bool holds(const LeverWalls& walls, dvec2 p) {
+bool contains(const LeverWalls& walls, dvec2 p) {
   return glm::all(glm::lessThanEqual(walls.low, p)) && glm::all(glm::lessThanEqual(p, walls.high));
 }
 
@@ -122,31 +125,31 @@ TEST_CASE("the device gets its walls, and again when they change; their fraction
   CHECK(rig.device.times == 0);  // idle
   rig.loop.arm();
   rig.run(250);
-  CHECK(rig.device.told.stiffness_fraction == doctest::Approx(0.5));
+  CHECK(rig.device.sent_walls.stiffness_fraction == doctest::Approx(0.5));
   CHECK(rig.device.times == 250);
   rig.run(300);
-  CHECK(rig.device.told.stiffness_fraction == 1.0);
+  CHECK(rig.device.sent_walls.stiffness_fraction == 1.0);
   CHECK(rig.device.times == 500);  // a lever at rest: nothing changes
   const Column& column = rig.gate.column[static_cast<std::size_t>(rig.gate.neutral_column)];
-  CHECK(rig.device.told.high == dvec2{rig.gate.select_max, column.forward});
-  CHECK(rig.device.told.low == dvec2{rig.gate.select_min, column.back});
+  CHECK(rig.device.sent_walls.high == dvec2{rig.gate.select_max, column.forward});
+  CHECK(rig.device.sent_walls.low == dvec2{rig.gate.select_min, column.back});
 }
 
 TEST_CASE("the device gets its part of the wall damping, following the guard's ramp; the loop damps the rest") {
   IdleHand idle_hand;
   HapticConfig config;
   config.tuning.wall_damping = 10.0;
-  for (const auto& [own, share] : {std::pair{4.0, 1.0}, {40.0, 0.25}}) {
+  for (const auto& [own, fraction] : {std::pair{4.0, 1.0}, {40.0, 0.25}}) {
     Rig rig(lever_of(0.0, 0), idle_hand, paper_gate(), config, own);
     rig.loop.arm();
     rig.run(250);
-    CHECK(rig.device.told.damping_fraction == doctest::Approx(0.5 * share));
+    CHECK(rig.device.sent_walls.damping_fraction == doctest::Approx(0.5 * fraction));
     rig.run(300);
-    CHECK(rig.device.told.damping_fraction == share);
-    CHECK(rig.device.told.stiffness_fraction == 0.0);  // it has no springs
+    CHECK(rig.device.sent_walls.damping_fraction == fraction);
+    CHECK(rig.device.sent_walls.stiffness_fraction == 0.0);  // a device without springs
     rig.loop.change_tuning({.wall_damping = 0.0});
     rig.run(2);
-    CHECK(rig.device.told.damping_fraction == 0.0);
+    CHECK(rig.device.sent_walls.damping_fraction == 0.0);
   }
 }
 
@@ -156,10 +159,10 @@ TEST_CASE("every way out of running removes the device walls in the same cycle")
     Rig rig(lever_of(400.0, 2), idle_hand);
     rig.loop.arm();
     rig.run(600);
-    REQUIRE(rig.device.told.stiffness_fraction == 1.0);
+    REQUIRE(rig.device.sent_walls.stiffness_fraction == 1.0);
     make_it_fall(rig);
     CHECK(rig.out().guard == to);
-    CHECK(rig.device.told.stiffness_fraction == 0.0);
+    CHECK(rig.device.sent_walls.stiffness_fraction == 0.0);
   };
   const auto command = [](LoopCommand what) {
     return [what](Rig& rig) {
@@ -178,11 +181,11 @@ TEST_CASE("too many overruns remove the device walls, and they return with the r
   rig.run(600);
   rig.run(8, 1);
   CHECK(rig.out().guard == GuardState::damped);
-  CHECK(rig.device.told.stiffness_fraction == 0.0);
+  CHECK(rig.device.sent_walls.stiffness_fraction == 0.0);
   rig.run(52);
   CHECK(rig.out().guard == GuardState::ramping);
-  CHECK(rig.device.told.stiffness_fraction > 0.0);
-  CHECK(rig.device.told.stiffness_fraction < 0.01);
+  CHECK(rig.device.sent_walls.stiffness_fraction > 0.0);
+  CHECK(rig.device.sent_walls.stiffness_fraction < 0.01);
 }
 
 TEST_CASE("20 N into a wall with 3 samples of delay: the device's part is added to the loop's admitted part") {
@@ -201,7 +204,7 @@ TEST_CASE("20 N into a wall with 3 samples of delay: the device's part is added 
     }
     const double by_wall = 20.0 - kPaperAxisY.stiffness * (rig.gate.half_aisle + depth);
     CHECK(by_wall / depth == doctest::Approx(rig.out().wall_stiffness).epsilon(0.03));
-    CHECK(rig.out().wall_stiffness <= own + 0.35 * 0.086 / 16e-6);  // quiet law for the loop's part, 4 ms
+    CHECK(rig.out().wall_stiffness <= own + 0.35 * 0.086 / 16e-6);  // quiet law for the loop's part, tau = 4 ms
     CHECK(rig.out().wall_stiffness >= own + 1000.0);
     CHECK(rig.out().f_a.y == doctest::Approx(by_wall).epsilon(0.03));
   }
@@ -214,34 +217,34 @@ TEST_CASE("a wall softer than the device's is rendered partly by the device and 
   Rig rig(lever_of(1000.0, 3), hand, plain_aisle(0.06, 0.01), config);
   rig.loop.arm();
   rig.run(3000);
-  CHECK(rig.device.told.stiffness_fraction == doctest::Approx(0.6));
+  CHECK(rig.device.sent_walls.stiffness_fraction == doctest::Approx(0.6));
   CHECK(rig.out().wall_force == dvec2{0.0, 0.0});
   const double depth = rig.device.lever.true_position().y - rig.gate.half_aisle;
   CHECK((5.0 - kPaperAxisY.stiffness * (rig.gate.half_aisle + depth)) / depth == doctest::Approx(600.0).epsilon(0.03));
 }
 
-// The lever's future position is predicted from its smoothed speed. The remaining error is its turn until the walls
-// act, a (tau^2 / 2 + smoothing tau), with tau = (delay + 1) T.
+// The lever's future position is predicted from its smoothed speed. The remaining error comes from the acceleration a
+// until the walls act: a (tau^2 / 2 + smoothing tau), with tau = (delay + 1) T.
 TEST_CASE("the free span always contains the proxy, and a free lever hardly feels walls that reach the device late") {
   for (const int delay : {0, 3, 8}) {
-    double strongest = 0.0;     // [N] of the device walls on a lever that touches none
+    double strongest = 0.0;     // [N] force of the device walls on a lever that touches none
     double acceleration = 0.0;  // [m/s^2] maximum
-    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 20u : 5u); ++seed) {
+    for (std::uint64_t seed = 1; seed <= (is_full_campaign() ? 20u : 5u); ++seed) {
       CAPTURE(delay);
       CAPTURE(seed);
       WanderingHand hand(seed);
       Rig rig(lever_of(1000.0, delay, kGripHand), hand, compile_gate(random_layout(seed), kPaperWorkspace));
       rig.loop.arm();
-      std::vector<LeverWalls> told;
+      std::vector<LeverWalls> sent_walls;
       for (int i = 0; i < 5000; ++i) {
         const dvec2 before = rig.device.lever.true_velocity();
         rig.run(1);
         acceleration = std::max(acceleration, 1e3 * glm::distance(rig.device.lever.true_velocity(), before));
-        told.push_back(rig.device.told);
-        if (rig.device.told.stiffness_fraction == 0.0) continue;
-        REQUIRE(holds(rig.device.told, rig.out().proxy));
+        sent_walls.push_back(rig.device.sent_walls);
+        if (rig.device.sent_walls.stiffness_fraction == 0.0) continue;
+        REQUIRE(contains(rig.device.sent_walls, rig.out().proxy));
         if ((rig.out().flags & kFlagContact) != 0 || i <= delay) continue;
-        const LeverWalls& acts = told[static_cast<std::size_t>(i - delay - 1)];
+        const LeverWalls& acts = sent_walls[static_cast<std::size_t>(i - delay - 1)];
         const dvec2 there = rig.out().lever;
         strongest = std::max(strongest, 1000.0 * glm::distance(there, glm::clamp(there, acts.low, acts.high)));
       }
@@ -252,19 +255,19 @@ TEST_CASE("the free span always contains the proxy, and a free lever hardly feel
   }
 }
 
-TEST_CASE("no hand is thrown where walls change: no faster than on a lever without delay and without device walls") {
+TEST_CASE("when walls change, a hand moves no faster than on a lever without delay and without device walls") {
   const auto fastest = [](double own, int delay, const HandImpedance& hand) {
-    double most = 0.0;
-    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 8u : 3u); ++seed) {
+    double max_speed = 0.0;
+    for (std::uint64_t seed = 1; seed <= (is_full_campaign() ? 8u : 3u); ++seed) {
       WanderingHand wanders(seed);
       Rig rig(lever_of(own, delay, hand), wanders);
       rig.loop.arm();
       for (int i = 0; i < 8000; ++i) {
         rig.run(1);
-        most = std::max(most, glm::length(rig.device.lever.true_velocity()));
+        max_speed = std::max(max_speed, glm::length(rig.device.lever.true_velocity()));
       }
     }
-    return most;
+    return max_speed;
   };
   for (const HandImpedance& hand : {kLightHand, kGripHand}) {
     const double without = fastest(0.0, 0, hand);
@@ -273,7 +276,7 @@ TEST_CASE("no hand is thrown where walls change: no faster than on a lever witho
   }
 }
 
-TEST_CASE("saturated: when loop and device together want more than the motors can make, and not before") {
+TEST_CASE("saturation is reported when loop and device together want more than the motors can give, and not before") {
   for (const double push : {20.0, 40.0}) {
     CAPTURE(push);
     PushingHand hand([push](double time, dvec2) { return dvec2{0.0, std::min(push, push * time)}; });

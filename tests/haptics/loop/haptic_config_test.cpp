@@ -1,4 +1,4 @@
-// Valid ranges of the haptic parameters, and the limits that a device sets to them.
+// Valid ranges of the haptic parameters, and how a device limits them.
 #include "haptics/loop/haptic_config.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ TEST_CASE("a config out of range is refused with parameter, value and range") {
   config.guard.fade_time = 0.0;
   CHECK(refusal(config).find("fade_time_s") != std::string::npos);
   config = {};
-  config.over_push.clear_below = 61.0;  // above the warning, so there would be no hysteresis
+  config.over_push.clear_below = 61.0;  // the clamp is above the warning, so there would be no hysteresis
   CHECK(refusal(config).find("clear_below_n") != std::string::npos);
 }
 
@@ -77,10 +77,10 @@ TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau, tau = 
   for (const double rate : {100.0, 200.0, 500.0, 1000.0, 4000.0}) {
     for (const int delay : {0, 1, 3}) {
       for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
-        const double tau = (delay + 1) / rate, share = hold == ContactHold::observer ? 0.58 : 0.35;
+        const double tau = (delay + 1) / rate, factor = hold == ContactHold::observer ? 0.58 : 0.35;
         const HapticTuning used = admitted(wanted, rate, delay, hold).tuning;
-        CHECK(used.wall_stiffness <= std::min(20000.0, share * 0.086 / (tau * tau)) * (1.0 + 1e-12));
-        // An observed hold needs 50 N s/m of its own; slow ones are not admitted at all.
+        CHECK(used.wall_stiffness <= std::min(20000.0, factor * 0.086 / (tau * tau)) * (1.0 + 1e-12));
+        // An observed hold needs at least 50 N s/m of damping; slow ones are not admitted at all.
         const bool observed = used.wall_damping >= 50.0 && hold == ContactHold::observer;
         if (!observed) CHECK(used.wall_damping == doctest::Approx(std::min(100.0, 0.35 * 0.086 / tau)));
         CHECK(used.aisle_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
@@ -121,12 +121,12 @@ TEST_CASE(
   };
   for (const HapticTuning& wanted : {HapticTuning{}, damped}) {
     for (const double rate : {100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0}) {
-      for (int delay = 0; delay <= 8; delay += is_whole_campaign() ? 1 : 2) {
+      for (int delay = 0; delay <= 8; delay += is_full_campaign() ? 1 : 2) {
         for (const ContactHold hold : {ContactHold::zero_order, ContactHold::half_sample, ContactHold::observer}) {
           const AdmittedTuning used = admitted(wanted, rate, delay, hold);
           const HapticTuning& t = used.tuning;
-          for (const double share : {1.0, 0.75, 0.5, 0.1}) {
-            const double stiffness = share * t.wall_stiffness;
+          for (const double fraction : {1.0, 0.75, 0.5, 0.1}) {
+            const double stiffness = fraction * t.wall_stiffness;
             check(used.hold, stiffness, t.wall_damping, t.aisle_damping, delay, rate);
             check(used.hold, stiffness, t.wall_damping, t.aisle_damping + t.limit_damping, delay, rate);
           }
@@ -179,8 +179,8 @@ TEST_CASE("a textbook spring is limited below the exact boundary, and the limiti
   spring.wall_damping = 0.0;
   spring.aisle_damping = 0.0;
   const AdmittedTuning used = admitted(spring, 1000.0, 0, ContactHold::zero_order);
-  // The exact limit is in stability_table_test: 6032 N/m on the X axis, bare; on Y it is 2 b / T = 5800, plus the same
-  // 32.
+  // The exact limit for the bare X axis is 6032 N/m (stability_table_test), which is 2 b / T = 6000 plus 32. For Y it
+  // is 5800 plus the same 32.
   CHECK(used.tuning.wall_stiffness == doctest::Approx(5832.0 / 1.1).epsilon(0.001));
   REQUIRE(used.limits.size() >= 1);
   CHECK(used.limits[0].hand == "bare");
@@ -222,7 +222,8 @@ TEST_CASE("the feel is no stiffer than the wall that carries the proxy") {
 
 namespace {
 
-AdmittedTuning admitted_beside(double own, double wanted, int delay, ContactHold hold = ContactHold::automatic) {
+AdmittedTuning admitted_with_device_walls(double own, double wanted, int delay,
+                                          ContactHold hold = ContactHold::automatic) {
   HapticConfig config;
   config.tuning.wall_stiffness = wanted;
   config.contact.hold = hold;
@@ -241,11 +242,11 @@ const TuningLimit* limit_of_wall(const AdmittedTuning& admitted) {
   return limit_of(TuningParameter::wall_stiffness, admitted);
 }
 
-// A device with delay and device dampers.
+// A device with the given delay and device damper.
 DeviceSpec damping_itself(double own, int delay) {
   DeviceSpec spec;
   spec.delay = delay;
-  spec.device_wall_damping = {own, own + 1.0};  // the minimum of both axes counts
+  spec.device_wall_damping = {own, own + 1.0};  // the smaller damper of both axes counts
   return spec;
 }
 AdmittedTuning admitted_with(const DeviceSpec& spec, double damping, ContactHold hold) {
@@ -261,13 +262,13 @@ TEST_CASE("the loop does not render the device's part of a wall: wanted minus de
   DeviceSpec spec;
   spec.device_wall_stiffness = {400.0, 500.0};
   const HapticTuning wanted{.wall_stiffness = 1000.0};
-  CHECK(loop_stiffness(wanted, spec) == 600.0);  // the minimum of both axes counts
+  CHECK(loop_stiffness(wanted, spec) == 600.0);  // the smaller stiffness of both axes counts
   CHECK(loop_stiffness({.wall_stiffness = 300.0}, spec) == 0.0);
   spec.device_wall_stiffness.x = 0.0;
   CHECK(loop_stiffness(wanted, spec) == 1000.0);
 
   // Without delay everything is admitted, and the total wall is the wanted one.
-  const AdmittedTuning prompt = admitted_beside(1000.0, 5000.0, 0);
+  const AdmittedTuning prompt = admitted_with_device_walls(1000.0, 5000.0, 0);
   CHECK(prompt.tuning.wall_stiffness == 5000.0);
   CHECK(limit_of_wall(prompt) == nullptr);
 }
@@ -275,7 +276,7 @@ TEST_CASE("the loop does not render the device's part of a wall: wanted minus de
 TEST_CASE(
     "where the loop cannot render the rest, the wall is the loop's part plus the device's, and the limit is reported") {
   const double quiet = 0.35 * 0.086 / 16e-6;  // 3 samples of delay at 1 kHz
-  const AdmittedTuning used = admitted_beside(400.0, 5000.0, 3, ContactHold::half_sample);
+  const AdmittedTuning used = admitted_with_device_walls(400.0, 5000.0, 3, ContactHold::half_sample);
   CHECK(used.tuning.wall_stiffness == doctest::Approx(quiet + 400.0));
   const TuningLimit* wall = limit_of_wall(used);
   REQUIRE(wall != nullptr);
@@ -283,39 +284,40 @@ TEST_CASE(
   CHECK(wall->used == used.tuning.wall_stiffness);
   CHECK(wall->bound == used.tuning.wall_stiffness);
   CHECK(wall->law ==
-        "quiet half-sample hold: K <= 0.35 m / tau^2, tau = (delay + 1) T; and 400 N/m rendered by "
-        "the device");
-  // If both together reach the wanted wall, nothing was limited, and the simpler hold is enough.
-  const AdmittedTuning both = admitted_beside(1000.0, quiet + 900.0, 3);
+        "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T; the device itself "
+        "renders another 400 N/m");
+  // If device wall and loop together reach the wanted wall, nothing was limited, and the simpler hold is enough.
+  const AdmittedTuning both = admitted_with_device_walls(1000.0, quiet + 900.0, 3);
   CHECK(both.tuning.wall_stiffness == quiet + 900.0);
   CHECK(limit_of_wall(both) == nullptr);
   CHECK(both.hold == ContactHold::half_sample);
 }
 
-TEST_CASE("the loop makes the part of a wall's damping that the device does not; together more than the loop's limit") {
+TEST_CASE("the loop renders the rest of a wall's damping; with the device's part it exceeds the loop's own limit") {
   const double quiet = 0.35 * 0.086 / 0.006;  // [N s/m] 5.0 for 5 samples of delay at 1 kHz
-  const DeviceSpec little = damping_itself(3.0, 5), much = damping_itself(20.0, 5), none = damping_itself(0.0, 5);
-  const AdmittedTuning alone = admitted_with(none, 10.0, ContactHold::half_sample);
-  CHECK(alone.tuning.wall_damping == doctest::Approx(quiet));
+  const DeviceSpec weak = damping_itself(3.0, 5), strong = damping_itself(20.0, 5), none = damping_itself(0.0, 5);
+  const AdmittedTuning loop_only = admitted_with(none, 10.0, ContactHold::half_sample);
+  CHECK(loop_only.tuning.wall_damping == doctest::Approx(quiet));
 
-  const AdmittedTuning both = admitted_with(little, 10.0, ContactHold::half_sample);
+  const AdmittedTuning both = admitted_with(weak, 10.0, ContactHold::half_sample);
   CHECK(both.tuning.wall_damping == doctest::Approx(quiet + 3.0));
-  CHECK(contact_law({}, both, little).damping == doctest::Approx(quiet));
-  const TuningLimit* told = limit_of(TuningParameter::wall_damping, both);
-  REQUIRE(told != nullptr);
-  CHECK(told->wanted == 10.0);
-  CHECK(told->used == both.tuning.wall_damping);
-  CHECK(told->law ==
-        "quiet half-sample hold: B <= 0.35 m / tau, tau = (delay + 1) T; and 3 N s/m rendered by the device");
+  CHECK(contact_law({}, both, weak).damping == doctest::Approx(quiet));
+  const TuningLimit* limit = limit_of(TuningParameter::wall_damping, both);
+  REQUIRE(limit != nullptr);
+  CHECK(limit->wanted == 10.0);
+  CHECK(limit->used == both.tuning.wall_damping);
+  CHECK(limit->law ==
+        "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T; the device itself renders "
+        "another 3 N s/m");
 
-  const AdmittedTuning device_alone = admitted_with(much, 10.0, ContactHold::half_sample);
-  CHECK(device_alone.tuning.wall_damping == 10.0);
-  CHECK(contact_law({}, device_alone, much).damping == 0.0);
-  CHECK(limit_of(TuningParameter::wall_damping, device_alone) == nullptr);
+  const AdmittedTuning device_only = admitted_with(strong, 10.0, ContactHold::half_sample);
+  CHECK(device_only.tuning.wall_damping == 10.0);
+  CHECK(contact_law({}, device_only, strong).damping == 0.0);
+  CHECK(limit_of(TuningParameter::wall_damping, device_only) == nullptr);
 
   const AdmittedTuning observed = admitted_with(damping_itself(20.0, 3), 10.0, ContactHold::observer);
   REQUIRE(observed.hold == ContactHold::observer);
-  CHECK(contact_law({}, observed, much).damping == observed.tuning.wall_damping);  // no device damper
+  CHECK(contact_law({}, observed, strong).damping == observed.tuning.wall_damping);  // no device damper
 }
 
 TEST_CASE("feel is rendered only by the loop: a device wall does not allow a stiffer feel") {
@@ -337,9 +339,9 @@ TEST_CASE("every tuning admitted with device dampers is stable with all, half an
       const DeviceSpec spec = damping_itself(own, delay);
       const AdmittedTuning used = admitted_with(spec, 10.0, ContactHold::half_sample);
       const ContactLaw in_wall = contact_law({}, used, spec);
-      for (const double share : {0.0, 0.5, 1.0}) {
+      for (const double fraction : {0.0, 0.5, 1.0}) {
         for (NamedHand named : kNamedHands) {
-          named.hand.damping += share * std::min(own, 10.0);
+          named.hand.damping += fraction * std::min(own, 10.0);
           for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY})
             CHECK(spectral_radius(axis, named.hand, in_wall, 0.001) < 1.0);
         }
@@ -354,17 +356,17 @@ TEST_CASE("every tuning admitted with device walls is stable with all, half and 
       for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
         CAPTURE(own);
         CAPTURE(delay);
-        const AdmittedTuning used = admitted_beside(own, 5000.0, delay, hold);
+        const AdmittedTuning used = admitted_with_device_walls(own, 5000.0, delay, hold);
         const HapticTuning& t = used.tuning;
         DeviceSpec spec;
         spec.device_wall_stiffness = {own, own};
-        const double kept = std::min(own, t.wall_stiffness), loops = loop_stiffness(t, spec);
-        for (const double share : {0.0, 0.5, 1.0}) {
+        const double device_part = std::min(own, t.wall_stiffness), loop_part = loop_stiffness(t, spec);
+        for (const double fraction : {0.0, 0.5, 1.0}) {
           for (const double free : {t.aisle_damping, t.aisle_damping + t.limit_damping}) {
             for (NamedHand named : kNamedHands) {
-              named.hand.stiffness += share * kept;  // like a stiffer hand to the loop
+              named.hand.stiffness += fraction * device_part;  // to the loop this is like a stiffer hand
               for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY}) {
-                const ContactLaw in_wall{used.hold, loops, t.wall_damping, 1, free, 0.004, delay};
+                const ContactLaw in_wall{used.hold, loop_part, t.wall_damping, 1, free, 0.004, delay};
                 CHECK(spectral_radius(axis, named.hand, in_wall, 0.001) < 1.0);
                 const ContactLaw outside{ContactHold::zero_order, 0.0, 0.0, 1, free, 0.004, delay};
                 CHECK(spectral_radius(axis, named.hand, outside, 0.001) < 1.0);

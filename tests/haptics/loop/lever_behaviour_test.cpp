@@ -51,7 +51,7 @@ TEST_CASE("row 11: a free lever away from the gears returns to the neutral posit
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
     const dvec2 neutral = rest_position(gate, kNeutralGear);
-    for (int trial = 0; trial < (is_whole_campaign() ? 40 : 12);) {
+    for (int trial = 0; trial < (is_full_campaign() ? 40 : 12);) {
       const dvec2 start{x(random), y(random)};
       const double before_crest = gate.half_aisle + gate.chamfer + 0.001;
       if (!in_free_space(gate, start) || std::abs(start.y) > before_crest) continue;
@@ -60,13 +60,13 @@ TEST_CASE("row 11: a free lever away from the gears returns to the neutral posit
       CAPTURE(start.y);
       SimulatedRun run(resting_at(gate, start), idle_hand);
       const HapticSnapshot end = run_for(run, 3.0);
-      CHECK(glm::distance(end.lever, neutral) < 0.001);  // the handle's spring pulls to its centre
+      CHECK(glm::distance(end.lever, neutral) < 0.001);  // the handle's spring pulls the lever to its centre
       CHECK(end.gear == kNeutralGear);
     }
   }
 }
 
-TEST_CASE("row 10: a lever in gear stays there when let go: no ejection, no drift within a minute") {
+TEST_CASE("row 10: a released lever stays in gear: no ejection, no drift within a minute") {
   IdleHand idle_hand;
   const Gate gate = paper_gate();
   for (const int gear : {1, 2, 3, 4, 5, kReverseGear}) {
@@ -106,7 +106,7 @@ TEST_CASE("row 10 at every rate and delay: a bare lever comes to rest in gear, w
   }
 }
 
-TEST_CASE("row 10: the pull that takes a gear out is the lock's force plus the handle's spring, within 3 %") {
+TEST_CASE("row 10: the pull that disengages a gear is the lock's force plus the handle's spring, within 3 %") {
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   const Gate gate = compile_gate(layout, kPaperWorkspace);
   for (const int gear : {1, 2, 3, 4}) {
@@ -120,7 +120,7 @@ TEST_CASE("row 10: the pull that takes a gear out is the lock's force plus the h
     run_for(run, 0.1);
     REQUIRE(run.loop().snapshot().gear == gear);
     while (run.time() < 20.0 && run.step().gear == gear) continue;
-    // The handle's spring (eq 12) helps the pull with 15.7 N/m at about 30 mm, where the lock is strongest.
+    // The handle's spring (the paper's (12)) helps the pull with 15.7 N/m at about 30 mm, where the lock is strongest.
     const Slot& slot = slot_of(gate, slot_of_gear(gate, gear));
     double strongest_at = slot.rest;
     for (int i = 0; i <= 1000; ++i) {
@@ -158,16 +158,16 @@ TEST_CASE("row 12: a steady push along the aisle ends at the speed where damping
 
 TEST_CASE("row 9: pushed along the neutral aisle into junctions I and III, the lever is turned the way it leans") {
   const Gate gate = paper_gate();
-  for (const double way : {-1.0, 1.0}) {
+  for (const double direction : {-1.0, 1.0}) {
     for (const double lean : {-1.0, 1.0}) {
-      PushingHand hand([&](double, dvec2) { return dvec2{way * 8.0, lean * 0.05}; });
+      PushingHand hand([&](double, dvec2) { return dvec2{direction * 8.0, lean * 0.05}; });
       SimulatedRunConfig config = resting_at(gate, {0.0, lean * 0.0005});
       config.haptics.tuning.feel_scale = 1.0;
       SimulatedRun run(config, hand);
       const HapticSnapshot end = run_for(run, 2.0);
-      CAPTURE(way);
+      CAPTURE(direction);
       CAPTURE(lean);
-      CHECK(way * end.proxy.x > 0.03);
+      CHECK(direction * end.proxy.x > 0.03);
       CHECK(lean * end.lever.y > 0.5 * gate.half_aisle);
     }
   }
@@ -189,7 +189,8 @@ TEST_CASE("eq (4): f_j = f_h - f_a is what moves the joystick: m a + b v + k x (
     const dvec2 a1 = (v2 - v0) / (2.0 * run.period());
     const dvec2 expected{kPaperAxisX.mass * a1.x + kPaperAxisX.damping * v1.x + kPaperAxisX.stiffness * x1.x,
                          kPaperAxisY.mass * a1.y + kPaperAxisY.damping * v1.y + kPaperAxisY.stiffness * x1.y};
-    // The force is held and steps between periods, and so does the acceleration; small angles only (0.7 % at 20 mm).
+    // Force and acceleration are constant within a period and step between periods. Checked at small angles only (0.7 %
+    // error at 20 mm).
     if (i > 10 && glm::length(x1) < 0.02) {
       squares += glm::dot(f1 - expected, f1 - expected);
       ++samples;
@@ -200,10 +201,10 @@ TEST_CASE("eq (4): f_j = f_h - f_a is what moves the joystick: m a + b v + k x (
     f1 = s.f_j;
   }
   REQUIRE(samples > 500);
-  CHECK(std::sqrt(squares / samples) < 0.25);  // [N] for forces up to 10 N; a wrong sign of f_a gives several
+  CHECK(std::sqrt(squares / samples) < 0.25);  // [N] of up to 10 N; a wrong sign of f_a would give several
 }
 
-TEST_CASE("eq (4) in a long push against a wall: f_h is the push, and f_a all of it except the handle's spring") {
+TEST_CASE("eq (4) in a long push against a wall: f_h is the push, and f_a is the push minus the handle's spring") {
   const Gate gate = paper_gate();
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
   PushingHand hand([](double, dvec2) { return dvec2{0.0, 20.0}; });

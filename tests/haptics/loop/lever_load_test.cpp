@@ -1,4 +1,4 @@
-// Tests of the LeverLoad contract as the loop keeps it: inputs, timing, and limits.
+// Tests that the loop keeps the LeverLoad contract: inputs, timing, and limits.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -17,9 +17,9 @@ using glm::dvec2;
 
 namespace {
 
-constexpr std::int64_t kWorldPeriodNs = 1'000'000;
+constexpr std::int64_t kLoadPeriodNs = 1'000'000;
 
-// Returns the scripted answer and records its inputs.
+// Returns scripted outputs and records its inputs.
 class ScriptedLoad final : public LeverLoad {
  public:
   LeverOutput step(const LeverInput& in, double period) noexcept override {
@@ -59,14 +59,14 @@ bool shifts_into(const Gate& gate, int gear, ScriptedLoad& load) {
 TEST_CASE("the load's clock: first call 0, then one period, plus the skipped ones after an overrun") {
   const Gate gate = paper_gate();
   IdleHand idle_hand;
-  SimulatedLever lever({}, kWorldPeriodNs, idle_hand);
+  SimulatedLever lever({}, kLoadPeriodNs, idle_hand);
   ScriptedLoad load;
   LoopChannels channels;
   HapticLoop loop(HapticConfig{}, gate, lever, load, channels);
   loop.cycle(0, 0);
-  loop.cycle(1 * kWorldPeriodNs, 0);
-  loop.cycle(4 * kWorldPeriodNs, 2);
-  loop.cycle(5 * kWorldPeriodNs, 0);
+  loop.cycle(1 * kLoadPeriodNs, 0);
+  loop.cycle(4 * kLoadPeriodNs, 2);
+  loop.cycle(5 * kLoadPeriodNs, 0);
   REQUIRE(load.periods.size() == 4);
   CHECK(load.periods[0] == 0.0);
   CHECK(load.periods[1] == doctest::Approx(0.001));
@@ -109,8 +109,8 @@ TEST_CASE("a blocking synchroniser is a hard wall, and the gear does not engage:
     load.answer.limited_slot = slot_of_gear(gate, gear);
     load.answer.depth_max = 0.020;
     SimulatedRunConfig config = starting_in(gate, kNeutralGear);
-    const double way = rest_position(gate, gear).y > 0.0 ? 1.0 : -1.0;
-    PushingHand hand([way](double, dvec2) { return dvec2{0.0, way * 15.0}; });
+    const double side = rest_position(gate, gear).y > 0.0 ? 1.0 : -1.0;
+    PushingHand hand([side](double, dvec2) { return dvec2{0.0, side * 15.0}; });
     SimulatedRun run(config, hand, &load);
     double deepest = 0.0;
     for (int i = 0; i < 2000; ++i) deepest = std::max(deepest, std::abs(run.step().proxy.y));
@@ -129,8 +129,8 @@ TEST_CASE("a torque lock holds the gear against any pull that the device can mak
     ScriptedLoad load;
     load.answer.limited_slot = slot_of_gear(gate, gear);
     load.answer.depth_min = 0.034;
-    const double way = rest_position(gate, gear).y > 0.0 ? 1.0 : -1.0;
-    PushingHand hand([way](double time, dvec2) { return dvec2{0.0, time > 0.2 ? -way * 25.0 : 0.0}; });
+    const double side = rest_position(gate, gear).y > 0.0 ? 1.0 : -1.0;
+    PushingHand hand([side](double time, dvec2) { return dvec2{0.0, time > 0.2 ? -side * 25.0 : 0.0}; });
     SimulatedRun run(starting_in(gate, gear), hand, &load);
     for (int i = 0; i < 2000; ++i) {
       run.step();
@@ -176,12 +176,12 @@ TEST_CASE("reverse is locked at 30 km/h and free at rest, in every gate that loc
   CHECK(guarded >= 5);
 }
 
-TEST_CASE("reverse behind a push-down or a lift ring is locked for a hand that does neither") {
+TEST_CASE("reverse with a push-down or lift-ring lockout is locked for a hand that uses neither") {
   for (const char* name : {"six_speed_r_left_up", "six_speed_r_left_down"}) {
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
     ScriptedLoad load;
-    CHECK(shifts_into(gate, kReverseGear, load));  // the scripted hand uses the lockouts
+    CHECK(shifts_into(gate, kReverseGear, load));  // the scripted hand opens the lockouts
     SimulatedRunConfig config = starting_in(gate, kNeutralGear);
     config.lever.hand = kGripHand;
     const int gears[] = {kReverseGear};
@@ -196,17 +196,17 @@ TEST_CASE("reverse behind a push-down or a lift ring is locked for a hand that d
 TEST_CASE("no direct 5 to R: straight down is locked, via neutral it is free") {
   const Gate gate = shipped_gate("five_speed_r_right_down");
   const dvec2 fifth = rest_position(gate, 5), reverse = rest_position(gate, kReverseGear);
-  for (const bool aside : {false, true}) {
+  for (const bool with_detour : {false, true}) {
     SimulatedRunConfig config = starting_in(gate, 5);
     config.lever.hand = kGripHand;
     std::vector<HandStroke> strokes{{fifth, 0.2, 0.2, {}, false, false}, {{fifth.x, 0.0}, 0.4, 0.2, {}, false, false}};
-    if (aside) strokes.push_back({{0.0, 0.0}, 0.4, 0.2, {}, false, false});
-    if (aside) strokes.push_back({{fifth.x, 0.0}, 0.4, 0.2, {}, false, false});
+    if (with_detour) strokes.push_back({{0.0, 0.0}, 0.4, 0.2, {}, false, false});
+    if (with_detour) strokes.push_back({{fifth.x, 0.0}, 0.4, 0.2, {}, false, false});
     strokes.push_back({reverse, 0.4, 0.4, {}, false, false});
     ScriptedHand driver(touring_hand(fifth), strokes, 0.001);
     SimulatedRun run(config, driver);
     bool engaged = false;
     while (run.time() < driver.duration()) engaged = run.step().gear == kReverseGear || engaged;
-    CHECK(engaged == aside);
+    CHECK(engaged == with_detour);
   }
 }

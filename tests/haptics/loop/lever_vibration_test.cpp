@@ -1,4 +1,5 @@
-// A load that vibrates the lever, and one that chatters with it: they are told apart, and only chatter is softened.
+// A load that vibrates the lever, and one that makes it chatter: the loop distinguishes them and softens only for
+// chatter.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,22 +19,22 @@ using glm::dvec2;
 namespace {
 
 // A sine along the shift axis, declared as vibration or not.
-class ShakingLoad final : public LeverLoad {
+class VibratingLoad final : public LeverLoad {
  public:
-  ShakingLoad(double frequency, double amplitude, bool says_so)
-      : frequency_(frequency), amplitude_(amplitude), says_so_(says_so) {}
+  VibratingLoad(double frequency, double amplitude, bool declares_vibration)
+      : frequency_(frequency), amplitude_(amplitude), declares_vibration_(declares_vibration) {}
   LeverOutput step(const LeverInput&, double period) noexcept override {
     time_ += period;
     LeverOutput out;
     out.force.y = amplitude_ * std::sin(2.0 * std::numbers::pi * frequency_ * time_);
-    if (says_so_) out.vibration = out.force;
+    if (declares_vibration_) out.vibration = out.force;
     return out;
   }
   const char* replay_parameters() const noexcept override { return "shaking"; }
 
  private:
   double frequency_, amplitude_;  // [Hz], [N]
-  bool says_so_;
+  bool declares_vibration_;
   double time_ = 0.0;
 };
 
@@ -48,14 +49,14 @@ class RoughLoad final : public LeverLoad {
   const char* replay_parameters() const noexcept override { return "rough"; }
 };
 
-struct Shaken {
+struct VibrationResult {
   int lowered = 0;
-  double moved = 0.0;  // [m] between turning points, at the end
+  double moved = 0.0;  // [m] between turning points, at the end of the run
 };
 
-// In that gear, with that hand; pushed sideways and along the axis by that much [N].
-Shaken shaken(LeverLoad& load, const HandImpedance& grip, int gear, dvec2 push, double seconds = 4.0,
-              double rate = 1000.0) {
+// Runs a lever in `gear` held by `grip`. push: sideways and along the shift axis [N].
+VibrationResult run_vibrated(LeverLoad& load, const HandImpedance& grip, int gear, dvec2 push, double seconds = 4.0,
+                             double rate = 1000.0) {
   SimulatedRunConfig config;
   config.gate = paper_gate();
   config.start = rest_position(config.gate, gear);
@@ -64,7 +65,7 @@ Shaken shaken(LeverLoad& load, const HandImpedance& grip, int gear, dvec2 push, 
   config.lever.hand = grip;
   PushingHand hand([push](double time, dvec2) { return std::min(1.0, 2.0 * time) * push; });
   SimulatedRun run(config, hand, &load);
-  Shaken out;
+  VibrationResult out;
   double low = 1.0, high = -1.0;
   while (run.time() < seconds) {
     const double y = run.step().lever.y;
@@ -88,44 +89,44 @@ TEST_CASE("a lever that its load vibrates keeps its walls, in a gear, at its wal
       for (const dvec2 push : {dvec2{0.0, 0.0}, {6.0, 0.0}, {0.0, 6.0}, {6.0, -6.0}}) {
         for (const double frequency : {8.0, 12.0, 16.0, 20.0, 24.0}) {
           for (const double amplitude : {0.3, 1.0, 2.1}) {
-            if (counted++ % 7 != 0 && !is_whole_campaign()) continue;
+            if (counted++ % 7 != 0 && !is_full_campaign()) continue;
             CAPTURE(named.name);
             CAPTURE(gear);
             CAPTURE(push.x);
             CAPTURE(push.y);
             CAPTURE(frequency);
             CAPTURE(amplitude);
-            ShakingLoad said(frequency, amplitude, true), unsaid(frequency, amplitude, false);
-            const Shaken lever = shaken(said, named.hand, gear, push);
+            VibratingLoad declared(frequency, amplitude, true), undeclared(frequency, amplitude, false);
+            const VibrationResult lever = run_vibrated(declared, named.hand, gear, push);
             CHECK(lever.lowered == 0);
             widest = std::max(widest, lever.moved);
-            mistaken += shaken(unsaid, named.hand, gear, push).lowered > 0 ? 1 : 0;  // negative control
+            mistaken += run_vibrated(undeclared, named.hand, gear, push).lowered > 0 ? 1 : 0;  // negative control
           }
         }
       }
     }
   }
   CHECK(widest > 0.001);
-  CHECK(mistaken > (is_whole_campaign() ? 300 : 40));
+  CHECK(mistaken > (is_full_campaign() ? 300 : 40));
 }
 
-TEST_CASE("the same at 4 kHz and at 500 Hz") {
+TEST_CASE("a lever that its load vibrates keeps its walls at 4 kHz and at 500 Hz, too") {
   for (const double rate : {500.0, 4000.0}) {
     for (const double frequency : {12.0, 20.0}) {
-      ShakingLoad load(frequency, 1.0, true);
-      CHECK(shaken(load, kGripHand, 1, {6.0, 0.0}, 4.0, rate).lowered == 0);
+      VibratingLoad load(frequency, 1.0, true);
+      CHECK(run_vibrated(load, kGripHand, 1, {6.0, 0.0}, 4.0, rate).lowered == 0);
     }
   }
 }
 
 TEST_CASE("a load force that reacts to the lever does not count as vibration: friction as sign(v) is still detected") {
   RoughLoad load;
-  CHECK(shaken(load, kGripHand, 1, {6.0, 6.0}).lowered > 0);
+  CHECK(run_vibrated(load, kGripHand, 1, {6.0, 6.0}).lowered > 0);
 }
 
 namespace {
 
-// A lever whose commands take effect later than its spec says, leaned into a wall.
+// Number of softenings of a lever whose commands take effect later than its spec says, leaned into a wall.
 int lowered_of_a_late_lever(LeverLoad& load) {
   const Gate gate = paper_gate();
   PushingHand hand([](double time, dvec2) { return dvec2{0.0, 9.0 * std::min(1.0, time)}; });
@@ -160,7 +161,7 @@ int lowered_of_a_late_lever(LeverLoad& load) {
 }  // namespace
 
 TEST_CASE("a wall that is too stiff for its device is softened as much while the load vibrates the lever") {
-  ShakingLoad still(20.0, 0.0, true), shaking(20.0, 1.5, true);
+  VibratingLoad still(20.0, 0.0, true), shaking(20.0, 1.5, true);
   const int calm = lowered_of_a_late_lever(still);
   CHECK(calm > 0);
   CHECK(lowered_of_a_late_lever(shaking) >= calm);

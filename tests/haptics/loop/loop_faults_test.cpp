@@ -1,4 +1,4 @@
-// The whole cycle on a failing device: its output stays finite and small, and decays within the stated time.
+// The whole cycle on a failing device: its output stays finite and small, and decays within the guaranteed time.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -42,7 +42,7 @@ struct IdleRig {
 
 }  // namespace
 
-TEST_CASE("check of the rig: the wall returns the push within 3 %") {
+TEST_CASE("the rig itself: the wall's force equals the push within 3 %") {
   PressedRig rig(paper_gate());
   CHECK(rig.loop.snapshot().guard == GuardState::running);
   double mean = 0.0;
@@ -50,7 +50,7 @@ TEST_CASE("check of the rig: the wall returns the push within 3 %") {
     rig.run(1);
     mean -= rig.lever.written.y / 50.0;
   }
-  // minus the force of the handle's spring: 15.7 N/m at about 9 mm
+  // 15 N minus the force of the handle's spring: 15.7 N/m at about 9 mm
   CHECK(mean == doctest::Approx(15.0 - kPaperAxisY.stiffness * rig.loop.snapshot().lever.y).epsilon(0.03));
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("fault to zero force: frozen, not finite, jumping, lost and backward r
     CHECK(rig.strongest <= 31.7 * std::sqrt(2.0));
     CHECK(rig.lever.written == dvec2{0.0, 0.0});
     CHECK(in_free_space(rig.gate, rig.loop.snapshot().proxy, 1e-9));
-    // on a real device, fresh readings alone do not restore the force
+    // on a real device, fresh readings do not restore the force without arming
     rig.lever.sabotage = nullptr;
     rig.run(1000);
     CHECK(rig.loop.snapshot().guard != GuardState::running);
@@ -89,7 +89,7 @@ TEST_CASE("single lost, repeated and implausible readings are tolerated: still r
         break;
       case 2:
         r.position.x += 0.03;
-        break;  // jumps by 30 mm for one sample
+        break;  // position jumps by 30 mm for one sample
       case 3:
         r.time_ns -= 5 * kPeriodNs;
         break;
@@ -102,7 +102,7 @@ TEST_CASE("single lost, repeated and implausible readings are tolerated: still r
   rig.run(5000);
   CHECK(rig.loop.snapshot().guard == GuardState::running);
   CHECK(rig.finite);
-  CHECK(rig.strongest < 25.0);  // 15 N steady, plus the effect of a repeated reading
+  CHECK(rig.strongest < 25.0);  // 15 N steady force, plus the effect of a repeated reading
 }
 
 TEST_CASE("late cycles: single ones are tolerated, eight in a row lead to damped") {
@@ -151,7 +151,7 @@ TEST_CASE("a device that reports nonsense forces does not poison the snapshot") 
   CHECK(s.guard == GuardState::running);
 }
 
-TEST_CASE("the loop itself refuses a config that no check has passed") {
+TEST_CASE("the loop itself refuses an invalid config, even if the caller has not checked it") {
   const Gate gate = paper_gate();
   IdleHand idle_hand;
   SimulatedLever lever({}, kPeriodNs, idle_hand);
@@ -238,8 +238,8 @@ TEST_CASE("armed and stopped in one cycle means stopped; a button held from the 
     bool held = true;
 
    private:
-    IdleHand nobody_;
-    SimulatedLever lever_{{}, kPeriodNs, nobody_};
+    IdleHand idle_hand_;
+    SimulatedLever lever_{{}, kPeriodNs, idle_hand_};
   };
   Pressed lever;
   NoLoad load;
@@ -278,15 +278,15 @@ TEST_CASE("a stop while the lever is damped removes the remaining force, also th
 
 TEST_CASE("a lever beyond the device's workspace plus margin: motors off in the cycle that accepts the reading") {
   PressedRig rig(paper_gate());
-  const double most = rig.lever.spec().workspace.y + GuardConfig{}.position_margin;
+  const double limit = rig.lever.spec().workspace.y + GuardConfig{}.position_margin;
   rig.lever.sabotage = [y = rig.loop.snapshot().lever.y](LeverReading& r) mutable {
     r.position.y = y += 0.004;  // 4 m/s: plausible
   };
-  for (int i = 0; i < 100 && rig.loop.snapshot().lever.y <= most; ++i) {
+  for (int i = 0; i < 100 && rig.loop.snapshot().lever.y <= limit; ++i) {
     CHECK(rig.loop.snapshot().guard == GuardState::running);
     rig.run(1);
   }
-  CHECK(rig.loop.snapshot().lever.y > most);
+  CHECK(rig.loop.snapshot().lever.y > limit);
   CHECK(rig.lever.written == dvec2{0.0, 0.0});
   CHECK(rig.lever.releases == 1);
   CHECK(rig.loop.snapshot().guard == GuardState::released);
@@ -298,7 +298,7 @@ TEST_CASE("arming places the proxy at the lever: no pull towards its old positio
   rig.channels.commands.push(LoopCommand::disarm);
   rig.run(1);
   CHECK(rig.lever.releases >= 1);
-  // While disarmed the lever is put beyond a wall, 20 mm from its old proxy.
+  // While the loop is disarmed, the lever is placed beyond a wall, 20 mm from its old proxy.
   rig.lever.sabotage = [](LeverReading& r) { r.position = {-0.030, 0.030}; };
   rig.run(200);
   rig.channels.commands.push(LoopCommand::arm);
@@ -308,7 +308,7 @@ TEST_CASE("arming places the proxy at the lever: no pull towards its old positio
   CHECK(slot_at(rig.gate, rig.loop.snapshot().proxy) == slot_of_gear(rig.gate, 1));
 }
 
-// A lever held at a given place, whatever the motors do.
+// A lever held at a given position, whatever the motors do.
 class PlacedLever final : public HapticDevice {
  public:
   const DeviceSpec& spec() const noexcept override { return spec_; }
@@ -346,7 +346,7 @@ TEST_CASE(
     loop.cycle(now += kPeriodNs, 0);
   }
   const double held = loop.snapshot().proxy.x;
-  REQUIRE(held > reverse + 0.003);  // the wall that the ring opens is between them
+  REQUIRE(held > reverse + 0.003);  // the wall that lifting the ring opens is between them
   const double force = loop.snapshot().wall_force.x;
   REQUIRE(force > 5.0);
   for (int i = 0; i < 100; ++i) {
@@ -358,7 +358,7 @@ TEST_CASE(
   CHECK(loop.snapshot().wall_force.x == doctest::Approx(force).epsilon(0.01));
 }
 
-TEST_CASE("with whole samples of delay the coupling looks (1 + 2 d) periods ahead") {
+TEST_CASE("with d samples of delay the coupling looks (1 + 2 d) half periods ahead") {
   for (const int delay : {0, 1, 3}) {
     CAPTURE(delay);
     // A lever that moves into the upper wall of the neutral aisle at constant speed.
@@ -387,7 +387,7 @@ TEST_CASE("with whole samples of delay the coupling looks (1 + 2 d) periods ahea
     NoLoad load;
     LoopChannels channels;
     HapticConfig config;
-    config.tuning.wall_stiffness = 1000.0;  // admitted at all of these delays
+    config.tuning.wall_stiffness = 1000.0;  // a stiffness admitted with all of these delays
     config.tuning.wall_damping = 2.0;
     HapticLoop loop(config, gate, mover, load, channels);
     for (int i = 0; i < 400; ++i) loop.cycle(i * kPeriodNs, 0);
@@ -399,7 +399,7 @@ TEST_CASE("with whole samples of delay the coupling looks (1 + 2 d) periods ahea
 }
 
 TEST_CASE("a load that returns invalid values releases the motors") {
-  class MadLoad final : public LeverLoad {
+  class InvalidLoad final : public LeverLoad {
    public:
     LeverOutput step(const LeverInput&, double) noexcept override {
       LeverOutput out;
@@ -414,15 +414,15 @@ TEST_CASE("a load that returns invalid values releases the motors") {
   for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
     CAPTURE(static_cast<int>(hold));
     PressedRig rig(paper_gate());
-    MadLoad mad;
+    InvalidLoad load;
     HapticConfig config;
     config.contact.hold = hold;
-    HapticLoop loop(config, rig.gate, rig.lever, mad, rig.channels);
+    HapticLoop loop(config, rig.gate, rig.lever, load, rig.channels);
     loop.arm();
     for (int i = 0; i < 710; ++i) loop.cycle(rig.now += kPeriodNs, 0);
     CHECK(loop.snapshot().guard == GuardState::released);
     CHECK(loop.snapshot().fault == GuardFault::not_finite);
     CHECK(rig.lever.written == dvec2{0.0, 0.0});
-    CHECK(is_finite(loop.snapshot().wall_force));  // an observed wall includes the load's force
+    CHECK(is_finite(loop.snapshot().wall_force));  // the force of an observed wall includes the load's force
   }
 }

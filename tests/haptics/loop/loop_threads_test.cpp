@@ -1,5 +1,5 @@
-// The loop on its real-time thread, with a frame, a recorder and a person using its channels. Run it under the thread
-// sanitizer.
+// The loop on its real-time thread, while a window frame, a recorder and a user's commands use its channels. Run it
+// under the thread sanitizer.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -19,7 +19,7 @@
 using namespace gearshift::haptics;
 using namespace gearshift::test;
 
-TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs, and the recording replays") {
+TEST_CASE("on its own thread: the loop is tuned and recorded while a user leads the lever, and the recording replays") {
   const std::int64_t period = 1'000'000;
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   const Gate gate = compile_gate(layout, kPaperWorkspace);

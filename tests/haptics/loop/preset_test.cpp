@@ -19,7 +19,7 @@ namespace {
 
 const std::string presets = GEARSHIFT_ASSETS "/presets/";
 
-// A file with this text after a name line, so that the text begins in line 2.
+// Reads a preset from this text after a name line, so that the text begins in line 2.
 Preset preset_of(const std::string& text) {
   const TempFolder folder;
   const std::string file = (folder / "my.toml").string();

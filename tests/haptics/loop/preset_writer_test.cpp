@@ -1,4 +1,4 @@
-// A written preset is read back: every key, every bit.
+// A written preset is read back with every key and every bit.
 #include "haptics/loop/preset_writer.h"
 
 #include <bit>
@@ -57,7 +57,7 @@ class RandomPreset {
     ghost = between(0.0, 1.0);
   }
 
-  // Angles as in a file, in degrees.
+  // Computes angles from degrees, as reading a file does.
   void fill(SimulatedLeverConfig& lever) {
     auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = lever;
     const double degree = std::numbers::pi / 180.0;
@@ -153,7 +153,7 @@ std::size_t files_in(const TempFolder& folder) {
 TEST_CASE("a written preset is read back: every key and every bit") {
   const TempFolder folder;
   const std::filesystem::path file = folder / "my.toml";
-  for (std::uint64_t seed = 0; seed < (is_whole_campaign() ? 300u : 60u); ++seed) {
+  for (std::uint64_t seed = 0; seed < (is_full_campaign() ? 300u : 60u); ++seed) {
     CAPTURE(seed);
     const Preset preset = RandomPreset(seed).make();
     write_preset(preset, file);
@@ -205,10 +205,11 @@ TEST_CASE("a preset that the reader would refuse is not written, and the old fil
   Preset preset = RandomPreset(8).make();
   SUBCASE("a number out of range") {
     preset.haptics.tuning.wall_stiffness = 1e6;
-    const std::string said = refusal(preset, file);
-    CHECK(said.find("my.toml: not written: it could not be read back: wall_stiffness_n_per_m = 1000000: must be") !=
+    const std::string message = refusal(preset, file);
+    CHECK(message.find(
+              "my.toml: not written, because it could not be read back: wall_stiffness_n_per_m = 1000000: must be") !=
           std::string::npos);
-    CHECK(said.find(".part") == std::string::npos);
+    CHECK(message.find(".part") == std::string::npos);
   }
   SUBCASE("no number") {
     preset.lever.model_error = std::numeric_limits<double>::quiet_NaN();

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kWall = 0.01;  // [m] half width of the aisle whose wall the lever is pressed against
 
-// A lever without its force sensor, whose value only the test sees.
+// A lever without a force sensor for the loop; only the test reads the simulated sensor.
 class SensorlessLever final : public HapticDevice {
  public:
   SensorlessLever(const SimulatedLeverConfig& config, HandDriver& hand)
@@ -96,16 +96,16 @@ Means over(Sensorless& rig, int cycles) {
   return means;
 }
 
-void tell(const std::string& what, const Means& means) {
+void print(const std::string& what, const Means& means) {
   MESSAGE(what << ": true " << means.truth << " N, estimated " << means.estimate << " N, worst error of a sample "
                << means.worst << " N");
 }
 
 }  // namespace
 
-// The estimate neglects the handle's inertia and the damping by which the smoothed velocity lags: (m + b tau) a. A
-// count of the encoder makes the smoothed velocity jump by its blend of one count per period.
-TEST_CASE("moved about in free space: the error is the inertia") {
+// The estimate neglects the handle's inertia, and damping because the smoothed velocity lags: (m + b tau) a. An encoder
+// count makes the smoothed velocity jump by a fraction of one count per period.
+TEST_CASE("in free space the estimate's error is the neglected inertia") {
   const std::vector<HandStroke> strokes{{{0.04, 0.005}, 0.3, 0.2}, {{-0.04, -0.005}, 0.4, 0.2}, {{0.0, 0.0}, 0.2, 0.2}};
   ScriptedHand hand({}, strokes, 0.001);
   Sensorless rig(lever_of(kGripHand), hand);
@@ -117,7 +117,7 @@ TEST_CASE("moved about in free space: the error is the inertia") {
     worst = std::max(worst, std::abs(rig.error().x));
     largest = std::max(largest, std::abs(rig.device.truth.x));
   }
-  const double count = 0.221 * 75e-6 / 0.001;  // [m/s] 1 - exp(-T / 4 ms) of one count per period
+  const double count = 0.221 * 75e-6 / 0.001;  // [m/s] fraction 1 - exp(-T / 4 ms) of one count per period
   MESSAGE("free, up to " << largest << " N at " << acceleration << " m/s^2: worst error of a sample " << worst << " N");
   CHECK(worst < (0.095 + 3.0 * 0.005) * acceleration + 3.0 * count);
   CHECK(rig.estimated);
@@ -130,9 +130,9 @@ TEST_CASE("pressed into a wall without saturation: within 3 %, whichever part re
       Sensorless rig(lever_of(kBareHand, own > 0.0 ? 3 : 0, own), hand);
       rig.run(2500);
       const Means means = over(rig, 50);
-      tell("wall, " + std::string(own > 0.0 ? "partly the device's, " : "") + std::to_string(static_cast<int>(push)) +
-               " N",
-           means);
+      print("wall, " + std::string(own > 0.0 ? "partly the device's, " : "") + std::to_string(static_cast<int>(push)) +
+                " N",
+            means);
       CHECK(means.truth == doctest::Approx(push).epsilon(0.02));  // along the arc
       CHECK(means.estimate == doctest::Approx(means.truth).epsilon(0.03));
       CHECK(rig.estimated);
@@ -140,9 +140,9 @@ TEST_CASE("pressed into a wall without saturation: within 3 %, whichever part re
   }
 }
 
-// Hands that aim at the end of the lever's travel, 64 mm behind a wall whose motors give 31.7 N. The motors cannot
-// resist with more than that, so the lever rests where the hand's spring has decayed to it. The estimate is the force
-// that the wall would need at that depth: more than the push, so the warning comes early.
+// Hands that aim at the end of the lever's travel, 64 mm behind a wall whose motors give 31.7 N. The lever rests where
+// the hand's spring has decayed to that force. The estimate is the force that the wall would need at that depth: more
+// than the push, so the warning comes early.
 TEST_CASE("with saturated motors: never estimated below the push, and the warning of an estimated push comes") {
   for (const double stiffness : {600.0, 700.0, 1400.0}) {
     ScriptedHand hand({}, {{{0.0, 0.0737}, 1.0, 5.0}}, 0.001);
@@ -150,8 +150,9 @@ TEST_CASE("with saturated motors: never estimated below the push, and the warnin
     rig.run(3000);
     const Means means = over(rig, 50);
     const double depth = rig.device.lever.true_position().y - kWall;
-    tell("hand of " + std::to_string(static_cast<int>(stiffness)) + " N/m, " + std::to_string(1e3 * depth) + " mm deep",
-         means);
+    print(
+        "hand of " + std::to_string(static_cast<int>(stiffness)) + " N/m, " + std::to_string(1e3 * depth) + " mm deep",
+        means);
     CHECK(depth == doctest::Approx(0.0637 - 31.7 / stiffness).epsilon(0.05));
     CHECK((rig.loop.snapshot().flags & kFlagSaturated) != 0);
     CHECK(means.truth > 0.99 * 31.7);

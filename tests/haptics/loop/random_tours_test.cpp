@@ -25,7 +25,7 @@ TEST_CASE("100 random gates, at various rates and delays: every gear, in order, 
     config.gate = compile_gate(random_layout(seed), kPaperWorkspace);
     config.haptics.rate = kRates[seed % 5];
     config.lever.delay = static_cast<int>(seed / 5 % 3);
-    config.lever.hand = kGripHand;  // the arm alone rings (damping ratio 0.12) and may miss a narrow slot
+    config.lever.hand = kGripHand;  // kArmHand would ring (damping ratio 0.12) and might miss a narrow slot
     config.start = rest_position(config.gate, kNeutralGear);
     const std::vector<int> wanted = tour_order(config.gate);
     ScriptedHand driver(touring_hand(config.start), shift_strokes(config.gate, config.start, wanted),
@@ -46,8 +46,8 @@ TEST_CASE("100 random gates, at various rates and delays: every gear, in order, 
   }
 }
 
-// If columns are close together, the half-way point that an after-gear lockout requires is nearly in front of its slot.
-TEST_CASE("a hand stands in front of a slot before it shifts into it: 500 random gates, every gear after every other") {
+// If columns are close together, the half-way point that an after-gear lockout requires is nearly in front of the slot.
+TEST_CASE("a hand is in front of a slot before it shifts into it: 500 random gates, every gear after every other") {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     CAPTURE(seed);
     const Gate gate = compile_gate(random_layout(seed), kPaperWorkspace);

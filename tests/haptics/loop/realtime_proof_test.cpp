@@ -23,7 +23,7 @@ TEST_CASE("the cycle allocates nothing, takes no lock and makes no system call, 
   CHECK(proof.clean());
 }
 
-TEST_CASE("the same for every kind of contact") {
+TEST_CASE("every kind of contact allocates nothing, takes no lock and makes no system call") {
   const haptics::Gate gate = paper_gate();
   for (const haptics::ContactHold hold :
        {haptics::ContactHold::zero_order, haptics::ContactHold::half_sample, haptics::ContactHold::observer}) {
@@ -33,7 +33,7 @@ TEST_CASE("the same for every kind of contact") {
       haptics::SimulatedRunConfig config;
       config.haptics.contact = {hold, control, true, true};
       config.haptics.estimator.window = 8;
-      config.lever.delay = 3;  // so that some of them chatter and the limiter acts
+      config.lever.delay = 3;  // late enough that some levers chatter and the limiter acts
       config.lever.model_error = 0.1;
       config.lever.period_jitter = 0.1;
       config.gate = gate;

@@ -1,5 +1,5 @@
-// A drive that contains everything that can happen to a loop: shifts, walls, a frozen sensor, invalid readings, the
-// panic button, late cycles, new tuning, other controls, commands. The device renders walls itself.
+// A drive with every kind of event that a loop can meet: shifts, walls, a frozen sensor, invalid readings, the stop
+// button, late cycles, changes of tuning and controls, and commands. The device renders walls itself.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace gearshift::test {
 
-// Passes on the lever's readings, except where the sensor fails.
+// Passes the lever's readings on, except in the cycles in which the sensor fails.
 class FailingSensor final : public haptics::HapticDevice {
  public:
   explicit FailingSensor(haptics::SimulatedLever& lever) : lever_(lever) {}
@@ -30,7 +30,7 @@ class FailingSensor final : public haptics::HapticDevice {
     if (cycle >= 1500 && cycle < 1540) return frozen_;  // longer than stale_time
     if (cycle == 1700) reading.position.x = std::numeric_limits<double>::quiet_NaN();
     if (cycle == 1710) reading.hand_force.y = std::numeric_limits<double>::infinity();
-    if (cycle == 1720) reading.position.y += 0.5;  // faster than any hand
+    if (cycle == 1720) reading.position.y += 0.5;  // faster than any hand moves
     reading.stop = cycle >= 3300 && cycle < 3320;
     return frozen_ = reading;
   }
@@ -69,7 +69,7 @@ class RecordedDrive {
   haptics::LoopChannels& channels() { return channels_; }
   haptics::HapticLoop& loop() { return loop_; }
 
-  // One cycle with its scripted events.
+  // Runs one cycle with its scripted events.
   void step() noexcept {
     const std::uint64_t cycle = loop_.snapshot().cycle;
     if (cycle == 600) channels_.controls.write({0.3, 0.0, 1.0, 0.0, true, false});
@@ -80,7 +80,7 @@ class RecordedDrive {
     if (cycle == 3310 || cycle == 3350)
       (void)channels_.commands.push(haptics::LoopCommand::arm);  // button held; released
     if (cycle == 3800) (void)channels_.commands.push(haptics::LoopCommand::stop);
-    // Every second deadline is missed for a while: more overruns in a row than the guard tolerates.
+    // For a while every second deadline is missed: more overruns in a row than the guard tolerates.
     const std::int64_t skipped = cycle >= 2000 && cycle < 2012 ? 1 : 0;
     now_ns_ += 1'000'000 * (1 + skipped);
     loop_.cycle(now_ns_, skipped);
@@ -99,9 +99,9 @@ class RecordedDrive {
  private:
   static haptics::HapticConfig config() {
     haptics::HapticConfig config;
-    config.estimator.smoothing = 0.0005;  // [s] short, so that its last bit is not rounded away in 1 - exp(-T / s)
-    config.tuning.speed_limit = 0.15;     // [m/s] so that strokes exceed it
-    config.guard.slew = 2.0;              // [N/cycle] so that impacts exceed it
+    config.estimator.smoothing = 0.0005;  // [s] short, so that 1 - exp(-T / s) depends on its last bit
+    config.tuning.speed_limit = 0.15;     // [m/s] low, so that strokes exceed it
+    config.guard.slew = 2.0;              // [N/cycle] low, so that impacts exceed it
     config.guard.ramp_time = 0.2;
     return config;
   }
@@ -119,7 +119,7 @@ class RecordedDrive {
     return config;
   }
 
-  // Through some gears, then hard against the left end of the neutral aisle.
+  // The hand shifts through some gears, then pushes hard against the left end of the neutral aisle.
   static std::vector<haptics::HandStroke> strokes(const haptics::Gate& gate) {
     const int gears[] = {1, 2, 3, haptics::kNeutralGear};
     std::vector<haptics::HandStroke> strokes = haptics::shift_strokes(gate, {0.0, 0.0}, gears);
@@ -140,7 +140,7 @@ class RecordedDrive {
   haptics::LoopChannels channels_;
   haptics::HapticLoop loop_;
   std::string load_parameters_;
-  std::int64_t now_ns_ = 5'000'000;  // [ns] neither the period nor zero
+  std::int64_t now_ns_ = 5'000'000;  // [ns] neither a whole period nor zero
 };
 
 }  // namespace gearshift::test

@@ -28,7 +28,7 @@ void flip_lowest_bit(double& value) {
   value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1u);
 }
 
-// Calls visit(full name, double&) for every double.
+// Calls visit(full name, double&) for every double in a struct.
 template <class T, class Visit>
 void each_double(T& value, const std::string& prefix, const Visit& visit) {
   haptics::each_field(value, [&](const char* name, auto& member) {
@@ -117,7 +117,7 @@ TEST_CASE("replay: a recorded drive replays bit for bit from its inputs alone") 
   CHECK(result.seconds == doctest::Approx(4.012).epsilon(1e-12));  // 4000 periods, plus 12 missed deadlines
 }
 
-TEST_CASE("replay: the same drive driven twice gives the same hash") {
+TEST_CASE("replay: running the same drive twice gives the same hash") {
   const TempFolder folder;
   RecordedDrive drive;
   CHECK(drive.record(folder / "again.trace").hash == recorded_trace().hash);
@@ -151,8 +151,8 @@ TEST_CASE("replay: a changed parameter that affects no output still breaks the r
   CHECK_FALSE(result.bit_for_bit());
 }
 
-// Parameters that are only compared with something or rounded to whole nanoseconds or cycles: their last bit changes no
-// output unless both sides are exactly equal. The hash covers them anyway (the case above).
+// Parameters that are only compared, or rounded to whole nanoseconds or cycles: their last bit changes no output unless
+// both sides are exactly equal. The hash covers them anyway (see the test case above).
 const std::set<std::string> only_compared = {
     "rate",
     "estimator.speed_limit",
@@ -255,11 +255,11 @@ TEST_CASE("replay: a trace that cannot be replayed is refused in one sentence") 
   haptics::Trace trace = recorded_trace();
   SUBCASE("began in the middle") {
     trace.samples.erase(trace.samples.begin(), trace.samples.begin() + 500);
-    CHECK(contains(refusal(trace), "its recording began in the middle of a run, at cycle 500"));
+    CHECK(contains(refusal(trace), "it was begun in the middle of a run, at cycle 500"));
   }
   SUBCASE("a rate that is no number") {
     trace.header.config.rate = std::numeric_limits<double>::quiet_NaN();
-    CHECK(contains(refusal(trace), "cannot be replayed: rate_hz"));
+    CHECK(contains(refusal(trace), "cannot be replayed, because rate_hz"));
   }
   SUBCASE("a device that is no number") {
     trace.header.device.axis_x.mass = std::numeric_limits<double>::infinity();
@@ -273,11 +273,11 @@ TEST_CASE("replay: a trace that cannot be replayed is refused in one sentence") 
   }
   SUBCASE("a layout that is none") {
     trace.header.gate_text = "name = 5";
-    CHECK(contains(refusal(trace), "its gate is refused: paper.toml:1"));
+    CHECK(contains(refusal(trace), "its gate is invalid: paper.toml:1"));
   }
   SUBCASE("a layout beyond the device") {
     trace.header.device.workspace = {0.01, 0.01};
-    CHECK(contains(refusal(trace), "its gate is refused: paper.toml"));
+    CHECK(contains(refusal(trace), "its gate is invalid: paper.toml"));
   }
 }
 
@@ -307,7 +307,7 @@ TEST_CASE(
     loop.cycle(call.deadline_ns, call.skipped);
     if (loop.snapshot().cycle == kEnough) enough.set_value();
   });
-  REQUIRE(channels.commands.push(haptics::LoopCommand::arm));  // by a person, while the loop runs
+  REQUIRE(channels.commands.push(haptics::LoopCommand::arm));  // as a user does while the loop runs
   enough.get_future().wait();
   thread.stop();
   const haptics::RecordingResult recorded = recorder.finish();

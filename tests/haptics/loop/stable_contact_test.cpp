@@ -1,4 +1,4 @@
-// The loop's defences of a contact: softening, bounding, reporting and replay.
+// How the loop keeps contacts stable: softening, energy bounding, reports and replay.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -58,7 +58,7 @@ std::ptrdiff_t count(const std::vector<HapticEvent>& events, EventKind kind) {
   return std::count_if(events.begin(), events.end(), [kind](const HapticEvent& e) { return e.kind == kind; });
 }
 
-// Pulls the lever along the shift axis, whatever it does.
+// Pulls the lever along the shift axis with a constant force.
 class PullingLoad final : public LeverLoad {
  public:
   explicit PullingLoad(double newton) : newton_(newton) {}
@@ -99,7 +99,7 @@ TEST_CASE("a wall that is unstable on its device is softened until it is at rest
   run.step();
   run.channels().commands.push(LoopCommand::arm);
   run.step();
-  CHECK(run.loop().snapshot().wall_stiffness == 5000.0);  // a new start: the limiter's state is reset
+  CHECK(run.loop().snapshot().wall_stiffness == 5000.0);  // after a new start the limiter's state is reset
 
   config.haptics.contact.reversal_limiter = false;  // negative control
   PushingHand same = push_of(15.0);
@@ -140,7 +140,7 @@ struct FaultyRig {
   FaultyRig(const Gate& gate, int real_delay, int claimed_delay, const HandImpedance& grip, bool limiter)
       : hand([](double time, dvec2) {
           return dvec2{0.0, 9.0 * std::min(1.0, time)};
-        }),  // the motors sustain it indefinitely
+        }),  // a force that the motors sustain indefinitely
         lever(lever_config(real_delay, grip), 1'000'000, hand),
         faulty(lever, claimed_delay),
         loop(config(limiter), gate, faulty, load, channels) {
@@ -159,7 +159,7 @@ struct FaultyRig {
     config.contact.reversal_limiter = limiter;
     return config;
   }
-  // Minimum and maximum depth of the true lever in that time, from the aisle's wall [m].
+  // Minimum and maximum depth of the true lever during `seconds`, from the aisle's wall. [m]
   std::pair<double, double> run(double seconds, double wall) {
     double low = 1.0, high = -1.0;
     for (int n = 0; n < static_cast<int>(1000.0 * seconds); ++n) {
@@ -199,7 +199,7 @@ TEST_CASE("a device with more delay than specified: softened until the lever res
     CHECK(rig.lowered >= 1);
     CHECK(high - low < 0.0005);
     CHECK(low > 0.0);
-    CHECK(high < 0.060);  // the stop is 63 mm behind the wall
+    CHECK(high < 0.060);  // the lever's stop is 63 mm behind the wall
     CHECK(-rig.loop.snapshot().f_a.y == doctest::Approx(-9.0).epsilon(0.2));
 
     FaultyRig control(gate, lie.real, lie.claimed, lie.hand, false);
@@ -295,7 +295,7 @@ TEST_CASE("every hold, energy control and the limiter replay bit for bit") {
   }
 }
 
-TEST_CASE("energy control that a configuration asks for is on from the first cycle") {
+TEST_CASE("energy control that a configuration selects is active from the first cycle") {
   const auto depth = [](EnergyControl control) {
     PushingHand hand = push_of(9.0);
     SimulatedRunConfig config = pushed(walled_gate(), 1000.0, 0);
@@ -308,13 +308,13 @@ TEST_CASE("energy control that a configuration asks for is on from the first cyc
   CHECK(depth(EnergyControl::energy_bounding) > 0.0028);  // 9 N / (b / T), 3000 N/m in X and 2900 in Y
 }
 
-TEST_CASE("a change keeps the hold that runs, and its numbers are checked") {
+TEST_CASE("a change of tuning keeps the hold in use, and its values are checked") {
   IdleHand idle_hand;
   SimulatedRunConfig config = pushed(walled_gate(), 1000.0, 2);
-  config.haptics.tuning.wall_stiffness = 2000.0;  // the half-sample hold is enough
+  config.haptics.tuning.wall_stiffness = 2000.0;  // here the half-sample hold is enough
   SimulatedRun run(config, idle_hand);
   REQUIRE(run.loop().admitted().hold == ContactHold::half_sample);
-  const AdmittedTuning changed = run.loop().change_tuning({});  // started with 5000 N/m the observer would be used
+  const AdmittedTuning changed = run.loop().change_tuning({});  // if started with 5000 N/m, the observer would be used
   CHECK(changed.hold == ContactHold::half_sample);
   CHECK(changed.tuning.wall_stiffness == doctest::Approx(0.35 * 0.086 / 9e-6));
   for (const double bad : {20001.0, std::nan("")}) {
@@ -324,11 +324,11 @@ TEST_CASE("a change keeps the hold that runs, and its numbers are checked") {
   }
 }
 
-TEST_CASE("shaking in free space takes nothing from the walls") {
+TEST_CASE("vibration in free space does not soften the walls") {
   IdleHand idle_hand;
   SimulatedLever lever({}, 1'000'000, idle_hand);
   FaultyLever faulty(lever, 0);
-  faulty.jitters = true;  // 2 mm, in an aisle of 12 mm
+  faulty.jitters = true;  // 2 mm deep, in an aisle of 12 mm
   NoLoad load;
   LoopChannels channels;
   const Gate gate = walled_gate();
@@ -340,9 +340,9 @@ TEST_CASE("shaking in free space takes nothing from the walls") {
   CHECK(loop.snapshot().guard == GuardState::running);
 }
 
-// Other commanded forces are not penetration. An observed wall that counted them would begin with a step of K T^2 / (4
-// m) + B T / (2 m) of them, late by the delay, and feed the swing of a heavy hand at the end of a slot, beside the
-// lock's spring.
+// Forces of feel and load are not penetration. An observed wall that counted them would start with a step of K T^2 / (4
+// m) + B T / (2 m) times these forces, late by the delay, and would feed the swing of a heavy hand at the end of a
+// slot, next to the lock's spring.
 TEST_CASE("at rest a wall makes K x, whatever feel and load forces act beside it") {
   const Gate aisle = walled_gate(), gate = paper_gate();
   for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
@@ -359,7 +359,7 @@ TEST_CASE("at rest a wall makes K x, whatever feel and load forces act beside it
         PullingLoad load(pull);
         SimulatedRun run(config, hand, &load);
         run_events(run, 2.0);
-        double depth = 0.0, force = 0.0;  // [m], [N] means, because it hums on the encoder's counts
+        double depth = 0.0, force = 0.0;  // [m], [N] means, because the force hums with the encoder's counts
         for (int i = 0; i < 500; ++i) {
           const HapticSnapshot& now = run.step();
           depth += (now.lever.y - now.proxy.y) / 500.0;

@@ -1,4 +1,4 @@
-// The whole headless lever: a hand shifts through every gear of every gate.
+// The whole headless cycle: a hand shifts through every gear of every gate.
 #include <algorithm>
 #include <initializer_list>
 #include <vector>
@@ -53,7 +53,7 @@ TEST_CASE("the hand drives every gear of every shipped gate, each once and in or
     const TourResult tour = drive(gate, kGripHand, 1000.0);
     CHECK(tour.engaged == tour_order(gate));
     CHECK(tour.inside);
-    CHECK(tour.deepest < 0.007);  // 5000 N/m against the extra effort of the hand
+    CHECK(tour.deepest < 0.007);  // [m] a wall of 5000 N/m against the hand's extra effort
   }
 }
 
@@ -65,7 +65,7 @@ TEST_CASE("paper, Fig. 9: neutral, 1 to 5, reverse, with every hand that can mov
   }
 }
 
-TEST_CASE("the same tour at 100 Hz to 4 kHz") {
+TEST_CASE("the paper's tour at 100 Hz to 4 kHz") {
   const Gate gate = paper_gate();
   for (const double rate : {100.0, 200.0, 500.0, 2000.0, 4000.0}) {
     CAPTURE(rate);

@@ -25,13 +25,13 @@ inline Bytes file_bytes(const std::filesystem::path& file) {
 }
 
 inline void put_file(const std::filesystem::path& file, const Bytes& bytes) {
-  // Some file systems wait for the disk when a file is truncated and rewritten.
+  // Some file systems wait for the disk when a file is truncated and rewritten, so delete it first.
   std::filesystem::remove(file);
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-// Bits of all kinds: numbers, signed zeros, infinities, quiet and signalling NaNs with payloads.
+// Doubles of all kinds: numbers, signed zeros, infinities, quiet and signalling NaNs with payloads.
 inline double any_double(std::mt19937_64& random) {
   constexpr std::uint64_t kOdd[] = {0x8000000000000000, 0x7FF0000000000000, 0xFFF0000000000000, 0x7FF8000000000123,
                                     0x7FF0000000000456, 0xFFFFFFFFFFFFFFFF, 0x0000000000000001, 0x0000000000000000};
@@ -43,7 +43,7 @@ inline glm::dvec2 any_vector(std::mt19937_64& random) {
   return {any_double(random), any_double(random)};
 }
 
-// Every field has different bits, so that swapped fields are noticed.
+// Every field gets different bits, so that swapped fields are noticed.
 inline haptics::TraceSample any_sample(std::mt19937_64& random, std::uint64_t cycle) {
   haptics::TraceSample s;
   s.deadline_ns = static_cast<std::int64_t>(random());
@@ -81,7 +81,7 @@ inline std::vector<haptics::TraceSample> any_samples(std::size_t count, std::uin
 inline haptics::TraceHeader paper_header() {
   haptics::TraceHeader header;
   header.program = "1.2.3";
-  header.device.workspace = {0.0771, 0.0688};  // [m] of the paper's joystick
+  header.device.workspace = {0.0771, 0.0688};  // [m] reach of the paper's joystick on each axis
   header.device.simulated = true;
   const haptics::GateLayout layout = haptics::read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   header.gate_file = "paper.toml";

@@ -1,4 +1,4 @@
-// A coded block restores every bit whatever it holds, and compresses real drives. Decoding validates every byte.
+// A coded block restores every bit whatever it contains, and compresses real drives. Decoding validates every byte.
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -56,17 +56,17 @@ void check_comes_back(const Block& samples) {
 
 }  // namespace
 
-TEST_CASE("block codec: any bits come back, in blocks of any size") {
+TEST_CASE("block codec: any bits are restored, in blocks of any size") {
   for (const std::size_t count : {1u, 2u, 3u, 17u, 255u, 256u}) {
     check_comes_back(encoded(any_samples(count, count)));
     std::mt19937_64 random(count);
-    check_comes_back(any_bytes(count * kSample, random));  // arbitrary bytes, not even samples
+    check_comes_back(any_bytes(count * kSample, random));  // arbitrary bytes, not valid samples
     check_comes_back(Block(count * kSample));
     check_comes_back(Block(count * kSample, std::byte{0xFF}));
   }
 }
 
-TEST_CASE("block codec: bytes that are zero by chance, as often as can be worst, hardly grow") {
+TEST_CASE("block codec: data with the worst pattern of zero bytes hardly grows") {
   std::mt19937_64 random(5);
   for (const unsigned in : {2u, 3u, 4u, 8u, 130u, 1000u}) {
     Block samples = any_bytes(256 * kSample, random);
@@ -89,7 +89,7 @@ TEST_CASE("block codec: the bytes of small blocks") {
         text({2 * 23, 1, 0x40, 128 + between % 128, between / 128, 2, 0x80, 0x80, 2 * 7, 2, 0x80, 0x80, 2 * 46, 0}));
 }
 
-TEST_CASE("block codec: a lever at rest costs less than three bytes a cycle") {
+TEST_CASE("block codec: a lever at rest costs less than three bytes per cycle") {
   std::vector<haptics::TraceSample> rest(256);
   for (std::size_t i = 0; i < rest.size(); ++i) {
     haptics::TraceSample& now = rest[i];
@@ -102,8 +102,8 @@ TEST_CASE("block codec: a lever at rest costs less than three bytes a cycle") {
   CHECK(coded(encoded(rest)).size() < 3 * 256);
 }
 
-// Noise in all independent fields, everything else as the prediction rules expect, so only the noise remains. Every
-// rule saves some bytes per cycle, so a missing rule is noticed.
+// Noise in all independent fields; all others are as the codec predicts, so only the noise costs bytes. Every
+// prediction rule saves some bytes per cycle, so a missing rule is noticed.
 TEST_CASE("block codec: fields that follow from others cost nothing") {
   std::vector<haptics::TraceSample> samples = any_samples(256);
   std::mt19937_64 random(3);
@@ -131,7 +131,7 @@ TEST_CASE("block codec: fields that follow from others cost nothing") {
   CHECK(coded(encoded(samples)).size() < samples.size() * (kSample - kFollow - kZero - kFewValues));
 }
 
-TEST_CASE("block codec: a drive with all that can happen takes less than a quarter of its bytes") {
+TEST_CASE("block codec: a drive with every kind of event is compressed to less than a quarter") {
   const TempFolder folder;
   RecordedDrive drive;
   REQUIRE(drive.record(folder / "t.trace").problem.empty());
@@ -141,7 +141,7 @@ TEST_CASE("block codec: a drive with all that can happen takes less than a quart
   CHECK(per_cycle < kSample / 4.0);
 }
 
-TEST_CASE("block codec: what is cut, or claimed to be more or less, is refused") {
+TEST_CASE("block codec: truncated data, or a wrong number of samples, is refused") {
   haptics::BlockCodec codec;
   Block back;
   std::mt19937_64 random(8);
@@ -159,22 +159,22 @@ TEST_CASE("block codec: what is cut, or claimed to be more or less, is refused")
   }
 }
 
-TEST_CASE("block codec: bytes of chance and good blocks spoilt give samples, or are refused; nothing else") {
+TEST_CASE("block codec: random bytes and corrupted blocks are either decoded to samples or refused") {
   haptics::BlockCodec codec;
   Block back;
   std::mt19937_64 random(9);
-  int taken = 0;
+  int accepted = 0;
   for (int trial = 0; trial < 20'000; ++trial) {
     const std::size_t count = 1 + random() % 4;
     Block bytes = trial % 2 == 0 ? any_bytes(random() % 40, random) : coded(Block(count * kSample));
     for (std::byte& byte : bytes)
       if (random() % 4 == 0) byte = static_cast<std::byte>(random() % 8 == 0 ? random() : random() % 4);
     if (!codec.decode(bytes, count, back)) continue;
-    ++taken;
+    ++accepted;
     REQUIRE(back.size() == count * kSample);
-    check_comes_back(back);  // other bytes may decode to the same samples, but what is accepted can be encoded
+    check_comes_back(back);  // other bytes may decode to the same samples, but accepted samples can be encoded
   }
-  CHECK(taken > 10);
+  CHECK(accepted > 10);
 }
 
 }  // namespace gearshift::test

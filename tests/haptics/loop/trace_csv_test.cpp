@@ -29,7 +29,7 @@ std::map<std::string, std::string> by_name(const std::string& line) {
   REQUIRE(names.size() == values.size());
   std::map<std::string, std::string> row;
   for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = values[i];
-  REQUIRE(row.size() == names.size());  // no name occurs twice
+  REQUIRE(row.size() == names.size());  // no column name occurs twice
   return row;
 }
 
@@ -52,7 +52,7 @@ haptics::TraceSample known_sample() {
   return sample;
 }
 
-// A locale that writes 1.234,5, which must not be used.
+// A locale that writes 1.234,5. The CSV must not use it.
 struct GermanNumbers : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }
@@ -106,7 +106,7 @@ TEST_CASE("csv: the same in any locale") {
   CHECK(line == haptics::trace_csv_header());
   std::getline(stream, line);
   CHECK(by_name(line)["lever_x_mm"] == "-12.5");
-  CHECK(by_name(line)["time_s"] == "0");  // counts from the first cycle
+  CHECK(by_name(line)["time_s"] == "0");  // cycles are counted from the first
   std::getline(stream, line);
   CHECK(by_name(line)["cycle"] == "1234567");
   CHECK_FALSE(std::getline(stream, line));

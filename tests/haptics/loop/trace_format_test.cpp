@@ -26,7 +26,7 @@ bool same_bits(glm::dvec2 a, glm::dvec2 b) {
   return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y);
 }
 
-// Written out by hand, so that it does not use the field lists from which the file is made.
+// Compares each field by hand, so that it does not use the field lists from which the file is made.
 bool same_sample(const haptics::TraceSample& a, const haptics::TraceSample& b) {
   const haptics::LeverReading &r = a.reading, &q = b.reading;
   const haptics::DriverControls &c = a.controls, &d = b.controls;
@@ -52,7 +52,7 @@ bool same_sample(const haptics::TraceSample& a, const haptics::TraceSample& b) {
 }  // namespace
 
 TEST_CASE("checksum: CRC-32 gives the published check value, in one piece and in two") {
-  CHECK(haptics::crc32(bytes_of("123456789")) == 0xCBF43926);  // the standard's check value
+  CHECK(haptics::crc32(bytes_of("123456789")) == 0xCBF43926);  // check value from the CRC's standard
   CHECK(haptics::crc32(bytes_of("")) == 0);
   CHECK(haptics::crc32(bytes_of("The quick brown fox jumps over the lazy dog")) == 0x414FA339);
   const std::string_view fox = "The quick brown fox jumps over the lazy dog";
@@ -60,7 +60,7 @@ TEST_CASE("checksum: CRC-32 gives the published check value, in one piece and in
     CHECK(haptics::crc32(bytes_of(fox.substr(cut)), haptics::crc32(bytes_of(fox.substr(0, cut)))) == 0x414FA339);
 }
 
-TEST_CASE("checksum: flipping any one bit, or any two top bits, gives another run hash") {
+TEST_CASE("checksum: flipping any one bit, or any two top bits, changes the run hash") {
   std::vector<std::byte> bytes(160);
   const auto hash = [&] {
     haptics::RunHash run;
@@ -74,7 +74,7 @@ TEST_CASE("checksum: flipping any one bit, or any two top bits, gives another ru
     CHECK(seen.insert(hash()).second);
     flip(bit);
   }
-  // Two signs: classic FNV, applied word by word, misses all of these.
+  // Flips two sign bits: classic FNV, applied word by word, misses all of these.
   for (std::size_t one = 63; one < 8 * bytes.size(); one += 64)
     for (std::size_t two = one + 64; two < 8 * bytes.size(); two += 64) {
       flip(one), flip(two);
@@ -94,7 +94,7 @@ TEST_CASE("trace: every bit of every field comes back, NaN payloads and signed z
   }
 }
 
-TEST_CASE("trace: the header comes back whole") {
+TEST_CASE("trace: the whole header is read back") {
   const TempFolder folder;
   haptics::TraceHeader header = paper_header();
   header.config.rate = 2000.0;
@@ -160,7 +160,7 @@ TEST_CASE("trace: the hash of a run changes with every output and every paramete
   changed.device.position_step = 1e-9;
   CHECK(hash_of(changed, sample) != plain);
   changed = header;
-  changed.program = "9.9";  // another program that computes the same is accepted
+  changed.program = "9.9";  // a different program that computes the same is accepted
   CHECK(hash_of(changed, sample) == plain);
 }
 

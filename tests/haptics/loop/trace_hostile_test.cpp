@@ -1,4 +1,4 @@
-// Invalid trace files: each is refused in one sentence, and none is accepted as valid.
+// Invalid trace files: each is refused in one sentence.
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -17,11 +17,11 @@
 namespace gearshift::test {
 namespace {
 
-constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] as documented, not taken from the code
+constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] from the documentation, not from the code
 constexpr std::size_t kSampleBytes = 392;           // [bytes] per cycle
 constexpr std::size_t kCycles = 600;                // two full blocks and a partial one
 
-// Bit by bit, following the definition.
+// CRC computed bit by bit from its definition.
 std::uint32_t slow_crc(const unsigned char* bytes, std::size_t size) {
   std::uint32_t crc = 0xFFFFFFFF;
   for (std::size_t i = 0; i < size; ++i) {
@@ -62,7 +62,7 @@ void append(Bytes& to, const Bytes& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-// Replaces the payload of the data block at `at`, claims that many samples, and fixes the checksums.
+// Replaces the payload of the data block at `at`, sets its number of samples, and corrects the checksums.
 void put_payload(Bytes& file, std::size_t at, const Bytes& payload, std::uint32_t samples) {
   const std::size_t end = at + kFrame + get(file, at + 4);
   Bytes with = slice(file, 0, at + kFrame);
@@ -78,7 +78,7 @@ Bytes payload_of(const Bytes& file, std::size_t at) {
   return slice(file, at + kFrame, at + kFrame + get(file, at + 4));
 }
 
-// Changes the samples of a block and fixes the checksums, as someone who knows the code could.
+// Changes the samples of a block and corrects the checksums, as an attacker who knows the code could.
 void forge(Bytes& file, std::size_t at, const std::function<void(std::byte* samples)>& change) {
   const Bytes payload = payload_of(file, at);
   haptics::BlockCodec codec;
@@ -91,7 +91,7 @@ void forge(Bytes& file, std::size_t at, const std::function<void(std::byte* samp
   put_payload(file, at, again, get(file, at + 8));
 }
 
-// The error when reading the whole file; empty if there is none.
+// The error message when reading the whole file; empty if there is none.
 std::string refusal(const std::filesystem::path& file) {
   try {
     haptics::read_trace(file);
@@ -117,103 +117,108 @@ const std::vector<Hostile> hostile_traces = {
     {"another magic", [](B& f, At&) { f[1] ^= 1; }, "is not a gearshift trace"},
     {"line ends rewritten", [](B& f, At&) { f.erase(f.begin() + 6); }, "is not a gearshift trace"},
     {"cut inside the magic", [](B& f, At&) { f.resize(5); }, "is not a gearshift trace"},
-    {"a newer format", [](B& f, At&) { put(f, 8, 8); }, "format 8, made by a newer gearshift; this one reads format 7"},
-    {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "made by a newer gearshift"},
+    {"a newer format", [](B& f, At&) { put(f, 8, 8); },
+     "recorded by a newer gearshift (format 8), but this one reads only format 7"},
+    {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "recorded by a newer gearshift"},
     {"an older format", [](B& f, At&) { put(f, 8, 5); },
-     "format 5, made by an older gearshift; this one reads format 7"},
-    {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is torn: it ends inside its header"},
-    {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); }, "is torn: it ends inside its header"},
-    {"cut inside the header", [](B& f, At& at) { f.resize(at[1] - 1); }, "is torn: it ends inside its header"},
-    {"cut after the header", [](B& f, At& at) { f.resize(at[1]); }, "is torn: it has no end block; 0 intact cycles"},
-    {"cut after a block", [](B& f, At& at) { f.resize(at[2]); }, "is torn: it has no end block; 256 intact cycles"},
-    {"cut inside a block", [](B& f, At& at) { f.resize(at[3] - 1); }, "is torn: it has no end block; 256 intact"},
+     "recorded by an older gearshift (format 5), but this one reads only format 7"},
+    {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is incomplete; it ends inside its header"},
+    {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); },
+     "is incomplete; it ends inside its header"},
+    {"cut inside the header", [](B& f, At& at) { f.resize(at[1] - 1); }, "is incomplete; it ends inside its header"},
+    {"cut after the header", [](B& f, At& at) { f.resize(at[1]); },
+     "is incomplete, because it has no end block; 0 intact cycles"},
+    {"cut after a block", [](B& f, At& at) { f.resize(at[2]); },
+     "is incomplete, because it has no end block; 256 intact cycles"},
+    {"cut inside a block", [](B& f, At& at) { f.resize(at[3] - 1); },
+     "is incomplete, because it has no end block; 256 intact"},
     {"cut before the end block", [](B& f, At& at) { f.resize(at[4]); }, "it has no end block; 600 intact cycles"},
     {"cut inside the end block", [](B& f, At& at) { f.resize(at[5] - 1); }, "it has no end block; 600 intact cycles"},
     {"header byte flipped", [](B& f, At& at) { f[at[0] + kFrame + 20] ^= 4; }, "the checksum of its header"},
-    {"header frame flipped", [](B& f, At& at) { f[at[0] + 4] ^= 1; }, "is damaged: its header cannot be found"},
+    {"header frame flipped", [](B& f, At& at) { f[at[0] + 4] ^= 1; }, "is damaged; its header cannot be found"},
     {"data byte flipped", [](B& f, At& at) { f[at[2] + kFrame + 999] ^= 128; },
-     "is damaged: the checksum of the block"},
-    {"data frame flipped", [](B& f, At& at) { f[at[2] + 5] ^= 1; }, "is damaged: there is no block at byte"},
-    {"end byte flipped", [](B& f, At& at) { f[at[4] + kFrame] ^= 1; }, "is damaged: its end block is not valid"},
-    {"end frame flipped", [](B& f, At& at) { f[at[4] + 13] ^= 1; }, "is damaged: there is no block at byte"},
+     "is damaged; the checksum of the block"},
+    {"data frame flipped", [](B& f, At& at) { f[at[2] + 5] ^= 1; }, "is damaged; there is no block at byte"},
+    {"end byte flipped", [](B& f, At& at) { f[at[4] + kFrame] ^= 1; }, "is damaged; its end block is not valid"},
+    {"end frame flipped", [](B& f, At& at) { f[at[4] + 13] ^= 1; }, "is damaged; there is no block at byte"},
     {"a block that claims 4 GB", [](B& f, At& at) { put(f, at[1] + 4, 0xFFFFFFF0), seal_frame(f, at[1]); },
-     "is damaged: there is no block at byte"},
+     "is damaged; there is no block at byte"},
     {"a header that claims 4 GB", [](B& f, At& at) { put(f, at[0] + 4, 0xFFFFFFFF), seal_frame(f, at[0]); },
-     "is damaged: its header cannot be found"},
+     "is damaged; its header cannot be found"},
     {"a text that claims 4 GB", [](B& f, At& at) { put(f, at[0] + kFrame, 0xFFFFFFFF), seal_payload(f, at[0]); },
-     "is damaged: its header is not valid"},
+     "is damaged; its header is not valid"},
     {"a block of no known kind", [](B& f, At& at) { put(f, at[2], 0x21212121), seal_frame(f, at[2]); },
-     "is damaged: there is no block at byte"},
+     "is damaged; there is no block at byte"},
     {"a block without samples", [](B& f, At& at) { put(f, at[3] + 8, 0), seal_frame(f, at[3]); },
-     "is damaged: there is no block at byte"},
+     "is damaged; there is no block at byte"},
     {"a block of more samples than any has", [](B& f, At& at) { put(f, at[1] + 8, 257), seal_frame(f, at[1]); },
-     "is damaged: there is no block at byte"},
+     "is damaged; there is no block at byte"},
     {"a block that claims four thousand million samples",
      [](B& f, At& at) { put(f, at[1] + 8, 0xFFFFFFFF), seal_frame(f, at[1]); },
-     "is damaged: there is no block at byte"},
+     "is damaged; there is no block at byte"},
     {"an end with samples", [](B& f, At& at) { put(f, at[4] + 8, 1), seal_frame(f, at[4]); },
-     "is damaged: there is no block at byte"},
+     "is damaged; there is no block at byte"},
     {"a block larger than any can be",
      [](B& f, At& at) { put(f, at[1] + 4, 256 * kSampleBytes + 17), seal_frame(f, at[1]); },
-     "is damaged: there is no block at byte"},
+     "is damaged; there is no block at byte"},
     {"a block of fewer samples than it claims, and a matching end block",
      [](B& f, At& at) {
        put(f, at[3] + 8, 89), seal_frame(f, at[3]);
        f[at[4] + kFrame] ^= 600 ^ 601, seal_payload(f, at[4]);
      },
-     "does not hold the 89 cycles that it claims"},
+     "does not contain the 89 cycles that it declares"},
     {"a block of more samples than it claims",
      [](B& f, At& at) {
        put(f, at[1] + 8, 255), seal_frame(f, at[1]);
        put(f, at[3] + 8, 89), seal_frame(f, at[3]);
      },
-     "does not hold the 255 cycles that it claims"},
+     "does not contain the 255 cycles that it declares"},
     {"a coded block that ends early",
      [](B& f, At& at) {
        Bytes less = payload_of(f, at[2]);
        less.pop_back();
        put_payload(f, at[2], less, 256);
      },
-     "does not hold the 256 cycles that it claims"},
+     "does not contain the 256 cycles that it declares"},
     {"a coded block with bytes behind its end",
      [](B& f, At& at) {
        Bytes more = payload_of(f, at[2]);
        more.push_back(0);
        put_payload(f, at[2], more, 256);
      },
-     "does not hold the 256 cycles that it claims"},
+     "does not contain the 256 cycles that it declares"},
     {"a coded block that expands beyond all samples",
      [](B& f, At& at) {
        put_payload(f, at[1], {0xFF, 0xFF, 0x7F, 0}, 256);
      },
-     "does not hold the 256 cycles that it claims"},
+     "does not contain the 256 cycles that it declares"},
     {"a coded block of endless nothing", [](B& f, At& at) { put_payload(f, at[1], Bytes(100'000, 0), 256); },
-     "does not hold the 256 cycles that it claims"},
+     "does not contain the 256 cycles that it declares"},
     {"a coded block with a number that does not end", [](B& f, At& at) { put_payload(f, at[1], Bytes(64, 0x80), 256); },
-     "does not hold the 256 cycles that it claims"},
+     "does not contain the 256 cycles that it declares"},
     {"a coded block that is empty", [](B& f, At& at) { put_payload(f, at[1], {}, 256); },
-     "does not hold the 256 cycles that it claims"},
+     "does not contain the 256 cycles that it declares"},
     {"a second header",
      [](B& f, At& at) {
        Bytes twice = slice(f, 0, at[1]);
        append(twice, slice(f, at[0], f.size()));
        f = twice;
      },
-     "is damaged: there is no block at byte"},
+     "is damaged; there is no block at byte"},
     {"no header",
      [](B& f, At& at) {
        Bytes none = slice(f, 0, at[0]);
        append(none, slice(f, at[1], f.size()));
        f = none;
      },
-     "is damaged: its header cannot be found"},
+     "is damaged; its header cannot be found"},
     {"a block left out",
      [](B& f, At& at) {
        Bytes less = slice(f, 0, at[2]);
        append(less, slice(f, at[3], f.size()));
        f = less;
      },
-     "is damaged: it holds 344 cycles, but its end block says 600"},
+     "is damaged; it contains 344 cycles, but its end block says 600"},
     {"two blocks exchanged",
      [](B& f, At& at) {
        Bytes turned = slice(f, 0, at[1]);
@@ -222,25 +227,25 @@ const std::vector<Hostile> hostile_traces = {
        append(turned, slice(f, at[3], f.size()));
        f = turned;
      },
-     "is damaged: cycle 0 follows cycle 511"},
-    {"bytes after the end", [](B& f, At&) { f.push_back(0); }, "is damaged: 1 bytes follow its end"},
-    {"two traces in one file", [](B& f, At&) { append(f, Bytes(f)); }, "bytes follow its end"},
+     "is damaged; cycle 0 follows cycle 511"},
+    {"bytes after the end", [](B& f, At&) { f.push_back(0); }, "is damaged; the file continues after the end block"},
+    {"two traces in one file", [](B& f, At&) { append(f, Bytes(f)); }, "the file continues after the end block"},
     {"a command that does not exist",
      [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[185] = std::byte{77}; }); },
-     "is damaged: cycle 0 holds an invalid value"},
+     "is damaged; cycle 0 contains an invalid value"},
     {"fewer deadlines skipped than none",
      [](B& f, At& at) {
        const std::int64_t skipped = -3;
        forge(f, at[1], [&](std::byte* samples) { std::memcpy(samples + kSampleBytes + 8, &skipped, sizeof skipped); });
      },
-     "is damaged: cycle 1 skipped -3 deadlines"},
+     "is damaged; cycle 1 skipped -3 deadlines"},
     {"an output forged, its block sealed again",
      [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[221] ^= std::byte{1}; }); },
-     "is damaged: its parameters and outputs do not match"},
+     "is damaged; its parameters and outputs do not match"},
     {"the hash forged", [](B& f, At& at) { f[at[4] + kFrame + 9] ^= 1, seal_payload(f, at[4]); },
-     "is damaged: its parameters and outputs do not match"},
+     "is damaged; its parameters and outputs do not match"},
     {"marked torn by the recorder", [](B& f, At& at) { f[at[4] + kFrame + 16] = 1, seal_payload(f, at[4]); },
-     "is torn: the recorder could not keep up; 600 intact cycles can be exported with --torn --csv FILE"},
+     "is incomplete, because the recorder could not keep up; 600 intact cycles can be exported with --torn --csv FILE"},
 };
 
 }  // namespace
@@ -256,24 +261,24 @@ TEST_CASE("hostile traces: each is refused in one sentence that says what is wro
     Bytes bytes = good;
     hostile.change(bytes, borders(good));
     put_file(folder / "bad.trace", bytes);
-    const std::string said = refusal(folder / "bad.trace");
-    CAPTURE(said);
-    CHECK(said.find((folder / "bad.trace").string() + ": ") == 0);
-    CHECK(said.find(hostile.sentence) != std::string::npos);
-    CHECK(said.find('\n') == std::string::npos);
+    const std::string message = refusal(folder / "bad.trace");
+    CAPTURE(message);
+    CHECK(message.find((folder / "bad.trace").string() + ": ") == 0);
+    CHECK(message.find(hostile.sentence) != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
   }
 }
 
 TEST_CASE("hostile traces: a path that is not a regular file is refused without reading it") {
   const TempFolder folder;
-  CHECK(refusal(folder.path()).find("is a directory, not a trace") != std::string::npos);
+  CHECK(refusal(folder.path()).find("this is a folder, not a trace") != std::string::npos);
   CHECK(refusal(folder / "none.trace").find("there is no such file") != std::string::npos);
   CHECK(refusal("/dev/zero").find("is not a regular file") != std::string::npos);
 }
 
 TEST_CASE("hostile traces: a trace without cycles is refused") {
   const TempFolder folder;
-  CHECK(refusal(put_trace(folder / "t.trace", 0)).find("holds no cycles") != std::string::npos);
+  CHECK(refusal(put_trace(folder / "t.trace", 0)).find("contains no cycles") != std::string::npos);
 }
 
 TEST_CASE("hostile traces: flipping any one byte anywhere is noticed") {
@@ -321,7 +326,7 @@ TEST_CASE("a torn trace returns its intact cycles on request, and is reported as
   CHECK(salvaged(damaged) == 512);
 }
 
-TEST_CASE("salvaging ends before a coded block that is invalid") {
+TEST_CASE("salvaging stops before an invalid coded block") {
   const TempFolder folder;
   Bytes lying = file_bytes(put_trace(folder / "t.trace", kCycles));
   put_payload(lying, borders(lying)[2], {0xFF, 0xFF, 0x7F, 0}, 256);

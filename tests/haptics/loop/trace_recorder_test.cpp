@@ -34,7 +34,7 @@ class CountingLever final : public haptics::HapticDevice {
   std::uint64_t readings_ = 0;
 };
 
-// A real loop whose cycles are recorded or lost as they would be.
+// A real loop whose cycles are recorded, or lost when the queue is full.
 class LoopRig {
  public:
   haptics::LoopChannels channels;
@@ -64,7 +64,7 @@ std::size_t salvage(const std::filesystem::path& file) {
   return cycles;
 }
 
-// Limits the file size while it lives: simulates a full disk.
+// Limits the file size during its lifetime to simulate a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -134,18 +134,18 @@ TEST_CASE("recorder: a queue that overflows tears the trace, which keeps every c
   rig.run(static_cast<int>(room) + 7);
   REQUIRE(rig.channels.trace_lost.load() == 7);
   recorder.pump();
-  CHECK_FALSE(rig.channels.recording.load());  // closed: cycles after a gap are useless
+  CHECK_FALSE(rig.channels.recording.load());  // the recording is closed: cycles after a gap are useless
 
-  const std::optional<std::string> told = recorder.take_problem();
-  REQUIRE(told.has_value());
-  CHECK(told->find("the recorder could not keep up") != std::string::npos);
+  const std::optional<std::string> problem = recorder.take_problem();
+  REQUIRE(problem.has_value());
+  CHECK(problem->find("the recorder could not keep up") != std::string::npos);
   CHECK_FALSE(recorder.take_problem().has_value());  // reported once
 
   const haptics::RecordingResult result = recorder.finish();
   CHECK(result.torn);
   CHECK(result.cycles == 100 + room);
   CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
-                       doctest::Contains("is torn: the recorder could not keep up"), haptics::FileError);
+                       doctest::Contains("is incomplete, because the recorder could not keep up"), haptics::FileError);
   CHECK(salvage(folder / "t.trace") == 100 + room);
 }
 
@@ -191,16 +191,16 @@ TEST_CASE("recorder: a full disk is reported once, in one sentence, and the loop
       rig.run(100);
       recorder.pump();
     }
-    const std::optional<std::string> told = recorder.take_problem();
-    REQUIRE(told.has_value());
-    CHECK(told->find("the recording failed after ") == 0);
-    CHECK(told->find("File too large") != std::string::npos);
+    const std::optional<std::string> problem = recorder.take_problem();
+    REQUIRE(problem.has_value());
+    CHECK(problem->find("the recording failed after ") == 0);
+    CHECK(problem->find("File too large") != std::string::npos);
     CHECK_FALSE(recorder.take_problem().has_value());
     result = recorder.finish();
   }
   CHECK(result.problem.find("the recording failed after ") == 0);
-  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"),
-                       haptics::FileError);
+  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
+                       doctest::Contains("is incomplete, because it has no end block"), haptics::FileError);
   std::uint64_t cycles = 0;
   haptics::TraceReader reader(folder / "t.trace", haptics::TornTrace::salvage);
   for (haptics::TraceSample sample; reader.next(sample);) ++cycles;
@@ -212,7 +212,7 @@ TEST_CASE("recorder: samples that an earlier recording left in the queue are not
   LoopRig rig;
   rig.channels.recording.store(true);
   rig.run(10);
-  rig.channels.trace_lost.store(3);  // from an earlier, torn recording
+  rig.channels.trace_lost.store(3);  // left over from an earlier, interrupted recording
   haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
   rig.run(2);
   const haptics::RecordingResult result = recorder.finish();
@@ -227,10 +227,10 @@ TEST_CASE("recorder: a killed program leaves its cycles in a file that is recogn
   {
     haptics::TraceWriter writer(folder / "t.trace", paper_header());
     for (std::uint64_t cycle = 0; cycle < 1000; ++cycle) writer.add(numbered(cycle));
-  }  // no finish(), as if the program was killed here
-  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"),
-                       haptics::FileError);
-  CHECK(salvage(folder / "t.trace") == 768);  // complete blocks of 256
+  }  // finish() is not called, as if the program was killed here
+  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
+                       doctest::Contains("is incomplete, because it has no end block"), haptics::FileError);
+  CHECK(salvage(folder / "t.trace") == 768);  // only complete blocks of 256 samples
 }
 
 }  // namespace gearshift::test

@@ -28,10 +28,10 @@ void check_quantiles(const std::vector<std::int64_t>& samples) {
   const haptics::DurationHistogram histogram = histogram_of(samples);
   for (const double q : {0.0, 0.001, 0.01, 0.25, 0.5, 0.75, 0.9, 0.99, 0.999, 0.9999, 1.0}) {
     const auto exact = static_cast<double>(exact_quantile(samples, q));
-    const auto told = static_cast<double>(histogram.quantile(q));
+    const auto quantile = static_cast<double>(histogram.quantile(q));
     CAPTURE(q);
-    CHECK(told >= exact);
-    CHECK(told <= 1.02 * exact);
+    CHECK(quantile >= exact);
+    CHECK(quantile <= 1.02 * exact);
   }
 }
 
@@ -60,10 +60,10 @@ TEST_CASE("histogram: any single duration is reported at most 2 % above its valu
   for (std::int64_t ns = 0; ns < 10'000'000'000; ns += 1 + ns / 37) {
     haptics::DurationHistogram histogram;
     histogram.add(ns);
-    histogram.add(20'000'000'000);  // so that the largest does not hide the bin's edge
-    const std::int64_t told = histogram.quantile(0.5);
-    REQUIRE(told >= ns);
-    REQUIRE(static_cast<double>(told) <= 1.02 * static_cast<double>(ns));
+    histogram.add(20'000'000'000);  // so that the maximum does not hide the bin's edge
+    const std::int64_t quantile = histogram.quantile(0.5);
+    REQUIRE(quantile >= ns);
+    REQUIRE(static_cast<double>(quantile) <= 1.02 * static_cast<double>(ns));
   }
 }
 

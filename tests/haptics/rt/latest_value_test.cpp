@@ -19,7 +19,7 @@ Wide filled(std::uint64_t number) {
   return value;
 }
 
-bool is_whole(const Wide& value) {
+bool is_consistent(const Wide& value) {
   return std::all_of(value.begin(), value.end(), [&](std::uint64_t part) { return part == value[0]; });
 }
 
@@ -56,8 +56,8 @@ TEST_CASE("latest value: no torn value and none older than the last, whatever th
       continue;
     }
     const Wide& value = channel.value();
-    if (!is_whole(value)) ++torn;
-    if (value[0] <= last) ++backward;  // new values must be newer
+    if (!is_consistent(value)) ++torn;
+    if (value[0] <= last) ++backward;  // every changed value must be newer
     last = value[0];
   }
   writer.join();

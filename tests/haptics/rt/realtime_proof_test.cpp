@@ -22,7 +22,7 @@
 namespace gearshift::test {
 namespace {
 
-int* volatile kept = nullptr;  // so that the compiler does not remove the allocation
+int* volatile allocated = nullptr;  // so that the compiler does not remove the allocation
 
 long resident_bytes() {
   long pages = 0, resident = 0;
@@ -31,15 +31,15 @@ long resident_bytes() {
 }
 
 // [bytes] that stay resident after a block below another one is freed.
-long kept_of(std::size_t bytes) {
+long retained_after_free(std::size_t bytes) {
   const long before = resident_bytes();
   void* const block = std::malloc(bytes);
   std::memset(block, 1, bytes);
   void* const above = std::malloc(100'000);
   std::free(block);
-  const long kept_bytes = resident_bytes() - before;
+  const long retained = resident_bytes() - before;
   std::free(above);
-  return kept_bytes;
+  return retained;
 }
 
 struct Big {
@@ -50,12 +50,12 @@ struct Big {
 
 TEST_CASE("a large block is returned to the system when it is freed while a real-time thread exists") {
   constexpr long kBlock = 20 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // where malloc's own threshold grows to over time
-  CHECK(kept_of(kBlock) > kBlock / 2);  // negative control
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);              // the value to which malloc's threshold grows over time
+  CHECK(retained_after_free(kBlock) > kBlock / 2);  // negative control
   haptics::RealtimeThread thread;
   thread.start({}, [](const haptics::CycleCall&) {});
   thread.stop();
-  CHECK(kept_of(kBlock) < kBlock / 10);
+  CHECK(retained_after_free(kBlock) < kBlock / 10);
 }
 
 TEST_CASE("real-time proof: arithmetic is clean") {
@@ -65,20 +65,20 @@ TEST_CASE("real-time proof: arithmetic is clean") {
   });
   INFO(proof.verdict());
   CHECK(proof.clean());
-  CHECK(sum == 0.0);  // the proof ran on a copy
+  CHECK(sum == 0.0);  // so the proof ran in a copy of the process
 }
 
 TEST_CASE("real-time proof: one allocation is caught") {
   delete new int;  // warms up the allocator, so that it needs no system call
-  const RealtimeProof by_new = prove_realtime([] { kept = new int(1); });
+  const RealtimeProof by_new = prove_realtime([] { allocated = new int(1); });
   CHECK(by_new.allocations == 1);
   CHECK_FALSE(by_new.clean());
-  const RealtimeProof by_malloc = prove_realtime([] { kept = static_cast<int*>(std::malloc(4)); });
+  const RealtimeProof by_malloc = prove_realtime([] { allocated = static_cast<int*>(std::malloc(4)); });
   CHECK(by_malloc.allocations == 1);
-  kept = new int(1);
-  const RealtimeProof by_delete = prove_realtime([] { delete kept; });
+  allocated = new int(1);
+  const RealtimeProof by_delete = prove_realtime([] { delete allocated; });
   CHECK(by_delete.allocations == 1);
-  delete kept;
+  delete allocated;
 }
 
 TEST_CASE("real-time proof: one lock is caught even if it is free") {
@@ -99,7 +99,7 @@ TEST_CASE("real-time proof: one system call is caught and named") {
   CHECK_FALSE(proof.clean());
 }
 
-TEST_CASE("real-time proof: a crash is reported, not taken for clean") {
+TEST_CASE("real-time proof: a crash is reported, not mistaken for success") {
   const RealtimeProof proof = prove_realtime([] { __builtin_trap(); });
   CHECK_FALSE(proof.ran);
   CHECK_FALSE(proof.clean());

@@ -20,9 +20,9 @@ int priority() {
   return now.sched_priority;
 }
 
-// Runs `work` on another thread, so that its scheduling need not be restored.
+// Runs `work` on a new thread, so that the caller's scheduling need not be restored.
 template <class Work>
-void aside(const Work& work) {
+void run_on_new_thread(const Work& work) {
   std::thread(work).join();
 }
 
@@ -30,14 +30,14 @@ void aside(const Work& work) {
 
 TEST_CASE("a thread is real-time while the scope exists, if permitted, and threads that it starts are not") {
   bool allowed = false;
-  aside([&] { allowed = schedule_fifo(70).empty(); });
+  run_on_new_thread([&] { allowed = schedule_fifo(70).empty(); });
   if (!allowed) MESSAGE("no right to SCHED_FIFO here: the scope must change nothing");
-  aside([&] {
+  run_on_new_thread([&] {
     {
       const RealtimeScope realtime(70);
       CHECK(policy() == (allowed ? SCHED_FIFO : SCHED_OTHER));
       CHECK(priority() == (allowed ? 70 : 0));
-      aside([] { CHECK(policy() == SCHED_OTHER); });
+      run_on_new_thread([] { CHECK(policy() == SCHED_OTHER); });
     }
     CHECK(policy() == SCHED_OTHER);
     CHECK(priority() == 0);
@@ -45,8 +45,8 @@ TEST_CASE("a thread is real-time while the scope exists, if permitted, and threa
 }
 
 TEST_CASE("an invalid priority is refused in one sentence and changes nothing") {
-  aside([] {
-    CHECK(schedule_fifo(0) == "SCHED_FIFO at priority 0 was refused: Invalid argument (grant it with 'rtprio 0')");
+  run_on_new_thread([] {
+    CHECK(schedule_fifo(0) == "SCHED_FIFO at priority 0 was refused (Invalid argument; allow it with 'rtprio 0')");
     const RealtimeScope realtime(100);
     CHECK(policy() == SCHED_OTHER);
   });

@@ -1,4 +1,4 @@
-// These tests assert no speed, only what must hold on the slowest and noisiest machine.
+// These tests do not assert any speed, only what must hold on the slowest and noisiest machine.
 #include "haptics/rt/realtime_thread.h"
 
 #include <linux/capability.h>
@@ -32,7 +32,7 @@ struct RecordedCycle {
   std::int64_t began, ended;  // [ns]
 };
 
-// Runs `cycles` cycles with `work` in each, and returns what was recorded.
+// Runs `cycles` cycles, each with `work`, and returns the recorded statistics.
 template <class Work>
 std::vector<RecordedCycle> run_cycles(haptics::RealtimeThread& thread, std::size_t cycles, Work work,
                                       haptics::RealtimeConfig config = {}) {
@@ -55,7 +55,7 @@ void busy_until(std::int64_t until_ns) {
   while (now_ns() < until_ns) continue;
 }
 
-// Runs `work` on a thread that may neither use real-time scheduling nor lock memory, whoever runs the test.
+// Runs `work` on a thread that may neither use real-time scheduling nor lock memory, even if the tests run as root.
 template <class Work>
 void without_privileges(Work work) {
   munlockall();  // an earlier thread of this program may have locked all future memory
@@ -114,7 +114,7 @@ TEST_CASE("real-time thread: a cycle that overruns skips the deadlines that it m
   CHECK(cycles_run[6].call.deadline_ns >= cycles_run[5].call.deadline_ns + 3 * kPeriod);
   std::int64_t skipped = cycles_run[0].call.skipped;
   for (std::size_t i = 1; i < cycles_run.size(); ++i) {
-    CHECK(cycles_run[i].call.deadline_ns >= cycles_run[i - 1].ended);  // deadlines that passed meanwhile are not run
+    CHECK(cycles_run[i].call.deadline_ns >= cycles_run[i - 1].ended);  // deadlines that have passed are skipped
     skipped += cycles_run[i].call.skipped;
   }
   CHECK(thread.statistics().overruns >= 1);
@@ -139,11 +139,11 @@ TEST_CASE("real-time thread: after stop() no cycle runs, and it may be called tw
   for (int round = 0; round < 3; ++round) {
     bool stopped = false;
     std::promise<void> ran;
-    bool told = false;
+    bool has_run = false;
     thread.start({}, [&](const haptics::CycleCall&) {
       if (stopped) ++after_stop;  // a write after the join would also be a data race for the sanitizer
-      if (!told) ran.set_value();
-      told = true;
+      if (!has_run) ran.set_value();
+      has_run = true;
     });
     ran.get_future().wait();
     thread.stop();

@@ -23,7 +23,7 @@ Message message(std::uint64_t number) {
   return m;
 }
 
-bool is_whole(const Message& m) {
+bool is_consistent(const Message& m) {
   for (const std::uint64_t copy : m.copies)
     if (copy != ~m.number) return false;
   return true;
@@ -33,7 +33,7 @@ constexpr std::uint64_t kMany = 500'000;
 
 }  // namespace
 
-TEST_CASE("queue: accepts at least the requested number, then reports that it is full and keeps its content") {
+TEST_CASE("queue: holds at least the requested number, then reports that it is full and keeps its content") {
   for (const std::size_t wanted : {1u, 2u, 3u, 16u, 1000u}) {
     haptics::SpscQueue<std::size_t> queue(wanted);
     REQUIRE(queue.capacity() >= wanted);
@@ -68,7 +68,7 @@ TEST_CASE("queue: behaves like a bounded deque under any order of pushes and pop
 }
 
 TEST_CASE("queue: between two threads nothing is torn, lost, doubled or out of order") {
-  haptics::SpscQueue<Message> queue(64);  // small, so that it is often full and often empty
+  haptics::SpscQueue<Message> queue(64);  // small, so that the queue is often full and often empty
   std::thread writer([&] {
     for (std::uint64_t number = 0; number < kMany; ++number)
       while (!queue.push(message(number))) std::this_thread::yield();
@@ -77,7 +77,7 @@ TEST_CASE("queue: between two threads nothing is torn, lost, doubled or out of o
   for (std::uint64_t expected = 0; expected < kMany; ++expected) {
     Message m;
     while (!queue.pop(m)) std::this_thread::yield();
-    if (m.number != expected || !is_whole(m)) ++wrong;
+    if (m.number != expected || !is_consistent(m)) ++wrong;
   }
   writer.join();
   CHECK(wrong == 0);
@@ -92,22 +92,22 @@ TEST_CASE("queue: a writer that never waits knows exactly what it lost") {
       if (!queue.push(message(number))) ++refused;
     done.store(true);
   });
-  std::uint64_t taken = 0, wrong = 0, next = 0;
+  std::uint64_t popped = 0, wrong = 0, next = 0;
   while (true) {
-    const bool was_done = done.load();  // read before the pops: everything pushed by then is found
+    const bool was_done = done.load();  // read before the pops, so that they find everything pushed by then
     Message m;
     if (!queue.pop(m)) {
       if (was_done) break;
       std::this_thread::yield();
       continue;
     }
-    if (m.number < next || !is_whole(m)) ++wrong;
+    if (m.number < next || !is_consistent(m)) ++wrong;
     next = m.number + 1;
-    ++taken;
+    ++popped;
   }
   writer.join();
   CHECK(wrong == 0);
-  CHECK(taken + refused == kMany);
+  CHECK(popped + refused == kMany);
 }
 
 }  // namespace gearshift::test

@@ -51,7 +51,7 @@ TEST_CASE("energy bounding: never supplies more than the handle's damping dissip
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> force(-100.0, 100.0);
   const std::function<double(AxisState)> laws[] = {
-      [](AxisState s) { return s.velocity > 0.0 ? 100.0 : -100.0; },               // pushes along the motion
+      [](AxisState s) { return s.velocity > 0.0 ? 100.0 : -100.0; },               // a push along the motion
       [](AxisState s) { return s.position > 0.0 ? -50000.0 * s.position : 0.0; },  // a wall that is far too stiff
       [&](AxisState) { return force(random); },
   };
@@ -76,7 +76,7 @@ TEST_CASE("energy bounding displays half the passive stiffness 2 b / T of (14)")
 
 namespace {
 
-// Free impact on a textbook spring of 5000 N/m: energy supplied by the wall, relative to the impact energy, averaged
+// Free impact on a textbook spring of 5000 N/m: ratio of the energy supplied by the wall to the impact energy, averaged
 // over sampling phases. [%]
 double impact_energy(double period, bool controlled) {
   double sum = 0.0;
@@ -106,7 +106,7 @@ double impact_energy(double period, bool controlled) {
 
 }  // namespace
 
-TEST_CASE("passivity control: energy of an impact on a spring of 5000 N/m with and without it, as computed elsewhere") {
+TEST_CASE("passivity control: impact energy at 5000 N/m with and without it agrees with an independent program") {
   CHECK(impact_energy(0.001, false) == doctest::Approx(33.0).epsilon(0.1));
   CHECK(impact_energy(0.002, false) == doctest::Approx(74.0).epsilon(0.1));
   CHECK(impact_energy(0.005, false) == doctest::Approx(231.0).epsilon(0.1));
@@ -140,13 +140,13 @@ TEST_CASE("the guard bounds the command, and arming resets the travel since the 
   double force = 0.0;
   for (int n = 1; n <= 100; ++n) force = guard.guard(still_at(1e-5 * n, -30.0)).force.x;
   CHECK(force == doctest::Approx(-3.0));
-  for (int n = 0; n < 30; ++n) {  // the sensor dies: damped
+  for (int n = 0; n < 30; ++n) {  // the sensor fails, so the guard only damps
     GuardInput dead = still_at(1e-3, -30.0);
     dead.fresh = false;
     guard.guard(dead);
   }
   REQUIRE(guard.state() == GuardState::damped);
-  for (int n = 0; n < 100; ++n) guard.guard(still_at(0.030, -30.0));  // moved 29 mm away while damped
+  for (int n = 0; n < 100; ++n) guard.guard(still_at(0.030, -30.0));  // the lever moved 29 mm away while damped
   guard.arm();
   CHECK(guard.guard(still_at(0.030, -30.0)).force.x == 0.0);
   CHECK(guard.guard(still_at(0.030, -30.0)).force.x == 0.0);
@@ -168,7 +168,7 @@ TEST_CASE("a lever that keeps chattering is damped, and only arming restores the
   CHECK(guard.guard(still_at(0.0, -30.0)).force.x == 0.0);
 }
 
-TEST_CASE("each axis by its own model, and with delay half of (13)'s K (T/2 + d T)") {
+TEST_CASE("energy bounding uses each axis's own model, and with delay half of (13)'s K (T/2 + d T)") {
   GuardConfig config;
   config.ramp_time = 0.001;
   config.slew = 100.0;
@@ -187,7 +187,7 @@ TEST_CASE("each axis by its own model, and with delay half of (13)'s K (T/2 + d 
       in.force = {-30.0, -30.0};
       force = guard.guard(in).force;
     }
-    const double passive = 1.0 / (0.001 * (0.5 + delay));  // (13) per unit of damping
+    const double passive = 1.0 / (0.001 * (0.5 + delay));  // the paper's (13), per unit of damping
     CHECK(force.x == doctest::Approx(-0.5 * 3.0 * passive * 1e-3));
     CHECK(force.y == doctest::Approx(-0.5 * 5.0 * passive * 1e-3));
   }
@@ -201,10 +201,10 @@ TEST_CASE("energy bounding is not limited by the slew: a force that must drop dr
   guard.arm();
   double position = 0.0;
   guard.guard(still_at(position, 0.0));
-  for (int n = 0; n < 100; ++n) guard.guard(still_at(position -= 1e-4, 20.0));  // pushed in: c dx = 0.3 N per period
+  for (int n = 0; n < 100; ++n) guard.guard(still_at(position -= 1e-4, 20.0));  // c dx = 0.3 N per period
   double last = guard.guard(still_at(position, 20.0)).force.x;
   REQUIRE(last > 10.0);
-  for (int n = 0; n < 4; ++n) {  // thrown out at 1 m/s
+  for (int n = 0; n < 4; ++n) {  // the lever is thrown out at 1 m/s
     const double now = guard.guard(still_at(position += 1e-3, 20.0)).force.x;
     CHECK(std::abs(now) <= std::abs(last - 3000.0 * 1e-3) + 1e-9);
     last = now;
@@ -216,7 +216,7 @@ TEST_CASE("passivity control: no damping out of contact, and every contact start
   controller.control(-1.0, 10.0, 1e-3, true);  // 10 mJ supplied
   CHECK(controller.absorbed_energy() == doctest::Approx(-0.010));
   CHECK(controller.control(-1.0, 0.0, -1e-4, true) > -1.0 + 1.0);  // it damps
-  CHECK(controller.control(-1.0, 0.0, -1e-4, false) == -1.0);      // but not in free space
+  CHECK(controller.control(-1.0, 0.0, -1e-4, false) == -1.0);      // no damping in free space, where the lever is now
   CHECK(controller.absorbed_energy() == 0.0);
   // At most 0.5 m / T: a stronger sampled damper would ring.
   controller.control(0.0, 100.0, 1e-2, true);

@@ -94,7 +94,7 @@ TEST_CASE("frozen reading: damped after 20 ms, force zero within 20 ms more") {
   ForceGuard guard = running_guard({10.0, -8.0});
   GuardInput frozen = wanting({10.0, -8.0});
   frozen.fresh = false;
-  frozen.velocity = {1.0, 1.0};  // stale: must not cause damping
+  frozen.velocity = {1.0, 1.0};  // a stale reading must not cause damping
   for (int ms = 1; ms <= 20; ++ms) guard.guard(frozen);
   CHECK(guard.state() == GuardState::running);
   double last = 10.0;
@@ -193,7 +193,7 @@ TEST_CASE("a reading's age counts elapsed time, not executed cycles") {
   GuardInput stale = wanting({5.0, 0.0});
   stale.fresh = false;
   stale.skipped = 10;
-  guard.guard(stale);  // the reader may have been stopped as well
+  guard.guard(stale);  // the thread that reads the stick may have been stopped, too
   guard.guard(stale);  // 12 ms
   CHECK(guard.state() == GuardState::running);
   guard.guard(stale);  // 23 ms
@@ -243,7 +243,7 @@ TEST_CASE("entering damped never raises the force, at any ramp and slew, and it 
       for (int i = 0; i < ramped; ++i) last = guard.guard(wanting({30.0, 0.0})).force.x;
       GuardInput frozen = wanting({30.0, 0.0});
       frozen.fresh = false;
-      for (int i = 0; i < 20; ++i) last = guard.guard(frozen).force.x;  // not yet stale: ramp and slew continue
+      for (int i = 0; i < 20; ++i) last = guard.guard(frozen).force.x;  // not stale yet: ramp, slew continue
       for (int i = 0; i < 21; ++i) {
         const double now = guard.guard(frozen).force.x;
         CHECK(now <= last + 1e-12);
@@ -264,7 +264,7 @@ TEST_CASE("armed: no force while it waits for the first reading, and damped if n
   ForceGuard late = guard;
   guard.guard(wanting({5.0, 0.0}));
   CHECK(guard.state() == GuardState::ramping);
-  late.guard(no_reading);  // a force long after the request must not start unexpectedly
+  late.guard(no_reading);  // a force that arrives long after the arm request must not start unexpectedly
   CHECK(late.state() == GuardState::damped);
   CHECK(late.guard(wanting({5.0, 0.0})).force == dvec2{0.0, 0.0});
 }
@@ -279,7 +279,7 @@ TEST_CASE("a released guard stays released until it is armed; arming starts from
   CHECK(guard.guard(wanting({5.0, 0.0})).force.x < 0.02);
 }
 
-TEST_CASE("a fault never moves up the ladder: released does not become damped") {
+TEST_CASE("a fault never makes the state less severe: released does not become damped") {
   ForceGuard guard = running_guard();
   guard.stop();
   GuardInput stale = wanting({5.0, 0.0});

@@ -22,7 +22,7 @@ std::ptrdiff_t threads() {
 
 }  // namespace
 
-TEST_CASE("a device that is plugged in again is opened again, at its place") {
+TEST_CASE("a device that is plugged in again is opened again at the same port path") {
   UsbRig rig;
   haptics::HidIdentity wanted = plain_identity();
   for (int i = 0; i < 3; ++i) {
@@ -54,7 +54,7 @@ TEST_CASE("fifty unplugs at random moments: each is noticed, and no file and no 
   {
     UsbRig rig;
     for (int i = 0; i < 52; ++i) {
-      if (i == 2) {  // umockdev's and libusb's own files are open by now
+      if (i == 2) {  // by now umockdev and libusb have opened their own files
         files = open_files();
         tasks = threads();
       }
@@ -63,11 +63,11 @@ TEST_CASE("fifty unplugs at random moments: each is noticed, and no file and no 
         const auto port = rig.open();
         RecordingStream stream;
         Streaming streaming(*port, stream.config(), stream);
-        for (int k = 0; k < 20; ++k) stream.give(report_of({5, 1, 2, 3, 4, 5, 6, 7}));
+        for (int k = 0; k < 20; ++k) stream.queue_output(report_of({5, 1, 2, 3, 4, 5, 6, 7}));
         std::this_thread::sleep_for(std::chrono::microseconds(random() % 30'000));
         rig.usb.unplug(rig.gadget);
         streaming.join();
-        CHECK(streaming.gone());
+        CHECK(streaming.was_disconnected());
       }
       CHECK(becomes_true([&] {
         const UsbNodeCounts counts = rig.usb.counts(rig.gadget);

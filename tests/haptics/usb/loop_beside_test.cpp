@@ -23,7 +23,7 @@ struct Lateness {
   std::uint64_t skipped, cycles;
 };
 
-// One second of cycles that do what a lever's do: read the state and send a new command.
+// Runs cycles for one second; like a lever's, each reads the state and sends a new command.
 Lateness loop_with(PidDriver& driver) {
   RealtimeThread thread;
   int count = 0;
@@ -33,11 +33,12 @@ Lateness loop_with(PidDriver& driver) {
   });
   std::this_thread::sleep_for(std::chrono::seconds(1));
   thread.stop();
-  const CycleStatistics& seen = thread.statistics();
-  return {seen.wake_lateness.quantile(0.5), seen.wake_lateness.quantile(0.99), seen.skipped, seen.cycles};
+  const CycleStatistics& statistics = thread.statistics();
+  return {statistics.wake_lateness.quantile(0.5), statistics.wake_lateness.quantile(0.99), statistics.skipped,
+          statistics.cycles};
 }
 
-void tell(const std::string& what, const Lateness& late) {
+void print(const std::string& what, const Lateness& late) {
   MESSAGE(what << ": woken " << 1e-3 * static_cast<double>(late.median) << " us late, p99 "
                << 1e-3 * static_cast<double>(late.p99) << " us, " << late.skipped << " of " << late.cycles
                << " cycles missed");
@@ -45,19 +46,19 @@ void tell(const std::string& what, const Lateness& late) {
 
 }  // namespace
 
-TEST_CASE("the loop beside no stick, an absent one and a slow one") {
+TEST_CASE("lateness of the loop with no stick, an absent stick and a slow one") {
   IdleHand hand;
   EmulatedStick stick({}, hand);
   StickGadget gadget(stick);
   MockUsb usb;
   PidDriver driver(stick.report_descriptor());
-  tell("no stick", loop_with(driver));
+  print("no stick", loop_with(driver));
   HidIdentity identity;
   identity.vendor = 0x045e;
   identity.product = 0x001b;
   StickConnection connection(
       driver, [&] { return open_usb_hid(identity); }, 1'000'000);
-  tell("an absent one", loop_with(driver));
+  print("an absent one", loop_with(driver));
   CHECK_FALSE(connection.connected());
   usb.plug(gadget);
   CHECK(becomes_true([&] { return connection.connected(); }));
@@ -65,5 +66,5 @@ TEST_CASE("the loop beside no stick, an absent one and a slow one") {
     const std::lock_guard<std::mutex> lock(usb.mutex());
     stick.faults.slow = 0.05;
   }
-  tell("a slow one", loop_with(driver));
+  print("a slow one", loop_with(driver));
 }

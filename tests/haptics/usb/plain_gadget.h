@@ -1,4 +1,5 @@
-// A small joystick for tests of the transport: it counts, records what it receives, and can be configured to misbehave.
+// A small joystick for tests of the transport: it sends counts, records what it receives, and can be configured to
+// misbehave.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +14,27 @@ namespace gearshift::test {
 
 class PlainGadget final : public UsbGadget {
  public:
-  struct Told {
+  struct ReceivedReport {
     std::int64_t time_ns = 0;
     Bytes bytes;
   };
 
   bool numbered = true;                // uses report IDs
   bool has_in = true, has_out = true;  // its interrupt endpoints
-  double report_every = 0.001;         // [s] 0: never on its own
+  double report_every = 0.001;         // [s] between input reports; 0: sends none on its own
   bool answers_get_report = true;      // false: stalls
-  double delay = 0.0;                  // [s] of control transfers
+  double delay = 0.0;                  // [s] duration of control transfers
   std::string serial = "A1", name = "Plain joystick";
   std::uint16_t product = 0x0001;
   std::uint8_t interface_class = 3;
-  int declared_length = -1;  // [bytes] of the report descriptor; -1: the true length
+  int declared_length = -1;  // [bytes] declared length of the report descriptor; -1: the true length
 
-  std::vector<Told> outputs;         // by the interrupt pipe, or SET_REPORT(output)
-  std::vector<Told> features;        // SET_REPORT(feature)
-  Bytes feature{2, 10, 20, 30, 40};  // answer to GET_REPORT(feature), ID first
-  int reports = 0;                   // sent on its own
-  int asked = 0;                     // GET_REPORT(input)
-  int idles = 0;                     // SET_IDLE
+  std::vector<ReceivedReport> outputs;   // received on the interrupt pipe, or as SET_REPORT(output)
+  std::vector<ReceivedReport> features;  // SET_REPORT(feature)
+  Bytes feature{2, 10, 20, 30, 40};      // answer to GET_REPORT(feature), ID first
+  int reports = 0;                       // number of input reports sent on its own
+  int asked = 0;                         // GET_REPORT(input)
+  int idles = 0;                         // SET_IDLE
   int unplugs = 0;
 
   Bytes device_descriptor() const override;

@@ -22,7 +22,7 @@ TEST_CASE("the kernel driver is detached while a port is open, and attached agai
     CHECK(port->identity().name == "Plain joystick");
     CHECK(port->report_descriptor() == rig.gadget.report_descriptor());
     CHECK(sentence_of<haptics::HidError>([&] { rig.open(); }) ==
-          "Plain joystick (1209:0001) is used by another program");
+          "Plain joystick (1209:0001) is used by another program; close that program");
   }
   CHECK(rig.usb.driver_bound(rig.gadget));
   const UsbNodeCounts counts = rig.usb.counts(rig.gadget);
@@ -77,7 +77,7 @@ TEST_CASE("a refusal is one sentence, and the next request works") {
   rig.usb.set_faults(rig.gadget, {.output_stalls = 1});
   CHECK(sentence_of<haptics::HidError>([&] {
           port->send(report_of({5, 1}));
-        }) == "Plain joystick (1209:0001) refuses: send output report 5");
+        }) == "Plain joystick (1209:0001) refused the request when sending output report 5");
   CHECK(sentence_of<haptics::HidError>([&] { port->send(report_of({5, 1})); }).empty());
 }
 
@@ -88,13 +88,13 @@ TEST_CASE("a device that does not answer is waited for 250 ms, not longer") {
   rig.usb.set_faults(rig.gadget, {.output_stuck = true, .control_stuck = true});
   const auto start = std::chrono::steady_clock::now();
   CHECK(sentence_of<haptics::HidError>([&] { static_cast<void>(port->get_feature(2, 5)); }) ==
-        "Plain joystick (1209:0001) did not answer within 250 ms: get feature report 2");
+        "Plain joystick (1209:0001) did not answer within 250 ms when getting feature report 2");
   CHECK(sentence_of<haptics::HidError>([&] {
           port->set_feature(report_of({2, 1}));
-        }) == "Plain joystick (1209:0001) did not answer within 250 ms: set feature report 2");
+        }) == "Plain joystick (1209:0001) did not answer within 250 ms when setting feature report 2");
   CHECK(sentence_of<haptics::HidError>([&] {
           port->send(report_of({5, 1}));
-        }) == "Plain joystick (1209:0001) did not answer within 250 ms: send output report 5");
+        }) == "Plain joystick (1209:0001) did not answer within 250 ms when sending output report 5");
   const auto took = std::chrono::steady_clock::now() - start;
   CHECK(took >= std::chrono::milliseconds(3 * 250 - 5));
   CHECK(took < std::chrono::milliseconds(2 * 3 * 250));
@@ -109,17 +109,17 @@ TEST_CASE("a slow device is waited for") {
   CHECK(bytes_of(rig.open()->get_feature(2, 5)) == rig.gadget.feature);
 }
 
-TEST_CASE("a device that was unplugged is gone for every request") {
+TEST_CASE("after an unplug every request reports that the device is gone") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   rig.usb.unplug(rig.gadget);
   const std::string expected = "Plain joystick (1209:0001) was unplugged";
-  CHECK(sentence_of<haptics::HidGone>([&] { static_cast<void>(port->get_feature(2, 5)); }) == expected);
-  CHECK(sentence_of<haptics::HidGone>([&] { port->set_feature(report_of({2, 1})); }) == expected);
-  CHECK(sentence_of<haptics::HidGone>([&] { port->send(report_of({5, 1})); }) == expected);
+  CHECK(sentence_of<haptics::HidDisconnected>([&] { static_cast<void>(port->get_feature(2, 5)); }) == expected);
+  CHECK(sentence_of<haptics::HidDisconnected>([&] { port->set_feature(report_of({2, 1})); }) == expected);
+  CHECK(sentence_of<haptics::HidDisconnected>([&] { port->send(report_of({5, 1})); }) == expected);
   RecordingStream stream;
-  CHECK(sentence_of<haptics::HidGone>([&] { port->stream(stream.config(), stream); }) == expected);
+  CHECK(sentence_of<haptics::HidDisconnected>([&] { port->stream(stream.config(), stream); }) == expected);
 }
 
 TEST_CASE("an invalid report descriptor is refused, and the kernel driver is attached again") {
@@ -128,13 +128,13 @@ TEST_CASE("an invalid report descriptor is refused, and the kernel driver is att
     rig.gadget.declared_length = 0;
     rig.usb.plug(rig.gadget);
     CHECK(sentence_of<haptics::HidError>([&] { rig.open(); }) ==
-          "Plain joystick (1209:0001) declares a report descriptor of 0 bytes; 1 to 4096 are possible");
+          "Plain joystick (1209:0001) declares a report descriptor of 0 bytes, but 1 to 4096 bytes are allowed");
   }
   SUBCASE("it breaks off") {
     rig.gadget.declared_length = 20;
     rig.usb.plug(rig.gadget);
     const std::string sentence = sentence_of<haptics::HidError>([&] { rig.open(); });
-    CHECK(sentence.starts_with("Plain joystick (1209:0001): "));
+    CHECK(sentence.starts_with("Plain joystick (1209:0001) cannot be used, because "));
   }
   CHECK(rig.usb.driver_bound(rig.gadget));
   CHECK(rig.usb.counts(rig.gadget).claims == rig.usb.counts(rig.gadget).releases);

@@ -35,10 +35,10 @@ class RecordingStream final : public haptics::HidStream {
   }
 
   // Any thread.
-  void give(const haptics::HidBytes& report) {
+  void queue_output(const haptics::HidBytes& report) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      waiting_.push_back(report);
+      queued_.push_back(report);
     }
     eventfd_write(wake_fd_, 1);
   }
@@ -47,11 +47,11 @@ class RecordingStream final : public haptics::HidStream {
     const std::lock_guard<std::mutex> lock(mutex_);
     return inputs_;
   }
-  std::vector<std::int64_t> looks() const {
+  std::vector<std::int64_t> poll_times() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return looks_;
+    return poll_times_;
   }
-  std::vector<std::int64_t> output_times() const {  // of the non-empty outputs
+  std::vector<std::int64_t> output_times() const {  // times of the non-empty outputs
     const std::lock_guard<std::mutex> lock(mutex_);
     return output_times_;
   }
@@ -65,10 +65,10 @@ class RecordingStream final : public haptics::HidStream {
   }
   haptics::HidBytes next_output(std::int64_t now_ns) noexcept override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    looks_.push_back(now_ns);
-    if (waiting_.empty()) return {};
-    const haptics::HidBytes next = waiting_.front();
-    waiting_.pop_front();
+    poll_times_.push_back(now_ns);
+    if (queued_.empty()) return {};
+    const haptics::HidBytes next = queued_.front();
+    queued_.pop_front();
     output_times_.push_back(now_ns);
     return next;
   }
@@ -78,9 +78,9 @@ class RecordingStream final : public haptics::HidStream {
  private:
   int wake_fd_;
   mutable std::mutex mutex_;
-  std::deque<haptics::HidBytes> waiting_;
+  std::deque<haptics::HidBytes> queued_;
   std::vector<Input> inputs_;
-  std::vector<std::int64_t> looks_, output_times_;
+  std::vector<std::int64_t> poll_times_, output_times_;
   std::atomic<std::size_t> input_count_{0};
   std::atomic<int> sent_{0};
   std::atomic<bool> end_{false};

@@ -36,7 +36,7 @@ std::string messages_through(haptics::HidPort& port, const EmulatedStick& stick)
 
 TEST_CASE("a stick receives the same messages over USB as without: none added, lost or reordered") {
   for (const StickFamily family : kFamilies) {
-    CAPTURE(stick_family_name(family));
+    CAPTURE(to_string(family));
     haptics::IdleHand hand;
     EmulatedStick direct(of_family(family), hand), plugged(of_family(family), hand);
     std::mutex mutex;
@@ -46,11 +46,11 @@ TEST_CASE("a stick receives the same messages over USB as without: none added, l
     StickGadget gadget(plugged);
     MockUsb usb;
     usb.plug(gadget);
-    const std::vector<haptics::UsbHidDevice> seen = haptics::usb_hid_devices();
-    REQUIRE(seen.size() == 1);
-    CHECK(seen[0].report_descriptor == direct.report_descriptor());
-    CHECK(seen[0].identity.name == direct_port.identity().name);
-    const auto port = haptics::open_usb_hid(seen[0].identity);
+    const std::vector<haptics::UsbHidDevice> devices = haptics::usb_hid_devices();
+    REQUIRE(devices.size() == 1);
+    CHECK(devices[0].report_descriptor == direct.report_descriptor());
+    CHECK(devices[0].identity.name == direct_port.identity().name);
+    const auto port = haptics::open_usb_hid(devices[0].identity);
     const std::string expected = messages_through(direct_port, direct);
     CHECK(messages_through(*port, plugged) == expected);
     CHECK(expected.size() > 100);
@@ -59,7 +59,7 @@ TEST_CASE("a stick receives the same messages over USB as without: none added, l
 
 TEST_CASE("a command becomes a force on the knob, and a release ends it") {
   for (const StickFamily family : kFamilies) {
-    CAPTURE(stick_family_name(family));
+    CAPTURE(to_string(family));
     haptics::IdleHand hand;
     EmulatedStick stick(of_family(family), hand);
     StickGadget gadget(stick);

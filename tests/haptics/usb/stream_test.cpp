@@ -14,7 +14,7 @@ haptics::HidBytes numbered_output(int number) {
   return report_of({5, static_cast<std::uint8_t>(number), 0, 0, 0, 0, 0, 0});
 }
 
-bool nothing_left(UsbRig& rig) {
+bool has_nothing_pending(UsbRig& rig) {
   const UsbNodeCounts counts = rig.usb.counts(rig.gadget);
   return counts.submitted == counts.returned && counts.misuses == 0;
 }
@@ -43,11 +43,11 @@ TEST_CASE("every input report comes through, whole, in order and with its time")
       if (i > 0) REQUIRE(inputs[i].time_ns >= inputs[i - 1].time_ns);
     }
     CHECK(rig.gadget.idles == 1);  // SET_IDLE at the start
-    CHECK(nothing_left(rig));
+    CHECK(has_nothing_pending(rig));
   }
 }
 
-TEST_CASE("outputs arrive once each, in order, and never two within one tick") {
+TEST_CASE("each output arrives once, in order, and no two within one tick") {
   for (const bool has_out : {true, false}) {
     CAPTURE(has_out);
     UsbRig rig;
@@ -57,7 +57,7 @@ TEST_CASE("outputs arrive once each, in order, and never two within one tick") {
     RecordingStream stream;
     Streaming streaming(*port, stream.config(), stream);
     for (int i = 0; i < 50; ++i) {
-      stream.give(numbered_output(i));
+      stream.queue_output(numbered_output(i));
       if (i % 10 == 0) rest(3);
     }
     CHECK(becomes_true([&] { return stream.sent() == 50; }));
@@ -65,9 +65,9 @@ TEST_CASE("outputs arrive once each, in order, and never two within one tick") {
     CHECK(streaming.error().empty());
     REQUIRE(rig.gadget.outputs.size() == 50);
     for (int i = 0; i < 50; ++i) CHECK(rig.gadget.outputs[static_cast<std::size_t>(i)].bytes[1] == i);
-    const std::vector<std::int64_t> given = stream.output_times();
-    for (std::size_t i = 1; i < given.size(); ++i) CHECK(given[i] - given[i - 1] >= stream.config().tick_ns);
-    CHECK(nothing_left(rig));
+    const std::vector<std::int64_t> times = stream.output_times();
+    for (std::size_t i = 1; i < times.size(); ++i) CHECK(times[i] - times[i - 1] >= stream.config().tick_ns);
+    CHECK(has_nothing_pending(rig));
   }
 }
 
@@ -80,8 +80,8 @@ TEST_CASE("a wake-up acts immediately, not at the next tick") {
   config.tick_ns = 5'000'000'000;
   const auto start = std::chrono::steady_clock::now();
   Streaming streaming(*port, config, stream);
-  CHECK(becomes_true([&] { return !stream.looks().empty(); }));
-  stream.give(numbered_output(1));
+  CHECK(becomes_true([&] { return !stream.poll_times().empty(); }));
+  stream.queue_output(numbered_output(1));
   CHECK(becomes_true([&] { return stream.sent() == 1; }));
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::nanoseconds(config.tick_ns));
 }
@@ -96,10 +96,10 @@ TEST_CASE("without wake-ups, next_output() is called at every tick") {
   config.wake_fd = -1;
   config.tick_ns = 5'000'000;
   Streaming streaming(*port, config, stream);
-  CHECK(becomes_true([&] { return stream.looks().size() >= 20; }));
+  CHECK(becomes_true([&] { return stream.poll_times().size() >= 20; }));
   streaming.end();
-  const std::vector<std::int64_t> looks = stream.looks();
-  for (std::size_t i = 1; i < looks.size(); ++i) CHECK(looks[i] - looks[i - 1] >= config.tick_ns);
+  const std::vector<std::int64_t> poll_times = stream.poll_times();
+  for (std::size_t i = 1; i < poll_times.size(); ++i) CHECK(poll_times[i] - poll_times[i - 1] >= config.tick_ns);
 }
 
 TEST_CASE("a silent lever is requested every silence_ns") {
@@ -113,7 +113,7 @@ TEST_CASE("a silent lever is requested every silence_ns") {
   streaming.end();
   const std::vector<RecordingStream::Input> inputs = stream.inputs();
   CHECK(inputs[0].bytes == Bytes{1, 0, 0, 0x34, 0x12});
-  // Answers arrive later by the transfer time, but requests never come early: the mean interval is at least silence_ns.
+  // Transfer time delays the answers, but requests never come early: the mean interval is at least silence_ns.
   const std::int64_t mean =
       (inputs.back().time_ns - inputs.front().time_ns) / static_cast<std::int64_t>(inputs.size() - 1);
   CHECK(mean >= stream.config().silence_ns * 9 / 10);
@@ -156,9 +156,9 @@ TEST_CASE("a device that sends nothing at all has failed") {
   RecordingStream stream;
   Streaming streaming(*port, stream.config(), stream);
   streaming.join();
-  CHECK(streaming.error() == "Plain joystick (1209:0001) no longer answers");
-  CHECK_FALSE(streaming.gone());
-  CHECK(nothing_left(rig));
+  CHECK(streaming.error() == "Plain joystick (1209:0001) no longer responds");
+  CHECK_FALSE(streaming.was_disconnected());
+  CHECK(has_nothing_pending(rig));
 }
 
 TEST_CASE("a stalled input pipe is cleared once") {
@@ -180,9 +180,9 @@ TEST_CASE("a stalled input pipe is cleared once") {
   SUBCASE("it stalls again") {
     rig.usb.set_faults(rig.gadget, {.input_stalls = 1000});
     streaming.join();
-    CHECK(streaming.error() == "Plain joystick (1209:0001) stalled: it sends no more reports");
+    CHECK(streaming.error() == "Plain joystick (1209:0001) has stopped sending data. Unplug it and plug it in again.");
   }
-  CHECK(nothing_left(rig));
+  CHECK(has_nothing_pending(rig));
 }
 
 TEST_CASE("an output that stalls is sent once more") {
@@ -195,17 +195,18 @@ TEST_CASE("an output that stalls is sent once more") {
     RecordingStream stream;
     Streaming streaming(*port, stream.config(), stream);
     rig.usb.set_faults(rig.gadget, {.output_stalls = 1});
-    stream.give(numbered_output(7));
+    stream.queue_output(numbered_output(7));
     CHECK(becomes_true([&] { return stream.sent() == 1; }));
     REQUIRE(rig.query([](PlainGadget& gadget) { return gadget.outputs.size(); }) == 1);
     CHECK(rig.query([](PlainGadget& gadget) { return gadget.outputs[0].bytes[1]; }) == 7);
     rig.usb.set_faults(rig.gadget, {.output_stalls = 1000});
-    stream.give(numbered_output(8));
+    stream.queue_output(numbered_output(8));
     streaming.join();
-    CHECK(streaming.error() == "Plain joystick (1209:0001) stalled: it accepts no more reports");
+    CHECK(streaming.error() ==
+          "Plain joystick (1209:0001) has stopped accepting data. Unplug it and plug it in again.");
     rig.usb.set_faults(rig.gadget, {});
-    CHECK_NOTHROW(port->send(numbered_output(9)));  // what must be sent before the device is closed
-    CHECK(nothing_left(rig));
+    CHECK_NOTHROW(port->send(numbered_output(9)));  // the output that must be sent before the device is closed
+    CHECK(has_nothing_pending(rig));
   }
 }
 
@@ -216,12 +217,12 @@ TEST_CASE("a device that no longer accepts outputs has failed, and reports until
   RecordingStream stream;
   rig.usb.set_faults(rig.gadget, {.output_stuck = true});
   Streaming streaming(*port, stream.config(), stream);
-  stream.give(numbered_output(1));
+  stream.queue_output(numbered_output(1));
   streaming.join();
   CHECK(streaming.error() == "Plain joystick (1209:0001) accepts no more reports");
   CHECK(stream.input_count() > 0);
   CHECK(stream.sent() == 0);
-  CHECK(nothing_left(rig));
+  CHECK(has_nothing_pending(rig));
 }
 
 TEST_CASE("bus errors are tolerated for a moment") {
@@ -239,8 +240,8 @@ TEST_CASE("bus errors are tolerated for a moment") {
   CHECK(becomes_true([&] { return stream.input_count() >= before + 10; }));
   rig.usb.set_faults(rig.gadget, {.garbled = true});
   streaming.join();
-  CHECK(streaming.error() == "Plain joystick (1209:0001) sends reports that break off or are too long");
-  CHECK(nothing_left(rig));
+  CHECK(streaming.error() == "Plain joystick (1209:0001) sends reports that are incomplete or too long");
+  CHECK(has_nothing_pending(rig));
 }
 
 TEST_CASE("short reports are passed on unchanged, too long ones are not") {
@@ -271,11 +272,11 @@ TEST_CASE("short reports are passed on unchanged, too long ones are not") {
     Streaming streaming(*port, config, stream);
     streaming.join();
     CHECK(stream.input_count() == 0);
-    CHECK(streaming.error() == "Plain joystick (1209:0001) sends reports that break off or are too long");
+    CHECK(streaming.error() == "Plain joystick (1209:0001) sends reports that are incomplete or too long");
   }
 }
 
-// The effect of a slow control pipe on the reports.
+// A slow control pipe must not slow down reports.
 TEST_CASE("a slow control pipe delays neither input nor output") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
@@ -283,15 +284,15 @@ TEST_CASE("a slow control pipe delays neither input nor output") {
   rig.query([](PlainGadget& gadget) { return gadget.delay = 0.2; });
   RecordingStream stream;
   haptics::StreamConfig config = stream.config();
-  config.lever_report = 9;  // never comes, so it is requested all the time
+  config.lever_report = 9;  // the report never arrives, so it is requested all the time
   Streaming streaming(*port, config, stream);
   CHECK(becomes_true([&] { return stream.input_count() >= 1; }));
   const std::size_t before = stream.input_count();
-  for (int i = 0; i < 20; ++i) stream.give(numbered_output(i));
+  for (int i = 0; i < 20; ++i) stream.queue_output(numbered_output(i));
   CHECK(becomes_true([&] { return stream.sent() == 20 && stream.input_count() >= before + 20; }));
   streaming.end();
   CHECK(streaming.error().empty());
-  CHECK(nothing_left(rig));
+  CHECK(has_nothing_pending(rig));
 }
 
 TEST_CASE("an unplugged device is gone, and no transfer stays pending") {
@@ -304,7 +305,7 @@ TEST_CASE("an unplugged device is gone, and no transfer stays pending") {
   SUBCASE("while it reports") {}
   SUBCASE("while an output waits") {
     rig.usb.set_faults(rig.gadget, {.output_stuck = true});
-    stream.give(numbered_output(1));
+    stream.queue_output(numbered_output(1));
     rest(5);
   }
   SUBCASE("while it is asked") {
@@ -316,9 +317,9 @@ TEST_CASE("an unplugged device is gone, and no transfer stays pending") {
   }
   rig.usb.unplug(rig.gadget);
   streaming.join();
-  CHECK(streaming.gone());
+  CHECK(streaming.was_disconnected());
   CHECK(streaming.error() == "Plain joystick (1209:0001) was unplugged");
-  CHECK(nothing_left(rig));
+  CHECK(has_nothing_pending(rig));
 }
 
 TEST_CASE("a device without an interrupt IN endpoint cannot stream") {

@@ -1,4 +1,4 @@
-// A plain joystick on an emulated bus, and helpers to wait for events on other threads.
+// A plain joystick on an emulated bus, and helpers that wait for events on other threads.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace gearshift::test {
 
-// False if the condition has not become true within 10 s.
+// Waits for the condition; returns false if it is not true within 10 s.
 template <class Condition>
 bool becomes_true(Condition condition) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
@@ -58,11 +58,11 @@ struct UsbRig {
   PlainGadget gadget;
   MockUsb usb;
 
-  // Evaluates `look` on the gadget while the bus does not call it.
-  template <class Look>
-  auto query(Look look) {
+  // Evaluates `query_gadget` on the gadget while the bus is not calling it.
+  template <class Query>
+  auto query(Query query_gadget) {
     const std::lock_guard<std::mutex> lock(usb.mutex());
-    return look(gadget);
+    return query_gadget(gadget);
   }
   std::unique_ptr<haptics::HidPort> open() { return haptics::open_usb_hid(plain_identity()); }
 };
@@ -86,16 +86,16 @@ class Streaming {
     end();
   }
   bool has_ended() const { return ended_; }
-  // After it has ended.
-  bool gone() const { return gone_; }
+  // Only valid after the stream has ended.
+  bool was_disconnected() const { return disconnected_; }
   const std::string& error() const { return error_; }
 
  private:
   void run(haptics::HidPort& port, const haptics::StreamConfig& config) {
     try {
       port.stream(config, stream_);
-    } catch (const haptics::HidGone& error) {
-      gone_ = true;
+    } catch (const haptics::HidDisconnected& error) {
+      disconnected_ = true;
       error_ = error.what();
     } catch (const haptics::HidError& error) {
       error_ = error.what();
@@ -105,7 +105,7 @@ class Streaming {
 
   RecordingStream& stream_;
   std::atomic<bool> ended_{false};
-  bool gone_ = false;
+  bool disconnected_ = false;
   std::string error_;
   std::thread thread_;
 };

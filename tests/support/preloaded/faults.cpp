@@ -1,7 +1,8 @@
-// Injects system faults into a program: a preloaded library that overrides functions of the clock, files, OpenAL and
-// Vulkan. Files in the folder $INJECTED_FAULTS select the faults: clock (error of the wall clock in seconds), write (errno
-// of every write to a file), sound (no sound card while the file exists), gpu (the device is lost; 1: once, more: at each
-// submission). Each loss appends a byte to the file gpu_lost in that folder.
+// Injects system faults into a program: a preloaded library that overrides functions of the C library, OpenAL and
+// Vulkan. Files in the folder $INJECTED_FAULTS select the faults: `clock` contains the error of the wall clock [s];
+// `write` contains the errno with which every write to a file fails; while `sound` exists, there is no sound card;
+// `gpu` contains 1 to lose the GPU device once, or a larger number to lose it at every submission. Each loss appends a
+// byte to the file `gpu_lost` in that folder.
 #include <AL/alc.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -33,7 +34,7 @@ bool is_injected(const char* fault) {
   return access(path_of(fault).c_str(), F_OK) == 0;
 }
 
-// The number in the fault's file; 0 if there is no such file.
+// Returns the number in the fault's file, 0 if there is no such file.
 long read_fault(const char* fault) {
   const int file = open(path_of(fault).c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return 0;
@@ -51,8 +52,8 @@ void count_loss() {
 }
 
 bool fails_write(int file) {
-  struct stat what {};
-  if (fstat(file, &what) != 0 || !S_ISREG(what.st_mode) || file <= STDERR_FILENO) return false;
+  struct stat status {};
+  if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || file <= STDERR_FILENO) return false;
   const long error = read_fault("write");
   if (error != 0) errno = static_cast<int>(error);
   return error != 0;
@@ -98,7 +99,7 @@ ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t offset) {
   return fails_write(file) ? -1 : real(file, bytes, count, offset);
 }
 
-// The C library's fwrite() does not call the write() above.
+// The C library's fwrite() does not call the write() defined above, so it needs its own override.
 size_t fwrite(const void* bytes, size_t size, size_t count, FILE* file) {
   static const auto real = next<size_t (*)(const void*, size_t, size_t, FILE*)>("fwrite");
   return fails_write(fileno(file)) ? 0 : real(bytes, size, count, file);
@@ -109,11 +110,11 @@ ALCdevice* alcOpenDevice(const ALCchar* name) {
   return is_injected("sound") ? nullptr : real(name);
 }
 
-void alcGetIntegerv(ALCdevice* device, ALCenum what, ALCsizei count, ALCint* values) {
+void alcGetIntegerv(ALCdevice* device, ALCenum parameter, ALCsizei count, ALCint* values) {
   constexpr ALCenum kConnected = 0x313;  // ALC_EXT_disconnect
   static const auto real = next<void (*)(ALCdevice*, ALCenum, ALCsizei, ALCint*)>("alcGetIntegerv");
-  real(device, what, count, values);
-  if (what == kConnected && is_injected("sound")) *values = 0;
+  real(device, parameter, count, values);
+  if (parameter == kConnected && is_injected("sound")) *values = 0;
 }
 
 VkResult vkQueueSubmit2(VkQueue queue, uint32_t count, const VkSubmitInfo2* submits, VkFence fence) {

@@ -24,20 +24,20 @@ glm::dvec2 condition_forces(const DeviceEffect& effect, glm::dvec2 deflection, d
 }  // namespace
 
 double condition_force(const AxisCondition& condition, double deflection, double slope) noexcept {
-  const double away = deflection - condition.centre;
-  const double beyond = std::abs(away) - condition.dead_band;
-  if (beyond <= 0.0) return 0.0;
-  const double coefficient = away > 0.0 ? condition.positive : condition.negative;
-  const double most = away > 0.0 ? condition.positive_saturation : condition.negative_saturation;
-  const double back = std::clamp(coefficient * slope * beyond, -most, most);
-  return away > 0.0 ? -back : back;
+  const double offset = deflection - condition.centre;
+  const double excess = std::abs(offset) - condition.dead_band;
+  if (excess <= 0.0) return 0.0;
+  const double coefficient = offset > 0.0 ? condition.positive : condition.negative;
+  const double limit = offset > 0.0 ? condition.positive_saturation : condition.negative_saturation;
+  const double force = std::clamp(coefficient * slope * excess, -limit, limit);
+  return offset > 0.0 ? -force : force;
 }
 
 int DeviceEffects::create() noexcept {
   for (std::size_t i = 0; i < effects_.size(); ++i) {
-    if (effects_[i].taken) continue;
+    if (effects_[i].in_use) continue;
     effects_[i] = {};
-    effects_[i].taken = true;
+    effects_[i].in_use = true;
     return static_cast<int>(i) + 1;
   }
   return 0;
@@ -54,7 +54,7 @@ void DeviceEffects::free_all() noexcept {
 const DeviceEffect* DeviceEffects::find(int block) const noexcept {
   if (block < 1 || block > static_cast<int>(effects_.size())) return nullptr;
   const DeviceEffect& effect = effects_[static_cast<std::size_t>(block - 1)];
-  return effect.taken ? &effect : nullptr;
+  return effect.in_use ? &effect : nullptr;
 }
 
 DeviceEffect* DeviceEffects::find(int block) noexcept {
@@ -62,7 +62,7 @@ DeviceEffect* DeviceEffects::find(int block) noexcept {
 }
 
 int DeviceEffects::free_blocks() const noexcept {
-  return static_cast<int>(std::count_if(effects_.begin(), effects_.end(), [](const auto& e) { return !e.taken; }));
+  return static_cast<int>(std::count_if(effects_.begin(), effects_.end(), [](const auto& e) { return !e.in_use; }));
 }
 
 void DeviceEffects::start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept {
@@ -70,8 +70,8 @@ void DeviceEffects::start(DeviceEffect& effect, int loops, std::int64_t now_ns) 
   if (!settings.is_set) return;
   effect.playing = true;
   effect.start_ns = now_ns + settings.delay_ns;
-  const bool ends = settings.duration_ns > 0 && loops < kEndlessLoops;
-  effect.end_ns = ends ? effect.start_ns + std::max(loops, 1) * settings.duration_ns : 0;
+  const bool is_finite = settings.duration_ns > 0 && loops < kEndlessLoops;
+  effect.end_ns = is_finite ? effect.start_ns + std::max(loops, 1) * settings.duration_ns : 0;
 }
 
 void DeviceEffects::stop_all() noexcept {

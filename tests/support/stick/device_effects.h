@@ -1,5 +1,5 @@
-// The effects in a stick's memory: their blocks, when they play, and the forces they make. In the device's fractions: 1
-// is the full force, and the full deflection of an axis.
+// The effects in a stick's memory: their blocks, when they play, and their forces. Forces and deflections are
+// fractions: 1 is the full force of the device, or the full deflection of an axis.
 #pragma once
 
 #include <array>
@@ -11,12 +11,13 @@
 
 namespace gearshift::test {
 
-enum class EffectKind : std::uint8_t { silent, constant, spring, damper };  // silent: accepted, but makes no force
+// Silent effects are accepted, but make no force.
+enum class EffectKind : std::uint8_t { silent, constant, spring, damper };
 
 struct AxisCondition {
   bool is_set = false;
   double centre = 0.0, dead_band = 0.0;
-  double positive = 0.0, negative = 0.0;                        // coefficients on either side
+  double positive = 0.0, negative = 0.0;                        // coefficients on the two sides of the centre
   double positive_saturation = 0.0, negative_saturation = 0.0;  // 0 to 1
 };
 
@@ -24,47 +25,48 @@ struct EffectSettings {
   bool is_set = false;
   EffectKind kind = EffectKind::silent;
   std::int64_t duration_ns = 0;  // 0: endless
-  std::int64_t delay_ns = 0;     // from start to force
+  std::int64_t delay_ns = 0;     // delay of the force after the start command
   double gain = 1.0;
-  glm::dvec2 direction{0.0};               // of a constant force: where a positive magnitude pushes
+  glm::dvec2 direction{0.0};               // direction in which a positive constant force pushes
   std::array<bool, 2> axis{false, false};  // axes on which a condition acts
 };
 
 struct DeviceEffect {
-  bool taken = false;
+  bool in_use = false;
   EffectSettings settings;
   double magnitude = 0.0;
   std::array<AxisCondition, 2> condition{};
   bool playing = false;
-  std::int64_t start_ns = 0, end_ns = 0;  // of the force; end 0: endless
+  std::int64_t start_ns = 0, end_ns = 0;  // when the force begins and ends; end 0: never
 };
 
 struct EffectForces {
   glm::dvec2 constant{0.0}, spring{0.0}, damper{0.0};
 };
 
-// Motion of the lever, as input to conditions.
+// Motion of the lever, from which conditions compute their forces.
 struct DeviceMotion {
   glm::dvec2 deflection{0.0}, speed{0.0};
-  double spring_slope = 1.0;  // force of the maximum coefficient at full deflection
+  double spring_slope = 1.0;  // spring force at full deflection with the maximum coefficient
 };
 
 class DeviceEffects {
  public:
-  explicit DeviceEffects(int blocks) : effects_(static_cast<std::size_t>(blocks)) {}  // numbered from 1
+  explicit DeviceEffects(int blocks) : effects_(static_cast<std::size_t>(blocks)) {}  // blocks are numbered from 1
 
-  int create() noexcept;  // the lowest free block; 0: none
+  int create() noexcept;  // returns the lowest free block, 0 if there is none
   void free(int block) noexcept;
   void free_all() noexcept;
-  DeviceEffect* find(int block) noexcept;  // nullptr: not in use
+  DeviceEffect* find(int block) noexcept;  // nullptr if the block is not in use
   const DeviceEffect* find(int block) const noexcept;
   int free_blocks() const noexcept;
 
-  void start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept;  // 255 loops: endless; restarts if playing
+  // loops = 255: endless. An effect that is already playing starts again.
+  void start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept;
   void stop_all() noexcept;
   // Ends the effects whose time is over and returns their blocks.
   std::vector<int> expire(std::int64_t now_ns);
-  // Shifts all effects by a time that does not count, as in a pause.
+  // Delays the start and end of all playing effects, as during a pause.
   void postpone(std::int64_t by_ns) noexcept;
   int playing() const noexcept;
 
@@ -74,7 +76,8 @@ class DeviceEffects {
   std::vector<DeviceEffect> effects_;  // indexed by block - 1
 };
 
-// Force towards the centre, from the edge of the dead band; slope: force of coefficient 1 at deflection 1.
+// Force towards the centre, proportional to the deflection beyond the dead band. slope: force with coefficient 1 at
+// deflection 1.
 double condition_force(const AxisCondition& condition, double deflection, double slope) noexcept;
 
 }  // namespace gearshift::test

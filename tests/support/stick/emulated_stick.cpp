@@ -60,7 +60,7 @@ Answer EmulatedStick::control(const UsbSetup& setup, std::span<const std::uint8_
   return answer;
 }
 
-// USB 2.0 section 9.4, and HID 1.11 section 7.1.1 for its descriptors.
+// Standard requests of USB 2.0 section 9.4, and the HID descriptors of HID 1.11 section 7.1.1.
 Answer EmulatedStick::standard_request(const UsbSetup& setup) {
   switch (setup.request) {
     case 0:
@@ -103,23 +103,23 @@ Answer EmulatedStick::descriptor(int type, int index) const {
   }
 }
 
-// HID 1.11 section 7.2.
+// Class requests of HID 1.11 section 7.2.
 Answer EmulatedStick::class_request(const UsbSetup& setup, std::span<const std::uint8_t> data) {
   const int kind = setup.value >> 8;
   const auto id = static_cast<std::uint8_t>(setup.value);
   if (setup.request_type == kToHost && setup.request == kGetReport) return get_report(kind, id);
   if (setup.request_type == kToHost && setup.request == kGetIdle) return std::vector<std::uint8_t>{state_->idle};
   if (setup.request_type != kToDevice) return std::nullopt;
-  bool taken = false;
+  bool accepted = false;
   if (setup.request == kSetIdle) {
     state_->idle = static_cast<std::uint8_t>(kind);
-    taken = true;
+    accepted = true;
   } else if (setup.request == kSetReport && kind == kFeatureReport) {
-    taken = set_feature(data);
+    accepted = set_feature(data);
   } else if (setup.request == kSetReport && kind == kOutputReport) {
-    taken = take(data);
+    accepted = accept_output(data);
   }
-  return taken ? std::optional(std::vector<std::uint8_t>{}) : std::nullopt;
+  return accepted ? std::optional(std::vector<std::uint8_t>{}) : std::nullopt;
 }
 
 Answer EmulatedStick::get_report(int kind, std::uint8_t id) {
@@ -151,12 +151,12 @@ bool EmulatedStick::set_feature(std::span<const std::uint8_t> report) {
 
 bool EmulatedStick::output(std::span<const std::uint8_t> report) {
   state_->on_bus_reset();
-  return state_->family.endpoint_out != 0 && take(report);
+  return state_->family.endpoint_out != 0 && accept_output(report);
 }
 
-bool EmulatedStick::take(std::span<const std::uint8_t> report) {
+bool EmulatedStick::accept_output(std::span<const std::uint8_t> report) {
   log_message(StickMessage::Kind::output, report);
-  return !faults.stalls_outputs && state_->take(report);
+  return !faults.stalls_outputs && state_->accept_output(report);
 }
 
 std::optional<std::vector<std::uint8_t>> EmulatedStick::input() {
@@ -164,10 +164,10 @@ std::optional<std::vector<std::uint8_t>> EmulatedStick::input() {
   state.on_bus_reset();
   if (faults.silent) return std::nullopt;
   if (Answer report = state.firmware.take_state()) return report;
-  if (!state.waiting) return std::nullopt;
+  if (!state.pending_report) return std::nullopt;
   state.fetched_ns = state.now_ns;
-  state.sent = std::move(*state.waiting);
-  state.waiting.reset();
+  state.sent = std::move(*state.pending_report);
+  state.pending_report.reset();
   return state.sent;
 }
 

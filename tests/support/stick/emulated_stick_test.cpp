@@ -1,5 +1,5 @@
-// Emulated sticks against closed forms, and against bytes derived by hand from tests/data/hid. PID 1.0 is the Device
-// Class Definition for Physical Interface Devices of 1999.
+// Checks emulated sticks against closed-form solutions, and against bytes derived by hand from the report descriptors
+// in tests/data/hid. PID 1.0 is the Device Class Definition for Physical Interface Devices of 1999.
 #include "tests/support/stick/emulated_stick.h"
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct PushingHand final : HandDriver {
   HandTarget target;
 };
 
-// A bare handle without a spring, on a long lever, where the plane is flat.
+// A stick without a spring of its own, on a lever of 5 m, so that the knob practically moves in a plane.
 EmulatedStickConfig plain(StickFamily family) {
   EmulatedStickConfig config;
   config.family = family;
@@ -44,9 +44,9 @@ EmulatedStickConfig plain(StickFamily family) {
 
 struct Rig {
   explicit Rig(const EmulatedStickConfig& config) : family(config.family), stick(config, hand) { stick.advance(0); }
-  explicit Rig(StickFamily of) : Rig(plain(of)) {}
+  explicit Rig(StickFamily a_family) : Rig(plain(a_family)) {}
 
-  // Report IDs of SideWinder, OpenFFBoard and vJoy.
+  // Picks the text for this rig's family.
   const char* pick(const char* sidewinder, const char* openffboard, const char* vjoy) const {
     return family == StickFamily::sidewinder ? sidewinder : family == StickFamily::openffboard ? openffboard : vjoy;
   }
@@ -66,7 +66,7 @@ struct Rig {
   std::optional<Bytes> get(int kind_and_id, std::uint16_t size = 64) {
     return stick.control({0xA1, 1, static_cast<std::uint16_t>(kind_and_id), 0, size}, {});
   }
-  // The block load report after creating that type, and the block.
+  // Creates an effect of this type and returns the block load report, which contains the effect's block.
   Bytes load(int type) {
     const char* types[] = {"00", "01", "08", "09", "0C", "0D"};
     for (const char* name : types) {
@@ -87,25 +87,26 @@ struct Rig {
   EmulatedStick stick;
 };
 
-// Block 2 of the SideWinder, block 1 of the others, is a constant force to the right: direction 270 degrees, for 300
-// ms.
+// Creates a constant force to the right, that is, from 270 degrees, for 300 ms. Returns its block: 2 on the SideWinder,
+// 1 on the other sticks.
 std::string constant_to_the_right(Rig& rig) {
   const int block = rig.load(1)[1];
   REQUIRE(block == (rig.family == StickFamily::sidewinder ? 2 : 1));
-  // 300 ms are 012C; 270 degrees are C0 of 256, 27000 = 6978 of 36000, 24575 = 5FFF of 32767.
+  // 300 ms are 0x012C. 270 degrees are 0xC0 of 256, 27000 = 0x6978 of 36000, and 24575 = 0x5FFF of 32767.
   rig.out(rig.pick("01 02 01 2C 01 00 00 00 00 FF 00 04 C0 00 00 00",
                    "01 01 01 2C 01 00 00 00 00 00 00 FF 00 04 78 69 00 00 00 00 00 00",
                    "11 01 01 2C 01 00 00 00 00 00 00 FF 00 04 FF 5F 00 00 00 00 00 00"));
   return rig.pick("02", "01", "01");
 }
 
-// Half of the full magnitude cannot be encoded (127.5 of 255), so a fifth is used: 51 of 255, 6553.4, 2000.
+// Sets a fifth of the full magnitude: 51 of 255, 6553 of 32767, 2000 of 10000. (A half would be 127.5 of 255.)
 void fifth_of_full(Rig& rig) {
   rig.out(rig.pick("05 02 33 00", "05 01 99 19", "15 01 D0 07"));
 }
 
-// A spring on X and Y. Bytes: block, parameter block, centre, +, -, saturations, dead band; all but the last are at
-// their maximum.
+// Creates a spring (or a condition of the given type) on X and Y and returns its block. Bytes: block, parameter block,
+// centre, two coefficients, two saturations, dead band. Coefficients and saturations are at their maximum, centre and
+// dead band 0.
 std::string full_spring(Rig& rig, const char* type_and_load = "08") {
   const int type = std::stoi(type_and_load, nullptr, 16);
   rig.load(type);
@@ -126,7 +127,7 @@ std::string full_spring(Rig& rig, const char* type_and_load = "08") {
 
 TEST_CASE("a steady push comes to rest where the spring holds it: x = F / K") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(stick_family_name(family));
+    CAPTURE(to_string(family));
     Rig rig(family);
     rig.hand.target.push = {6.0, -4.0};
     rig.enable();
@@ -139,8 +140,9 @@ TEST_CASE("a steady push comes to rest where the spring holds it: x = F / K") {
 }
 
 TEST_CASE("dead band, centre, coefficients on either side and saturation of a condition") {
-  // On X: centre 0.25 of 70 mm, dead band 0.1, half stiffness to the right, a quarter to the left, at most 0.3 of 20 N.
-  // 10000 counts are 1, so vJoy's scale represents these fractions exactly: 09C4, 03E8, 1388, 0BB8.
+  // The condition on X: centre at 0.25 of 70 mm, dead band 0.1, half of the full stiffness to the right, a quarter to
+  // the left, at most 0.3 of 20 N. On vJoy 1 is 10000 counts, so these fractions are exact: 0x09C4, 0x03E8, 0x1388,
+  // 0x09C4, 0x0BB8.
   Rig rig(StickFamily::vjoy);
   rig.enable();
   const std::string block = full_spring(rig);
@@ -153,7 +155,7 @@ TEST_CASE("dead band, centre, coefficients on either side and saturation of a co
   rig.hand.target.push = {-2.0, 0.0};
   rig.run(6000);
   CHECK(rig.stick.position().x == doctest::Approx(centre - dead - 2.0 / 100.0).epsilon(1e-9));
-  rig.hand.target.push = {6.5, 0.0};  // more than the 6 N of saturation: moves on to the stop
+  rig.hand.target.push = {6.5, 0.0};  // more than the saturation of 6 N: the lever moves on to the stop
   rig.run(4000);
   CHECK(rig.stick.position().x == doctest::Approx(0.070).epsilon(1e-6));
   CHECK(rig.stick.force().x == doctest::Approx(-6.0).epsilon(1e-9));
@@ -162,9 +164,9 @@ TEST_CASE("dead band, centre, coefficients on either side and saturation of a co
   CHECK(rig.stick.force().x == 0.0);
 }
 
-TEST_CASE("under a damper a push moves at F / (b + D), with D the full force at 1 m/s") {
+TEST_CASE("under a damper, a push F moves the lever at F / (b + D), where D is the full force per 1 m/s") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(stick_family_name(family));
+    CAPTURE(to_string(family));
     Rig rig(family);
     rig.enable();
     rig.start(full_spring(rig, "09"));
@@ -174,15 +176,16 @@ TEST_CASE("under a damper a push moves at F / (b + D), with D the full force at 
   }
 }
 
-TEST_CASE("a force comes from its direction, clockwise from the far side (PID 1.0 section 4.2)") {
-  // 0 pushes towards the user, 90 degrees left, 180 away, 270 right. 90 degrees are 64 of 256, 9000, 8192 of 32767.
+TEST_CASE("a force pushes from its direction, which counts clockwise from the far side (PID 1.0 section 4.2)") {
+  // A force from 0 degrees pushes towards the user, from 90 left, from 180 away, from 270 right. 90 degrees are 64 of
+  // 256, 9000 of 36000, and 8192 of 32767.
   const char* sidewinder[] = {"00", "40", "80", "C0"};
   const char* openffboard[] = {"00 00", "28 23", "50 46", "78 69"};
   const char* vjoy[] = {"00 00", "00 20", "00 40", "FF 5F"};
   const glm::dvec2 pushes[] = {{0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}};
   for (StickFamily family : kFamilies) {
     for (int i = 0; i < 4; ++i) {
-      CAPTURE(stick_family_name(family));
+      CAPTURE(to_string(family));
       CAPTURE(i * 90);
       Rig rig(family);
       rig.enable();
@@ -201,7 +204,7 @@ TEST_CASE("a force comes from its direction, clockwise from the far side (PID 1.
   }
 }
 
-TEST_CASE("polarity inverts constant forces and springs, each on its axis") {
+TEST_CASE("the configured signs invert constant forces and springs, per axis") {
   EmulatedStickConfig config = plain(StickFamily::vjoy);
   config.constant_sign = {-1, 1};
   config.spring_sign = {1, -1};
@@ -211,19 +214,18 @@ TEST_CASE("polarity inverts constant forces and springs, each on its axis") {
   fifth_of_full(rig);
   rig.start(block);
   CHECK(rig.stick.force().x == doctest::Approx(-4.0).epsilon(1e-3));
-  Rig other(config);
-  other.enable();
-  other.start(full_spring(other));
-  other.stick.place({0.01, 0.01});
-  other.run(1);
-  CHECK(other.stick.force().x < -3.0);
-  CHECK(other.stick.force().y > 3.0);
+  Rig inverted_spring(config);
+  inverted_spring.enable();
+  inverted_spring.start(full_spring(inverted_spring));
+  inverted_spring.stick.place({0.01, 0.01});
+  inverted_spring.run(1);
+  CHECK(inverted_spring.stick.force().x < -3.0);
+  CHECK(inverted_spring.stick.force().y > 3.0);
 }
 
-TEST_CASE(
-    "an effect of 300 ms pushes for 300 periods of a millisecond, twice that with two loops; a start restarts it") {
+TEST_CASE("an effect of 300 ms pushes for 300 periods of 1 ms, with two loops for 600; a new start restarts it") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(stick_family_name(family));
+    CAPTURE(to_string(family));
     Rig rig(family);
     rig.enable();
     const std::string block = constant_to_the_right(rig);
@@ -245,7 +247,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a duration of zero and the maximum one never end") {
+TEST_CASE("effects with zero or maximum duration never end") {
   for (const char* duration : {"00 00", "FF 7F", "FF FF"}) {
     Rig rig(StickFamily::openffboard);
     rig.load(1);
@@ -285,7 +287,7 @@ TEST_CASE("gains of effect and device multiply; all forces together are at most 
   CHECK(rig.stick.force().x == doctest::Approx(-20.0 * 128.0 / 255.0 * 0.2));
   rig.out("0D FF");
   rig.load(1);
-  rig.out("01 03 01 2C 01 00 00 00 00 FF 00 04 40 00 00 00");  // another one from the right
+  rig.out("01 03 01 2C 01 00 00 00 00 FF 00 04 40 00 00 00");  // a second constant force, from the right
   rig.out("05 03 FF 00");
   rig.start("03");
   CHECK(rig.stick.force().x == -20.0);
@@ -294,17 +296,17 @@ TEST_CASE("gains of effect and device multiply; all forces together are at most 
 TEST_CASE("the pool: lowest block first, full, freed, used again; unknown types") {
   EmulatedStickConfig config = plain(StickFamily::sidewinder);
   config.blocks = 3;
-  Rig rig(config);  // block 1 is its centring spring: Linux' hid-pidff expects the first block to be 2
+  Rig rig(config);  // block 1 is the SideWinder's centring spring; Linux's hid-pidff expects to create block 2 first
   CHECK(rig.load(1) == hex("02 02 01 40 00"));  // block 2, success, 64 bytes left
   CHECK(rig.load(8) == hex("02 03 01 20 00"));
   CHECK(rig.load(9) == hex("02 04 01 00 00"));
   CHECK(rig.load(1) == hex("02 00 02 00 00"));  // full
   rig.out("0B 03");
-  rig.out("0B 01");  // must not be freed by the host
+  rig.out("0B 01");  // block 1 must not be freed by the host
   CHECK(rig.load(1) == hex("02 03 01 00 00"));
   rig.out("0B 02");
   CHECK(rig.load(13) == hex("02 00 03 20 00"));     // error
-  CHECK(*rig.get(0x303) == hex("03 60 00 03 01"));  // 96 bytes, 3 simultaneous effects, managed by the device
+  CHECK(*rig.get(0x303) == hex("03 60 00 03 01"));  // pool: 96 bytes, 3 simultaneous effects, managed by the device
 
   CHECK((*Rig(StickFamily::openffboard).get(0x313))[3] == 40);
   CHECK((*Rig(StickFamily::vjoy).get(0x313))[3] == 100);
@@ -334,7 +336,7 @@ TEST_CASE("faults of the pool, and finite effects refused") {
 
 TEST_CASE("device control (PID 1.0): enable, disable, stop all, reset, pause, continue") {
   for (StickFamily family : {StickFamily::sidewinder, StickFamily::vjoy}) {
-    CAPTURE(stick_family_name(family));
+    CAPTURE(to_string(family));
     Rig rig(family);
     const auto control = [&](const char* number) { rig.out(std::string(rig.pick("0C ", "", "1C ")) + number); };
     CHECK_FALSE(rig.stick.actuators_on());
@@ -348,7 +350,7 @@ TEST_CASE("device control (PID 1.0): enable, disable, stop all, reset, pause, co
     CHECK(rig.stick.force().x == 0.0);
     control("01");
     rig.run(100);
-    control("05");  // time does not pass for the effect
+    control("05");  // paused: time does not pass for the effect
     CHECK(rig.stick.force().x == 0.0);
     rig.run(500);
     control("06");
@@ -384,11 +386,11 @@ TEST_CASE("OpenFFBoard's one switch: pause, stop all and reset turn it off, sett
   rig.out("0C 08");
   CHECK_FALSE(rig.stick.actuators_on());
   CHECK(rig.stick.playing() == 0);
-  rig.out("0C 00");  // what Linux 6.1's hid-pidff sends as a reset
+  rig.out("0C 00");  // Linux 6.1's hid-pidff sends this as a reset
   CHECK_FALSE(rig.stick.actuators_on());
 }
 
-TEST_CASE("solo stops the others, stop stops one") {
+TEST_CASE("starting solo stops the other effects, stop stops one effect") {
   Rig rig(StickFamily::vjoy);
   constant_to_the_right(rig);
   rig.load(1);
@@ -407,20 +409,21 @@ TEST_CASE("solo stops the others, stop stops one") {
 TEST_CASE("the lever's report: rest, right, forward, buttons, in the bits that the descriptors define") {
   struct Case {
     StickFamily family;
-    const char *rest, *right, *forward;  // up to and with Y
+    const char *rest, *right, *forward;  // the bytes from X up to and including Y
     std::size_t size, from;
   };
-  // SideWinder: 10 bits in two bytes, -512 to 511, with the middle between -1 and 0. The others were derived likewise.
+  // The SideWinder's axes have 10 bits in two bytes, -512 to 511, and the middle is between -1 and 0. The bytes of the
+  // other sticks were derived in the same way.
   const Case cases[] = {
       {StickFamily::sidewinder, "00 00 00 00", "FF 01 00 00", "00 00 00 02", 13, 1},
       {StickFamily::openffboard, "00 00 00 00", "FF 7F 00 00", "00 00 01 80", 25, 9},
       {StickFamily::vjoy, "00 40 00 00 00 40 00 00", "FF 7F 00 00 00 40 00 00", "00 40 00 00 00 00 00 00", 97, 1},
   };
   for (const Case& c : cases) {
-    CAPTURE(stick_family_name(c.family));
+    CAPTURE(to_string(c.family));
     Rig rig(c.family);
-    const auto axes_at = [&](glm::dvec2 place) {
-      rig.stick.place(place);
+    const auto axes_at = [&](glm::dvec2 position) {
+      rig.stick.place(position);
       const Bytes report = *rig.get(0x101, 128);
       CHECK(report.size() == c.size);
       CHECK(report[0] == 1);
@@ -439,7 +442,7 @@ TEST_CASE("the lever's report: rest, right, forward, buttons, in the bits that t
   }
 }
 
-TEST_CASE("reports come every interval, or on a change, each once") {
+TEST_CASE("reports come at every interval or only after a change, each once") {
   EmulatedStickConfig config = plain(StickFamily::sidewinder);
   config.input_interval = 0.004;
   Rig rig(config);
@@ -454,27 +457,27 @@ TEST_CASE("reports come every interval, or on a change, each once") {
   CHECK(reports == 25);
 
   config.reports_only_changes = true;
-  Rig still(config);
-  still.run(4);
-  CHECK(still.stick.input());
-  still.run(100);
-  CHECK_FALSE(still.stick.input());
-  CHECK(still.stick.time_ns() - still.stick.fetched_ns() == 100 * kStickMs);
-  CHECK(still.get(0x101));
-  CHECK(still.stick.fetched_ns() == still.stick.time_ns());
-  still.stick.place({0.01, 0.0});
-  still.run(4);
-  CHECK(still.stick.input());
+  Rig unchanged(config);
+  unchanged.run(4);
+  CHECK(unchanged.stick.input());
+  unchanged.run(100);
+  CHECK_FALSE(unchanged.stick.input());
+  CHECK(unchanged.stick.time_ns() - unchanged.stick.fetched_ns() == 100 * kStickMs);
+  CHECK(unchanged.get(0x101));
+  CHECK(unchanged.stick.fetched_ns() == unchanged.stick.time_ns());
+  unchanged.stick.place({0.01, 0.0});
+  unchanged.run(4);
+  CHECK(unchanged.stick.input());
 }
 
 TEST_CASE("state reports after changes: SideWinder's with the block, OpenFFBoard's without, none on vJoy") {
   Rig rig(StickFamily::sidewinder);
   rig.enable();
-  CHECK(*rig.stick.input() == hex("02 16 00"));  // actuators, safety switch and power; block 0
+  CHECK(*rig.stick.input() == hex("02 16 00"));  // bits: actuators, safety switch, power; block 0
   const std::string block = constant_to_the_right(rig);
-  CHECK(*rig.stick.input() == hex("02 16 04"));  // block 2 set
+  CHECK(*rig.stick.input() == hex("02 16 04"));  // block 2 is set
   rig.start(block);
-  CHECK(*rig.stick.input() == hex("02 16 05"));  // and playing
+  CHECK(*rig.stick.input() == hex("02 16 05"));  // block 2 plays
   rig.run(299);
   while (const auto report = rig.stick.input()) CHECK((*report)[0] == 1);
   rig.run(1);
@@ -530,9 +533,9 @@ TEST_CASE("faults: jumps, short reports, the same report forever, silence, outpu
   CHECK_FALSE(rig.out("0C 01"));
 }
 
-TEST_CASE("unknown or short reports stall; vJoy has no pipe for outputs") {
+TEST_CASE("unknown or short reports stall; vJoy has no output pipe") {
   for (StickFamily family : kFamilies) {
-    CAPTURE(stick_family_name(family));
+    CAPTURE(to_string(family));
     Rig rig(family);
     CHECK_FALSE(rig.out("7E 01"));
     CHECK_FALSE(rig.out(rig.pick("05 02 33", "05 01 33", "15 01 33")));
@@ -545,7 +548,7 @@ TEST_CASE("unknown or short reports stall; vJoy has no pipe for outputs") {
   CHECK(rig.out("1C 01"));
 }
 
-TEST_CASE("descriptors: lengths that agree, endpoints, strings; idle and configuration are kept") {
+TEST_CASE("descriptors: consistent lengths, endpoints, strings; idle rate and configuration are stored") {
   struct Case {
     StickFamily family;
     const char* device;
@@ -557,7 +560,7 @@ TEST_CASE("descriptors: lengths that agree, endpoints, strings; idle and configu
       {StickFamily::vjoy, "12 01 00 02 00 00 00 40 34 12 AD BE 22 02 01 02 03 01", 1330, 34},
   };
   for (const Case& c : cases) {
-    CAPTURE(stick_family_name(c.family));
+    CAPTURE(to_string(c.family));
     Rig rig(c.family);
     const auto descriptor = [&](int type, int index, std::uint8_t recipient, std::uint16_t size = 4096) {
       return rig.stick.control({recipient, 6, static_cast<std::uint16_t>(type << 8 | index), 0, size}, {});
@@ -573,7 +576,7 @@ TEST_CASE("descriptors: lengths that agree, endpoints, strings; idle and configu
     CHECK(*descriptor(3, 0, 0x80) == hex("04 03 09 04"));
     CHECK(descriptor(3, 2, 0x80));
     CHECK_FALSE(descriptor(3, 9, 0x80));
-    CHECK_FALSE(descriptor(6, 0, 0x80));  // no device qualifier, because it is full speed
+    CHECK_FALSE(descriptor(6, 0, 0x80));  // no device qualifier, because the stick is full speed
     CHECK(rig.stick.control({0x00, 9, 1, 0, 0}, {}));
     CHECK(*rig.stick.control({0x80, 8, 0, 0, 1}, {}) == hex("01"));
     CHECK(rig.stick.control({0x21, 10, 0x0800, 0, 0}, {}));

@@ -1,6 +1,6 @@
 // This work is based on:
 // USB Implementers' Forum. Device Class Definition for Physical Interface Devices (PID), version 1.0. 1999
-// and on the three report descriptors of tests/data/hid, read by hand: README.md shows how.
+// and on the report descriptors of tests/data/hid, read by hand.
 #include "tests/support/stick/stick_family.h"
 
 #include <array>
@@ -22,27 +22,29 @@ constexpr StickNumber s16(std::size_t at) {
   return {at, 2, true};
 }
 
-// Bytes: 1 block, 2 type, 3 duration, 5 trigger repeat, 7 sample period, 9 gain, 10 trigger button, 11 axes, 12
-// one-byte directions, 14 start delay.
+// Byte offsets: 1 block, 2 type, 3 duration, 5 trigger repeat, 7 sample period, 9 gain, 10 trigger button, 11 axes, 12
+// and 13 directions (one byte each), 14 start delay.
 SetEffectBytes short_set_effect() {
   return {{0x01, 16}, u16(3), u16(14), 9, 11, u8(12), u8(13), 256.0};
 }
 
-// The start delay comes before the gain, directions have two bytes, and two type-specific offsets are at the end.
+// In this longer report the start delay comes before the gain, directions have two bytes, and two type-specific offsets
+// are at the end.
 SetEffectBytes long_set_effect(std::uint8_t id, double full_turn) {
   return {{id, 22}, u16(3), u16(9), 11, 13, u16(14), u16(16), full_turn};
 }
 
 ConditionBytes short_condition() {
-  const auto s8 = [](std::size_t at) { return StickShare{{at, 1, true}, 127.0, -128.0}; };
-  const auto share = [](std::size_t at) { return StickShare{u8(at), 255.0}; };
-  return {{0x03, 9}, s8(3), s8(4), s8(5), share(6), share(7), share(8)};
+  const auto s8 = [](std::size_t at) { return StickFraction{{at, 1, true}, 127.0, -128.0}; };
+  const auto fraction = [](std::size_t at) { return StickFraction{u8(at), 255.0}; };
+  return {{0x03, 9}, s8(3), s8(4), s8(5), fraction(6), fraction(7), fraction(8)};
 }
 
-ConditionBytes long_condition(std::uint8_t id, double most, double least) {
-  const auto both = [&](std::size_t at) { return StickShare{s16(at), most, least}; };
-  const auto share = [&](std::size_t at) { return StickShare{u16(at), most}; };
-  return {{id, 15}, both(3), both(5), both(7), share(9), share(11), share(13)};
+ConditionBytes long_condition(std::uint8_t id, double max, double min) {
+  const auto signed_fraction = [&](std::size_t at) { return StickFraction{s16(at), max, min}; };
+  const auto fraction = [&](std::size_t at) { return StickFraction{u16(at), max}; };
+  return {{id, 15},    signed_fraction(3), signed_fraction(5), signed_fraction(7),
+          fraction(9), fraction(11),       fraction(13)};
 }
 
 StickFamilyTable sidewinder() {
@@ -142,8 +144,8 @@ std::int64_t read_number(std::span<const std::uint8_t> report, StickNumber numbe
   std::uint64_t value = 0;
   for (int i = number.bytes - 1; i >= 0; --i) value = value << 8 | report[number.at + static_cast<std::size_t>(i)];
   const std::uint64_t sign = std::uint64_t{1} << (8 * number.bytes - 1);
-  const bool below = number.is_signed && (value & sign) != 0;
-  return static_cast<std::int64_t>(value) - (below ? static_cast<std::int64_t>(2 * sign) : 0);
+  const bool is_negative = number.is_signed && (value & sign) != 0;
+  return static_cast<std::int64_t>(value) - (is_negative ? static_cast<std::int64_t>(2 * sign) : 0);
 }
 
 void write_number(std::span<std::uint8_t> report, StickNumber number, std::int64_t value) noexcept {
@@ -152,9 +154,9 @@ void write_number(std::span<std::uint8_t> report, StickNumber number, std::int64
   }
 }
 
-double read_share(std::span<const std::uint8_t> report, const StickShare& share) noexcept {
-  const double value = static_cast<double>(read_number(report, share.number));
-  return value < 0.0 ? -value / share.least : value / share.most;
+double read_fraction(std::span<const std::uint8_t> report, const StickFraction& fraction) noexcept {
+  const double value = static_cast<double>(read_number(report, fraction.number));
+  return value < 0.0 ? -value / fraction.min : value / fraction.max;
 }
 
 const StickFamilyTable& stick_family(StickFamily family) noexcept {
@@ -162,7 +164,7 @@ const StickFamilyTable& stick_family(StickFamily family) noexcept {
   return tables.at(static_cast<std::size_t>(family));
 }
 
-const char* stick_family_name(StickFamily family) noexcept {
+const char* to_string(StickFamily family) noexcept {
   return stick_family(family).name;
 }
 

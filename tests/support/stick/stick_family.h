@@ -1,4 +1,4 @@
-// Differences between the families: their USB descriptors, and the bytes of their reports. Derived by hand from the
+// Differences between the families of sticks: USB descriptors and the bytes of reports. Derived by hand from the
 // devices' report descriptors (tests/data/hid), so that our parser and these tables check each other.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace gearshift::test {
 
-using StickReport = std::vector<std::uint8_t>;  // ID first
+using StickReport = std::vector<std::uint8_t>;  // the ID is the first byte
 
 // A number in a report, little-endian.
 struct StickNumber {
@@ -22,43 +22,43 @@ struct StickNumber {
 std::int64_t read_number(std::span<const std::uint8_t> report, StickNumber number) noexcept;
 void write_number(std::span<std::uint8_t> report, StickNumber number, std::int64_t value) noexcept;
 
-// A number in a report as a fraction: of `most` above zero, of -`least` below.
-struct StickShare {
+// A number in a report, read as a fraction: divided by `max` if positive, by -`min` if negative.
+struct StickFraction {
   StickNumber number;
-  double most = 1.0, least = 0.0;
+  double max = 1.0, min = 0.0;
 };
-double read_share(std::span<const std::uint8_t> report, const StickShare& share) noexcept;
+double read_fraction(std::span<const std::uint8_t> report, const StickFraction& fraction) noexcept;
 
 struct ReportShape {
   std::uint8_t id = 0;
-  std::size_t size = 0;  // [bytes] ID included; 0: no such report
+  std::size_t size = 0;  // [bytes] including the ID; 0: no such report
 };
 
 struct LeverBytes : ReportShape {
   StickNumber x, y;
-  double low = 0.0, high = 0.0;  // [counts] of the axes
-  int bits = 16;                 // per axis; the bits above are padding
+  double low = 0.0, high = 0.0;  // [counts] range of the axes
+  int bits = 16;                 // per axis; higher bits are padding
   std::size_t buttons_at = 0;    // button 1 is the lowest bit of this byte
   std::size_t hat_at = 0;        // byte of the hat, which reports 8 (not pressed); 0: no hat
 };
 struct SetEffectBytes : ReportShape {
   StickNumber duration, start_delay;     // [ms]
-  std::size_t gain_at = 0, axes_at = 0;  // gain 0 to 255; axes: bit 0 X, 1 Y, 2 direction
+  std::size_t gain_at = 0, axes_at = 0;  // gain: 0 to 255; axes: bit 0 X, 1 Y, 2 direction
   StickNumber direction_x, direction_y;
   double full_turn = 0.0;  // [counts] per full turn of a direction
 };
 struct ConditionBytes : ReportShape {
-  StickShare centre, positive, negative, positive_saturation, negative_saturation, dead_band;
+  StickFraction centre, positive, negative, positive_saturation, negative_saturation, dead_band;
 };
 struct ConstantBytes : ReportShape {
-  StickShare magnitude;
+  StickFraction magnitude;
 };
 
-// Choices that PID 1.0 leaves open, and deviations from it.
+// Choices that PID 1.0 leaves open, and deviations from PID 1.0.
 struct StickQuirks {
   int first_block = 1;  // lower blocks are built in: block 1 of the SideWinder is its centring spring
   int last_block = 40;
-  bool control_bits = false;   // device control: one bit each instead of a number from 1 to 6
+  bool control_bits = false;   // device control has one bit per command instead of a number from 1 to 6
   bool board_control = false;  // OpenFFBoard: one switch for actuators, pause and stop all; a reset turns it off, and
                                // setting an effect turns it on
 };
@@ -69,15 +69,15 @@ struct StickFamilyTable {
   const char *maker, *product_name, *serial;  // serial "": none
   std::uint8_t endpoint_in, endpoint_out;     // endpoint_out 0: outputs use the control pipe
   LeverBytes lever;
-  ReportShape state;  // 3 bytes: with the effect's block; 2 bytes: without; size 0: not sent
+  ReportShape state;  // state report: 3 bytes with the effect's block, 2 bytes without; 0: not sent
   SetEffectBytes set_effect;
   ConditionBytes condition;
   ConstantBytes constant;
   ReportShape operation, block_free, control, gain;
-  std::vector<ReportShape> other_outputs;  // accepted without effect
+  std::vector<ReportShape> other_outputs;  // accepted, but ignored
   ReportShape create, block_load, pool;    // features
   ReportShape block_state;                 // feature, only on vJoy
-  std::uint8_t last_type;                  // effects are numbered from 1: 1 constant, 8 spring, 9 damper
+  std::uint8_t last_type;                  // highest effect type; 1 is constant, 8 spring, 9 damper
   StickQuirks quirks;
 };
 

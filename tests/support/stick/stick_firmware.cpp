@@ -11,17 +11,18 @@
 namespace gearshift::test {
 namespace {
 
-constexpr std::size_t kMaxStates = 16;             // queued reports
+constexpr std::size_t kMaxStates = 16;             // queued state reports
 constexpr int kBytesPerBlock = 32;                 // of effect memory
-constexpr std::int64_t kEndlessDuration = 0x7fff;  // [ms] the maximum logical value and above
+constexpr std::int64_t kEndlessDuration = 0x7fff;  // [ms] effects of this duration or longer are endless
 constexpr std::int64_t kMillisecond = 1'000'000;   // [ns]
 constexpr int kConstantType = 1, kSpringType = 8, kDamperType = 9;
 enum Control { enable_actuators = 1, disable_actuators, stop_all, reset_all, pause_all, continue_all };
 enum Operation { start_effect = 1, start_solo, stop_effect };
 
 // Direction in which a constant force pushes, on the device's axes. The encoded direction is where the force comes
-// from, clockwise from the far side (PID 1.0 section 4.2): from the right (90 degrees) pushes left, from the far side
-// (0) towards the user, which is Y +. Without directions the two values are components, with 180 degrees as zero.
+// from, clockwise from the far side (PID 1.0 section 4.2): a force from the right (90 degrees) pushes left, a force
+// from the far side (0) pushes towards the user (Y +). Without the direction bit the two values are components, and 180
+// degrees is zero.
 glm::dvec2 push_direction(const SetEffectBytes& bytes, std::span<const std::uint8_t> report) noexcept {
   const std::uint8_t axes = report[bytes.axes_at];
   const auto x = static_cast<double>(read_number(report, bytes.direction_x));
@@ -60,7 +61,7 @@ void StickFirmware::reset() noexcept {
   if (family_.quirks.first_block > 1) create_centring_spring();
 }
 
-// A block that the host does not create: a centring spring, which plays when started.
+// Creates a block without a request from the host: a centring spring, which plays after the host starts it.
 void StickFirmware::create_centring_spring() noexcept {
   DeviceEffect* spring = effects_.find(effects_.create());
   spring->settings = {true, EffectKind::spring, 0, 0, 1.0, {}, {true, true}};
@@ -68,12 +69,12 @@ void StickFirmware::create_centring_spring() noexcept {
 }
 
 bool StickFirmware::accepts_output(std::span<const std::uint8_t> report) const noexcept {
-  const auto fits = [&](const ReportShape& shape) {
+  const auto matches = [&](const ReportShape& shape) {
     return shape.size > 0 && report.size() == shape.size && report[0] == shape.id;
   };
-  return fits(family_.set_effect) || fits(family_.condition) || fits(family_.constant) || fits(family_.operation) ||
-         fits(family_.block_free) || fits(family_.control) || fits(family_.gain) ||
-         std::any_of(family_.other_outputs.begin(), family_.other_outputs.end(), fits);
+  return matches(family_.set_effect) || matches(family_.condition) || matches(family_.constant) ||
+         matches(family_.operation) || matches(family_.block_free) || matches(family_.control) ||
+         matches(family_.gain) || std::any_of(family_.other_outputs.begin(), family_.other_outputs.end(), matches);
 }
 
 void StickFirmware::output(std::span<const std::uint8_t> report, std::int64_t now_ns) {
@@ -99,7 +100,7 @@ void StickFirmware::output(std::span<const std::uint8_t> report, std::int64_t no
 void StickFirmware::set_constant(std::span<const std::uint8_t> report) noexcept {
   DeviceEffect* effect = effects_.find(report[1]);
   if (effect == nullptr) return;
-  effect->magnitude = std::clamp(read_share(report, family_.constant.magnitude), -1.0, 1.0);
+  effect->magnitude = std::clamp(read_fraction(report, family_.constant.magnitude), -1.0, 1.0);
 }
 
 EffectKind StickFirmware::kind_of(int type) const noexcept {
@@ -139,12 +140,12 @@ void StickFirmware::set_condition(std::span<const std::uint8_t> report) noexcept
   const ConditionBytes& bytes = family_.condition;
   AxisCondition& condition = effect->condition[axis];
   condition.is_set = true;
-  condition.centre = read_share(report, bytes.centre);
-  condition.dead_band = read_share(report, bytes.dead_band);
-  condition.positive = read_share(report, bytes.positive);
-  condition.negative = read_share(report, bytes.negative);
-  condition.positive_saturation = std::clamp(read_share(report, bytes.positive_saturation), 0.0, 1.0);
-  condition.negative_saturation = std::clamp(read_share(report, bytes.negative_saturation), 0.0, 1.0);
+  condition.centre = read_fraction(report, bytes.centre);
+  condition.dead_band = read_fraction(report, bytes.dead_band);
+  condition.positive = read_fraction(report, bytes.positive);
+  condition.negative = read_fraction(report, bytes.negative);
+  condition.positive_saturation = std::clamp(read_fraction(report, bytes.positive_saturation), 0.0, 1.0);
+  condition.negative_saturation = std::clamp(read_fraction(report, bytes.negative_saturation), 0.0, 1.0);
 }
 
 void StickFirmware::operate(std::span<const std::uint8_t> report, std::int64_t now_ns) {
@@ -235,10 +236,11 @@ std::optional<StickReport> StickFirmware::feature(std::uint8_t id) const {
 }
 
 StickReport StickFirmware::state() const {
-  const auto bit = [](bool value, int place) { return static_cast<std::uint8_t>(value ? 1 << place : 0); };
+  const auto bit = [](bool value, int position) { return static_cast<std::uint8_t>(value ? 1 << position : 0); };
   const auto flags =
-      static_cast<std::uint8_t>(bit(paused_, 0) | bit(actuators_, 1) | bit(true, 2));  // safety switch on
-  if (family_.state.size == 2) {                                                       // and the motors have power
+      static_cast<std::uint8_t>(bit(paused_, 0) | bit(actuators_, 1) | bit(true, 2));  // the safety switch is on
+  // The motors always have power: bit 3 of the short report, bit 4 of the long one.
+  if (family_.state.size == 2) {
     return {family_.state.id, static_cast<std::uint8_t>(flags | bit(true, 3) | bit(playing() > 0, 4))};
   }
   if (family_.state.size == 3) {

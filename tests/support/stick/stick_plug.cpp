@@ -19,7 +19,7 @@ std::uint8_t high(std::size_t value) {
   return static_cast<std::uint8_t>(value >> 8);
 }
 
-void add(std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& more) {
+void append(std::vector<std::uint8_t>& to, const std::vector<std::uint8_t>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
@@ -56,10 +56,10 @@ std::vector<std::uint8_t> make_configuration_descriptor(const StickFamilyTable& 
   const auto interval = static_cast<std::uint8_t>(std::clamp(std::ceil(input_interval * 1e3 - 1e-6), 1.0, 255.0));
   const std::uint8_t endpoints = family.endpoint_out != 0 ? 2 : 1;
   std::vector<std::uint8_t> bytes{9, 2, 0, 0, 1, 1, 0, 0x80, 50};  // one interface, bus-powered, 100 mA
-  add(bytes, {9, 4, 0, 0, endpoints, 3, 0, 0, 0});
-  add(bytes, {9, 0x21, 0x11, 0x01, 0, 1, 0x22, low(report_descriptor), high(report_descriptor)});
-  add(bytes, interrupt_endpoint(family.endpoint_in, interval));
-  if (family.endpoint_out != 0) add(bytes, interrupt_endpoint(family.endpoint_out, 1));
+  append(bytes, {9, 4, 0, 0, endpoints, 3, 0, 0, 0});
+  append(bytes, {9, 0x21, 0x11, 0x01, 0, 1, 0x22, low(report_descriptor), high(report_descriptor)});
+  append(bytes, interrupt_endpoint(family.endpoint_in, interval));
+  if (family.endpoint_out != 0) append(bytes, interrupt_endpoint(family.endpoint_out, 1));
   bytes[2] = low(bytes.size());
   bytes[3] = high(bytes.size());
   return bytes;
@@ -71,7 +71,7 @@ std::vector<std::uint8_t> make_string_descriptor(const StickFamilyTable& family,
   const std::string_view text = index == 1 ? family.maker : index == 2 ? family.product_name : family.serial;
   if (text.empty()) return {};
   std::vector<std::uint8_t> bytes{low(2 + 2 * text.size()), 3};
-  for (char letter : text) add(bytes, {static_cast<std::uint8_t>(letter), 0});
+  for (char letter : text) append(bytes, {static_cast<std::uint8_t>(letter), 0});
   return bytes;
 }
 

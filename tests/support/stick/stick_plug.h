@@ -10,7 +10,7 @@
 namespace gearshift::test {
 
 std::vector<std::uint8_t> make_device_descriptor(const StickFamilyTable& family);
-// input_interval [s], rounded up to whole milliseconds. Includes interface, HID and endpoint descriptors.
+// Includes the interface, HID and endpoint descriptors. input_interval [s] is rounded up to whole milliseconds.
 std::vector<std::uint8_t> make_configuration_descriptor(const StickFamilyTable& family, std::size_t report_descriptor,
                                                         double input_interval);
 std::vector<std::uint8_t> make_string_descriptor(const StickFamilyTable& family, int index);  // empty: no such string

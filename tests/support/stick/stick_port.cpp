@@ -15,7 +15,7 @@
 namespace gearshift::test {
 namespace {
 
-constexpr std::int64_t kMaxSilenceNs = 250'000'000;  // [ns] without an answer
+constexpr std::int64_t kMaxSilenceNs = 250'000'000;  // [ns] a stick that sends nothing for longer is dead
 constexpr std::uint16_t kInput = 0x0100, kOutput = 0x0200, kFeature = 0x0300;
 
 std::int64_t monotonic_ns() {
@@ -42,12 +42,12 @@ bool set_report(EmulatedStick& stick, std::uint16_t kind, const haptics::HidByte
 }
 
 bool has_output_pipe(const EmulatedStick& stick) {
-  return stick.configuration_descriptor()[13] == 2;  // bNumEndpoints of the interface: the second one is for output
+  return stick.configuration_descriptor()[13] == 2;  // bNumEndpoints is 2: the second endpoint is the output
 }
 
 void send_output(EmulatedStick& stick, const haptics::HidBytes& report) {
-  const bool taken = has_output_pipe(stick) ? stick.output(report.view()) : set_report(stick, kOutput, report);
-  if (!taken) throw haptics::HidError("The stick does not accept an output");
+  const bool accepted = has_output_pipe(stick) ? stick.output(report.view()) : set_report(stick, kOutput, report);
+  if (!accepted) throw haptics::HidError("The stick does not accept an output");
 }
 
 void take_inputs(EmulatedStick& stick, const haptics::StreamConfig& config, haptics::HidStream& stream,
@@ -56,9 +56,9 @@ void take_inputs(EmulatedStick& stick, const haptics::StreamConfig& config, hapt
   while (const auto report = stick.input()) stream.on_input(*report, now_ns);
   const std::int64_t quiet_ns = now_ns - stick.fetched_ns();
   if (quiet_ns < config.silence_ns) return;
-  const auto asked = stick.control(get_report(kInput, config.lever_report, haptics::HidBytes::kMaxSize), {});
-  if (asked) {
-    stream.on_input(*asked, now_ns);
+  const auto requested = stick.control(get_report(kInput, config.lever_report, haptics::HidBytes::kMaxSize), {});
+  if (requested) {
+    stream.on_input(*requested, now_ns);
   } else if (quiet_ns >= kMaxSilenceNs) {
     throw haptics::HidError("The stick no longer answers");
   }
@@ -72,13 +72,13 @@ bool send_next_output(EmulatedStick& stick, haptics::HidStream& stream, std::int
   return true;
 }
 
-// Waits until the descriptor is written to, or for that time.
+// Waits until the event descriptor is written to, but at most `ns` nanoseconds.
 void wait_for(int fd, std::int64_t ns) {
-  pollfd wanted{fd, POLLIN, 0};
+  pollfd poll_request{fd, POLLIN, 0};
   const timespec time{0, static_cast<long>(std::clamp<std::int64_t>(ns, 0, 999'999'999))};
-  if (ppoll(&wanted, 1, &time, nullptr) <= 0) return;
+  if (ppoll(&poll_request, 1, &time, nullptr) <= 0) return;
   std::uint64_t count = 0;
-  [[maybe_unused]] const ssize_t taken = read(fd, &count, sizeof count);
+  [[maybe_unused]] const ssize_t ignored = read(fd, &count, sizeof count);
 }
 
 }  // namespace
@@ -114,16 +114,16 @@ const std::vector<std::uint8_t>& StickPort::report_descriptor() const noexcept {
   return stick_.report_descriptor();
 }
 
-// Locks the stick for one control transfer, and simulates its duration.
+// Locks the stick for one control transfer, and simulates the transfer's duration.
 std::unique_lock<std::mutex> StickPort::begin_transfer() {
-  if (!plugged_) throw haptics::HidGone("The stick was unplugged");
+  if (!plugged_) throw haptics::HidDisconnected("The stick was unplugged");
   std::unique_lock lock(mutex_);
   const auto slow = std::chrono::nanoseconds(static_cast<std::int64_t>(stick_.faults.slow * 1e9));
   const std::chrono::nanoseconds longest(kMaxSilenceNs);
   if (slow.count() == 0) return lock;
   lock.unlock();
   std::this_thread::sleep_for(std::min(slow, longest));
-  if (!plugged_) throw haptics::HidGone("The stick was unplugged");
+  if (!plugged_) throw haptics::HidDisconnected("The stick was unplugged");
   if (slow > longest) throw haptics::HidError("The stick does not answer within 250 ms");
   lock.lock();
   return lock;
@@ -153,12 +153,12 @@ void StickPort::stream(const haptics::StreamConfig& config, haptics::HidStream& 
   while (!stream.should_end()) {
     std::int64_t now_ns = monotonic_ns();
     {
-      if (!plugged_) throw haptics::HidGone("The stick was unplugged");
+      if (!plugged_) throw haptics::HidDisconnected("The stick was unplugged");
       const std::lock_guard lock(mutex_);
       take_inputs(stick_, config, stream, now_ns);
       if (now_ns - sent_ns >= config.tick_ns && send_next_output(stick_, stream, now_ns)) sent_ns = now_ns;
     }
-    const std::int64_t free_ns = sent_ns + config.tick_ns - now_ns;  // until the pipe is free
+    const std::int64_t free_ns = sent_ns + config.tick_ns - now_ns;  // time until the output pipe is free
     // If the pipe is busy, wait for it; otherwise wait for a new command.
     if (free_ns > 0) {
       wait_for(-1, free_ns);

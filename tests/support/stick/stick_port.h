@@ -1,4 +1,5 @@
-// A port that connects directly to an emulated stick, without USB: in real time with stream(), or tick by tick.
+// A port that connects directly to an emulated stick, without USB. StickPort::stream() runs in real time; tick_stick()
+// runs a single tick at any time.
 #pragma once
 
 #include <atomic>
@@ -9,15 +10,15 @@
 
 namespace gearshift::test {
 
-// One tick: advances the stick to now_ns, delivers its reports to the stream, and sends the stream's output. Throws
-// HidError if the output is not accepted, or the stick has not answered for 250 ms.
+// Advances the stick to now_ns, delivers its reports to the stream, and sends the stream's output. Throws HidError if
+// the output is not accepted, or if the stick has not answered for 250 ms.
 void tick_stick(EmulatedStick& stick, const haptics::StreamConfig& config, haptics::HidStream& stream,
                 std::int64_t now_ns);
 
 class StickPort : public haptics::HidPort {
  public:
-  // plugged: while false, every call throws HidGone. All arguments must outlive the port; the mutex guards the stick
-  // while stream() runs on another thread.
+  // plugged: while false, every call throws HidDisconnected. All arguments must outlive the port; the mutex guards the
+  // stick while stream() runs on another thread.
   StickPort(EmulatedStick& stick, std::mutex& mutex, const std::atomic<bool>& plugged);
 
   const haptics::HidIdentity& identity() const noexcept override;

@@ -1,4 +1,4 @@
-// The port to an emulated stick keeps the contract of haptics/hid/hid_port.h.
+// The port to an emulated stick meets the contract of haptics/hid/hid_port.h.
 #include "tests/support/stick/stick_port.h"
 
 #include <vector>
@@ -13,19 +13,19 @@ namespace {
 constexpr std::int64_t kPortMs = 1'000'000;
 
 HidBytes report(std::initializer_list<std::uint8_t> bytes) {
-  HidBytes made;
-  for (std::uint8_t byte : bytes) made.bytes[made.size++] = byte;
-  return made;
+  HidBytes result;
+  for (std::uint8_t byte : bytes) result.bytes[result.size++] = byte;
+  return result;
 }
 
 struct Listener final : HidStream {
   void on_input(std::span<const std::uint8_t> bytes, std::int64_t time_ns) noexcept override {
-    if (bytes[0] != 1) return;  // a state report
+    if (bytes[0] != 1) return;  // ignores state reports
     ++inputs;
     last_input_ns = time_ns;
   }
   HidBytes next_output(std::int64_t now_ns) noexcept override {
-    asked_ns.push_back(now_ns);
+    polled_ns.push_back(now_ns);
     return output;
   }
   void on_sent(std::int64_t time_ns) noexcept override { sent_ns.push_back(time_ns); }
@@ -34,7 +34,7 @@ struct Listener final : HidStream {
   HidBytes output;
   int inputs = 0;
   std::int64_t last_input_ns = 0;
-  std::vector<std::int64_t> asked_ns, sent_ns;
+  std::vector<std::int64_t> polled_ns, sent_ns;
 };
 
 struct PortRig {
@@ -74,7 +74,7 @@ TEST_CASE("identity, features and outputs, by a pipe or by SET_REPORT") {
   CHECK(feeder.stick.actuators_on());
 }
 
-TEST_CASE("a failed request is one sentence, and an unplugged stick is HidGone") {
+TEST_CASE("a failed request throws HidError, an unplugged stick HidDisconnected") {
   PortRig rig(port_stick(StickFamily::sidewinder));
   CHECK_THROWS_AS(rig.port.get_feature(0x7E, 5), HidError);
   CHECK_THROWS_AS(rig.port.set_feature(report({0x7E, 1})), HidError);
@@ -85,12 +85,12 @@ TEST_CASE("a failed request is one sentence, and an unplugged stick is HidGone")
   CHECK_THROWS_AS(rig.port.get_feature(0x03, 5), HidError);
   rig.plugged = false;
   Listener listener;
-  CHECK_THROWS_AS(rig.port.get_feature(0x03, 5), HidGone);
-  CHECK_THROWS_AS(rig.port.send(report({0x0C, 1})), HidGone);
-  CHECK_THROWS_AS(rig.port.stream({}, listener), HidGone);
+  CHECK_THROWS_AS(rig.port.get_feature(0x03, 5), HidDisconnected);
+  CHECK_THROWS_AS(rig.port.send(report({0x0C, 1})), HidDisconnected);
+  CHECK_THROWS_AS(rig.port.stream({}, listener), HidDisconnected);
 }
 
-TEST_CASE("a tick delivers a report and sends an output; a silent stick is requested, a dead one is reported") {
+TEST_CASE("a tick delivers a report and sends an output; a silent stick is polled, a dead one is an error") {
   EmulatedStickConfig config = port_stick(StickFamily::sidewinder);
   config.reports_only_changes = true;
   PortRig rig(config);
@@ -101,7 +101,7 @@ TEST_CASE("a tick delivers a report and sends an output; a silent stick is reque
   for (std::int64_t now = 0; now <= 100 * kPortMs; now += kPortMs) tick_stick(rig.stick, stream, listener, now);
   CHECK(listener.sent_ns.size() == 101);
   CHECK(rig.stick.actuators_on());
-  CHECK(listener.inputs == 1 + 12);  // its first one at 1 ms, then an answer every 8 ms
+  CHECK(listener.inputs == 1 + 12);  // the stick's own report at 1 ms, then an answer to GET_REPORT every 8 ms
   CHECK(listener.last_input_ns == 97 * kPortMs);
   rig.stick.faults.silent = true;
   std::int64_t now = 101 * kPortMs;
@@ -112,7 +112,7 @@ TEST_CASE("a tick delivers a report and sends an output; a silent stick is reque
   CHECK(now == (97 + 250) * kPortMs);
 }
 
-TEST_CASE("a stream keeps one tick between outputs, and ends on request") {
+TEST_CASE("a stream waits at least one tick between outputs, and ends on request") {
   PortRig rig(port_stick(StickFamily::openffboard));
   Listener listener;
   StreamConfig stream;

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kDamperSpeed = 1.0;        // [m/s] speed at which the maximum damper coefficient makes the full force
 constexpr std::uint64_t kJumpEvery = 50;    // reports
-constexpr double kJump = 0.6;               // [1] of the full deflection
-constexpr std::uint8_t kHatCentred = 0x08;  // outside its range of 0 to 7
+constexpr double kJump = 0.6;               // [1] fraction of the full deflection
+constexpr std::uint8_t kHatCentred = 0x08;  // outside the hat's range of 0 to 7
 
-// Forward on the gate is away from the user, which a stick counts down.
+// Forward on the gate is away from the user, where a stick's Y decreases.
 glm::dvec2 flip_y(glm::dvec2 v) {
   return {v.x, -v.y};
 }
@@ -45,7 +45,7 @@ haptics::SimulatedLeverConfig mechanism(const EmulatedStickConfig& config) {
   return lever;
 }
 
-// The low `bits` of the value, as in a report.
+// The lowest `bits` bits of the value, as in a report.
 std::int64_t masked(std::int64_t value, int bits) {
   return value & ((std::int64_t{1} << bits) - 1);
 }
@@ -65,21 +65,21 @@ EmulatedStick::State::State(const EmulatedStickConfig& wanted, haptics::HandDriv
       lever(mechanism(config), period_ns, hand),
       firmware(family, config.blocks, config.finite_refused) {}
 
-bool EmulatedStick::State::take(std::span<const std::uint8_t> report) {
+bool EmulatedStick::State::accept_output(std::span<const std::uint8_t> report) {
   if (!firmware.accepts_output(report)) return false;
   outputs_.push_back({now_ns + delay_ns, {report.begin(), report.end()}});
   apply_due_outputs();
-  push();
+  apply_force();
   return true;
 }
 
 void EmulatedStick::State::apply_all_outputs() {
   for (Pending& output : outputs_) output.due_ns = plant_ns;
   apply_due_outputs();
-  push();
+  apply_force();
 }
 
-// Acts at the caller's time without a delay, otherwise when the plant has reached the due time.
+// Without a delay, outputs act at the caller's time; otherwise when the plant has reached their due time.
 void EmulatedStick::State::apply_due_outputs() {
   const std::int64_t at_ns = delay_ns == 0 ? now_ns : plant_ns;
   while (!outputs_.empty() && outputs_.front().due_ns <= at_ns) {
@@ -103,12 +103,12 @@ void EmulatedStick::State::begin(std::int64_t at_ns) {
 }
 
 void EmulatedStick::State::step() {
-  push();
+  apply_force();
   reading_ = lever.read(plant_ns + period_ns);
   plant_ns += period_ns;
   apply_due_outputs();
   firmware.advance(plant_ns);
-  push();
+  apply_force();
   if (plant_ns - sample_ns_ < interval_ns) return;
   sample_ns_ += interval_ns * ((plant_ns - sample_ns_) / interval_ns);
   sample();
@@ -117,10 +117,10 @@ void EmulatedStick::State::step() {
 void EmulatedStick::State::power_off() {
   outputs_.clear();
   firmware.power_off();
-  waiting.reset();
+  pending_report.reset();
   sent.clear();
   configuration = idle = 0;
-  push();
+  apply_force();
 }
 
 void EmulatedStick::State::on_bus_reset() {
@@ -134,11 +134,11 @@ DeviceMotion EmulatedStick::State::motion() const {
 }
 
 // Applies the force of the effects to the plant.
-void EmulatedStick::State::push() {
-  const EffectForces shares = firmware.forces(motion(), plant_ns);
-  const glm::dvec2 constant = glm::dvec2(config.constant_sign) * shares.constant;
-  const glm::dvec2 spring = glm::dvec2(config.spring_sign) * shares.spring;
-  const glm::dvec2 damper = glm::dvec2(config.damper_sign) * shares.damper;
+void EmulatedStick::State::apply_force() {
+  const EffectForces effect_forces = firmware.forces(motion(), plant_ns);
+  const glm::dvec2 constant = glm::dvec2(config.constant_sign) * effect_forces.constant;
+  const glm::dvec2 spring = glm::dvec2(config.spring_sign) * effect_forces.spring;
+  const glm::dvec2 damper = glm::dvec2(config.damper_sign) * effect_forces.damper;
   force = config.full_force * flip_y(glm::clamp(constant + spring + damper, -1.0, 1.0));
   lever.write(force);
 }
@@ -147,17 +147,17 @@ void EmulatedStick::State::sample() {
   ++samples_;
   if (faults.silent) return;
   const bool jumps = faults.jump && samples_ % kJumpEvery == 0;
-  const double off = motion().deflection.x > 0.0 ? -kJump : kJump;
-  StickReport report = with_faults(lever_report(jumps ? off : 0.0));
-  if (config.reports_only_changes && report == sent && !waiting) return;
-  waiting = std::move(report);
+  const double error = motion().deflection.x > 0.0 ? -kJump : kJump;
+  StickReport report = with_faults(lever_report(jumps ? error : 0.0));
+  if (config.reports_only_changes && report == sent && !pending_report) return;
+  pending_report = std::move(report);
 }
 
-StickReport EmulatedStick::State::lever_report(double off) const {
+StickReport EmulatedStick::State::lever_report(double error) const {
   const LeverBytes& bytes = family.lever;
-  const glm::dvec2 deflection = motion().deflection + glm::dvec2(off, 0.0);
-  const auto counts = [&](double share) {
-    const double value = bytes.low + 0.5 * (share + 1.0) * (bytes.high - bytes.low);
+  const glm::dvec2 deflection = motion().deflection + glm::dvec2(error, 0.0);
+  const auto counts = [&](double fraction) {
+    const double value = bytes.low + 0.5 * (fraction + 1.0) * (bytes.high - bytes.low);
     return masked(static_cast<std::int64_t>(std::floor(std::clamp(value, bytes.low, bytes.high) + 0.5)), bytes.bits);
   };
   StickReport report(bytes.size, 0);
@@ -166,7 +166,7 @@ StickReport EmulatedStick::State::lever_report(double off) const {
   write_number(report, bytes.y, counts(deflection.y));
   if (bytes.hat_at != 0) report[bytes.hat_at] = kHatCentred;
   const std::uint64_t hand = (reading_.pressed_down ? 1U : 0U) | (reading_.lifted ? 2U : 0U);
-  report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // every family has at least eight
+  report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // every family has at least eight buttons
   return report;
 }
 

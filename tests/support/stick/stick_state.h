@@ -1,4 +1,4 @@
-// Internals of EmulatedStick: firmware, lever and time.
+// Internals of EmulatedStick: firmware, simulated lever and time.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ struct EmulatedStick::State {
   State(const EmulatedStickConfig& wanted, haptics::HandDriver& hand, const EmulatedFaults& wrong,
         const std::uint64_t& held);
 
-  // Outputs act in order when they are due. apply_all_outputs() applies the waiting ones at once, before a request that
-  // depends on them.
-  bool take(std::span<const std::uint8_t> report);  // false: unknown report
+  // Output reports act in order when they are due. apply_all_outputs() applies the waiting ones at once, before a
+  // request that depends on them.
+  bool accept_output(std::span<const std::uint8_t> report);  // false if the report is unknown
   void apply_all_outputs();
   void advance(std::int64_t to_ns);
   void power_off();
   void on_bus_reset();  // resets the device if it was unplugged
 
-  StickReport lever_report(double off = 0.0) const;  // off [1]: error of X, as a fraction of the full deflection
-  StickReport with_faults(StickReport report);       // applies the faults
+  StickReport lever_report(double error = 0.0) const;  // error [1] of X, a fraction of the full deflection
+  StickReport with_faults(StickReport report);         // applies the faults
 
   EmulatedStickConfig config;
   const StickFamilyTable& family;
@@ -36,12 +36,12 @@ struct EmulatedStick::State {
   haptics::SimulatedLever lever;
   StickFirmware firmware;
 
-  glm::dvec2 force{0.0};      // [N] on the knob
-  std::int64_t now_ns = 0;    // of the caller's clock
-  std::int64_t plant_ns = 0;  // at most a period before now_ns
+  glm::dvec2 force{0.0};      // [N] force of the motors on the knob
+  std::int64_t now_ns = 0;    // time on the caller's clock
+  std::int64_t plant_ns = 0;  // time of the plant, less than a period before now_ns
   std::int64_t fetched_ns = 0;
-  std::optional<StickReport> waiting;  // newest lever report, not fetched yet
-  StickReport sent;                    // last fetched report
+  std::optional<StickReport> pending_report;  // newest lever report, not fetched yet
+  StickReport sent;                           // last fetched report
   std::uint8_t idle = 0, configuration = 0;
   bool unplugged = false;
 
@@ -54,7 +54,7 @@ struct EmulatedStick::State {
   void begin(std::int64_t at_ns);
   void step();
   void apply_due_outputs();
-  void push();
+  void apply_force();
   void sample();
   DeviceMotion motion() const;
 

@@ -10,11 +10,11 @@ namespace gearshift::test {
 
 class GoToHand final : public haptics::HandDriver {
  public:
-  explicit GoToHand(double period) : period_(period) {}  // [s] of the calls to next()
+  explicit GoToHand(double period) : period_(period) {}  // [s] interval between calls of next()
 
   void go(glm::dvec2 to) noexcept { to_ = to; }  // [m]
 
-  // The handle's spring pulls the lever back, so the push grows until the lever is there.
+  // The handle's spring pulls the lever back, so the push grows until the lever has reached the target.
   haptics::HandTarget next(double, glm::dvec2 lever) noexcept override {
     const glm::dvec2 distance = to_ - target_.position;
     const double step = kSpeed * period_, left = glm::length(distance);

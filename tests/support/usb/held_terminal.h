@@ -1,5 +1,5 @@
-// A file whose poll() events can be controlled: a pseudo-terminal with its output stopped. usbfs uses POLLOUT for a
-// completed transfer and POLLERR for a disconnect; a plain file would always report POLLOUT, and libusb would never
+// A file whose poll() events can be controlled: a pseudo-terminal whose output is stopped. usbfs signals a completed
+// transfer with POLLOUT and a disconnect with POLLERR; a plain file would always report POLLOUT, and libusb would never
 // sleep.
 #pragma once
 
@@ -9,14 +9,14 @@ namespace gearshift::test {
 
 class HeldTerminal {
  public:
-  HeldTerminal();  // not writable. Throws std::runtime_error
+  HeldTerminal();  // starts as not writable; throws std::runtime_error
   ~HeldTerminal();
   HeldTerminal(const HeldTerminal&) = delete;
   HeldTerminal& operator=(const HeldTerminal&) = delete;
 
   const std::string& path() const noexcept { return path_; }
   void set_writable(bool writable) noexcept;
-  void hang_up() noexcept;  // everyone who has it open then gets POLLERR
+  void hang_up() noexcept;  // then poll() reports POLLERR to everyone who has the terminal open
 
  private:
   std::string path_;

@@ -24,7 +24,7 @@ namespace gearshift::test {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::int64_t kFrame = 1'000'000;  // [ns] of a full-speed bus
+constexpr std::int64_t kFrame = 1'000'000;  // [ns] frame of a full-speed bus
 
 std::string hex(std::span<const std::uint8_t> bytes) {
   std::string text;
@@ -42,16 +42,19 @@ std::string padded(const char* format, unsigned number) {
   return text.data();
 }
 
-// A device that is or was plugged in.
+// A device that is plugged in, or was.
 struct Plugged {
-  Plugged(UsbGadget& gadget, const UsbPlug& how, unsigned its_number, std::shared_ptr<std::mutex> lock)
-      : mutex(std::move(lock)), node(gadget, *mutex, how.driver_bound, how.taken), plug(how), number(its_number) {}
+  Plugged(UsbGadget& gadget, const UsbPlug& a_plug, unsigned its_number, std::shared_ptr<std::mutex> lock)
+      : mutex(std::move(lock)),
+        node(gadget, *mutex, a_plug.driver_bound, a_plug.in_use),
+        plug(a_plug),
+        number(its_number) {}
 
-  std::shared_ptr<std::mutex> mutex;  // of the bus
+  std::shared_ptr<std::mutex> mutex;  // the mutex of the bus
   UsbfsNode node;
   UsbPlug plug;
   unsigned number;  // device number on its bus
-  bool there = true;
+  bool is_connected = true;
 
   unsigned bus() const { return static_cast<unsigned>(std::stoul(plug.place)); }
   std::string device_node() const { return "/dev/bus/usb/" + padded("%03u", bus()) + "/" + padded("%03u", number); }
@@ -60,8 +63,7 @@ struct Plugged {
   std::string driver_path() const { return interface_path() + "/0003:0000:0000." + padded("%04X", number); }
 };
 
-// --------------------------------------------------------------------------------------------- umockdev's handler
-// class
+// ----------------------------------------------------------------------------------------- umockdev's handler class
 
 using PluggedPtr = std::shared_ptr<Plugged>;  // shared, because a client may close its file after the bus is gone
 
@@ -84,8 +86,8 @@ gboolean handle_ioctl(UMockdevIoctlBase* self, UMockdevIoctlClient* client) {
   return TRUE;
 }
 
-// umockdev keeps a client as long as its file is open.
-void client_gone(gpointer data, GObject* client) {
+// umockdev keeps its client object until the file is closed, and then calls this.
+void client_closed(gpointer data, GObject* client) {
   const std::unique_ptr<PluggedPtr> plugged(static_cast<PluggedPtr*>(data));
   const std::lock_guard<std::mutex> lock(*(*plugged)->mutex);
   (*plugged)->node.closed(reinterpret_cast<UMockdevIoctlClient*>(client));
@@ -93,7 +95,7 @@ void client_gone(gpointer data, GObject* client) {
 
 void client_connected(UMockdevIoctlBase* self, UMockdevIoctlClient* client) {
   const PluggedPtr& plugged = plugged_of(self);
-  g_object_weak_ref(G_OBJECT(client), client_gone, new PluggedPtr(plugged));
+  g_object_weak_ref(G_OBJECT(client), client_closed, new PluggedPtr(plugged));
   const std::lock_guard<std::mutex> lock(*plugged->mutex);
   plugged->node.opened();
 }
@@ -106,7 +108,7 @@ void node_handler_init(NodeHandler*) {}
 
 using GObjectPtr = std::unique_ptr<void, Unref>;
 
-// umockdev logs a client that died during an answer, which is harmless.
+// If a client dies while it is being answered, umockdev logs a critical message, which is harmless.
 void filter_log(const gchar* domain, GLogLevelFlags level, const gchar* message, gpointer data) {
   if (std::string_view(message).find("IoctlClient with open stream") == std::string_view::npos) {
     g_log_default_handler(domain, level, message, data);
@@ -126,7 +128,7 @@ struct MockUsb::State {
   GObjectPtr testbed;
   std::string root;
   std::shared_ptr<std::mutex> mutex = std::make_shared<std::mutex>();
-  std::vector<PluggedPtr> all;  // including unplugged ones
+  std::vector<PluggedPtr> all;  // including the unplugged ones
   unsigned next_number = 2;
   std::atomic<bool> end{false};
   std::thread frames;
@@ -142,13 +144,13 @@ struct MockUsb::State {
 
   void run();
   void make_node(const Plugged& plugged);
-  void serve(const PluggedPtr& plugged);
-  void describe(Plugged& plugged);
+  void attach_handler(const PluggedPtr& plugged);
+  void announce(Plugged& plugged);
   std::string device_text(Plugged& plugged) const;
   std::string driver_text(Plugged& plugged) const;
 };
 
-// Runs the controller's frames: processes the transfers that are due.
+// Simulates the frames of the host controller: in each frame, processes the transfers that are due.
 void MockUsb::State::run() {
   prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0);
   timespec next{};
@@ -160,7 +162,7 @@ void MockUsb::State::run() {
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
     const std::lock_guard<std::mutex> lock(*mutex);
     for (const auto& each : all) {
-      if (each->there) each->node.advance(at);
+      if (each->is_connected) each->node.advance(at);
     }
   }
 }
@@ -173,7 +175,7 @@ void MockUsb::State::make_node(const Plugged& plugged) {
   chmod(plugged.node.path().c_str(), plugged.plug.permitted ? 0666 : 0);
 }
 
-void MockUsb::State::serve(const PluggedPtr& plugged) {
+void MockUsb::State::attach_handler(const PluggedPtr& plugged) {
   const GObjectPtr handler(g_object_new(node_handler_get_type(), nullptr));
   g_object_set_data_full(G_OBJECT(handler.get()), kPlugged, new PluggedPtr(plugged),
                          [](gpointer data) { delete static_cast<PluggedPtr*>(data); });
@@ -181,7 +183,7 @@ void MockUsb::State::serve(const PluggedPtr& plugged) {
   umockdev_testbed_attach_ioctl(bed(), plugged->device_node().c_str(), static_cast<UMockdevIoctlBase*>(handler.get()),
                                 &error);
   check(error);
-  chmod((root + "/ioctl" + plugged->device_node()).c_str(), 0666);  // umockdev's socket, opened for every user
+  chmod((root + "/ioctl" + plugged->device_node()).c_str(), 0666);  // gives every user access to umockdev's socket
 }
 
 std::string MockUsb::State::device_text(Plugged& plugged) const {
@@ -209,7 +211,7 @@ std::string MockUsb::State::device_text(Plugged& plugged) const {
   return text + "H: descriptors=" + hex(device) + hex(gadget.configuration_descriptor()) + "\n\n";
 }
 
-// The state after the kernel's HID driver has read the report descriptor.
+// Describes the state after the kernel's HID driver has read the report descriptor.
 std::string MockUsb::State::driver_text(Plugged& plugged) const {
   UsbGadget& gadget = plugged.node.gadget();
   const std::string hid = plugged.driver_path().substr(4), interface = plugged.interface_path().substr(4);
@@ -217,7 +219,7 @@ std::string MockUsb::State::driver_text(Plugged& plugged) const {
          "\n\nP: " + interface + "\nE: DEVTYPE=usb_interface\nE: SUBSYSTEM=usb\n\n";
 }
 
-void MockUsb::State::describe(Plugged& plugged) {
+void MockUsb::State::announce(Plugged& plugged) {
   GError* error = nullptr;
   const std::string text = (plugged.node.driver_bound() ? driver_text(plugged) : std::string()) + device_text(plugged);
   umockdev_testbed_add_from_string(bed(), text.c_str(), &error);
@@ -231,7 +233,7 @@ MockUsb::MockUsb() : state_(std::make_unique<State>()) {
   gchar* root = umockdev_testbed_get_root_dir(state_->bed());
   state_->root = root;
   g_free(root);
-  chmod(state_->root.c_str(), 0777);  // for a user who may see a device and listen to udev but not open it
+  chmod(state_->root.c_str(), 0777);  // for tests that run as a user without access to the device
   state_->frames = std::thread([this] { state_->run(); });
 }
 
@@ -240,27 +242,27 @@ MockUsb::~MockUsb() {
   state_->end = true;
   state_->frames.join();
   for (const auto& each : state_->all) {
-    if (each->there) unplug(each->node.gadget());
+    if (each->is_connected) unplug(each->node.gadget());
   }
 }
 
 void MockUsb::plug(UsbGadget& gadget, const UsbPlug& plug) {
   const auto plugged = std::make_shared<Plugged>(gadget, plug, state_->next_number++, state_->mutex);
   state_->make_node(*plugged);
-  state_->serve(plugged);
+  state_->attach_handler(plugged);
   {
     const std::lock_guard<std::mutex> lock(*state_->mutex);
     state_->all.push_back(plugged);
   }
-  state_->describe(*plugged);  // this also sends udev's "add"
+  state_->announce(*plugged);  // also sends udev's "add" event
 }
 
 void MockUsb::unplug(UsbGadget& gadget) {
   Plugged& plugged = state_->last(gadget);
   {
     const std::lock_guard<std::mutex> lock(*state_->mutex);
-    if (!plugged.there) return;
-    plugged.there = false;
+    if (!plugged.is_connected) return;
+    plugged.is_connected = false;
     plugged.node.disconnect();
   }
   fs::remove(state_->root + plugged.device_node());

@@ -1,6 +1,6 @@
-// A USB bus with emulated devices below the real libusb, using umockdev's sysfs, udev events and system calls. The
-// program must run under umockdev-wrapper. The handlers run in threads of this process; libusb may be used by a child
-// process.
+// A USB bus with emulated devices below the real libusb; umockdev emulates sysfs, udev events and system calls. The
+// program must run under umockdev-wrapper. The ioctl handlers run in threads of this process; libusb may run in this
+// process or in a child process.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,21 @@ namespace gearshift::test {
 class MockUsb {
  public:
   MockUsb();   // throws std::runtime_error if umockdev is not preloaded
-  ~MockUsb();  // close every port first. NOLINT(bugprone-exception-escape): it ends the test
+  ~MockUsb();  // close every port first. NOLINT(bugprone-exception-escape): an exception ends the test
   MockUsb(const MockUsb&) = delete;
   MockUsb& operator=(const MockUsb&) = delete;
 
-  // The gadget must outlive the bus. Sends a udev event. A device that is plugged in again gets a new number.
+  // Plugs the gadget in and sends a udev event. A gadget that is plugged in again gets a new device number. The gadget
+  // must outlive the bus.
   void plug(UsbGadget& gadget, const UsbPlug& plug = {});
   void unplug(UsbGadget& gadget);
 
-  // State of that gadget's latest connection.
+  // These refer to the gadget's latest connection.
   UsbNodeCounts counts(UsbGadget& gadget) const;
   bool driver_bound(UsbGadget& gadget) const;
   void set_faults(UsbGadget& gadget, const UsbWireFaults& faults);
 
-  // Held while a gadget is called, from two threads of the bus.
+  // The bus holds this mutex whenever it calls a gadget, which it does from two threads.
   std::mutex& mutex() const;
 
  private:

@@ -2,9 +2,10 @@
 //
 //   umockdev-wrapper stick_emulator --family sidewinder [options] -- PROGRAM ARGUMENTS
 //
-// Times are seconds since the program's start, or with --tour since the motors first came on; an event at 0 happens
-// before the program looks for devices. The exit status is the program's. At the end stderr lists for the start, each
-// fault, unplug, stop and continue, and the program's end how long the emulated motors still pushed after it.
+// Event times are seconds since the program's start, or with --tour since the motors were first on. An event at 0
+// happens before the program looks for devices. The exit status is the program's. After the program's end, stderr lists
+// for how long the emulated motors still pushed after each event: the start, each fault, unplug, stop and continue, and
+// the end.
 
 #include <fcntl.h>
 #include <signal.h>
@@ -46,7 +47,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kFreeOfForce = 1e-9;  // [N]
-constexpr double kQuietTime = 0.5;     // [s] without force, after the program's end
+constexpr double kQuietTime = 0.5;     // [s] without force, after which the observation ends
 constexpr double kMaxWatchTime = 5.0;  // [s] longest observation after the program's end
 
 struct Options {
@@ -70,12 +71,12 @@ const std::map<std::string, void (*)(EmulatedFaults&)> kFaults{
 
 StickFamily family_of(const std::string& name) {
   for (const StickFamily family : {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy}) {
-    if (name == stick_family_name(family)) return family;
+    if (name == to_string(family)) return family;
   }
   throw std::runtime_error("--family " + name + ": sidewinder, openffboard or vjoy");
 }
 
-// A file, or the name of a shipped gate.
+// `name` is a file or the name of a shipped gate.
 haptics::Gate gate_of(const std::string& name, const haptics::SimulatedLeverConfig& lever) {
   const std::filesystem::path shipped = std::filesystem::path(GEARSHIFT_ASSETS) / "gates" / (name + ".toml");
   const std::filesystem::path file = std::filesystem::exists(name) ? std::filesystem::path(name) : shipped;
@@ -83,9 +84,9 @@ haptics::Gate gate_of(const std::string& name, const haptics::SimulatedLeverConf
                                lever.yoke.radius);
 }
 
-// An event of the test, and the last time at which the motors pushed after it.
+// An event of the test, and when the motors last pushed after it.
 struct Event {
-  double at = 0.0;  // [s] planned event time, then the actual time on now()
+  double at = 0.0;  // [s] planned time; once the event has happened, its time on now()
   std::string name;
   std::function<void()> action;
   double last_force = -1.0;  // [s]
@@ -108,18 +109,18 @@ class Emulation {
   void read_orders(double time);
   void run_order(const std::string& order, double time);
   void start();
-  void watch();      // one step
+  void watch();      // one step of the observation
   bool has_ended();  // true if the program has ended
   void watch_after_end();
   void print_summary() const;
   double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  double event_time();  // [s]
+  double event_time();  // [s] since the start, or since the motors were first on
 
   const Options& options_;
   EmulatedStickConfig config_;
-  haptics::IdleHand resting_;
-  std::unique_ptr<TouringHand> touring_;
-  std::unique_ptr<GoToHand> ordered_;
+  haptics::IdleHand idle_hand_;
+  std::unique_ptr<TouringHand> touring_hand_;
+  std::unique_ptr<GoToHand> commanded_hand_;
   int orders_file_ = -1;    // file descriptor
   std::string order_text_;  // incomplete line
   std::unique_ptr<EmulatedStick> stick_;
@@ -129,27 +130,28 @@ class Emulation {
   std::vector<Event> events_;  // in order of time
   std::size_t events_done_ = 0;
   Clock::time_point start_;
-  double motors_on_ = -1.0;  // [s] first time
-  bool is_in_ = false;       // plugged in
+  double motors_on_ = -1.0;  // [s] when the motors were first on; negative: not yet
+  bool is_plugged_ = false;  // plugged in
   pid_t child_ = -1;
   int status_ = 0;
 };
 
 Emulation::Emulation(const Options& options) : options_(options) {
   config_.family = family_of(options.family);
-  if (!options.tour.empty() || !options.orders.empty()) config_.lever.hand = haptics::kGripHand;  // otherwise no hand
+  // Without a tour or orders, no hand holds the lever.
+  if (!options.tour.empty() || !options.orders.empty()) config_.lever.hand = haptics::kGripHand;
   config_.own_power = options.own_power;
   if (!options.tour.empty()) {
-    touring_ = std::make_unique<TouringHand>(gate_of(options.tour, config_.lever), config_.plant_period);
+    touring_hand_ = std::make_unique<TouringHand>(gate_of(options.tour, config_.lever), config_.plant_period);
   }
   if (!options.orders.empty()) {
     orders_file_ = open(options.orders.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (orders_file_ < 0) throw std::runtime_error("cannot read " + options.orders.string());
-    ordered_ = std::make_unique<GoToHand>(config_.plant_period);
+    commanded_hand_ = std::make_unique<GoToHand>(config_.plant_period);
   }
-  haptics::HandDriver* hand = &resting_;
-  if (ordered_) hand = ordered_.get();
-  if (touring_) hand = touring_.get();
+  haptics::HandDriver* hand = &idle_hand_;
+  if (commanded_hand_) hand = commanded_hand_.get();
+  if (touring_hand_) hand = touring_hand_.get();
   stick_ = std::make_unique<EmulatedStick>(config_, *hand);
   stick_->logs = !options.log.empty();
   if (stick_->logs) {
@@ -165,10 +167,10 @@ Emulation::Emulation(const Options& options) : options_(options) {
 void Emulation::plug(bool in) {
   if (in) {
     const std::lock_guard<std::mutex> lock(usb_->mutex());
-    stick_->control({0x80, 0, 0, 0, 2}, {});  // enumeration by the host resets it
+    stick_->control({0x80, 0, 0, 0, 2}, {});  // any request resets the stick, as the host's enumeration would
   }
   in ? usb_->plug(*gadget_) : usb_->unplug(*gadget_);
-  is_in_ = in;
+  is_plugged_ = in;
 }
 
 void Emulation::plan() {
@@ -196,7 +198,7 @@ void Emulation::plan_fault(const std::string& text) {
                      }});
 }
 
-// Reads the complete lines written so far.
+// Runs the complete lines that were written so far.
 void Emulation::read_orders(double time) {
   char text[256];
   for (ssize_t count; orders_file_ >= 0 && (count = read(orders_file_, text, sizeof text)) > 0;) {
@@ -208,21 +210,21 @@ void Emulation::read_orders(double time) {
 }
 
 void Emulation::run_order(const std::string& order, double time) {
-  std::istringstream words(order);
-  std::string what;
+  std::istringstream stream(order);
+  std::string verb;
   glm::dvec2 to{0.0};
   int button = 0;
-  words >> what;
+  stream >> verb;
   const auto next = events_.begin() + static_cast<std::ptrdiff_t>(events_done_);
-  if (what == "go" && words >> to.x >> to.y) {
+  if (verb == "go" && stream >> to.x >> to.y) {
     const std::lock_guard<std::mutex> lock(usb_->mutex());
-    ordered_->go(1e-3 * to);
-  } else if (what == "hold" && words >> button && button >= 1 && button <= 64) {
+    commanded_hand_->go(1e-3 * to);
+  } else if (verb == "hold" && stream >> button && button >= 1 && button <= 64) {
     const std::lock_guard<std::mutex> lock(usb_->mutex());
     stick_->held_buttons |= std::uint64_t{1} << (button - 1);
-  } else if (what == "unplug") {
+  } else if (verb == "unplug") {
     events_.insert(next, {time, "the unplug", [this] { plug(false); }});
-  } else if (what == "plug") {
+  } else if (verb == "plug") {
     events_.insert(next, {time, "", [this] { plug(true); }});
   } else {
     std::cerr << "stick_emulator: unknown order: " << order << '\n';
@@ -238,11 +240,11 @@ void Emulation::start() {
   }
   start_ = Clock::now();
   std::signal(SIGTERM, request_end);
-  std::signal(SIGINT, SIG_IGN);  // a terminal sends it to the program directly
+  std::signal(SIGINT, SIG_IGN);  // the terminal sends SIGINT to the program directly
 }
 
 double Emulation::event_time() {
-  if (!touring_) return now();
+  if (!touring_hand_) return now();
   const std::lock_guard<std::mutex> lock(usb_->mutex());
   if (motors_on_ < 0.0 && stick_->actuators_on()) motors_on_ = now();
   return motors_on_ < 0.0 ? 0.0 : now() - motors_on_;
@@ -256,9 +258,10 @@ void Emulation::watch() {
     if (events_[events_done_].action) events_[events_done_].action();
   }
   const std::lock_guard<std::mutex> lock(usb_->mutex());
-  // Without the bus nothing else advances the stick.
-  if (!is_in_) stick_->advance(std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
-  if (touring_) touring_->work(is_in_ && stick_->actuators_on());  // as a person would
+  // While unplugged, the bus does not advance the stick.
+  if (!is_plugged_) stick_->advance(std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
+  // The hand shifts only while the motors are on.
+  if (touring_hand_) touring_hand_->work(is_plugged_ && stick_->actuators_on());
   if (events_done_ > 0 && glm::length(stick_->force()) > kFreeOfForce) events_[events_done_ - 1].last_force = now();
   for (const StickMessage& message : stick_->log) {
     char time_text[32];
@@ -277,7 +280,7 @@ bool Emulation::has_ended() {
   return waitpid(child_, &status_, WNOHANG) == child_;
 }
 
-// Observes the motors after the program's end, until they have been quiet for a while.
+// Observes the motors after the program's end, until they have not pushed for kQuietTime.
 void Emulation::watch_after_end() {
   events_.resize(events_done_);
   events_.push_back({now(), "the program's end", {}});
@@ -314,7 +317,7 @@ int run(int count, char** arguments) {
   CLI::App cli("Runs a program with an emulated force-feedback stick beneath its libusb");
   cli.add_option("--family", options.family, "sidewinder, openffboard or vjoy");
   cli.add_option("--tour", options.tour, "gate whose gears a hand shifts through while the motors are on");
-  // One value per option: otherwise the "--" would not end the list.
+  // Each option takes one value per use: otherwise "--" would not end the list of values.
   const auto each = [](CLI::Option* option) { option->allow_extra_args(false); };
   each(cli.add_option("--unplug-at", options.unplug_at, "[s] may be repeated"));
   each(cli.add_option("--replug-at", options.replug_at, "[s]"));

@@ -8,9 +8,10 @@ std::string StickGadget::string_descriptor(int index) const {
   const Bytes device = stick_.device_descriptor();
   const int at = device[13 + static_cast<std::size_t>(index)];  // iManufacturer, iProduct, iSerialNumber
   if (at == 0) return {};
-  const Bytes told = stick_.string_descriptor(at);
+  const Bytes descriptor = stick_.string_descriptor(at);
   std::string text;
-  for (std::size_t i = 2; i + 1 < told.size(); i += 2) text += static_cast<char>(told[i]);  // ASCII in UTF-16
+  for (std::size_t i = 2; i + 1 < descriptor.size(); i += 2)
+    text += static_cast<char>(descriptor[i]);  // ASCII in UTF-16
   return text;
 }
 

@@ -16,19 +16,19 @@ class UsbGadget {
 
   virtual ~UsbGadget() = default;
   virtual Bytes device_descriptor() const = 0;
-  virtual Bytes configuration_descriptor() const = 0;  // with interface, HID and endpoint descriptors
+  virtual Bytes configuration_descriptor() const = 0;  // including the interface, HID and endpoint descriptors
   virtual Bytes report_descriptor() const = 0;
-  virtual std::string string_descriptor(int index) const = 0;  // 1 maker, 2 product, 3 serial; empty: none
+  virtual std::string string_descriptor(int index) const = 0;  // 1 maker, 2 product, 3 serial number; empty: none
   virtual std::optional<Bytes> control(const UsbSetup& setup,
                                        std::span<const std::uint8_t> data) = 0;  // empty: stall
   virtual bool output(std::span<const std::uint8_t> report) = 0;                 // interrupt OUT; false: stall
   virtual std::optional<Bytes> input() = 0;                                      // interrupt IN; empty: NAK
-  virtual double control_delay() const { return 0.0; }  // [s] extra time of each control transfer
+  virtual double control_delay() const { return 0.0; }  // [s] extra duration of each control transfer
   virtual void advance(std::int64_t now_ns) = 0;        // CLOCK_MONOTONIC
   virtual void unplug() = 0;
 };
 
-// Connects an emulated stick to the bus. The stick must outlive it.
+// Connects an emulated stick to the bus. The stick must outlive this object.
 class StickGadget final : public UsbGadget {
  public:
   explicit StickGadget(EmulatedStick& stick) : stick_(stick) {}

@@ -1,4 +1,4 @@
-// How an emulated device is plugged in, faults on its wire, and counts of what was done to it.
+// How an emulated device is plugged in, which faults its connection has, and counts of the operations on its node.
 #pragma once
 
 #include <string>
@@ -6,28 +6,29 @@
 namespace gearshift::test {
 
 struct UsbPlug {
-  std::string place = "1-1";  // bus and port
+  std::string place = "1-1";  // bus number and port number
   bool driver_bound = true;   // the kernel's HID driver is bound
-  bool taken = false;         // another program uses it
-  bool permitted = true;      // false: only root may open its node
+  bool in_use = false;        // a different program uses the device
+  bool permitted = true;      // false: only root may open the device node
 };
 
-// Faults between controller and device.
+// Faults between the host controller and the device.
 struct UsbWireFaults {
-  int input_stalls = 0;        // number of times that the input endpoint halts from now on
-  int output_stalls = 0;       // the same for the output endpoint
+  int input_stalls = 0;        // the input endpoint halts at each of the next input_stalls transfers
+  int output_stalls = 0;       // the output endpoint halts at each of the next output_stalls transfers
   bool output_stuck = false;   // output transfers never complete
   bool control_stuck = false;  // control transfers never complete
   bool garbled = false;        // input transfers end with a bus error
-  int extra_bytes = 0;         // extra bytes after each report; negative: missing bytes
+  int extra_bytes = 0;         // extra bytes after each input report; negative: missing bytes
 };
 
 struct UsbNodeCounts {
-  int opened = 0, closed = 0;       // files
-  int claims = 0, releases = 0;     // of interfaces
-  int detached = 0, attached = 0;   // kernel driver
-  int submitted = 0, returned = 0;  // transfers
-  int misuses = 0;  // transfers to an interface that is not claimed, endpoints cleared while transfers wait in them
+  int opened = 0, closed = 0;       // calls of open and close
+  int claims = 0, releases = 0;     // claims and releases of interfaces
+  int detached = 0, attached = 0;   // detaching and attaching the kernel driver
+  int submitted = 0, returned = 0;  // transfers submitted and returned
+  // Transfers to an interface that is not claimed, and endpoints that were cleared while transfers waited in them.
+  int misuses = 0;
   bool operator==(const UsbNodeCounts&) const = default;
 };
 

@@ -1,6 +1,6 @@
 #include "tests/support/usb/usbfs_node.h"
 
-// usbdevice_fs.h uses the macros of ioctl.h.
+// usbdevice_fs.h uses macros of ioctl.h, so ioctl.h must come first.
 #include <sys/ioctl.h>
 // clang-format keeps this order
 #include <linux/usbdevice_fs.h>
@@ -18,7 +18,7 @@ namespace gearshift::test {
 namespace {
 
 constexpr std::size_t kSetup = 8;      // [bytes] setup packet before the data of a control transfer
-constexpr unsigned kHidInterface = 0;  // the interface used by the kernel driver or another program
+constexpr unsigned kHidInterface = 0;  // the interface that the kernel's HID driver or a different program uses
 
 std::int64_t clock_ns() noexcept {
   timespec now{};
@@ -26,7 +26,7 @@ std::int64_t clock_ns() noexcept {
   return now.tv_sec * 1'000'000'000 + now.tv_nsec;
 }
 
-// The client's memory at the pointer stored at that offset.
+// Maps the client's memory that the pointer stored at `offset` points to.
 IoctlData resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
   GError* error = nullptr;
   IoctlData resolved(umockdev_ioctl_data_resolve(data, offset, size, &error));
@@ -51,42 +51,43 @@ UsbSetup setup_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-UsbfsNode::UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool taken)
-    : gadget_(gadget), bus_(bus), driver_bound_(driver_bound && !taken), taken_(taken) {}
+UsbfsNode::UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool in_use)
+    : gadget_(gadget), bus_(bus), driver_bound_(driver_bound && !in_use), in_use_(in_use) {}
 
-// Like close() of the file: its transfers are killed and its claims released; the kernel driver does not come back.
+// The client closed its file: its transfers are cancelled and its claims released. The kernel driver does not come
+// back.
 void UsbfsNode::closed(UMockdevIoctlClient* client) {
   ++counts_.closed;
-  const auto is_its = [client](const Urb& urb) { return urb.client == client; };
-  std::erase_if(pending_, is_its);
-  std::erase_if(done_, is_its);
+  const auto belongs_to_client = [client](const Urb& urb) { return urb.client == client; };
+  std::erase_if(pending_, belongs_to_client);
+  std::erase_if(completed_, belongs_to_client);
   claimed_.erase(client);
-  terminal_.set_writable(!done_.empty());
+  terminal_.set_writable(!completed_.empty());
 }
 
 void UsbfsNode::ioctl(UMockdevIoctlClient* client) {
   const unsigned long request = umockdev_ioctl_client_get_request(client);
   UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
   RequestData request_data = read(client, request, argument);
-  Answer answered;
+  Result result;
   {
     const std::lock_guard<std::mutex> lock(bus_);
-    answered = answer(client, request, argument, std::move(request_data));
+    result = handle(client, request, argument, std::move(request_data));
   }
-  umockdev_ioctl_client_complete(client, answered.result, answered.error);
+  umockdev_ioctl_client_complete(client, result.result, result.error);
 }
 
 void UsbfsNode::advance(std::int64_t now_ns) {
-  if (gone_) return;
+  if (disconnected_) return;
   now_ns_ = now_ns;
   gadget_.advance(now_ns);
-  carry_all();
+  process_pending();
 }
 
 void UsbfsNode::disconnect() {
-  gone_ = true;
+  disconnected_ = true;
   for (Urb& urb : pending_) finish(urb, -ESHUTDOWN, 0);
-  std::move(pending_.begin(), pending_.end(), std::back_inserter(done_));
+  std::move(pending_.begin(), pending_.end(), std::back_inserter(completed_));
   pending_.clear();
   gadget_.unplug();
   terminal_.hang_up();
@@ -94,14 +95,14 @@ void UsbfsNode::disconnect() {
 
 // ----------------------------------------------------------------------------------------------------------- ioctls
 
-// Reads the client's memory, which needs the client's help. A stopped process does not answer, so the bus lock is not
-// held and the bus continues.
+// Reads the client's memory, for which the client must answer. Does not hold the bus lock, because a stopped process
+// does not answer, and the bus must continue.
 UsbfsNode::RequestData UsbfsNode::read(UMockdevIoctlClient* client, unsigned long request,
                                        UMockdevIoctlData* argument) {
-  if (request == USBDEVFS_DISCARDURB) return {};  // the address is enough
+  if (request == USBDEVFS_DISCARDURB) return {};  // needs only the address of the URB
   if (request == USBDEVFS_REAPURBNDELAY) {
     const std::lock_guard<std::mutex> lock(bus_);
-    if (done_for(client) == done_.end()) return {};
+    if (find_completed(client) == completed_.end()) return {};
   }
   const std::size_t size = request == USBDEVFS_REAPURBNDELAY ? sizeof(void*)
                            : request == USBDEVFS_SUBMITURB   ? sizeof(usbdevfs_urb)
@@ -115,11 +116,11 @@ UsbfsNode::RequestData UsbfsNode::read(UMockdevIoctlClient* client, unsigned lon
   return request_data;
 }
 
-UsbfsNode::Answer UsbfsNode::answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument,
+UsbfsNode::Result UsbfsNode::handle(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument,
                                     RequestData request_data) {
   const IoctlData& data = request_data.data;
   if (request == USBDEVFS_REAPURBNDELAY) return reap(client, data.get());
-  if (gone_) return {-1, ENODEV};
+  if (disconnected_) return {-1, ENODEV};
   if (request == USBDEVFS_SUBMITURB) return submit(client, std::move(request_data));
   if (request == USBDEVFS_DISCARDURB) return discard(argument);
   switch (request) {
@@ -134,7 +135,7 @@ UsbfsNode::Answer UsbfsNode::answer(UMockdevIoctlClient* client, unsigned long r
     case USBDEVFS_RELEASEINTERFACE:
       return release(client, *as<unsigned>(data));
     case USBDEVFS_IOCTL:
-      return drive(static_cast<unsigned>(as<usbdevfs_ioctl>(data)->ioctl_code));
+      return driver_ioctl(static_cast<unsigned>(as<usbdevfs_ioctl>(data)->ioctl_code));
     case USBDEVFS_CLEAR_HALT:
       return clear_halt(*as<unsigned>(data));
     default:
@@ -142,9 +143,9 @@ UsbfsNode::Answer UsbfsNode::answer(UMockdevIoctlClient* client, unsigned long r
   }
 }
 
-UsbfsNode::Answer UsbfsNode::claim(UMockdevIoctlClient* client, unsigned interface, bool detach) {
+UsbfsNode::Result UsbfsNode::claim(UMockdevIoctlClient* client, unsigned interface, bool detach) {
   if (interface == kHidInterface) {
-    if (taken_) return {-1, EBUSY};
+    if (in_use_) return {-1, EBUSY};
     if (driver_bound_ && !detach) return {-1, EBUSY};
     for (const auto& [other, interfaces] : claimed_) {
       if (other != client && interfaces.contains(interface)) return {-1, EBUSY};
@@ -155,22 +156,22 @@ UsbfsNode::Answer UsbfsNode::claim(UMockdevIoctlClient* client, unsigned interfa
   return {};
 }
 
-UsbfsNode::Answer UsbfsNode::release(UMockdevIoctlClient* client, unsigned interface) {
+UsbfsNode::Result UsbfsNode::release(UMockdevIoctlClient* client, unsigned interface) {
   if (claimed_[client].erase(interface) == 0) return {-1, EINVAL};
   ++counts_.releases;
   return {};
 }
 
-// Not allowed while transfers are pending in the endpoint.
-UsbfsNode::Answer UsbfsNode::clear_halt(unsigned endpoint) {
+// Clearing an endpoint is not allowed while transfers are pending in it.
+UsbfsNode::Result UsbfsNode::clear_halt(unsigned endpoint) {
   const auto waits = [endpoint](const Urb& urb) { return urb.endpoint == endpoint; };
   if (std::any_of(pending_.begin(), pending_.end(), waits)) ++counts_.misuses;
   halted_.erase(endpoint);
   return {};
 }
 
-// Of all driver requests only "attach" is supported.
-UsbfsNode::Answer UsbfsNode::drive(unsigned code) {
+// Of the driver requests, only "attach" (USBDEVFS_CONNECT) is supported.
+UsbfsNode::Result UsbfsNode::driver_ioctl(unsigned code) {
   if (code != USBDEVFS_CONNECT) return {-1, ENOTTY};
   if (driver_bound_) return {-1, EBUSY};
   driver_bound_ = true;
@@ -178,7 +179,7 @@ UsbfsNode::Answer UsbfsNode::drive(unsigned code) {
   return {1, 0};
 }
 
-UsbfsNode::Answer UsbfsNode::submit(UMockdevIoctlClient* client, RequestData request_data) {
+UsbfsNode::Result UsbfsNode::submit(UMockdevIoctlClient* client, RequestData request_data) {
   if (request_data.data == nullptr) return {-1, EFAULT};
   Urb urb;
   urb.client = client;
@@ -186,7 +187,7 @@ UsbfsNode::Answer UsbfsNode::submit(UMockdevIoctlClient* client, RequestData req
   urb.buffer = std::move(request_data.buffer);
   urb.type = as<usbdevfs_urb>(urb.urb)->type;
   urb.endpoint = as<usbdevfs_urb>(urb.urb)->endpoint;
-  if (!may_use(client, urb)) {
+  if (!has_claim(client, urb)) {
     ++counts_.misuses;
     return {-1, EBUSY};
   }
@@ -196,40 +197,40 @@ UsbfsNode::Answer UsbfsNode::submit(UMockdevIoctlClient* client, RequestData req
   now_ns_ = clock_ns();
   ++counts_.submitted;
   pending_.push_back(std::move(urb));
-  carry_all();
+  process_pending();
   return {};
 }
 
-UsbfsNode::Answer UsbfsNode::discard(UMockdevIoctlData* argument) {
+UsbfsNode::Result UsbfsNode::discard(UMockdevIoctlData* argument) {
   const std::uint64_t address = *reinterpret_cast<std::uint64_t*>(argument->data);
   const auto found = std::find_if(pending_.begin(), pending_.end(),
                                   [address](const Urb& urb) { return urb.urb->client_addr == address; });
   if (found == pending_.end()) return {-1, EINVAL};
   finish(*found, -ENOENT, 0);
-  done_.push_back(std::move(*found));
+  completed_.push_back(std::move(*found));
   pending_.erase(found);
   terminal_.set_writable(true);
   return {};
 }
 
-std::deque<UsbfsNode::Urb>::iterator UsbfsNode::done_for(UMockdevIoctlClient* client) {
-  return std::find_if(done_.begin(), done_.end(), [client](const Urb& urb) { return urb.client == client; });
+std::deque<UsbfsNode::Urb>::iterator UsbfsNode::find_completed(UMockdevIoctlClient* client) {
+  return std::find_if(completed_.begin(), completed_.end(), [client](const Urb& urb) { return urb.client == client; });
 }
 
-UsbfsNode::Answer UsbfsNode::reap(UMockdevIoctlClient* client, UMockdevIoctlData* where) {
-  const auto found = done_for(client);
-  if (found == done_.end()) return {-1, gone_ ? ENODEV : EAGAIN};
-  if (where == nullptr) return {-1, EAGAIN};  // completed meanwhile, or the client has died
-  umockdev_ioctl_data_set_ptr(where, 0, found->urb.get());
-  done_.erase(found);
+UsbfsNode::Result UsbfsNode::reap(UMockdevIoctlClient* client, UMockdevIoctlData* destination) {
+  const auto found = find_completed(client);
+  if (found == completed_.end()) return {-1, disconnected_ ? ENODEV : EAGAIN};
+  if (destination == nullptr) return {-1, EAGAIN};  // the URB completed after read(), or the client has died
+  umockdev_ioctl_data_set_ptr(destination, 0, found->urb.get());
+  completed_.erase(found);
   ++counts_.returned;
-  terminal_.set_writable(!done_.empty());
+  terminal_.set_writable(!completed_.empty());
   return {};
 }
 
-// A request to an interface or its endpoints needs a claim. The real kernel would claim a free interface implicitly,
-// with a warning.
-bool UsbfsNode::may_use(UMockdevIoctlClient* client, const Urb& urb) {
+// Transfers to an interface or its endpoints need a claim. (The real kernel would claim a free interface implicitly,
+// with a warning.)
+bool UsbfsNode::has_claim(UMockdevIoctlClient* client, const Urb& urb) {
   if (urb.type == USBDEVFS_URB_TYPE_CONTROL) {
     const std::span<const std::uint8_t> bytes = bytes_of(urb.buffer);
     if (bytes.size() < kSetup || (bytes[0] & 0x1f) == 0) return bytes.size() >= kSetup;
@@ -239,27 +240,27 @@ bool UsbfsNode::may_use(UMockdevIoctlClient* client, const Urb& urb) {
 
 // --------------------------------------------------------------------------------------------------------- transfers
 
-void UsbfsNode::carry_all() {
-  // One after the other in each endpoint.
+void UsbfsNode::process_pending() {
+  // In each endpoint, transfers are processed one after the other.
   std::set<std::uint8_t> waiting;
   for (auto urb = pending_.begin(); urb != pending_.end();) {
-    if (waiting.contains(urb->endpoint) || !carry(*urb)) {
+    if (waiting.contains(urb->endpoint) || !process(*urb)) {
       waiting.insert(urb->endpoint);
       ++urb;
       continue;
     }
-    done_.push_back(std::move(*urb));
+    completed_.push_back(std::move(*urb));
     urb = pending_.erase(urb);
   }
-  terminal_.set_writable(!done_.empty());
+  terminal_.set_writable(!completed_.empty());
 }
 
-bool UsbfsNode::carry(Urb& urb) {
-  if (urb.type == USBDEVFS_URB_TYPE_CONTROL) return carry_control(urb);
-  return (urb.endpoint & 0x80) != 0 ? carry_input(urb) : carry_output(urb);
+bool UsbfsNode::process(Urb& urb) {
+  if (urb.type == USBDEVFS_URB_TYPE_CONTROL) return process_control(urb);
+  return (urb.endpoint & 0x80) != 0 ? process_input(urb) : process_output(urb);
 }
 
-bool UsbfsNode::carry_control(Urb& urb) {
+bool UsbfsNode::process_control(Urb& urb) {
   if (faults.control_stuck || now_ns_ < urb.due_ns) return false;
   const std::span<std::uint8_t> bytes = bytes_of(urb.buffer);
   const UsbSetup setup = setup_of(bytes);
@@ -267,12 +268,12 @@ bool UsbfsNode::carry_control(Urb& urb) {
   const std::span<std::uint8_t> data = bytes.subspan(kSetup);
   const bool is_output = setup.request_type == 0x21 && setup.request == 9 && setup.value >> 8 == 2;
   const bool stalls = is_output && stalls_output();
-  const auto answered = stalls ? std::nullopt : gadget_.control(setup, in ? std::span<const std::uint8_t>() : data);
-  if (!answered) {
+  const auto result = stalls ? std::nullopt : gadget_.control(setup, in ? std::span<const std::uint8_t>() : data);
+  if (!result) {
     finish(urb, -EPIPE, 0);
   } else if (in) {
-    const std::size_t length = std::min({answered->size(), data.size(), std::size_t{setup.length}});
-    std::copy_n(answered->begin(), length, data.begin());
+    const std::size_t length = std::min({result->size(), data.size(), std::size_t{setup.length}});
+    std::copy_n(result->begin(), length, data.begin());
     finish(urb, 0, length);
   } else {
     finish(urb, 0, data.size());
@@ -280,7 +281,7 @@ bool UsbfsNode::carry_control(Urb& urb) {
   return true;
 }
 
-bool UsbfsNode::carry_input(Urb& urb) {
+bool UsbfsNode::process_input(Urb& urb) {
   if (halted_.contains(urb.endpoint)) return false;
   if (faults.input_stalls > 0 && faults.input_stalls-- > 0) return stall(urb);
   auto report = gadget_.input();
@@ -290,14 +291,14 @@ bool UsbfsNode::carry_input(Urb& urb) {
     return true;
   }
   report->resize(static_cast<std::size_t>(static_cast<std::ptrdiff_t>(report->size()) + faults.extra_bytes), 0xee);
-  const std::span<std::uint8_t> room = bytes_of(urb.buffer);
-  const std::size_t length = std::min(report->size(), room.size());
-  std::copy_n(report->begin(), length, room.begin());
-  finish(urb, report->size() > room.size() ? -EOVERFLOW : 0, length);
+  const std::span<std::uint8_t> buffer = bytes_of(urb.buffer);
+  const std::size_t length = std::min(report->size(), buffer.size());
+  std::copy_n(report->begin(), length, buffer.begin());
+  finish(urb, report->size() > buffer.size() ? -EOVERFLOW : 0, length);
   return true;
 }
 
-bool UsbfsNode::carry_output(Urb& urb) {
+bool UsbfsNode::process_output(Urb& urb) {
   if (faults.output_stuck || halted_.contains(urb.endpoint)) return false;
   const std::span<const std::uint8_t> bytes = bytes_of(urb.buffer);
   if (stalls_output() || !gadget_.output(bytes)) return stall(urb);
@@ -305,7 +306,7 @@ bool UsbfsNode::carry_output(Urb& urb) {
   return true;
 }
 
-// Halts the endpoint until it is cleared; other transfers in it keep waiting, as on an EHCI controller.
+// Halts the endpoint until its halt is cleared; meanwhile other transfers in it wait, as on an EHCI controller.
 bool UsbfsNode::stall(Urb& urb) {
   halted_.insert(urb.endpoint);
   finish(urb, -EPIPE, 0);
@@ -317,9 +318,9 @@ bool UsbfsNode::stalls_output() {
 }
 
 void UsbfsNode::finish(Urb& urb, int status, std::size_t length) {
-  auto* request_data = as<usbdevfs_urb>(urb.urb);
-  request_data->status = status;
-  request_data->actual_length = static_cast<int>(length);
+  auto* client_urb = as<usbdevfs_urb>(urb.urb);
+  client_urb->status = status;
+  client_urb->actual_length = static_cast<int>(length);
 }
 
 }  // namespace gearshift::test

@@ -25,11 +25,12 @@ struct Unref {
 };
 using IoctlData = std::unique_ptr<UMockdevIoctlData, Unref>;
 
-// Not thread-safe: callers must hold the bus lock, except for ioctl(), which takes it.
+// Not thread-safe: callers must hold the bus lock. Only ioctl() takes the lock itself.
 class UsbfsNode {
  public:
-  // Gadget and lock must outlive it. driver_bound: the kernel's HID driver is bound; taken: another program uses it.
-  UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool taken);
+  // Gadget and bus lock must outlive the node. driver_bound: the kernel's HID driver is bound. in_use: a different
+  // program uses the device.
+  UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool in_use);
 
   const std::string& path() const noexcept { return terminal_.path(); }
   UsbGadget& gadget() noexcept { return gadget_; }
@@ -51,46 +52,46 @@ class UsbfsNode {
     std::uint8_t type = 0, endpoint = 0;
     std::int64_t due_ns = 0;
   };
-  // The data of a request.
+  // The client's data for a request.
   struct RequestData {
     IoctlData data, buffer;
   };
-  struct Answer {
+  struct Result {
     long result = 0;
     int error = 0;
   };
 
   RequestData read(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument);
-  Answer answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument,
+  Result handle(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument,
                 RequestData request_data);
-  Answer claim(UMockdevIoctlClient* client, unsigned interface, bool detach);
-  Answer release(UMockdevIoctlClient* client, unsigned interface);
-  Answer clear_halt(unsigned endpoint);
-  Answer drive(unsigned code);
-  Answer submit(UMockdevIoctlClient* client, RequestData request_data);
-  Answer discard(UMockdevIoctlData* argument);
-  std::deque<Urb>::iterator done_for(UMockdevIoctlClient* client);
-  Answer reap(UMockdevIoctlClient* client, UMockdevIoctlData* where);
+  Result claim(UMockdevIoctlClient* client, unsigned interface, bool detach);
+  Result release(UMockdevIoctlClient* client, unsigned interface);
+  Result clear_halt(unsigned endpoint);
+  Result driver_ioctl(unsigned code);
+  Result submit(UMockdevIoctlClient* client, RequestData request_data);
+  Result discard(UMockdevIoctlData* argument);
+  std::deque<Urb>::iterator find_completed(UMockdevIoctlClient* client);
+  Result reap(UMockdevIoctlClient* client, UMockdevIoctlData* destination);
 
-  bool may_use(UMockdevIoctlClient* client, const Urb& urb);
-  bool carry(Urb& urb);  // false: not finished yet
-  bool carry_control(Urb& urb);
-  bool carry_input(Urb& urb);
-  bool carry_output(Urb& urb);
+  bool has_claim(UMockdevIoctlClient* client, const Urb& urb);
+  bool process(Urb& urb);  // false: the transfer is not finished yet
+  bool process_control(Urb& urb);
+  bool process_input(Urb& urb);
+  bool process_output(Urb& urb);
   bool stall(Urb& urb);
   bool stalls_output();
   void finish(Urb& urb, int status, std::size_t length);
-  void carry_all();
+  void process_pending();
 
   UsbGadget& gadget_;
   std::mutex& bus_;
   HeldTerminal terminal_;
   UsbNodeCounts counts_;
-  bool driver_bound_ = false, taken_ = false, gone_ = false;
+  bool driver_bound_ = false, in_use_ = false, disconnected_ = false;
   std::int64_t now_ns_ = 0;
   std::map<UMockdevIoctlClient*, std::set<unsigned>> claimed_;
   std::set<unsigned> halted_;  // endpoints
-  std::deque<Urb> pending_, done_;
+  std::deque<Urb> pending_, completed_;
 };
 
 }  // namespace gearshift::test

@@ -14,7 +14,7 @@ void check_names(const Table& table, const char* name, const char* localized, Si
   require(is_path_part(name), "name_valid", name);
   require(localized[0] != '\0', "localized_valid", name);
   const auto clashes = [&](auto same) {
-    return !table.of([&](const auto& one) { return sibling(one) && same(one); }).empty();
+    return !table.find_all([&](const auto& one) { return sibling(one) && same(one); }).empty();
   };
   require(!clashes([&](const auto& one) { return one.name == name; }), "name_unique", name);
   require(!clashes([&](const auto& one) { return one.localized == localized; }), "localized_unique", localized);
@@ -31,7 +31,7 @@ void check_binding(const InstanceObject& instance, const std::string& profile,
 }  // namespace
 
 void drop_action_set(State& s, XrActionSet handle) {
-  for (const XrAction action : s.actions.of([&](const ActionObject& one) { return one.set == handle; })) {
+  for (const XrAction action : s.actions.find_all([&](const ActionObject& one) { return one.set == handle; })) {
     s.actions.erase(action);  // no leak: an action is destroyed with its set
   }
   s.action_sets.erase(handle);
@@ -42,8 +42,8 @@ namespace xr {
 XrResult XRAPI_CALL CreateActionSet(XrInstance instance, const XrActionSetCreateInfo* info, XrActionSet* set) {
   return call("xrCreateActionSet", [&](State& s) {
     live(instance);
-    structure(info, XR_TYPE_ACTION_SET_CREATE_INFO);
-    pointer(set, "actionSet");
+    require_structure(info, XR_TYPE_ACTION_SET_CREATE_INFO);
+    require_pointer(set, "actionSet");
     check_names(s.action_sets, info->actionSetName, info->localizedActionSetName,
                 [&](const ActionSetObject& one) { return one.instance == instance; });
     *set = s.action_sets.add(
@@ -64,19 +64,19 @@ XrResult XRAPI_CALL DestroyActionSet(XrActionSet set) {
 
 XrResult XRAPI_CALL CreateAction(XrActionSet set, const XrActionCreateInfo* info, XrAction* action) {
   return call("xrCreateAction", [&](State& s) {
-    const ActionSetObject& of = live(set);
-    structure(info, XR_TYPE_ACTION_CREATE_INFO);
-    pointer(action, "action");
-    require(!of.attached, "action_before_attach");
+    const ActionSetObject& action_set = live(set);
+    require_structure(info, XR_TYPE_ACTION_CREATE_INFO);
+    require_pointer(action, "action");
+    require(!action_set.attached, "action_before_attach");
     check_names(s.actions, info->actionName, info->localizedActionName,
                 [&](const ActionObject& one) { return one.set == set; });
-    ActionObject made{
+    ActionObject created{
         .set = set, .name = info->actionName, .localized = info->localizedActionName, .type = info->actionType};
     for (std::uint32_t i = 0; i < info->countSubactionPaths; ++i) {
-      require(path_string(live(of.instance), info->subactionPaths[i]).starts_with("/user/"), "subaction_path");
-      made.subactions.push_back(info->subactionPaths[i]);
+      require(path_string(live(action_set.instance), info->subactionPaths[i]).starts_with("/user/"), "subaction_path");
+      created.subactions.push_back(info->subactionPaths[i]);
     }
-    *action = s.actions.add(std::move(made));
+    *action = s.actions.add(std::move(created));
     count_live();
     return XR_SUCCESS;
   });
@@ -95,7 +95,7 @@ XrResult XRAPI_CALL SuggestInteractionProfileBindings(XrInstance instance,
                                                       const XrInteractionProfileSuggestedBinding* info) {
   return call("xrSuggestInteractionProfileBindings", [&](State&) {
     InstanceObject& object = live(instance);
-    structure(info, XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
+    require_structure(info, XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
     const std::string& profile = path_string(object, info->interactionProfile);
     if (!knows_profile(profile)) return XR_ERROR_PATH_UNSUPPORTED;  // a runtime need not support every controller
     std::vector<XrActionSuggestedBinding> bindings;
@@ -111,7 +111,7 @@ XrResult XRAPI_CALL SuggestInteractionProfileBindings(XrInstance instance,
 XrResult XRAPI_CALL AttachSessionActionSets(XrSession session, const XrSessionActionSetsAttachInfo* info) {
   return call("xrAttachSessionActionSets", [&](State&) {
     SessionObject& object = live(session);
-    structure(info, XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO);
+    require_structure(info, XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO);
     require(!object.has_attached, "attach_once");
     for (std::uint32_t i = 0; i < info->countActionSets; ++i) live(info->actionSets[i]);
     for (std::uint32_t i = 0; i < info->countActionSets; ++i) {
@@ -126,7 +126,7 @@ XrResult XRAPI_CALL AttachSessionActionSets(XrSession session, const XrSessionAc
 XrResult XRAPI_CALL GetCurrentInteractionProfile(XrSession session, XrPath user, XrInteractionProfileState* state) {
   return call("xrGetCurrentInteractionProfile", [&](State&) {
     const SessionObject& object = live(session);
-    structure(state, XR_TYPE_INTERACTION_PROFILE_STATE);
+    require_structure(state, XR_TYPE_INTERACTION_PROFILE_STATE);
     require(object.has_attached, "set_attached");
     InstanceObject& instance = live(object.instance);
     const bool has = hand_of(user, instance) >= 0 && !object.profile.empty();
@@ -138,12 +138,12 @@ XrResult XRAPI_CALL GetCurrentInteractionProfile(XrSession session, XrPath user,
 XrResult XRAPI_CALL CreateActionSpace(XrSession session, const XrActionSpaceCreateInfo* info, XrSpace* space) {
   return call("xrCreateActionSpace", [&](State& s) {
     live(session);
-    structure(info, XR_TYPE_ACTION_SPACE_CREATE_INFO);
-    pointer(space, "space");
+    require_structure(info, XR_TYPE_ACTION_SPACE_CREATE_INFO);
+    require_pointer(space, "space");
     const ActionObject& action = live(info->action);
     require(action.type == XR_ACTION_TYPE_POSE_INPUT, "action_type", action.name);
     check_subaction(action, info->subactionPath);
-    unit_pose(info->poseInActionSpace, "poseInActionSpace");
+    require_unit_pose(info->poseInActionSpace, "poseInActionSpace");
     *space = s.spaces.add({.session = session,
                            .type = Space::action,
                            .pose = from_xr(info->poseInActionSpace),

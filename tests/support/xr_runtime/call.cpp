@@ -1,4 +1,4 @@
-// Common prologue of every function: handles, structures, rules, planted failures, the log.
+// Code that runs in every OpenXR function: checks of handles, structures and rules; injected failures; the log.
 #include <algorithm>
 #include <cstring>
 
@@ -22,7 +22,7 @@ void restart(Control& control) {
 }
 
 template <class Handle, class Object>
-Object& found(const Table<Handle, Object>& table, Handle handle) {
+Object& find_or_reject(const Table<Handle, Object>& table, Handle handle) {
   Object* const object = table.find(handle);
   require(object != nullptr, "handle_live", Object::kKind);
   return *object;
@@ -37,17 +37,17 @@ struct Header {
 
 State& state() {
   static State* const one = [] {
-    auto* const made = new State;  // must outlive the loader's destructors
-    made->control.rules = rules();
-    made->control.restart = restart;
-    made->control.read_script = [](const char* file) { return read_script(file); };
-    read_flow_script(made->control);
-    return made;
+    auto* const created = new State;  // never deleted, because it must outlive the loader's destructors
+    created->control.rules = rules();
+    created->control.restart = restart;
+    created->control.read_script = [](const char* file) { return read_script(file); };
+    read_flow_script(created->control);
+    return created;
   }();
   return *one;
 }
 
-void refuse(XrResult result) {
+void reject_call(XrResult result) {
   throw CallRejected{result};
 }
 
@@ -89,55 +89,56 @@ void leak(State& s, const char* kind, const char* parent) {
 }
 
 InstanceObject& live(XrInstance handle) {
-  InstanceObject& instance = found(state().instances, handle);
-  if (instance.lost) refuse(XR_ERROR_INSTANCE_LOST);
+  InstanceObject& instance = find_or_reject(state().instances, handle);
+  if (instance.lost) reject_call(XR_ERROR_INSTANCE_LOST);
   return instance;
 }
 
 SessionObject& live(XrSession handle) {
-  SessionObject& session = found(state().sessions, handle);
+  SessionObject& session = find_or_reject(state().sessions, handle);
   live(session.instance);
-  if (session.lost) refuse(XR_ERROR_SESSION_LOST);
+  if (session.lost) reject_call(XR_ERROR_SESSION_LOST);
   return session;
 }
 
 SpaceObject& live(XrSpace handle) {
-  SpaceObject& space = found(state().spaces, handle);
+  SpaceObject& space = find_or_reject(state().spaces, handle);
   live(space.session);
   return space;
 }
 
 SwapchainObject& live(XrSwapchain handle) {
-  SwapchainObject& swapchain = found(state().swapchains, handle);
+  SwapchainObject& swapchain = find_or_reject(state().swapchains, handle);
   live(swapchain.session);
   return swapchain;
 }
 
 ActionSetObject& live(XrActionSet handle) {
-  ActionSetObject& set = found(state().action_sets, handle);
+  ActionSetObject& set = find_or_reject(state().action_sets, handle);
   live(set.instance);
   return set;
 }
 
 ActionObject& live(XrAction handle) {
-  ActionObject& action = found(state().actions, handle);
+  ActionObject& action = find_or_reject(state().actions, handle);
   live(action.set);
   return action;
 }
 
-void pointer(const void* given, const char* name) {
-  require(given != nullptr, "pointer", name);
+void require_pointer(const void* value, const char* name) {
+  require(value != nullptr, "pointer", name);
 }
 
 bool enabled(const char* extension) {
   State& s = state();
-  const auto with = s.instances.of([&](const InstanceObject& one) { return one.extensions.contains(extension); });
-  return !with.empty();
+  const auto instances_with =
+      s.instances.find_all([&](const InstanceObject& one) { return one.extensions.contains(extension); });
+  return !instances_with.empty();
 }
 
-void structure(const void* given, XrStructureType type, std::initializer_list<Extends> allowed) {
-  pointer(given, "a structure");
-  const auto* const head = static_cast<const Header*>(given);
+void require_structure(const void* value, XrStructureType type, std::initializer_list<Extends> allowed) {
+  require_pointer(value, "a structure");
+  const auto* const head = static_cast<const Header*>(value);
   require(head->type == type, "struct_type", "is " + std::to_string(head->type) + ", not " + std::to_string(type));
   for (auto* next = static_cast<const Header*>(head->next); next != nullptr;
        next = static_cast<const Header*>(next->next)) {
@@ -149,8 +150,8 @@ void structure(const void* given, XrStructureType type, std::initializer_list<Ex
   }
 }
 
-const void* find_chained(const void* given, XrStructureType type) {
-  auto* next = static_cast<const Header*>(static_cast<const Header*>(given)->next);
+const void* find_chained(const void* value, XrStructureType type) {
+  auto* next = static_cast<const Header*>(static_cast<const Header*>(value)->next);
   while (next != nullptr && next->type != type) next = static_cast<const Header*>(next->next);
   return next;
 }

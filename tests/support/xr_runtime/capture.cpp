@@ -1,4 +1,4 @@
-// Reads the pixels that a frame submitted, on the program's queue, as xrEndFrame may.
+// Reads the pixels that a frame submitted. Uses the program's Vulkan queue, as xrEndFrame is allowed to.
 #include <algorithm>
 #include <cstring>
 
@@ -7,13 +7,13 @@
 namespace gearshift::xr_test {
 namespace {
 
-bool wants(const Capture& capture, std::uint64_t frame) {
+bool should_capture(const Capture& capture, std::uint64_t frame) {
   const bool every = capture.every > 0 && frame % static_cast<std::uint64_t>(capture.every) == 0;
   return every || std::find(capture.only.begin(), capture.only.end(), frame) != capture.only.end();
 }
 
-// Empty for a multisampled image, which cannot be copied.
-std::vector<std::uint8_t> submitted(const SessionObject& session, const XrSwapchainSubImage& sub) {
+// Returns no bytes for a multisampled image, which cannot be copied.
+std::vector<std::uint8_t> read_submitted(const SessionObject& session, const XrSwapchainSubImage& sub) {
   const SwapchainObject& swapchain = live(sub.swapchain);
   if (swapchain.info.sampleCount != 1) return {};
   const auto [offset, extent] = sub.imageRect;
@@ -33,7 +33,7 @@ bool is_rgba(std::int64_t format) {
 engine::Image picture(const SessionObject& session, const XrSwapchainSubImage& sub) {
   const std::int64_t format = live(sub.swapchain).info.format;
   if (!is_rgba(format) && !is_bgra(format)) return {};
-  engine::Image image{sub.imageRect.extent.width, sub.imageRect.extent.height, submitted(session, sub)};
+  engine::Image image{sub.imageRect.extent.width, sub.imageRect.extent.height, read_submitted(session, sub)};
   if (image.rgba.empty()) return {};
   if (is_bgra(format)) {
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
@@ -43,7 +43,7 @@ engine::Image picture(const SessionObject& session, const XrSwapchainSubImage& s
 
 std::vector<float> depths(const SessionObject& session, const XrSwapchainSubImage& sub) {
   if (live(sub.swapchain).info.format != VK_FORMAT_D32_SFLOAT) return {};
-  const std::vector<std::uint8_t> bytes = submitted(session, sub);
+  const std::vector<std::uint8_t> bytes = read_submitted(session, sub);
   std::vector<float> values(bytes.size() / sizeof(float));
   std::memcpy(values.data(), bytes.data(), bytes.size());
   return values;
@@ -53,7 +53,7 @@ std::vector<float> depths(const SessionObject& session, const XrSwapchainSubImag
 
 void capture_frame(State& s, const XrFrameEndInfo& info, const SessionObject& session, FrameRecord& record) {
   const Capture& capture = s.control.script.capture;
-  if (!wants(capture, record.index)) return;
+  if (!should_capture(capture, record.index)) return;
   for (std::uint32_t i = 0; i < info.layerCount; ++i) {
     std::vector<ViewRecord>& views = record.layers[i].views;
     if (record.layers[i].type == XR_TYPE_COMPOSITION_LAYER_QUAD) {

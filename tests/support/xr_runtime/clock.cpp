@@ -14,7 +14,7 @@ void sleep_until(XrTime time) {
   }
 }
 
-std::int64_t whole_periods(const State& s, XrTime time) {
+std::int64_t elapsed_periods(const State& s, XrTime time) {
   return (time - s.begin) / period(s);
 }
 
@@ -45,7 +45,7 @@ XrTime now(const State& s) {
 
 std::int64_t next_display_period(State& s, XrTime last) {
   if (s.control.script.pacing == Pacing::real) {
-    const std::int64_t free = whole_periods(s, monotonic_now()) + 1;
+    const std::int64_t free = elapsed_periods(s, monotonic_now()) + 1;
     // A frame begins one period before its display time.
     if (last != 0 && free > s.next_step) s.control.record.dropped += static_cast<std::uint64_t>(free - s.next_step);
     s.next_step = std::max(free, s.next_step);

@@ -1,5 +1,5 @@
 // An OpenXR runtime for tests, as seen by the test: what it should simulate (Script) and what it received (Record). The
-// loader finds it through XR_RUNTIME_JSON; it needs no headset and no display. README.md.
+// loader finds it through XR_RUNTIME_JSON; it needs no headset and no display. See README.md.
 #pragma once
 
 #include <openxr/openxr.h>
@@ -43,28 +43,28 @@ struct Fov {  // [rad], with the signs of XrFovf
 
 enum class Space { view, local, stage, action };
 enum class Pacing {
-  stepped,  // each xrWaitFrame is the next display period, without sleeping: the same on every machine
+  stepped,  // each xrWaitFrame advances one display period, without sleeping: the same on every machine
   real,     // sleeps like a compositor; a late frame gets the next free period, and skipped periods count as dropped
 };
 
-// Something that happens at a given time; see the factory functions below.
+// Something that the script makes happen at a given time. The functions below create events.
 struct Event {
-  enum class What {
-    focused,       // visible, and the program has the controllers
-    visible,       // covered by a menu
-    synchronized,  // not visible: shouldRender is false
-    stopping,      // the headset was taken off
-    ready,         // and put on again
+  enum class Kind {
+    focused,       // the program is visible and receives input
+    visible,       // the program is visible, but a menu receives the input
+    synchronized,  // the program is not visible: shouldRender is false
+    stopping,      // the user took the headset off
+    ready,         // the user put the headset on again
     loss_pending,  // the session is lost: its calls return XR_ERROR_SESSION_LOST
     instance_loss,
-    exit,  // the user closed the program: STOPPING, IDLE, EXITING
+    exit,  // the user closed the program: states STOPPING, IDLE, EXITING
     space_change,
-    profile,  // other controllers; an empty profile: none
+    profile,  // the controllers changed; an empty profile: no controllers
     hidden,   // shouldRender is false for a while, in any state
     stall,    // xrWaitFrame blocks for some display periods, so that frames are dropped
   };
-  double at = 0.0;  // [s] of Script's clock; -1: before the first xrBeginSession
-  What what = What::focused;
+  double at = 0.0;  // [s] on Script's clock; -1: before the first xrBeginSession
+  Kind kind = Kind::focused;
   Space space = Space::local;  // for space_change: local or stage
   Pose pose{};                 // for space_change: the new origin in the previous space
   int frames_ahead = 3;        // for space_change: display periods between the event and the change
@@ -73,46 +73,46 @@ struct Event {
   int periods = 0;    // for stall
 };
 inline Event focused(double at) {
-  return {.at = at, .what = Event::What::focused};
+  return {.at = at, .kind = Event::Kind::focused};
 }
 inline Event visible(double at) {
-  return {.at = at, .what = Event::What::visible};
+  return {.at = at, .kind = Event::Kind::visible};
 }
 inline Event synchronized(double at) {
-  return {.at = at, .what = Event::What::synchronized};
+  return {.at = at, .kind = Event::Kind::synchronized};
 }
 inline Event stopping(double at) {
-  return {.at = at, .what = Event::What::stopping};
+  return {.at = at, .kind = Event::Kind::stopping};
 }
 inline Event ready(double at) {
-  return {.at = at, .what = Event::What::ready};
+  return {.at = at, .kind = Event::Kind::ready};
 }
 inline Event lose_session(double at) {
-  return {.at = at, .what = Event::What::loss_pending};
+  return {.at = at, .kind = Event::Kind::loss_pending};
 }
 inline Event lose_instance(double at) {
-  return {.at = at, .what = Event::What::instance_loss};
+  return {.at = at, .kind = Event::Kind::instance_loss};
 }
 inline Event exit(double at) {
-  return {.at = at, .what = Event::What::exit};
+  return {.at = at, .kind = Event::Kind::exit};
 }
 inline Event change_space(double at, Space space, Pose pose, int frames_ahead = 3) {
-  return {.at = at, .what = Event::What::space_change, .space = space, .pose = pose, .frames_ahead = frames_ahead};
+  return {.at = at, .kind = Event::Kind::space_change, .space = space, .pose = pose, .frames_ahead = frames_ahead};
 }
 inline Event change_profile(double at, std::string profile) {
-  return {.at = at, .what = Event::What::profile, .profile = std::move(profile)};
+  return {.at = at, .kind = Event::Kind::profile, .profile = std::move(profile)};
 }
 inline Event hidden(double at, double span) {
-  return {.at = at, .what = Event::What::hidden, .span = span};
+  return {.at = at, .kind = Event::Kind::hidden, .span = span};
 }
 inline Event stall(double at, int periods) {
-  return {.at = at, .what = Event::What::stall, .periods = periods};
+  return {.at = at, .kind = Event::Kind::stall, .periods = periods};
 }
 
 struct Failure {
   std::string function{};  // "xrEndFrame"
   XrResult result = XR_ERROR_RUNTIME_FAILURE;
-  int nth = 1;  // which call from now on
+  int nth = 1;  // the nth call of the function from now on fails
 };
 
 struct Hand {
@@ -125,16 +125,16 @@ struct Gap {                       // An interruption of head tracking.
   bool valid = false;              // true: estimated poses; false: no poses
 };
 
-struct Capture {                      // Selects the pixels to record; frames themselves are always recorded.
+struct Capture {                      // Selects the frames with recorded pixels; other data is always recorded.
   int every = 0;                      // every n-th frame; 0: none
-  std::vector<std::uint64_t> only{};  // and these frames
+  std::vector<std::uint64_t> only{};  // also these frames, by FrameRecord::index
   bool depth = true;
 };
 
 // All times are seconds of display time since the first xrBeginSession after start(); the clock continues across
 // sessions.
 struct Script {
-  bool headset = true;  // false: XR_ERROR_FORM_FACTOR_UNAVAILABLE
+  bool headset = true;  // false: xrGetSystem returns XR_ERROR_FORM_FACTOR_UNAVAILABLE
   bool vulkan_enable2 = true, composition_layer_depth = true, convert_timespec_time = true;  // offered extensions
   bool stage = true;
   Pose stage_origin{.position = {0.0, -1.2, 0.0}};                  // in the initial LOCAL space
@@ -144,12 +144,12 @@ struct Script {
   std::uint32_t images = 3;                                         // per swapchain
   std::vector<std::int64_t> colour_formats{43, 50, 37, 44};         // VkFormat: R8G8B8A8 and B8G8R8A8, sRGB first
   std::vector<std::int64_t> depth_formats{126};                     // VkFormat: D32_SFLOAT
-  std::array<Fov, 2> fov{Fov{-50 * kDegree, 42 * kDegree, 44 * kDegree, -48 * kDegree},  // of the left eye
+  std::array<Fov, 2> fov{Fov{-50 * kDegree, 42 * kDegree, 44 * kDegree, -48 * kDegree},  // left eye
                          Fov{-42 * kDegree, 50 * kDegree, 44 * kDegree, -48 * kDegree}};
   double eye_distance = 0.063;  // [m]
   double period = 1.0 / 90.0;   // [s] display period
   Pacing pacing = Pacing::stepped;
-  int polls_before_ready = 0;  // xrPollEvent calls that return no event between IDLE and READY
+  int polls_before_ready = 0;  // xrPollEvent calls without an event between IDLE and READY
   std::function<Pose(double)> head = [](double) { return Pose{}; };  // in the initial LOCAL space
   std::vector<Gap> tracking_gaps{};
   double early_error = 0.0;     // [m] error in x, only in the first xrLocateViews of each frame
@@ -178,7 +178,7 @@ struct ViewRecord {
   Rect rect{};
   std::uint32_t layer = 0;  // index in the swapchain's array
   DepthRecord depth{};
-  engine::Image picture{};  // the rectangle's bytes as stored; empty if not captured
+  engine::Image picture{};  // the bytes stored in the rectangle; empty if not captured
 };
 
 struct LayerRecord {
@@ -191,13 +191,13 @@ struct LayerRecord {
 };
 
 struct FrameRecord {
-  std::uint64_t index = 0;  // counts calls of xrWaitFrame
+  std::uint64_t index = 0;  // number of the xrWaitFrame call, from 0
   double time = 0.0;        // [s] predicted display time on Script's clock
   XrTime display_time = 0;
   bool should_render = false;
-  bool discarded = false;  // by the next xrBeginFrame
+  bool discarded = false;  // xrBeginFrame was called again before xrEndFrame
   bool ended = false;
-  int locates = 0;                    // xrLocateViews calls until the next xrWaitFrame
+  int locates = 0;                    // number of xrLocateViews calls before the next xrWaitFrame
   std::vector<LayerRecord> layers{};  // back to front
 
   const LayerRecord* projection() const { return first(XR_TYPE_COMPOSITION_LAYER_PROJECTION); }
@@ -214,8 +214,8 @@ struct FrameRecord {
 
 struct Rule {
   const char* id;
-  XrResult result;      // result of the call; XR_SUCCESS: it continues
-  const char* section;  // in the OpenXR 1.0 specification
+  XrResult result;      // result of a call that violates the rule; XR_SUCCESS: the call continues
+  const char* section;  // heading in the OpenXR 1.0 specification
   const char* law;
 };
 
@@ -232,9 +232,9 @@ struct Pulse {  // A call of xrApplyHapticFeedback.
 struct Record {
   std::vector<FrameRecord> frames{};
   std::vector<Violation> violations{};
-  std::vector<std::string> leaks{};  // "space of session": handles destroyed only with their parent
-  std::vector<std::string> log{};    // one line each for frames, events, states and violations
-  // number of live handles by kind: instance, session, swapchain, space, action set, action
+  std::vector<std::string> leaks{};  // handles destroyed only with their parent, e.g. "space of session"
+  std::vector<std::string> log{};    // one line per frame, event, state change, violation
+  // Number of live handles by kind: instance, session, swapchain, space, action set, action.
   std::map<std::string, int> live{};
   std::map<std::string, int> calls{};
   std::uint64_t dropped = 0;  // display periods without a new frame
@@ -249,21 +249,21 @@ struct Record {
 };
 
 struct Control {
-  Script script;  // may be changed while a session runs: poses, inputs, timeline, failures, capture, headset, profile
+  Script script;  // these may change during a session: poses, inputs, timeline, failures, capture, headset, profile
   Record record;
   std::span<const Rule> rules{};
   void (*restart)(Control&) = nullptr;
-  Script (*read_script)(const char* file) = nullptr;  // parses a flow's script; throws std::runtime_error
+  Script (*read_script)(const char* file) = nullptr;  // reads a script file; throws std::runtime_error
 
-  // Call before xrCreateInstance: sets a new script and clears the record.
+  // Sets a new script and clears the record. Call before xrCreateInstance.
   void start(Script next = Script()) {
     script = std::move(next);
     restart(*this);
   }
 };
 
-// Sets XR_RUNTIME_JSON and loads the runtime; returns the same object at each call. Throws std::runtime_error.
-// (xr_test_control)
+// Sets XR_RUNTIME_JSON and loads the runtime; returns the same object at each call. Throws std::runtime_error. Linked
+// from the library xr_test_control.
 Control& control();
 
 }  // namespace gearshift::xr_test

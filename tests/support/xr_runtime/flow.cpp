@@ -1,4 +1,4 @@
-// For testing a whole program: the script comes from a file, and the results are written to a folder.
+// For flow tests, which test the whole program: reads the script from a file and writes the results to a folder.
 #include <array>
 #include <cstdio>
 #include <cstdlib>

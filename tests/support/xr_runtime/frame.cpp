@@ -36,14 +36,14 @@ namespace xr {
 XrResult XRAPI_CALL WaitFrame(XrSession session, const XrFrameWaitInfo* info, XrFrameState* state) {
   return call("xrWaitFrame", [&](State& s) {
     SessionObject& object = live(session);
-    if (info != nullptr) structure(info, XR_TYPE_FRAME_WAIT_INFO);
-    structure(state, XR_TYPE_FRAME_STATE);
+    if (info != nullptr) require_structure(info, XR_TYPE_FRAME_WAIT_INFO);
+    require_structure(state, XR_TYPE_FRAME_STATE);
     require(object.running, "session_running");
     require(!object.waited, "wait_twice");
-    // First handle the events due by the next display time, which may include a stall; then determine that time.
+    // Handle the events that are due before choosing the display time, because a stall among them shifts that time.
     const bool steps = s.control.script.pacing == Pacing::stepped;
     play_timeline(s, steps ? seconds(s, display_time(s, s.next_step)) : seconds(s, now(s)));
-    live(session);  // the timeline may have lost it
+    live(session);  // rejects the call if an event lost the session
     advance_state(s, session, object);
     const XrTime time = display_time(s, next_display_period(s, object.last_display));
     ++object.waits;
@@ -62,7 +62,7 @@ XrResult XRAPI_CALL WaitFrame(XrSession session, const XrFrameWaitInfo* info, Xr
 XrResult XRAPI_CALL BeginFrame(XrSession session, const XrFrameBeginInfo* info) {
   return call("xrBeginFrame", [&](State& s) {
     SessionObject& object = live(session);
-    if (info != nullptr) structure(info, XR_TYPE_FRAME_BEGIN_INFO);
+    if (info != nullptr) require_structure(info, XR_TYPE_FRAME_BEGIN_INFO);
     require(object.running, "session_running");
     require(object.waited.has_value(), "wait_before_begin");
     const bool discarded = object.begun.has_value();
@@ -76,7 +76,7 @@ XrResult XRAPI_CALL BeginFrame(XrSession session, const XrFrameBeginInfo* info) 
 XrResult XRAPI_CALL EndFrame(XrSession session, const XrFrameEndInfo* info) {
   return call("xrEndFrame", [&](State& s) {
     SessionObject& object = live(session);
-    structure(info, XR_TYPE_FRAME_END_INFO);
+    require_structure(info, XR_TYPE_FRAME_END_INFO);
     require(object.running, "session_running");
     require(object.begun.has_value(), "begin_before_end");
     require(info->displayTime > 0, "time_positive");

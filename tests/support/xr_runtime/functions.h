@@ -5,7 +5,7 @@
 
 #include "tests/support/xr_runtime/vulkan.h"
 
-// Names without "xr", and the functions of each extension.
+// Names of the functions without "xr": of the core, and of each extension.
 // clang-format off
 #define GEARSHIFT_XR_CORE(_)                                                                                           \
   _(EnumerateInstanceExtensionProperties) _(CreateInstance) _(DestroyInstance) _(GetInstanceProperties) _(PollEvent)   \
@@ -28,7 +28,8 @@
 
 namespace gearshift::xr_test::xr {
 
-// Each has OpenXR's type: XrResult WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState*);
+// Declares each function with the type that OpenXR gives it: XrResult WaitFrame(XrSession, const XrFrameWaitInfo*,
+// XrFrameState*);
 // NOLINTBEGIN(bugprone-macro-parentheses): a declared name cannot have parentheses
 #define GEARSHIFT_XR_DECLARE(name) std::remove_pointer_t<PFN_xr##name> name;
 GEARSHIFT_XR_CORE(GEARSHIFT_XR_DECLARE)

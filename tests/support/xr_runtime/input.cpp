@@ -9,7 +9,7 @@
 namespace gearshift::xr_test {
 namespace {
 
-// The paths that an action is bound to on the session's controllers, for one subaction path or for all.
+// The paths that an action is bound to on the session's controllers, for one subaction path or (XR_NULL_PATH) for all.
 std::vector<std::string> sources(const SessionObject& session, XrAction action, XrPath subaction) {
   const InstanceObject& instance = live(session.instance);
   const auto suggested = instance.suggestions.find(session.profile);
@@ -36,7 +36,7 @@ ActionValue read_source(const Script& script, XrActionType type, const std::stri
   return value;
 }
 
-// If several inputs are bound, uses the one that is farthest from rest.
+// If several inputs are bound to the action, the one that is farthest from rest determines its value.
 void sync_value(State& s, const SessionObject& session, XrAction handle, ActionObject& action, XrPath subaction) {
   ActionValue next;
   for (const std::string& path : sources(session, handle, subaction)) {
@@ -56,10 +56,10 @@ void sync_action(State& s, const SessionObject& session, XrAction handle) {
 }
 
 // Clears the values of action sets that are not active.
-void forget_values(State& s, const SessionObject& session, const std::vector<XrActionSet>& active) {
+void clear_values(State& s, const SessionObject& session, const std::vector<XrActionSet>& active) {
   for (const XrActionSet set : session.attached) {
     if (std::find(active.begin(), active.end(), set) != active.end()) continue;
-    for (const XrAction one : s.actions.of([&](const ActionObject& action) { return action.set == set; })) {
+    for (const XrAction one : s.actions.find_all([&](const ActionObject& action) { return action.set == set; })) {
       for (auto& [subaction, value] : s.actions.find(one)->values) value.active = value.changed = false;
     }
   }
@@ -68,12 +68,12 @@ void forget_values(State& s, const SessionObject& session, const std::vector<XrA
 // The current profile changes only in xrSyncActions, and only to one for which the program suggested bindings.
 void choose_profile(State& s, XrSession handle, SessionObject& session) {
   const auto& suggestions = live(session.instance).suggestions;
-  const std::string& held = s.control.script.profile;
+  const std::string& current = s.control.script.profile;
   const std::string simple = "/interaction_profiles/khr/simple_controller";
   std::string next;
-  if (suggestions.contains(held)) {
-    next = held;
-  } else if (!held.empty() && suggestions.contains(simple)) {
+  if (suggestions.contains(current)) {
+    next = current;
+  } else if (!current.empty() && suggestions.contains(simple)) {
     next = simple;
   }
   if (next == session.profile) return;
@@ -88,7 +88,8 @@ bool is_attached(const SessionObject& session, XrActionSet set) {
   return std::find(session.attached.begin(), session.attached.end(), set) != session.attached.end();
 }
 
-const ActionObject& readable(const SessionObject& session, XrAction handle, XrPath subaction, XrActionType type) {
+const ActionObject& require_readable(const SessionObject& session, XrAction handle, XrPath subaction,
+                                     XrActionType type) {
   const ActionObject& action = live(handle);
   require(is_attached(session, action.set), "set_attached");
   require(action.type == type, "action_type", action.name);
@@ -106,10 +107,10 @@ XrResult get_state(const char* function, XrSession session, const XrActionStateG
                    XrStructureType type, XrActionType action_type, Write write) {
   return call(function, [&](State&) {
     const SessionObject& object = live(session);
-    structure(info, XR_TYPE_ACTION_STATE_GET_INFO);
-    structure(out, type);
+    require_structure(info, XR_TYPE_ACTION_STATE_GET_INFO);
+    require_structure(out, type);
     const ActionValue value =
-        value_of(readable(object, info->action, info->subactionPath, action_type), info->subactionPath);
+        value_of(require_readable(object, info->action, info->subactionPath, action_type), info->subactionPath);
     write(value);
     out->isActive = value.active ? XR_TRUE : XR_FALSE;
     return XR_SUCCESS;
@@ -133,15 +134,15 @@ void check_subaction(const ActionObject& action, XrPath subaction) {
 }
 
 Pose action_pose(const State& s, const SpaceObject& space, double t) {
-  const Pose nowhere{.position_valid = false, .orientation_valid = false, .tracked = false};
+  const Pose untracked{.position_valid = false, .orientation_valid = false, .tracked = false};
   const ActionObject* const action = s.actions.find(space.action);
-  if (action == nullptr || !value_of(*action, space.subaction).active) return nowhere;
+  if (action == nullptr || !value_of(*action, space.subaction).active) return untracked;
   for (const std::string& path : sources(live(space.session), space.action, space.subaction)) {
     const Hand& hand = s.control.script.hands[path.starts_with("/user/hand/left/") ? 0 : 1];
     if (path.find("/input/aim") != std::string::npos) return hand.aim(t);
     if (path.find("/input/grip") != std::string::npos) return hand.grip(t);
   }
-  return nowhere;
+  return untracked;
 }
 
 namespace xr {
@@ -149,21 +150,21 @@ namespace xr {
 XrResult XRAPI_CALL SyncActions(XrSession session, const XrActionsSyncInfo* info) {
   return call("xrSyncActions", [&](State& s) {
     SessionObject& object = live(session);
-    structure(info, XR_TYPE_ACTIONS_SYNC_INFO);
+    require_structure(info, XR_TYPE_ACTIONS_SYNC_INFO);
     for (std::uint32_t i = 0; i < info->countActiveActionSets; ++i) {
       live(info->activeActionSets[i].actionSet);
       require(is_attached(object, info->activeActionSets[i].actionSet), "set_attached");
     }
     if (object.state != XR_SESSION_STATE_FOCUSED) {
-      forget_values(s, object, {});
+      clear_values(s, object, {});
       return XR_SESSION_NOT_FOCUSED;
     }
     choose_profile(s, session, object);
     std::vector<XrActionSet> active;
     for (std::uint32_t i = 0; i < info->countActiveActionSets; ++i)
       active.push_back(info->activeActionSets[i].actionSet);
-    forget_values(s, object, active);
-    for (const XrAction one : s.actions.of([&](const ActionObject& action) {
+    clear_values(s, object, active);
+    for (const XrAction one : s.actions.find_all([&](const ActionObject& action) {
            return std::find(active.begin(), active.end(), action.set) != active.end();
          })) {
       sync_action(s, object, one);
@@ -208,7 +209,7 @@ XrResult XRAPI_CALL EnumerateBoundSourcesForAction(XrSession session, const XrBo
                                                    std::uint32_t capacity, std::uint32_t* count, XrPath* paths) {
   return call("xrEnumerateBoundSourcesForAction", [&](State&) {
     const SessionObject& object = live(session);
-    structure(info, XR_TYPE_BOUND_SOURCES_FOR_ACTION_ENUMERATE_INFO);
+    require_structure(info, XR_TYPE_BOUND_SOURCES_FOR_ACTION_ENUMERATE_INFO);
     require(is_attached(object, live(info->action).set), "set_attached");
     InstanceObject& instance = live(object.instance);
     return fill(capacity, count, paths, sources(object, info->action, XR_NULL_PATH),
@@ -220,7 +221,7 @@ XrResult XRAPI_CALL GetInputSourceLocalizedName(XrSession session, const XrInput
                                                 std::uint32_t capacity, std::uint32_t* count, char* buffer) {
   return call("xrGetInputSourceLocalizedName", [&](State&) {
     const SessionObject& object = live(session);
-    structure(info, XR_TYPE_INPUT_SOURCE_LOCALIZED_NAME_GET_INFO);
+    require_structure(info, XR_TYPE_INPUT_SOURCE_LOCALIZED_NAME_GET_INFO);
     require(object.has_attached, "set_attached");
     // A localized name for display, made of the path's parts; programs must not parse it.
     std::string name = path_string(live(object.instance), info->sourcePath).substr(1);
@@ -230,15 +231,15 @@ XrResult XRAPI_CALL GetInputSourceLocalizedName(XrSession session, const XrInput
 }
 
 XrResult XRAPI_CALL ApplyHapticFeedback(XrSession session, const XrHapticActionInfo* info,
-                                        const XrHapticBaseHeader* what) {
+                                        const XrHapticBaseHeader* haptic) {
   return call("xrApplyHapticFeedback", [&](State& s) {
     const SessionObject& object = live(session);
-    structure(info, XR_TYPE_HAPTIC_ACTION_INFO);
-    structure(what, XR_TYPE_HAPTIC_VIBRATION);
-    readable(object, info->action, info->subactionPath, XR_ACTION_TYPE_VIBRATION_OUTPUT);
-    const auto& pulse = reinterpret_cast<const XrHapticVibration&>(*what);
-    const bool lasts = pulse.duration > 0 || pulse.duration == XR_MIN_HAPTIC_DURATION;
-    require(lasts && pulse.amplitude >= 0.0f && pulse.amplitude <= 1.0f && pulse.frequency >= 0.0f, "haptic");
+    require_structure(info, XR_TYPE_HAPTIC_ACTION_INFO);
+    require_structure(haptic, XR_TYPE_HAPTIC_VIBRATION);
+    require_readable(object, info->action, info->subactionPath, XR_ACTION_TYPE_VIBRATION_OUTPUT);
+    const auto& pulse = reinterpret_cast<const XrHapticVibration&>(*haptic);
+    const bool has_duration = pulse.duration > 0 || pulse.duration == XR_MIN_HAPTIC_DURATION;
+    require(has_duration && pulse.amplitude >= 0.0f && pulse.amplitude <= 1.0f && pulse.frequency >= 0.0f, "haptic");
     if (object.state != XR_SESSION_STATE_FOCUSED) return XR_SESSION_NOT_FOCUSED;
     const double length = pulse.duration > 0 ? static_cast<double>(pulse.duration) * 1e-9 : 0.0;
     for (const std::string& path : sources(object, info->action, info->subactionPath)) {
@@ -253,8 +254,8 @@ XrResult XRAPI_CALL ApplyHapticFeedback(XrSession session, const XrHapticActionI
 XrResult XRAPI_CALL StopHapticFeedback(XrSession session, const XrHapticActionInfo* info) {
   return call("xrStopHapticFeedback", [&](State&) {
     const SessionObject& object = live(session);
-    structure(info, XR_TYPE_HAPTIC_ACTION_INFO);
-    readable(object, info->action, info->subactionPath, XR_ACTION_TYPE_VIBRATION_OUTPUT);
+    require_structure(info, XR_TYPE_HAPTIC_ACTION_INFO);
+    require_readable(object, info->action, info->subactionPath, XR_ACTION_TYPE_VIBRATION_OUTPUT);
     return object.state == XR_SESSION_STATE_FOCUSED ? XR_SUCCESS : XR_SESSION_NOT_FOCUSED;
   });
 }

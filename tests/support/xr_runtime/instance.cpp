@@ -36,11 +36,12 @@ void copy_text(char (&to)[size], const std::string& from) {
   std::snprintf(to, size, "%s", from.c_str());
 }
 
-// While no frame is running, the stepped clock advances with the calls that wait for an event.
+// While no frames are running, the stepped clock advances with each xrPollEvent that returns no event.
 void tick(State& s) {
-  const bool frames_go = !s.sessions.of([](const SessionObject& one) { return one.running; }).empty();
-  if (s.begin != 0 && !frames_go && s.control.script.pacing == Pacing::stepped) ++s.next_step;
-  for (const XrSession handle : s.sessions.of([](const SessionObject& one) { return one.polls_before_ready > 0; })) {
+  const bool frames_running = !s.sessions.find_all([](const SessionObject& one) { return one.running; }).empty();
+  if (s.begin != 0 && !frames_running && s.control.script.pacing == Pacing::stepped) ++s.next_step;
+  for (const XrSession handle :
+       s.sessions.find_all([](const SessionObject& one) { return one.polls_before_ready > 0; })) {
     SessionObject& session = *s.sessions.find(handle);
     if (--session.polls_before_ready == 0) set_state(s, handle, session, XR_SESSION_STATE_READY);
   }
@@ -64,7 +65,7 @@ XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char* layer, std:
     if (layer != nullptr) return XR_ERROR_API_LAYER_NOT_PRESENT;
     return fill(capacity, count, properties, offered(s.control.script),
                 [](XrExtensionProperties& to, const Offer& from) {
-                  structure(&to, XR_TYPE_EXTENSION_PROPERTIES);
+                  require_structure(&to, XR_TYPE_EXTENSION_PROPERTIES);
                   copy_text(to.extensionName, from.name);
                   to.extensionVersion = from.version;
                 });
@@ -73,21 +74,21 @@ XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char* layer, std:
 
 XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo* info, XrInstance* instance) {
   return call("xrCreateInstance", [&](State& s) {
-    // The loader appends its debug messenger to the chain.
-    structure(info, XR_TYPE_INSTANCE_CREATE_INFO, {{XR_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT}});
-    pointer(instance, "instance");
+    // The loader appends its debug messenger's structure to the chain.
+    require_structure(info, XR_TYPE_INSTANCE_CREATE_INFO, {{XR_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT}});
+    require_pointer(instance, "instance");
     if (s.instances.size() != 0) return XR_ERROR_LIMIT_REACHED;
-    InstanceObject made;
+    InstanceObject created;
     const std::vector<Offer> offers = offered(s.control.script);
     for (std::uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
       const std::string name = info->enabledExtensionNames[i];
       if (std::none_of(offers.begin(), offers.end(), [&](const Offer& one) { return name == one.name; })) {
         return XR_ERROR_EXTENSION_NOT_PRESENT;
       }
-      made.extensions.insert(name);
+      created.extensions.insert(name);
     }
     if (XR_VERSION_MAJOR(info->applicationInfo.apiVersion) != 1) return XR_ERROR_API_VERSION_UNSUPPORTED;
-    *instance = s.instances.add(std::move(made));
+    *instance = s.instances.add(std::move(created));
     count_live();
     return XR_SUCCESS;
   });
@@ -96,12 +97,13 @@ XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo* info, XrInstance*
 XrResult XRAPI_CALL DestroyInstance(XrInstance instance) {
   return call("xrDestroyInstance", [&](State& s) {
     require(s.instances.find(instance) != nullptr, "handle_live", "instance");
-    for (const XrSession session : s.sessions.of([&](const SessionObject& one) { return one.instance == instance; })) {
+    for (const XrSession session :
+         s.sessions.find_all([&](const SessionObject& one) { return one.instance == instance; })) {
       leak(s, "session", "instance");
       drop_session(s, session);
     }
     for (const XrActionSet set :
-         s.action_sets.of([&](const ActionSetObject& one) { return one.instance == instance; })) {
+         s.action_sets.find_all([&](const ActionSetObject& one) { return one.instance == instance; })) {
       leak(s, "action set", "instance");
       drop_action_set(s, set);
     }
@@ -119,7 +121,7 @@ XrResult XRAPI_CALL DestroyInstance(XrInstance instance) {
 XrResult XRAPI_CALL GetInstanceProperties(XrInstance instance, XrInstanceProperties* properties) {
   return call("xrGetInstanceProperties", [&](State&) {
     live(instance);
-    structure(properties, XR_TYPE_INSTANCE_PROPERTIES);
+    require_structure(properties, XR_TYPE_INSTANCE_PROPERTIES);
     properties->runtimeVersion = XR_MAKE_VERSION(1, 0, 0);
     copy_text(properties->runtimeName, "gearshift test runtime");
     return XR_SUCCESS;
@@ -130,7 +132,7 @@ XrResult XRAPI_CALL PollEvent(XrInstance instance, XrEventDataBuffer* data) {
   return call("xrPollEvent", [&](State& s) {
     InstanceObject* const object = s.instances.find(instance);
     require(object != nullptr, "handle_live", "instance");
-    structure(data, XR_TYPE_EVENT_DATA_BUFFER);
+    require_structure(data, XR_TYPE_EVENT_DATA_BUFFER);
     if (!object->lost) play_timeline(s, seconds(s, now(s)));
     if (s.events.empty()) {
       live(instance);
@@ -170,8 +172,8 @@ XrResult XRAPI_CALL StructureTypeToString(XrInstance instance, XrStructureType v
 XrResult XRAPI_CALL GetSystem(XrInstance instance, const XrSystemGetInfo* info, XrSystemId* system) {
   return call("xrGetSystem", [&](State& s) {
     live(instance);
-    structure(info, XR_TYPE_SYSTEM_GET_INFO);
-    pointer(system, "systemId");
+    require_structure(info, XR_TYPE_SYSTEM_GET_INFO);
+    require_pointer(system, "systemId");
     require(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY, "form_factor");
     if (!s.control.script.headset) return XR_ERROR_FORM_FACTOR_UNAVAILABLE;
     *system = kSystem;
@@ -183,7 +185,7 @@ XrResult XRAPI_CALL GetSystemProperties(XrInstance instance, XrSystemId system, 
   return call("xrGetSystemProperties", [&](State& s) {
     live(instance);
     require_system(system);
-    structure(properties, XR_TYPE_SYSTEM_PROPERTIES);
+    require_structure(properties, XR_TYPE_SYSTEM_PROPERTIES);
     properties->systemId = system;
     properties->vendorId = 0;
     copy_text(properties->systemName, "gearshift test headset");
@@ -220,7 +222,7 @@ XrResult XRAPI_CALL GetViewConfigurationProperties(XrInstance instance, XrSystem
     live(instance);
     require_system(system);
     require_stereo(type);
-    structure(properties, XR_TYPE_VIEW_CONFIGURATION_PROPERTIES);
+    require_structure(properties, XR_TYPE_VIEW_CONFIGURATION_PROPERTIES);
     properties->viewConfigurationType = type;
     properties->fovMutable = XR_TRUE;
     return XR_SUCCESS;
@@ -236,7 +238,7 @@ XrResult XRAPI_CALL EnumerateViewConfigurationViews(XrInstance instance, XrSyste
     require_stereo(type);
     const Script& script = s.control.script;
     return fill(capacity, count, views, std::vector{0, 1}, [&](XrViewConfigurationView& to, int) {
-      structure(&to, XR_TYPE_VIEW_CONFIGURATION_VIEW);
+      require_structure(&to, XR_TYPE_VIEW_CONFIGURATION_VIEW);
       to.recommendedImageRectWidth = script.recommended_width;
       to.recommendedImageRectHeight = script.recommended_height;
       to.maxImageRectWidth = script.max_width;

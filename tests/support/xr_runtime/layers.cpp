@@ -42,14 +42,14 @@ DepthRecord check_depth(const XrCompositionLayerProjectionView& view) {
 }
 
 LayerRecord read_projection(const XrCompositionLayerProjection& layer) {
-  structure(&layer, XR_TYPE_COMPOSITION_LAYER_PROJECTION);
+  require_structure(&layer, XR_TYPE_COMPOSITION_LAYER_PROJECTION);
   require(layer.viewCount == 2, "view_count", std::to_string(layer.viewCount));
-  pointer(layer.views, "views");
+  require_pointer(layer.views, "views");
   LayerRecord record{.type = layer.type, .flags = layer.layerFlags, .space = live(layer.space).type};
   for (std::uint32_t i = 0; i < layer.viewCount; ++i) {
     const XrCompositionLayerProjectionView& view = layer.views[i];
-    structure(&view, XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, {kDepth});
-    unit_pose(view.pose, "view");
+    require_structure(&view, XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, {kDepth});
+    require_unit_pose(view.pose, "view");
     const Fov fov = check_fov(view.fov);
     const Rect rect = check_image(view.subImage);
     record.views.push_back({from_xr(view.pose), fov, rect, view.subImage.imageArrayIndex, check_depth(view), {}});
@@ -58,8 +58,8 @@ LayerRecord read_projection(const XrCompositionLayerProjection& layer) {
 }
 
 LayerRecord read_quad(const XrCompositionLayerQuad& layer) {
-  structure(&layer, XR_TYPE_COMPOSITION_LAYER_QUAD);
-  unit_pose(layer.pose, "quad");
+  require_structure(&layer, XR_TYPE_COMPOSITION_LAYER_QUAD);
+  require_unit_pose(layer.pose, "quad");
   LayerRecord record{.type = layer.type, .flags = layer.layerFlags, .space = live(layer.space).type};
   record.width = layer.size.width;
   record.height = layer.size.height;
@@ -73,7 +73,7 @@ LayerRecord read_quad(const XrCompositionLayerQuad& layer) {
 
 std::vector<LayerRecord> read_layers(const XrFrameEndInfo& info) {
   std::vector<LayerRecord> records;
-  if (info.layerCount != 0) pointer(info.layers, "layers");
+  if (info.layerCount != 0) require_pointer(info.layers, "layers");
   for (std::uint32_t i = 0; i < info.layerCount; ++i) {
     const XrCompositionLayerBaseHeader* const layer = info.layers[i];
     require(layer != nullptr, "layer_type", "NULL");

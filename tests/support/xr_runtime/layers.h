@@ -1,4 +1,4 @@
-// Checks and records what a frame submits.
+// Checks and records the layers that a frame submits.
 #pragma once
 
 #include "tests/support/xr_runtime/state.h"

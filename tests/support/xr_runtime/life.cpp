@@ -1,4 +1,4 @@
-// The states of a session and the effects of the timeline on them, always in a legal order.
+// The states of a session, and how the timeline's events change them, always in a legal order.
 #include <algorithm>
 #include <string>
 
@@ -16,9 +16,9 @@ const char* state_name(XrSessionState state) {
 void change_origin(State& s, XrSession handle, const Event& event) {
   std::vector<OriginChange>& changes = s.origins[event.space];
   const Pose at_first = event.space == Space::stage ? s.control.script.stage_origin : Pose{};
-  const Pose before = changes.empty() ? at_first : changes.back().origin;
+  const Pose previous = changes.empty() ? at_first : changes.back().origin;
   const XrTime time = display_time(s, s.next_step + event.frames_ahead);
-  changes.push_back({time, before * event.pose});
+  changes.push_back({time, previous * event.pose});
   const bool stage = event.space == Space::stage;
   XrEventDataReferenceSpaceChangePending pending{XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING};
   pending.session = handle;
@@ -31,7 +31,7 @@ void change_origin(State& s, XrSession handle, const Event& event) {
 }
 
 void lose_instances(State& s) {
-  for (const XrInstance handle : s.instances.of([](const InstanceObject&) { return true; })) {
+  for (const XrInstance handle : s.instances.find_all([](const InstanceObject&) { return true; })) {
     s.instances.find(handle)->lost = true;
     XrEventDataInstanceLossPending loss{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING};
     loss.lossTime = now(s);
@@ -48,56 +48,56 @@ void step_down(State& s, XrSession handle, SessionObject& session, XrSessionStat
 
 void stop(State& s, XrSession handle, SessionObject& session) {
   if (!session.running) return;
-  session.stop_wanted = true;
+  session.stop_requested = true;
   advance_state(s, handle, session);
 }
 
-void leave(State& s, XrSession handle, SessionObject& session) {
+void request_exit(State& s, XrSession handle, SessionObject& session) {
   session.exit_requested = true;
   if (session.running) return stop(s, handle, session);
   if (session.state == XR_SESSION_STATE_IDLE) set_state(s, handle, session, XR_SESSION_STATE_EXITING);
 }
 
 void play_for_session(State& s, const Event& event, XrSession handle, SessionObject& session) {
-  switch (event.what) {
-    case Event::What::focused:
-      session.wanted = XR_SESSION_STATE_FOCUSED;
+  switch (event.kind) {
+    case Event::Kind::focused:
+      session.target_state = XR_SESSION_STATE_FOCUSED;
       break;
-    case Event::What::visible:
-      session.wanted = XR_SESSION_STATE_VISIBLE;
+    case Event::Kind::visible:
+      session.target_state = XR_SESSION_STATE_VISIBLE;
       break;
-    case Event::What::synchronized:
-      session.wanted = XR_SESSION_STATE_SYNCHRONIZED;
+    case Event::Kind::synchronized:
+      session.target_state = XR_SESSION_STATE_SYNCHRONIZED;
       break;
-    case Event::What::stopping:
+    case Event::Kind::stopping:
       return stop(s, handle, session);
-    case Event::What::ready:
-      session.ready_wanted = true;
+    case Event::Kind::ready:
+      session.ready_requested = true;
       break;
-    case Event::What::exit:
-      return leave(s, handle, session);
-    case Event::What::loss_pending:
+    case Event::Kind::exit:
+      return request_exit(s, handle, session);
+    case Event::Kind::loss_pending:
       set_state(s, handle, session, XR_SESSION_STATE_LOSS_PENDING);
       session.lost = true;
       return;
-    case Event::What::space_change:
+    case Event::Kind::space_change:
       return change_origin(s, handle, event);
     default:
       break;
   }
-  if (session.running) step_down(s, handle, session, session.wanted);
-  if (session.ready_wanted && session.state == XR_SESSION_STATE_IDLE) {
-    session.ready_wanted = false;
+  if (session.running) step_down(s, handle, session, session.target_state);
+  if (session.ready_requested && session.state == XR_SESSION_STATE_IDLE) {
+    session.ready_requested = false;
     set_state(s, handle, session, XR_SESSION_STATE_READY);
   }
 }
 
-void play(State& s, const Event& event) {
-  if (event.what == Event::What::instance_loss) return lose_instances(s);
-  if (event.what == Event::What::hidden) s.hidden_until = event.at + event.span;
-  if (event.what == Event::What::stall) stall_periods(s, event.periods);
-  if (event.what == Event::What::profile) s.control.script.profile = event.profile;
-  for (const XrSession handle : s.sessions.of([](const SessionObject& one) { return !one.lost; })) {
+void play_event(State& s, const Event& event) {
+  if (event.kind == Event::Kind::instance_loss) return lose_instances(s);
+  if (event.kind == Event::Kind::hidden) s.hidden_until = event.at + event.span;
+  if (event.kind == Event::Kind::stall) stall_periods(s, event.periods);
+  if (event.kind == Event::Kind::profile) s.control.script.profile = event.profile;
+  for (const XrSession handle : s.sessions.find_all([](const SessionObject& one) { return !one.lost; })) {
     play_for_session(s, event, handle, *s.sessions.find(handle));
   }
 }
@@ -119,29 +119,29 @@ void play_timeline(State& s, double until) {
   if (s.begin == 0 && s.sessions.size() == 0) return;
   if (s.begin == 0) until = -1.0;  // events due before the first xrBeginSession
   std::vector<Event>& timeline = s.control.script.timeline;
-  constexpr double kNanosecond = 1e-9;  // [s] display times are rounded to this
+  constexpr double kNanosecond = 1e-9;  // [s] display times are rounded to nanoseconds
   while (true) {
     const auto next =
         std::min_element(timeline.begin(), timeline.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
     if (next == timeline.end() || next->at > until + kNanosecond) return;
     const Event event = *next;
     timeline.erase(next);
-    play(s, event);
+    play_event(s, event);
   }
 }
 
 void advance_state(State& s, XrSession handle, SessionObject& session) {
-  if (session.stop_wanted) {
+  if (session.stop_requested) {
     step_down(s, handle, session, XR_SESSION_STATE_SYNCHRONIZED);
     if (session.state != XR_SESSION_STATE_STOPPING) set_state(s, handle, session, XR_SESSION_STATE_STOPPING);
     return;
   }
-  // The first frame is required for SYNCHRONIZED; then one state per frame, as far as it is visible.
+  // SYNCHRONIZED needs a first xrWaitFrame. From then on each frame advances the state by one, up to the target state.
   if (session.waits < 1 || session.state >= XR_SESSION_STATE_STOPPING) return;
-  if (session.state < session.wanted) {
+  if (session.state < session.target_state) {
     set_state(s, handle, session, static_cast<XrSessionState>(session.state + 1));
   } else {
-    step_down(s, handle, session, session.wanted);
+    step_down(s, handle, session, session.target_state);
   }
 }
 

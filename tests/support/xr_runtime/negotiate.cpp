@@ -1,4 +1,4 @@
-// How the loader finds the runtime's functions. Debian has no header for these structures; they follow the loader's
+// Tells the OpenXR loader the runtime's functions. Debian has no header for these structures; they follow the loader's
 // document "Loader/Runtime Interface Negotiation".
 #include <string_view>
 

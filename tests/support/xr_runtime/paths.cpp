@@ -1,4 +1,4 @@
-// Paths: an instance's strings by number.
+// An XrPath is the number of a path string of its instance.
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -26,8 +26,8 @@ bool is_path_part(std::string_view part) {
   const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
   };
-  const bool dots_alone = part.find_first_not_of('.') == std::string_view::npos;
-  return !part.empty() && !dots_alone && std::all_of(part.begin(), part.end(), allowed);
+  const bool only_dots = part.find_first_not_of('.') == std::string_view::npos;
+  return !part.empty() && !only_dots && std::all_of(part.begin(), part.end(), allowed);
 }
 
 const std::string& path_string(const InstanceObject& instance, XrPath path) {
@@ -56,8 +56,8 @@ namespace xr {
 XrResult XRAPI_CALL StringToPath(XrInstance instance, const char* text, XrPath* path) {
   return call("xrStringToPath", [&](State&) {
     InstanceObject& object = live(instance);
-    pointer(text, "pathString");
-    pointer(path, "path");
+    require_pointer(text, "pathString");
+    require_pointer(path, "path");
     require(is_well_formed_path(text), "path_format", text);
     *path = path_number(object, text);
     return XR_SUCCESS;

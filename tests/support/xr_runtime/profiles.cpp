@@ -5,7 +5,7 @@ namespace {
 
 struct Component {
   const char* profile;
-  const char* hands;  // "l" and/or "r"
+  const char* hands;  // "l", "r" or "lr"
   const char* path;
 };
 constexpr const char* kSimple = "/interaction_profiles/khr/simple_controller";
@@ -26,7 +26,7 @@ constexpr Component kComponents[] = {
     {kTouch, "lr", "input/aim/pose"},         {kTouch, "lr", "output/haptic"},
 };
 
-bool names(std::string_view path, std::string_view component) {
+bool matches(std::string_view path, std::string_view component) {
   return path == component || (component.starts_with(path) && component.substr(path.size(), 1) == "/" &&
                                path.find('/') != std::string_view::npos);
 }
@@ -44,7 +44,7 @@ bool has_source(std::string_view profile, std::string_view path) {
   const std::string_view part = path.substr(hand == 'l' ? left.size() : right.size());
   for (const Component& one : kComponents) {
     if (profile != one.profile || std::string_view(one.hands).find(hand) == std::string_view::npos) continue;
-    if (names(part, one.path)) return true;
+    if (matches(part, one.path)) return true;
   }
   return false;
 }

@@ -1,4 +1,4 @@
-// The controllers known to the runtime, and the values of bindings to their inputs.
+// The controllers that the runtime knows, and the values of their inputs.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 namespace gearshift::xr_test {
 
 bool knows_profile(std::string_view profile);
-bool has_source(std::string_view profile, std::string_view path);  // path: a component, or the input that contains it
+bool has_source(std::string_view profile, std::string_view path);  // path: a component, or the input that has it
 
-// Value of an input at a time [s]. A path without a component means the only component of that input.
+// Value of an input at time t [s]. A path without a component means the input's /value or /click.
 float read_scalar(const Script& script, const std::string& path, double t);
 
 }  // namespace gearshift::xr_test

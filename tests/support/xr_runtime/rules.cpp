@@ -1,4 +1,4 @@
-// The rules. Each has a planted violation in tests/engine/xr/runtime_rules_test.cpp.
+// The rules that the runtime checks. tests/engine/xr/runtime_rules_test.cpp violates each of them.
 #include "tests/support/xr_runtime/rules.h"
 
 #include <stdexcept>

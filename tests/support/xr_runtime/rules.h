@@ -1,4 +1,4 @@
-// The table of rules.
+// The table of the rules that the runtime checks.
 #pragma once
 
 #include <span>

@@ -18,14 +18,15 @@ namespace {
   throw std::runtime_error(what);
 }
 
-// An integer is accepted as a floating-point number; there is no other conversion.
+// Accepts an integer for a floating-point number, but does no other conversion.
 template <class T>
-std::optional<T> exactly(const toml::node& node) {
+std::optional<T> exact_value(const toml::node& node) {
   if constexpr (std::is_floating_point_v<T>) return node.is_number() ? node.value<T>() : std::nullopt;
   return node.value_exact<T>();
 }
 
-// Reads one table of the script. A key that was not read is an error, because a partial script would prove nothing.
+// Reads one table of the script. A key that was not read is an error, because a test with a partial script would prove
+// nothing.
 class TableReader {
  public:
   explicit TableReader(const toml::table& table) : table_(table) {}
@@ -33,7 +34,7 @@ class TableReader {
   TableReader& operator=(const TableReader&) = delete;
 
   const toml::node* find(const char* key) {
-    asked_.insert(key);
+    read_keys_.insert(key);
     return table_.get(key);
   }
   template <class T>
@@ -41,7 +42,7 @@ class TableReader {
     const toml::node* const node = find(key);
     if (node == nullptr) return;
     using Stored = std::conditional_t<std::is_same_v<T, std::uint32_t> || std::is_same_v<T, int>, std::int64_t, T>;
-    const auto value = exactly<Stored>(*node);
+    const auto value = exact_value<Stored>(*node);
     if (!value) fail(std::string(key) + " has the wrong type");
     to = static_cast<T>(*value);
   }
@@ -53,14 +54,14 @@ class TableReader {
     to.clear();
     for (const toml::node& one : *node->as_array()) {
       using Stored = std::conditional_t<std::is_floating_point_v<T>, double, std::int64_t>;
-      const auto value = exactly<Stored>(one);
+      const auto value = exact_value<Stored>(one);
       if (!value) fail(std::string(key) + " has the wrong type");
       to.push_back(static_cast<T>(*value));
     }
   }
   // Calls `use` for each table of a list, or for a single table; does nothing if the key is missing.
   template <class Function>
-  void each(const char* key, Function use) {
+  void for_each(const char* key, Function use) {
     const toml::node* const node = find(key);
     if (node == nullptr) return;
     if (const toml::table* const one = node->as_table()) return use_table(*one, use);
@@ -70,9 +71,9 @@ class TableReader {
       use_table(*one.as_table(), use);
     }
   }
-  void done() const {
+  void check_complete() const {
     for (const auto& [key, node] : table_) {
-      if (!asked_.contains(std::string_view(key))) fail("unknown key: " + std::string(std::string_view(key)));
+      if (!read_keys_.contains(std::string_view(key))) fail("unknown key: " + std::string(std::string_view(key)));
     }
   }
 
@@ -81,14 +82,14 @@ class TableReader {
   static void use_table(const toml::table& source, Function use) {
     TableReader table(source);
     use(table);
-    table.done();
+    table.check_complete();
   }
 
   const toml::table& table_;
-  std::set<std::string, std::less<>> asked_;
+  std::set<std::string, std::less<>> read_keys_;
 };
 
-// position [m]; yaw (to the left), pitch (up), roll (to the left) [degrees]
+// Reads position [m] and the angles yaw (positive to the left), pitch (up) and roll (to the left) [degrees].
 Pose read_pose(TableReader& table) {
   std::vector<double> position{0.0, 0.0, 0.0};
   double yaw = 0.0, pitch = 0.0, roll = 0.0;
@@ -107,36 +108,36 @@ struct PoseKey {
   Pose pose;
 };
 
-// Linear between the keys, constant before the first and after the last.
-Pose between(const std::vector<PoseKey>& keys, double t) {
+// Interpolates linearly between the keys; constant before the first key and after the last.
+Pose interpolate(const std::vector<PoseKey>& keys, double t) {
   const auto next = std::find_if(keys.begin(), keys.end(), [&](const PoseKey& key) { return key.at > t; });
   if (next == keys.begin()) return keys.front().pose;
   if (next == keys.end()) return keys.back().pose;
   const PoseKey& last = *(next - 1);
-  const double share = (t - last.at) / (next->at - last.at);
-  return {last.pose.position * (1.0 - share) + next->pose.position * share,
-          glm::slerp(last.pose.orientation, next->pose.orientation, share)};
+  const double fraction = (t - last.at) / (next->at - last.at);
+  return {last.pose.position * (1.0 - fraction) + next->pose.position * fraction,
+          glm::slerp(last.pose.orientation, next->pose.orientation, fraction)};
 }
 
 void read_path(TableReader& table, const char* key, std::function<Pose(double)>& to) {
   std::vector<PoseKey> keys;
-  table.each(key, [&](TableReader& one) {
+  table.for_each(key, [&](TableReader& one) {
     double at = 0.0;
     one.read("at", at);
     if (!keys.empty() && at <= keys.back().at) fail(std::string(key) + ": times must grow");
     keys.push_back({at, read_pose(one)});
   });
-  if (!keys.empty()) to = [keys](double t) { return between(keys, t); };
+  if (!keys.empty()) to = [keys](double t) { return interpolate(keys, t); };
 }
 
 void read_hand(TableReader& table, const char* key, Hand& hand) {
-  table.each(key, [&](TableReader& one) {
+  table.for_each(key, [&](TableReader& one) {
     read_path(one, "aim", hand.aim);
     read_path(one, "grip", hand.grip);
   });
 }
 
-// A value holds until the next one; before the first it is zero.
+// Each value holds until the next time; before the first time the input is zero.
 void read_input(TableReader& table, Script& script) {
   std::string path;
   std::vector<double> at, value;
@@ -151,22 +152,22 @@ void read_input(TableReader& table, Script& script) {
   };
 }
 
-Event::What parse_event_kind(const std::string& word) {
-  using What = Event::What;
-  static const std::map<std::string, What> table{{"focused", What::focused},
-                                                 {"visible", What::visible},
-                                                 {"synchronized", What::synchronized},
-                                                 {"stopping", What::stopping},
-                                                 {"ready", What::ready},
-                                                 {"loss_pending", What::loss_pending},
-                                                 {"instance_loss", What::instance_loss},
-                                                 {"exit", What::exit},
-                                                 {"space_change", What::space_change},
-                                                 {"profile", What::profile},
-                                                 {"hidden", What::hidden},
-                                                 {"stall", What::stall}};
-  const auto found = table.find(word);
-  if (found == table.end()) fail("event: " + word);
+Event::Kind parse_event_kind(const std::string& text) {
+  using Kind = Event::Kind;
+  static const std::map<std::string, Kind> table{{"focused", Kind::focused},
+                                                 {"visible", Kind::visible},
+                                                 {"synchronized", Kind::synchronized},
+                                                 {"stopping", Kind::stopping},
+                                                 {"ready", Kind::ready},
+                                                 {"loss_pending", Kind::loss_pending},
+                                                 {"instance_loss", Kind::instance_loss},
+                                                 {"exit", Kind::exit},
+                                                 {"space_change", Kind::space_change},
+                                                 {"profile", Kind::profile},
+                                                 {"hidden", Kind::hidden},
+                                                 {"stall", Kind::stall}};
+  const auto found = table.find(text);
+  if (found == table.end()) fail("event: " + text);
   return found->second;
 }
 
@@ -175,7 +176,7 @@ void read_event(TableReader& table, Script& script) {
   std::string what, space = "local";
   table.read("at", event.at);
   table.read("what", what);
-  event.what = parse_event_kind(what);
+  event.kind = parse_event_kind(what);
   table.read("space", space);
   if (space != "local" && space != "stage") fail("space: local or stage");
   event.space = space == "stage" ? Space::stage : Space::local;
@@ -187,12 +188,12 @@ void read_event(TableReader& table, Script& script) {
   script.timeline.push_back(event);
 }
 
-XrResult result_word(const std::string& word) {
+XrResult parse_result(const std::string& text) {
 #define GEARSHIFT_XR_RESULT(name, number) \
-  if (word == #name) return name;
+  if (text == #name) return name;
   XR_LIST_ENUM_XrResult(GEARSHIFT_XR_RESULT);
 #undef GEARSHIFT_XR_RESULT
-  fail("result: " + word);
+  fail("result: " + text);
 }
 
 void read_failure(TableReader& table, Script& script) {
@@ -201,7 +202,7 @@ void read_failure(TableReader& table, Script& script) {
   table.read("function", failure.function);
   table.read("result", result);
   table.read("nth", failure.nth);
-  failure.result = result_word(result);
+  failure.result = parse_result(result);
   script.failures.push_back(failure);
 }
 
@@ -227,7 +228,7 @@ void read_headset(TableReader& table, Script& script) {
   table.read("composition_layer_depth", script.composition_layer_depth);
   table.read("convert_timespec_time", script.convert_timespec_time);
   table.read("stage", script.stage);
-  table.each("stage_origin", [&](TableReader& one) { script.stage_origin = read_pose(one); });
+  table.for_each("stage_origin", [&](TableReader& one) { script.stage_origin = read_pose(one); });
   read_size(table, "recommended", script.recommended_width, script.recommended_height);
   read_size(table, "max", script.max_width, script.max_height);
   table.read("recommended_samples", script.recommended_samples);
@@ -235,7 +236,7 @@ void read_headset(TableReader& table, Script& script) {
   table.read("images", script.images);
   table.read_list("colour_formats", script.colour_formats);
   table.read_list("depth_formats", script.depth_formats);
-  table.each("fov", [&](TableReader& one) {
+  table.for_each("fov", [&](TableReader& one) {
     read_fov(one, "left", script.fov[0]);
     read_fov(one, "right", script.fov[1]);
   });
@@ -250,7 +251,7 @@ void read_play(TableReader& table, Script& script) {
   script.pacing = pacing == "real" ? Pacing::real : Pacing::stepped;
   table.read("polls_before_ready", script.polls_before_ready);
   read_path(table, "head", script.head);
-  table.each("tracking_gap", [&](TableReader& one) {
+  table.for_each("tracking_gap", [&](TableReader& one) {
     Gap gap;
     one.read("from", gap.from);
     one.read("until", gap.until);
@@ -261,10 +262,10 @@ void read_play(TableReader& table, Script& script) {
   read_hand(table, "left", script.hands[0]);
   read_hand(table, "right", script.hands[1]);
   table.read("profile", script.profile);
-  table.each("input", [&](TableReader& one) { read_input(one, script); });
-  table.each("event", [&](TableReader& one) { read_event(one, script); });
-  table.each("failure", [&](TableReader& one) { read_failure(one, script); });
-  table.each("capture", [&](TableReader& one) {
+  table.for_each("input", [&](TableReader& one) { read_input(one, script); });
+  table.for_each("event", [&](TableReader& one) { read_event(one, script); });
+  table.for_each("failure", [&](TableReader& one) { read_failure(one, script); });
+  table.for_each("capture", [&](TableReader& one) {
     one.read("every", script.capture.every);
     one.read_list("only", script.capture.only);
     one.read("depth", script.capture.depth);
@@ -279,7 +280,7 @@ Script read_script(const std::filesystem::path& file) {
   Script script;
   read_headset(table, script);
   read_play(table, script);
-  table.done();
+  table.check_complete();
   return script;
 }
 

@@ -1,4 +1,4 @@
-// Reader of script files. README.md describes the format.
+// Reads script files: TOML, with the keys that script.cpp reads.
 #pragma once
 
 #include <filesystem>

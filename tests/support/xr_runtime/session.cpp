@@ -7,13 +7,13 @@ namespace {
 
 template <class Table, class Drop>
 void drop_children(State& s, XrSession session, const Table& table, const char* kind, Drop drop) {
-  for (const auto handle : table.of([&](const auto& one) { return one.session == session; })) {
+  for (const auto handle : table.find_all([&](const auto& one) { return one.session == session; })) {
     leak(s, kind, "session");
     drop(handle);
   }
 }
 
-// Does the event belong to the session? All session events store it right after their header.
+// True if the event belongs to the session. All session events store their session right after the event header.
 bool is_event_of(const XrEventDataBuffer& event, XrSession session) {
   return event.type != XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING &&
          reinterpret_cast<const XrEventDataSessionStateChanged&>(event).session == session;
@@ -23,10 +23,10 @@ Graphics bind(State& s, const XrSessionCreateInfo& info) {
   const auto* const binding =
       static_cast<const XrGraphicsBindingVulkanKHR*>(find_chained(&info, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR));
   require(binding != nullptr, "graphics_binding", "there is none");
-  const auto made = s.vulkan_devices.find(binding->device);
-  require(made != s.vulkan_devices.end(), "graphics_binding", "the device is not of xrCreateVulkanDeviceKHR");
-  require(made->second == binding->physicalDevice, "graphics_binding", "physicalDevice");
-  require(s.vulkan_physicals.at(made->second) == binding->instance, "graphics_binding", "instance");
+  const auto created = s.vulkan_devices.find(binding->device);
+  require(created != s.vulkan_devices.end(), "graphics_binding", "the device is not of xrCreateVulkanDeviceKHR");
+  require(created->second == binding->physicalDevice, "graphics_binding", "physicalDevice");
+  require(s.vulkan_physicals.at(created->second) == binding->instance, "graphics_binding", "instance");
   const PFN_vkGetInstanceProcAddr get = s.vulkan_instances.at(binding->instance);
   return open_graphics(*binding, get);
 }
@@ -45,16 +45,16 @@ namespace xr {
 
 XrResult XRAPI_CALL CreateSession(XrInstance instance, const XrSessionCreateInfo* info, XrSession* session) {
   return call("xrCreateSession", [&](State& s) {
-    const InstanceObject& of = live(instance);
-    structure(info, XR_TYPE_SESSION_CREATE_INFO,
-              {{XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME}});
-    pointer(session, "session");
+    const InstanceObject& owner = live(instance);
+    require_structure(info, XR_TYPE_SESSION_CREATE_INFO,
+                      {{XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME}});
+    require_pointer(session, "session");
     require_system(info->systemId);
-    require(of.asked_requirements, "graphics_requirements");
+    require(owner.requirements_queried, "graphics_requirements");
     if (s.sessions.size() != 0) return XR_ERROR_LIMIT_REACHED;
-    SessionObject made{.instance = instance, .graphics = bind(s, *info)};
-    made.polls_before_ready = s.control.script.polls_before_ready;
-    *session = s.sessions.add(std::move(made));
+    SessionObject created{.instance = instance, .graphics = bind(s, *info)};
+    created.polls_before_ready = s.control.script.polls_before_ready;
+    *session = s.sessions.add(std::move(created));
     SessionObject& object = *s.sessions.find(*session);
     set_state(s, *session, object, XR_SESSION_STATE_IDLE);
     if (object.polls_before_ready == 0) set_state(s, *session, object, XR_SESSION_STATE_READY);
@@ -76,13 +76,13 @@ XrResult XRAPI_CALL DestroySession(XrSession session) {
 XrResult XRAPI_CALL BeginSession(XrSession session, const XrSessionBeginInfo* info) {
   return call("xrBeginSession", [&](State& s) {
     SessionObject& object = live(session);
-    structure(info, XR_TYPE_SESSION_BEGIN_INFO);
+    require_structure(info, XR_TYPE_SESSION_BEGIN_INFO);
     require(!object.running, "session_begun_twice");
     require(object.state == XR_SESSION_STATE_READY, "session_ready");
     require_stereo(info->primaryViewConfigurationType);
     if (s.begin == 0) s.begin = monotonic_now();
     object.running = true;
-    object.stop_wanted = false;
+    object.stop_requested = false;
     object.waits = 0;
     object.last_display = 0;
     log_line("begin");
@@ -95,15 +95,15 @@ XrResult XRAPI_CALL EndSession(XrSession session) {
     SessionObject& object = live(session);
     require(object.running, "session_running");
     require(object.state == XR_SESSION_STATE_STOPPING, "session_stopping");
-    object.running = object.stop_wanted = false;
+    object.running = object.stop_requested = false;
     object.waited.reset();
     object.begun.reset();
     log_line("end");
     set_state(s, session, object, XR_SESSION_STATE_IDLE);
     if (object.exit_requested) {
       set_state(s, session, object, XR_SESSION_STATE_EXITING);
-    } else if (object.ready_wanted) {
-      object.ready_wanted = false;
+    } else if (object.ready_requested) {
+      object.ready_requested = false;
       set_state(s, session, object, XR_SESSION_STATE_READY);
     }
     return XR_SUCCESS;
@@ -115,7 +115,7 @@ XrResult XRAPI_CALL RequestExitSession(XrSession session) {
     SessionObject& object = live(session);
     require(object.running, "session_running");
     object.exit_requested = true;
-    object.stop_wanted = true;
+    object.stop_requested = true;
     advance_state(s, session, object);
     return XR_SUCCESS;
   });

@@ -28,24 +28,24 @@ XrSpaceLocationFlags location_flags(const Pose& pose) {
 }
 
 Pose relative(const State& s, const SpaceObject& space, const SpaceObject& base, XrTime time) {
-  return inverse(place(s, base, time)) * place(s, space, time);
+  return inverse(world_pose(s, base, time)) * world_pose(s, space, time);
 }
 
 void velocity(const State& s, const SpaceObject& space, const SpaceObject& base, XrTime time, XrSpaceVelocity& out) {
   constexpr XrDuration kVelocityInterval = 1'000'000;  // [ns]
-  const Pose before = relative(s, space, base, time - kVelocityInterval),
-             after = relative(s, space, base, time + kVelocityInterval);
-  const double apart = 2e-9 * static_cast<double>(kVelocityInterval);
-  const glm::dvec3 linear = (after.position - before.position) / apart;
-  const glm::dquat turn = after.orientation * glm::conjugate(before.orientation);
-  const double half = turn.w < 0.0 ? -2.0 : 2.0;  // the shorter rotation; small-angle approximation
-  out.velocityFlags = before.position_valid && after.position_valid ? XR_SPACE_VELOCITY_LINEAR_VALID_BIT : 0;
-  if (before.orientation_valid && after.orientation_valid) out.velocityFlags |= XR_SPACE_VELOCITY_ANGULAR_VALID_BIT;
+  const Pose previous = relative(s, space, base, time - kVelocityInterval),
+             next = relative(s, space, base, time + kVelocityInterval);
+  const double interval = 2e-9 * static_cast<double>(kVelocityInterval);
+  const glm::dvec3 linear = (next.position - previous.position) / interval;
+  const glm::dquat turn = next.orientation * glm::conjugate(previous.orientation);
+  const double half = turn.w < 0.0 ? -2.0 : 2.0;  // the sign selects the shorter rotation; the angle is small
+  out.velocityFlags = previous.position_valid && next.position_valid ? XR_SPACE_VELOCITY_LINEAR_VALID_BIT : 0;
+  if (previous.orientation_valid && next.orientation_valid) out.velocityFlags |= XR_SPACE_VELOCITY_ANGULAR_VALID_BIT;
   const auto xr_vector = [](const glm::dvec3& v) {
     return XrVector3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
   };
   out.linearVelocity = xr_vector(linear);
-  out.angularVelocity = xr_vector(glm::dvec3(turn.x, turn.y, turn.z) * half / apart);
+  out.angularVelocity = xr_vector(glm::dvec3(turn.x, turn.y, turn.z) * half / interval);
 }
 
 Space reference_type(const Script& script, XrReferenceSpaceType type) {
@@ -80,12 +80,12 @@ XrPosef to_xr(const Pose& pose) {
   return {{f(q.x), f(q.y), f(q.z), f(q.w)}, {f(pose.position.x), f(pose.position.y), f(pose.position.z)}};
 }
 
-void unit_pose(const XrPosef& pose, const char* what) {
-  const Pose given = from_xr(pose);
-  const double norm = glm::dot(given.orientation, given.orientation);
-  constexpr double kMaxNormError = 0.02;  // tolerance of the squared norm, for "within 1%" of 1
+void require_unit_pose(const XrPosef& pose, const char* what) {
+  const Pose value = from_xr(pose);
+  const double norm = glm::dot(value.orientation, value.orientation);
+  constexpr double kMaxNormError = 0.02;  // tolerance of the squared norm, for a norm "within 1%" of 1
   const bool finite =
-      std::isfinite(given.position.x) && std::isfinite(given.position.y) && std::isfinite(given.position.z);
+      std::isfinite(value.position.x) && std::isfinite(value.position.y) && std::isfinite(value.position.z);
   require(finite && std::abs(norm - 1.0) <= kMaxNormError, "pose_unit", what);
 }
 
@@ -100,7 +100,7 @@ Pose head_at(const State& s, double t) {
   return head;
 }
 
-Pose place(const State& s, const SpaceObject& space, XrTime time) {
+Pose world_pose(const State& s, const SpaceObject& space, XrTime time) {
   const double t = seconds(s, time);
   switch (space.type) {
     case Space::view:
@@ -125,10 +125,10 @@ XrResult XRAPI_CALL EnumerateReferenceSpaces(XrSession session, std::uint32_t ca
 XrResult XRAPI_CALL CreateReferenceSpace(XrSession session, const XrReferenceSpaceCreateInfo* info, XrSpace* space) {
   return call("xrCreateReferenceSpace", [&](State& s) {
     live(session);
-    structure(info, XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
-    pointer(space, "space");
+    require_structure(info, XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
+    require_pointer(space, "space");
     const Space type = reference_type(s.control.script, info->referenceSpaceType);
-    unit_pose(info->poseInReferenceSpace, "poseInReferenceSpace");
+    require_unit_pose(info->poseInReferenceSpace, "poseInReferenceSpace");
     *space = s.spaces.add({.session = session, .type = type, .pose = from_xr(info->poseInReferenceSpace)});
     count_live();
     return XR_SUCCESS;
@@ -138,7 +138,7 @@ XrResult XRAPI_CALL CreateReferenceSpace(XrSession session, const XrReferenceSpa
 XrResult XRAPI_CALL GetReferenceSpaceBoundsRect(XrSession session, XrReferenceSpaceType type, XrExtent2Df* bounds) {
   return call("xrGetReferenceSpaceBoundsRect", [&](State& s) {
     live(session);
-    pointer(bounds, "bounds");
+    require_pointer(bounds, "bounds");
     const bool stage = reference_type(s.control.script, type) == Space::stage;
     *bounds = stage ? XrExtent2Df{2.0f, 2.0f} : XrExtent2Df{0.0f, 0.0f};
     return stage ? XR_SUCCESS : XR_SPACE_BOUNDS_UNAVAILABLE;
@@ -156,14 +156,14 @@ XrResult XRAPI_CALL DestroySpace(XrSpace space) {
 
 XrResult XRAPI_CALL LocateSpace(XrSpace space, XrSpace base, XrTime time, XrSpaceLocation* location) {
   return call("xrLocateSpace", [&](State& s) {
-    const SpaceObject &what = live(space), &from = live(base);
-    structure(location, XR_TYPE_SPACE_LOCATION, {{XR_TYPE_SPACE_VELOCITY}});
+    const SpaceObject &located = live(space), &base_space = live(base);
+    require_structure(location, XR_TYPE_SPACE_LOCATION, {{XR_TYPE_SPACE_VELOCITY}});
     require(time > 0, "time_positive");
-    const Pose pose = relative(s, what, from, time);
+    const Pose pose = relative(s, located, base_space, time);
     location->locationFlags = location_flags(pose);
     location->pose = to_xr(pose);
     if (const void* const chain = find_chained(location, XR_TYPE_SPACE_VELOCITY)) {
-      velocity(s, what, from, time, *const_cast<XrSpaceVelocity*>(static_cast<const XrSpaceVelocity*>(chain)));
+      velocity(s, located, base_space, time, *const_cast<XrSpaceVelocity*>(static_cast<const XrSpaceVelocity*>(chain)));
     }
     return XR_SUCCESS;
   });
@@ -173,8 +173,8 @@ XrResult XRAPI_CALL LocateViews(XrSession session, const XrViewLocateInfo* info,
                                 std::uint32_t capacity, std::uint32_t* count, XrView* views) {
   return call("xrLocateViews", [&](State& s) {
     live(session);
-    structure(info, XR_TYPE_VIEW_LOCATE_INFO);
-    structure(view_state, XR_TYPE_VIEW_STATE);
+    require_structure(info, XR_TYPE_VIEW_LOCATE_INFO);
+    require_structure(view_state, XR_TYPE_VIEW_STATE);
     require_stereo(info->viewConfigurationType);
     require(info->displayTime > 0, "time_positive");
     const SpaceObject& base = live(info->space);
@@ -186,7 +186,7 @@ XrResult XRAPI_CALL LocateViews(XrSession session, const XrViewLocateInfo* info,
     view_state->viewStateFlags = location_flags(pose);
     const XrResult result =
         fill(capacity, count, views, std::vector<std::size_t>{0, 1}, [&](XrView& to, std::size_t eye) {
-          structure(&to, XR_TYPE_VIEW);
+          require_structure(&to, XR_TYPE_VIEW);
           const double side = (eye == 0 ? -0.5 : 0.5) * s.control.script.eye_distance;
           to.pose = to_xr(pose * Pose{.position = {side, 0.0, 0.0}});
           to.fov = xr_fov(s.control.script.fov[eye]);

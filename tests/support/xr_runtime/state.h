@@ -22,7 +22,7 @@ struct InstanceObject {
   std::set<std::string> extensions{};
   std::vector<std::string> paths{};                                            // XrPath is the index plus one
   std::map<std::string, std::vector<XrActionSuggestedBinding>> suggestions{};  // by interaction profile
-  bool asked_requirements = false;
+  bool requirements_queried = false;
   bool lost = false;
 };
 
@@ -36,24 +36,24 @@ struct SessionObject {
   XrInstance instance = XR_NULL_HANDLE;
   Graphics graphics{};
   XrSessionState state = XR_SESSION_STATE_UNKNOWN;
-  XrSessionState wanted = XR_SESSION_STATE_FOCUSED;  // the state that the runtime is advancing to
+  XrSessionState target_state = XR_SESSION_STATE_FOCUSED;  // the state that the runtime is advancing to
   int polls_before_ready = 0;
   bool running = false, lost = false;
-  bool exit_requested = false, stop_wanted = false, ready_wanted = false;
-  int waits = 0;                       // frames since xrBeginSession
-  std::optional<FrameState> waited{};  // waited for, not yet begun
-  std::optional<FrameState> begun{};   // begun, not yet ended
+  bool exit_requested = false, stop_requested = false, ready_requested = false;
+  int waits = 0;                       // xrWaitFrame calls since xrBeginSession
+  std::optional<FrameState> waited{};  // frame that was waited for, but not begun yet
+  std::optional<FrameState> begun{};   // frame that was begun, but not ended yet
   XrTime last_display = 0;
   std::vector<XrActionSet> attached{};
   bool has_attached = false;
-  std::string profile{};  // interaction profile of its current controllers
+  std::string profile{};  // interaction profile of the current controllers
 };
 
 struct SpaceObject {
   static constexpr const char* kKind = "space";
   XrSession session = XR_NULL_HANDLE;
   Space type = Space::local;
-  Pose pose{};                       // relative to the reference space or the action
+  Pose pose{};                       // pose in the reference space or the action space
   XrAction action = XR_NULL_HANDLE;  // for action spaces
   XrPath subaction = XR_NULL_PATH;
 };
@@ -63,10 +63,10 @@ struct SwapchainObject {
   XrSession session = XR_NULL_HANDLE;
   XrSwapchainCreateInfo info{};
   std::vector<SwapchainImage> images{};
-  std::deque<std::uint32_t> acquired{};  // the first one may have been waited for
+  std::deque<std::uint32_t> acquired{};  // indices of acquired images, oldest first; `waited` refers to the oldest
   bool waited = false;
   std::uint32_t next = 0;
-  std::optional<std::uint32_t> released{};  // the last image
+  std::optional<std::uint32_t> released{};  // the image that was released last
 };
 
 struct ActionSetObject {
@@ -88,16 +88,16 @@ struct ActionObject {
   std::string name{}, localized{};
   XrActionType type = XR_ACTION_TYPE_BOOLEAN_INPUT;
   std::vector<XrPath> subactions{};
-  std::map<XrPath, ActionValue> values{};  // by subaction path; XR_NULL_PATH: all of them
+  std::map<XrPath, ActionValue> values{};  // by subaction path; XR_NULL_PATH: for all paths together
 };
 
-// Live objects of one kind. Handles are never reused, so that destroyed ones are detected.
+// Live objects of one kind. Handles are never reused, so that the use of a destroyed handle is detected.
 template <class Handle, class Object>
 class Table {
  public:
   Handle add(Object object) {
     static std::uint64_t count = 0;
-    // Scrambled, so that neighbouring numbers are not valid handles.
+    // The count is scrambled, so that the numbers next to a handle are not valid handles.
     const auto id = (++count * 0x9e3779b97f4a7c15u) | 1u;
     const auto handle = std::bit_cast<Handle>(id);
     objects_.emplace(handle, std::make_unique<Object>(std::move(object)));
@@ -110,7 +110,7 @@ class Table {
   void erase(Handle handle) { objects_.erase(handle); }
   int size() const { return static_cast<int>(objects_.size()); }
   template <class Predicate>
-  std::vector<Handle> of(Predicate predicate) const {
+  std::vector<Handle> find_all(Predicate predicate) const {
     std::vector<Handle> found;
     for (const auto& [handle, object] : objects_) {
       if (predicate(*object)) found.push_back(handle);
@@ -124,13 +124,13 @@ class Table {
 
 struct OriginChange {
   XrTime time = 0;
-  Pose origin{};  // in head world space
+  Pose origin{};  // in the initial LOCAL space
 };
 
 struct State {
   Control control;
   std::recursive_mutex mutex;
-  const char* function = "";  // the function that the program is in
+  const char* function = "";  // name of the OpenXR function that is running
   Table<XrInstance, InstanceObject> instances;
   Table<XrSession, SessionObject> sessions;
   Table<XrSpace, SpaceObject> spaces;
@@ -152,17 +152,17 @@ State& state();
 
 // ---- prologue of each call (call.cpp)
 
-struct CallRejected {  // thrown to return this result from the function
+struct CallRejected {  // thrown to return this result from the OpenXR function
   XrResult result;
 };
-[[noreturn]] void refuse(XrResult result);
-XrResult write_violation(const char* rule, const std::string& detail);  // returns the rule's result
-// If the rule does not hold, records the violation and returns the rule's result from the function.
+[[noreturn]] void reject_call(XrResult result);
+XrResult write_violation(const char* rule, const std::string& detail);  // returns the result that the rule specifies
+// If the condition does not hold, records the violation and returns the rule's result from the OpenXR function.
 inline void require(bool holds, const char* rule, const std::string& detail = {}) {
-  if (!holds) refuse(write_violation(rule, detail));
+  if (!holds) reject_call(write_violation(rule, detail));
 }
 std::optional<XrResult> injected_failure(const char* function);
-void log_line(const std::string& line);  // to the record, and in a flow also to a file
+void log_line(const std::string& line);  // adds the line to the record, and in a flow test also to a file
 void count_live();
 
 template <class Body>
@@ -174,15 +174,15 @@ XrResult call(const char* function, Body&& body) {
   try {
     if (const auto failure = injected_failure(function)) return *failure;
     return body(s);
-  } catch (const CallRejected& refused) {
-    return refused.result;
+  } catch (const CallRejected& rejected) {
+    return rejected.result;
   } catch (const std::exception& error) {
     log_line(std::string("error ") + function + ": " + error.what());
     return XR_ERROR_RUNTIME_FAILURE;
   }
 }
 
-// Returns the live object; rejects the call if its instance or session is lost.
+// These return the live object, and reject the call if its instance or session is lost.
 InstanceObject& live(XrInstance handle);
 SessionObject& live(XrSession handle);
 SpaceObject& live(XrSpace handle);
@@ -190,25 +190,25 @@ SwapchainObject& live(XrSwapchain handle);
 ActionSetObject& live(XrActionSet handle);
 ActionObject& live(XrAction handle);
 
-void pointer(const void* given, const char* name);
-bool enabled(const char* extension);  // by the only instance
+void require_pointer(const void* value, const char* name);
+bool enabled(const char* extension);  // true if the instance (there is at most one) enabled the extension
 
-// Checks a structure's type and its next chain. `allowed`: structure types and the extensions that provide them.
+// An entry of `allowed` below: a structure type in the next chain, and the extension that provides it.
 struct Extends {
   XrStructureType type;
   const char* extension = nullptr;
 };
-void structure(const void* given, XrStructureType type, std::initializer_list<Extends> allowed = {});
-const void* find_chained(const void* given, XrStructureType type);  // nullptr if it is not in the chain
+void require_structure(const void* value, XrStructureType type, std::initializer_list<Extends> allowed = {});
+const void* find_chained(const void* value, XrStructureType type);  // nullptr if the chain does not contain the type
 
-// The two-call idiom of section "Buffer Size Parameters".
+// The two-call idiom of the OpenXR section "Buffer Size Parameters".
 template <class Out, class Items, class Write>
 XrResult fill(std::uint32_t capacity, std::uint32_t* count, Out* out, const Items& items, Write write) {
-  pointer(count, "the count");
+  require_pointer(count, "the count");
   *count = static_cast<std::uint32_t>(items.size());
   if (capacity == 0) return XR_SUCCESS;
   if (capacity < *count) return XR_ERROR_SIZE_INSUFFICIENT;
-  pointer(out, "the buffer");
+  require_pointer(out, "the buffer");
   for (std::size_t i = 0; i < items.size(); ++i) write(out[i], items[i]);
   return XR_SUCCESS;
 }
@@ -223,7 +223,7 @@ XrTime monotonic_now();
 XrDuration period(const State& s);
 double seconds(const State& s, XrTime time);  // on the script's clock
 XrTime display_time(const State& s, std::int64_t step);
-XrTime now(const State& s);                               // stepped: the last display time that was returned
+XrTime now(const State& s);                               // with Pacing::stepped: the last display time returned
 std::int64_t next_display_period(State& s, XrTime last);  // sleeps with Pacing::real; counts dropped periods
 void stall_periods(State& s, int periods);
 
@@ -238,16 +238,16 @@ void push_event(State& s, const T& event) {
 }
 void set_state(State& s, XrSession handle, SessionObject& session, XrSessionState next);
 void play_timeline(State& s, double until);  // handles the events that are due
-// makes one legal step towards the wanted state
+// Makes one legal step towards the target state.
 void advance_state(State& s, XrSession handle, SessionObject& session);
 
 // ---- spaces (space.cpp)
 
 Pose from_xr(const XrPosef& pose);
 XrPosef to_xr(const Pose& pose);
-void unit_pose(const XrPosef& pose, const char* what);
+void require_unit_pose(const XrPosef& pose, const char* what);
 Pose head_at(const State& s, double t);
-Pose place(const State& s, const SpaceObject& space, XrTime time);  // in head world space
+Pose world_pose(const State& s, const SpaceObject& space, XrTime time);  // in the initial LOCAL space
 
 // ---- paths, actions (paths.cpp, actions.cpp, input.cpp)
 
@@ -274,7 +274,7 @@ void leak(State& s, const char* kind, const char* parent);
 // ---- capture (capture.cpp) and flows (flow.cpp)
 
 void capture_frame(State& s, const XrFrameEndInfo& info, const SessionObject& session, FrameRecord& record);
-void write_pictures(const FrameRecord& record);  // only in a flow
+void write_pictures(const FrameRecord& record);  // only in a flow test
 void write_log(const std::string& line);
 void read_flow_script(Control& control);  // from GEARSHIFT_XR_SCRIPT
 

@@ -1,4 +1,4 @@
-// Swapchains: the program gets their images in turn.
+// Swapchains: the program acquires their images in turn.
 #include <algorithm>
 
 #include "tests/support/xr_runtime/functions.h"
@@ -32,10 +32,10 @@ void check_create_info(const Script& script, const XrSwapchainCreateInfo& info) 
   require((info.usageFlags & foreign) == 0, "swapchain_usage");
   constexpr XrSwapchainUsageFlags kKnown = 0x7f;
   require((info.usageFlags & ~kKnown) == 0, "swapchain_usage", "an unknown bit");
-  // Features that a runtime need not support.
+  // OpenXR features that a runtime need not support.
   if (info.faceCount != 1 || info.arraySize > 2 || (info.sampleCount & (info.sampleCount - 1)) != 0 ||
       info.createFlags != 0) {
-    refuse(XR_ERROR_FEATURE_UNSUPPORTED);
+    reject_call(XR_ERROR_FEATURE_UNSUPPORTED);
   }
 }
 
@@ -59,14 +59,14 @@ XrResult XRAPI_CALL EnumerateSwapchainFormats(XrSession session, std::uint32_t c
 
 XrResult XRAPI_CALL CreateSwapchain(XrSession session, const XrSwapchainCreateInfo* info, XrSwapchain* swapchain) {
   return call("xrCreateSwapchain", [&](State& s) {
-    const SessionObject& of = live(session);
-    structure(info, XR_TYPE_SWAPCHAIN_CREATE_INFO);
-    pointer(swapchain, "swapchain");
+    const SessionObject& owner = live(session);
+    require_structure(info, XR_TYPE_SWAPCHAIN_CREATE_INFO);
+    require_pointer(swapchain, "swapchain");
     check_create_info(s.control.script, *info);
-    SwapchainObject made{.session = session, .info = *info};
-    made.info.next = nullptr;
-    made.images = make_images(of.graphics, *info, s.control.script.images);
-    *swapchain = s.swapchains.add(std::move(made));
+    SwapchainObject created{.session = session, .info = *info};
+    created.info.next = nullptr;
+    created.images = make_images(owner.graphics, *info, s.control.script.images);
+    *swapchain = s.swapchains.add(std::move(created));
     count_live();
     return XR_SUCCESS;
   });
@@ -76,7 +76,7 @@ XrResult XRAPI_CALL DestroySwapchain(XrSwapchain swapchain) {
   return call("xrDestroySwapchain", [&](State& s) {
     const SwapchainObject* const object = s.swapchains.find(swapchain);
     require(object != nullptr, "handle_live", "swapchain");
-    if (!object->acquired.empty()) write_violation("destroyed_in_use", {});  // it is destroyed anyway
+    if (!object->acquired.empty()) write_violation("destroyed_in_use", {});  // the swapchain is destroyed anyway
     drop_swapchain(s, swapchain);
     count_live();
     return XR_SUCCESS;
@@ -89,7 +89,7 @@ XrResult XRAPI_CALL EnumerateSwapchainImages(XrSwapchain swapchain, std::uint32_
     const SwapchainObject& object = live(swapchain);
     auto* const out = reinterpret_cast<XrSwapchainImageVulkanKHR*>(images);
     return fill(capacity, count, out, object.images, [](XrSwapchainImageVulkanKHR& to, const SwapchainImage& from) {
-      structure(&to, XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR);
+      require_structure(&to, XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR);
       to.image = from.image;
     });
   });
@@ -99,13 +99,13 @@ XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapcha
                                           std::uint32_t* index) {
   return call("xrAcquireSwapchainImage", [&](State& s) {
     SwapchainObject& object = live(swapchain);
-    if (info != nullptr) structure(info, XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO);
-    pointer(index, "index");
+    if (info != nullptr) require_structure(info, XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO);
+    require_pointer(index, "index");
     require(object.acquired.size() < object.images.size(), "acquire_order");
     *index = object.next;
     object.next = (object.next + 1) % static_cast<std::uint32_t>(object.images.size());
     object.acquired.push_back(*index);
-    lay_out(s.sessions.find(object.session)->graphics, object.images[*index], object.info);
+    set_initial_layout(s.sessions.find(object.session)->graphics, object.images[*index], object.info);
     return XR_SUCCESS;
   });
 }
@@ -113,7 +113,7 @@ XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapcha
 XrResult XRAPI_CALL WaitSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageWaitInfo* info) {
   return call("xrWaitSwapchainImage", [&](State&) {
     SwapchainObject& object = live(swapchain);
-    structure(info, XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
+    require_structure(info, XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
     require(!object.acquired.empty() && !object.waited, "image_wait_order");
     object.waited = true;
     return XR_SUCCESS;
@@ -123,7 +123,7 @@ XrResult XRAPI_CALL WaitSwapchainImage(XrSwapchain swapchain, const XrSwapchainI
 XrResult XRAPI_CALL ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageReleaseInfo* info) {
   return call("xrReleaseSwapchainImage", [&](State&) {
     SwapchainObject& object = live(swapchain);
-    if (info != nullptr) structure(info, XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO);
+    if (info != nullptr) require_structure(info, XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO);
     require(object.waited, "release_order");
     object.released = object.acquired.front();
     object.acquired.pop_front();

@@ -7,7 +7,7 @@
 namespace gearshift::xr_test {
 namespace {
 
-void must(VkResult result, const char* what) {
+void check_vk(VkResult result, const char* what) {
   if (result != VK_SUCCESS) throw std::runtime_error(std::string(what) + " failed: " + std::to_string(result));
 }
 
@@ -23,12 +23,12 @@ VkDeviceMemory allocate(const Graphics& graphics, const VkMemoryRequirements& ne
                                   .allocationSize = needs.size,
                                   .memoryTypeIndex = memory_type(graphics, needs.memoryTypeBits, wanted)};
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  must(graphics.AllocateMemory(graphics.device, &info, nullptr, &memory), "vkAllocateMemory");
+  check_vk(graphics.AllocateMemory(graphics.device, &info, nullptr, &memory), "vkAllocateMemory");
   return memory;
 }
 
 VkImageUsageFlags usage(const XrSwapchainCreateInfo& info) {
-  // Always an attachment, because the extension promises that layout, and readable.
+  // The images are always attachments, because the OpenXR extension promises an attachment layout, and are readable.
   VkImageUsageFlags flags =
       VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
       (is_depth(info.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
@@ -61,31 +61,31 @@ void barrier(const Graphics& graphics, VkImage image, std::int64_t format, VkIma
                               0, 0, nullptr, 0, nullptr, 1, &all);
 }
 
-void record(const Graphics& graphics) {
-  must(graphics.ResetCommandPool(graphics.device, graphics.pool, 0), "vkResetCommandPool");
+void begin_commands(const Graphics& graphics) {
+  check_vk(graphics.ResetCommandPool(graphics.device, graphics.pool, 0), "vkResetCommandPool");
   const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                       .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-  must(graphics.BeginCommandBuffer(graphics.commands, &info), "vkBeginCommandBuffer");
+  check_vk(graphics.BeginCommandBuffer(graphics.commands, &info), "vkBeginCommandBuffer");
 }
 
 void run_and_wait(const Graphics& graphics) {
-  must(graphics.EndCommandBuffer(graphics.commands), "vkEndCommandBuffer");
+  check_vk(graphics.EndCommandBuffer(graphics.commands), "vkEndCommandBuffer");
   const VkSubmitInfo submit{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &graphics.commands};
-  must(graphics.QueueSubmit(graphics.queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
-  must(graphics.QueueWaitIdle(graphics.queue), "vkQueueWaitIdle");
+  check_vk(graphics.QueueSubmit(graphics.queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
+  check_vk(graphics.QueueWaitIdle(graphics.queue), "vkQueueWaitIdle");
 }
 
 struct HostBuffer {
   HostBuffer(const Graphics& device, VkDeviceSize size) : graphics(device) {
     const VkBufferCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    must(graphics.CreateBuffer(graphics.device, &info, nullptr, &buffer), "vkCreateBuffer");
+    check_vk(graphics.CreateBuffer(graphics.device, &info, nullptr, &buffer), "vkCreateBuffer");
     VkMemoryRequirements needs;
     graphics.GetBufferMemoryRequirements(graphics.device, buffer, &needs);
     memory = allocate(graphics, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    must(graphics.BindBufferMemory(graphics.device, buffer, memory, 0), "vkBindBufferMemory");
-    must(graphics.MapMemory(graphics.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory");
+    check_vk(graphics.BindBufferMemory(graphics.device, buffer, memory, 0), "vkBindBufferMemory");
+    check_vk(graphics.MapMemory(graphics.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory");
   }
   ~HostBuffer() {
     graphics.DestroyBuffer(graphics.device, buffer, nullptr);
@@ -119,12 +119,12 @@ Graphics open_graphics(const XrGraphicsBindingVulkanKHR& binding, PFN_vkGetInsta
   graphics.GetDeviceQueue(binding.device, binding.queueFamilyIndex, binding.queueIndex, &graphics.queue);
   const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                      .queueFamilyIndex = binding.queueFamilyIndex};
-  must(graphics.CreateCommandPool(binding.device, &pool, nullptr, &graphics.pool), "vkCreateCommandPool");
+  check_vk(graphics.CreateCommandPool(binding.device, &pool, nullptr, &graphics.pool), "vkCreateCommandPool");
   const VkCommandBufferAllocateInfo one{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                         .commandPool = graphics.pool,
                                         .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                         .commandBufferCount = 1};
-  must(graphics.AllocateCommandBuffers(binding.device, &one, &graphics.commands), "vkAllocateCommandBuffers");
+  check_vk(graphics.AllocateCommandBuffers(binding.device, &one, &graphics.commands), "vkAllocateCommandBuffers");
   return graphics;
 }
 
@@ -149,11 +149,11 @@ std::vector<SwapchainImage> make_images(const Graphics& graphics, const XrSwapch
   };
   std::vector<SwapchainImage> images(count);
   for (SwapchainImage& image : images) {
-    must(graphics.CreateImage(graphics.device, &image_info, nullptr, &image.image), "vkCreateImage");
+    check_vk(graphics.CreateImage(graphics.device, &image_info, nullptr, &image.image), "vkCreateImage");
     VkMemoryRequirements needs;
     graphics.GetImageMemoryRequirements(graphics.device, image.image, &needs);
     image.memory = allocate(graphics, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    must(graphics.BindImageMemory(graphics.device, image.image, image.memory, 0), "vkBindImageMemory");
+    check_vk(graphics.BindImageMemory(graphics.device, image.image, image.memory, 0), "vkBindImageMemory");
   }
   return images;
 }
@@ -166,18 +166,18 @@ void free_images(const Graphics& graphics, std::vector<SwapchainImage>& images) 
   images.clear();
 }
 
-void lay_out(const Graphics& graphics, SwapchainImage& image, const XrSwapchainCreateInfo& info) {
-  if (image.laid_out) return;
-  record(graphics);
+void set_initial_layout(const Graphics& graphics, SwapchainImage& image, const XrSwapchainCreateInfo& info) {
+  if (image.has_layout) return;
+  begin_commands(graphics);
   barrier(graphics, image.image, info.format, VK_IMAGE_LAYOUT_UNDEFINED, promised_layout(info.format));
   run_and_wait(graphics);
-  image.laid_out = true;
+  image.has_layout = true;
 }
 
 std::vector<std::uint8_t> read_pixels(const Graphics& graphics, VkImage image, std::int64_t format, ReadRegion region) {
   const std::size_t size = std::size_t{4} * region.width * region.height;
   const HostBuffer buffer(graphics, size);
-  record(graphics);
+  begin_commands(graphics);
   barrier(graphics, image, format, promised_layout(format), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
   const VkBufferImageCopy copy{.imageSubresource = {aspect(format), 0, region.layer, 1},
                                .imageOffset = {region.x, region.y, 0},

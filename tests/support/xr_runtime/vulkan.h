@@ -1,4 +1,4 @@
-// The program's Vulkan device as used by the runtime: creating and reading back images.
+// How the runtime uses the program's Vulkan device: creates images and reads them back.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include <openxr/openxr_platform.h>
 #include <time.h>
 
-// Fields left out of a designated initializer are zero, as Vulkan requires of unused fields.
+// Fields left out of a designated initializer are zero, as Vulkan requires for unused fields.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 // clang-format off
@@ -30,7 +30,7 @@ namespace gearshift::xr_test {
 struct SwapchainImage {
   VkImage image = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  bool laid_out = false;  // already in the layout that the extension promises
+  bool has_layout = false;  // already in the layout that the OpenXR extension promises
 };
 
 struct Graphics {
@@ -45,16 +45,17 @@ struct Graphics {
 #undef GEARSHIFT_XR_FIELD
 };
 
-// Throw std::runtime_error if Vulkan fails.
+// These functions throw std::runtime_error if Vulkan fails.
 Graphics open_graphics(const XrGraphicsBindingVulkanKHR& binding, PFN_vkGetInstanceProcAddr get);
 void close_graphics(Graphics& graphics);
 bool is_depth(std::int64_t format);
 std::vector<SwapchainImage> make_images(const Graphics& graphics, const XrSwapchainCreateInfo& info,
                                         std::uint32_t count);
 void free_images(const Graphics& graphics, std::vector<SwapchainImage>& images);
-void lay_out(const Graphics& graphics, SwapchainImage& image, const XrSwapchainCreateInfo& info);
+void set_initial_layout(const Graphics& graphics, SwapchainImage& image, const XrSwapchainCreateInfo& info);
 
-// Reads four bytes per pixel, rows from the top, of a colour or 32-bit depth image in the promised layout.
+// The region for read_pixels(), which reads four bytes per pixel, rows from the top. The image must be in the layout
+// that the OpenXR extension promises, with a colour format of four bytes or a 32-bit depth format.
 struct ReadRegion {
   int x = 0, y = 0;
   std::uint32_t width = 0, height = 0, layer = 0;

@@ -18,58 +18,59 @@ constexpr DriveMethod kMethods[] = {DriveMethod::events, DriveMethod::impulses, 
 // Cost per step of each method, including the same overhead for pedals and samples [ns]. The methods alternate, so that
 // a busy machine slows them equally.
 std::vector<Timed> costs(const Drive& drive, double step, int rounds) {
-  std::vector<std::vector<double>> taken(std::size(kMethods));
+  std::vector<std::vector<double>> durations(std::size(kMethods));
   for (int i = 0; i < rounds; ++i) {
     for (std::size_t m = 0; m < std::size(kMethods); ++m) {
       const std::uint64_t before = ticks();
       const DriveOutcome out = drive_by(kMethods[m], drive, step);
-      taken[m].push_back(static_cast<double>(ticks() - before) / ticks_per_ns() /
-                         static_cast<double>(out.samples.size() - 1));
+      durations[m].push_back(static_cast<double>(ticks() - before) / ticks_per_ns() /
+                             static_cast<double>(out.samples.size() - 1));
     }
   }
   std::vector<Timed> all;
-  for (std::vector<double>& t : taken) all.push_back(timed(t));
+  for (std::vector<double>& t : durations) all.push_back(timed(t));
   return all;
 }
 
 // The simple methods do not model gear losses.
-bool knows_plain_methods(const Drive& drive) {
+bool supports_plain_methods(const Drive& drive) {
   return drive.car.gearbox.efficiency == 1.0;
 }
 
 // The cost is given per simulated second, so that both step lengths can be compared.
 Trade trade_of(const BenchRow& row, const Drive& drive, DriveMethod method, double step, const Timed& ns) {
-  const double us = 1e-3 / step;  // microseconds per simulated second for 1 ns per step
+  const double us = 1e-3 / step;  // [ns] per step becomes [us] per simulated second
   std::optional<Quartiles> spread;
   if (ns.spread) spread = Quartiles{us * ns.spread->low, us * ns.spread->high};
-  const std::string name = name_of(method) + (", " + std::to_string(std::lround(1e3 * step)) + " ms");
+  const std::string name = to_string(method) + (", " + std::to_string(std::lround(1e3 * step)) + " ms");
   return {drive.name,
           name,
           {"cost", us * ns.median, "us per simulated second", spread},
-          {"slip energy off by", row.value, "%"},
+          {"error of the slip energy", row.value, "%"},
           method == DriveMethod::events && step < 0.002};
 }
 
-BenchRow row_of(const Drive& drive, DriveMethod method, double step, const DriveOutcome& should, const Timed& ns) {
-  const DriveOutcome has = drive_by(method, drive, step);
-  const std::size_t each = static_cast<std::size_t>(std::lround(step / 0.001));
+BenchRow row_of(const Drive& drive, DriveMethod method, double step, const DriveOutcome& reference, const Timed& ns) {
+  const DriveOutcome outcome = drive_by(method, drive, step);
+  const std::size_t stride = static_cast<std::size_t>(std::lround(step / 0.001));
   double worst = 0.0;
-  for (std::size_t i = 0; i < has.samples.size(); ++i)
-    worst = std::max(worst, std::abs(has.samples[i].engine - should.samples[i * each].engine));
-  BenchRow row{"driveline",
-               drive.name + ", " + std::to_string(std::lround(1e3 * step)) + " ms: " + name_of(method),
-               100.0 * std::abs(has.slip_energy / should.slip_energy - 1.0),
-               "% of the slip energy",
-               {},
-               false,
-               has.running == should.running ? ""
-               : has.running                 ? "does not stall"
-                                             : "stalls falsely",
-               true,
-               {{"engine at worst", worst, "rad/s"},
-                {"at the end", std::abs(has.samples.back().engine - should.samples.back().engine), "rad/s"},
-                {"cost", ns.median, "ns a step", ns.spread}}};
-  if (knows_plain_methods(drive)) row.trade = trade_of(row, drive, method, step, ns);
+  for (std::size_t i = 0; i < outcome.samples.size(); ++i)
+    worst = std::max(worst, std::abs(outcome.samples[i].engine - reference.samples[i * stride].engine));
+  BenchRow row{
+      "driveline",
+      drive.name + ", " + std::to_string(std::lround(1e3 * step)) + " ms: " + to_string(method),
+      100.0 * std::abs(outcome.slip_energy / reference.slip_energy - 1.0),
+      "% of the slip energy",
+      {},
+      false,
+      outcome.running == reference.running ? ""
+      : outcome.running                    ? "does not stall, but should"
+                                           : "stalls, but should not",
+      true,
+      {{"largest error of the engine speed", worst, "rad/s"},
+       {"error at the end", std::abs(outcome.samples.back().engine - reference.samples.back().engine), "rad/s"},
+       {"cost", ns.median, "ns per step", ns.spread}}};
+  if (supports_plain_methods(drive)) row.trade = trade_of(row, drive, method, step, ns);
   if (method != DriveMethod::events || step > 0.002) return row;
   row.goal = 0.01;
   return answers_design(Design::driveline, std::move(row));
@@ -77,7 +78,7 @@ BenchRow row_of(const Drive& drive, DriveMethod method, double step, const Drive
 
 // Times only the steps of complete drives; the inputs are prepared before.
 BenchRow headless_step(const std::vector<Drive>& drives, int rounds) {
-  std::vector<double> each;
+  std::vector<double> step_times;
   for (int i = 0; i < rounds; ++i) {
     for (const Drive& drive : drives) {
       std::vector<vehicle::DrivelineInput> inputs;
@@ -87,19 +88,20 @@ BenchRow headless_step(const std::vector<Drive>& drives, int rounds) {
       line.place(drive.engine, drive.shaft, drive.road, true);
       const std::uint64_t before = ticks();
       for (const vehicle::DrivelineInput& in : inputs) line.step(in, 0.001);
-      each.push_back(static_cast<double>(ticks() - before) / ticks_per_ns() / static_cast<double>(inputs.size()));
+      step_times.push_back(static_cast<double>(ticks() - before) / ticks_per_ns() / static_cast<double>(inputs.size()));
     }
   }
-  const Timed ns = timed(each);
-  return with_spread(ns.spread, {"driveline",
-                                 "a step of 1 ms, headless",
-                                 ns.median,
-                                 "ns",
-                                 {},
-                                 false,
-                                 "median over all drives, " + std::to_string(rounds) + " times each",
-                                 true,
-                                 {{"p90", quantile(each, 0.9), "ns"}, {"that is", 1e6 / ns.median, "x real time"}}});
+  const Timed ns = timed(step_times);
+  return with_spread(ns.spread,
+                     {"driveline",
+                      "a step of 1 ms, headless",
+                      ns.median,
+                      "ns",
+                      {},
+                      false,
+                      "median over all drives, " + std::to_string(rounds) + " times each",
+                      true,
+                      {{"p90", quantile(step_times, 0.9), "ns"}, {"speed", 1e6 / ns.median, "x real time"}}});
 }
 
 }  // namespace
@@ -112,12 +114,12 @@ std::vector<BenchRow> bench_driveline(const BenchOptions& options) {
   const Drive shipped = launch_of(vehicle::read_car(cars / "hatchback.toml"));
   const std::vector<Drive> drives{launch(), shipped, dump_at_idle(), dump_at_4000(), money_shift()};
   for (const Drive& drive : drives) {
-    const DriveOutcome should = reference_of(drive);
+    const DriveOutcome reference = reference_of(drive);
     for (const double step : {0.001, 0.004}) {
       if (options.progress) options.progress("driveline", static_cast<double>(rows.size()) / 27.0);
       const std::vector<Timed> ns = costs(drive, step, rounds);
-      const std::size_t methods = knows_plain_methods(drive) ? std::size(kMethods) : 1;
-      for (std::size_t m = 0; m < methods; ++m) rows.push_back(row_of(drive, kMethods[m], step, should, ns[m]));
+      const std::size_t methods = supports_plain_methods(drive) ? std::size(kMethods) : 1;
+      for (std::size_t m = 0; m < methods; ++m) rows.push_back(row_of(drive, kMethods[m], step, reference, ns[m]));
     }
   }
   return rows;

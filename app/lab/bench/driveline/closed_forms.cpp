@@ -17,8 +17,8 @@ constexpr double kReduced = kEngine * kCar / (kEngine + kCar);  // [kg m^2]
 constexpr double kCapacity = 200.0;                             // [N m]
 constexpr double kFast = 300.0, kSlow = 30.0;                   // [rad/s] engine and shaft at the start
 
-double off_by(double has, double should) {
-  return std::abs(has / should - 1.0);
+double relative_error(double value, double expected) {
+  return std::abs(value / expected - 1.0);
 }
 
 BenchRow law_row(const std::string& what, double error, const std::string& note) {
@@ -29,7 +29,7 @@ BenchRow balance_row(const std::string& what, double error, const std::string& n
   return answers_design(Design::driveline, {"driveline", what, error, "relative", 1e-12, false, note});
 }
 
-vehicle::DrivelineInput clutch_let_go() {
+vehicle::DrivelineInput clutch_released() {
   vehicle::DrivelineInput in = pedals(1, 0.0, 0.0);
   in.ignition = false;
   return in;
@@ -45,12 +45,12 @@ vehicle::Driveline slipping_pair() {
 void add_constant_torque(std::vector<BenchRow>& rows) {
   vehicle::Driveline line = slipping_pair();
   const double slipped = kFast - kSlow;
-  const double time = time_until(line, clutch_let_go(), kBalanceStep,
+  const double time = time_until(line, clutch_released(), kBalanceStep,
                                  [](const vehicle::Driveline& l) { return l.state().clutch_locked; });
   const std::string note = "two inertias, constant torque, steps of 1 ms";
-  rows.push_back(law_row("lock-up time against Jr dw / T", off_by(time, kReduced * slipped / kCapacity), note));
+  rows.push_back(law_row("lock-up time against Jr dw / T", relative_error(time, kReduced * slipped / kCapacity), note));
   rows.push_back(law_row("slip energy against Jr dw^2 / 2",
-                         off_by(line.energy().clutch, 0.5 * kReduced * slipped * slipped), note));
+                         relative_error(line.energy().clutch, 0.5 * kReduced * slipped * slipped), note));
 }
 
 // Checks that J1 w1 + J2 w2 is constant without external torque: slipping, locking and locked.
@@ -60,13 +60,13 @@ void add_momentum(std::vector<BenchRow>& rows) {
   const double begin = momentum();
   double worst = 0.0;
   for (int i = 0; i < 1000; ++i) {
-    line.step(clutch_let_go(), kBalanceStep);
-    worst = std::max(worst, off_by(momentum(), begin));
+    line.step(clutch_released(), kBalanceStep);
+    worst = std::max(worst, relative_error(momentum(), begin));
   }
   rows.push_back(balance_row("momentum balance", worst, "two inertias, slipping, locking and locked, 1 s"));
 }
 
-double spent(const vehicle::EnergyLedger& e) {
+double dissipated(const vehicle::EnergyLedger& e) {
   return e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.teeth + e.mesh;
 }
 
@@ -79,11 +79,11 @@ void add_energy(std::vector<BenchRow>& rows) {
     const double begin = line.kinetic_energy();
     for (int i = 0; i * kBalanceStep < drive.duration; ++i) line.step(drive.input(i * kBalanceStep), kBalanceStep);
     const vehicle::EnergyLedger& e = line.energy();
-    const double left = begin + e.engine - spent(e) - e.slope - line.kinetic_energy();
-    worst = std::max(worst, std::abs(left) / (begin + std::abs(e.engine) + spent(e)));
+    const double imbalance = begin + e.engine - dissipated(e) - e.slope - line.kinetic_energy();
+    worst = std::max(worst, std::abs(imbalance) / (begin + std::abs(e.engine) + dissipated(e)));
   }
   rows.push_back(
-      balance_row("energy balance, worst drive", worst, "launch, dumps, money shift, hill, cones: the ledger"));
+      balance_row("energy balance, worst drive", worst, "launch, dumps, money shift, hill and cones; energy ledger"));
 }
 
 }  // namespace

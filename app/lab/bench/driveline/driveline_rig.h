@@ -7,10 +7,10 @@
 
 namespace gearshift::lab {
 
-inline constexpr double kPerRoad = 10.0;  // [rad/m] of first gear here
+inline constexpr double kPerRoad = 10.0;  // [rad/m] shaft rotation per distance travelled in first gear
 
-// Inertias of engine and car, `one` and `other` [kg m^2], at the clutch (its disc belongs to the other); the engine
-// gives `torque` at full throttle at every speed. The clutch is the only friction.
+// Inertias at the clutch [kg m^2]: `one` is the engine's, `other` that of car and clutch disc. At full throttle the
+// engine gives `torque` at every speed. The clutch is the only friction.
 inline vehicle::CarSpec bare_car(double one, double other, double capacity, double torque = 0.0) {
   vehicle::CarSpec car;
   car.engine.full_load[0] = {0.0, torque};
@@ -46,8 +46,8 @@ inline void drive(vehicle::Driveline& line, const vehicle::DrivelineInput& in, d
   for (int i = 0; i < std::lround(seconds / step); ++i) line.step(in, step);
 }
 
-// The time when `done` first holds, found by shortening the last step; below 0: not within a thousand seconds. The
-// input is constant, or a function of the time at the end of a step.
+// The time when `done` first holds, found by shortening the last step; negative if it does not within 1000 s. The input
+// is constant, or a function of the time at the end of a step.
 template <typename Input, typename Done>
 double time_until(vehicle::Driveline& line, const Input& input, double step, const Done& done) {
   const auto at = [&](double t) {

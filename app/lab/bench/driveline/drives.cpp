@@ -95,7 +95,7 @@ Drive first_backwards() {
   return drive;
 }
 
-Drive cone_alone() {
+Drive cone_only() {
   Drive drive = drive_of("cone, clutch down", 84.0, 15.0, 0, 1.0);
   drive.shaft = 400.0;
   drive.input = [](double t) {
@@ -121,7 +121,7 @@ Drive cone_and_engine() {
 
 std::vector<Drive> all_drives() {
   return {launch(),        dump_at_idle(),    dump_at_4000(), money_shift(),    rollback(),
-          reverse_ahead(), first_backwards(), cone_alone(),   cone_and_engine()};
+          reverse_ahead(), first_backwards(), cone_only(),    cone_and_engine()};
 }
 
 }  // namespace gearshift::lab

@@ -9,7 +9,7 @@
 namespace gearshift::lab {
 namespace {
 
-// Shared by `impulses` and `tanh`: speeds, loads and heat. Uses the pedals at the middle of the step.
+// Base of `impulses` and `tanh`: speeds, loads and heat. Uses the pedals at the middle of the step.
 class PlainStepper {
  public:
   explicit PlainStepper(const Drive& drive) : drive_(drive), car_(drive.car), engine_(drive.car.engine) {
@@ -29,7 +29,7 @@ class PlainStepper {
     mode_ = s.mode;
     vehicle::PerBody to;
     for (std::size_t b = 0; b < 3; ++b) to[b] = h * s.motion.rate[b];
-    go(to, s.motion.clutch, s.motion.gear, h);
+    finish_step(to, s.motion.clutch, s.motion.gear, h);
   }
 
   void tanh(double time, double h) {
@@ -53,7 +53,7 @@ class PlainStepper {
       to[2] += h * force[2] / chain_.inertia[2];
     }
     to[0] = std::max(0.0, to[0] + h * force[0] / chain_.inertia[0]);
-    go(to, clutch, cone, h);
+    finish_step(to, clutch, cone, h);
   }
 
   ReferenceSample sample() const { return {speed_[0], speed_[1], speed_[2]}; }
@@ -75,11 +75,11 @@ class PlainStepper {
     return loads;
   }
 
-  void go(const vehicle::PerBody& to, double clutch, double gear, double h) {
-    vehicle::PerBody way;
-    for (std::size_t b = 0; b < 3; ++b) way[b] = 0.5 * h * (speed_[b] + to[b]);
-    clutch_heat += clutch * (way[0] - way[1]);
-    cone_heat += gear * vehicle::cone_slip(chain_, way);
+  void finish_step(const vehicle::PerBody& to, double clutch, double gear, double h) {
+    vehicle::PerBody travel;
+    for (std::size_t b = 0; b < 3; ++b) travel[b] = 0.5 * h * (speed_[b] + to[b]);
+    clutch_heat += clutch * (travel[0] - travel[1]);
+    cone_heat += gear * vehicle::cone_slip(chain_, travel);
     speed_ = to;
     engine_.update(speed_[0]);
   }
@@ -93,7 +93,7 @@ class PlainStepper {
   vehicle::FrictionMode mode_;
 };
 
-void note(DriveOutcome& out, const ReferenceSample& sample) {
+void add_sample(DriveOutcome& out, const ReferenceSample& sample) {
   out.samples.push_back(sample);
   out.engine_peak = std::max(out.engine_peak, sample.engine);
 }
@@ -103,10 +103,10 @@ DriveOutcome by_events(const Drive& drive, double step, int steps) {
   vehicle::Driveline line(drive.car);
   line.place(drive.engine, drive.shaft, drive.road, true);
   line.step(drive.input(0.0), 0.0);
-  note(out, {drive.engine, drive.shaft, drive.road});
+  add_sample(out, {drive.engine, drive.shaft, drive.road});
   for (int i = 1; i <= steps; ++i) {
     line.step(drive.input(i * step), step);
-    note(out, {line.state().engine_speed, line.state().shaft_speed, line.state().road_speed});
+    add_sample(out, {line.state().engine_speed, line.state().shaft_speed, line.state().road_speed});
   }
   out.slip_energy = line.energy().clutch;
   out.cone_energy = line.energy().cone;
@@ -116,7 +116,7 @@ DriveOutcome by_events(const Drive& drive, double step, int steps) {
 
 }  // namespace
 
-const char* name_of(DriveMethod method) {
+const char* to_string(DriveMethod method) {
   return method == DriveMethod::events ? "event midpoint" : method == DriveMethod::impulses ? "impulse clamp" : "tanh";
 }
 
@@ -125,10 +125,10 @@ DriveOutcome drive_by(DriveMethod method, const Drive& drive, double step) {
   if (method == DriveMethod::events) return by_events(drive, step, steps);
   DriveOutcome out;
   PlainStepper plain(drive);
-  note(out, plain.sample());
+  add_sample(out, plain.sample());
   for (int i = 0; i < steps; ++i) {
     method == DriveMethod::impulses ? plain.impulses(i * step, step) : plain.tanh(i * step, step);
-    note(out, plain.sample());
+    add_sample(out, plain.sample());
   }
   out.slip_energy = plain.clutch_heat;
   out.cone_energy = plain.cone_heat;

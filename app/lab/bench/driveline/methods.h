@@ -11,7 +11,7 @@ enum class DriveMethod {
   tanh       // explicit Euler, friction T tanh(slip / eps) with eps = 10 rad/s: no solver, no modes
 };
 
-const char* name_of(DriveMethod method);
+const char* to_string(DriveMethod method);
 
 // Like reference_of(), but with a sample every `step` [s] instead of every millisecond.
 DriveOutcome drive_by(DriveMethod method, const Drive& drive, double step);

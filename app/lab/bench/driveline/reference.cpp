@@ -61,11 +61,11 @@ class Reference {
     Forces f;
     f.friction = vehicle::friction_torque(car_.engine, y.engine);
     const vehicle::EngineSpec& e = car_.engine;
-    const double whole = vehicle::full_torque(e, std::max(y.engine, e.full_load[0].speed)) + f.friction;
+    const double full_load = vehicle::full_torque(e, std::max(y.engine, e.full_load[0].speed)) + f.friction;
     const double th0 =
         vehicle::friction_torque(e, e.idle) / (vehicle::full_torque(e, e.idle) + vehicle::friction_torque(e, e.idle));
-    const double opened = std::max(in.throttle, std::clamp(th0 + e.idle_gain * (e.idle - y.engine), 0.0, 1.0));
-    f.spark = running_ && !cut_ ? opened * whole : 0.0;
+    const double opening = std::max(in.throttle, std::clamp(th0 + e.idle_gain * (e.idle - y.engine), 0.0, 1.0));
+    f.spark = running_ && !cut_ ? opening * full_load : 0.0;
     f.capacity = vehicle::clutch_capacity(car_.clutch, in.clutch);
     f.cone = dogs_ || G_ == 0.0 ? 0.0 : in.cone_torque / cone_ratio_;
     f.shaft = -car_.gearbox.drag_slope * y.shaft;
@@ -82,11 +82,11 @@ class Reference {
     const auto solved = [&](double passed) {
       return (force + passed * G_ * torque) / (m + passed * G_ * G_ * inertia);
     };
-    const double driven = solved(teeth());
+    const double driven = solved(teeth_efficiency());
     const bool drives = (torque - inertia * G_ * driven) * G_ * road_ >= 0.0;
-    return drives ? driven : solved(1.0 / teeth());
+    return drives ? driven : solved(1.0 / teeth_efficiency());
   }
-  double teeth() const { return dogs_ ? car_.gearbox.efficiency : 1.0; }
+  double teeth_efficiency() const { return dogs_ ? car_.gearbox.efficiency : 1.0; }
 
   // Stores the torques of clutch and gear in carried_.
   Y slope(const Y& y, double t) {
@@ -126,7 +126,7 @@ class Reference {
     return d;
   }
 
-  Y moved(double t, double h) {
+  Y integrated(double t, double h) {
     const Y a = slope(y_, t), b = slope(sum(y_, 0.5 * h, a), t + 0.5 * h), c = slope(sum(y_, 0.5 * h, b), t + 0.5 * h);
     const Y d = slope(sum(y_, h, c), t + h);
     Y y = sum(sum(sum(sum(y_, h / 6.0, a), h / 3.0, b), h / 3.0, c), h / 6.0, d);
@@ -135,57 +135,60 @@ class Reference {
     return y;
   }
 
-  enum class What {
-    nothing,
-    clutch_meets,
-    clutch_breaks,
-    cone_meets,
-    cone_breaks,
-    road,
-    road_breaks,
-    shaft,
-    shaft_breaks,
-    engine,
-    engine_breaks,
-    dies,
-    cuts,
-    fires
+  enum class Event {
+    none,
+    clutch_locks,
+    clutch_slips,
+    cone_locks,
+    cone_slips,
+    car_stops,
+    car_starts,
+    shaft_stops,
+    shaft_starts,
+    engine_stops,
+    engine_starts,
+    stalls,
+    limiter_cuts,
+    limiter_releases
   };
 
-  What happened(const Y& y, double t) {
+  Event event_at(const Y& y, double t) {
     const Forces f = forces(y, t);
     slope(y, t);
     const double tc = carried_clutch_, tk = carried_gear_;
-    if (running_ && y.engine < car_.engine.stall) return What::dies;
-    if (running_ && !cut_ && y.engine > car_.engine.limiter) return What::cuts;
-    if (cut_ && y.engine < car_.engine.limiter - car_.engine.limiter_band) return What::fires;
-    if (!engine_rests_ && !locked_ && y.engine < 0.0) return What::engine;
-    if (engine_rests_ && !locked_ && f.spark - tc > f.friction) return What::engine_breaks;
-    if (!locked_ && f.capacity > 0.0 && clutch_ * (y.engine - y.shaft) < 0.0) return What::clutch_meets;
-    if (locked_ && !car_rests_ && std::abs(tc) > f.capacity) return What::clutch_breaks;
-    if (!geared_ && f.cone > 0.0 && cone_ * (y.shaft - G_ * y.road) < 0.0) return What::cone_meets;
-    if (geared_ && !dogs_ && std::abs(tk) > f.cone) return What::cone_breaks;
-    if (!car_rests_ && road_ * y.road < 0.0) return What::road;
-    if (car_rests_ && !locked_ && std::abs(pull(f)) > grip(f)) return What::road_breaks;
-    if (!geared_ && !shaft_rests_ && !locked_ && shaft_ * y.shaft < 0.0) return What::shaft;
-    if (shaft_rests_ && std::abs(tc - tk) > car_.gearbox.drag) return What::shaft_breaks;
-    return What::nothing;
+    if (running_ && y.engine < car_.engine.stall) return Event::stalls;
+    if (running_ && !cut_ && y.engine > car_.engine.limiter) return Event::limiter_cuts;
+    if (cut_ && y.engine < car_.engine.limiter - car_.engine.limiter_band) return Event::limiter_releases;
+    if (!engine_rests_ && !locked_ && y.engine < 0.0) return Event::engine_stops;
+    if (engine_rests_ && !locked_ && f.spark - tc > f.friction) return Event::engine_starts;
+    if (!locked_ && f.capacity > 0.0 && clutch_ * (y.engine - y.shaft) < 0.0) return Event::clutch_locks;
+    if (locked_ && !car_rests_ && std::abs(tc) > f.capacity) return Event::clutch_slips;
+    if (!geared_ && f.cone > 0.0 && cone_ * (y.shaft - G_ * y.road) < 0.0) return Event::cone_locks;
+    if (geared_ && !dogs_ && std::abs(tk) > f.cone) return Event::cone_slips;
+    if (!car_rests_ && road_ * y.road < 0.0) return Event::car_stops;
+    if (car_rests_ && !locked_ && std::abs(pull(f)) > grip(f)) return Event::car_starts;
+    if (!geared_ && !shaft_rests_ && !locked_ && shaft_ * y.shaft < 0.0) return Event::shaft_stops;
+    if (shaft_rests_ && std::abs(tc - tk) > car_.gearbox.drag) return Event::shaft_starts;
+    return Event::none;
   }
 
-  // Forces on the stationary car, and what holds it.
+  // Force that pulls on the stationary car. [N]
   double pull(const Forces& f) const {
-    return f.air + G_ * (geared_ ? teeth() * clutch_ * f.capacity : cone_ * f.cone);
+    return f.air + G_ * (geared_ ? teeth_efficiency() * clutch_ * f.capacity : cone_ * f.cone);
   }
-  double grip(const Forces& f) const { return f.hold + (geared_ ? teeth() * std::abs(G_) * car_.gearbox.drag : 0.0); }
+  // Largest force that holds the stationary car. [N]
+  double grip(const Forces& f) const {
+    return f.hold + (geared_ ? teeth_efficiency() * std::abs(G_) * car_.gearbox.drag : 0.0);
+  }
 
-  void apply(What what, double t) {
+  void apply(Event event, double t) {
     const double je = car_.engine.inertia, js = car_.clutch.disc_inertia, m = car_.body.mass + car_.body.rotating;
-    if (what == What::dies) running_ = false;
-    if (what == What::cuts) cut_ = true;
-    if (what == What::fires) cut_ = false;
-    if (what == What::engine) y_.engine = 0.0, engine_rests_ = true, clutch_ = side(-y_.shaft);
-    if (what == What::engine_breaks) engine_rests_ = false;
-    if (what == What::clutch_meets) {
+    if (event == Event::stalls) running_ = false;
+    if (event == Event::limiter_cuts) cut_ = true;
+    if (event == Event::limiter_releases) cut_ = false;
+    if (event == Event::engine_stops) y_.engine = 0.0, engine_rests_ = true, clutch_ = side(-y_.shaft);
+    if (event == Event::engine_starts) engine_rests_ = false;
+    if (event == Event::clutch_locks) {
       const double jr = geared_ ? js + m / (G_ * G_) : js;
       y_.engine = y_.shaft = (je * y_.engine + jr * y_.shaft) / (je + jr);
       if (geared_) y_.road = y_.shaft / G_;
@@ -193,8 +196,8 @@ class Reference {
       slope(y_, t);
       if (std::abs(carried_clutch_) > forces(y_, t).capacity) locked_ = false, clutch_ = -clutch_;
     }
-    if (what == What::clutch_breaks) clutch_ = side(carried_clutch_), locked_ = false;
-    if (what == What::cone_meets) {
+    if (event == Event::clutch_slips) clutch_ = side(carried_clutch_), locked_ = false;
+    if (event == Event::cone_locks) {
       const double jl = locked_ ? js + je : js;
       y_.road = (jl * G_ * y_.shaft + m * y_.road) / (jl * G_ * G_ + m);
       y_.shaft = G_ * y_.road;
@@ -203,8 +206,8 @@ class Reference {
       slope(y_, t);
       if (std::abs(carried_gear_) > forces(y_, t).cone) geared_ = false, cone_ = -cone_;
     }
-    if (what == What::cone_breaks) cone_ = side(carried_gear_), geared_ = false;
-    if (what == What::road) {
+    if (event == Event::cone_slips) cone_ = side(carried_gear_), geared_ = false;
+    if (event == Event::car_stops) {
       y_.road = 0.0;
       if (geared_) y_.shaft = 0.0;
       if (locked_ && geared_) y_.engine = 0.0;
@@ -213,36 +216,36 @@ class Reference {
       road_ = car_rests_ ? 0 : side(pull(f));
       if (geared_) shaft_ = side(G_) * road_;
     }
-    if (what == What::road_breaks) {
+    if (event == Event::car_starts) {
       car_rests_ = false;
       road_ = side(pull(forces(y_, t)));
       if (geared_) shaft_ = side(G_) * road_;
     }
-    if (what == What::shaft) y_.shaft = 0.0, shaft_rests_ = true, shaft_ = 0;
-    if (what == What::shaft_breaks) shaft_rests_ = false, shaft_ = side(carried_clutch_ - carried_gear_);
+    if (event == Event::shaft_stops) y_.shaft = 0.0, shaft_rests_ = true, shaft_ = 0;
+    if (event == Event::shaft_starts) shaft_rests_ = false, shaft_ = side(carried_clutch_ - carried_gear_);
   }
 
   void advance(double t, double end) {
     while (t < end) {
       double h = end - t;
-      Y next = moved(t, h);
-      What what = happened(next, end);
-      if (what != What::nothing) {
+      Y next = integrated(t, h);
+      Event event = event_at(next, end);
+      if (event != Event::none) {
         double low = 0.0;
         while (h - low > kLocate) {
           const double middle = 0.5 * (low + h);
-          const Y y = moved(t, middle);
-          const What w = happened(y, t + middle);
-          if (w == What::nothing) {
+          const Y y = integrated(t, middle);
+          const Event w = event_at(y, t + middle);
+          if (w == Event::none) {
             low = middle;
           } else {
-            h = middle, next = y, what = w;
+            h = middle, next = y, event = w;
           }
         }
       }
       y_ = next;
-      t = what == What::nothing ? end : t + h;
-      apply(what, t);
+      t = event == Event::none ? end : t + h;
+      apply(event, t);
     }
   }
 

@@ -13,8 +13,8 @@ struct ReferenceSample {
 };
 
 struct DriveOutcome {
-  std::vector<ReferenceSample> samples;  // every millisecond, including the start
-  double slip_energy = 0.0;              // [J] of the clutch
+  std::vector<ReferenceSample> samples;  // every millisecond, including time 0
+  double slip_energy = 0.0;              // [J] dissipated in the clutch
   double cone_energy = 0.0;              // [J]
   double engine_peak = 0.0;              // [rad/s]
   bool running = true;                   // at the end

@@ -1,4 +1,5 @@
-// Simulated time per real time on one core: only the lever, the lever with a car, and a whole lesson.
+// Speed of headless simulation on one core (simulated time per elapsed time): the lever, the lever with a car, and a
+// whole lesson.
 #include <chrono>
 #include <ctime>
 #include <functional>
@@ -17,21 +18,21 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kRate = 1000.0;      // [Hz]
-constexpr double kPaperForce = 31.7;  // [N] of the paper's lever
+constexpr double kPaperForce = 31.7;  // [N] motor force limit of the paper's lever
 constexpr const char* kLesson = "down_through_the_gears";
 
 struct Speed {
-  std::vector<double> real, processor;  // simulated seconds per second of real time, and of this process's CPU time
+  std::vector<double> real, processor;  // simulated seconds per elapsed second, and per second of CPU time
 };
 
 // drive: returns the simulated time [s].
 void add_run(Speed& speed, const std::function<double()>& drive) {
   const auto start = std::chrono::steady_clock::now();
-  const std::clock_t worked = std::clock();
+  const std::clock_t cpu_start = std::clock();
   const double simulated = drive();
-  const double work = static_cast<double>(std::clock() - worked) / CLOCKS_PER_SEC;
+  const double cpu_time = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   speed.real.push_back(simulated / std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  if (work > 0.0) speed.processor.push_back(simulated / work);
+  if (cpu_time > 0.0) speed.processor.push_back(simulated / cpu_time);
 }
 
 double tour(const haptics::Gate& gate, haptics::LeverLoad* load) {
@@ -57,19 +58,19 @@ BenchRow row(const char* name, Speed& speed, double goal, const std::string& wha
                true,
                {{"p10", quantile(speed.real, 0.1), ""},
                 {"p90", quantile(speed.real, 0.9), ""},
-                {"by processor time", quantile(speed.processor, 0.5), ""}}};
+                {"median by processor time", quantile(speed.processor, 0.5), ""}}};
   return answers_design(Design::headless, with_spread(real.spread, std::move(row)));
 }
 
 }  // namespace
 
-// Takes turns, so that a busy machine slows all equally.
+// Runs the three in turn, so that a busy machine slows all equally.
 std::vector<BenchRow> bench_headless(const BenchOptions& options) {
   const lessons::LessonDriveConfig lesson = shipped_drive(fs::path(options.gate_folder).parent_path(), kLesson);
   const haptics::Gate paper = bench_gate(options.gate_folder, "paper"),
                       gate = bench_gate(options.gate_folder, lesson.car.gate);
   const int runs = options.quick ? 5 : 41;
-  Speed unguided, with_car, whole;
+  Speed unguided, with_car, full_lesson;
   for (int i = 0; i < runs; ++i) {
     if (options.progress) options.progress("headless", static_cast<double>(i) / runs);
     add_run(unguided, [&] { return tour(paper, nullptr); });
@@ -77,11 +78,11 @@ std::vector<BenchRow> bench_headless(const BenchOptions& options) {
       vehicle::CarLoad car(lesson.car, gate, kPaperForce);
       return tour(gate, &car);
     });
-    add_run(whole, [&] { return lessons::drive_lesson(lesson).duration; });
+    add_run(full_lesson, [&] { return lessons::drive_lesson(lesson).duration; });
   }
   return {row("simulation at 1 kHz", unguided, 1000.0, "a tour: lever, hand, gate, guard"),
-          row("the same with the driveline", with_car, 400.0, "a tour of the hatchback's gate, clutch down"),
-          row("a whole lesson", whole, 400.0, fmt::format("{}: and learner and teacher", kLesson))};
+          row("simulation at 1 kHz with the driveline", with_car, 400.0, "a tour of the hatchback's gate, clutch down"),
+          row("a whole lesson", full_lesson, 400.0, fmt::format("{}, with simulated driver and coach", kLesson))};
 }
 
 }  // namespace gearshift::lab

@@ -21,24 +21,24 @@ BenchRow separation_row(const lessons::LessonDriveConfig& drive, int each) {
           "AUC",
           {},
           true,
-          std::to_string(each) + " of each",
+          std::to_string(each) + " drives of each kind",
           true,
           {{"median grade, skilled", quantile(s.skilled, 0.5), ""},
-           {"unskilled", quantile(s.unskilled, 0.5), ""},
+           {"median grade, unskilled", quantile(s.unskilled, 0.5), ""},
            {"passed, skilled", 100.0 * s.skilled_passed / each, "%"},
-           {"unskilled", 100.0 * s.unskilled_passed / each, "%"}}};
+           {"passed, unskilled", 100.0 * s.unskilled_passed / each, "%"}}};
 }
 
 BenchRow fault_row(const lessons::LessonDriveConfig& drive, lessons::ErrorKind kind, int each) {
   const lessons::ErrorSeparation s = lessons::separate_error(drive, kind, each, 1);
   return {"learning",
-          std::string(lessons::error_key(kind)) + " in " + drive.lesson.key,
+          std::string(lessons::to_string(kind)) + " in " + drive.lesson.key,
           s.auc,
           "AUC",
           {},
           true,
-          std::to_string(s.detected) + " of " + std::to_string(s.driven) + " named, " + std::to_string(s.false_alarms) +
-              " falsely"};
+          std::to_string(s.detected) + " of " + std::to_string(s.driven) +
+              " detected, false alarms: " + std::to_string(s.false_alarms)};
 }
 
 // Tests each kind of error in the first lesson that checks for it.
@@ -48,7 +48,7 @@ std::vector<BenchRow> fault_rows(const std::vector<lessons::LessonDriveConfig>& 
     const auto kind = static_cast<lessons::ErrorKind>(k);
     for (const lessons::LessonDriveConfig& drive : drives) {
       const bool reverse = drive.lesson.key == "reverse";
-      if (kind == lessons::ErrorKind::grind && !reverse) continue;  // forward gears of an intact gearbox never grind
+      if (kind == lessons::ErrorKind::grind && !reverse) continue;  // with an intact gearbox, forward gears never grind
       if (!lessons::assesses(drive.lesson, kind)) continue;
       rows.push_back(fault_row(drive, kind, each));
       break;
@@ -63,22 +63,23 @@ std::vector<BenchRow> practice_rows(const lessons::LessonDriveConfig& drive, boo
   for (const double failed_loss : {0.5, 0.0}) {
     lessons::LearningModel model;
     model.failed_loss = failed_loss;
-    for (const auto& [practice, name] :
-         {std::pair{lessons::Practice::unguided, "never guided"}, std::pair{lessons::Practice::guided_always, "always"},
-          std::pair{lessons::Practice::faded, "by the policy"}}) {
+    for (const auto& [practice, name] : {std::pair{lessons::Practice::unguided, "never guided"},
+                                         std::pair{lessons::Practice::guided_always, "always guided"},
+                                         std::pair{lessons::Practice::faded, "guided by the policy"}}) {
       const lessons::PracticeOutcome outcome = lessons::practise(drive, practice, model, learners, trials, 1);
-      const std::string what = failed_loss > 0.0 ? "" : ", failures teach as much";
-      rows.push_back({"learning",
-                      drive.lesson.key + ", " + name + what,
-                      outcome.error.back(),
-                      "skill error left of " + std::to_string(outcome.error.front()).substr(0, 4),
-                      {},
-                      false,
-                      std::to_string(learners) + " learners, " + std::to_string(trials) + " trials, model assumed",
-                      true,
-                      {{"retention grade", outcome.retention_grade, ""},
-                       {"guided", 100.0 * outcome.guided_share, "%"},
-                       {"of the first half", 100.0 * outcome.guided_early, "%"}}});
+      const std::string what = failed_loss > 0.0 ? "" : ", failures teach as much as successes";
+      rows.push_back(
+          {"learning",
+           drive.lesson.key + ", " + name + what,
+           outcome.error.back(),
+           "remaining skill error, initially " + std::to_string(outcome.error.front()).substr(0, 4),
+           {},
+           false,
+           std::to_string(learners) + " simulated learners, " + std::to_string(trials) + " trials each, assumed model",
+           true,
+           {{"retention grade", outcome.retention_grade, ""},
+            {"guided", 100.0 * outcome.guided_fraction, "%"},
+            {"guided in the first half", 100.0 * outcome.guided_early, "%"}}});
     }
   }
   return rows;
@@ -91,17 +92,17 @@ std::vector<BenchRow> bench_learning(const BenchOptions& options) {
   const int each = options.quick ? 1 : 40;
   std::vector<lessons::LessonDriveConfig> drives;
   for (const std::string_view key : lessons::kTeachingOrder) drives.push_back(shipped_drive(assets, key));
-  const auto tell = [&](double share) {
-    if (options.progress) options.progress("learning", share);
+  const auto report = [&](double fraction) {
+    if (options.progress) options.progress("learning", fraction);
   };
   std::vector<BenchRow> rows;
   for (const lessons::LessonDriveConfig& drive : drives) {
-    tell(0.05 + 0.03 * static_cast<double>(rows.size()));
+    report(0.05 + 0.03 * static_cast<double>(rows.size()));
     rows.push_back(separation_row(drive, each));
   }
   const auto add = [&](std::vector<BenchRow> more) { rows.insert(rows.end(), more.begin(), more.end()); };
   add(fault_rows(drives, options.quick ? 1 : 20));
-  tell(0.7);
+  report(0.7);
   add(practice_rows(shipped_drive(assets, "skip_shifts"), options.quick));
   return rows;
 }

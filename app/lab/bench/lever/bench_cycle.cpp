@@ -36,11 +36,11 @@ Tape record_tour(const haptics::Gate& gate) {
 }
 
 constexpr std::size_t kStages = 8;
-constexpr const char* kStageNames[kStages] = {"read (tape)", "estimate", "move proxy", "couple",
-                                              "feel",        "world",    "guard",      "write (tape)"};
+constexpr const char* kStageNames[kStages] = {"read (tape)", "estimate", "move proxy", "contact force",
+                                              "gate forces", "load",     "guard",      "write (tape)"};
 
 struct CycleTimes {
-  std::vector<double> whole;                        // [ns] every cycle
+  std::vector<double> cycle;                        // [ns] every cycle
   std::array<std::vector<double>, kStages> stages;  // [ns] every 64th
 };
 
@@ -56,7 +56,7 @@ void run_tape(const haptics::Gate& gate, TapeDevice& device, std::size_t cycles,
     const auto deadline = static_cast<std::int64_t>(i) * haptics::period_ns(config);
     const std::uint64_t before = ticks();
     loop.cycle(deadline, 0);
-    times.whole.push_back(static_cast<double>(ticks() - before));
+    times.cycle.push_back(static_cast<double>(ticks() - before));
     while (channels.events.pop(event)) continue;
     if (i % haptics::StageStamps::kEvery != 0) continue;
     for (std::size_t s = 0; s < kStages; ++s) {
@@ -66,17 +66,17 @@ void run_tape(const haptics::Gate& gate, TapeDevice& device, std::size_t cycles,
 }
 
 struct Medians {
-  std::vector<double> p50, p99;  // [ns] of each tour
+  std::vector<double> p50, p99;  // [ns] quantiles of a cycle, one value per tour
   CycleTimes last;
 };
 
 void run_tour(const haptics::Gate& gate, const Tape& tape, Medians& medians) {
   TapeDevice device(tape.spec, tape.readings);
-  medians.last.whole.clear();
+  medians.last.cycle.clear();
   run_tape(gate, device, tape.readings.size(), medians.last);
-  for (double& t : medians.last.whole) t /= ticks_per_ns();
-  medians.p50.push_back(quantile(medians.last.whole, 0.5));
-  medians.p99.push_back(quantile(medians.last.whole, 0.99));
+  for (double& t : medians.last.cycle) t /= ticks_per_ns();
+  medians.p50.push_back(quantile(medians.last.cycle, 0.5));
+  medians.p99.push_back(quantile(medians.last.cycle, 0.99));
 }
 
 // Runs all tapes in turn, one tour each, so that a busy machine slows them equally.
@@ -90,7 +90,7 @@ std::vector<Medians> run_tours(const haptics::Gate& gate, std::span<const Tape> 
   return medians;
 }
 
-// Ratios of measurements taken one after the other.
+// Median and quartiles of the ratios of measurements made in the same turn.
 Timed ratio_of(const std::vector<double>& above, const std::vector<double>& below) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < above.size(); ++i) ratios.push_back(above[i] / below[i]);
@@ -107,7 +107,7 @@ Tape with_device_walls(Tape tape) {
   return tape;
 }
 
-// An unplugged device: always the same reading.
+// An unplugged device: repeats the first reading.
 Tape silent(Tape tape) {
   std::fill(tape.readings.begin(), tape.readings.end(), tape.readings.front());
   return tape;
@@ -120,22 +120,23 @@ std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
   const Tape tape = record_tour(gate), tapes[] = {tape, with_device_walls(tape), silent(tape)};
   const int runs = options.quick ? 5 : 50;
   std::vector<Medians> tours = run_tours(gate, tapes, runs, options);
-  Medians &medians = tours[0], &walls = tours[1], &lost = tours[2];
-  const Timed lost_ratio = ratio_of(lost.p50, medians.p50);
+  Medians &medians = tours[0], &walls = tours[1], &unplugged = tours[2];
+  const Timed unplugged_ratio = ratio_of(unplugged.p50, medians.p50);
   const Timed p50 = timed(medians.p50), p99 = timed(medians.p99);
-  const std::string note = "median of " + std::to_string(runs) + " tours; every 64th cycle carries nine clock reads";
+  const std::string note = "median of " + std::to_string(runs) + " tours; every 64th cycle includes nine clock reads";
   std::vector<BenchRow> rows{timed_row("whole cycle p50", p50, 200.0, note),
                              timed_row("whole cycle p99", p99, 500.0, note),
                              {"cycle", "cycles in contact", 100.0 * tape.contact_fraction, "%", 30.0, true,
                               "gripping hand, paper's gate, 1 kHz"}};
   for (BenchRow& row : rows) row.design = Design::cycle;
-  rows.push_back(timed_row("whole cycle p50, walls that the device keeps", timed(walls.p50), {}, note));
+  rows.push_back(timed_row("whole cycle p50, with walls rendered by the device", timed(walls.p50), {}, note));
   rows.push_back(
-      with_spread(lost_ratio.spread, {"cycle", "never a fresh reading, over whole cycle p50", lost_ratio.median,
-                                      "ratio", 1.0, false, "no more than with fresh ones"}));
+      with_spread(unplugged_ratio.spread,
+                  {"cycle", "cycle without fresh readings, relative to whole cycle p50", unplugged_ratio.median,
+                   "ratio", 1.0, false, "must not take longer than with fresh readings"}));
   for (std::size_t s = 0; s < kStages; ++s) {
     const std::string stage = std::string("stage ") + kStageNames[s];
-    rows.push_back(timed_row(stage, timed(medians.last.stages[s]), {}, "with one clock read, about 25 ns"));
+    rows.push_back(timed_row(stage, timed(medians.last.stages[s]), {}, "includes one clock read of about 25 ns"));
   }
   return rows;
 }

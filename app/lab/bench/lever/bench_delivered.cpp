@@ -13,15 +13,15 @@ constexpr double kWallAt = 0.005;  // [m] from the centre, where the handle's sp
 
 // Force of an ideal spring of the wanted stiffness in balance with the push, the handle's spring and the hand's spring;
 // computed, not measured. [N]
-double at_rest(const ContactCase& contact) {
-  const double wall = contact.haptics.tuning.wall_stiffness, own = contact.lever.axis_x.stiffness;
-  return wall * (contact.push - own * kWallAt) / (wall + own + contact.lever.hand.stiffness);
+double balance_force(const ContactCase& contact) {
+  const double wall = contact.haptics.tuning.wall_stiffness, spring = contact.lever.axis_x.stiffness;
+  return wall * (contact.push - spring * kWallAt) / (wall + spring + contact.lever.hand.stiffness);
 }
 
 }  // namespace
 
 std::vector<BenchRow> bench_delivered(const BenchOptions& options) {
-  double worst = 0.0, ripple = 0.0, at = 0.0;
+  double worst = 0.0, ripple = 0.0, worst_push = 0.0;
   const int steps = options.quick ? 6 : 26;
   for (const haptics::NamedHand& named : haptics::kNamedHands) {
     for (int i = 0; i < steps; ++i) {
@@ -31,8 +31,8 @@ std::vector<BenchRow> bench_delivered(const BenchOptions& options) {
       contact.push = 6.0 + 25.0 * i / (steps - 1);
       contact.duration = 1.5;
       const ContactResult one = run_contact(contact);
-      const double error = std::abs(one.delivered / at_rest(contact) - 1.0);
-      if (error > worst) at = contact.push;
+      const double error = std::abs(one.delivered / balance_force(contact) - 1.0);
+      if (error > worst) worst_push = contact.push;
       worst = std::max(worst, error);
       ripple = std::max(ripple, one.force_ripple);
     }
@@ -44,17 +44,17 @@ std::vector<BenchRow> bench_delivered(const BenchOptions& options) {
                           "%",
                           3.0,
                           false,
-                          "of what a spring of 5000 N/m gives in balance with push, handle and hand, worst of "
-                          "every hand; the just noticeable difference for gear forces is 3.2 %",
+                          "relative to a spring of 5000 N/m in balance with push, handle and hand, worst of all hands; "
+                          "the just noticeable difference for gear forces is 3.2 %",
                           true,
-                          {{"at a push of", at, "N"}}}),
+                          {{"worst at a push of", worst_push, "N"}}}),
           {"delivered",
-           "its ripple, peak-to-peak",
+           "ripple of the tip force, peak-to-peak",
            ripple,
            "N",
            {},
            false,
-           "mostly B times the encoder's count per period"}};
+           "mostly B times one encoder count per period"}};
 }
 
 }  // namespace gearshift::lab

@@ -8,14 +8,14 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kPressed = 10.0;  // [N] least wall force before the fault; the hand pushes with 15 N
+constexpr double kPressed = 10.0;  // [N] minimum wall force before the fault; the hand pushes with 15 N
 
 // before: force before the fault [N]. If it was too small, the time to zero force means nothing.
 BenchRow row(const std::string& fault, double before, int cycles, double goal, const std::string& what) {
-  BenchRow to_zero{"faults", fault + ": to zero force", static_cast<double>(cycles), "ms", goal, false, what};
+  BenchRow to_zero{"faults", fault + ": time to zero force", static_cast<double>(cycles), "ms", goal, false, what};
   to_zero.related = {{"force before", before, "N"}};
   to_zero.measured = before >= kPressed;
-  if (!to_zero.measured) to_zero.note = "not measured: there was no force to lose";
+  if (!to_zero.measured) to_zero.note = "not measured, because there was no force to lose";
   return to_zero;
 }
 
@@ -25,7 +25,7 @@ double force_of(const PressedRig& rig) {
 
 std::string state_of(const PressedRig& rig) {
   const haptics::HapticSnapshot& now = rig.loop.snapshot();
-  return std::string(haptics::guard_state_name(now.guard)) + ", " + haptics::guard_fault_name(now.fault);
+  return std::string("guard: ") + haptics::to_string(now.guard) + ", fault: " + haptics::to_string(now.fault);
 }
 
 // A load whose force becomes NaN when returns_nan is set.
@@ -55,7 +55,7 @@ BenchRow bad_force(const haptics::Gate& gate) {
   } while (++cycles < 1000 && rig.lever.written != glm::dvec2{0.0, 0.0});
   const haptics::HapticSnapshot& now = loop.snapshot();
   return row("force that is not a number", before, cycles, 1.0,
-             std::string(haptics::guard_state_name(now.guard)) + ", " + haptics::guard_fault_name(now.fault));
+             std::string("guard: ") + haptics::to_string(now.guard) + ", fault: " + haptics::to_string(now.fault));
 }
 
 }  // namespace
@@ -86,11 +86,12 @@ std::vector<BenchRow> bench_faults(const BenchOptions& options) {
     rows.push_back(row("the device's panic button", before, cycles, 1.0, state_of(rig)));
   }
   {
-    PressedRig rig(gate);  // every cycle is two periods late; only damping remains and decays with the motion
+    PressedRig rig(gate);  // every cycle is two periods late; only damping remains, and decays with the motion
     const double before = force_of(rig);
     int cycles = 0;
     for (; cycles < 1000 && glm::length(rig.lever.written) > 0.05; ++cycles) rig.run(1, 2);
-    rows.push_back(row("overruns in a row, two periods each, below 0.05 N", before, 3 * cycles, 1000.0, state_of(rig)));
+    rows.push_back(
+        row("overruns in a row of two periods each, until below 0.05 N", before, 3 * cycles, 1000.0, state_of(rig)));
   }
   rows.push_back(bad_force(gate));
   return rows;

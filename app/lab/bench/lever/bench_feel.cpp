@@ -10,7 +10,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr int kWarmUp = 600;      // [cycles] at neutral, while the guard ramps up
+constexpr int kWarmUp = 600;      // [cycles] at rest in neutral while the guard ramps the force up
 constexpr double kSpeed = 0.005;  // [m/s] slow, so that the damping force is small
 
 // Readings of a lever that moves at constant speed from neutral to the rest position of a gear.
@@ -45,7 +45,7 @@ double worst_error(const haptics::Gate& gate, const haptics::Slot& slot) {
   for (int i = 0; i < cycles; ++i) {
     loop.cycle(i * 1'000'000LL, 0);
     const double depth = side * loop.snapshot().lever.y;
-    if (depth < gate.half_aisle) continue;  // in the aisle, buffers also contribute
+    if (depth < gate.half_aisle) continue;  // in the aisle, buffers contribute, too
     const double wanted = haptics::feel_force(slot.feel, depth) - config.tuning.aisle_damping * kSpeed;
     strongest = std::max(strongest, std::abs(wanted));
     worst = std::max(worst, std::abs(side * device.written().y - wanted));
@@ -60,9 +60,10 @@ std::vector<BenchRow> bench_feel(const BenchOptions& options) {
   double worst = 0.0;
   for (int i = 0; i < gate.slot_count; ++i)
     worst = std::max(worst, worst_error(gate, gate.slot[static_cast<std::size_t>(i)]));
-  return {answers_design(Design::delivered,
-                         {"feel", "commanded force along a slot, worst error", 100.0 * worst, "% of the slot's peak",
-                          3.0, false, "every slot of the paper's gate at 5 mm/s, against the curve plus damping"})};
+  return {
+      answers_design(Design::delivered,
+                     {"feel", "commanded force along a slot, worst error", 100.0 * worst, "% of the slot's peak", 3.0,
+                      false, "every slot of the paper's gate at 5 mm/s, compared with the force curve plus damping"})};
 }
 
 }  // namespace gearshift::lab

@@ -13,11 +13,12 @@
 namespace gearshift::lab {
 namespace {
 
-std::string place_label(double rate, int delay) {
+std::string timing_label(double rate, int delay) {
   return std::to_string(static_cast<int>(rate)) + " Hz, delay " + std::to_string(delay);
 }
 
-// The shipped default at one rate and delay, with every hand: impacts of 0.1 to 1 m/s and pushes of 5, 20 and 60 N.
+// The shipped default at one rate and delay, with every listed hand: impacts at 0.1 to 1 m/s and pushes of 5, 20 and 60
+// N.
 void add_default(std::vector<BenchRow>& rows, double rate, int delay, bool quick) {
   double ripple = 0.0, ripple60 = 0.0, stiffness = 1e9;
   std::string hand = "bare";
@@ -40,14 +41,16 @@ void add_default(std::vector<BenchRow>& rows, double rate, int delay, bool quick
   }
   rows.push_back(
       {"hard",
-       "default, " + place_label(rate, delay) + ": last peak-to-peak",
+       "default, " + timing_label(rate, delay) + ": final peak-to-peak motion",
        1e3 * ripple,
        "mm",
        0.3,
        false,
-       (quick ? "0.3 and 1 m/s, 20 N, every hand; worst " : "0.1 to 1 m/s, 5 and 20 N, every hand; worst ") + hand,
+       (quick ? "0.3 and 1 m/s, 20 N, every hand; worst hand: "
+              : "0.1 to 1 m/s, 5 and 20 N, every hand; worst hand: ") +
+           hand,
        true,
-       {{"K in use", stiffness, "N/m"}, {"under 60 N, beyond the motors", 1e3 * ripple60, "mm"}}});
+       {{"K in use", stiffness, "N/m"}, {"motion under 60 N, more than the motors can give", 1e3 * ripple60, "mm"}}});
 }
 
 void add_uncertain(std::vector<BenchRow>& rows, const std::string& what, double counts, double jitter, double error,
@@ -60,12 +63,12 @@ void add_uncertain(std::vector<BenchRow>& rows, const std::string& what, double 
   const std::vector<HandOutcome> outcomes = run_campaign(campaign);
   const HandOutcome& worst = worst_ripple(outcomes);
   rows.push_back({"hard",
-                  "default, 1 kHz, " + what + ": last peak-to-peak p95",
+                  "default, 1 kHz, " + what + ": final peak-to-peak motion, p95",
                   1e3 * worst.ripple_p95,
                   "mm",
                   {},
                   false,
-                  "20 N; worst " + worst.hand,
+                  "20 N; worst hand: " + worst.hand,
                   true,
                   {{"K in use", worst.softest, "N/m"}, {"stopped by the guard", 1.0 * worst.stopped, "runs"}}});
 }
@@ -87,20 +90,22 @@ void add_limit(std::vector<BenchRow>& rows, haptics::ContactHold hold, const std
   spec.delay = delay;
   spec.axis_y = spec.axis_x;
   const double admitted = haptics::admit_tuning(config, spec, haptics::plain_aisle(0.05, 0.05)).tuning.wall_stiffness;
-  double worst = admitted < limit ? 0.0 : 1.0;  // 1: the check admitted a wall above the limit
-  std::vector<RelatedFigure> related{{"exact limit", limit, "N/m"}, {"admitted of 1.02 of it", admitted, "N/m"}};
-  for (const double share : {0.5, 0.98, 1.02}) {
-    law.stiffness = share * limit;
+  double worst = admitted < limit ? 0.0 : 1.0;  // value 1: the check admitted a wall above the limit
+  std::vector<RelatedFigure> related{{"exact limit", limit, "N/m"},
+                                     {"accepted if 1.02 times the limit is requested", admitted, "N/m"}};
+  for (const double fraction : {0.5, 0.98, 1.02}) {
+    law.stiffness = fraction * limit;
     const double predicted = haptics::spectral_radius(haptics::kPaperAxisX, named.hand, law, period);
     const double simulated = simulated_growth(haptics::kPaperAxisX, named.hand, law, period, 0.2 * limit);
-    const std::string at = std::to_string(static_cast<int>(std::lround(100.0 * share))) + " %";
+    const std::string at = std::to_string(static_cast<int>(std::lround(100.0 * fraction))) + " %";
     related.push_back({"growth at " + at, simulated, "per cycle"});
-    related.push_back({"predicted", predicted, ""});
-    if (share > 0.9) worst = std::max(worst, std::abs(simulated - predicted));
-    if ((simulated < 1.0) != (share < 1.0)) worst = 1.0;
+    related.push_back({"predicted growth at " + at, predicted, ""});
+    if (fraction > 0.9) worst = std::max(worst, std::abs(simulated - predicted));
+    if ((simulated < 1.0) != (fraction < 1.0)) worst = 1.0;
   }
-  rows.push_back({"hard", name + ", " + place_label(rate, delay) + ": growth beside the limit, error", worst,
-                  "per cycle", 0.002, false, "below it converges, above it diverges as predicted", true, related});
+  rows.push_back({"hard", name + ", " + timing_label(rate, delay) + ": error of the growth near the limit", worst,
+                  "per cycle", 0.002, false, "converges below the limit and diverges above it, as predicted", true,
+                  related});
 }
 
 }  // namespace

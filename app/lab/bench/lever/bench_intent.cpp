@@ -38,7 +38,7 @@ haptics::ShiftStyle aimed_style() {
   return style;
 }
 
-int outcome(const haptics::Gate& gate, const Aim& aim) {
+int reached(const haptics::Gate& gate, const Aim& aim) {
   haptics::SimulatedRunConfig config = touring_config(gate);
   config.lever.hand = aim.hand;
   config.haptics.guard.ramp_time = 0.01;
@@ -47,8 +47,8 @@ int outcome(const haptics::Gate& gate, const Aim& aim) {
   hand.aim_noise = kAimNoise;
   hand.seed = aim.seed;
   const int gears[] = {aim.from, aim.to};
-  const std::span<const int> way = aim.from == haptics::kNeutralGear ? std::span(gears).subspan(1) : std::span(gears);
-  std::vector<haptics::HandStroke> strokes = haptics::shift_strokes(gate, config.start, way, aimed_style());
+  const std::span<const int> route = aim.from == haptics::kNeutralGear ? std::span(gears).subspan(1) : std::span(gears);
+  std::vector<haptics::HandStroke> strokes = haptics::shift_strokes(gate, config.start, route, aimed_style());
   if (aim.from != haptics::kNeutralGear) strokes.erase(strokes.begin());  // the lever starts in that gear
   haptics::ScriptedHand driver(hand, std::move(strokes), 0.001);
   haptics::SimulatedRun run(config, driver);
@@ -65,7 +65,7 @@ std::vector<std::string> gates_in(const std::string& folder) {
   return names;
 }
 
-constexpr int kMaxListedMisses = 12;  // listed in the row's note
+constexpr int kMaxListedMisses = 12;  // missed gears are listed in the row's note
 
 BenchRow intent_row(const haptics::Gate& gate, const std::string& name, int aims) {
   std::mt19937_64 random(1);
@@ -73,15 +73,15 @@ BenchRow intent_row(const haptics::Gate& gate, const std::string& name, int aims
   std::string listed;
   for (int i = 0; i < aims; ++i) {
     const Aim aim = random_aim(gate, random);
-    const int got = outcome(gate, aim);
-    if (got == aim.to || ++misses > kMaxListedMisses) continue;
+    const int reached_gear = reached(gate, aim);
+    if (reached_gear == aim.to || ++misses > kMaxListedMisses) continue;
     listed += std::string(" ") + haptics::gear_name(aim.from) + ">" + haptics::gear_name(aim.to) + ":" +
-              haptics::gear_name(got);
+              haptics::gear_name(reached_gear);
   }
-  return answers_design(
-      Design::intent,
-      {"intent", name, 100.0 * (aims - misses) / aims, "% as meant", 99.0, true,
-       std::to_string(aims) + " aims, 3 mm noise, misses (from>meant:got):" + (misses == 0 ? " none" : listed)});
+  return answers_design(Design::intent,
+                        {"intent", name, 100.0 * (aims - misses) / aims, "% as intended", 99.0, true,
+                         std::to_string(aims) + " aims with 3 mm noise; misses (from>intended:reached):" +
+                             (misses == 0 ? " none" : listed)});
 }
 
 }  // namespace

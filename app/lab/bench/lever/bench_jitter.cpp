@@ -1,4 +1,5 @@
-// Wake-up lateness of the loop's thread compared with cyclictest, without load and beside threads that stream memory.
+// Wake-up lateness of the loop's thread compared with cyclictest, on an idle machine and with threads that stream
+// memory.
 #include <atomic>
 #include <thread>
 

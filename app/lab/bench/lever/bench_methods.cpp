@@ -22,26 +22,26 @@ namespace {
 using glm::dvec2;
 
 constexpr double kWanted = 5000.0;     // [N/m]
-constexpr double kDisplayedOf = 0.97;  // [1] least displayed fraction to be compared, from the design table
+constexpr double kDisplayedOf = 0.97;  // [1] least displayed fraction of a method to be compared, from the design table
 
 struct Method {
   std::string name;
   haptics::ContactHold hold;
-  double damping;  // [N s/m]; below 0: K T / 2, Minsky's 0.5 of (22)
+  double damping;  // [N s/m]; negative: K T / 2, Minsky's 0.5 of the paper's (22)
   haptics::EnergyControl control = haptics::EnergyControl::none;
 };
 
-struct Place {
+struct LoopTiming {
   double rate;  // [Hz]
   int delay;    // [samples]
 };
 
-double damping_of(const Method& method, const Place& at) {
+double damping_of(const Method& method, const LoopTiming& at) {
   return method.damping >= 0.0 ? method.damping : std::min(100.0, kWanted / (2.0 * at.rate));
 }
 
 // Cost of a contact cycle for a lever that trembles in and out of a wall. [ns]
-double cost_once(const Method& method, const Place& at) {
+double cost_once(const Method& method, const LoopTiming& at) {
   constexpr int kCycles = 5000;
   haptics::DeviceSpec spec;
   spec.delay = at.delay;
@@ -80,30 +80,30 @@ double cost_once(const Method& method, const Place& at) {
 }
 
 // Costs of the methods. They alternate, so that a busy machine slows them equally. [ns]
-std::vector<Timed> costs(std::span<const Method> methods, const Place& at) {
-  std::vector<std::vector<double>> taken(methods.size());
+std::vector<Timed> costs(std::span<const Method> methods, const LoopTiming& at) {
+  std::vector<std::vector<double>> durations(methods.size());
   for (int round = 0; round < 21; ++round) {
-    for (std::size_t m = 0; m < methods.size(); ++m) taken[m].push_back(cost_once(methods[m], at));
+    for (std::size_t m = 0; m < methods.size(); ++m) durations[m].push_back(cost_once(methods[m], at));
   }
   std::vector<Timed> ns;
-  for (std::vector<double>& of_method : taken) ns.push_back(timed(of_method));
+  for (std::vector<double>& of_method : durations) ns.push_back(timed(of_method));
   return ns;
 }
 
 // Exact stability limit for the worst hand and axis. [N/m]
-double stiffest(const Method& method, const Place& at) {
+double stability_limit(const Method& method, const LoopTiming& at) {
   haptics::ContactLaw law;
   law.hold = method.hold;
   law.damping = damping_of(method, at);
   law.delay = at.delay;
-  double most = 1e9;
+  double limit = 1e9;
   for (const haptics::NamedHand& named : haptics::kNamedHands)
     for (const haptics::AxisModel& axis : {haptics::kPaperAxisX, haptics::kPaperAxisY})
-      most = std::min(most, haptics::stiffness_limit(axis, named.hand, law, 1.0 / at.rate));
-  return most;
+      limit = std::min(limit, haptics::stiffness_limit(axis, named.hand, law, 1.0 / at.rate));
+  return limit;
 }
 
-ContactCase contact_of(const Method& method, const Place& at) {
+ContactCase contact_of(const Method& method, const LoopTiming& at) {
   ContactCase contact;
   contact.haptics.rate = at.rate;
   contact.haptics.contact = {method.hold, method.control, false, true};
@@ -114,8 +114,8 @@ ContactCase contact_of(const Method& method, const Place& at) {
   return contact;
 }
 
-// True if the shipped default uses this method there and its wall of 5000 N/m is admitted unchanged.
-bool is_default(const Method& method, const Place& at) {
+// True if the shipped default uses this method at this timing and admits a wall of 5000 N/m unchanged.
+bool is_default(const Method& method, const LoopTiming& at) {
   haptics::HapticConfig config;
   config.rate = at.rate;
   haptics::DeviceSpec spec;
@@ -125,51 +125,52 @@ bool is_default(const Method& method, const Place& at) {
          admitted.tuning.wall_stiffness == kWanted && config.contact.energy_control == method.control;
 }
 
-std::string place_label(const Place& at) {
+std::string timing_label(const LoopTiming& at) {
   return std::to_string(static_cast<int>(at.rate)) + " Hz, delay " + std::to_string(at.delay);
 }
 
-BenchRow row_of(const Method& method, const Place& at, const Timed& ns, const BenchOptions& options) {
+BenchRow row_of(const Method& method, const LoopTiming& at, const Timed& ns, const BenchOptions& options) {
   Campaign campaign;
   campaign.contact = contact_of(method, at);
   campaign.runs = options.quick ? 3 : 100;
   const std::vector<HandOutcome> outcomes = run_campaign(campaign);
   const HandOutcome& worst = worst_ripple(outcomes);
   const ImpactEnergy energy = run_impacts(contact_of(method, at), options.quick ? 5 : 100);
-  const double displayed = least_displayed(outcomes);
+  const double displayed = min_displayed(outcomes);
   const RelatedFigure cycle{"cost", ns.median, "ns", ns.spread};
   BenchRow row{"methods",
-               place_label(at) + ": " + method.name,
+               timing_label(at) + ": " + method.name,
                1e3 * worst.ripple_p95,
                "mm",
                {},
                false,
-               "last peak-to-peak p95, 20 N, worst hand: " + worst.hand,
+               "p95 of the final peak-to-peak motion, 20 N, worst hand: " + worst.hand,
                true,
-               {{"displayed error", 100.0 * (1.0 - displayed), "%"},
-                {"energy per contact, mean", 100.0 * energy.mean_share, "% of the impact"},
-                {"worst", 100.0 * energy.worst_share, "%"},
+               {{"error of the displayed stiffness", 100.0 * (1.0 - displayed), "%"},
+                {"mean energy per contact", 100.0 * energy.mean_fraction, "% of the impact"},
+                {"worst energy per contact", 100.0 * energy.worst_fraction, "%"},
                 cycle}};
   if (displayed >= kDisplayedOf) {
-    row.trade = Trade{place_label(at) + ": walls that display 97 %",
+    row.trade = Trade{timing_label(at) + ": walls that display 97 % of their stiffness",
                       method.name,
                       cycle,
-                      {"last peak-to-peak, p95", row.value, "mm"},
+                      {"final peak-to-peak motion, p95", row.value, "mm"},
                       is_default(method, at)};
   }
-  if (method.control == haptics::EnergyControl::none) row.related.push_back({"K limit", stiffest(method, at), "N/m"});
+  if (method.control == haptics::EnergyControl::none)
+    row.related.push_back({"K limit", stability_limit(method, at), "N/m"});
   return row;
 }
 
-// A longer window is smoother but later. Cost: the damping force caused by one encoder count. Error: the lost
-// stiffness.
+// A longer window gives a smoother but later velocity. Cost: the damping force caused by one encoder count. Error: the
+// lost stiffness.
 Trade window_trade(int window, double damping, double limit) {
   const haptics::SimulatedLeverConfig lever;
   const double count = lever.yoke.radius * std::numbers::pi / 180.0 / lever.encoder_counts;  // [m] at the tip
   const double tremble = damping * count / (0.001 * window);
   return {"velocity window at 1 kHz, B = " + std::to_string(static_cast<int>(damping)) + " N s/m",
-          "over " + std::to_string(window) + " ms",
-          {"force of one count by the damper", tremble, "N"},
+          "window of " + std::to_string(window) + " ms",
+          {"damping force of one encoder count", tremble, "N"},
           {"least stable compliance", 1e6 / limit, "um/N"},
           window == haptics::EstimatorConfig{}.window};
 }
@@ -183,7 +184,7 @@ void add_windows(std::vector<BenchRow>& rows, const BenchOptions& options) {
                  "N/m",
                  {},
                  false,
-                 "X axis, bare; a textbook spring and damper",
+                 "X axis without a hand; textbook spring and damper",
                  true,
                  {}};
     const double wanted = haptics::HapticTuning{}.wall_damping;
@@ -191,7 +192,8 @@ void add_windows(std::vector<BenchRow>& rows, const BenchOptions& options) {
       haptics::ContactLaw law{haptics::ContactHold::zero_order, 0.0, damping, window};
       const double limit = haptics::stiffness_limit(haptics::kPaperAxisX, haptics::kBareHand, law, 0.001);
       if (damping == 0.0) row.value = limit;
-      if (damping > 0.0) row.related.push_back({"B = " + std::to_string(static_cast<int>(damping)), limit, "N/m"});
+      if (damping > 0.0)
+        row.related.push_back({"K limit with B = " + std::to_string(static_cast<int>(damping)), limit, "N/m"});
       if (damping == wanted) row.trade = window_trade(window, damping, limit);
     }
     rows.push_back(row);
@@ -205,12 +207,12 @@ void add_windows(std::vector<BenchRow>& rows, const BenchOptions& options) {
     const ContactResult one = run_contact(contact);
     rows.push_back({"methods",
                     "5000 N/m, velocity over " + std::to_string(window) +
-                        " ms, B = " + std::to_string(static_cast<int>(damping)) + ": last peak-to-peak",
+                        " ms, B = " + std::to_string(static_cast<int>(damping)) + ": final peak-to-peak motion",
                     1e3 * one.ripple,
                     "mm",
                     {},
                     false,
-                    "X axis, bare, 20 N, no quantisation",
+                    "X axis without a hand, 20 N, no quantisation",
                     true,
                     {}});
   }
@@ -230,9 +232,9 @@ std::vector<BenchRow> bench_methods(const BenchOptions& options) {
                              haptics::EnergyControl::energy_bounding},
                             {"half-sample hold, B = 10, with energy bounding", haptics::ContactHold::half_sample, 10.0,
                              haptics::EnergyControl::energy_bounding}};
-  const Place places[] = {{1000, 0}, {1000, 1}, {1000, 2}, {500, 0}, {200, 0}};
+  const LoopTiming timings[] = {{1000, 0}, {1000, 1}, {1000, 2}, {500, 0}, {200, 0}};
   std::vector<BenchRow> rows;
-  for (const Place& at : places) {
+  for (const LoopTiming& at : timings) {
     const std::vector<Timed> ns = costs(methods, at);
     for (std::size_t m = 0; m < std::size(methods); ++m) {
       if (options.progress) options.progress("methods", static_cast<double>(rows.size()) / 40.0);

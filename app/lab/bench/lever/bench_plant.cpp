@@ -47,7 +47,7 @@ haptics::AxisState runge_kutta4(const haptics::AxisModel& axis, haptics::AxisSta
 
 struct Result {
   double error = 0.0;      // [1] relative
-  std::vector<double> ns;  // per step, one value per round
+  std::vector<double> ns;  // [ns] per step, one value per round
 };
 
 template <class Step>
@@ -74,14 +74,14 @@ BenchRow plant_row(const std::string& method, const std::string& at, Result resu
                "relative",
                {},
                false,
-               "after 0.5 s under 10 N, against the sum of two exponentials",
+               "error after 0.5 s under a 10 N force, compared with the exact solution (two exponentials)",
                true,
                {cost}};
   row.trade = Trade{"plant " + at, method, cost, {"error", result.error, "relative"}};
   return row;
 }
 
-// Marks the method that the simulated lever uses.
+// Marks the row of the method that the simulated lever uses.
 BenchRow shipped(BenchRow row) {
   row.goal = 1e-12;
   row.trade->chosen = true;
@@ -92,7 +92,7 @@ BenchRow shipped(BenchRow row) {
 
 // The methods alternate, so that a busy machine slows them equally.
 std::vector<BenchRow> bench_plant(const BenchOptions&) {
-  constexpr int kRounds = 21;  // the cost is the median over these
+  constexpr int kRounds = 21;  // rounds whose median is the cost
   std::vector<BenchRow> rows;
   const haptics::AxisModel axis = haptics::kPaperAxisX;
   for (const double period : {0.001, 0.01}) {

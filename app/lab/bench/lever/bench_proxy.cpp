@@ -1,5 +1,5 @@
 // Compares methods of finding the proxy while the lever moves straight from gear to gear through all walls: cost, and
-// distance from a walk in steps of 20 um.
+// distance from the proxy found in steps of 20 um.
 #include <cmath>
 #include <functional>
 #include <random>
@@ -21,7 +21,7 @@ using Path = std::vector<glm::dvec2>;
 constexpr double kPeriod = 0.001;    // [s]
 constexpr double kThrow = 1.0;       // [m/s]
 constexpr double kFineStep = 20e-6;  // [m]
-constexpr double kFarError = 1e-3;   // [m] from this error on, the proxy is in another place of the gate
+constexpr double kFarError = 1e-3;   // [m] from this error on, the proxy is in a different part of the gate
 
 Path thrown_lever(const haptics::Gate& gate, int throws) {
   std::mt19937_64 random(3);
@@ -78,14 +78,14 @@ BenchRow row_of(ProxyMethod& method, const Path& truth) {
   const Timed ns = timed(method.ns);
   const RelatedFigure cost{"cost", ns.median, "ns", ns.spread};
   BenchRow row{"proxy",
-               method.name + ": mean distance from a walk in steps of 20 um",
+               method.name + ": mean distance from a reference walk in steps of 20 um",
                1e3 * sum / samples,
                "mm",
                {},
                false,
-               "paper's gate, thrown from gear to gear at 1 m/s, 1 kHz",
+               "a lever thrown from gear to gear at 1 m/s, paper's gate, 1 kHz",
                true,
-               {cost, {"farther than 1 mm", 100.0 * far_off / samples, "%"}}};
+               {cost, {"farther away than 1 mm", 100.0 * far_off / samples, "%"}}};
   row.trade =
       Trade{"a lever thrown through the walls", method.name, cost, {"mean distance", row.value, "mm"}, method.chosen};
   return row;
@@ -97,7 +97,7 @@ std::vector<BenchRow> bench_proxy(const BenchOptions& options) {
   const haptics::Gate gate = bench_gate(options.gate_folder, "paper");
   const Path lever = thrown_lever(gate, options.quick ? 20 : 200), truth = walked(gate, lever, kFineStep);
   std::vector<ProxyMethod> methods{{"nearest point of free space", [&] { return nearest(gate, lever); }},
-                                   {"walk, once a cycle", [&] { return walked(gate, lever, 1.0); }, true},
+                                   {"walk, once per cycle", [&] { return walked(gate, lever, 1.0); }, true},
                                    {"walk, steps of 0.2 mm", [&] { return walked(gate, lever, 0.2e-3); }},
                                    {"walk, steps of 0.05 mm", [&] { return walked(gate, lever, 0.05e-3); }}};
   for (int round = 0; round < 11; ++round) {  // the methods alternate, so that a busy machine slows them equally

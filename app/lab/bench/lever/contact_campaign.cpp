@@ -41,7 +41,7 @@ HandOutcome run_hand(const Campaign& campaign, const haptics::NamedHand& named) 
     out.stopped += one.stopped;
   }
   out.ripple_p95 = quantile(ripple, 0.95);
-  out.ripple_most = quantile(ripple, 1.0);
+  out.ripple_max = quantile(ripple, 1.0);
   out.force_ripple = quantile(force_ripple, 0.95);
   return out;
 }
@@ -60,15 +60,15 @@ const HandOutcome& worst_ripple(const std::vector<HandOutcome>& outcomes) {
 }
 
 double deepest(const std::vector<HandOutcome>& outcomes) {
-  double most = 0.0;
-  for (const HandOutcome& outcome : outcomes) most = std::max(most, outcome.peak);
-  return most;
+  double max_peak = 0.0;
+  for (const HandOutcome& outcome : outcomes) max_peak = std::max(max_peak, outcome.peak);
+  return max_peak;
 }
 
-double least_displayed(const std::vector<HandOutcome>& outcomes) {
-  double least = 1e9;
-  for (const HandOutcome& outcome : outcomes) least = std::min(least, outcome.displayed);
-  return least;
+double min_displayed(const std::vector<HandOutcome>& outcomes) {
+  double min_ratio = 1e9;
+  for (const HandOutcome& outcome : outcomes) min_ratio = std::min(min_ratio, outcome.displayed);
+  return min_ratio;
 }
 
 ImpactEnergy run_impacts(ContactCase contact, int phases) {
@@ -83,9 +83,9 @@ ImpactEnergy run_impacts(ContactCase contact, int phases) {
       contact.speed = speed;
       contact.phase = (i + 0.5) / phases;
       const ContactResult one = run_contact(contact);
-      out.worst_share = std::max(out.worst_share, one.energy / one.impact);
+      out.worst_fraction = std::max(out.worst_fraction, one.energy / one.impact);
       out.worst = std::max(out.worst, one.energy);
-      out.mean_share += one.energy / one.impact / (4.0 * phases);
+      out.mean_fraction += one.energy / one.impact / (4.0 * phases);
       out.restitution = std::max(out.restitution, one.restitution);
       out.surplus = std::max(out.surplus, one.energy - one.damped);
     }

@@ -12,9 +12,9 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kWall = 0.005;      // [m] near the centre, where plane and arc agree within 0.1 %
-constexpr double kApproach = 0.015;  // [s] at a steady speed before the contact
-constexpr double kStill = 0.100;     // [s] at rest before that, while the loop arms and its filters settle
+constexpr double kWall = 0.005;      // [m] near the centre, where positions in plane and arc agree within 0.1 %
+constexpr double kApproach = 0.015;  // [s] moving at a steady speed before the contact
+constexpr double kStill = 0.100;     // [s] at rest before moving, while the loop arms and its filters settle
 
 // Moves the lever to the wall at a steady speed, then rests there and pushes.
 class CarryingHand final : public haptics::HandDriver {

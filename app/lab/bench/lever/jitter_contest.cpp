@@ -29,11 +29,11 @@ constexpr std::array<double, 2> kQuantiles{0.99, 0.999};
 
 struct Lateness {
   std::array<double, 2> us{};  // at kQuantiles
-  double cycle_us = 0.0;       // duration of a cycle at the last quantile; only ours
+  double cycle_us = 0.0;       // [us] duration of a cycle at the last quantile; only for our loop
   double overruns = 0.0;       // only ours
 };
 
-// Called several times a second, so that the bench can be interrupted within a block: it may throw.
+// Called several times per second. May throw, so that the bench can be interrupted within a block.
 using Pulse = std::function<void()>;
 constexpr std::chrono::milliseconds kPulse{250};
 
@@ -44,7 +44,7 @@ void wait_for(double seconds, const Pulse& pulse) {
 }
 
 // Runs the shipped loop with the simulated lever on the real-time thread for `seconds`.
-Lateness run_ours(const haptics::Gate& gate, double seconds, std::int64_t spin_ns, int core, const Pulse& pulse) {
+Lateness run_loop(const haptics::Gate& gate, double seconds, std::int64_t spin_ns, int core, const Pulse& pulse) {
   haptics::SimulatedRunConfig config = touring_config(gate);
   haptics::ScriptedHand driver = touring_driver(gate, 0.001);
   haptics::SimulatedRun run(config, driver);
@@ -124,10 +124,10 @@ Lateness run_cyclictest(double seconds, int core, const Pulse& pulse) {
   for (const std::uint64_t n : histogram) total += n;
   Lateness result;
   for (std::size_t i = 0; i < 2; ++i) {
-    double seen = 0.0;
+    double counted = 0.0;
     for (std::size_t us = 0; us < histogram.size(); ++us) {
-      seen += static_cast<double>(histogram[us]);
-      if (seen < kQuantiles[i] * static_cast<double>(total)) continue;
+      counted += static_cast<double>(histogram[us]);
+      if (counted < kQuantiles[i] * static_cast<double>(total)) continue;
       result.us[i] = static_cast<double>(us) + 1.0;  // upper edge
       break;
     }
@@ -142,7 +142,7 @@ double upper_edge(double us) {
 
 struct Contest {
   std::array<std::vector<double>, 2> theirs, sleeping, spinning, sleeping_ratio, spinning_ratio;
-  std::vector<double> cycle_us;  // while spinning, as shipped
+  std::vector<double> cycle_us;  // with spinning, as shipped
   double overruns = 0.0;         // in all blocks
 };
 
@@ -153,8 +153,8 @@ Contest compete(const haptics::Gate& gate, const BenchOptions& options, const st
   for (int b = 0; b < blocks; ++b) {
     const Pulse pulse = [&] { progress(static_cast<double>(b) / blocks); };
     const Lateness theirs = run_cyclictest(options.jitter_block, core, pulse);
-    const Lateness sleeping = run_ours(gate, options.jitter_block, 0, core, pulse);
-    const Lateness spinning = run_ours(gate, options.jitter_block, haptics::RealtimeConfig{}.spin_ns, core, pulse);
+    const Lateness sleeping = run_loop(gate, options.jitter_block, 0, core, pulse);
+    const Lateness spinning = run_loop(gate, options.jitter_block, haptics::RealtimeConfig{}.spin_ns, core, pulse);
     contest.cycle_us.push_back(spinning.cycle_us);
     contest.overruns += spinning.overruns + sleeping.overruns;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -165,7 +165,7 @@ Contest compete(const haptics::Gate& gate, const BenchOptions& options, const st
       contest.spinning_ratio[i].push_back(upper_edge(spinning.us[i]) / theirs.us[i]);
     }
   }
-  progress(1.0);  // if interrupted in the last block, this throws, so the family does not count as complete
+  progress(1.0);  // throws if the last block was interrupted, so that the family does not count as complete
   return contest;
 }
 
@@ -175,14 +175,14 @@ BenchRow block_row(const std::string& family, const std::string& what, std::vect
   return with_spread(blocks.spread, {family, what, blocks.median, unit, {}, false, note});
 }
 
-// True if there are as many and as long blocks as the design requires. Others only describe the minute of the run.
+// True if the blocks are as many and as long as the design requires. Fewer or shorter ones get no verdict.
 bool is_judged(const BenchOptions& options) {
   return !options.quick && options.jitter_block >= kDesignBlock;
 }
 
 // Adds our lateness and the median of its ratio to cyclictest's, both in whole microseconds. The goal is for the ratio.
-void add_ours(std::vector<BenchRow>& rows, const std::string& family, const std::string& what, std::vector<double>& us,
-              std::vector<double>& ratio, const std::string& note, bool judged) {
+void add_loop_rows(std::vector<BenchRow>& rows, const std::string& family, const std::string& what,
+                   std::vector<double>& us, std::vector<double>& ratio, const std::string& note, bool judged) {
   rows.push_back(block_row(family, "ours, " + what, us, "us", note));
   rows.push_back(answers_design(Design::jitter, block_row(family, "ours / cyclictest, " + what, ratio, "ratio", note)));
   if (judged) rows.back().goal = 1.2;
@@ -195,14 +195,14 @@ std::vector<BenchRow> rows_of(Contest& contest, const BenchOptions& options, con
   const std::string each = std::to_string(static_cast<int>(options.jitter_block)) + " s";
   const std::string note = (blocks == 1 ? "one block of " + each
                                         : "median of " + std::to_string(blocks) + " alternating blocks of " + each) +
-                           (judged ? "" : ": too few or too short for a verdict");
+                           (judged ? "" : "; too few or too short for a verdict");
   std::vector<BenchRow> rows;
   for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
     std::string at = i == 0 ? "p99" : "p99.9";
     at += where;
     rows.push_back(block_row(family, "cyclictest, " + at, contest.theirs[i], "us", note));
-    add_ours(rows, family, "sleep only, " + at, contest.sleeping[i], contest.sleeping_ratio[i], note, judged);
-    add_ours(rows, family, "spin 50 us, " + at, contest.spinning[i], contest.spinning_ratio[i], note, judged);
+    add_loop_rows(rows, family, "sleep only, " + at, contest.sleeping[i], contest.sleeping_ratio[i], note, judged);
+    add_loop_rows(rows, family, "spin 50 us, " + at, contest.spinning[i], contest.spinning_ratio[i], note, judged);
   }
   rows.push_back(block_row(family, "ours, work of a cycle, p99.9" + where, contest.cycle_us, "us", note));
   rows.back().related.push_back({"overruns in all blocks", contest.overruns, ""});
@@ -210,7 +210,7 @@ std::vector<BenchRow> rows_of(Contest& contest, const BenchOptions& options, con
 }
 
 BenchRow not_measurable(const std::string& family, const std::string& why) {
-  BenchRow row{family, "wake-up lateness", 0.0, "us", {}, false, "not measurable: " + why};
+  BenchRow row{family, "wake-up lateness", 0.0, "us", {}, false, "not measurable, because " + why};
   row.measured = false;
   row.goal = 1.2;
   return answers_design(Design::jitter, std::move(row));
@@ -219,11 +219,11 @@ BenchRow not_measurable(const std::string& family, const std::string& why) {
 }  // namespace
 
 std::vector<BenchRow> jitter_rows(const BenchOptions& options, const std::string& family, const JitterLoad& load,
-                                  double share_from, double share_to) {
+                                  double progress_begin, double progress_end) {
   if (std::system("command -v cyclictest >/dev/null 2>&1") != 0)
     return {not_measurable(family, "cyclictest (package rt-tests) is not installed")};
-  const auto progress = [&](double share) {
-    if (options.progress) options.progress(family, share_from + share * (share_to - share_from));
+  const auto progress = [&](double fraction) {
+    if (options.progress) options.progress(family, progress_begin + fraction * (progress_end - progress_begin));
   };
   try {
     const haptics::Gate gate = bench_gate(options.gate_folder, "paper");

@@ -11,15 +11,15 @@
 
 namespace gearshift::lab {
 
-// A load that runs beside both contestants from start() until the returned object is destroyed.
+// A load that runs beside loop and cyclictest from start() until the returned object is destroyed.
 struct JitterLoad {
-  std::string where;  // end of the rows' names: ", alone"
+  std::string where;  // suffix of the rows' names: ", alone"
   std::function<std::shared_ptr<void>()> start;
 };
 
 // Returns one row "not measurable" if cyclictest is missing or has no real-time rights. family: family of the rows.
-// Progress is reported from share_from to share_to.
+// Progress is reported from progress_begin to progress_end.
 std::vector<BenchRow> jitter_rows(const BenchOptions& options, const std::string& family, const JitterLoad& load,
-                                  double share_from, double share_to);
+                                  double progress_begin, double progress_end);
 
 }  // namespace gearshift::lab

@@ -20,7 +20,7 @@ inline constexpr std::int64_t kPeriodNs = 1'000'000;
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// The simulated lever with a saboteur between it and the loop; it does not re-arm itself.
+// The simulated lever with a function (`sabotage`) that falsifies its readings; it does not re-arm itself.
 class SabotagedLever final : public haptics::HapticDevice {
  public:
   SabotagedLever(haptics::HandDriver& hand, glm::dvec2 start) : lever_({}, kPeriodNs, hand), spec_(lever_.spec()) {
@@ -91,11 +91,11 @@ struct PressedRig {
   double strongest = 0.0;
 };
 
-// A way for readings to fail from the time when the saboteur is installed.
+// A fault of the readings, from the time when its sabotage function is installed.
 struct Fault {
   const char* name;
-  std::function<std::function<void(haptics::LeverReading&)>()> sabotage;  // creates a new saboteur each time
-  // [cycles of 1 ms] guaranteed limit until the force is zero
+  std::function<std::function<void(haptics::LeverReading&)>()> sabotage;  // creates a new sabotage function each time
+  // [cycles of 1 ms] guaranteed upper limit of the time to zero force
   int within;
 };
 
@@ -111,11 +111,12 @@ inline std::vector<Fault> reading_faults() {
          });
        },
        42},
-      {"NaN position", [] { return Saboteur([](haptics::LeverReading& r) { r.position.x = kNan; }); }, 42},
-      {"infinite position", [] { return Saboteur([](haptics::LeverReading& r) { r.position.y = kInf; }); }, 42},
-      {"sequence stands still", [] { return Saboteur([](haptics::LeverReading& r) { r.sequence = 7; }); }, 42},
-      {"time runs backward", [] { return Saboteur([](haptics::LeverReading& r) { r.time_ns = -r.time_ns; }); }, 42},
-      {"jumps about at random",
+      {"with a NaN position", [] { return Saboteur([](haptics::LeverReading& r) { r.position.x = kNan; }); }, 42},
+      {"with an infinite position", [] { return Saboteur([](haptics::LeverReading& r) { r.position.y = kInf; }); }, 42},
+      {"with a frozen sequence number", [] { return Saboteur([](haptics::LeverReading& r) { r.sequence = 7; }); }, 42},
+      {"with time running backward", [] { return Saboteur([](haptics::LeverReading& r) { r.time_ns = -r.time_ns; }); },
+       42},
+      {"jumps at random",
        [] {
          return Saboteur([n = 0](haptics::LeverReading& r) mutable {
            ++n;

@@ -1,4 +1,4 @@
-// The six-gear tour of the paper's gate by a gripping hand, during which the haptic cycle is measured.
+// A gripping hand shifts through the six gears of the paper's gate while the haptic cycle is measured.
 #pragma once
 
 #include <string>

@@ -15,10 +15,10 @@ using glm::dvec2;
 
 constexpr double kGrownWall = 0.002;  // [m]
 constexpr double kDepth = 0.002;      // [m] at rest
-constexpr double kFar = 0.05;         // [1] fraction of that depth at which a disturbance has grown; still linear there
-constexpr int kSettle = 12000;        // [cycles] on a softer, stable wall
-constexpr int kRamp = 3000;           // [cycles] from that to the wall under test, at constant depth
-constexpr int kCycles = 6000;         // [cycles] on that wall at most
+constexpr double kFar = 0.05;         // [1] fraction of the depth that a disturbance must reach; still linear there
+constexpr int kSettle = 12000;        // [cycles] to settle on a softer, stable wall
+constexpr int kRamp = 3000;           // [cycles] from the softer wall to the wall under test, at constant depth
+constexpr int kCycles = 6000;         // [cycles] longest run on the wall under test
 
 // Presses the lever into the wall and holds it there with the hand's spring.
 class PressingHand final : public haptics::HandDriver {
@@ -67,11 +67,11 @@ double span(const std::vector<double>& x, std::size_t from, std::size_t to) {
 
 // Growth of the motion's span per cycle, from the second to the last third of the record.
 double growth(const std::vector<double>& x) {
-  const std::size_t stretch = x.size() / 3;
-  if (stretch < 10) return HUGE_VAL;  // diverged immediately
-  const double early = span(x, stretch, 2 * stretch), late = span(x, 2 * stretch, 3 * stretch);
-  if (early < 1e-12) return 0.0;  // [m] decayed to rounding errors
-  return std::pow(late / early, 1.0 / static_cast<double>(stretch));
+  const std::size_t third = x.size() / 3;
+  if (third < 10) return HUGE_VAL;  // diverged immediately
+  const double early = span(x, third, 2 * third), late = span(x, 2 * third, 3 * third);
+  if (early < 1e-12) return 0.0;  // [m] smaller motion consists of rounding errors
+  return std::pow(late / early, 1.0 / static_cast<double>(third));
 }
 
 }  // namespace
@@ -83,14 +83,14 @@ double simulated_growth(const haptics::AxisModel& handle, const haptics::HandImp
   config.haptics.tuning.wall_stiffness = settle;
   haptics::SimulatedRun run(config, driver);
   const auto press = [&](int n) {  // sets the push that balances the wall force of cycle n when that force takes effect
-    const double share = std::clamp(static_cast<double>(n - law.delay) / kRamp, 0.0, 1.0);
-    const double stiffness = settle + share * (law.stiffness - settle);
+    const double fraction = std::clamp(static_cast<double>(n - law.delay) / kRamp, 0.0, 1.0);
+    const double stiffness = settle + fraction * (law.stiffness - settle);
     driver.push = stiffness * kDepth + handle.stiffness * (kGrownWall + kDepth);
   };
   for (int n = -kSettle; n < kRamp + law.delay; ++n) {
     press(n - 1);
-    const double share = std::clamp(static_cast<double>(n) / kRamp, 0.0, 1.0);
-    config.haptics.tuning.wall_stiffness = settle + share * (law.stiffness - settle);
+    const double fraction = std::clamp(static_cast<double>(n) / kRamp, 0.0, 1.0);
+    config.haptics.tuning.wall_stiffness = settle + fraction * (law.stiffness - settle);
     run.channels().tuning.write(config.haptics.tuning);
     run.step();
   }

@@ -5,9 +5,9 @@
 
 namespace gearshift::lab {
 
-// Simulated counterpart of spectral_radius(): growth of the disturbance per cycle. [1] settle: stiffness of a softer,
-// stable wall on which the lever settles first [N/m]. Without quantisation and saturation. Throws std::invalid_argument
-// if the loop rejects the values.
+// Simulated counterpart of spectral_radius(): growth of the disturbance per cycle [1], without quantisation and
+// saturation. settle: stiffness of a softer, stable wall on which the lever settles first [N/m]. Throws
+// std::invalid_argument if the loop rejects the values.
 double simulated_growth(const haptics::AxisModel& handle, const haptics::HandImpedance& hand,
                         const haptics::ContactLaw& law, double period, double settle);
 

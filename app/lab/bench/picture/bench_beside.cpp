@@ -1,4 +1,4 @@
-// Wake-up lateness of the haptic thread beside the renderer at full load: the cabin is drawn without pauses.
+// Wake-up lateness of the haptic thread while the renderer draws the cabin without pauses.
 #include <atomic>
 #include <thread>
 
@@ -8,27 +8,27 @@
 namespace gearshift::lab {
 namespace {
 
-class FlatOutRenderer {
+class BusyRenderer {
  public:
-  FlatOutRenderer(const BenchOptions& options, std::atomic<int>& frames)
+  BusyRenderer(const BenchOptions& options, std::atomic<int>& frames)
       : cabin_(paper_cabin(options)), stage_(cabin_, options.model_folder), renderer_(gpu_, {}), frames_(frames) {
     renderer_.set_model(stage_.model());
-    stage_.place(in_first(cabin_.gate));
+    stage_.place(in_first_gear(cabin_.gate));
     draw();  // the first frame is special, so it is not part of the load
     thread_ = std::thread([this] {
       while (!stop_) draw();
     });
   }
-  ~FlatOutRenderer() {
+  ~BusyRenderer() {
     stop_ = true;
     thread_.join();
   }
-  FlatOutRenderer(const FlatOutRenderer&) = delete;
-  FlatOutRenderer& operator=(const FlatOutRenderer&) = delete;
+  BusyRenderer(const BusyRenderer&) = delete;
+  BusyRenderer& operator=(const BusyRenderer&) = delete;
 
  private:
   void draw() {
-    const engine::View view = seen_from(stage_.driver_eye(), renderer_.config());
+    const engine::View view = symmetric_view(stage_.driver_eye(), renderer_.config());
     gpu_.wait(renderer_.draw(stage_.scene(), {&view, 1}));
     ++frames_;
   }
@@ -46,8 +46,8 @@ class FlatOutRenderer {
 
 std::vector<BenchRow> bench_beside(const BenchOptions& options) {
   std::atomic<int> frames{0};
-  const JitterLoad drawing{", beside the cabin drawn flat out",
-                           [&] { return std::make_shared<FlatOutRenderer>(options, frames); }};
+  const JitterLoad drawing{", beside the cabin drawn at full speed",
+                           [&] { return std::make_shared<BusyRenderer>(options, frames); }};
   std::vector<BenchRow> rows = jitter_rows(options, "beside", drawing, 0.0, 1.0);
   rows.back().related.push_back({"frames drawn meanwhile", static_cast<double>(frames), ""});
   return rows;

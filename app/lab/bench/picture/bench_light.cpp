@@ -32,7 +32,7 @@ struct Error {
   double rms() const { return std::sqrt(square / count); }
 };
 
-constexpr int kGrid = 20;  // the table is compared at the inner points of a grid with this many cells per axis
+constexpr int kGrid = 20;  // grid cells per axis; the table is compared at its inner points
 
 const std::vector<glm::dvec2>& brdf_truth() {
   static const std::vector<glm::dvec2> truth = [] {
@@ -59,42 +59,42 @@ Error brdf_error(const Method& method) {
   return error;
 }
 
-// One of several methods, baked repeatedly: its times and the last result.
-template <class Settings, class Made>
+// One of several settings, baked repeatedly: its times and the last result.
+template <class Settings, class BakedResult>
 struct Baked {
   Settings settings;
-  Made made = {};
-  std::vector<double> taken = {};  // [ms] of each time
+  BakedResult result = {};
+  std::vector<double> times = {};  // [ms] of each bake
 };
 
-// Takes turns, so that a busy machine slows all equally.
-template <class Settings, class Made, class Make>
-void bake_in_turn(const BenchOptions& options, std::vector<Baked<Settings, Made>>& ways, const Make& make) {
+// Bakes each of the settings in turn, so that a busy machine slows all equally.
+template <class Settings, class BakedResult, class Make>
+void bake_in_turn(const BenchOptions& options, std::vector<Baked<Settings, BakedResult>>& methods, const Make& make) {
   for (int round = 0; round < (options.quick ? 1 : 9); ++round) {
-    for (Baked<Settings, Made>& way : ways) {
+    for (Baked<Settings, BakedResult>& method : methods) {
       const auto start = Clock::now();
-      way.made = make(way.settings);
-      way.taken.push_back(ms_since(start));
+      method.result = make(method.settings);
+      method.times.push_back(ms_since(start));
     }
   }
 }
 
 struct BrdfSettings {
   int side, samples;
-  // The values of the function's default arguments.
+  // True if these are the function's default arguments.
   bool is_default() const { return side == engine::kBrdfSide && samples == engine::kBrdfSamples; }
 };
 
-// The goal is the result of another program: RMS 0.0010, worst 0.0055 for a table from 1024 samples.
+// The goal comes from an independent program: RMS 0.0010, worst 0.0055 for a table from 1024 samples.
 BenchRow brdf_row(Baked<BrdfSettings, engine::BrdfTable>& baked) {
   const auto [side, samples] = baked.settings;
-  const Timed ms = timed(baked.taken);
-  const engine::BrdfTable& table = baked.made;
+  const Timed ms = timed(baked.times);
+  const engine::BrdfTable& table = baked.result;
   const Error error = brdf_error([&](double n_dot_v, double roughness) {
     return glm::dvec2(table.sample(static_cast<float>(n_dot_v), static_cast<float>(roughness)));
   });
   BenchRow row{"light",
-               fmt::format("environment BRDF, {0}x{0} table, {1} samples: RMS", side, samples),
+               fmt::format("environment BRDF, {0}x{0} table, {1} samples: RMS error", side, samples),
                error.rms(),
                "",
                baked.settings.is_default() ? std::optional<double>(0.0010) : std::nullopt,
@@ -105,7 +105,7 @@ BenchRow brdf_row(Baked<BrdfSettings, engine::BrdfTable>& baked) {
   row.trade = Trade{"environment BRDF",
                     fmt::format("{0}x{0} table, {1} samples", side, samples),
                     {"bake", ms.median, "ms", ms.spread},
-                    {"RMS", error.rms(), ""},
+                    {"RMS error", error.rms(), ""},
                     baked.settings.is_default()};
   return row;
 }
@@ -121,12 +121,12 @@ glm::dvec2 mobile_fit(double n_dot_v, double roughness) {
 BenchRow brdf_fit_row() {
   const Error error = brdf_error(mobile_fit);
   return {"light",
-          "environment BRDF, analytic fit (Karis 2014): RMS",
+          "environment BRDF, analytic fit (Karis 2014): RMS error",
           error.rms(),
           "",
           {},
           false,
-          "no table to bake or read, but paid for in each pixel: beside the tables, not among them",
+          "needs no table, but costs time in each pixel; shown beside the tables, not compared with them",
           true,
           {{"worst", error.worst, ""}}};
 }
@@ -155,8 +155,8 @@ engine::Radiance bench_sky() {
 BenchRow irradiance_row(Baked<int, engine::Irradiance>& baked) {
   const engine::Radiance sky = bench_sky();
   const int samples = baked.settings;
-  const Timed ms = timed(baked.taken);
-  const engine::Irradiance& fast = baked.made;
+  const Timed ms = timed(baked.times);
+  const engine::Irradiance& fast = baked.result;
   std::mt19937 chance(1);
   std::normal_distribution<float> normal;
   Error relative;
@@ -167,18 +167,18 @@ BenchRow irradiance_row(Baked<int, engine::Irradiance>& baked) {
   }
   const RelatedFigure cost{"projection", ms.median, "ms", ms.spread};
   BenchRow row{"light",
-               fmt::format("irradiance by harmonics of degree 2, {0}x{0} samples a face: RMS of the truth", samples),
+               fmt::format("irradiance by harmonics of degree 2, {0}x{0} samples per face: RMS error", samples),
                100.0 * relative.rms(),
                "%",
                {},
                false,
-               "degree 3 is the same: a cosine lobe has no third band",
+               "degree 3 gives the same, because a cosine lobe has no third band",
                true,
                {{"worst", 100.0 * relative.worst, "%"}, cost}};
   row.trade = Trade{"irradiance by harmonics",
-                    fmt::format("{0}x{0} samples a face", samples),
+                    fmt::format("{0}x{0} samples per face", samples),
                     cost,
-                    {"RMS of the truth", row.value, "%"},
+                    {"RMS error", row.value, "%"},
                     samples == engine::kIrradianceSamples};
   return row;
 }
@@ -188,11 +188,11 @@ double prefilter_error(const engine::PrefilteredCube& cube, const engine::Prefil
   double off = 0.0, all = 0.0;
   for (std::size_t level = 1; level < cube.levels.size(); ++level) {
     for (std::size_t i = 0; i < cube.levels[level].size(); ++i) {
-      const double should = glm::unpackHalf1x16(truth.levels[level][i]);
-      const double has = glm::unpackHalf1x16(cube.levels[level][i]);
+      const double expected = glm::unpackHalf1x16(truth.levels[level][i]);
+      const double actual = glm::unpackHalf1x16(cube.levels[level][i]);
       if (i % 4 == 3) continue;  // alpha
-      off += (has - should) * (has - should);
-      all += should * should;
+      off += (actual - expected) * (actual - expected);
+      all += expected * expected;
     }
   }
   return std::sqrt(off / all);
@@ -200,47 +200,48 @@ double prefilter_error(const engine::PrefilteredCube& cube, const engine::Prefil
 
 BenchRow prefilter_row(Baked<int, engine::PrefilteredCube>& baked, const engine::PrefilteredCube& truth) {
   const int samples = baked.settings;
-  const Timed ms = timed(baked.taken);
-  const engine::PrefilteredCube& cube = baked.made;
+  const Timed ms = timed(baked.times);
+  const engine::PrefilteredCube& cube = baked.result;
   const double error = 100.0 * prefilter_error(cube, truth);
   BenchRow row{"light",
-               fmt::format("reflections prefiltered, 64^2 x 6 x {} levels, {} samples", cube.levels.size(), samples),
+               fmt::format("prefiltered reflections, 64^2 x 6 x {} levels, {} samples", cube.levels.size(), samples),
                ms.median,
                "ms",
                {},
                false,
                "",
                true,
-               {{"RMS of the truth", error, "%"}}};
-  row.trade = Trade{"reflections prefiltered",
+               {{"RMS error", error, "%"}}};
+  row.trade = Trade{"prefiltered reflections",
                     fmt::format("{} samples", samples),
                     {"bake", ms.median, "ms", ms.spread},
-                    {fmt::format("RMS of {} samples", kTruthSamples), error, "%"},
+                    {fmt::format("RMS error against {} samples", kTruthSamples), error, "%"},
                     samples == engine::kPrefilterSamples};
   return with_spread(ms.spread, std::move(row));
 }
 
 void add_brdf(std::vector<BenchRow>& rows, const BenchOptions& options) {
-  std::vector<Baked<BrdfSettings, engine::BrdfTable>> ways;
-  for (const int samples : {16, 64, 128, 256, 1024}) ways.push_back({{64, samples}});
-  for (const int samples : {64, 128, 256}) ways.push_back({{32, samples}});
-  bake_in_turn(options, ways, [](const BrdfSettings& way) { return engine::bake_brdf(way.side, way.samples); });
-  for (auto& way : ways) rows.push_back(brdf_row(way));
+  std::vector<Baked<BrdfSettings, engine::BrdfTable>> methods;
+  for (const int samples : {16, 64, 128, 256, 1024}) methods.push_back({{64, samples}});
+  for (const int samples : {64, 128, 256}) methods.push_back({{32, samples}});
+  bake_in_turn(options, methods,
+               [](const BrdfSettings& method) { return engine::bake_brdf(method.side, method.samples); });
+  for (auto& method : methods) rows.push_back(brdf_row(method));
 }
 
 void add_irradiance(std::vector<BenchRow>& rows, const BenchOptions& options) {
-  std::vector<Baked<int, engine::Irradiance>> ways{{8}, {32}, {64}};
-  bake_in_turn(options, ways, [sky = bench_sky()](int samples) { return engine::project_irradiance(sky, samples); });
-  for (auto& way : ways) rows.push_back(irradiance_row(way));
+  std::vector<Baked<int, engine::Irradiance>> methods{{8}, {32}, {64}};
+  bake_in_turn(options, methods, [sky = bench_sky()](int samples) { return engine::project_irradiance(sky, samples); });
+  for (auto& method : methods) rows.push_back(irradiance_row(method));
 }
 
 void add_reflections(std::vector<BenchRow>& rows, const BenchOptions& options) {
   constexpr int kSide = 64, kLevels = 6;
   const engine::PrefilteredCube truth = engine::prefilter(bench_sky(), kSide, kLevels, kTruthSamples);
-  std::vector<Baked<int, engine::PrefilteredCube>> ways{{16}, {64}, {256}};
-  bake_in_turn(options, ways,
+  std::vector<Baked<int, engine::PrefilteredCube>> methods{{16}, {64}, {256}};
+  bake_in_turn(options, methods,
                [sky = bench_sky()](int samples) { return engine::prefilter(sky, kSide, kLevels, samples); });
-  for (auto& way : ways) rows.push_back(prefilter_row(way, truth));
+  for (auto& method : methods) rows.push_back(prefilter_row(method, truth));
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ std::uint8_t srgb(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(s, 0.0, 1.0)));
 }
 
-// Mean of scale x scale pixels in linear light.
+// Averages each block of scale x scale pixels in linear light.
 engine::Image shrunk(const engine::Image& picture, int scale) {
   engine::Image out;
   out.width = picture.width / scale;
@@ -87,73 +87,76 @@ engine::Image shrunk(const engine::Image& picture, int scale) {
   return out;
 }
 
-struct Way {
+struct RenderMethod {
   engine::RenderConfig config;
-  int reduced = 1;  // factor by which the CPU reduces the picture; included in the cost
+  int reduction_factor = 1;  // factor by which the CPU reduces the picture; the reduction counts as cost
 };
 
-struct Taken {
+struct TimedCapture {
   engine::Image picture;
   Timed ms, reduction;  // a frame including its reduction; only the reduction
   RelatedFigure frame() const { return {"frame", ms.median, "ms", ms.spread}; }
 };
 
-// Draws one frame of each method in turn, so that a busy machine slows all equally.
-std::vector<Taken> take_in_turn(PaperCabin& cabin, const std::vector<Way>& ways, const engine::View& view, int frames) {
-  std::vector<Taken> taken(ways.size());
-  std::vector<std::vector<double>> ms(ways.size()), reductions(ways.size());
+// Draws one frame with each method in turn, so that a busy machine slows all equally.
+std::vector<TimedCapture> capture_in_turn(PaperCabin& cabin, const std::vector<RenderMethod>& methods,
+                                          const engine::View& view, int frames) {
+  std::vector<TimedCapture> captures(methods.size());
+  std::vector<std::vector<double>> ms(methods.size()), reductions(methods.size());
   for (int round = 0; round < frames; ++round) {
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      cabin.renderer.resize(ways[i].config);
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      cabin.renderer.resize(methods[i].config);
       const FrameCost cost = time_frames(cabin.gpu, cabin.renderer, cabin.stage.scene(), {&view, 1}, 1, 1);
-      taken[i].picture = cabin.renderer.read_eye(0);
+      captures[i].picture = cabin.renderer.read_eye(0);
       const auto start = std::chrono::steady_clock::now();
-      if (ways[i].reduced > 1) taken[i].picture = shrunk(taken[i].picture, ways[i].reduced);
+      if (methods[i].reduction_factor > 1)
+        captures[i].picture = shrunk(captures[i].picture, methods[i].reduction_factor);
       reductions[i].push_back(ms_since(start));
       ms[i].push_back(cost.host.median + reductions[i].back());
     }
   }
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    taken[i].ms = timed(ms[i]);
-    taken[i].reduction = timed(reductions[i]);
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    captures[i].ms = timed(ms[i]);
+    captures[i].reduction = timed(reductions[i]);
   }
-  return taken;
+  return captures;
 }
 
-engine::Image picture_of(PaperCabin& cabin, const Way& way, const engine::View& view) {
-  return take_in_turn(cabin, {way}, view, 1).front().picture;
+engine::Image picture_of(PaperCabin& cabin, const RenderMethod& method, const engine::View& view) {
+  return capture_in_turn(cabin, {method}, view, 1).front().picture;
 }
 
 std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, PaperCabin& cabin) {
-  const engine::View view = seen_from(cabin.stage.driver_eye(), sized(1, 1));
+  const engine::View view = symmetric_view(cabin.stage.driver_eye(), sized(1, 1));
   const int frames = options.quick ? 2 : 9;
-  const int fine = options.quick ? 4 : 8;  // factor of samples along each side
+  const int fine = options.quick ? 4 : 8;  // samples per pixel along each side
   const engine::Image reference = picture_of(cabin, {sized(fine, 1), fine}, view);
   std::vector<BenchRow> rows;
-  const auto add = [&](const char* name, int samples, const Taken& taken) {
-    const double apart_seen = engine::flip(reference, taken.picture).mean;
-    const engine::ImageDifference apart = engine::difference(taken.picture, reference);
+  const auto add = [&](const char* name, int samples, const TimedCapture& capture) {
+    const double flip_error = engine::flip(reference, capture.picture).mean;
+    const engine::ImageDifference image_difference = engine::difference(capture.picture, reference);
     rows.push_back(
         {"quality",
-         fmt::format("anti-aliasing against {} samples a pixel, {}x{}: {}", fine * fine, kWidth, kHeight, name),
-         apart.psnr,
+         fmt::format("anti-aliasing against {} samples per pixel, {}x{}: {}", fine * fine, kWidth, kHeight, name),
+         image_difference.psnr,
          "dB",
          {},
          true,
          "",
          true,
-         {{"FLIP", apart_seen, ""}, taken.frame()}});
+         {{"FLIP", flip_error, ""}, capture.frame()}});
     rows.back().trade = Trade{fmt::format("anti-aliasing, {}x{}", kWidth, kHeight),
                               name,
-                              taken.frame(),
-                              {fmt::format("FLIP against {} samples a pixel", fine * fine), apart_seen, ""},
+                              capture.frame(),
+                              {fmt::format("FLIP against {} samples per pixel", fine * fine), flip_error, ""},
                               samples == engine::RenderConfig{}.samples};
   };
-  const std::vector<Taken> taken = take_in_turn(cabin, {{sized(1, 1)}, {sized(2, 1), 2}, {sized(1, 4)}}, view, frames);
-  add("1x", 1, taken[0]);
-  add("2x2 supersampling", 0, taken[1]);
-  rows.back().related.push_back({"of it reducing the picture", taken[1].reduction.median, "ms"});
-  add("4x", 4, taken[2]);
+  const std::vector<TimedCapture> captures =
+      capture_in_turn(cabin, {{sized(1, 1)}, {sized(2, 1), 2}, {sized(1, 4)}}, view, frames);
+  add("1x", 1, captures[0]);
+  add("2x2 supersampling", 0, captures[1]);
+  rows.back().related.push_back({"time to reduce the picture", captures[1].reduction.median, "ms"});
+  add("4x", 4, captures[2]);
   return rows;
 }
 
@@ -212,7 +215,7 @@ struct LitPixel {
   bool lit = false;
 };
 
-// Tests by rays against every triangle whether the sun reaches the points shown by some pixels.
+// For the points shown by some pixels, tests with rays against every triangle whether the sun reaches them.
 std::vector<LitPixel> cast(const cabin::Stage& stage, const engine::View& view, int count) {
   const std::vector<Triangle> triangles = triangles_of(stage);
   const glm::dvec3 sun = glm::normalize(glm::dvec3(stage.scene().sun.towards));
@@ -227,14 +230,14 @@ std::vector<LitPixel> cast(const cabin::Stage& stage, const engine::View& view, 
                                                          2.0 * (pixel.y + 0.5) / kHeight - 1.0, 1.0, 1.0);
     const glm::dvec3 direction = glm::normalize(glm::dvec3(near) / near.w - eye);
     double nearest = 30.0;  // [m] farther points are outside the cabin
-    const Triangle* seen = nullptr;
+    const Triangle* nearest_triangle = nullptr;
     for (const Triangle& t : triangles) {
-      if (const double s = hit(t, eye, direction); s < nearest && s > 0.05) nearest = s, seen = &t;
+      if (const double s = hit(t, eye, direction); s < nearest && s > 0.05) nearest = s, nearest_triangle = &t;
     }
-    if (!seen) continue;
-    glm::dvec3 normal = glm::normalize(glm::cross(seen->ab, seen->ac));
+    if (!nearest_triangle) continue;
+    glm::dvec3 normal = glm::normalize(glm::cross(nearest_triangle->ab, nearest_triangle->ac));
     if (glm::dot(normal, direction) > 0.0) normal = -normal;
-    if (glm::dot(normal, sun) < 0.15) continue;  // faces away from the sun, so shadows have no effect
+    if (glm::dot(normal, sun) < 0.15) continue;  // faces away from the sun, so it cannot be in shadow
     const glm::dvec3 point = eye + nearest * direction + 1e-4 * normal;
     for (const Triangle& t : triangles) {
       if (hit(t, point, sun) == std::numeric_limits<double>::infinity()) continue;
@@ -252,7 +255,7 @@ double luminance(const engine::Image& picture, const LitPixel& at) {
 }
 
 std::vector<BenchRow> shadow_rows(const BenchOptions& options, PaperCabin& cabin) {
-  const engine::View view = seen_from(cabin.stage.driver_eye(), sized(1, 1));
+  const engine::View view = symmetric_view(cabin.stage.driver_eye(), sized(1, 1));
   const std::vector<LitPixel> truth = cast(cabin.stage, view, options.quick ? 60 : 2000);
   engine::RenderConfig config = sized(1, 1);
   config.mirror_height = 0;
@@ -262,38 +265,38 @@ std::vector<BenchRow> shadow_rows(const BenchOptions& options, PaperCabin& cabin
   dark.sun.irradiance = glm::vec3(0.0f);
   cabin.gpu.wait(cabin.renderer.draw(dark, {&view, 1}));
   const engine::Image sunless = cabin.renderer.read_eye(0);
-  std::vector<Way> ways;
+  std::vector<RenderMethod> methods;
   for (const int side : {512, 1024, 2048, 4096}) {
     config.shadow_side = side;
-    ways.push_back({config});
+    methods.push_back({config});
   }
-  const std::vector<Taken> all = take_in_turn(cabin, ways, view, options.quick ? 2 : 9);
+  const std::vector<TimedCapture> all = capture_in_turn(cabin, methods, view, options.quick ? 2 : 9);
   std::vector<BenchRow> rows;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    const int side = ways[i].config.shadow_side;
-    const Taken& taken = all[i];
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const int side = methods[i].config.shadow_side;
+    const TimedCapture& capture = all[i];
     int wrong = 0, judged = 0;
     for (const LitPixel& pixel : truth) {
       const double full = luminance(unshadowed, pixel), none = luminance(sunless, pixel);
       if (full - none < 0.004) continue;  // the sun has no visible effect
-      const bool lit = luminance(taken.picture, pixel) > 0.5 * (full + none);
+      const bool lit = luminance(capture.picture, pixel) > 0.5 * (full + none);
       wrong += lit != pixel.lit ? 1 : 0;
       ++judged;
     }
-    const double share = judged > 0 ? 100.0 * wrong / judged : 0.0;
+    const double wrong_percent = judged > 0 ? 100.0 * wrong / judged : 0.0;
     rows.push_back({"quality",
-                    fmt::format("shadow map {0}x{0}: pixels that rays say are wrong", side),
-                    share,
+                    fmt::format("shadow map {0}x{0}: pixels that differ from ray tracing", side),
+                    wrong_percent,
                     "%",
                     {},
                     false,
                     "",
                     true,
-                    {{"judged", static_cast<double>(judged), "pixels"}, taken.frame()}});
+                    {{"compared", static_cast<double>(judged), "pixels"}, capture.frame()}});
     rows.back().trade = Trade{"shadow map",
                               fmt::format("{0}x{0}", side),
-                              taken.frame(),
-                              {"pixels that rays say are wrong", share, "%"},
+                              capture.frame(),
+                              {"pixels that differ from ray tracing", wrong_percent, "%"},
                               side == engine::RenderConfig{}.shadow_side};
   }
   return rows;
@@ -301,34 +304,34 @@ std::vector<BenchRow> shadow_rows(const BenchOptions& options, PaperCabin& cabin
 
 std::vector<BenchRow> mirror_rows(const BenchOptions& options, PaperCabin& cabin) {
   const engine::EyePose eye = engine::look_at(cabin.stage.driver_eye().position, glm::dvec3(0.325, 0.805, -0.495));
-  const engine::View view = seen_from(eye, sized(1, 1), 0.35);
+  const engine::View view = symmetric_view(eye, sized(1, 1), 0.35);
   engine::RenderConfig config = sized(1, 1);
   config.mirror_height = 384;
   const engine::Image reference = picture_of(cabin, {config}, view);
-  std::vector<Way> ways;
+  std::vector<RenderMethod> methods;
   for (const int height : {48, 96, 192}) {
     config.mirror_height = height;
-    ways.push_back({config});
+    methods.push_back({config});
   }
-  const std::vector<Taken> all = take_in_turn(cabin, ways, view, options.quick ? 2 : 9);
+  const std::vector<TimedCapture> all = capture_in_turn(cabin, methods, view, options.quick ? 2 : 9);
   std::vector<BenchRow> rows;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    const int height = ways[i].config.mirror_height;
-    const Taken& taken = all[i];
-    const double apart = engine::flip(reference, taken.picture).mean;
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const int height = methods[i].config.mirror_height;
+    const TimedCapture& capture = all[i];
+    const double flip_error = engine::flip(reference, capture.picture).mean;
     rows.push_back({"quality",
-                    fmt::format("mirror of {} lines, seen close, against 384: FLIP", height),
-                    apart,
+                    fmt::format("mirror of {} lines, seen close: FLIP against 384 lines", height),
+                    flip_error,
                     "",
                     {},
                     false,
                     "",
                     true,
-                    {taken.frame()}});
+                    {capture.frame()}});
     rows.back().trade = Trade{"mirror, seen close",
                               fmt::format("{} lines", height),
-                              taken.frame(),
-                              {"FLIP against 384 lines", apart, ""},
+                              capture.frame(),
+                              {"FLIP against 384 lines", flip_error, ""},
                               height == engine::RenderConfig{}.mirror_height};
   }
   return rows;
@@ -370,7 +373,7 @@ engine::Model marks() {
   return model;
 }
 
-// Centroid weighted by the light that one mark adds to the picture.
+// Centroid of the light that one mark adds to the picture.
 glm::dvec2 centre_of(const engine::Image& with, const engine::Image& without) {
   glm::dvec2 sum(0.0);
   double weight = 0.0;
@@ -400,7 +403,7 @@ BenchRow projected_points() {
   const std::array<engine::View, 2> views{engine::view_from(eyes.pose[0], eyes.fov[0], 0.05),
                                           engine::view_from(eyes.pose[1], eyes.fov[1], 0.05)};
   const double focal = 0.5 * kHeight / std::tan(0.5 * kVertical);  // [px]
-  engine::FrameScene scene = standing(model);
+  engine::FrameScene scene = rest_scene(model);
   double worst = 0.0, sum = 0.0;
   for (int mark = 0; mark < kMarks; ++mark) {
     std::array<std::array<engine::Image, 2>, 2> pictures;  // without, with; left, right

@@ -1,4 +1,4 @@
-// The split-sum integral by the usual sum: the reference for ours.
+// The split-sum integral computed with the usual sum, as a reference for ours.
 #pragma once
 
 #include <cmath>
@@ -26,8 +26,8 @@ inline glm::dvec2 hammersley_sum(double n_dot_v, double roughness, int samples) 
     if (n_dot_l <= 0.0 || v_dot_h <= 0.0) continue;
     const double visibility = 0.5 / (n_dot_l * std::sqrt(n_dot_v * n_dot_v * (1.0 - a2) + a2) +
                                      n_dot_v * std::sqrt(n_dot_l * n_dot_l * (1.0 - a2) + a2));
-    const double share = 4.0 * visibility * n_dot_l * v_dot_h / n_dot_h, fresnel = std::pow(1.0 - v_dot_h, 5.0);
-    sum += share * dvec2(1.0 - fresnel, fresnel);
+    const double weight = 4.0 * visibility * n_dot_l * v_dot_h / n_dot_h, fresnel = std::pow(1.0 - v_dot_h, 5.0);
+    sum += weight * dvec2(1.0 - fresnel, fresnel);
   }
   return sum / static_cast<double>(samples);
 }

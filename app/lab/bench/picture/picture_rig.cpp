@@ -13,7 +13,7 @@ cabin::StageConfig paper_cabin(const BenchOptions& options) {
   return config;
 }
 
-cabin::StageInput in_first(const haptics::Gate& gate) {
+cabin::StageInput in_first_gear(const haptics::Gate& gate) {
   cabin::StageInput input;
   input.lever.gear = input.car.gear = 1;
   input.lever.lever = input.lever.proxy = haptics::rest_position(gate, 1);

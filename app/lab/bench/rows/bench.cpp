@@ -18,7 +18,7 @@ double quantile(std::vector<double>& sample, double q) {
   std::sort(sample.begin(), sample.end());
   const double rank = q * static_cast<double>(sample.size() - 1), below = std::floor(rank);
   const auto at = static_cast<std::size_t>(below);
-  if (rank == below) return sample[at];  // which may be infinite
+  if (rank == below) return sample[at];  // a value may be infinite
   return sample[at] + (rank - below) * (sample[at + 1] - sample[at]);
 }
 
@@ -51,12 +51,12 @@ std::vector<BenchRow> run_family(const NamedFamily& family, const BenchOptions& 
 
 std::vector<BenchRow> unmeasured_family(const NamedFamily& family, const std::string& why) {
   std::vector<BenchRow> rows;
-  for (const DesignRow& asked : kDesignRows) {
-    if (std::find(family.answers.begin(), family.answers.end(), asked.key) == family.answers.end()) continue;
+  for (const DesignRow& required : kDesignRows) {
+    if (std::find(family.answers.begin(), family.answers.end(), required.key) == family.answers.end()) continue;
     rows.push_back(
-        answers_design(asked.key, {std::string(family.name), std::string(asked.name), 0.0, "", {}, false, why}));
+        answers_design(required.key, {std::string(family.name), std::string(required.name), 0.0, "", {}, false, why}));
   }
-  if (rows.empty()) rows.push_back({std::string(family.name), "all of it", 0.0, "", {}, false, why});
+  if (rows.empty()) rows.push_back({std::string(family.name), "whole family", 0.0, "", {}, false, why});
   for (BenchRow& row : rows) row.measured = false;
   return rows;
 }

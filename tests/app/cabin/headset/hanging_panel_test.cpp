@@ -1,4 +1,4 @@
-// A panel that hangs in the cabin: far enough, large enough to read, and pointed at where it is drawn.
+// The panel that hangs in the cabin: its distance, its legibility, and pointing at it.
 #include "app/cabin/headset/hanging_panel.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 constexpr dvec3 kEye{0.0, 0.635, 0.05};
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A hand at that position, pointing at `at` in the panel's picture.
+// A hand at `hand` that points at `at` in the panel's picture.
 EyePose pointing(const HangingPanel& panel, dvec3 hand, glm::dvec2 at) {
   const dvec3 target = panel.pose * dvec3((at.x - 0.5) * panel.size.x, (0.5 - at.y) * panel.size.y, 0.0);
   return look_at(hand, target);
@@ -38,9 +38,9 @@ TEST_CASE("the panel is 1 to 3 m away, faces the driver, and hangs upright on th
   }
 }
 
-// ISO 9241-303: letters are comfortable to read from 20 to 22 minutes of arc, and legible from 16. DejaVu Sans has
-// capitals of 0.729 em and lines of 1.164 em; the panel's small font has lines of 13 px at scale 1 and its body of 15
-// (engine/ui/ui_style.cpp); in a headset the scale is the picture's width / 1280 (UiScale).
+// ISO 9241-303: letters are comfortable to read if they are 20 to 22 minutes of arc high, and legible from 16. DejaVu
+// Sans has capitals of 0.729 em and lines of 1.164 em. At scale 1 the panel's small font has lines of 13 px, its body
+// font of 15 px (engine/ui/ui_style.cpp). In a headset the scale is the picture's width divided by 1280 (UiScale).
 TEST_CASE("capitals of the panel's fonts are at least 20 minutes of arc high") {
   const HangingPanel panel = hang_panel(kEye, DriveSide::left, {1280, 720});
   const double px = panel.size.x / 1280.0, distance = glm::distance(panel.pose.position, kEye);
@@ -51,7 +51,7 @@ TEST_CASE("capitals of the panel's fonts are at least 20 minutes of arc high") {
   }
 }
 
-TEST_CASE("a hand points at the right place, and at nothing beside the panel or from behind") {
+TEST_CASE("a hand hits the point of the panel at which it points, and nothing from behind or outside the panel") {
   const HangingPanel panel = hang_panel(kEye, DriveSide::left, {1280, 720});
   const dvec3 hand{0.2, 0.3, -0.2};
   for (const glm::dvec2 at : {glm::dvec2(0.5, 0.5), glm::dvec2(0.02, 0.97), glm::dvec2(0.9, 0.1)}) {
@@ -70,18 +70,19 @@ TEST_CASE("a hand points at the right place, and at nothing beside the panel or 
   CHECK_FALSE(point_at(panel, away));
 }
 
-TEST_CASE("a learner's card hangs beside the view ahead, with the panel's pixel size, and can be pointed at") {
+TEST_CASE("a learner's card hangs next to the view ahead, with pixels as large as the panel's, and can be pointed at") {
   const glm::dvec2 low{0.25, 0.0}, high{0.75, 0.9};
   for (const DriveSide side : {DriveSide::left, DriveSide::right}) {
     const dvec3 eye = on_side(side, kEye);
     const HangingPanel panel = hang_panel(eye, side, {1280, 720}), card = hang_card(eye, side, {1280, 720}, low, high);
-    // half of the picture, with pixels as large as the panel's
+    // The card is 0.5 of the picture wide and 0.9 high, with pixels as large as the panel's.
     CHECK(card.size.x == doctest::Approx(0.5 * panel.size.x));
     CHECK(card.size.y == doctest::Approx(0.9 * panel.size.y));
-    const HangingPanel alone = hang_card(eye, side, {1280, 720}, {0.0, 0.0}, {1.0, 1.0});  // the panel is hidden
-    CHECK(alone.size.x == doctest::Approx(card.size.x));
+    const HangingPanel without_panel =
+        hang_card(eye, side, {1280, 720}, {0.0, 0.0}, {1.0, 1.0});  // with the panel hidden
+    CHECK(without_panel.size.x == doctest::Approx(card.size.x));
     CHECK(glm::distance(card.pose.position, eye) == doctest::Approx(glm::distance(panel.pose.position, eye)));
-    // Its inner edge leaves at least 5 degrees free beside straight ahead; its lower edge is below the horizon.
+    // The card's inner edge is at least 5 degrees to the side of straight ahead, and its lower edge below the horizon.
     const double inner = side == DriveSide::left ? -0.5 : 0.5;
     const dvec3 edge = card.pose * dvec3(inner * card.size.x, 0.0, 0.0) - eye;
     CHECK(std::abs(std::atan2(edge.x, -edge.z)) > 5.0 * kDegree);

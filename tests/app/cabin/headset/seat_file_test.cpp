@@ -1,4 +1,4 @@
-// The saved seat calibration.
+// The file with the saved seat calibration.
 #include "app/cabin/headset/seat_file.h"
 
 #include <fstream>
@@ -32,7 +32,7 @@ std::string refusal(const TempFolder& folder, const std::string& text) {
 TEST_CASE("a saved seat is read back exactly") {
   const TempFolder folder;
   const std::filesystem::path file = folder.path() / "config" / "headset.toml";
-  CHECK(read_seat(file).height == 0.0);  // nothing is saved
+  CHECK(read_seat(file).height == 0.0);  // the file does not exist yet
   SeatSettings seat;
   seat.drive = DriveSide::right;
   seat.height = 0.0613;
@@ -52,7 +52,7 @@ TEST_CASE("a saved seat is read back exactly") {
   CHECK(read.touch_error == 0.0035);
 }
 
-TEST_CASE("a bad seat file is rejected with file, line, key, value and range") {
+TEST_CASE("an invalid seat file is rejected with file, line, key, value and range") {
   const TempFolder folder;
   CHECK(refusal(folder, "seat_height_m = 0.7\n").find("headset.toml:1: seat_height_m = 0.7") != std::string::npos);
   CHECK(refusal(folder, "seat_height_m = 0.7\n").find("0.3") != std::string::npos);

@@ -1,4 +1,4 @@
-// The transform between room and cabin: laws of rigid motion, and a registration with a known answer.
+// The transform between room and cabin: properties of a rigid motion, and fits with a known answer.
 #include "app/cabin/headset/seat.h"
 
 #include <cmath>
@@ -30,14 +30,14 @@ void check_at(dvec3 actual, dvec3 expected, double within = 1e-12) {
 }
 
 void check_level(const EyePose& seat) {
-  check_at(seat.orientation * kUp, kUp);  // the vertical is the same
+  check_at(seat.orientation * kUp, kUp);  // up stays up
 }
 
 }  // namespace
 
 TEST_CASE("the user's head is placed at the driver's eyes, facing ahead, even when looking up, down or aside") {
   for (const double left : {0.0, 0.7, -2.9, 3.1}) {
-    for (const double up : {0.0, -0.6, 0.5, -1.5, 1.5}) {  // down to the feet, up to the roof
+    for (const double up : {0.0, -0.6, 0.5, -1.5, 1.5}) {  // [rad] the gaze, from the feet to the roof
       const EyePose head{{1.3, 1.6, -2.2}, turned(left, up, 0.0)};
       const EyePose seat = seat_at_eyes(head, kPlaces, 0.04);
       CAPTURE(left);
@@ -49,28 +49,27 @@ TEST_CASE("the user's head is placed at the driver's eyes, facing ahead, even wh
   }
 }
 
-TEST_CASE("with a measured knob it is drawn at its true place, and at its true distance from the eyes") {
+TEST_CASE("a knob with measured distances is drawn at its true place, at its true distance from the eyes") {
   const EyePose head{{-0.4, 1.2, 0.9}, turned(1.1, -0.2)};
   const KnobDistance knob{0.28, 0.46, 0.31};
   const EyePose seat = seat_at_lever(head, kPlaces, knob);
   check_level(seat);
-  // In room coordinates, from the head's heading, by hand: ahead is (-sin 1.1, 0, -cos 1.1), right is (cos 1.1, 0, -sin
-  // 1.1).
+  // Directions in the room, computed by hand from the head's heading of 1.1 rad.
   const dvec3 ahead(-std::sin(1.1), 0.0, -std::cos(1.1)), right(std::cos(1.1), 0.0, -std::sin(1.1));
   check_at(seat * (head.position + 0.28 * right - 0.46 * kUp + 0.31 * ahead), kPlaces.knob);
   check_at(seat * head.position, kPlaces.knob + dvec3(-0.28, 0.46, 0.31));
 }
 
-TEST_CASE("the lever is towards the car's middle: to the driver's right on the left, to the left on the right") {
+TEST_CASE("the lever is on the car's centre side: right of a driver on the left, left of a driver on the right") {
   CHECK_NOTHROW(check_knob({0.3, 0.5, 0.3}, DriveSide::left));
   CHECK_NOTHROW(check_knob({-0.3, 0.5, 0.3}, DriveSide::right));
   CHECK_THROWS_WITH(check_knob({0.3, 0.5, 0.3}, DriveSide::right),
-                    "a driver on the right has the knob on the left: 0.3 m to the right is impossible");
+                    "with the driver on the right, the knob must be on the left, but 0.3 m to the right was given");
   CHECK_THROWS_WITH(check_knob({-0.3, 0.5, 0.3}, DriveSide::left),
-                    "a driver on the left has the knob on the right: -0.3 m to the right is impossible");
+                    "with the driver on the left, the knob must be on the right, but -0.3 m to the right was given");
 }
 
-TEST_CASE("touches in six gears give the rotation and shift of any room, exactly if they are exact") {
+TEST_CASE("touches in six gears give any room's rotation and shift, exactly if the touches are exact") {
   std::mt19937_64 dice(7);
   std::uniform_real_distribution<double> anywhere(-3.0, 3.0);
   for (int i = 0; i < 50; ++i) {
@@ -93,8 +92,7 @@ TEST_CASE("touches in six gears give the rotation and shift of any room, exactly
   }
 }
 
-TEST_CASE(
-    "noisy touches give a least-squares fit: no nearby rotation or shift is better, and the worst error is reported") {
+TEST_CASE("noisy touches are fitted by least squares: no nearby fit is better, and the worst error is reported") {
   std::mt19937_64 dice(11);
   std::normal_distribution<double> tremble(0.0, 0.002);
   LeverTouches touches;
@@ -116,7 +114,7 @@ TEST_CASE(
   const double smallest = squares(fit->cabin_from_room);
   dvec3 middle(0.0);
   for (const auto& [room, knob] : pairs) middle += room / 12.0;
-  for (const double turn : {-0.01, 0.01}) {  // about the centre of the touched points
+  for (const double turn : {-0.01, 0.01}) {  // [rad] rotation about the centre of the touched points
     EyePose other = fit->cabin_from_room;
     other.orientation = glm::angleAxis(turn, kUp) * other.orientation;
     other.position += fit->cabin_from_room * middle - other * middle;
@@ -133,10 +131,9 @@ TEST_CASE(
         0.05);
 }
 
-// Independent answer: move the tip in many directions by hand and fit the room again. The law is linear: the minimum is
-// never below the fraction, and close to it.
-TEST_CASE(
-    "the tip error reported beside the misfit is a lower bound, and zero if the tip was turned about one axis only") {
+// The independent answer: shifts the tip in many directions and fits the room again. The fit is linear, so the smallest
+// misfit must not be below the reported fraction, and must be close to it.
+TEST_CASE("the reported tip error fraction is a lower bound, and zero if the tip was turned about one axis only") {
   std::mt19937_64 dice(5);
   std::normal_distribution<double> any;
   const glm::dvec3 gears[] = {{0.0, 0.0, 0.0}, {-0.036, -0.003, -0.04}, {0.036, -0.003, 0.04}, {0.0, -0.002, 0.04}};
@@ -148,14 +145,14 @@ TEST_CASE(
   for (const std::vector<glm::dquat>& held : holds) {
     LeverTouches exact;
     for (std::size_t i = 0; i < held.size(); ++i) exact.add({gears[i], held[i]}, kPlaces.knob + gears[i]);
-    const double share = exact.tip_error_fraction();
+    const double fraction = exact.tip_error_fraction();
     double smallest = 1.0;
     for (int k = 0; k < 3000; ++k) {
       const dvec3 tip = 1e-4 * glm::normalize(dvec3(any(dice), any(dice), any(dice)));
-      LeverTouches beside;
+      LeverTouches shifted;
       for (std::size_t i = 0; i < held.size(); ++i)
-        beside.add({gears[i] + held[i] * tip, held[i]}, kPlaces.knob + gears[i]);
-      const EyePose found = beside.fit({})->cabin_from_room;
+        shifted.add({gears[i] + held[i] * tip, held[i]}, kPlaces.knob + gears[i]);
+      const EyePose found = shifted.fit({})->cabin_from_room;
       double squares = 0.0;
       for (std::size_t i = 0; i < held.size(); ++i) {
         const dvec3 left = found * (gears[i] + held[i] * tip) - (kPlaces.knob + gears[i]);
@@ -163,10 +160,10 @@ TEST_CASE(
       }
       smallest = std::min(smallest, std::sqrt(squares) / 1e-4);
     }
-    MESSAGE("a fraction of " << share << "; the minimum over 3000 tips " << smallest);
-    CHECK(share > 0.15);
-    CHECK(smallest >= 0.99 * share);
-    CHECK(smallest <= 1.1 * share);
+    MESSAGE("a fraction of " << fraction << "; the minimum over 3000 tips " << smallest);
+    CHECK(fraction > 0.15);
+    CHECK(smallest >= 0.99 * fraction);
+    CHECK(smallest <= 1.1 * fraction);
   }
   for (const dvec3 axis : {kUp, side, dvec3(0, 0, 1)}) {
     LeverTouches turned;
@@ -176,13 +173,13 @@ TEST_CASE(
   CHECK(LeverTouches().tip_error_fraction() == 0.0);
 }
 
-TEST_CASE("a single touch shifts the room and keeps its direction") {
+TEST_CASE("a single touched point shifts the room and keeps its direction") {
   LeverTouches touches;
   CHECK_FALSE(touches.fit({}));
   const EyePose now{{0.1, 0.2, 0.3}, glm::angleAxis(-0.4, kUp)};
   touches.add({{2.0, 1.0, 0.5}, kHeld}, kPlaces.knob);
   touches.add({{2.0, 1.0, 0.508}, kHeld},
-              kPlaces.knob + dvec3(0.008, 0, 0));  // apart only by a hand's tremor: no direction
+              kPlaces.knob + dvec3(0.008, 0, 0));  // 8 mm, as by a trembling hand: too close for a direction
   const auto fit = touches.fit(now);
   REQUIRE(fit);
   CHECK_FALSE(fit->turned);

@@ -1,4 +1,4 @@
-// A cabin with sounds and its driver, rendered to memory.
+// The cabin's sounds and their listener, rendered to memory.
 #pragma once
 
 #include <cmath>
@@ -14,14 +14,14 @@ namespace gearshift::test {
 inline constexpr glm::vec3 kKnob{0.37f, 0.35f, -0.25f};
 inline constexpr double kFrame = 1.0 / 60.0;
 
-inline vehicle::VehicleState running(double speed, double load) {  // [1/min]
+inline vehicle::VehicleState running(double speed, double load) {  // speed in [rpm], load in [1]
   vehicle::VehicleState car;
   car.engine_speed = speed * std::numbers::pi / 30.0;
   car.engine_load = load;
   return car;
 }
 
-// A cabin with sounds and its driver.
+// The cabin's sounds, heard by a driver at the wheel.
 struct Cabin {
   engine::SoundWorld world{engine::SoundOutput::memory};
   cabin::CabinSound sound;
@@ -51,7 +51,7 @@ inline std::vector<double> left(std::span<const float> stereo) {
   return channel(stereo, Ear::left);
 }
 
-// Level over both ears. [1] RMS
+// [1] The RMS level of both ears together.
 inline double level(std::span<const float> stereo) {
   const std::vector<double> both = doubles(stereo);
   return rms(both);

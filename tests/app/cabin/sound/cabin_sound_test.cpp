@@ -1,4 +1,4 @@
-// The driver's sound, rendered to memory and measured at the ears.
+// The sounds that the driver hears, rendered to memory and measured at the ears.
 #include "app/cabin/sound/cabin_sound.h"
 
 #include <array>
@@ -18,7 +18,7 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// The sound of the cabin's engine, running at that speed and load. [1/min], [1], [s]
+// `seconds` [s] of the engine's sound at `speed` [rpm] and `load` [1].
 std::vector<float> engine_sound(Cabin& cabin, double speed, double load, double seconds = 1.0) {
   cabin.car = running(speed, load);
   cabin.run(0.1);
@@ -35,7 +35,7 @@ struct OctaveBand {
 };
 constexpr std::array<OctaveBand, 4> kOctaves = {{{354.0, 707.0}, {707.0, 1414.0}, {1414.0, 2828.0}, {2828.0, 5657.0}}};
 
-// Signal-to-noise ratio in the best octave band, at the worse ear. [dB]
+// [dB] The signal-to-noise ratio in the best octave band, at the ear where that is worse.
 double best_octave(std::span<const float> signal, std::span<const float> noise) {
   double worse_ear = 1e9;
   for (const Ear ear : {Ear::left, Ear::right}) {
@@ -51,7 +51,8 @@ double best_octave(std::span<const float> signal, std::span<const float> noise) 
 
 }  // namespace
 
-TEST_CASE("with the engine off and no events the output is exactly 0, whatever is loaded and wherever the head is") {
+TEST_CASE(
+    "with the engine off and no events the output is exactly 0, for any loaded sounds and any position of the head") {
   Cabin cabin;
   CHECK(peak(doubles(cabin.run(0.5))) == 0.0);
   cabin.ears = look_at({0.3, 0.9, 0.2}, {1.0, 0.0, 0.0});
@@ -64,16 +65,16 @@ TEST_CASE("with the engine off and no events the output is exactly 0, whatever i
   CHECK(peak(doubles(cabin.run(0.5))) == 0.0);
   cabin.car = running(3000.0, 1.0);
   CHECK(level(cabin.run(0.5)) > 0.003);
-  cabin.car = VehicleState{};  // stalls
+  cabin.car = VehicleState{};  // the engine is off again
   cabin.run(0.1);
   CHECK(peak(doubles(cabin.run(0.5))) == 0.0);
 }
 
-TEST_CASE("the strongest line of the engine is its firing frequency, n / 60 * cylinders / 2, within 0.5 %") {
+TEST_CASE("the engine's strongest line is its firing frequency, n / 60 * cylinders / 2, within 0.5 %") {
   double worst = 0.0;
   Cabin four;
   for (const double load : {0.0, 0.4, 1.0}) {
-    for (double speed = 800.0; speed <= 6500.0; speed *= 1.17) {  // band centres and points between them
+    for (double speed = 800.0; speed <= 6500.0; speed *= 1.17) {  // both at and between the centres of the bands
       const double firing = speed / 60.0 * 4.0 / 2.0;
       const double hertz = strongest_line(left(engine_sound(four, speed, load, 2.0)));
       CAPTURE(speed);
@@ -96,7 +97,7 @@ TEST_CASE("the strongest line of the engine is its firing frequency, n / 60 * cy
   MESSAGE("worst pitch error " << 100.0 * worst << " %");
 }
 
-TEST_CASE("between two bands their loops stay in phase: the level is steady, and lies between theirs") {
+TEST_CASE("between two bands their loops stay in phase: the level is steady, and lies between the two bands' levels") {
   for (const auto& [low, high] : {std::array{900.0, 1800.0}, {1800.0, 3400.0}, {3400.0, 6000.0}}) {
     const double middle = std::sqrt(low * high);
     Cabin cabin;
@@ -115,7 +116,7 @@ TEST_CASE("between two bands their loops stay in phase: the level is steady, and
   }
 }
 
-TEST_CASE("loudness rises with load at every speed, by 10 to 16 dB from coasting to full, and with speed") {
+TEST_CASE("loudness rises with load at every speed, by 10 to 16 dB from coasting to full load, and rises with speed") {
   double last_full = 0.0;
   Cabin cabin;
   for (const double speed : {800.0, 1300.0, 1800.0, 2500.0, 3400.0, 4500.0, 6500.0}) {
@@ -134,7 +135,7 @@ TEST_CASE("loudness rises with load at every speed, by 10 to 16 dB from coasting
   }
 }
 
-TEST_CASE("a sweep of speed and load has no click: no bend of the wave beyond that of steady running") {
+TEST_CASE("a sweep of speed and load has no click: the wave bends no more sharply than at constant speed") {
   const auto sharpest = [](std::span<const float> stereo) {
     const std::vector<double> x = left(stereo);
     double bend = 0.0;
@@ -153,20 +154,20 @@ TEST_CASE("a sweep of speed and load has no click: no bend of the wave beyond th
   CHECK(swept < 1.1 * steady);
 }
 
-TEST_CASE("half the volume is 6.02 dB less, for every sound") {
-  const auto heard = [](const CabinSoundConfig& config) {
+TEST_CASE("half the volume makes the engine 6.02 dB quieter") {
+  const auto engine_level = [](const CabinSoundConfig& config) {
     Cabin cabin(config);
     return level(engine_sound(cabin, 3000.0, 0.5));
   };
-  const double whole = heard({.volume = 1.0f});
+  const double full = engine_level({.volume = 1.0f});
   for (const float volume : {0.5f, 0.25f, 0.1f}) {
-    CHECK(decibels(heard({.volume = volume}) / whole) == doctest::Approx(decibels(volume)).epsilon(1e-3));
+    CHECK(decibels(engine_level({.volume = volume}) / full) == doctest::Approx(decibels(volume)).epsilon(1e-3));
   }
-  CHECK(heard({.volume = 0.0f}) == 0.0);
-  CHECK(heard({.engine = false}) == 0.0);
+  CHECK(engine_level({.volume = 0.0f}) == 0.0);
+  CHECK(engine_level({.engine = false}) == 0.0);
 }
 
-TEST_CASE("the knock's peak is proportional to the speed of the impact, up to the loudest") {
+TEST_CASE("the knock's peak is proportional to the speed of the impact, up to a maximum") {
   Cabin cabin;
   cabin.run(kFrame);
   const double loudest = knock_peak(cabin, 0.5);
@@ -180,23 +181,22 @@ TEST_CASE("the knock's peak is proportional to the speed of the impact, up to th
   CHECK(knock_peak(cabin, -0.1) == 0.0);
 }
 
-TEST_CASE("engaging a gear sounds different from disengaging it; both in one frame sound, once each") {
-  const auto heard = [](EventKind kind) {
+TEST_CASE("engaging a gear sounds within 20 ms, once, and louder than disengaging it") {
+  const auto click = [](EventKind kind) {
     Cabin cabin;
     cabin.run(kFrame);
     cabin.on_event(kind, 3.0);
     std::vector<float> first = cabin.run(0.2);
-    CHECK(peak(doubles(std::span(first).first(2 * kSoundRate / 50))) > 0.05);  // within 20 ms
+    CHECK(peak(doubles(std::span(first).first(2 * kSoundRate / 50))) > 0.05);  // in its first 20 ms
     CHECK(peak(doubles(cabin.run(0.3))) == 0.0);
     return first;
   };
-  const std::vector<float> in = heard(EventKind::gear_engaged), out = heard(EventKind::gear_left);
+  const std::vector<float> in = click(EventKind::gear_engaged), out = click(EventKind::gear_left);
   CHECK(level(in) > 1.3 * level(out));
 }
 
-TEST_CASE(
-    "lever, knock and warnings come from the lever's side, the engine from the front; turning the head turns them") {
-  const auto balance = [](std::span<const float> stereo) {  // [dB] right over left
+TEST_CASE("knock and warnings come from the lever's side, the engine from the front, relative to the driver's head") {
+  const auto balance = [](std::span<const float> stereo) {  // [dB] right ear relative to the left
     return decibels(rms(channel(stereo, Ear::right)) / rms(channel(stereo, Ear::left)));
   };
   const auto knock = [&](Cabin& cabin) {
@@ -214,42 +214,42 @@ TEST_CASE(
   CHECK(balance(cabin.run(0.4)) > 3.0);
   cabin.lever.flags = 0;
   const double engine = balance(engine_sound(cabin, 3000.0, 1.0));
-  CHECK(engine > 0.0);  // the car's middle is to the right of the driver
+  CHECK(engine > 0.0);  // the engine is on the car's centre line, right of the driver
   CHECK(engine < 4.0);
 }
 
-TEST_CASE(
-    "detent clicks and grind come from the lever's direction and distance, and from ahead for a driver facing it") {
-  struct Heard {
+TEST_CASE("detent clicks and grind come from the lever's direction and distance") {
+  struct EarLevels {
     double left, right;  // [1] RMS
     double balance() const { return decibels(right / left); }
     double both() const { return std::hypot(left, right); }
   };
-  // With the lever at that place, and ears at the origin facing ahead. The volume keeps the nearest source below full
-  // scale.
-  const auto heard = [](int what, glm::vec3 lever) {
+  // The levels with the lever at `lever`, and ears at the origin that face ahead. The low volume keeps the nearest
+  // source below full scale.
+  const auto levels_of = [](int sound, glm::vec3 lever) {
     Cabin cabin({.volume = 0.1f, .engine = false});
     cabin.knob = lever;
     cabin.ears = look_at({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
-    cabin.car.grinding = what == 2;
+    cabin.car.grinding = sound == 2;
     cabin.run(0.1);
-    if (what < 2) cabin.on_event(what == 0 ? EventKind::gear_engaged : EventKind::gear_left, 3.0);
+    if (sound < 2) cabin.on_event(sound == 0 ? EventKind::gear_engaged : EventKind::gear_left, 3.0);
     const std::vector<float> stereo = cabin.run(0.5);
-    return Heard{rms(channel(stereo, Ear::left)), rms(channel(stereo, Ear::right))};
+    return EarLevels{rms(channel(stereo, Ear::left)), rms(channel(stereo, Ear::right))};
   };
-  for (const int what : {0, 1, 2}) {  // gear in, gear out, grind
-    CAPTURE(what);
-    const Heard ahead = heard(what, {0.0f, 0.0f, -1.0f});
+  for (const int sound : {0, 1, 2}) {  // gear engaged, gear disengaged, grind
+    CAPTURE(sound);
+    const EarLevels ahead = levels_of(sound, {0.0f, 0.0f, -1.0f});
     CHECK(ahead.balance() == doctest::Approx(0.0).epsilon(1e-3));
-    const Heard right = heard(what, {0.5f, 0.0f, -0.8f}), left = heard(what, {-0.5f, 0.0f, -0.8f});
+    const EarLevels right = levels_of(sound, {0.5f, 0.0f, -0.8f}), left = levels_of(sound, {-0.5f, 0.0f, -0.8f});
     CHECK(right.balance() > 6.0);
     CHECK(left.balance() == doctest::Approx(-right.balance()).epsilon(1e-3));
-    for (const float metres : {2.0f, 4.0f})  // falls as 1 / distance, from the reference distance of half a metre on
-      CHECK(heard(what, {0.0f, 0.0f, -metres}).both() / ahead.both() == doctest::Approx(1.0 / metres).epsilon(1e-3));
+    for (const float metres : {2.0f, 4.0f})  // beyond the reference distance of 0.5 m the level falls as 1 / distance
+      CHECK(levels_of(sound, {0.0f, 0.0f, -metres}).both() / ahead.both() ==
+            doctest::Approx(1.0 / metres).epsilon(1e-3));
   }
 }
 
-TEST_CASE("both ears hear a warning wherever the driver looks: the difference is below 20 dB") {
+TEST_CASE("both ears hear a warning for any direction of view: they differ by less than 20 dB") {
   Cabin cabin;
   cabin.lever.flags = kFlagOverPush;
   for (double degrees = 0.0; degrees < 360.0; degrees += 30.0) {
@@ -277,7 +277,7 @@ TEST_CASE("over-push sounds within a frame of its event, while the flag is set, 
   cabin.run(2.0 * kFrame);
   CHECK(peak(doubles(cabin.run(0.5))) == 0.0);
 
-  cabin.on_event(EventKind::over_push_begin, 60.0);  // both between two frames
+  cabin.on_event(EventKind::over_push_begin, 60.0);  // event and end between two frames
   cabin.on_event(EventKind::over_push_end);
   const std::vector<float> brief = cabin.run(0.3);
   CHECK(level(std::span(brief).last(2 * kSoundRate / 20)) > 0.05);
@@ -296,16 +296,16 @@ TEST_CASE("a warning always begins with its first tone") {
   }
 }
 
-TEST_CASE("saturation that flickers faster than the hold is one warning; two simultaneous warnings are both audible") {
+TEST_CASE("saturation that flickers faster than the hold is one warning; two warnings at once are both audible") {
   Cabin cabin;
   std::vector<float> stereo;
-  for (int n = 0; n < 10; ++n) {  // 17 ms of every 200 ms
+  for (int n = 0; n < 10; ++n) {  // one saturated frame every 200 ms
     cabin.on_event(EventKind::saturation_begin, 40.0);
     cabin.on_event(EventKind::saturation_end);
     const std::vector<float> some = cabin.run(0.2);
     stereo.insert(stereo.end(), some.begin(), some.end());
   }
-  int begins = 0;  // three beeps every half second, however often the cause repeats
+  int begins = 0;  // three beeps per half second, although the cause repeats faster
   bool was = false;
   for (std::size_t n = 0; n + 960 <= stereo.size(); n += 960) {  // 10 ms
     const bool is = level(std::span(stereo).subspan(n, 960)) > 0.05;
@@ -321,8 +321,9 @@ TEST_CASE("saturation that flickers faster than the hold is one warning; two sim
   }
 }
 
-// NUREG-0700 rev. 2, signal intensity: 20 dB over the noise in at least one octave band between 200 and 5000 Hz.
-TEST_CASE("each warning stands 20 dB over the engine at full load in an octave band at both ears, at every speed") {
+// NUREG-0700 rev. 2, signal intensity: a warning must exceed the noise by 20 dB in at least one octave band between 200
+// and 5000 Hz.
+TEST_CASE("each warning exceeds the engine at full load by 20 dB in an octave band, at both ears, at every speed") {
   const auto warning = [](std::uint32_t flag, bool over_revved = false) {
     Cabin cabin;
     cabin.lever.flags = flag;
@@ -333,21 +334,21 @@ TEST_CASE("each warning stands 20 dB over the engine at full load in an octave b
   const std::vector<float> over_push = warning(kFlagOverPush), saturation = warning(kFlagSaturated);
   const std::vector<float> over_rev = warning(0, true);
   Cabin cabin;
-  double min_push = 1e9, least_saturation = 1e9, least_over_rev = 1e9;
+  double min_push = 1e9, min_saturation = 1e9, min_over_rev = 1e9;
   for (double speed = 800.0; speed <= 7000.0; speed *= 1.2) {
     const std::vector<float> engine = engine_sound(cabin, speed, 1.0, 2.0);
     min_push = std::min(min_push, best_octave(over_push, engine));
-    least_saturation = std::min(least_saturation, best_octave(saturation, engine));
-    least_over_rev = std::min(least_over_rev, best_octave(over_rev, engine));
+    min_saturation = std::min(min_saturation, best_octave(saturation, engine));
+    min_over_rev = std::min(min_over_rev, best_octave(over_rev, engine));
   }
-  MESSAGE("lowest signal-to-noise ratio: over-push " << min_push << " dB, saturation " << least_saturation
-                                                     << " dB, over-rev " << least_over_rev << " dB");
+  MESSAGE("lowest signal-to-noise ratio: over-push " << min_push << " dB, saturation " << min_saturation
+                                                     << " dB, over-rev " << min_over_rev << " dB");
   CHECK(min_push >= 20.0);
-  CHECK(least_saturation >= 20.0);
-  CHECK(least_over_rev >= 20.0);
+  CHECK(min_saturation >= 20.0);
+  CHECK(min_over_rev >= 20.0);
 }
 
-TEST_CASE("engine at its limiter, grind, gear and all warnings at once stay within full scale at the default volume") {
+TEST_CASE("engine at its limiter, grind, gear and all warnings together stay within full scale at the default volume") {
   Cabin cabin;
   cabin.car = running(6500.0, 1.0);
   cabin.car.grinding = cabin.car.over_revved = cabin.car.fuel_cut = true;
@@ -383,7 +384,7 @@ TEST_CASE("the number of cylinders changes the pitch, immediately and reversibly
   CHECK(peak(doubles(cabin.run(0.5))) == 0.0);
 }
 
-TEST_CASE("the same drive gives the same samples, bit for bit") {
+TEST_CASE("equal drives give bit-identical samples") {
   const auto drive = [] {
     Cabin cabin;
     std::vector<float> all;
@@ -400,7 +401,7 @@ TEST_CASE("the same drive gives the same samples, bit for bit") {
   CHECK(drive() == drive());
 }
 
-TEST_CASE("without an output every call is safe") {
+TEST_CASE("without an audio output every call is safe") {
   SoundWorld world(SoundOutput::none);
   CabinSound sound(world, {});
   for (const EventKind kind : {EventKind::gear_engaged, EventKind::wall_contact, EventKind::over_push_begin}) {

@@ -39,13 +39,14 @@ VehicleState grinding(double difference, double power) {
   return car;
 }
 
-std::vector<double> heard(Cabin& cabin, const VehicleState& car, double seconds = 2.0) {
+std::vector<double> left_ear(Cabin& cabin, const VehicleState& car, double seconds = 2.0) {
   cabin.car = car;
   cabin.run(0.1);
   return left(cabin.run(seconds));
 }
 
-// The power spectrum's line at `frequency`, relative to its neighbours. [Hz]
+// The line at `frequency` [Hz] in the spectrum of the signal's power, divided by the stronger of two neighbouring
+// lines.
 double line_prominence(std::vector<double> x, double frequency) {
   for (double& v : x) v = v * v;
   return amplitude_at(x, frequency) / std::max(amplitude_at(x, 0.77 * frequency), amplitude_at(x, 1.27 * frequency));
@@ -53,17 +54,18 @@ double line_prominence(std::vector<double> x, double frequency) {
 
 bool silent(Cabin& cabin, const VehicleState& car) {
   cabin.car = car;
-  cabin.run(0.5);  // the held sound has ended
+  cabin.run(0.5);  // until the previous sound has ended
   return peak(doubles(cabin.run(0.3))) == 0.0;
 }
 
 }  // namespace
 
-TEST_CASE("the starter whines at 130 / 60 of the engine's speed and pulses with its compressions, n / 30") {
+TEST_CASE(
+    "the starter whines at 130 / 60 Hz per rpm of the engine and pulses with its compressions, at 1 / 30 Hz per rpm") {
   Cabin cabin;
   for (const double rpm : {120.0, 200.0, 280.0}) {
     CAPTURE(rpm);
-    const std::vector<double> x = heard(cabin, cranked(rpm));
+    const std::vector<double> x = left_ear(cabin, cranked(rpm));
     CHECK(strongest_line(x) == doctest::Approx(rpm * 130.0 / 60.0).epsilon(0.005));
     CHECK(line_prominence(x, rpm / 30.0) > 3.0);
   }
@@ -72,14 +74,14 @@ TEST_CASE("the starter whines at 130 / 60 of the engine's speed and pulses with 
   CHECK(silent(without, cranked(200.0)));
 }
 
-TEST_CASE("a stall judders with the firings at 60 Hz per 400 rpm, falls with the engine's speed, and ends in silence") {
+TEST_CASE("a stall judders with the firings, 60 Hz at 400 rpm, lower and quieter with the speed, until it is silent") {
   Cabin cabin;
   double last_level = 1e9, last_tone = 1e9;
   for (const double rpm : {500.0, 400.0, 300.0, 200.0}) {
     VehicleState car = dead(rpm);
     car.stalled = true;
     car.shudder = std::min(1.0, rpm / 500.0);
-    const std::vector<double> x = heard(cabin, car);
+    const std::vector<double> x = left_ear(cabin, car);
     CAPTURE(rpm);
     CHECK(strongest_line(x) == doctest::Approx(60.0 * rpm / 400.0).epsilon(0.01));
     CHECK(line_prominence(x, rpm / 30.0) > 3.0);
@@ -91,38 +93,38 @@ TEST_CASE("a stall judders with the firings at 60 Hz per 400 rpm, falls with the
   CHECK(silent(cabin, dead(0.0)));
 }
 
-TEST_CASE("an engine at idle or under load does not judder") {
+TEST_CASE("a running engine judders only while it shudders") {
   Cabin one, other;
   VehicleState car = running(800.0, 0.2);
-  const std::vector<double> idle = heard(one, car);
+  const std::vector<double> idle = left_ear(one, car);
   car.shudder = 0.5;
-  const std::vector<double> shaken = heard(other, car);
-  CHECK(amplitude_at(shaken, 120.0) > 3.0 * amplitude_at(idle, 120.0));  // 60 Hz * 800 / 400
+  const std::vector<double> shaken = left_ear(other, car);
+  // The judder of 60 Hz at 400 rpm is played at 60 Hz * 800 / 400.
+  CHECK(amplitude_at(shaken, 120.0) > 3.0 * amplitude_at(idle, 120.0));
 }
 
-TEST_CASE(
-    "the limiter stutters 12 times a second while fuel is cut, continuously within its band, and not afterwards") {
+TEST_CASE("the limiter stutters 12 times per second while the fuel is cut and resumes, and not afterwards") {
   Cabin cabin;
   VehicleState car = running(6450.0, 0.0);
-  const std::vector<double> calm = heard(cabin, car);
+  const std::vector<double> calm = left_ear(cabin, car);
   CHECK(line_prominence(calm, kLimiterRate) < 3.0);
   cabin.run(0.1);
   std::vector<float> stereo;
-  for (int frame = 0; frame < 180; ++frame) {  // 30 ms on, 60 ms off, as the hatchback's limiter does
+  for (int frame = 0; frame < 180; ++frame) {  // 33 ms cut, 67 ms not, as by the hatchback's limiter
     cabin.car.fuel_cut = frame % 6 < 2;
     const std::vector<float> some = cabin.run(kFrame);
     stereo.insert(stereo.end(), some.begin(), some.end());
   }
   CHECK(line_prominence(left(stereo), kLimiterRate) > 4.0);
   CHECK(level(stereo) > 1.2 * rms(calm));
-  CHECK(line_prominence(heard(cabin, car), kLimiterRate) < 3.0);
+  CHECK(line_prominence(left_ear(cabin, car), kLimiterRate) < 3.0);
 }
 
-TEST_CASE("fuel that is cut in one frame of six is one continuous stutter") {
+TEST_CASE("fuel that is cut in one of six frames gives a continuous stutter") {
   Cabin cabin;
   std::vector<float> stereo;
   for (int frame = 0; frame < 120; ++frame) {
-    cabin.car = VehicleState{};  // a stopped engine makes no other sound
+    cabin.car = VehicleState{};  // the engine is stopped, so only the stutter sounds
     cabin.car.fuel_cut = frame % 6 == 0;
     const std::vector<float> some = cabin.run(kFrame);
     stereo.insert(stereo.end(), some.begin(), some.end());
@@ -136,7 +138,7 @@ TEST_CASE("fuel that is cut in one frame of six is one continuous stutter") {
   CHECK(softest > 0.3 * peak(x));
 }
 
-TEST_CASE("over-rev: 900 Hz, four times a second, from the first frame until one hold after it ends") {
+TEST_CASE("over-rev sounds at 900 Hz, four times per second, from its first frame until one hold after its end") {
   Cabin cabin({.engine = false});
   cabin.run(0.13);
   cabin.car.over_revved = true;
@@ -148,7 +150,7 @@ TEST_CASE("over-rev: 900 Hz, four times a second, from the first frame until one
   CHECK(silent(cabin, VehicleState{}));
 }
 
-TEST_CASE("a stall is announced by one chime, with the ignition on; a start or turning the key is not") {
+TEST_CASE("a stall with the ignition on is announced by one chime; a start or a turn of the key is not") {
   Cabin cabin({.engine = false});
   const auto chimes = [&](const VehicleState& car) {
     cabin.car = car;
@@ -159,12 +161,12 @@ TEST_CASE("a stall is announced by one chime, with the ignition on; a start or t
   VehicleState off = dead(0.0);
   off.ignition = false;
   CHECK_FALSE(chimes(off));
-  CHECK(silent(cabin, dead(0.0)));  // the ignition is on, the engine stands: it was never running
+  CHECK(silent(cabin, dead(0.0)));  // the ignition is on, but the engine was never running
   CHECK_FALSE(chimes(cranked(200.0)));
   CHECK_FALSE(chimes(running(800.0, 0.1)));
   CHECK(chimes(stalled));
   cabin.run(1.2);
-  CHECK(silent(cabin, stalled));  // only once
+  CHECK(silent(cabin, stalled));  // the chime sounds only once
   VehicleState cranks_again = cranked(200.0);
   cranks_again.stalled = true;
   CHECK_FALSE(chimes(cranks_again));
@@ -174,21 +176,21 @@ TEST_CASE("a stall is announced by one chime, with the ignition on; a start or t
   CHECK(silent(cabin, dead(0.0)));
   Cabin late({.engine = false});
   late.car = stalled;
-  CHECK(peak(doubles(late.run(0.3))) == 0.0);  // it had stalled before the sound began
+  CHECK(peak(doubles(late.run(0.3))) == 0.0);  // the engine stalled before the sound began
 }
 
-TEST_CASE("dogs rattle |difference| * teeth / (2 pi) times a second, louder with the power, from 37.5 to 600 Hz") {
+TEST_CASE("dogs rattle |difference| * teeth / (2 pi) times per second, louder with the power") {
   Cabin cabin({.engine = false});
   for (const double difference : {10.0, 26.18, -59.0, 100.0}) {
     CAPTURE(difference);
     const double rate = std::abs(difference) * 36.0 / (2.0 * std::numbers::pi);
-    CHECK(line_prominence(heard(cabin, grinding(difference, 50.0)), rate) > 3.0);
+    CHECK(line_prominence(left_ear(cabin, grinding(difference, 50.0)), rate) > 3.0);
   }
   Cabin coarse({.engine = false, .dog_teeth = 24.0});
-  const std::vector<double> x = heard(coarse, grinding(30.0, 50.0));
+  const std::vector<double> x = left_ear(coarse, grinding(30.0, 50.0));
   CHECK(line_prominence(x, 30.0 * 24.0 / (2.0 * std::numbers::pi)) > 3.0);
   CHECK(line_prominence(x, 30.0 * 36.0 / (2.0 * std::numbers::pi)) < 2.0);
-  const double soft = rms(heard(cabin, grinding(30.0, 0.0))), loud = rms(heard(cabin, grinding(30.0, 100.0)));
+  const double soft = rms(left_ear(cabin, grinding(30.0, 0.0))), loud = rms(left_ear(cabin, grinding(30.0, 100.0)));
   CHECK(soft > 0.005);
   CHECK(loud / soft == doctest::Approx(0.5 / 0.32).epsilon(0.02));
   VehicleState apart = grinding(30.0, 100.0);

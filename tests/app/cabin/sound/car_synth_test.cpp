@@ -1,4 +1,4 @@
-// The driveline's samples before playback.
+// The samples of the driveline's sounds, before playback.
 #include "app/cabin/sound/car_synth.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ std::vector<double> rounds(const std::vector<float>& loop, int count) {
   return out;
 }
 
-// The power spectrum's line at that frequency, relative to the mean power: the modulation depth. [Hz]
+// [1] The modulation depth of the signal's power at `frequency` [Hz]: the line in its spectrum, divided by the mean.
 double modulation(std::vector<double> x, double frequency) {
   for (double& v : x) v = v * v;
   double mean = 0.0;
@@ -32,7 +32,7 @@ double modulation(std::vector<double> x, double frequency) {
 
 }  // namespace
 
-TEST_CASE("every driveline clip stays within full scale, is audible, and is the same at every call") {
+TEST_CASE("every driveline clip stays within full scale, is audible, and is the same in every call") {
   for (const auto make : {grind_loop, starter_loop, judder_loop, limiter_loop, over_rev_loop, stall_chime}) {
     const std::vector<float> clip = make();
     CHECK(peak(doubles(clip)) <= 0.96);
@@ -45,11 +45,11 @@ TEST_CASE("no driveline loop clicks at its joint") {
   for (const auto make : {grind_loop, starter_loop, judder_loop, limiter_loop, over_rev_loop})
     CHECK(joint_roughness(make()) <= 1.0);
   std::vector<float> cut = judder_loop();
-  cut.resize(cut.size() - 1000);  // shortened by 1.25 periods of its tone
+  cut.resize(cut.size() - 1000);  // shorter by 1.25 periods of its tone
   CHECK(joint_roughness(cut) > 1.5);
 }
 
-TEST_CASE("each loop beats at the rate of its law, and not in between") {
+TEST_CASE("each loop is modulated at the rate of its law, and not at others") {
   struct Beats {
     std::vector<float> (*make)();
     double rate;  // [Hz]
@@ -76,7 +76,7 @@ TEST_CASE(
         doctest::Approx(900.0).epsilon(2e-3));
 }
 
-TEST_CASE("over-rev shares no tone with the lever's warnings") {
+TEST_CASE("over-rev has no tone in common with the lever's warnings") {
   const auto part = [](const std::vector<float>& loop, double tone) {
     const Spectrum s = spectrum(rounds(loop, 4));
     return 10.0 * std::log10(band_power(s, tone * 0.97, tone * 1.03) / band_power(s, 0.0, 24000.0));
@@ -88,7 +88,7 @@ TEST_CASE("over-rev shares no tone with the lever's warnings") {
   CHECK(part(saturation_loop(), kOverRevTone) < -30.0);
 }
 
-TEST_CASE("the chime falls: first one bell, then a lower one, and it ends at 0") {
+TEST_CASE("the chime is a bell followed by a lower bell, and ends at 0") {
   const std::vector<double> x = doubles(stall_chime());
   const std::size_t apart = kSoundRate * 22 / 100;
   CHECK(strongest_line(std::span(x).first(apart)) == doctest::Approx(kStallTones[0]).epsilon(0.01));
@@ -99,11 +99,11 @@ TEST_CASE("the chime falls: first one bell, then a lower one, and it ends at 0")
 }
 
 TEST_CASE(
-    "teeth pass |difference| z / (2 pi) times a second; a grind is never inaudible and grows with its power's root") {
-  CHECK(tooth_pass_rate(2.0 * 3.14159265358979, 36.0) == doctest::Approx(36.0));  // one revolution per second
+    "tooth_pass_rate() is |difference| z / (2 pi); a grind is always audible and grows with the root of its power") {
+  CHECK(tooth_pass_rate(2.0 * 3.14159265358979, 36.0) == doctest::Approx(36.0));  // one revolution per second, 36 teeth
   CHECK(tooth_pass_rate(-20.0, 40.0) == doctest::Approx(127.32).epsilon(1e-4));
   CHECK(grind_gain(0.0) == 0.32);
-  CHECK(grind_gain(25.0) == doctest::Approx(0.41));  // half the gain range at a quarter of 100 W
+  CHECK(grind_gain(25.0) == doctest::Approx(0.41));  // at 25 of 100 W, half of the gain's range
   CHECK(grind_gain(100.0) == doctest::Approx(0.5));
   CHECK(grind_gain(1e9) == doctest::Approx(0.5));
 }

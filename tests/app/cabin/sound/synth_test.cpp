@@ -1,4 +1,4 @@
-// The samples before playback.
+// The samples of the cabin's sounds, before playback.
 #include "app/cabin/sound/synth.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// The level of each 10 ms. [1] RMS
+// [1] The RMS level of every 10 ms.
 std::vector<double> envelope(const std::vector<float>& samples) {
   constexpr std::size_t kWindow = kSoundRate / 100;
   const std::vector<double> x = doubles(samples);
@@ -33,7 +33,7 @@ std::vector<double> twice(const std::vector<float>& loop) {
 
 }  // namespace
 
-TEST_CASE("every clip stays within full scale, is audible, and is the same at every call") {
+TEST_CASE("every clip stays within full scale, is audible, and is the same in every call") {
   for (const auto make : {wall_knock, gear_in_click, gear_out_click, over_push_loop, saturation_loop}) {
     const std::vector<float> clip = make();
     CHECK(peak(doubles(clip)) <= 0.96);
@@ -61,7 +61,7 @@ TEST_CASE("percussive clips begin at 0, are loudest in their first 30 ms and end
   }
 }
 
-TEST_CASE("no loop clicks at its joint, and the measure would detect it") {
+TEST_CASE("no loop clicks at its joint, and the measure would detect a click") {
   for (const auto make : {over_push_loop, saturation_loop}) CHECK(joint_roughness(make()) <= 1.0);
   for (std::size_t band = 0; band < kEngineBands.size(); ++band) {
     for (const EngineLoad load : {EngineLoad::coasting, EngineLoad::full}) {
@@ -71,31 +71,31 @@ TEST_CASE("no loop clicks at its joint, and the measure would detect it") {
         CAPTURE(cylinders);
         CHECK(joint_roughness(loop) <= 1.0);
         if (cylinders != 4) continue;
-        loop.resize(loop.size() - 1000);  // shortened by 0.42 of a cycle
+        loop.resize(loop.size() - 1000);  // shorter by 0.42 of a cycle
         CHECK(joint_roughness(loop) > 1.5);
       }
     }
   }
 }
 
-TEST_CASE("an engine loop is a whole number of cycles of two turns at its speed") {
+TEST_CASE("an engine loop is a whole number of cycles, each of two crankshaft turns") {
   const std::vector<float> loop = engine_loop(4, 1, EngineLoad::full);
   const double cycle = 120.0 / kEngineLoopSpeed * kSoundRate;  // [samples]
   CHECK(std::fmod(static_cast<double>(loop.size()), cycle) == 0.0);
 }
 
-TEST_CASE("half orders are present, at least 12 dB below the firing frequency") {
+TEST_CASE("half orders are present, and at least 12 dB weaker than the firing frequency") {
   const std::vector<double> x = doubles(engine_loop(4, 2, EngineLoad::full));
-  const double firing = amplitude_at(x, 80.0);  // 2400 / 60 * 4 / 2
+  const double firing = amplitude_at(x, 80.0);  // [Hz] 2400 / 60 * 4 / 2
   for (const double half : {20.0, 40.0, 60.0, 100.0}) {
     CHECK(decibels(amplitude_at(x, half) / firing) < -12.0);
     CHECK(decibels(amplitude_at(x, half) / firing) > -45.0);
   }
-  // noise between the firing lines
+  // Between the orders there is only noise.
   for (const double between : {50.0, 70.0, 90.0}) CHECK(decibels(amplitude_at(x, between) / firing) < -30.0);
 }
 
-TEST_CASE("every partial is at least as strong under full load as when coasting, most the high ones") {
+TEST_CASE("every partial is at least as strong under full load as when coasting, and the high ones gain most") {
   for (std::size_t band = 0; band < kEngineBands.size(); ++band) {
     const std::vector<double> coasting = doubles(engine_loop(4, band, EngineLoad::coasting));
     const std::vector<double> full = doubles(engine_loop(4, band, EngineLoad::full));
@@ -117,19 +117,20 @@ TEST_CASE("no partial of an engine loop aliases at the highest pitch at which it
   }
 }
 
-TEST_CASE("bands cross-fade over the logarithm of the speed: gains sum to 1, at most two sound, at a centre only one") {
+TEST_CASE(
+    "bands cross-fade over the logarithm of the speed: gains sum to 1, two bands sound at most, one at a centre") {
   for (double speed = 0.0; speed < 9000.0; speed += 37.0) {
-    const auto shares = band_weights(speed);
+    const auto weights = band_weights(speed);
     double sum = 0.0;
-    for (const double share : shares) sum += share;
+    for (const double weight : weights) sum += weight;
     CHECK(sum == doctest::Approx(1.0));
-    CHECK(std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0.0; }) <= 2);
+    CHECK(std::count_if(weights.begin(), weights.end(), [](double weight) { return weight > 0.0; }) <= 2);
   }
   for (std::size_t band = 0; band < kEngineBands.size(); ++band) CHECK(band_weights(kEngineBands[band])[band] == 1.0);
   CHECK(band_weights(std::sqrt(kEngineBands[1] * kEngineBands[2]))[1] == doctest::Approx(0.5));
 }
 
-TEST_CASE("over-push: one tone, then the other, 2.5 times a second without a pause") {
+TEST_CASE("over-push is two tones in turn, without a pause, 2.5 times per second") {
   const std::vector<float> loop = over_push_loop();
   CHECK(static_cast<double>(loop.size()) / kSoundRate == doctest::Approx(1.0 / 2.5));
   const std::vector<double> x = doubles(loop);
@@ -140,7 +141,7 @@ TEST_CASE("over-push: one tone, then the other, 2.5 times a second without a pau
   CHECK(*std::min_element(levels.begin(), levels.end()) > 0.6 * *std::max_element(levels.begin(), levels.end()));
 }
 
-TEST_CASE("saturation: three beeps of another tone within 0.3 s, then a pause") {
+TEST_CASE("saturation is three beeps of one tone within 0.3 s, then a pause") {
   const std::vector<double> levels = envelope(saturation_loop());
   int begins = 0;
   double silent = 0.0;
@@ -154,7 +155,7 @@ TEST_CASE("saturation: three beeps of another tone within 0.3 s, then a pause") 
   CHECK(strongest_line(twice(saturation_loop())) == doctest::Approx(kSaturationTone).epsilon(0.01));
 }
 
-TEST_CASE("the warnings share no tone: each is 40 dB down where the other is") {
+TEST_CASE("the warnings have no tone in common") {
   const auto part = [](const std::vector<float>& loop, double tone) {
     const Spectrum s = spectrum(twice(loop));
     return 10.0 * std::log10(band_power(s, tone * 0.97, tone * 1.03) / band_power(s, 0.0, 24000.0));
@@ -167,14 +168,14 @@ TEST_CASE("the warnings share no tone: each is 40 dB down where the other is") {
   CHECK(part(over_push_loop(), kSaturationTone) < -20.0);
 }
 
-TEST_CASE("noise is uniform and without trend, and a filtered loop has no joint") {
+TEST_CASE("noise is uniform with zero mean, and a filtered noise loop has no audible joint") {
   std::vector<float> x = looping_noise(48000, 5);
   double mean = 0.0;
   for (const float v : x) mean += v / 48000.0;
   CHECK(std::abs(mean) < 0.01);
-  CHECK(rms(doubles(x)) == doctest::Approx(1.0 / std::sqrt(3.0)).epsilon(0.01));  // uniform in [-1, 1)
+  CHECK(rms(doubles(x)) == doctest::Approx(1.0 / std::sqrt(3.0)).epsilon(0.01));  // uniform from -1 to 1
   CHECK(x != looping_noise(48000, 6));
-  // Filtering a rotated loop gives the filtered loop, rotated by the same number of samples.
+  // If a loop is rotated and then filtered, the result is the filtered loop, rotated by the same number of samples.
   std::vector<float> turned = x;
   std::rotate(turned.begin(), turned.begin() + 12345, turned.end());
   loop_low_pass(x, 500.0);

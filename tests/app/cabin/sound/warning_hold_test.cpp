@@ -1,4 +1,4 @@
-// When a warning sounds.
+// WarningHold: how long a warning sounds after its cause.
 #include "app/cabin/sound/warning_hold.h"
 
 #include <doctest/doctest.h>
@@ -9,15 +9,16 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60.0;
 
-// How long the warning sounds and how often it starts within 3 s, while its cause lasts as `lasts` says. [s]
-struct Heard {
+// A warning in the first 3 s, whose cause lasts while `lasts` returns true: how long it sounds [s] and how often it
+// starts.
+struct WarningSound {
   double seconds = 0.0;
   int starts = 0;
 };
 
 template <typename Lasts>
-Heard is_audible(WarningHold hold, Lasts lasts) {
-  Heard out;
+WarningSound sound_of(WarningHold hold, Lasts lasts) {
+  WarningSound out;
   for (int n = 0; n < 180; ++n) {
     const auto now = hold.update(lasts(n * kFrame), n * kFrame);
     out.seconds += now.is_audible ? kFrame : 0.0;
@@ -28,33 +29,33 @@ Heard is_audible(WarningHold hold, Lasts lasts) {
 
 }  // namespace
 
-TEST_CASE("a warning lasts as long as its cause") {
-  const Heard out = is_audible(WarningHold(0.3, 0.0), [](double t) { return t >= 0.5 && t < 1.5; });
+TEST_CASE("a warning lasts as long as its cause, if that is longer than the hold") {
+  const WarningSound out = sound_of(WarningHold(0.3, 0.0), [](double t) { return t >= 0.5 && t < 1.5; });
   CHECK(out.seconds == doctest::Approx(1.0).epsilon(0.02));
   CHECK(out.starts == 1);
 }
 
 TEST_CASE("a cause of one frame, or between two frames, sounds for the whole hold") {
-  const Heard frame = is_audible(WarningHold(0.3, 0.0), [](double t) { return t >= 0.5 && t < 0.51; });
+  const WarningSound frame = sound_of(WarningHold(0.3, 0.0), [](double t) { return t >= 0.5 && t < 0.51; });
   CHECK(frame.seconds == doctest::Approx(0.3).epsilon(0.06));
   WarningHold between(0.3, 0.0);
   between.begin();
-  const Heard event = is_audible(between, [](double) { return false; });
+  const WarningSound event = sound_of(between, [](double) { return false; });
   CHECK(event.seconds == doctest::Approx(0.3).epsilon(0.06));
   CHECK(event.starts == 1);
-  CHECK(is_audible(WarningHold(0.3, 0.0), [](double) { return false; }).seconds == 0.0);
+  CHECK(sound_of(WarningHold(0.3, 0.0), [](double) { return false; }).seconds == 0.0);
 }
 
 TEST_CASE("a cause that flickers faster than the hold is one warning; without a hold it would be many") {
-  // on for 0.1 s in every 0.4 s
-  const auto flutters = [](double t) { return t < 2.0 && static_cast<int>(t / 0.1) % 4 == 0; };
-  const Heard held = is_audible(WarningHold(0.3, 0.35), flutters);
+  // The cause lasts 0.1 s in every 0.4 s.
+  const auto flickers = [](double t) { return t < 2.0 && static_cast<int>(t / 0.1) % 4 == 0; };
+  const WarningSound held = sound_of(WarningHold(0.3, 0.35), flickers);
   CHECK(held.starts == 1);
   CHECK(held.seconds == doctest::Approx(1.7 + 0.35).epsilon(0.03));
-  CHECK(is_audible(WarningHold(0.1, 0.0), flutters).starts == 5);
+  CHECK(sound_of(WarningHold(0.1, 0.0), flickers).starts == 5);
 }
 
-TEST_CASE("after the clock is set back, a warning ends no later than one hold from then") {
+TEST_CASE("after the clock was set back, a warning ends no later than one hold afterwards") {
   WarningHold hold(0.3, 0.25);
   hold.begin();
   CHECK(hold.update(false, 1000.0).is_audible);

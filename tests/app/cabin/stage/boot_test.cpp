@@ -20,24 +20,24 @@ struct BootMesh {
 };
 
 const BootMesh& boot_mesh() {
-  static const BootMesh boot = [] {
+  static const BootMesh loaded = [] {
     const engine::Model model = engine::read_gltf(GEARSHIFT_ASSETS "/models/cabin.glb");
     const engine::Mesh& mesh =
         model.meshes[static_cast<std::size_t>(model.nodes[static_cast<std::size_t>(model.node("Boot"))].mesh)];
-    BootMesh made;
-    made.vertices.assign(model.vertices.begin() + mesh.first_vertex,
+    BootMesh boot;
+    boot.vertices.assign(model.vertices.begin() + mesh.first_vertex,
                          model.vertices.begin() + mesh.first_vertex + mesh.vertex_count);
     for (const engine::Primitive& p : mesh.primitives) {
       for (std::uint32_t i = 0; i < p.index_count; ++i) {
-        made.indices.push_back(model.indices[p.first_index + i] - mesh.first_vertex);
+        boot.indices.push_back(model.indices[p.first_index + i] - mesh.first_vertex);
       }
     }
-    return made;
+    return boot;
   }();
-  return boot;
+  return loaded;
 }
 
-// Lever positions in the shipped gates: rests, walls and the aisle's ends.
+// Lever positions in all shipped gates: the slots' ends, in the middle and at both walls, and the aisles' ends.
 std::vector<glm::dvec2> places() {
   std::vector<glm::dvec2> all{{0.0, 0.0}};
   for (const std::string& name : shipped_names()) {
@@ -54,7 +54,7 @@ std::vector<glm::dvec2> places() {
   return all;
 }
 
-// Rodrigues' rotation of p about `axis` by `angle`, without quaternions.
+// Rotates p about `axis` by `angle` [rad] with Rodrigues' formula, without quaternions.
 glm::dvec3 rotated(glm::dvec3 p, glm::dvec3 axis, double angle) {
   return p * std::cos(angle) + glm::cross(axis, p) * std::sin(angle) +
          axis * glm::dot(axis, p) * (1.0 - std::cos(angle));
@@ -64,7 +64,7 @@ glm::dvec3 with_lever(glm::dvec3 p, glm::dvec2 plane) {
   const double off = glm::length(plane);
   if (off == 0.0) return p;
   const glm::dvec3 pivot{0.0, -0.030, 0.0};
-  const glm::dvec3 axis = glm::dvec3(-plane.y, 0.0, -plane.x) / off;  // up x (x, up, -y)
+  const glm::dvec3 axis = glm::dvec3(-plane.y, 0.0, -plane.x) / off;  // the axis (0, 1, 0) x (x, 0, -y), normalised
   return pivot + rotated(p - pivot, axis, std::asin(off / 0.12));
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("the boot's foot is fixed and its collar moves rigidly with the lever"
   CHECK(collar > 0);
 }
 
-TEST_CASE("between foot and collar it follows the formula in the cabin model's README") {
+TEST_CASE("between foot and collar the boot follows the formula in the cabin model's README") {
   std::vector<engine::Vertex> bent;
   const glm::dvec2 plane{0.030, -0.040};
   cabin::deform_boot(boot_mesh().vertices, cabin::lever_rotation({}, plane), bent);
@@ -105,7 +105,7 @@ TEST_CASE("between foot and collar it follows the formula in the cabin model's R
   CHECK(worst < 1e-6);
 }
 
-// Where a fold is flattened, a face may be oblique to the mean of its normals: at most two faces in a thousand.
+// Where a fold is flattened, a face may be oblique to the mean of its normals. This may affect two faces in a thousand.
 TEST_CASE("the boot's faces keep their outer side in all gears of all gates") {
   std::vector<engine::Vertex> bent;
   for (const glm::dvec2 plane : places()) {
@@ -118,7 +118,8 @@ TEST_CASE("the boot's faces keep their outer side in all gears of all gates") {
         n[k] = bent[boot_mesh().indices[i + k]].normal;
         if (!(std::abs(glm::length(n[k]) - 1.0f) < 1e-4f)) ++nan;
       }
-      // Normals computed from the map's derivative stay on their face's outer side as long as the map does not fold.
+      // The normals are computed from the derivative of the deformation, so they stay on their face's outer side as
+      // long as the boot does not fold through itself.
       const glm::vec3 face = glm::cross(p[1] - p[0], p[2] - p[0]);
       if (glm::length(face) > 1e-9f && glm::dot(glm::normalize(face), n[0] + n[1] + n[2]) < 0.0f) ++against;
     }
@@ -129,10 +130,10 @@ TEST_CASE("the boot's faces keep their outer side in all gears of all gates") {
   }
 }
 
-TEST_CASE("the map's derivative keeps its orientation up to the corners of the yoke's workspace") {
-  // J = 1 + w (R - 1) + w' (R - 1)(p - P) e_y^T, its determinant from finite differences of the map.
+TEST_CASE("the deformation keeps its orientation up to the corners of the yoke's workspace") {
+  // The derivative is J = 1 + w (R - 1) + w' (R - 1)(p - P) e_y^T. Its determinant is computed from finite differences.
   const double step = 1e-6;
-  double least = 1.0;
+  double min_ratio = 1.0;
   for (int i = -3; i <= 3; ++i) {
     for (int j = -2; j <= 2; ++j) {
       const double x = 0.02 * i, y = 0.025 * j;
@@ -144,12 +145,12 @@ TEST_CASE("the map's derivative keeps its orientation up to the corners of the y
         const glm::dvec3 p(vertex.position), at = map(p);
         const glm::dvec3 a = map(p + glm::dvec3(step, 0.0, 0.0)) - at, b = map(p + glm::dvec3(0.0, step, 0.0)) - at;
         const glm::dvec3 c = map(p + glm::dvec3(0.0, 0.0, step)) - at;
-        least = std::min(least, glm::dot(glm::cross(a, b), c) / (step * step * step));
+        min_ratio = std::min(min_ratio, glm::dot(glm::cross(a, b), c) / (step * step * step));
       }
     }
   }
-  MESSAGE("smallest volume ratio " << least);
-  CHECK(least > 0.0);
+  MESSAGE("smallest volume ratio " << min_ratio);
+  CHECK(min_ratio > 0.0);
 }
 
 }  // namespace gearshift::test

@@ -1,4 +1,4 @@
-// The tachometer's printed scale, compared with the needle.
+// The tachometer's printed scale, compared with the needle's position.
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -15,8 +15,8 @@ namespace gearshift::test {
 namespace {
 
 constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
-constexpr double kMiddle = 336.0;                 // [px] the dial's centre in the atlas, in x and y
-constexpr double kRadius = 336.0;                 // [px] the dial's area
+constexpr double kMiddle = 336.0;                 // [px] x and y of the dial's centre in the atlas
+constexpr double kRadius = 336.0;                 // [px] the dial's radius in the atlas
 
 cabin::StageConfig cabin() {
   cabin::StageConfig config;
@@ -40,7 +40,7 @@ Pictures print_of(const cabin::Stage& stage) {
   return {};
 }
 
-// In a stage that showed another car before.
+// The print for this red line [rad/s], in a stage that showed a different car before.
 Pictures dial_of(double red_line) {
   static cabin::Stage stage(cabin(), GEARSHIFT_ASSETS "/models");
   cabin::StageInput input;
@@ -51,11 +51,11 @@ Pictures dial_of(double red_line) {
   return print_of(stage);
 }
 
-// The pixel under the needle's tip at that speed [1/min], at a fraction of the dial's radius.
-const std::uint8_t* under_needle(const engine::Image& dial, double rpm, double share) {
+// The pixel below the needle at `rpm`, at a fraction of the dial's radius.
+const std::uint8_t* under_needle(const engine::Image& dial, double rpm, double fraction) {
   vehicle::VehicleState car;
   car.engine_speed = rpm * kRpm;
-  const double angle = cabin::tach_angle(car), far = share * kRadius;
+  const double angle = cabin::tach_angle(car), far = fraction * kRadius;
   const double x = kMiddle - far * std::sin(angle), y = kMiddle - far * std::cos(angle);
   return dial.pixel(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
 }
@@ -68,7 +68,7 @@ bool is_light(const std::uint8_t* p) {
   return p[0] > 100;
 }
 
-// A number's area: how many pixels are lit, and how many of those are red.
+// The pixels of a printed number: how many are lit, and how many of these are red.
 struct Sign {
   int lit = 0, red = 0;
 };
@@ -88,14 +88,14 @@ Sign number_at(const engine::Image& dial, int thousands) {
 
 }  // namespace
 
-TEST_CASE("the needle enters the red at its car's red line, in every car, and leaves it at the end of the scale") {
+TEST_CASE("in every car the red part of the scale begins at the car's red line and ends at the end of the scale") {
   for (const std::string name : {"hatchback", "diesel"}) {
     CAPTURE(name);
     const double red_line = vehicle::read_car(GEARSHIFT_ASSETS "/cars/" + name + ".toml").engine.red_line;
     const Pictures dial = dial_of(red_line);
     for (const engine::Image& picture : {dial.reflects, dial.glows}) {
       for (double rpm = 20.0; rpm < 7990.0; rpm += 10.0) {
-        if (std::abs(rpm - red_line / kRpm) < 25.0) continue;  // half a pixel, plus the antialiased edge
+        if (std::abs(rpm - red_line / kRpm) < 25.0) continue;  // half a pixel and the antialiased edge
         CAPTURE(rpm);
         CHECK(is_red(under_needle(picture, rpm, 0.912)) == (rpm > red_line / kRpm));
       }
@@ -103,7 +103,7 @@ TEST_CASE("the needle enters the red at its car's red line, in every car, and le
   }
 }
 
-TEST_CASE("numbers and ticks from the red line on are red, those below white, and none is missing") {
+TEST_CASE("numbers and ticks from the red line on are red, those below are white, and none is missing") {
   for (const auto& [red_line, first_number] : {std::pair(6250.0, 7), std::pair(4750.0, 5), std::pair(4000.0, 4)}) {
     const double line = red_line;
     CAPTURE(line);
@@ -124,7 +124,7 @@ TEST_CASE("numbers and ticks from the red line on are red, those below white, an
   }
 }
 
-TEST_CASE("a red line beyond the scale leaves nothing red; reprinting the file's own red line looks as before") {
+TEST_CASE("a red line beyond the scale leaves nothing red; printing the file's own red line restores the file's dial") {
   const Pictures beyond = dial_of(9000.0 * kRpm);
   for (double rpm = 20.0; rpm < 7990.0; rpm += 10.0) {
     REQUIRE_FALSE(is_red(under_needle(beyond.reflects, rpm, 0.912)));
@@ -134,7 +134,7 @@ TEST_CASE("a red line beyond the scale leaves nothing red; reprinting the file's
     if (between_ticks) REQUIRE_FALSE(is_light(under_needle(beyond.glows, rpm, 0.912)));
   }
   const Pictures filed = print_of(cabin::Stage(cabin(), GEARSHIFT_ASSETS "/models"));
-  CHECK(is_red(under_needle(filed.reflects, 6600.0, 0.912)));  // assets/models/README.md: red from 6500
+  CHECK(is_red(under_needle(filed.reflects, 6600.0, 0.912)));  // the file's dial is red from 6500 rpm
   CHECK_FALSE(is_red(under_needle(filed.reflects, 6400.0, 0.912)));
   const Pictures same = dial_of(6500.0 * kRpm), diesel = dial_of(4750.0 * kRpm);
   const auto dial = [](const engine::Image& picture) { return engine::crop(picture, 0, 0, 672, 672); };
@@ -143,13 +143,13 @@ TEST_CASE("a red line beyond the scale leaves nothing red; reprinting the file's
     MESSAGE("printed as before: " << psnr << " dB");
     CHECK(psnr > 35.0);
   }
-  // Everything outside the tachometer is unchanged.
+  // The part of the atlas outside the tachometer is unchanged.
   const auto others = [](const engine::Image& picture) { return engine::crop(picture, 672, 0, 1376, 1024); };
   CHECK(engine::difference(others(filed.reflects), others(diesel.reflects), 0).worst == 0);
   CHECK(engine::difference(others(filed.glows), others(diesel.glows), 0).worst == 0);
 }
 
-TEST_CASE("a new print is reported once, when the car's red line changes; placing without a car changes nothing") {
+TEST_CASE("a new print is reported once, when the car's red line changes; input without a car changes nothing") {
   cabin::Stage stage(cabin(), GEARSHIFT_ASSETS "/models");
   CHECK_FALSE(stage.take_dial_change());
   cabin::StageInput input;

@@ -1,4 +1,4 @@
-// The driver's view in the door mirrors.
+// What the driver sees in the door mirrors.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,12 +17,12 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A point of the glass, and the direction in which the driver's line of sight is reflected there.
+// `at`: a point of the glass. `on`: the direction into which the driver's line of sight is reflected there.
 struct Glance {
   glm::dvec3 at, on;
 };
 
-// side: -1 left, +1 right.
+// The lines of sight in one mirror. side: -1 left, +1 right.
 std::vector<Glance> glances(double side) {
   cabin::StageConfig config;
   config.gate = shipped_gate("paper");
@@ -43,8 +43,7 @@ std::vector<Glance> glances(double side) {
 
 }  // namespace
 
-TEST_CASE(
-    "a door mirror shows the horizon in its upper half, the road below, and more of the surroundings than of the car") {
+TEST_CASE("a door mirror shows the horizon in its upper half, the road below, and in its outer part the surroundings") {
   for (const double side : {-1.0, 1.0}) {
     CAPTURE(side);
     const std::vector<Glance> all = glances(side);

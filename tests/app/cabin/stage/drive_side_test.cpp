@@ -1,4 +1,4 @@
-// A right-hand-drive cabin compared with the left-hand-drive one, and with the model file that both come from.
+// A right-hand-drive cabin compared with the left-hand-drive cabin, and with the model file from which both are made.
 #include "app/cabin/stage/drive_side.h"
 
 #include <algorithm>
@@ -26,7 +26,8 @@ namespace {
 
 constexpr const char* kFolder = GEARSHIFT_ASSETS "/models";
 constexpr std::array kSides{cabin::DriveSide::left, cabin::DriveSide::right};
-constexpr float kTwice = 0.66f;  // [m] the sum of x of a point and of its mirror image: the lever is at 0.33
+// [m] x of a point plus x of its mirror image; the mirror plane is at x = 0.33, the lever.
+constexpr float kTwice = 0.66f;
 
 cabin::StageConfig cabin_of(cabin::DriveSide side, bool open_gate = false) {
   cabin::StageConfig config;
@@ -48,7 +49,7 @@ glm::dvec3 place_in(const cabin::Stage& stage, std::string_view name) {
   return glm::dvec3(world_in(stage, name)[3]);
 }
 
-// All vertices of a model at rest in world space, searchable by position.
+// All vertices of a model in its rest pose in world space, searchable by position.
 class Cloud {
  public:
   explicit Cloud(const engine::Model& model) {
@@ -74,7 +75,7 @@ class Cloud {
   }
 
  private:
-  static constexpr float kCell = 1e-3f;  // [m]
+  static constexpr float kCell = 1e-3f;  // [m] size of a search cell
 
   static std::array<int, 3> cell(glm::vec3 p) {
     return {static_cast<int>(std::floor(p.x / kCell)), static_cast<int>(std::floor(p.y / kCell)),
@@ -102,14 +103,14 @@ engine::Vertex moved_by(engine::Vertex vertex, float x) {
   return vertex;
 }
 
-// For each node that changes sides by a plain translation with its children: the distance along x. [m]
+// [m] The nodes that change sides by a translation along x together with their children, and its distance.
 const std::map<std::string_view, float> kMoved = {
     {"Cluster", 0.66f},       {"SteeringColumn", 0.66f}, {"PedalClutch", 0.66f},
     {"PedalBrake", 0.66f},    {"PedalThrottle", 0.66f},  {"RadioScreen", -0.01f},
     {"ClimatePrint", -0.01f}, {"HazardButton", -0.01f},  {"LeverPivot", 0.0f},
     {"Boot", 0.0f},           {"GatePlate", 0.0f}};
 
-const float* way_of(const engine::Model& cabin, int node) {
+const float* displacement_of(const engine::Model& cabin, int node) {
   for (; node != engine::kNone; node = cabin.nodes[static_cast<std::size_t>(node)].parent) {
     const auto found = kMoved.find(cabin.nodes[static_cast<std::size_t>(node)].name);
     if (found != kMoved.end()) return &found->second;
@@ -117,7 +118,7 @@ const float* way_of(const engine::Model& cabin, int node) {
   return nullptr;
 }
 
-// Counts the triangles in world space whose back faces the way their normals point.
+// The number of triangles whose normals point to their back, in world space.
 int inside_out(const engine::Model& model, std::span<const engine::Vertex> vertices, const engine::Mesh& mesh) {
   int wrong = 0;
   for (const engine::Primitive& primitive : mesh.primitives) {
@@ -133,7 +134,8 @@ int inside_out(const engine::Model& model, std::span<const engine::Vertex> verti
   return wrong;
 }
 
-// Leaves are left out: their normals point away from the crown's centre.
+// The number of triangles in a model whose normals point to their back. Leaves are omitted, because their normals point
+// away from the crown's centre.
 int inside_out(const engine::Model& model) {
   int wrong = 0;
   for (const engine::Node& node : model.nodes) {
@@ -151,7 +153,7 @@ const std::vector<engine::Vertex>& skin_in(const cabin::Stage& stage) {
       ->vertices;
 }
 
-// By the divergence theorem, seen from the knob, because the sleeve is open at the elbow. [m^3]
+// [m^3] The hand's volume by the divergence theorem. The knob is the origin, because the sleeve is open at the elbow.
 double hand_volume(const cabin::Stage& stage) {
   const engine::Model& model = stage.model();
   const engine::Mesh& mesh = model.meshes[static_cast<std::size_t>(
@@ -178,16 +180,15 @@ cabin::StageInput lever_over(glm::dvec2 plane) {
 
 }  // namespace
 
-TEST_CASE(
-    "the right-hand-drive body is the file's, mirrored at the lever; lever, print, wheel and pedals are not mirrored") {
+TEST_CASE("the right-hand-drive body is the file's, mirrored at the lever; lever, prints, wheel and pedals are not") {
   const engine::Model cabin = engine::read_gltf(std::string(kFolder) + "/cabin.glb");
   const Cloud right(stage_of(cabin::DriveSide::right).model());
   const std::vector<glm::mat4> world = engine::rest_pose(cabin);
   int body = 0, upright = 0;
   for (std::size_t i = 0; i < cabin.nodes.size(); ++i) {
     const std::string& name = cabin.nodes[i].name;
-    if (name.starts_with("DoorMirror") && name.ends_with("Surface")) continue;  // the stage bends them
-    const float* shift = way_of(cabin, static_cast<int>(i));
+    if (name.starts_with("DoorMirror") && name.ends_with("Surface")) continue;  // the stage bends the mirrors' glass
+    const float* shift = displacement_of(cabin, static_cast<int>(i));
     int missing = 0;
     for (const cabin::MeshPart& part : cabin::transformed_parts(cabin, static_cast<int>(i), world[i])) {
       for (const engine::Vertex& vertex : part.mesh_data.vertices) {
@@ -202,7 +203,8 @@ TEST_CASE(
   CHECK(upright > 5000);
 }
 
-TEST_CASE("no node mirrors, on either side, and no additional triangle is inside out") {
+TEST_CASE(
+    "no node has a mirroring transform on either side, and the right has no more inverted triangles than the left") {
   for (const bool open_gate : {false, true}) {
     const cabin::Stage left = stage_of(cabin::DriveSide::left, open_gate),
                        right = stage_of(cabin::DriveSide::right, open_gate);
@@ -242,7 +244,7 @@ TEST_CASE("lever, knob, boot and gate plate are the same on both sides, at any l
   }
 }
 
-TEST_CASE("dials, display and wheel are moved to the other driver without rotation") {
+TEST_CASE("dials, display and wheel are moved to the driver's side without rotation") {
   const cabin::Stage left = stage_of(cabin::DriveSide::left), right = stage_of(cabin::DriveSide::right);
   for (const char* name : {"TachDial", "SpeedDial", "GearPanel", "LampTurnLeft", "LampTurnRight", "ShiftUp",
                            "TachNeedle", "SteeringWheel"}) {
@@ -253,7 +255,7 @@ TEST_CASE("dials, display and wheel are moved to the other driver without rotati
   }
 }
 
-TEST_CASE("from left to right: clutch, brake, throttle, on either side, in front of the driver's feet") {
+TEST_CASE("on either side, clutch, brake and throttle are in this order from left to right, in front of the driver") {
   for (const cabin::DriveSide side : kSides) {
     const cabin::Stage stage = stage_of(side);
     const double clutch = place_in(stage, "PedalClutch").x, brake = place_in(stage, "PedalBrake").x;
@@ -288,10 +290,10 @@ TEST_CASE("the hand on the right is the mirror image for the mirrored lever posi
   glm::dvec3 middle(0.0);
   for (const engine::Vertex& vertex : skin_in(right)) middle += glm::dvec3(vertex.position);
   middle /= static_cast<double>(skin_in(right).size());
-  CHECK(middle.x > right.knob().x + 0.01);  // the arm comes from the driver's side
+  CHECK(middle.x > right.knob().x + 0.01);  // the arm comes from the driver, who is on the right
 }
 
-TEST_CASE("the ghost's hand is offset from the hand as the ghost's knob from the knob, on the right too") {
+TEST_CASE("also on the right, the ghost's hand has the same offset from the hand as the ghost's knob from the knob") {
   cabin::Stage stage = stage_of(cabin::DriveSide::right);
   cabin::StageInput input = lever_over({-0.035, 0.020});
   input.lever.lever = {-0.060, 0.020};
@@ -300,17 +302,17 @@ TEST_CASE("the ghost's hand is offset from the hand as the ghost's knob from the
   CHECK(glm::distance(place_in(stage, "GhostHand"), stage.ghost_knob() - stage.knob()) < 1e-6);
 }
 
-TEST_CASE("on either side the driver sees first to the left of third and ahead of second") {
+TEST_CASE("on either side the driver sees first gear's slot left of third's and ahead of second's") {
   for (const cabin::DriveSide side : kSides) {
     cabin::Stage stage = stage_of(side, true);
     const haptics::Gate gate = cabin_of(side).gate;
     const double field = cabin::camera_field("driver") * std::numbers::pi / 180.0;
     const engine::View view = engine::view_from(stage.driver_eye(), engine::symmetric_fov(field, 16.0 / 9.0), 0.05);
-    const auto seen_in = [&](int gear) {
+    const auto pixel_in = [&](int gear) {
       stage.place(lever_over(haptics::rest_position(gate, gear)));
       return engine::project(view, place_in(stage, "Knob"), {1280.0, 720.0});
     };
-    const glm::dvec3 first = seen_in(1), second = seen_in(2), third = seen_in(3);
+    const glm::dvec3 first = pixel_in(1), second = pixel_in(2), third = pixel_in(3);
     for (const glm::dvec3 at : {first, second, third}) CHECK(at.z > 0.0);
     CHECK(first.x < third.x - 5.0);
     CHECK(first.y < second.y - 5.0);
@@ -319,7 +321,7 @@ TEST_CASE("on either side the driver sees first to the left of third and ahead o
   }
 }
 
-TEST_CASE("the interior mirror shows its driver the view behind, level") {
+TEST_CASE("the interior mirror shows each driver a level view to the rear") {
   for (const cabin::DriveSide side : kSides) {
     const cabin::Stage stage = stage_of(side);
     const glm::dmat4 mirror(world_in(stage, "InteriorMirrorSurface"));
@@ -331,23 +333,23 @@ TEST_CASE("the interior mirror shows its driver the view behind, level") {
   }
 }
 
-TEST_CASE("on the right each camera is mirrored, and road and shadows fit that car") {
+TEST_CASE("on the right each camera is mirrored, and road and shadow bounds match") {
   for (const char* name : {"driver", "ahead", "lever", "gate", "cluster", "gearbox"}) {
     const engine::EyePose left = cabin::camera(name), right = cabin::camera(name, cabin::DriveSide::right);
     const glm::dvec3 ahead = left.orientation * glm::dvec3(0.0, 0.0, -1.0);
     CHECK(glm::distance(right.position, {0.66 - left.position.x, left.position.y, left.position.z}) < 1e-12);
     CHECK(glm::distance(right.orientation * glm::dvec3(0.0, 0.0, -1.0), {-ahead.x, ahead.y, ahead.z}) < 1e-12);
-    CHECK((right.orientation * glm::dvec3(1.0, 0.0, 0.0)).y == doctest::Approx(0.0));  // level
+    CHECK((right.orientation * glm::dvec3(1.0, 0.0, 0.0)).y == doctest::Approx(0.0));  // the camera stays level
   }
   const cabin::Stage left = stage_of(cabin::DriveSide::left), right = stage_of(cabin::DriveSide::right);
   CHECK(place_in(left, "RoadStrip").x + place_in(right, "RoadStrip").x == doctest::Approx(0.66));
-  const engine::ShadowRoom a = left.scene().shadow_room, b = right.scene().shadow_room;
+  const engine::ShadowBounds a = left.scene().shadow_bounds, b = right.scene().shadow_bounds;
   CHECK(a.low.x + b.high.x == doctest::Approx(0.66));
   CHECK(a.high.x + b.low.x == doctest::Approx(0.66));
   CHECK(a.low.y == b.low.y);
 }
 
-TEST_CASE("on the right, too, the important parts are in the centre square of the driver camera's picture") {
+TEST_CASE("on the right too, the important parts are in the centre square of the driver camera's picture") {
   const cabin::Stage stage = stage_of(cabin::DriveSide::right);
   const double field = cabin::camera_field("driver") * std::numbers::pi / 180.0;
   const engine::View view = engine::view_from(stage.driver_eye(), engine::symmetric_fov(field, 16.0 / 9.0), 0.05);
@@ -360,7 +362,7 @@ TEST_CASE("on the right, too, the important parts are in the centre square of th
   }
 }
 
-TEST_CASE("the cut-away is in front of the passenger, its columns in the gate's order, its rails beyond them") {
+TEST_CASE("the gearbox model is on the passenger's side, its columns in the gate's order, its rails beyond them") {
   for (const cabin::DriveSide side : kSides) {
     cabin::StageConfig config = cabin_of(side);
     config.cutaway = true;
@@ -373,11 +375,11 @@ TEST_CASE("the cut-away is in front of the passenger, its columns in the gate's 
   }
 }
 
-TEST_CASE("the road's sign is on the driver's side of the road and reads correctly") {
+TEST_CASE("the road sign is on the driver's side of the road and is not mirrored") {
   for (const cabin::DriveSide side : kSides) {
     const cabin::Stage stage = stage_of(side);
     const engine::Model& model = stage.model();
-    const float middle = side == cabin::DriveSide::left ? 3.2f : -3.2f;  // [m] the lane's centre
+    const float middle = side == cabin::DriveSide::left ? 3.2f : -3.2f;  // [m] x of the sign
     double reads = 0.0;
     for (const cabin::MeshPart& part : cabin::parts_of(model, cabin::required_node(model, "RoadBlock0"))) {
       for (std::size_t i = 0; i < part.mesh_data.indices.size(); i += 3) {
@@ -389,7 +391,7 @@ TEST_CASE("the road's sign is on the driver's side of the road and reads correct
         });
         if (!is_front) continue;
         const glm::vec2 u = v[1].uv0 - v[0].uv0, w = v[2].uv0 - v[0].uv0;
-        // v points down, so a face that is seen and reads correctly turns clockwise in uv
+        // v points down, so the triangles of a face that is not mirrored run clockwise in uv.
         reads -= u.x * w.y - u.y * w.x;
       }
     }

@@ -40,15 +40,16 @@ struct Flat {
   glm::dvec2 a, b, c;
 };
 
-// The metal as a rod through the pivot meets it: all triangles of the plate, projected centrally onto its face.
-std::vector<Flat> metal_seen_from_pivot(const cabin::MeshData& metal) {
+// The metal as seen from the pivot, about which the rod turns: all triangles of the plate, projected from the pivot
+// onto the plate's face.
+std::vector<Flat> metal_from_pivot(const cabin::MeshData& metal) {
   std::vector<Flat> flats;
-  const auto seen = [&](std::uint32_t index) {
+  const auto projected = [&](std::uint32_t index) {
     const glm::dvec3 p(metal.vertices[index].position);
     return glm::dvec2(p.x, -p.z) * (cabin::kPlateHeight / p.y);
   };
   for (std::size_t i = 0; i < metal.indices.size(); i += 3) {
-    flats.push_back({seen(metal.indices[i]), seen(metal.indices[i + 1]), seen(metal.indices[i + 2])});
+    flats.push_back({projected(metal.indices[i]), projected(metal.indices[i + 1]), projected(metal.indices[i + 2])});
   }
   return flats;
 }
@@ -76,16 +77,16 @@ double distance_to_metal(const std::vector<Flat>& metal, glm::dvec2 p) {
   return nearest;
 }
 
-// Where the straight line from the yoke's centre to the knob above a gate point crosses the plate, in terms of angles:
-// tan(theta) = px / pz, pz = rho times the cosine of the lever's lean.
+// The point where the straight line from the yoke's centre to the knob above gate point `p` crosses the plate. Computed
+// from angles: tan(theta) = px / pz, with pz = rho times the cosine of the lever's lean.
 glm::dvec2 crossing(glm::dvec2 p) {
   const double lean = std::asin(glm::length(p) / kYoke.radius);
   const double azimuth = std::atan2(p.y, p.x);
   return cabin::kPlateHeight * std::tan(lean) * glm::dvec2(std::cos(azimuth), std::sin(azimuth));
 }
 
-// A round rod cuts a convex corner of the metal: its centre passes a right angle within (sqrt 2 - 1) times its radius
-// behind the corner. True if the rod can pass a wall point for that reason.
+// Whether the rod can pass the wall point `p` only because its round section rounds off a convex corner of the wall. At
+// a right angle, its centre passes up to (sqrt 2 - 1) times its radius behind the corner.
 bool is_behind_a_corner(const haptics::Gate& gate, const cabin::SlotOpening& opening, glm::dvec2 p) {
   const double deepest = (std::sqrt(2.0) - 1.0) * opening.widened * kYoke.radius / cabin::kPlateHeight;
   if (!haptics::in_free_space(gate, p, deepest + 0.0002)) return false;
@@ -109,16 +110,16 @@ glm::dvec2 random_point(const haptics::Gate& gate, std::mt19937_64& dice) {
 }  // namespace
 
 TEST_CASE("the lever's rod meets the plate's metal exactly where the gate has a wall, except for rounded corners") {
-  // 0.2 mm at the knob is at least 0.1 mm on the plate: more than one grid cell cuts off a corner.
+  // 0.2 mm at the knob are at least 0.1 mm on the plate, which is more than a grid cell can cut off a corner.
   constexpr double kMargin = 0.0002;
-  const int share = is_whole_campaign() ? 1 : 4;
+  const int thinning = is_full_campaign() ? 1 : 4;
   int checked = 0, free = 0, rounded = 0;
   for (const NamedGate& named : all_gates()) {
     const bool shipped = named.name.rfind("random", 0) != 0;
     const cabin::GatePlate plate = cabin::make_gate_plate(named.gate, kYoke);
-    const std::vector<Flat> metal = metal_seen_from_pivot(plate.metal);
+    const std::vector<Flat> metal = metal_from_pivot(plate.metal);
     std::mt19937_64 dice(7);
-    for (int i = 0; i < (shipped ? 2000 : 200) / share; ++i) {
+    for (int i = 0; i < (shipped ? 2000 : 200) / thinning; ++i) {
       const glm::dvec2 p = random_point(named.gate, dice);
       const bool surely_free = haptics::in_free_space(named.gate, p, -kMargin);
       const bool surely_wall = !haptics::in_free_space(named.gate, p, kMargin);
@@ -136,27 +137,27 @@ TEST_CASE("the lever's rod meets the plate's metal exactly where the gate has a 
       free += surely_free ? 1 : 0;
     }
   }
-  CHECK(checked > 15000 / share);
-  CHECK(free > 4000 / share);
-  CHECK(checked - free > 4000 / share);
+  CHECK(checked > 15000 / thinning);
+  CHECK(free > 4000 / thinning);
+  CHECK(checked - free > 4000 / thinning);
   CHECK(rounded < checked / 50);
 }
 
-TEST_CASE("a leaning round rod fits everywhere: its section with the plate is an ellipse, not a circle") {
-  double most = 0.0;
+TEST_CASE("a leaning round rod fits everywhere: its section in the plate's plane is an ellipse, not a circle") {
+  double max_ratio = 0.0;
   for (const NamedGate& named : all_gates()) {
     const cabin::GatePlate plate = cabin::make_gate_plate(named.gate, kYoke);
     for (const haptics::Slot& slot : haptics::slots(named.gate)) {
       const glm::dvec2 p(haptics::column_of(named.gate, slot.column).center, static_cast<int>(slot.side) * slot.end);
       const double lean = std::asin(glm::length(p) / kYoke.radius);
       CHECK(plate.opening.rod_radius / std::cos(lean) <= plate.opening.widened);
-      most = std::max(most, plate.opening.rod_radius / std::cos(lean) / plate.opening.widened);
+      max_ratio = std::max(max_ratio, plate.opening.rod_radius / std::cos(lean) / plate.opening.widened);
     }
   }
-  CHECK(most > 0.9);  // and the opening is no wider than necessary
+  CHECK(max_ratio > 0.9);  // the opening is no wider than necessary
 }
 
-TEST_CASE("every layout gives a plate without holes or slivers: closed except for its foot and its throat") {
+TEST_CASE("every layout gives a plate without holes or slivers: closed except for its foot and its opening") {
   for (const NamedGate& named : all_gates()) {
     const cabin::GatePlate plate = cabin::make_gate_plate(named.gate, kYoke);
     CAPTURE(named.name);
@@ -177,20 +178,20 @@ TEST_CASE("every layout gives a plate without holes or slivers: closed except fo
     }
     CHECK(bad == 0);
     CHECK(turned == 0);
-    // The face's area is its outline minus its hole: no triangle is missing or overlaps another.
+    // The area of the face is its outline minus its hole, so no triangle is missing and none overlaps another.
     const double outline = cabin::signed_area(cabin::rounded_rectangle(plate.half - 0.0004, 0.0096, 6));
     const double hole = cabin::signed_area(plate.opening.loop);
     CHECK(hole > 0.0);
     CHECK(area < outline - hole);
-    CHECK(area > outline - hole - 0.0005 * 0.8);  // minus the bevel: 0.4 mm along at most 0.8 m of edge
+    CHECK(area > outline - hole - 0.0005 * 0.8);  // the bevel: 0.4 mm along at most 0.8 m of edge
     CHECK(plate.opening.rod_radius > 0.0002);
   }
 }
 
-TEST_CASE("every gear's sign is on the plate at the end of its slot, on metal") {
+TEST_CASE("every gear's label is on the plate's metal, at the end of its slot") {
   for (const NamedGate& named : all_gates()) {
     const cabin::GatePlate plate = cabin::make_gate_plate(named.gate, kYoke);
-    const std::vector<Flat> metal = metal_seen_from_pivot(plate.metal);
+    const std::vector<Flat> metal = metal_from_pivot(plate.metal);
     CAPTURE(named.name);
     REQUIRE(plate.labels.size() == static_cast<std::size_t>(named.gate.slot_count));
     for (const cabin::PlateLabel& label : plate.labels) {
@@ -202,12 +203,12 @@ TEST_CASE("every gear's sign is on the plate at the end of its slot, on metal") 
       CHECK((label.centre.y - end.y) * static_cast<int>(slot.side) > 0.5 * label.height + plate.opening.widened);
       CHECK(glm::distance(label.centre, end) < 0.0155);
     }
-    CHECK(plate.half.x < 0.064);  // the plate fits on its plinth
+    CHECK(plate.half.x < 0.064);  // the plate fits onto its plinth
     CHECK(plate.half.y < 0.068);
     CHECK(distance_to_metal(metal, plate.lamp) == 0.0);
     std::size_t counted = 0;
     for (const engine::Vertex& v : plate.ink.vertices) {
-      if (counted++ % 4 != 0 && !is_whole_campaign()) continue;
+      if (counted++ % 4 != 0 && !is_full_campaign()) continue;
       if (distance_to_metal(metal, {v.position.x, -v.position.z}) > 0.0) {
         CHECK(distance_to_metal(metal, {v.position.x, -v.position.z}) == 0.0);
       }
@@ -215,7 +216,7 @@ TEST_CASE("every gear's sign is on the plate at the end of its slot, on metal") 
   }
 }
 
-TEST_CASE("the two mappings between knob and plate are inverse") {
+TEST_CASE("the mappings from knob to plate and from plate to knob are inverse") {
   std::mt19937_64 dice(3);
   std::uniform_real_distribution<double> x(-0.077, 0.077), y(-0.068, 0.068);
   for (int i = 0; i < 1000; ++i) {

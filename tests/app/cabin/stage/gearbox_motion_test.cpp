@@ -29,11 +29,11 @@ struct Box {
     REQUIRE(model.node(name) != engine::kNone);
     return pose[static_cast<std::size_t>(model.node(name))];
   }
-  double angle(const std::string& name) const {  // [rad] about the shaft
+  double angle(const std::string& name) const {  // [rad] rotation about the shaft
     const glm::quat q = node(name).rotation;
     return 2.0 * std::atan2(static_cast<double>(q.z), static_cast<double>(q.w));
   }
-  // [m] position of the part's centre along its shaft.
+  // [m] The position of the part's centre along its shaft.
   double along(const std::string& name) const {
     const engine::Mesh& mesh = model.meshes[static_cast<std::size_t>(node(name).mesh)];
     float low = 1e9f, high = -1e9f;
@@ -45,9 +45,9 @@ struct Box {
   }
 };
 
-// The lever at that fraction of the path from the aisle to the slot's rest.
-glm::dvec2 on_the_way(const haptics::Gate& gate, const haptics::Slot& slot, double share) {
-  const double depth = gate.half_aisle + share * (slot.rest - gate.half_aisle);
+// The lever position at `fraction` of the way from the aisle to the slot's rest position.
+glm::dvec2 on_the_way(const haptics::Gate& gate, const haptics::Slot& slot, double fraction) {
+  const double depth = gate.half_aisle + fraction * (slot.rest - gate.half_aisle);
   return {haptics::column_of(gate, slot.column).center, static_cast<int>(slot.side) * depth};
 }
 
@@ -57,7 +57,7 @@ std::string end_of(const haptics::Slot& slot) {
 
 }  // namespace
 
-TEST_CASE("the sleeve presses only its gear's ring onto the cone, by half a millimetre") {
+TEST_CASE("the sleeve presses only its own gear's ring onto the cone, by half a millimetre") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     Box box(name);
@@ -70,10 +70,10 @@ TEST_CASE("the sleeve presses only its gear's ring onto the cone, by half a mill
       box.pose = rest;
       const double gap = std::abs(box.along("Gear" + end) - box.along("Ring" + end));
       double last = gap;
-      for (const double share : {0.2, 0.4, 0.6, 0.8, 1.0}) {
-        gearbox.place(box.gate, on_the_way(box.gate, slot, share), {}, 0.0, box.pose);
+      for (const double fraction : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+        gearbox.place(box.gate, on_the_way(box.gate, slot, fraction), {}, 0.0, box.pose);
         const double now = std::abs(box.along("Gear" + end) - box.along("Ring" + end));
-        CHECK(now <= last + 1e-7);  // always nearer to the gear
+        CHECK(now <= last + 1e-7);  // the ring never moves away from its gear
         last = now;
       }
       CHECK(gap - last == doctest::Approx(0.0005).epsilon(1e-3));
@@ -86,9 +86,9 @@ TEST_CASE("the sleeve presses only its gear's ring onto the cone, by half a mill
   }
 }
 
-// A free gear and the hub run at the same speed when the gear drives the car, so they turn the same way; a car driven
-// by its reverse gear moves backwards.
-TEST_CASE("a free gear turns as the hub would if that gear drove the car: reverse opposite to all others") {
+// A gear that drives the car turns as fast as the hub. So a free gear turns in the direction in which it would drive
+// the hub; with the reverse gear the car moves backwards.
+TEST_CASE("a free gear turns as the hub would if it drove the car, so reverse turns opposite to all others") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     Box box(name);
@@ -108,14 +108,14 @@ TEST_CASE("a free gear turns as the hub would if that gear drove the car: revers
     for (int gear = 1; gear <= haptics::kMaxGear; ++gear) {
       const int slot = haptics::slot_of_gear(box.gate, gear);
       if (slot == haptics::kNoSlot) continue;
-      const double way = turned("Gear" + end_of(haptics::slot_of(box.gate, slot)));
-      CHECK(way > last);  // forwards, and a higher gear faster
-      last = way;
+      const double angle = turned("Gear" + end_of(haptics::slot_of(box.gate, slot)));
+      CHECK(angle > last);  // forwards, and faster the higher the gear
+      last = angle;
     }
     const double reverse =
         turned("Gear" + end_of(haptics::slot_of(box.gate, haptics::slot_of_gear(box.gate, haptics::kReverseGear))));
     CHECK(reverse < 0.0);
-    for (const double driven : {0.5, -0.5}) {  // [m]
+    for (const double driven : {0.5, -0.5}) {  // [m] forwards, backwards
       car.distance = driven;
       gearbox.place(box.gate, neutral, car, 0.05, box.pose);
       CHECK(turned("Hub0") * driven > 0.0);

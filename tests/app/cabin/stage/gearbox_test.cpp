@@ -30,11 +30,11 @@ struct BoxRig {
     REQUIRE(index != engine::kNone);
     return pose[static_cast<std::size_t>(index)];
   }
-  double moved(const std::string& name) const {  // forward is positive
+  double moved(const std::string& name) const {  // [m] forward is positive
     return -static_cast<double>(
         (node(name).translation - model.nodes[static_cast<std::size_t>(model.node(name))].translation).z);
   }
-  double angle(const std::string& name) const {  // about the shaft
+  double angle(const std::string& name) const {  // [rad] rotation about the shaft
     const glm::quat q = node(name).rotation;
     return 2.0 * std::atan2(static_cast<double>(q.z), static_cast<double>(q.w));
   }
@@ -42,7 +42,7 @@ struct BoxRig {
 
 }  // namespace
 
-TEST_CASE("in every gear of every gate one sleeve moves by 9 mm to that gear's side, the others not at all") {
+TEST_CASE("in every gear of every gate one sleeve moves 9 mm towards that gear, and no other sleeve moves") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     BoxRig rig(name);
@@ -62,7 +62,7 @@ TEST_CASE("in every gear of every gate one sleeve moves by 9 mm to that gear's s
   }
 }
 
-TEST_CASE("every moving part of the gearbox is one draw and keeps its file's material") {
+TEST_CASE("every moving part of the gearbox is drawn by one call and keeps the material of its file") {
   const engine::Model file = engine::read_gltf(GEARSHIFT_ASSETS "/models/gearbox.glb");
   const BoxRig rig("paper");
   const auto mesh_of = [](const engine::Model& model, const std::string& node) -> const engine::Mesh& {
@@ -72,13 +72,13 @@ TEST_CASE("every moving part of the gearbox is one draw and keeps its file's mat
     CAPTURE(name);
     CHECK(mesh_of(rig.model, name).primitives.size() == 1);
   }
-  // Each triangle of the forward ring has its own material's colour, metalness and roughness, within 1/255.
-  const engine::Primitive& own = mesh_of(file, "RingForward").primitives.front();
+  // The forward ring's triangles have the colour, metalness and roughness of the file's material, within 1/255.
+  const engine::Primitive& original = mesh_of(file, "RingForward").primitives.front();
   const engine::Primitive& drawn = mesh_of(rig.model, "RingForward0").primitives.front();
-  const engine::Material& brass = file.materials[static_cast<std::size_t>(own.material)];
+  const engine::Material& brass = file.materials[static_cast<std::size_t>(original.material)];
   const engine::Material& shared = rig.model.materials[static_cast<std::size_t>(drawn.material)];
   const engine::Image& surfaces = rig.model.textures[static_cast<std::size_t>(shared.metal_rough_map.texture)].pixels;
-  REQUIRE(drawn.index_count == own.index_count);
+  REQUIRE(drawn.index_count == original.index_count);
   REQUIRE(brass.name == "Brass");
   for (std::uint32_t i = 0; i < drawn.index_count; ++i) {
     const engine::Vertex& vertex = rig.model.vertices[rig.model.indices[drawn.first_index + i]];
@@ -92,18 +92,18 @@ TEST_CASE("every moving part of the gearbox is one draw and keeps its file's mat
   }
 }
 
-TEST_CASE("between aisle and rest the rail follows the lever proportionally") {
+TEST_CASE("between aisle and rest position the rail moves in proportion to the lever") {
   const haptics::Gate gate = paper_gate();
   const haptics::Slot& slot = haptics::slot_of(gate, haptics::slot_of_gear(gate, 4));
   const double x = haptics::column_of(gate, slot.column).center;
-  for (const double share : {0.0, 0.25, 0.5, 1.0, 1.2}) {
-    const double depth = gate.half_aisle + share * (slot.rest - gate.half_aisle);
-    CHECK(cabin::rail_shift(gate, slot.column, {x, -depth}) == doctest::Approx(-0.009 * std::min(share, 1.0)));
+  for (const double fraction : {0.0, 0.25, 0.5, 1.0, 1.2}) {
+    const double depth = gate.half_aisle + fraction * (slot.rest - gate.half_aisle);
+    CHECK(cabin::rail_shift(gate, slot.column, {x, -depth}) == doctest::Approx(-0.009 * std::min(fraction, 1.0)));
   }
   CHECK(cabin::rail_shift(gate, slot.column, {x, 0.5 * gate.half_aisle}) == 0.0);
 }
 
-TEST_CASE("the finger is at the rail of the lever's column and its tip moves with that rail") {
+TEST_CASE("the finger is at the rail of the lever's column, and its tip moves with that rail") {
   BoxRig rig("six_speed_r_left_up");
   cabin::Gearbox box(rig.model, rig.gate);
   const double at_rest = static_cast<double>(rig.node("Finger").translation.x);
@@ -115,13 +115,13 @@ TEST_CASE("the finger is at the rail of the lever's column and its tip moves wit
     const glm::vec3 tip = rig.node("Finger").rotation * glm::vec3(0.0f, -0.030f, 0.0f);
     CHECK(-static_cast<double>(tip.z) == doctest::Approx(0.009 * static_cast<int>(slot.side)).epsilon(1e-4));
   }
-  // Half way between two columns the finger is half way between their rails.
+  // Midway between two columns, the finger is midway between their rails.
   const double half = 0.5 * (haptics::column_of(rig.gate, 1).center + haptics::column_of(rig.gate, 2).center);
   CHECK(cabin::finger_x(rig.gate, half) ==
         doctest::Approx(0.5 * (cabin::set_x(rig.gate, 1) + cabin::set_x(rig.gate, 2))));
 }
 
-TEST_CASE("an engaged gear turns with the hub, tooth in gap; a free one turns with the engine") {
+TEST_CASE("an engaged gear turns with the hub, with its teeth in the gaps; a free gear turns with the engine") {
   BoxRig rig("paper");
   cabin::Gearbox box(rig.model, rig.gate);
   vehicle::VehicleState car;
@@ -139,7 +139,7 @@ TEST_CASE("an engaged gear turns with the hub, tooth in gap; a free one turns wi
             doctest::Approx(0.02 * 0.02 * (0.5 + 0.15 * 4) * 300.0).epsilon(1e-3));
     last_free = free;
   }
-  // Only the road speed turns the hub.
+  // The hub turns with the distance driven, not with time.
   const double before = rig.angle("Hub1");
   box.place(rig.gate, haptics::rest_position(rig.gate, 3), car, 10.0, rig.pose);
   CHECK(std::abs(std::remainder(rig.angle("Hub1") - before, 2.0 * kHalfTurn)) < 1e-6);

@@ -1,4 +1,4 @@
-// Where the hand and its ghost are drawn.
+// The positions at which the hand and its ghost are drawn.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -12,14 +12,14 @@
 namespace gearshift::test {
 namespace {
 
-constexpr glm::dvec3 kLeverPivot{0.330, 0.007, -0.270};  // [m] the lever's pivot, from the cabin model's README
+constexpr glm::dvec3 kLeverPivot{0.330, 0.007, -0.270};  // [m] the value in the cabin model's README
 
-// On the sphere of 0.12 m about the pivot, straight above the point of the gate plane.
+// The knob's position: straight above gate point `p`, on the sphere of radius 0.12 m about the pivot.
 glm::dvec3 knob_over(glm::dvec2 p) {
   return kLeverPivot + glm::dvec3(p.x, std::sqrt(0.12 * 0.12 - p.x * p.x - p.y * p.y), -p.y);
 }
 
-// The drawn vertices of a node's skin.
+// The vertices of a node's skin, as drawn.
 std::vector<glm::dvec3> drawn_skin(const cabin::Stage& stage, const char* name) {
   const auto node = static_cast<std::size_t>(stage.model().node(name));
   const int mesh = stage.model().nodes[node].mesh;
@@ -34,14 +34,14 @@ std::vector<glm::dvec3> drawn_skin(const cabin::Stage& stage, const char* name) 
 }
 
 double nearest(const std::vector<glm::dvec3>& points, glm::dvec3 to) {
-  double least = 1e9;
-  for (const glm::dvec3 point : points) least = std::min(least, glm::distance(point, to));
-  return least;
+  double min_distance = 1e9;
+  for (const glm::dvec3 point : points) min_distance = std::min(min_distance, glm::distance(point, to));
+  return min_distance;
 }
 
 }  // namespace
 
-TEST_CASE("the hand holds the drawn knob and its ghost the ghost's: as far apart as proxy and true lever") {
+TEST_CASE("the hand holds the drawn knob and its ghost the ghost's knob, as far apart as proxy and true lever") {
   cabin::StageConfig config;
   config.gate = paper_gate();
   cabin::Stage stage(config, GEARSHIFT_ASSETS "/models");
@@ -55,7 +55,7 @@ TEST_CASE("the hand holds the drawn knob and its ghost the ghost's: as far apart
     stage.place(input);
     const std::vector<glm::dvec3> hand = drawn_skin(stage, "HandMesh"), ghost = drawn_skin(stage, "GhostHand");
     const glm::dvec3 knob = knob_over(proxy), ghost_knob = knob_over(lever);
-    // The knob's radius is 24 mm: the skin touches it.
+    // The skin touches the knob, whose radius is 24 mm.
     CHECK(nearest(hand, knob) > 0.015);
     CHECK(nearest(hand, knob) < 0.030);
     CHECK(nearest(ghost, ghost_knob) == doctest::Approx(nearest(hand, knob)).epsilon(1e-3));
@@ -65,7 +65,7 @@ TEST_CASE("the hand holds the drawn knob and its ghost the ghost's: as far apart
   }
 }
 
-TEST_CASE("the ghost's hand is visible only with the loop's flag, as faint as the ghost's knob") {
+TEST_CASE("the ghost's hand is visible only with the loop's flag, and is as transparent as the ghost's knob") {
   cabin::StageConfig config;
   config.gate = paper_gate();
   cabin::Stage stage(config, GEARSHIFT_ASSETS "/models");

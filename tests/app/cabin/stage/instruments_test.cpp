@@ -23,7 +23,7 @@ float light(cabin::Lamp lamp, const vehicle::VehicleState& car, double time = 0.
 
 }  // namespace
 
-TEST_CASE("half of the scale is at twelve o'clock, its ends 135 deg to the left and right") {
+TEST_CASE("the middle of the scale is at twelve o'clock, its ends are 135 deg to the left and right") {
   CHECK(cabin::tach_angle(running(4000.0)) == doctest::Approx(0.0));
   CHECK(cabin::tach_angle(running(0.0)) == doctest::Approx(0.75 * kPi));
   CHECK(cabin::tach_angle(running(8000.0)) == doctest::Approx(-0.75 * kPi));
@@ -40,7 +40,7 @@ TEST_CASE("a needle stays on its scale") {
   CHECK(cabin::needle_angle(-5.0, 220.0) == cabin::needle_angle(0.0, 220.0));
 }
 
-TEST_CASE("engine lamps are on while it is stopped with ignition, and go out when it runs") {
+TEST_CASE("the engine's lamps are on while it is stopped with the ignition on, and off while it runs") {
   for (const cabin::Lamp lamp : {cabin::Lamp::oil, cabin::Lamp::battery, cabin::Lamp::engine}) {
     CHECK(light(lamp, running(0.0)) == 1.0f);
     CHECK(light(lamp, running(800.0)) == 0.0f);
@@ -60,8 +60,8 @@ TEST_CASE("engine lamps are on while it is stopped with ignition, and go out whe
   CHECK(light(cabin::Lamp::hand_brake, car) == 1.0f);
 }
 
-TEST_CASE("the engine lamp warns beyond the car's own red line") {
-  for (const double rpm : {4800.0, 7200.0}) {  // a diesel engine's, a petrol engine's
+TEST_CASE("the engine lamp warns above the car's own red line") {
+  for (const double rpm : {4800.0, 7200.0}) {  // above a diesel's and a petrol engine's red line
     vehicle::VehicleState car = running(rpm);
     CHECK(light(cabin::Lamp::engine, car) == 0.0f);
     car.over_revved = true;
@@ -71,18 +71,18 @@ TEST_CASE("the engine lamp warns beyond the car's own red line") {
   }
 }
 
-TEST_CASE("nothing trembles without a shudder; with one it swings about zero, in proportion") {
+TEST_CASE("the vibration is zero without shudder, and otherwise has zero mean and an amplitude equal to the shudder") {
   vehicle::VehicleState car = running(400.0);
   for (int i = 0; i < 100; ++i) CHECK(cabin::vibration(car, 0.013 * i) == 0.0);
   for (const double shudder : {0.2, 1.0, 7.0}) {
     car.shudder = shudder;
-    double most = 0.0, mean = 0.0;
+    double max = 0.0, mean = 0.0;
     for (int i = 0; i < 10000; ++i) {
-      most = std::max(most, std::abs(cabin::vibration(car, 1e-3 * i)));
+      max = std::max(max, std::abs(cabin::vibration(car, 1e-3 * i)));
       mean += 1e-4 * cabin::vibration(car, 1e-3 * i);
     }
-    CHECK(most <= std::min(shudder, 1.0));
-    CHECK(most > 0.9 * std::min(shudder, 1.0));
+    CHECK(max <= std::min(shudder, 1.0));
+    CHECK(max > 0.9 * std::min(shudder, 1.0));
     CHECK(std::abs(mean) < 1e-3);
     CHECK(cabin::vibration(car, 12.34) == cabin::vibration(car, 12.34));
   }
@@ -93,7 +93,7 @@ TEST_CASE("indicators blink at 1.5 Hz, on half of the time, each side independen
   car.turn_left = true;
   int lit = 0, edges = 0;
   bool was = light(cabin::Lamp::turn_left, car, 0.0) > 0.0f;
-  constexpr int kSamples = 20000;  // 20 s
+  constexpr int kSamples = 20000;  // 20 s in steps of 1 ms
   for (int i = 0; i < kSamples; ++i) {
     const bool now = light(cabin::Lamp::turn_left, car, 0.001 * i) > 0.0f;
     lit += now ? 1 : 0;
@@ -106,7 +106,7 @@ TEST_CASE("indicators blink at 1.5 Hz, on half of the time, each side independen
   CHECK(edges <= 60);
 }
 
-TEST_CASE("the lamp at the lever warns of over-push and of saturation, and of nothing else") {
+TEST_CASE("the lamp at the lever warns of over-push and saturation only") {
   haptics::HapticSnapshot lever;
   for (std::uint32_t bit = 0; bit < 6; ++bit) {
     lever.flags = 1u << bit;
@@ -115,7 +115,7 @@ TEST_CASE("the lamp at the lever warns of over-push and of saturation, and of no
   }
 }
 
-TEST_CASE("controls move with the foot and the hand and stop at their ends") {
+TEST_CASE("pedals and handbrake move in proportion to their input and stop at their ends") {
   CHECK(cabin::pedal_angle(0.0) == 0.0);
   CHECK(cabin::pedal_angle(0.5) == doctest::Approx(0.5 * cabin::pedal_angle(1.0)));
   CHECK(cabin::pedal_angle(3.0) == cabin::pedal_angle(1.0));

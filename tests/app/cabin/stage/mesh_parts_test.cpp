@@ -13,7 +13,7 @@
 namespace gearshift::test {
 namespace {
 
-// One triangle in the plane x + y + z = 1, with its own material.
+// One triangle in the plane x + y + z = 1.
 cabin::MeshData slanted() {
   cabin::MeshData mesh_data;
   for (int i = 0; i < 3; ++i) {
@@ -28,7 +28,8 @@ cabin::MeshData slanted() {
   return mesh_data;
 }
 
-// "Rod" and "Knob", both children of "Lever" with material 0; the rod is scaled and rotated.
+// A model with the nodes "Rod" and "Knob", both children of "Lever", both with material 0. The rod is scaled and
+// rotated.
 engine::Model lever() {
   engine::Model model;
   model.materials.resize(1);
@@ -53,7 +54,7 @@ glm::vec3 in_world(const engine::Model& model, const char* node, glm::vec3 posit
 
 }  // namespace
 
-TEST_CASE("a part joined into another node stays where it was, in one draw") {
+TEST_CASE("a part that is merged into a different node stays in place, and both need one draw") {
   engine::Model model = lever();
   std::array<glm::vec3, 3> before;
   for (std::size_t i = 0; i < 3; ++i) before[i] = in_world(model, "Rod", slanted().vertices[i].position);
@@ -79,7 +80,7 @@ TEST_CASE("a scaled part's normals stay perpendicular to its faces") {
   }
 }
 
-TEST_CASE("parts with different parents do not move together and are not joined") {
+TEST_CASE("parts with different parents do not move together, so they are not merged") {
   engine::Model model = lever();
   model.nodes[static_cast<std::size_t>(model.node("Rod"))].parent = engine::kNone;
   CHECK_THROWS_AS(cabin::merge_into(model, "Rod", "Knob"), std::runtime_error);

@@ -1,4 +1,4 @@
-// The drawn lever paths over the gate: their points compared with the sphere on which the knob moves.
+// The lever paths drawn above the gate, compared with the sphere on which the knob moves.
 #include "app/cabin/stage/path_ribbon.h"
 
 #include <algorithm>
@@ -15,9 +15,11 @@ namespace gearshift::test {
 namespace {
 
 constexpr glm::dvec3 kWayPivot{0.330, 0.007, -0.270};  // [m] the lever's pivot, from the cabin model's README
-constexpr double kSphere = 0.120 + 0.026;              // [m] the knob's centre, plus the height of the paths above it
+// [m] radius of the knob's sphere, plus the height of the paths above it.
+constexpr double kSphere = 0.120 + 0.026;
 
-// Straight above the point of the gate plane on the knob's sphere, scaled to the paths' sphere: no joint angle is used.
+// The point of the paths' sphere above gate point `p`: the point of the knob's sphere straight above `p`, scaled.
+// Computed without joint angles.
 glm::dvec3 above_knob(glm::dvec2 p) {
   const glm::dvec3 knob{p.x, std::sqrt(0.12 * 0.12 - p.x * p.x - p.y * p.y), -p.y};
   return kSphere / 0.12 * knob;
@@ -38,7 +40,7 @@ double radius_of(const std::vector<engine::Vertex>& tube, int ring) {
   return glm::distance(side_of(tube, ring, 0), middle_of(tube, ring));
 }
 
-const engine::NodeState& way_state(const cabin::Stage& stage, const char* name) {
+const engine::NodeState& path_state(const cabin::Stage& stage, const char* name) {
   return stage.scene().nodes[static_cast<std::size_t>(stage.model().node(name))];
 }
 
@@ -50,8 +52,9 @@ cabin::Stage stage_of_paper() {
 
 }  // namespace
 
-TEST_CASE("a path from second to third: ring i is above the point after i / 319 of its 106 mm, on the knob's sphere") {
-  const std::vector<glm::dvec2> path{{-0.01, -0.04}, {-0.01, 0.0}, {0.016, 0.0}, {0.016, 0.04}};  // 40 + 26 + 40 mm
+TEST_CASE("from second to third (106 mm), ring i is above the path's point at i / 319 of its length") {
+  // The path is 40 + 26 + 40 mm long.
+  const std::vector<glm::dvec2> path{{-0.01, -0.04}, {-0.01, 0.0}, {0.016, 0.0}, {0.016, 0.04}};
   std::vector<engine::Vertex> tube;
   REQUIRE(cabin::shape_path(path, haptics::YokeGeometry{}, cabin::kDrivenStyle, tube));
   REQUIRE(tube.size() == static_cast<std::size_t>(cabin::kPathRings * cabin::kPathSides));
@@ -70,7 +73,7 @@ TEST_CASE("a path from second to third: ring i is above the point after i / 319 
   for (const int ring : {0, 319}) CHECK(radius_of(tube, ring) < 1e-7);
 }
 
-TEST_CASE("its faces are oriented outwards") {
+TEST_CASE("the faces of a path are oriented outwards") {
   const std::vector<glm::dvec2> path{{-0.03, 0.0}, {0.03, 0.01}};
   engine::Model model;
   cabin::add_path(model, "Way", glm::vec3(0.0f), cabin::kDrivenStyle);
@@ -85,7 +88,7 @@ TEST_CASE("its faces are oriented outwards") {
   }
 }
 
-TEST_CASE("dashes: 4 mm drawn, 4 mm gap, from the beginning") {
+TEST_CASE("a dashed path has dashes of 4 mm and gaps of 4 mm, and begins with a dash") {
   std::vector<engine::Vertex> tube;
   REQUIRE(cabin::shape_path(std::vector<glm::dvec2>{{-0.04, 0.0}, {0.04, 0.0}}, haptics::YokeGeometry{},
                             cabin::kIdealStyle, tube));
@@ -97,7 +100,7 @@ TEST_CASE("dashes: 4 mm drawn, 4 mm gap, from the beginning") {
   }
 }
 
-TEST_CASE("without a length there is no path: nothing, a point, a repeated point, non-finite points") {
+TEST_CASE("nothing is drawn for paths without length: no point, one point, a repeated point, non-finite points") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<engine::Vertex> tube;
   CHECK_FALSE(cabin::shape_path({}, haptics::YokeGeometry{}, cabin::kDrivenStyle, tube));
@@ -110,47 +113,47 @@ TEST_CASE("without a length there is no path: nothing, a point, a repeated point
   CHECK(tube.empty());
   REQUIRE(cabin::shape_path(std::vector<glm::dvec2>{{0.0, 0.0}, {nan, 0.0}, {0.0, 0.03}, {0.0, 0.0}, {5.0, 5.0}},
                             haptics::YokeGeometry{}, cabin::kDrivenStyle,
-                            tube));  // reverses on itself, and leaves the yoke's reach
+                            tube));  // this path turns back, and leaves the yoke's reach
   for (const engine::Vertex& vertex : tube) {
     REQUIRE(std::isfinite(vertex.position.x + vertex.position.y + vertex.position.z));
     REQUIRE(glm::length(vertex.normal) == doctest::Approx(1.0).epsilon(1e-4));
   }
 }
 
-TEST_CASE("the stage shows paths while it is given them, at the lever's pivot, with a transparent hand") {
+TEST_CASE("the stage shows paths only while they are in its input, at the lever's pivot, with a transparent hand") {
   cabin::Stage stage = stage_of_paper();
   const std::size_t deformed = stage.scene().deformed.size();
-  CHECK_FALSE(way_state(stage, cabin::kDrivenPath).visible);
-  CHECK_FALSE(way_state(stage, cabin::kIdealPath).visible);
-  CHECK(way_state(stage, "HandMesh").opacity == 1.0f);
+  CHECK_FALSE(path_state(stage, cabin::kDrivenPath).visible);
+  CHECK_FALSE(path_state(stage, cabin::kIdealPath).visible);
+  CHECK(path_state(stage, "HandMesh").opacity == 1.0f);
 
   std::vector<glm::dvec2> driven, ideal{{0.0, -0.03}, {0.0, 0.03}};
   for (int i = 0; i <= 400; ++i) driven.push_back({0.004 * std::sin(0.05 * i), -0.03 + 0.00015 * i});
   cabin::StageInput input;
   input.driven_path = driven;
   stage.place(input);
-  CHECK(way_state(stage, cabin::kDrivenPath).visible);
-  CHECK_FALSE(way_state(stage, cabin::kIdealPath).visible);
-  CHECK(way_state(stage, "HandMesh").opacity < 0.5f);
+  CHECK(path_state(stage, cabin::kDrivenPath).visible);
+  CHECK_FALSE(path_state(stage, cabin::kIdealPath).visible);
+  CHECK(path_state(stage, "HandMesh").opacity < 0.5f);
   REQUIRE(stage.scene().deformed.size() == deformed + 1);
   const engine::DeformedMesh& shape = stage.scene().deformed.back();
   const auto node = static_cast<std::size_t>(stage.model().node(cabin::kDrivenPath));
   REQUIRE(shape.mesh == stage.model().nodes[node].mesh);
   CHECK(shape.vertices.size() == stage.model().meshes[static_cast<std::size_t>(shape.mesh)].vertex_count);
-  const glm::dvec3 first = glm::dvec3(way_state(stage, cabin::kDrivenPath).world[3]) + middle_of(shape.vertices, 0);
+  const glm::dvec3 first = glm::dvec3(path_state(stage, cabin::kDrivenPath).world[3]) + middle_of(shape.vertices, 0);
   CHECK(glm::distance(first, kWayPivot + above_knob(driven.front())) < 1e-6);
 
   input.ideal_path = ideal;
   stage.place(input);
-  CHECK(way_state(stage, cabin::kIdealPath).visible);
+  CHECK(path_state(stage, cabin::kIdealPath).visible);
   CHECK(stage.scene().deformed.size() == deformed + 2);
   stage.place({});
-  CHECK_FALSE(way_state(stage, cabin::kDrivenPath).visible);
+  CHECK_FALSE(path_state(stage, cabin::kDrivenPath).visible);
   CHECK(stage.scene().deformed.size() == deformed);
-  CHECK(way_state(stage, "HandMesh").opacity == 1.0f);
+  CHECK(path_state(stage, "HandMesh").opacity == 1.0f);
 }
 
-TEST_CASE("from driver, lever and gate a complete path from second to third is in the picture's centre square") {
+TEST_CASE("for the cameras driver, lever and gate, a path from second to third is near the centre of the picture") {
   const haptics::Gate gate = shipped_gate("five_speed_r_right_down");
   for (const char* name : {"driver", "lever", "gate"}) {
     const double fov = cabin::camera_field(name) * 3.14159265358979 / 180.0;

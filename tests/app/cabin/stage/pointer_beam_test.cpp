@@ -38,7 +38,8 @@ struct PointingCabin {
   }
 };
 
-// How far the drawn vertices of a node reach past the segment's ends, and to its side. [m]
+// [m] Along the beam, the smallest and largest coordinate of a node's drawn vertices, measured from the beam's begin;
+// and their largest distance from the beam's axis.
 struct Extent {
   double before = 1e9, beyond = -1e9, aside = 0.0;
 };
@@ -62,7 +63,7 @@ Extent extent_of(const PointingCabin& cabin, const char* name, const cabin::Beam
 
 }  // namespace
 
-TEST_CASE("a pointer's beam goes from the hand to its target, and a ball ends it") {
+TEST_CASE("a pointer's beam goes from the hand to its target and ends in a ball") {
   for (const cabin::DriveSide side : {cabin::DriveSide::left, cabin::DriveSide::right}) {
     PointingCabin cabin(side);
     for (const cabin::Beam& beam :
@@ -87,7 +88,7 @@ TEST_CASE("a pointer's beam goes from the hand to its target, and a ball ends it
   }
 }
 
-TEST_CASE("without pointing there is no beam; without a target only an end; and light casts no shadow") {
+TEST_CASE("without a pointer there is no beam; a beam of length zero has only its end; neither part casts a shadow") {
   PointingCabin cabin(cabin::DriveSide::left);
   cabin.point(std::nullopt);
   CHECK_FALSE(cabin.state_of(cabin::kBeamNode).visible);
@@ -95,7 +96,7 @@ TEST_CASE("without pointing there is no beam; without a target only an end; and 
   cabin.point(cabin::Beam{{0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}});
   CHECK_FALSE(cabin.state_of(cabin::kBeamNode).visible);
   CHECK(cabin.state_of(cabin::kBeamEndNode).visible);
-  CHECK(cabin.state_of(cabin::kBeamNode).opacity < 1.0f);  // blended nodes cast no shadow
+  CHECK(cabin.state_of(cabin::kBeamNode).opacity < 1.0f);  // the renderer gives blended nodes no shadow
   CHECK(cabin.state_of(cabin::kBeamEndNode).opacity < 1.0f);
 }
 

@@ -7,7 +7,7 @@
 
 namespace gearshift::test {
 
-TEST_CASE("the strip of tiles jumps only by whole tiles, forward and in reverse") {
+TEST_CASE("the strip of tiles jumps only by whole tiles, forwards and backwards") {
   for (int i = -150; i < 150; ++i) {
     const double distance = 0.37 * i;
     const double shift = cabin::tile_shift(distance);
@@ -34,7 +34,7 @@ TEST_CASE("every piece of the road from one block behind to four ahead is shown 
   }
 }
 
-TEST_CASE("nothing appears or vanishes in view: jumps happen below the ground or a block behind the car") {
+TEST_CASE("no block appears or vanishes in view: blocks jump only below the ground or a block behind the car") {
   constexpr double kStep = 0.5;
   for (const double direction : {1.0, -1.0}) {
     int jumps = 0;
@@ -65,7 +65,7 @@ TEST_CASE("after a thousand kilometres, a millimetre of road is still a millimet
   const auto before = static_cast<float>(cabin::tile_shift(kFar + 5.0));
   const auto after = static_cast<float>(cabin::tile_shift(kFar + 5.0 + kStep));
   CHECK(std::abs(static_cast<double>(after - before) - kStep) < 1e-5);
-  // In floats without the wrap the car would not move at all.
+  // As a float, the distance itself would not change at all.
   CHECK(static_cast<float>(kFar + 5.0 + kStep) == static_cast<float>(kFar + 5.0));
 }
 

@@ -14,12 +14,12 @@ namespace gearshift::test {
 namespace {
 
 const engine::Model& road_model() {
-  static const engine::Model model = [] {
-    engine::Model made;
-    cabin::Roadside::add_to(made, engine::read_gltf(GEARSHIFT_ASSETS "/models/road.glb"));
-    return made;
+  static const engine::Model loaded = [] {
+    engine::Model model;
+    cabin::Roadside::add_to(model, engine::read_gltf(GEARSHIFT_ASSETS "/models/road.glb"));
+    return model;
   }();
-  return model;
+  return loaded;
 }
 
 const engine::Mesh& mesh_of(const std::string& node) {
@@ -75,7 +75,7 @@ TEST_CASE("no two blocks look alike") {
   }
 }
 
-TEST_CASE("everything moves towards a driving car, at the car's speed, even after a thousand kilometres") {
+TEST_CASE("the road moves towards a driving car, at the car's speed, also after a thousand kilometres") {
   const cabin::Roadside road(road_model());
   std::vector<engine::Node> pose = road_model().nodes;
   for (const double start : {0.5, 1e6 + 0.5}) {
@@ -84,17 +84,16 @@ TEST_CASE("everything moves towards a driving car, at the car's speed, even afte
     road.place(start + 0.25, 0.0, pose);
     CHECK(z_of(pose, "RoadStrip") - strip == doctest::Approx(0.25).epsilon(1e-4));
     CHECK(z_of(pose, block_name(2)) - block == doctest::Approx(0.25).epsilon(1e-3));
-    road.place(start, 0.0, pose);  // and back
+    road.place(start, 0.0, pose);  // reverses to the start
     CHECK(z_of(pose, "RoadStrip") == strip);
   }
 }
 
-TEST_CASE(
-    "uphill by 10 % the road ahead rises by 10 m in 100 and falls behind; the car's place and the hills are fixed") {
+TEST_CASE("uphill by 10 % the road rises 10 m in 100 m ahead of the car and falls behind it; the hills do not move") {
   const cabin::Roadside road(road_model());
   std::vector<engine::Node> level = road_model().nodes, hill = level;
   const double slope = std::atan(0.10);
-  // Where a point of that node, at that place of the level road ahead of the car, is on the hill.
+  // Where a point of the node, at place `at` of the level road, is moved to by the slope.
   const auto moved = [&](const char* name, glm::vec3 at) {
     const engine::Node& from = level[static_cast<std::size_t>(road_model().node(name))];
     const engine::Node& to = hill[static_cast<std::size_t>(road_model().node(name))];
@@ -117,7 +116,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("in reverse on a hill the road moves backwards and down, along itself") {
+TEST_CASE("in reverse on a slope the road moves parallel to itself, away and up") {
   const cabin::Roadside road(road_model());
   std::vector<engine::Node> pose = road_model().nodes;
   const double slope = 0.15;
@@ -129,7 +128,7 @@ TEST_CASE("in reverse on a hill the road moves backwards and down, along itself"
   CHECK(strip().y - before.y == doctest::Approx(0.5 * std::sin(slope)).epsilon(1e-4));
 }
 
-TEST_CASE("the strip extends from behind the mirror's view to the hills, at any position") {
+TEST_CASE("the strip extends from behind the mirrors' view to the hills, at any position of the car") {
   double near = -1e9, far = 1e9;
   for (const engine::Primitive& p : mesh_of("RoadStrip").primitives) {
     near = std::max(near, static_cast<double>(p.high.z));
@@ -139,7 +138,7 @@ TEST_CASE("the strip extends from behind the mirror's view to the hills, at any 
   CHECK(far + cabin::kTileLength < -420.0);
 }
 
-TEST_CASE("the road costs 11 draws and less than 12000 triangles") {
+TEST_CASE("the road needs at most 11 draws and 12000 triangles") {
   CHECK(engine::draw_count(road_model()) <= 11);
   CHECK(road_model().triangle_count() <= 12000);
   MESSAGE(engine::draw_count(road_model()) << " draws, " << road_model().triangle_count() << " triangles");

@@ -1,4 +1,4 @@
-// The shift light shows one arrow, or none.
+// The shift light shows one arrow or none.
 #include "app/cabin/stage/shift_light.h"
 
 #include <algorithm>
@@ -13,19 +13,19 @@ namespace gearshift::test {
 namespace {
 
 cabin::Stage& stage() {
-  static cabin::Stage made = [] {
+  static cabin::Stage shared = [] {
     cabin::StageConfig config;
     config.gate = shipped_gate("paper");
     return cabin::Stage(config, GEARSHIFT_ASSETS "/models");
   }();
-  return made;
+  return shared;
 }
 
 const engine::NodeState& state_of(const char* name) {
   return stage().scene().nodes[static_cast<std::size_t>(stage().model().node(name))];
 }
 
-// The corners of an arrow in world space.
+// The corners of an arrow's triangles in world space.
 std::vector<glm::vec3> corners(const char* name) {
   const auto node = static_cast<std::size_t>(stage().model().node(name));
   const engine::Mesh& mesh = stage().model().meshes[static_cast<std::size_t>(stage().model().nodes[node].mesh)];
@@ -39,7 +39,7 @@ std::vector<glm::vec3> corners(const char* name) {
 
 }  // namespace
 
-TEST_CASE("one arrow is lit if there is advice, and none is drawn otherwise") {
+TEST_CASE("one arrow is shown if there is advice, and none otherwise") {
   for (const int advice : {0, 1, -1, 0}) {
     cabin::StageInput input;
     input.car.shift_advice = advice;
@@ -62,7 +62,7 @@ TEST_CASE("the arrows face the driver above the gear display, between the indica
       CHECK(corner.x > glm::vec3(state_of("LampTurnLeft").world[3]).x + 0.01f);
       CHECK(corner.x < glm::vec3(state_of("LampTurnRight").world[3]).x - 0.01f);
     }
-    // The widest corners belong to the head; the tip is beyond them in the arrow's direction.
+    // The corner at the tip is on the centre line of the arrow, and the corner at the opposite end is not.
     const auto lower = [](glm::vec3 a, glm::vec3 b) { return a.y < b.y; };
     const glm::vec3 highest = *std::max_element(at.begin(), at.end(), lower);
     const glm::vec3 lowest = *std::min_element(at.begin(), at.end(), lower);
@@ -72,7 +72,7 @@ TEST_CASE("the arrows face the driver above the gear display, between the indica
   }
 }
 
-TEST_CASE("both are visible to the cameras driver and cluster") {
+TEST_CASE("the up arrow is near the centre of the picture for the cameras driver and cluster") {
   for (const char* name : {"driver", "cluster"}) {
     const engine::View view = engine::view_from(
         cabin::camera(name), engine::symmetric_fov(cabin::camera_field(name) * 3.14159265358979 / 180.0, 16.0 / 9.0),

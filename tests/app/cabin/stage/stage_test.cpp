@@ -38,7 +38,7 @@ glm::mat4 world_of(const cabin::Stage& stage, const char* name) {
   return stage.scene().nodes[static_cast<std::size_t>(node)].world;
 }
 
-glm::dvec3 resolve_path(const cabin::Stage& stage, const char* name) {
+glm::dvec3 position_of(const cabin::Stage& stage, const char* name) {
   return glm::dvec3(world_of(stage, name)[3]);
 }
 
@@ -46,7 +46,8 @@ const engine::NodeState& state_of(const cabin::Stage& stage, const char* name) {
   return stage.scene().nodes[static_cast<std::size_t>(stage.model().node(name))];
 }
 
-// On the sphere of 0.12 m about the pivot, straight above the point of the gate plane; no joint angle is used.
+// The knob's position: straight above gate point `p`, on the sphere of radius 0.12 m about the pivot. Computed without
+// joint angles.
 glm::dvec3 knob_above(glm::dvec2 p) {
   return kPivot + glm::dvec3(p.x, std::sqrt(0.12 * 0.12 - p.x * p.x - p.y * p.y), -p.y);
 }
@@ -63,14 +64,14 @@ int visible_draws(const cabin::Stage& stage) {
 
 }  // namespace
 
-TEST_CASE("with the lever point 15 mm through a wall the drawn knob is within 0.5 mm of the proxy, not of the hand") {
+TEST_CASE("with the true lever 15 mm beyond a wall, the drawn knob is within 0.5 mm of the proxy") {
   cabin::Stage stage(config_of("paper"), kModels);
-  // In first gear, at the left wall of its slot: the hand is 15 mm further to the left.
+  // The proxy is in first gear, at the left wall of its slot; the true lever is 15 mm further to the left.
   cabin::StageInput input;
   input.lever.proxy = {-0.035, 0.038};
   input.lever.lever = {-0.050, 0.038};
   stage.place(input);
-  const glm::dvec3 drawn = resolve_path(stage, "Knob");
+  const glm::dvec3 drawn = position_of(stage, "Knob");
   CHECK(glm::distance(drawn, knob_above(input.lever.proxy)) < 0.0005);
   CHECK(glm::distance(drawn, knob_above(input.lever.proxy)) < 1e-6);
   CHECK(glm::distance(drawn, stage.knob()) < 1e-6);
@@ -78,7 +79,7 @@ TEST_CASE("with the lever point 15 mm through a wall the drawn knob is within 0.
   CHECK(glm::distance(stage.ghost_knob(), knob_above(input.lever.lever)) < 1e-6);
 }
 
-TEST_CASE("the drawn knob is above the proxy at any position") {
+TEST_CASE("the drawn knob is above the proxy for any position of the lever") {
   cabin::Stage stage(config_of("paper"), kModels);
   std::mt19937_64 dice(5);
   std::uniform_real_distribution<double> x(-0.06, 0.06), y(-0.05, 0.05);
@@ -87,13 +88,13 @@ TEST_CASE("the drawn knob is above the proxy at any position") {
     cabin::StageInput input;
     input.lever.proxy = {x(dice), y(dice)};
     stage.place(input);
-    worst = std::max(worst, glm::distance(resolve_path(stage, "Knob"), knob_above(input.lever.proxy)));
+    worst = std::max(worst, glm::distance(position_of(stage, "Knob"), knob_above(input.lever.proxy)));
   }
   MESSAGE("worst distance of the drawn knob from the sphere's point: " << 1e6 * worst << " um");
   CHECK(worst < 1e-6);
 }
 
-TEST_CASE("the ghost is shown only with the loop's flag, translucent, at the hand's position") {
+TEST_CASE("the ghost is shown only with the loop's flag, translucent, at the true lever's position") {
   cabin::Stage stage(config_of("paper"), kModels);
   cabin::StageInput input;
   input.lever.proxy = {-0.035, 0.02};
@@ -105,10 +106,10 @@ TEST_CASE("the ghost is shown only with the loop's flag, translucent, at the han
   CHECK(state_of(stage, "GhostKnob").visible);
   CHECK(state_of(stage, "GhostKnob").opacity < 0.5f);
   CHECK(state_of(stage, "Knob").opacity == 1.0f);
-  CHECK(glm::distance(resolve_path(stage, "GhostKnob"), knob_above(input.lever.lever)) < 1e-6);
+  CHECK(glm::distance(position_of(stage, "GhostKnob"), knob_above(input.lever.lever)) < 1e-6);
 }
 
-TEST_CASE("at 4000 rpm the needle points to twelve o'clock of its dial, at 1000 rpm to 101.25 deg left of it") {
+TEST_CASE("at 4000 rpm the needle points to twelve o'clock of its dial, at 1000 rpm to 101.25 deg left of that") {
   cabin::Stage stage(config_of("paper"), kModels);
   for (const auto& [rpm, left_of_twelve] :
        {std::pair(4000.0, 0.0), std::pair(1000.0, 101.25), std::pair(7000.0, -101.25)}) {
@@ -134,12 +135,12 @@ TEST_CASE("wheel, pedals and handbrake turn in the right direction") {
   input.car.steering = 0.5;
   input.car.clutch = input.car.hand_brake = 1.0;
   stage.place(input);
-  CHECK((world_of(stage, "SteeringWheel") * top).x < wheel.x - 0.04f);  // the top moves to the left
+  CHECK((world_of(stage, "SteeringWheel") * top).x < wheel.x - 0.04f);  // the top moves left
   CHECK((world_of(stage, "PedalClutch") * pad).z < clutch.z - 0.03f);   // the pad moves forward
   CHECK((world_of(stage, "Handbrake") * grip).y > brake.y + 0.05f);     // the grip moves up
 }
 
-TEST_CASE("the display moves one field of its atlas per gear") {
+TEST_CASE("the display moves by one field of its atlas per gear") {
   cabin::Stage stage(config_of("paper"), kModels);
   cabin::StageInput input;
   for (int gear = haptics::kReverseGear; gear <= 6; ++gear) {
@@ -150,7 +151,7 @@ TEST_CASE("the display moves one field of its atlas per gear") {
   }
 }
 
-TEST_CASE("a stall shakes needles and lever by at most a few degrees and a millimetre, and no camera") {
+TEST_CASE("a stall shakes needles by at most a few degrees and the lever by about a millimetre, and no camera") {
   cabin::Stage stage(config_of("paper"), kModels);
   cabin::StageInput input;
   input.lever.proxy = {-0.035, 0.038};
@@ -161,11 +162,11 @@ TEST_CASE("a stall shakes needles and lever by at most a few degrees and a milli
   for (int i = 0; i < 200; ++i) {
     input.time = i / 60.0;
     stage.place(input);
-    furthest = std::max(furthest, glm::distance(resolve_path(stage, "Knob"), knob_above(input.lever.proxy)));
+    furthest = std::max(furthest, glm::distance(position_of(stage, "Knob"), knob_above(input.lever.proxy)));
     const glm::vec4 up{0.0f, 1.0f, 0.0f, 0.0f};
     turned = std::max(turned, static_cast<double>(glm::distance(world_of(stage, "TachNeedle") * up, needle * up)));
     REQUIRE(world_of(stage, "SteeringWheel") == still);
-    REQUIRE(glm::distance(resolve_path(stage, "Knob"), stage.knob()) < 1e-6);
+    REQUIRE(glm::distance(position_of(stage, "Knob"), stage.knob()) < 1e-6);
     REQUIRE(stage.driver_eye().position == cabin::camera("driver").position);
   }
   MESSAGE("knob " << 1e3 * furthest << " mm, needle " << turned * 180.0 / std::numbers::pi << " deg");
@@ -175,10 +176,10 @@ TEST_CASE("a stall shakes needles and lever by at most a few degrees and a milli
   CHECK(turned < 0.04);
   input.car.shudder = 0.0;
   stage.place(input);
-  CHECK(glm::distance(resolve_path(stage, "Knob"), knob_above(input.lever.proxy)) < 1e-6);
+  CHECK(glm::distance(position_of(stage, "Knob"), knob_above(input.lever.proxy)) < 1e-6);
 }
 
-TEST_CASE("a lamp's light is its node's emission") {
+TEST_CASE("a lamp's light is the emission of its node") {
   cabin::Stage stage(config_of("paper"), kModels);
   cabin::StageInput input;
   input.lever.flags = haptics::kFlagOverPush;
@@ -193,12 +194,12 @@ TEST_CASE("a lamp's light is its node's emission") {
   CHECK(state_of(stage, "LampOil").emissive == 1.0f);
 }
 
-TEST_CASE("the stage needs at most 64 draws, in any state without the gearbox") {
+TEST_CASE("without the gearbox, the stage needs at most 64 draws in any state") {
   for (const bool open_gate : {false, true}) {
     cabin::StageConfig config = config_of("six_speed_r_left_up");
     config.open_gate = open_gate;
     cabin::Stage stage(config, kModels);
-    const int alone = visible_draws(stage);
+    const int plain = visible_draws(stage);
     cabin::StageInput pushed;
     pushed.lever.flags = haptics::kFlagGhost;
     pushed.car.shift_advice = 1;
@@ -208,9 +209,9 @@ TEST_CASE("the stage needs at most 64 draws, in any state without the gearbox") 
     pushed.driven_path = pushed.ideal_path = path;
     stage.place(pushed);
     MESSAGE(std::string(open_gate ? "open gate: " : "boot: ")
-            << alone << " draws, with ghost and shift light " << with_ghost << ", with the ways too "
+            << plain << " draws, with ghost and shift light " << with_ghost << ", with the ways too "
             << visible_draws(stage) << ", " << stage.model().triangle_count() << " triangles");
-    CHECK(with_ghost > alone);
+    CHECK(with_ghost > plain);
     CHECK(with_ghost <= 64);
     CHECK(visible_draws(stage) <= 64);
   }
@@ -220,7 +221,7 @@ TEST_CASE("the stage needs at most 64 draws, in any state without the gearbox") 
   MESSAGE("with the gearbox: " << visible_draws(stage) << " draws, " << stage.model().triangle_count() << " triangles");
 }
 
-TEST_CASE("every shipped gate gives a stage, open and closed") {
+TEST_CASE("every shipped gate gives a valid stage, with the gate open or covered by the boot") {
   for (const std::string& name : shipped_names()) {
     for (const bool open_gate : {false, true}) {
       cabin::StageConfig config = config_of(name);
@@ -240,36 +241,35 @@ TEST_CASE("cameras have names, and an unknown name's error lists them all") {
   CHECK(glm::distance(cabin::camera("driver").position, glm::dvec3(0.0, 0.635, 0.05)) < 1e-12);
   CHECK(glm::distance(paper_stage().driver_eye().position, cabin::camera("driver").position) == 0.0);
   CHECK_THROWS_WITH_AS(cabin::camera("roof"),
-                       "no camera 'roof': there are driver, ahead, lever, gate, cluster, gearbox",
+                       "no camera is named 'roof'; choose one of driver, ahead, lever, gate, cluster, gearbox",
                        std::invalid_argument);
 }
 
 TEST_CASE(
-    "road, instruments, hand and gate are in the centre square of the driver's picture, the mirror in the ahead "
-    "view's") {
+    "the driver camera's centre square contains road, instruments, knob and gate, the ahead camera's the mirror") {
   const auto in_middle = [](const char* name, glm::dvec3 point) {
     const double fov = cabin::camera_field(name) * std::numbers::pi / 180.0;
     const engine::View view = engine::view_from(cabin::camera(name), engine::symmetric_fov(fov, 16.0 / 9.0), 0.05);
     const glm::dvec3 at = engine::project(view, point, {1280.0, 720.0});
-    // The area that the panel leaves free in a window of 1280 x 720.
+    // the area that the panel leaves free in a window of 1280 x 720
     return at.z > 0.0 && at.x > 320.0 && at.x < 960.0 && at.y > 0.0 && at.y < 652.0;
   };
   const glm::dvec3 horizon = cabin::camera("driver").position + glm::dvec3(0.0, 0.0, -1e4);
-  const glm::dvec3 tach = resolve_path(paper_stage(), "TachDial"), speed = resolve_path(paper_stage(), "SpeedDial");
+  const glm::dvec3 tach = position_of(paper_stage(), "TachDial"), speed = position_of(paper_stage(), "SpeedDial");
   for (const glm::dvec3 point : {horizon, tach, speed, paper_stage().knob(), kPivot + glm::dvec3(0.049, 0.03, 0.053),
                                  kPivot + glm::dvec3(-0.049, 0.03, -0.053)})
     CHECK(in_middle("driver", point));
-  for (const glm::dvec3 point : {horizon, tach, speed, resolve_path(paper_stage(), "InteriorMirrorSurface")})
+  for (const glm::dvec3 point : {horizon, tach, speed, position_of(paper_stage(), "InteriorMirrorSurface")})
     CHECK(in_middle("ahead", point));
-  // the reason for having two cameras
-  CHECK_FALSE(in_middle("driver", resolve_path(paper_stage(), "InteriorMirrorSurface")));
+  // The mirror is outside this view, which is why there is a second camera.
+  CHECK_FALSE(in_middle("driver", position_of(paper_stage(), "InteriorMirrorSurface")));
 }
 
 TEST_CASE("a folder without models is rejected with a sentence") {
   CHECK_THROWS_AS(cabin::Stage(config_of("paper"), kModels + std::string("/nowhere")), engine::GltfError);
 }
 
-TEST_CASE("the cost of a frame of the stage") {
+TEST_CASE("reports the cost of placing a frame of the stage") {
   cabin::StageConfig config = config_of("paper");
   config.cutaway = true;
   const auto begin = std::chrono::steady_clock::now();

@@ -24,14 +24,14 @@ double area_of(const std::vector<glm::dvec2>& corners) {
 
 }  // namespace
 
-TEST_CASE("a straight stroke covers length x width plus a round end of the width's diameter") {
+TEST_CASE("a straight stroke covers its length times its width, plus two half discs as wide as the stroke") {
   const cabin::Stroke stroke{{{0.1, 0.2}, {0.4, 0.6}}, 0.06, glm::vec3(1.0f)};
-  // the two half discs together
+  // Together, the two half discs are a polygon with 12 sides.
   const double polygon = 12.0 / 2.0 * 0.03 * 0.03 * std::sin(2.0 * 3.14159265358979 / 12.0);
   CHECK(area_of(cabin::stroke_triangles(stroke)) == doctest::Approx(0.5 * 0.06 + polygon));
 }
 
-TEST_CASE("signs differ from each other and stay inside their box") {
+TEST_CASE("gear labels differ from each other and stay inside their box") {
   std::set<std::string> seen;
   for (int gear = haptics::kReverseGear; gear <= haptics::kMaxGear; ++gear) {
     std::string shape;
@@ -62,7 +62,7 @@ TEST_CASE("a six rotated by 180 degrees is a nine") {
   CHECK(worst <= 1);
 }
 
-TEST_CASE("a drawn stroke has the coverage of its area") {
+TEST_CASE("a drawn stroke covers as many pixels as its area") {
   const cabin::Stroke stroke{{{0.2, 0.5}, {0.8, 0.5}}, 0.1, glm::vec3(1.0f)};
   const engine::Image image = cabin::draw_strokes({stroke}, 256, glm::vec3(0.0f));
   double ink = 0.0;

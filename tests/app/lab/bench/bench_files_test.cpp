@@ -1,4 +1,4 @@
-// The files, parsed by independent readers, contain the data that was written.
+// The formatted files contain the run's data, as read by independent parsers.
 #include "app/lab/bench/bench_files.h"
 
 #include <limits>
@@ -55,7 +55,7 @@ BenchRow row_not_measured() {
 }  // namespace
 
 TEST_CASE("CSV: each line has as many fields as the header, and text comes back unchanged") {
-  BenchRun run = made_run({full_row(), row_not_measured()});
+  BenchRun run = make_run({full_row(), row_not_measured()});
   run.rows[0].since = SinceLast{"2025-01-01T00:00:00Z", "gearshift 9.8", "", 0.5, 0.25, true};
   const auto lines = parse_csv(bench_csv(run));
   REQUIRE(lines.size() == 3);
@@ -92,7 +92,7 @@ TEST_CASE("only the CSV contains a goal's direction and its result") {
   BenchRow slow = plain_row("walk", "slow", 1.0);
   slow.goal = 2.0;
   slow.at_least = true;
-  const auto lines = parse_csv(bench_csv(made_run({slow, plain_row("walk", "free", 1.0)})));
+  const auto lines = parse_csv(bench_csv(make_run({slow, plain_row("walk", "free", 1.0)})));
   CHECK(std::vector<std::string>(lines[0].begin() + 4, lines[0].begin() + 8) ==
         std::vector<std::string>{"goal", "goal_is", "verdict", "design"});
   CHECK(std::vector<std::string>(lines[1].begin() + 4, lines[1].begin() + 8) ==
@@ -101,7 +101,7 @@ TEST_CASE("only the CSV contains a goal's direction and its result") {
 }
 
 TEST_CASE("JSON: every field comes back; a value that was not measured is null, neither met nor missed") {
-  BenchRun run = made_run({full_row(), row_not_measured()});
+  BenchRun run = make_run({full_row(), row_not_measured()});
   run.rows[0].since = SinceLast{"2025-01-01T00:00:00Z", "gearshift 9.8", "", 0.5, 0.25, true};
   run.contention = CpuContention{.by_host = 0.25, .by_programs = 0.0};
   const auto json = nlohmann::json::parse(bench_json(run));
@@ -125,12 +125,12 @@ TEST_CASE("JSON: every field comes back; a value that was not measured is null, 
 }
 
 TEST_CASE("JSON: a non-finite value is null, and the file stays valid JSON") {
-  const BenchRun run = made_run({plain_row("walk", "endless", std::numeric_limits<double>::infinity())});
+  const BenchRun run = make_run({plain_row("walk", "endless", std::numeric_limits<double>::infinity())});
   CHECK(nlohmann::json::parse(bench_json(run))["rows"][0]["value"].is_null());
 }
 
 TEST_CASE("table: the column against the last run appears only if there was one") {
-  BenchRun run = made_run({full_row()});
+  BenchRun run = make_run({full_row()});
   CHECK(bench_table(run).find("since last") == std::string::npos);
   CHECK(bench_table(run).find("quartiles 0.1 to 0.2") != std::string::npos);
   run.rows[0].since = SinceLast{"2025-01-01T00:00:00Z", "gearshift 9.8", "", 0.5, 0.25, true};
@@ -150,7 +150,7 @@ TEST_CASE("a goal is met at exactly its value, from either side") {
   CHECK(format_goal(row) == ">= 1");
 }
 
-// DESIGN.md judges by medians.
+// DESIGN.md requires verdicts by the median.
 TEST_CASE("the median decides; a goal between the quartiles is also marked open, at a quartile it is not") {
   BenchRow row = plain_row("walk", "a", 1.0);
   row.goal = 1.1;

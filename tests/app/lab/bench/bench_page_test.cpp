@@ -1,4 +1,4 @@
-// The page shows the measurements and marks the winners; user text stays text.
+// The page shows the measurements and marks the best methods; user text cannot change the markup.
 #include "app/lab/bench/bench_page.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ bool is_well_formed(std::string_view page) {
   return open.empty();
 }
 
-int times(std::string_view text, std::string_view what) {
+int occurrences(std::string_view text, std::string_view what) {
   int n = 0;
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string_view::npos; at += what.size()) ++n;
   return n;
@@ -57,7 +57,7 @@ TEST_CASE("the checker itself rejects malformed pages") {
     CHECK_FALSE(is_well_formed(bad));
 }
 
-TEST_CASE("whatever text rows contain, the page is well-formed and its markup is only its own") {
+TEST_CASE("whatever text rows contain, the page is well-formed and adds no markup from it") {
   BenchRow evil = trade_row("<script>alert(\"1\")</script>", 1.0, 1.0);
   evil.trade->contest = "a < b & \"c\"";
   evil.note = "</td></tr></table>";
@@ -66,14 +66,14 @@ TEST_CASE("whatever text rows contain, the page is well-formed and its markup is
   evil.trade->cost.what = "<u>";
   BenchRow tame = trade_row("plain", 1.0, 1.0);
   tame.related = {{"i", 1.0, "u"}};
-  const std::string page = bench_page(made_run({evil}));
+  const std::string page = bench_page(make_run({evil}));
   CHECK(is_well_formed(page));
-  CHECK(tags_of(page) == tags_of(bench_page(made_run({tame}))));
+  CHECK(tags_of(page) == tags_of(bench_page(make_run({tame}))));
   CHECK(page.find("<script") == std::string::npos);
 }
 
 TEST_CASE("the page needs no other files") {
-  const std::string page = bench_page(made_run(three_walks()));
+  const std::string page = bench_page(make_run(three_walks()));
   for (const char* outside : {"src=", "<link", "@import", "<script", "url("})
     CHECK(page.find(outside) == std::string::npos);
 }
@@ -84,7 +84,7 @@ TEST_CASE("rows, goals and unmeasured values appear in their family's table") {
   BenchRow absent = plain_row("walk", "absent", 0.0);
   absent.measured = false;
   absent.goal = 2.0;
-  const std::string page = bench_page(made_run({missed, reached, absent}));
+  const std::string page = bench_page(make_run({missed, reached, absent}));
   const auto rows = table_of(section_of(page, "family-walk"), "figures");
   REQUIRE(rows.size() == 3);
   CHECK(rows[0] == std::vector<std::string>{"late", "3.5 ns", "", "<= 2", "not met", "", ""});
@@ -97,18 +97,18 @@ TEST_CASE("every row of the design is on the page, with its answer or a note tha
   BenchRow answer = plain_row("walk", "as asked", 1.0);
   answer.design = Design::plant;
   answer.note = "too few for a verdict";
-  const auto rows = table_of(section_of(bench_page(made_run({answer})), "design"), "design");
+  const auto rows = table_of(section_of(bench_page(make_run({answer})), "design"), "design");
   CHECK(rows.size() == kDesignRows.size() + 2);
   CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& r) { return r.back() == "not in this run"; }) ==
         static_cast<long>(kDesignRows.size()) - 1);
-  const auto found = std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r[0] == "walk: as asked"; });
+  const auto found = std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r[0] == "walk, as asked"; });
   REQUIRE(rows.end() - found > 1);
   CHECK((*found)[1] == "1 ns");
   CHECK(found[1] == std::vector<std::string>{"too few for a verdict"});
 }
 
 TEST_CASE("changes since the last run have a section if there was one") {
-  BenchRun run = made_run({plain_row("walk", "a", 1.0), plain_row("walk", "b", 1.0)});
+  BenchRun run = make_run({plain_row("walk", "a", 1.0), plain_row("walk", "b", 1.0)});
   CHECK(bench_page(run).find("id=\"changes\"") == std::string::npos);
   run.rows[0].since = SinceLast{"2025-01-01T00:00:00Z", "gearshift 9.8", "", 1.0, 1.0, false};
   CHECK(bench_page(run).find("Nothing changed by more than its spread.") != std::string::npos);
@@ -116,14 +116,14 @@ TEST_CASE("changes since the last run have a section if there was one") {
   const auto rows = table_of(section_of(bench_page(run), "changes"), "changes");
   REQUIRE(rows.size() == 1);
   CHECK(rows[0] ==
-        std::vector<std::string>{"walk: b", "2 ns", "1 ns", "0.5 x *", "2025-01-01T00:00:00Z, gearshift 9.8"});
+        std::vector<std::string>{"walk, b", "2 ns", "1 ns", "0.5 x *", "2025-01-01T00:00:00Z, gearshift 9.8"});
 }
 
 TEST_CASE("a plot: methods on the front are dark, others light; the default is ringed and named") {
   const std::string svg = trade_svg("walk", three_walks());
   CHECK(is_well_formed(svg));
-  CHECK(times(svg, "<circle") == 4);  // three dots and a ring
-  CHECK(times(svg, "fill=\"none\" stroke=\"" + std::string(kGearColour)) == 1);
+  CHECK(occurrences(svg, "<circle") == 4);  // three dots, and the ring of the default
+  CHECK(occurrences(svg, "fill=\"none\" stroke=\"" + std::string(kGearColour)) == 1);
   CHECK(svg.find("quick (the default)") != std::string::npos);
   CHECK(svg.find("slow (the default)") == std::string::npos);
   const auto dot_of = [&](const std::string& method) {
@@ -148,7 +148,7 @@ TEST_CASE("a front of two is a line with two steps: from the top, down at each, 
   for (std::size_t i = 1; i < line.size(); ++i) {
     CHECK((line[i].x == line[i - 1].x || line[i].y == line[i - 1].y));
     CHECK(line[i].x >= line[i - 1].x);
-    CHECK(line[i].y >= line[i - 1].y);  // further down the page is less error
+    CHECK(line[i].y >= line[i - 1].y);  // a larger y is further down the page and means a smaller error
   }
 }
 

@@ -15,7 +15,7 @@ inline lab::BenchRow trade_row(const std::string& method, double cost, double er
   return row;
 }
 
-inline lab::BenchRun made_run(const std::vector<lab::BenchRow>& rows) {
+inline lab::BenchRun make_run(const std::vector<lab::BenchRow>& rows) {
   lab::BenchRun run{
       .program = "gearshift 9.9",
       .date = "2026-01-02T03:04:05Z",

@@ -1,4 +1,4 @@
-// Every row of the design's table has bench rows that answer it: stated here, and enforced in every run.
+// Every row of the design table has bench rows that answer it: tested here, and enforced in every run.
 #include "app/lab/bench/rows/design.h"
 
 #include <algorithm>

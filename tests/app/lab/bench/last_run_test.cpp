@@ -1,4 +1,4 @@
-// The results of the last full run: saved, found again, and compared with a tolerance for noise.
+// The results of the last full run: saved, loaded again, and compared with a tolerance for noise.
 #include "app/lab/bench/last_run.h"
 
 #include <sys/stat.h>
@@ -43,7 +43,7 @@ BenchRow timed_row(double value, double low, double high) {
 
 SinceLast since(const BenchRow& then, const BenchRow& now) {
   const TempFolder folder;
-  save_run(folder / "last.json", {}, made_run({then}));
+  save_run(folder / "last.json", {}, make_run({then}));
   const auto found = since_last(read_last_run(folder / "last.json", fail_on_warning), now);
   REQUIRE(found);
   return *found;
@@ -57,10 +57,10 @@ TEST_CASE("the first run has nothing to compare with") {
   CHECK_FALSE(since_last({}, plain_row("walk", "a", 1.0)));
 }
 
-TEST_CASE("the next run knows which program it is compared with, and how much CPU time others took from that one") {
+TEST_CASE("the next run shows the program of the last run, and how much CPU time others used during it") {
   const TempFolder folder;
   const BenchRow row = plain_row("walk", "a", 1.0);
-  BenchRun run = made_run({row});
+  BenchRun run = make_run({row});
   run.contention = CpuContention{0.25, 0.5};
   save_run(folder / "last.json", {}, run);
   const auto found = since_last(read_last_run(folder / "last.json", fail_on_warning), row);
@@ -98,8 +98,8 @@ TEST_CASE("from zero to something there is no ratio, from zero to zero there is 
 TEST_CASE("a method's cost is compared separately: the same error, for twice the time") {
   const TempFolder folder;
   const fs::path file = folder / "last.json";
-  save_run(file, {}, made_run({trade_row("a", 10.0, 1.0), plain_row("walk", "b", 1.0)}));
-  BenchRun next = made_run({trade_row("a", 20.0, 1.0), plain_row("walk", "b", 1.0)});
+  save_run(file, {}, make_run({trade_row("a", 10.0, 1.0), plain_row("walk", "b", 1.0)}));
+  BenchRun next = make_run({trade_row("a", 20.0, 1.0), plain_row("walk", "b", 1.0)});
   compare(next, read_last_run(file, fail_on_warning));
   CHECK_FALSE(next.rows[0].since->changed);
   REQUIRE(next.rows[0].cost_since);
@@ -112,10 +112,10 @@ TEST_CASE("a run of some families keeps the results of the others") {
   const TempFolder folder;
   const fs::path file = folder / "deep" / "last.json";
   save_run(file, {},
-           made_run({plain_row("walk", "a", 1.0), plain_row("swim", "a", 2.0), plain_row("walk", "gone", 3.0)}));
+           make_run({plain_row("walk", "a", 1.0), plain_row("swim", "a", 2.0), plain_row("walk", "gone", 3.0)}));
   BenchRow not_measured = plain_row("swim", "a", 9.0);
   not_measured.measured = false;
-  save_run(file, read_last_run(file, fail_on_warning), made_run({plain_row("walk", "a", 5.0), not_measured}));
+  save_run(file, read_last_run(file, fail_on_warning), make_run({plain_row("walk", "a", 5.0), not_measured}));
   const LastRun last = read_last_run(file, fail_on_warning);
   CHECK(since_last(last, plain_row("walk", "a", 5.0))->value == 5.0);
   CHECK(since_last(last, plain_row("swim", "a", 2.0))->value == 2.0);
@@ -139,21 +139,21 @@ TEST_CASE("an unreadable file is reported in one sentence and set aside, and the
     CHECK(warnings[0].find(file.string()) == 0);
     CHECK(warnings[0].find('\n') == std::string::npos);
     CHECK(text_of(folder / "last.json.unreadable") == text);
-    save_run(file, {}, made_run({plain_row("walk", "a", 1.0)}));
+    save_run(file, {}, make_run({plain_row("walk", "a", 1.0)}));
     CHECK(read_last_run(file, fail_on_warning).size() == 1);
   }
 }
 
 TEST_CASE("other unusable files are set aside, too: one too large, a link to a pipe, a folder, a dangling link") {
-  const auto too_large = [](const fs::path& file) { std::ofstream(file) << std::string(2'700'000, ' '); };
-  const auto pipe = [](const fs::path& file) {
+  const auto make_large_file = [](const fs::path& file) { std::ofstream(file) << std::string(2'700'000, ' '); };
+  const auto make_pipe_link = [](const fs::path& file) {
     REQUIRE(mkfifo((file.parent_path() / "pipe").c_str(), 0600) == 0);
     fs::create_symlink("pipe", file);
   };
-  const auto a_folder = [](const fs::path& file) { fs::create_directories(file / "with"); };
-  const auto to_nothing = [](const fs::path& file) { fs::create_symlink("nothing", file); };
-  for (const std::function<void(const fs::path&)>& make :
-       std::vector<std::function<void(const fs::path&)>>{too_large, pipe, a_folder, to_nothing}) {
+  const auto make_folder = [](const fs::path& file) { fs::create_directories(file / "with"); };
+  const auto make_dangling_link = [](const fs::path& file) { fs::create_symlink("nothing", file); };
+  for (const std::function<void(const fs::path&)>& make : std::vector<std::function<void(const fs::path&)>>{
+           make_large_file, make_pipe_link, make_folder, make_dangling_link}) {
     const TempFolder folder;
     const fs::path file = folder / "last.json";
     make(file);
@@ -164,7 +164,7 @@ TEST_CASE("other unusable files are set aside, too: one too large, a link to a p
     CAPTURE(warnings[0]);
     CHECK(warnings[0].find((folder / "last.json.unreadable").string()) != std::string::npos);
     CHECK(fs::symlink_status(folder / "last.json.unreadable").type() == kind);
-    save_run(file, {}, made_run({plain_row("walk", "a", 1.0)}));
+    save_run(file, {}, make_run({plain_row("walk", "a", 1.0)}));
     CHECK(read_last_run(file, fail_on_warning).size() == 1);
   }
 }
@@ -188,20 +188,20 @@ TEST_CASE("an infinite spread is dropped, and the file stays readable") {
 TEST_CASE("if nothing can be written, that is reported, and the old file stays") {
   const TempFolder folder;
   std::ofstream(folder / "a file") << "x";
-  CHECK_THROWS_AS(save_run(folder / "a file" / "bench" / "last.json", {}, made_run({plain_row("walk", "a", 1.0)})),
+  CHECK_THROWS_AS(save_run(folder / "a file" / "bench" / "last.json", {}, make_run({plain_row("walk", "a", 1.0)})),
                   FileError);
   CHECK(text_of(folder / "a file") == "x");
   if (geteuid() == 0) return;  // root may write anywhere
   const fs::path file = folder / "shut" / "last.json";
-  save_run(file, {}, made_run({plain_row("walk", "a", 1.0)}));
+  save_run(file, {}, make_run({plain_row("walk", "a", 1.0)}));
   REQUIRE(chmod(file.parent_path().c_str(), 0500) == 0);
-  CHECK_THROWS_AS(save_run(file, {}, made_run({plain_row("walk", "a", 2.0)})), FileError);
+  CHECK_THROWS_AS(save_run(file, {}, make_run({plain_row("walk", "a", 2.0)})), FileError);
   REQUIRE(chmod(file.parent_path().c_str(), 0700) == 0);
   CHECK(since_last(read_last_run(file, fail_on_warning), plain_row("walk", "a", 1.0))->value == 1.0);
 }
 
 TEST_CASE("another processor, core count, GPU, host, build or compiler is another machine; another kernel is not") {
-  const Machine machine = made_run({}).machine;
+  const Machine machine = make_run({}).machine;
   const std::string key = machine_key(machine);
   CHECK(key.size() == 16);
   CHECK(key.find_first_not_of("0123456789abcdef") == std::string::npos);

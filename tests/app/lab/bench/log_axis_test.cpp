@@ -12,17 +12,17 @@ using doctest::Approx;
 
 TEST_CASE("equal ratios have equal distances, and all values are inside") {
   const LogAxis axis({3.0, 40.0, 700.0});
-  CHECK(axis.share(40.0) - axis.share(4.0) == Approx(axis.share(400.0) - axis.share(40.0)));
-  CHECK(axis.share(3.0) > 0.0);
-  CHECK(axis.share(700.0) < 1.0);
-  CHECK(axis.share(3.0) == Approx(1.0 - axis.share(700.0)));
+  CHECK(axis.fraction(40.0) - axis.fraction(4.0) == Approx(axis.fraction(400.0) - axis.fraction(40.0)));
+  CHECK(axis.fraction(3.0) > 0.0);
+  CHECK(axis.fraction(700.0) < 1.0);
+  CHECK(axis.fraction(3.0) == Approx(1.0 - axis.fraction(700.0)));
 }
 
 TEST_CASE("zero is at the start of the axis, at least a decade before the smallest positive value") {
   const LogAxis axis({0.0, 10.0, 1000.0});
   CHECK(axis.begins_with_zero());
-  CHECK(axis.share(0.0) == 0.0);
-  CHECK(axis.share(10.0) > axis.share(1000.0) - axis.share(100.0));
+  CHECK(axis.fraction(0.0) == 0.0);
+  CHECK(axis.fraction(10.0) > axis.fraction(1000.0) - axis.fraction(100.0));
   CHECK_FALSE(LogAxis({10.0, 1000.0}).begins_with_zero());
 }
 
@@ -36,8 +36,8 @@ TEST_CASE("every axis has labels, none outside, and few enough over many decades
     const LogAxis axis(figures);
     int named = 0;
     for (const LogAxis::Tick& tick : axis.ticks()) {
-      CHECK(axis.share(tick.value) >= 0.0);
-      CHECK(axis.share(tick.value) <= 1.0);
+      CHECK(axis.fraction(tick.value) >= 0.0);
+      CHECK(axis.fraction(tick.value) <= 1.0);
       named += tick.named ? 1 : 0;
     }
     CHECK(named >= 1);

@@ -1,4 +1,4 @@
-// Each law of the campaign detects a planted violation, and does not report a correct case.
+// Each law of the campaign detects a planted violation, and accepts a correct case.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -29,7 +29,7 @@ struct TwoCycles {
     before.guard = now.guard = GuardState::running;
     now.time_ns = 1'000'000;
   }
-  CyclePair seen() const { return {now, before, false, false}; }
+  CyclePair pair() const { return {now, before, false, false}; }
 };
 
 // Moves the drawn lever through the first lockout of one of these kinds.
@@ -65,8 +65,8 @@ TEST_CASE("planted: events are not polled, and some are lost") {
   CampaignCase drawn = plain_case(5);
   CHECK_FALSE(broken(run_case(drawn, layouts()), CampaignLaw::no_lost_events));
   drawn.shifts = 1500;
-  const auto look_away = [](LawLimits& limits) { limits.frame = 1e6; };
-  CHECK(broken(run_case(drawn, layouts(), {}, look_away), CampaignLaw::no_lost_events));
+  const auto poll_rarely = [](LawLimits& limits) { limits.frame = 1e6; };
+  CHECK(broken(run_case(drawn, layouts(), {}, poll_rarely), CampaignLaw::no_lost_events));
 }
 
 TEST_CASE("planted: with energy bounding a force may drop to zero at once, but not beyond") {
@@ -76,26 +76,26 @@ TEST_CASE("planted: with energy bounding a force may drop to zero at once, but n
   limits.can_drop_at_once = true;
   TwoCycles turn;
   turn.before.commanded = {30.0, 0.0};
-  LawRecord book;
+  LawRecord record;
   for (const double now : {0.0, -4.9, 34.9}) {
     turn.now.commanded = {now, 0.0};
-    slew_law(turn.seen(), limits, book);
-    CHECK_FALSE(book.seen(CampaignLaw::slew).broken());
+    slew_law(turn.pair(), limits, record);
+    CHECK_FALSE(record.result(CampaignLaw::slew).broken());
   }
   turn.now.commanded = {-30.0, 0.0};
-  slew_law(turn.seen(), limits, book);
-  CHECK(book.seen(CampaignLaw::slew).broken());
+  slew_law(turn.pair(), limits, record);
+  CHECK(record.result(CampaignLaw::slew).broken());
 }
 
 TEST_CASE("a law broken by NaN stays broken") {
-  LawRecord book;
-  book.note(CampaignLaw::slew, std::numeric_limits<double>::quiet_NaN(), 1.0, 0.1);
-  book.note(CampaignLaw::slew, 0.5, 1.0, 0.2);
-  CHECK(book.seen(CampaignLaw::slew).broken());
-  CHECK(book.seen(CampaignLaw::slew).time == 0.1);
-  book.note(CampaignLaw::quiet, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.1);  // or with NaN as bound
-  book.note(CampaignLaw::quiet, 0.5, 1.0, 0.2);
-  CHECK(book.seen(CampaignLaw::quiet).broken());
+  LawRecord record;
+  record.note(CampaignLaw::slew, std::numeric_limits<double>::quiet_NaN(), 1.0, 0.1);
+  record.note(CampaignLaw::slew, 0.5, 1.0, 0.2);
+  CHECK(record.result(CampaignLaw::slew).broken());
+  CHECK(record.result(CampaignLaw::slew).time == 0.1);
+  record.note(CampaignLaw::quiet, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.1);  // the same with NaN as bound
+  record.note(CampaignLaw::quiet, 0.5, 1.0, 0.2);
+  CHECK(record.result(CampaignLaw::quiet).broken());
 }
 
 TEST_CASE("planted: a true motion of NaN breaks the energy law") {
@@ -103,14 +103,14 @@ TEST_CASE("planted: a true motion of NaN breaks the energy law") {
   limits.energy_bounded = true;
   limits.damping = limits.min_damping = {5.0, 5.0};
   limits.period = limits.max_period = 0.001;
-  LawRecord book;
+  LawRecord record;
   EnergyLaw law;
   TwoCycles cycles;
   cycles.now.guard = GuardState::running;
-  law.update(cycles.seen(), {1e-5, 0.0}, limits, book);
-  CHECK_FALSE(book.seen(CampaignLaw::energy).broken());
-  law.update(cycles.seen(), {std::numeric_limits<double>::quiet_NaN(), 0.0}, limits, book);
-  CHECK(book.seen(CampaignLaw::energy).broken());
+  law.update(cycles.pair(), {1e-5, 0.0}, limits, record);
+  CHECK_FALSE(record.result(CampaignLaw::energy).broken());
+  law.update(cycles.pair(), {std::numeric_limits<double>::quiet_NaN(), 0.0}, limits, record);
+  CHECK(record.result(CampaignLaw::energy).broken());
 }
 
 TEST_CASE("planted: the paper's 5000 N/m at 100 Hz, forced with allow_unstable, is not quiet, and its trace replays") {
@@ -129,12 +129,12 @@ TEST_CASE("a swing decays in every case: at half the rate of handle and hand, or
   CampaignCase drawn = plain_case(1);
   drawn.lever.hand = {2.19, 12.2, 1468.0};
   const LawLimits limits = law_limits(drawn.haptics, drawn.lever, DeviceSpec{});
-  const double decay = (12.2 + 2.9) / (2.0 * (2.19 + 0.086));  // [1/s] b / (2 m) of the slower axis
+  const double decay = (12.2 + 2.9) / (2.0 * (2.19 + 0.086));  // [1/s] decay rate b / (2 m) of the slower axis
   CHECK(limits.remaining_swing == doctest::Approx(std::exp(-0.5 * decay)));
   const auto is_broken = [&](double before, double after) {
-    LawRecord book;
-    fades_law(before, after, limits, 1.0, book);
-    return book.seen(CampaignLaw::fades).broken();
+    LawRecord record;
+    fades_law(before, after, limits, 1.0, record);
+    return record.result(CampaignLaw::fades).broken();
   };
   CHECK(is_broken(2.19e-3, 2.19e-3));
   CHECK(is_broken(1e-5, 1e-3));
@@ -163,11 +163,11 @@ TEST_CASE("a heavy hand that leans on the end of a slot, against the lock's spri
   CHECK_FALSE(broken(outcome, CampaignLaw::fades));
 }
 
-TEST_CASE("planted: the same with the limiter at its end is stopped by the guard") {
+TEST_CASE("planted: a lever that still chatters after the last softening is stopped by the guard") {
   CampaignCase drawn = plain_case(1);
   drawn.haptics.rate = 250.0;
   drawn.haptics.contact = {ContactHold::zero_order, EnergyControl::none, true, true};
-  drawn.haptics.tuning.aisle_damping = 50.0;  // unstable with any wall
+  drawn.haptics.tuning.aisle_damping = 50.0;  // unstable with any wall stiffness
   drawn.haptics.tuning.limit_damping = 50.0;
   drawn.lever.delay = 3;
   CHECK(broken(run_case(drawn, layouts()), CampaignLaw::guard));
@@ -175,8 +175,8 @@ TEST_CASE("planted: the same with the limiter at its end is stopped by the guard
 
 TEST_CASE("planted: a wall without energy bounding generates more than the damping dissipated; with it, never") {
   CampaignCase drawn = plain_case(2);
-  const auto promise = [](LawLimits& limits) { limits.energy_bounded = true; };
-  CHECK(broken(run_case(drawn, layouts(), {}, promise), CampaignLaw::energy));
+  const auto set_bounded = [](LawLimits& limits) { limits.energy_bounded = true; };
+  CHECK(broken(run_case(drawn, layouts(), {}, set_bounded), CampaignLaw::energy));
   drawn.haptics.contact.energy_control = EnergyControl::energy_bounding;
   CHECK_FALSE(broken(run_case(drawn, layouts()), CampaignLaw::energy));
 }
@@ -185,11 +185,11 @@ TEST_CASE("planted: a device of 60 N instead of 31.7 N, and a slew above its lim
   CampaignCase drawn = plain_case(3);
   drawn.lever.actuator.peak_force = 60.0;
   drawn.manner.last_push = 70.0;
-  const auto promise = [](LawLimits& limits) {
+  const auto set_bounded = [](LawLimits& limits) {
     limits.max_force = dvec2(31.7);
     limits.slew = 0.5;
   };
-  const CaseOutcome outcome = run_case(drawn, layouts(), {}, promise);
+  const CaseOutcome outcome = run_case(drawn, layouts(), {}, set_bounded);
   CHECK(broken(outcome, CampaignLaw::force));
   CHECK(broken(outcome, CampaignLaw::slew));
   CHECK_FALSE(run_case(drawn, layouts()).laws.any_broken());
@@ -198,30 +198,30 @@ TEST_CASE("planted: a device of 60 N instead of 31.7 N, and a slew above its lim
 TEST_CASE("planted: a proxy in a wall, a proxy that moves through a wall, and NaN") {
   const Gate gate = paper_gate();
   LawLimits limits;
-  LawRecord book;
+  LawRecord record;
   TwoCycles inside_wall;
   inside_wall.now.proxy = {0.5 * (gate.column[0].center + gate.column[1].center), gate.half_aisle + 0.005};
   REQUIRE_FALSE(in_free_space(gate, inside_wall.now.proxy));
-  free_space_law(inside_wall.seen(), gate, book);
-  CHECK(book.seen(CampaignLaw::free_space).broken());
+  free_space_law(inside_wall.pair(), gate, record);
+  CHECK(record.result(CampaignLaw::free_space).broken());
 
-  // From one slot to the next, as far as the lever moved: both ends are in free space, with a wall between them.
+  // From one slot to the next in a single step of the lever: both ends are in free space, with a wall between them.
   TwoCycles through;
   const double deep = gate.half_aisle + 0.02;
   through.before.proxy = through.before.lever = {gate.column[0].center, deep};
   through.now.proxy = through.now.lever = {gate.column[1].center, deep};
   REQUIRE(in_free_space(gate, through.before.proxy));
   REQUIRE(in_free_space(gate, through.now.proxy));
-  no_wall_law(through.seen(), gate, limits, book);
-  CHECK(book.seen(CampaignLaw::no_wall).broken());
+  no_wall_law(through.pair(), gate, limits, record);
+  CHECK(record.result(CampaignLaw::no_wall).broken());
 
-  // From deep in a slot to the aisle in front of the next, and back: a corner of the wall is between them.
+  // From deep in a slot to the aisle in front of the next slot, and back: a corner of the wall is between them.
   for (const bool is_back : {false, true}) {
     LawRecord round;
     TwoCycles corner = through;
     (is_back ? corner.before : corner.now).proxy.y = (is_back ? corner.before : corner.now).lever.y = 0.0;
-    no_wall_law(corner.seen(), gate, limits, round);
-    CHECK(round.seen(CampaignLaw::no_wall).broken());
+    no_wall_law(corner.pair(), gate, limits, round);
+    CHECK(round.result(CampaignLaw::no_wall).broken());
   }
 
   // Along the mouth's chamfer to exactly the edge of the slot (case 6661 of seed 1): not a detour.
@@ -233,33 +233,33 @@ TEST_CASE("planted: a proxy in a wall, a proxy that moves through a wall, and Na
     mouth.now.proxy = mouth.now.lever = {x + 1e-4, gate.half_aisle + 1.5e-10};
     if (is_back) std::swap(mouth.before, mouth.now);
     limits.period = 0.0;
-    no_wall_law(mouth.seen(), gate, limits, along);
-    CHECK_FALSE(along.seen(CampaignLaw::no_wall).broken());
+    no_wall_law(mouth.pair(), gate, limits, along);
+    CHECK_FALSE(along.result(CampaignLaw::no_wall).broken());
   }
 
   TwoCycles none;
   none.now.commanded.x = std::numeric_limits<double>::quiet_NaN();
-  finite_law(none.seen(), book);
-  CHECK(book.seen(CampaignLaw::finite).broken());
+  finite_law(none.pair(), record);
+  CHECK(record.result(CampaignLaw::finite).broken());
 }
 
 TEST_CASE("planted: through a closed lockout; passing one that the hand opens is allowed") {
   const Gate gate = shipped_gate("six_speed_r_left_up");
   const TwoCycles through = through_lockout(gate, {LockoutKind::push_down, LockoutKind::lift});
-  LawRecord book;
+  LawRecord record;
   LockoutLaw law;
-  law.update({through.now, through.before, true, true}, gate, book);
-  CHECK_FALSE(book.seen(CampaignLaw::lockout).broken());
-  law.update(through.seen(), gate, book);
-  CHECK(book.seen(CampaignLaw::lockout).broken());
+  law.update({through.now, through.before, true, true}, gate, record);
+  CHECK_FALSE(record.result(CampaignLaw::lockout).broken());
+  law.update(through.pair(), gate, record);
+  CHECK(record.result(CampaignLaw::lockout).broken());
 }
 
-// The gate's file says 20 and 15 km/h.
+// The gate's file has 20 and 15 km/h as closing and opening speed.
 TEST_CASE("planted: through a lockout that the road speed closed and has not opened yet") {
   const Gate gate = shipped_gate("dog_leg_five");
   TwoCycles through = through_lockout(gate, {LockoutKind::speed});
   const auto is_broken = [&](std::initializer_list<double> speeds) {  // [km/h] the last value applies while passing
-    LawRecord book;
+    LawRecord record;
     LockoutLaw law;
     TwoCycles stays = through;
     stays.now.proxy = stays.before.proxy;
@@ -267,9 +267,9 @@ TEST_CASE("planted: through a lockout that the road speed closed and has not ope
       const bool is_last = &speed == speeds.end() - 1;
       TwoCycles& cycles = is_last ? through : stays;
       cycles.before.road_speed = speed / 3.6;
-      law.update({cycles.now, cycles.before, true, true}, gate, book);
+      law.update({cycles.now, cycles.before, true, true}, gate, record);
     }
-    return book.seen(CampaignLaw::lockout).broken();
+    return record.result(CampaignLaw::lockout).broken();
   };
   CHECK_FALSE(is_broken({0.0}));
   CHECK(is_broken({21.0}));
@@ -284,15 +284,15 @@ TEST_CASE("planted: a gear that toggles while nothing moves") {
   TwoCycles flicker;
   flicker.now.proxy = flicker.before.proxy = rest_position(gate, 1);
   flicker.now.gear = 1;
-  LawRecord book;
+  LawRecord record;
   GearLaw law;
-  law.update(flicker.seen(), gate, false, book);  // engages
-  CHECK_FALSE(book.seen(CampaignLaw::gear_holds).broken());
+  law.update(flicker.pair(), gate, false, record);  // engages
+  CHECK_FALSE(record.result(CampaignLaw::gear_holds).broken());
   std::swap(flicker.now, flicker.before);
-  law.update(flicker.seen(), gate, false, book);
+  law.update(flicker.pair(), gate, false, record);
   std::swap(flicker.now, flicker.before);
-  law.update(flicker.seen(), gate, false, book);  // engages again without having left
-  CHECK(book.seen(CampaignLaw::gear_holds).broken());
+  law.update(flicker.pair(), gate, false, record);  // engages again without having left the slot
+  CHECK(record.result(CampaignLaw::gear_holds).broken());
 }
 
 TEST_CASE("a hand has enough time for its effort to exceed an aisle spring of four times its force") {

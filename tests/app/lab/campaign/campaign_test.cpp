@@ -1,4 +1,4 @@
-// A sample of the campaign; independence of interruptions and number of threads; the drawn cases.
+// A sample of the campaign; its result does not depend on interruptions and number of threads; the drawn cases.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -54,17 +54,17 @@ TEST_CASE("10,000 shifts of every kind of hand, a hundredth of the campaign: no 
   plan.threads = 2;
   const std::vector<CaseOutcome> outcomes = drive_campaign(plan, layouts(), {});
   const CampaignSummary summary = summarise(plan.seed, outcomes, static_cast<int>(layouts().size()));
-  for (const LawBroken& one : summary.broken) {
+  for (const BrokenLaw& one : summary.broken) {
     CAPTURE(one.number);
-    CAPTURE(one.seen.value);
+    CAPTURE(one.result.value);
     FAIL_CHECK(law_text(one.law).name);
   }
   CHECK(summary.shifts >= 10000);
   CHECK(summary.refused > 0);
   for (const LawSummary& law : summary.laws) CHECK(law.checks > 0);
-  std::vector<double> ripple;  // [m] of each case for which quiet is promised; the goal is a p95 of 0.3 mm
+  std::vector<double> ripple;  // [m] of each case for which quiet is promised; the goal for the p95 is 0.3 mm
   for (const CaseOutcome& outcome : outcomes)
-    if (outcome.laws.seen(CampaignLaw::quiet).checks > 0) ripple.push_back(outcome.ripple);
+    if (outcome.laws.result(CampaignLaw::quiet).checks > 0) ripple.push_back(outcome.ripple);
   REQUIRE(ripple.size() > 50);
   CHECK(quantile(ripple, 0.95) <= 0.3e-3);
 }
@@ -82,7 +82,7 @@ TEST_CASE("the result does not depend on the number of threads, nor on where it 
   std::vector<std::string> more = sorted_lines(twice / "cases.csv");  // three threads may start two extra cases
   CHECK(std::includes(more.begin(), more.end(), all.begin(), all.end()));
 
-  // Simulates a kill while the fourth case's line was written.
+  // Simulates that the program was killed while it wrote the fourth case's line.
   const std::vector<std::string> lines = lines_of(once / "cases.csv");
   std::ofstream cut(twice / "cases.csv", std::ios::trunc);
   for (std::size_t i = 0; i < 5; ++i) cut << lines[i] << "\n";
@@ -110,7 +110,7 @@ TEST_CASE("asked to stop, a campaign starts no more cases, and resumes from ther
   const TempFolder folder;
   plan.folder = folder.path();
   const std::vector<CaseOutcome> first = drive_campaign(plan, layouts(), [](const CampaignStatus&) { return false; });
-  CHECK(first.size() < 1000);  // 30,000 cases are a million shifts
+  CHECK(first.size() < 1000);  // 30,000 cases contain a million shifts
   plan.shifts = 300;
   const std::size_t resumed = drive_campaign(plan, layouts(), {}).size();
   plan.folder.clear();
@@ -120,15 +120,15 @@ TEST_CASE("asked to stop, a campaign starts no more cases, and resumes from ther
 TEST_CASE("a case beyond its limit of processor time is reported by its number, and others are not") {
   CampaignPlan plan;
   plan.shifts = 2000;
-  std::vector<std::uint64_t> overdue;  // in order of reports; one thread runs the cases one after the other
-  const auto see = [&](const CampaignStatus& status) {
+  std::vector<std::uint64_t> overdue;  // in the order of reports; a single thread runs one case after the other
+  const auto record_overdue = [&](const CampaignStatus& status) {
     if (status.overdue) overdue.push_back(*status.overdue);
     return true;
   };
-  drive_campaign(plan, layouts(), see);
+  drive_campaign(plan, layouts(), record_overdue);
   CHECK(overdue.empty());
-  plan.case_time_limit = -1.0;  // every running case is overdue
-  const std::size_t cases = drive_campaign(plan, layouts(), see).size();
+  plan.case_time_limit = -1.0;  // with this limit every running case is overdue
+  const std::size_t cases = drive_campaign(plan, layouts(), record_overdue).size();
   REQUIRE(overdue.size() > 3);
   CHECK(std::is_sorted(overdue.begin(), overdue.end()));
   CHECK(overdue.front() < cases / 2);
@@ -176,25 +176,24 @@ TEST_CASE("an edited file of cases is rejected with line, column, value and rang
       sentence = problem.what();
     }
     CHECK(lines_of(file).back() == last.substr(last.rfind('\n') + 1));
-    const std::size_t name = sentence.find("cases.csv: ");
-    return name == std::string::npos ? sentence : sentence.substr(name + 11);
+    const std::size_t name = sentence.find("cases.csv:");
+    return name == std::string::npos ? sentence : sentence.substr(name + 10);
   };
-  CHECK(refused("0,,-5") == "line 3: 3 fields, not 66");
+  CHECK(refused("0,,-5") == "3: the line has 3 fields instead of 66");
   const std::string rest = ",0,0,1,1.0,2000,0,1,0,0,0,1.0";
   std::string laws;
   for (std::size_t i = 0; i < kCampaignLaws; ++i) laws += ",1,0,0,0";
-  CHECK(refused("0,,-5" + rest + laws) == "line 3: shifts is \"-5\", not a number from 0 to 40");
-  CHECK(refused("0,,41" + rest + laws) == "line 3: shifts is \"41\", not a number from 0 to 40");
-  // A case number that no thread can have reached yet, after no line or after one.
-  CHECK(refused("256,,1" + rest + laws) == "line 3: case is \"256\", not a number from 0 to 255");
-  CHECK(refused("255,,1" + rest + laws + "\n257,,1" + rest + laws) ==
-        "line 4: case is \"257\", not a number from 0 to 256");
-  CHECK(refused("18446744073709551615,,1" + rest + laws).starts_with("line 3: case is \"18446744073709551615\", not"));
-  CHECK(refused("0,,1,0,3,1,1.0,2000,0,1,0,0,0,1.0" + laws) == "line 3: reached is \"3\", not a number from 0 to 1");
-  CHECK(refused("0,,1,0,0,1,1.0,2000,0,7,0,0,0,1.0" + laws) == "line 3: promised is \"7\", not a number from 0 to 1");
+  CHECK(refused("0,,-5" + rest + laws) == "3: shifts is \"-5\", not a number from 0 to 40");
+  CHECK(refused("0,,41" + rest + laws) == "3: shifts is \"41\", not a number from 0 to 40");
+  // A case number that cannot have been handed out yet, after no line or after one.
+  CHECK(refused("256,,1" + rest + laws) == "3: case is \"256\", not a number from 0 to 255");
+  CHECK(refused("255,,1" + rest + laws + "\n257,,1" + rest + laws) == "4: case is \"257\", not a number from 0 to 256");
+  CHECK(refused("18446744073709551615,,1" + rest + laws).starts_with("3: case is \"18446744073709551615\", not"));
+  CHECK(refused("0,,1,0,3,1,1.0,2000,0,1,0,0,0,1.0" + laws) == "3: reached is \"3\", not a number from 0 to 1");
+  CHECK(refused("0,,1,0,0,1,1.0,2000,0,7,0,0,0,1.0" + laws) == "3: promised is \"7\", not a number from 0 to 1");
   CHECK(refused("0,\x1b[31m,0" + rest + laws).find("text without control characters") != std::string::npos);
-  CHECK(refused("0,,1,0,0,1,nan,2000,0,1,0,0,0,1.0" + laws).starts_with("line 3: seconds is \"nan\", not a number"));
-  CHECK(refused("0,,1" + rest + laws + "\n0,,1" + rest + laws) == "line 4: case 0 occurs twice");
+  CHECK(refused("0,,1,0,0,1,nan,2000,0,1,0,0,0,1.0" + laws).starts_with("3: seconds is \"nan\", not a number"));
+  CHECK(refused("0,,1" + rest + laws + "\n0,,1" + rest + laws) == "4: case 0 occurs twice");
   // Infinite values of a lever that diverged are accepted, so that the campaign can resume.
   std::ofstream(file, std::ios::trunc) << lines[0] << "\n"
                                        << lines[1] << "\n0,,1,0,0,1,1,2000,0,1,0,inf,0,inf" << laws << "\n";
@@ -214,8 +213,8 @@ TEST_CASE("two campaigns in one folder: the second is rejected, and can resume w
   const std::vector<std::string> lines = lines_of(folder / "cases.csv");
   {
     const CaseFile first(folder / "cases.csv", lines[0].substr(2));
-    CHECK_THROWS_WITH_AS(drive_campaign(plan, layouts(), {}), doctest::Contains("another campaign is writing to it"),
-                         std::runtime_error);
+    CHECK_THROWS_WITH_AS(drive_campaign(plan, layouts(), {}),
+                         doctest::Contains("another campaign is writing to this file"), std::runtime_error);
   }
   plan.shifts = 100;
   CHECK(drive_campaign(plan, layouts(), {}).size() > 1);
@@ -232,26 +231,26 @@ TEST_CASE("a case that broke a law is run again, and its trace replays") {
          !run_case(drawn_case(plan.seed, number, static_cast<int>(layouts().size())), layouts()).refused.empty())
     ++number;
   const std::uint64_t seed = case_seed(plan.seed, number);
-  const std::vector<LawBroken> broken{{number, seed, CampaignLaw::quiet, {}}, {number, seed, CampaignLaw::slew, {}}};
+  const std::vector<BrokenLaw> broken{{number, seed, CampaignLaw::quiet, {}}, {number, seed, CampaignLaw::slew, {}}};
   CHECK(record_failures(plan, broken, layouts(), {}) == 1);
   CHECK(replays(folder / fmt::format("failures/{:016x}.trace", seed)));
-  const std::vector<std::string> told = lines_of(folder / fmt::format("failures/{:016x}.txt", seed));
-  REQUIRE(told.size() == 4);
-  CHECK(told[0].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 breaks quiet (", seed, number)));
-  CHECK(told[1] == fmt::format("gearshift train --replay {:016x}.trace --from 0.0", seed));
-  CHECK(told[2].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 breaks slew (", seed, number)));
+  const std::vector<std::string> lines = lines_of(folder / fmt::format("failures/{:016x}.txt", seed));
+  REQUIRE(lines.size() == 4);
+  CHECK(lines[0].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 breaks quiet (", seed, number)));
+  CHECK(lines[1] == fmt::format("gearshift train --replay {:016x}.trace --from 0.0", seed));
+  CHECK(lines[2].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 breaks slew (", seed, number)));
   CHECK(record_failures(plan, {}, layouts(), {}) == 0);
 }
 
 TEST_CASE("a trace's broken laws are reported only for that trace, with a command that starts two seconds earlier") {
   const TempFolder folder;
   const std::filesystem::path trace = folder / "it's one.trace", text = folder / "it's one.txt";
-  LawBroken one{3, 4, CampaignLaw::fades, {1, 0.002, 0.001, 42.57}};
+  BrokenLaw one{3, 4, CampaignLaw::fades, {1, 0.002, 0.001, 42.57}};
   write_broken_laws(trace, 1, std::vector{one});
-  const std::string told = broken_laws_text(trace);
-  CHECK(told.starts_with("it's one.trace: case 3 of seed 1 breaks fades ("));
-  CHECK(told.find("): 0.002 m, bound 0.001, at 42.570 s\ngearshift train --replay '") != std::string::npos);
-  CHECK(told.ends_with("/it'\\''s one.trace' --from 40.5\n"));
+  const std::string message = broken_laws_text(trace);
+  CHECK(message.starts_with("it's one.trace: case 3 of seed 1 breaks fades ("));
+  CHECK(message.find("): 0.002 m, bound 0.001, at 42.570 s\ngearshift train --replay '") != std::string::npos);
+  CHECK(message.ends_with("/it'\\''s one.trace' --from 40.5\n"));
   std::filesystem::rename(text, folder / "other.txt");
   CHECK(broken_laws_text(trace).empty());
   CHECK(broken_laws_text(folder / "other.trace").empty());
@@ -291,17 +290,17 @@ TEST_CASE("every seventh case is wide, half of them with a car; no other is") {
 
 // The car reader checks all ranges; here it reads 500 random cars.
 TEST_CASE("random cars are valid, of every size, and reproducible") {
-  double lightest = 1e9, heaviest = 0.0, most_torque = 0.0;
+  double lightest = 1e9, heaviest = 0.0, max_torque = 0.0;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     const CarSpec car = random_car(seed);
     CHECK(car.gearbox.ratio[kMaxGear - 1] > 0.0);
     lightest = std::min(lightest, car.body.mass);
     heaviest = std::max(heaviest, car.body.mass);
-    most_torque = std::max(most_torque, full_torque(car.engine, car.engine.idle));
+    max_torque = std::max(max_torque, full_torque(car.engine, car.engine.idle));
   }
   CHECK(lightest < 110.0);
   CHECK(heaviest > 55000.0);
-  CHECK(most_torque > 1000.0);
+  CHECK(max_torque > 1000.0);
   CHECK(random_car(7).text == random_car(7).text);
 }
 
@@ -316,13 +315,13 @@ TEST_CASE("a case with a car: its pedals move, its lockouts depend on its speed,
     return make_car_load(name, gate);
   };
   Replayer replayer(reader.header(), trace.string(), car);
-  double fastest = 0.0, most_clutch = 0.0;
+  double fastest = 0.0, max_clutch = 0.0;
   for (TraceSample sample; reader.next(sample);) {
     REQUIRE(replayer.step(sample));
     fastest = std::max(fastest, std::abs(sample.out.road_speed));
-    most_clutch = std::max(most_clutch, sample.controls.clutch);
+    max_clutch = std::max(max_clutch, sample.controls.clutch);
   }
   CHECK(replayer.finish(reader.hash()).bit_for_bit());
   CHECK(fastest > 0.1);
-  CHECK(most_clutch == 1.0);
+  CHECK(max_clutch == 1.0);
 }

@@ -1,5 +1,5 @@
-// Ways to cheat a lesson: a drive that skips the task or does it differently from the goal must not pass. Each of these
-// passed once.
+// Drives that cheat: they skip a lesson's task, or do it differently from its goal, and must not pass. An earlier
+// version passed each of them.
 #include <algorithm>
 #include <initializer_list>
 #include <string>
@@ -22,7 +22,7 @@ void into_first(ScriptedDrive& d) {
   d.press(d.feet.hand_brake, 0.0, 0.3);
 }
 
-// Lifts the clutch pedal to a point where it transmits no torque yet, and presses it again.
+// Lifts the clutch pedal a little, so that it does not transmit torque yet, and presses it again.
 void twitch_of_the_clutch(ScriptedDrive& d) {
   d.press(d.feet.clutch, 0.78, 0.1);
   d.wait(0.3);
@@ -47,7 +47,7 @@ void moved_off_once(ScriptedDrive& d) {
   Able{d}.accelerate_to(14.0);
 }
 
-// Moves off with throttle, then presses the clutch: coasting, not creeping.
+// Moves off with throttle and then presses the clutch, so that the car coasts instead of creeping.
 void coasted_instead_of_creeping(ScriptedDrive& d) {
   Able a{d};
   into_first(d);
@@ -119,7 +119,7 @@ void first_while_rolling_back(ScriptedDrive& d) {
   Able{d}.accelerate_to(14.0);
 }
 
-// Shifts down as the car slows, without moving the clutch pedal in between.
+// Shifts down as the car slows, without releasing the clutch between the gears.
 void down_with_one_press(ScriptedDrive& d) {
   d.press(d.feet.brake, 0.2, 0.2);
   d.until([&] { return d.km_per_h() < 54.0; });
@@ -246,7 +246,7 @@ void braked_by_half(ScriptedDrive& d) {
   stop_with(d, 0.4, 0.4);
 }
 
-// Releases the handbrake before the clutch transmits torque.
+// Releases the handbrake before the clutch transmits torque, so that the car rolls back.
 void let_the_hill_have_it(ScriptedDrive& d) {
   d.clutch_down();
   d.lever(1);
@@ -280,7 +280,7 @@ void coasted_in_neutral(ScriptedDrive& d) {
   a.accelerate_to(70.5, 0.6);
 }
 
-// Takes the lower gear only where it needs no more than idle speed, so there are no revs to match.
+// Shifts down only when the lower gear needs no more than idle speed, so that there are no revs to match.
 void no_blip_at_idle(ScriptedDrive& d) {
   for (const int gear : {3, 2}) {
     d.clutch_down();
@@ -380,7 +380,7 @@ void howled_up_the_hill(ScriptedDrive& d) {
 struct Cheat {
   const char* lesson;
   void (*drive)(ScriptedDrive&);
-  LessonEnd end;  // the run was abandoned: this drive could never have completed the step
+  LessonEnd end;  // how the run ends; `left`: a step could not be completed
   const char* name;
 };
 

@@ -1,12 +1,13 @@
-// A shift from 2 to 3 in the paper's gate, built from straight lines, so that every number of it is known by hand.
+// A shift from 2 to 3 in the paper's gate, built from straight lines, so that every number in its record can be
+// computed by hand.
 //
-// Time t = 0 is when the clutch pedal begins to go down; the shift lasts from -1.0 s to 2.0 s:
-//   all the time       road speed 12 m/s; road speed and engine speed constant except where stated
+// Time t = 0 is when the clutch pedal begins to go down; the samples cover t from -1.0 s to 2.0 s:
+//   at all times       road speed 12 m/s; road speed and engine speed constant except where stated
 //   -0.2               throttle steps from 0.3 to 0
 //   0.0 to 0.1         pedal 0 to 1: passes the bite point, 0.75, at 0.075
-//   0.2 to 0.3         lever from 2's rest to the aisle, at constant speed
+//   0.2 to 0.3         lever from 2's rest position to the aisle, at constant speed
 //   0.3 to 0.4         along the aisle
-//   0.4 to 0.5         to 3's rest
+//   0.4 to 0.5         to 3's rest position
 //   0.6 to 0.8         pedal 1 to 0: passes the bite point at 0.65; the clutch is locked from 0.75 on
 #pragma once
 
@@ -33,7 +34,7 @@ inline vehicle::CarSpec test_car() {
   return car;
 }
 
-// Read from its file only once.
+// Shared, so that its file is read only once.
 inline const haptics::Gate& known_gate() {
   static const haptics::Gate gate = paper_gate();
   return gate;
@@ -43,13 +44,13 @@ struct ConstructedShift {
   haptics::Gate gate = known_gate();
   vehicle::CarSpec car = test_car();
   double period = 1e-3;
-  double from = -1.0, to = 2.0;  // [s]
+  double from = -1.0, to = 2.0;  // [s] time of the first and last sample
   std::function<void(vehicle::DriveSample&, double)> modify = [](vehicle::DriveSample&, double) {};
 
   static constexpr double kSpeed = 12.0;  // [m/s]
   double engine(int gear) const { return vehicle::shaft_per_road(car, gear) * kSpeed; }
 
-  // Linear from a to b between the times t0 and t1, constant outside.
+  // Linear from a to b between the times t0 and t1, and constant outside.
   static double line(double t, double t0, double a, double t1, double b) {
     if (t <= t0) return a;
     return t >= t1 ? b : a + (b - a) * (t - t0) / (t1 - t0);

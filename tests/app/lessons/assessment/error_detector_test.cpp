@@ -1,4 +1,4 @@
-// Each driving error is reported once, with its value, by a drive that contains it, and by no clean drive.
+// Each driving error is reported once, with its value, for a drive that contains it, and never for a clean drive.
 #include "app/lessons/assessment/error_detector.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ std::vector<DrivingError> detected_errors(const ConstructedShift& shift, const D
   return watch.drain_errors();
 }
 
-// The errors of a shift with a modification.
+// The errors detected in the constructed shift after `modify` was applied to its samples.
 std::vector<DrivingError> in_shift(Modification modify, const DetectorSetup& watched = {}, double to = 2.0) {
   ConstructedShift shift;
   shift.modify = std::move(modify);
@@ -50,7 +50,8 @@ std::vector<DrivingError> in_shift(Modification modify, const DetectorSetup& wat
   return detected_errors(shift, watched);
 }
 
-// The errors of a ten-second drive in second gear at 12 m/s without a shift, with a modification.
+// The errors detected in a drive in second gear at 12 m/s without a shift, ten seconds long, after `modify` was applied
+// to its samples.
 std::vector<DrivingError> in_second(Modification modify, double to = 10.0) {
   ConstructedShift shift;
   shift.to = to;
@@ -69,13 +70,13 @@ bool within(double t, double a, double b) {
   return t >= a - 1e-9 && t <= b + 1e-9;
 }
 
-// Checks that exactly one error of this kind was reported and none of another.
+// Checks that exactly one error was reported, and that it is of this kind.
 DrivingError only(const std::vector<DrivingError>& errors, ErrorKind kind) {
   std::string raised;
-  for (const DrivingError& error : errors) raised += std::string(error_key(error.kind)) + " ";
+  for (const DrivingError& error : errors) raised += std::string(to_string(error.kind)) + " ";
   CAPTURE(raised);
   REQUIRE(errors.size() == 1);
-  CHECK(error_key(errors[0].kind) == error_key(kind));
+  CHECK(to_string(errors[0].kind) == to_string(kind));
   return errors[0];
 }
 
@@ -85,7 +86,7 @@ double rpm(double value) {
 
 }  // namespace
 
-TEST_CASE("a clean shift and a clean drive have no error, at any period") {
+TEST_CASE("a clean shift and a clean drive have no error, at any sample period") {
   for (const double period : {0.001, 0.0042, 0.011}) {
     ConstructedShift shift;
     shift.period = period;
@@ -104,28 +105,29 @@ TEST_CASE("stall: the engine dies with the ignition on; the value is the speed b
   CHECK(stall.value == doctest::Approx(90.0));
   CHECK(stall.severity == Severity::severe);
   CHECK(stall.time == doctest::Approx(104.118).epsilon(1e-4));
-  // An engine that is switched off does not stall; nor does one that was never started.
+  // An engine that is switched off does not stall, and neither does an engine that was never started.
   CHECK(in_second([&](DriveSample& s, double t) { dies(s, t), s.car.ignition = t < 4.0; }).empty());
   CHECK(in_second([](DriveSample& s, double) { s.car.running = false, s.car.stalled = true; }).empty());
 }
 
 TEST_CASE(
     "an engine that fires under the starter and dies when the key is released has not stalled: it never started") {
-  const auto cranks = [](double most) {
+  const auto cranks = [](double max_speed) {
     return in_second([=](DriveSample& s, double t) {
       s.car.road_speed = 0.0;
-      s.car.engine_speed = t < 1.0 ? 0.0 : t < 1.1 ? most : 0.0;
+      s.car.engine_speed = t < 1.0 ? 0.0 : t < 1.1 ? max_speed : 0.0;
       s.car.running = s.car.engine_speed > 15.0;
-      if (t > 4.0) s.car.engine_speed = 90.0, s.car.running = true;  // it starts
-      if (t > 5.0) s.car.engine_speed = 0.0, s.car.running = false;  // it stalls
+      if (t > 4.0) s.car.engine_speed = 90.0, s.car.running = true;  // the engine starts
+      if (t > 5.0) s.car.engine_speed = 0.0, s.car.running = false;  // the engine stalls
       if (t > 6.0 && t < 6.1) s.car.engine_speed = 30.0, s.car.running = true;
     });
   };
-  CHECK(only(cranks(33.0), ErrorKind::stall).time == doctest::Approx(105.0).epsilon(1e-4));  // stall speed: 37 rad/s
+  // 33 < 37 rad/s, the stall speed.
+  CHECK(only(cranks(33.0), ErrorKind::stall).time == doctest::Approx(105.0).epsilon(1e-4));
   CHECK(cranks(60.0).size() == 2);
 }
 
-TEST_CASE("over-rev: one error even if the speed swings about the red line, worse far above it") {
+TEST_CASE("over-rev: one error even if the speed oscillates about the red line, and more severe far above it") {
   const double red = ConstructedShift().car.engine.red_line;
   const DrivingError error = only(in_second([&](DriveSample& s, double t) {
                                     if (within(t, 2.0, 5.0))
@@ -139,7 +141,7 @@ TEST_CASE("over-rev: one error even if the speed swings about the red line, wors
   CHECK(in_second([&](DriveSample& s, double) { s.car.engine_speed = 0.99 * red; }).empty());
 }
 
-TEST_CASE("lugging: for a second, load below the speed at which the engine can carry it") {
+TEST_CASE("lugging: load for a second at a speed at which the engine cannot carry it") {
   const auto labours = [](double seconds, double load) {
     return in_second([=](DriveSample& s, double t) {
       s.car.engine_speed = 100.0;
@@ -152,7 +154,7 @@ TEST_CASE("lugging: for a second, load below the speed at which the engine can c
 }
 
 TEST_CASE(
-    "clutch dump: fast release and much heat; a slow one with the same heat, or a fast one without heat, is none") {
+    "clutch dump: fast release with much heat; neither a slow release with that heat, nor a fast one without heat") {
   const auto launch = [](double seconds, double power) {
     return in_second([=](DriveSample& s, double t) {
       s.car.road_speed = 0.0;
@@ -169,11 +171,10 @@ TEST_CASE(
   CHECK(launch(0.1, 8e3).empty());
 }
 
-// The car here weighs 1238.8 kg and its engine turns 45.5 rad per metre in first: at shift_high, 262 rad/s, it does
-// 5.76 m/s.
+// This car weighs 1238.8 kg (1251.2 kg with rotating parts), and in first gear its engine turns 45.5 rad per metre. So
+// at shift_high, 262 rad/s, its speed is 5.76 m/s.
 TEST_CASE(
-    "clutch burn: more than the heat of a launch at shift_high, however distributed; not in addition to dump or "
-    "stall") {
+    "clutch burn: more heat than a launch at shift_high makes, however distributed; not in addition to dump or stall") {
   const auto launch = [](double power, double seconds, bool stalls = false) {
     return in_second([=](DriveSample& s, double t) {
       const ConstructedShift plain;
@@ -192,7 +193,7 @@ TEST_CASE(
   const double limit = burn_limit(test_car(), 1);
   CHECK(launch(0.95 * limit / 2.0, 2.0).empty());
   const DrivingError burn = only(launch(1.05 * limit / 2.0, 2.0), ErrorKind::clutch_burn);
-  // the first hundredths of pedal travel do not count as a release yet
+  // During the first hundredths of its travel, the pedal does not count as released yet.
   CHECK(burn.value == doctest::Approx(1.05 * limit).epsilon(0.04));
   CHECK(burn.severity == Severity::minor);
   only(launch(1.05 * limit, 1.0), ErrorKind::clutch_burn);
@@ -201,8 +202,7 @@ TEST_CASE(
   only(launch(1.05 * limit / 2.0, 2.0, true), ErrorKind::stall);
 }
 
-TEST_CASE(
-    "jerk: from the engaging clutch, not from the brake, and not in addition to the dump or stall that caused it") {
+TEST_CASE("jerk: from the engaging clutch, not from the brake, nor in addition to the dump or stall that caused it") {
   const auto jerks = [](double brake, double power, bool stalls = false) {
     return in_second([=](DriveSample& s, double t) {
       s.car.road_speed = 2.0;
@@ -220,11 +220,10 @@ TEST_CASE(
   only(jerks(0.0, 0.0, true), ErrorKind::stall);
 }
 
-// A step of a m/s^2 has a jerk of w exp(-pi/4) a = 42.97 a. The car here weighs 1238.8 kg and its clutch transmits 240
-// N m: through first, 3.45 * 4 / 0.303 = 45.5 per metre, it gives 240 * 45.5 / (1238.8 + 0.006 * 45.5^2) = 8.73 m/s^2
-// at once, through fourth a quarter of that.
-TEST_CASE(
-    "jerk threshold: half of the clutch's jerk when engaging at once in that gear, 110 m/s^3 where that is more") {
+// A step of a m/s^2 has a jerk of w exp(-pi/4) a = 42.97 a. This car weighs 1238.8 kg and its clutch transmits 240 N m.
+// In first gear its engine turns 3.45 * 4 / 0.303 = 45.5 rad per metre, so a clutch that engages at once gives 240 *
+// 45.5 / (1238.8 + 0.006 * 45.5^2) = 8.73 m/s^2. In fourth gear it gives about a quarter of that.
+TEST_CASE("jerk limit: half of the jerk of a clutch that engages at once in that gear, and at least 110 m/s^3") {
   const auto hold = [](int gear, double step) {
     return in_second([=](DriveSample& s, double t) {
       const ConstructedShift plain;
@@ -246,7 +245,7 @@ TEST_CASE(
   CHECK(only(hold(4, 5.2), ErrorKind::jerk).severity == Severity::severe);
 }
 
-TEST_CASE("clutch early and late: by how much, and nothing if small enough") {
+TEST_CASE("clutch early or late: the value is the time, and small times are no error") {
   const auto shift = [](double down, double up) {
     return in_shift([=](DriveSample& s, double t) {
       s.car.clutch = within(t, down, up) ? 1.0 : 0.0;
@@ -262,7 +261,7 @@ TEST_CASE("clutch early and late: by how much, and nothing if small enough") {
   CHECK(shift(0.24, 0.47).empty());
 }
 
-TEST_CASE("no clutch: accepted if the revs match, otherwise reported without consequential errors") {
+TEST_CASE("no clutch: accepted if the revs match, otherwise reported without errors that follow from it") {
   const auto shift = [](double rpm_off, bool goes_in) {
     return in_shift(
         [=](DriveSample& s, double t) {
@@ -276,14 +275,14 @@ TEST_CASE("no clutch: accepted if the revs match, otherwise reported without con
         },
         {}, 4.0);
   };
-  CHECK(shift(60.0, true).empty() == false);  // the steps are not in the taught order
+  CHECK(shift(60.0, true).empty() == false);  // the order of the steps is an error
   only(shift(60.0, true), ErrorKind::step_order);
   const DrivingError error = only(shift(400.0, true), ErrorKind::no_clutch);
   CHECK(error.value == doctest::Approx(rpm(400.0)).epsilon(1e-6));
   only(shift(400.0, false), ErrorKind::no_clutch);
 }
 
-TEST_CASE("riding the clutch: a foot resting on it in gear; not for a moment, not when stopping, not when creeping") {
+TEST_CASE("riding the clutch: a foot that rests on it in gear, but not briefly, while stopping or while creeping") {
   const auto rides = [](double pedal, double seconds, double speed, double brake) {
     return in_second([=](DriveSample& s, double t) {
       s.car.road_speed = speed;
@@ -297,9 +296,8 @@ TEST_CASE("riding the clutch: a foot resting on it in gear; not for a moment, no
   CHECK(rides(0.3, 4.0, 3.0, 0.0).empty());
 }
 
-TEST_CASE("coasting: rolling in neutral or with the clutch down; not during a shift, nor on the way to a stop") {
-  // Starts at 2 s; the car rolls at speeds for second gear: 12 m/s is 2950 rpm, 4.5 m/s 1106 rpm, its lug_below is 1146
-  // rpm.
+TEST_CASE("coasting: rolling in neutral or with the clutch down, but not during a shift or on the way to a stop") {
+  // The car rolls from 2 s on. In second gear, 12 m/s are 2950 rpm and 4.5 m/s are 1106 rpm; lug_below is 1146 rpm.
   struct Roll {
     double seconds = 5.0, speed = 12.0, brake = 0.0;
     bool neutral = false, running = true;
@@ -324,20 +322,20 @@ TEST_CASE("coasting: rolling in neutral or with the clutch down; not during a sh
   CHECK(down.time == doctest::Approx(102.0).epsilon(1e-4));
   CHECK(rolls({2.9}).empty());
   CHECK(rolls({5.0, 3.9}).empty());
-  CHECK(rolls({5.0, 4.5, 0.1}).empty());   // brakes at a speed too low for second gear
-  CHECK(rolls({5.0, 12.0, 0.6}).empty());  // brakes hard
+  CHECK(rolls({5.0, 4.5, 0.1}).empty());   // brakes, too slow for second gear
+  CHECK(rolls({5.0, 12.0, 0.6}).empty());  // brakes hard: on the way to a stop
   CHECK(only(rolls({5.0, 4.5}), ErrorKind::coasting).severity == Severity::minor);
   CHECK(only(rolls({5.0, 12.0, 0.1}), ErrorKind::coasting).value == doctest::Approx(5.0).epsilon(0.01));
-  CHECK(rolls({5.0, 12.0, 0.0, false, false}).empty());  // with the engine off it is a stall
-  // In neutral, clutch up: the shift counts as abandoned 2 s later. The coasting is reported after another 6 s, while
-  // it lasts.
+  CHECK(rolls({5.0, 12.0, 0.0, false, false}).empty());  // the engine is off: reported as a stall
+  // In neutral with the clutch up, the shift counts as abandoned after 2 s, and the coasting begins. It is reported 6 s
+  // later, although it continues.
   const auto errors = rolls({14.0, 12.0, 0.0, true});
   const auto coasting =
       std::find_if(errors.begin(), errors.end(), [](const DrivingError& f) { return f.kind == ErrorKind::coasting; });
   REQUIRE(coasting != errors.end());
   CHECK(coasting->value == doctest::Approx(6.0).epsilon(0.01));
   CHECK(coasting->time == doctest::Approx(104.28).epsilon(1e-3));
-  // A long shift is too slow; it is not coasting.
+  // A shift that takes long is reported as too slow and not as coasting.
   only(in_shift(
            [](DriveSample& s, double t) {
              s.car.clutch = within(t, 0.05, 5.0) ? 1.0 : 0.0;
@@ -347,8 +345,10 @@ TEST_CASE("coasting: rolling in neutral or with the clutch down; not during a sh
        ErrorKind::too_slow);
 }
 
-TEST_CASE("early downshift: by the engine speed that the lower gear needs, against the band or the car's own") {
-  // 3 to 2, the shift run backwards, revs matched; second gear needs `asks` [rad/s].
+TEST_CASE(
+    "early downshift: judged by the engine speed that the lower gear needs, against the lesson's or the car's band") {
+  // A rev-matched shift from 3 to 2, which is the constructed shift in reverse. Second gear needs the engine speed
+  // `asks` [rad/s].
   const auto lowers = [](double asks, ShiftBand band = {}) {
     ConstructedShift down;
     down.modify = [=](DriveSample& s, double t) {
@@ -363,19 +363,19 @@ TEST_CASE("early downshift: by the engine speed that the lower gear needs, again
     };
     return detected_errors(down, {0, band});
   };
-  const double most = 1.2 * test_car().engine.shift_high;
-  const DrivingError early = only(lowers(1.01 * most), ErrorKind::early_downshift);
-  CHECK(early.value == doctest::Approx(1.01 * most));
+  const double max_speed = 1.2 * test_car().engine.shift_high;
+  const DrivingError early = only(lowers(1.01 * max_speed), ErrorKind::early_downshift);
+  CHECK(early.value == doctest::Approx(1.01 * max_speed));
   CHECK(early.shift == 0);
   CHECK(early.severity == Severity::minor);
-  CHECK(error_sentence(early) == "You shifted down too early: at that speed the gear needs 3032 rpm.");
-  CHECK(lowers(0.99 * most).empty());
-  CHECK(only(lowers(1.55 * most), ErrorKind::early_downshift).severity == Severity::severe);
-  CHECK(lowers(1.01 * most, {0.0, 1.1 * most}).empty());
-  only(lowers(0.99 * most, {0.0, 0.9 * most}), ErrorKind::early_downshift);
+  CHECK(error_sentence(early) == "You shifted down too early: at that speed, the lower gear needs 3032 rpm.");
+  CHECK(lowers(0.99 * max_speed).empty());
+  CHECK(only(lowers(1.55 * max_speed), ErrorKind::early_downshift).severity == Severity::severe);
+  CHECK(lowers(1.01 * max_speed, {0.0, 1.1 * max_speed}).empty());
+  only(lowers(0.99 * max_speed, {0.0, 0.9 * max_speed}), ErrorKind::early_downshift);
 }
 
-TEST_CASE("riding the lever: a hand that leans on it for two seconds") {
+TEST_CASE("riding the lever: a hand that pushes it for two seconds") {
   const auto leans = [](double force, double seconds) {
     return in_second([=](DriveSample& s, double t) {
       s.lever.f_h = {within(t, 2.0, 2.0 + seconds) ? force : 0.0, 0.0};
@@ -386,7 +386,7 @@ TEST_CASE("riding the lever: a hand that leans on it for two seconds") {
   CHECK(leans(5.0, 1.5).empty());
 }
 
-TEST_CASE("throttle in a shift: a flare; the blip that a lower gear needs is none") {
+TEST_CASE("throttle in a shift: a flare; a blip that the lower gear needs is no error") {
   const auto flares = [](double rise) {
     return in_shift([=](DriveSample& s, double t) {
       if (within(t, 0.3, 0.6)) s.car.engine_speed = ConstructedShift().engine(2) + rise;
@@ -395,18 +395,19 @@ TEST_CASE("throttle in a shift: a flare; the blip that a lower gear needs is non
   CHECK(only(flares(60.0), ErrorKind::throttle_in_shift).value == doctest::Approx(60.0));
   CHECK(flares(30.0).empty());
 
-  ConstructedShift down;  // 3 to 2: the same shift, backwards
+  ConstructedShift down;  // from 3 to 2: the constructed shift in reverse
   down.modify = [](DriveSample& s, double t) {
     const ConstructedShift plain;
     DriveSample mirrored = plain.at(0.7 - t, s.car.gear == 0 ? 3 : s.car.gear);
     s.lever.lever = s.lever.proxy = mirrored.lever.proxy;
     s.lever.slot = mirrored.lever.slot;
     s.car.gear = t < 0.25 ? 3 : t < 0.49 ? 0 : 2;
-    s.car.engine_speed = plain.engine(t < 0.3 ? 3 : 2);  // rev-matched
+    s.car.engine_speed = plain.engine(t < 0.3 ? 3 : 2);  // the revs match
   };
   CHECK(detected_errors(down).empty());
 
-  // A blip that overshoots is a rev-matching error only; a throttle that was never lifted is a throttle error, too.
+  // A blip that overshoots is only a rev-matching error. If the throttle was never released, that is a throttle error
+  // in addition.
   const auto overshoots = [&](bool lifted) {
     ConstructedShift blip = down;
     blip.modify = [=, modify = down.modify](DriveSample& s, double t) {
@@ -423,7 +424,7 @@ TEST_CASE("throttle in a shift: a flare; the blip that a lower gear needs is non
   CHECK(kinds == std::vector<ErrorKind>{ErrorKind::throttle_in_shift, ErrorKind::rev_mismatch});
 }
 
-TEST_CASE("rev mismatch: only above idle, and in addition to a flare, which is a different error") {
+TEST_CASE("rev mismatch: reported only above idle, and in addition to a flare, which is a different error") {
   const auto off = [](double by) {
     return in_shift([=](DriveSample& s, double t) {
       if (within(t, 0.55, 0.7)) s.car.engine_speed = ConstructedShift().engine(3) - by;
@@ -439,7 +440,7 @@ TEST_CASE("rev mismatch: only above idle, and in addition to a flare, which is a
   CHECK(howls[1].kind == ErrorKind::rev_mismatch);
 }
 
-TEST_CASE("grind: one error with its energy, gaps included; a tick is none") {
+TEST_CASE("grind: one error with its energy, even with gaps; a very short grind is no error") {
   const auto grinds = [](double power) {
     return in_shift([=](DriveSample& s, double t) {
       s.car.grinding = within(t, 0.42, 0.48) && std::lround(1e3 * t) % 4 != 0;
@@ -452,7 +453,7 @@ TEST_CASE("grind: one error with its energy, gaps included; a tick is none") {
   CHECK(grinds(5.0).empty());
 }
 
-TEST_CASE("blocked: pushed against the ring for longer than it needs, with the clutch down") {
+TEST_CASE("blocked: the lever pushes the ring for longer than synchronising needs, with the clutch down") {
   const auto pushes = [](double seconds, double force) {
     return in_shift(
         [=](DriveSample& s, double t) {
@@ -473,7 +474,7 @@ TEST_CASE("blocked: pushed against the ring for longer than it needs, with the c
   CHECK(pushes(1.5, 1.0).empty());
 }
 
-TEST_CASE("missed shift: the gear that the lever was pushed to; intended neutral is none") {
+TEST_CASE("missed shift: the value is the gear to which the lever was pushed; an intended neutral is no error") {
   const auto gives_up = [](double depth) {
     return in_shift(
         [=](DriveSample& s, double t) {
@@ -483,12 +484,12 @@ TEST_CASE("missed shift: the gear that the lever was pushed to; intended neutral
         {}, 5.0);
   };
   CHECK(only(gives_up(0.025), ErrorKind::missed_shift).value == 3.0);
-  CHECK(error_sentence(only(gives_up(0.025), ErrorKind::missed_shift)) == "You missed gear 3.");
+  CHECK(error_sentence(only(gives_up(0.025), ErrorKind::missed_shift)) == "You missed third.");
   CHECK(gives_up(0.0).empty());
 }
 
-// As in a real gearbox, the gear is out before the lever reaches the release depth.
-TEST_CASE("missed shift: never the old gear, nor one that was engaged") {
+// As in a real gearbox, the old gear disengages before the lever reaches the release depth.
+TEST_CASE("missed shift: the value is never the old gear or a gear that was engaged") {
   const auto goes = [](const std::function<void(DriveSample&, double, const ConstructedShift&)>& on_the_way,
                        int wanted) {
     return in_shift(
@@ -514,14 +515,14 @@ TEST_CASE("missed shift: never the old gear, nor one that was engaged") {
     };
   };
   const double rest = rest_position(known_gate(), 3).y;
-  CHECK(goes(nothing, kNeutralGear).empty());                                       // out and in again
-  CHECK(only(goes(nothing, 4), ErrorKind::missed_shift).value == 4.0);              // the gear that was wanted
-  CHECK(only(goes(third(0.025, false), 4), ErrorKind::missed_shift).value == 3.0);  // the gear that was tried
-  // 3 engaged: neither a wrong slot nor a missed shift
+  CHECK(goes(nothing, kNeutralGear).empty());                                       // out of second and into it again
+  CHECK(only(goes(nothing, 4), ErrorKind::missed_shift).value == 4.0);              // the requested gear
+  CHECK(only(goes(third(0.025, false), 4), ErrorKind::missed_shift).value == 3.0);  // the gear that the lever tried
+  // Third was engaged, so the lever was neither in a wrong slot nor missed a gear.
   CHECK(goes(third(rest, true), kNeutralGear).empty());
 }
 
-TEST_CASE("wrong gear: a gear that was not requested, as soon as it is in") {
+TEST_CASE("wrong gear: a gear that was not requested is reported as soon as it is engaged") {
   const DrivingError error = only(in_shift([](DriveSample&, double) {}, {4, {}}), ErrorKind::wrong_gear);
   CHECK(error.value == 3.0);
   CHECK(error.wanted == 4.0);
@@ -529,7 +530,7 @@ TEST_CASE("wrong gear: a gear that was not requested, as soon as it is in") {
   CHECK(in_shift([](DriveSample&, double) {}, {3, {}}).empty());
 }
 
-TEST_CASE("wrong column: mouths off the path, counted") {
+TEST_CASE("wrong column: the number of mouths that the lever entered off its path") {
   ConstructedShift shift;
   const double depth = shift.gate.half_aisle + shift.gate.chamfer + 0.002;
   const auto errors = in_shift([&](DriveSample& s, double t) {
@@ -538,10 +539,10 @@ TEST_CASE("wrong column: mouths off the path, counted") {
   CHECK(only(errors, ErrorKind::wrong_column).value == 2.0);
 }
 
-TEST_CASE("over-push: the paper's 60 N, once until it is below 50 N, with its maximum") {
-  const auto pushes = [](double most) {
+TEST_CASE("over-push: above the paper's 60 N, once until the push is below 50 N, with its maximum") {
+  const auto pushes = [](double max_force) {
     return in_shift([=](DriveSample& s, double t) {
-      s.lever.f_h = {0.0, within(t, 0.3, 0.6) ? most - 8.0 * (std::lround(50.0 * t) % 2 == 0 ? 1.0 : 0.0) : 0.0};
+      s.lever.f_h = {0.0, within(t, 0.3, 0.6) ? max_force - 8.0 * (std::lround(50.0 * t) % 2 == 0 ? 1.0 : 0.0) : 0.0};
     });
   };
   const DrivingError error = only(pushes(65.0), ErrorKind::over_push);
@@ -551,16 +552,16 @@ TEST_CASE("over-push: the paper's 60 N, once until it is below 50 N, with its ma
   CHECK(pushes(59.0).empty());
 }
 
-TEST_CASE("step order: throttle long after the clutch") {
+TEST_CASE("step order: the throttle is released long after the clutch is down") {
   const DrivingError late =
       only(in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.29 ? 0.3 : 0.0; }), ErrorKind::step_order);
   CHECK(late.value == 2.0);
   CHECK(error_sentence(late) == "You released the throttle only after the clutch was down.");
-  CHECK(
-      in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.17 ? 0.3 : 0.0; }).empty());  // both feet at once
+  // Both feet move at once.
+  CHECK(in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.17 ? 0.3 : 0.0; }).empty());
 }
 
-TEST_CASE("a step out of order is described in words; otherwise by the number of steps") {
+TEST_CASE("known mistakes in the order of the steps are described in words, others by the number of misplaced steps") {
   DrivingError error{ErrorKind::step_order, Severity::minor, 0.0, 2.0};
   std::set<std::string> sentences;
   for (const double slip : {-1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 1e300}) {
@@ -568,18 +569,18 @@ TEST_CASE("a step out of order is described in words; otherwise by the number of
     sentences.insert(error_sentence(error));
   }
   CHECK(sentences.size() == 6);
-  CHECK(sentences.count("The shift was out of order (steps out of place: 2).") == 1);
+  CHECK(sentences.count("You did the steps of the shift in the wrong order (2 out of place).") == 1);
 }
 
-TEST_CASE("one wrong slot is reported as one") {
-  CHECK(error_sentence({ErrorKind::wrong_column, Severity::minor, 0.0, 1.0}) == "The lever entered a wrong slot.");
+TEST_CASE("the sentence for a single wrong slot is in the singular") {
+  CHECK(error_sentence({ErrorKind::wrong_column, Severity::minor, 0.0, 1.0}) == "The lever entered the wrong slot.");
   CHECK(error_sentence({ErrorKind::wrong_column, Severity::minor, 0.0, 2.0}) == "The lever entered 2 wrong slots.");
 }
 
-// From 2 to 3 at 12 m/s, 43.2 km/h; the gear engages at the speed at which the shift began.
-TEST_CASE("a gear engaged at another speed than the step's is early or late, beyond a tolerance of a tenth") {
+// A shift from 2 to 3 at 12 m/s (43.2 km/h), which does not change during the shift.
+TEST_CASE("a gear engaged at a speed that differs by more than a tenth from the step's is early or late") {
   struct At {
-    double at;  // [m/s]
+    double at;  // [m/s] speed that the step states
     std::optional<ErrorKind> kind;
   };
   for (const At& meant :
@@ -597,19 +598,19 @@ TEST_CASE("a gear engaged at another speed than the step's is early or late, bey
     CAPTURE(meant.at);
     REQUIRE(errors.size() == (meant.kind ? 1 : 0));
     if (!meant.kind) continue;
-    CHECK(error_key(errors[0].kind) == error_key(*meant.kind));
+    CHECK(to_string(errors[0].kind) == to_string(*meant.kind));
     CHECK(errors[0].wanted == meant.at);
     CHECK(error_sentence(errors[0]).find("km/h.") != std::string::npos);
   }
 }
 
-TEST_CASE("a stopped engine's speed is no error of the shift: no flare when it restarts, no early shift") {
+TEST_CASE("the speed of a stopped engine causes no error of the shift: no flare when it restarts, no early shift") {
   const auto restarts = [](bool dead) {
     return in_shift(
         [dead](DriveSample& s, double t) {
-          const double share = t < 0.5 ? 0.1 : 1.5;
+          const double factor = t < 0.5 ? 0.1 : 1.5;
           if (dead) s.car.running = t < -0.5 || t > 0.5;
-          if (t > -0.5 && t < 0.6) s.car.engine_speed *= share;
+          if (t > -0.5 && t < 0.6) s.car.engine_speed *= factor;
         },
         {kNeutralGear, {200.0, 400.0}});
   };
@@ -618,7 +619,7 @@ TEST_CASE("a stopped engine's speed is no error of the shift: no flare when it r
   CHECK(only(dead, ErrorKind::stall).value > 0.0);
 }
 
-TEST_CASE("after a stall, first gear and those up to the current one are accepted again; otherwise first is wrong") {
+TEST_CASE("after a stall, every gear from first up to the requested one is accepted; otherwise it is wrong") {
   for (const bool stalls : {false, true}) {
     const auto errors = in_shift(
         [stalls](DriveSample& s, double t) {
@@ -626,12 +627,12 @@ TEST_CASE("after a stall, first gear and those up to the current one are accepte
         },
         {5, {}});
     std::string raised;
-    for (const DrivingError& error : errors) raised += std::string(error_key(error.kind)) + " ";
+    for (const DrivingError& error : errors) raised += std::string(to_string(error.kind)) + " ";
     CHECK(raised == (stalls ? "stall " : "wrong_gear "));
   }
 }
 
-TEST_CASE("prompts within a shift take time, which does not count as the shift's") {
+TEST_CASE("the time for reading prompts within a shift does not count as part of the shift") {
   const auto held = [](double until, double reading) {
     ConstructedShift shift;
     shift.to = until + 2.0;
@@ -655,7 +656,7 @@ TEST_CASE("prompts within a shift take time, which does not count as the shift's
   CHECK(held(3.9, 1.0) == 1);
 }
 
-TEST_CASE("holding the clutch down long before the lever moves is a slow shift, and not coasting, too") {
+TEST_CASE("holding the clutch down long before the lever moves is a slow shift, and not also coasting") {
   ConstructedShift shift;
   shift.from = -6.0;
   shift.modify = [](DriveSample& s, double t) {
@@ -665,11 +666,11 @@ TEST_CASE("holding the clutch down long before the lever moves is a slow shift, 
     if (t > -4.6 && t < 0.0) s.car.throttle = 0.0;
   };
   std::string raised;
-  for (const DrivingError& error : detected_errors(shift)) raised += std::string(error_key(error.kind)) + " ";
+  for (const DrivingError& error : detected_errors(shift)) raised += std::string(to_string(error.kind)) + " ";
   CHECK(raised == "too_slow ");
 }
 
-TEST_CASE("rollback: by its distance, not in reverse, and not for a few centimetres") {
+TEST_CASE("rollback: the value is the distance; not in reverse, and not for a few centimetres") {
   const auto rolls = [](int gear, double metres) {
     return in_second([=](DriveSample& s, double t) {
       const double u = std::clamp(t - 3.0, 0.0, 1.0);
@@ -687,7 +688,7 @@ TEST_CASE("rollback: by its distance, not in reverse, and not for a few centimet
   CHECK(rolls(1, 0.05).empty());
 }
 
-TEST_CASE("rolling back when the lesson is over is still reported") {
+TEST_CASE("a rollback that lasts until the lesson ends is still reported") {
   const auto errors = in_second(
       [](DriveSample& s, double t) {
         s.car.road_speed = t > 3.0 ? -1.0 : 0.0;
@@ -699,7 +700,7 @@ TEST_CASE("rolling back when the lesson is over is still reported") {
   CHECK(only(errors, ErrorKind::rollback).value == doctest::Approx(1.0).epsilon(0.01));
 }
 
-TEST_CASE("a clutch dumped as the lesson ends is still reported") {
+TEST_CASE("a clutch dumped just before the lesson ends is still reported") {
   const auto errors = in_second(
       [](DriveSample& s, double t) {
         s.car.road_speed = 0.0;
@@ -732,9 +733,9 @@ TEST_CASE("too slow: a shift that takes longer than 2.5 s") {
   CHECK(held(2.0).empty());
 }
 
-// Road speed falls from 12 m/s to zero; the clutch is down from 0.05 s on, the lever moves from 2 to 3 until `in`
-// seconds.
-TEST_CASE("too slow: with the clutch down to stop, only the lever's own time counts") {
+// The road speed falls from 12 m/s to zero. The clutch is down from 0.05 s on, and the lever moves from 2 to 3 until
+// `in` [s].
+TEST_CASE("too slow: while the car is braked to a stop with the clutch down, only the lever's own time counts") {
   const auto stops = [](double in, double brake) {
     ConstructedShift shift;
     shift.to = 9.0;
@@ -746,7 +747,7 @@ TEST_CASE("too slow: with the clutch down to stop, only the lever's own time cou
       s.car.clutch = within(t, 0.05, 7.9) ? 1.0 : 0.0;
       s.car.clutch_locked = t < 0.05 || t > 7.95;
       s.car.brake = t > 0.0 ? brake : 0.0;
-      s.car.road_speed = std::max(0.0, 12.0 - 2.2 * std::max(0.0, t));  // 4 m/s at 3.6 s
+      s.car.road_speed = std::max(0.0, 12.0 - 2.2 * std::max(0.0, t));  // [m/s], 4 m/s at 3.6 s
       s.car.engine_speed = 90.0;
     };
     std::vector<DrivingError> errors = detected_errors(shift);
@@ -755,11 +756,11 @@ TEST_CASE("too slow: with the clutch down to stop, only the lever's own time cou
   };
   CHECK(stops(0.5, 0.2).empty());
   CHECK(only(stops(3.4, 0.2), ErrorKind::too_slow).value == doctest::Approx(3.4 - 0.24).epsilon(0.01));
-  // the car coasts to a stop
+  // Without braking, the whole time with the clutch down counts, until the car is slower than 4 m/s.
   CHECK(only(stops(0.5, 0.0), ErrorKind::too_slow).value == doctest::Approx(3.6 - 0.05).epsilon(0.02));
 }
 
-TEST_CASE("wrong direction: reverse at forward speed, once per visit to its slot") {
+TEST_CASE("wrong direction: reverse tried at forward speed, once per visit to its slot") {
   const auto reverse = [](double speed) {
     ConstructedShift shift;
     shift.to = 4.0;
@@ -780,12 +781,12 @@ TEST_CASE("wrong direction: reverse at forward speed, once per visit to its slot
   CHECK(reverse(0.5).empty());
 }
 
-TEST_CASE("every kind of error has its row in the table, a sentence, and its own advice") {
+TEST_CASE("every kind of error has a row in the table, a sentence, and its own advice") {
   std::set<std::string> sentences;
   for (int i = 0; i < kErrorKindCount; ++i) {
     const auto kind = static_cast<ErrorKind>(i);
     CHECK(error_rule(kind).kind == kind);
-    CHECK(error_kind_of(error_key(kind)) == kind);
+    CHECK(error_kind_of(to_string(kind)) == kind);
     CHECK(error_rule(kind).clear <= std::max(0.0, error_rule(kind).raise));
     CHECK(error_sentence({kind, Severity::minor, 0.0, 1.0}).find('{') == std::string::npos);
     const std::string advice(error_advice(kind));
@@ -793,7 +794,7 @@ TEST_CASE("every kind of error has its row in the table, a sentence, and its own
     CHECK(advice.ends_with("."));
     CHECK(advice.find('{') == std::string::npos);
     CHECK(advice.size() < 90);
-    CHECK(sentences.insert(advice).second);  // each kind has advice of its own
+    CHECK(sentences.insert(advice).second);  // no other kind has this advice
   }
   CHECK_FALSE(error_kind_of("tyre_blown").has_value());
   CHECK(error_severity(ErrorKind::rollback, 0.2) == Severity::minor);

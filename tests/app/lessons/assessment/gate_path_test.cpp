@@ -1,4 +1,4 @@
-// The shortest path through a gate, compared with geometry by hand and with a search on a fine grid.
+// The shortest path through a gate, compared with lengths computed by hand, a grid search and a visibility graph.
 #include "app/lessons/assessment/gate_path.h"
 
 #include <algorithm>
@@ -21,8 +21,9 @@ using glm::dvec2;
 
 namespace {
 
-// Dijkstra on a 1 mm grid with moves to all cells within five: at most 2 % longer than the true path.
-double grid_way(const Gate& gate, dvec2 from, dvec2 to) {
+// [m] Path length by Dijkstra's algorithm on a 1 mm grid, with moves of up to five cells in x and y. It is at most 2 %
+// longer than the true path.
+double grid_path_length(const Gate& gate, dvec2 from, dvec2 to) {
   constexpr double kCell = 1e-3;
   constexpr int kReach = 5, kHalfWide = 80, kHalfHigh = 60;
   constexpr int kWide = 2 * kHalfWide + 1, kHigh = 2 * kHalfHigh + 1;
@@ -63,8 +64,8 @@ double grid_way(const Gate& gate, dvec2 from, dvec2 to) {
   return 1e9;
 }
 
-// Visibility graph: all corners where a taut string could bend, and which of them see each other. Samples each sight
-// line every 0.1 mm.
+// A visibility graph: all corners at which a taut string could bend, and the free straight legs between them. Each leg
+// is sampled every 0.1 mm.
 class VisibilityGraph {
  public:
   explicit VisibilityGraph(const Gate& gate) : gate_(gate) {
@@ -78,26 +79,26 @@ class VisibilityGraph {
     }
     std::erase_if(corners_, [&](dvec2 p) { return !in_free_space(gate, p, kTouch); });
     for (const dvec2 a : corners_) {
-      sight_.emplace_back();
-      for (const dvec2 b : corners_) sight_.back().push_back(leg(a, b));
+      legs_.emplace_back();
+      for (const dvec2 b : corners_) legs_.back().push_back(leg(a, b));
     }
   }
 
-  // Bellman-Ford: as many rounds as a path can have bends.
-  double way(dvec2 from, dvec2 to) const {
+  // Bellman-Ford with six rounds, more than any path has bends.
+  double path_length(dvec2 from, dvec2 to) const {
     std::vector<double> best;
     double shortest = leg(from, to);
     for (const dvec2 corner : corners_) best.push_back(leg(from, corner));
     for (std::size_t round = 0; round < 6; ++round) {
       for (std::size_t i = 0; i < best.size(); ++i)
-        for (std::size_t j = 0; j < best.size(); ++j) best[j] = std::min(best[j], best[i] + sight_[i][j]);
+        for (std::size_t j = 0; j < best.size(); ++j) best[j] = std::min(best[j], best[i] + legs_[i][j]);
     }
     for (std::size_t i = 0; i < best.size(); ++i) shortest = std::min(shortest, best[i] + leg(corners_[i], to));
     return shortest;
   }
 
  private:
-  static constexpr double kTouch = 1e-6;  // [m]
+  static constexpr double kTouch = 1e-6;  // [m] tolerance for touching a wall
 
   double leg(dvec2 a, dvec2 b) const {
     const int parts = 1 + static_cast<int>(glm::distance(a, b) / 1e-4);
@@ -109,7 +110,7 @@ class VisibilityGraph {
 
   const Gate& gate_;
   std::vector<dvec2> corners_;
-  std::vector<std::vector<double>> sight_;
+  std::vector<std::vector<double>> legs_;
 };
 
 std::vector<dvec2> random_points(const Gate& gate, std::size_t count, unsigned seed) {
@@ -131,17 +132,17 @@ double length_of(const std::vector<dvec2>& path) {
 
 }  // namespace
 
-TEST_CASE("within a column the path is straight, around a wall it touches the corners") {
-  const Gate gate = paper_gate();  // half aisle 6, chamfer 4, half slot 5, columns at -30, 0, 30 mm
+TEST_CASE("within a column the path is straight; around a wall it touches the wall's corners") {
+  const Gate gate = paper_gate();  // [mm] half aisle 6, chamfer 4, half slot 5, columns at -30, 0, 30
   CHECK(shortest_path_length(gate, {0.0, 0.030}, {0.0, -0.030}) == doctest::Approx(0.060));
   CHECK(shortest_path_length(gate, {-0.03, 0.0}, {0.03, 0.0}) == doctest::Approx(0.060));
-  // From (-30, 30) to (0, 30): over (-25, 10), (-21, 6), (-9, 6), (-5, 10).
+  // [mm] from (-30, 30) to (0, 30), through (-25, 10), (-21, 6), (-9, 6) and (-5, 10)
   const double up = std::hypot(0.005, 0.020), round = std::hypot(0.004, 0.004);
   CHECK(shortest_path_length(gate, {-0.03, 0.03}, {0.0, 0.03}) ==
         doctest::Approx(2 * up + 2 * round + 0.012).epsilon(1e-9));
 }
 
-TEST_CASE("the shortest path equals that of a grid search, in every gate") {
+TEST_CASE("the shortest path is as long as that of a grid search, in three gates") {
   for (const std::string& name : {std::string("paper"), std::string("four_speed"), std::string("dog_leg_five")}) {
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
@@ -149,14 +150,14 @@ TEST_CASE("the shortest path equals that of a grid search, in every gate") {
       const Slot& b = slot_of(gate, (static_cast<int>(&a - gate.slot.data()) + 3) % gate.slot_count);
       const auto rounded = [](dvec2 p) { return dvec2{std::round(1e3 * p.x) / 1e3, std::round(1e3 * p.y) / 1e3}; };
       const dvec2 from = rounded(rest_position(gate, a.gear)), to = rounded(rest_position(gate, b.gear));
-      const double way = shortest_path_length(gate, from, to), grid = grid_way(gate, from, to);
-      CHECK(way <= grid * 1.0005);
-      CHECK(way >= grid * 0.975);
+      const double length = shortest_path_length(gate, from, to), grid = grid_path_length(gate, from, to);
+      CHECK(length <= grid * 1.0005);
+      CHECK(length >= grid * 0.975);
     }
   }
 }
 
-TEST_CASE("between any two points the string is as short as the shortest path over all mutually visible corners") {
+TEST_CASE("between any two points the path is as short as the shortest path in the visibility graph") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
@@ -169,16 +170,16 @@ TEST_CASE("between any two points the string is as short as the shortest path ov
       CAPTURE(from.y);
       CAPTURE(to.x);
       CAPTURE(to.y);
-      const double way = shortest_path_length(gate, from, to), seen = graph.way(from, to);
-      CHECK(way <= seen + 1e-6);
-      CHECK(way >= seen - 1e-4);  // tolerance: a sight line may graze a wall
-      CHECK(way >= glm::distance(from, to) - 1e-12);
-      CHECK(way == doctest::Approx(shortest_path_length(gate, to, from)).epsilon(1e-9));
+      const double length = shortest_path_length(gate, from, to), expected = graph.path_length(from, to);
+      CHECK(length <= expected + 1e-6);
+      CHECK(length >= expected - 1e-4);  // the graph's legs may graze a wall
+      CHECK(length >= glm::distance(from, to) - 1e-12);
+      CHECK(length == doctest::Approx(shortest_path_length(gate, to, from)).epsilon(1e-9));
     }
   }
 }
 
-TEST_CASE("the string's points: its ends and at most four bends, every leg free, as long as the path") {
+TEST_CASE("the path's points are its ends and at most four bends, and every leg is free") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
@@ -192,14 +193,14 @@ TEST_CASE("the string's points: its ends and at most four bends, every leg free,
       CHECK(length_of(path) == shortest_path_length(gate, points[i], points[i + 1]));
       for (std::size_t k = 1; k < path.size(); ++k) {
         CHECK(path[k] != path[k - 1]);
-        for (double share = 0.0; share <= 1.0; share += 0.01)
-          CHECK(in_free_space(gate, path[k - 1] + (path[k] - path[k - 1]) * share, 2e-4));
+        for (double fraction = 0.0; fraction <= 1.0; fraction += 0.01)
+          CHECK(in_free_space(gate, path[k - 1] + (path[k] - path[k - 1]) * fraction, 2e-4));
       }
     }
   }
 }
 
-TEST_CASE("a string of zero length is one point; around a wall its points are the corners") {
+TEST_CASE("a path of zero length is one point; around a wall its points are the wall's corners") {
   const Gate gate = paper_gate();
   CHECK(shortest_path(gate, {0.01, 0.0}, {0.01, 0.0}) == std::vector<dvec2>{{0.01, 0.0}});
   CHECK(shortest_path_length(gate, {0.01, 0.0}, {0.01, 0.0}) == 0.0);
@@ -208,5 +209,6 @@ TEST_CASE("a string of zero length is one point; around a wall its points are th
                                    {-0.009, 0.006}, {-0.005, 0.01}, {0.0, 0.03}};
   REQUIRE(path.size() == corners.size());
   for (std::size_t i = 0; i < path.size(); ++i) CHECK(glm::distance(path[i], corners[i]) < 1e-12);
-  CHECK(shortest_path(gate, {0.5, 0.5}, {0.0, 0.0}) == std::vector<dvec2>{{0.5, 0.5}, {0.0, 0.0}});  // not in the gate
+  // This path starts outside the gate.
+  CHECK(shortest_path(gate, {0.5, 0.5}, {0.0, 0.0}) == std::vector<dvec2>{{0.5, 0.5}, {0.0, 0.0}});
 }

@@ -1,4 +1,4 @@
-// The arithmetic of grades: every deducted point names its driving error.
+// The arithmetic of grades: every deducted point belongs to a driving error.
 #include "app/lessons/assessment/grade.h"
 
 #include <utility>
@@ -31,7 +31,8 @@ LessonResult graded(LessonResult result, const Lesson& lesson = lesson_that_catc
 
 }  // namespace
 
-TEST_CASE("ten points, less half for a minor fault, two for a severe, four for a very severe, none for a note") {
+TEST_CASE(
+    "from ten points, a minor error deducts half a point, a severe one two, a very severe one four, a note none") {
   CHECK(graded(done_with({})).grade == 10.0);
   CHECK(graded(done_with({Severity::note})).grade == 10.0);
   CHECK(graded(done_with({Severity::minor})).grade == 9.5);
@@ -39,7 +40,7 @@ TEST_CASE("ten points, less half for a minor fault, two for a severe, four for a
   CHECK(graded(done_with({Severity::very_severe, Severity::severe, Severity::minor, Severity::note})).grade == 3.5);
 }
 
-TEST_CASE("every deduction names its error, and together they are the missing points") {
+TEST_CASE("every deduction names its error, and together they are the points missing from ten") {
   const LessonResult result =
       graded(done_with({Severity::note, Severity::minor, Severity::severe, Severity::note, Severity::very_severe}));
   REQUIRE(result.deductions.size() == 3);
@@ -52,7 +53,7 @@ TEST_CASE("every deduction names its error, and together they are the missing po
   CHECK(result.grade == 10.0 - sum);
 }
 
-TEST_CASE("an unfinished lesson has grade 0 without an error, and one that was left has none") {
+TEST_CASE("an unfinished lesson has grade 0 even without errors; one that the learner left has no grade") {
   for (const LessonEnd end : {LessonEnd::aborted, LessonEnd::out_of_time}) {
     LessonResult lost = done_with({});
     lost.end = end;
@@ -72,26 +73,26 @@ TEST_CASE("no grade is below zero") {
   CHECK(graded(done_with(std::vector<Severity>(5, Severity::very_severe))).grade == 0.0);
 }
 
-TEST_CASE("passed at the pass grade and above, otherwise the reason in one sentence") {
+TEST_CASE("a lesson is passed from the pass grade on; otherwise one sentence gives the reason") {
   const LessonResult at = graded(done_with({Severity::very_severe}));
   CHECK(at.passed);
   CHECK(at.why.empty());
   const LessonResult below = graded(done_with({Severity::very_severe, Severity::minor}));
   CHECK_FALSE(below.passed);
-  CHECK(below.why == "Grade 5.5 is below 6.0.");
+  CHECK(below.why == "Grade 5.5 is below the pass grade of 6.0.");
 }
 
-TEST_CASE("one error that fails the lesson fails it at any grade, with its own sentence") {
+TEST_CASE("an error that fails the lesson fails it at any grade, and its sentence is the reason") {
   LessonResult stalled = done_with({});
   stalled.errors.push_back({ErrorKind::stall, Severity::severe, 3.0, 90.0, -1});
   const LessonResult result = graded(stalled, lesson_that_catches({ErrorKind::stall}));
   CHECK(result.grade == 8.0);
   CHECK_FALSE(result.passed);
-  CHECK(result.why == "The engine stalled, from 859 rpm.");
+  CHECK(result.why == "The engine stalled at 859 rpm.");
   CHECK(graded(stalled).passed);
 }
 
-TEST_CASE("an error that the lesson catches fails it, minor or severe; one that it only counts costs points") {
+TEST_CASE("an error on which the lesson fails fails it, minor or severe; one that is only counted costs points") {
   for (const Severity severity : {Severity::minor, Severity::severe}) {
     Lesson lesson = lesson_that_catches({ErrorKind::jerk});
     CHECK_FALSE(graded(done_with({severity}), lesson).passed);
@@ -102,7 +103,7 @@ TEST_CASE("an error that the lesson catches fails it, minor or severe; one that 
   }
 }
 
-TEST_CASE("a slow step fails from its own limit on, or without one from within_s on") {
+TEST_CASE("a slow step fails the lesson from its fails_after on, or without that from its within on") {
   Lesson lesson = lesson_that_catches({ErrorKind::slow_step});
   LessonStep step;
   step.prompt = "Stop!";
@@ -116,7 +117,7 @@ TEST_CASE("a slow step fails from its own limit on, or without one from within_s
   CHECK(graded(slow, lesson).grade == 9.5);
   slow.errors[0].value = 4.6;
   CHECK_FALSE(graded(slow, lesson).passed);
-  CHECK(graded(slow, lesson).why == "\"Stop!\" took 4.6 s; the limit is 4.0 s.");
+  CHECK(graded(slow, lesson).why == "You took 4.6 s for this step (limit 4.0 s): \"Stop!\"");
 }
 
 TEST_CASE("only a finished lesson can be passed") {
@@ -125,7 +126,7 @@ TEST_CASE("only a finished lesson can be passed") {
   CHECK(graded(result).why == "Not finished within 90 s.");
   result.end = LessonEnd::left;
   CHECK(graded(result).why == "You left the lesson.");
-  LessonResult stalled = result;  // a learner who leaves gets that message, whatever went wrong before
+  LessonResult stalled = result;  // a learner who leaves gets this message despite other errors
   stalled.errors.push_back({ErrorKind::stall, Severity::very_severe, 3.0, 62.0, -1});
   CHECK(graded(stalled, lesson_that_catches({ErrorKind::stall})).why == "You left the lesson.");
   result.end = LessonEnd::running;
@@ -136,7 +137,7 @@ TEST_CASE("only a finished lesson can be passed") {
   CHECK_FALSE(graded(result).passed);
 }
 
-TEST_CASE("a guided trial and an incomplete record have no grade, however good") {
+TEST_CASE("a guided trial and an incomplete record have no grade") {
   LessonResult guided = done_with({Severity::minor});
   guided.guided = true;
   guided = graded(guided);
@@ -150,7 +151,7 @@ TEST_CASE("a guided trial and an incomplete record have no grade, however good")
   CHECK(graded(torn).grade == 0.0);
 }
 
-TEST_CASE("errors are counted by severity, and the trial's error is their points, guided or not") {
+TEST_CASE("errors are counted by severity, and the run's error is the sum of their points, guided or not") {
   LessonResult result = done_with({Severity::minor, Severity::minor, Severity::severe, Severity::note});
   CHECK(count_by_severity(result.errors) == std::array<std::size_t, 4>{1, 2, 1, 0});
   CHECK(run_error(result) == doctest::Approx(0.3));

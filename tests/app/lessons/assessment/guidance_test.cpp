@@ -1,4 +1,4 @@
-// The guidance policy compared with its own recursion, and its invariants.
+// The guidance policy, compared with its own recursion, and its invariants.
 #include "app/lessons/assessment/guidance.h"
 
 #include <algorithm>
@@ -26,15 +26,15 @@ TEST_CASE("the gain follows g <- clamp(f g + k error), with f falling as skill g
   }
 }
 
-TEST_CASE("without errors guidance fades: the gain times the product of f") {
+TEST_CASE("without errors guidance fades: the gain is the product of all f") {
   GuidanceConfig config;
-  config.skill_memory = 1.0;  // stays unskilled, so f does not change
+  config.skill_memory = 1.0;  // the learner stays unskilled, so f is constant
   GuidancePolicy policy(1, config);
   for (int n = 0; n < 20; ++n) policy.learn(0.0);
   CHECK(policy.gain() == doctest::Approx(std::pow(config.forgetting, 20)).epsilon(1e-12));
 }
 
-TEST_CASE("constant error keeps the gain at k e / (1 - f), and an error beyond any pass grade at its maximum") {
+TEST_CASE("a constant error e keeps the gain at k e / (1 - f), and an error beyond any pass grade at its maximum") {
   GuidanceConfig config;
   config.skill_memory = 1.0;
   GuidancePolicy policy(1, config);
@@ -44,7 +44,7 @@ TEST_CASE("constant error keeps the gain at k e / (1 - f), and an error beyond a
   CHECK(policy.gain() == 1.0);
 }
 
-TEST_CASE("guidance fades faster for the skilled") {
+TEST_CASE("guidance fades faster for a skilled learner") {
   GuidancePolicy skilled(1), novice(1);
   for (int n = 0; n < 10; ++n) skilled.learn(0.02), novice.learn(0.35);
   CHECK(skilled.skill() > 0.8);
@@ -53,7 +53,7 @@ TEST_CASE("guidance fades faster for the skilled") {
   CHECK(novice.gain() > 0.9);
 }
 
-TEST_CASE("half of the trials are unguided, of every four, in an order drawn with the seed") {
+TEST_CASE("two of every four trials are unguided, in an order that depends on the seed") {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     GuidancePolicy policy(seed);
     int guided = 0;
@@ -68,10 +68,10 @@ TEST_CASE("half of the trials are unguided, of every four, in an order drawn wit
     GuidancePolicy policy(seed);
     for (int& count : first) count += policy.next().guidance > 0.0 ? 1 : 0;
   }
-  for (const int count : first) CHECK(count == doctest::Approx(2000).epsilon(0.06));  // 4 standard deviations
+  for (const int count : first) CHECK(count == doctest::Approx(2000).epsilon(0.06));  // 6 % are 4 standard deviations
 }
 
-TEST_CASE("with a lost point in every trial half of them stay guided for long; without lost points guidance ends") {
+TEST_CASE("with one lost point per trial, half of the trials stay guided for long; without lost points guidance ends") {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     GuidancePolicy policy(seed);
     int guided = 0;
@@ -90,7 +90,7 @@ TEST_CASE("with a lost point in every trial half of them stay guided for long; w
   }
 }
 
-TEST_CASE("the same seed and errors give the same plans, another seed different ones") {
+TEST_CASE("equal seeds and errors give equal plans, different seeds different plans") {
   const auto plans = [](std::uint64_t seed) {
     GuidancePolicy policy(seed);
     std::vector<double> list;
@@ -117,7 +117,7 @@ TEST_CASE("a guided trial has the gain, an unguided one none, and a tiny gain co
   for (int n = 0; n < 8; ++n) CHECK(policy.next().guidance == 0.0);
 }
 
-TEST_CASE("a retention test is unguided and silent") {
+TEST_CASE("a retention test is unguided, with hints only at the end") {
   GuidancePolicy policy(3);
   CHECK(policy.retention().guidance == 0.0);
   CHECK(policy.retention().hints == HintStyle::summary);
@@ -139,7 +139,7 @@ TEST_CASE("hints change from prescriptive to bandwidth to summary as skill grows
   CHECK(styles.back() == HintStyle::prescriptive);
 }
 
-TEST_CASE("invalid errors teach nothing, and errors are clamped to 1") {
+TEST_CASE("invalid errors do not change the policy, and errors are clamped to 1") {
   GuidancePolicy policy(3);
   policy.learn(std::numeric_limits<double>::quiet_NaN());
   policy.learn(-1.0);

@@ -1,4 +1,5 @@
-// The guidance force: a bounded potential that leads to the gear in every gate, and zero when it is off.
+// The guidance force: the gradient of a bounded potential, which leads to the gear in every gate, and zero when
+// guidance is off.
 #include "app/vehicle/guided_load.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ std::vector<dvec2> free_points(const Gate& gate, int count, unsigned seed) {
   return points;
 }
 
-// A load whose output uses all mantissa bits, so that any change shows.
+// A load with signed zeros and rounded numbers in its output, so that any change of it shows in the bits.
 class OddLoad final : public LeverLoad {
  public:
   LeverOutput step(const LeverInput& in, double) noexcept override {
@@ -75,7 +76,7 @@ LeverInput at(dvec2 p, int gear, double guidance) {
 
 }  // namespace
 
-TEST_CASE("the force is the potential's slope") {
+TEST_CASE("the force is the negative gradient of the potential") {
   for_each_goal([](const Gate& gate, int gear) {
     constexpr double kStep = 1e-7;
     for (const dvec2 p : free_points(gate, 300, 1)) {
@@ -87,38 +88,38 @@ TEST_CASE("the force is the potential's slope") {
   });
 }
 
-TEST_CASE("no closed path through the gate yields energy, around corners and along walls") {
+TEST_CASE("no closed path through the gate yields energy, not even around corners and along walls") {
   for_each_goal([](const Gate& gate, int gear) {
-    // The lever moves at random; the proxy slides along the walls after it.
+    // The lever moves to random points, and the proxy follows it, sliding along the walls.
     std::mt19937 random(static_cast<unsigned>(gear + 5));
     std::uniform_real_distribution<double> x(-0.08, 0.08), y(-0.06, 0.06);
     const dvec2 start = rest_position(gate, kNeutralGear);
     Proxy proxy{start, start};
-    double work = 0.0, most = 0.0;
+    double work = 0.0, max_work = 0.0;
     const auto go = [&](dvec2 to) {
       const dvec2 from = proxy.lever;
       for (int i = 1; i <= 400; ++i) {
         const dvec2 before = proxy.position;
         proxy = move_proxy(gate, open_passage(gate), proxy, from + (to - from) * (i / 400.0), 1e-3);
-        const dvec2 way = proxy.position - before;
-        // Simpson's rule over each 50 um of a straight leg.
-        const int parts = 1 + static_cast<int>(glm::length(way) / 5e-5);
+        const dvec2 step = proxy.position - before;
+        // Integrates along each straight leg by Simpson's rule, in parts of at most 50 um.
+        const int parts = 1 + static_cast<int>(glm::length(step) / 5e-5);
         for (int k = 0; k < parts; ++k) {
-          const auto force = [&](double u) { return guidance_force(gate, gear, before + way * ((k + u) / parts)); };
-          work += glm::dot(force(0.0) + 4.0 * force(0.5) + force(1.0), way) / (6.0 * parts);
+          const auto force = [&](double u) { return guidance_force(gate, gear, before + step * ((k + u) / parts)); };
+          work += glm::dot(force(0.0) + 4.0 * force(0.5) + force(1.0), step) / (6.0 * parts);
         }
-        most = std::max(most, std::abs(work));
+        max_work = std::max(max_work, std::abs(work));
       }
     };
     for (int n = 0; n < 30; ++n) go({x(random), y(random)});
     for (int n = 0; n < 4; ++n) go(start);
     CHECK(glm::distance(proxy.position, start) < 1e-9);
-    CHECK(most > 0.01);  // the force did work along the path
+    CHECK(max_work > 0.01);  // [J] the force did work on the way
     CHECK(std::abs(work) < 2e-5);
   });
 }
 
-TEST_CASE("the force is bounded, and less than half as steep as the gate's own feel may be") {
+TEST_CASE("the force is bounded, and its slope is less than half of that allowed for the gate's feel") {
   for_each_goal([](const Gate& gate, int gear) {
     constexpr double kStep = 1e-6;
     for (const dvec2 p : free_points(gate, 2000, 2)) {
@@ -131,7 +132,7 @@ TEST_CASE("the force is bounded, and less than half as steep as the gate's own f
   });
 }
 
-TEST_CASE("deep in a slot there is no force on its walls, and from a wrong slot it leads out") {
+TEST_CASE("deep in a slot the force does not push against the slot's walls, and it leads out of a wrong slot") {
   for_each_goal([](const Gate& gate, int gear) {
     for (const Slot& slot : slots(gate)) {
       const Column& column = column_of(gate, slot.column);
@@ -147,7 +148,7 @@ TEST_CASE("deep in a slot there is no force on its walls, and from a wrong slot 
   });
 }
 
-TEST_CASE("at the gear's rest the force is zero and the potential has its minimum") {
+TEST_CASE("at the gear's rest position the force is zero and the potential has its minimum") {
   for_each_goal([](const Gate& gate, int gear) {
     const dvec2 rest = rest_position(gate, gear);
     CHECK(glm::length(guidance_force(gate, gear, rest)) < 1e-12);
@@ -156,7 +157,7 @@ TEST_CASE("at the gear's rest the force is zero and the potential has its minimu
   });
 }
 
-TEST_CASE("a lever moved only by it arrives at the gear from everywhere") {
+TEST_CASE("from every point, a lever moved only by the guidance force arrives at the gear") {
   for_each_goal([](const Gate& gate, int gear) {
     const dvec2 rest = rest_position(gate, gear);
     const double half_width = column_of(gate, nearest_column(gate, rest.x)).half_width;
@@ -175,7 +176,7 @@ TEST_CASE("a lever moved only by it arrives at the gear from everywhere") {
   });
 }
 
-TEST_CASE("without guidance the inner load's output is unchanged, with it only the force differs") {
+TEST_CASE("without guidance the inner load's output is unchanged; with guidance only the force differs") {
   const Gate gate = paper_gate();
   OddLoad inner;
   GuidedLoad load(inner, gate);
@@ -196,7 +197,7 @@ TEST_CASE("without guidance the inner load's output is unchanged, with it only t
   CHECK(out.limited_slot == 3);
 }
 
-TEST_CASE("the force rises and fades smoothly for any request") {
+TEST_CASE("the force rises and fades gradually for any sequence of requests") {
   const Gate gate = paper_gate();
   NoLoad inner;
   GuidedLoad load(inner, gate);
@@ -217,7 +218,7 @@ TEST_CASE("the force rises and fades smoothly for any request") {
   CHECK(load.step(at(p, 3, 0.0), 1e-3).force == dvec2{0.0, 0.0});
 }
 
-TEST_CASE("a gear that the gate lacks, neutral, and non-finite input give no force") {
+TEST_CASE("a gear that the gate lacks, neutral and non-finite input give no guidance force") {
   const Gate gate = paper_gate();
   CHECK(guidance_force(gate, 6, {0.0, 0.0}) == dvec2{0.0, 0.0});
   CHECK(guidance_force(gate, kNeutralGear, {0.01, 0.0}) == dvec2{0.0, 0.0});

@@ -1,6 +1,6 @@
-// The shipped lessons as driven by somebody who can drive: exactly what the goal asks for.
+// The shipped lessons, driven by scripts that do exactly what each goal asks for, as a competent driver would.
 //
-// The scripts know only the goal, and of the prompts only the one that is a signal to react to.
+// The scripts use the goal and not the prompts, except for a prompt that is a signal to react to.
 #pragma once
 
 #include <utility>
@@ -31,7 +31,7 @@ inline void start_and_stop(ScriptedDrive& d) {
   d.feet.ignition = false;
 }
 
-// Never faster than idle speed, to a stop in neutral, and the handbrake last.
+// Drives at no more than idle speed, stops in neutral, and applies the handbrake last.
 inline void start_and_stop_gently(ScriptedDrive& d) {
   d.clutch_down();
   Able{d}.start_engine();
@@ -94,7 +94,7 @@ inline void down_through_the_gears(ScriptedDrive& d) {
   a.stop();
 }
 
-// The clutch comes up slowly, and each gear a little before the stated speed.
+// Releases the clutch slowly, and shifts into each gear a little before its stated speed.
 inline void down_without_a_blip(ScriptedDrive& d) {
   Able a{d};
   for (const auto& [gear, speed] : std::vector<std::pair<int, double>>{{4, 57.0}, {3, 41.5}, {2, 26.0}}) {
@@ -130,7 +130,7 @@ inline void reverse(ScriptedDrive& d) {
   a.accelerate_to(11.0);
 }
 
-// Goes by the car: lifts the clutch until the engine speed drops, and releases the handbrake as soon as prompted.
+// Releases the clutch until it transmits enough torque, and then the handbrake.
 inline void hill_start(ScriptedDrive& d) {
   Able a{d};
   d.clutch_down();
@@ -154,13 +154,13 @@ inline void hill_start(ScriptedDrive& d) {
   a.accelerate_to(11.0, 0.6);
 }
 
-// The clutch torque needed in first gear to keep the car from rolling back. [N m]
+// [N m] The clutch torque that keeps the car from rolling back in first gear.
 inline double hill_torque(const ScriptedDrive& d) {
   const double weight = 9.81 * d.car.body.mass * std::sin(d.lesson.start.slope);
   return weight / vehicle::shaft_per_road(d.car, 1);
 }
 
-// With the foot brake instead, which needs a quick foot.
+// Uses the foot brake in place of the handbrake, so the foot must be quick.
 inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
   Able a{d};
   d.clutch_down();
@@ -179,7 +179,7 @@ inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
   a.accelerate_to(11.0, 0.6);
 }
 
-// Brakes one second after the signal, the usual rule of thumb, with 0.2 s for the pedal.
+// Brakes one second after the signal, the usual rule of thumb, and takes 0.2 s to press the pedal.
 inline void emergency_stop(ScriptedDrive& d) {
   Able{d}.accelerate_to(50.05);
   d.wait(0.9 + d.pause);
@@ -203,7 +203,7 @@ inline void skip_shifts(ScriptedDrive& d) {
   a.shift_with_blip(2);
 }
 
-// Shifts by the light, with human reaction time.
+// Shifts up when the shift light asks for it, after a reaction time of 0.4 s.
 inline void eco_driving(ScriptedDrive& d) {
   Able a{d};
   for (int gear = 2; gear <= 5; ++gear) {
@@ -253,9 +253,9 @@ inline void six_speed(ScriptedDrive& d) {
   back_up(d, 2.2);
 }
 
-// Correct drives that differ from the prompts: they must pass, too.
+// The drives below are correct but differ from the prompts. They must pass too.
 
-// Each gear earlier than stated, and the clutch pedal not fully down.
+// Shifts earlier than stated, and does not press the clutch pedal to the floor.
 inline void up_in_another_way(ScriptedDrive& d) {
   Able a{d};
   for (int gear = 2; gear <= 5; ++gear) {
@@ -267,7 +267,7 @@ inline void up_in_another_way(ScriptedDrive& d) {
   }
 }
 
-// The handbrake first; and at the first bite the foot draws back.
+// Releases the handbrake first, and presses the clutch again after its first bite.
 inline void moving_off_at_the_second_try(ScriptedDrive& d) {
   d.press(d.feet.hand_brake, 0.0, 0.3);
   d.press(d.feet.clutch, 0.79, 0.2);
@@ -285,7 +285,7 @@ inline void moving_off_at_the_second_try(ScriptedDrive& d) {
   }
 }
 
-// Rolls to a stop in neutral with the clutch up.
+// Stops three times in neutral with the clutch up.
 inline void bite_point_and_neutral(ScriptedDrive& d) {
   into_first(d);
   for (int i = 0; i < 3; ++i) {
@@ -306,14 +306,14 @@ inline void bite_point_and_neutral(ScriptedDrive& d) {
   }
 }
 
-// Throttle off and clutch down in one movement of both feet; and up again with the throttle.
+// Moves throttle and clutch at the same time, to these positions, within `seconds` seconds.
 inline void both_feet(ScriptedDrive& d, double throttle, double clutch, double seconds) {
   const double from = d.time(), old_throttle = d.feet.throttle, old_clutch = d.feet.clutch;
   d.until([&] {
-    const double share = std::min(1.0, (d.time() - from) / seconds);
-    d.feet.throttle = old_throttle + share * (throttle - old_throttle);
-    d.feet.clutch = old_clutch + share * (clutch - old_clutch);
-    return share == 1.0;
+    const double fraction = std::min(1.0, (d.time() - from) / seconds);
+    d.feet.throttle = old_throttle + fraction * (throttle - old_throttle);
+    d.feet.clutch = old_clutch + fraction * (clutch - old_clutch);
+    return fraction == 1.0;
   });
 }
 
@@ -339,7 +339,7 @@ inline void eco_with_both_feet(ScriptedDrive& d) {
   Able{d}.accelerate_to(70.5, 0.5);
 }
 
-// Shifts by the light, at a third of the throttle as the hint says, with human reaction time (Green 2000).
+// Shifts by the light, at a third of the throttle as the hint says, with a human reaction time (Green 2000).
 inline void eco_with_a_persons_reaction(ScriptedDrive& d) {
   for (int gear = 2; gear <= 5; ++gear) {
     Able{d}.accelerate([&] { return d.now().shift_advice > 0; }, 1.0 / 3.0);
@@ -349,7 +349,7 @@ inline void eco_with_a_persons_reaction(ScriptedDrive& d) {
   Able{d}.accelerate_to(70.5, 0.5);
 }
 
-// The handbrake while the foot still holds the car, then the foot off, then neutral.
+// Applies the handbrake while the foot brake still holds the car, then releases the foot brake, then shifts to neutral.
 inline void emergency_stop_by_the_hand_brake(ScriptedDrive& d) {
   Able{d}.accelerate_to(50.05);
   d.wait(1.0);

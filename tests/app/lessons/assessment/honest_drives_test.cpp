@@ -1,4 +1,5 @@
-// A learner who does what the goal asks for passes with the best grade: in the real car, on its slope, prompted or not.
+// A learner who does what the goal asks for passes with the best grade, in the real car, on the lesson's slope,
+// prompted or not.
 #include "tests/app/lessons/assessment/honest_drives.h"
 
 #include <cstddef>
@@ -45,13 +46,13 @@ TEST_CASE("a drive that does what the goal says passes with the best grade, in t
   check_all(honest::kHonest);
 }
 
-TEST_CASE("a correct drive that differs from the prompts gets the same grade, and does not get stuck") {
+TEST_CASE("a correct drive that differs from the prompts also gets the best grade, and every step completes") {
   check_all(honest::kAlternativeDrives);
 }
 
 namespace {
 
-// Follows the prompts: reads each new one for `reading` seconds with the feet still, then does what it says.
+// Follows the prompts: reads each new one for `reading` seconds without moving the feet, then does what it says.
 void follow_prompts(ScriptedDrive& d, double reading) {
   Able a{d};
   const auto says = [&](std::string_view part) { return d.run.view().prompt.find(part) != std::string::npos; };
@@ -94,8 +95,8 @@ void follow_prompts(ScriptedDrive& d, double reading) {
 
 }  // namespace
 
-// Green 2000: 0.75 s to a signal that is expected, 0.3 s more to read it.
-TEST_CASE("following each prompt after reading it passes with the best grade") {
+// Green 2000: the reaction to an expected signal takes 0.75 s, and reading adds 0.3 s.
+TEST_CASE("a driver who follows each prompt after reading it passes with the best grade") {
   for (const char* key : {"up_through_the_gears", "down_through_the_gears", "skip_shifts", "rev_matching"}) {
     for (const double reading : {0.3, 0.75, 1.05}) {
       ScriptedDrive d(key);
@@ -110,7 +111,7 @@ TEST_CASE("following each prompt after reading it passes with the best grade") {
   }
 }
 
-TEST_CASE("a stall, a restart and upshifts from first give only the stall") {
+TEST_CASE("a stall, a restart and upshifts from first gear give only the stall as an error") {
   for (const LessonMode mode : {LessonMode::follow_me, LessonMode::by_yourself}) {
     ScriptedDrive d("up_through_the_gears", mode);
     Able a{d};
@@ -138,7 +139,7 @@ TEST_CASE("a stall, a restart and upshifts from first give only the stall") {
   }
 }
 
-TEST_CASE("after a wrong gear the learner is told how to continue, and can finish") {
+TEST_CASE("after a wrong gear a hint says how to continue, and the lesson can be finished") {
   ScriptedDrive d("up_through_the_gears", LessonMode::by_yourself);
   Able a{d};
   a.accelerate_to_rpm(2400.0);
@@ -146,7 +147,7 @@ TEST_CASE("after a wrong gear the learner is told how to continue, and can finis
   a.accelerate_to_rpm(2400.0);
   a.shift(4);
   d.wait(3.5);
-  CHECK(d.run.view().hint == "Shift into gear 3 to continue.");
+  CHECK(d.run.view().hint == "Shift into third to continue.");
   for (int gear = 3; gear <= 5; ++gear) {
     a.shift(gear);
     CHECK(d.run.view().hint.empty());
@@ -159,7 +160,7 @@ TEST_CASE("after a wrong gear the learner is told how to continue, and can finis
   CHECK(errors_text(result) == "Gear 4 instead of 3. ");
 }
 
-TEST_CASE("on the hill the prompt to release the handbrake comes once the clutch carries the weight, not before") {
+TEST_CASE("on the slope the prompt to release the handbrake comes once the clutch can hold the car, not before") {
   for (const char* car : {"hatchback", "diesel"}) {
     ScriptedDrive d("hill_start", LessonMode::follow_me, car);
     Able a{d};
@@ -179,10 +180,9 @@ TEST_CASE("on the hill the prompt to release the handbrake comes once the clutch
   }
 }
 
-// Green 2000: 0.70 to 0.75 s for an expected signal, 1.25 s for an unexpected common one. The driving school assumes 1
-// s, and 25 m of ordinary braking from 50 km/h: 1 s + 2 * 25 m / 13.9 m/s = 4.6 s.
-TEST_CASE(
-    "an emergency stop is judged by the time from the call to the stop: enough for people, too short for coasting") {
+// Green 2000: the reaction takes 0.70 to 0.75 s for an expected signal, 1.25 s for an unexpected common one. Driving
+// schools assume 1 s and, from 50 km/h, 25 m of ordinary braking: 1 s + 2 * 25 m / 13.9 m/s = 4.6 s.
+TEST_CASE("an emergency stop is judged by its time from the call: enough for human reactions, too short for coasting") {
   struct Stop {
     double reaction, brake;
     bool best, passed;
@@ -192,7 +192,7 @@ TEST_CASE(
                            {1.25, 1.0, true, true},
                            {1.0, 0.8, true, true},
                            {1.0, 0.7, false, true},
-                           {1.0, 0.6, false, false},  // 4.7 s: an ordinary stop
+                           {1.0, 0.6, false, false},  // 4.7 s, an ordinary stop
                            {1.7, 1.0, false, true},
                            {1.5, 0.6, false, false},
                            {0.7, 0.4, false, false}}) {

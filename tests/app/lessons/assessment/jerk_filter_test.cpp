@@ -1,4 +1,4 @@
-// The jerk's low-pass filter compared with its closed form.
+// The low-pass filter of the jerk, compared with its closed form.
 #include "app/lessons/assessment/jerk_filter.h"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ double peak_of_step(double height, double period) {
 
 }  // namespace
 
-// A step of a0 gives y' = a0 sqrt(2) w exp(-s t) sin(s t), s = w / sqrt(2); its maximum, at s t = pi / 4, is a0 w
-// exp(-pi/4).
+// A step of a0 gives the jerk a0 sqrt(2) w exp(-s t) sin(s t), with s = w / sqrt(2). Its maximum, at s t = pi / 4, is
+// a0 w exp(-pi/4).
 TEST_CASE("a step of acceleration gives the jerk of a second-order Butterworth low-pass") {
   const double expected = kOmega * std::exp(-0.25 * 3.14159265358979);
   CHECK(expected == doctest::Approx(42.97).epsilon(0.001));
@@ -34,7 +34,7 @@ TEST_CASE("a step of acceleration gives the jerk of a second-order Butterworth l
   CHECK(peak_of_step(1.0, 1e-3) == doctest::Approx(expected).epsilon(0.002));
 }
 
-TEST_CASE("the response to a held input does not depend on the period") {
+TEST_CASE("the response to a constant input does not depend on the sample period") {
   JerkFilter fine, coarse;
   fine.update(0.0, 0.0);
   coarse.update(0.0, 0.0);
@@ -45,30 +45,30 @@ TEST_CASE("the response to a held input does not depend on the period") {
   }
 }
 
-TEST_CASE("a steady rise is its own jerk, and so is a sine well below the cut-off") {
+TEST_CASE("the jerk of a ramp is its slope, and that of a sine well below the cut-off its derivative") {
   JerkFilter ramp, sine;
   double peak = 0.0;
   for (int i = 0; i < 5000; ++i) {
     const double t = 1e-3 * i;
     ramp.update(7.0 * t, 1e-3);
-    sine.update(std::sin(6.283185307179586 * t), 1e-3);  // 1 Hz
+    sine.update(std::sin(6.283185307179586 * t), 1e-3);  // a sine of 1 Hz
     if (t > 1.0) peak = std::max(peak, std::abs(sine.jerk()));
   }
   CHECK(ramp.jerk() == doctest::Approx(7.0).epsilon(0.001));
   CHECK(peak == doctest::Approx(6.283185).epsilon(0.001));
 }
 
-TEST_CASE("after the settling time a thousandth is left") {
+TEST_CASE("after the settling time less than 0.3 % of a step's response is left") {
   JerkFilter filter;
   filter.update(0.0, 0.0);
   for (int i = 0; i < 100; ++i) filter.update(1.0, 1e-3);
   CHECK(std::abs(filter.jerk()) < 0.003 * 42.97);
 }
 
-TEST_CASE("an invalid acceleration or period is skipped and affects nothing after it") {
+TEST_CASE("an invalid acceleration or period is skipped and has no later effect") {
   for (const double none : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     JerkFilter clean, poisoned;
-    poisoned.update(none, 0.0);  // does not initialise the filter
+    poisoned.update(none, 0.0);  // must not initialise the filter
     for (int i = 0; i < 100; ++i) {
       const double a = i < 50 ? 0.0 : 3.0;
       clean.update(a, 1e-3);

@@ -21,21 +21,21 @@ std::vector<double> drawn(double level, double gain, double trials, int count, d
 }
 
 constexpr LevelBounds kScale{0.0, 10.0};
-constexpr double kLevelStep = 0.02, kTrialsRatio = 1.01;  // grid spacing
+constexpr double kLevelStep = 0.02, kTrialsRatio = 1.01;  // grid: step of the level, ratio of trial numbers
 
 struct Point {
   double level = 0.0, gain = 0.0, trials = 0.0, square = HUGE_VAL;
 };
 
-// Sum of squares with the best gain for this level and number of trials, by plain summation.
+// The sum of squares for this level and number of trials, with the gain that minimises it, by plain summation.
 Point point_at(const std::vector<double>& grades, double level, double trials) {
-  double cross = 0.0, own = 0.0;
+  double cross = 0.0, square_sum = 0.0;
   for (std::size_t n = 0; n < grades.size(); ++n) {
     const double decay = std::exp(-static_cast<double>(n) / trials);
     cross += decay * (grades[n] - level);
-    own += decay * decay;
+    square_sum += decay * decay;
   }
-  Point point{level, cross / own, trials, 0.0};
+  Point point{level, cross / square_sum, trials, 0.0};
   for (std::size_t n = 0; n < grades.size(); ++n) {
     const double off = grades[n] - level - point.gain * std::exp(-static_cast<double>(n) / trials);
     point.square += off * off;
@@ -43,7 +43,7 @@ Point point_at(const std::vector<double>& grades, double level, double trials) {
   return point;
 }
 
-// Searches every level of the scale and every number of trials on the grid.
+// The best point of the grid: every level of the scale, with every number of trials.
 Point best_of_grid(const std::vector<double>& grades) {
   Point best;
   for (double trials = 0.3; trials <= 10.0 * static_cast<double>(grades.size()); trials *= kTrialsRatio) {
@@ -62,7 +62,7 @@ std::vector<double> on_the_scale(std::vector<double> grades) {
 
 }  // namespace
 
-TEST_CASE("grades that follow the law give back its three parameters") {
+TEST_CASE("a fit to grades that follow the law finds its three parameters") {
   for (const double trials : {1.0, 4.0, 20.0}) {
     for (const double gain : {-6.0, 3.0}) {
       const auto curve = fit_learning_curve(drawn(8.0, gain, trials, 30, 0.0, 1));
@@ -76,9 +76,9 @@ TEST_CASE("grades that follow the law give back its three parameters") {
   }
 }
 
-// A 95 % interval contains the truth in 95 of 100 draws: of 500, 475 +- 5 by the binomial distribution; a nonlinear fit
-// deviates a little.
-TEST_CASE("the stated deviations contain the truth as often as they should") {
+// A 95 % interval contains the truth in 95 % of all draws. By the binomial distribution, that is 475 +- 5 of 500 draws;
+// the fit is nonlinear, so it deviates a little.
+TEST_CASE("the stated deviations contain the truth in the stated fraction of fits") {
   int held[3] = {0, 0, 0}, fits = 0;
   constexpr int kDraws = 500;
   for (unsigned seed = 0; seed < kDraws; ++seed) {
@@ -86,8 +86,8 @@ TEST_CASE("the stated deviations contain the truth as often as they should") {
     if (!curve) continue;
     ++fits;
     const double truth[3] = {8.0, -5.0, 5.0};
-    const Estimate seen[3] = {curve->level, curve->gain, curve->trials};
-    for (int i = 0; i < 3; ++i) held[i] += std::abs(seen[i].value - truth[i]) < 1.96 * seen[i].deviation;
+    const Estimate estimates[3] = {curve->level, curve->gain, curve->trials};
+    for (int i = 0; i < 3; ++i) held[i] += std::abs(estimates[i].value - truth[i]) < 1.96 * estimates[i].deviation;
   }
   CHECK(fits >= kDraws - 5);
   for (const int count : held) {
@@ -104,7 +104,7 @@ TEST_CASE("no curve is fitted to too few trials, grades without a bend, or const
   CHECK_FALSE(fit_learning_curve(same).has_value());
 }
 
-TEST_CASE("a level inside its bounds is fitted as if there were none") {
+TEST_CASE("a level inside its bounds is fitted as without bounds") {
   const std::vector<double> grades = drawn(8.0, -5.0, 4.0, 20, 0.3, 3);
   const auto free = fit_learning_curve(grades), bounded = fit_learning_curve(grades, kScale);
   REQUIRE(free.has_value());
@@ -115,8 +115,8 @@ TEST_CASE("a level inside its bounds is fitted as if there were none") {
   CHECK(bounded->trials.value == free->trials.value);
 }
 
-// Grades that still rise, or still fall, at the end.
-TEST_CASE("the bounded fit is at least as good as the best grid point over the scale") {
+// The grades still rise or fall at the end.
+TEST_CASE("the bounded fit is at least as good as the best grid point on the scale") {
   int at_bound = 0, inside = 0, beyond = 0;
   for (const bool rises : {true, false}) {
     for (unsigned seed = 0; seed < 12; ++seed) {
@@ -143,13 +143,13 @@ TEST_CASE("the bounded fit is at least as good as the best grid point over the s
       (curve->at_bound ? at_bound : inside) += 1;
     }
   }
-  CHECK(at_bound >= 8);  // both cases occurred
+  CHECK(at_bound >= 8);  // fits at a bound and inside both occurred
   CHECK(inside >= 3);
-  CHECK(beyond >= at_bound / 2);  // and the bound was active
+  CHECK(beyond >= at_bound / 2);  // the bound was needed
 }
 
-// From finite differences of the curve itself, and a 2 x 2 matrix inverted by hand.
-TEST_CASE("at a bound the deviations are those of gain and trials only") {
+// The independent answer: finite differences of the curve, and a 2 x 2 matrix inverted by hand.
+TEST_CASE("at a bound the level has no deviation, and those of gain and trials are computed with the level fixed") {
   std::optional<LearningCurve> curve;
   for (unsigned seed = 0; !curve || !curve->at_bound; ++seed) {
     REQUIRE(seed < 50);
@@ -175,7 +175,7 @@ TEST_CASE("at a bound the deviations are those of gain and trials only") {
   CHECK(curve->trials.deviation == doctest::Approx(curve->noise * std::sqrt(gain_gain / determinant)).epsilon(1e-5));
 }
 
-TEST_CASE("a bound creates no bend: grades on a straight line give no curve") {
+TEST_CASE("a bound creates no bend: grades on a straight line still give no curve") {
   std::vector<double> straight;
   for (int n = 0; n < 12; ++n) straight.push_back(2.0 + 0.5 * n);
   CHECK_FALSE(fit_learning_curve(straight, kScale).has_value());

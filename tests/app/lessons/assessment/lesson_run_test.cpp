@@ -1,4 +1,4 @@
-// The state machine of a lesson: prompts, steps, hints, aborts, time, feedback, guidance, and repeatability.
+// The state machine of a lesson: prompts, steps, hints, aborts, time limits, feedback, guidance, and repeatability.
 #include "app/lessons/assessment/lesson_run.h"
 
 #include <cmath>
@@ -34,7 +34,7 @@ DriveCondition clutch_above(double value) {
   return c;
 }
 
-// Clutch, third gear, clutch up: the steps of the constructed shift.
+// A lesson whose steps match the constructed shift: clutch down, third gear, clutch up.
 Lesson shift_lesson() {
   Lesson lesson;
   lesson.key = lesson.task = "shift";
@@ -51,7 +51,7 @@ Lesson shift_lesson() {
   return lesson;
 }
 
-// The outcome of a run.
+// What a run showed at its end, its result, and its shifts.
 class Outcome {
  public:
   explicit Outcome(LessonRun& run) : view_(run.view()), result_(run.result()), shifts_(run.drain_shifts()) {
@@ -85,7 +85,7 @@ struct Driven {
 
 }  // namespace
 
-TEST_CASE("steps are prompted in order, in the right mode, and the lesson is done when the shift is") {
+TEST_CASE("steps are prompted in order if the mode asks for it, and the lesson ends with the shift") {
   std::vector<std::pair<std::string, double>> prompts;
   double done = 0.0;
   Driven driven;
@@ -101,7 +101,7 @@ TEST_CASE("steps are prompted in order, in the right mode, and the lesson is don
   CHECK(prompts[2].first == "Clutch up.");
   CHECK(prompts[3].first == "Shift to third.");
   CHECK(prompts[3].second == doctest::Approx(0.761).epsilon(0.01));
-  CHECK(done == doctest::Approx(0.85).epsilon(0.01));  // the shift's record has arrived
+  CHECK(done == doctest::Approx(0.85).epsilon(0.01));  // when the shift's record is complete
   CHECK(run.result().end == LessonEnd::done);
   CHECK(run.result().passed);
   CHECK(run.result().grade == 10.0);
@@ -110,13 +110,13 @@ TEST_CASE("steps are prompted in order, in the right mode, and the lesson is don
   CHECK(run.result().begin == doctest::Approx(99.0));
   CHECK(run.result().duration == doctest::Approx(1.0 + done).epsilon(1e-6));
 
-  Driven alone;
-  alone.config.mode = LessonMode::by_yourself;
-  alone.each = [](LessonRun& r, double) { CHECK(r.view().prompt == "Shift to third."); };
-  CHECK(alone.run().result().passed);
+  Driven by_yourself;
+  by_yourself.config.mode = LessonMode::by_yourself;
+  by_yourself.each = [](LessonRun& r, double) { CHECK(r.view().prompt == "Shift to third."); };
+  CHECK(by_yourself.run().result().passed);
 }
 
-TEST_CASE("the guided gear is the step's") {
+TEST_CASE("the guided gear is that of the current step") {
   Driven driven;
   driven.each = [](LessonRun& run, double t) {
     if (t < 0.07) CHECK(run.view().guided_gear == kNeutralGear);
@@ -126,7 +126,7 @@ TEST_CASE("the guided gear is the step's") {
   driven.run();
 }
 
-TEST_CASE("a hint comes after the step's patience and ends with the step; bandwidth and summary have none") {
+TEST_CASE("a hint comes after the step's patience and ends with the step; bandwidth and summary show no hints") {
   for (const HintStyle style : {HintStyle::prescriptive, HintStyle::bandwidth, HintStyle::summary}) {
     Driven driven;
     driven.config.hints = style;
@@ -141,15 +141,15 @@ TEST_CASE("a hint comes after the step's patience and ends with the step; bandwi
   }
 }
 
-TEST_CASE("a driver who continues in the wrong gear is told so, with or without prompts and in every hint style") {
+TEST_CASE("a driver who continues in the wrong gear gets a hint, with or without prompts, in every hint style") {
   Driven driven;
   driven.lesson.steps[1] = {"Lever to 4.", "", in_gear(4), 4, 2.0};
   driven.lesson.steps[2].until.gear = 4;
   driven.config = {LessonMode::by_yourself, 0.0, HintStyle::summary};
   driven.shift.to = 6.0;
-  driven.each = [](LessonRun& run, double t) {  // third is in from 0.49 s on
+  driven.each = [](LessonRun& run, double t) {  // third is engaged from 0.49 s on
     if (t < 3.48) CHECK(run.view().hint.empty());
-    if (t > 3.50) CHECK(run.view().hint == "Shift into gear 4 to continue.");
+    if (t > 3.50) CHECK(run.view().hint == "Shift into fourth to continue.");
   };
   driven.run();
 }
@@ -166,10 +166,10 @@ TEST_CASE("a lever step without its own hint describes the lever's path in this 
   driven.run();
 }
 
-TEST_CASE("errors are reported as they happen, or at the end in summary; unchecked ones are silent notes") {
+TEST_CASE("errors are reported as they happen, or with summary hints at the end; unchecked kinds are silent notes") {
   const auto modify = [](DriveSample& s, double t) {
     if (t > 0.3 && t < 0.35) s.lever.f_h = {70.0, 0.0};
-    s.car.throttle = t < 0.29 ? 0.3 : 0.0;  // a step order error, which this lesson does not check
+    s.car.throttle = t < 0.29 ? 0.3 : 0.0;  // a wrong step order, which this lesson does not check
   };
   Driven driven;
   driven.shift.modify = modify;
@@ -178,7 +178,8 @@ TEST_CASE("errors are reported as they happen, or at the end in summary; uncheck
     if (report_time == 0.0 && !run.view().feedback.empty()) report_time = t;
   };
   const Outcome run = driven.run();
-  CHECK(report_time == doctest::Approx(0.65).epsilon(0.02));  // the push, and the pause that ends it
+  // The end of the push, plus the pause after which it counts as ended.
+  CHECK(report_time == doctest::Approx(0.65).epsilon(0.02));
   CHECK(run.view().feedback == std::vector<std::string>{"You pushed the lever too hard (70 N)."});
   REQUIRE(run.result().errors.size() == 2);
   CHECK(run.result().errors[1].kind == ErrorKind::step_order);
@@ -193,7 +194,7 @@ TEST_CASE("errors are reported as they happen, or at the end in summary; uncheck
   CHECK(silent.run().view().feedback.size() == 1);
 }
 
-TEST_CASE("an error belongs to the shift in which it happened, also if detected after the shift's record") {
+TEST_CASE("an error belongs to the shift in which it happened, even if it is detected after the shift's record") {
   Driven driven;
   driven.lesson.counted = {ErrorKind::clutch_dump};
   driven.lesson.steps[2].until.held = 1.0;
@@ -221,14 +222,14 @@ TEST_CASE("a gear that was not requested is reported at once") {
   CHECK(run.view().step == 1);
 }
 
-TEST_CASE("a step that may be skipped is done when a later one is newly fulfilled; others are not") {
+TEST_CASE("a step that may be skipped is done when a later step's condition becomes true; other steps are not") {
   Driven driven;
   driven.lesson.steps[0].until = DriveCondition();
-  driven.lesson.steps[0].until.throttle_above = 0.9;  // which never happens
+  driven.lesson.steps[0].until.throttle_above = 0.9;  // this never happens
   CHECK(driven.run().view().step == 0);
   driven.lesson.steps[0].may_be_skipped = true;
   CHECK(driven.run().result().end == LessonEnd::done);
-  Driven two;  // and the step after the next, if that one may be skipped, too
+  Driven two;  // skips two steps in a row, if both may be skipped
   two.lesson.steps[0].until = driven.lesson.steps[0].until;
   two.lesson.steps[1].until = driven.lesson.steps[0].until;
   two.lesson.steps[0].may_be_skipped = true;
@@ -240,11 +241,11 @@ TEST_CASE("a step that may be skipped is done when a later one is newly fulfille
   stays.lesson.steps[0].until.clutch_above = {};
   stays.lesson.steps[0].until.throttle_above = 0.9;
   stays.lesson.steps[1].until = DriveCondition();
-  stays.lesson.steps[1].until.speed_above = 1.0;  // fulfilled from the beginning
+  stays.lesson.steps[1].until.speed_above = 1.0;  // true from the start
   CHECK(stays.run().view().step == 0);
 }
 
-TEST_CASE("held: a condition must last without interruption") {
+TEST_CASE("`held`: a condition must be true without interruption for that time") {
   const auto step_done_at = [](double held, double gap) {
     Driven driven;
     driven.lesson.steps.resize(1);
@@ -264,11 +265,11 @@ TEST_CASE("held: a condition must last without interruption") {
   CHECK(step_done_at(0.9, 0.0) == 0.0);
 }
 
-TEST_CASE("distance counts from the lesson's start, rolling back from the step's") {
+TEST_CASE("distance is measured from the lesson's start, rolling back from the step's start") {
   Driven driven;
   driven.lesson.steps.resize(1);
   driven.lesson.steps[0].until = DriveCondition();
-  driven.lesson.steps[0].until.distance_above = 12.0;  // at 12 m/s: after one second
+  driven.lesson.steps[0].until.distance_above = 12.0;  // [m] reached after one second at 12 m/s
   double at = 0.0;
   driven.each = [&](LessonRun& run, double t) {
     if (at == 0.0 && run.view().step == 1) at = t;
@@ -287,7 +288,7 @@ TEST_CASE("distance counts from the lesson's start, rolling back from the step's
   CHECK_FALSE(run.result().passed);
 }
 
-TEST_CASE("out of time, left, incomplete: not passed, and nothing counts after the end") {
+TEST_CASE("a run that is out of time, left or incomplete is not passed, and nothing counts after its end") {
   Driven slow;
   slow.lesson.time_limit = 1.5;
   slow.shift.modify = [](DriveSample& s, double) { s.car.clutch = 0.0; };
@@ -312,15 +313,15 @@ TEST_CASE("out of time, left, incomplete: not passed, and nothing counts after t
   CHECK(lost.result().deductions.empty());
 }
 
-TEST_CASE("a step that took too long is an error, with its own sentence and its seconds") {
+TEST_CASE("a step that took too long is an error with its own sentence; the value is the step's duration") {
   const auto within = [](double seconds, std::size_t step = 1) {
     Driven driven;
     driven.lesson.counted.push_back(ErrorKind::slow_step);
     driven.lesson.steps[step].within = seconds;
     return driven.run();
   };
-  // The constructed shift: clutch past 0.8 at 0.081 s, third in at 0.491 s, clutch up at 0.761 s; the lesson began at
-  // -1 s.
+  // In the constructed shift, the clutch passes 0.8 at 0.081 s, third engages at 0.491 s, and the clutch is up at 0.761
+  // s. The lesson begins at -1 s.
   CHECK(within(0.42).result().errors.empty());
   const Outcome slow = within(0.40);
   REQUIRE(slow.result().errors.size() == 1);
@@ -329,24 +330,24 @@ TEST_CASE("a step that took too long is an error, with its own sentence and its 
   CHECK(error.severity == Severity::minor);
   CHECK(error.value == doctest::Approx(0.41).epsilon(0.01));
   CHECK(error.time == doctest::Approx(100.491).epsilon(1e-5));
-  CHECK(error.shift == 0);  // the shift during which it happened
-  CHECK(error_sentence(error) == "\"Lever to 3.\" took 0.41 s; the limit is 0.40 s.");
+  CHECK(error.shift == 0);  // the shift in which it happened
+  CHECK(error_sentence(error) == "You took 0.41 s for this step (limit 0.40 s): \"Lever to 3.\"");
   CHECK(slow.result().grade == 9.5);
   REQUIRE(slow.view().feedback.size() == 1);
-  CHECK(within(0.20).result().errors[0].severity == Severity::severe);  // at least twice the allowed time
+  CHECK(within(0.20).result().errors[0].severity == Severity::severe);  // more than twice the limit
   CHECK(within(1.0, 0).result().errors[0].value == doctest::Approx(1.081).epsilon(0.01));
 }
 
-TEST_CASE("a step that took far too long fails a lesson that catches it, whatever the grade") {
+TEST_CASE("a step that took far too long fails a lesson that fails on slow steps, at any grade") {
   for (const double fails_after : {0.42, 0.40}) {
     Driven driven;
     driven.lesson.fails_on.push_back(ErrorKind::slow_step);
-    driven.lesson.steps[1].within = 0.3;  // it takes 0.41 s
+    driven.lesson.steps[1].within = 0.3;  // this step takes 0.41 s
     driven.lesson.steps[1].fails_after = fails_after;
     const LessonResult result = driven.run().result();
     CHECK(result.grade == 9.5);
     CHECK(result.passed == (fails_after > 0.41));
-    if (!result.passed) CHECK(result.why == "\"Lever to 3.\" took 0.41 s; the limit is 0.30 s.");
+    if (!result.passed) CHECK(result.why == "You took 0.41 s for this step (limit 0.30 s): \"Lever to 3.\"");
   }
 }
 
@@ -358,18 +359,18 @@ TEST_CASE("a condition may require clutch torque and the shift light") {
   lit.shift_light = true;
   CHECK(holds(carries, sample, {}));
   CHECK_FALSE(holds(lit, sample, {}));
-  sample.car.clutch_torque = -40.0;  // engine braking
-  sample.car.shift_advice = -1;      // advice to shift down
+  sample.car.clutch_torque = -40.0;  // the engine brakes the car
+  sample.car.shift_advice = -1;      // the light advises a downshift
   CHECK_FALSE(holds(carries, sample, {}));
   CHECK_FALSE(holds(lit, sample, {}));
   sample.car.shift_advice = 1;
   CHECK(holds(lit, sample, {}));
 }
 
-TEST_CASE("a skipped step lasted until the next one was done, which took no time itself") {
+TEST_CASE("a skipped step lasts until the next step is done, which itself takes no time") {
   Driven driven;
   driven.lesson.counted.push_back(ErrorKind::slow_step);
-  driven.lesson.steps[1].until.throttle_above = 0.99;  // which never happens
+  driven.lesson.steps[1].until.throttle_above = 0.99;  // this never happens
   driven.lesson.steps[1].may_be_skipped = true;
   driven.lesson.steps[1].within = 0.6;
   driven.lesson.steps[2].within = 0.1;
@@ -380,11 +381,11 @@ TEST_CASE("a skipped step lasted until the next one was done, which took no time
   CHECK(run.result().errors[0].value == doctest::Approx(0.68).epsilon(0.02));
 }
 
-TEST_CASE("a lesson that ends in an overdue step has that error, and none before it is over") {
+TEST_CASE("a run that ends during an overdue step has that error, but not during a step that is still in time") {
   for (const double left_at : {0.2, 0.4}) {
     Driven driven;
     driven.lesson.counted.push_back(ErrorKind::slow_step);
-    driven.lesson.steps[1].within = 0.2;  // it begins at 0.081 s
+    driven.lesson.steps[1].within = 0.2;  // the step begins at 0.081 s
     driven.each = [=](LessonRun& r, double t) {
       if (t >= left_at) r.leave();
     };
@@ -395,7 +396,7 @@ TEST_CASE("a lesson that ends in an overdue step has that error, and none before
   }
 }
 
-TEST_CASE("without prompts only the goal is shown, except for a step that is a call") {
+TEST_CASE("without prompts only the goal is shown, except during a step that is a call to react") {
   Driven driven;
   driven.config.mode = LessonMode::by_yourself;
   driven.lesson.steps[1].call = true;
@@ -407,7 +408,7 @@ TEST_CASE("without prompts only the goal is shown, except for a step that is a c
   CHECK(prompts == std::vector<std::string>{"Shift to third.", "Lever to 3.", "Shift to third."});
 }
 
-TEST_CASE("an error that fails the lesson makes it not passed") {
+TEST_CASE("a lesson is not passed if an error fails it") {
   Driven driven;
   driven.shift.modify = [](DriveSample& s, double t) { s.car.running = t < 0.3 || t > 0.31; };
   const Outcome run = driven.run();
@@ -416,20 +417,20 @@ TEST_CASE("an error that fails the lesson makes it not passed") {
   CHECK(run.result().why.find("The engine stalled") == 0);
 }
 
-TEST_CASE("guided trials are never graded, whether planned or seen in the controls") {
+TEST_CASE("guided trials are never graded, whether guidance was planned or appears in the controls") {
   Driven planned;
   planned.config.guidance = 0.4;
   CHECK(planned.run().result().guided);
   CHECK_FALSE(planned.run().result().passed);
   CHECK(planned.run().result().grade == 0.0);
   CHECK(run_error(planned.run().result()) == 0.0);
-  Driven seen;
-  seen.shift.modify = [](DriveSample& s, double t) { s.controls.guidance = t > 0.3 && t < 0.303 ? 0.1 : 0.0; };
-  CHECK(seen.run().result().guided);
-  CHECK_FALSE(seen.run().result().passed);
+  Driven led;
+  led.shift.modify = [](DriveSample& s, double t) { s.controls.guidance = t > 0.3 && t < 0.303 ? 0.1 : 0.0; };
+  CHECK(led.run().result().guided);
+  CHECK_FALSE(led.run().result().passed);
 }
 
-TEST_CASE("engine work and clutch heat are those of the lesson") {
+TEST_CASE("engine work and clutch heat are those during the lesson") {
   Driven driven;
   driven.shift.modify = [](DriveSample& s, double t) {
     s.car.engine_speed = 200.0;
@@ -441,9 +442,9 @@ TEST_CASE("engine work and clutch heat are those of the lesson") {
   CHECK(result.slip_energy == doctest::Approx(100.0 * result.duration).epsilon(1e-6));
 }
 
-TEST_CASE("a shift in progress at the last step may finish, for at most three seconds") {
+TEST_CASE("a shift that is in progress at the last step may finish within three seconds") {
   Driven driven;
-  driven.lesson.steps.resize(2);  // done as soon as third is in
+  driven.lesson.steps.resize(2);  // the lesson's steps are done once third is engaged
   CHECK(driven.run().result().shifts.size() == 1);
   Driven never;
   never.lesson.steps.resize(2);
@@ -452,12 +453,12 @@ TEST_CASE("a shift in progress at the last step may finish, for at most three se
   const Outcome run = never.run();
   CHECK(run.result().end == LessonEnd::done);
   CHECK(run.result().duration == doctest::Approx(1.0 + 0.491 + 3.0).epsilon(0.01));
-  REQUIRE(run.result().shifts.size() == 1);  // the unfinished shift
+  REQUIRE(run.result().shifts.size() == 1);  // the shift that did not finish
   CHECK(run.result().shifts[0].to == 3);
   CHECK(run.result().shifts[0].clutch_time > 3.0);
 }
 
-TEST_CASE("the same drive gives the same result") {
+TEST_CASE("equal drives give equal results") {
   const auto once = [] {
     Driven driven;
     driven.shift.modify = [](DriveSample& s, double t) {

@@ -1,4 +1,4 @@
-// Reading lessons, and rejecting bad ones with file, line and reason in one sentence.
+// Lesson files are read, and invalid ones are rejected in one sentence with file, line and reason.
 #include "app/lessons/assessment/lesson.h"
 
 #include <cmath>
@@ -23,21 +23,21 @@ struct Hostile {
 };
 
 constexpr Hostile kHostile[] = {
-    {"abort_at_once", ":16: names no condition: it would hold at once"},
+    {"abort_at_once", ":16: this condition is empty, so it would be met at once"},
     {"abort_without_words", ":14: says is missing: it must be text in quotes"},
-    {"early_without_a_band", ":1: shift_from_rpm is missing: this lesson checks early_shift"},
+    {"early_without_a_band", ":1: shift_from_rpm is missing, but this lesson checks early_shift"},
     {"empty", ":1: title is missing: it must be text in quotes"},
-    {"empty_faults", ":18: names no error: without one the grade of this lesson would mean nothing"},
+    {"empty_faults", ":18: [faults] must name at least one error, or the lesson's grade would mean nothing"},
     {"empty_goal", ":2: goal = \"\": must not be empty"},
-    {"engine_never", ":12: engine_above_rpm = 3000: can never hold: it must be smaller than engine_below_rpm"},
+    {"engine_never", ":12: engine_above_rpm = 3000: can never be met: it must be smaller than engine_below_rpm"},
     {"fault_forgiven", ":19: stall = \"forgiven\": must be one of counts, fails"},
     {"fails_before_it_is_slow", ":13: fails_after_s = 4: must be at least within_s, which this step must also set"},
     {"fails_without_a_time", ":12: fails_after_s = 4: must be at least within_s, which this step must also set"},
     {"flag_as_text", ":12: running = \"yes\": must be true or false"},
     {"gear_as_a_number", ":12: gear = 2: must be text in quotes"},
     {"gear_ten", ":12: gear = \"10\": must be one of R, N, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
-    {"guided_astray", ":12: guide_to = \"3\": leads away from gear 2, for which this step waits"},
-    {"late_without_a_band", ":1: shift_to_rpm is missing: this lesson checks late_shift"},
+    {"guided_astray", ":12: guide_to = \"3\": leads away from gear 2, which this step waits for"},
+    {"late_without_a_band", ":1: shift_to_rpm is missing, but this lesson checks late_shift"},
     {"no_faults", ":1: faults is missing: it must be a table, [faults]"},
     {"no_steps", ":1: step is missing: write one [[step]] for each thing to do"},
     {"no_task", ":1: task is missing: it must be text in quotes"},
@@ -49,32 +49,33 @@ constexpr Hostile kHostile[] = {
     {"patience_of_a_saint", ":12: patience_s = 3600: must be between 1 and 60"},
     {"pedal_beyond", ":12: clutch_above = 1.5: must be between 0 and 1"},
     {"reverse_at_speed", ":8: speed_km_per_h = 10: must be 0 in gear R"},
-    {"rolling_engine_off", ":8: speed_km_per_h = 10: must be 0 if the engine is off"},
+    {"rolling_engine_off", ":8: speed_km_per_h = 10: must be 0 if the engine is not running"},
     {"shift_band_of_nobody", ":5: shift_band = \"tractor\": must be one of car"},
     {"shift_band_upside_down", ":4: shift_from_rpm = 3000: must be smaller than shift_to_rpm"},
-    {"shift_to_neutral", ":11: shift_to = \"N\": must be a gear; for N write a step that waits for it"},
+    {"shift_to_neutral", ":11: shift_to = \"N\": must be a gear; to shift into N, write a step that waits for N"},
     {"shift_to_with_a_prompt", ":12: prompt is not a known key; known keys: shift_to"},
     {"slope_of_a_wall", ":7: slope_percent = 100: must be between -30 and 30"},
-    {"speed_never", ":12: speed_above_km_per_h = 30: can never hold: it must be smaller than speed_below_km_per_h"},
+    {"speed_never", ":12: speed_above_km_per_h = 30: can never be met: it must be smaller than speed_below_km_per_h"},
     {"speed_without_unit", ":12: speed_above is not a known key; known keys: gear"},
     {"start_is_text", ":6: start = \"1\": must be a table: write [start]"},
     {"step_is_a_table", ":10: step = (a table): must be a list of tables: write each as [[step]]"},
-    {"step_that_holds_at_once", ":12: names no condition: it would hold at once"},
+    {"step_that_holds_at_once", ":12: this condition is empty, so it would be met at once"},
     {"step_without_prompt", ":10: prompt is missing: it must be text in quotes"},
     {"step_without_until", ":10: until is missing: it must be a table, [until]"},
     {"time_limit_nan", ":4: time_limit_s = nan: must be between 10 and 1800"},
     {"time_limit_zero", ":4: time_limit_s = 0: must be between 10 and 1800"},
     {"title_with_escape", ":1: title = \"?[2JHostile\": must be one line without control characters"},
     {"too_many_steps",
-     ":10: step = (a list): has more than 64 steps, three for each shift_to: split the lesson in two"},
-    {"two_shift_bands", ":5: shift_from_rpm = 1500: contradicts shift_band: the car has its own"},
+     ":10: step = (a list): has more than 64 steps (each shift_to counts as three); split the lesson in two"},
+    {"two_shift_bands",
+     ":5: shift_from_rpm = 1500: cannot be combined with shift_band, which uses the car's own limits"},
     {"unknown_fault", ":19: tyre_blown is not a known key; known keys: stall"},
     {"unknown_key", ":4: difficulty is not a known key; known keys: title"},
     {"unknown_table", ":18: music is not a known key; known keys: title"},
     {"slow_step_of_none", ":19: slow_step = \"counts\": no step sets within_s, so none could be slow"},
     {"within_its_own_hold", ":12: within_s = 2: can never be met: it must be longer than the step's held_s"},
     {"within_no_time", ":12: within_s = 0: must be between 0.1 and 120"},
-    {"within_that_nobody_judges", ":19: slow_step is missing: a step sets within_s"},
+    {"within_that_nobody_judges", ":19: slow_step is missing, but a step sets within_s"},
     {"wrong_gear_of_none", ":19: wrong_gear = \"counts\": no step asks for a gear, so none could be wrong"},
 };
 
@@ -155,7 +156,7 @@ slow_step = "fails"
 
 }  // namespace
 
-TEST_CASE("every key is read, in SI units") {
+TEST_CASE("every key is read and converted to SI units") {
   const double rpm = 6.283185307179586 / 60.0;
   const Lesson lesson = parse_lesson(kWhole, "folder/whole.toml");
   CHECK(lesson.key == "whole");
@@ -187,7 +188,7 @@ TEST_CASE("every key is read, in SI units") {
   CHECK(lesson.steps[0].call);
   CHECK_FALSE(lesson.steps[1].call);
   CHECK(lesson.steps[0].gear == 4);
-  CHECK(lesson.steps[1].gear == kReverseGear);  // a step that waits for a gear also guides to it
+  CHECK(lesson.steps[1].gear == kReverseGear);  // a step that waits for a gear is also guided to it
   CHECK(lesson.steps[1].patience == 8.0);
   REQUIRE(lesson.aborts.size() == 1);
   CHECK(lesson.aborts[0].message == "Too far.");
@@ -217,7 +218,7 @@ TEST_CASE("every key is read, in SI units") {
   CHECK_FALSE(c.gear.has_value());
 }
 
-TEST_CASE("shift_to is pedal, lever, pedal: the first pedal step may be skipped, the shift may not") {
+TEST_CASE("shift_to makes three steps: clutch down, which may be skipped, the gear, and clutch up") {
   const std::string head = "title = 'T'\ngoal = 'G'\ntask = 't'\n";
   const Lesson lesson =
       parse_lesson(head + "[[step]]\nshift_to = '3'\nhint = 'Up.'\n[faults]\nstall = 'fails'\n", "l.toml");
@@ -235,7 +236,8 @@ TEST_CASE("shift_to is pedal, lever, pedal: the first pedal step may be skipped,
   CHECK(lesson.steps[2].until.clutch_below.has_value());
 }
 
-TEST_CASE("a band of the car's own runs from a tenth below it to the reaction time above it") {
+TEST_CASE(
+    "a band taken from the car begins a tenth below the car's band, and ends above it to allow for the reaction time") {
   CarSpec car;
   car.engine.shift_low = 200.0;
   car.engine.shift_high = 250.0;
@@ -248,7 +250,7 @@ TEST_CASE("a band of the car's own runs from a tenth below it to the reaction ti
   CHECK(lesson_in_car(lesson, car).shift_to == doctest::Approx(325.0));
 }
 
-TEST_CASE("a step may state its gear's speed, which makes early and late shifts possible without a band") {
+TEST_CASE("a step may state the speed for its gear, so early and late shifts can be judged without a band") {
   const std::string head = "title = 'T'\ngoal = 'G'\ntask = 't'\n", tail = "[faults]\nearly_shift = 'fails'\n";
   const Lesson lesson = parse_lesson(head + "[[step]]\nshift_to = '3'\nat_km_per_h = 36\n" + tail, "l.toml");
   CHECK_FALSE(lesson.steps[0].at.has_value());
@@ -259,12 +261,12 @@ TEST_CASE("a step may state its gear's speed, which makes early and late shifts 
   CHECK_THROWS_AS(parse_lesson(head + step + "'R' }\n" + tail, "l.toml"), FileError);
 }
 
-TEST_CASE("the errors that fail a lesson are one sentence for the learner, and none if nothing fails it") {
+TEST_CASE("the errors that fail a lesson are described in one sentence, which is empty if nothing fails it") {
   Lesson lesson;
   CHECK(failing_errors_sentence(lesson).empty());
   lesson.fails_on = {ErrorKind::stall, ErrorKind::clutch_dump};
   lesson.counted = {ErrorKind::jerk};
-  CHECK(failing_errors_sentence(lesson) == "You fail if you stall, dump the clutch.");
+  CHECK(failing_errors_sentence(lesson) == "You fail if you stall or dump the clutch.");
 }
 
 TEST_CASE("every hostile lesson is rejected in one sentence with file, line and reason") {

@@ -1,4 +1,4 @@
-// Which driving errors are reported in the real car, driven by a script that does not know the detector.
+// The driving errors that are reported in the real car, driven by scripts that do not know the detector.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,7 +17,7 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// Counts notes, too, whichever kinds the lesson grades.
+// The number of errors of this kind, including notes, so that it does not depend on the kinds that the lesson grades.
 int count_errors(const LessonResult& result, ErrorKind kind) {
   return static_cast<int>(std::count_if(result.errors.begin(), result.errors.end(),
                                         [kind](const DrivingError& error) { return error.kind == kind; }));
@@ -40,19 +40,19 @@ void blip(ScriptedDrive& d, double rpm) {
   d.feet.throttle = 0.0;
 }
 
-// From 4 at 55 km/h into 3, with the engine at `share` times the speed that third needs.
-LessonResult down_with_blip(double share) {
+// Shifts from 4 into 3 at 55 km/h, with the engine at `factor` times the speed that third needs.
+LessonResult down_with_blip(double factor) {
   ScriptedDrive d("rev_matching");
   d.clutch_down();
   d.lever(3);
-  blip(d, share * d.rpm_in(3));
+  blip(d, factor * d.rpm_in(3));
   d.press(d.feet.clutch, 0.0, 0.5);
   d.wait(0.5);
   return d.leave();
 }
 
-// From a stop in first: a fifth of the throttle for `lead` seconds, then the clutch from bite point to closed in `zone`
-// seconds.
+// Moves off in first with a fifth of the throttle: waits `lead` seconds, then moves the clutch from the bite point to
+// closed within `zone` seconds.
 LessonResult launch(const std::string& car, double lead, double zone) {
   ScriptedDrive d("moving_off", LessonMode::follow_me, car);
   d.clutch_down();
@@ -69,7 +69,8 @@ LessonResult launch(const std::string& car, double lead, double zone) {
 
 }  // namespace
 
-TEST_CASE("a starter released too early leaves a stopped engine and no error; held until it runs, it runs") {
+TEST_CASE(
+    "a starter released too early leaves the engine stopped, without an error; held until it runs, the engine runs") {
   bool ran = false;
   for (int ms = 10; ms <= 1500; ms += ms < 200 ? 10 : 100) {
     CAPTURE(ms);
@@ -81,13 +82,14 @@ TEST_CASE("a starter released too early leaves a stopped engine and no error; he
     d.wait(2.0);
     CHECK(d.now().running == (d.now().engine_speed > 0.5 * d.car.engine.idle));
     if (!d.now().running) CHECK(d.now().engine_speed == 0.0);
-    CHECK_FALSE(std::exchange(ran, d.now().running) > d.now().running);  // a longer release never does worse
+    // If the engine starts, it also starts with a longer use of the starter.
+    CHECK_FALSE(std::exchange(ran, d.now().running) > d.now().running);
     CHECK(count_errors(d.leave(), ErrorKind::stall) == 0);
   }
   CHECK(ran);
 }
 
-TEST_CASE("a blip into a lower gear is in order; one that overshoots is a rev error only") {
+TEST_CASE("a blip into a lower gear is in order; a blip that overshoots is only a rev error") {
   const LessonResult right = down_with_blip(1.0);
   CAPTURE(all_errors(right));
   REQUIRE(right.shifts.size() == 1);
@@ -118,7 +120,7 @@ TEST_CASE("double declutching with a blip is in order") {
   CHECK(count_errors(result, ErrorKind::throttle_in_shift) == 0);
 }
 
-TEST_CASE("a gear that was engaged again is not a missed one") {
+TEST_CASE("a gear that was left and engaged again is not named as a missed gear") {
   ScriptedDrive d("down_through_the_gears");
   d.clutch_down();
   out_of_gear(d);
@@ -132,13 +134,13 @@ TEST_CASE("a gear that was engaged again is not a missed one") {
   CHECK(all_errors(result).find("Gear 5") == std::string::npos);
 }
 
-TEST_CASE("lever left in a mouth, clutch up: the shift is over after 2 s, then the car coasts") {
+TEST_CASE("with the lever left in a mouth and the clutch up, the shift ends after 2 s, and the car then coasts") {
   ScriptedDrive d("rev_matching");
   d.clutch_down();
   out_of_gear(d);
   d.start_towards(3);
   d.until([&] { return !d.in_aisle(); });
-  d.wait((d.gate.half_aisle + d.gate.chamfer) / d.speed);  // and that millimetre
+  d.wait((d.gate.half_aisle + d.gate.chamfer) / d.speed);  // until 1 mm past the mouth
   d.speed = 0.0;
   d.press(d.feet.clutch, 0.0, 0.3);
   d.wait(8.0);
@@ -150,11 +152,12 @@ TEST_CASE("lever left in a mouth, clutch up: the shift is over after 2 s, then t
   CHECK(count_errors(result, ErrorKind::coasting) == 1);
 }
 
-TEST_CASE("down through all gears at 75 km/h is too early, reported once each; at each gear's speed it is not") {
-  const auto down = [](double share) {
+TEST_CASE(
+    "shifting down through all gears at 75 km/h is too early, once per gear; at each gear's own speed it is not") {
+  const auto down = [](double factor) {
     ScriptedDrive d("down_through_the_gears");
     for (const auto& [gear, km_per_h] : {std::pair{4, 55.0}, {3, 40.0}, {2, 25.0}}) {
-      const double at = share > 0.0 ? share * km_per_h : 75.0;
+      const double at = factor > 0.0 ? factor * km_per_h : 75.0;
       d.feet.brake = 0.2;
       d.until([&] { return d.km_per_h() < at; });
       d.feet.brake = 0.0;
@@ -168,12 +171,13 @@ TEST_CASE("down through all gears at 75 km/h is too early, reported once each; a
   const LessonResult early = down(0.0), fit = down(1.0);
   CAPTURE(all_errors(early));
   CAPTURE(all_errors(fit));
-  CHECK(count_errors(early, ErrorKind::early_downshift) == 3);  // judged by the lesson's speeds, each shift once
+  CHECK(count_errors(early, ErrorKind::early_downshift) == 3);  // once per shift, judged by the speeds in the lesson
   CHECK(count_errors(fit, ErrorKind::early_downshift) == 0);
   CHECK(count_errors(fit, ErrorKind::coasting) == 0);
 }
 
-TEST_CASE("down through the gears on one clutch press is a slow shift; preselecting a gear is not") {
+TEST_CASE(
+    "shifting down through the gears on one clutch press is a slow shift; preselecting a gear for the stop is not") {
   ScriptedDrive d("down_through_the_gears");
   d.feet.brake = 0.2;
   d.until([&] { return d.km_per_h() < 54.0; });
@@ -198,7 +202,7 @@ TEST_CASE("down through the gears on one clutch press is a slow shift; preselect
   CHECK(count_errors(waits, ErrorKind::too_slow) + count_errors(waits, ErrorKind::coasting) == 0);
 }
 
-TEST_CASE("a launch as people do it does not jerk, one in 0.3 s does: a fifth of the throttle, up to 2200 rpm") {
+TEST_CASE("an ordinary launch does not jerk, a launch in 0.3 s does: a fifth of the throttle, up to 2200 rpm") {
   struct Launch {
     std::string car;
     double lead;
@@ -217,8 +221,8 @@ TEST_CASE("a launch as people do it does not jerk, one in 0.3 s does: a fifth of
   }
 }
 
-// Both inertias are the car's, through first gear: half of the engine's work at that speed becomes heat.
-TEST_CASE("a launch in the real car burns what the closed form says, and over-revs above the speed for shifting up") {
+// With the engine at a constant speed, half of its work becomes heat in the clutch and half kinetic energy of the car.
+TEST_CASE("a launch in the real car makes the heat of the closed form, and is clutch burn above shift_high") {
   const auto held = [](double rpm) {
     ScriptedDrive d("moving_off");
     d.clutch_down();
@@ -238,18 +242,19 @@ TEST_CASE("a launch in the real car burns what the closed form says, and over-re
   };
   const CarSpec car = ScriptedDrive("moving_off").car;
   const double high = car.engine.shift_high / 0.1047197551;  // [rpm]
-  for (const double share : {0.7, 0.85, 1.15, 1.3}) {
-    const LessonResult result = held(share * high);
-    CAPTURE(share);
+  for (const double factor : {0.7, 0.85, 1.15, 1.3}) {
+    const LessonResult result = held(factor * high);
+    CAPTURE(factor);
     CAPTURE(all_errors(result));
-    CHECK(count_errors(result, ErrorKind::clutch_burn) == (share > 1.0 ? 1 : 0));
-    CHECK(result.slip_energy == doctest::Approx(share * share * burn_limit(car, 1)).epsilon(0.1));
+    CHECK(count_errors(result, ErrorKind::clutch_burn) == (factor > 1.0 ? 1 : 0));
+    CHECK(result.slip_energy == doctest::Approx(factor * factor * burn_limit(car, 1)).epsilon(0.1));
   }
 }
 
-// On a slope the clutch carries an additional m g sin(a) / i for as long as it slips, at the engine's speed minus the
-// car's: half of a launch of 3 s, and 1.05 s on the handbrake.
-TEST_CASE("on a hill a launch may burn the hill's share in addition, downhill and backwards no more than on the flat") {
+// On a slope a slipping clutch transmits an additional torque of m g sin(a) / i. Its heat is that torque times the
+// slip: on average half of shift_high during a launch of 3 s, and all of shift_high during 1.05 s on the handbrake.
+// That makes 2.55 s at shift_high.
+TEST_CASE("uphill a launch may make additional heat for the slope; downhill and in reverse it may not") {
   for (const char* name : {"hatchback", "diesel"}) {
     const CarSpec car = ScriptedDrive("hill_start", LessonMode::follow_me, name).car;
     const double flat = burn_limit(car, 1), slope = std::atan(0.1);

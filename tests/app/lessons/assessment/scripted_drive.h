@@ -1,4 +1,5 @@
-// A lesson in the real car at 1 kHz, driven by a test's script: no simulated driver, no loop.
+// A lesson in the real car at 1 kHz, driven by a script of the test, without a simulated driver and without a haptic
+// loop.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +25,13 @@ struct ScriptedDrive {
   vehicle::CarLoad load;
   lessons::LessonRun run;
   haptics::DriverControls feet;
-  double push = 25.0;   // [N] of the hand against a synchroniser ring
-  double speed = 0.35;  // [m/s] of the hand
-  double pause = 0.0;   // [s] pause before the clutch comes up again, or the foot moves to the brake
+  double push = 25.0;   // [N] the hand's force against a synchroniser ring
+  double speed = 0.35;  // [m/s] speed of the hand
+  double pause = 0.0;   // [s] before the clutch comes up again, or the foot moves to the brake
   std::function<void(vehicle::DriveSample&)> modify = [](vehicle::DriveSample&) {
   };  // changes the samples that the lesson receives
 
-  // In the car and the gate that the lesson names, or else in `other_car` and its gate.
+  // Uses the car and the gate that the lesson names; if it names none, `other_car` and the gate of the car.
   explicit ScriptedDrive(const std::string& key, lessons::LessonMode mode = lessons::LessonMode::follow_me,
                          const std::string& other_car = "hatchback")
       : lesson(lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + key + ".toml")),
@@ -61,7 +62,7 @@ struct ScriptedDrive {
   void wait(double seconds) {
     for (double t = 0.0; t < seconds && !run.is_over(); t += kPeriod) tick();
   }
-  // Runs until `holds`, the end of the lesson, or `most` seconds.
+  // Continues until `holds` returns true, the lesson ends, or `max_seconds` have passed.
   void until(const std::function<bool()>& holds, double max_seconds = 30.0) {
     for (double t = 0.0; t < max_seconds && !run.is_over() && !holds(); t += kPeriod) tick();
   }
@@ -76,14 +77,14 @@ struct ScriptedDrive {
     until([&] { return now().gear == gear && glm::distance(at_, haptics::rest_position(gate, gear)) < 1e-3; },
           max_seconds);
   }
-  void start_towards(int gear) { goal_ = gear; }  // the hand continues on its own
+  void start_towards(int gear) { goal_ = gear; }  // returns at once; the hand moves on during later calls
   bool in_aisle() const { return std::abs(at_.y) < 1e-3; }
 
   const lessons::LessonResult& leave() {
     run.leave();
     return run.result();
   }
-  // Waits for the remaining feedback, after everything was done.
+  // Waits for the feedback that is still to come, and leaves the lesson.
   const lessons::LessonResult& finish() {
     wait(6.0);
     run.leave();
@@ -94,19 +95,19 @@ struct ScriptedDrive {
   static constexpr double kPeriod = 1e-3;       // [s]
   static constexpr double kMaxForce = 31.7;     // [N]
   static constexpr double kRpm = 0.1047197551;  // [rad/s]
-  static constexpr double kFreeForce = 3.0;     // [N] moves the lever where nothing blocks it
+  static constexpr double kFreeForce = 3.0;     // [N] the hand's force where nothing blocks the lever
 
   void tick() {
-    const glm::dvec2 way = aim() - at_;
-    const double length = glm::length(way);
-    glm::dvec2 to = length > 1e-9 ? at_ + way * std::min(1.0, speed * kPeriod / length) : at_;
-    glm::dvec2 force = length > 1e-4 ? way / length * kFreeForce : glm::dvec2{0.0};
+    const glm::dvec2 to_aim = aim() - at_;
+    const double length = glm::length(to_aim);
+    glm::dvec2 to = length > 1e-9 ? at_ + to_aim * std::min(1.0, speed * kPeriod / length) : at_;
+    glm::dvec2 force = length > 1e-4 ? to_aim / length * kFreeForce : glm::dvec2{0.0};
     respect_ring(to, force);
     at_ = to;
     step(force);
   }
 
-  // Out of the slot, along the aisle, into the other slot.
+  // The next point on the way out of the slot, along the aisle, and into the slot of goal_.
   glm::dvec2 aim() const {
     const glm::dvec2 rest = haptics::rest_position(gate, goal_);
     const bool other_column = std::abs(at_.x - rest.x) > 1e-4;
@@ -158,13 +159,13 @@ struct ScriptedDrive {
   std::uint64_t cycle_ = 0;
 };
 
-// Drives as somebody who can drive; where nothing else is stated, as the driving school teaches it.
+// Drives competently. Where nothing else is stated, it does what driving schools teach.
 struct Able {
   ScriptedDrive& d;
 
   void hold_revs(double rpm) { d.feet.throttle = std::clamp(0.12 + 0.0012 * (rpm - d.rpm()), 0.0, 0.8); }
 
-  // From a stop, in gear, clutch down: until the clutch is up.
+  // Moves off from a standstill, in gear and with the clutch down, until the clutch is up.
   void launch(double rpm = 1500.0) {
     d.feet.brake = 0.0;
     d.press(d.feet.clutch, d.car.clutch.bite + 0.02, 0.4);
@@ -192,7 +193,7 @@ struct Able {
     d.press(d.feet.clutch, 0.0, up);
   }
 
-  // Shifts down, with the blip that the lower gear needs.
+  // Shifts down with the blip that the lower gear needs.
   void shift_with_blip(int gear) {
     lift();
     d.clutch_down();

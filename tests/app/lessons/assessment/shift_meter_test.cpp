@@ -1,4 +1,4 @@
-// Every number of a shift record, on a shift whose numbers are known by hand.
+// Every number of a shift record, for a shift whose numbers are computed by hand.
 #include "app/lessons/assessment/shift_meter.h"
 
 #include <cmath>
@@ -36,7 +36,7 @@ bool lies_within(double t, double a, double b) {
 
 }  // namespace
 
-TEST_CASE("a shift's times are those of its pedal and its lever, at any period") {
+TEST_CASE("a shift's times are those of its pedal and its lever, at any sample period") {
   for (const double period : {0.001, 0.002, 0.0042, 0.011}) {
     CAPTURE(period);
     ConstructedShift shift;
@@ -60,7 +60,7 @@ TEST_CASE("a shift's times are those of its pedal and its lever, at any period")
   }
 }
 
-TEST_CASE("the record comes once, one filter settling time after the shift's end") {
+TEST_CASE("the record is returned once, one filter settling time after the shift's end") {
   ConstructedShift shift;
   ShiftMeter meter(shift.car, shift.gate);
   double came = 0.0;
@@ -73,22 +73,22 @@ TEST_CASE("the record comes once, one filter settling time after the shift's end
   CHECK(came == doctest::Approx(100.75 + kJerkSettlingTime).epsilon(1e-5));
 }
 
-TEST_CASE("lost drive torque counts as torque gap, relative to that before the throttle was lifted") {
-  // 400 N m up to -0.2 s, 15 N m (3.75 %) from 0.2 s to 0.6 s, 30 N m (7.5 %) otherwise.
+TEST_CASE("lost drive torque counts as torque gap, relative to the torque before the throttle was released") {
+  // The drive torque is 400 N m until -0.2 s, 15 N m (3.75 %) from 0.2 s to 0.6 s, and 30 N m (7.5 %) otherwise.
   const ShiftRecord record = modified_shift([](DriveSample& s, double t) {
     s.car.drive_torque = t < -0.2 ? 400.0 : lies_within(t, 0.2, 0.6) ? 15.0 : 30.0;
   });
   CHECK(record.torque_gap == doctest::Approx(0.4).epsilon(0.01));
-  // Driven by the engine before and braked by it afterwards is a torque gap, too; without drive torque before there is
-  // none.
+  // If the engine drives the car before the shift and brakes it afterwards, that is a torque gap too. Without drive
+  // torque before the shift there is no gap.
   CHECK(modified_shift([](DriveSample& s, double t) { s.car.drive_torque = t < -0.2 ? 400.0 : -100.0; }).torque_gap ==
         doctest::Approx(0.675).epsilon(0.01));
   CHECK(modified_shift([](DriveSample& s, double) { s.car.drive_torque = 0.0; }).torque_gap == 0.0);
 }
 
-TEST_CASE("clutch heat, revs and flare") {
-  // A triangle of 3 kW between 0.65 s and 0.75 s: 150 J. The engine is 12 rad/s above the shaft when the clutch
-  // engages, and 20 rad/s faster at 0.3 s.
+TEST_CASE("clutch heat, rev error and flare are measured") {
+  // The clutch power is a triangle with a peak of 3 kW between 0.65 s and 0.75 s: 150 J. The engine is 12 rad/s faster
+  // than the shaft when the clutch engages, and it flares by 20 rad/s at 0.3 s.
   ConstructedShift shift;
   shift.modify = [&](DriveSample& s, double t) {
     const double u = std::clamp((t - 0.65) / 0.1, 0.0, 1.0);
@@ -105,12 +105,13 @@ TEST_CASE("clutch heat, revs and flare") {
   CHECK(record.engine_speed == doctest::Approx(shift.engine(2)).epsilon(1e-9));
 }
 
-TEST_CASE("comfort: jerk of a step, fourth-power dose of a constant") {
+TEST_CASE("comfort: the jerk of a step, and the fourth-power vibration dose of a constant acceleration") {
   const double lasts = 0.675 + kJerkSettlingTime;
   const ShiftRecord steady = modified_shift([](DriveSample& s, double) { s.car.acceleration = 2.0; });
   CHECK(steady.jerk_peak == doctest::Approx(0.0));
   CHECK(steady.vibration_dose == doctest::Approx(2.0 * std::pow(lasts, 0.25)).epsilon(1e-3));
-  // 1.5 m/s^2 w exp(-pi/4) m/s^3, w = 2 pi 15 Hz; the second step comes at the shift's end and its jerk after it.
+  // [m/s^3] 1.5 m/s^2 w exp(-pi/4), w = 2 pi 15 Hz. In the second case the step comes at the shift's end, and its jerk
+  // after that.
   const double peak = 1.5 * 6.283185307179586 * 15.0 * std::exp(-0.785398163397448);
   CHECK(modified_shift([](DriveSample& s, double t) { s.car.acceleration = t > 0.3 ? 1.5 : 0.0; }).jerk_peak ==
         doctest::Approx(peak).epsilon(0.002));
@@ -119,17 +120,17 @@ TEST_CASE("comfort: jerk of a step, fourth-power dose of a constant") {
   CHECK(modified_shift([](DriveSample& s, double t) { s.car.acceleration = t < -0.5 ? 1.5 : 0.0; }).jerk_peak < 0.01);
 }
 
-TEST_CASE("the hand's force: peak and impulse") {
+TEST_CASE("the hand's force is recorded by its peak and impulse") {
   const ShiftRecord record = modified_shift([](DriveSample& s, double t) {
     if (lies_within(t, 0.2, 0.5)) s.lever.f_h = {6.0, 8.0};
-    if (lies_within(t, 1.5, 1.6)) s.lever.f_h = {90.0, 0.0};  // after the shift
+    if (lies_within(t, 1.5, 1.6)) s.lever.f_h = {90.0, 0.0};  // after the shift has ended
   });
   CHECK(record.force_peak == doctest::Approx(10.0));
-  CHECK(record.impulse == doctest::Approx(10.0 * 0.301).epsilon(1e-6));  // 301 samples
+  CHECK(record.impulse == doctest::Approx(10.0 * 0.301).epsilon(1e-6));  // 301 samples of 1 ms
 }
 
-TEST_CASE("work into a wall counts only on the way in, and overshoot is the deepest point behind it") {
-  // Twice 1 mm into a wall of 5000 N/m: K d^2 / 2 = 2.5 mJ each.
+TEST_CASE("work into a wall counts only on the way in, and the overshoot is the deepest point behind the wall") {
+  // The lever goes twice 1 mm into a wall of 5000 N/m: K d^2 / 2 = 2.5 mJ each time.
   const ShiftRecord record = modified_shift([](DriveSample& s, double t) {
     const double u = std::fmod(t + 10.0, 0.1) / 0.1;
     const double depth = lies_within(t, 0.3, 0.4999) ? 1e-3 * (1.0 - std::abs(2.0 * u - 1.0)) : 0.0;
@@ -140,7 +141,7 @@ TEST_CASE("work into a wall counts only on the way in, and overshoot is the deep
   CHECK(record.overshoot == doctest::Approx(1e-3).epsilon(1e-3));
 }
 
-TEST_CASE("the lever's path, and its ratio to the shortest") {
+TEST_CASE("the length of the lever's path, and its ratio to the shortest path") {
   ConstructedShift shift;
   const ShiftRecord record = only_record(shift);
   const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 3));
@@ -150,14 +151,14 @@ TEST_CASE("the lever's path, and its ratio to the shortest") {
   CHECK(record.path_efficiency ==
         doctest::Approx(length / shortest_path_length(shift.gate, two, {0.0, slot.engage_depth})).epsilon(0.005));
   CHECK(record.path_efficiency > 1.0);
-  // Noise of one encoder count, 75 um, adds nothing.
+  // Noise of one encoder count (75 um) does not make the path longer.
   const ShiftRecord noisy = modified_shift([](DriveSample& s, double t) {
     if (std::lround(1e3 * t) % 2 == 0) s.lever.lever += glm::dvec2{75e-6, 75e-6};
   });
   CHECK(noisy.path_length == doctest::Approx(length).epsilon(0.01));
 }
 
-TEST_CASE("dogs and ring: time blocked, time and energy of grinding") {
+TEST_CASE("ring and dogs: the time blocked, and the time and energy of grinding") {
   const ShiftRecord record = modified_shift([](DriveSample& s, double t) {
     if (lies_within(t, 0.42, 0.499)) s.car.sync = SyncPhase::synchronising;
     s.car.grinding = lies_within(t, 0.45, 0.499);
@@ -168,9 +169,7 @@ TEST_CASE("dogs and ring: time blocked, time and energy of grinding") {
   CHECK(record.grind_energy == doctest::Approx(5.0).epsilon(1e-6));
 }
 
-TEST_CASE(
-    "a clutch that comes up before the gear is in has a negative lag, one that goes down after the lever a negative "
-    "lead") {
+TEST_CASE("lag is negative if the clutch comes up before the gear is in, lead if it goes down after the lever moved") {
   ConstructedShift shift;
   shift.modify = [](DriveSample& s, double t) {
     s.car.clutch = t < 0.3 ? ConstructedShift::line(t, 0.24, 0.0, 0.25, 1.0) : t > 0.4 ? 0.0 : 1.0;
@@ -185,13 +184,13 @@ TEST_CASE(
   CHECK(record.clutch_lag < 0.0);
 }
 
-TEST_CASE("a clutch that came up against the ring was early, even if pressed again before the gear was in") {
+TEST_CASE("a clutch that comes up while the ring blocks is early, even if pressed again before the gear engages") {
   for (const SyncPhase phase : {SyncPhase::synchronising, SyncPhase::passing, SyncPhase::clashing, SyncPhase::free}) {
     ConstructedShift shift;
     shift.modify = [&](DriveSample& s, double t) {
       if (lies_within(t, 0.42, 0.47)) s.car.sync = phase;
       if (lies_within(t, 0.43, 0.45))
-        s.car.clutch = ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // bite point: 0.435
+        s.car.clutch = ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // passes the bite point at 0.435 s
     };
     const ShiftRecord record = only_record(shift);
     const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
@@ -205,19 +204,20 @@ TEST_CASE("steps are recorded as they happen and compared with the taught order"
   CHECK(only_record(ConstructedShift()).steps == std::vector<ShiftStep>{ShiftStep::throttle_off, ShiftStep::clutch_down,
                                                                         ShiftStep::neutral, ShiftStep::gear,
                                                                         ShiftStep::clutch_up});
-  // The throttle comes off after the clutch is down: two steps are swapped.
+  // The throttle is released after the clutch is down, so two steps are swapped.
   const ShiftRecord late = modified_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.29 ? 0.3 : 0.0; });
   CHECK(late.steps.front() == ShiftStep::clutch_down);
   CHECK(late.steps_out_of_place == 2);
-  // A blip between clutch and gear: into a higher gear it is two steps too many. (Into a lower one it is taught:
-  // step_order_test.cpp.)
+  // A blip between clutch and gear adds two steps that are wrong for a shift into a higher gear. For a lower gear they
+  // are correct, see step_order_test.cpp.
   CHECK(modified_shift([](DriveSample& s, double t) {
           s.car.throttle = lies_within(t, 0.3, 0.35) ? 0.5 : 0.0;
         }).steps_out_of_place == 2);
 }
 
-// The bite point is passed at 0.075 s on the way down and, with the slow pedal, at 0.8 s on the way up.
-TEST_CASE("simultaneous movements are in order, within a fifth of a second and no further") {
+// The pedal passes the bite point at 0.075 s on the way down. On the way up, it passes it at 0.8 s if the pedal is
+// slow.
+TEST_CASE("pedal movements that are simultaneous within 0.2 s are in order") {
   const auto lifted_at = [](double t0) {
     return modified_shift([t0](DriveSample& s, double t) { s.car.throttle = t < t0 ? 0.3 : 0.0; }).steps_out_of_place;
   };
@@ -235,8 +235,8 @@ TEST_CASE("simultaneous movements are in order, within a fifth of a second and n
   CHECK(throttle_at(0.55) > 0);
 }
 
-TEST_CASE("a mouth entered off the path is a wrong column") {
-  // From the middle of the aisle with 3's slot ahead, the lever moves into 4's, which is opposite, and back.
+TEST_CASE("entering a mouth that is off the path counts as a wrong column") {
+  // From the middle of the aisle, the lever enters 4's mouth, opposite that of 3, and returns.
   ConstructedShift shift;
   shift.to = 3.0;
   const double depth = shift.gate.half_aisle + shift.gate.chamfer + 0.002;
@@ -245,7 +245,7 @@ TEST_CASE("a mouth entered off the path is a wrong column") {
   };
   CHECK(only_record(shift).wrong_columns == 1);
   CHECK(only_record(ConstructedShift()).wrong_columns == 0);
-  // If 4 had engaged on the way, that would be a gear, not a wrong mouth.
+  // If 4 had engaged on the way, it would count as a gear and not as a wrong column.
   shift.modify = [&](DriveSample& s, double t) {
     const double rest = rest_position(shift.gate, 4).y;
     if (lies_within(t, 0.35, 0.4)) shift.place(s, {0.0, lies_within(t, 0.36, 0.39) ? rest : 0.0});
@@ -254,9 +254,9 @@ TEST_CASE("a mouth entered off the path is a wrong column") {
   CHECK(only_record(shift).wrong_columns == 0);
 }
 
-TEST_CASE("giving up with the lever in a mouth ends the shift, once, and moving on begins the next one") {
-  // Out of 2 and 1 mm behind 3's mouth from 0.45 s on, the clutch up since 0.65 s; at 6 s the clutch is pressed again,
-  // and 3 engages.
+TEST_CASE("leaving the lever in a mouth ends the shift, once, and moving on begins the next shift") {
+  // From 0.45 s on the lever is out of 2 and 1 mm past 3's mouth; the clutch has been up since 0.65 s. At 6 s the
+  // clutch is pressed again, and 3 engages.
   ConstructedShift shift;
   shift.to = 8.0;
   const double mouth = shift.gate.half_aisle + shift.gate.chamfer + 0.001;
@@ -272,7 +272,7 @@ TEST_CASE("giving up with the lever in a mouth ends the shift, once, and moving 
   REQUIRE(records.size() == 2);
   CHECK(records[0].from == 2);
   CHECK(records[0].to == kNeutralGear);
-  CHECK_FALSE(records[0].missed);  // entering a mouth is not an attempt
+  CHECK_FALSE(records[0].missed);  // being in a mouth is no attempt to engage
   CHECK(records[0].end == doctest::Approx(100.66 + 2.0).epsilon(1e-4));
   CHECK(records[1].from == kNeutralGear);
   CHECK(records[1].to == 3);
@@ -280,7 +280,7 @@ TEST_CASE("giving up with the lever in a mouth ends the shift, once, and moving 
   CHECK(records[1].lever_time < 0.4);
 }
 
-TEST_CASE("a lever off the rest of a gear that is still in leaves no shift open") {
+TEST_CASE("a lever that is off its rest position in an engaged gear leaves no shift open") {
   ConstructedShift shift;
   shift.to = 8.0;
   shift.modify = [&](DriveSample& s, double) {
@@ -296,7 +296,7 @@ TEST_CASE("a lever off the rest of a gear that is still in leaves no shift open"
   CHECK_FALSE(meter.finish().has_value());
 }
 
-TEST_CASE("pushing on against the ring with the clutch up is not giving up") {
+TEST_CASE("a shift is not given up while the lever still pushes against the ring, even with the clutch up") {
   ConstructedShift shift;
   shift.to = 6.0;
   shift.modify = [&](DriveSample& s, double t) {
@@ -311,7 +311,8 @@ TEST_CASE("pushing on against the ring with the clutch up is not giving up") {
   CHECK(record.end == doctest::Approx(103.0 + 2.0).epsilon(1e-4));
 }
 
-TEST_CASE("the drive ends during a shift: a gear left or tried is reported, a pedal movement alone is not") {
+TEST_CASE(
+    "if the drive ends during a shift, a gear left or tried is reported, a pedal movement without the lever is not") {
   const auto cut = [](double at) {
     ConstructedShift shift;
     shift.to = at;
@@ -322,25 +323,25 @@ TEST_CASE("the drive ends during a shift: a gear left or tried is reported, a pe
     CHECK_FALSE(meter.finish().has_value());
     return record;
   };
-  CHECK_FALSE(cut(0.15).has_value());  // the pedal is down
-  const auto out = cut(0.35);          // in the aisle
+  CHECK_FALSE(cut(0.15).has_value());  // only the pedal has moved
+  const auto out = cut(0.35);          // the lever is in the aisle
   REQUIRE(out.has_value());
   CHECK(out->from == 2);
   CHECK(out->to == kNeutralGear);
   CHECK_FALSE(out->missed);
   CHECK(out->clutch_time == doctest::Approx(0.35 - 0.075).epsilon(0.01));
-  const auto in = cut(0.55);  // 3 is in, the clutch still down
+  const auto in = cut(0.55);  // 3 is engaged, the clutch is still down
   REQUIRE(in.has_value());
   CHECK(in->to == 3);
   CHECK(in->end == doctest::Approx(100.55));
-  CHECK(in->clutch_lag > 0.0);  // the clutch is still down, so it did not come up early
+  CHECK(in->clutch_lag > 0.0);  // still down, so it did not come up early
   CHECK(in->steps_out_of_place == 0);
-  const auto settles = cut(0.80);  // over, but its jerk has not settled
+  const auto settles = cut(0.80);  // the shift is over, but its jerk has not settled
   REQUIRE(settles.has_value());
   CHECK(settles->end == doctest::Approx(100.75).epsilon(1e-4));
 }
 
-TEST_CASE("a pedal pressed and released with the gear in is no shift, nor is a lever that returns with its gear in") {
+TEST_CASE("neither a pedal pressed and released in gear, nor a lever that moves and returns in gear, is a shift") {
   ConstructedShift pedal;
   pedal.modify = [&](DriveSample& s, double) {
     pedal.place(s, rest_position(pedal.gate, 2));
@@ -360,12 +361,12 @@ TEST_CASE("a pedal pressed and released with the gear in is no shift, nor is a l
 }
 
 TEST_CASE("giving up, or returning to the old gear, is a missed shift; choosing neutral is not") {
-  const auto stops_at = [](double depth_share) {
+  const auto stops_at = [](double depth_fraction) {
     ConstructedShift shift;
     shift.to = 5.0;
-    shift.modify = [shift, depth_share](DriveSample& s, double t) {
+    shift.modify = [shift, depth_fraction](DriveSample& s, double t) {
       const Slot& three = slot_of(shift.gate, slot_of_gear(shift.gate, 3));
-      const double depth = lies_within(t, 0.45, 0.55) ? depth_share * three.release_depth : 0.0;
+      const double depth = lies_within(t, 0.45, 0.55) ? depth_fraction * three.release_depth : 0.0;
       if (t > 0.4) shift.place(s, {0.0, depth});
       if (t > 0.4) s.car.gear = kNeutralGear;
     };
@@ -391,7 +392,7 @@ TEST_CASE("giving up, or returning to the old gear, is a missed shift; choosing 
   CHECK(returned.to == 2);
 }
 
-TEST_CASE("without the clutch the revs are those just before the dogs engaged") {
+TEST_CASE("without the clutch the rev error is that just before the dogs engaged") {
   ConstructedShift shift;
   shift.modify = [&](DriveSample& s, double t) {
     s.car.clutch = 0.0;
@@ -404,15 +405,15 @@ TEST_CASE("without the clutch the revs are those just before the dogs engaged") 
   CHECK(record.clutch_lead == 0.0);
   CHECK(record.clutch_lag == 0.0);
   CHECK(record.rev_error == doctest::Approx(5.0).epsilon(1e-9));
-  CHECK(record.steps_out_of_place == 2);  // clutch down and up are missing
+  CHECK(record.steps_out_of_place == 2);  // the steps for clutch down and clutch up are missing
 }
 
-TEST_CASE("guidance at any time makes the shift guided") {
+TEST_CASE("guidance at any time during a shift makes it a guided shift") {
   CHECK_FALSE(only_record(ConstructedShift()).guided);
   CHECK(modified_shift([](DriveSample& s, double t) {
           s.controls.guidance = lies_within(t, 0.3, 0.301) ? 0.2 : 0.0;
         }).guided);
-  // The force fades for half a second after the request; the shift begins at 0.075 s.
+  // After the request ends, the guidance force fades for half a second. The shift begins at 0.075 s.
   CHECK(modified_shift([](DriveSample& s, double t) { s.controls.guidance = t < -0.4 ? 0.2 : 0.0; }).guided);
   CHECK_FALSE(modified_shift([](DriveSample& s, double t) { s.controls.guidance = t < -0.45 ? 0.2 : 0.0; }).guided);
 }
@@ -443,7 +444,7 @@ TEST_CASE("shifts are numbered in order, and a noisy pedal gives one shift") {
   CHECK(record.steps.size() == 5);
 }
 
-TEST_CASE("non-finite samples affect only their own values") {
+TEST_CASE("non-finite samples affect only the values that depend on them") {
   ConstructedShift shift;
   shift.modify = [](DriveSample& s, double t) {
     if (lies_within(t, 0.3, 0.31)) s.lever.f_h.x = std::numeric_limits<double>::quiet_NaN();
@@ -451,7 +452,7 @@ TEST_CASE("non-finite samples affect only their own values") {
   const ShiftRecord record = only_record(shift);
   CHECK(record.to == 3);
   CHECK(std::isfinite(record.lever_time));
-  // Invalid samples before the shift began: the filters ignore them.
+  // Invalid samples before the shift must not affect it, because the filters skip them.
   const auto drives = [](double none) {
     return modified_shift([none](DriveSample& s, double t) {
       s.car.acceleration = t > 0.3 ? 1.5 : 0.0;

@@ -1,4 +1,5 @@
-// The shipped lessons, driven in the real car with each driving error they check injected into their samples.
+// The shipped lessons in the real car. Each driving error that a lesson checks is injected into the samples of a
+// correct drive.
 #include <algorithm>
 #include <filesystem>
 #include <functional>
@@ -34,7 +35,7 @@ bool has(const LessonResult& result, ErrorKind kind) {
                      [&](const DrivingError& f) { return f.kind == kind && f.severity != Severity::note; });
 }
 
-// Applies `change` for `seconds`, from the first moment that `when` holds while driving in gear.
+// Applies `change` for `seconds` seconds, from the first time at which `when` returns true.
 SampleChange for_a_while(double seconds, const std::function<bool(const DriveSample&)>& when,
                          const std::function<void(DriveSample&, double)>& change) {
   return [=, since = -1.0](DriveSample& s) mutable {
@@ -55,7 +56,8 @@ bool always(const DriveSample&) {
   return true;
 }
 
-// How samples look for a driver with that error; empty for a kind that cannot be injected into samples.
+// A change of the samples that makes them look like a drive with this error; empty if the error cannot be made that
+// way.
 SampleChange modification_for(ErrorKind kind, const Gate& gate, const CarSpec& car, const Lesson& lesson) {
   const double bite = car.clutch.bite;
   const double red = car.engine.red_line;
@@ -122,10 +124,10 @@ SampleChange modification_for(ErrorKind kind, const Gate& gate, const CarSpec& c
       };
     case ErrorKind::throttle_in_shift:
       return [=](DriveSample& s) {
-        if (s.car.clutch > 0.0) s.car.throttle = 0.3;  // still on it as the clutch goes down
+        if (s.car.clutch > 0.0) s.car.throttle = 0.3;  // still pressed while the clutch goes down
         if (s.car.clutch >= bite && s.car.gear == kNeutralGear) s.car.engine_speed += 200.0;
       };
-    case ErrorKind::early_shift:  // too slow, according to both rev counter and speedometer
+    case ErrorKind::early_shift:  // too slow by both rev counter and speedometer
       return [=](DriveSample& s) {
         if (s.car.clutch > bite - 0.05) s.car.engine_speed *= 0.5, s.car.road_speed *= 0.7;
       };
@@ -188,7 +190,7 @@ bool waits(ErrorKind kind) {
 
 }  // namespace
 
-TEST_CASE("the shipped lessons are those of the teaching order") {
+TEST_CASE("the shipped lesson files are those in the teaching order") {
   std::set<std::string> files, order(kTeachingOrder.begin(), kTeachingOrder.end());
   for (const auto& entry : std::filesystem::directory_iterator(kLessons)) {
     if (entry.path().extension() == ".toml") files.insert(entry.path().stem().string());
@@ -196,7 +198,7 @@ TEST_CASE("the shipped lessons are those of the teaching order") {
   CHECK(files == order);
 }
 
-TEST_CASE("each shipped lesson without a gate finds its gears in every gate with at least five") {
+TEST_CASE("each shipped lesson without its own gate can be driven in every gate with five gears and reverse") {
   for (const std::string_view key : kTeachingOrder) {
     const Lesson lesson = shipped_lesson(key);
     for (const std::string& name : shipped_names()) {
@@ -208,7 +210,7 @@ TEST_CASE("each shipped lesson without a gate finds its gears in every gate with
   }
 }
 
-TEST_CASE("each shipped lesson detects every error that it checks, and is failed by those that it catches") {
+TEST_CASE("each shipped lesson detects every error that it checks, and is failed by those on which it fails") {
   std::size_t checked = 0;
   for (const honest::Honest& each : honest::kHonest) {
     const Lesson lesson = shipped_lesson(each.lesson);
@@ -218,12 +220,13 @@ TEST_CASE("each shipped lesson detects every error that it checks, and is failed
       ScriptedDrive drive(each.lesson);
       drive.modify = modification_for(kind, drive.gate, drive.car, lesson);
       if (!drive.modify) continue;
-      if (checked++ % 3 != 0 && !is_whole_campaign()) continue;
-      drive.pause = kind == ErrorKind::too_slow ? 5.0 : waits(kind) ? 3.0 : 0.0;  // longer than reading takes
+      if (checked++ % 3 != 0 && !is_full_campaign()) continue;
+      // [s] longer than reading a prompt takes.
+      drive.pause = kind == ErrorKind::too_slow ? 5.0 : waits(kind) ? 3.0 : 0.0;
       each.drive(drive);
       const LessonResult& result = drive.finish();
       CAPTURE(std::string(each.lesson));
-      CAPTURE(error_key(kind));
+      CAPTURE(to_string(kind));
       CAPTURE(errors_text(result));
       CAPTURE(result.why);
       CHECK(has(result, kind));

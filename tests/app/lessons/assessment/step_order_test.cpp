@@ -1,4 +1,4 @@
-// The order of pedals and lever: the edit distance on well-known words, and on shifts.
+// The order of pedals and lever in a shift: the number of misplaced steps, and the name of the first mistake.
 #include "app/lessons/assessment/step_order.h"
 
 #include <cstddef>
@@ -11,7 +11,7 @@ using namespace gearshift::haptics;
 using namespace gearshift::lessons;
 using S = ShiftStep;
 
-TEST_CASE("the taught order leaves out unnecessary steps") {
+TEST_CASE("the taught order omits steps that a shift does not need") {
   CHECK(taught_steps(2, 3) ==
         std::vector<S>{S::throttle_off, S::clutch_down, S::neutral, S::gear, S::clutch_up, S::throttle_on});
   CHECK(taught_steps(kNeutralGear, 1) ==
@@ -20,13 +20,13 @@ TEST_CASE("the taught order leaves out unnecessary steps") {
         std::vector<S>{S::throttle_off, S::clutch_down, S::neutral, S::clutch_up, S::throttle_on});
 }
 
-TEST_CASE("the taught order is in place, with or without throttle after it") {
-  const std::vector<S> whole = taught_steps(2, 3);
-  CHECK(steps_out_of_place(whole, 2, 3) == 0);
-  CHECK(steps_out_of_place(std::span(whole).first(5), 2, 3) == 0);
+TEST_CASE("the taught order has no misplaced step, with or without throttle at the end") {
+  const std::vector<S> all_steps = taught_steps(2, 3);
+  CHECK(steps_out_of_place(all_steps, 2, 3) == 0);
+  CHECK(steps_out_of_place(std::span(all_steps).first(5), 2, 3) == 0);
 }
 
-TEST_CASE("a blip into a lower gear is accepted at any point, and into a higher one it is not") {
+TEST_CASE("a blip is accepted anywhere in a shift into a lower gear, and not into a higher one") {
   const std::vector<S> blips[] = {
       {S::throttle_off, S::clutch_down, S::throttle_on, S::throttle_off, S::neutral, S::gear, S::clutch_up},
       {S::throttle_off, S::clutch_down, S::throttle_on, S::neutral, S::gear, S::throttle_off, S::clutch_up},
@@ -38,28 +38,28 @@ TEST_CASE("a blip into a lower gear is accepted at any point, and into a higher 
     steps.push_back(S::throttle_on);
     CHECK(steps_out_of_place(steps, 3, 2) == 0);
   }
-  // Two blips are one too many.
+  // A second blip is not accepted.
   std::vector<S> two = blips[0];
   two.insert(two.end() - 1, {S::throttle_on, S::throttle_off});
   CHECK(steps_out_of_place(two, 3, 2) == 2);
 }
 
-TEST_CASE("a blip into a lower gear may be held until the clutch is up or longer; the clutch is required") {
+TEST_CASE("a blip into a lower gear may last until the clutch is up or longer; the clutch is required") {
   const std::vector<S> held{S::throttle_off, S::clutch_down, S::neutral, S::gear, S::throttle_on, S::clutch_up};
   std::vector<S> ended = held, early = held;
   ended.push_back(S::throttle_off);
-  std::swap(early[2], early[4]);  // on before the old gear is out
+  std::swap(early[2], early[4]);  // throttle on before the old gear is out
   std::swap(early[3], early[4]);
   for (std::vector<S> steps : {held, ended, early}) {
     CHECK(steps_out_of_place(steps, 3, 2) == 0);
-    CHECK(steps_out_of_place(steps, 2, 3) > 0);  // into a higher gear this is throttle too soon
+    CHECK(steps_out_of_place(steps, 2, 3) > 0);  // for a higher gear, the throttle comes too soon
   }
   CHECK(steps_out_of_place(std::span(held).first(5), 3, 2) == 1);
   ended.push_back(S::throttle_on);
   CHECK(steps_out_of_place(ended, 3, 2) == 0);
 }
 
-TEST_CASE("double declutching is taught up and down, with a blip on the way down") {
+TEST_CASE("double declutching is accepted up and down, with a blip only on the way down") {
   const std::vector<S> twice{S::throttle_off, S::clutch_down, S::neutral,  S::clutch_up,
                              S::clutch_down,  S::gear,        S::clutch_up};
   std::vector<S> blip = twice;
@@ -71,15 +71,15 @@ TEST_CASE("double declutching is taught up and down, with a blip on the way down
   CHECK(steps_out_of_place(twice, 2, kNeutralGear) == 3);
 }
 
-TEST_CASE("steps missing after a shift was cut short do not count") {
-  const std::vector<S> whole = taught_steps(2, 3);
-  for (std::size_t n = 0; n <= whole.size(); ++n) {
-    CHECK(steps_out_of_place(std::span(whole).first(n), 2, 3, false) == 0);
+TEST_CASE("steps that are missing because a shift was cut short do not count") {
+  const std::vector<S> all_steps = taught_steps(2, 3);
+  for (std::size_t n = 0; n <= all_steps.size(); ++n) {
+    CHECK(steps_out_of_place(std::span(all_steps).first(n), 2, 3, false) == 0);
   }
   CHECK(steps_out_of_place(std::vector<S>{S::gear, S::neutral}, 2, 3, false) == 2);
 }
 
-TEST_CASE("steps out of order are named") {
+TEST_CASE("mistakes in the order of steps are named") {
   const auto slip = [](std::vector<S> steps) { return first_order_mistake(steps, 2, 3); };
   CHECK(slip(taught_steps(2, 3)) == OrderMistake::other);
   CHECK(slip({S::clutch_down, S::neutral, S::gear, S::clutch_up}) == OrderMistake::throttle_stayed);
@@ -90,7 +90,7 @@ TEST_CASE("steps out of order are named") {
         OrderMistake::throttle_early);
 }
 
-TEST_CASE("a missing or an extra step counts one, two swapped steps count two") {
+TEST_CASE("a missing or additional step counts as one misplaced step, two swapped steps as two") {
   CHECK(steps_out_of_place(std::vector<S>{S::clutch_down, S::neutral, S::gear, S::clutch_up}, 2, 3) == 1);
   CHECK(steps_out_of_place(std::vector<S>{S::throttle_off, S::clutch_down, S::neutral, S::clutch_up, S::gear}, 2, 3) ==
         2);

@@ -1,4 +1,4 @@
-// The suggested next lesson: one that got worse, else a new one, else the weakest.
+// The suggested next lesson: one whose results got worse, otherwise a new one, otherwise the weakest.
 #include "app/lessons/assessment/suggest.h"
 
 #include <doctest/doctest.h>
@@ -28,7 +28,7 @@ std::string next(const std::vector<PastResult>& past) {
 
 }  // namespace
 
-TEST_CASE("a beginner starts with the first lesson, then the first that was not passed") {
+TEST_CASE("a beginner starts with the first lesson, and continues with the first that was not passed") {
   CHECK(next({}) == "start");
   CHECK(next({result("start", 8.0)}) == "bite");
   CHECK(next({result("start", 4.0)}) == "start");
@@ -36,27 +36,27 @@ TEST_CASE("a beginner starts with the first lesson, then the first that was not 
   CHECK(next({result("bite", 9.0)}) == "start");
 }
 
-TEST_CASE("lessons that got worse come before new ones, the worst first") {
+TEST_CASE("lessons with worse results come before new ones, the worst first") {
   const std::vector<PastResult> past{result("start", 8.0), result("bite", 9.0), result("bite", 2.0),
                                      result("bite", 3.0),  result("bite", 4.0), result("start", 3.0)};
-  CHECK(next(past) == "bite");  // 3.0 against 5.5
+  CHECK(next(past) == "bite");  // average grade 3.0; start: 5.5
   const auto suggestion = suggest_lesson(three_lessons(), past);
-  CHECK(suggestion->why == "Bite point needs practice: 3 of the last 3 not passed, average grade 3.0.");
+  CHECK(suggestion->why == "Bite point needs practice: 3 of the last 3 attempts failed (average grade 3.0).");
 }
 
-TEST_CASE("worse means recently failed, whatever the grade: one error fails a lesson at 9.5") {
+TEST_CASE("worse means recently failed, at any grade: one error can fail a lesson at 9.5") {
   const PastResult failed{"away", "away", 9.5, false}, passed{"away", "away", 9.5, true};
   std::vector<PastResult> past{result("start", 8.0), passed, result("start", 6.0)};
   CHECK(next(past) == "bite");
   past.push_back(failed);
   CHECK(next(past) == "away");
   past.push_back(passed);
-  CHECK(next(past) == "bite");  // one bad run of three is an accident
+  CHECK(next(past) == "bite");  // one failed run of the last three does not count
   past.push_back(failed);
   CHECK(next(past) == "away");
 }
 
-TEST_CASE("more failures are worse, and of two equal ones the lower grade") {
+TEST_CASE("more failures are worse; if equal, the lower grade is worse") {
   const auto runs = [](const char* lesson, const std::vector<double>& grades) {
     std::vector<PastResult> list{{lesson, lesson, 10.0, true}};
     for (const double grade : grades) list.push_back({lesson, lesson, grade, false});
@@ -70,7 +70,7 @@ TEST_CASE("more failures are worse, and of two equal ones the lower grade") {
   CHECK(next(past) == "start");
 }
 
-TEST_CASE("a lesson never passed in three runs counts as worse, too; in one or two it is still new") {
+TEST_CASE("a lesson never passed in three runs also counts as worse; with one or two runs it is still new") {
   std::vector<PastResult> past{result("start", 8.0)};
   for (int run = 1; run <= 6; ++run) {
     past.push_back(result("away", 0.0));

@@ -1,4 +1,4 @@
-// Cycles assessed one by one: the same assessment as in batches, visible and saved with the next add().
+// Cycles may be assessed one by one. The result equals that of batches; it is shown and saved at the next add().
 #include <stdexcept>
 
 #include <doctest/doctest.h>
@@ -10,7 +10,8 @@ using namespace gearshift::lessons;
 using namespace gearshift::test;
 using namespace gearshift::vehicle;
 
-TEST_CASE("a drive assessed cycle by cycle gets the same result as one that is added, and appears only with add()") {
+TEST_CASE(
+    "a drive assessed cycle by cycle gives the same result as with add(), and is shown only from the next add() on") {
   const CoachBench bench;
   Coach judged(bench.config), added(bench.config);
   CHECK_THROWS_AS((void)judged.judge({}), std::logic_error);

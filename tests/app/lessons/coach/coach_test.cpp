@@ -25,7 +25,7 @@ const LessonStanding& standing(const Coach& coach, const std::string& lesson) {
 
 }  // namespace
 
-TEST_CASE("a lesson is offered, driven and over, and only driven runs count") {
+TEST_CASE("a lesson goes through the phases offered, driving and over; cycles count only while driving") {
   const CoachBench bench;
   Coach coach(bench.config);
   CHECK(coach.view().phase == LessonPhase::none);
@@ -46,7 +46,7 @@ TEST_CASE("a lesson is offered, driven and over, and only driven runs count") {
   CHECK(coach.view().phase == LessonPhase::driving);
   CHECK(coach.view().now.prompt == "Clutch down.");
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
-  coach.add(std::span(drive).first(1500));  // until the gear is in
+  coach.add(std::span(drive).first(1500));  // until third gear is engaged
   CHECK(coach.view().now.prompt == "Clutch up.");
   CHECK(coach.guided_gear() == 3);
   coach.add(std::span(drive).subspan(1500));
@@ -60,8 +60,8 @@ TEST_CASE("a lesson is offered, driven and over, and only driven runs count") {
   CHECK(coach.lesson() == nullptr);
 }
 
-// Independent answer: a plain LessonRun with the same samples.
-TEST_CASE("in batches of any size a drive is assessed exactly as without a coach") {
+// The independent answer: a LessonRun with the same samples, without a coach.
+TEST_CASE("a drive in batches of any size is assessed exactly as without a coach") {
   const CoachBench bench;
   std::mt19937 chance(3);
   for (const Drive how : {Drive::good, Drive::pushed}) {
@@ -69,15 +69,15 @@ TEST_CASE("in batches of any size a drive is assessed exactly as without a coach
     coach.offer(bench.config.lessons[0]);
     bench.begin(coach);
     const std::vector<DriveSample> drive = bench_drive(how, coach.guidance());
-    LessonRun alone(bench.config.lessons[0], test_car(), known_gate(),
-                    {coach.view().mode, coach.guidance(), coach.view().hints});
-    for (const DriveSample& sample : drive) alone.add(sample);
+    LessonRun single(bench.config.lessons[0], test_car(), known_gate(),
+                     {coach.view().mode, coach.guidance(), coach.view().hints});
+    for (const DriveSample& sample : drive) single.add(sample);
     for (std::size_t at = 0; at < drive.size();) {
       const std::size_t lot = std::min<std::size_t>(chance() % 50, drive.size() - at);
       coach.add(std::span(drive).subspan(at, lot));
       at += lot;
     }
-    const LessonResult &mine = coach.view().result, &expected = alone.result();
+    const LessonResult &mine = coach.view().result, &expected = single.result();
     CHECK(mine.end == expected.end);
     CHECK(mine.why == expected.why);
     CHECK(mine.grade == expected.grade);
@@ -95,12 +95,12 @@ TEST_CASE("in batches of any size a drive is assessed exactly as without a coach
     REQUIRE(mine.shifts.size() == 1);
     CHECK(mine.shifts[0].path_length == expected.shifts[0].path_length);
     CHECK(mine.shifts[0].end == expected.shifts[0].end);
-    CHECK(coach.view().now.feedback == alone.view().feedback);
+    CHECK(coach.view().now.feedback == single.view().feedback);
   }
 }
 
 TEST_CASE(
-    "a drive with a gap, a repeated cycle or another loop's cycles gets no grade; a gap before its start is allowed") {
+    "a drive with a gap, a repeated cycle or cycles from a different loop gets no grade; a gap before it is allowed") {
   const CoachBench bench;
   const auto driven = [&](const std::vector<DriveSample>& samples) {
     Coach coach(bench.config);
@@ -111,9 +111,9 @@ TEST_CASE(
     return coach.view().result;
   };
   for (const std::uint64_t from : {0u, 1u, 123456u}) {
-    const LessonResult whole = driven(bench_drive(Drive::good, 0.0, from));
-    CHECK(whole.is_complete);
-    CHECK(whole.passed);
+    const LessonResult complete = driven(bench_drive(Drive::good, 0.0, from));
+    CHECK(complete.is_complete);
+    CHECK(complete.passed);
   }
   const auto torn = [&](const std::vector<DriveSample>& samples) {
     const LessonResult result = driven(samples);
@@ -133,15 +133,13 @@ TEST_CASE(
     for (std::size_t i = 700; i < other.size(); ++i) other[i].lever.cycle = i - 700 + again;
     CHECK(torn(other));
   }
-  // A gap after the end makes no difference.
+  // An invalid cycle after the lesson's end makes no difference.
   std::vector<DriveSample> longer = bench_drive(Drive::good);
   longer.push_back(longer.back());
   CHECK(driven(longer).is_complete);
 }
 
-TEST_CASE(
-    "a trial without forces gets no grade: a second of it during shifts or three seconds in total; a ramp does not "
-    "count") {
+TEST_CASE("a trial without forces for 1 s during shifts or 3 s in total gets no grade; a ramp counts as forces") {
   const CoachBench bench;
   const auto driven = [&](GuardState state, double from, double to) {
     Coach coach(bench.config);
@@ -152,9 +150,9 @@ TEST_CASE(
     coach.offer(slower);
     bench.begin(coach);
     std::vector<DriveSample> drive = bench_drive(Drive::good);
-    for (DriveSample& sample : drive) sample.lever.time_ns *= 2;  // at half speed
+    for (DriveSample& sample : drive) sample.lever.time_ns *= 2;  // at half the speed
     const DriveSample last = drive.back();
-    for (int i = 1; i < 8000; ++i) {  // rolls on in gear
+    for (int i = 1; i < 8000; ++i) {  // the car continues to roll in gear
       drive.push_back(last);
       drive.back().lever.cycle += static_cast<std::uint64_t>(i);
       drive.back().lever.time_ns += std::int64_t{1'000'000} * i;
@@ -168,9 +166,9 @@ TEST_CASE(
     REQUIRE(coach.view().result.shifts[0].end - coach.view().result.shifts[0].begin > 1.05);
     return coach.view().result;
   };
-  const LessonResult whole = driven(GuardState::running, 0.0, 0.0);
-  REQUIRE(whole.passed);
-  const double shift = whole.shifts[0].begin, after = whole.shifts[0].end;
+  const LessonResult undisturbed = driven(GuardState::running, 0.0, 0.0);
+  REQUIRE(undisturbed.passed);
+  const double shift = undisturbed.shifts[0].begin, after = undisturbed.shifts[0].end;
   for (const GuardState off : {GuardState::idle, GuardState::armed, GuardState::damped, GuardState::released}) {
     CHECK(driven(off, shift, shift + 0.95).passed);
     CHECK(driven(off, after + 0.1, after + 3.0).passed);
@@ -178,13 +176,14 @@ TEST_CASE(
       CHECK_FALSE(none.passed);
       CHECK_FALSE(none.is_complete);
       CHECK(none.grade == 0.0);
-      CHECK(none.why == "Not graded: the lever had no forces.");
+      CHECK(none.why == "Not graded: the lever's forces were off.");
     }
   }
   CHECK(driven(GuardState::ramping, 0.0, 1000.0).passed);
 }
 
-TEST_CASE("a lesson is prompted step by step until passed, then driven without prompts; the user may choose") {
+TEST_CASE(
+    "a lesson is prompted step by step until it was passed, then driven without prompts, unless the user chooses") {
   const CoachBench bench;
   Coach coach(bench.config);
   coach.set_help(false);
@@ -193,11 +192,11 @@ TEST_CASE("a lesson is prompted step by step until passed, then driven without p
   CHECK(coach.view().mode == LessonMode::by_yourself);
   coach.set_mode(LessonMode::follow_me);
   CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);
-  CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);  // the choice applies to this lesson
+  CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);  // the user's choice applies only to this lesson
   CHECK(bench.trial(coach, "two").mode == LessonMode::follow_me);
   CHECK(bench.trial(coach, "one").mode == LessonMode::by_yourself);
 
-  // During a trial, a choice takes effect in the next trial.
+  // A choice made during a trial takes effect in the next trial.
   bench.begin(coach);
   coach.set_mode(LessonMode::follow_me);
   coach.add(bench_drive(Drive::good));
@@ -206,7 +205,7 @@ TEST_CASE("a lesson is prompted step by step until passed, then driven without p
   CHECK(coach.view().result.mode == LessonMode::follow_me);
 }
 
-TEST_CASE("the standing in a lesson: graded trials, the last grade, whether one was passed") {
+TEST_CASE("the standing in a lesson: number of graded trials, the last grade, whether one was passed") {
   const CoachBench bench;
   Coach coach(bench.config);
   coach.set_help(false);
@@ -225,10 +224,10 @@ TEST_CASE("the standing in a lesson: graded trials, the last grade, whether one 
   CHECK(standing(coach, "one").passed);
   CHECK(standing(coach, "two").trials == 0);
   CHECK(coach.view().runs.size() == 2);
-  CHECK(coach.view().runs[0].result.grade == *standing(coach, "one").grade);  // newest first
+  CHECK(coach.view().runs[0].result.grade == *standing(coach, "one").grade);  // the newest run comes first
 }
 
-TEST_CASE("a lesson that the gate cannot offer is rejected, and the previous offer stays") {
+TEST_CASE("a lesson that does not fit the gate is rejected, and the previous offer stays") {
   CoachBench bench;
   bench.config.lessons[0].steps[1].gear = 9;
   Coach coach(bench.config);
@@ -239,7 +238,7 @@ TEST_CASE("a lesson that the gate cannot offer is rejected, and the previous off
   CHECK(coach.view().runs.empty());
 }
 
-TEST_CASE("when restarted, the trial counts as left and a new one begins; the lesson's own text is offered again") {
+TEST_CASE("after a restart the interrupted trial counts as left, and a new trial of the same lesson begins") {
   const CoachBench bench;
   Coach coach(bench.config);
   coach.offer(bench.config.lessons[0]);
@@ -252,7 +251,7 @@ TEST_CASE("when restarted, the trial counts as left and a new one begins; the le
   CHECK(coach.view().runs[0].result.end == LessonEnd::left);
   coach.offer(*coach.lesson());
   CHECK(coach.view().lesson == "one");
-  CHECK(coach.view().runs.size() == 1);  // the second got no sample, so it was never begun
+  CHECK(coach.view().runs.size() == 1);  // the second trial had no cycle, so it is not a run
 }
 
 TEST_CASE("a missing history is reported once, and lessons run without it") {
@@ -275,5 +274,5 @@ TEST_CASE("an invalid name is rejected; an empty name means no learner") {
   CHECK(coach.view().learner.empty());
   CHECK(coach.view().learners.empty());
   CHECK_THROWS_AS(coach.set_next("three"), std::invalid_argument);
-  CHECK_THROWS_AS(coach.comment(1, "Bo", "None."), std::invalid_argument);
+  CHECK_THROWS_AS(coach.add_comment(1, "Bo", "None."), std::invalid_argument);
 }

@@ -23,7 +23,7 @@ using namespace gearshift::vehicle;
 namespace {
 
 constexpr const char* kDeletedMessage =
-    "Ada was deleted by another program: this session is no longer saved; choose or enter a learner to continue.";
+    "Another program deleted Ada, so this session is no longer saved. Choose or enter a learner to continue.";
 
 std::string erase(const std::filesystem::path& file, const std::string& name) {
   History other(file);
@@ -38,7 +38,7 @@ std::vector<std::string> names_in(const std::filesystem::path& file) {
 
 using Names = std::vector<std::string>;
 
-// Ada, with a run in the history.
+// A program in which Ada is selected; the history contains one run of hers.
 struct Deleting {
   TempFolder folder;
   CoachBench bench{folder / "history.db"};
@@ -57,7 +57,7 @@ struct Deleting {
     CHECK(names_in(file).empty());
     bench.trial(coach, "one");
     coach.set_next("two");
-    coach.comment(coach.view().runs[0].id, "Bo", "Calmer.");
+    coach.add_comment(coach.view().runs[0].id, "Bo", "Calmer.");
     coach.edit_comment(coach.view().runs[0].id, coach.view().comments[0][0].id, "Much calmer.");
     CHECK(coach.view().run == 0);
     CHECK(coach.flush().empty());
@@ -69,7 +69,7 @@ struct Deleting {
 
 }  // namespace
 
-TEST_CASE("deleted during a lesson: one message, the lesson continues, nothing more is written") {
+TEST_CASE("a learner deleted during a lesson: one message, the lesson continues, nothing more is written") {
   Deleting here;
   here.coach.offer(here.bench.config.lessons[0]);
   here.bench.begin(here.coach, "gate = paper", "/a/drive.trace");
@@ -80,13 +80,13 @@ TEST_CASE("deleted during a lesson: one message, the lesson continues, nothing m
   here.coach.add(std::span(drive).subspan(500));
   CHECK(here.coach.view().result.passed);
   CHECK(here.coach.view().run == 0);
-  // the run that has just ended, without a learner; her earlier runs are gone
+  // Only the run that has just ended is shown; it belongs to no learner.
   CHECK(here.coach.view().runs.size() == 1);
   CHECK(here.coach.take_unreferenced_recordings() == std::vector<std::string>{"/a/drive.trace"});
   here.check_forgotten();
 }
 
-TEST_CASE("deleted between two lessons, during an offer, or before an instructor's comment: nothing more is written") {
+TEST_CASE("deleted between lessons, during an offer, or before an instructor's comment: nothing more is written") {
   for (int action = 0; action < 4; ++action) {
     CAPTURE(action);
     Deleting here;
@@ -94,12 +94,12 @@ TEST_CASE("deleted between two lessons, during an offer, or before an instructor
     if (action == 0) here.bench.trial(here.coach, "one");
     if (action == 1) here.coach.offer(here.bench.config.lessons[1]);
     if (action == 2) here.coach.set_next("two");
-    if (action == 3) here.coach.comment(here.coach.view().runs.at(0).id, "Bo", "Calmer.");
+    if (action == 3) here.coach.add_comment(here.coach.view().runs.at(0).id, "Bo", "Calmer.");
     here.check_forgotten();
   }
 }
 
-TEST_CASE("writes that were pending when she was deleted are dropped") {
+TEST_CASE("writes that are pending when the learner is deleted are dropped") {
   Deleting here;
   sqlite3* holder = nullptr;
   REQUIRE(sqlite3_open(here.file.c_str(), &holder) == SQLITE_OK);
@@ -107,7 +107,7 @@ TEST_CASE("writes that were pending when she was deleted are dropped") {
   here.bench.trial(here.coach, "one");
   here.bench.trial(here.coach, "one");
   here.coach.set_next("two");
-  here.coach.comment(here.coach.view().runs[0].id, "Bo", "Calmer.");
+  here.coach.add_comment(here.coach.view().runs[0].id, "Bo", "Calmer.");
   CHECK(here.coach.take_problem().has_value());
   sqlite3_close(holder);
   CHECK(erase(here.file, "Ada").empty());
@@ -115,7 +115,7 @@ TEST_CASE("writes that were pending when she was deleted are dropped") {
   here.check_forgotten();
 }
 
-TEST_CASE("a new learner with her name is a different person; selecting the name again starts a new record") {
+TEST_CASE("a new learner with her name is a different learner; selecting the name again starts a new record") {
   Deleting here;
   CHECK(erase(here.file, "Ada").empty());
   const std::int64_t other = History(here.file).find_or_add_learner("Ada");
@@ -131,7 +131,7 @@ TEST_CASE("a new learner with her name is a different person; selecting the name
   CHECK_FALSE(here.coach.take_problem().has_value());
 }
 
-TEST_CASE("a learner who was deselected here and then deleted is not reported, and is new when selected again") {
+TEST_CASE("deleting a learner who is not selected is not reported; when selected again, she is new") {
   Deleting here;
   here.coach.set_learner("Bob");
   here.bench.trial(here.coach, "one");
@@ -140,7 +140,7 @@ TEST_CASE("a learner who was deselected here and then deleted is not reported, a
   CHECK_FALSE(here.coach.take_problem().has_value());
   CHECK(names_in(here.file) == Names{"Bob"});
   here.coach.set_learner("Ada");
-  CHECK(names_in(here.file) == Names{"Bob"});  // she is added again with her first run
+  CHECK(names_in(here.file) == Names{"Bob"});  // her first run will add her again
   CHECK(here.coach.view().runs.empty());
   here.bench.trial(here.coach, "one");
   CHECK(names_in(here.file) == Names{"Ada", "Bob"});
@@ -148,7 +148,7 @@ TEST_CASE("a learner who was deselected here and then deleted is not reported, a
 }
 
 // Invariant: whenever the deletion happens, the learner stays deleted, and the running program is notified.
-TEST_CASE("deleted at a random moment by another program while she drives here, 40 times: she is never created again") {
+TEST_CASE("a learner deleted at a random time while she drives is never created again: 40 times") {
   std::mt19937 chance(3);
   int recreated = 0, unnotified = 0;
   for (int round = 0; round < 40; ++round) {
@@ -176,7 +176,7 @@ TEST_CASE("deleted at a random moment by another program while she drives here, 
           coach.set_next(trial % 2 == 0 ? "two" : "");
         }
         char c = 0;
-        (void)!read(go_on[0], &c, 1);  // waits until she is deleted
+        (void)!read(go_on[0], &c, 1);  // until the parent has deleted her
         bench.trial(coach, "one");
         coach.set_next("two");
         (void)coach.flush();

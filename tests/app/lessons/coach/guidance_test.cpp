@@ -1,4 +1,4 @@
-// How strongly trials are guided, over trials, programs and days.
+// How strongly the coach guides trials: from trial to trial, from program to program, and from day to day.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -12,8 +12,8 @@ using namespace gearshift::test;
 
 namespace {
 
-// The policy's equations, by hand: g <- clamp(f g + k e, 0, 1), e = min(1, error / 0.4), f = 0.9 - 0.3 skill, k = 0.2,
-// skill <- 0.7 skill + 0.3 (1 - e).
+// The policy's equations, written by hand: g <- clamp(f g + k e, 0, 1), e = min(1, error / 0.4), f = 0.9 - 0.3 skill, k
+// = 0.2, skill <- 0.7 skill + 0.3 (1 - e).
 struct ByHand {
   double gain = 1.0, skill = 0.0;
   void learn(double error) {
@@ -23,7 +23,7 @@ struct ByHand {
   }
 };
 
-// Error points divided by 10; 1 for a lesson that was not finished.
+// [1] The points lost by errors divided by 10; 1 for a lesson that was not finished.
 double error_of(const LessonResult& result) {
   double points = 0.0;
   for (const DrivingError& error : result.errors) {
@@ -36,7 +36,7 @@ double error_of(const LessonResult& result) {
 
 }  // namespace
 
-TEST_CASE("trial n + 1 has the gain that the errors of n trials give, and half of the trials are unguided") {
+TEST_CASE("the gain of trial n + 1 follows from the errors of n trials, and half of the trials are unguided") {
   const CoachBench bench;
   Coach coach(bench.config);
   ByHand hand;
@@ -61,35 +61,37 @@ TEST_CASE("trial n + 1 has the gain that the errors of n trials give, and half o
   CHECK(graded == 2);  // guided trials get no grade
 }
 
-TEST_CASE("a new program continues the sequence; without a history it continues only within the program") {
+TEST_CASE(
+    "a new program continues the sequence of trials from the history; without one it continues within the program") {
   const TempFolder folder;
   const CoachBench remembered(folder / "history.db"), forgetful;
-  Coach alone(forgetful.config);
+  Coach without_history(forgetful.config);
   for (int trial = 0; trial < 10; ++trial) {
     Coach each(remembered.config);
     const Drive how = trial % 3 == 0 ? Drive::pushed : Drive::good;
-    const LessonResult a = remembered.trial(each, "one", how), b = forgetful.trial(alone, "one", how);
-    CHECK(each.view().guidance == alone.view().guidance);
-    CHECK(each.view().hints == alone.view().hints);
+    const LessonResult a = remembered.trial(each, "one", how), b = forgetful.trial(without_history, "one", how);
+    CHECK(each.view().guidance == without_history.view().guidance);
+    CHECK(each.view().hints == without_history.view().hints);
     CHECK(a.guided == b.guided);
     CHECK(a.grade == b.grade);
   }
   Coach last(remembered.config);
-  CHECK(last.view().lessons[0].trials == alone.view().lessons[0].trials);
-  CHECK(last.view().lessons[0].grade == alone.view().lessons[0].grade);
+  CHECK(last.view().lessons[0].trials == without_history.view().lessons[0].trials);
+  CHECK(last.view().lessons[0].grade == without_history.view().lessons[0].grade);
   CHECK(last.view().runs.size() == 10);
   for (const RunRow& run : last.view().runs) CHECK_FALSE((run.result.guided && run.result.passed));
 }
 
-TEST_CASE("learners and lessons each have their own order of guided trials") {
+TEST_CASE("each learner has a separate order of guided trials for each lesson") {
   std::vector<bool> orders[3];
-  const std::pair<const char*, const char*> who[3] = {{"Ada", "one"}, {"Bob", "one"}, {"Ada", "two"}};
+  const std::pair<const char*, const char*> learner_and_lesson[3] = {{"Ada", "one"}, {"Bob", "one"}, {"Ada", "two"}};
   for (int i = 0; i < 3; ++i) {
     std::vector<RunRow> runs;
     for (int trial = 0; trial < 40; ++trial) {
-      orders[i].push_back(plan_trial(who[i].first, who[i].second, runs, kSomeDay).plan.guidance > 0.0);
-      RunRow run;  // ended at once: an error of 1 keeps the gain high
-      run.result.lesson = who[i].second;
+      orders[i].push_back(
+          plan_trial(learner_and_lesson[i].first, learner_and_lesson[i].second, runs, kSomeDay).plan.guidance > 0.0);
+      RunRow run;  // aborted: its error of 1 keeps the gain high
+      run.result.lesson = learner_and_lesson[i].second;
       run.result.end = LessonEnd::aborted;
       run.begun_at = format_utc(kSomeDay);
       runs.push_back(run);
@@ -100,7 +102,7 @@ TEST_CASE("learners and lessons each have their own order of guided trials") {
   CHECK(orders[0] != orders[2]);
 }
 
-TEST_CASE("with help switched off no trial is guided; the planned hints stay") {
+TEST_CASE("with help switched off no trial is guided, and the planned hints stay") {
   const CoachBench bench;
   Coach coach(bench.config);
   Coach helped(bench.config);
@@ -112,14 +114,14 @@ TEST_CASE("with help switched off no trial is guided; the planned hints stay") {
   }
   CHECK(coach.view().lessons[0].trials == 8);
   CHECK(helped.view().lessons[0].trials < 8);
-  // A change requested during a trial takes effect in the next one.
+  // A change made during a trial takes effect in the next trial.
   coach.offer(bench.config.lessons[1]);
   bench.begin(coach);
   coach.set_help(true);
   CHECK(coach.guidance() == 0.0);
 }
 
-TEST_CASE("the first trial after 20 hours is a test, without guidance and hints; the next one is not") {
+TEST_CASE("the first trial after 20 hours is a test without guidance and hints; the next trial is not") {
   const TempFolder folder;
   CoachBench bench(folder / "history.db");
   Coach coach(bench.config);
@@ -129,13 +131,13 @@ TEST_CASE("the first trial after 20 hours is a test, without guidance and hints;
   CHECK_FALSE(coach.view().retention);
   bench.now += 1;
   coach.offer(bench.config.lessons[1]);
-  CHECK_FALSE(coach.view().retention);  // never driven
+  CHECK_FALSE(coach.view().retention);  // this lesson was never driven
   coach.offer(bench.config.lessons[0]);
   CHECK(coach.view().retention);
   CHECK(coach.view().guidance == 0.0);
   CHECK(coach.view().hints == HintStyle::summary);
 
-  Coach other(bench.config);  // another program reads the same value
+  Coach other(bench.config);  // a second program, with the same history
   bench.begin(coach);
   CHECK(coach.view().retention);
   coach.add(bench_drive(Drive::pushed));
@@ -144,12 +146,12 @@ TEST_CASE("the first trial after 20 hours is a test, without guidance and hints;
   CHECK_FALSE(other.view().retention);
   bench.begin(coach);
   CHECK_FALSE(coach.view().retention);
-  bench.now -= 360'000;  // a clock that was set back is not a break
+  bench.now -= 360'000;  // a clock that was set back makes no break
   coach.offer(bench.config.lessons[0]);
   CHECK_FALSE(coach.view().retention);
 }
 
-TEST_CASE("a run that never ended or was left is not a trial: it affects neither break nor policy") {
+TEST_CASE("a run that never ended or was left is not a trial, so it affects neither break nor policy") {
   for (const LessonEnd end : {LessonEnd::running, LessonEnd::left}) {
     RunRow run;
     run.result.lesson = "one";
@@ -165,7 +167,7 @@ TEST_CASE("a run that never ended or was left is not a trial: it affects neither
   }
 }
 
-TEST_CASE("after leaving a trial, the learner repeats the same trial with the same state") {
+TEST_CASE("after leaving a trial the learner repeats that trial, with the same guidance and hints") {
   std::vector<RunRow> runs(4);
   for (RunRow& run : runs) {
     run.result.lesson = "one";

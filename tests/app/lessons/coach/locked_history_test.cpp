@@ -1,4 +1,4 @@
-// A history locked by another program, or slow to open: no frame waits for it, and nothing is lost.
+// A history that a different program has locked, or that is slow to open: no frame waits for it, and nothing is lost.
 #include <sqlite3.h>
 
 #include <chrono>
@@ -21,10 +21,10 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Limit for one frame: the timeout of 50 ms, and the rest for a busy machine.
+// Limit for one frame: the lock timeout of 50 ms, and 350 ms for a busy machine.
 constexpr milliseconds kFrame{400};
 
-// Another program in the middle of a write transaction.
+// Acts as a second program that is in the middle of a write transaction.
 class LockHolder {
  public:
   explicit LockHolder(const std::filesystem::path& file) {
@@ -53,7 +53,7 @@ void in_a_frame(const Work& work) {
   CHECK(steady_clock::now() - begin < kFrame);
 }
 
-// Frames without a cycle, long enough for the coach to retry.
+// Runs frames without new cycles, for long enough that the coach retries.
 void frames(Coach& coach, milliseconds time = milliseconds(1000)) {
   for (const auto end = steady_clock::now() + time; steady_clock::now() < end;) {
     in_a_frame([&] { coach.add({}); });
@@ -69,7 +69,7 @@ std::vector<RunRow> runs_of_ada(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("while another program locks the history no frame waits, and afterwards everything is saved, in order") {
+TEST_CASE("while the history is locked no frame waits for it, and afterwards everything is saved in order") {
   const TempFolder folder;
   CoachBench bench(folder / "history.db");
   {
@@ -90,10 +90,10 @@ TEST_CASE("while another program locks the history no frame waits, and afterward
       }
       CHECK(coach.view().phase == LessonPhase::over);
       CHECK(coach.view().run == 0);
-      const std::optional<std::string> told = coach.take_problem();
-      REQUIRE(told.has_value());
-      CHECK(told->find("another program has locked it") != std::string::npos);
-      CHECK(told->find('\n') == std::string::npos);
+      const std::optional<std::string> problem = coach.take_problem();
+      REQUIRE(problem.has_value());
+      CHECK(problem->find("another program has locked it") != std::string::npos);
+      CHECK(problem->find('\n') == std::string::npos);
 
       bench.now += 100;
       in_a_frame([&] { coach.offer(bench.config.lessons[1]); });
@@ -103,13 +103,13 @@ TEST_CASE("while another program locks the history no frame waits, and afterward
       const std::int64_t second = coach.view().runs[0].id;
       CHECK(second < 0);
       bench.now += 100;
-      in_a_frame([&] { coach.comment(first, "Bo", "Calmer."); });
-      in_a_frame([&] { coach.comment(second, "Bo", "Too much."); });
+      in_a_frame([&] { coach.add_comment(first, "Bo", "Calmer."); });
+      in_a_frame([&] { coach.add_comment(second, "Bo", "Too much."); });
       in_a_frame([&] { coach.set_next("one"); });
       CHECK(coach.view().next == "one");
       frames(coach);
       CHECK_FALSE(coach.take_problem().has_value());  // reported only once
-      CHECK(coach.view().is_saving);                  // true: what it has is pending
+      CHECK(coach.view().is_saving);                  // results are pending, not lost
     }
     frames(coach);
     CHECK(coach.view().run > first);
@@ -130,7 +130,7 @@ TEST_CASE("while another program locks the history no frame waits, and afterward
   CHECK(runs[1].recording == "/a/second.trace");
   CHECK(runs[1].session == runs[0].session);
   CHECK(runs[0].begun_at == format_utc(kSomeDay));
-  CHECK(runs[1].begun_at == format_utc(kSomeDay + 200));  // dated when it was driven
+  CHECK(runs[1].begun_at == format_utc(kSomeDay + 200));  // the date of the drive, not of the saving
   History history(bench.config.history);
   CHECK(history.settings(runs[0].session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
   for (const RunRow& run : runs) {
@@ -140,7 +140,7 @@ TEST_CASE("while another program locks the history no frame waits, and afterward
   CHECK(history.find_learner("Ada")->next_lesson == "one");
 }
 
-TEST_CASE("a run driven entirely while the history was locked is saved afterwards, for its own learner") {
+TEST_CASE("a run driven while the history was locked is saved afterwards, for the learner who drove it") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   {
@@ -153,7 +153,7 @@ TEST_CASE("a run driven entirely while the history was locked is saved afterward
       coach.set_learner("Bob");
       bench.trial(coach, "one");
     }
-    CHECK(coach.take_unreferenced_recordings().empty());  // these runs have no recordings
+    CHECK(coach.take_unreferenced_recordings().empty());  // the pending runs have no recordings
     coach.set_learner("Ada");
     frames(coach);
     CHECK(coach.view().runs.size() == 2);
@@ -189,7 +189,7 @@ TEST_CASE("on exit the coach waits a few seconds for a locked history") {
   CHECK(runs[1].result.end == LessonEnd::left);
 }
 
-TEST_CASE("comments edited or deleted while the history was locked are saved that way") {
+TEST_CASE("comments that were edited or deleted while the history was locked are saved in their final state") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   std::int64_t run = 0;
@@ -197,13 +197,13 @@ TEST_CASE("comments edited or deleted while the history was locked are saved tha
     Coach coach(bench.config);
     bench.trial(coach, "one");
     run = coach.view().run;
-    for (const char* text : {"one", "two", "three"}) coach.comment(run, "Bo", text);
+    for (const char* text : {"one", "two", "three"}) coach.add_comment(run, "Bo", text);
     const auto number = [&](std::size_t i) { return coach.view().comments[0].at(i).id; };
     const LockHolder holder(bench.config.history);
     in_a_frame([&] { coach.edit_comment(run, number(0), "One."); });
     in_a_frame([&] { coach.delete_comment(run, number(1)); });
-    in_a_frame([&] { coach.comment(run, "Di", "four"); });
-    in_a_frame([&] { coach.comment(run, "Di", "five"); });
+    in_a_frame([&] { coach.add_comment(run, "Di", "four"); });
+    in_a_frame([&] { coach.add_comment(run, "Di", "five"); });
     in_a_frame([&] { coach.edit_comment(run, number(2), "Four."); });
     in_a_frame([&] { coach.delete_comment(run, number(3)); });
     in_a_frame([&] { coach.edit_comment(run, number(0), "One!"); });
@@ -219,8 +219,8 @@ TEST_CASE("comments edited or deleted while the history was locked are saved tha
   CHECK(comments[2].text == "Four.");
 }
 
-// Invariant: 3 s in total, however much is pending.
-TEST_CASE("a flush that fails reports the losses once, after a bounded time; the destructor does not wait again") {
+// Invariant: a flush takes at most 3 s in total, however much is pending.
+TEST_CASE("a failed flush reports the losses once, after a bounded time, and the destructor does not wait again") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   std::optional<Coach> coach(std::in_place, bench.config);
@@ -229,7 +229,7 @@ TEST_CASE("a flush that fails reports the losses once, after a bounded time; the
   CHECK(coach->flush().empty());
   const LockHolder holder(bench.config.history);
   bench.trial(*coach, "one");
-  coach->comment(coach->view().runs[1].id, "Bo", "Calmer.");
+  coach->add_comment(coach->view().runs[1].id, "Bo", "Calmer.");
   coach->offer(bench.config.lessons[0]);
   bench.begin(*coach);
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
@@ -238,11 +238,12 @@ TEST_CASE("a flush that fails reports the losses once, after a bounded time; the
   const auto begin = steady_clock::now();
   const std::string message = coach->flush();
   const auto waited = steady_clock::now() - begin;
-  CHECK(coach->view().phase == LessonPhase::over);  // the lesson was left
+  CHECK(coach->view().phase == LessonPhase::over);  // the running lesson counts as left
   CHECK(waited > milliseconds(2000));
   CHECK(waited < milliseconds(4000));
-  CHECK(message == bench.config.history.string() +
-                       ": the history cannot be used: another program has locked it; not saved: 2 runs, 1 comment");
+  CHECK(message ==
+        bench.config.history.string() +
+            ": the history cannot be used because another program has locked it; not saved: 2 runs, 1 comment");
   CHECK(coach->take_problem() == message);
   const auto again = steady_clock::now();
   coach.reset();
@@ -266,7 +267,7 @@ TEST_CASE("a flush saves pending data and reports what cannot be saved") {
   CHECK(runs_of_ada(bench.config.history).size() == 1);
 }
 
-TEST_CASE("recordings of runs missing from the history are listed once") {
+TEST_CASE("recordings of runs that are missing from the history are listed once") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   {
@@ -282,13 +283,12 @@ TEST_CASE("recordings of runs missing from the history are listed once") {
     CHECK(coach.take_unreferenced_recordings().empty());
   }
   const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
-  REQUIRE(runs.size() == 2);  // the lock was released first
+  REQUIRE(runs.size() == 2);  // the lock ended before the coach, which then saved both
   CHECK(runs[0].recording == "/a/known.trace");
   CHECK(runs[1].recording.empty());
 }
 
-TEST_CASE(
-    "a history that could not be opened is retried with the next lesson, and then gets the runs driven meanwhile") {
+TEST_CASE("a history that could not be opened is opened with the next lesson, and then gets the runs driven before") {
   const TempFolder folder;
   std::ofstream(folder / "place") << "no folder";
   const CoachBench bench(folder / "place/history.db");
@@ -306,7 +306,7 @@ TEST_CASE(
   CHECK(runs_of_ada(bench.config.history).size() == 2);
 }
 
-TEST_CASE("data that cannot be reloaded keeps its last state until it can") {
+TEST_CASE("data that cannot be reloaded keeps its last state until it can be read again") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   Coach coach(bench.config);

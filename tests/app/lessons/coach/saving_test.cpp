@@ -1,4 +1,4 @@
-// What a coach writes into the history, and how a lesson continues without one.
+// The coach writes runs into the history, and lessons continue even without a history.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,7 +36,7 @@ bool is_one_sentence(const std::optional<std::string>& problem) {
   return problem && !problem->empty() && problem->find('\n') == std::string::npos;
 }
 
-// A complete, closed history with one run.
+// The bytes of a history with one run, closed completely.
 std::string good_history(const std::filesystem::path& file) {
   const CoachBench bench(file);
   {
@@ -46,7 +46,7 @@ std::string good_history(const std::filesystem::path& file) {
   return bytes_of(file);
 }
 
-// Two trials; the second one passes.
+// Drives two trials and checks their results; the second is passed.
 void check_lesson_continues(CoachBench& bench, Coach& coach) {
   CHECK(bench.trial(coach, "one").end == LessonEnd::done);
   coach.set_help(false);
@@ -58,7 +58,7 @@ void check_lesson_continues(CoachBench& bench, Coach& coach) {
 
 }  // namespace
 
-TEST_CASE("a trial is a run with its settings, recording and shifts; settings are saved when they change") {
+TEST_CASE("a trial is saved as a run with settings, recording and shifts; settings are saved when they change") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   {
@@ -76,14 +76,14 @@ TEST_CASE("a trial is a run with its settings, recording and shifts; settings ar
   REQUIRE(runs.size() == 3);
   CHECK(runs[0].recording == "/a/drive.trace");
   CHECK(runs[0].begun_at == format_utc(kSomeDay));
-  CHECK(runs[0].result.begin == doctest::Approx(99.0));  // on the recording's clock
+  CHECK(runs[0].result.begin == doctest::Approx(99.0));  // [s] on the recording's clock
   CHECK(runs[0].result.shifts.size() == 1);
   CHECK(runs[2].session == runs[0].session);
   History history(bench.config.history);
   CHECK(history.settings(runs[0].session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
 }
 
-TEST_CASE("a coach destroyed during a lesson saves it as left; a killed one keeps the last finished shift") {
+TEST_CASE("a coach destroyed during a lesson saves it as left; a killed program keeps the shifts that were finished") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
@@ -115,7 +115,8 @@ TEST_CASE("a coach destroyed during a lesson saves it as left; a killed one keep
   CHECK(runs[1].result.shifts.size() == 1);
 }
 
-TEST_CASE("changing learner in mid-lesson: the first learner's trial counts as left, the lesson waits for the second") {
+TEST_CASE(
+    "if the learner changes during a lesson, the trial counts as left, and the lesson is offered to the new learner") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   Coach coach(bench.config);
@@ -123,7 +124,7 @@ TEST_CASE("changing learner in mid-lesson: the first learner's trial counts as l
   bench.begin(coach);
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
   coach.add(std::span(drive).first(500));
-  coach.set_learner("Ada");  // she is already selected
+  coach.set_learner("Ada");  // this learner is already selected
   CHECK(coach.view().phase == LessonPhase::driving);
   coach.set_learner("Bob");
   CHECK(coach.view().phase == LessonPhase::offered);
@@ -143,14 +144,14 @@ TEST_CASE("changing learner in mid-lesson: the first learner's trial counts as l
   CHECK(ada.size() == 2);
   REQUIRE(bob.size() == 1);
   CHECK(bob[0].session != ada[0].session);
-  CHECK(History(bench.config.history).learners().size() == 2);  // no learner is added for an empty name
+  CHECK(History(bench.config.history).learners().size() == 2);  // the empty name added no learner
 }
 
-TEST_CASE("the instructor's lesson takes precedence over the suggestion until a run of it was graded") {
+TEST_CASE("the lesson set by the instructor takes precedence over the suggestion until a run of it was graded") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   Coach coach(bench.config);
-  Coach instructor(bench.config);  // another program
+  Coach instructor(bench.config);  // a second program
   instructor.set_next("two");
   coach.offer(bench.config.lessons[0]);
   CHECK(coach.view().next == "two");
@@ -159,17 +160,17 @@ TEST_CASE("the instructor's lesson takes precedence over the suggestion until a 
 
   coach.set_help(false);
   bench.trial(coach, "one");
-  CHECK(wanted() == "two");  // another lesson
+  CHECK(wanted() == "two");  // the trial was in lesson one
   coach.offer(bench.config.lessons[1]);
   bench.begin(coach);
   coach.add(bench_drive(Drive::good, 0.5));
   CHECK(coach.view().result.guided);
-  CHECK(wanted() == "two");  // no grade
+  CHECK(wanted() == "two");  // a guided run has no grade
   bench.begin(coach);
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
   coach.add(std::span(drive).first(500));
   coach.leave();
-  CHECK(wanted() == "two");  // not finished
+  CHECK(wanted() == "two");  // the run was left unfinished
   bench.trial(coach, "two", Drive::pushed);
   CHECK(wanted().empty());
   CHECK_FALSE(coach.view().next_by_instructor);
@@ -177,7 +178,7 @@ TEST_CASE("the instructor's lesson takes precedence over the suggestion until a 
   coach.set_next("two");
   coach.offer(bench.config.lessons[1]);
   bench.begin(coach);
-  instructor.set_next("one");  // while "two" is being driven
+  instructor.set_next("one");  // during a run of "two"
   coach.add(bench_drive(Drive::good));
   CHECK(wanted() == "one");
   CHECK(coach.view().next == "one");
@@ -185,21 +186,21 @@ TEST_CASE("the instructor's lesson takes precedence over the suggestion until a 
   CHECK(wanted().empty());
 }
 
-TEST_CASE("a comment belongs to its run and can be edited and deleted, with a history and without") {
+TEST_CASE("a comment belongs to its run and can be edited and deleted, with and without a history") {
   const TempFolder folder;
   for (const std::filesystem::path& file : {folder / "history.db", std::filesystem::path()}) {
     const CoachBench bench(file);
     Coach coach(bench.config);
     bench.trial(coach, "one");
     bench.trial(coach, "one");
-    coach.comment(coach.view().runs[1].id, "Bo", "Calmer.");
+    coach.add_comment(coach.view().runs[1].id, "Bo", "Calmer.");
     REQUIRE(coach.view().comments.size() == 2);
     CHECK(coach.view().comments[0].empty());
     REQUIRE(coach.view().comments[1].size() == 1);
     CHECK(coach.view().comments[1][0].text == "Calmer.");
 
     const std::int64_t run = coach.view().runs[1].id, calmer = coach.view().comments[1][0].id;
-    coach.comment(run, "Di", "Fine.");
+    coach.add_comment(run, "Di", "Fine.");
     coach.edit_comment(run, calmer, "Much calmer.");
     REQUIRE(coach.view().comments[1].size() == 2);
     CHECK(coach.view().comments[1][0].text == "Much calmer.");
@@ -210,8 +211,8 @@ TEST_CASE("a comment belongs to its run and can be edited and deleted, with a hi
     CHECK_THROWS_AS(coach.edit_comment(run, calmer, "Again."), std::invalid_argument);
     CHECK_THROWS_AS(coach.delete_comment(coach.view().runs[0].id, coach.view().comments[1][0].id),
                     std::invalid_argument);
-    CHECK_THROWS_AS(coach.comment(run, "Bo", "\t"), std::invalid_argument);
-    CHECK_THROWS_AS(coach.comment(run, " Bo", "Calmer."), std::invalid_argument);
+    CHECK_THROWS_AS(coach.add_comment(run, "Bo", "\t"), std::invalid_argument);
+    CHECK_THROWS_AS(coach.add_comment(run, " Bo", "Calmer."), std::invalid_argument);
     CHECK_THROWS_AS(coach.edit_comment(run, coach.view().comments[1][0].id, ""), std::invalid_argument);
     CHECK_FALSE(coach.take_problem().has_value());
     if (file.empty()) continue;
@@ -220,7 +221,8 @@ TEST_CASE("a comment belongs to its run and can be edited and deleted, with a hi
   }
 }
 
-TEST_CASE("two coaches on one file: all runs are saved, and each sees the other's with the next lesson") {
+TEST_CASE(
+    "with two coaches on one file all runs are saved, and each coach sees those of the other with its next lesson") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   Coach one(bench.config), other(bench.config);
@@ -244,16 +246,15 @@ TEST_CASE("two coaches on one file: all runs are saved, and each sees the other'
   CHECK(one.view().guidance == other.view().guidance);
 }
 
-TEST_CASE(
-    "damaged, foreign, newer or unreachable history: one message, once; the lesson continues, the file is unchanged") {
+TEST_CASE("damaged, foreign, newer or unreachable history: one message, the lesson continues, the file is unchanged") {
   const TempFolder folder;
-  const std::string whole = good_history(folder / "good.db");
-  REQUIRE(whole.size() > 20000);
-  std::string newer = whole, foreign = whole, torn = whole;
-  newer[63] = kSchemaVersion + 1;  // sqlite.org/fileformat2.html, 1.3
+  const std::string intact = good_history(folder / "good.db");
+  REQUIRE(intact.size() > 20000);
+  std::string newer = intact, foreign = intact, torn = intact;
+  newer[63] = kSchemaVersion + 1;  // the version, see sqlite.org/fileformat2.html, 1.3
   foreign[71] ^= 1;
   std::fill(torn.begin() + 8192, torn.begin() + 12288, 'x');
-  const std::string damaged = whole.substr(0, whole.size() / 2);
+  const std::string damaged = intact.substr(0, intact.size() / 2);
   for (const std::string& bytes : {newer, foreign, torn, damaged, std::string(5000, ' ')}) {
     const auto file = folder / "history.db";
     std::ofstream(file, std::ios::binary) << bytes;
@@ -266,8 +267,8 @@ TEST_CASE(
       CHECK_FALSE(coach.take_problem().has_value());
     }
     CHECK(bytes_of(file) == bytes);
-    for (const char* beside : {"history.db-wal", "history.db-shm"})
-      CHECK_FALSE(std::filesystem::exists(folder / beside));
+    for (const char* log_file : {"history.db-wal", "history.db-shm"})
+      CHECK_FALSE(std::filesystem::exists(folder / log_file));
   }
   std::ofstream(folder / "plain") << "no folder";
   CoachBench bench(folder / "plain/history.db");
@@ -277,11 +278,11 @@ TEST_CASE(
   CHECK_FALSE(coach.take_problem().has_value());
 }
 
-// Runs as a user without write permission; root always has it.
+// Runs in a process without root's rights, because root can always write.
 TEST_CASE("a read-only history is reported once and stays unchanged") {
   const TempFolder folder;
   const auto file = folder / "history.db";
-  const std::string whole = good_history(file);
+  const std::string intact = good_history(file);
   std::filesystem::permissions(file, std::filesystem::perms(0444));
   std::filesystem::permissions(folder / "", std::filesystem::perms(0555));
   const pid_t child = fork();
@@ -301,10 +302,10 @@ TEST_CASE("a read-only history is reported once and stays unchanged") {
   waitpid(child, &status, 0);
   CHECK(WEXITSTATUS(status) == 0);
   std::filesystem::permissions(folder / "", std::filesystem::perms(0755));
-  CHECK(bytes_of(file) == whole);
+  CHECK(bytes_of(file) == intact);
 }
 
-TEST_CASE("a disk that fills up is reported once; the lesson counts, and is saved when there is room again") {
+TEST_CASE("a full disk is reported once; the lesson counts, and is saved when there is room again") {
   const TempFolder folder;
   CoachBench bench(folder / "history.db");
   std::optional<Coach> coach(std::in_place, bench.config);
@@ -316,10 +317,10 @@ TEST_CASE("a disk that fills up is reported once; the lesson counts, and is save
   coach->add(std::span(drive).first(500));
   disk_is_full = true;
   coach->add(std::span(drive).subspan(500));
-  CHECK(coach->take_problem() ==
-        bench.config.history.string() +
-            ": the disk is full: not saved; earlier results are kept; results are kept in memory until "
-            "there is space");
+  CHECK(coach->take_problem() == bench.config.history.string() +
+                                     ": the disk is full, so nothing more can be saved; earlier results are kept; new "
+                                     "results are kept in memory until "
+                                     "there is space");
   CHECK_FALSE(coach->view().is_saving);
   CHECK(coach->view().result.passed);
   CHECK(coach->view().runs.size() == 2);
@@ -328,9 +329,9 @@ TEST_CASE("a disk that fills up is reported once; the lesson counts, and is save
   CHECK_FALSE(coach->take_problem().has_value());
   CHECK(coach->view().lessons[0].trials == 3);
 
-  CHECK(coach->view().runs[0].id < 0);  // nothing of it is in the history
+  CHECK(coach->view().runs[0].id < 0);  // a temporary number: this run is not in the history
 
-  // The disk is full when the shift ends, and has room again when the lesson ends.
+  // Here the disk is full when the shift ends, and has room again when the lesson ends.
   disk_is_full = false;
   Lesson longer = bench.config.lessons[0];
   longer.steps.push_back(longer.steps.back());
@@ -344,7 +345,7 @@ TEST_CASE("a disk that fills up is reported once; the lesson counts, and is save
   coach->add(std::span(drive.begin() + 500, cut));
   REQUIRE(coach->view().result.shifts.size() == 1);
   CHECK(coach->view().phase == LessonPhase::driving);
-  CHECK(is_one_sentence(coach->take_problem()));  // it had recovered in between
+  CHECK(is_one_sentence(coach->take_problem()));  // reported again, because saving had worked in between
   CHECK(coach->view().run == 0);
   disk_is_full = false;
   coach->add(std::span(cut, drive.end()));
@@ -364,9 +365,9 @@ TEST_CASE("a disk that fills up is reported once; the lesson counts, and is save
   }
 }
 
-// Invariant: a loss is reported even after a message that promised a retry, and not reported if the data was saved
-// after all.
-TEST_CASE("a flush fails on a full disk, then there is room: the loss is reported, and withdrawn") {
+// Invariant: a loss is reported even after a message that promised a retry, and is withdrawn if the data was saved
+// later.
+TEST_CASE("a flush fails on a full disk, then there is room again: the loss is reported, then withdrawn") {
   const TempFolder folder;
   CoachBench bench(folder / "history.db");
   Coach coach(bench.config);
@@ -387,11 +388,11 @@ TEST_CASE("a flush fails on a full disk, then there is room: the loss is reporte
   disk_is_full = true;
   bench.trial(coach, "one");
   disk_is_full = false;
-  CHECK(coach.flush().empty());  // data with no problem reported yet is no longer pending either
+  CHECK(coach.flush().empty());  // this also saves data whose problem was not reported yet
   CHECK(runs_in(bench.config.history).size() == 3);
 }
 
-TEST_CASE("a lost recording is referred to by no run: before its first cycle, while it is driven, and after its end") {
+TEST_CASE("no run refers to a lost recording: lost before its first cycle, while it is driven, or after its end") {
   const TempFolder folder;
   CoachBench bench(folder / "history.db");
   {
@@ -418,7 +419,7 @@ TEST_CASE("a lost recording is referred to by no run: before its first cycle, wh
   for (const RunRow& run : runs) CHECK(run.recording.empty());
 }
 
-TEST_CASE("recordings inside the history's folder are found there and stored with relative paths") {
+TEST_CASE("recordings inside the history's folder are stored with relative paths and found there") {
   const TempFolder folder;
   CoachBench bench(folder / "history.db");
   const std::string recording = (folder / "recordings/a.trace").string();
@@ -434,7 +435,7 @@ TEST_CASE("recordings inside the history's folder are found there and stored wit
   CHECK(again.view().runs[0].recording == recording);
 }
 
-TEST_CASE("a history that is removed while lessons are driven is reported, together with the losses") {
+TEST_CASE("a history file that is removed while lessons are driven is reported, together with the losses") {
   const TempFolder folder;
   CoachBench bench(folder / "history.db");
   Coach coach(bench.config);

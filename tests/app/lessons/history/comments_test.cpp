@@ -29,15 +29,15 @@ struct CommentRig {
 
 }  // namespace
 
-TEST_CASE("an edited comment keeps its position, date and author; the last text counts") {
-  CommentRig said;
-  const std::int64_t first = said.history->add_comment(said.run, "Bo", "Calmer.");
-  said.history->add_comment(said.run, "Di", "Fine.");
-  said.now = 1'000'000'000;  // the Unix billennium, 2001-09-09
-  CHECK(said.history->edit_comment(first, "Much calmer."));
-  CHECK(said.history->edit_comment(first, "Very calm."));
-  History other(said.file);
-  const std::vector<CommentRow> comments = other.comments(said.run);
+TEST_CASE("an edited comment keeps its position, date and author, and has its last text") {
+  CommentRig rig;
+  const std::int64_t first = rig.history->add_comment(rig.run, "Bo", "Calmer.");
+  rig.history->add_comment(rig.run, "Di", "Fine.");
+  rig.now = 1'000'000'000;  // in Unix time; 2001-09-09 in UTC
+  CHECK(rig.history->edit_comment(first, "Much calmer."));
+  CHECK(rig.history->edit_comment(first, "Very calm."));
+  History other(rig.file);
+  const std::vector<CommentRow> comments = other.comments(rig.run);
   REQUIRE(comments.size() == 2);
   CHECK(comments[0].id == first);
   CHECK(comments[0].text == "Very calm.");
@@ -46,23 +46,23 @@ TEST_CASE("an edited comment keeps its position, date and author; the last text 
   CHECK(comments[0].edited_at == "2001-09-09T01:46:40Z");
   CHECK(comments[1].text == "Fine.");
   CHECK(comments[1].edited_at.empty());
-  CHECK_THROWS_AS(said.history->edit_comment(first, " "), std::invalid_argument);
-  CHECK(other.comments(said.run)[0].text == "Very calm.");
+  CHECK_THROWS_AS(rig.history->edit_comment(first, " "), std::invalid_argument);
+  CHECK(other.comments(rig.run)[0].text == "Very calm.");
 }
 
-TEST_CASE("a deleted comment is gone, also from the file's bytes, and its number is not reused") {
-  CommentRig said;
+TEST_CASE("a deleted comment also disappears from the file's bytes, and its number is not used again") {
+  CommentRig rig;
   const std::string secret = "Zymurgic quincunx";
-  const std::int64_t kept = said.history->add_comment(said.run, "Bo", "Fine.");
-  const std::int64_t gone = said.history->add_comment(said.run, "Bo", secret);
-  CHECK(said.history->delete_comment(gone));
-  CHECK_FALSE(said.history->delete_comment(gone));
-  CHECK_FALSE(said.history->edit_comment(gone, "Who reads this?"));
-  REQUIRE(said.history->comments(said.run).size() == 1);
-  CHECK(said.history->comments(said.run)[0].id == kept);
-  CHECK(said.history->add_comment(said.run, "Bo", "Again.") > gone);
-  said.history.reset();  // the last connection to close empties the write-ahead log
-  for (const auto& entry : std::filesystem::directory_iterator(said.folder.path())) {
+  const std::int64_t other_id = rig.history->add_comment(rig.run, "Bo", "Fine.");
+  const std::int64_t deleted_id = rig.history->add_comment(rig.run, "Bo", secret);
+  CHECK(rig.history->delete_comment(deleted_id));
+  CHECK_FALSE(rig.history->delete_comment(deleted_id));
+  CHECK_FALSE(rig.history->edit_comment(deleted_id, "Who reads this?"));
+  REQUIRE(rig.history->comments(rig.run).size() == 1);
+  CHECK(rig.history->comments(rig.run)[0].id == other_id);
+  CHECK(rig.history->add_comment(rig.run, "Bo", "Again.") > deleted_id);
+  rig.history.reset();  // closing the last connection empties the write-ahead log
+  for (const auto& entry : std::filesystem::directory_iterator(rig.folder.path())) {
     std::ifstream in(entry.path(), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};
     CHECK(bytes.find(secret) == std::string::npos);

@@ -1,5 +1,5 @@
-// Erasing a learner leaves no byte behind. Where that fails (readers, full disk, killed program), it is reported and
-// can be repeated later.
+// Erasing a learner removes every byte of her data from the file. If that fails (readers, full disk, killed program),
+// it is reported and can be repeated later.
 #include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -55,7 +55,7 @@ bool is_one_sentence(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("while another program reads, erased data stays in the log: this is reported, and completed later") {
+TEST_CASE("while a second program reads, erased data stays in the log: this is reported, and completed later") {
   const Erasing erasing;
   sqlite3* reader = nullptr;
   sqlite3_stmt* statement = nullptr;
@@ -63,7 +63,7 @@ TEST_CASE("while another program reads, erased data stays in the log: this is re
   {
     History history(erasing.file);
     history.set_lock_timeout(std::chrono::milliseconds(20));
-    history.find_or_add_learner("Cy");  // a row that is still in the write-ahead log
+    history.find_or_add_learner("Cy");  // this row stays in the write-ahead log
     REQUIRE(sqlite3_exec(reader, "BEGIN", nullptr, nullptr, nullptr) == SQLITE_OK);
     REQUIRE(sqlite3_prepare_v2(reader, "SELECT name FROM learner", -1, &statement, nullptr) == SQLITE_OK);
     REQUIRE(sqlite3_step(statement) == SQLITE_ROW);
@@ -72,7 +72,7 @@ TEST_CASE("while another program reads, erased data stays in the log: this is re
     CHECK(is_one_sentence(left));
     CHECK(left.find("another program") != std::string::npos);
     CHECK(removed == std::vector<std::string>{"a.trace"});
-    CHECK(erasing.holds_secret());  // otherwise there would be nothing to report
+    CHECK(erasing.holds_secret());  // her data is still in the log
     CHECK_FALSE(history.find_learner("Zebediah").has_value());
     CHECK(history.erasure_is_pending());
     CHECK(is_one_sentence(history.finish_erasure()));
@@ -87,20 +87,21 @@ TEST_CASE("while another program reads, erased data stays in the log: this is re
   sqlite3_close(reader);
 }
 
-TEST_CASE("on a full disk either the learner stays, or only the file's size does; this is reported") {
+TEST_CASE("on a full disk either nothing is erased, or erased data stays in the file; both are reported") {
   const Erasing erasing;
   {
     History history(erasing.file);
     disk_is_full = true;
     CHECK_THROWS_WITH_AS((void)history.erase_learner(erasing.zeb, [](const auto&) {}),
-                         doctest::Contains("the disk is full: the recordings were deleted, nothing else"), HistoryFull);
+                         doctest::Contains("the disk is full, so only the recordings were deleted"), HistoryFull);
     disk_is_full = false;
-    REQUIRE(history.find_learner("Zebediah").has_value());  // so that she can be erased again
-    // 4 MB of another learner's data.
+    REQUIRE(history.find_learner("Zebediah").has_value());  // must remain, to be erased later
+    // Adds 4 MB of data for a different learner.
     const std::int64_t session = history.begin_session(history.find_or_add_learner("Bob"), "1.0");
     for (int i = 0; i < 4; ++i) history.add_settings(session, std::string(1'000'000, 'x'));
   }
-  // Room for the transaction, but not for VACUUM's new copy of the file: the file size limit is 2 MB.
+  // With a file size limit of 2 MB there is room for the transaction, but not for the new copy of the file that VACUUM
+  // makes.
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
@@ -109,8 +110,8 @@ TEST_CASE("on a full disk either the learner stays, or only the file's size does
     setrlimit(RLIMIT_FSIZE, &small);
     bool has_removed = false;
     const std::string left = other.erase_learner(erasing.zeb, [&](const auto& names) { has_removed = !names.empty(); });
-    const bool is_missing_parent = !other.find_learner("Zebediah").has_value();
-    _exit(has_removed && is_missing_parent && is_one_sentence(left) && other.erasure_is_pending() ? 0 : 1);
+    const bool is_erased = !other.find_learner("Zebediah").has_value();
+    _exit(has_removed && is_erased && is_one_sentence(left) && other.erasure_is_pending() ? 0 : 1);
   }
   int status = -1;
   waitpid(child, &status, 0);
@@ -121,7 +122,8 @@ TEST_CASE("on a full disk either the learner stays, or only the file's size does
   CHECK_FALSE(erasing.holds_secret());
 }
 
-TEST_CASE("killed between deleting recordings and rows, the learner is still there to be erased") {
+TEST_CASE(
+    "if the program is killed after deleting recordings and before deleting rows, the learner can be erased later") {
   const Erasing erasing;
   const pid_t child = fork();
   if (child == 0) {

@@ -1,4 +1,4 @@
-// Invalid numbers in the file (NaN, infinity, out of range), from a bug in this program or another writer.
+// Invalid numbers (NaN, infinity, out of range), which a bug or a different program may write into the file.
 #include <sqlite3.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ void write_by_hand(const std::filesystem::path& file, const std::string& text) {
 
 void check_can_be(double value) {
   CHECK(std::isfinite(value));
-  CHECK(std::abs(value) <= 1e9);  // fits into an int
+  CHECK(std::abs(value) <= 1e9);  // small enough to fit into an int
 }
 
 void check_can_be(const LessonResult& result) {
@@ -62,7 +62,7 @@ void check_can_be(const LessonResult& result) {
 
 }  // namespace
 
-TEST_CASE("a non-finite value is lost by itself, without the shift or the run, and causes no wrong sentence") {
+TEST_CASE("a non-finite value is dropped, the shift and the run are kept, and no sentence is wrong because of it") {
   const TempFolder folder;
   History history(folder / "history.db");
   const std::int64_t ada = history.find_or_add_learner("Ada");
@@ -85,7 +85,7 @@ TEST_CASE("a non-finite value is lost by itself, without the shift or the run, a
   check_can_be(runs[0].result);
 }
 
-TEST_CASE("foreign values in the file are read as something possible, or not at all") {
+TEST_CASE("impossible values in the file are read as possible ones, or not at all") {
   for (const char* value :
        {"9e999", "-9e999", "1e300", "-1e300", "'text'", "x'ff'", "-4294967297", "9223372036854775807"}) {
     CAPTURE(value);

@@ -1,4 +1,4 @@
-// Written data is read back unchanged through another connection; a file that we must not use is left untouched.
+// Data is read back unchanged through a second connection, and a file that must not be used is left untouched.
 #include "app/lessons/history/history.h"
 
 #include <sys/stat.h>
@@ -101,7 +101,7 @@ void fill(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("a lesson is read back as written, with its errors, shifts, settings and comments") {
+TEST_CASE("a lesson is read back as written, with errors, shifts, settings and comments") {
   const TempFolder folder;
   const auto file = folder / "deep/down/history.db";
   std::int64_t run = 0, session = 0;
@@ -156,8 +156,9 @@ TEST_CASE("a run that never ended is listed as running, with the shifts so far")
   CHECK(runs[0].result.shifts.size() == 3);
 }
 
-// Invariant: once add_shift() has returned, the shift is in the file, wherever the process is killed.
-TEST_CASE("killed at a random moment 50 times, no reported shift is lost, and the file is intact") {
+// Invariant: once add_shift() has returned, the shift stays in the file, even if the process is killed at any time
+// later.
+TEST_CASE("killed at a random time, a program loses no reported shift, and the file stays intact: 50 times") {
   const TempFolder folder;
   const auto file = folder / "history.db";
   std::mt19937 chance(1);
@@ -184,7 +185,8 @@ TEST_CASE("killed at a random moment 50 times, no reported shift is lost, and th
     for (char c = 0; reported < enough && read(shift_pipe[0], &c, 1) == 1;) ++reported;
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    for (char c = 0; read(shift_pipe[0], &c, 1) == 1;) ++reported;  // reported by the child before it was killed
+    // One byte per shift that the child reported before it was killed.
+    for (char c = 0; read(shift_pipe[0], &c, 1) == 1;) ++reported;
     close(shift_pipe[0]);
 
     History history(file);
@@ -198,7 +200,7 @@ TEST_CASE("killed at a random moment 50 times, no reported shift is lost, and th
   }
 }
 
-TEST_CASE("two programs write one file at once, and both read everything") {
+TEST_CASE("two programs write into one file at the same time, and both read everything") {
   const TempFolder folder;
   const auto file = folder / "history.db";
   constexpr int kRuns = 40;
@@ -230,23 +232,23 @@ TEST_CASE("a damaged, foreign or newer file is rejected in one sentence and not 
   const TempFolder folder;
   const auto good = folder / "good.db", file = folder / "history.db";
   fill(good);
-  const std::string whole = bytes_of(good);
-  REQUIRE(whole.size() > 20000);
+  const std::string intact = bytes_of(good);
+  REQUIRE(intact.size() > 20000);
 
   const auto refused = [&](const std::string& bytes, const std::string& with) {
     write_bytes(file, bytes);
     const bool is = is_refused(file, with);
     return is && bytes_of(file) == bytes;
   };
-  CHECK_FALSE(refused(whole, ""));  // control: the undamaged file is accepted
-  CHECK(refused("learner,grade\nAda,7\n" + std::string(4096, ' '), "left unchanged"));
-  std::string foreign = whole, newer = whole;
-  foreign[71] ^= 1;  // the application id is at offset 68, the version at 60: sqlite.org/fileformat2.html, 1.3
+  CHECK_FALSE(refused(intact, ""));  // control: the undamaged file is accepted
+  CHECK(refused("learner,grade\nAda,7\n" + std::string(4096, ' '), "the file is unchanged"));
+  std::string foreign = intact, newer = intact;
+  foreign[71] ^= 1;  // application ID at offset 68, version at 60: sqlite.org/fileformat2.html, 1.3
   newer[63] = kSchemaVersion + 1;
   CHECK(refused(foreign, "not a history of this program"));
   CHECK(refused(newer, "newer program"));
-  CHECK(refused(whole.substr(0, whole.size() / 2), "damaged"));
-  std::string torn = whole;
+  CHECK(refused(intact.substr(0, intact.size() / 2), "damaged"));
+  std::string torn = intact;
   for (std::size_t i = 8192; i < 12288; ++i) torn[i] = 'x';
   CHECK(refused(torn, "damaged"));
 }
@@ -255,11 +257,11 @@ TEST_CASE("a file with random bytes changed is rejected or readable, and never c
   const TempFolder folder;
   const auto good = folder / "good.db", file = folder / "history.db";
   fill(good);
-  const std::string whole = bytes_of(good);
+  const std::string intact = bytes_of(good);
   std::mt19937 chance(2);
   int refused = 0;
   for (int round = 0; round < 150; ++round) {
-    std::string spoilt = whole;
+    std::string spoilt = intact;
     for (int i = 0; i < 20; ++i) spoilt[chance() % spoilt.size()] = static_cast<char>(chance());
     write_bytes(file, spoilt);
     try {
@@ -268,12 +270,12 @@ TEST_CASE("a file with random bytes changed is rejected or readable, and never c
     } catch (const HistoryError&) {
       ++refused;
     }
-    for (const char* beside : {"history.db-wal", "history.db-shm"}) std::filesystem::remove(folder / beside);
+    for (const char* log_file : {"history.db-wal", "history.db-shm"}) std::filesystem::remove(folder / log_file);
   }
   CHECK(refused > 50);
 }
 
-TEST_CASE("a folder in the file's place, or an impossible path, is rejected in one sentence") {
+TEST_CASE("a folder in place of the file, or an impossible path, is rejected in one sentence") {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "history.db");
   CHECK(is_refused(folder / "history.db", "it is a folder"));
@@ -283,7 +285,7 @@ TEST_CASE("a folder in the file's place, or an impossible path, is rejected in o
   CHECK(is_refused(folder / "pipe", "it is not a regular file"));
 }
 
-// Runs as a user without write permission; root always has it.
+// Runs in a process without root's rights, because root can always write.
 TEST_CASE("a read-only file is rejected in one sentence") {
   const TempFolder folder;
   const auto file = folder / "history.db";
@@ -298,7 +300,7 @@ TEST_CASE("a read-only file is rejected in one sentence") {
       history.find_or_add_learner("Bob");
       _exit(3);
     } catch (const HistoryError& problem) {
-      _exit(std::string(problem.what()).find("no permission to write it") != std::string::npos ? 0 : 4);
+      _exit(std::string(problem.what()).find("you have no permission to write to it") != std::string::npos ? 0 : 4);
     }
   }
   int status = -1;
@@ -307,7 +309,7 @@ TEST_CASE("a read-only file is rejected in one sentence") {
   std::filesystem::permissions(folder / "", std::filesystem::perms(0755));
 }
 
-TEST_CASE("a full disk gives one message; the old data stays, and writing works again when there is room") {
+TEST_CASE("a full disk gives one message; the old data stays, and writing works when there is room again") {
   const TempFolder folder;
   const auto file = folder / "history.db";
   History history(file);
@@ -323,19 +325,19 @@ TEST_CASE("a full disk gives one message; the old data stays, and writing works 
   CHECK(history.runs(ada)[0].result.shifts.size() == 2);
 }
 
-TEST_CASE("an erased learner is in no byte of the file; the others and their recordings stay") {
+TEST_CASE("no byte of an erased learner stays in the file; other learners and their recordings stay") {
   const TempFolder folder;
   const auto file = folder / "history.db";
   const std::string name = "Xanthippe of the Quokkas", why = "Zymurgic quincunx";
   std::int64_t bob = 0;
   {
     History history(file);
-    const std::int64_t gone = history.find_or_add_learner(name);
+    const std::int64_t erased = history.find_or_add_learner(name);
     bob = history.find_or_add_learner("Bob");
     LessonResult result = some_result(30);
     result.why = why;
     for (const char* recording : {"mine.trace", "both.trace"})
-      history.end_run(history.begin_run(history.begin_session(gone, "1.0"), result, recording), result);
+      history.end_run(history.begin_run(history.begin_session(erased, "1.0"), result, recording), result);
     history.end_run(history.begin_run(history.begin_session(bob, "1.0"), some_result(1), "both.trace"), some_result(1));
   }
   const auto found = [&](const std::string& text) {

@@ -1,5 +1,5 @@
-// Opening the history at bad moments: many processes creating it at once, files left by a killed program, files with
-// impossible contents.
+// Opening the history at bad times: while many processes create it at once, with files left by a killed program, and
+// with files of impossible content.
 #include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,7 +28,7 @@ std::string all_bytes(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Runs `work` in another process, which then exits without closing anything. Its exit status is 0 if nothing was
+// Runs `work` in a child process, which then exits without closing anything. The exit status is 0 if nothing was
 // thrown.
 template <class Work>
 pid_t in_another_program(const Work& work) {
@@ -51,7 +51,7 @@ bool exits_cleanly(pid_t program) {
 
 }  // namespace
 
-TEST_CASE("many programs create one file at the same moment, and all of them can use it") {
+TEST_CASE("many programs create one file at the same time, and all of them can use it") {
   constexpr int kPrograms = 8;
   for (int round = 0; round < 20; ++round) {
     const TempFolder folder;
@@ -62,7 +62,7 @@ TEST_CASE("many programs create one file at the same moment, and all of them can
       programs.push_back(in_another_program([&] {
         close(start[1]);
         char c = 0;
-        (void)!read(start[0], &c, 1);  // blocks until the other end is closed
+        (void)!read(start[0], &c, 1);  // until the parent closes the pipe
         History history(folder / "history.db");
         history.find_or_add_learner(std::to_string(i));
       }));
@@ -76,13 +76,13 @@ TEST_CASE("many programs create one file at the same moment, and all of them can
   }
 }
 
-TEST_CASE("a newer file left with its log by a killed program is rejected, and neither changes") {
+TEST_CASE("a file of a newer version, left with its log by a killed program, is rejected and does not change") {
   const TempFolder folder;
   const auto file = folder / "history.db", log = folder / "history.db-wal";
   REQUIRE(exits_cleanly(in_another_program([&] {
     auto* left_open = new History(file);
     left_open->find_or_add_learner("Ada");
-    _exit(0);  // without closing the database
+    _exit(0);  // leaves the database open
   })));
   sqlite3* newer = nullptr;
   REQUIRE(sqlite3_open(file.c_str(), &newer) == SQLITE_OK);
@@ -90,10 +90,11 @@ TEST_CASE("a newer file left with its log by a killed program is rejected, and n
   const std::string set_version = "PRAGMA user_version = " + std::to_string(kSchemaVersion + 1);
   REQUIRE(sqlite3_exec(newer, set_version.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
   sqlite3_close(newer);
-  const std::string whole = all_bytes(file), logged = all_bytes(log);
+  const std::string before = all_bytes(file), logged = all_bytes(log);
   REQUIRE(!logged.empty());
-  CHECK_THROWS_WITH_AS(History{file}, doctest::Contains("it was made by a newer program"), HistoryError);
-  CHECK(all_bytes(file) == whole);
+  CHECK_THROWS_WITH_AS(History{file}, doctest::Contains("it was written by a newer version of gearshift"),
+                       HistoryError);
+  CHECK(all_bytes(file) == before);
   CHECK(all_bytes(log) == logged);
 }
 
@@ -133,12 +134,13 @@ TEST_CASE("a version 1 file is upgraded with all its data") {
             .erase_learner(ada->id,
                            [](const auto& recordings) { CHECK(recordings == std::vector<std::string>{"a.trace"}); })
             .empty());
-  CHECK(history.comments(7).empty());  // deleting a row still deletes its dependent rows
+  CHECK(history.comments(7).empty());  // deleting a row also deletes its dependent rows
   CHECK(history.find_or_add_learner("Ada") == 4);
 }
 
-// Invariant: we write only to the file that we opened, and only while it has the version that it had then.
-TEST_CASE("upgraded by a newer program, or removed, while open: rejected in one sentence, and not written") {
+// Invariant: data is written only to the file that was opened, and only while it has the version that it had then.
+TEST_CASE(
+    "a file upgraded by a newer program, or removed, while it is open: rejected in one sentence, and not written") {
   const TempFolder folder;
   const auto file = folder / "history.db";
   History history(file);
@@ -151,8 +153,8 @@ TEST_CASE("upgraded by a newer program, or removed, while open: rejected in one 
     sqlite3_close(other);
   };
   set_version(kSchemaVersion + 1);
-  CHECK_THROWS_WITH_AS(history.find_or_add_learner("Bob"), doctest::Contains("a newer program has upgraded it"),
-                       HistoryError);
+  CHECK_THROWS_WITH_AS(history.find_or_add_learner("Bob"),
+                       doctest::Contains("a newer version of gearshift has upgraded it"), HistoryError);
   CHECK_THROWS_AS(history.begin_session(ada, "1.0"), HistoryError);
   set_version(kSchemaVersion);
   history.find_or_add_learner("Bob");
@@ -174,7 +176,7 @@ TEST_CASE("dates come from the given clock") {
   std::int64_t now = 0;
   History history(folder / "history.db", [&] { return now; });
   const std::int64_t ada = history.find_or_add_learner("Ada");
-  now = 1'000'000'000;  // the Unix billennium: 2001-09-09 01:46:40 UTC
+  now = 1'000'000'000;  // in Unix time; 2001-09-09 01:46:40 UTC
   history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
   CHECK(history.learners().at(0).made_at == "1970-01-01T00:00:00Z");
   CHECK(history.runs(ada).at(0).begun_at == "2001-09-09T01:46:40Z");
@@ -183,7 +185,7 @@ TEST_CASE("dates come from the given clock") {
     CHECK_FALSE(parse_utc(none).has_value());
 }
 
-TEST_CASE("another program's writes are detected, our own are ignored") {
+TEST_CASE("changes() counts the writes of other programs, and not its own") {
   const TempFolder folder;
   History one(folder / "history.db"), other(folder / "history.db");
   const std::int64_t before = one.changes();
@@ -193,7 +195,7 @@ TEST_CASE("another program's writes are detected, our own are ignored") {
   CHECK(one.changes() != before);
 }
 
-TEST_CASE("data of a learner who was erased meanwhile is rejected, and is stored with nobody else") {
+TEST_CASE("data of a learner who was erased in the meantime is rejected, and is not stored for anyone else") {
   const TempFolder folder;
   History driven(folder / "history.db"), instructor(folder / "history.db");
   const std::int64_t bob = driven.find_or_add_learner("Bob"), ada = driven.find_or_add_learner("Ada");
@@ -212,13 +214,13 @@ TEST_CASE("data of a learner who was erased meanwhile is rejected, and is stored
   CHECK(instructor.runs(bob)[0].result.end == LessonEnd::running);
 }
 
-// Invariant: a history is a file made by this program with a version it knows. Any other file stays unchanged, byte for
-// byte.
-TEST_CASE("any unknown version and any other program's file, empty or not, is rejected and not changed") {
+// Invariant: only a file made by this program, with a version that it knows, is used as a history. Any other file stays
+// unchanged, byte for byte.
+TEST_CASE("a file of an unknown version or of a different program, empty or not, is rejected and not changed") {
   const TempFolder folder;
   const auto good = folder / "good.db", file = folder / "history.db";
   History(good).find_or_add_learner("Ada");
-  const std::string whole = all_bytes(good);
+  const std::string intact = all_bytes(good);
   const auto refused = [&](const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
     try {
@@ -227,38 +229,38 @@ TEST_CASE("any unknown version and any other program's file, empty or not, is re
     } catch (const HistoryError& problem) {
       const std::string message = problem.what();
       CAPTURE(message);
-      CHECK(message.find("left unchanged") != std::string::npos);
+      CHECK(message.find("the file is unchanged") != std::string::npos);
       CHECK(message.find('\n') == std::string::npos);
       return all_bytes(file) == bytes;
     }
   };
-  // at offset 60: sqlite.org/fileformat2.html, 1.3
+  // The version is at offset 60: sqlite.org/fileformat2.html, 1.3.
   const auto with_version = [](std::string bytes, std::int32_t version) {
     for (std::size_t i = 0; i < 4; ++i)
       bytes[60 + i] = static_cast<char>(static_cast<std::uint32_t>(version) >> (24 - 8 * i));
     return bytes;
   };
   for (const std::int32_t version : {-2'000'000'000, -65, -1, 0, kSchemaVersion + 1, 2'000'000'000})
-    CHECK(refused(with_version(whole, version)));
-  CHECK_FALSE(refused(with_version(whole, kSchemaVersion)));
+    CHECK(refused(with_version(intact, version)));
+  CHECK_FALSE(refused(with_version(intact, kSchemaVersion)));
   for (const char* name : {"history.db-wal", "history.db-shm"}) std::filesystem::remove(folder / name);
 
   const auto empty = [&](const std::string& mark) {
-    const auto made = folder / "empty.db";
-    std::filesystem::remove(made);
+    const auto database_file = folder / "empty.db";
+    std::filesystem::remove(database_file);
     sqlite3* database = nullptr;
-    REQUIRE(sqlite3_open(made.c_str(), &database) == SQLITE_OK);
+    REQUIRE(sqlite3_open(database_file.c_str(), &database) == SQLITE_OK);
     REQUIRE(sqlite3_exec(database, mark.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
     sqlite3_close(database);
-    return all_bytes(made);
+    return all_bytes(database_file);
   };
   CHECK(refused(empty("PRAGMA application_id = 1")));
   CHECK(refused(empty("PRAGMA user_version = 2")));
   CHECK(refused(empty("PRAGMA user_version = -2")));
-  CHECK_FALSE(refused(""));  // an empty file
+  CHECK_FALSE(refused(""));  // an empty file is accepted
 }
 
-TEST_CASE("a name with a special meaning in SQLite is a plain file name") {
+TEST_CASE("a file name with a special meaning in SQLite is used as an ordinary name") {
   const TempFolder folder;
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
@@ -270,7 +272,7 @@ TEST_CASE("a name with a special meaning in SQLite is a plain file name") {
   std::filesystem::current_path(before);
 }
 
-TEST_CASE("a file locked by another program is waited for until the timeout, and no longer") {
+TEST_CASE("opening a file that a second program has locked waits until the timeout, and no longer") {
   const TempFolder folder;
   History history(folder / "history.db");
   sqlite3* other = nullptr;

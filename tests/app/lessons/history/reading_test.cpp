@@ -1,4 +1,4 @@
-// Reading a history needs no write access: read-only files and folders, other programs' logs, older versions.
+// Reading a history needs no write access: read-only files and folders, logs of other programs, older versions.
 #include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -34,7 +34,7 @@ History read_only(const fs::path& file) {
   return History(file, system_seconds, kHistoryLockTimeout, HistoryUse::read);
 }
 
-// A folder with a history in it, made read-only. It can still be removed afterwards.
+// A read-only folder that contains a history. The destructor makes it writable, so that it can be removed.
 struct ReadOnlyFolder {
   TempFolder folder;
   fs::path place = folder / "sealed", file = place / "history.db";
@@ -68,7 +68,8 @@ void write_one(const fs::path& file) {
   history.add_comment(run, "Bo", "Calmer.");
 }
 
-// Runs `work` in a child process without write permission (root always has it). Returns an empty text on success.
+// Runs `work` in a child process without root's rights, because root can always write. Returns its message, or the text
+// of a HistoryError.
 std::string without_permission(const std::function<std::string()>& work) {
   int message_pipe[2];
   REQUIRE(pipe(message_pipe) == 0);
@@ -109,14 +110,14 @@ TEST_CASE("a read-only history in a read-only folder is read completely and stay
   const auto before = sealed.bytes();
   REQUIRE(before.size() == 1);
   CHECK(without_permission([&] { return check_readable(read_only(sealed.file)); }) == "");
-  // opened for reading, it is not written even with permission
+  // A history opened for reading is not written, even if that is permitted.
   CHECK(check_readable(read_only(sealed.file)) == "");
   CHECK(sealed.bytes() == before);
 }
 
-// Invariant: opening a read-only history creates no log beside it; such a log would be read-only for other programs,
+// Invariant: opening a read-only history creates no log next to it. Such a log would be read-only for other programs
 // too.
-TEST_CASE("a read-only history in a writable folder: read or rejected, it can be written again later") {
+TEST_CASE("a read-only history in a writable folder can be read, and written again later") {
   const TempFolder folder;
   const fs::path place = folder / "open", file = place / "history.db";
   fs::permissions(folder.path(), fs::perms(0755));
@@ -129,20 +130,21 @@ TEST_CASE("a read-only history in a writable folder: read or rejected, it can be
     return std::string();
   };
   const std::string message = without_permission(write);
-  CHECK(message == file.string() + ": the history cannot be used: no permission to write it");
+  CHECK(message == file.string() + ": the history cannot be used because you have no permission to write to it");
   CHECK(without_permission([&] { return check_readable(read_only(file)); }) == "");
   CHECK(std::distance(fs::directory_iterator(place), {}) == 1);
   fs::permissions(file, fs::perms(0666));
   CHECK(without_permission(write) == "");
 
-  // An older program left this file there; the error message names it.
+  // An older program may have left this file. The error message names it.
   std::ofstream(place / "history.db-shm") << "";
   fs::permissions(place / "history.db-shm", fs::perms(0444));
   CHECK(without_permission(write) ==
-        file.string() + ": the history cannot be used: no permission to write history.db-shm beside it");
+        file.string() +
+            ": the history cannot be used because you have no permission to write to history.db-shm beside it");
 }
 
-TEST_CASE("names with a special meaning in a URI are plain names") {
+TEST_CASE("a file name with a special meaning in a URI is used as an ordinary name") {
   const TempFolder folder;
   fs::permissions(folder.path(), fs::perms(0755));
   for (const char* name : {"a?b#c", "100%41", "mode=memory", "sp ace"}) {
@@ -157,8 +159,8 @@ TEST_CASE("names with a special meaning in a URI are plain names") {
   }
 }
 
-// Data that a killed program had written but not checkpointed is only in the log.
-TEST_CASE("with a log and its index both are read; a log without its index is reported") {
+// Data that a killed program wrote but did not checkpoint is only in the log.
+TEST_CASE("a log with its index is read; a log without its index is reported") {
   const auto killed = [](const fs::path& file) {
     const pid_t child = fork();
     if (child == 0) {
@@ -182,7 +184,7 @@ TEST_CASE("with a log and its index both are read; a log without its index is re
     fs::remove(file.string() + "-shm");
   });
   const std::string message = without_permission([&] { return check_readable(read_only(without.file)); });
-  CHECK(message.find(without.file.string() + ": the history cannot be used: it has a write-ahead log") == 0);
+  CHECK(message.find(without.file.string() + ": the history cannot be used because it has a write-ahead log") == 0);
   CHECK(is_printable(message));
 }
 
@@ -207,24 +209,24 @@ TEST_CASE("an older history is read as if upgraded, but is not changed") {
   CHECK(bytes() == before);
 }
 
-TEST_CASE("a history opened for reading rejects writes and locks nobody out") {
+TEST_CASE("a history opened for reading rejects writes and locks out no other program") {
   const TempFolder folder;
   const auto file = folder / "history.db";
   write_one(file);
   History copy = read_only(file), writer(file);
   CHECK_THROWS_WITH_AS(copy.find_or_add_learner("Bob"), doctest::Contains("it is read-only"), HistoryError);
   CHECK(writer.erase_learner(writer.find_learner("Ada")->id, [](const auto&) {}).empty());
-  CHECK(check_readable(std::move(copy)) == "");  // unchanged
+  CHECK(check_readable(std::move(copy)) == "");  // the reader still sees the old state
   CHECK(read_only(file).learners().empty());
 }
 
-TEST_CASE("it can be read on a full disk") {
+TEST_CASE("a history can be read on a full disk") {
   const TempFolder folder;
   write_one(folder / "history.db");
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit none{0, 0};  // no file can grow
+    const rlimit none{0, 0};  // [bytes] no file can grow
     setrlimit(RLIMIT_FSIZE, &none);
     std::string message;
     try {
@@ -245,7 +247,7 @@ TEST_CASE("an unreadable file is rejected in one sentence, and no file is create
   const auto refused = [](const fs::path& file) {
     const std::string message = without_permission([&] { return check_readable(read_only(file)); });
     CAPTURE(message);
-    return message.find(file.string() + ": the history cannot be used: ") == 0 && is_printable(message);
+    return message.find(file.string() + ": the history cannot be used because ") == 0 && is_printable(message);
   };
   CHECK(refused(folder / "none.db"));
   CHECK(refused(folder.path()));

@@ -35,7 +35,7 @@ std::vector<std::string> places_in(const fs::path& file) {
 
 }  // namespace
 
-TEST_CASE("after a move, and in a copy, a history refers to its own recordings; paths elsewhere stay") {
+TEST_CASE("a moved or copied history refers to the recordings next to it; paths to other folders stay") {
   const TempFolder folder;
   const std::string away = (folder / "away.trace").string();
   drive(folder / "one/history.db", {(folder / "one/recordings/a.trace").string(), away, ""});
@@ -48,7 +48,7 @@ TEST_CASE("after a move, and in a copy, a history refers to its own recordings; 
 }
 
 TEST_CASE(
-    "only true subfolders count: not a similar name beside it, not a path through its parent; links are resolved") {
+    "only true subfolders are relative: not a similar folder name, nor a path through the parent; links are resolved") {
   const TempFolder folder;
   fs::create_directories(folder / "real");
   fs::create_directory_symlink(folder / "real", folder / "link");
@@ -68,7 +68,7 @@ TEST_CASE(
   CHECK(name_of(real, "near.trace") == "near.trace");
 }
 
-TEST_CASE("upgrading version 5 makes recording paths relative, only below its folder") {
+TEST_CASE("upgrading from version 5 makes the paths of recordings below the history's folder relative") {
   const TempFolder folder;
   const fs::path file = folder / "history.db";
   sqlite3* old = nullptr;
@@ -99,7 +99,7 @@ TEST_CASE("upgrading version 5 makes recording paths relative, only below its fo
   }
 }
 
-TEST_CASE("a forgotten recording is referred to by no row; those that no other row refers to are listed") {
+TEST_CASE("a forgotten recording is removed from all rows; recordings to which no other row refers are listed") {
   const TempFolder folder;
   History history(folder / "history.db");
   const std::int64_t ada = history.find_or_add_learner("Ada"), bob = history.find_or_add_learner("Bob");

@@ -1,4 +1,4 @@
-// Validation of text that a user typed: anything ambiguous or invisible is rejected with a one-sentence reason.
+// The check of text that a user typed. Ambiguous or invisible text is rejected with a reason in one sentence.
 #include "app/lessons/history/user_text.h"
 
 #include <stdexcept>
@@ -25,7 +25,7 @@ std::string comment_problem(const std::string& text) {
   return user_text_problem(UserText::comment, "a comment", text);
 }
 
-// UTF-8 encoder written by hand from table 3-6 of the Unicode standard.
+// UTF-8 encoder, written from table 3-6 of the Unicode standard.
 std::string utf8(unsigned point) {
   const auto tail = [&](unsigned shift) { return static_cast<char>(0x80 | ((point >> shift) & 0x3f)); };
   if (point < 0x80) return {static_cast<char>(point)};
@@ -49,7 +49,7 @@ TEST_CASE("common names are accepted") {
   }
 }
 
-TEST_CASE("an empty text, or one with a blank at either end, is rejected, whatever kind of blank") {
+TEST_CASE("an empty text, or one with any kind of blank at either end, is rejected") {
   for (const unsigned blank : {0x20u, 0xa0u, 0x1680u, 0x2003u, 0x202fu, 0x205fu, 0x3000u}) {
     CAPTURE(blank);
     const std::string b = utf8(blank);
@@ -69,7 +69,7 @@ TEST_CASE("a line break is allowed inside a comment, and never in a name") {
   CHECK(is_sentence(name_problem("A\nda")));
 }
 
-TEST_CASE("no control, invisible or direction-changing characters") {
+TEST_CASE("control, invisible and direction-changing characters are rejected") {
   const auto refused = [](unsigned first, unsigned last) {
     for (unsigned point = first; point <= last; ++point) {
       CAPTURE(point);
@@ -85,10 +85,11 @@ TEST_CASE("no control, invisible or direction-changing characters") {
   refused(0xfeff, 0xfeff);
   for (const unsigned other : {0xadu, 0x61cu, 0x3164u, 0xe0041u}) refused(other, other);
   CHECK(name_problem("A" + utf8(0x200b) + "da").find("U+200B") != std::string::npos);
-  for (const unsigned seen : {0x2010u, 0x2026u, 0x2030u, 0x20acu, 0xfefcu}) CHECK(name_problem(utf8(seen)).empty());
+  for (const unsigned printable : {0x2010u, 0x2026u, 0x2030u, 0x20acu, 0xfefcu})
+    CHECK(name_problem(utf8(printable)).empty());
 }
 
-// RFC 3629: no overlong form, no surrogate, nothing above U+10FFFF, nothing truncated.
+// RFC 3629 forbids overlong forms, surrogates, values above U+10FFFF and truncated sequences.
 TEST_CASE("invalid UTF-8 is rejected") {
   for (const char* bytes :
        {"\x80", "\xbf", "\xc0\xaf", "\xc1\xbf", "\xc3", "\xc3(", "\xe0\x80\xaf", "\xe0\x9f\xbf", "\xe2\x82",
@@ -106,12 +107,12 @@ TEST_CASE("invalid UTF-8 is rejected") {
 
 TEST_CASE("a name has at most 100 bytes, a comment 4000") {
   CHECK(name_problem(std::string(100, 'x')).empty());
-  CHECK(name_problem(std::string(101, 'x')) == "a name must have at most 100 bytes of UTF-8, this has 101");
+  CHECK(name_problem(std::string(101, 'x')) == "a name must have at most 100 bytes in UTF-8, but has 101");
   CHECK(comment_problem(std::string(4000, 'x')).empty());
   CHECK(is_sentence(comment_problem(std::string(4001, 'x'))));
 }
 
-TEST_CASE("the history itself rejects such names and comments, whoever calls it") {
+TEST_CASE("the history also rejects such names and comments, for any caller") {
   const TempFolder folder;
   History history(folder / "history.db");
   const std::int64_t run =

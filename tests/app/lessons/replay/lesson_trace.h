@@ -1,4 +1,5 @@
-// A lesson driven by a simulated driver, recorded, and observed while it was driven: a replay must show the same.
+// A lesson driven by a simulated driver. It was recorded and also observed live, so that tests can compare a replay
+// with it.
 #pragma once
 
 #include <filesystem>
@@ -24,11 +25,11 @@ struct LessonTrace {
 
   TempFolder folder;
   std::filesystem::path file;
-  std::vector<vehicle::DriveSample> live;  // every cycle
+  std::vector<vehicle::DriveSample> live;  // every cycle, as observed live
   lessons::LessonResult result;
 };
 
-// One shared trace for all tests that only read it.
+// One trace that is shared by all tests that only read it.
 inline const LessonTrace& upshifts() {
   static const LessonTrace trace("up_through_the_gears");
   return trace;

@@ -1,4 +1,4 @@
-// Playing a recorded drive: time, speed, ends, and that no sample is lost or shown twice.
+// Playing a recorded drive: time, pace and ends, and that every sample is passed exactly once.
 #include "app/lessons/replay/player.h"
 
 #include <algorithm>
@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Frames of random length up to the end: each sample once, in order, starting with the one shown first.
+// Plays in frames of random length to the end, and checks that each sample is passed once, in order, from the shown one
+// on.
 void check_passes_all(Player& player, std::mt19937& random) {
   std::uniform_real_distribution<double> frame(1e-4, 0.2);
   const DriveSample* next = &player.now();
@@ -36,7 +37,7 @@ void check_passes_all(Player& player, std::mt19937& random) {
 
 }  // namespace
 
-TEST_CASE("the replay's time advances with real time, times the speed; when paused it stops") {
+TEST_CASE("the replay's time advances by the elapsed time multiplied by the pace, and stops while paused") {
   Player player(upshifts().file);
   const double begin = player.drive().begin();
   CHECK(player.time() == begin);
@@ -59,7 +60,7 @@ TEST_CASE("the replay's time advances with real time, times the speed; when paus
   CHECK(player.time() == doctest::Approx(begin + 1.25).epsilon(1e-12));
 }
 
-TEST_CASE("it begins where requested, and never outside the drive") {
+TEST_CASE("a replay begins where requested, and never outside the drive") {
   Player player(upshifts().file);
   const double begin = player.drive().begin(), length = player.drive().end() - begin;
   for (const double time : {0.0, length, 0.5 * length}) {
@@ -69,11 +70,11 @@ TEST_CASE("it begins where requested, and never outside the drive") {
     CHECK(player.is_playing());
   }
   for (const double beyond : {-0.001, length + 0.001, kNan})
-    CHECK_THROWS_WITH_AS(player.start_at(beyond), doctest::Contains("the drive lasts"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(player.start_at(beyond), doctest::Contains("is not within the drive"), std::invalid_argument);
   CHECK(player.time() == begin + 0.5 * length);
 }
 
-TEST_CASE("speed and position are clamped to their ranges") {
+TEST_CASE("pace and position are clamped to their ranges") {
   Player player(upshifts().file);
   player.set_pace(1e9);
   CHECK(player.pace() == kMaxPace);
@@ -89,7 +90,7 @@ TEST_CASE("speed and position are clamped to their ranges") {
   CHECK(player.time() == player.from());
 }
 
-TEST_CASE("at the end it stops; playing again starts from the beginning") {
+TEST_CASE("the replay stops at its end; playing again starts from the beginning") {
   Player player(upshifts().file);
   CHECK(player.advance(1e9));
   CHECK(player.time() == player.drive().end());
@@ -103,7 +104,7 @@ TEST_CASE("at the end it stops; playing again starts from the beginning") {
   CHECK(player.is_playing());
 }
 
-TEST_CASE("a single shift is shown with half a second on either side, and stops there") {
+TEST_CASE("a single shift is shown with half a second before and after it, and the replay stops there") {
   Player player(upshifts().file);
   const auto& shifts = player.drive().shifts();
   for (std::size_t i = 0; i < shifts.size(); ++i) {
@@ -122,18 +123,18 @@ TEST_CASE("a single shift is shown with half a second on either side, and stops 
     player.play(true);
     CHECK(player.time() == player.from());
   }
-  const double stands = player.time();
+  const double before = player.time();
   player.select_shift(std::nullopt);
   CHECK_FALSE(player.shift());
-  CHECK(player.time() == stands);
+  CHECK(player.time() == before);
   CHECK(player.to() == player.drive().end());
   CHECK_THROWS_WITH_AS(player.select_shift(99),
-                       ("the drive has no shift 100: it has 1 to " + std::to_string(shifts.size())).c_str(),
+                       ("the drive has no shift 100; choose one from 1 to " + std::to_string(shifts.size())).c_str(),
                        std::invalid_argument);
   CHECK_FALSE(player.shift());
 }
 
-TEST_CASE("the shift nearest to a time is the one that begins nearest to it") {
+TEST_CASE("the shift nearest to a time is the one whose begin is nearest") {
   Player player(upshifts().file);
   const auto& shifts = player.drive().shifts();
   for (double time = -3.0; time < player.drive().end() + 3.0; time += 0.37) {
@@ -145,7 +146,7 @@ TEST_CASE("the shift nearest to a time is the one that begins nearest to it") {
   CHECK(*player.shift() == 2);
 }
 
-TEST_CASE("played forwards, every sample is passed exactly once, at any frame rate and speed, from anywhere") {
+TEST_CASE("played forwards, every sample is passed exactly once, at any frame rate and pace, from any position") {
   Player player(upshifts().file);
   std::mt19937 random(5);
   for (const double pace : {1.0, 4.0, 0.35}) {
@@ -164,7 +165,7 @@ TEST_CASE("played forwards, every sample is passed exactly once, at any frame ra
   }
 }
 
-TEST_CASE("a jump is reported until the next step; samples that it skipped are not passed") {
+TEST_CASE("a jump is reported until the next step, and the samples that it skipped are not passed") {
   Player player(upshifts().file);
   CHECK(player.has_jumped());
   player.advance(0.1);

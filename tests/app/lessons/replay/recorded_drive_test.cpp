@@ -1,5 +1,5 @@
-// A replay equals the drive: lever and pedals from the file, the car as it was live, the shifts as the lesson recorded
-// them.
+// A replay equals the drive: lever and pedals come from the file, the car equals the live car, and the shifts equal
+// those that the lesson recorded.
 #include "app/lessons/replay/recorded_drive.h"
 
 #include <algorithm>
@@ -57,9 +57,9 @@ void check_same(const ShiftRecord& a, const ShiftRecord& b) {
   CHECK(a.steps == b.steps);
 }
 
-double length_of(const std::vector<dvec2>& way) {
+double length_of(const std::vector<dvec2>& path) {
   double length = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) length += glm::distance(way[i - 1], way[i]);
+  for (std::size_t i = 1; i < path.size(); ++i) length += glm::distance(path[i - 1], path[i]);
   return length;
 }
 
@@ -69,7 +69,8 @@ const DriveSample& live_at(const LessonTrace& trace, double time) {
   return after == trace.live.begin() ? trace.live.front() : *(after - 1);
 }
 
-// A drive of a resting lever without a car: `count` cycles with constant pedals and gear.
+// Writes a drive of `count` cycles without a car. The lever rests, the gear changes in the middle, and the clutch
+// alternates from cycle to cycle.
 void write_carless(const std::filesystem::path& file, std::size_t count, const std::string& load = "none",
                    std::uint64_t first_cycle = 0) {
   TraceHeader header;
@@ -103,7 +104,7 @@ std::string refusal(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("the car equals the live one exactly, in every sample") {
+TEST_CASE("the replayed car equals the live car exactly, in every sample") {
   const LessonTrace& trace = upshifts();
   const RecordedDrive drive(trace.file);
   CHECK(drive.has_car());
@@ -114,7 +115,7 @@ TEST_CASE("the car equals the live one exactly, in every sample") {
   CHECK(drive.gate().slot_count == shipped_gate("five_speed_r_right_down").slot_count);
 }
 
-TEST_CASE("its shifts equal the lesson's in every number, including cycles between the samples") {
+TEST_CASE("the shifts equal the lesson's in every number, so cycles between the kept samples count too") {
   for (const double guidance : {0.0, 0.8}) {
     CAPTURE(guidance);
     const LessonTrace trace("up_through_the_gears", 0.9, guidance);
@@ -126,7 +127,7 @@ TEST_CASE("its shifts equal the lesson's in every number, including cycles betwe
   }
 }
 
-TEST_CASE("a shift's path leads from the old gear to the new one, and is at least as long as the ideal") {
+TEST_CASE("a shift's path leads from the old gear to the new one, and is at least as long as the ideal path") {
   const LessonTrace& trace = upshifts();
   const RecordedDrive drive(trace.file);
   REQUIRE(drive.shifts().size() >= 4);
@@ -143,12 +144,13 @@ TEST_CASE("a shift's path leads from the old gear to the new one, and is at leas
       CHECK(glm::distance(shift.driven[i - 1], shift.driven[i]) >= LeverPath::kChord);
     CHECK(shift.ideal == shortest_path(drive.gate(), shift.driven.front(), shift.driven.back()));
     CHECK(length_of(shift.driven) > 0.99 * length_of(shift.ideal));
-    // The record measures the hand's path, starting a little earlier: both describe the same shift.
+    // The record measures the path of the hand, from a little earlier on, so the lengths agree only roughly.
     CHECK(length_of(shift.driven) == doctest::Approx(record.path_length).epsilon(0.25));
   }
 }
 
-TEST_CASE("samples: the first cycle and the last, 4 ms apart; at() and between() equal a linear search") {
+TEST_CASE(
+    "the kept samples are the first cycle, the last, and others 4 ms apart; at() and between() equal a linear search") {
   const LessonTrace& trace = upshifts();
   const RecordedDrive drive(trace.file);
   const auto samples = drive.samples();
@@ -187,7 +189,7 @@ TEST_CASE("a drive of any length and rate keeps a limited number of samples, at 
   CHECK(RecordedDrive::stride(1000.0, 0) == 4);
 }
 
-TEST_CASE("without a car: pedals, gear and speed come from the recording, and there are no shifts") {
+TEST_CASE("without a car, pedals, gear and speed come from the recording, and there are no shifts") {
   const TempFolder folder;
   write_carless(folder / "a.trace", 1000);
   const RecordedDrive drive(folder / "a.trace");
@@ -202,31 +204,31 @@ TEST_CASE("without a car: pedals, gear and speed come from the recording, and th
   CHECK(drive.at(5.8).car.engine_speed == VehicleState{}.engine_speed);
 }
 
-TEST_CASE("where the second run differs, this is reported, the recording is shown, and shifts end before it") {
+TEST_CASE("where the second computation differs, this is reported, and the recording is shown from there on") {
   const LessonTrace& lesson = upshifts();
   const TempFolder folder;
   Trace trace = read_trace(lesson.file);
   const std::size_t differs_at = trace.samples.size() / 2;
   trace.samples[differs_at].out.commanded.x += 1e-9;
   write_trace(folder / "a.trace", trace.header, trace.samples);
-  const RecordedDrive drive(folder / "a.trace"), whole(lesson.file);
+  const RecordedDrive drive(folder / "a.trace"), complete(lesson.file);
   const double when = 1e-9 * static_cast<double>(trace.samples[differs_at].out.time_ns);
   CHECK(drive.has_diverged());
   CHECK(drive.has_car());
-  REQUIRE(drive.samples().size() == whole.samples().size());
+  REQUIRE(drive.samples().size() == complete.samples().size());
   for (std::size_t i = 0; i < drive.samples().size(); ++i) {
     const DriveSample& sample = drive.samples()[i];
-    CHECK(sample.lever.proxy == whole.samples()[i].lever.proxy);
-    CHECK(sample.car.clutch == whole.samples()[i].controls.clutch);
-    if (sample.time() < when) check_same(sample, whole.samples()[i]);
+    CHECK(sample.lever.proxy == complete.samples()[i].lever.proxy);
+    CHECK(sample.car.clutch == complete.samples()[i].controls.clutch);
+    if (sample.time() < when) check_same(sample, complete.samples()[i]);
     if (sample.time() >= when) CHECK(sample.car.road_speed == sample.lever.road_speed);
   }
-  CHECK(drive.shifts().size() < whole.shifts().size());
+  CHECK(drive.shifts().size() < complete.shifts().size());
   CHECK(drive.shifts().size() >= 1);
   for (const RecordedShift& shift : drive.shifts()) CHECK(shift.record.end < when);
 }
 
-TEST_CASE("in a file whose time runs backwards the samples' times still increase") {
+TEST_CASE("if the time in a file runs backwards, the samples' times still increase") {
   const TempFolder folder;
   write_carless(folder / "a.trace", 2000);
   Trace trace = read_trace(folder / "a.trace");
@@ -245,13 +247,14 @@ TEST_CASE("the intact part of a damaged drive can be replayed") {
   const TempFolder folder;
   std::filesystem::copy_file(lesson.file, folder / "torn.trace");
   std::filesystem::resize_file(folder / "torn.trace", std::filesystem::file_size(lesson.file) * 6 / 10);
-  const RecordedDrive torn(folder / "torn.trace"), whole(lesson.file);
+  const RecordedDrive torn(folder / "torn.trace"), complete(lesson.file);
   CHECK_FALSE(torn.has_diverged());
-  CHECK(torn.end() > whole.begin() + 0.3 * (whole.end() - whole.begin()));
-  CHECK(torn.end() < whole.begin() + 0.9 * (whole.end() - whole.begin()));
-  for (std::size_t i = 0; i + 1 < torn.samples().size(); ++i) check_same(torn.samples()[i], whole.samples()[i]);
+  CHECK(torn.end() > complete.begin() + 0.3 * (complete.end() - complete.begin()));
+  CHECK(torn.end() < complete.begin() + 0.9 * (complete.end() - complete.begin()));
+  for (std::size_t i = 0; i + 1 < torn.samples().size(); ++i) check_same(torn.samples()[i], complete.samples()[i]);
   REQUIRE(torn.shifts().size() >= 1);
-  for (std::size_t i = 0; i < torn.shifts().size(); ++i) check_same(torn.shifts()[i].record, whole.shifts()[i].record);
+  for (std::size_t i = 0; i < torn.shifts().size(); ++i)
+    check_same(torn.shifts()[i].record, complete.shifts()[i].record);
 }
 
 TEST_CASE("an unusable file is rejected in one sentence that names it") {
@@ -269,13 +272,13 @@ TEST_CASE("an unusable file is rejected in one sentence that names it") {
   CHECK(refusal(folder / "car.trace").find("bad.toml") != std::string::npos);
 }
 
-// Values computed by the loop and the user's controls are always finite; a device reading may be NaN.
-TEST_CASE("a non-finite output or pedal is damage, reported with its cycle; in a reading it is accepted") {
+// Values from the loop and the user's controls are always finite. A device reading may be NaN.
+TEST_CASE("a non-finite output or pedal is reported as damage with its cycle; a non-finite reading is accepted") {
   const LessonTrace& lesson = upshifts();
   const TempFolder folder;
-  const Trace whole = read_trace(lesson.file);
+  const Trace complete = read_trace(lesson.file);
   const auto refusal_of = [&](const std::function<void(TraceSample&, double)>& spoil, double value) {
-    Trace trace = whole;
+    Trace trace = complete;
     trace.samples.resize(600);
     spoil(trace.samples[500], value);
     write_trace(folder / "a.trace", trace.header, trace.samples);
@@ -292,43 +295,43 @@ TEST_CASE("a non-finite output or pedal is damage, reported with its cycle; in a
   for (const auto& spoil : outputs) {
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e300}) {
       const std::string words = refusal_of(spoil, value);
-      CHECK(words.find("is damaged: cycle 500 ") != std::string::npos);
+      CHECK(words.find("is damaged; cycle 500 ") != std::string::npos);
       CHECK(words.find('\n') == std::string::npos);
       CHECK(refusal_of([](TraceSample& s, double v) { s.reading.position.x = v; }, value).empty());
     }
   }
 }
 
-TEST_CASE("if a drive claims too many cycles, the rest is not loaded") {
+TEST_CASE("of a drive that has too many cycles, only the first are loaded") {
   const TempFolder folder;
   write_carless(folder / "a.trace", 1000);
   DriveSample sample;
-  for (const std::uint64_t most : {1u, 700u, 1000u, 2000u}) {
-    DriveReader reader(folder / "a.trace", most);
-    CHECK(reader.cycles() == std::min<std::uint64_t>(most, 1000));
-    std::uint64_t seen = 0;
-    while (reader.next(sample)) ++seen;
-    CHECK(seen == reader.cycles());
+  for (const std::uint64_t limit : {1u, 700u, 1000u, 2000u}) {
+    DriveReader reader(folder / "a.trace", limit);
+    CHECK(reader.cycles() == std::min<std::uint64_t>(limit, 1000));
+    std::uint64_t count = 0;
+    while (reader.next(sample)) ++count;
+    CHECK(count == reader.cycles());
   }
 }
 
-TEST_CASE("the path of a lever moved for an hour has a limited size, from its start to its end") {
+TEST_CASE("the path of a lever that moves all the time has a limited size, and keeps its start and its end") {
   const Gate gate = shipped_gate("paper");
-  LeverPath way;
+  LeverPath path;
   double angle = 0.0;
   dvec2 place;
   for (int i = 0; i < 1'000'000; ++i) {
     angle += 0.7;
     place = {0.02 * std::cos(angle), 0.005 * std::sin(angle)};
-    way.add(1e-3 * i, place);
+    path.add(1e-3 * i, place);
   }
   ShiftRecord record;
   record.end = 1000.0;
-  const ShiftPaths paths = way.paths(record, gate);
+  const ShiftPaths paths = path.paths(record, gate);
   CHECK(paths.driven.size() < LeverPath::kMaxPoints);
   CHECK(paths.driven.size() > 10);
   CHECK(paths.driven.front() == dvec2{0.02 * std::cos(0.7), 0.005 * std::sin(0.7)});
-  way.clear();
-  CHECK(way.paths(record, gate).driven.empty());
-  CHECK(way.paths(record, gate).ideal.empty());
+  path.clear();
+  CHECK(path.paths(record, gate).driven.empty());
+  CHECK(path.paths(record, gate).ideal.empty());
 }

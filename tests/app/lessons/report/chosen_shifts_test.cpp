@@ -1,4 +1,4 @@
-// Which shifts the report shows in detail.
+// The shifts that the report shows in detail.
 #include "app/lessons/report/chosen_shifts.h"
 
 #include <functional>
@@ -13,7 +13,7 @@ using namespace gearshift::haptics;
 using namespace gearshift::lessons;
 using namespace gearshift::test;
 
-TEST_CASE("at most three of each, from graded runs only, the worst by points, the best by time") {
+TEST_CASE("at most three worst (by points) and three best (by time) shifts, from graded runs only") {
   LearnerHistory history;
   for (int i = 0; i < 6; ++i) history.runs.push_back(run_with(i + 1, 2, 5.0));
   const auto spoil = [&](std::size_t run, double points) {
@@ -28,7 +28,7 @@ TEST_CASE("at most three of each, from graded runs only, the worst by points, th
   spoil(4, 9.0);
   history.runs[4].row.result.guided = true;
   history.runs[5].row.result.shifts[1].end -= 0.1;
-  history.runs[0].row.result.shifts[1].from = kNeutralGear;  // the quickest, but out of neutral
+  history.runs[0].row.result.shifts[1].from = kNeutralGear;  // the quickest shift, but out of neutral
   history.runs[0].row.result.shifts[1].end -= 0.3;
   history.runs[5].row.result.shifts[0].missed = true;
   const ChosenShifts chosen = choose_shifts(history);
@@ -36,7 +36,7 @@ TEST_CASE("at most three of each, from graded runs only, the worst by points, th
   CHECK(chosen.worst[0].run == 2);
   CHECK(chosen.worst[0].points == 4.0);
   CHECK(chosen.worst[0].errors.size() == 1);
-  CHECK(chosen.worst[1].run == 4);  // the later of two equal ones
+  CHECK(chosen.worst[1].run == 4);  // of two shifts with equal points, the later comes first
   CHECK(chosen.worst[2].run == 3);
   REQUIRE(chosen.best.size() == 3);
   CHECK(chosen.best[0].run == 6);
@@ -45,7 +45,7 @@ TEST_CASE("at most three of each, from graded runs only, the worst by points, th
   CHECK(choose_shifts({}).worst.empty());
 }
 
-TEST_CASE("the best shifts are the quickest without an error, whatever the run cost") {
+TEST_CASE("the best shifts are the quickest without an error, even in a run that lost points") {
   using Spoil = std::function<void(LessonResult&)>;
   const auto error = [](ErrorKind kind, Severity severity) {
     return [=](LessonResult& result) { result.errors = {{kind, severity, 5.2, 1.0, 0}}; };
@@ -66,7 +66,7 @@ TEST_CASE("the best shifts are the quickest without an error, whatever the run c
     history.runs = {run_with(1, 1, 10.0), run_with(2, 1, 10.0)};
     LessonResult& quick = history.runs[1].row.result;
     quick.shifts[0].end -= 0.2;
-    quick.shifts[0].block_time = 0.3;  // a synchroniser's normal work does not count as a block
+    quick.shifts[0].block_time = 0.3;  // synchronising normally is no block
     REQUIRE(choose_shifts(history).best.size() == 2);
     CHECK(choose_shifts(history).best[0].run == 2);
     each.second(quick);

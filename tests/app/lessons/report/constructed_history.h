@@ -13,7 +13,7 @@ inline std::string two_digits(std::int64_t number) {
   return (number < 10 ? "0" : "") + std::to_string(number);
 }
 
-// A graded run of a lesson "drill" for the task "upshift"; one run a day.
+// A graded run of the lesson "drill" for the task "upshift". Each run is on its own day, given by `id`.
 inline lessons::ReportedRun run_with(std::int64_t id, int shifts, double grade) {
   lessons::ReportedRun run;
   run.row.id = id;

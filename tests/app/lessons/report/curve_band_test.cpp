@@ -1,4 +1,4 @@
-// The confidence band contains the true curve as often as it claims.
+// The confidence band contains the true curve in the stated fraction of fits.
 #include "app/lessons/report/curve_band.h"
 
 #include <array>
@@ -12,7 +12,7 @@ using namespace gearshift::lessons;
 
 namespace {
 
-// grade(n) = level + gain exp(-n / trials)
+// The true curve: grade(n) = level + gain exp(-n / trials).
 constexpr double kLevel = 8.0, kGain = -5.0, kTrials = 4.0;
 constexpr std::size_t kCount = 20;
 
@@ -29,16 +29,16 @@ std::optional<LearningCurve> fit_to(std::mt19937& chance, double noise) {
 
 }  // namespace
 
-TEST_CASE("far out the curve is as uncertain as its level") {
+TEST_CASE("after many trials the curve is as uncertain as its level") {
   std::mt19937 chance(1);
   const auto curve = fit_to(chance, 0.3);
   REQUIRE(curve.has_value());
   CHECK(curve_deviation(*curve, kCount, 1e4) == doctest::Approx(curve->level.deviation).epsilon(1e-6));
 }
 
-// Of many fits to the same true curve, 95 % lie within two deviations of it at every trial (Student's t with 17 degrees
-// of freedom: 93.8 %).
-TEST_CASE("two deviations hold the truth in about 95 of 100 fits") {
+// Of many fits to the same true curve, 95 % lie within two deviations of it at every trial (93.8 % by Student's t with
+// 17 degrees of freedom).
+TEST_CASE("two deviations contain the true curve in about 95 of 100 fits") {
   std::mt19937 chance(2);
   const std::array<double, 4> places{0.0, 3.0, 8.0, 19.0};
   std::array<int, 4> within{}, within_half{};
@@ -59,14 +59,14 @@ TEST_CASE("two deviations hold the truth in about 95 of 100 fits") {
     CAPTURE(places[i]);
     CHECK(within[i] > 0.91 * fits);
     CHECK(within[i] < 0.97 * fits);
-    CHECK(within_half[i] < 0.72 * fits);  // control: a band half as wide contains it less often
+    CHECK(within_half[i] < 0.72 * fits);  // control: half the band contains it less often
     CHECK(within_half[i] > 0.60 * fits);
   }
 }
 
 TEST_CASE(
-    "a level at its bound is certain: the first trial is as uncertain as the gain, far out there is no uncertainty") {
-  std::vector<double> grades;  // towards 11, with a little scatter
+    "a level at its bound is certain, so the first trial is as uncertain as the gain, and later trials are certain") {
+  std::vector<double> grades;  // tend towards 11, with a little scatter
   for (int n = 0; n < 12; ++n) grades.push_back(11.0 - 8.0 * std::exp(-n / 8.0) + (n % 2 == 0 ? 0.2 : -0.2));
   const auto curve = fit_learning_curve(grades, {0.0, 10.0});
   REQUIRE(curve.has_value());

@@ -1,5 +1,5 @@
-// Deleting a learner removes rows, recordings and the name's bytes; other learners' data and files that are no
-// recordings stay.
+// Deleting a learner removes rows, recordings and every byte of the name. Other learners' data stays, and so do files
+// that are not recordings.
 #include "app/lessons/report/delete_learner.h"
 
 #include <sqlite3.h>
@@ -59,16 +59,16 @@ TEST_CASE("rows, comments and recordings are deleted and listed; other learners 
     History history(folder / "history.db");
     drive(history, "Zebediah", {own, shared, letter, away, "near.trace", "link.trace", ""});
     drive(history, "Bob", {shared});
-    const DeletionReport gone = delete_learner(history, *history.find_learner("Zebediah"));
-    CHECK(gone.sessions == 1);
-    CHECK(gone.runs == 7);
-    CHECK(gone.shifts == 14);
-    CHECK(gone.errors == 28);
-    CHECK(gone.comments == 7);
-    CHECK(gone.remaining_data.empty());
-    CHECK(gone.recordings.size() == 2);  // the learner's own, and in the history's folder
-    CHECK(gone.missing == std::vector<std::string>{away});
-    REQUIRE(gone.not_deleted.size() == 2);
+    const DeletionReport report = delete_learner(history, *history.find_learner("Zebediah"));
+    CHECK(report.sessions == 1);
+    CHECK(report.runs == 7);
+    CHECK(report.shifts == 14);
+    CHECK(report.errors == 28);
+    CHECK(report.comments == 7);
+    CHECK(report.remaining_data.empty());
+    CHECK(report.recordings.size() == 2);  // own.trace and near.trace
+    CHECK(report.missing == std::vector<std::string>{away});
+    REQUIRE(report.not_deleted.size() == 2);
     CHECK_FALSE(history.find_learner("Zebediah").has_value());
     CHECK(read_learner(history, *history.find_learner("Bob")).runs.size() == 1);
   }
@@ -80,7 +80,8 @@ TEST_CASE("rows, comments and recordings are deleted and listed; other learners 
   CHECK(file_bytes(folder / "history.db").find("Zebediah") == std::string::npos);
 }
 
-TEST_CASE("if deleted rows cannot leave the file, the recordings are still deleted, and this is reported") {
+TEST_CASE(
+    "if deleted rows cannot be removed from the file's bytes, this is reported, and recordings are still deleted") {
   const TempFolder folder;
   write(folder / "own.trace", trace_bytes());
   History history(folder / "history.db");
@@ -89,10 +90,10 @@ TEST_CASE("if deleted rows cannot leave the file, the recordings are still delet
   sqlite3* reader = nullptr;
   REQUIRE(sqlite3_open((folder / "history.db").c_str(), &reader) == SQLITE_OK);
   REQUIRE(sqlite3_exec(reader, "BEGIN; SELECT count(*) FROM learner", nullptr, nullptr, nullptr) == SQLITE_OK);
-  const DeletionReport gone = delete_learner(history, *history.find_learner("Zebediah"));
-  CHECK(gone.recordings.size() == 1);
+  const DeletionReport report = delete_learner(history, *history.find_learner("Zebediah"));
+  CHECK(report.recordings.size() == 1);
   CHECK_FALSE(std::filesystem::exists(folder / "own.trace"));
-  CHECK(gone.remaining_data.find("another program is reading it") != std::string::npos);
+  CHECK(report.remaining_data.find("another program is reading it") != std::string::npos);
   sqlite3_close(reader);
   CHECK(history.finish_erasure().empty());
 }
@@ -109,7 +110,7 @@ TEST_CASE("a learner is read back with runs and comments") {
   CHECK(all.runs[1].comments[0].text == "Remarkable Xylophone");
 }
 
-TEST_CASE("from a copied history a learner is deleted with the copy's own recordings") {
+TEST_CASE("deleting a learner from a copied history deletes the copy's recordings only") {
   const TempFolder folder;
   const auto one = folder / "one", copy = folder / "copy";
   std::filesystem::create_directories(one / "recordings");
@@ -121,14 +122,14 @@ TEST_CASE("from a copied history a learner is deleted with the copy's own record
   std::filesystem::copy(one, copy, std::filesystem::copy_options::recursive);
   {
     History history(copy / "history.db");
-    const DeletionReport gone = delete_learner(history, *history.find_learner("Ada"));
-    CHECK(gone.recordings == std::vector<std::string>{(copy / "recordings/a.trace").string()});
+    const DeletionReport report = delete_learner(history, *history.find_learner("Ada"));
+    CHECK(report.recordings == std::vector<std::string>{(copy / "recordings/a.trace").string()});
   }
   CHECK_FALSE(std::filesystem::exists(copy / "recordings/a.trace"));
   CHECK(std::filesystem::exists(one / "recordings/a.trace"));
 }
 
-TEST_CASE("recordings can be deleted first, also with a read-only history; the rows stay to be deleted later") {
+TEST_CASE("recordings can be deleted first, even with a read-only history; the rows can be deleted later") {
   const TempFolder folder;
   write(folder / "own.trace", trace_bytes());
   write(folder / "shared.trace", trace_bytes());
@@ -142,7 +143,7 @@ TEST_CASE("recordings can be deleted first, also with a read-only history; the r
   CHECK_FALSE(std::filesystem::exists(folder / "own.trace"));
   CHECK(std::filesystem::exists(folder / "shared.trace"));
   History history(folder / "history.db");
-  const DeletionReport gone = delete_learner(history, *history.find_learner("Ada"));
-  CHECK(gone.runs == 2);
-  CHECK(gone.missing.size() == 1);
+  const DeletionReport report = delete_learner(history, *history.find_learner("Ada"));
+  CHECK(report.runs == 2);
+  CHECK(report.missing.size() == 1);
 }

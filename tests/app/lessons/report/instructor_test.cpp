@@ -1,4 +1,4 @@
-// The instructor's comments, addressed by number, and the report that shows the last one.
+// The instructor's comments, addressed by number, and the report, which shows their last text.
 #include "app/lessons/report/instructor.h"
 
 #include <stdexcept>
@@ -15,7 +15,7 @@ using namespace gearshift::lessons;
 using namespace gearshift::test;
 
 TEST_CASE(
-    "a comment is added, edited and deleted: the page shows the last text, and other learners' cannot be touched") {
+    "a comment is added, edited and deleted; the page shows its last text, and other learners' comments are rejected") {
   const TempFolder folder;
   History history(folder / "history.db");
   std::int64_t run[2] = {};
@@ -35,15 +35,15 @@ TEST_CASE(
   CHECK(comment_cell().find("Quincunx.") != std::string::npos);
   CHECK(comment_cell().find("Zymurgic.") == std::string::npos);
 
-  CHECK_THROWS_WITH_AS(comment_on_run(history, ada, run[1], "Bo", "No."), "run 2 does not belong to Ada; known: 1",
-                       std::runtime_error);
-  CHECK_THROWS_WITH_AS(edit_comment(history, bob, comment, "No."), "comment 1 does not belong to Bob; known: none yet",
-                       std::runtime_error);
+  CHECK_THROWS_WITH_AS(comment_on_run(history, ada, run[1], "Bo", "No."),
+                       "run 2 does not belong to Ada; runs that do: 1", std::runtime_error);
+  CHECK_THROWS_WITH_AS(edit_comment(history, bob, comment, "No."),
+                       "comment 1 does not belong to Bob; comments that do: none", std::runtime_error);
   CHECK_THROWS_AS(delete_comment(history, bob, comment), std::runtime_error);
   CHECK_THROWS_AS(edit_comment(history, ada, comment, "No. "), std::invalid_argument);
   CHECK(comment_cell().find("Quincunx.") != std::string::npos);
   delete_comment(history, ada, comment);
   CHECK(comment_cell().find("Quincunx.") == std::string::npos);
-  CHECK_THROWS_WITH_AS(delete_comment(history, ada, comment), "comment 1 does not belong to Ada; known: none yet",
-                       std::runtime_error);
+  CHECK_THROWS_WITH_AS(delete_comment(history, ada, comment),
+                       "comment 1 does not belong to Ada; comments that do: none", std::runtime_error);
 }

@@ -7,7 +7,7 @@
 using namespace gearshift::lessons;
 using namespace gearshift::test;
 
-TEST_CASE("learners: sessions, runs, last day and next lesson, one line each") {
+TEST_CASE("the table has one line per learner: sessions, runs, last day and next lesson") {
   std::vector<LearnerHistory> learners(2);
   learners[0].learner.name = "Ada";
   for (int i = 0; i < 3; ++i) learners[0].runs.push_back(run_with(i + 1, 1, 9.0));
@@ -22,10 +22,10 @@ TEST_CASE("learners: sessions, runs, last day and next lesson, one line each") {
   CHECK(table ==
         "learner      sessions  runs  last day    next lesson\n"
         "Ada                 2     3  2026-01-04  reverse\n"
-        "Bo ?[31mred         0     0  -           reverse (chosen by instructor)\n");
-  learners[1].learner.next_lesson = "lessons/reverse.toml";  // the coach offers no such lesson
+        "Bo ?[31mred         0     0  -           reverse (chosen by the instructor)\n");
+  learners[1].learner.next_lesson = "lessons/reverse.toml";  // not a lesson that the coach offers
   CHECK(learner_table(learners, lessons).find("instructor") == std::string::npos);
-  CHECK(run_table(learners[0]).find("    3  2026-01-04  drill                     by_yourself    9.0  passed\n") !=
+  CHECK(run_table(learners[0]).find("    3  2026-01-04  drill                     do it yourself    9.0  passed\n") !=
         std::string::npos);
   CHECK(run_table(learners[0]).find("comment") == std::string::npos);
   learners[0].runs[1].comments = {{"2026-01-09T10:00:00Z", "Bo", "Calmer.\nSlower.", 7},

@@ -19,8 +19,8 @@ using namespace gearshift::test;
 
 namespace {
 
-// RFC 4180 section 2, strictly: records end with CRLF, all have the same number of fields, a quote occurs only in a
-// quoted field.
+// A strict parser of RFC 4180, section 2: records end with CRLF, all records have the same number of fields, and quotes
+// are only in quoted fields.
 std::vector<std::vector<std::string>> parse(const std::string& text) {
   std::vector<std::vector<std::string>> records(1);
   std::size_t at = 0;
@@ -57,7 +57,7 @@ std::vector<std::vector<std::string>> parse(const std::string& text) {
   return records;
 }
 
-// Record i as a map from the header's names.
+// Record `i` as a map from column names to fields.
 std::map<std::string, std::string> row(const std::vector<std::vector<std::string>>& records, std::size_t i) {
   std::map<std::string, std::string> fields;
   for (std::size_t c = 0; c < records[0].size(); ++c) fields[records[0][c]] = records[i + 1][c];
@@ -79,22 +79,12 @@ LearnerHistory history_with_everything() {
   return history;
 }
 
-// Tolerance: half of the twelfth digit.
+// Whether `field` equals `value` within half of its twelfth digit.
 bool is_read_back(const std::string& field, double value) {
   return std::abs(std::stod(field) - value) <= 5e-12 * std::abs(value);
 }
 
 }  // namespace
-
-TEST_CASE("a field is quoted only where necessary") {
-  CHECK(csv_field("plain words") == "plain words");
-  CHECK(csv_field("") == "");
-  CHECK(csv_field("a,b") == "\"a,b\"");
-  CHECK(csv_field("say \"no\"") == "\"say \"\"no\"\"\"");
-  CHECK(csv_field("a\nb") == "\"a\nb\"");
-  CHECK(csv_field("a\rb") == "\"a\rb\"");
-  CHECK(csv_field("\"") == "\"\"\"\"");
-}
 
 TEST_CASE("runs are read back from the table") {
   const auto records = parse(runs_csv(history_with_everything()));
@@ -121,10 +111,10 @@ TEST_CASE("runs are read back from the table") {
   CHECK(fields["faults"] == "4");
   CHECK(fields["recording"] == "a \"trace\".trace");
   CHECK(fields["comments"] == "Bo, 2026-01-03T00:00:00Z: " + kNasty + "\nDi, 2026-01-04T00:00:00Z: Fine.");
-  CHECK(row(records, 1)["grade"].empty());  // guided: an empty grade, not a zero
+  CHECK(row(records, 1)["grade"].empty());  // an empty grade, not zero, because the run was guided
 }
 
-TEST_CASE("a rounding error in a time's last bit is not printed; a small time keeps its digits") {
+TEST_CASE("rounding errors in a time's last bit are not printed, and a small time keeps its digits") {
   LearnerHistory history = history_with_everything();
   LessonResult& result = history.runs[0].row.result;
   result.begin = std::nextafter(13.379, 14.0);  // 13.379000000000001
@@ -165,7 +155,7 @@ TEST_CASE("shifts are read back from the table, every number to twelve digits") 
 }
 
 TEST_CASE("errors are read back from the table, with unit and points") {
-  const auto records = parse(faults_csv(history_with_everything()));
+  const auto records = parse(errors_csv(history_with_everything()));
   REQUIRE(records.size() == 5);
   auto stall = row(records, 0), rollback = row(records, 1), jerk = row(records, 2), slow = row(records, 3);
   CHECK(stall["kind"] == "stall");
@@ -189,12 +179,12 @@ TEST_CASE("errors are read back from the table, with unit and points") {
   CHECK(slow["wanted_s"] == "2.5");
 }
 
-TEST_CASE("every kind of error has a unit, under its own name") {
+TEST_CASE("every kind of error has a unit, and its own name") {
   LearnerHistory history;
   history.runs.push_back(run_with(1, 1, 5.0));
   for (int i = 0; i < kErrorKindCount; ++i)
     history.runs[0].row.result.errors.push_back({static_cast<ErrorKind>(i), Severity::minor, 1.0, 1.0, -1});
-  const auto records = parse(faults_csv(history));
+  const auto records = parse(errors_csv(history));
   REQUIRE(records.size() == kErrorKindCount + 1);
   std::map<std::string, std::string> units;
   for (std::size_t i = 0; i < kErrorKindCount; ++i) {
@@ -214,11 +204,11 @@ TEST_CASE("every kind of error has a unit, under its own name") {
   CHECK(units["early_downshift"] == "rad/s");
 }
 
-TEST_CASE("no runs: only the header") {
-  for (const std::string& text : {runs_csv({}), shifts_csv({}), faults_csv({})}) CHECK(parse(text).size() == 1);
+TEST_CASE("without runs a table has only its header") {
+  for (const std::string& text : {runs_csv({}), shifts_csv({}), errors_csv({})}) CHECK(parse(text).size() == 1);
 }
 
-TEST_CASE("500 runs: 500 records") {
+TEST_CASE("500 runs make 500 records") {
   LearnerHistory history;
   for (int i = 0; i < 500; ++i) history.runs.push_back(run_with(i + 1, 8, 7.0));
   CHECK(parse(runs_csv(history)).size() == 501);

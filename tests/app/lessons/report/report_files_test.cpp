@@ -1,4 +1,4 @@
-// Writing page and tables to a disk that fills up.
+// Writing the page and the tables to a disk that fills up.
 #include "app/lessons/report/report_files.h"
 
 #include <sys/resource.h>
@@ -18,7 +18,7 @@
 using namespace gearshift::lessons;
 using namespace gearshift::test;
 
-TEST_CASE("if there is no room for the third file, two are complete, and the message says which") {
+TEST_CASE("without room for the third file, two are complete, and the message names them") {
   const TempFolder folder;
   const std::vector<ReportFile> files{{"index.html", std::string(500, 'a')},
                                       {"runs.csv", std::string(900, 'b')},
@@ -27,7 +27,7 @@ TEST_CASE("if there is no room for the third file, two are complete, and the mes
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{2000, 2000};  // [bytes] no file can be longer
+    const rlimit small{2000, 2000};  // [bytes] maximum size of any file
     setrlimit(RLIMIT_FSIZE, &small);
     int files_written = 0;
     try {
@@ -35,7 +35,7 @@ TEST_CASE("if there is no room for the third file, two are complete, and the mes
     } catch (const std::runtime_error& problem) {
       const std::string wanted =
           (folder / "shifts.csv").string() +
-          ": cannot be written: File too large; written: index.html, runs.csv; not written: shifts.csv, faults.csv";
+          ": cannot be written (File too large); written: index.html, runs.csv; not written: shifts.csv, faults.csv";
       _exit(files_written == 2 && problem.what() == wanted ? 0 : 2);
     }
     _exit(1);

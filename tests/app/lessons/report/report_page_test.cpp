@@ -1,4 +1,4 @@
-// The page's tables and drawings, parsed, show the data that went in. User text stays text.
+// The tables and drawings of the page, parsed, show the data from which it was made. Text from users is shown as text.
 #include "app/lessons/report/report_page.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::string page_of(const LearnerHistory& history) {
 LearnerHistory learner(int runs) {
   LearnerHistory history;
   history.learner.name = "Ada";
-  // An exponential with a known small scatter: 8 - 5 exp(-n / 4) +- 0.1
+  // The grades are 8 - 5 exp(-n / 4) with an alternating scatter of +- 0.1.
   for (int i = 0; i < runs; ++i)
     history.runs.push_back(run_with(i + 1, 4, 8.0 - 5.0 * std::exp(-i / 4.0) + (i % 2 == 0 ? 0.1 : -0.1)));
   return history;
@@ -46,7 +46,7 @@ bool has(std::string_view page, std::string_view words) {
   return page.find(words) != std::string_view::npos;
 }
 
-// Centres of the dots in a chart.
+// The centres of the dots in a chart.
 std::vector<std::pair<double, double>> dots_of(std::string_view svg) {
   std::vector<std::pair<double, double>> dots;
   for (std::size_t at = 0;;) {
@@ -60,9 +60,9 @@ std::vector<std::pair<double, double>> dots_of(std::string_view svg) {
 
 }  // namespace
 
-TEST_CASE("totals: days, sessions, runs, shifts and minutes are those of the rows") {
+TEST_CASE("the totals of days, sessions, runs, shifts and minutes equal those of the rows") {
   LearnerHistory history = learner(5);
-  history.runs[1].row.begun_at = "2026-01-02T19:00:00Z";  // on the same day as the first
+  history.runs[1].row.begun_at = "2026-01-02T19:00:00Z";  // the day of the first run
   history.runs[0].row.begun_at = "2026-01-02T09:00:00Z";
   history.runs[1].row.session = history.runs[0].row.session;
   history.runs[4].row.result.duration = 90.0;
@@ -75,7 +75,7 @@ TEST_CASE("totals: days, sessions, runs, shifts and minutes are those of the row
   CHECK(has(page, "2026-01-02 to 2026-01-06"));
 }
 
-TEST_CASE("the next lesson is the instructor's, otherwise the suggested one, with the reason") {
+TEST_CASE("the next lesson is the instructor's, otherwise the suggested one, with its reason") {
   LearnerHistory history = learner(1);
   history.runs[0].row.result.passed = true;
   history.runs[0].row.result.grade = 9.0;
@@ -83,12 +83,12 @@ TEST_CASE("the next lesson is the instructor's, otherwise the suggested one, wit
   history.learner.next_lesson = "drill";
   const std::string page = page_of(history);
   CHECK(has(page, "Next lesson: <strong>The drill</strong>, chosen by the instructor."));
-  CHECK(has(page, "The grades suggest Reverse: You haven't passed Reverse yet."));
-  history.learner.next_lesson = "lessons/reverse.toml";  // the report announces no lesson that the coach does not offer
+  CHECK(has(page, "Going by the grades, the next lesson would be Reverse. You haven't passed Reverse yet."));
+  history.learner.next_lesson = "lessons/reverse.toml";  // not a lesson that the coach offers
   CHECK(has(page_of(history), "Next lesson: <strong>Reverse</strong>. You haven't passed Reverse yet."));
 }
 
-TEST_CASE("runs: day, lesson, mode, grade, result, every error with its points, comments; newest first") {
+TEST_CASE("runs, newest first: day, lesson, mode, grade, result, every error with its points, comments") {
   LearnerHistory history = learner(2);
   LessonResult& result = history.runs[1].row.result;
   result.grade = 3.5;
@@ -109,13 +109,13 @@ TEST_CASE("runs: day, lesson, mode, grade, result, every error with its points, 
   CHECK(has(rows[0][1], "2026-01-03"));
   CHECK(has(rows[0][1], "10:00"));
   CHECK(has(rows[0][2], "The drill"));
-  CHECK(has(rows[0][2], "by yourself"));
+  CHECK(has(rows[0][2], "do it yourself"));
   CHECK(rows[0][3] == "4");
   CHECK(rows[0][4] == "3.5");
   CHECK(has(rows[0][5], "not passed"));
   CHECK(has(rows[0][5], "Grade 3.5 is below 6.0."));
   CHECK(has(rows[0][6], "−2.0  The clutch came up 0.12 s before the gear was in.  (12.4 s into the run, shift 3)"));
-  CHECK(has(rows[0][6], "−4.5  The engine stalled, from 382 rpm.  (30.0 s into the run)"));
+  CHECK(has(rows[0][6], "−4.5  The engine stalled at 382 rpm.  (30.0 s into the run)"));
   CHECK(has(rows[0][6], "Note: The car jerked (12 m/s³)."));
   CHECK(has(rows[0][6], "Calmer at the bite point."));
   CHECK(has(rows[0][6], "Bo, 2026-01-09 "));
@@ -125,7 +125,7 @@ TEST_CASE("runs: day, lesson, mode, grade, result, every error with its points, 
   CHECK(rows[1][6].empty());
 }
 
-TEST_CASE("an error without cost shows its own severity; deductions beyond ten points are summed up") {
+TEST_CASE("an error that cost no points shows its severity; deductions beyond ten points are shown as one sum") {
   LearnerHistory history = learner(2);
   LessonResult& guided = history.runs[0].row.result;
   guided.guided = true;
@@ -142,13 +142,13 @@ TEST_CASE("an error without cost shows its own severity; deductions beyond ten p
   CHECK(has(rows[1][6], "Severe: The engine stalled"));
   CHECK(has(rows[1][6], "Very severe: The car jerked"));
   CHECK(has(rows[1][6], "Note: The car jerked"));
-  CHECK(has(rows[0][5], "11.5 points lost; no grade is below 0"));
+  CHECK(has(rows[0][5], "11.5 points lost; the lowest grade is 0"));
   CHECK_FALSE(has(rows[1][5], "points lost"));
   bad.deductions[2].points = 2.0;
   CHECK_FALSE(has(table_of(page_of(history), "runs")[0][5], "points lost"));
 }
 
-TEST_CASE("a guided, damaged or unfinished run has no grade on the page, in any table or curve") {
+TEST_CASE("a guided, damaged or unfinished run has no grade on the page, neither in tables nor in curves") {
   LearnerHistory history = learner(8);
   const std::string before(section_of(page_of(history), "learning"));
   const auto add = [&](auto&& change) {
@@ -165,18 +165,18 @@ TEST_CASE("a guided, damaged or unfinished run has no grade on the page, in any 
   REQUIRE(rows.size() == 11);
   for (std::size_t i = 0; i < 3; ++i) CHECK(rows[i][4] == "–");
   CHECK_FALSE(has(page, "<strong>9.9"));
-  // Control: a graded run does change it.
+  // Control: a graded run does change this section.
   add([](LessonResult&) {});
   CHECK(section_of(page_of(history), "learning") != before);
 }
 
-TEST_CASE("the learning curve's dots are at the grades, and its figures are the fit's") {
+TEST_CASE("the learning curve's dots are at the grades, and its figures are those of the fit") {
   const LearnerHistory history = learner(12);
   const std::string page = page_of(history);
   const std::string_view learning = section_of(page, "learning");
   const auto dots = dots_of(learning);
   REQUIRE(dots.size() == 12);
-  // Height is a linear function of the grade, and the dots are evenly spaced.
+  // A dot's height must be a linear function of its grade, and the dots must be evenly spaced.
   const auto grade = [&](std::size_t i) { return history.runs[i].row.result.grade; };
   const double per_point = (dots[11].second - dots[0].second) / (grade(11) - grade(0));
   CHECK(per_point < 0.0);
@@ -191,8 +191,8 @@ TEST_CASE("the learning curve's dots are at the grades, and its figures are the 
   const std::string caption = without_markup(between(learning, "<figcaption>", "</figcaption>"));
   double level = 0.0, level_off = 0.0, gain = 0.0, gain_off = 0.0, trials = 0.0, trials_off = 0.0, noise = 0.0;
   REQUIRE(std::sscanf(caption.c_str(),
-                      "A = %lf ± %lf, B = −%lf ± %lf, τ = %lf ± %lf runs; runs scatter about the curve by %lf", &level,
-                      &level_off, &gain, &gain_off, &trials, &trials_off, &noise) == 7);
+                      "A = %lf ± %lf, B = −%lf ± %lf, τ = %lf ± %lf runs; grades scatter about the curve by %lf",
+                      &level, &level_off, &gain, &gain_off, &trials, &trials_off, &noise) == 7);
   CHECK(std::abs(level - fit->level.value) <= 0.005);
   CHECK(std::abs(level_off - fit->level.deviation) <= 0.005);
   CHECK(std::abs(-gain - fit->gain.value) <= 0.005);
@@ -216,7 +216,7 @@ TEST_CASE("without a curve the page says why") {
   CHECK(has(page_of(flat), "No curve: these 8 grades scatter too much to show learning."));
 }
 
-TEST_CASE("a level at its bound is marked as such, without a deviation; the unbounded fit would be beyond it") {
+TEST_CASE("a level at its bound is marked as fixed, without a deviation, if the unbounded fit is beyond the bound") {
   LearnerHistory history = learner(12);
   std::vector<double> grades;
   for (int i = 0; i < 12; ++i) {
@@ -235,7 +235,7 @@ TEST_CASE("a level at its bound is marked as such, without a deviation; the unbo
   CHECK(std::abs(gain_off - held->gain.deviation) <= 0.005);
 }
 
-TEST_CASE("tasks with fewer than three graded runs share one row in the place of a chart") {
+TEST_CASE("tasks with fewer than three graded runs are listed in one row and have no chart") {
   LearnerHistory history = learner(3);
   const auto add = [&](const char* task, double grade) {
     history.runs.push_back(run_with(static_cast<std::int64_t>(history.runs.size()) + 1, 1, grade));
@@ -252,7 +252,7 @@ TEST_CASE("tasks with fewer than three graded runs share one row in the place of
     return count;
   };
   CHECK(charts(learning) == 1);
-  CHECK(table_of(learning, "tasks").size() == 3);  // the figures of all tasks
+  CHECK(table_of(learning, "tasks").size() == 3);  // all tasks have figures
   const auto few = table_of(learning, "few");
   REQUIRE(few.size() == 1);
   REQUIRE(few[0].size() == 1);
@@ -260,11 +260,11 @@ TEST_CASE("tasks with fewer than three graded runs share one row in the place of
   CHECK(has(few[0][0], "Hill start: 4.5 ( Run 5 )"));
   CHECK_FALSE(has(few[0][0], "Upshift"));
   CHECK(has(learning, "Fewer than 3 graded runs"));
-  add("reverse", 9.0);  // the third task
+  add("reverse", 9.0);  // now "reverse" has three graded runs
   const std::string later = page_of(history);
   CHECK(charts(section_of(later, "learning")) == 2);
   CHECK_FALSE(has(table_of(later, "few")[0][0], "Reverse"));
-  // With only single-run tasks there is no chart, and no text on how to read one.
+  // If every task has too few runs, there is no chart, and no text on how to read one.
   const std::string first = page_of(learner(1));
   CHECK(charts(first) == 0);
   CHECK_FALSE(has(first, "A dot is a graded run"));
@@ -279,12 +279,13 @@ TEST_CASE("a step that took too long is named in the lists of runs and weaknesse
   history.runs[0].row.result.errors = {slow("Start the engine.", 1.2)};
   history.runs[1].row.result.errors = {slow("Brake <hard>.", 1.78)};
   const std::string page = page_of(history);
-  CHECK(has(table_of(page, "runs")[1][6], "\"Start the engine.\" took 1.20 s; the limit is 0.80 s."));
-  CHECK(has(table_of(page, "runs")[0][6], "\"Brake <hard>.\" took 1.78 s; the limit is 0.80 s."));
+  CHECK(has(table_of(page, "runs")[1][6], "You took 1.20 s for this step (limit 0.80 s): \"Start the engine.\""));
+  CHECK(has(table_of(page, "runs")[0][6], "You took 1.78 s for this step (limit 0.80 s): \"Brake <hard>.\""));
   const auto weak = table_of(page, "weaknesses");
   REQUIRE(weak.size() == 1);
   CHECK(has(weak[0][0], "Slow step"));
-  CHECK(has(weak[0][0], "\"Brake <hard>.\" took 1.78 s; the limit is 0.80 s."));  // the newest
+  // The newest of these errors.
+  CHECK(has(weak[0][0], "You took 1.78 s for this step (limit 0.80 s): \"Brake <hard>.\""));
 }
 
 TEST_CASE("an error of any kind has its name and its sentence on the page") {
@@ -300,12 +301,12 @@ TEST_CASE("an error of any kind has its name and its sentence on the page") {
   for (const DrivingError& error : errors) {
     const std::string advice(error_advice(error.kind));
     CHECK_FALSE(advice.empty());
-    CHECK(has(names, "|" + title_from_key(error_key(error.kind)) + "  " + advice));
+    CHECK(has(names, "|" + title_from_key(to_string(error.kind)) + "  " + advice));
     CHECK(has(table_of(page, "runs")[0][6], error_sentence(error)));
   }
 }
 
-TEST_CASE("the advice for an error appears once for each kind that cost points, with the run") {
+TEST_CASE("the advice for a kind of error appears once, with the run, if the kind cost points") {
   LearnerHistory history = learner(1);
   LessonResult& result = history.runs[0].row.result;
   result.errors = {{ErrorKind::grind, Severity::note, 1.0, 1.0, 0},
@@ -323,8 +324,8 @@ TEST_CASE("the advice for an error appears once for each kind that cost points, 
   CHECK_FALSE(has(cell, error_advice(ErrorKind::jerk)));
 }
 
-// How a browser renders these rules was checked by eye; this test only keeps them from disappearing.
-TEST_CASE("the style: a long word is broken, a printed shift is not") {
+// How a browser renders these rules was checked by eye. This test only ensures that they stay in the style.
+TEST_CASE("the style breaks long words, and does not break a printed shift") {
   const std::string page = page_of(learner(1));
   const std::string_view style = between(page, "<style>", "</style>");
   CHECK(has(style, "body { overflow-wrap: anywhere; }"));
@@ -334,8 +335,8 @@ TEST_CASE("the style: a long word is broken, a printed shift is not") {
   CHECK(has(print.substr(0, avoid), ".recording,"));
 }
 
-TEST_CASE("weaknesses: counts, points and rates match the rows") {
-  LearnerHistory history = learner(4);  // 16 shifts
+TEST_CASE("the counts, points and rates of weaknesses match the rows") {
+  LearnerHistory history = learner(4);  // 4 runs of 4 shifts each: 16 shifts
   LessonResult& result = history.runs[0].row.result;
   result.errors = {{ErrorKind::grind, Severity::minor, 1.0, 1.0, 0}, {ErrorKind::grind, Severity::severe, 1.0, 1.0, 1}};
   result.deductions = {{0, 0.5}, {1, 2.0}};
@@ -343,12 +344,12 @@ TEST_CASE("weaknesses: counts, points and rates match the rows") {
   REQUIRE(rows.size() == 1);
   CHECK(std::vector<std::string>(rows[0].begin(), rows[0].begin() + 7) ==
         std::vector<std::string>{"Grind  " + std::string(error_advice(ErrorKind::grind)), "", "1", "1", "", "2.5",
-                                 "1.2"});              // 2 in 16 is 1.25
-  CHECK(rows[0][7].find("5.0") != std::string::npos);  // one run of two
+                                 "1.2"});              // per ten shifts: 20 / 16 = 1.25
+  CHECK(rows[0][7].find("5.0") != std::string::npos);  // per ten runs: one of two
   CHECK(rows[0][8] == "no clear change");
 }
 
-TEST_CASE("shifts: the worst by points, the best by time; their figures match the records") {
+TEST_CASE("the worst shifts by points and the best by time, with figures that match the records") {
   LearnerHistory history = learner(3);
   LessonResult& bad = history.runs[1].row.result;
   bad.shifts[2].clutch_lag = -0.12;
@@ -375,7 +376,7 @@ TEST_CASE("shifts: the worst by points, the best by time; their figures match th
   CHECK(best[0][0] == "Run 3 , shift 4");
 }
 
-TEST_CASE("retention: grades before and after a day and a week; marked at the run and around its dot") {
+TEST_CASE("retention: grades before and after a day and a week, marked at the run and with a ring around its dot") {
   LearnerHistory history = learner(4);
   const char* times[] = {"2026-03-01T10:00:00Z", "2026-03-01T10:20:00Z", "2026-03-02T10:20:00Z",
                          "2026-03-12T10:20:00Z"};
@@ -386,9 +387,9 @@ TEST_CASE("retention: grades before and after a day and a week; marked at the ru
   }
   const std::string page = page_of(history);
   const std::string_view learning = section_of(page, "learning");
-  const auto kept = table_of(learning, "kept");
-  REQUIRE(kept.size() == 1);
-  CHECK(kept[0] ==
+  const auto retention = table_of(learning, "kept");
+  REQUIRE(retention.size() == 1);
+  CHECK(retention[0] ==
         std::vector<std::string>{"The drill", "6.5", "6.2", "Run 3 , 24 hours", "6.2", "7.0", "Run 4 , 10 days"});
   const auto runs = table_of(page, "runs");
   CHECK(has(runs[0][2], "after a break of 10 days"));
@@ -401,11 +402,11 @@ TEST_CASE("retention: grades before and after a day and a week; marked at the ru
   CHECK(has(learning, "Run 4, 2026-03-12: 7.0, after 10 days"));
 
   for (ReportedRun& run : history.runs) run.row.begun_at = times[0];
-  CHECK(has(page_of(history), "No lesson repeated after a day's break yet."));
+  CHECK(has(page_of(history), "No lesson has been repeated after a day's break yet."));
   CHECK_FALSE(has(page_of(history), "<table class=\"kept\">"));
 }
 
-TEST_CASE("names, comments and reasons with markup in them are text: the page's tags do not change") {
+TEST_CASE("names, comments and reasons that contain markup are shown as text: the page's tags do not change") {
   LearnerHistory plain = learner(3), hostile = learner(3);
   const std::string attack = "</title><script>alert(1)</script>\"'><img src=x onerror=alert(1)>&lt;b&gt;<!--";
   const auto fill = [](LearnerHistory& history, const std::string& text) {
@@ -426,11 +427,11 @@ TEST_CASE("names, comments and reasons with markup in them are text: the page's 
   const std::string page = page_of(hostile);
   CHECK(tags_of(page) == tags_of(page_of(plain)));
   const auto rows = table_of(page, "runs");
-  CHECK(has(rows[1][6], attack));  // and none of the text is missing
+  CHECK(has(rows[1][6], attack));  // all of the text is shown
   CHECK(has(rows[1][5], attack));
 }
 
-TEST_CASE("a page is complete: every opened tag is closed, nothing is fetched and no script runs") {
+TEST_CASE("a page is complete: every opened tag is closed, nothing is fetched, and no script runs") {
   for (const int runs : {0, 1, 30}) {
     const std::string page = page_of(learner(runs));
     std::vector<std::string> open;
@@ -460,7 +461,7 @@ TEST_CASE("the page of an empty history says that it is empty") {
   const std::string page = page_of(learner(0));
   CHECK(has(page, "No lessons driven yet."));
   CHECK(has(page, "No graded runs yet."));
-  CHECK(has(page, "No driving errors in a graded shift."));
+  CHECK(has(page, "No driving errors in graded shifts."));
   CHECK(has(page, "Next lesson: <strong>The drill</strong>. You haven't passed The drill yet."));
   CHECK(text_of_id(page, "minutes") == "0.0");
 }

@@ -1,4 +1,4 @@
-// Which runs show retention, judged only by their times.
+// The runs that show retention, found only by the times of the runs.
 #include "app/lessons/report/retention.h"
 
 #include <utility>
@@ -21,14 +21,14 @@ ReportedRun run_at(std::int64_t id, std::string begun_at, double grade, std::str
 
 }  // namespace
 
-TEST_CASE("the first graded run after 20 h or more since the run before it, to the second; of each lesson by itself") {
+TEST_CASE("per lesson, each first graded run at least 20 h after the previous run, exact to the second") {
   LearnerHistory history;
   history.runs = {run_at(1, "2026-03-01T10:00:00Z", 5.0),
                   run_at(2, "2026-03-01T10:10:00Z", 6.0),
-                  run_at(3, "2026-03-02T06:09:59Z", 6.5),             // 19 h 59 min 59 s
-                  run_at(4, "2026-03-02T07:00:00Z", 3.0, "reverse"),  // the first run of another lesson
-                  run_at(5, "2026-03-03T02:09:59Z", 7.0),             // 20 h
-                  run_at(6, "2026-03-03T02:30:00Z", 8.0),             // minutes later
+                  run_at(3, "2026-03-02T06:09:59Z", 6.5),             // 19 h 59 min 59 s after run 2
+                  run_at(4, "2026-03-02T07:00:00Z", 3.0, "reverse"),  // the first run of this lesson
+                  run_at(5, "2026-03-03T02:09:59Z", 7.0),             // 20 h after run 3
+                  run_at(6, "2026-03-03T02:30:00Z", 8.0),             // 20 min after run 5
                   run_at(7, "2026-03-10T12:00:00Z", 7.5),
                   run_at(8, "2026-03-10T12:10:00Z", 4.0, "reverse")};
   const auto trials = retention_trials(history);
@@ -46,7 +46,7 @@ TEST_CASE("the first graded run after 20 h or more since the run before it, to t
   CHECK(trials[2].before->grade == 3.0);
 }
 
-TEST_CASE("if the previous run was guided, the run shows nothing; unfinished and left runs do not count") {
+TEST_CASE("a run after a guided run shows no retention; unfinished and left runs do not count as runs") {
   LearnerHistory history;
   history.runs = {run_at(1, "2026-03-01T10:00:00Z", 5.0), run_at(2, "2026-03-03T10:00:00Z", 0.0),
                   run_at(3, "2026-03-03T10:10:00Z", 6.0), run_at(4, "2026-03-05T10:00:00Z", 0.0),
@@ -61,7 +61,7 @@ TEST_CASE("if the previous run was guided, the run shows nothing; unfinished and
   }
 }
 
-TEST_CASE("after guided runs only, there is a break but no comparison; unreadable dates have none") {
+TEST_CASE("after guided runs only there is a break without a comparison; unreadable dates make no break") {
   LearnerHistory history;
   history.runs = {run_at(1, "2026-03-01T10:00:00Z", 0.0), run_at(2, "2026-03-02T10:00:00Z", 6.0),
                   run_at(3, "<yesterday>", 6.0), run_at(4, "2026-03-09T10:00:00Z", 6.0)};
@@ -73,7 +73,7 @@ TEST_CASE("after guided runs only, there is a break but no comparison; unreadabl
   CHECK(retention_trials({}).empty());
 }
 
-TEST_CASE("pauses in words") {
+TEST_CASE("the length of a break is written in hours or days") {
   CHECK(format_pause(20.0 * 3600.0) == "20 hours");
   CHECK(format_pause(47.4 * 3600.0) == "47 hours");
   CHECK(format_pause(7.2 * 86400.0) == "7 days");

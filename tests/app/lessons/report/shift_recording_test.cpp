@@ -1,4 +1,4 @@
-// A shift found in a trace and drawn: force and path equal the recorded ones.
+// A shift found in a trace, and its drawing: force and path equal the recorded ones.
 #include "app/lessons/report/shift_recording.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// 10 s, starting at 100 s: the hand pushes with a sawtooth of 1 N/s, with 44 N in one cycle; the lever moves forward at
-// 1 mm/s.
+// Writes a trace of 10 s that starts at 100 s. The hand pushes with a sawtooth of 1 N/s, and with 44 N in one cycle;
+// the lever moves forward at 1 mm/s.
 void write_sawtooth(const std::filesystem::path& file) {
   TraceHeader header;
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
@@ -64,7 +64,7 @@ std::string refusal(const std::filesystem::path& file, const ShiftRecord& shift)
 
 }  // namespace
 
-TEST_CASE("the cycles of a shift and 0.3 s around it, on the shift's own clock") {
+TEST_CASE("the cycles are those of the shift and of 0.3 s before and after it, with times from the shift's begin") {
   const TempFolder folder;
   write_sawtooth(folder / "a.trace");
   const ShiftRecording shift = read_shift(folder / "a.trace", shift_at(104.1));
@@ -81,7 +81,7 @@ TEST_CASE("the cycles of a shift and 0.3 s around it, on the shift's own clock")
   }
 }
 
-TEST_CASE("engine, shaft and gear equal the drive's in every cycle; the ideal path is the whole drive's") {
+TEST_CASE("engine, shaft and gear equal the drive's in every cycle; the ideal path equals that of the whole drive") {
   const LessonTrace& trace = upshifts();
   const RecordedDrive drive(trace.file);
   REQUIRE(trace.result.shifts.size() == drive.shifts().size());
@@ -107,8 +107,9 @@ TEST_CASE("engine, shaft and gear equal the drive's in every cycle; the ideal pa
   }
 }
 
-// Invariant: the clutch presses in the recording add up to what the meter integrated during the lesson.
-TEST_CASE("presses of the clutch match the shift's record in number and length") {
+// Invariant: the durations of the clutch presses in the recording add up to the clutch time that the meter measured
+// during the lesson.
+TEST_CASE("the clutch presses match the shift's record in number and total length") {
   const LessonTrace& trace = upshifts();
   for (const ShiftRecord& record : trace.result.shifts) {
     const std::vector<ClutchPress> presses = read_shift(trace.file, record).presses;
@@ -120,10 +121,11 @@ TEST_CASE("presses of the clutch match the shift's record in number and length")
   }
   const TempFolder folder;
   write_sawtooth(folder / "a.trace");
-  CHECK(read_shift(folder / "a.trace", shift_at(104.1)).presses.empty());  // without a car there is no bite point
+  // Without a car there is no bite point, so presses are unknown.
+  CHECK(read_shift(folder / "a.trace", shift_at(104.1)).presses.empty());
 }
 
-TEST_CASE("with a car there are speeds, and a box for each gear; without one there are none") {
+TEST_CASE("with a car the drawing has speeds and a box for each gear; without a car it has none") {
   const LessonTrace& trace = upshifts();
   ShiftRecording shift = read_shift(trace.file, trace.result.shifts[1]);
   const std::string with = force_svg(shift);
@@ -150,7 +152,7 @@ TEST_CASE("the drawing keeps the single cycle with the hardest push") {
     return top;
   };
   const double with = highest();
-  // 44 N on a scale up to 50 N: 12 % of the box below its top.
+  // On a scale up to 50 N, 44 N are 12 % of the box's height below its top.
   CHECK(with == doctest::Approx(28.0 + 150.0 * 6.0 / 50.0).epsilon(1e-3));
   for (RecordedCycle& cycle : shift.cycles) cycle.force = std::min(cycle.force, 1.0);
   CHECK(highest() > with + 50.0);
@@ -161,7 +163,7 @@ TEST_CASE("a missing recording is reported in one sentence") {
   const TempFolder folder;
   write_sawtooth(folder / "a.trace");
   CHECK(refusal(folder / "a.trace", shift_at(104.0)).empty());
-  CHECK(refusal(folder / "a.trace", shift_at(3.0)).find("does not hold this shift") != std::string::npos);
-  CHECK(refusal(folder / "a.trace", shift_at(200.0)).find("does not hold this shift") != std::string::npos);
+  CHECK(refusal(folder / "a.trace", shift_at(3.0)).find("does not contain this shift") != std::string::npos);
+  CHECK(refusal(folder / "a.trace", shift_at(200.0)).find("does not contain this shift") != std::string::npos);
   CHECK(refusal(folder / "gone.trace", shift_at(104.0)).find("gone.trace") != std::string::npos);
 }

@@ -1,4 +1,4 @@
-// The bars' lengths and positions match the shift's times.
+// The lengths and positions of the bars match the shift's times.
 #include "app/lessons/report/timeline_svg.h"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ struct Bar {
   double x = 0.0, width = 0.0;
 };
 
-// The bars of that colour, without the legend's.
+// The bars of this colour, without the bar in the legend.
 std::vector<Bar> bars_of(const std::string& svg, const std::string& colour) {
   std::vector<Bar> bars;
   for (std::size_t at = 0;;) {
@@ -39,7 +39,7 @@ ShownShift chosen(const ShiftRecord& shift) {
 
 }  // namespace
 
-TEST_CASE("clutch and lever on one axis: 0.5 s of clutch, with lever movement from 0.10 to 0.35 s") {
+TEST_CASE("clutch and lever share one axis: the clutch is down for 0.5 s, the lever moves from 0.10 to 0.35 s") {
   const std::vector<ShownShift> shifts{chosen(good_shift(2, 40.0))};
   const std::string svg = timeline_svg(shifts);
   const auto clutch = bars_of(svg, kClutch), lever = bars_of(svg, kLever);
@@ -53,7 +53,7 @@ TEST_CASE("clutch and lever on one axis: 0.5 s of clutch, with lever movement fr
     CHECK(svg.find(words) != std::string::npos);
 }
 
-TEST_CASE("red: lever movement without the clutch, before it was down and after it came up") {
+TEST_CASE("lever movement without the clutch is red, before the clutch was down and after it came up") {
   ShiftRecord early = good_shift(0, 40.0), late = good_shift(0, 40.0);
   early.clutch_lag = -0.05;
   late.clutch_lead = -0.08;
@@ -69,7 +69,7 @@ TEST_CASE("red: lever movement without the clutch, before it was down and after 
   CHECK(red[1].x == doctest::Approx(lever[1].x).epsilon(1e-5));
 }
 
-TEST_CASE("a minute's wait with the clutch down does not compress the others: the axis ends at 8 s") {
+TEST_CASE("a minute with the clutch down does not compress the other bars: the axis ends at 8 s") {
   ShiftRecord waits = good_shift(0, 40.0);
   waits.clutch_lead = 60.0;
   waits.clutch_time = 60.4;
@@ -80,8 +80,9 @@ TEST_CASE("a minute's wait with the clutch down does not compress the others: th
   CHECK(clutch[0].width / clutch[1].width == doctest::Approx(8.0 / 0.5).epsilon(1e-3));
 }
 
-// 0.35 s of lever movement from 0.10 s on; the pedal is down from 0 to 0.2 s and from 0.3 to 0.4 s.
-TEST_CASE("a clutch pressed twice: drawn as recorded, red between the presses; without a recording no red") {
+// The lever moves for 0.35 s from 0.10 s on. The pedal is down from 0 to 0.2 s and from 0.3 to 0.4 s.
+TEST_CASE(
+    "a clutch pressed twice is drawn as recorded, with red between the presses; without a recording nothing is red") {
   ShiftRecord twice = good_shift(0, 40.0);
   twice.steps = {ShiftStep::clutch_down, ShiftStep::neutral, ShiftStep::clutch_up,
                  ShiftStep::clutch_down, ShiftStep::gear,    ShiftStep::clutch_up};
@@ -105,12 +106,12 @@ TEST_CASE("a clutch pressed twice: drawn as recorded, red between the presses; w
   REQUIRE(red.size() == 2);
   const double second = lever[0].width / 0.35, begin = lever[0].x - 0.1 * second;
   CHECK((clutch[0].width + clutch[1].width) / second ==
-        doctest::Approx(0.3).epsilon(1e-3));  // the record's clutch time
+        doctest::Approx(0.3).epsilon(1e-3));  // the record's clutch_time
   CHECK((red[0].x - begin) / second == doctest::Approx(0.2).epsilon(1e-3));
   CHECK(red[0].width / second == doctest::Approx(0.1).epsilon(1e-3));
   CHECK((red[1].x - begin) / second == doctest::Approx(0.4).epsilon(1e-3));
   CHECK(red[1].width / second == doctest::Approx(0.05).epsilon(1e-3));
-  // The tick is where the clutch came up, 0.25 s before the gear was in, not at the shift's end.
+  // The tick is where the clutch came up, 0.25 s before the gear was in, and not at the shift's end.
   std::vector<double> ticks;
   for (std::size_t at = 0;;) {
     const std::string_view line = between(known, "<line ", "/>", at);
@@ -118,7 +119,7 @@ TEST_CASE("a clutch pressed twice: drawn as recorded, red between the presses; w
     if (line.find(kRed) != std::string_view::npos)
       ticks.push_back(std::stod(std::string(between(line, "x1=\"", "\""))));
   }
-  REQUIRE(ticks.size() == 2);  // the first is the legend's
+  REQUIRE(ticks.size() == 2);  // the first tick is the legend's
   CHECK((ticks[1] - begin) / second == doctest::Approx(0.2).epsilon(1e-3));
   CHECK(known.find("driving error") != std::string::npos);
 }

@@ -1,4 +1,4 @@
-// How often an error happens, and whether it becomes rarer: counted by hand.
+// How often an error happens, and whether it becomes rarer, compared with counts by hand.
 #include "app/lessons/report/weak_spots.h"
 
 #include <cmath>
@@ -20,28 +20,29 @@ Trend trend(std::vector<LessonHalves> lessons) {
 
 }  // namespace
 
-TEST_CASE("a change is reported if its probability by chance is below one in twenty") {
-  // Of 2n runs, n have the error, all in one half: the probability by chance is 1/C(2n, n), with C = 6, 20, 70 for n =
-  // 2, 3, 4.
-  CHECK(trend({{3, 3, 0}}) == Trend::unclear);  // 1/20 is not significant
+TEST_CASE("a trend is reported if it would occur by chance with a probability below one in twenty") {
+  // n of 2n runs have the error, all in the same half. The probability of that by chance is 1/C(2n, n), with C = 6, 20,
+  // 70 for n = 2, 3, 4.
+  CHECK(trend({{3, 3, 0}}) == Trend::unclear);  // 1/20 is not below one in twenty
   CHECK(trend({{4, 4, 0}}) == Trend::falling);
   CHECK(trend({{4, 0, 4}}) == Trend::rising);
-  // Of 40 runs, k have the error, all in one half: probability 20/40 19/39 ... (k factors); 0.0530 for 4, 0.0236 for 5.
+  // k of 40 runs have the error, all in the same half. The probability is 20/40 19/39 ... (k factors): 0.0530 for k =
+  // 4, and 0.0236 for k = 5.
   CHECK(trend({{20, 4, 0}}) == Trend::unclear);
   CHECK(trend({{20, 5, 0}}) == Trend::falling);
   CHECK(trend({{20, 0, 5}}) == Trend::rising);
-  // Two such lessons are not significant separately; together they are, with (1/6)^2.
+  // The trends of two such lessons are not significant separately; together they are, with a probability of (1/6)^2.
   CHECK(trend({{2, 2, 0}}) == Trend::unclear);
   CHECK(trend({{2, 2, 0}, {2, 2, 0}}) == Trend::falling);
   CHECK(trend({{2, 2, 0}, {2, 0, 2}}) == Trend::unclear);
-  // If all runs have the error, or none, there is no trend.
+  // There is no trend if all runs have the error, or none.
   CHECK(trend({{9, 9, 9}, {9, 0, 0}}) == Trend::unclear);
   CHECK(trend({}) == Trend::unknown);
-  CHECK(trend({{1000, 700, 500}, {1000, 500, 500}}) == Trend::falling);  // no overflow
+  CHECK(trend({{1000, 700, 500}, {1000, 500, 500}}) == Trend::falling);  // large counts do not overflow
 }
 
-// Invariant: which lessons were driven when must not look like a change of the learner.
-TEST_CASE("a lesson with an error in each run, followed by one without it: no change") {
+// Invariant: the order in which lessons were driven must not look like a change of the learner.
+TEST_CASE("a lesson with an error in each run, followed by a lesson without that error, is no change") {
   LearnerHistory history;
   for (int i = 0; i < 24; ++i) {
     history.runs.push_back(run_with(i + 1, 2, 5.0));
@@ -54,7 +55,7 @@ TEST_CASE("a lesson with an error in each run, followed by one without it: no ch
     CHECK(spot.earlier == 5.0);
     CHECK(spot.recent == 5.0);
   }
-  // Control: stalls that stop within the lesson are a change; new notes are not.
+  // Control: stalls that stop during the lesson's runs are a change. Notes are not counted.
   for (std::size_t i = 6; i < 12; ++i) history.runs[i].row.result.errors[0].severity = Severity::note;
   const Weaknesses found = weaknesses(history);
   REQUIRE(found.spots.size() == 2);
@@ -87,8 +88,8 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   CHECK(grind.by_severity == std::array<std::size_t, 4>{1, 1, 0, 1});
   CHECK(grind.count == 3);
   CHECK(grind.points == 4.5);
-  CHECK(grind.per_ten == 1.0);  // the note does not count
-  CHECK(grind.earlier == 5.0);  // in one of two runs
+  CHECK(grind.per_ten == 1.0);  // per ten shifts; the note does not count
+  CHECK(grind.earlier == 5.0);  // per ten runs: in one of two runs
   CHECK(grind.recent == 5.0);
   const WeakSpot& stall = found.spots[1];
   CHECK(stall.count == 1);
@@ -96,7 +97,7 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   CHECK(stall.recent == 0.0);
 }
 
-TEST_CASE("errors of runs in neither half are not compared: they did not occur 0 times before and after") {
+TEST_CASE("errors of runs in neither half are not compared: they must not be shown as 0 times before and after") {
   LearnerHistory history;
   for (int i = 0; i < 3; ++i) history.runs.push_back(run_with(i + 1, 2, 5.0));
   history.runs[1].row.result.errors = {{ErrorKind::stall, Severity::severe, 0.0, 1.0, 0}};
@@ -109,7 +110,7 @@ TEST_CASE("errors of runs in neither half are not compared: they did not occur 0
   CHECK(weakness_section(history).find("0.0<br>") != std::string::npos);
 }
 
-TEST_CASE("no runs, no weaknesses; runs without shifts have no rate") {
+TEST_CASE("without runs there are no weaknesses; without shifts an error has no rate") {
   CHECK(weaknesses({}).spots.empty());
   LearnerHistory history;
   history.runs.push_back(run_with(1, 0, 6.0));

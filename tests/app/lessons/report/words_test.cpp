@@ -4,7 +4,7 @@
 
 using namespace gearshift::lessons;
 
-TEST_CASE("numbers: a true minus sign, none before a zero") {
+TEST_CASE("numbers have a true minus sign, and none before a zero") {
   CHECK(format_number(-0.125, 2) == "−0.12");
   CHECK(format_number(-0.004, 2) == "0.00");
   CHECK(format_number(-0.0, 1) == "0.0");

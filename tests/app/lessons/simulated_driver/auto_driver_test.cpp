@@ -1,4 +1,4 @@
-// A simulated driver in a person's place: drives lessons by itself, repeatedly, in every shipped gate.
+// A simulated driver in place of the learner: it drives lessons by itself, repeatedly, and in every shipped gate.
 #include "app/lessons/simulated_driver/auto_driver.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// A minimal trainer: lever, loop and car. It knows only the driver's actions.
+// A minimal runtime: lever, loop and car. It is driven only by the simulated driver's actions.
 class Rig final : public HandDriver {
  public:
   Rig(const AutoDriverConfig& config, const LessonStart& start)
@@ -52,7 +52,7 @@ class Rig final : public HandDriver {
   }
   AutoDriver& driver() { return driver_; }
   double time() const { return run_.time(); }
-  double fastest_foot() const { return fastest_foot_; }  // [1] per cycle
+  double fastest_foot() const { return fastest_foot_; }  // [1] largest pedal movement in one cycle
 
  private:
   static CarStart car_start(const LessonStart& start) {
@@ -94,7 +94,7 @@ CarSpec car_for(const Gate& gate) {
   return read_car(GEARSHIFT_ASSETS "/cars/" + std::string(six ? "diesel" : "hatchback") + ".toml");
 }
 
-// The gears that were driven in, in order; neutral in between left out.
+// The gears that a tour engages, in order, without the neutral between them.
 std::vector<int> gears_of_tour(const Gate& gate) {
   std::vector<int> up;
   for (int gear = 1; slot_of_gear(gate, gear) != kNoSlot; ++gear) up.push_back(gear);
@@ -107,7 +107,7 @@ std::vector<int> gears_of_tour(const Gate& gate) {
 }  // namespace
 
 TEST_CASE("the tour goes through every gear of every shipped gate, up, down and back, without an error") {
-  const std::uint64_t seeds = is_whole_campaign() ? 3 : 1;
+  const std::uint64_t seeds = is_full_campaign() ? 3 : 1;
   for (const std::string& name : shipped_names()) {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       LessonDriveConfig drive;
@@ -126,7 +126,7 @@ TEST_CASE("the tour goes through every gear of every shipped gate, up, down and 
       const LessonResult result = drive_lesson(drive);
       CAPTURE(name);
       CAPTURE(seed);
-      CAPTURE(fault_list(result));
+      CAPTURE(error_list(result));
       CAPTURE(result.why);
       CHECK(result.passed);
       CHECK(result.grade == 10.0);
@@ -137,7 +137,7 @@ TEST_CASE("the tour goes through every gear of every shipped gate, up, down and 
   }
 }
 
-TEST_CASE("a simulated driver passes the lesson that is assessed beside it, and comes to rest") {
+TEST_CASE("a simulated driver passes a lesson that is assessed at the same time, and then comes to rest") {
   for (const std::string_view key : {"hill_start", "up_through_the_gears", "start_and_stop"}) {
     const LessonDriveConfig drive = shipped_drive(key);
     const AutoDriverConfig config = config_of(drive);
@@ -156,7 +156,7 @@ TEST_CASE("a simulated driver passes the lesson that is assessed beside it, and 
   }
 }
 
-TEST_CASE("whatever ends the lesson, the next lap begins in the start state and ends well") {
+TEST_CASE("however a lesson ends, the next lap begins in the start state and ends well") {
   for (const std::string_view key : {"down_through_the_gears", "moving_off", "start_and_stop", "reverse"}) {
     const LessonDriveConfig drive = shipped_drive(key);
     AutoDriverConfig config = config_of(drive);
@@ -176,10 +176,10 @@ TEST_CASE("whatever ends the lesson, the next lap begins in the start state and 
       REQUIRE(rig.time() < waited + 120.0);
       LessonRun judge(drive.lesson, drive.car, config.gate, {LessonMode::by_yourself, 0.0, HintStyle::summary});
       while (!judge.is_over()) judge.add(rig.step());
-      // foot movement and tremor: the foot does not jump between one lap and the next
+      // This allows for foot movement and tremor. The foot must not jump between one lap and the next.
       CHECK(rig.fastest_foot() < 0.06);
       CAPTURE(lap);
-      CAPTURE(fault_list(judge.result()));
+      CAPTURE(error_list(judge.result()));
       CAPTURE(judge.result().why);
       CHECK(judge.result().end == LessonEnd::done);
       CHECK_FALSE(rig.driver().is_over());
@@ -187,7 +187,7 @@ TEST_CASE("whatever ends the lesson, the next lap begins in the start state and 
   }
 }
 
-TEST_CASE("the same seed gives exactly the same drive; a gate without the lesson's gear is rejected") {
+TEST_CASE("equal seeds give exactly equal drives; a gate without the lesson's gear is rejected") {
   const LessonDriveConfig drive = shipped_drive("moving_off");
   const AutoDriverConfig config = config_of(drive);
   Rig one(config, drive.lesson.start), other(config, drive.lesson.start);

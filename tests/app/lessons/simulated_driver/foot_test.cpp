@@ -1,4 +1,4 @@
-// The simulated driver's foot and hand, separately.
+// The simulated driver's foot and hand, each tested separately.
 #include "app/lessons/simulated_driver/foot.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ TEST_CASE("a foot reaches its goal in the time given by its rate, and stays with
   CHECK(foot.step(0.1) == 0.0);
 }
 
-TEST_CASE("the tremor of a held pedal has the configured spread at any rate, and is zero at rest") {
+TEST_CASE("the tremor of a held pedal has the configured spread at any cycle rate, and is zero at the pedal's rest") {
   for (const double dt : {0.0005, 0.001, 0.004}) {
     Foot foot(0.02, 42);
     foot.place(0.5);
@@ -42,7 +42,7 @@ TEST_CASE("the tremor of a held pedal has the configured spread at any rate, and
   }
 }
 
-TEST_CASE("a hand waits at a blocked lever, pushes harder up to its maximum, and releases it smoothly") {
+TEST_CASE("a hand waits at a blocked lever, pushes harder up to its maximum, and reduces its push gradually") {
   StrokeHand hand(0.001);
   const glm::dvec2 lever{0.0, 0.01};
   CHECK(hand.next(0.0, lever).position == lever);
@@ -50,18 +50,18 @@ TEST_CASE("a hand waits at a blocked lever, pushes harder up to its maximum, and
   hand.start({{{0.0, 0.0}, 0.2, 0.0, {}, false, false}, {{0.03, 0.0}, 0.2, 0.0, {}, false, false}}, lever, 0.0);
   double push = 0.0, before = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    push = hand.next(0.001 * i, lever).push.y;  // the lever does not move
+    push = hand.next(0.001 * i, lever).push.y;  // the lever is blocked
     CHECK(push <= before + 1e-12);
     before = push;
   }
   CHECK(push == doctest::Approx(-28.0));
   CHECK_FALSE(hand.in_last_stroke());
   CHECK(hand.time_waiting(1.2) == doctest::Approx(1.0));
-  hand.next(2.0, {0.0, 0.001});  // now it has arrived
+  hand.next(2.0, {0.0, 0.001});  // the lever has now arrived
   CHECK(hand.in_last_stroke());
 }
 
-TEST_CASE("skill is interpolated between practised and beginner; everything gets worse with the error") {
+TEST_CASE("skill is interpolated between practised and beginner, and every part of it gets worse with the error") {
   CHECK(skill_of(0.0) == DriverSkill{});
   CHECK(skill_of(-1.0) == skill_of(0.0));
   CHECK(skill_of(2.0) == skill_of(1.0));

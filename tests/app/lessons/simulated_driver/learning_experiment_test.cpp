@@ -1,4 +1,4 @@
-// Populations of simulated drivers: how well grades separate them, and the learning model.
+// Populations of simulated drivers: how well grades separate skilled from unskilled drivers, and the learning model.
 #include "app/lessons/simulated_driver/learning_experiment.h"
 
 #include <cmath>
@@ -13,24 +13,24 @@ using namespace gearshift::test;
 
 namespace {
 
-// The area under the ROC curve, by moving the threshold down and adding trapezoids.
+// The area under the ROC curve: lowers the threshold step by step and adds trapezoids.
 double area_by_threshold(const std::vector<double>& good, const std::vector<double>& bad) {
   std::vector<double> thresholds(good);
   thresholds.insert(thresholds.end(), bad.begin(), bad.end());
   std::sort(thresholds.rbegin(), thresholds.rend());
-  const auto share = [](const std::vector<double>& values, double threshold) {
+  const auto fraction_above = [](const std::vector<double>& values, double threshold) {
     return static_cast<double>(std::count_if(values.begin(), values.end(), [&](double v) { return v >= threshold; })) /
            static_cast<double>(values.size());
   };
   double area = 0.0, x = 0.0, y = 0.0;
   for (const double t : thresholds) {
-    area += 0.5 * (share(good, t) + y) * (share(bad, t) - x);
-    x = share(bad, t), y = share(good, t);
+    area += 0.5 * (fraction_above(good, t) + y) * (fraction_above(bad, t) - x);
+    x = fraction_above(bad, t), y = fraction_above(good, t);
   }
   return area;
 }
 
-// A lesson that ends at once and requires nothing, so that all learning is the model's.
+// A lesson that requires nothing and ends at once, so that errors and learning come only from the model.
 LessonDriveConfig nothing_to_do() {
   LessonDriveConfig drive = shipped_drive("moving_off");
   drive.lesson.steps.resize(1);
@@ -39,7 +39,7 @@ LessonDriveConfig nothing_to_do() {
 
 }  // namespace
 
-TEST_CASE("the AUC is the area under the ROC curve, ties included") {
+TEST_CASE("the AUC equals the area under the ROC curve, also with ties") {
   const std::vector<double> good{10, 9.5, 9.5, 8, 10}, bad{9.5, 6, 8, 10};
   CHECK(roc_auc(good, bad) == doctest::Approx(area_by_threshold(good, bad)));
   CHECK(roc_auc(bad, good) == doctest::Approx(1.0 - roc_auc(good, bad)));
@@ -48,7 +48,7 @@ TEST_CASE("the AUC is the area under the ROC curve, ties included") {
   CHECK(roc_auc({}, bad) == 0.5);
 }
 
-TEST_CASE("the grade separates skilled from unskilled drivers, and not equal ones") {
+TEST_CASE("the grade separates skilled from unskilled drivers, and does not separate equally skilled ones") {
   const LessonDriveConfig drive = shipped_drive("skip_shifts");
   const Separation apart = separate(drive, 12, 7);
   CAPTURE(apart.auc);
@@ -58,9 +58,9 @@ TEST_CASE("the grade separates skilled from unskilled drivers, and not equal one
   CHECK(std::abs(same.auc - 0.5) < 0.3);
 }
 
-TEST_CASE("a lesson that was given up counts as zero, however good the driven part was") {
+TEST_CASE("a lesson that was given up has grade zero, even if the driven part was good") {
   LessonDriveConfig drive = shipped_drive("moving_off");
-  drive.lesson.steps[3].until.speed_above = 60.0;  // 216 km/h in first
+  drive.lesson.steps[3].until.speed_above = 60.0;  // [m/s] 216 km/h, impossible in first
   drive.lesson.time_limit = 600.0;
   const Separation none = separate(drive, 1, 5);
   CHECK(none.skilled == std::vector<double>{0.0});
@@ -68,17 +68,17 @@ TEST_CASE("a lesson that was given up counts as zero, however good the driven pa
   CHECK(none.skilled_passed + none.unskilled_passed == 0);
 }
 
-TEST_CASE("a deliberate error is named and lowers the grade, and is not named otherwise") {
+TEST_CASE("a deliberate error is detected and lowers the grade, and is not detected in other drives") {
   for (const ErrorKind kind : {ErrorKind::clutch_late, ErrorKind::wrong_column, ErrorKind::over_rev}) {
     const ErrorSeparation s = separate_error(shipped_drive("skip_shifts"), kind, 5, 3);
-    CAPTURE(error_key(kind));
+    CAPTURE(to_string(kind));
     CHECK(s.detected == s.driven);
     CHECK(s.false_alarms <= 1);
     CHECK(s.auc > 0.7);
   }
 }
 
-TEST_CASE("practice without failures follows e (1 - rate)^n, guidance slows it by its loss") {
+TEST_CASE("practice without failures follows e (1 - rate)^n, and guidance slows it by the model's loss") {
   LearningModel model;
   model.rate_spread = 0.0;
   model.min_start_error = 1.0;
@@ -89,15 +89,15 @@ TEST_CASE("practice without failures follows e (1 - rate)^n, guidance slows it b
   CHECK(unguided.error[0] == 1.0);
   CHECK(unguided.error[10] == doctest::Approx(std::pow(1.0 - model.rate, 10)));
   CHECK(guided_always.error[10] == doctest::Approx(std::pow(1.0 - model.rate * (1.0 - model.guided_loss), 10)));
-  CHECK(unguided.guided_share == 0.0);
-  CHECK(guided_always.guided_share == 1.0);
-  CHECK(faded.guided_share > 0.2);
-  CHECK(faded.guided_share <= 0.6);
+  CHECK(unguided.guided_fraction == 0.0);
+  CHECK(guided_always.guided_fraction == 1.0);
+  CHECK(faded.guided_fraction > 0.2);
+  CHECK(faded.guided_fraction <= 0.6);
   CHECK(faded.error[10] > unguided.error[10]);
   CHECK(faded.error[10] < guided_always.error[10]);
 }
 
-TEST_CASE("a trial with errors throughout teaches less, by the model's loss") {
+TEST_CASE("a trial with errors all the time teaches less, by the model's loss") {
   LearningModel model;
   model.rate_spread = 0.0;
   model.min_start_error = 1.0;

@@ -1,4 +1,4 @@
-// A lesson on the virtual clock: bit-identical when repeated, recorded and replayed, guided and abandoned.
+// A lesson on the virtual clock: repeated bit-identically, recorded and replayed, guided, and abandoned.
 #include <filesystem>
 
 #include <doctest/doctest.h>
@@ -40,7 +40,7 @@ void check_equal(const LessonResult& a, const LessonResult& b) {
 
 }  // namespace
 
-TEST_CASE("the same seed gives exactly the same drive, another seed a different one") {
+TEST_CASE("equal seeds give exactly equal drives, different seeds different drives") {
   const TempFolder folder;
   LessonDriveConfig config = shipped_drive("skip_shifts", 11);
   config.skill = skill_of(0.6);
@@ -51,7 +51,7 @@ TEST_CASE("the same seed gives exactly the same drive, another seed a different 
   CHECK(trace_hash(config, folder / "c.trace") != hash);
 }
 
-TEST_CASE("a lesson's trace replays bit for bit, guided and unguided, and recording changes nothing") {
+TEST_CASE("a lesson's trace replays bit for bit, guided and unguided, and recording does not affect the drive") {
   const TempFolder folder;
   for (const double guidance : {0.0, 0.7}) {
     CAPTURE(guidance);
@@ -74,23 +74,23 @@ TEST_CASE("a lesson's trace replays bit for bit, guided and unguided, and record
                   FileError);
 }
 
-TEST_CASE("a guided drive has no grade, the same drive without guidance has one") {
+TEST_CASE("a guided drive has no grade; the same drive without guidance has a grade") {
   LessonDriveConfig config = shipped_drive("up_through_the_gears", 3);
-  const LessonResult alone = drive_lesson(config);
+  const LessonResult unguided = drive_lesson(config);
   config.guidance = 1.0;
   const LessonResult led = drive_lesson(config);
   CHECK(led.end == LessonEnd::done);
   CHECK(led.guided);
   CHECK(led.grade == 0.0);
   CHECK_FALSE(led.passed);
-  CHECK_FALSE(alone.guided);
-  CHECK(alone.passed);
+  CHECK_FALSE(unguided.guided);
+  CHECK(unguided.passed);
 }
 
 TEST_CASE("guidance shortens a beginner's path through the gate") {
   const auto detour = [](double guidance) {
     double sum = 0.0, shifts = 0.0;
-    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 10u : 4u); ++seed) {
+    for (std::uint64_t seed = 1; seed <= (is_full_campaign() ? 10u : 4u); ++seed) {
       LessonDriveConfig config = shipped_drive("up_through_the_gears", seed);
       config.skill = skill_of(1.0);
       config.guidance = guidance;
@@ -98,15 +98,15 @@ TEST_CASE("guidance shortens a beginner's path through the gate") {
     }
     return sum / shifts;
   };
-  const double alone = detour(0.0), led = detour(1.0);
-  CAPTURE(alone);
-  CAPTURE(led);
-  CHECK(led < 0.98 * alone);
+  const double unguided = detour(0.0), guided = detour(1.0);
+  CAPTURE(unguided);
+  CAPTURE(guided);
+  CHECK(guided < 0.98 * unguided);
 }
 
-TEST_CASE("a simulated driver who is stuck leaves the lesson, which is reported at once") {
+TEST_CASE("a simulated driver that is stuck leaves the lesson, and this is reported at once") {
   LessonDriveConfig config = shipped_drive("moving_off");
-  config.lesson.steps[3].until.speed_above = 60.0;  // 216 km/h in first
+  config.lesson.steps[3].until.speed_above = 60.0;  // [m/s] 216 km/h, impossible in first
   config.lesson.time_limit = 600.0;
   const LessonResult result = drive_lesson(config);
   CHECK(result.end == LessonEnd::left);
@@ -114,17 +114,18 @@ TEST_CASE("a simulated driver who is stuck leaves the lesson, which is reported 
   CHECK_FALSE(result.passed);
 }
 
-TEST_CASE("a lesson whose gear the gate lacks is rejected with a message") {
+TEST_CASE("a lesson for a gear that the gate lacks is rejected with a message") {
   LessonDriveConfig config = shipped_drive("up_through_the_gears");
   config.gate = read_gate_layout(GEARSHIFT_ASSETS "/gates/four_speed.toml");
-  CHECK_THROWS_WITH_AS(drive_lesson(config), "lesson up_through_the_gears needs gear 5, which this gate lacks",
+  CHECK_THROWS_WITH_AS(drive_lesson(config),
+                       "lesson up_through_the_gears needs gear 5, which this gate does not have; choose another gate",
                        std::invalid_argument);
 }
 
-// Loeb et al. 2015: in the same emergency, novices decelerated half as hard as experienced drivers.
-TEST_CASE("at an emergency stop, a beginner brakes half as hard as a practised driver") {
+// Loeb et al. 2015: in the same emergency, novices decelerated half as strongly as experienced drivers.
+TEST_CASE("in an emergency stop, a beginner brakes half as hard as a practised driver") {
   const auto hardest = [](double error) {
-    const std::uint64_t seeds = is_whole_campaign() ? 20 : 8;
+    const std::uint64_t seeds = is_full_campaign() ? 20 : 8;
     double sum = 0.0;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       LessonDriveConfig config = shipped_drive("emergency_stop", seed);
@@ -145,28 +146,28 @@ TEST_CASE("at an emergency stop, a beginner brakes half as hard as a practised d
   CHECK(beginner / practised == doctest::Approx(0.5).epsilon(0.25));
 }
 
-TEST_CASE("beginners stall when moving off, then use more throttle, and get away in the end") {
-  const std::uint64_t seeds = is_whole_campaign() ? 20 : 8;
+TEST_CASE("beginners stall when moving off, then use more throttle, and succeed in the end") {
+  const std::uint64_t seeds = is_full_campaign() ? 20 : 8;
   std::uint64_t stalled = 0;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     LessonDriveConfig config = shipped_drive("moving_off", seed);
     config.skill = skill_of(1.0);
     const LessonResult result = drive_lesson(config);
     CAPTURE(seed);
-    CAPTURE(fault_list(result));
+    CAPTURE(error_list(result));
     CHECK(result.end == LessonEnd::done);
     stalled += names(result, ErrorKind::stall) ? 1 : 0;
   }
   CHECK(stalled > seeds / 2);
 }
 
-TEST_CASE("the drive works at other loop rates, too") {
+TEST_CASE("a lesson can also be driven at other loop rates") {
   for (const double rate : {500.0, 2000.0}) {
     LessonDriveConfig config = shipped_drive("start_and_stop");
     config.rate = rate;
     const LessonResult result = drive_lesson(config);
     CAPTURE(rate);
-    CAPTURE(fault_list(result));
+    CAPTURE(error_list(result));
     CHECK(result.passed);
   }
 }

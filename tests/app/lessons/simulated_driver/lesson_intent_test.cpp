@@ -1,4 +1,4 @@
-// What a lesson condition asks the driver to do.
+// The driver's task is derived from the condition of a lesson step.
 #include "app/lessons/simulated_driver/lesson_intent.h"
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ LessonIntent intent_for(const DriveCondition& until, const DriveCondition& next 
 
 }  // namespace
 
-TEST_CASE("a condition's speeds, revs and pedals determine what to do with the car") {
+TEST_CASE("a condition's speeds, revs and pedals determine how the driver controls the car") {
   DriveCondition c;
   c.clutch_above = 0.8;
   CHECK(intent_for(c).motion == Motion::stay);
@@ -51,7 +51,7 @@ TEST_CASE("a condition's speeds, revs and pedals determine what to do with the c
   CHECK(intent_for(held).motion == Motion::bite);
 }
 
-TEST_CASE("the clutch goes down for the gear of the next step, and only for that") {
+TEST_CASE("the clutch is pressed for a shift if the next step asks for a gear, and otherwise not") {
   DriveCondition down, gear, stop;
   down.clutch_above = 0.8;
   gear.gear = 3;

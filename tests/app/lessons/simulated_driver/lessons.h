@@ -9,7 +9,7 @@
 
 namespace gearshift::test {
 
-// In the car and the gate that the lesson names, or else the hatchback and its gate.
+// Uses the car and the gate that the lesson names; if it names none, the hatchback and the gate of the car.
 inline lessons::LessonDriveConfig shipped_drive(std::string_view key, std::uint64_t seed = 1) {
   lessons::LessonDriveConfig config;
   config.lesson = lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + std::string(key) + ".toml");
@@ -21,14 +21,14 @@ inline lessons::LessonDriveConfig shipped_drive(std::string_view key, std::uint6
   return config;
 }
 
-// True if the result has that error with more severity than a note.
+// Whether the result contains an error of this kind that is more severe than a note.
 inline bool names(const lessons::LessonResult& result, lessons::ErrorKind kind) {
   return std::any_of(result.errors.begin(), result.errors.end(), [&](const lessons::DrivingError& error) {
     return error.kind == kind && error.severity != lessons::Severity::note;
   });
 }
 
-inline std::string fault_list(const lessons::LessonResult& result) {
+inline std::string error_list(const lessons::LessonResult& result) {
   std::string list;
   for (const lessons::DrivingError& error : result.errors) {
     if (error.severity != lessons::Severity::note) list += lessons::error_sentence(error) + " ";

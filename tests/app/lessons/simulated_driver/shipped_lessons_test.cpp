@@ -1,4 +1,4 @@
-// Each shipped lesson, driven once correctly and once with each error that it checks.
+// Each shipped lesson, driven by a simulated driver once correctly and once with each error that the lesson checks.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -25,12 +25,13 @@ bool asks_for_reverse(const Lesson& lesson) {
                      [](const LessonStep& step) { return step.gear == kReverseGear; });
 }
 
-// In a sound gearbox the synchroniser rings keep every forward gear from grinding, however hard it is pushed.
+// Makes the gearbox worn, so that forward gears can grind. In a sound gearbox the synchroniser rings prevent that,
+// however hard the driver pushes.
 void wear_out(CarSpec& car) {
   car.synchro.friction = 0.07;
 }
 
-// The errors that each lesson checks, in alphabetical order, so that one removed from a file fails here.
+// The errors on which each lesson fails, in alphabetical order. If one is removed from a lesson file, this test fails.
 struct Claims {
   std::string_view lesson, kinds;
 };
@@ -55,13 +56,13 @@ constexpr Claims kClaims[] = {
 
 std::string claims_of(const Lesson& lesson) {
   std::set<std::string_view> kinds;
-  for (const ErrorKind kind : lesson.fails_on) kinds.insert(error_key(kind));
+  for (const ErrorKind kind : lesson.fails_on) kinds.insert(to_string(kind));
   std::string list;
   for (const std::string_view kind : kinds) list += (list.empty() ? "" : " ") + std::string(kind);
   return list;
 }
 
-// True if the lesson failed because of that error, or was aborted with that error's own message.
+// Whether the lesson failed because of an error of this kind, or was aborted with the message for this kind.
 bool is_reason(const LessonResult& result, ErrorKind kind) {
   if (result.end == LessonEnd::aborted) {
     const std::string_view word = kind == ErrorKind::rollback ? "rolled back" : "rolling back";
@@ -73,7 +74,7 @@ bool is_reason(const LessonResult& result, ErrorKind kind) {
   });
 }
 
-// A competent driver with one deliberate error, too obvious to overlook (DeliberateErrors): amount 1.
+// A competent driver with one deliberate error of amount 1, which is too obvious to overlook (see DeliberateErrors).
 LessonResult drive_with(std::string_view key, ErrorKind kind, std::uint64_t seed) {
   LessonDriveConfig config = shipped_drive(key, seed);
   config.errors = deliberate_error(kind);
@@ -83,30 +84,30 @@ LessonResult drive_with(std::string_view key, ErrorKind kind, std::uint64_t seed
 
 }  // namespace
 
-TEST_CASE("each shipped lesson is failed by every error that it claims to catch, and names it as the reason") {
+TEST_CASE("each shipped lesson is failed by every error on which it fails, and names the error as the reason") {
   for (const std::string_view key : kTeachingOrder) {
     const Lesson lesson = shipped_drive(key).lesson;
     CHECK_FALSE(lesson.fails_on.empty());
     for (const ErrorKind kind : lesson.fails_on) {
-      for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 2u : 1u); ++seed) {
+      for (std::uint64_t seed = 1; seed <= (is_full_campaign() ? 2u : 1u); ++seed) {
         const LessonResult result = drive_with(key, kind, seed);
         CAPTURE(key);
-        CAPTURE(error_key(kind));
+        CAPTURE(to_string(kind));
         CAPTURE(seed);
-        CAPTURE(fault_list(result));
+        CAPTURE(error_list(result));
         CAPTURE(result.why);
         CHECK(names(result, kind));
         CHECK_FALSE(result.passed);
         CHECK(is_graded(result));
         CHECK(is_reason(result, kind));
-        // a sound gearbox does not grind in forward gears
+        // A sound gearbox does not grind in forward gears, so no such lesson may fail on grinding.
         CHECK_FALSE((kind == ErrorKind::grind && !asks_for_reverse(lesson)));
       }
     }
   }
 }
 
-TEST_CASE("each shipped lesson claims to catch exactly the errors listed here") {
+TEST_CASE("each shipped lesson fails on exactly the errors listed here") {
   CHECK(std::size(kClaims) == kTeachingOrder.size());
   for (const Claims& claims : kClaims) {
     CAPTURE(claims.lesson);
@@ -114,17 +115,16 @@ TEST_CASE("each shipped lesson claims to catch exactly the errors listed here") 
   }
 }
 
-TEST_CASE("each shipped lesson is passed with the best grade by following each prompt after reading it") {
+TEST_CASE("a driver who follows each prompt after reading it passes each shipped lesson with the best grade") {
   for (const std::string_view key : kTeachingOrder) {
-    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 2u : 1u); ++seed) {
+    for (std::uint64_t seed = 1; seed <= (is_full_campaign() ? 2u : 1u); ++seed) {
       LessonDriveConfig config = shipped_drive(key, seed);
       config.mode = LessonMode::follow_me;
-      config.skill.reading_time =
-          1.05 - config.skill.reaction;  // reading and reaction add up as people have it: Green 2000
+      config.skill.reading_time = 1.05 - config.skill.reaction;  // reading plus reaction takes 1.05 s (Green 2000)
       const LessonResult result = drive_lesson(config);
       CAPTURE(key);
       CAPTURE(seed);
-      CAPTURE(fault_list(result));
+      CAPTURE(error_list(result));
       CAPTURE(result.why);
       CHECK(result.end == LessonEnd::done);
       CHECK(result.grade == 10.0);
@@ -132,30 +132,30 @@ TEST_CASE("each shipped lesson is passed with the best grade by following each p
   }
 }
 
-TEST_CASE("errors counted by a shipped lesson are named and cost points") {
+TEST_CASE("errors that a shipped lesson only counts are detected and cost points") {
   std::size_t counted = 0;
   for (const std::string_view key : kTeachingOrder) {
     for (const ErrorKind kind : shipped_drive(key).lesson.counted) {
-      if (!is_whole_campaign() && counted++ % 3 != 0) continue;
+      if (!is_full_campaign() && counted++ % 3 != 0) continue;
       const LessonResult result = drive_with(key, kind, 1);
       CAPTURE(key);
-      CAPTURE(error_key(kind));
-      CAPTURE(fault_list(result));
+      CAPTURE(to_string(kind));
+      CAPTURE(error_list(result));
       CHECK(names(result, kind));
       CHECK(result.grade < 10.0);
     }
   }
 }
 
-TEST_CASE("each shipped lesson is passed without an error by a practised driver, prompted or not, with every seed") {
+TEST_CASE("a practised driver passes each shipped lesson without an error, prompted or not, with every seed") {
   for (const std::string_view key : kTeachingOrder) {
-    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 4u : 2u); ++seed) {
+    for (std::uint64_t seed = 1; seed <= (is_full_campaign() ? 4u : 2u); ++seed) {
       LessonDriveConfig config = shipped_drive(key, seed);
       config.mode = seed % 2 == 0 ? LessonMode::by_yourself : LessonMode::follow_me;
       const LessonResult result = drive_lesson(config);
       CAPTURE(key);
       CAPTURE(seed);
-      CAPTURE(fault_list(result));
+      CAPTURE(error_list(result));
       CAPTURE(result.why);
       CHECK(result.end == LessonEnd::done);
       CHECK(result.passed);
@@ -165,7 +165,7 @@ TEST_CASE("each shipped lesson is passed without an error by a practised driver,
   }
 }
 
-TEST_CASE("in a sound gearbox no forward gear grinds, in a worn one it does: the car is the cause, not the driver") {
+TEST_CASE("a forward gear grinds in a worn gearbox and not in a sound one: the car is the cause, not the driver") {
   for (const bool worn : {false, true}) {
     LessonDriveConfig config = shipped_drive("up_through_the_gears");
     config.errors = deliberate_error(ErrorKind::grind);
@@ -178,16 +178,16 @@ TEST_CASE("in a sound gearbox no forward gear grinds, in a worn one it does: the
 }
 
 TEST_CASE(
-    "a practised driver holds the clutch until the ring opens: no clutch too early, no grinding in forward gears") {
+    "a practised driver holds the clutch down until the ring opens: not up too early, no grinding in forward gears") {
   struct Drive {
     const char* lesson;
     double error;
     std::uint64_t seed;
   };
-  std::vector<Drive> drives{{"skip_shifts", 0.071, 16457714044703236328u},  // these three failed once
+  std::vector<Drive> drives{{"skip_shifts", 0.071, 16457714044703236328u},  // these three drives failed once
                             {"rev_matching", 0.137, 17042378558995876589u},
                             {"another_gate", 0.131, 14678223327695899131u}};
-  const std::uint64_t seeds = is_whole_campaign() ? 20 : 8;
+  const std::uint64_t seeds = is_full_campaign() ? 20 : 8;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) drives.push_back({"skip_shifts", 0.15, seed});
   for (const Drive& drive : drives) {
     LessonDriveConfig config = shipped_drive(drive.lesson, drive.seed);
@@ -197,14 +197,14 @@ TEST_CASE(
     const LessonResult result = drive_lesson(config);
     CAPTURE(drive.lesson);
     CAPTURE(drive.seed);
-    CAPTURE(fault_list(result));
+    CAPTURE(error_list(result));
     CHECK_FALSE(ground);
     CHECK_FALSE(names(result, ErrorKind::clutch_early));
   }
 }
 
-TEST_CASE("a clutch that comes up between ring and dogs grinds in a sound gearbox, too, and is named as the cause") {
-  const std::uint64_t seeds = is_whole_campaign() ? 60 : 24;
+TEST_CASE("a clutch that comes up between ring and dogs also grinds in a sound gearbox, and is named as the cause") {
+  const std::uint64_t seeds = is_full_campaign() ? 60 : 24;
   std::uint64_t ground = 0;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     LessonDriveConfig config = shipped_drive("skip_shifts", seed);
@@ -213,7 +213,7 @@ TEST_CASE("a clutch that comes up between ring and dogs grinds in a sound gearbo
     config.on_cycle = [&](const DriveSample& now) { grinds = grinds || now.car.grinding; };
     const LessonResult result = drive_lesson(config);
     CAPTURE(seed);
-    CAPTURE(fault_list(result));
+    CAPTURE(error_list(result));
     if (!grinds) continue;
     ++ground;
     CHECK((names(result, ErrorKind::clutch_early) || names(result, ErrorKind::clutch_late)));
@@ -223,7 +223,7 @@ TEST_CASE("a clutch that comes up between ring and dogs grinds in a sound gearbo
   CHECK(ground < seeds / 4);
 }
 
-TEST_CASE("the same simulated driver can drive the other car, in its own gate") {
+TEST_CASE("the same simulated driver can drive the diesel, in that car's gate") {
   for (const std::string_view key : {"start_and_stop", "moving_off", "up_through_the_gears", "down_through_the_gears",
                                      "reverse", "hill_start", "skip_shifts"}) {
     LessonDriveConfig config = shipped_drive(key);
@@ -231,13 +231,13 @@ TEST_CASE("the same simulated driver can drive the other car, in its own gate") 
     config.gate = read_gate_layout(GEARSHIFT_ASSETS "/gates/" + config.car.gate + ".toml");
     const LessonResult result = drive_lesson(config);
     CAPTURE(key);
-    CAPTURE(fault_list(result));
+    CAPTURE(error_list(result));
     CAPTURE(result.why);
     CHECK(result.passed);
   }
 }
 
-TEST_CASE("an error with an amount is measured as that amount") {
+TEST_CASE("a deliberate error is measured with its amount") {
   for (const double amount : {0.5, 1.0}) {
     LessonDriveConfig config = shipped_drive("up_through_the_gears");
     config.errors = deliberate_error(ErrorKind::too_slow, amount);
@@ -245,8 +245,8 @@ TEST_CASE("an error with an amount is measured as that amount") {
     double longest = 0.0;
     for (const ShiftRecord& shift : slow.shifts) longest = std::max(longest, shift.clutch_time);
     CAPTURE(longest);
-    CHECK(longest > 4.0 * amount);        // the pause
-    CHECK(longest < 4.0 * amount + 1.5);  // and a normal shift
+    CHECK(longest > 4.0 * amount);        // [s] the deliberate pause
+    CHECK(longest < 4.0 * amount + 1.5);  // [s] the pause and a normal shift
     CHECK(names(slow, ErrorKind::too_slow) == (longest >= 2.5));
   }
 }

@@ -1,5 +1,5 @@
-// A complete calibration with an emulated stick and a simulated user on a virtual clock: measurements and answers are
-// saved, invalid answers are asked again, and an interrupted calibration continues where it stopped.
+// Complete calibrations of an emulated stick by a simulated user on a virtual clock: measurements and answers are
+// saved, invalid answers are asked for again, and an interrupted calibration continues where it stopped.
 #include "app/runtime/devices/calibration_dialog.h"
 
 #include <atomic>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 
-// A hand that only pushes.
+// A hand that pushes with a constant force and follows no target position.
 class Pusher final : public HandDriver {
  public:
   HandTarget next(double, glm::dvec2 lever) noexcept override {
@@ -40,7 +40,7 @@ EmulatedStickConfig bare_stick() {
   return config;
 }
 
-// The stick, its user, and the dialog between user and program.
+// An emulated stick, its simulated user, and the dialog between that user and the program.
 struct Rig {
   Pusher hand;
   EmulatedStick stick{bare_stick(), hand};
@@ -51,14 +51,14 @@ struct Rig {
   PidAbility ability{driver.prepare(port)};
   std::int64_t now_ns = 1'000'000'000, asked_ns = now_ns;
   std::string question;
-  std::vector<std::string> asked, said;
-  std::vector<DeviceCalibration> kept;
-  std::deque<std::string> lines;  // used instead of the user's own answers
-  std::function<void(double)> does;
+  std::vector<std::string> asked, printed;
+  std::vector<DeviceCalibration> saved;
+  std::deque<std::string> lines;  // if not empty, typed in place of the default answers
+  std::function<void(double)> action;
 
   std::int64_t tick() {
     now_ns += kMillisecond;
-    if (does) does(1e-9 * static_cast<double>(now_ns - asked_ns));
+    if (action) action(1e-9 * static_cast<double>(now_ns - asked_ns));
     tick_stick(stick, driver.stream_config(kMillisecond), driver, now_ns);
     return now_ns;
   }
@@ -71,12 +71,12 @@ struct Rig {
     asked_ns = now_ns;
     stick.held_buttons = 0;
     hand.push = {};
-    does = {};
-    if (is_about("RIGHT")) does = [this](double time) { hand.push = {time > 0.7 ? 8.0 : 0.0, 0.0}; };
-    if (is_about("FORWARD")) does = [this](double time) { hand.push = {0.0, time > 1.2 ? 8.0 : 0.0}; };
-    if (is_about("the knob down")) does = [this](double time) { stick.held_buttons = time > 0.5 ? 4 : 0; };
-    if (is_about("around along")) {
-      does = [this](double time) {
+    action = {};
+    if (is_about("RIGHT")) action = [this](double time) { hand.push = {time > 0.7 ? 8.0 : 0.0, 0.0}; };
+    if (is_about("FORWARD")) action = [this](double time) { hand.push = {0.0, time > 1.2 ? 8.0 : 0.0}; };
+    if (is_about("the knob down")) action = [this](double time) { stick.held_buttons = time > 0.5 ? 4 : 0; };
+    if (is_about("along all its stops")) {
+      action = [this](double time) {
         const double turn = 2.0 * time;
         hand.push = time < 8.0 ? 9.0 * glm::dvec2(std::cos(turn), std::sin(turn)) : glm::dvec2(0.0);
       };
@@ -86,7 +86,7 @@ struct Rig {
       lines.pop_front();
       return line;
     }
-    if (is_about("lifting the ring") || is_about("emergency stop")) return "-";
+    if (is_about("lift the ring") || is_about("in an emergency")) return "-";
     if (is_about("left stop") || is_about("back stop")) return "140 mm";
     if (is_about("maximum force")) return "20";
     return "";
@@ -95,8 +95,8 @@ struct Rig {
   DeviceCalibration run(const DeviceCalibration& known = {}) {
     CalibrationDialog dialog;
     dialog.ask = [this](const std::string& next) { return answer(next); };
-    dialog.print = [this](const std::string& line) { said.push_back(line); };
-    dialog.save = [this](const DeviceCalibration& calibration) { kept.push_back(calibration); };
+    dialog.print = [this](const std::string& line) { printed.push_back(line); };
+    dialog.save = [this](const DeviceCalibration& calibration) { saved.push_back(calibration); };
     Calibrator calibrator(
         driver, [this] { return tick(); }, known);
     calibrate(calibrator, ability.spring, dialog);
@@ -104,7 +104,7 @@ struct Rig {
   }
 
   bool has_printed(const char* words) const {
-    for (const std::string& line : said)
+    for (const std::string& line : printed)
       if (line.find(words) != std::string::npos) return true;
     return false;
   }
@@ -118,17 +118,17 @@ TEST_CASE("the calibration matches the user's actions and answers; every step is
   CHECK(missing_steps(found, true).empty());
   CHECK(found.select.usage == 0x30);
   CHECK(found.shift.usage == 0x31);
-  CHECK(found.select.travel == doctest::Approx(0.14));  // as the user answered
+  CHECK(found.select.travel == doctest::Approx(0.14));  // the user's answer was 140 mm
   CHECK(found.shift.full_force == 20.0);
-  CHECK(found.press_button == 3);  // the user held bit 2
+  CHECK(found.press_button == 3);  // button 3 is bit 2, which the user held
   CHECK(found.lift_button == 0);
   CHECK(found.stop_button == 0);
-  CHECK(rig.kept.size() == 6);  // range, numbers, polarity, timing, handle, springs
-  CHECK(rig.kept.front().has_stops());
-  CHECK_FALSE(rig.kept.front().has_travel());
+  CHECK(rig.saved.size() == 6);  // the steps: range, numbers, polarity, timing, handle, springs
+  CHECK(rig.saved.front().has_stops());
+  CHECK_FALSE(rig.saved.front().has_travel());
 }
 
-TEST_CASE("no motor moves before the user was told to take the hands off") {
+TEST_CASE("no motor moves before the user was told to let go of the stick") {
   Rig rig;
   bool moved = false, warned = false;
   CalibrationDialog dialog;
@@ -151,15 +151,15 @@ TEST_CASE("no motor moves before the user was told to take the hands off") {
 
 TEST_CASE("invalid input is reported and asked again: a stick that was not pushed, numbers out of range, words") {
   Rig rig;
-  rig.lines = {"yes", ""};  // answers the first question and then nothing more
+  rig.lines = {"yes", ""};  // an invalid answer to the first question, then only Enter
   bool slept = false;
   CalibrationDialog dialog;
-  dialog.print = [&](const std::string& line) { rig.said.push_back(line); };
-  dialog.save = [&](const DeviceCalibration& calibration) { rig.kept.push_back(calibration); };
+  dialog.print = [&](const std::string& line) { rig.printed.push_back(line); };
+  dialog.save = [&](const DeviceCalibration& calibration) { rig.saved.push_back(calibration); };
   dialog.ask = [&](const std::string& next) {
     std::string line = rig.answer(next);
     if (rig.asked.size() == 2) {
-      rig.does = {};
+      rig.action = {};
       slept = true;
     }
     if (next.find("left stop") != std::string::npos && rig.asked.back() != rig.asked[rig.asked.size() - 2]) {
@@ -182,27 +182,27 @@ TEST_CASE("an interrupted calibration continues with the first missing step and 
   std::size_t questions = 0;
   CalibrationDialog dialog;
   dialog.print = [](const std::string&) {};
-  dialog.save = [&](const DeviceCalibration& calibration) { first.kept.push_back(calibration); };
+  dialog.save = [&](const DeviceCalibration& calibration) { first.saved.push_back(calibration); };
   dialog.ask = [&](const std::string& next) {
     if (next.starts_with("HANDS OFF") && ++questions == 2) throw CalibrationEnded("enough");
     return first.answer(next);
   };
   Calibrator calibrator(first.driver, [&] { return first.tick(); }, {});
   CHECK_THROWS_AS(calibrate(calibrator, true, dialog), CalibrationEnded);
-  REQUIRE(first.kept.size() == 3);
+  REQUIRE(first.saved.size() == 3);
 
   Rig second;
-  const DeviceCalibration found = second.run(first.kept.back());
+  const DeviceCalibration found = second.run(first.saved.back());
   CHECK(missing_steps(found, true).empty());
-  CHECK(second.asked.size() == 3);  // timing, handle, springs
-  CHECK(second.asked.front().find("how fast it responds") != std::string::npos);
+  CHECK(second.asked.size() == 3);  // about the missing steps: timing, handle, springs
+  CHECK(second.asked.front().find("how fast the stick responds") != std::string::npos);
   CHECK(found.press_button == 3);
 }
 
 TEST_CASE("a measurement may be skipped if the stick can be driven without it, and only then") {
   Rig rig;
   CalibrationDialog dialog;
-  dialog.print = [&](const std::string& line) { rig.said.push_back(line); };
+  dialog.print = [&](const std::string& line) { rig.printed.push_back(line); };
   dialog.save = [](const DeviceCalibration&) {};
   dialog.ask = [&](const std::string& next) {
     const std::string line = rig.answer(next);

@@ -1,4 +1,4 @@
-// Devices as the bus lists them, with the descriptors of real ones.
+// Connected devices as the USB bus lists them, with the report descriptors of real devices.
 #pragma once
 
 #include <cstdint>

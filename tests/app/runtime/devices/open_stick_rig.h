@@ -1,4 +1,4 @@
-// An open emulated stick on the real clock, and the hand of its user.
+// An opened, emulated stick on the real clock, and the hand of its user.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace gearshift::test {
 
-// A grip that is moved from another thread.
+// A hand whose target position another thread may set.
 class PersonsHand final : public haptics::HandDriver {
  public:
   haptics::HandTarget next(double, glm::dvec2) noexcept override {
@@ -27,8 +27,8 @@ class PersonsHand final : public haptics::HandDriver {
   std::atomic<double> x_{0.0}, y_{0.0};  // [m]
 };
 
-// The calibration of an EmulatedStick of the SideWinder family with its defaults: forward counts down, and a positive
-// constant force comes from the right and from the user (PID 1.0).
+// The calibration of a default EmulatedStick (SideWinder family). The shift axis counts down toward the front, and a
+// positive constant force comes from the right on one axis and from the user on the other (PID 1.0).
 inline haptics::DeviceCalibration sidewinder_calibration() {
   haptics::DeviceCalibration known;
   known.vendor = 0x045e;
@@ -55,13 +55,13 @@ struct HeldStick {
   explicit HeldStick(const runtime::KnownStick& known) {
     stick.logs = false;
     lever = std::make_shared<runtime::StickLever>(known, [this]() -> std::unique_ptr<haptics::HidPort> {
-      if (!plugged) throw haptics::HidGone("The stick is not plugged in");
+      if (!plugged) throw haptics::HidDisconnected("The stick is not plugged in");
       return std::make_unique<StickPort>(stick, mutex, plugged);
     });
   }
   ~HeldStick() { lever.reset(); }
 
-  double force() {  // [N] of the motors
+  double force() {  // [N] magnitude of the motors' force
     const std::lock_guard lock(mutex);
     return std::hypot(stick.force().x, stick.force().y);
   }

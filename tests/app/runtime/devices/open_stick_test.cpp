@@ -1,4 +1,4 @@
-// Resolving the user's choice of a stick: one stick, or an error that lists the available ones.
+// Finding the stick that the user named: the result is one stick, or an error that lists the connected ones.
 #include "app/runtime/devices/open_stick.h"
 
 #include <doctest/doctest.h>
@@ -50,7 +50,7 @@ bool says(const std::string& sentence, std::initializer_list<const char*> parts)
 
 }  // namespace
 
-TEST_CASE("part of the name in any case, VENDOR:PRODUCT in any case, serial and place each mean the stick") {
+TEST_CASE("part of the name, VENDOR:PRODUCT (both in any case), serial number and place each select the stick") {
   const std::vector<UsbHidDevice> plugged{sidewinder(), openffboard()};
   const std::vector<ListedStick> sticks = list_sticks(plugged, {});
   for (const char* wanted : {"sidewinder", "FORCE", "045e:001b", "045E:001B", "1-1"})
@@ -59,20 +59,20 @@ TEST_CASE("part of the name in any case, VENDOR:PRODUCT in any case, serial and 
     CHECK(select_stick(wanted, sticks).identity.vendor == 0x1209);
 }
 
-TEST_CASE("the same in a Turkish locale, where i is not the lower case of I") {
+TEST_CASE("the stick is also found in a Turkish locale, where i is not the lower case of I") {
   const TurkishLetters turkish;
   const std::vector<UsbHidDevice> plugged{sidewinder()};
   CHECK(select_stick("SIDEWINDER", list_sticks(plugged, {})).identity.vendor == 0x045e);
 }
 
-TEST_CASE("a complete serial, number or place takes precedence over part of a name") {
+TEST_CASE("a complete serial number or place takes precedence over part of a name") {
   UsbHidDevice other = sidewinder("1-3");
   other.identity.name = "Copy of 2A0030";
   const std::vector<UsbHidDevice> plugged{other, openffboard()};
   CHECK(select_stick("2A0030", list_sticks(plugged, {})).identity.vendor == 0x1209);
 }
 
-TEST_CASE("several matches, none, or no sticks: one printable sentence with the available sticks") {
+TEST_CASE("several matches, no match or no stick at all: one printable sentence with the connected sticks") {
   const std::vector<UsbHidDevice> twins{sidewinder("1-1"), sidewinder("1-2"), openffboard("1-3")};
   CHECK(says(refusal("sidewinder", twins), {"several", "at 1-1", "at 1-2"}));
   CHECK_FALSE(says(refusal("sidewinder", twins), {"FFBoard"}));
@@ -83,28 +83,29 @@ TEST_CASE("several matches, none, or no sticks: one printable sentence with the 
   CHECK_FALSE(says(refusal("a\x1b[2Jb", {}), {"\x1b"}));
 }
 
-TEST_CASE("of two that differ only by place, only that place is opened; a single one may be plugged in anywhere") {
+TEST_CASE(
+    "of two sticks that differ only by place, the named one is opened; a single stick may be plugged in anywhere") {
   const TempFolder folder;
   save_known_stick(calibrated(sidewinder()), folder.path());
   const std::vector<UsbHidDevice> twins{sidewinder("1-1"), sidewinder("1-2")};
   CHECK(resolve_stick("1-2", list_sticks(twins, folder.path()), folder.path()).identity.place == "1-2");
-  const std::vector<UsbHidDevice> alone{sidewinder("1-2")};
-  CHECK(resolve_stick("sidewinder", list_sticks(alone, folder.path()), folder.path()).identity.place.empty());
-  CHECK(resolve_stick("1-2", list_sticks(alone, folder.path()), folder.path()).identity.place == "1-2");
+  const std::vector<UsbHidDevice> single{sidewinder("1-2")};
+  CHECK(resolve_stick("sidewinder", list_sticks(single, folder.path()), folder.path()).identity.place.empty());
+  CHECK(resolve_stick("1-2", list_sticks(single, folder.path()), folder.path()).identity.place == "1-2");
 }
 
-TEST_CASE("an inaccessible, forceless or uncalibrated stick is rejected with the remedy") {
+TEST_CASE("a stick without access rights, force feedback or calibration is rejected with the remedy") {
   const TempFolder folder;
   UsbHidDevice forbidden = sidewinder();
   forbidden.problem = "the reason";
   CHECK(refusal("sidewinder", {forbidden}, folder.path()) == "the reason");
   const UsbHidDevice pad = usb_device("sony-dualshock4-v2-usb", 0x054c, 0x09cc, "Pad", "1-3");
-  CHECK(says(refusal("pad", {pad}, folder.path()), {"cannot drive the lever (no force feedback)"}));
+  CHECK(says(refusal("pad", {pad}, folder.path()), {"cannot be used with --device (no force feedback)"}));
   CHECK(says(refusal("ffb", {openffboard()}, folder.path()),
-             {"range, travel and force, delay, polarity missing", "gearshift devices --calibrate 1209:ffb0"}));
+             {"range, travel and force, delay, force direction missing", "gearshift devices --calibrate 1209:ffb0"}));
 }
 
-TEST_CASE("a calibrated stick that is not plugged in is waited for, if named unambiguously") {
+TEST_CASE("a calibrated stick that is not plugged in is waited for if its name is unambiguous") {
   const TempFolder folder;
   save_known_stick(calibrated(openffboard()), folder.path());
   const ResolvedStick absent = resolve_stick("ffboard", {}, folder.path());

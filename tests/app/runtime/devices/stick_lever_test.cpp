@@ -1,4 +1,4 @@
-// An open stick, through the real driver and its thread, to an emulated device.
+// StickLever with its real driver and thread, connected to an emulated device.
 #include "app/runtime/devices/stick_lever.h"
 
 #include <chrono>
@@ -16,14 +16,14 @@ namespace {
 
 // Polls until the condition holds, for at most ten seconds.
 template <class Condition>
-bool comes_true(const Condition& condition) {
+bool becomes_true(const Condition& condition) {
   for (int i = 0; i < 2000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   return condition();
 }
 
 }  // namespace
 
-TEST_CASE("a stick whose reports differ from its calibration is not driven, and the message says what to do") {
+TEST_CASE("a stick whose reports differ from its calibration is not driven, and the message names the remedy") {
   KnownStick other{sidewinder_calibration(), {}};
   EmulatedStickConfig config;
   config.family = StickFamily::openffboard;
@@ -31,14 +31,14 @@ TEST_CASE("a stick whose reports differ from its calibration is not driven, and 
   other.report_descriptor = EmulatedStick(config, idle_hand).report_descriptor();
   HeldStick held(other);
   std::optional<std::string> news;
-  CHECK(comes_true([&] { return news.has_value() || (news = held.lever->take_message()).has_value(); }));
+  CHECK(becomes_true([&] { return news.has_value() || (news = held.lever->take_message()).has_value(); }));
   CHECK(news->find("gearshift devices --calibrate 045e:001b") != std::string::npos);
   CHECK_FALSE(held.lever->connected());
 }
 
-TEST_CASE("a stand-in is the same device, and commands to it move nothing") {
+TEST_CASE("a detached lever has the stick's limits, and commands to it move nothing") {
   HeldStick held;
-  REQUIRE(comes_true([&] { return held.lever->connected(); }));
+  REQUIRE(becomes_true([&] { return held.lever->connected(); }));
   const auto lever = held.lever->lever(1e-3), detached_lever = held.lever->detached_lever(1e-3);
   CHECK(detached_lever->spec().delay == lever->spec().delay);
   CHECK(detached_lever->spec().max_force == lever->spec().max_force);
@@ -53,17 +53,17 @@ TEST_CASE("a stand-in is the same device, and commands to it move nothing") {
 
 TEST_CASE("a force is applied only while its lever exists; when the stick is released its motors are off") {
   HeldStick held;
-  REQUIRE(comes_true([&] { return held.lever->connected(); }));
+  REQUIRE(becomes_true([&] { return held.lever->connected(); }));
   auto lever = held.lever->lever(1e-3);
   const auto pushes = [&] {
     (void)lever->read(0);
     lever->write({5.0, 0.0});
     return held.force() > 4.0;
   };
-  CHECK(comes_true(pushes));
+  CHECK(becomes_true(pushes));
   lever->release();
-  CHECK(comes_true([&] { return held.force() == 0.0; }));
-  CHECK(comes_true(pushes));
+  CHECK(becomes_true([&] { return held.force() == 0.0; }));
+  CHECK(becomes_true(pushes));
   lever.reset();
   held.lever.reset();
   CHECK(held.force() == 0.0);

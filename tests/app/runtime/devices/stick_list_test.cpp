@@ -1,4 +1,4 @@
-// The list of connected devices, from the descriptors of real ones (tests/data/hid).
+// The list of connected devices, read from the descriptors of real devices (tests/data/hid).
 #include "app/runtime/devices/stick_list.h"
 
 #include <fstream>
@@ -15,7 +15,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// A keyboard: usage page 1, usage 6, one array of six keys.
+// A keyboard's descriptor: usage page 1, usage 6, one array of six keys.
 const std::vector<std::uint8_t> kKeyboard{0x05, 0x01, 0x09, 0x06, 0xA1, 0x01, 0x05, 0x07, 0x19, 0x00, 0x29, 0x65,
                                           0x15, 0x00, 0x25, 0x65, 0x75, 0x08, 0x95, 0x06, 0x81, 0x00, 0xC0};
 
@@ -32,19 +32,20 @@ TEST_CASE(
   const std::vector<ListedStick> sticks = list_sticks(plugged, folder.path());
   REQUIRE(sticks.size() == 3);
   CHECK(describe_forces(sticks[0]) ==
-        "constant force, spring, damper, 8 others");  // its Create report names all eleven
+        "constant force, spring, damper, 8 others");  // its Create report lists all eleven effects
   CHECK(sticks[0].buttons == 8);
   CHECK(describe_calibration(sticks[0]) == "no");
   CHECK(sticks[1].force == StickForce::force_feedback);
-  CHECK(sticks[1].missing == "range, travel and force, delay, polarity");  // also for one that was never calibrated
+  CHECK(sticks[1].missing ==
+        "range, travel and force, delay, force direction");  // listed even if the stick was never calibrated
   CHECK(describe_forces(sticks[2]) == "no force feedback");
-  CHECK(sticks[2].buttons == 14);  // the DualShock 4's
+  CHECK(sticks[2].buttons == 14);  // the DualShock 4 has 14 buttons
   CHECK(describe_calibration(sticks[2]) == "-");
 }
 
 TEST_CASE("a device that uses the force page only for rumble is distinguished from one with force feedback") {
-  // A pad with X and Y, and one output of page 15, usage 70 (magnitude), in a collection of usage 21 without an effect
-  // block: like an Xbox pad's.
+  // A pad with X and Y and, like an Xbox pad, only one output on the force page (15): a magnitude (usage 70) inside a
+  // collection of usage 21, without an effect block.
   UsbHidDevice pad = usb_device("", 0x045e, 0x0b13, "Pad", "1-1");
   pad.report_descriptor = {0x05, 0x01, 0x09, 0x05, 0xA1, 0x01, 0x09, 0x30, 0x09, 0x31, 0x15, 0x00, 0x26, 0xFF,
                            0x00, 0x75, 0x08, 0x95, 0x02, 0x81, 0x02, 0x05, 0x0F, 0x09, 0x21, 0xA1, 0x02, 0x09,
@@ -55,11 +56,11 @@ TEST_CASE("a device that uses the force page only for rumble is distinguished fr
 }
 
 TEST_CASE("a device without access rights is listed with the reason, whether its descriptor is known or not") {
-  UsbHidDevice hidden = usb_device("", 0x1234, 0x5678, "Something", "1-1");
-  hidden.problem = "Something may not be used";
-  UsbHidDevice seen = sidewinder("1-2");
-  seen.problem = "SideWinder may not be used";
-  const std::vector<UsbHidDevice> plugged{hidden, seen};
+  UsbHidDevice unknown = usb_device("", 0x1234, 0x5678, "Something", "1-1");
+  unknown.problem = "Something may not be used";
+  UsbHidDevice known = sidewinder("1-2");
+  known.problem = "SideWinder may not be used";
+  const std::vector<UsbHidDevice> plugged{unknown, known};
   const std::vector<ListedStick> sticks = list_sticks(plugged, {});
   REQUIRE(sticks.size() == 2);
   CHECK(describe_forces(sticks[0]) == "unknown");
@@ -68,7 +69,7 @@ TEST_CASE("a device without access rights is listed with the reason, whether its
   CHECK(sticks[1].problem == "SideWinder may not be used");
 }
 
-TEST_CASE("a descriptor that cannot be parsed is a problem only of its own device") {
+TEST_CASE("a descriptor that cannot be parsed affects only its own device") {
   UsbHidDevice damaged = sidewinder("1-1");
   damaged.report_descriptor.resize(100);
   const std::vector<UsbHidDevice> plugged{damaged, openffboard()};
@@ -78,7 +79,7 @@ TEST_CASE("a descriptor that cannot be parsed is a problem only of its own devic
   CHECK(sticks[1].problem.empty());
 }
 
-TEST_CASE("an unfinished calibration, a complete one, and a damaged one") {
+TEST_CASE("how an unfinished, a complete and a damaged calibration are described") {
   const TempFolder folder;
   const UsbHidDevice device = sidewinder();
   const auto listed = [&] { return list_sticks({&device, 1}, folder.path()).at(0); };
@@ -95,7 +96,7 @@ TEST_CASE("an unfinished calibration, a complete one, and a damaged one") {
   }
   known.calibration.shift.usage = 0x31;
   const std::filesystem::path file = save_known_stick(known, folder.path());
-  CHECK(describe_calibration(listed()) == "incomplete: delay, polarity missing");
+  CHECK(describe_calibration(listed()) == "incomplete: delay, force direction missing");
   known.calibration.timing = {0.001, 0.001, 0.003, 0.0005};
   known.calibration.select.constant_sign = known.calibration.shift.constant_sign = 1;
   save_known_stick(known, folder.path());
@@ -103,16 +104,18 @@ TEST_CASE("an unfinished calibration, a complete one, and a damaged one") {
   std::ofstream(file) << "nonsense = 1\n";
   CHECK(describe_calibration(listed()) == "no");
   CHECK(listed().problem.find(file.string()) != std::string::npos);
-  CHECK(listed().missing == "range, travel and force, delay, polarity");
+  CHECK(listed().missing == "range, travel and force, delay, force direction");
   const std::vector<ListedStick> plugged{listed()}, none;
-  CHECK(absent_problems(plugged, folder.path()).empty());  // it is connected, so it reports its problem itself
+  CHECK(absent_problems(plugged, folder.path()).empty());  // list_sticks() reports this already
   CHECK(absent_problems(none, folder.path()) == std::vector{listed().problem});
-  known.calibration.product = 0x001c;  // the file name says that it is this stick's
+  known.calibration.product = 0x001c;  // another product's calibration, stored under this stick's file name
   std::filesystem::copy_file(save_known_stick(known, folder.path()), file,
                              std::filesystem::copy_options::overwrite_existing);
   CHECK(describe_calibration(listed()) == "no");
-  CHECK(listed().problem == file.string() + ": is the calibration of 045e:001c, not of 045e:001b");
-  UsbHidDevice forbidden = device;  // the message names the first thing to do
+  CHECK(listed().problem ==
+        file.string() +
+            ": this is the calibration of 045e:001c, not of 045e:001b; delete this file and calibrate the stick again");
+  UsbHidDevice forbidden = device;  // missing access rights are reported first: they must be fixed first
   forbidden.problem = "it may not be used";
   CHECK(list_sticks({&forbidden, 1}, folder.path()).at(0).problem == "it may not be used");
 }

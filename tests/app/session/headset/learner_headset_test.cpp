@@ -1,5 +1,5 @@
-// A worn headset at the lever: where its user sits in the cabin, what the controllers do there, and its loss and
-// return.
+// A headset used at the lever: the user's seat in the cabin, the controllers in the cabin, and how the program handles
+// a lost headset that comes back.
 #include "app/session/learner_headset.h"
 
 #include <chrono>
@@ -26,18 +26,18 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double kBound = 0.020;  // [m] the clamp's bound
+constexpr double kBound = 0.020;  // [m] the largest offset that the clamp allows
 constexpr dvec3 kUp{0.0, 1.0, 0.0};
-constexpr auto kPause = std::chrono::milliseconds(2050);  // after which the program searches for a headset again
+constexpr auto kPause = std::chrono::milliseconds(2050);  // just over the 2 s between searches
 
-// The true pose of the room in the cabin: the one at which a real lever would be in the right place.
+// The true pose of the room in the cabin: with it, the drawn lever is where the real lever is.
 const EyePose kTruth{{-0.7, -0.6, 0.9}, glm::angleAxis(0.8, kUp)};
 
 xr_test::Pose pose_of(const EyePose& pose) {
   return {pose.position, pose.orientation};
 }
 
-// Loaded only once: nothing of it is drawn.
+// The stage is shared by all tests, to load it only once. It is never drawn.
 Stage& cabin() {
   static const auto stage = [] {
     StageConfig config;
@@ -54,7 +54,7 @@ struct Worn {
     xr_test::Control& xr = xr_test::control();
     xr.start();
     xr.script.stage = stage_space;
-    xr.script.stage_origin = {};  // LOCAL and STAGE are the same space
+    xr.script.stage_origin = {};  // the spaces LOCAL and STAGE coincide
     xr.script.recommended_width = 32;
     xr.script.recommended_height = 32;
     xr.script.head = [this](double) {
@@ -64,7 +64,7 @@ struct Worn {
     };
     xr.script.hands[1].aim = [this](double) {
       xr_test::Pose pose = pose_of(hand);
-      pose.tracked = seen;
+      pose.tracked = hand_tracked;
       return pose;
     };
     xr.script.inputs["/user/hand/right/input/trigger/value"] = [this](double) { return trigger ? 1.0 : 0.0; };
@@ -78,12 +78,12 @@ struct Worn {
     headset = std::make_unique<LearnerHeadset>(setup, window, ui);
     REQUIRE(headset->is_found());
     REQUIRE(headset->open());
-    (void)headset->take_message();        // the message that names the headset
-    for (int i = 0; i < 6; ++i) frame();  // until it is focused
+    (void)headset->take_message();        // drops the message that names the headset
+    for (int i = 0; i < 6; ++i) frame();  // until the OpenXR session is focused
   }
 
   void frame() {
-    // A busy machine may miss a headset frame; it takes the next one.
+    // On a busy machine the headset may skip a frame; then take turns until it shows one.
     const xr_test::Record& record = xr_test::control().record;
     const std::size_t frames = record.frames.size();
     do turn();
@@ -105,7 +105,8 @@ struct Worn {
     stage->place(input);
   }
 
-  // The controller's tip touches the top of the knob at its true place in the room, and the trigger is pulled once.
+  // Moves the controller's tip to the top of the knob, at its true place in the room plus `error` [m], and pulls the
+  // trigger once.
   void touch(glm::dvec2 plane, dvec3 error = dvec3(0.0)) {
     hold_lever(plane);
     hand = EyePose{inverse(kTruth) * stage->knob_top() + error, held()};
@@ -116,17 +117,17 @@ struct Worn {
     frame();
   }
 
-  // Touches the knob in three gears and saves the result.
+  // Touches the knob at three lever positions and saves the result.
   void touch_all() {
-    ask(&HeadsetRequests::touch);
+    ask(&HeadsetRequests::start_touching);
     for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) touch(gear);
-    ask(&HeadsetRequests::touched);
+    ask(&HeadsetRequests::save_touches);
     frame();
   }
 
-  void ask(bool HeadsetRequests::*what) {
+  void ask(bool HeadsetRequests::*request) {
     HeadsetRequests requests;
-    requests.*what = true;
+    requests.*request = true;
     headset->apply(requests, kBound);
   }
 
@@ -134,20 +135,20 @@ struct Worn {
   UiContext ui;
   HeadsetSetup setup;
   Stage* stage = &cabin();
-  // About 13 cm from the driver's eyes, as people sit.
+  // About 13 cm from the driver's eyes: users do not sit exactly there.
   EyePose head{inverse(kTruth) * (camera("driver").position + dvec3(0.1, 0.05, -0.06)),
                glm::angleAxis(-1.1, kUp) * glm::angleAxis(-0.3, dvec3(1, 0, 0))};
   EyePose hand;
-  double turns = 0.785;  // [rad] the controller is turned and tilted between touches
-  int made = 0;
+  double turns = 0.785;  // [rad] turn or tilt of the controller between touches
+  int holds = 0;
   glm::dquat held() {
     const dvec3 axes[] = {kUp, kUp, dvec3(1, 0, 0)};
-    const int i = made++ % 3;
+    const int i = holds++ % 3;
     return glm::angleAxis(i == 0 ? 0.0 : turns, axes[i]);
   }
   bool trigger = false, menu = false;
-  bool placed = true;  // the headset tracks the head
-  bool seen = true;    // the controller is tracked; otherwise its position is a guess
+  bool placed = true;        // whether the headset tracks the head's position
+  bool hand_tracked = true;  // false: the controller's position is a guess
   std::unique_ptr<LearnerHeadset> headset;
 };
 
@@ -155,7 +156,7 @@ dvec3 driver_eye(DriveSide side = DriveSide::left) {
   return camera("driver", side).position;
 }
 
-// The cabin has turned with the head, and the head is where it should be in it.
+// Checks that the head is at `eye` in the cabin, and that the cabin is turned so that the user looks along the road.
 void check_sits(const Worn& worn, dvec3 eye) {
   CHECK(glm::distance(worn.headset->head().position, eye) < 1e-6);
   const dvec3 look = worn.headset->head().orientation * dvec3(0, 0, -1);
@@ -165,15 +166,14 @@ void check_sits(const Worn& worn, dvec3 eye) {
 
 }  // namespace
 
-TEST_CASE(
-    "after putting it on the user is at the wheel, at the chosen height, on either side; and again after a recentre") {
+TEST_CASE("with the headset put on or recentred, the user is at the wheel, at the chosen height, on either side") {
   for (const DriveSide side : {DriveSide::left, DriveSide::right}) {
     HeadsetSetup setup;
     setup.seat.drive = side;
     setup.seat.height = 0.03;
     Worn worn(setup);
     check_sits(worn, driver_eye(side) + 0.03 * kUp);
-    worn.head.position += dvec3(0.1, 0.02, 0.0);  // leans, while the cabin stays
+    worn.head.position += dvec3(0.1, 0.02, 0.0);  // the user leans, and the cabin must not follow
     worn.frame();
     CHECK(glm::distance(worn.headset->head().position, driver_eye(side) + 0.03 * kUp) > 0.09);
     worn.headset->recentre();
@@ -190,22 +190,23 @@ TEST_CASE("with measured distances the knob is drawn at its true distance from t
   check_sits(worn, eye);
 }
 
-TEST_CASE("a knob touched in its gears is drawn where it is, today and tomorrow") {
+TEST_CASE("a knob touched at three lever positions is drawn where it really is, also in the next session") {
   const TempFolder folder;
   HeadsetSetup setup;
   setup.seat_file = folder.path() / "headset.toml";
   auto today = std::make_unique<Worn>(setup);
   Worn& worn = *today;
-  worn.ask(&HeadsetRequests::touch);
+  worn.ask(&HeadsetRequests::start_touching);
   CHECK(worn.headset->report().touching);
   for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
   CHECK(worn.headset->report().touches == 3);
-  CHECK(read_seat(setup.seat_file).touched.has_value() == false);  // nothing is written before it is saved
+  // The file is written only when the touches are saved.
+  CHECK(read_seat(setup.seat_file).touched.has_value() == false);
   CHECK(worn.headset->report().worst_touch < 1e-4);
-  worn.ask(&HeadsetRequests::touched);
+  worn.ask(&HeadsetRequests::save_touches);
   worn.frame();
   CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
-  worn.headset->recentre();  // the lever keeps its place
+  worn.headset->recentre();  // must not move the touched lever
   worn.frame();
   CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
 
@@ -227,54 +228,55 @@ TEST_CASE("touches that do not fit the lever are rejected with error and limit, 
   HeadsetSetup setup;
   setup.seat_file = folder.path() / "headset.toml";
   Worn worn(setup);
-  worn.ask(&HeadsetRequests::touch);
+  worn.ask(&HeadsetRequests::start_touching);
   worn.touch({0.0, 0.0});
-  worn.ask(&HeadsetRequests::touched);  // one touch gives neither a direction nor its own error
-  CHECK(worn.headset->take_message().find("three gears or more") != std::string::npos);
-  worn.touch({-0.036, 0.04}, {0.0, 0.06, 0.0});  // 6 cm above
+  worn.ask(&HeadsetRequests::save_touches);  // one touch determines neither the direction nor the tip's error
+  CHECK(worn.headset->take_message().find("at least three positions") != std::string::npos);
+  worn.touch({-0.036, 0.04}, {0.0, 0.06, 0.0});  // the tip is 6 cm too high
   worn.touch({0.036, -0.04});
-  worn.ask(&HeadsetRequests::touched);
+  worn.ask(&HeadsetRequests::save_touches);
   const std::string news = worn.headset->take_message();
   int error = 0;
-  REQUIRE(std::sscanf(news.c_str(), "the lever may be up to %d mm from where it is drawn, but only 20 mm are allowed",
+  REQUIRE(std::sscanf(news.c_str(), "the lever may be up to %d mm from where it is drawn; at most 20 mm is allowed",
                       &error) == 1);
-  CHECK(error >= 40);  // two thirds of it remain, so at least that much was the tip's error
+  CHECK(error >= 40);  // [mm] the fit leaves two thirds of the 60 mm as error
   worn.frame();
   check_sits(worn, driver_eye());
   CHECK_FALSE(read_seat(setup.seat_file).touched);
 }
 
-TEST_CASE("a controller always held the same way hides its tip error, and an untracked one only guesses") {
+TEST_CASE("touches without turning the controller are rejected, and touches while it is untracked are ignored") {
   Worn worn;
   worn.turns = 0.1;
   worn.touch_all();
-  CHECK(worn.headset->take_message().find("turn the controller to the side") != std::string::npos);
+  CHECK(worn.headset->take_message().find("turn the controller sideways") != std::string::npos);
   CHECK_FALSE(worn.headset->report().is_touched);
   worn.ask(&HeadsetRequests::forget_touches);
-  worn.ask(&HeadsetRequests::touch);
-  worn.seen = false;
+  worn.ask(&HeadsetRequests::start_touching);
+  worn.hand_tracked = false;
   worn.touch({0.0, 0.0});
   CHECK(worn.headset->report().touches == 0);
-  worn.seen = true;
+  worn.hand_tracked = true;
   worn.touch({0.0, 0.0});
   CHECK(worn.headset->report().touches == 1);
 }
 
-TEST_CASE("a lever touched in another room is reported and not used; the user sits at the wheel, and that seat stays") {
+TEST_CASE("a lever touched in a different room is not used and stays saved: the user sits at the wheel") {
   HeadsetSetup setup;
   setup.seat.touched = kTruth;
   setup.seat.touched->position += dvec3(9.0, 0.0, 3.0);
   Worn worn(setup);
   check_sits(worn, driver_eye());
   CHECK_FALSE(worn.headset->report().is_touched);
-  worn.head.position -= glm::conjugate(kTruth.orientation) * dvec3(9.0, 0.0, 3.0);  // the user had stood beside it
+  // Moves the head to where that lever is in reach.
+  worn.head.position -= glm::conjugate(kTruth.orientation) * dvec3(9.0, 0.0, 3.0);
   worn.headset->recentre();
   worn.frame();
   CHECK(worn.headset->report().is_touched);
   CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position + dvec3(9.0, 0.0, 3.0)) < 1e-6);
 }
 
-TEST_CASE("if the first opening fails it is retried after a while") {
+TEST_CASE("a failed opening is retried after a pause, which doubles with each failure") {
   HeadsetSetup setup;
   Worn worn(setup);
   worn.headset.reset();
@@ -288,15 +290,16 @@ TEST_CASE("if the first opening fails it is retried after a while") {
   std::this_thread::sleep_for(kPause);
   REQUIRE(worn.headset->is_found());
   CHECK_FALSE(worn.headset->open());
-  CHECK(worn.headset->take_message().empty());  // the same message is reported only once
+  CHECK(worn.headset->take_message().empty());  // an unchanged message is not reported again
   std::this_thread::sleep_for(kPause);
-  CHECK_FALSE(worn.headset->is_found());  // each try interrupts the desktop's picture, so the pause doubles
+  // The pause has doubled, because each attempt interrupts the desktop's picture.
+  CHECK_FALSE(worn.headset->is_found());
   std::this_thread::sleep_for(kPause);
   REQUIRE(worn.headset->is_found());
   CHECK(worn.headset->open());
 }
 
-TEST_CASE("a headset taken off is reported once, a second later; one taken off to leave is not") {
+TEST_CASE("taking the headset off is reported once, a second later, but not if the user takes it off to quit") {
   for (const bool leaves : {false, true}) {
     CAPTURE(leaves);
     Worn worn;
@@ -309,25 +312,27 @@ TEST_CASE("a headset taken off is reported once, a second later; one taken off t
     CHECK(worn.headset->take_message().empty());
     std::this_thread::sleep_for(std::chrono::milliseconds(1050));
     worn.frame();
-    const bool is_reported = worn.headset->take_message() == "the headset was taken off; the desktop shows the cabin";
+    const bool is_reported =
+        worn.headset->take_message() == "the headset was taken off, so the desktop shows the cabin";
     CHECK(is_reported == !leaves);
     worn.frame();
     CHECK(worn.headset->take_message().empty());
   }
 }
 
-TEST_CASE("without a persistent space a touched knob counts only today, and the seat saved in another room stays") {
+TEST_CASE(
+    "without a persistent space, touches hold only for this session, and the saved seat of a different room is kept") {
   const TempFolder folder;
   HeadsetSetup setup;
   setup.seat_file = folder.path() / "headset.toml";
   setup.seat.touched = EyePose{{1.0, 0.0, 0.0}, glm::dquat(1, 0, 0, 0)};
   setup.is_new = true;
   Worn worn(setup, false);
-  check_sits(worn, driver_eye());  // not at the place touched in another room
+  check_sits(worn, driver_eye());  // not at the saved lever, which was touched in a different room
   CHECK_FALSE(worn.headset->report().is_touched);
   worn.touch_all();
   CHECK(worn.headset->report().is_touched);
-  CHECK(worn.headset->take_message().find("for today") != std::string::npos);
+  CHECK(worn.headset->take_message().find("only for this session") != std::string::npos);
   worn.ask(&HeadsetRequests::recentre);
   HeadsetRequests raise;
   raise.height = 0.02;
@@ -336,14 +341,14 @@ TEST_CASE("without a persistent space a touched knob counts only today, and the 
   CHECK(read_seat(setup.seat_file).touched->position == glm::dvec3(1.0, 0.0, 0.0));
 }
 
-TEST_CASE("discarded touches leave the saved ones") {
+TEST_CASE("discarding new touches restores the saved ones") {
   const TempFolder folder;
   HeadsetSetup setup;
   setup.seat_file = folder.path() / "headset.toml";
   Worn worn(setup);
   worn.touch_all();
   const dvec3 before = worn.headset->head().position;
-  worn.ask(&HeadsetRequests::touch);
+  worn.ask(&HeadsetRequests::start_touching);
   worn.touch({0.0, 0.0}, {0.3, 0.0, 0.0});
   CHECK(glm::distance(worn.headset->head().position, before) > 0.2);
   worn.ask(&HeadsetRequests::forget_touches);
@@ -352,7 +357,7 @@ TEST_CASE("discarded touches leave the saved ones") {
   CHECK(read_seat(setup.seat_file).touched.has_value());
 }
 
-TEST_CASE("the seat is set only when frames are shown: a headset on a table is calibrated when it is put on") {
+TEST_CASE("the seat is set only while frames are shown: a headset lying on a table is calibrated when it is put on") {
   Worn worn;
   xr_test::Control& xr = xr_test::control();
   const double now = xr.record.frames.back().time;
@@ -360,17 +365,18 @@ TEST_CASE("the seat is set only when frames are shown: a headset on a table is c
   xr.script.timeline = {xr_test::stopping(now + 0.05), xr_test::ready(now + 0.4)};
   for (int i = 0; i < 12; ++i) worn.frame();
   const EyePose worn_head = worn.head;
-  worn.head = {{2.0, 0.1, 1.0}, glm::angleAxis(1.5, dvec3(0, 0, 1))};  // on the table
+  worn.head = {{2.0, 0.1, 1.0}, glm::angleAxis(1.5, dvec3(0, 0, 1))};  // the headset lies on a table
   xr.script.polls_before_ready = 0;
   for (int i = 0; i < 400 && xr.record.state != XR_SESSION_STATE_SYNCHRONIZED; ++i) worn.frame();
-  worn.head = worn_head;  // put on
+  worn.head = worn_head;  // the user puts the headset on again
   worn.head.position += dvec3(0.3, 0.0, 0.2);
   for (int i = 0; i < 10; ++i) worn.frame();
   REQUIRE(xr.record.state == XR_SESSION_STATE_FOCUSED);
   check_sits(worn, driver_eye());
 }
 
-TEST_CASE("without head tracking the user is at the wheel; with tracking the user sits there, or at the lever") {
+TEST_CASE(
+    "without position tracking the user is at the wheel; once it works, at the wheel or, if touched, at the lever") {
   HeadsetSetup setup;
   setup.seat.height = 0.03;
   const dvec3 eye = driver_eye() + 0.03 * kUp;
@@ -393,18 +399,18 @@ TEST_CASE("without head tracking the user is at the wheel; with tracking the use
       CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-6);
     else
       check_sits(worn, eye);
-    worn.placed = false;  // tracking is lost only for the moment, so the view does not jump
+    worn.placed = false;  // a short loss of position tracking must not move the view
     const dvec3 before = worn.headset->head().position;
     worn.frame();
     CHECK(glm::distance(worn.headset->head().position, before) < 1e-6);
   }
 }
 
-TEST_CASE("when the room's origin moves a touched lever stays where it is") {
+TEST_CASE("when the origin of the STAGE space moves, a touched lever stays where it is") {
   Worn worn;
-  worn.ask(&HeadsetRequests::touch);
+  worn.ask(&HeadsetRequests::start_touching);
   for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
-  worn.ask(&HeadsetRequests::touched);
+  worn.ask(&HeadsetRequests::save_touches);
   worn.frame();
   const dvec3 before = worn.headset->head().position;
   xr_test::Control& xr = xr_test::control();
@@ -416,12 +422,12 @@ TEST_CASE("when the room's origin moves a touched lever stays where it is") {
   }
 }
 
-TEST_CASE("a hand points at the learner's card, and its menu button opens the complete panel") {
+TEST_CASE("the controller points at the learner's card, and its menu button opens the complete panel") {
   Worn worn;
   worn.frame();
   const DriveSide side = DriveSide::left;
   const HangingPanel card = hang_card(driver_eye(), side, {320.0, 200.0}, {0.25, 0.0}, {0.75, 0.8});
-  // The seat from the head's first pose: the head is at the driver's eyes and looks ahead.
+  // The cabin was placed by the head's first pose: eyes at the driver's eyes, looking ahead.
   const EyePose cabin_from_room = seat_at_eyes(worn.head, {driver_eye(), {}}, 0.0);
   const dvec3 from{0.3, 0.2, -0.1};
   const dvec3 target = card.pose * dvec3(0.05, -0.1, 0.0);
@@ -449,21 +455,22 @@ TEST_CASE("a hand points at the learner's card, and its menu button opens the co
   CHECK(worn.headset->pointer()->hit.at.x == doctest::Approx(0.5).epsilon(1e-4));
   const auto& quad = *xr_test::control().record.frames.back().quad();
   CHECK(quad.width == doctest::Approx(1.5));
-  worn.hand.orientation = glm::angleAxis(3.0, kUp) * worn.hand.orientation;  // elsewhere
+  worn.hand.orientation = glm::angleAxis(3.0, kUp) * worn.hand.orientation;  // points away from the panel
   worn.frame();
   CHECK_FALSE(worn.headset->pointer());
 }
 
-// STOP and the keys are handled on the thread that would wait.
+// The main thread, which handles STOP and the keys, must not wait for the OpenXR runtime.
 TEST_CASE(
-    "a GPU lost while the runtime holds a frame back blocks nobody, and everything is recovered when it arrives") {
+    "a GPU lost while the OpenXR runtime holds a frame back blocks nothing, and the headset reopens after that frame") {
   Worn worn;
   xr_test::Control& xr = xr_test::control();
   xr.script.pacing = xr_test::Pacing::real;
   worn.frame();
   const int frames = xr.record.calls["xrBeginFrame"];
   using Clock = std::chrono::steady_clock;
-  xr.script.timeline = {xr_test::stall(xr.record.frames.back().time + 0.05, 450)};  // 5 s
+  // OpenXR holds frames back for 450 display periods (5 s).
+  xr.script.timeline = {xr_test::stall(xr.record.frames.back().time + 0.05, 450)};
   while (xr.record.calls["xrWaitFrame"] <= frames + 30 && !worn.headset->is_held()) worn.turn();
   REQUIRE(worn.headset->is_held());
   injected_faults.next_present = VK_ERROR_DEVICE_LOST;
@@ -474,15 +481,15 @@ TEST_CASE(
     longest = std::max(longest, std::chrono::duration<double>(Clock::now() - begun).count());
   }
   CHECK_FALSE(worn.headset->is_open());
-  CHECK(longest < 1.0);  // waiting would take about 5 s
+  CHECK(longest < 1.0);  // [s] waiting for the frame would take about 5 s
   std::this_thread::sleep_for(kPause);
-  CHECK_FALSE(worn.headset->is_found());  // OpenXR allows one instance at a time, and the old one is not closed yet
+  CHECK_FALSE(worn.headset->is_found());  // OpenXR allows one instance at a time, and the old one is still open
   for (int i = 0; i < 100 && !worn.headset->is_found(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   CHECK(worn.headset->open());
 }
 
-TEST_CASE("a lost headset is reported once, searched for, and found when it is back") {
+TEST_CASE("a lost headset is reported once, searched for, and reopened when it is back") {
   for (const bool instance : {false, true}) {
     CAPTURE(instance);
     Worn worn;
@@ -492,15 +499,15 @@ TEST_CASE("a lost headset is reported once, searched for, and found when it is b
     xr.script.timeline = {instance ? xr_test::lose_instance(now) : xr_test::lose_session(now)};
     for (int i = 0; i < 5 && worn.headset->is_open(); ++i) worn.frame();
     REQUIRE_FALSE(worn.headset->is_open());
-    CHECK(worn.headset->take_message().find("the desktop shows the cabin, the lever keeps running") !=
+    CHECK(worn.headset->take_message().find("the desktop shows the cabin. The lever keeps running.") !=
           std::string::npos);
-    CHECK_FALSE(worn.headset->is_found());  // not immediately after it was lost
+    CHECK_FALSE(worn.headset->is_found());  // the search begins only after a pause
     if (instance) {
       xr.script.headset = false;
       for (const bool first : {true, false}) {
         std::this_thread::sleep_for(kPause);
         CHECK_FALSE(worn.headset->is_found());
-        // reported only once
+        // A message that has not changed is not reported again.
         CHECK((worn.headset->take_message().find("no headset is connected") != std::string::npos) == first);
       }
     }

@@ -1,4 +1,4 @@
-// A person moves one control of several: what is learnt from it, and what is rejected.
+// A user moves one of several controls. Tests which axis is learnt from that, and which movements are rejected.
 #include "app/ui/input/axis_detector.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using Control = AxisDetector::Control;
 
-// Two sticks with three axes each; every axis trembles a little.
+// Two sticks with three axes each. Every axis has some noise.
 struct Desk {
   std::vector<PadState> sticks{{"Stick", {0.1f, 0.0f, 0.0f}, {}, "0a"}, {"Pedals", {0.0f, 0.9f, 0.0f}, {}, "0b"}};
   double noise = 0.004;
@@ -28,7 +28,7 @@ struct Desk {
         axis += static_cast<float>(noise * (static_cast<double>(random() % 2001) / 1000.0 - 1.0));
     return now;
   }
-  // Straight to a raw value, within 30 frames.
+  // Moves an axis linearly to the raw value `to` within 30 frames.
   void move(AxisDetector& detector, std::size_t stick, std::size_t axis, double to) {
     const float from = sticks[stick].axes[axis];
     for (int i = 1; i <= 30; ++i) {
@@ -52,7 +52,7 @@ std::string refusal(const AxisDetector& detector) {
 
 }  // namespace
 
-TEST_CASE("a pedal that is pressed and released: its axis, both ends, reversed too, and a dead zone for its noise") {
+TEST_CASE("a pedal is learnt from one press: its axis, both ends (also reversed), and a dead zone for its noise") {
   Desk desk;
   AxisDetector detector(Control::pedal);
   desk.move(detector, 1, 1, -0.7);
@@ -64,14 +64,14 @@ TEST_CASE("a pedal that is pressed and released: its axis, both ends, reversed t
   CHECK(pedal.axis == 1);
   CHECK(pedal.from == doctest::Approx(0.9).epsilon(0.005));
   CHECK(pedal.to == doctest::Approx(-0.7).epsilon(0.01));
-  CHECK(pedal.dead_zone == 0.02);  // 1.5 x 0.004 of a travel of 1.6 is less
+  CHECK(pedal.dead_zone == 0.02);  // the minimum: 1.5 x 0.004 / 1.6 is less
   CHECK(pedal_value(pedal, 0.9 - 0.004) == 0.0);
   CHECK(pedal_value(pedal, -0.7 + 0.004) == 1.0);
 }
 
-TEST_CASE("an axis that the pad does not report before it moves: its rest is where it returns to") {
+TEST_CASE("if the pad reports an axis only after it moves, its rest is the value to which it returns") {
   Desk desk;
-  desk.sticks[1].axes[2] = 0.0f;  // after the error message; it rests at -1
+  desk.sticks[1].axes[2] = 0.0f;  // not reported yet, so 0; the pedal really rests at -1
   AxisDetector detector(Control::pedal);
   detector.record_move(desk.shown());
   desk.sticks[1].axes[2] = -0.98f;
@@ -82,14 +82,14 @@ TEST_CASE("an axis that the pad does not report before it moves: its rest is whe
   CHECK(detector.result().to == doctest::Approx(1.0).epsilon(0.005));
 }
 
-TEST_CASE("a lever: the first end reached is left or back; it rests where it was released") {
+TEST_CASE("a lever is learnt: the first end reached is left or back, and its rest is where it was released") {
   for (const double first : {-0.9, 0.8}) {
     Desk desk;
     AxisDetector detector(Control::lever);
     detector.record_move(desk.shown());
     desk.move(detector, 0, 0, first);
     desk.move(detector, 0, 0, first < 0.0 ? 0.8 : -0.9);
-    desk.move(detector, 0, 0, 0.06);  // near where it rested
+    desk.move(detector, 0, 0, 0.06);  // close to its first rest position, 0.1
     desk.rest(detector);
     const AxisBinding lever = detector.result();
     CHECK(lever.stick == "Stick");
@@ -98,13 +98,14 @@ TEST_CASE("a lever: the first end reached is left or back; it rests where it was
     CHECK(lever.to == doctest::Approx(first < 0.0 ? 0.8 : -0.9).epsilon(0.01));
     REQUIRE(lever.centre);
     CHECK(*lever.centre == doctest::Approx(0.06).epsilon(0.02));
-    CHECK(lever_value(lever, 0.1) == 0.0);   // the old rest position counts as rest, too
-    CHECK(lever_value(lever, 0.02) == 0.0);  // and so on the other side
+    CHECK(lever_value(lever, 0.1) == 0.0);   // the first rest position is in the dead zone
+    CHECK(lever_value(lever, 0.02) == 0.0);  // a value on the other side of the centre, too
     CHECK(std::abs(lever_value(lever, 0.3)) > 0.1);
   }
 }
 
-TEST_CASE("the second of two sticks with one name; a name that no file can hold is replaced by its GUID") {
+TEST_CASE(
+    "the second of two sticks with the same name is learnt; a name that no file can hold is replaced by the GUID") {
   Desk desk;
   desk.sticks[0].name = desk.sticks[1].name = "Twin";
   AxisDetector detector(Control::pedal);
@@ -133,43 +134,43 @@ TEST_CASE("invalid movements are rejected in one sentence with the remedy") {
     return refusal(detector);
   };
   CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) { desk.rest(detector); }) ==
-        "nothing moved: move one control all the way and release it");
+        "Nothing moved. Move one control all the way and release it.");
   CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
           desk.move(detector, 1, 1, -0.7);
           desk.move(detector, 1, 2, -1.0);
           desk.rest(detector);
-        }) == "two axes moved together, axis 1 of Pedals and axis 2 of Pedals: move only one control");
+        }) == "Axis 1 of Pedals and axis 2 of Pedals moved together. Move only one control.");
   CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
           desk.move(detector, 1, 1, -0.7);
-          desk.move(detector, 1, 1, 0.1);  // held half down
+          desk.move(detector, 1, 1, 0.1);  // the pedal stays half pressed
           desk.rest(detector);
-        }) == "axis 1 of Pedals rests in the middle of its range: press the pedal down and release it");
+        }) == "Axis 1 of Pedals rests in the middle of its range. Press the pedal all the way down, then release it.");
   CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
           desk.move(detector, 1, 1, -0.7);
           desk.move(detector, 1, 1, 0.9);
           desk.rest(detector, 5);
-        }) == "axis 1 of Pedals was not recorded at rest: release it and don't touch it for a second");
+        }) == "Axis 1 of Pedals was not recorded at rest. Release the control and don't touch it for a second.");
   CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
           desk.move(detector, 1, 1, -0.7);
           desk.move(detector, 1, 1, 0.9);
           desk.noise = 0.4;
           desk.rest(detector);
-        }).find("axis 1 of Pedals does not rest: untouched, it moved 0.2") == 0);
+        }).find("Axis 1 of Pedals moved by 0.2") == 0);
   CHECK(learn(Control::lever,
               [](Desk& desk, AxisDetector& detector) {
                 desk.move(detector, 0, 0, 0.9);
                 desk.move(detector, 0, 0, 0.1);
                 desk.rest(detector);
               }) ==
-        "axis 0 of Stick moved to only one side of its rest position: move the lever to one end, then to the other");
+        "Axis 0 of Stick moved to only one side of its rest position. Move the lever to one end, then to the other.");
   CHECK(learn(Control::lever, [](Desk& desk, AxisDetector& detector) {
           desk.move(detector, 0, 0, 0.9);
           desk.sticks.pop_back();
           desk.move(detector, 0, 0, -0.9);
-        }) == "a stick was plugged in or unplugged meanwhile: try again");
-  AxisDetector alone(Control::pedal);
-  alone.record_move({});
-  CHECK(refusal(alone) == "no stick with an axis is plugged in");
+        }) == "A stick was plugged in or unplugged.");
+  AxisDetector without_sticks(Control::pedal);
+  without_sticks.record_move({});
+  CHECK(refusal(without_sticks) == "No stick with an axis is plugged in. Plug one in.");
 }
 
 TEST_CASE("non-finite values are ignored") {

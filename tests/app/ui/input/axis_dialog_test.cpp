@@ -1,4 +1,4 @@
-// Pedals and a lever without forces, demonstrated one after another by a simulated user.
+// The dialog that learns pedals and a lever without force feedback. A simulated user moves them one after the other.
 #include "app/ui/input/axis_dialog.h"
 
 #include <algorithm>
@@ -17,11 +17,12 @@ using namespace gearshift::ui;
 
 namespace {
 
-// Up to three pedals on axes 0 to 2 of one device, released at 1 and pressed at -1; a lever on the two axes of another.
+// One device with pedals on its three axes (1 released, -1 pressed), and a second device with a lever on its two axes.
+// When asked, the user moves the axis in question.
 struct Person {
   std::vector<PadState> sticks{{"Pedals", {1.0f, 1.0f, 1.0f}, {}, "guid-p"}, {"Shifter", {0.0f, 0.0f}, {}, "guid-s"}};
   int asked = 0, frames = 0;
-  std::vector<std::string> said;
+  std::vector<std::string> printed;
 
   float* moved(const std::string& question) {
     if (question.find("CLUTCH") != std::string::npos) return &sticks[0].axes[2];
@@ -33,7 +34,7 @@ struct Person {
 
   AxisDialog dialog(const std::function<std::string(const std::string&)>& types) {
     AxisDialog dialog;
-    dialog.print = [this](const std::string& line) { said.push_back(line); };
+    dialog.print = [this](const std::string& line) { printed.push_back(line); };
     dialog.next_frame = [this] { return sticks; };
     dialog.ask = [this, types](const std::string& question, const std::function<void()>& frame) {
       ++asked;
@@ -42,8 +43,8 @@ struct Person {
       const float rest = axis != nullptr ? *axis : 0.0f;
       const bool lever = question.find("LEVER") != std::string::npos;
       for (int i = 0; i <= 60; ++i) {
-        const float share = i < 30 ? static_cast<float>(i) / 30.0f : static_cast<float>(60 - i) / 30.0f;
-        if (axis != nullptr && !lever) *axis = rest - 2.0f * share;
+        const float fraction = i < 30 ? static_cast<float>(i) / 30.0f : static_cast<float>(60 - i) / 30.0f;
+        if (axis != nullptr && !lever) *axis = rest - 2.0f * fraction;
         if (axis != nullptr && lever) *axis = i < 20 ? -1.0f : i < 40 ? 1.0f : 0.0f;
         frame();
       }
@@ -60,14 +61,14 @@ bool is_question_for(const std::string& question, const char* words) {
 
 }  // namespace
 
-TEST_CASE("each axis is the one that was moved, reversed if necessary; a skipped one keeps its binding") {
+TEST_CASE("each binding gets the axis that was moved, reversed if necessary; a skipped one is kept") {
   Person person;
   Bindings before;
   before.throttle = AxisBinding{};
   before.throttle->stick = "another";
   const Bindings after = learn_axes(before, person.dialog([](const std::string& question) {
     if (is_question_for(question, "THROTTLE")) return "-";
-    return is_question_for(question, "stay where you leave it") ? "y" : "";
+    return is_question_for(question, "stay in place") ? "y" : "";
   }));
   REQUIRE(after.clutch.has_value());
   CHECK(after.clutch->stick == "Pedals");
@@ -81,13 +82,14 @@ TEST_CASE("each axis is the one that was moved, reversed if necessary; a skipped
   CHECK(after.lever_mode == LeverMode::places);
 }
 
-TEST_CASE("no movement and invalid words are reported and asked again; without a lever its mode is not asked") {
+TEST_CASE(
+    "missing movements and invalid words are reported and asked for again; without a lever its mode is not asked") {
   Person person;
   int clutch = 0, throttle = 0;
   const Bindings after = learn_axes({}, person.dialog([&](const std::string& question) -> std::string {
-    CHECK_FALSE(is_question_for(question, "stay where you leave it"));
+    CHECK_FALSE(is_question_for(question, "stay in place"));
     if (is_question_for(question, "CLUTCH")) return clutch++ == 0 ? "what" : "";
-    // presses nothing, then skips the pedal
+    // The user first presses nothing, and then skips the pedal.
     if (is_question_for(question, "THROTTLE")) return throttle++ == 0 ? "" : "-";
     return "-";
   }));
@@ -96,21 +98,21 @@ TEST_CASE("no movement and invalid words are reported and asked again; without a
   CHECK(clutch == 2);
   CHECK(throttle == 2);
   const auto has_printed = [&](const char* words) {
-    return std::any_of(person.said.begin(), person.said.end(),
+    return std::any_of(person.printed.begin(), person.printed.end(),
                        [&](const std::string& line) { return line.find(words) != std::string::npos; });
   };
   CHECK(has_printed("\"what\" is not a valid answer"));
-  CHECK(has_printed("Rejected: "));
+  CHECK(has_printed(" Try again."));
 }
 
-TEST_CASE("starting over begins without the user's axes, and does not touch the saved ones") {
+TEST_CASE("starting over begins without the user's axes, and does not change the saved ones") {
   const TempFolder folder;
   const std::filesystem::path own = folder / "own.toml", defaults = GEARSHIFT_ASSETS "/bindings/default.toml";
-  CHECK_FALSE(starting_bindings(own, defaults, false).clutch.has_value());  // there is none
-  Bindings kept = read_bindings(defaults);
-  kept.clutch = AxisBinding{};
-  kept.clutch->stick = "Pedals";
-  write_bindings(kept, own);
+  CHECK_FALSE(starting_bindings(own, defaults, false).clutch.has_value());  // the user has no file yet
+  Bindings saved = read_bindings(defaults);
+  saved.clutch = AxisBinding{};
+  saved.clutch->stick = "Pedals";
+  write_bindings(saved, own);
   REQUIRE(starting_bindings(own, defaults, false).clutch.has_value());
   CHECK(starting_bindings(own, defaults, false).clutch->stick == "Pedals");
   CHECK_FALSE(starting_bindings(own, defaults, true).clutch.has_value());

@@ -1,4 +1,4 @@
-// Axis values: straight lines through the points that the file names.
+// The values of bound axes: linear between the points that the binding names.
 #include "app/ui/input/axis.h"
 
 #include <doctest/doctest.h>
@@ -9,12 +9,12 @@ using namespace gearshift::engine;
 using namespace gearshift::test;
 using namespace gearshift::ui;
 
-TEST_CASE("a pedal: 0 at `from`, 1 at `to`, in either direction, clamped") {
+TEST_CASE("a pedal is 0 at `from` and 1 at `to`, in either direction, and clamped") {
   AxisBinding pedal;
   CHECK(pedal_value(pedal, -1.0) == 0.0);
   CHECK(pedal_value(pedal, 0.5) == doctest::Approx(0.75));
   CHECK(pedal_value(pedal, 1.0) == 1.0);
-  pedal.from = 0.9;  // reversed, and it never reaches its stops
+  pedal.from = 0.9;  // reversed, and with ends short of the axis limits
   pedal.to = -0.7;
   CHECK(pedal_value(pedal, 1.0) == 0.0);
   CHECK(pedal_value(pedal, 0.5) == doctest::Approx(0.25));
@@ -22,7 +22,7 @@ TEST_CASE("a pedal: 0 at `from`, 1 at `to`, in either direction, clamped") {
   CHECK(pedal_value(pedal, -1.0) == 1.0);
 }
 
-TEST_CASE("dead zone and end zone: 0 at the start, 1 before the end, linear in between") {
+TEST_CASE("with dead zone and end zone a value is 0 at the start, 1 before the end, and linear in between") {
   AxisBinding pedal;
   pedal.from = 0.0;
   pedal.to = 1.0;
@@ -50,7 +50,7 @@ TEST_CASE("throttle and brake as the two halves of one axis never act together")
   }
 }
 
-TEST_CASE("a lever: -1, 0 and 1 at its ends and rest, linear in between, with the rest off centre") {
+TEST_CASE("a lever is -1, 0 and 1 at its ends and rest, linear in between, with the rest off centre") {
   AxisBinding lever;
   lever.from = 0.8;
   lever.to = -1.0;
@@ -65,7 +65,7 @@ TEST_CASE("a lever: -1, 0 and 1 at its ends and rest, linear in between, with th
   CHECK(lever_value(lever, -0.1) == doctest::Approx(0.0));
 }
 
-TEST_CASE("a stick's name matches in any case, also in a Turkish locale: GLFW uses the user's locale") {
+TEST_CASE("a stick's name matches in any case, also in a Turkish locale, because GLFW uses the user's locale") {
   const TurkishLetters turkish;
   CHECK(matches_stick({"SIDEWINDER", {}, {}, "1"}, "sidewinder"));
   CHECK(matches_stick({"Sidewinder", {}, {}, "1"}, "SIDE"));

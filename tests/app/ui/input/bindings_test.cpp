@@ -1,4 +1,4 @@
-// Bindings: the shipped ones, the names of keys, and errors with file, line and key.
+// Bindings: the shipped ones, the names of keys, and errors that give file, line and key.
 #include "app/ui/input/bindings.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ const std::string stop = "[keys]\nstop = \"Space\"\n";
 
 }  // namespace
 
-TEST_CASE("the shipped bindings: every action has a key, pedals and lever have an axis, the paces are the defaults") {
+TEST_CASE("in the shipped bindings every action has a key, pedals and lever have an axis, the paces are the defaults") {
   const Bindings bindings = read_bindings(shipped);
   for (const ActionInfo& action : all_actions()) {
     CAPTURE(action.key);
@@ -67,7 +67,7 @@ TEST_CASE("the shipped bindings: every action has a key, pedals and lever have a
   CHECK(bindings.clutch_slip_time == Bindings{}.clutch_slip_time);
 }
 
-TEST_CASE("STOP is reachable while the panel has the keyboard: one of its shipped keys types nothing") {
+TEST_CASE("STOP works while the panel has the keyboard: one of its shipped keys types no text") {
   const Bindings bindings = read_bindings(shipped);
   const auto& keys = bindings.keys.at(Action::stop);
   CHECK(std::any_of(keys.begin(), keys.end(), [](int key) { return !types_text(key); }));
@@ -84,13 +84,16 @@ TEST_CASE("every action has a unique name and a description") {
   CHECK(actions.size() == static_cast<std::size_t>(Action::quit) + 1);
 }
 
-TEST_CASE("every key of GLFW has a unique name, and the name gives the key") {
+TEST_CASE("every GLFW key has a unique name, from which the key is found again") {
   CHECK(key_name(GLFW_KEY_A) == "A");
   CHECK(key_name(GLFW_KEY_7) == "7");
   CHECK(key_name(GLFW_KEY_F11) == "F11");
   CHECK(key_name(GLFW_KEY_LEFT_SHIFT) == "Left Shift");
   CHECK(key_name(GLFW_KEY_KP_4) == "Keypad 4");
   CHECK(key_name(999) == "Key 999");
+  CHECK(key_label(GLFW_KEY_LEFT_BRACKET) == "[");
+  CHECK(key_label(GLFW_KEY_COMMA) == ",");
+  CHECK(key_label(GLFW_KEY_F11) == "F11");
   CHECK_FALSE(key_of("Key 999"));
   CHECK_FALSE(key_of("a"));
   CHECK_FALSE(key_of(""));
@@ -102,7 +105,7 @@ TEST_CASE("every key of GLFW has a unique name, and the name gives the key") {
     CHECK(names.insert(key_name(key)).second);
     CHECK(key_of(key_name(key)) == key);
   }
-  CHECK(known == 120);  // GLFW_KEY_... in glfw3.h without GLFW_KEY_UNKNOWN and GLFW_KEY_LAST
+  CHECK(known == 120);  // the number of GLFW_KEY_ constants in glfw3.h except UNKNOWN and LAST
 }
 
 TEST_CASE("several keys for one action, buttons and axes are read as written") {
@@ -125,14 +128,15 @@ TEST_CASE("several keys for one action, buttons and axes are read as written") {
   CHECK(bindings.pedal_time == 1.0);
 }
 
-TEST_CASE("errors name file, line, key, value and what is allowed") {
-  CHECK(begins(refusal("[keys]\nstop = \"Spcae\"\n"), "my.toml:2: stop = \"Spcae\": \"Spcae\" must be a key such as"));
-  CHECK(begins(refusal("[keys]\nstop = \"Space,\"\n"), "my.toml:2: stop = \"Space,\": \"\" must be a key"));
+TEST_CASE("an error gives file, line, key, value and the allowed values") {
+  CHECK(begins(refusal("[keys]\nstop = \"Spcae\"\n"),
+               "my.toml:2: stop = \"Spcae\": \"Spcae\" is not valid; use a key such as"));
+  CHECK(begins(refusal("[keys]\nstop = \"Space,\"\n"), "my.toml:2: stop = \"Space,\": \"\" is not valid; use a key"));
   CHECK(begins(refusal("[keys]\nstop = 5\n"), "my.toml:2: stop = 5: must be text in quotes"));
   CHECK(begins(refusal(stop + "jump = \"J\"\n"), "my.toml:3: jump is not a known key"));
   CHECK(begins(refusal(stop + "[seats]\n"), "my.toml:3: seats is not a known key"));
   CHECK(begins(refusal(stop + "[pad_buttons]\narm = \"A\"\n"),
-               "my.toml:4: arm = \"A\": \"A\" must be a button's number"));
+               "my.toml:4: arm = \"A\": \"A\" is not valid; use a button number"));
   CHECK(begins(refusal(stop + "[pad_buttons]\narm = \"128\"\n"), "my.toml:4: arm = \"128\": \"128\" must be"));
   CHECK(begins(refusal(stop + "[pace]\nmouse_mm_per_px = 0\n"),
                "my.toml:4: mouse_mm_per_px = 0: must be between 0.005 and 5"));
@@ -141,7 +145,7 @@ TEST_CASE("errors name file, line, key, value and what is allowed") {
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\npad = 0\n"), "my.toml:3: axis is missing"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = 1.5\n"), "my.toml:4: axis = 1.5: must be a whole number"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = 1\nfrom = 0.5\nto = 0.55\n"),
-               "my.toml:6: to = 0.55: must be at least 0.1 away from from = 0.5"));
+               "my.toml:6: to = 0.55: must differ from \"from\" (0.5) by at least 0.1"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = 1\ndead_zone = 1\n"), "my.toml:5: dead_zone = 1: must be"));
   CHECK(begins(refusal(stop + "[pad_axes.horn]\naxis = 1\n"), "my.toml:3: horn is not a known key"));
 }
@@ -160,7 +164,7 @@ TEST_CASE("a key, button or axis bound twice is rejected, also within one list")
         "accepted");
 }
 
-TEST_CASE("throttle and brake may share one axis as halves, but not overlap") {
+TEST_CASE("throttle and brake may be the two halves of one axis, but must not overlap") {
   const std::string throttle = stop + "[pad_axes.throttle]\naxis = 1\nfrom = 0\nto = 1\n[pad_axes.brake]\naxis = 1\n";
   CHECK(refusal(throttle + "from = 0\nto = -1\n") == "accepted");
   CHECK(begins(refusal(throttle + "from = 0.1\nto = -1\n"), "my.toml:8: axis = 1: is already bound to throttle"));
@@ -183,10 +187,10 @@ TEST_CASE("stick names, a lever's rest, both dead zones and the lever mode are r
   CHECK(help_text(bindings).find("T.16000M axis 0\tlever sideways\n") != std::string::npos);
   CHECK(help_text(bindings).find("Wheel button 3\tforces on") != std::string::npos);
   const std::string axis = stop + "[pad_axes.lever_select]\naxis = 0\n";
-  CHECK(
-      begins(refusal(axis + "centre = 0.95\n"), "my.toml:5: centre = 0.95: must be well between from = -1 and to = 1"));
+  CHECK(begins(refusal(axis + "centre = 0.95\n"),
+               "my.toml:5: centre = 0.95: must be well inside the range between from (-1) and to (1)"));
   CHECK(begins(refusal(axis + "dead_zone = 0.5\nend_zone = 0.6\n"),
-               "my.toml:6: end_zone = 0.6: must be at most 0.95 together with dead_zone = 0.5"));
+               "my.toml:6: end_zone = 0.6: must not exceed 0.95 together with dead_zone (0.5)"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = 0\ncentre = 0\n"), "my.toml:5: centre is not a known key"));
   CHECK(begins(refusal(stop + "[lever]\nmode = \"jumps\"\n"), "my.toml:4: mode = \"jumps\": must be"));
   CHECK(begins(refusal(stop + "[lever]\nfull_speed_m_per_s = 3\n"), "my.toml:4: full_speed_m_per_s = 3: must be"));
@@ -196,7 +200,7 @@ TEST_CASE("the shipped bindings include a pad's stop button") {
   CHECK(read_bindings(shipped).pad_buttons.contains(Action::stop));
 }
 
-TEST_CASE("bindings are written and read back the same, the shipped ones and complete ones") {
+TEST_CASE("bindings that are written and read again are equal: the shipped ones and complete ones") {
   Bindings full = read_bindings(shipped);
   full.button_stick = "a \"quoted\" \\ stick";
   full.lever_select->stick = "Stick";
@@ -228,7 +232,7 @@ TEST_CASE("bindings are written and read back the same, the shipped ones and com
 }
 
 TEST_CASE(
-    "bindings that could not be read again are not written, the old file stays; likewise for an invalid file name") {
+    "bindings that could not be read again or have an invalid file name are not written, and the old file is kept") {
   const TempFolder folder;
   const std::filesystem::path file = folder / "mine.toml";
   write_bindings(read_bindings(shipped), file);
@@ -241,8 +245,8 @@ TEST_CASE(
     CHECK_THROWS_AS((void)user_bindings_file(folder / "config", name), std::invalid_argument);
 }
 
-TEST_CASE("bindings without a key that stops the motors are rejected") {
-  CHECK(refusal("") == "my.toml:1: [keys] has no stop: one key must turn the motors off");
+TEST_CASE("bindings without a key for STOP are rejected") {
+  CHECK(refusal("") == "my.toml:1: [keys] has no stop; set a key for it, so that you can always turn forces off");
   CHECK(refusal(stop) == "accepted");
 }
 
@@ -250,8 +254,8 @@ TEST_CASE("the help lists every bound key with its action") {
   const Bindings bindings = read_bindings(shipped);
   const std::string help = help_text(bindings);
   CHECK(help.find("F11\tfull screen or window\n") != std::string::npos);
-  CHECK(help.find("Space, F12\tstop: motors off\n") != std::string::npos);
-  CHECK(help.find("Pad axis 5\tthrottle\n") != std::string::npos);
+  CHECK(help.find("Space, F12\tstop: turn forces off\n") != std::string::npos);
+  CHECK(help.find("Pad RT\tthrottle\n") != std::string::npos);
   CHECK(help_text({}).find("F1\t") == std::string::npos);
   CHECK(std::count(help.begin(), help.end(), '\t') == std::count(help.begin(), help.end(), '\n'));
 }

@@ -1,4 +1,4 @@
-// The driver's hand and feet, frame by frame, without a window.
+// The input for the driver's hand and feet, frame by frame, without a window.
 #include "app/ui/input/driver_input.h"
 
 #include <cmath>
@@ -74,26 +74,25 @@ TEST_CASE("after a click the mouse moves the hand: right is right, up is forward
   Driver d;
   d.input.mouse_moved = {100.0, 50.0};
   d.frame();
-  CHECK(near(d.at(), {0.0, 0.0}));  // nobody has clicked yet
+  CHECK(near(d.at(), {0.0, 0.0}));  // no click yet
   d.click();
   CHECK(d.driver.mouse_moves_lever());
   d.input.mouse_moved = {100.0, -50.0};
   d.frame();
   CHECK(near(d.at(), {0.012, 0.006}));
   d.frame();
-  CHECK(near(d.at(), {0.012, 0.006}));  // the hand stays where it is
+  CHECK(near(d.at(), {0.012, 0.006}));  // without mouse movement the hand stays
 }
 
-TEST_CASE(
-    "a click on the panel belongs to the panel; the grab key grabs and releases the mouse, from the panel as well") {
+TEST_CASE("a click on the panel does not grab the mouse; the grab key grabs and releases it, also over the panel") {
   Driver d;
   d.input.mouse_down[0] = true;
   d.frame(kFrame, true);
-  d.frame();  // still pressed, but now outside the panel: this is not a click
+  d.frame();  // the button is still pressed outside the panel, which is no click
   CHECK_FALSE(d.driver.mouse_moves_lever());
   d.key(GLFW_KEY_ESCAPE, true);
   d.frame(kFrame, false, true);
-  CHECK_FALSE(d.driver.mouse_moves_lever());  // a key for the panel
+  CHECK_FALSE(d.driver.mouse_moves_lever());  // the panel has the keyboard, so it got the key
   d.key(GLFW_KEY_ESCAPE, false);
   d.key(GLFW_KEY_ESCAPE, true);
   d.frame();
@@ -104,7 +103,7 @@ TEST_CASE(
   CHECK_FALSE(d.driver.mouse_moves_lever());
 }
 
-TEST_CASE("the mouse movement up to the click does not move the hand") {
+TEST_CASE("mouse movement before the click does not move the hand") {
   Driver d;
   d.input.mouse_moved = {-300.0, -100.0};
   d.input.mouse_down[0] = true;
@@ -127,15 +126,15 @@ TEST_CASE("lever keys move the hand at their speed, independent of the frame rat
   CHECK(near(slow.at(), {0.025, 0.025}));
   CHECK(near(fast.at(), {0.025, 0.025}));
   slow.key(GLFW_KEY_RIGHT, false);
-  slow.key(GLFW_KEY_DOWN, true);  // up and down together cancel out
-  slow.frame(0.001);              // the frame in which it is released still counts
+  slow.key(GLFW_KEY_DOWN, true);  // up is still pressed; both cancel out
+  slow.frame(0.001);              // a key still counts in the frame of its release
   const glm::dvec2 stays = slow.at();
   slow.driver.feel(stays);
   slow.frame(0.5);
   CHECK(near(slow.at(), stays));
 }
 
-TEST_CASE("the hand stays within reach, whatever moves it") {
+TEST_CASE("the hand stays within reach for any input") {
   Driver d;
   d.click();
   std::mt19937 chance(4);
@@ -158,7 +157,7 @@ TEST_CASE("the hand stays within reach, whatever moves it") {
 TEST_CASE("a mouse beyond the reach pushes, up to 75 N at 50 mm, and stops pushing when it returns") {
   Driver d;
   d.click();
-  d.input.mouse_moved = {0.0, -(0.05 + 0.025) / 0.12e-3};  // half of the way to the maximum
+  d.input.mouse_moved = {0.0, -(0.05 + 0.025) / 0.12e-3};  // 25 mm beyond the reach, half of 50 mm
   d.frame();
   CHECK(near(d.at(), {0.0, 0.05}));
   CHECK(d.driver.hand().push.y == doctest::Approx(37.5));
@@ -170,7 +169,7 @@ TEST_CASE("a mouse beyond the reach pushes, up to 75 N at 50 mm, and stops pushi
   d.frame();
   CHECK(d.driver.hand().push.y == doctest::Approx(0.0).scale(1.0));
   CHECK(d.at().y == doctest::Approx(0.05));
-  // Keys never push: even held for long, they stop at the reach.
+  // Keys never push: even if held for long, they only move the hand to the limit of its reach.
   d.key(GLFW_KEY_UP, true);
   d.frame(10.0);
   CHECK(d.driver.hand().push.y == doctest::Approx(0.0).scale(1.0));
@@ -179,7 +178,7 @@ TEST_CASE("a mouse beyond the reach pushes, up to 75 N at 50 mm, and stops pushi
   CHECK(d.driver.hand().push == glm::dvec2(0.0));
 }
 
-TEST_CASE("the reach of every shipped gate goes beyond its gears and not beyond the device") {
+TEST_CASE("the reach in every shipped gate extends beyond its gears and not beyond the device") {
   DeviceSpec device;
   device.workspace = kPaperWorkspace;
   for (const std::string& name : shipped_names()) {
@@ -197,7 +196,7 @@ TEST_CASE("the reach of every shipped gate goes beyond its gears and not beyond 
   CHECK(near(hand_reach(paper_gate(), device), {0.055, 0.060}));
 }
 
-TEST_CASE("knob and ring are held as long as their key or button") {
+TEST_CASE("knob and ring are held while their key or button is pressed") {
   Driver d;
   d.key(GLFW_KEY_X, true);
   d.input.pads = {{"pad", {}, {0, 0, 1}, ""}};
@@ -226,7 +225,7 @@ TEST_CASE("a key pressed and released between two frames counts for one frame, a
   CHECK(d.driver.pressed().empty());
 }
 
-TEST_CASE("one-shot actions come in order, once per press; held ones are never in the list") {
+TEST_CASE("one-shot actions are listed in order, once per press; held actions are never listed") {
   Driver d;
   d.key(GLFW_KEY_F11, true);
   d.key(GLFW_KEY_D, true);
@@ -234,12 +233,12 @@ TEST_CASE("one-shot actions come in order, once per press; held ones are never i
   d.input.pads = {{"pad", {}, {0, 0, 0, 0, 0, 1}, ""}};
   d.frame();
   CHECK(d.driver.pressed() == std::vector{Action::full_screen, Action::stop, Action::arm});
-  d.key(GLFW_KEY_F11, true);  // key repeat of the system
+  d.key(GLFW_KEY_F11, true);  // a repeated key event of the system
   d.frame();
   CHECK(d.driver.pressed().empty());
 }
 
-TEST_CASE("pedals ramp down and up by key in the pedal's time") {
+TEST_CASE("a pressed or released pedal key moves the pedal over its full travel in the configured time") {
   Driver d;
   d.key(GLFW_KEY_D, true);
   for (int i = 0; i < 10; ++i) d.frame();
@@ -253,8 +252,8 @@ TEST_CASE("pedals ramp down and up by key in the pedal's time") {
   CHECK(d.pedals.throttle == 0.0);
 }
 
-TEST_CASE("the keyboard clutch rises slowly around the bite point, in the configured time, at any frame rate") {
-  for (const int parts : {1, 7}) {  // parts of one 10 ms frame
+TEST_CASE("a released keyboard clutch moves slowly around the bite point, for the configured time, at any frame rate") {
+  for (const int parts : {1, 7}) {  // updates into which 10 ms are divided
     Driver d;
     d.feet.set_timing({.clutch_closed = 0.2, .clutch_bite = 0.8});
     const auto hold = [&d, parts](int key, double seconds) {
@@ -275,7 +274,7 @@ TEST_CASE("the keyboard clutch rises slowly around the bite point, in the config
   }
 }
 
-TEST_CASE("the clutch stays at the bite point while its key is held, and continues when released") {
+TEST_CASE("the clutch stays at the bite point while its hold key is pressed, and continues when it is released") {
   Driver d;
   d.key(GLFW_KEY_A, true);
   for (int i = 0; i < 30; ++i) d.frame();
@@ -292,7 +291,7 @@ TEST_CASE("the clutch stays at the bite point while its key is held, and continu
   CHECK(d.pedals.clutch == 0.0);
 }
 
-TEST_CASE("light throttle is a fifth, and full throttle takes precedence") {
+TEST_CASE("light throttle is 0.2 of full throttle; the key for full throttle takes precedence") {
   Driver d;
   d.key(GLFW_KEY_F, true);
   for (int i = 0; i < 30; ++i) d.frame();
@@ -305,7 +304,7 @@ TEST_CASE("light throttle is a fifth, and full throttle takes precedence") {
   CHECK(d.pedals.throttle == 0.2);
 }
 
-TEST_CASE("the ignition is on at first; ignition and handbrake toggle with each press, the starter is held") {
+TEST_CASE("the ignition is on at the start; ignition and handbrake toggle with each press, the starter must be held") {
   Driver d;
   d.frame();
   CHECK(d.driver.controls().ignition);
@@ -324,9 +323,9 @@ TEST_CASE("the ignition is on at first; ignition and handbrake toggle with each 
   CHECK_FALSE(d.driver.controls().starter);
 }
 
-TEST_CASE("a pedal's axis counts from its first movement: a pad reports 0 for an untouched trigger") {
+TEST_CASE("a pedal's axis is used from its first movement on, because a pad reports 0 for an untouched trigger") {
   Driver d;
-  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};  // 0 would mean half throttle
+  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};  // as a movement, 0 would be half throttle
   d.frame();
   CHECK(d.driver.controls().throttle == 0.0);
   d.input.pads[0].axes[2] = -1.0f;
@@ -335,25 +334,25 @@ TEST_CASE("a pedal's axis counts from its first movement: a pad reports 0 for an
   d.input.pads[0].axes[2] = 0.0f;
   d.frame();
   CHECK(d.driver.controls().throttle == doctest::Approx(0.5));
-  d.input.pads.clear();  // unplugged
+  d.input.pads.clear();  // the pad is unplugged
   d.frame();
   CHECK(d.driver.controls().throttle == 0.0);
 }
 
-TEST_CASE("each pedal follows its own axis and no other") {
-  Bindings own = bindings();
-  own.throttle = AxisBinding{0, 0, -1.0, 1.0, 0.0};
-  own.brake = AxisBinding{0, 1, -1.0, 1.0, 0.0};
-  own.clutch = AxisBinding{0, 2, -1.0, 1.0, 0.0};
-  own.lever_select.reset();
-  own.lever_shift.reset();
+TEST_CASE("each pedal follows its own axis only") {
+  Bindings custom = bindings();
+  custom.throttle = AxisBinding{0, 0, -1.0, 1.0, 0.0};
+  custom.brake = AxisBinding{0, 1, -1.0, 1.0, 0.0};
+  custom.clutch = AxisBinding{0, 2, -1.0, 1.0, 0.0};
+  custom.lever_select.reset();
+  custom.lever_shift.reset();
   for (const std::size_t axis : {0u, 1u, 2u}) {
     CAPTURE(axis);
-    DriverInput driver({own, {0.06, 0.05}});
+    DriverInput driver({custom, {0.06, 0.05}});
     WindowInput input;
     input.pads = {{"pad", {-1.0f, -1.0f, -1.0f}, {}, ""}};
     driver.update(input, kFrame, false, false);
-    input.pads[0].axes[axis] = 0.5f;  // three quarters of the way down
+    input.pads[0].axes[axis] = 0.5f;  // three quarters of the pedal's travel
     driver.update(input, kFrame, false, false);
     const double pedals[] = {driver.controls().throttle, driver.controls().brake, driver.controls().clutch};
     for (const std::size_t pedal : {0u, 1u, 2u}) CHECK(pedals[pedal] == (pedal == axis ? 0.75 : 0.0));
@@ -361,9 +360,9 @@ TEST_CASE("each pedal follows its own axis and no other") {
 }
 
 TEST_CASE("the brake key presses the brake and not the throttle") {
-  Bindings own = bindings();
-  own.keys[Action::brake] = {GLFW_KEY_S};
-  DriverInput driver({own, {0.06, 0.05}});
+  Bindings custom = bindings();
+  custom.keys[Action::brake] = {GLFW_KEY_S};
+  DriverInput driver({custom, {0.06, 0.05}});
   WindowInput input;
   input.keys = {{GLFW_KEY_S, true, false, false, false}};
   driver.update(input, 0.1, false, false);
@@ -371,7 +370,7 @@ TEST_CASE("the brake key presses the brake and not the throttle") {
   CHECK_FALSE(driver.pedal_keys().throttle);
 }
 
-TEST_CASE("a hand placed at a lever beyond its reach stops at the reach and does not push") {
+TEST_CASE("a hand moved to a lever beyond its reach stops at the limit and does not push") {
   for (const glm::dvec2 lever : {glm::dvec2(0.08, 0.0), {-0.08, 0.0}, {0.0, 0.07}, {0.0, -0.07}}) {
     CAPTURE(lever.x);
     Driver d;
@@ -381,65 +380,65 @@ TEST_CASE("a hand placed at a lever beyond its reach stops at the reach and does
     d.frame();
     CHECK(d.driver.hand().push == glm::dvec2(0.0));
     const glm::dvec2 before = d.at();
-    const glm::dvec2 back = -0.01 * lever / glm::length(lever);  // [m] one centimetre towards the middle
+    const glm::dvec2 back = -0.01 * lever / glm::length(lever);  // [m] 10 mm towards the middle
     d.input.mouse_moved = glm::dvec2{back.x, -back.y} / 0.12e-3;
     d.frame();
-    CHECK(near(d.at(), before + back));  // moves the hand at once
+    CHECK(near(d.at(), before + back));  // the hand follows at once
   }
 }
 
-TEST_CASE("a stick places the hand outside its dead zone, and releases it at rest") {
+TEST_CASE("a deflected stick sets the hand's position, and a released stick returns it to the middle") {
   Driver d;
   d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};
   d.frame();
-  d.input.pads[0].axes = {1.0f, -1.0f, 0.0f};  // right and forward
+  d.input.pads[0].axes = {1.0f, -1.0f, 0.0f};  // right, forward
   d.frame();
   CHECK(near(d.at(), {0.06, 0.05}));
   d.input.pads[0].axes = {-0.6f, 0.1f, 0.0f};
   d.frame();
-  CHECK(d.at().x == doctest::Approx(-0.5 * 0.06));  // (0.6 - 0.2) / 0.8
+  CHECK(d.at().x == doctest::Approx(-0.5 * 0.06));  // (0.6 - 0.2) / 0.8 of the reach
   CHECK(d.at().y == 0.0);                           // inside the dead zone
   d.input.pads[0].axes = {0.0f, 0.0f, 0.0f};
   d.frame();
   CHECK(near(d.at(), {0.0, 0.0}));
-  // At rest the stick moves nothing, so keys do.
+  // A stick at rest does not move the hand, so keys can.
   d.key(GLFW_KEY_RIGHT, true);
   d.frame(0.1);
   CHECK(near(d.at(), {0.025, 0.0}));
 }
 
-TEST_CASE("a stick that moves the hand: quadratic beyond its dead zone, independent of the frame rate") {
-  Bindings own = bindings();
-  own.lever_mode = LeverMode::moves;
-  own.stick_speed = 0.3;
+TEST_CASE("in mode `moves` the hand's speed is quadratic in the deflection beyond the dead zone, at any frame rate") {
+  Bindings custom = bindings();
+  custom.lever_mode = LeverMode::moves;
+  custom.stick_speed = 0.3;
   for (const int parts : {1, 10}) {
-    DriverInput driver({own, {0.06, 0.05}});
+    DriverInput driver({custom, {0.06, 0.05}});
     WindowInput input;
     input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};
     const auto frames = [&](double seconds) {
       for (int i = 0; i < parts; ++i) driver.update(input, seconds / parts, false, false);
     };
     frames(0.1);
-    input.pads[0].axes = {1.0f, -0.6f, 0.0f};  // right, and half of the range beyond the dead zone forward
+    input.pads[0].axes = {1.0f, -0.6f, 0.0f};  // fully right; forward, half of the range beyond the dead zone
     frames(0.1);
     CHECK(driver.hand().position.x == doctest::Approx(0.3 * 0.1));
     CHECK(driver.hand().position.y == doctest::Approx(0.3 * 0.1 / 4.0));
-    input.pads[0].axes = {0.1f, 0.15f, 0.0f};  // released: it trembles inside the dead zone
-    driver.feel({0.03, 0.0075});               // and the lever has followed
+    input.pads[0].axes = {0.1f, 0.15f, 0.0f};  // the released stick trembles inside its dead zone
+    driver.feel({0.03, 0.0075});               // the lever has followed the hand
     const glm::dvec2 stays = driver.hand().position;
     for (int i = 0; i < 50; ++i) frames(0.1);
     CHECK(near(driver.hand().position, stays));
     input.pads[0].axes = {-1.0f, 0.0f, 0.0f};
     frames(100.0);
-    CHECK(driver.hand().position.x == doctest::Approx(0.03 - 0.05));  // the hand stays within 50 mm of a blocked lever
+    CHECK(driver.hand().position.x == doctest::Approx(0.03 - 0.05));  // at most 50 mm from a blocked lever
     CHECK(driver.hand().push == glm::dvec2(0.0));
   }
 }
 
-TEST_CASE("a pad's stop button always works, even without the focus") {
-  Bindings own = bindings();
-  own.pad_buttons = {{Action::stop, {1}}};
-  DriverInput driver({own, {0.06, 0.05}});
+TEST_CASE("a pad's stop button always works, even if the window does not have the focus") {
+  Bindings custom = bindings();
+  custom.pad_buttons = {{Action::stop, {1}}};
+  DriverInput driver({custom, {0.06, 0.05}});
   WindowInput input;
   input.pads = {{"pad", {}, {0, 1}, ""}};
   driver.update(input, kFrame, true, true);
@@ -453,22 +452,22 @@ TEST_CASE("a pad's stop button always works, even without the focus") {
   CHECK(driver.pressed() == std::vector{Action::stop});
 }
 
-TEST_CASE("axes and buttons bound by a stick's name follow it to any port, and no other stick") {
-  Bindings own = bindings();
-  own.throttle = AxisBinding{0, 0, 0.0, 1.0, 0.0};
-  own.throttle->stick = "pedals";
-  own.clutch = AxisBinding{1, 0, 0.0, 1.0, 0.0};  // an axis of the second device with that name
-  own.clutch->stick = "pedals";
-  own.lever_select.reset();
-  own.lever_shift.reset();
-  own.pad_buttons = {{Action::starter, {0}}};
-  own.button_stick = "Wheel";
+TEST_CASE("axes and buttons bound by a stick's name follow that stick to any port, and ignore other sticks") {
+  Bindings custom = bindings();
+  custom.throttle = AxisBinding{0, 0, 0.0, 1.0, 0.0};
+  custom.throttle->stick = "pedals";
+  custom.clutch = AxisBinding{1, 0, 0.0, 1.0, 0.0};  // pad 1: the second stick whose name matches
+  custom.clutch->stick = "pedals";
+  custom.lever_select.reset();
+  custom.lever_shift.reset();
+  custom.pad_buttons = {{Action::starter, {0}}};
+  custom.button_stick = "Wheel";
   const auto drive = [&](const std::vector<std::size_t>& order) {
     const std::vector<PadState> all{
         {"Acme Pedals", {0.25f}, {1}, "01"}, {"Some Wheel", {0.5f}, {0}, "02"}, {"PEDALS two", {0.75f}, {1}, "03"}};
     WindowInput input;
     for (const std::size_t i : order) input.pads.push_back(all[i]);
-    DriverInput driver({own, {0.06, 0.05}});
+    DriverInput driver({custom, {0.06, 0.05}});
     for (const bool moved : {false, true}) {
       for (PadState& pad : input.pads) pad.axes[0] += moved ? 0.125f : 0.0f;
       driver.update(input, kFrame, false, false);
@@ -477,14 +476,14 @@ TEST_CASE("axes and buttons bound by a stick's name follow it to any port, and n
   };
   CHECK(drive({0, 1, 2}).throttle == doctest::Approx(0.375));
   CHECK(drive({0, 1, 2}).clutch == doctest::Approx(0.875));
-  CHECK(drive({1, 0, 2}).throttle == doctest::Approx(0.375));  // the wheel comes first, so nothing changes
+  CHECK(drive({1, 0, 2}).throttle == doctest::Approx(0.375));  // the order of different sticks does not matter
   CHECK(drive({1, 2}).throttle == doctest::Approx(0.875));
-  CHECK(drive({1, 2}).clutch == 0.0);  // there is no second device
+  CHECK(drive({1, 2}).clutch == 0.0);  // only one stick matches
   CHECK(drive({1}).throttle == 0.0);
-  CHECK_FALSE(drive({0, 1, 2}).starter);  // the pedals' button is not the wheel's
+  CHECK_FALSE(drive({0, 1, 2}).starter);  // the pressed button is on the pedals and not on the wheel
 }
 
-TEST_CASE("panel input does not reach the driver, except keys that type nothing; held keys are released") {
+TEST_CASE("panel input does not reach the driver, except keys that type no text; held keys are released") {
   Driver d;
   d.key(GLFW_KEY_D, true);
   d.frame();
@@ -502,7 +501,7 @@ TEST_CASE("panel input does not reach the driver, except keys that type nothing;
   CHECK(d.pedals.throttle == 0.0);
 }
 
-TEST_CASE("when the window loses the focus all keys are released") {
+TEST_CASE("when the window loses the focus, all keys are released") {
   Driver d;
   d.click();
   d.key(GLFW_KEY_RIGHT, true);
@@ -518,7 +517,7 @@ TEST_CASE("when the window loses the focus all keys are released") {
   CHECK(d.pedals.throttle == 0.0);
 }
 
-// An X server without a window manager never reports that a window has the focus.
+// Without a window manager, an X server never reports that a window has the focus.
 TEST_CASE("a window that never had the focus still receives its keys") {
   Driver d;
   d.input.focused = false;
@@ -527,7 +526,7 @@ TEST_CASE("a window that never had the focus still receives its keys") {
   CHECK(near(d.at(), {0.025, 0.0}));
 }
 
-TEST_CASE("the same input gives exactly the same output") {
+TEST_CASE("equal input gives exactly equal output") {
   Driver a, b;
   for (Driver* d : {&a, &b}) {
     std::mt19937 chance(9);
@@ -545,7 +544,7 @@ TEST_CASE("the same input gives exactly the same output") {
   CHECK(a.driver.pressed() == b.driver.pressed());
 }
 
-TEST_CASE("keys move the hand at most 5 cm past a blocked lever; when released it leans on it with at most 2.5 N") {
+TEST_CASE("keys move the hand at most 50 mm past a blocked lever; once released, the hand stays at most 5 mm past it") {
   Driver d;
   const glm::dvec2 held{-0.01, 0.005};
   d.key(GLFW_KEY_LEFT, true);
@@ -556,15 +555,15 @@ TEST_CASE("keys move the hand at most 5 cm past a blocked lever; when released i
   CHECK(d.at().x == doctest::Approx(held.x - 0.05));
   d.key(GLFW_KEY_LEFT, false);
   for (int i = 0; i < 20; ++i) d.frame();
-  CHECK(d.at().x == doctest::Approx(held.x - 0.05));  // the lever may still arrive
+  CHECK(d.at().x == doctest::Approx(held.x - 0.05));  // the hand waits, because the lever may still arrive
   for (int i = 0; i < 40; ++i) d.frame();
   CHECK(d.at().x == doctest::Approx(held.x - 0.005));
-  d.driver.feel({0.0, 0.0});  // a lever that springs back does not pull the hand along
+  d.driver.feel({0.0, 0.0});  // the lever springs back and must not pull the hand along
   for (int i = 0; i < 40; ++i) d.frame();
   CHECK(d.at().x == doctest::Approx(held.x - 0.005));
 }
 
-TEST_CASE("a mouse used after keys is not pulled back to the lever") {
+TEST_CASE("a hand moved by the mouse after keys is not pulled back to the lever") {
   Driver d;
   d.click();
   d.key(GLFW_KEY_RIGHT, true);
@@ -579,7 +578,8 @@ TEST_CASE("a mouse used after keys is not pulled back to the lever") {
   CHECK(near(d.at(), there));
 }
 
-TEST_CASE("a pedal key pressed and released within a frame is held until the next one, other keys until released") {
+TEST_CASE(
+    "a pedal key pressed and released within a frame counts until the next frame, a longer press until its release") {
   Driver d;
   d.key(GLFW_KEY_A, true);
   d.key(GLFW_KEY_A, false);
@@ -592,5 +592,5 @@ TEST_CASE("a pedal key pressed and released within a frame is held until the nex
   d.frame();
   d.key(GLFW_KEY_A, false);
   d.frame();
-  CHECK_FALSE(d.driver.pedal_keys().clutch);  // otherwise each press would last one frame too long
+  CHECK_FALSE(d.driver.pedal_keys().clutch);  // a longer press is not extended by a frame
 }

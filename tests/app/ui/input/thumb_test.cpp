@@ -1,4 +1,5 @@
-// A thumb on a pad drives a gate: the stick has only deflection, and springs back to the centre.
+// A simulated thumb drives through a gate with a pad's stick, which has only a deflection and springs back to its
+// centre.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -24,9 +25,10 @@ namespace {
 
 constexpr int kCyclesPerFrame = 16;
 constexpr double kThumbFrame = 1e-3 * kCyclesPerFrame;  // [s]
-constexpr int kReactionFrames = 9;                      // [frames] until a person reacts to the picture: 0.15 s
+constexpr int kReactionFrames = 9;                      // delay of the user's reaction to the picture, about 0.15 s
 
-// The shipped pad with a thumb on its two-axis stick, a simulated lever in a gripping hand, and a picture of it.
+// The shipped bindings of a pad, a thumb on its stick, and a simulated lever in a gripping hand. The thumb sees the
+// lever delayed by the reaction time.
 class ThumbDesk {
  public:
   ThumbDesk(const Gate& gate, LeverMode mode)
@@ -42,8 +44,8 @@ class ThumbDesk {
     rest(0.8);
   }
 
-  // Shifts to a gear by watching the picture. `moves`: the larger the distance, the faster; `places`: position. False
-  // if it took longer than 8 s.
+  // Shifts into `gear` by watching the lever's picture. In mode `moves` the deflection sets the hand's speed and grows
+  // with the distance; in mode `places` it sets the hand's position. False if the shift took more than 8 s.
   bool shift(int gear) {
     free_reverse(gear == kReverseGear);
     lean_ = {0.0, 0.0};
@@ -59,7 +61,7 @@ class ThumbDesk {
     return false;
   }
 
-  // The thumb stays on the stick.
+  // Keeps the stick deflected so that the lever stays in the gear.
   void hold(int gear, double seconds) {
     for (double time = 0.0; time < seconds; time += kThumbFrame) {
       thumb(hold_deflection(rest_position(gate_, gear)));
@@ -88,7 +90,8 @@ class ThumbDesk {
   bool at_rest_of(int gear) const { return std::abs(visible_lever().y - rest_position(gate_, gear).y) < 0.006; }
   dvec2 visible_lever() const { return picture_.empty() ? dvec2{0.0, 0.0} : picture_.front(); }
 
-  // Out of the slot, across, in; it keeps pushing across while the lever goes in, against the centring.
+  // The next target on the way out of the old slot, along the aisle and into the new slot. In the slot it remains in
+  // the middle of the column, so that the thumb pushes against the centring.
   dvec2 waypoint(int gear) const {
     const dvec2 to = rest_position(gate_, gear), at = visible_lever();
     const bool in_column = std::abs(at.x - to.x) < 0.004;
@@ -97,26 +100,28 @@ class ThumbDesk {
     return {in_aisle ? to.x : at.x, 0.0};
   }
 
-  // The speed that reaches the aim within a third of a second; a thumb cannot move in less than a fifth.
+  // The deflection at which the hand reaches `aim` in 0.3 s. A thumb cannot hold a deflection of less than a fifth.
   dvec2 towards(dvec2 aim) const {
     dvec2 deflection{0.0, 0.0};
     for (int i = 0; i < 2; ++i) {
-      const double way = aim[i] - visible_lever()[i], share = std::abs(way) / 0.3 / bindings_.stick_speed;
-      if (std::abs(way) > 0.0015) deflection[i] = std::copysign(std::clamp(std::sqrt(share), 0.2, 1.0), way);
+      const double distance = aim[i] - visible_lever()[i], fraction = std::abs(distance) / 0.3 / bindings_.stick_speed;
+      if (std::abs(distance) > 0.0015)
+        deflection[i] = std::copysign(std::clamp(std::sqrt(fraction), 0.2, 1.0), distance);
     }
     return deflection;
   }
 
-  // Holds the aim, and the longer the lever lags, the further beyond it, up to 25 mm: this pulls the lever over detents
-  // and against centring.
+  // The deflection that holds the lever at `aim`. The longer the lever lags, the further the hand's target moves beyond
+  // it, up to 25 mm, which pulls the lever over detents and against the centring.
   dvec2 hold_deflection(dvec2 aim) {
     lean_ = glm::clamp(lean_ + 4.0 * kThumbFrame * (aim - visible_lever()), -0.025, 0.025);
     return glm::clamp((aim + lean_) / hand_reach(gate_, lever_.spec()), -1.0, 1.0);
   }
 
-  // A thumb moves from end to end in a fifth of a second, trembles, and presses against the stick's spring.
+  // Sets the deflection that the thumb wants. frame() moves the thumb there, from end to end in a fifth of a second,
+  // and adds a tremor.
   void thumb(dvec2 wanted) { wanted_ = wanted; }
-  void free_reverse(bool down) {  // knob and ring
+  void free_reverse(bool down) {  // releases the lockout by knob and ring
     for (const Action action : {Action::push_down, Action::lift})
       for (const int button : bindings_.pad_buttons.at(action))
         input_.pads[0].buttons[static_cast<std::size_t>(button)] = down ? 1 : 0;
@@ -124,8 +129,8 @@ class ThumbDesk {
 
   float raw_of(const AxisBinding& axis, double deflection) const {
     const double zone = axis.dead_zone, live = 1.0 - axis.dead_zone - axis.end_zone;
-    const double share = deflection == 0.0 ? 0.0 : std::copysign(zone + live * std::abs(deflection), deflection);
-    return static_cast<float>(0.5 * (axis.from + axis.to) + 0.5 * (axis.to - axis.from) * share);
+    const double fraction = deflection == 0.0 ? 0.0 : std::copysign(zone + live * std::abs(deflection), deflection);
+    return static_cast<float>(0.5 * (axis.from + axis.to) + 0.5 * (axis.to - axis.from) * fraction);
   }
 
   void frame() {
@@ -137,7 +142,7 @@ class ThumbDesk {
     axes[static_cast<std::size_t>(bindings_.lever_shift->axis)] = raw_of(*bindings_.lever_shift, thumb_.y + tremor.y);
     if (thumb_ == dvec2{0.0, 0.0})
       for (const auto& axis : {bindings_.lever_select, bindings_.lever_shift})
-        axes[static_cast<std::size_t>(axis->axis)] = 0.05f;  // no stick returns exactly to its centre
+        axes[static_cast<std::size_t>(axis->axis)] = 0.05f;  // a real stick never returns exactly to its centre
     driver_.feel(loop_.snapshot().lever);
     driver_.update(input_, kThumbFrame, false, false);
     target_.write(driver_.hand());
@@ -171,7 +176,7 @@ std::vector<int> gears_of(const Gate& gate) {
 
 }  // namespace
 
-TEST_CASE("in mode `moves` a thumb reaches every gear, and a released stick leaves the gear in") {
+TEST_CASE("in mode `moves` a thumb reaches every gear, and a gear stays engaged after the stick is released") {
   for (const char* name : {"paper", "six_speed_r_left_up"}) {
     ThumbDesk desk(shipped_gate(name), LeverMode::moves);
     for (const int gear : gears_of(desk.gate())) {
@@ -184,7 +189,7 @@ TEST_CASE("in mode `moves` a thumb reaches every gear, and a released stick leav
   }
 }
 
-TEST_CASE("in mode `places` a thumb reaches every gear and must hold the stick; when released, the gear falls out") {
+TEST_CASE("in mode `places` a thumb reaches every gear and must hold the stick, because the gear is left on release") {
   for (const char* name : {"paper", "six_speed_r_left_up"}) {
     ThumbDesk desk(shipped_gate(name), LeverMode::places);
     for (const int gear : gears_of(desk.gate())) {

@@ -1,4 +1,4 @@
-// Hand-made coach views for each stage of a lesson: the shipped lessons, and a learner half way through.
+// Hand-made coach views for each stage of a lesson, with the shipped lessons and a learner who has passed some of them.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline lessons::Lesson shipped_lesson(std::string_view key) {
   return lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + std::string(key) + ".toml");
 }
 
-// A named learner with four lessons passed and a fifth one tried; hill_start is next. Nothing is offered.
+// A named learner who has passed four lessons and tried a fifth; hill_start is next. No lesson is offered.
 inline lessons::CoachView half_way() {
   lessons::CoachView coach;
   coach.learner = "Ada Example";
@@ -49,7 +49,7 @@ inline lessons::CoachView offered(std::string_view key = "hill_start") {
   return coach;
 }
 
-// In its third step, with two errors reported.
+// A lesson in its third step, with two errors reported.
 inline lessons::CoachView driven(std::string_view key = "hill_start") {
   lessons::CoachView coach = offered(key);
   const lessons::Lesson lesson = shipped_lesson(key);
@@ -58,7 +58,7 @@ inline lessons::CoachView driven(std::string_view key = "hill_start") {
   coach.now.steps = lesson.steps.size();
   coach.now.prompt = lesson.steps[2].prompt;
   coach.now.hint = lesson.steps[2].hint;
-  coach.now.feedback = {"The lever moved 0.12 s before the clutch was down.", "The engine stalled, from 640 rpm."};
+  coach.now.feedback = {"The lever moved 0.12 s before the clutch was down.", "The engine stalled at 640 rpm."};
   return coach;
 }
 
@@ -74,7 +74,7 @@ inline lessons::ShiftRecord shift_of(std::int64_t number, int from, int to, doub
   return shift;
 }
 
-// Assessed as a lesson run does it.
+// A result with these errors, graded as at the end of a lesson run.
 inline lessons::LessonResult result_of(std::string_view key, std::vector<lessons::DrivingError> errors,
                                        bool guided = false) {
   lessons::LessonResult result;
@@ -93,13 +93,13 @@ inline lessons::LessonResult result_of(std::string_view key, std::vector<lessons
   return result;
 }
 
-inline std::vector<lessons::DrivingError> some_faults() {
+inline std::vector<lessons::DrivingError> some_errors() {
   return {{lessons::ErrorKind::jerk, lessons::Severity::minor, 14.2, 9.7, 0},
           {lessons::ErrorKind::grind, lessons::Severity::severe, 19.9, 12.4, 1},
           {lessons::ErrorKind::wrong_column, lessons::Severity::note, 20.1, 2.0, 1}};
 }
-inline std::vector<lessons::DrivingError> failing_faults() {
-  std::vector<lessons::DrivingError> errors = some_faults();
+inline std::vector<lessons::DrivingError> failing_errors() {
+  std::vector<lessons::DrivingError> errors = some_errors();
   errors.push_back({lessons::ErrorKind::stall, lessons::Severity::very_severe, 31.0, 62.0, -1});
   errors.push_back({lessons::ErrorKind::throttle_in_shift, lessons::Severity::minor, 33.0, 80.0, 1});
   errors.push_back({lessons::ErrorKind::rollback, lessons::Severity::severe, 36.5, 0.42, -1});
@@ -117,7 +117,8 @@ inline lessons::CoachView over(const lessons::LessonResult& result) {
   return coach;
 }
 
-// Six runs, newest first: passed and recorded, failed, guided, left, interrupted, partly lost. With a comment.
+// A learner with six runs, newest first: passed and recorded, failed, guided, left, interrupted, partly lost. The first
+// has a comment.
 inline lessons::CoachView with_history() {
   lessons::CoachView coach = half_way();
   const auto add = [&](std::int64_t id, const char* at, lessons::LessonResult result, const char* recording) {
@@ -130,9 +131,9 @@ inline lessons::CoachView with_history() {
   left.why = "You left the lesson.";
   cut.end = lessons::LessonEnd::running;
   lost.is_complete = false;
-  add(16, "2026-01-02T10:31:00Z", result_of("hill_start", some_faults()), "/tmp/hill.trace");
-  add(15, "2026-01-02T10:20:00Z", result_of("hill_start", failing_faults()), "");
-  add(14, "2026-01-02T10:11:00Z", result_of("down_through_the_gears", some_faults(), true), "/tmp/down.trace");
+  add(16, "2026-01-02T10:31:00Z", result_of("hill_start", some_errors()), "/tmp/hill.trace");
+  add(15, "2026-01-02T10:20:00Z", result_of("hill_start", failing_errors()), "");
+  add(14, "2026-01-02T10:11:00Z", result_of("down_through_the_gears", some_errors(), true), "/tmp/down.trace");
   add(13, "2026-01-01T09:11:00Z", left, "");
   add(12, "2026-01-01T09:05:00Z", cut, "");
   add(11, "2026-01-01T09:00:00Z", lost, "");

@@ -1,5 +1,5 @@
-// The content of Dear ImGui's last frame: corners by colour, and texts, recovered from the glyphs' positions in the
-// atlas.
+// Reads Dear ImGui's last frame: the corners of everything drawn in a colour, and the texts, recovered from their
+// glyphs' positions in the font atlas.
 #pragma once
 
 #include <imgui.h>
@@ -23,7 +23,8 @@ inline glm::dvec2 pixel_of(const ImDrawVert& vertex) {
   return {static_cast<double>(vertex.pos.x), static_cast<double>(vertex.pos.y)};
 }
 
-// Corners of everything drawn in exactly that colour, without the antialiased edges. [px] from the upper left, y down
+// [px] The corners of everything drawn in exactly this colour, without the antialiased edges. The origin is the upper
+// left corner, and y points down.
 inline std::vector<glm::dvec2> drawn_in(ImU32 colour) {
   std::vector<glm::dvec2> corners;
   const ImDrawData& data = *ImGui::GetDrawData();
@@ -46,7 +47,7 @@ inline PixelBox box_of(const std::vector<glm::dvec2>& corners) {
   return box;
 }
 
-// One line of text in one colour, without its blanks, which are not drawn.
+// One line of text in one colour. Blanks are missing, because they are not drawn.
 struct DrawnText {
   std::string text;
   ImU32 colour = 0;
@@ -61,7 +62,7 @@ inline std::string utf8(unsigned letter) {
 }
 
 inline std::vector<DrawnText> drawn_texts() {
-  std::map<std::pair<float, float>, std::string> letters;  // by their upper left corner in the atlas
+  std::map<std::pair<float, float>, std::string> letters;  // key: the glyph's upper left corner in the atlas
   for (const ImFont* font : ImGui::GetIO().Fonts->Fonts) {
     for (const ImFontGlyph& glyph : font->Glyphs)
       if (glyph.Visible) letters.emplace(std::pair(glyph.U0, glyph.V0), utf8(glyph.Codepoint));
@@ -106,7 +107,7 @@ inline bool is_drawn(const std::string& wanted) {
                      [&](const DrawnText& text) { return text.text == without_blanks(wanted); });
 }
 
-// The texts to the right of a text on the same line, from left to right.
+// The texts that are to the right of `label` on the same line, from left to right.
 inline std::vector<std::string> right_of(const std::string& label) {
   std::vector<DrawnText> texts = drawn_texts();
   const PixelBox at = the_text(texts, label).box;
@@ -120,9 +121,9 @@ inline std::vector<std::string> right_of(const std::string& label) {
   return line;
 }
 
-// One frame with only a window of that size, in which `body` draws.
+// Draws one frame that contains only a window of this size, whose content `body` draws.
 template <class Body>
-void draw_alone(engine::UiContext& ui, ImVec2 size, const Body& body) {
+void draw_in_window(engine::UiContext& ui, ImVec2 size, const Body& body) {
   ui.begin({size.x, size.y});
   ImGui::SetNextWindowPos({0.0f, 0.0f});
   ImGui::SetNextWindowSize(size);

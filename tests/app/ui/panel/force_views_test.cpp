@@ -1,4 +1,4 @@
-// Forces in the plots and the clip meter, read from their triangles.
+// The plots of forces and the clip meter, read from the triangles that they draw.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kWidth = 1000.0, kHeight = 600.0;  // [px]
 
-// Seven seconds of constant values: complete, level curves.
+// Plots after seven seconds of constant values, so that every curve is complete and level.
 struct Plots {
   UiContext ui;
   Gate gate = paper_gate();
@@ -38,7 +38,7 @@ struct Plots {
     draw();
   }
   void draw() {
-    draw_alone(ui, {static_cast<float>(kWidth), static_cast<float>(kHeight)}, [this] {
+    draw_in_window(ui, {static_cast<float>(kWidth), static_cast<float>(kHeight)}, [this] {
       controls.begin_frame();
       plots.draw_axis_choice(controls);
       plots.draw(controls, static_cast<float>(kHeight) - 40.0f, gate, now, trail);
@@ -56,7 +56,7 @@ struct Plots {
   }
 };
 
-// [px] Height of a level curve over time, near the right edge, where there is no legend.
+// [px] The y of a level curve over time, read near the right edge, where no legend is.
 double level_of(ImU32 colour) {
   std::vector<glm::dvec2> corners = drawn_in(colour);
   std::erase_if(corners, [](glm::dvec2 corner) { return corner.x < 0.8 * kWidth; });
@@ -91,7 +91,7 @@ struct Meter {
   DeviceSpec device;
 
   void draw(const HapticSnapshot& now) {
-    draw_alone(ui, {800.0f, 120.0f}, [&] {
+    draw_in_window(ui, {800.0f, 120.0f}, [&] {
       controls.begin_frame();
       meter.draw(controls, now, device);
     });
@@ -100,7 +100,7 @@ struct Meter {
 
 }  // namespace
 
-TEST_CASE("each force is plotted in its own colour at its own height, on one scale, for either axis") {
+TEST_CASE("each force has its own colour and height, on one scale, for either axis") {
   const HapticSnapshot s = steady();
   Plots rig(s);
   for (const int axis : {1, 0}) {
@@ -108,14 +108,14 @@ TEST_CASE("each force is plotted in its own colour at its own height, on one sca
     if (axis == 0) rig.choose_select();
     const double h = level_of(ui::ink::kHand), a = level_of(ui::ink::kActuator), j = level_of(ui::ink::kJoystick);
     const double px_per_n = (a - h) / (s.f_h[axis] - s.f_a[axis]);
-    CHECK(px_per_n > 0.5);  // a larger force is higher
+    CHECK(px_per_n > 0.5);  // a larger force is drawn higher
     CHECK(std::abs((j - h) - px_per_n * (s.f_h[axis] - s.f_j[axis])) < 1.5);
     const double lever = level_of(ui::ink::kLever), proxy = level_of(ui::ink::kProxy);
     CHECK((lever - proxy) * (s.proxy[axis] - s.lever[axis]) > 0.0);
   }
 }
 
-TEST_CASE("the numbers beside the curves equal the forces and positions") {
+TEST_CASE("the numbers next to the curves equal the forces and positions") {
   Plots rig(steady());
   CHECK(right_of("Force") == std::vector<std::string>{"f_h30.0N", "f_a-22.0N", "f_j8.0N"});
   CHECK(right_of("Position") == std::vector<std::string>{"lever-20.0mm", "drawn10.0mm"});
@@ -126,14 +126,14 @@ TEST_CASE("the numbers beside the curves equal the forces and positions") {
   CHECK(right_of("Force at position") == std::vector<std::string>{"commanded-4.0N"});
 }
 
-TEST_CASE("the live dot of force over position moves right with the lever and up with the commanded force") {
+TEST_CASE("in the plot of force against position, the dot moves right with the lever and up with the commanded force") {
   const auto dot = [](glm::dvec2 lever, glm::dvec2 commanded) {
     HapticSnapshot s = steady();
     s.lever = lever;
     s.commanded = commanded;
     Plots rig(s);
     std::vector<glm::dvec2> corners = drawn_in(ui::ink::kActuator);
-    const double lowest = box_of(corners).max.y;  // in the third plot
+    const double lowest = box_of(corners).max.y;  // [px] the dot is in the lowest plot
     std::erase_if(corners, [&](glm::dvec2 c) { return c.y < lowest - static_cast<double>(ui_em()); });
     return box_of(corners).middle();
   };
@@ -146,13 +146,13 @@ TEST_CASE("the live dot of force over position moves right with the lever and up
 TEST_CASE("the clip meter's wanted force is the sum of wall, feel and load, on the axis with the larger sum") {
   Meter rig;
   const glm::dvec2 three{0.0, 3.0}, five{0.0, 5.0}, seven{0.0, 7.0}, none(0.0);
-  for (const auto& [now, told] : {std::pair(with_forces(three, none, none), "wanted 3.0 N"),
-                                  {with_forces(none, five, none), "wanted 5.0 N"},
-                                  {with_forces(none, none, seven), "wanted 7.0 N"},
-                                  {with_forces(three, five, seven), "wanted 15.0 N"},
-                                  {with_forces(three, -five, none), "wanted 2.0 N"},
-                                  {with_forces({-20.0, 3.0}, {-1.0, 0.0}, none), "wanted 21.0 N"}}) {
-    const std::string words = told;
+  for (const auto& [now, label] : {std::pair(with_forces(three, none, none), "wanted 3.0 N"),
+                                   {with_forces(none, five, none), "wanted 5.0 N"},
+                                   {with_forces(none, none, seven), "wanted 7.0 N"},
+                                   {with_forces(three, five, seven), "wanted 15.0 N"},
+                                   {with_forces(three, -five, none), "wanted 2.0 N"},
+                                   {with_forces({-20.0, 3.0}, {-1.0, 0.0}, none), "wanted 21.0 N"}}) {
+    const std::string words = label;
     CAPTURE(words);
     rig.draw(now);
     CHECK(is_drawn(words));

@@ -1,4 +1,4 @@
-// Positions in the gate view, read from its triangles.
+// Positions in the gate view, read from the triangles that it draws.
 #include "app/ui/panel/gate_view.h"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ using namespace gearshift::ui;
 
 namespace {
 
-constexpr double kMaxForce = 75.0;    // [N]
-constexpr glm::dvec2 kUp{1.0, -1.0};  // from right and forward to right and down
+constexpr double kMaxForce = 75.0;                                            // [N]
+constexpr glm::dvec2 kUp{1.0, -1.0};                                          // maps (right, forward) to (right, down)
 constexpr glm::dvec2 kForces[] = {{0.0, 30.0}, {-30.0, 0.0}, {18.0, -24.0}};  // [N] each of magnitude 30
 
 struct View {
@@ -33,10 +33,10 @@ struct View {
   Trail trail;
 
   void draw() {
-    draw_alone(ui, {640.0f, 480.0f},
-               [this] { draw_gate_view(ImGui::GetContentRegionAvail(), gate, now, trail, kMaxForce); });
+    draw_in_window(ui, {640.0f, 480.0f},
+                   [this] { draw_gate_view(ImGui::GetContentRegionAvail(), gate, now, trail, kMaxForce); });
   }
-  glm::dvec2 disc_at(glm::dvec2 proxy) {  // [px] of the drawn lever
+  glm::dvec2 disc_at(glm::dvec2 proxy) {  // [px] centre of the drawn lever
     now.proxy = now.lever = proxy;
     draw();
     return box_of(drawn_in(ui::ink::kProxy)).middle();
@@ -48,7 +48,7 @@ double distance_from(glm::dvec2 point, glm::dvec2 wanted) {
   return glm::distance(point, wanted);
 }
 
-// The tip of an arrow from that point: its farthest corner. [px]
+// [px] The vector from `from` to the tip of the arrow that starts there, which is its farthest corner.
 glm::dvec2 tip_of(ImU32 colour, glm::dvec2 from) {
   glm::dvec2 tip = from;
   for (const glm::dvec2 corner : drawn_in(colour))
@@ -58,7 +58,7 @@ glm::dvec2 tip_of(ImU32 colour, glm::dvec2 from) {
 
 }  // namespace
 
-TEST_CASE("forward is up and right is right in the gate view, with the same scale in both") {
+TEST_CASE("in the gate view forward is up and right is right, with the same scale for both") {
   View view;
   const double scale = view.px_per_m();
   CHECK(scale > 1000.0);
@@ -67,7 +67,7 @@ TEST_CASE("forward is up and right is right in the gate view, with the same scal
     CHECK(distance_from(view.disc_at(place), middle + scale * kUp * place) < 0.1);
 }
 
-TEST_CASE("walls and the engaged gear's name use the same frame as the lever") {
+TEST_CASE("walls and the engaged gear's name are drawn in the same frame of reference as the lever") {
   View view;
   for (const char* name : {"paper", "six_speed_r_left_up", "four_speed"}) {
     CAPTURE(name);
@@ -92,7 +92,7 @@ TEST_CASE("walls and the engaged gear's name use the same frame as the lever") {
           middle +
           scale * kUp * glm::dvec2(column_of(view.gate, slot.column).center, static_cast<int>(slot.side) * slot.end);
       CHECK(std::abs(disc.x - end.x) < 0.5);
-      CHECK((end.y - disc.y) * static_cast<int>(slot.side) > 0.0);  // beyond the slot's end, on its side
+      CHECK((end.y - disc.y) * static_cast<int>(slot.side) > 0.0);  // the disc is beyond the slot's end
       const DrawnText sign = the_text(drawn_texts(), gear_name(slot.gear));
       CHECK(distance_from(sign.box.middle(), disc) < 0.4 * static_cast<double>(ui_em()));
     }
@@ -116,13 +116,13 @@ TEST_CASE("the filled disc is the proxy, the ring the true lever, and a red line
   CHECK(red_near(drawn));
   CHECK(red_near(true_one));
   CHECK_FALSE(red_near(2.0 * true_one - drawn));
-  view.now.flags = kFlagGhost;  // too far apart: the ring is red
+  view.now.flags = kFlagGhost;  // proxy and lever too far apart: the ring turns red
   view.draw();
   CHECK(drawn_in(ui::ink::kLever).empty());
   CHECK(red_near(true_one + glm::dvec2(0.0, 0.56 * static_cast<double>(ui_em()))));
 }
 
-TEST_CASE("the hand's arrow is f_h and the actuators' arrow is the commanded force: from the lever, in proportion") {
+TEST_CASE("arrows from the lever show f_h (hand) and the commanded force (actuators), to scale") {
   View view;
   const glm::dvec2 lever = view.disc_at({0.0, 0.0});
   for (const bool hand : {true, false}) {
@@ -140,11 +140,11 @@ TEST_CASE("the hand's arrow is f_h and the actuators' arrow is the commanded for
       view.now.*shown = 2.0 * force;
       view.draw();
       const glm::dvec2 twice = tip_of(colour, lever);
-      // The tip's shape and soft edge are the same in both, so the difference in length is that of 30 N.
+      // Both arrows have the same tip and soft edge, so their lengths differ by exactly 30 N.
       const double px_per_n = glm::distance(twice, once) / 30.0;
       CHECK(std::abs(glm::length(once) - 30.0 * px_per_n) < 4.0);
-      CHECK(75.0 * px_per_n > 100.0);  // the device's maximum is clearly visible ...
-      CHECK(75.0 * px_per_n < 240.0);  // ... and stays inside the view
+      CHECK(75.0 * px_per_n > 100.0);  // the device's maximum force must be clearly visible
+      CHECK(75.0 * px_per_n < 240.0);  // the device's maximum force must fit into the view
     }
     view.now.*shown = {0.0, 0.0};
     view.draw();

@@ -31,19 +31,19 @@ struct HeadsetTabRig : PanelRig {
     frame();
     frame();
   }
-  // Drags a length's slider to the right.
+  // Drags the slider of a length to the right.
   HeadsetRequests drag_length(const std::string& name) {
-    HeadsetRequests seen;
+    HeadsetRequests requested;
     for (int step = 0; step <= 10; ++step) {
       point(name, 0.2 + 0.06 * step);
       frame();
-      if (asked.headset.height) seen.height = asked.headset.height;
-      if (asked.headset.knob) seen.knob = asked.headset.knob;
+      if (asked.headset.height) requested.height = asked.headset.height;
+      if (asked.headset.knob) requested.knob = asked.headset.knob;
       events.mouse_down[0] = true;
     }
     events.mouse_down[0] = false;
     frame();
-    return seen;
+    return requested;
   }
 };
 
@@ -69,7 +69,7 @@ TEST_CASE("without a headset there is no headset tab; with one it shows its fram
   CHECK(rig.panel.shortened_texts() == 0);
 }
 
-TEST_CASE("the seat is set by sitting down, by height, by distances, or by touching the knob") {
+TEST_CASE("the seat is set by a recentre, by height, by distances, or by touching the knob") {
   HeadsetTabRig rig;
   CHECK(rig.click("headset_recentre").headset.recentre);
   const HeadsetRequests raised = rig.drag_length("headset_height");
@@ -80,19 +80,20 @@ TEST_CASE("the seat is set by sitting down, by height, by distances, or by touch
   REQUIRE(asked_knob);
   rig.input.headset->seat.knob = asked_knob;
   rig.show();
-  CHECK_FALSE(rig.panel.control_rect("headset_height").has_value());  // the lever's position determines the seat height
+  // The distances to the knob determine the seat height.
+  CHECK_FALSE(rig.panel.control_rect("headset_height").has_value());
   const HeadsetRequests moved = rig.drag_length("headset_knob_down");
   REQUIRE(moved.knob);
   CHECK(moved.knob->down > asked_knob->down);
   CHECK(moved.knob->right == asked_knob->right);
   CHECK(rig.click("headset_knob").headset.forget_knob);
-  CHECK(rig.click("headset_touch").headset.touch);
+  CHECK(rig.click("headset_touch").headset.start_touching);
   rig.input.headset->touching = true;
   rig.input.headset->touches = 3;
   rig.input.headset->worst_touch = 0.0042;
   rig.show();
-  CHECK(is_drawn("Touched 3 times, at most 4 mm apart."));
-  CHECK(rig.click("headset_touched").headset.touched);
+  CHECK(is_drawn("3 points touched, at most 4 mm apart."));
+  CHECK(rig.click("headset_touched").headset.save_touches);
   rig.input.headset->touching = false;
   rig.input.stick = StickView{};
   rig.show();

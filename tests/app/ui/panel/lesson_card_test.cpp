@@ -1,4 +1,4 @@
-// The lesson card over the cabin: its texts, and what a click on it requests.
+// The lesson card over the cabin: its texts, and the requests that clicks on it make.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -46,7 +46,7 @@ bool has_no_request(const LessonRequests& asked) {
          !asked.next && !asked.learner && !asked.comment;
 }
 
-// True if the words, or a line with them, are drawn on the card.
+// Whether the words are drawn, as a whole line or as part of one.
 bool says(const std::string& words) {
   const std::vector<DrawnText> texts = drawn_texts();
   return std::any_of(texts.begin(), texts.end(),
@@ -56,7 +56,7 @@ bool says(const std::string& words) {
 }  // namespace
 
 TEST_CASE(
-    "an offered lesson is started, configured and dismissed by one click each; without one there are no requests") {
+    "an offered lesson is started, set up and dismissed by one click each; without a click there are no requests") {
   CardRig rig(offered());
   CHECK(says("Hill start"));
   CHECK(says("without rolling back"));
@@ -78,7 +78,7 @@ TEST_CASE(
   CHECK(rig.click("help").lesson.help == true);
 }
 
-TEST_CASE("the card is shown while the panel is hidden, too, and covers only what is behind it") {
+TEST_CASE("the card is also shown while the panel is hidden, and covers only the area behind it") {
   for (const bool panel_shown : {true, false}) {
     CAPTURE(panel_shown);
     CardRig rig(driven(), panel_shown);
@@ -107,33 +107,33 @@ TEST_CASE("the card is at the bottom centre and keeps its size in every phase") 
     CAPTURE(panel_shown);
     CardRig rig(half_way(), panel_shown);
     rig.input.keys = some_keys();
-    const ControlRect whole = rig.panel.cabin_area();
+    const ControlRect all = rig.panel.cabin_area();
     rig.show(offered());
     const ControlRect middle = rig.panel.cabin_area();
-    CHECK(middle.max.y < 0.78 * whole.max.y);
-    CHECK(middle.max.y > 0.60 * whole.max.y);
+    CHECK(middle.max.y < 0.78 * all.max.y);
+    CHECK(middle.max.y > 0.60 * all.max.y);
     CHECK(rig.rect("lesson_begin").min.y > middle.max.y);
-    CHECK(rig.panel.covers({0.5 * (whole.min.x + whole.max.x), whole.max.y - 20.0}));
-    CHECK_FALSE(rig.panel.covers({0.5 * (whole.min.x + whole.max.x), middle.max.y - 2.0}));
-    for (const CoachView& coach : {driven(), over(result_of("hill_start", some_faults())), offered()}) {
+    CHECK(rig.panel.covers({0.5 * (all.min.x + all.max.x), all.max.y - 20.0}));
+    CHECK_FALSE(rig.panel.covers({0.5 * (all.min.x + all.max.x), middle.max.y - 2.0}));
+    for (const CoachView& coach : {driven(), over(result_of("hill_start", some_errors())), offered()}) {
       rig.input.coach = coach;
-      rig.frame();  // already in its first frame
+      rig.frame();  // the size must be right in the phase's first frame
       CHECK(rig.panel.cabin_area().max.y <= middle.max.y);
       rig.show(coach);
     }
-    const double settled = rig.panel.cabin_area().max.y;  // the width of its longest text
-    CHECK(settled > 0.55 * whole.max.y);
-    for (const CoachView& coach : {driven(), over(result_of("hill_start", some_faults())), offered()}) {
+    const double settled = rig.panel.cabin_area().max.y;  // the card has grown to the height of its largest phase
+    CHECK(settled > 0.55 * all.max.y);
+    for (const CoachView& coach : {driven(), over(result_of("hill_start", some_errors())), offered()}) {
       rig.input.coach = coach;
       rig.frame();
       CHECK(rig.panel.cabin_area().max.y == settled);
     }
     rig.show(half_way());
-    CHECK(rig.panel.cabin_area().max.y == whole.max.y);
+    CHECK(rig.panel.cabin_area().max.y == all.max.y);
   }
 }
 
-TEST_CASE("no prompt of the shipped lessons, with its hint and messages, covers more than 40 % of a 1280 x 720 cabin") {
+TEST_CASE("no prompt of the shipped lessons, with hint and messages, covers more than 40 % of a 1280 x 720 cabin") {
   CardRig rig(driven(), true);
   rig.input.keys = some_keys();
   for (const std::string_view key : kTeachingOrder) {
@@ -151,14 +151,14 @@ TEST_CASE("no prompt of the shipped lessons, with its hint and messages, covers 
   }
 }
 
-TEST_CASE("the button for Enter says so: try again after failing, next lesson after passing") {
-  CardRig rig(over(result_of("hill_start", some_faults())));
+TEST_CASE("the button that Enter presses is marked: try again after failing, next lesson after passing") {
+  CardRig rig(over(result_of("hill_start", some_errors())));
   rig.input.now.guard = GuardState::running;
   rig.frame();
   rig.frame();
   CHECK(says("Next lesson (Enter)"));
   CHECK_FALSE(says("Try again (Enter)"));
-  CoachView failed = over(result_of("hill_start", failing_faults()));
+  CoachView failed = over(result_of("hill_start", failing_errors()));
   failed.next = "bite_point";
   rig.show(failed);
   CHECK(says("Try again (Enter)"));
@@ -169,17 +169,17 @@ TEST_CASE("the button for Enter says so: try again after failing, next lesson af
   CHECK_FALSE(says("motors"));
 }
 
-TEST_CASE("with forces off, starting a lesson switches them on, and a running one shows that they are off") {
+TEST_CASE("with forces off, starting a lesson switches them on, and a running lesson shows that they are off") {
   CardRig rig(offered());
   for (const GuardState guard : {GuardState::idle, GuardState::damped, GuardState::released}) {
     rig.input.now.guard = guard;
     rig.show(offered());
-    CHECK(says("Motors on and start (Enter)"));
+    CHECK(says("Turn forces on and start (Enter)"));
     const PanelRequests asked = rig.click("lesson_begin");
     CHECK(asked.lesson.begin);
     CHECK(asked.arm);
     rig.show(driven());
-    CHECK(the_text(drawn_texts(), "Motors off. Press Enter to turn them on.").colour == ui::ink::kBad);
+    CHECK(the_text(drawn_texts(), "Forces are off. Press Enter to turn them on.").colour == ui::ink::kBad);
     CHECK_FALSE(rig.frame().arm);
   }
   for (const GuardState guard : {GuardState::running, GuardState::ramping}) {
@@ -193,11 +193,11 @@ TEST_CASE("with forces off, starting a lesson switches them on, and a running on
   }
 }
 
-TEST_CASE("the remaining time is shown, in the warning colour for its last twenty seconds") {
+TEST_CASE("the remaining time is shown, and in the warning colour for the last twenty seconds") {
   CoachView coach = driven();
   coach.result.duration = 30.4;
   CardRig rig(coach);
-  CHECK_FALSE(says("left"));  // the time is unknown
+  CHECK_FALSE(says("left"));  // the time limit is unknown
   coach.time_limit = 90.0;
   rig.show(coach);
   CHECK(the_text(drawn_texts(), "1:00 left").colour == ui::ink::kSoft);
@@ -206,21 +206,21 @@ TEST_CASE("the remaining time is shown, in the warning colour for its last twent
   CHECK(the_text(drawn_texts(), "0:20 left").colour == ui::ink::kWarn);
 }
 
-TEST_CASE("a lesson that ended early shows that this gives 0, whatever else cost points") {
-  LessonResult result = result_of("hill_start", some_faults());
+TEST_CASE("a lesson that ended early shows that this gives 0 points, in addition to the other deductions") {
+  LessonResult result = result_of("hill_start", some_errors());
   result.end = LessonEnd::out_of_time;
   grade_result(shipped_lesson("hill_start"), result);
   CardRig rig(over(result));
-  CHECK(says("Time's up: 0 points"));
+  CHECK(says("Time's up (0 points)."));
   CHECK(says("Not passed"));
   CHECK(says("-2.0"));
   result.end = LessonEnd::aborted;
   result.why = "The car rolled back more than a metre.";
   grade_result(shipped_lesson("hill_start"), result);
   rig.show(over(result));
-  CHECK(says("The car rolled back more than a metre: 0 points"));
+  CHECK(says("The car rolled back more than a metre (0 points)."));
   CHECK_FALSE(says("Time's up"));
-  rig.show(over(result_of("hill_start", some_faults())));
+  rig.show(over(result_of("hill_start", some_errors())));
   CHECK_FALSE(says("Time's up"));
   CHECK_FALSE(says(": 0"));
   result.end = LessonEnd::left;
@@ -252,10 +252,10 @@ TEST_CASE("the keys are listed under goal and prompt, with the starter's key aft
     rig.panel.set_visible(false);
     rig.input.mouse_moves_lever = true;
     rig.show(coach);
-    CHECK(says("The mouse is moving the lever (Esc to free it)"));
+    CHECK(says("The mouse controls the lever (Esc releases the mouse)"));
     CHECK_FALSE(says("Click"));
     rig.input.mouse_moves_lever = false;
-    rig.input.is_automatic_hand = true;  // neither keys nor mouse have an effect
+    rig.input.is_automatic_hand = true;  // neither keys nor mouse move this hand
     rig.show(coach);
     CHECK_FALSE(says("Click"));
     CHECK_FALSE(is_drawn("a little throttle"));
@@ -266,13 +266,13 @@ TEST_CASE("the keys are listed under goal and prompt, with the starter's key aft
   CHECK_FALSE(says("Press the clutch"));
   rig.input.car.stalled = true;
   rig.show(driven());
-  CHECK(says("Press the clutch, then the starter [E]"));
+  CHECK(says("Press the clutch, then the starter (E)."));
   rig.input.keys.clear();
   rig.show(driven());
   CHECK(says("Press the clutch, then the starter."));
 }
 
-TEST_CASE("a hidden panel's card shows pedals, engine, handbrake and slope; otherwise the bar does") {
+TEST_CASE("with the panel hidden the card shows pedals, engine, handbrake and slope; otherwise the status bar does") {
   CardRig rig(driven());
   rig.input.car.engine_speed = 240.0;
   rig.input.car.hand_brake = 1.0;
@@ -293,7 +293,7 @@ TEST_CASE("a hidden panel's card shows pedals, engine, handbrake and slope; othe
   CHECK(says("Slope +10 %"));
 }
 
-TEST_CASE("whether a trial is guided is shown while it is driven, not before; a test is marked as one") {
+TEST_CASE("a guided trial is marked while it is driven, not before; a retention test is marked too") {
   CoachView coach = offered();
   coach.guidance = 0.8;
   CardRig rig(coach);
@@ -301,24 +301,24 @@ TEST_CASE("whether a trial is guided is shown while it is driven, not before; a 
   coach = driven();
   rig.show(coach);
   CHECK_FALSE(says("guided"));
-  CHECK_FALSE(says("test: no help"));
+  CHECK_FALSE(says("test: no guidance"));
   coach.guidance = 0.8;
   rig.show(coach);
   CHECK(says("guided, not graded"));
   coach.guidance = 0.0;
   coach.retention = true;
   rig.show(coach);
-  CHECK(says("test: no help"));
+  CHECK(says("test: no guidance"));
   CHECK_FALSE(says("guided"));
 }
 
-TEST_CASE("prompt, hint and step are the coach's, with one part done for each completed step") {
+TEST_CASE("prompt, hint and step are the coach's, and the progress bar has a part for each completed step") {
   CoachView coach = driven("reverse");
   coach.now.feedback.clear();
   CardRig rig(coach);
   CHECK(says(coach.now.prompt));
   CHECK(says("step 3 of 7"));
-  const auto parts = [](ImU32 colour) {  // by their left edges
+  const auto parts = [](ImU32 colour) {  // [px] left edge of the last part in this colour
     std::vector<double> edges;
     for (const glm::dvec2 at : drawn_in(colour)) edges.push_back(at.x);
     return edges.empty() ? 0.0 : *std::max_element(edges.begin(), edges.end());
@@ -352,23 +352,24 @@ TEST_CASE("the newest message is large for some seconds, then as small as the ea
   CHECK(large_second > 1.15 * height_of(second));
 }
 
-TEST_CASE("from a phase's first frame the card's footer has all its buttons and keys") {
+TEST_CASE(
+    "from a phase's second frame on the card has all its buttons and keys; an open card has them from the first") {
   for (const bool panel_shown : {true, false}) {
     CAPTURE(panel_shown);
-    for (const CoachView& coach : {offered(), over(result_of("hill_start", failing_faults()))}) {
+    for (const CoachView& coach : {offered(), over(result_of("hill_start", failing_errors()))}) {
       CardRig rig(half_way(), panel_shown);
       rig.input.keys = some_keys();
       rig.input.coach = coach;
       rig.frame();
-      rig.frame();  // a new window is not drawn in its first frame
+      rig.frame();  // ImGui does not draw a new window in its first frame
       const bool is_over = coach.phase == LessonPhase::over;
       const ControlRect button = rig.rect(is_over ? "lesson_again" : "lesson_begin");
       const double foot = panel_shown ? rig.rect("stop").min.y : 720.0;
       CHECK(button.max.y < foot);
       CHECK(says(is_over ? "again" : "(Enter)"));
     }
-    CardRig rig(driven(), panel_shown);  // the card is already open
-    rig.input.coach = over(result_of("hill_start", failing_faults()));
+    CardRig rig(driven(), panel_shown);  // here the card is open already
+    rig.input.coach = over(result_of("hill_start", failing_errors()));
     rig.frame();
     CHECK(rig.panel.control_rect("lesson_again").has_value());
     CHECK(rig.panel.control_rect("lesson_put_away").has_value());
@@ -379,20 +380,20 @@ TEST_CASE("from a phase's first frame the card's footer has all its buttons and 
   }
 }
 
-TEST_CASE("while the instructor holds the car the card says so, and how to take over") {
-  const LessonResult passed = result_of("hill_start", some_faults());
+TEST_CASE("while the instructor holds the car, the card says so and how to take over") {
+  const LessonResult passed = result_of("hill_start", some_errors());
   for (const bool is_over : {true, false}) {
     CardRig rig(is_over ? over(passed) : offered());
     CHECK_FALSE(says("teacher"));
     rig.input.instructor_holds_pedals = true;
     rig.frame();
     rig.frame();
-    CHECK(says("The instructor is holding clutch and brake"));
-    CHECK(says(is_over ? "Close to take over" : "Not now to take over"));
+    CHECK(says("The instructor is holding the clutch and brake"));
+    CHECK(says(is_over ? "Press \"Close\" to take over" : "Press \"Not now\" to take over"));
   }
 }
 
-TEST_CASE("a trial that can no longer be passed says so once while it is driven, and what to do") {
+TEST_CASE("the card of a trial that can no longer be passed says so once, and what to do") {
   CardRig rig(driven());
   CHECK_FALSE(says("no longer pass this attempt"));
   rig.input.is_unpassable = true;
@@ -402,40 +403,40 @@ TEST_CASE("a trial that can no longer be passed says so once while it is driven,
           return text.text.find(without_blanks("no longer pass this attempt")) != std::string::npos;
         }) == 1);
   CHECK(says("Keep practising"));
-  rig.show(over(result_of("hill_start", failing_faults())));
+  rig.show(over(result_of("hill_start", failing_errors())));
   CHECK_FALSE(says("no longer pass this attempt"));
 }
 
 TEST_CASE("deductions and grade add up to ten, and each deduction names its error and time") {
-  CardRig rig(over(result_of("hill_start", some_faults())));
-  double taken = 0.0;
+  CardRig rig(over(result_of("hill_start", some_errors())));
+  double deducted = 0.0;
   int lines = 0;
   for (const DrawnText& text : drawn_texts()) {
     if (text.text.front() != '-' || text.text.size() != 4) continue;
-    taken -= std::atof(text.text.c_str());
+    deducted -= std::atof(text.text.c_str());
     ++lines;
   }
   CHECK(lines == 2);
-  CHECK(10.0 - taken == doctest::Approx(7.5));
+  CHECK(10.0 - deducted == doctest::Approx(7.5));
   const DrawnText grade = the_text(drawn_texts(), "7.5");
   for (const DrawnText& text : drawn_texts())
     CHECK(text.box.max.y - text.box.min.y <= grade.box.max.y - grade.box.min.y);
-  CHECK(right_of("7.9 s") == std::vector<std::string>{without_blanks("The gear ground (12.4 J)."), "-2.0"});
+  CHECK(right_of("7.9 s") == std::vector<std::string>{without_blanks("The gears ground (12.4 J)."), "-2.0"});
   CHECK(says("Passed"));
-  CHECK_FALSE(says("wrong slot"));  // a note
+  CHECK_FALSE(says("wrong slot"));  // a note costs no points and is not listed
 }
 
-TEST_CASE("after a lesson one click restarts it or offers the next; a guided one has no grade") {
-  CardRig rig(over(result_of("hill_start", some_faults())));
+TEST_CASE("after a lesson one click restarts it or offers the next lesson; a guided lesson has no grade") {
+  CardRig rig(over(result_of("hill_start", some_errors())));
   CHECK(rig.click("lesson_again").lesson.begin);
   CHECK(rig.click("lesson_next").lesson.offer == "emergency_stop");
   CHECK(rig.click("lesson_put_away").lesson.dismiss_lesson);
   CHECK(says("Emergency stop"));
-  rig.show(over(result_of("hill_start", failing_faults())));
+  rig.show(over(result_of("hill_start", failing_errors())));
   CHECK(says("Not passed"));
-  CHECK(says("The engine stalled, from 592 rpm."));
-  CHECK_FALSE(rig.panel.control_rect("lesson_next").has_value());  // it is the same lesson
-  rig.show(over(result_of("hill_start", some_faults(), true)));
+  CHECK(says("The engine stalled at 592 rpm."));
+  CHECK_FALSE(rig.panel.control_rect("lesson_next").has_value());  // the next lesson is the same lesson
+  rig.show(over(result_of("hill_start", some_errors(), true)));
   CHECK(says("graded"));
   CHECK_FALSE(says("Passed"));
   CHECK_FALSE(says("0.0"));

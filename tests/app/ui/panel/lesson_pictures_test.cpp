@@ -1,4 +1,4 @@
-// The lesson views for learner and instructor: on every screen size, in a headset's eye, with and without the panel.
+// The views for learner and instructor on every screen size and in one eye of a headset, with and without the panel.
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -44,18 +44,18 @@ void check_inside(const PanelRig& rig, const ControlRect& room, const std::vecto
 struct Moment {
   const char* name;
   CoachView coach;
-  std::vector<std::string> controls;  // all visible ones
+  std::vector<std::string> controls;  // controls that must be visible
 };
 
 std::vector<Moment> moments() {
-  CoachView alone = offered("another_gate"), guided = driven("bite_point"), test = driven("reverse");
-  alone.mode = LessonMode::by_yourself;
-  alone.help_wanted = false;
+  CoachView by_yourself = offered("another_gate"), guided = driven("bite_point"), test = driven("reverse");
+  by_yourself.mode = LessonMode::by_yourself;
+  by_yourself.help_wanted = false;
   guided.guidance = 0.7;
   guided.now.feedback.clear();
   guided.time_limit = 90.0;
   guided.result.duration = 78.0;
-  LessonResult late = result_of("hill_start", failing_faults());
+  LessonResult late = result_of("hill_start", failing_errors());
   late.end = LessonEnd::out_of_time;
   grade_result(shipped_lesson("hill_start"), late);
   test.retention = true;
@@ -64,20 +64,20 @@ std::vector<Moment> moments() {
   const std::vector<std::string> offer{"lesson_begin", "mode", "help", "lesson_put_away"};
   const std::vector<std::string> end{"lesson_again", "lesson_put_away"};
   return {{"offered", offered(), offer},
-          {"offered_alone", alone, offer},
+          {"offered_alone", by_yourself, offer},
           {"driving", driven(), {"lesson_leave"}},
           {"driving_guided", guided, {"lesson_leave"}},
           {"driving_test", test, {"lesson_leave"}},
-          {"over_passed", over(result_of("hill_start", some_faults())), {"lesson_again", "lesson_next"}},
+          {"over_passed", over(result_of("hill_start", some_errors())), {"lesson_again", "lesson_next"}},
           {"over_best", over(result_of("hill_start", {})), end},
-          {"over_failed", over(result_of("hill_start", failing_faults())), end},
+          {"over_failed", over(result_of("hill_start", failing_errors())), end},
           {"over_late", over(late), end},
-          {"over_guided", over(result_of("hill_start", some_faults(), true)), end}};
+          {"over_guided", over(result_of("hill_start", some_errors(), true)), end}};
 }
 
 }  // namespace
 
-TEST_CASE("a lesson's card fits on every screen, below the cabin and without touching the bar") {
+TEST_CASE("a lesson's card fits on every screen, below the cabin and without touching the status bar") {
   for (const Screen& screen : all_screens()) {
     CAPTURE(screen.width);
     CAPTURE(screen.scale);
@@ -120,7 +120,8 @@ TEST_CASE("lessons and history fit on every screen, with complete tab names") {
                   "next: start_and_stop", "tab_presets"});
     for (const LessonStanding& lesson : rig.input.coach.lessons) {
       CAPTURE(lesson.title);
-      const PixelBox box = the_text(drawn_texts(), lesson.title).box;  // hill_start's first step is the suggestion
+      // For hill_start, the first match is the suggestion above the list.
+      const PixelBox box = the_text(drawn_texts(), lesson.title).box;
       CHECK(box.min.x >= rig.panel.cabin_area().max.x);
       CHECK(box.max.x <= rig.rect("next: " + lesson.key).min.x);
     }
@@ -141,7 +142,7 @@ TEST_CASE("lessons and history fit on every screen, with complete tab names") {
   }
 }
 
-TEST_CASE("a replay fits on every screen, as a whole and shift by shift") {
+TEST_CASE("a replay fits on every screen, for the whole drive and for each shift") {
   Player player(upshifts().file);
   REQUIRE(player.drive().shifts().size() > 1);
   for (const Screen& screen : all_screens()) {
@@ -149,7 +150,7 @@ TEST_CASE("a replay fits on every screen, as a whole and shift by shift") {
     CAPTURE(screen.scale);
     PanelRig rig;
     show_on(rig, screen);
-    rig.input.coach = over(result_of("hill_start", some_faults()));
+    rig.input.coach = over(result_of("hill_start", some_errors()));
     player.select_shift(std::nullopt);
     player.seek(player.drive().begin() + 6.0);
     rig.input.replay = &player;

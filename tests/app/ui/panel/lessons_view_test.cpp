@@ -1,4 +1,4 @@
-// The tabs for lessons and past runs, operated by mouse and keyboard.
+// The panel's tabs for lessons and past runs, operated by mouse and keyboard.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -36,7 +36,7 @@ struct LessonsRig : PanelRig {
 
 }  // namespace
 
-TEST_CASE("the lessons tab is open first, in teaching order, with a disc for each passed lesson") {
+TEST_CASE("the lessons tab is open at the start, in teaching order, with a disc for each passed lesson") {
   PanelRig rig;
   rig.input.coach = half_way();
   for (int i = 0; i < 3; ++i) rig.frame();
@@ -49,15 +49,16 @@ TEST_CASE("the lessons tab is open first, in teaching order, with a disc for eac
   }
   const std::vector<std::string> best_and_last{"9.0", "6.5"};
   CHECK(right_of("Up through the gears") == best_and_last);
-  CHECK(right_of("Reverse").empty());  // never tried
+  CHECK(right_of("Reverse").empty());  // this lesson was never tried
   std::vector<glm::dvec2> discs = drawn_in(ui::ink::kGood);
   std::erase_if(discs, [&](glm::dvec2 at) { return at.x < rig.panel.cabin_area().max.x; });  // plots, pedals
   const PixelBox green = box_of(discs);
   CHECK(green.min.y >= rig.rect("lesson: start_and_stop").min.y - 2.0);
-  CHECK(green.max.y <= rig.rect("lesson: up_through_the_gears").max.y + 2.0);  // the fourth is the last one passed
+  // The last lesson passed is the fourth.
+  CHECK(green.max.y <= rig.rect("lesson: up_through_the_gears").max.y + 2.0);
 }
 
-TEST_CASE("a click offers a lesson, a button the suggested one; neither works during a lesson") {
+TEST_CASE("a click offers a lesson, and a button the suggested one; neither works during a lesson") {
   LessonsRig rig(half_way());
   CHECK(rig.click("lesson: reverse").lesson.offer == "reverse");
   CHECK(rig.click("lesson_suggested").lesson.offer == "hill_start");
@@ -69,7 +70,7 @@ TEST_CASE("a click offers a lesson, a button the suggested one; neither works du
   CHECK_FALSE(rig.click("lesson_suggested").lesson.offer.has_value());
 }
 
-TEST_CASE("the instructor sets the next lesson, and restores the suggestion") {
+TEST_CASE("the instructor can set the next lesson, and restore the suggested one") {
   LessonsRig rig(half_way());
   CHECK(rig.click("next: reverse").lesson.next == "reverse");
   CHECK_FALSE(rig.panel.control_rect("next_as_suggested").has_value());
@@ -83,14 +84,14 @@ TEST_CASE("a learner's name is typed and confirmed with Enter, chosen from the l
   LessonsRig rig(half_way());
   rig.click("learner");
   CHECK(rig.panel.has_keyboard());
-  CHECK_FALSE(rig.write(U"Dora").lesson.learner.has_value());  // not yet
+  CHECK_FALSE(rig.write(U"Dora").lesson.learner.has_value());  // a typed name selects nobody before Enter
   CHECK(rig.press(kEnter).lesson.learner == "Dora");
   rig.input.coach.learner = "Dora";
   rig.frame();
   rig.frame();
   CHECK_FALSE(rig.panel.has_keyboard());
   rig.click("learner");
-  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());  // the name is unchanged
+  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());  // the name has not changed
   rig.click("learner_known");
   CHECK(rig.click("learner: Bert").lesson.learner == "Bert");
   rig.click("learner_known");
@@ -107,7 +108,7 @@ TEST_CASE("a field has the keyboard from the frame in which it was clicked") {
   CHECK(rig.panel.has_keyboard());
 }
 
-TEST_CASE("a name is applied when its field is left by a click or Tab; Escape restores it; nothing moves") {
+TEST_CASE("leaving the field by a click or Tab applies the name; Escape restores it; the rows below do not move") {
   LessonsRig rig(half_way());
   const double row = rig.rect("lesson: reverse").min.y;
   rig.click("learner");
@@ -145,25 +146,25 @@ TEST_CASE("the list of learners is as wide as the field") {
   CHECK(entry.max.x <= arrow.max.x + 1.0);
 }
 
-TEST_CASE("a note says when nothing is saved") {
+TEST_CASE("a note explains why nothing is saved") {
   CoachView coach = half_way();
   coach.is_saving = false;
   LessonsRig rig(coach);
-  CHECK(is_drawn("The history is not open: nothing is saved."));
+  CHECK(is_drawn("Your history could not be opened, so nothing is being saved."));
   rig.input.coach.is_saving = true;
   rig.input.coach.learner.clear();
   rig.frame();
   CHECK(is_drawn("Enter a name to save your progress."));
-  rig.input.is_automatic_hand = true;  // shown for every learner: it explains why nothing is saved
+  rig.input.is_automatic_hand = true;  // then a note about the automatic hand replaces the note about the name
   rig.frame();
   CHECK_FALSE(is_drawn("Enter a name to save your progress."));
   const std::vector<DrawnText> texts = drawn_texts();
   CHECK(std::any_of(texts.begin(), texts.end(), [](const DrawnText& text) {
-    return text.text.starts_with(without_blanks("The hand drives by itself"));
+    return text.text.starts_with(without_blanks("The simulated driver is driving"));
   }));
 }
 
-TEST_CASE("a name with characters missing in the font is accepted, with a note on how they are shown") {
+TEST_CASE("a name with characters that the font lacks is accepted, with a note on how they are shown") {
   LessonsRig rig(half_way());
   const auto is_explained = [] {
     const std::vector<DrawnText> texts = drawn_texts();
@@ -182,7 +183,7 @@ TEST_CASE("a name with characters missing in the font is accepted, with a note o
   rig.input.coach.learner = "李娜";
   rig.frame();
   rig.frame();
-  CHECK(is_explained());  // as long as it is her grade
+  CHECK(is_explained());  // the note remains while this learner is selected
 }
 
 TEST_CASE("a click opens a past run; its shifts can be replayed if they were recorded") {
@@ -193,52 +194,53 @@ TEST_CASE("a click opens a past run; its shifts can be replayed if they were rec
   REQUIRE(asked.playback.open.has_value());
   CHECK(asked.playback.open->recording == "/tmp/hill.trace");
   CHECK(asked.playback.open->begin == 19.5);
-  CHECK(is_drawn("clutch released 0.08 s before the gear, revs off by 239 rpm"));
-  CHECK(is_drawn("blocked for 0.31 s"));
-  CHECK(is_drawn("The gear ground (12.4 J). (-2.0)"));
+  CHECK(is_drawn("clutch released 0.08 s before the gear engaged; revs off by 239 rpm"));
+  CHECK(is_drawn("blocked by the synchroniser for 0.31 s"));
+  CHECK(is_drawn("The gears ground (12.4 J). (-2.0)"));
   CHECK(is_drawn("Wait for the synchroniser: push, do not hit."));
   rig.click("run: 16");
   CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
-  rig.click("run: 15");  // it was not recorded
+  rig.click("run: 15");  // this run was not recorded
   CHECK_FALSE(rig.click("look: 15 0").playback.open.has_value());
-  CHECK(is_drawn("No replay: this run was not recorded."));
+  CHECK(is_drawn("This run was not recorded, so it cannot be replayed."));
 }
 
 TEST_CASE("each run shows its grade, or why it has none") {
   LessonsRig rig(with_history(), "tab_history");
   const std::vector<DrawnText> texts = drawn_texts();
-  for (const char* words : {"7.5", "0.0", "guided", "left", "cut off", "data lost"}) CHECK(is_drawn(words));
-  CHECK(the_text(texts, "7.5").box.min.y < the_text(texts, "0.0").box.min.y);  // unsorted: newest first
-  CHECK(the_text(texts, "guided").box.min.y < the_text(texts, "left").box.min.y);
+  for (const char* words : {"7.5", "0.0", "guided", "left early", "cut off", "data lost"}) CHECK(is_drawn(words));
+  // Run 16, which is newer, is above run 15.
+  CHECK(the_text(texts, "7.5").box.min.y < the_text(texts, "0.0").box.min.y);
+  CHECK(the_text(texts, "guided").box.min.y < the_text(texts, "left early").box.min.y);
 }
 
-TEST_CASE("an error costs points if the run has a grade, and none in a run that was left") {
+TEST_CASE("an error costs points in a graded run, and none in a run that was left") {
   CoachView coach = with_history();
-  LessonResult left = result_of("hill_start", some_faults());
+  LessonResult left = result_of("hill_start", some_errors());
   left.end = LessonEnd::left;
   grade_result(shipped_lesson("hill_start"), left);
-  coach.runs[3].result = left;  // run 13
+  coach.runs[3].result = left;  // the run with ID 13
   LessonsRig rig(coach, "tab_history");
   rig.click("run: 13");
   rig.frame();
-  CHECK(is_drawn("The gear ground (12.4 J)."));
+  CHECK(is_drawn("The gears ground (12.4 J)."));
   for (const DrawnText& text : drawn_texts()) CHECK_FALSE(text.text.ends_with("(-2.0)"));
   rig.click("run: 13");
   rig.click("run: 16");
   rig.frame();
-  CHECK(is_drawn("The gear ground (12.4 J). (-2.0)"));
+  CHECK(is_drawn("The gears ground (12.4 J). (-2.0)"));
 }
 
-TEST_CASE("a comment has an author and a text, and is requested once") {
+TEST_CASE("a comment needs an author and a text, and is requested once") {
   LessonsRig rig(with_history(), "tab_history");
   rig.click("run: 16");
   rig.click("comment");
   rig.write(U"Well done");
-  CHECK_FALSE(rig.press(kEnter).lesson.comment.has_value());  // without an author
+  CHECK_FALSE(rig.press(kEnter).lesson.comment.has_value());  // the author is still missing
   rig.click("comment_author");
   CHECK(rig.panel.has_keyboard());
   rig.write(U"Ms Torque");
-  rig.press(kEscape + 1);  // Enter leaves the field
+  rig.press(kEscape + 1);  // Enter: leaves the field
   const PanelRequests asked = rig.click("comment_add");
   REQUIRE(asked.lesson.comment.has_value());
   CHECK(asked.lesson.comment->run == 16);
@@ -247,7 +249,7 @@ TEST_CASE("a comment has an author and a text, and is requested once") {
   CHECK_FALSE(rig.click("comment_add").lesson.comment.has_value());
 }
 
-TEST_CASE("a comment is edited, or deleted after a second click") {
+TEST_CASE("a comment can be edited, or deleted with a second click to confirm") {
   CoachView coach = with_history();
   coach.comments[0][0].id = 7;
   LessonsRig rig(coach, "tab_history");
@@ -271,7 +273,7 @@ TEST_CASE("a comment is edited, or deleted after a second click") {
   CHECK_FALSE(deleted.lesson.comment_change->text.has_value());
 }
 
-TEST_CASE("an invalid name is not requested; the reason is below the field until the name changes") {
+TEST_CASE("an invalid name is not requested, and the reason is below the field until the name changes") {
   LessonsRig rig(half_way());
   rig.click("learner");
   rig.write(U"Eve\u200b");
@@ -294,7 +296,7 @@ TEST_CASE("a learner deleted by another program is marked, and can be selected a
   std::string note;
   for (const DrawnText& text : drawn_texts())
     if (text.colour == ui::ink::kWarn) note += text.text;
-  CHECK(note.find(without_blanks("Enter in this field")) != std::string::npos);  // not the Enter that starts a lesson
+  CHECK(note.find(without_blanks("Enter in this field")) != std::string::npos);  // elsewhere, Enter starts a lesson
   rig.click("learner");
   CHECK(rig.press(kEnter).lesson.learner == "Ada Example");
   rig.input.coach.learner_deleted = false;
@@ -303,7 +305,7 @@ TEST_CASE("a learner deleted by another program is marked, and can be selected a
   CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());
 }
 
-TEST_CASE("each kind of error shows its advice once") {
+TEST_CASE("each kind of error shows its advice only once") {
   CoachView coach = with_history();
   coach.runs[0].result.errors.push_back({ErrorKind::jerk, Severity::minor, 15.0, 8.8, 0});
   LessonsRig rig(coach, "tab_history");
@@ -318,7 +320,7 @@ TEST_CASE("each kind of error shows its advice once") {
   CHECK(count_texts(advice) == 1);
 }
 
-TEST_CASE("another car is chosen from its list") {
+TEST_CASE("a different car is chosen from its list") {
   PanelRig rig;
   rig.click("car");
   CHECK(rig.click("car: diesel").car == "diesel");

@@ -1,4 +1,4 @@
-// A message that does not fit into the bar is shown over the cabin, once, for some seconds.
+// A message that does not fit into the status bar is shown over the cabin, once, for some seconds.
 #include <string>
 
 #include <doctest/doctest.h>
@@ -14,16 +14,16 @@ using namespace gearshift::test;
 namespace {
 
 const std::string kLong =
-    "Ada was deleted by another program: this session is no longer saved; choose or enter a learner to continue.";
+    "Another program deleted Ada, so this session is no longer saved. Choose or enter a learner to continue.";
 
-// True if a line that begins with this text is in the upper part of the screen.
+// Whether a line that begins with `begin` is drawn in the upper 120 px of the screen.
 bool is_over_cabin(const std::string& begin) {
   for (const DrawnText& text : drawn_texts())
     if (text.text.starts_with(without_blanks(begin)) && text.box.max.y < 120.0) return true;
   return false;
 }
 
-void tell(PanelRig& rig, const std::string& message) {
+void show_message(PanelRig& rig, const std::string& message) {
   rig.input.message = message;
   rig.frame();
   rig.frame();
@@ -36,13 +36,13 @@ TEST_CASE("with the panel hidden a new message is shown over the cabin for eight
   rig.panel.set_visible(false);
   rig.wait(10.0);
   CHECK_FALSE(is_over_cabin("Ready."));
-  tell(rig, kLong);
-  CHECK(is_over_cabin("Ada was deleted by another program"));
+  show_message(rig, kLong);
+  CHECK(is_over_cabin("Another program deleted Ada"));
   rig.wait(7.5);
-  CHECK(is_over_cabin("Ada was deleted by another program"));
+  CHECK(is_over_cabin("Another program deleted Ada"));
   rig.wait(1.0);
-  CHECK_FALSE(is_over_cabin("Ada was deleted by another program"));
-  tell(rig, "Another one.");
+  CHECK_FALSE(is_over_cabin("Another program deleted Ada"));
+  show_message(rig, "Another one.");
   CHECK(is_over_cabin("Another one."));
 }
 
@@ -50,20 +50,20 @@ TEST_CASE("a message shown in the bar is not repeated; one that does not fit is 
   PanelRig rig;
   rig.screen.width = 1920.0f;
   rig.screen.height = 1080.0f;
-  tell(rig, "Saved.");
+  show_message(rig, "Saved.");
   CHECK(is_drawn("Saved."));
   CHECK_FALSE(is_over_cabin("Saved."));
-  tell(rig, kLong + " " + kLong + " " + kLong);
-  CHECK(is_over_cabin("Ada was deleted by another program"));
+  show_message(rig, kLong + " " + kLong + " " + kLong);
+  CHECK(is_over_cabin("Another program deleted Ada"));
 }
 
-TEST_CASE("a message over the cabin and a comment being edited both fit") {
+TEST_CASE("a message over the cabin and a comment that is being edited both fit") {
   PanelRig rig;
   CoachView coach = with_history();
   coach.learner_deleted = true;
   coach.comments[0][0].id = 7;
   rig.input.coach = coach;
-  tell(rig, kLong + " " + kLong);
+  show_message(rig, kLong + " " + kLong);
   rig.click("tab_history");
   rig.click("run: 16");
   rig.click("comment_edit: 7");

@@ -1,4 +1,4 @@
-// The panel in windows and headset eyes narrower than its layout needs.
+// The panel in windows, and in one eye of a headset, that are narrower than its layout needs.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ bool overlap(const PixelBox& a, const PixelBox& b) {
 
 }  // namespace
 
-TEST_CASE("STOP exists at any width, Arm from 300 pixels on, and nothing in the bar overlaps") {
+TEST_CASE("STOP is shown at any width, Arm from 300 pixels on, and nothing in the status bar overlaps") {
   PanelRig rig;
   rig.input.message.clear();
   for (int width = 60; width <= 1600; width += 20) {
@@ -46,7 +46,7 @@ TEST_CASE("STOP exists at any width, Arm from 300 pixels on, and nothing in the 
   }
 }
 
-TEST_CASE("if both columns leave no middle, the plots are dropped; the tuning stays complete") {
+TEST_CASE("if both columns leave no room between them, the plots are omitted and the tuning remains complete") {
   TuningRig rig;
   for (const float width : {640.0f, 800.0f, 1000.0f, 1280.0f}) {
     CAPTURE(width);

@@ -1,4 +1,4 @@
-// The panel's appearance, drawn at common sizes without a GPU.
+// The panel's appearance at common screen sizes, drawn without a GPU.
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -16,7 +16,7 @@ using namespace gearshift::ui;
 
 namespace {
 
-// A lever pushed through a wall while the loop is late, so that the panel shows all its warnings at once.
+// Sets input of a lever pushed through a wall while the loop is late, so that the panel shows all its warnings at once.
 void make_busy(PanelRig& rig) {
   rig.input.history = toured(rig.gate, 6.0);
   rig.input.now = rig.input.history.back();
@@ -47,7 +47,7 @@ void make_busy(PanelRig& rig) {
   rig.input.frame_ms = 16.7;
 }
 
-// True if nothing is drawn between the columns and above the bar.
+// Whether nothing is drawn between the columns, above the status bar.
 bool middle_is_free(const Screen& screen) {
   const ImDrawData& data = *ImGui::GetDrawData();
   const float low = 0.27f * static_cast<float>(screen.width), high = 0.73f * static_cast<float>(screen.width);
@@ -68,7 +68,7 @@ TEST_CASE("on every screen all texts fit, the middle is free and the controls ar
     show_on(rig, screen);
     make_busy(rig);
     rig.frame();
-    rig.wait(10.0);  // the message that does not fit into the bar has disappeared from the cabin
+    rig.wait(10.0);  // until the long message over the cabin disappears
     rig.click("tab_tuning");
     show(rig, name_of(screen, "tuning"));
     CHECK(rig.panel.shortened_texts() == 0);
@@ -94,7 +94,7 @@ TEST_CASE("on every screen all texts fit, the middle is free and the controls ar
   }
 }
 
-TEST_CASE("an unsafe value is marked red where it is set") {
+TEST_CASE("an unsafe value is marked red on its slider") {
   PanelRig rig(1);
   make_busy(rig);
   rig.click("tab_tuning");
@@ -117,7 +117,8 @@ TEST_CASE("an unsafe value is marked red where it is set") {
 }
 
 TEST_CASE("the help for the shipped bindings has two columns: keys and actions") {
-  // In the middle of the screen, at the second column; a single column of keys does not reach that far.
+  // Counts pixels in the middle of the screen, where the second column is. A single column of keys does not reach
+  // there.
   const auto bright_pixels = [](const std::string& help, const std::string& name) {
     PanelRig rig;
     rig.panel.show_help(true, help);

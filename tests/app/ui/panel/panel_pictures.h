@@ -1,4 +1,4 @@
-// The panel on common screen sizes, and as pictures to look at.
+// The panel on common screen sizes, as pictures that a developer can look at.
 #pragma once
 
 #include <cstdlib>
@@ -35,16 +35,16 @@ inline engine::Image picture_of(PanelRig& rig) {
   return UiRaster(*ImGui::GetDrawData(), {92, 110, 124}).draw();
 }
 
-// Writes the picture into the folder named by GEARSHIFT_PICTURES, to look at.
+// Writes the picture into the folder that the environment variable GEARSHIFT_PICTURES names, if it is set.
 inline void show(PanelRig& rig, const std::string& name) {
   settle(rig);
   if (const char* folder = std::getenv("GEARSHIFT_PICTURES"))
     engine::write_png(std::filesystem::path(folder) / name, picture_of(rig));
 }
 
-inline std::string name_of(const Screen& screen, std::string_view what) {
-  return std::string(what) + "_" + std::to_string(screen.width) + "_" + std::to_string(static_cast<int>(screen.scale)) +
-         ".png";
+inline std::string name_of(const Screen& screen, std::string_view picture) {
+  return std::string(picture) + "_" + std::to_string(screen.width) + "_" +
+         std::to_string(static_cast<int>(screen.scale)) + ".png";
 }
 
 }  // namespace gearshift::test

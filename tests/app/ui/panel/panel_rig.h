@@ -1,5 +1,5 @@
-// A panel in front of a real run: a simulated hand drives the paper's gate, a scripted mouse and keyboard operate the
-// panel.
+// A panel with realistic input. A simulated hand drives through the paper's gate; a scripted mouse and keyboard operate
+// the panel.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,9 @@
 
 namespace gearshift::test {
 
-inline constexpr int kEscape = 256;  // GLFW's code
+inline constexpr int kEscape = 256;  // GLFW's key code
 
-// Snapshots of a tour through the gears of that length, every `step`-th cycle.
+// Snapshots of a tour through the gears that lasts `seconds` seconds, one for every `step` cycles.
 inline std::vector<haptics::HapticSnapshot> toured(const haptics::Gate& gate, double seconds, int step = 4) {
   haptics::SimulatedRunConfig config;
   config.gate = gate;
@@ -46,7 +46,7 @@ struct PanelRig {
   engine::UiEvents events;
   ui::Panel panel;
   ui::PanelInput input;
-  ui::PanelRequests asked;  // of the last frame
+  ui::PanelRequests asked;  // the requests of the last frame
 
   explicit PanelRig(int delay = 0) {
     device.simulated = true;
@@ -67,10 +67,10 @@ struct PanelRig {
     input.health.rate = 1000.0;
     input.message = "Ready.";
     frame();
-    frame();  // positions are known from the second frame on
+    frame();  // controls have positions from the second frame on
   }
 
-  // One frame of panel and program: a requested tuning is applied as the trainer does it.
+  // One frame of panel and program. A requested tuning is applied as the session does it.
   const ui::PanelRequests& frame() {
     ui.feed(events);
     events.keys.clear();
@@ -103,12 +103,12 @@ struct PanelRig {
     REQUIRE_MESSAGE(found.has_value(), name << " is not on the screen");
     return *found;
   }
-  void point(const std::string& name, double share = 0.5) {
+  void point(const std::string& name, double fraction = 0.5) {
     const ui::ControlRect r = rect(name);
-    events.mouse = {r.min.x + share * (r.max.x - r.min.x), 0.5 * (r.min.y + r.max.y)};
+    events.mouse = {r.min.x + fraction * (r.max.x - r.min.x), 0.5 * (r.min.y + r.max.y)};
   }
 
-  // Everything that was requested on the way.
+  // Clicks a control, and returns all requests made meanwhile.
   ui::PanelRequests click(const std::string& name) {
     point(name);
     frame();
@@ -119,7 +119,7 @@ struct PanelRig {
     merge(all, frame());
     return all;
   }
-  // Every tuning requested while the slider was dragged from one fraction of its width to another.
+  // Drags a slider from one fraction of its width to another, and returns every tuning requested meanwhile.
   std::vector<haptics::HapticTuning> drag(const std::string& name, double from, double to, int steps = 10) {
     std::vector<haptics::HapticTuning> tunings;
     const auto look = [&] {
@@ -178,7 +178,7 @@ struct PanelRig {
     take(all.lesson.next, next.lesson.next);
     take(all.lesson.comment, next.lesson.comment);
     take(all.lesson.comment_change, next.lesson.comment_change);
-    all.playback.whole |= next.playback.whole;
+    all.playback.whole_drive |= next.playback.whole_drive;
     all.playback.close |= next.playback.close;
     take(all.playback.open, next.playback.open);
     take(all.playback.shift, next.playback.shift);
@@ -186,8 +186,8 @@ struct PanelRig {
     take(all.playback.play, next.playback.play);
     take(all.playback.pace, next.playback.pace);
     all.headset.recentre |= next.headset.recentre;
-    all.headset.touch |= next.headset.touch;
-    all.headset.touched |= next.headset.touched;
+    all.headset.start_touching |= next.headset.start_touching;
+    all.headset.save_touches |= next.headset.save_touches;
     all.headset.forget_touches |= next.headset.forget_touches;
     all.headset.forget_knob |= next.headset.forget_knob;
     take(all.headset.height, next.headset.height);

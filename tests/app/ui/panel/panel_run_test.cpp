@@ -1,4 +1,4 @@
-// A new lever, a replay, or a jump in one is a new run: the panel's plots and statistics start again.
+// The panel treats a new lever, a replay and a jump within a replay as a new run: its plots and statistics start again.
 #include <algorithm>
 #include <vector>
 
@@ -15,7 +15,7 @@ using namespace gearshift::ui;
 
 namespace {
 
-// The width of the force curves, which extend across the left column. [px]
+// [px] The width of the force curves, which extend across the left column.
 double width_of_force_curve() {
   const std::vector<glm::dvec2> corners = drawn_in(ui::ink::kJoystick);
   double low = 1e9, high = -1e9;
@@ -39,7 +39,7 @@ HapticSnapshot pushed(double time, bool clipped) {
 
 }  // namespace
 
-TEST_CASE("a run that begins later than the previous one is not joined to it, in any plot or statistic") {
+TEST_CASE("a run that begins later than the previous one is not joined to it in any plot or statistic") {
   PanelRig rig;
   for (int i = 0; i < 250; ++i) rig.input.history.push_back(pushed(10.0 + 0.004 * i, true));
   rig.input.now = pushed(11.0, true);
@@ -48,7 +48,7 @@ TEST_CASE("a run that begins later than the previous one is not joined to it, in
   CHECK(width_of_force_curve() > 20.0);
   CHECK(is_drawn("clipped 100.0 %"));
   ++rig.input.run;
-  for (const double time : {12.0, 12.5, 13.0}) {  // a paused replay that is scrubbed forward
+  for (const double time : {12.0, 12.5, 13.0}) {  // [s] forward jumps in a paused replay
     ++rig.input.run;
     rig.input.now = pushed(time, false);
     rig.frame();

@@ -1,4 +1,4 @@
-// The panel operated by a scripted mouse and keyboard, without a GPU.
+// The panel, operated by a scripted mouse and keyboard, without a GPU.
 #include <string>
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ constexpr const char* kStiffness = "wall_stiffness_n_per_m";
 
 }  // namespace
 
-TEST_CASE("stop, arm, release, record and replay are requested once by a click on their button, and by no other") {
+TEST_CASE("stop, arm, release, record and replay are requested once by a click on their button only") {
   PanelRig rig;
   const PanelRequests stop = rig.click("stop");
   CHECK(stop.stop);
@@ -59,18 +59,18 @@ TEST_CASE("a dragged slider requests tunings within its range, and the running l
 }
 
 TEST_CASE("a slider dragged over its full width never requests a wall beyond the stability limit") {
-  TuningRig rig(1);  // one sample of delay: 7525 N/m
+  TuningRig rig(1);  // with one cycle of delay the limit is 7525 N/m
   const std::vector<HapticTuning> tunings = rig.drag(kStiffness, 0.25, 1.0, 60);
   REQUIRE_FALSE(tunings.empty());
   double max = 0.0;
   for (const HapticTuning& tuning : tunings) max = std::max(max, tuning.wall_stiffness);
   CHECK(max <= 0.35 * kPaperAxisY.mass / (0.002 * 0.002));
   CHECK(max > 6800.0);
-  CHECK(rig.input.admitted.tuning.wall_stiffness == max);  // the previous value stays active
+  CHECK(rig.input.admitted.tuning.wall_stiffness == max);  // the last stable value stays active
   REQUIRE(rig.panel.control_rect("use_stable").has_value());
 }
 
-TEST_CASE("a rejected value can be reduced to the stable limit, or dropped") {
+TEST_CASE("a rejected value can be reduced to the stable limit, or discarded") {
   TuningRig rig(1);
   rig.drag(kStiffness, 0.25, 1.0, 3);
   const double before = rig.input.admitted.tuning.wall_stiffness;
@@ -94,7 +94,7 @@ TEST_CASE("with allow_unstable an unstable value is accepted") {
   CHECK(tunings.back().wall_stiffness == 20000.0);
 }
 
-TEST_CASE("undo restores the state before the drag, redo the one after it, reset the start") {
+TEST_CASE("undo restores the tuning before the drag, redo the one after it, reset the one at the start") {
   TuningRig rig;
   const HapticTuning start = rig.input.admitted.tuning;
   rig.drag(kStiffness, 0.25, 0.5);
@@ -104,7 +104,7 @@ TEST_CASE("undo restores the state before the drag, redo the one after it, reset
   CHECK(rig.input.admitted.tuning == start);
   rig.click("redo");
   CHECK(rig.input.admitted.tuning == dragged);
-  rig.panel.undo();  // called by the program's key
+  rig.panel.undo();  // as the program does on its undo key
   rig.frame();
   CHECK(rig.input.admitted.tuning == start);
   rig.panel.redo();
@@ -114,7 +114,7 @@ TEST_CASE("undo restores the state before the drag, redo the one after it, reset
   CHECK(rig.input.admitted.tuning == start);
 }
 
-TEST_CASE("undo first reverts what was not applied") {
+TEST_CASE("undo first discards a value that was not applied") {
   TuningRig rig(1);
   rig.drag(kStiffness, 0.25, 0.30);
   const HapticTuning applied = rig.input.admitted.tuning;
@@ -126,7 +126,7 @@ TEST_CASE("undo first reverts what was not applied") {
   CHECK_FALSE(rig.panel.control_rect("use_stable").has_value());
 }
 
-TEST_CASE("A and B: a press switches between two tunings, each as it was left") {
+TEST_CASE("the buttons A and B switch between two tunings, each as it was left") {
   TuningRig rig;
   const HapticTuning start = rig.input.admitted.tuning;
   rig.drag(kStiffness, 0.25, 0.5);
@@ -141,19 +141,19 @@ TEST_CASE("A and B: a press switches between two tunings, each as it was left") 
   CHECK(rig.input.admitted.tuning == b);
 }
 
-TEST_CASE("a tuning changed elsewhere is the new start") {
+TEST_CASE("after a tuning is changed elsewhere, the history starts again from it") {
   TuningRig rig;
   rig.drag(kStiffness, 0.25, 0.5);
   HapticTuning loaded;
   loaded.wall_stiffness = 3333.0;
   rig.input.haptics.tuning = rig.input.admitted.tuning = loaded;
   rig.frame();
-  rig.panel.undo();  // there is nothing to undo
+  rig.panel.undo();  // must not change the tuning
   rig.frame();
   CHECK(rig.input.admitted.tuning == loaded);
 }
 
-TEST_CASE("the panel waits for a program that applies a tuning some frames late") {
+TEST_CASE("the panel also works if the program applies a tuning some frames late") {
   TuningRig rig;
   rig.point(kStiffness, 0.25);
   rig.frame();
@@ -173,7 +173,7 @@ TEST_CASE("the panel waits for a program that applies a tuning some frames late"
   rig.frame();
   const PanelRequests undone = rig.click("undo");
   REQUIRE(undone.tuning.has_value());
-  CHECK(*undone.tuning == HapticTuning());  // the whole drag is one step
+  CHECK(*undone.tuning == HapticTuning());  // undo reverts the whole drag
 }
 
 TEST_CASE("gate, preset and hand are chosen from their lists") {
@@ -185,10 +185,10 @@ TEST_CASE("gate, preset and hand are chosen from their lists") {
   rig.click("hand");
   CHECK(rig.click("hand: touring").hand == "touring");
   rig.click("gate");
-  CHECK_FALSE(rig.click("gate: paper").gate.has_value());  // it is already selected
+  CHECK_FALSE(rig.click("gate: paper").gate.has_value());  // this gate is already selected
 }
 
-TEST_CASE("a preset is saved under the typed name, and not without a name") {
+TEST_CASE("a preset is saved only under a typed name") {
   PanelRig rig;
   rig.click("tab_presets");
   CHECK_FALSE(rig.click("save").save_preset.has_value());
@@ -201,25 +201,25 @@ TEST_CASE("a preset is saved under the typed name, and not without a name") {
   CHECK(rig.click("compare: paper").compare == "paper");
 }
 
-TEST_CASE("settings fixed while the loop runs are staged, checked, and applied by a restart") {
+TEST_CASE("settings that are fixed while the loop runs are collected, checked, and applied by a restart") {
   PanelRig rig;
   rig.click("tab_setup");
-  CHECK_FALSE(rig.click("restart").restart.has_value());  // nothing has changed
+  CHECK_FALSE(rig.click("restart").restart.has_value());  // no setting has changed
   rig.drag("slew_n_per_cycle", 0.25, 0.75);
   const PanelRequests asked = rig.click("restart");
   REQUIRE(asked.restart.has_value());
   CHECK(asked.restart->guard.slew == doctest::Approx(75.0).epsilon(0.05));
   CHECK_NOTHROW(check_config(*asked.restart));
-  rig.drag("clear_below_n", 0.1, 0.9);  // above warn_above: rejected
+  rig.drag("clear_below_n", 0.1, 0.9);  // rejected, because it exceeds warn_above
   CHECK_FALSE(rig.click("restart").restart.has_value());
   rig.click("setup_back");
   CHECK_FALSE(rig.click("restart").restart.has_value());
 }
 
-TEST_CASE("by keys only: into the panel with Tab, to STOP with the arrows, press with Space, out with Escape") {
+TEST_CASE("by keys only: Tab enters the panel, arrows move to STOP, Space presses it, Escape leaves the panel") {
   PanelRig rig;
   CHECK_FALSE(rig.ui.wants_keys());
-  rig.press(kRight);  // a key for the car: no effect here
+  rig.press(kRight);  // moves the car's lever only
   CHECK_FALSE(rig.ui.wants_keys());
   rig.press(kTab);
   CHECK(rig.ui.wants_keys());
@@ -236,18 +236,18 @@ TEST_CASE("by keys only: into the panel with Tab, to STOP with the arrows, press
   CHECK_FALSE(rig.ui.wants_keys());
 }
 
-TEST_CASE("Ctrl+Tab leads to the choices; below them the arrows open the tuning, and change it") {
+TEST_CASE("Ctrl+Tab moves to the lists for car and gate; from there the arrows reach the tuning and change it") {
   PanelRig rig;
   rig.press(kTab);
   rig.press(kTab, true);
-  for (int i = 0; i < 4; ++i) rig.press(kDown);                     // car, gate, preset, hand
-  for (int i = 0; i < 5 && !rig.panel.control_rect("undo"); ++i) {  // among the tabs
+  for (int i = 0; i < 4; ++i) rig.press(kDown);                     // past car, gate, preset and hand to the tabs
+  for (int i = 0; i < 5 && !rig.panel.control_rect("undo"); ++i) {  // to the tab with the tuning
     rig.press(kSpace);
     if (!rig.panel.control_rect("undo")) rig.press(kRight);
   }
   REQUIRE(rig.panel.control_rect("undo").has_value());
   double stiffness = 0.0;
-  for (int i = 0; i < 4 && stiffness == 0.0; ++i) {  // the row of steps, the first slider
+  for (int i = 0; i < 4 && stiffness == 0.0; ++i) {  // past the row of undo buttons to the first slider
     rig.press(kDown);
     rig.press(kSpace);
     const PanelRequests asked = rig.press(kRight);
@@ -269,7 +269,7 @@ TEST_CASE("a hidden panel draws nothing, ignores the mouse and keeps collecting 
   PanelRig rig;
   const ControlRect stop = rig.rect("stop");
   rig.panel.set_visible(false);
-  rig.wait(10.0);  // messages are shown over the cabin for that long
+  rig.wait(10.0);  // until the message over the cabin disappears
   CHECK_FALSE(rig.panel.control_rect("stop").has_value());
   CHECK(ImGui::GetDrawData()->TotalVtxCount == 0);
   rig.events.mouse = 0.5 * (stop.min + stop.max);
@@ -281,7 +281,7 @@ TEST_CASE("a hidden panel draws nothing, ignores the mouse and keeps collecting 
   CHECK(rig.click("stop").stop);
 }
 
-TEST_CASE("the help lists its input, and its cross closes it") {
+TEST_CASE("the help lists the text it is given, and can be closed") {
   PanelRig rig;
   const int before = ImGui::GetDrawData()->TotalVtxCount;
   rig.panel.show_help(true, "F1\thelp\n\nno tab here\n");

@@ -1,4 +1,4 @@
-// The panel's texts and lamps about the loop, the warnings and a preset.
+// The panel's texts and lamps for the loop, the warnings and a preset.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -23,7 +23,7 @@ void run_and_draw(PanelRig& rig) {
   for (int i = 0; i < 4; ++i) rig.frame();
 }
 
-// Names of the warning lamps that are lit.
+// The names of the warning lamps that are lit with these flags.
 std::set<std::string> lit(PanelRig& rig, std::uint32_t flags) {
   rig.input.now.flags = flags;
   run_and_draw(rig);
@@ -56,7 +56,7 @@ TEST_CASE("each warning lamp is lit by its own flag only") {
   CHECK(lit(rig, 0) == Names{"Over-rev"});
 }
 
-TEST_CASE("for a stalled engine a red text replaces its speed") {
+TEST_CASE("for a stalled engine the engine speed is replaced by a red text") {
   PanelRig rig;
   rig.input.car.engine_speed = 240.0;
   run_and_draw(rig);
@@ -68,7 +68,7 @@ TEST_CASE("for a stalled engine a red text replaces its speed") {
   CHECK_FALSE(is_drawn("2292 rpm"));
 }
 
-TEST_CASE("the shift light points up for a higher gear, down for a lower one, and is dark for the engaged one") {
+TEST_CASE("the shift light points up or down if it advises a higher or lower gear, and is dark otherwise") {
   PanelRig rig;
   const auto arrow = [&](int advice) {
     rig.input.car.shift_advice = advice;
@@ -92,13 +92,13 @@ TEST_CASE("the shift light points up for a higher gear, down for a lower one, an
     const PixelBox box = box_of(corners);
     const double head = width_at(corners, advice > 0 ? box.min.y : box.max.y);
     const double stem = width_at(corners, advice > 0 ? box.max.y : box.min.y);
-    CHECK(head < 1.0);  // a point
+    CHECK(head < 1.0);  // the arrow's tip
     CHECK(stem > 3.0);
     CHECK(box.max.x - box.min.x > 2.0 * stem);
   }
 }
 
-TEST_CASE("the over-push lamp is a red disc beside its name, and contact does not light it") {
+TEST_CASE("the over-push lamp is a red disc left of its name, and contact does not light it") {
   PanelRig rig;
   const auto red_discs = [&](std::uint32_t flags) {
     lit(rig, flags);
@@ -128,7 +128,7 @@ TEST_CASE("handbrake and ignition have lamps, and a slope is shown in per cent")
   CHECK(is_drawn("Slope -8 %"));
 }
 
-TEST_CASE("actuator and wanted forces are shown correctly, and no zero has a minus") {
+TEST_CASE("the forces sent and wanted are shown correctly, and no zero has a minus sign") {
   PanelRig rig;
   rig.input.now.f_a = {-12.0, 3.0};
   rig.input.now.commanded = {-20.0, 0.0};
@@ -147,7 +147,7 @@ TEST_CASE("actuator and wanted forces are shown correctly, and no zero has a min
 
 TEST_CASE("the frame time is shown only if frames are counted") {
   PanelRig rig;
-  rig.screen.width = 2600.0f;  // there is room for the whole line
+  rig.screen.width = 2600.0f;  // wide enough for the whole line
   const auto shows_frame_time = [&] {
     run_and_draw(rig);
     const std::vector<DrawnText> texts = drawn_texts();
@@ -194,11 +194,11 @@ TEST_CASE("gates and cars are shown by readable names and requested by their fil
   run_and_draw(rig);
   CHECK(is_drawn("Hatchback"));
   rig.click("gate");
-  CHECK(is_drawn("Dog leg five"));
+  CHECK(is_drawn("Dog-leg 5-speed"));
   CHECK(rig.click("gate: dog_leg_five").gate == "dog_leg_five");
 }
 
-TEST_CASE("the loop's figures are beside their names") {
+TEST_CASE("the loop's figures are next to their names") {
   PanelRig rig;
   rig.input.health.rate = 2000.0;
   rig.input.health.late_p50 = 11e-6;
@@ -227,7 +227,7 @@ TEST_CASE("the loop's figures are beside their names") {
 }
 
 TEST_CASE("a preset is compared with the active values, not with the requested ones") {
-  PanelRig rig(1);  // one sample of delay: the requested value is beyond the limit
+  PanelRig rig(1);  // one cycle of delay makes the requested value exceed its limit
   rig.input.haptics.tuning.wall_stiffness = 20000.0;
   rig.input.admitted = admit_tuning(rig.input.haptics, rig.device, rig.gate);
   const HapticTuning runs = rig.input.admitted.tuning;

@@ -1,5 +1,4 @@
-// A recorded drive in the panel: what a click on the replay bar requests, and that the paths are drawn in the right
-// place.
+// A recorded drive in the panel: the requests of clicks on the replay bar, and the places where paths are drawn.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -39,18 +38,18 @@ struct ReplayRig : PanelRig {
 
 }  // namespace
 
-TEST_CASE("a recorded drive is played, paused, slowed, shown in part and whole, and closed, by one click each") {
+TEST_CASE("one click each plays, pauses, slows, closes a replay, and shows one shift or the whole drive") {
   for (const bool panel_shown : {true, false}) {
     CAPTURE(panel_shown);
     ReplayRig rig(panel_shown);
-    CHECK(rig.click("replay_play").playback.play == false);  // it is playing
+    CHECK(rig.click("replay_play").playback.play == false);  // the replay is playing
     rig.player.play(false);
     rig.frame();
     CHECK(rig.click("replay_play").playback.play == true);
     CHECK(rig.click("replay_pace: 0.1").playback.pace == 0.1);
     CHECK(rig.click("replay_pace: 2").playback.pace == 2.0);
     CHECK(rig.click("replay_shift: 1").playback.shift == 1);
-    CHECK(rig.click("replay_whole").playback.whole);
+    CHECK(rig.click("replay_whole").playback.whole_drive);
     CHECK(rig.click("replay_close").playback.close);
     const PanelRequests idle = rig.frame();
     CHECK_FALSE(idle.playback.close);
@@ -59,36 +58,37 @@ TEST_CASE("a recorded drive is played, paused, slowed, shown in part and whole, 
   }
 }
 
-TEST_CASE("the scrub bar seeks over its full width, within the part shown") {
+TEST_CASE("the scrub bar seeks over its full width within the shown part of the drive") {
   ReplayRig rig;
-  for (const bool whole : {true, false}) {
-    CAPTURE(whole);
-    rig.player.select_shift(whole ? std::nullopt : std::optional<std::size_t>(1));
+  for (const bool whole_drive : {true, false}) {
+    CAPTURE(whole_drive);
+    rig.player.select_shift(whole_drive ? std::nullopt : std::optional<std::size_t>(1));
     rig.settle();
     const double from = rig.player.from(), to = rig.player.to();
-    for (const double share : {0.25, 0.5, 0.75}) {
-      rig.point("replay_time", share);
+    for (const double fraction : {0.25, 0.5, 0.75}) {
+      rig.point("replay_time", fraction);
       rig.frame();
       rig.events.mouse_down[0] = true;
       PanelRequests asked = rig.frame();
       rig.events.mouse_down[0] = false;
       PanelRig::merge(asked, rig.frame());
       REQUIRE(asked.playback.seek.has_value());
-      CHECK(std::abs(*asked.playback.seek - (from + share * (to - from))) < 0.02 * (to - from));
+      CHECK(std::abs(*asked.playback.seek - (from + fraction * (to - from))) < 0.02 * (to - from));
     }
   }
 }
 
-TEST_CASE("the slider's handle is below the line in the curves; units and both paths of a shift have a legend") {
+TEST_CASE(
+    "the scrub bar's handle is below the time line of the curves; units and both paths of a shift have a legend") {
   ReplayRig rig;
   rig.player.select_shift(std::nullopt);
-  for (const double share : {0.0, 0.3, 1.0}) {
-    rig.player.seek(rig.player.from() + share * (rig.player.to() - rig.player.from()));
+  for (const double fraction : {0.0, 0.3, 1.0}) {
+    rig.player.seek(rig.player.from() + fraction * (rig.player.to() - rig.player.from()));
     rig.settle();
     const ControlRect bar = rig.rect("replay_time");
     std::vector<glm::dvec2> handle = drawn_in(ui::ink::kAccent);
     std::erase_if(handle, [&](glm::dvec2 at) { return at.y < bar.min.y || at.y > bar.max.y; });
-    CHECK(std::abs(box_of(handle).middle().x - (bar.min.x + share * (bar.max.x - bar.min.x))) < 1.0);
+    CHECK(std::abs(box_of(handle).middle().x - (bar.min.x + fraction * (bar.max.x - bar.min.x))) < 1.0);
   }
   for (const char* unit : {"%", "rpm", "N"}) CHECK(is_drawn(unit));
   CHECK_FALSE(is_drawn("shortest"));
@@ -111,8 +111,8 @@ TEST_CASE("a replay names its recording's car and gate, and for a known run its 
   };
   CHECK(says("lesson.trace"));
   CHECK(says("Hatchback"));
-  CHECK(says("Five speed r right down"));
-  CHECK(says("not the recording's"));  // beside the choices
+  CHECK(says("5-speed, R bottom right"));
+  CHECK(says("not the recording's"));  // a note at the lists for car and gate
   rig.input.coach = half_way();
   rig.input.coach.runs.push_back({4, 1, "no date", rig.player.file().string(), result_of("hill_start", {})});
   rig.settle();
@@ -125,10 +125,10 @@ TEST_CASE("a replay names its recording's car and gate, and for a known run its 
   CHECK_FALSE(says("not the recording's"));
 }
 
-TEST_CASE("no number beside the curves touches another one or the unit, and the curves begin beside them") {
+TEST_CASE("no number next to the curves touches another number or the unit, and the curves begin next to the numbers") {
   ReplayRig rig;
-  for (const bool whole : {true, false}) {
-    rig.player.select_shift(whole ? std::nullopt : std::optional<std::size_t>(1));
+  for (const bool whole_drive : {true, false}) {
+    rig.player.select_shift(whole_drive ? std::nullopt : std::optional<std::size_t>(1));
     rig.settle();
     const ControlRect bar = rig.rect("replay_time");
     std::vector<DrawnText> numbers = drawn_texts();
@@ -136,17 +136,17 @@ TEST_CASE("no number beside the curves touches another one or the unit, and the 
       const bool is_number = text.text.find_first_not_of("0123456789") == std::string::npos;
       return !is_number || text.box.min.x > bar.min.x + 60.0 || text.box.max.y > bar.min.y;
     });
-    CHECK(numbers.size() >= 6);  // two per lane
+    CHECK(numbers.size() >= 6);  // two numbers per lane
     for (std::size_t i = 0; i < numbers.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         CAPTURE(numbers[i].text);
         CAPTURE(numbers[j].text);
-        CHECK(std::abs(numbers[i].box.min.y - numbers[j].box.min.y) > ui_font(UiFont::small)->FontSize);  // one line
+        CHECK(std::abs(numbers[i].box.min.y - numbers[j].box.min.y) > ui_font(UiFont::small)->FontSize);
       }
     double right = 0.0;
     for (const DrawnText& number : numbers) right = std::max(right, number.box.max.x);
     std::vector<glm::dvec2> engine = drawn_in(ui::ink::kEngine);
-    std::erase_if(engine, [&](glm::dvec2 at) { return at.y < numbers.front().box.min.y; });  // the legend's
+    std::erase_if(engine, [&](glm::dvec2 at) { return at.y < numbers.front().box.min.y; });  // drops the legend
     REQUIRE(engine.size() > 50);
     for (const DrawnText& number : numbers)
       for (const glm::dvec2 at : engine)
@@ -154,26 +154,26 @@ TEST_CASE("no number beside the curves touches another one or the unit, and the 
   }
 }
 
-TEST_CASE("every shift has a mark where it begins, whichever part is shown") {
+TEST_CASE("every shift is marked at its begin, also while only one shift is shown") {
   ReplayRig rig;
   const RecordedDrive& drive = rig.player.drive();
   REQUIRE(drive.shifts().size() > 2);
   const ControlRect bar = rig.rect("replay_time");
-  for (const bool whole : {true, false}) {
-    rig.player.select_shift(whole ? std::nullopt : std::optional<std::size_t>(0));
+  for (const bool whole_drive : {true, false}) {
+    rig.player.select_shift(whole_drive ? std::nullopt : std::optional<std::size_t>(0));
     rig.settle();
     for (std::size_t i = 0; i + 1 < drive.shifts().size(); ++i) {
-      const double share = (drive.shifts()[i].record.begin - drive.begin()) / (drive.end() - drive.begin());
+      const double fraction = (drive.shifts()[i].record.begin - drive.begin()) / (drive.end() - drive.begin());
       const ControlRect mark = rig.rect("replay_shift: " + std::to_string(i));
-      CHECK(std::abs(mark.min.x - (bar.min.x + share * (bar.max.x - bar.min.x))) < 2.0);
+      CHECK(std::abs(mark.min.x - (bar.min.x + fraction * (bar.max.x - bar.min.x))) < 2.0);
       CHECK(mark.max.x < rig.rect("replay_shift: " + std::to_string(i + 1)).min.x);
     }
   }
 }
 
-TEST_CASE("the bar covers what is behind it, leaves the cabin above it free, and hides the lesson's card") {
+TEST_CASE("the bar covers the area behind it, leaves the cabin above it free, and hides the lesson's card") {
   ReplayRig rig;
-  rig.input.coach = over(result_of("hill_start", some_faults()));
+  rig.input.coach = over(result_of("hill_start", some_errors()));
   rig.settle();
   const ControlRect close = rig.rect("replay_close"), middle = rig.panel.cabin_area();
   CHECK(rig.panel.covers(0.5 * (close.min + close.max)));
@@ -189,11 +189,11 @@ TEST_CASE("the bar covers what is behind it, leaves the cabin above it free, and
   CHECK(rig.panel.cabin_area().max == glm::dvec2(1280.0, 720.0));
 }
 
-TEST_CASE("a clutch pressed in a shift is a curve that rises at that time") {
+TEST_CASE("a clutch that is pressed in a shift is drawn as a curve that rises at that time") {
   ReplayRig rig;
   rig.player.select_shift(1);
   rig.settle();
-  // The clutch's curve is in the accent colour: it is highest where the samples have the pedal down.
+  // The clutch's curve has the accent colour, and is highest where the samples have the pedal down.
   double down_from = 1e9, down_to = 0.0;
   for (const DriveSample& sample : rig.player.drive().between(rig.player.from(), rig.player.to())) {
     if (sample.car.clutch < 0.93) continue;
@@ -213,7 +213,7 @@ TEST_CASE("a clutch pressed in a shift is a curve that rises at that time") {
   const double top = box_of(curve).min.y;
   double first = 1e9, last = 0.0;
   for (const glm::dvec2 at : curve) {
-    if (at.y > top + 2.0) continue;  // 7 % of the lane's height
+    if (at.y > top + 2.0) continue;  // 2 px are 7 % of the lane's height
     first = std::min(first, at.x);
     last = std::max(last, at.x);
   }
@@ -225,15 +225,15 @@ TEST_CASE("a clutch pressed in a shift is a curve that rises at that time") {
   CHECK(std::abs(time_at(last) - down_to) < 6.0 * pixel);
 }
 
-TEST_CASE("in the gate the driven path is a solid line, and the ideal one is dashed") {
+TEST_CASE("in the gate the driven path is a solid line, and the ideal path is dashed") {
   const std::vector<glm::dvec2> driven{{-0.03, 0.03}, {-0.03, 0.0}, {0.0, 0.0}, {0.0, -0.03}};
   const std::vector<glm::dvec2> ideal{{-0.03, 0.03}, {-0.02, 0.0}, {0.0, -0.03}};
   UiContext ui;
   const Gate gate = paper_gate();
   HapticSnapshot now;
-  const auto draw = [&](const ShownPaths& ways) {
-    draw_alone(ui, {640.0f, 480.0f},
-               [&] { draw_gate_view(ImGui::GetContentRegionAvail(), gate, now, Trail(), 75.0, ways); });
+  const auto draw = [&](const ShownPaths& paths) {
+    draw_in_window(ui, {640.0f, 480.0f},
+                   [&] { draw_gate_view(ImGui::GetContentRegionAvail(), gate, now, Trail(), 75.0, paths); });
   };
   draw({});
   CHECK(drawn_in(ui::ink::kDriven).empty());
@@ -244,14 +244,14 @@ TEST_CASE("in the gate the driven path is a solid line, and the ideal one is das
     return box_of(drawn_in(ui::ink::kProxy)).middle();
   };
   const glm::dvec2 zero = disc_at({0.0, 0.0});
-  const double scale = disc_at({0.01, 0.0}).x - zero.x;  // [px] of 10 mm
+  const double scale = disc_at({0.01, 0.0}).x - zero.x;  // [px] length of 10 mm
   const auto pixel = [&](glm::dvec2 p) { return zero + 100.0 * scale * glm::dvec2(p.x, -p.y); };
-  const auto distance_to = [&](const std::vector<glm::dvec2>& way, glm::dvec2 at) {
+  const auto distance_to = [&](const std::vector<glm::dvec2>& path, glm::dvec2 at) {
     double min = 1e9;
-    for (std::size_t i = 1; i < way.size(); ++i) {
-      const glm::dvec2 a = pixel(way[i - 1]), b = pixel(way[i]);
-      const double share = std::clamp(glm::dot(at - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
-      min = std::min(min, glm::distance(at, a + share * (b - a)));
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const glm::dvec2 a = pixel(path[i - 1]), b = pixel(path[i]);
+      const double fraction = std::clamp(glm::dot(at - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+      min = std::min(min, glm::distance(at, a + fraction * (b - a)));
     }
     return min;
   };
@@ -261,18 +261,18 @@ TEST_CASE("in the gate the driven path is a solid line, and the ideal one is das
     const std::vector<glm::dvec2> line = drawn_in(ui::ink::kDriven);
     CHECK(std::any_of(line.begin(), line.end(), [&](glm::dvec2 at) { return glm::distance(at, pixel(corner)) < 3.0; }));
   }
-  // A dash has four corners: its length is the distance of the farthest two, except for its thickness.
+  // Each dash has four corners. The distance of the two farthest, minus the thickness, is its length.
   const std::vector<glm::dvec2> dashes = drawn_in(ui::ink::kIdeal);
   REQUIRE(dashes.size() % 4 == 0);
-  double drawn = 0.0, way = 0.0;
+  double drawn = 0.0, length = 0.0;
   for (std::size_t i = 0; i < dashes.size(); i += 4)
     drawn += std::max(glm::distance(dashes[i], dashes[i + 1]), glm::distance(dashes[i], dashes[i + 2]));
-  for (std::size_t i = 1; i < ideal.size(); ++i) way += glm::distance(pixel(ideal[i - 1]), pixel(ideal[i]));
-  CHECK(drawn / way > 0.45);
-  CHECK(drawn / way < 0.75);
+  for (std::size_t i = 1; i < ideal.size(); ++i) length += glm::distance(pixel(ideal[i - 1]), pixel(ideal[i]));
+  CHECK(drawn / length > 0.45);
+  CHECK(drawn / length < 0.75);
 }
 
-TEST_CASE("while a drive is loaded the bar names it, and Close cancels it") {
+TEST_CASE("while a drive is being loaded the bar names it, and Close cancels it") {
   PanelRig rig;
   rig.input.opening = "moving_off-20261122-000929-29480.trace";
   for (int i = 0; i < 3; ++i) rig.frame();

@@ -1,4 +1,4 @@
-// A stick in a person's hand: the panel's texts and prompts for it, and that its push is only estimated.
+// A stick in the user's hand: the panel's texts and instructions for it, and that its push is only estimated.
 #include <string>
 
 #include <doctest/doctest.h>
@@ -28,8 +28,8 @@ struct StickRig : PanelRig {
   }
 };
 
-constexpr const char* kUnplugged = "The stick is unplugged: plug it in, then press Enter.";
-constexpr const char* kOff = "The stick's motors are off: hold it, then press Enter.";
+constexpr const char* kUnplugged = "The stick is unplugged. Plug it in, then press Enter.";
+constexpr const char* kOff = "The stick's forces are off. Hold the stick, then press Enter.";
 
 }  // namespace
 
@@ -62,14 +62,14 @@ TEST_CASE("an instruction stays over the cabin until it is followed, also while 
       CHECK_FALSE(is_drawn(kOff));
       CHECK_FALSE(is_drawn(kUnplugged));
     }
-    rig.input.stick.reset();  // a simulated lever
+    rig.input.stick.reset();  // now the lever is simulated
     rig.input.now.guard = GuardState::idle;
     rig.show();
     CHECK_FALSE(is_drawn(kOff));
   }
 }
 
-TEST_CASE("an unplugged stick cannot be armed by its button, a connected one can") {
+TEST_CASE("an unplugged stick cannot be armed by the button, a connected one can") {
   StickRig rig;
   CHECK(rig.click("arm").arm);
   rig.input.stick->plugged_in = false;

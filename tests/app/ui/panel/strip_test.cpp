@@ -1,4 +1,4 @@
-// A plot's columns, compared with brute force over all samples.
+// A plot's columns, compared with brute force using all samples.
 #include "app/ui/panel/strip.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Sample {
   double time, value;
 };
 
-// Samples at irregular times, with gaps of many columns and single-sample peaks.
+// Samples at irregular times, with gaps of many columns and peaks of a single sample.
 std::vector<Sample> uneven(std::uint32_t seed, int count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> step(0.0, 0.004), value(-1.0, 1.0);
@@ -32,7 +32,8 @@ std::vector<Sample> uneven(std::uint32_t seed, int count) {
   return samples;
 }
 
-// By definition, column i holds the samples whose time is in its part of the span, on a grid of absolute time.
+// Checks the definition: column i holds the samples with times in its part of the span. The columns' limits are fixed
+// in absolute time.
 void check_against_all(const Strip& strip, const std::vector<Sample>& samples, double newest_time) {
   const auto newest = static_cast<std::int64_t>(std::floor(newest_time / strip.span() * strip.columns()));
   for (int i = 0; i < strip.columns(); ++i) {
@@ -58,7 +59,7 @@ void check_against_all(const Strip& strip, const std::vector<Sample>& samples, d
 
 }  // namespace
 
-TEST_CASE("the extremes of every column are those of all its samples, at every moment") {
+TEST_CASE("the extremes of every column are those of all its samples, at any time") {
   const std::vector<Sample> samples = uneven(7, 6000);
   Strip strip(2.0, 173);
   std::vector<Sample> so_far;
@@ -69,16 +70,16 @@ TEST_CASE("the extremes of every column are those of all its samples, at every m
   }
 }
 
-TEST_CASE("another number of columns shows the same samples") {
+TEST_CASE("a different number of columns shows the same samples") {
   const std::vector<Sample> samples = uneven(11, 3000);
   Strip strip(2.0, 50);
   for (const Sample& s : samples) strip.push(s.time, s.value);
   for (const int columns : {1, 7, 300, 2000}) {
     strip.set_columns(columns);
-    std::vector<Sample> kept;  // older samples are dropped: they are outside the span
+    std::vector<Sample> recent;  // without the samples older than the span, which the strip drops
     for (const Sample& s : samples)
-      if (s.time >= samples.back().time - strip.span()) kept.push_back(s);
-    check_against_all(strip, kept, samples.back().time);
+      if (s.time >= samples.back().time - strip.span()) recent.push_back(s);
+    check_against_all(strip, recent, samples.back().time);
   }
 }
 
@@ -89,7 +90,7 @@ TEST_CASE("a single-sample peak is visible at any width, and the extent covers a
   strip.set_columns(3);
   CHECK(strip.extent().max == 99.0);
   for (int i = 5000; i < 12000; ++i) strip.push(1e-3 * i, 0.0);
-  CHECK(strip.extent().max == 0.0);  // it has left the span
+  CHECK(strip.extent().max == 0.0);  // the peak is older than the span
 }
 
 TEST_CASE("a time before the last one begins a new run; non-finite values are ignored") {
@@ -103,7 +104,7 @@ TEST_CASE("a time before the last one begins a new run; non-finite values are ig
   CHECK(strip.extent().max == -3.0);
 }
 
-TEST_CASE("a sample's cost does not depend on their number: ten times as many take about ten times as long") {
+TEST_CASE("the cost per sample hardly grows with their number: ten times as many take at most forty times as long") {
   const auto once = [](int samples) {
     Strip strip(5.0, 400);
     const auto begin = std::chrono::steady_clock::now();
@@ -111,7 +112,7 @@ TEST_CASE("a sample's cost does not depend on their number: ten times as many ta
     CHECK(strip.extent().count > 0);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  const auto seconds = [&](int samples) {  // the best of five, because other programs are running
+  const auto seconds = [&](int samples) {  // best of five, because other programs also use the CPU
     double best = once(samples);
     for (int i = 0; i < 4; ++i) best = std::min(best, once(samples));
     return best;

@@ -22,18 +22,18 @@ HapticSnapshot at(double time, glm::dvec2 lever) {  // [s], [m]
   return snapshot;
 }
 
-// One second of a lever that moves 1 mm to that side every hundredth of a second.
+// Pushes one second of a lever that moves 1 mm every hundredth of a second, to the right or left (side +1 or -1).
 void drive(Trail& trail, double from, double side) {
   for (int i = 0; i < 100; ++i) trail.push(at(from + 0.01 * i, {side * 1e-3 * i, 0.0}));
 }
 
 }  // namespace
 
-TEST_CASE("a time before the last one begins a new run: nothing of the previous one is left") {
+TEST_CASE("a time before the last one begins a new run, and drops the points of the previous run") {
   Trail trail;
   drive(trail, 2.0, 1.0);
   CHECK(trail.points().size() == 100);
-  drive(trail, 1.5, -1.0);  // begins within the three seconds that are kept
+  drive(trail, 1.5, -1.0);  // begins within the three seconds that a run keeps
   CHECK(trail.points().size() == 100);
   for (const TrailPoint& point : trail.points()) CHECK(point.lever.x <= 0.0);
 }
@@ -48,10 +48,11 @@ TEST_CASE("a run keeps its last three seconds, with each point's age") {
                        [](const TrailPoint& a, const TrailPoint& b) { return a.time < b.time; }));
 }
 
-// A real loop's clock continues when another lever takes over, so the time does not reveal the change.
+// On the real clock, time continues when the lever is replaced, so the time does not show that a new run began.
 TEST_CASE("the panel draws no line from the previous lever to the new one") {
   PanelRig rig;
-  const auto blue_corners = [&] {  // in the left column, where otherwise only the gears' depths have that colour
+  // Counts corners in the left column, where otherwise only the gears' depths have this colour.
+  const auto blue_corners = [&] {
     constexpr ImU32 kInk = ~(0xffu << IM_COL32_A_SHIFT);
     const ImDrawData& data = *ImGui::GetDrawData();
     int corners = 0;

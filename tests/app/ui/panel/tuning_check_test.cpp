@@ -1,4 +1,5 @@
-// The panel's feedback on a tuning, compared with the laws' closed forms and with the function that guards the loop.
+// The panel's feedback on a tuning, compared with the closed forms of the laws and with admit_tuning(), which the loop
+// uses.
 #include "app/ui/panel/tuning_check.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ TuningQuestion ask_at(double rate, int delay) {
 
 }  // namespace
 
-TEST_CASE("the table's ranges equal those of check_tuning(): the ends are accepted, values beyond rejected") {
+TEST_CASE("the ranges in the table equal those of check_tuning(): the ends are accepted, values beyond are rejected") {
   for (const TuningField& field : kTuningFields) {
     CAPTURE(field.key);
     for (const auto& [end, out] : {std::pair{field.min, -1e-3}, std::pair{field.max, 1e-3}}) {
@@ -44,7 +45,7 @@ TEST_CASE("the table's ranges equal those of check_tuning(): the ends are accept
   }
 }
 
-TEST_CASE("the setup's ranges equal those of check_config(), and each field is separate") {
+TEST_CASE("the ranges of the setup equal those of check_config(), and each field is separate") {
   for (const SetupField& field : kSetupFields) {
     CAPTURE(field.key);
     HapticConfig config;
@@ -60,7 +61,8 @@ TEST_CASE("the setup's ranges equal those of check_config(), and each field is s
   }
 }
 
-TEST_CASE("with a sample of delay at 1 kHz the wall's bound is 0.35 m / (2 T)^2 of the lighter axis") {
+TEST_CASE(
+    "with one cycle of delay at 1 kHz the wall's bound is 0.35 m / (2 T)^2, with the mass m of the lighter axis") {
   TuningQuestion question = ask_at(1000.0, 1);
   const double bound = 0.35 * std::min(kPaperAxisX.mass, kPaperAxisY.mass) / (0.002 * 0.002);
   const TuningAnswer fine = answer(question);
@@ -77,11 +79,11 @@ TEST_CASE("with a sample of delay at 1 kHz the wall's bound is 0.35 m / (2 T)^2 
   CHECK(words.find("K <= 0.35 m / tau^2") != std::string::npos);
 }
 
-TEST_CASE("every bound is exact: just inside is accepted, just outside is not") {
+TEST_CASE("every bound is exact: a value just inside is accepted, one just outside is not") {
   for (const int delay : {0, 1, 2}) {
     for (const double rate : {1000.0, 500.0}) {
       TuningQuestion question = ask_at(rate, delay);
-      const auto start = nearest_stable(question);  // as the loop would start
+      const auto start = nearest_stable(question);  // the tuning with which the loop would start
       REQUIRE(start.has_value());
       question.config.tuning = *start;
       REQUIRE(answer(question).admissible);
@@ -122,7 +124,7 @@ TEST_CASE("the value named as the stable maximum is accepted unchanged, from any
   }
 }
 
-TEST_CASE("with allow_unstable every value is accepted and reported; on a real device none is") {
+TEST_CASE("with allow_unstable every value is accepted and reported; on a real device it is rejected") {
   TuningQuestion question = ask_at(100.0, 0);
   question.config.contact.allow_unstable = true;
   const TuningAnswer study = answer(question);
@@ -134,7 +136,7 @@ TEST_CASE("with allow_unstable every value is accepted and reported; on a real d
   CHECK_FALSE(refused.refused.empty());
 }
 
-TEST_CASE("the check runs once per question, and again when anything relevant changes") {
+TEST_CASE("the check runs once per question, and again after any relevant change") {
   TuningJudge judge;
   TuningQuestion question = ask_at(1000.0, 0);
   for (int i = 0; i < 10; ++i) judge.judge(question);
@@ -164,7 +166,7 @@ TEST_CASE("the check runs once per question, and again when anything relevant ch
   CHECK(judge.evaluations() == evaluations + 2);
 }
 
-TEST_CASE("the cost of an answer, at the worst delays and rates") {
+TEST_CASE("reports how long an answer takes at the worst delays and rates") {
   using Steady = std::chrono::steady_clock;
   double verdict = 0.0, ranges = 0.0;  // [ms]
   for (const int delay : {0, 1, 2, 3}) {

@@ -39,7 +39,7 @@ TEST_CASE("undo and redo step through the history, and a change drops the undone
   CHECK(history.current() == stiff(1.0));
 }
 
-TEST_CASE("a drag is one step, and the next drag another") {
+TEST_CASE("each drag is one step") {
   TuningHistory history(stiff(1.0));
   for (int i = 0; i < 50; ++i) history.change(stiff(10.0 + i), i > 0);
   for (int i = 0; i < 50; ++i) history.change(stiff(100.0 + i), i > 0);
@@ -50,7 +50,7 @@ TEST_CASE("a drag is one step, and the next drag another") {
   CHECK(history.current() == stiff(1.0));
 }
 
-TEST_CASE("setting the same value again is no step") {
+TEST_CASE("setting an equal value is no step") {
   TuningHistory history(stiff(1.0));
   history.change(stiff(1.0));
   CHECK_FALSE(history.can_undo());

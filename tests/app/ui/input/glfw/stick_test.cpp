@@ -1,5 +1,5 @@
-// Pedals as the kernel's evdev presents them, through the real GLFW and a window, to the driver's foot. Runs under
-// umockdev-run with tests/data/glfw_stick, which answers every query about the device; the events come from here.
+// Pedals of a kernel input device (evdev), through the real GLFW and a window to the driver's pedals. Runs under
+// umockdev-run with tests/data/glfw_stick, which answers every query about the device; this file sends the events.
 #include <fcntl.h>
 #include <linux/input.h>
 #include <sys/stat.h>
@@ -22,8 +22,8 @@ using namespace gearshift::ui;
 
 namespace {
 
-// The file from which GLFW reads the device's events. Sends no SYN_REPORT: on each one GLFW queries all axes again, and
-// would get their initial values.
+// Sends events to the file from which GLFW reads them. Sends no SYN_REPORT, because GLFW would then query all axes
+// again and get their initial values.
 class AcmePedals {
  public:
   AcmePedals() {
@@ -69,7 +69,7 @@ TEST_CASE("a kernel input device is listed; its pedal moves the throttle, its bu
   const std::vector<PadState> sticks = glfw_sticks();
   REQUIRE(sticks.size() == 1);
   CHECK(sticks[0].name == "Acme Pedals");
-  // SDL's format: bus, vendor, product, version, little-endian
+  // SDL's format: bus, vendor, product and version, each little-endian.
   CHECK(sticks[0].guid == "03000000341200007856000000010000");
   CHECK(sticks[0].axes == std::vector<float>{65536.0f / 65535.0f - 1.0f, 65536.0f / 65535.0f - 1.0f, -1.0f});
   CHECK(sticks[0].buttons == std::vector<unsigned char>(6, 0));

@@ -1,0 +1,26 @@
+// The quoting rules of CSV fields (RFC 4180, section 2).
+#include "app/base/csv.h"
+
+#include <utility>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift::base;
+
+TEST_CASE("a field is quoted only where necessary") {
+  CHECK(csv_field("plain words") == "plain words");
+  CHECK(csv_field("") == "");
+  CHECK(csv_field("a,b") == "\"a,b\"");
+  CHECK(csv_field("say \"no\"") == "\"say \"\"no\"\"\"");
+  CHECK(csv_field("a\nb") == "\"a\nb\"");
+  CHECK(csv_field("a\rb") == "\"a\rb\"");
+  CHECK(csv_field("\"") == "\"\"\"\"");
+}
+
+TEST_CASE("a table has one line per record") {
+  CsvTable table;
+  table.texts({"what", "value"}).end();
+  table.text("half, or so").number(0.5).end();
+  table.text("zero").number(-0.0).end();
+  CHECK(std::move(table).take() == "what,value\r\n\"half, or so\",0.5\r\nzero,0\r\n");
+}
