@@ -60,7 +60,7 @@ struct RuntimeConfig {
 // Timing of the haptic thread.
 struct LoopHealth {
   double rate = 0.0;  // [Hz] as configured
-  // [s] Median, 99th percentile and maximum, since the last call of health(), of the time from deadline to wake-up.
+  // [s] Time from deadline to wake-up since the last call of health(): median, 99th percentile and maximum.
   double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;
   std::uint64_t overruns = 0;     // number of cycles since the start that took longer than a period
   std::uint64_t skipped = 0;      // number of deadlines since the start that were missed, by overruns or late wake-ups

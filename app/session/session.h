@@ -43,7 +43,7 @@ class Session {
   void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
                   const ui::PedalKeys& keys = {});
   void apply(const ui::PanelRequests& requests);
-  void advance(double seconds);  // advances lesson and replay, on the virtual clock also the haptic loop; reads events
+  void advance(double seconds);  // advances lesson, replay and a virtual clock's haptic loop; reads events
   void update_cabin();           // places the cabin's parts and updates the sound
 
   void set_foot_pace(const ui::PedalTiming& pace) { pedals_->set_timing(pace); }

@@ -307,7 +307,7 @@ class WindowTrainer {
     session_.apply(requests);
   }
 
-  // Starts the offered lesson. After a passed lesson offers the next one, else starts the same one again.
+  // Starts the offered lesson. Once a lesson is over, offers the next one if it was passed, else starts it again.
   void go_on(ui::LessonRequests& lesson) const {
     const lessons::CoachView& coach = session_.coach().view();
     if (session_.is_replaying()) return;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMaxStep = 0.5;       // [s]
 constexpr double kMaxSubstep = 0.002;  // [s] longest step of the midpoint rule
 constexpr double kGravity = 9.81;      // [m/s^2]
-// [N m] limit for one friction element. With a usual disc inertia it brings two bodies to one speed within 0.1 ms.
+// [N m] limit for one friction element. This torque brings two bodies (disc of usual inertia) to one speed in 0.1 ms.
 constexpr double kMaxTorque = 1e5;
 
 double finite(double value) noexcept {
@@ -134,7 +134,7 @@ double Driveline::next_kink(double after) const noexcept {
 
 void Driveline::publish_state(double capacity) noexcept {
   const ChainMotion& motion = now_.motion;
-  const double engine = std::max(0.0, speed_[engine_body]);  // the car may have stopped the engine at -0
+  const double engine = std::max(0.0, speed_[engine_body]);  // not -0, at which the car may have stopped the engine
   state_.engine_speed = engine;
   state_.engine_load = engine_.load(engine, state_.throttle);
   state_.engine_torque = engine_.torque(engine, state_.throttle) - friction_torque(car_.engine, engine);

@@ -2,9 +2,9 @@
 //
 // Friction elements: the clutch (capacity set by the pedal), the synchroniser's cone, rolling resistance and brakes at
 // the car, drag at the shaft, and friction in the engine, which cannot turn backwards. Each element sticks or slips. A
-// step is split where an element changes from one to the other (event location); sticking starts with momentum
-// conserved; between events the midpoint rule is used. After kMaxEvents events in a substep, the rest of the substep is
-// solved by impulses.
+// step is split where an element changes from one to the other (event location); an element that starts to stick
+// conserves momentum; between events the midpoint rule is used. After kMaxEvents events in a substep, the rest of the
+// substep is solved by impulses.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Motion within a step, split wherever a friction element or the engine changes state: each piece has one mode.
+// Motion within a step, split wherever a friction element or the engine changes state: each piece has one FrictionMode.
 #include <algorithm>
 #include <cmath>
 
@@ -119,7 +119,7 @@ void Driveline::snap(const Reversed& elements) noexcept {
   speed_ = collide(chain_, speed_, mode);
 }
 
-// Finds which elements stick from now on. Elements with a nonzero speed slip in its direction; the rest are solved for.
+// Finds which elements stick from now on. Elements with a slip speed slip in that direction; the rest are solved for.
 void Driveline::update_modes() noexcept {
   FrictionMode known;
   known.clutch = sign(speed_[engine_body] - speed_[shaft_body]);

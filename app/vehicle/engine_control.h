@@ -10,8 +10,8 @@ class EngineControl {
   explicit EngineControl(const EngineSpec& spec) noexcept;
 
   void turn_key(bool ignition, bool starter) noexcept;
-  // Adds crankshaft rotation [rad]; counted only while the starter is on. A started engine fires only after enough
-  // rotation.
+  // Adds crankshaft rotation [rad]; counted only while the starter is on. While being started,
+  // the engine fires only after enough rotation.
   void add_crank_angle(double angle) noexcept { cranked_ += starter_ ? angle : 0.0; }
   // Sets the state directly. stalled: the engine is off because it stalled, the key still on; ignored if `running`.
   void set(bool running, bool stalled) noexcept;

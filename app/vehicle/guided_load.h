@@ -1,4 +1,4 @@
-// A force that leads the lever to a gear, like an instructor's hand on the learner's. It is added to another load.
+// A force that leads the lever to a gear, like an instructor's hand on the learner's; added to the force of a load.
 //
 // Guidance is separate from the gearbox's mechanism: its walls are always there, while guidance fades (guidance.h).
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace gearshift::vehicle {
 
-inline constexpr double kGuidancePull = 3.0;  // [N] along the path, at full strength; similar to the gate's centring
+inline constexpr double kGuidancePull = 3.0;  // [N] pull along the path at full strength, close to the gate's centring
 inline constexpr double kGuidanceRate = 2.0;  // [1/s] fastest change of the strength, which is 0 to 1
 inline constexpr double kGuidanceFadeTime = 1.0 / kGuidanceRate;  // [s] from full strength to zero
 

@@ -10,10 +10,12 @@
 
 namespace gearshift::vehicle {
 
-// Hysteresis, so that the light does not flicker: advice ends at a lower threshold than it begins.
+// Hysteresis, so that the light does not flicker: advice needs less to continue than to begin.
 inline constexpr double kAdviceHysteresis = 0.05;  // [1] fraction of the engine speed thresholds
-inline constexpr double kUpshiftThrottle = 0.05, kUpshiftThrottleOff = 0.02;  // [1] least throttle for an upshift
-inline constexpr double kDownshiftLoad = 0.40, kDownshiftLoadOff = 0.30;      // [1] least engine load for a downshift
+// [1] Least throttle for upshift advice to begin, and to continue.
+inline constexpr double kUpshiftThrottle = 0.05, kUpshiftThrottleOff = 0.02;
+// [1] Least engine load for downshift advice to begin, and to continue.
+inline constexpr double kDownshiftLoad = 0.40, kDownshiftLoadOff = 0.30;
 
 // Returns the advice:
 // +1: the engine turns faster than EngineSpec::shift_high, the throttle is open, and one gear higher the engine would

@@ -19,7 +19,7 @@ constexpr double kDogs = 0.45;
 constexpr double kHome = 0.95;
 
 constexpr double kContactTolerance = 1e-6;  // [m] a lever this close to a wall touches it
-constexpr double kStrutForce = 80.0;        // [N] force of the struts on the ring while the sleeve passes through
+constexpr double kStrutForce = 80.0;        // [N] force of the struts on the ring while the sleeve passes it
 constexpr double kBackTaper = 0.07;         // [1] tangent of the dogs' back taper, which holds the sleeve under load
 // [N s/m] damping of a sleeve that a pull beyond the holding force draws out
 constexpr double kDrawOutDamping = 20.0;

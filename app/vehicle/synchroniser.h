@@ -106,7 +106,7 @@ class Synchroniser {
   double peak_push_ = 0.0;        // [N] largest push since the lever reached the ring
   double bump_ = 0.0;             // [N] peak of the second bump; 0: already passed
   double period_ = 0.0;           // [s] duration of the current step
-  double filter_gain_ = 0.0;      // [1] fraction of its input's change that a filter follows per step
+  double filter_gain_ = 0.0;      // [1] gain of the filters per step
   double held_depth_ = 0.0;       // [m] depth at which the load holds the sleeve
   double rattle_ = 0.0;           // [N] amplitude
   double rattle_phase_ = 0.0;     // [rad]

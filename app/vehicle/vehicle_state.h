@@ -21,7 +21,7 @@ struct VehicleState {
   // Engine
   double engine_speed = 0.0;   // [rad/s] >= 0
   double engine_load = 0.0;    // [1] 0 to 1: fraction of the available torque
-  double engine_torque = 0.0;  // [N m] at the flywheel, net of friction
+  double engine_torque = 0.0;  // [N m] torque at the flywheel, net of engine friction
   bool running = true;         // the engine fires
   bool stalled = false;        // the engine died with the ignition on and has not run by itself since
   double red_line = 0.0;       // [rad/s] 0: none
@@ -37,11 +37,11 @@ struct VehicleState {
   double clutch_capacity = 0.0;  // [N m] largest torque that the clutch can transmit now
   double clutch_torque = 0.0;    // [N m] torque transmitted; from engine to gearbox is positive
   double shaft_speed = 0.0;      // [rad/s] gearbox input shaft and clutch disc; backwards is negative
-  double slip_power = 0.0;       // [W] heat in the clutch, >= 0
+  double slip_power = 0.0;       // [W] heating power in the clutch, >= 0
   double slip_energy = 0.0;      // [J] heat in the clutch since the start
   bool clutch_locked = false;
   int gear = 0;                      // engaged gear: kReverseGear, kNeutralGear or 1, 2, ...
-  SyncPhase sync = SyncPhase::free;  // in the slot that the lever is in
+  SyncPhase sync = SyncPhase::free;  // phase in the slot that the lever is in
   // [rad/s] speed difference of the dogs in the lever's slot, measured at the gear; 0 in no slot or with a gear engaged
   double dog_difference = 0.0;
   double grind_power = 0.0;    // [W] power lost in rattling dogs, >= 0

@@ -62,7 +62,7 @@ std::string settings_of(const lessons::LessonDriveConfig& drive, const LessonArg
   std::string text = fmt::format("gate = \"{}\"\ncar = \"{}\"\nsimulated_skill_error = {:g}\n", drive.gate.file,
                                  drive.car.file, arguments.skill_error);
   for (const std::string& key : arguments.errors)
-    text += fmt::format("simulated_fault = \"{}\"  # {:g}\n", key, arguments.amount);
+    text += fmt::format("simulated_fault = \"{}\"  # amount {:g}\n", key, arguments.amount);
   return text;
 }
 

@@ -118,7 +118,7 @@ int run_demo_instead(const TrainArguments& arguments) {
   return run_demo(tour);
 }
 
-// Warns the user who has named a learner that runs of the automatic hand are not saved.
+// If the user named a learner, warns that runs by the simulated driver are not saved.
 void warn_nothing_is_saved(const session::SessionChoice& choice) {
   if (choice.learner.empty() || !session::learner_of(choice).empty()) return;
   base::print_message("the simulated driver is driving, so nothing is saved for {}",

@@ -78,7 +78,7 @@ Environment delayed(Environment environment, int samples) {
 
 Environment contact_environment(const ContactLaw& law, double period) {
   check_contact(law, period);
-  if (law.hold == ContactHold::observer) throw std::invalid_argument("the observed hold has no transfer function E(z)");
+  if (law.hold == ContactHold::observer) throw std::invalid_argument("the observer hold has no transfer function E(z)");
   const double ahead = law.hold == ContactHold::zero_order ? 0.0 : period * (0.5 + law.delay);
   const double blend = -std::expm1(-period / law.smoothing);
   const auto wall = [=](Complex z) {

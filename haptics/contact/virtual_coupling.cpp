@@ -93,7 +93,7 @@ const char* hold_key(ContactHold hold) noexcept {
 }
 
 const char* to_string(ContactHold hold) noexcept {
-  static constexpr const char* kTexts[] = {"automatic hold", "zero-order hold", "half-sample hold", "observed hold"};
+  static constexpr const char* kTexts[] = {"automatic hold", "zero-order hold", "half-sample hold", "observer hold"};
   return kTexts[static_cast<int>(hold)];
 }
 

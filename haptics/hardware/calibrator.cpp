@@ -126,8 +126,8 @@ std::string Calibrator::find_axis(bool select, double seconds) {
     found_[1] = {};  // left over from an earlier run with the axes swapped
   }
   found_[select ? 0 : 1] = {usage, moved[largest] > 0.0 ? 1 : -1};
-  return std::string(select ? "right" : "forward") + " is axis " + std::to_string(largest + 1) +
-         " of the stick, counting " + (moved[largest] > 0.0 ? "up" : "down");
+  return std::string("pushing ") + (select ? "right" : "forward") + " moves axis " + std::to_string(largest + 1) +
+         " of the stick " + (moved[largest] > 0.0 ? "up" : "down");
 }
 
 std::string Calibrator::measure_range(double seconds) {

@@ -23,11 +23,12 @@ constexpr double kObservedTau = 0.0045;  // [s] longest tau at which the observe
 constexpr double kGainMargin = 1.1;      // factor on the stiffness: margin for plant error and jitter
 constexpr double kMinSlew = 2.0;         // [N/cycle] at 1 the wall force rises so slowly that an arm moves by 80 mm
 constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
-constexpr const char* kObservedLaw = "the observed hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
+constexpr const char* kObservedLaw = "the observer hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
 constexpr const char* kStableLaw = "the spectral radius of the sampled loop must be below 1 at 1.1 K";
 constexpr const char* kFreeLaw = "the spectral radius of the sampled lever must be below 1 outside the loop's walls";
-constexpr const char* kObservedDampingLaw = "the observed hold needs B >= 50 N s/m, or a heavy arm rings";
+constexpr const char* kObservedDampingLaw =
+    "the observer hold needs B >= 50 N s/m, or the lever vibrates when a heavy arm holds it";
 constexpr const char* kObserverLaw = "the spectral radius of the observed loop is below 1 at no K";
 constexpr const char* kFeelLaw = "the proxy is passive only if no force of the gate is stiffer than the wall";
 

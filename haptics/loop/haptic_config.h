@@ -98,8 +98,8 @@ void check_device(const DeviceSpec& spec);
 // If the device renders walls itself (DeviceSpec::device_wall_stiffness, device_wall_damping), the loop renders the
 // rest and the laws apply to that part; the exact check covers every lever with and without the device's spring and
 // damper. TuningLimit reports the whole wall and names the device's part in the law. Feel is rendered only by the loop,
-// so its bound is the stiffness that the laws allow the loop. The observed hold does not use the device damper, because
-// the observer would attribute it to the hand. An observed hold has a damping of at least kMinObserverDamping. With
+// so its bound is the stiffness that the laws allow the loop. The observer hold does not use the device damper, because
+// the observer would attribute it to the hand. An observer hold has a damping of at least kMinObserverDamping. With
 // allow_unstable, limits are reported but not applied. Throws std::invalid_argument for options that need
 // allow_unstable, for allow_unstable on a real device, and if no wall of any stiffness is stable.
 AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate);
@@ -107,7 +107,7 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, 
 // [N/m] The loop's part of the wall: the whole stiffness minus the device wall's.
 double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept;
 
-// [N s/m] The device damper's part of the wall's damping; 0 with the observed hold.
+// [N s/m] The device damper's part of the wall's damping; 0 with the observer hold.
 double device_damping(const HapticTuning& tuning, ContactHold hold, const DeviceSpec& spec) noexcept;
 
 // The loop's part of the wall under the admitted tuning, as input to spectral_radius().

@@ -1,6 +1,7 @@
 // The haptic cycle. The same code runs on a real-time thread and on a virtual clock.
 //
-// Each cycle makes eight calls: read -> estimate -> move proxy -> couple -> feel -> load -> guard -> write.
+// Each cycle makes eight calls, steps 2 to 9 of the list in app/README.md: read -> estimate -> move proxy -> couple ->
+// feel -> load -> guard -> write.
 //
 // A wall can be rendered in two parts. If the device renders walls itself (DeviceSpec::device_wall_stiffness,
 // device_wall_damping), the loop sends it their positions, and the device renders its part of the stiffness and damping

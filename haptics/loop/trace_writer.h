@@ -24,8 +24,8 @@ class TraceWriter {
   // are ignored.
   void add(const TraceSample& sample) noexcept;
 
-  // Writes the end block, without which the file counts as torn, and closes the file. torn: mark the end block as torn,
-  // too.
+  // Writes the end block and closes the file. A file without an end block counts as torn. torn: also mark a complete
+  // file as torn, because cycles were lost.
   void finish(bool torn = false) noexcept;
 
   const std::string& problem() const noexcept { return problem_; }  // empty, or one sentence

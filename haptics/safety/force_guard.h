@@ -4,7 +4,8 @@
 //   idle -> armed -> ramping -> running      only on request of the user; a simulated lever arms itself
 //   damped    stale reading, too many overruns in a row, or chatter that softening the wall did not calm: the force
 //             fades out and only damping remains
-//   released  limit exceeded, device lost, force not finite, or a real device without commands for 0.1 s: motors off
+//   released  limit exceeded, stop or device lost, force not finite, or a real device without commands for 0.1 s:
+//             motors off
 #pragma once
 
 #include <array>

@@ -223,7 +223,7 @@ if [ "$has_mounts" = yes ]; then
   check "read-only home: reported at the start" [ "$(grep -c "the history cannot be used because .*Read-only" read_only.txt)" = 1 ]
   check "read-only home: the lesson was driven" printed "lesson moving_off is over: not graded.*[Yy]ou left"
   check "read-only home: losses are reported at the end, got: $(cat read_only.err)" \
-    [ "$(grep -c "Read-only file system; not saved: 1 run$" read_only.err)" = 1 ]
+    [ "$(grep -c "Read-only file system); not saved: 1 run$" read_only.err)" = 1 ]
 fi
 XDG_CONFIG_HOME=$work/config
 [ "$has_mounts" = no ] || umount small home

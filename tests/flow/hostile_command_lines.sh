@@ -175,8 +175,8 @@ json.dump({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
 TEXTURED
 cp triangle.bin triangle.bin.kept
 cp skin.png skin.png.kept
-refuse 1 "different files" render triangle.gltf --out folder/../triangle.bin
-refuse 1 "different files" render triangle.gltf --out skin.png
+refuse 1 "must not overwrite" render triangle.gltf --out folder/../triangle.bin
+refuse 1 "must not overwrite" render triangle.gltf --out skin.png
 for one in triangle.bin skin.png; do cmp $one $one.kept || failed=$((failed + 1)); done
 refuse 2 "different files" stability --svg both --csv ./both
 refuse 2 "different files" bench --family plant --out t --csv t/bench.csv

@@ -59,7 +59,7 @@ for verb in "gate paper" "campaign --out c"; do
   alone/bin/gearshift $verb >alone.txt 2>alone.err
   code=$?
   check "$verb without its files: one sentence, got: $(cat alone.err)" \
-    test $code -eq 1 -a "$(grep -c "^gearshift: .*Reinstall gearshift$" alone.err)" -eq 1 -a ! -s alone.txt
+    test $code -eq 1 -a "$(grep -c "^gearshift: .*; reinstall gearshift$" alone.err)" -eq 1 -a ! -s alone.txt
 done
 ln -s "$prefix/bin/gearshift" link
 check "a link to the program finds its files, too" ./link gate paper >gate.txt

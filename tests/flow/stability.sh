@@ -50,8 +50,8 @@ check "an infinite limit is null" is k_max_n_per_m null
 answers --mass 1000 --damping 10000 --rate 20000 --wall-damping 1e5
 check "and is printed in words" says "any K up to 1e9 N/m"
 answers --hold observer --delay 3 --json
-check "the observed hold: no passive limit is known" is passive_k_max_n_per_m null
-check "the observed hold: 5000 N/m three samples late" is stable true
+check "the observer hold: no passive limit is known" is passive_k_max_n_per_m null
+check "the observer hold: 5000 N/m three samples late" is stable true
 answers --window 15 --wall-damping 10
 check "a 15 ms window fails by its damping" says "No: K up to 3465.76 N/m"
 check "passivity is called sufficient, not necessary" says "sufficient"

@@ -140,7 +140,8 @@ void note_system_call(int, siginfo_t* info, void*) {
 
 // After this call, every system call of this thread raises SIGSYS, except exit and write() to the given descriptor.
 bool forbid_system_calls(int writable_fd) {
-  const auto descriptor = static_cast<std::uint32_t>(writable_fd);  // a write to -1 would have no effect
+  const auto descriptor =
+      static_cast<std::uint32_t>(writable_fd);  // -1: only a write to -1 is allowed, which fails harmlessly
   sock_filter rules[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_exit, 4, 0),

@@ -27,7 +27,7 @@ struct MeasuredRow {
   std::optional<SinceLast> cost_since = {};  // comparison of the cost in the row's trade
 };
 
-// The cost of a row's method as a separate row, "NAME (cost)". Empty for a row without a trade.
+// The cost of a row's method as a separate row, "NAME (cost)". Empty if the row has no cost/error trade-off (BenchRow::trade).
 std::optional<BenchRow> cost_row(const BenchRow& row);
 
 struct BenchRun {

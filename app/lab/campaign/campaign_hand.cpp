@@ -99,7 +99,7 @@ std::vector<int> drawn_gears(ScriptWriter& writer, const haptics::Gate& gate, in
   return gears;
 }
 
-// For a lever without a hand: kicks, rests and two holds, one pushed and one released.
+// Script for a lever that no hand holds: random pushes with pauses, then a constant push, then no force.
 void write_kicks(ScriptWriter& writer, const CampaignCase& drawn) {
   for (int i = 0; i < 20; ++i) {
     const double angle = writer.between(0.0, 2.0 * std::numbers::pi);

@@ -64,7 +64,7 @@ set format x ""
 set ylabel "gain [dB re 1 m/N]"
 set arrow 1 from edge,graph 0 to edge,graph 1 nohead dashtype 2 linecolor "{soft}"
 set arrow 2 from 0.1,gain(edge) to edge,gain(edge) nohead dashtype 2 linecolor "{soft}"
-set label 2 sprintf("3 dB below the gain at rest: %.2f Hz", edge) at edge,graph 0.10 offset 1,0 textcolor "{soft}"
+set label 2 sprintf("3 dB below the static gain: %.2f Hz", edge) at edge,graph 0.10 offset 1,0 textcolor "{soft}"
 plot gain0(x) with lines linewidth 4 linecolor "{pale}" title "{nominal}", \
   gain(x) with lines linewidth 1.5 linecolor "{blue}" title "fitted", \
   "bode_{axis}.csv" using "frequency_hz":(20 * log10(column("gain_m_per_n"))) with points pointtype 3 pointsize 1.2 \

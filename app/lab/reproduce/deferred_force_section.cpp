@@ -45,7 +45,7 @@ double coupled_force(const haptics::Coupling& coupling, int sample) {
   return -haptics::contact_force(coupling, gate, passage, haptics::place_proxy(gate, motion.position), motion).force.x;
 }
 
-// Force of the observed hold if it predicts the end of the hold exactly. The path is prescribed, so the force does not
+// Force of the observer hold if it predicts the end of the hold exactly. The path is prescribed, so the force does not
 // change it. [N]
 double observed_force(const haptics::Coupling& coupling, int sample) {
   constexpr double kRigid = 1e-9;  // [m/N] practically rigid

@@ -227,7 +227,8 @@ Finding lock_finding(const Study& study) {
           fmt::format("all {} gears hold the lever against a pull of {:.1f} to {:.1f} N; an untouched lever moves by "
                       "{:.2f} mm along the slot",
                       study.gate.slot_count, min_pull, max_pull, 1e3 * drift),
-          fmt::format("the paper names no force; the layout specifies {:g} N, and the yoke's spring helps the hand",
+          fmt::format("the paper gives no value; the layout specifies {:g} N, and the yoke's spring helps the hand to "
+                      "pull the lever out",
                       study.layout.feel.lock_force)};
 }
 

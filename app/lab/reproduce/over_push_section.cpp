@@ -84,7 +84,7 @@ set yrange [-3:100]
 set key top left
 plot {ghost} with lines dashtype 2 linecolor "{soft}" title "above this, the real hand is shown", \
   "over_push.csv" using "push_n":"bare_depth_mm" \
-    with lines linewidth 1.5 linecolor "{orange}" title "push without a hand's impedance", \
+    with lines linewidth 1.5 linecolor "{orange}" title "push without hand impedance", \
   "" using "push_n":"grip_depth_mm" with lines linewidth 1.5 linecolor "{red}" title "gripping hand", \
   "" using "push_n":"grip_drawn_mm" with lines linewidth 1.5 linecolor "{blue}" title "displayed lever (proxy)"
 set ylabel "force [N]"
@@ -131,15 +131,15 @@ void add_ramp_findings(const Study& study, const TrialRun& bare, const TrialRun&
   const double stiffness = grip.admitted.tuning.wall_stiffness, depth = lever.actuator.peak_force / stiffness;
   const TrialSample* saturated = first_with(grip, haptics::kFlagSaturated);
   section.findings.push_back(
-      {"(from section 2.2: 3.8 N m divided by 0.12 m) the motors give 31.7 N, so a wall of 5000 N/m saturates 6.3 mm "
-       "deep",
-       fmt::format("saturation without a hand's impedance {}; with a grip {}",
+      {"(from section 2.2: 3.8 N m divided by 0.12 m) the motors give 31.7 N, so with a wall of 5000 N/m they "
+       "saturate at a depth of 6.3 mm",
+       fmt::format("saturation without hand impedance {}; with a grip {}",
                    describe_moment(first_with(bare, haptics::kFlagSaturated)), describe_moment(saturated)),
        fmt::format("{:.1f} N divided by {:g} N/m is {:.2f} mm{}", lever.actuator.peak_force, stiffness, 1e3 * depth,
                    saturated ? fmt::format(", measured {} with a grip", relative(saturated->position.x, depth)) : "")});
   section.findings.push_back(
       {"Section 3.1: \"the system will send out a sound warning when a very large pushing force occurs\", above 60 N",
-       fmt::format("warning from a measured {:g} N: without a hand's impedance {}; with a grip {}",
+       fmt::format("warning from a measured {:g} N: without hand impedance {}; with a grip {}",
                    study.preset.haptics.over_push.warn_above, describe_moment(first_with(bare, haptics::kFlagOverPush)),
                    describe_moment(first_with(grip, haptics::kFlagOverPush))),
        "once the wall gives way, a gripping hand is held back by its own spring, so the sensor reads 60 N only at the "
@@ -164,7 +164,7 @@ void add_step_finding(const Study& study, const TrialRun& peak, const TrialRun& 
       {"Section 3.1: a push \"up to more than 60 N ... may bend the joystick and make the virtual wall collapse\"",
        fmt::format(
            "sudden push of {:g} N: {:.0f} mm deep with a grip and {:g} N from the motors, {:.0f} mm with a grip "
-           "and {:g} N, {:.0f} mm without a hand's impedance; the stop is at {:.0f} mm",
+           "and {:g} N, {:.0f} mm without hand impedance; the stop is at {:.0f} mm",
            kPaperPush, 1e3 * deepest(peak), lever.actuator.peak_force, 1e3 * deepest(overheated),
            lever.actuator.continuous_force, 1e3 * deepest(bare), 1e3 * stop),
        fmt::format("the wall can resist {:.0f} % of this push with the peak force and {:.0f} % continuously",
@@ -186,7 +186,7 @@ Section over_push_section(const Study& study) {
 
   Section section{"over_push", "Section 3.1: a push above 60 N", "", {}, {}};
   section.text = fmt::format(
-      "A push against the preset's wall grows from 0 to {:g} N in {:g} s, once without a hand's impedance and once "
+      "A push against the preset's wall grows from 0 to {:g} N in {:g} s, once without hand impedance and once "
       "with "
       "a gripping hand whose spring ({:g} N/m) holds it at the wall. A sudden push of {:g} N follows. Lever, loop and "
       "warning are the preset's.",

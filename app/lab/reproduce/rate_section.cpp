@@ -168,7 +168,8 @@ std::string describe(const RateCase& one, const Result& result) {
 
 std::string radii(const Result& result) {
   if (result.measured == 0.0)
-    return fmt::format("predicted growth per cycle {:.4f}, too fast to measure", result.predicted);
+    return fmt::format("growth per cycle: {:.4f} predicted; it grows or dies out too fast to be measured",
+                       result.predicted);
   return fmt::format("growth per cycle: {:.4f} measured, {:.4f} predicted ({})", result.measured, result.predicted,
                      relative(result.measured, result.predicted));
 }
@@ -199,7 +200,7 @@ Section rate_section(const Study& study) {
   const std::array<RateCase, 3> cases = make_cases(study);
   Section section{"rate", "Section 3.1: 5000 N/m at 100 Hz, the paper's wall and the preset's", "", {}, {}};
   section.text = fmt::format(
-      "The lever meets the wall at {:g} m/s and is then pushed with {:g} N, once without a hand's impedance and once "
+      "The lever meets the wall at {:g} m/s and is then pushed with {:g} N, once without hand impedance and once "
       "by "
       "a gripping hand. The wall is the paper's (presets/paper.toml, which allows unstable values), the preset's, and "
       "the preset's at {:g} Hz with the stiffness that is accepted at that rate. The growth per cycle of a tiny "
@@ -217,7 +218,7 @@ Section rate_section(const Study& study) {
           {is_paper ? "Section 3.1: \"around 5000 N/m ... the constraint for the passivity condition, "
                       "specified in Eq. (21), is violated\""
                     : "(not in the paper)",
-           fmt::format("{}, {}", named.name == "bare" ? "without a hand's impedance" : "gripping hand",
+           fmt::format("{}, {}", named.name == "bare" ? "without hand impedance" : "gripping hand",
                        describe(one, result)),
            radii(result)});
     }
@@ -228,7 +229,7 @@ Section rate_section(const Study& study) {
         fmt::format("set multiplot layout 1,2 margins 0.07, 0.98, 0.12, 0.82 spacing 0.09\nset xlabel \"time [s]\"\n"
                     "set ylabel \"position, the wall at 0 [mm]\"\nset key at screen 0.5, 0.98 center top horizontal\n"
                     "{}unset key\n{}unset multiplot\n",
-                    panel(cases, "bare", "push without a hand's impedance"), panel(cases, "grip", "gripping hand"))});
+                    panel(cases, "bare", "push without hand impedance"), panel(cases, "grip", "gripping hand"))});
   section.pictures = {{"rate",
                        "A push of 20 N into the wall: at the paper's wall at 100 Hz the lever bounces, at the preset's "
                        "it comes to rest. "

@@ -154,9 +154,9 @@ Finding spring_finding(const RoughRuns& runs, double count) {
               "damper: {:.0f} %",
               runs.stiffness, spring_run.step, spring_run.peak, 100.0 * spring_run.step / spring_run.peak,
               100.0 * fast.step / fast.peak),
-          fmt::format("not confirmed; both forces are held for a period and then change by about omega T of their "
-                      "peak; one encoder "
-                      "count is {:.2g} N for the spring and {:.2g} N for the damper",
+          fmt::format("not confirmed; both forces are held for one period T of the loop and then step by about omega T "
+                      "of their peak (omega: the stroke's angular frequency); one encoder count is {:.2g} N for the "
+                      "spring and {:.2g} N for the damper",
                       runs.stiffness * count, runs.damping * count * kPaperRate)};
 }
 

@@ -75,6 +75,6 @@ Section gate_section(const Study& study);            // Fig. 7
 Section tour_section(const Study& study);            // Fig. 9
 Section oscillation_section(const Study& study);     // section 3.1: measures against oscillation
 Section over_push_section(const Study& study);       // section 3.1: pushes above 60 N
-Section rate_section(const Study& study);            // the paper's wall and the preset's at 100 Hz and 5000 N/m
+Section rate_section(const Study& study);            // the paper's wall and the preset's, both at 100 Hz and 5000 N/m
 
 }  // namespace gearshift::lab

@@ -30,7 +30,7 @@ class VirtualElement final : public haptics::LeverLoad {
   std::optional<haptics::YokeGeometry> joints_;
   glm::dvec2 rest_;           // [m] in the element's coordinates, as are the two below
   glm::dvec2 position_{0.0};  // [m] of the last sample
-  glm::dvec2 step_{0.0};      // [m] of the sample before the last
+  glm::dvec2 step_{0.0};      // [m] displacement from the sample before the last to the last
 };
 
 }  // namespace gearshift::lab

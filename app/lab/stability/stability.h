@@ -27,7 +27,7 @@ struct StabilityQuestion {
 };
 
 struct HandVerdict {
-  double limit = 0.0;   // [N/m] exact stability limit, 0 to infinite
+  double limit = 0.0;   // [N/m] exact stability limit, from 0 to infinity
   double radius = 0.0;  // [1] spectral radius for the wanted wall
 };
 
@@ -40,7 +40,7 @@ struct StabilityAnswer {
   // True if the wanted wall and all softer ones are stable: a contact passes through softer walls as it begins and
   // ends.
   bool may_use = false;
-  // Result of the paper's passivity conditions, valid for every passive hand. Empty for the observed hold, see
+  // Result of the paper's passivity conditions, valid for every passive hand. Empty for the observer hold, see
   // passivity.h.
   std::optional<double> passive_limit;  // [N/m]
   std::optional<bool> passive;          // the wanted wall is passive

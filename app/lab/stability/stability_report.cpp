@@ -68,7 +68,7 @@ std::string format_verdict(const StabilityQuestion& question, const StabilityAns
 }
 
 std::string format_passive_answer(const haptics::ContactLaw& wall, const StabilityAnswer& answer) {
-  if (!answer.passive_limit) return "unknown for the observed hold, which contains a model of the device\n";
+  if (!answer.passive_limit) return "unknown for the observer hold, which contains a model of the device\n";
   return fmt::format("{}: {}, {}\n", passive_law(wall), *answer.passive ? "satisfied" : "violated",
                      up_to(*answer.passive_limit));
 }

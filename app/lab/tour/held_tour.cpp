@@ -181,7 +181,7 @@ class HeldDrive {
   TourResult& result_;
   std::int64_t begin_ns_;
   std::size_t next_ = 0;   // index of the next wanted gear
-  bool is_armed_ = false;  // the user has armed, and the forces have not been switched off since
+  bool is_armed_ = false;  // the user has armed the forces, and they have not been switched off since
   std::int64_t armed_at_ns_ = 0;
   bool is_connected_ = false;
   bool has_reported_absence_ = false;  // true also if the stick has been connected

@@ -12,7 +12,8 @@
 namespace gearshift::lessons {
 
 inline constexpr double kMinJerkLimit = 110.0;  // [m/s^3] smallest limit in any gear, from measurements (README.md)
-inline constexpr double kJerkFraction = 0.5;    // [1] fraction of a gripping clutch's jerk; engineering value
+// [1] jerk_limit() as a fraction of the jerk of a clutch that grips at once. Engineering value.
+inline constexpr double kJerkFraction = 0.5;
 
 // Jerk at which a release of the clutch in this gear becomes an error [m/s^3]: half of the filtered jerk of a clutch
 // that grips at once (the acceleration then steps by C i eta / m), but at least kMinJerkLimit. Even a perfect launch

@@ -29,8 +29,7 @@ struct ErrorText {
 // In the order of ErrorKind.
 constexpr std::array<ErrorText, kErrorKindCount> kErrorTexts{{
     {"stall", "stall", "The engine stalled at {} rpm.",
-     "Use more throttle and hold the clutch at the bite point. When stopping, press the clutch in time.",
-     kRpmPerRadPerS, 0},
+     "Use more throttle, hold the bite point; when stopping, press the clutch in time.", kRpmPerRadPerS, 0},
     {"over_rev", "rev above the red line", "You revved the engine to {} rpm, above its red line.",
      "Release the throttle or shift up before the red line.", kRpmPerRadPerS, 0},
     {"lugging", "let the engine labour", "The engine laboured for {} s because the gear was too high for the speed.",

@@ -14,7 +14,7 @@ namespace gearshift::lessons {
 namespace {
 
 // Engineering values.
-constexpr double kStallWindow = 1.0;         // [s] a stall is reported with the highest engine speed within this time
+constexpr double kStallWindow = 1.0;         // [s] a stall is reported with the highest engine speed of this last time
 constexpr double kLugLoad = 0.7;             // [1] fraction of the available torque
 constexpr double kMaxRidingTime = 6.0;       // [s] riding or coasting is reported after this time, even if it continues
 constexpr double kMinRidingPedal = 0.08;     // [1] pedal
@@ -24,10 +24,10 @@ constexpr double kBraking = 0.05;            // [1] pedal
 constexpr double kHardBraking = 0.5;         // [1] pedal: the driver wants to stop, whatever the speed
 constexpr double kMaxShiftTime = 6.0;        // [s] after this time an open clutch is coasting, no longer a shift
 constexpr double kMaxDownshiftFactor = 1.2;  // [1] factor for the car's shift_high
-constexpr double kMinBlockedPush = 3.0;      // [N] against a synchroniser
+constexpr double kMinBlockedPush = 3.0;      // [N] push against a synchroniser
 constexpr double kMinRollbackSpeed = 0.01;   // [m/s]
 constexpr double kStartupTime = 1.0;         // [s] time for a started engine to reach idle
-constexpr double kSpeedTolerance = 0.07;     // [1] a shift may come this much before its target speed: needle accuracy
+constexpr double kSpeedTolerance = 0.07;     // [1] relative tolerance before a target speed: accuracy of a needle
 // [m/s] A shift may come this much after its target speed: at 1.5 m/s^2 the car slows by 12 km/h while the driver reads
 // (1.05 s, Green 2000) and shifts (1.2 s).
 constexpr double kSpeedOvershoot = 12.0 / haptics::kKmhPerMps;

@@ -55,7 +55,7 @@ class ErrorDetector {
   // Time that the car rolled faster than kMinDrivingSpeed during a shift.
   struct RollingTime {
     double all = 0.0;                  // [s]
-    double left = 0.0, in = 0.0;       // [s] value of `all` when the old gear was left; when the last gear was engaged
+    double left = 0.0, in = 0.0;       // [s] `all` when the old gear was left, and when the last gear was engaged
     bool is_braked_to_stop = false;    // the car was braked below kMinDrivingSpeed with the clutch down
     bool is_engine_not_ready = false;  // engine off or just started: its speed says nothing about the driver
     double relevant_time() const noexcept { return is_braked_to_stop ? in - left : all; }
@@ -116,7 +116,7 @@ class ErrorDetector {
   int driven_gear_ = haptics::kNeutralGear;  // last gear with the clutch locked
   std::vector<int> tried_;       // gears that the lever was pushed towards since the last record, newest last
   std::vector<int> engaged_;     // gears that were engaged since the last record
-  bool reported_speed_ = false;  // reported that a gear was engaged at the wrong road speed
+  bool reported_speed_ = false;  // a gear engaged at the wrong road speed was reported
   double demanded_speed_ = 0.0;  // [rad/s] engine speed that the last gear required when it was engaged
   int wanted_gear_ = haptics::kNeutralGear;
   bool touching_ = false;

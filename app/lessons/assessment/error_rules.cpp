@@ -26,7 +26,7 @@ constexpr std::array<ErrorRule, kErrorKindCount> kRules{{
     {ErrorKind::throttle_in_shift, 400 * kRpm, 0.0, 1500 * kRpm, Severity::minor},  // E
     {ErrorKind::rev_mismatch, 300 * kRpm, 0.0, 1200 * kRpm, Severity::minor},       // E
     {ErrorKind::grind, 0.5, 0.0, 30.0, Severity::minor},                            // E
-    {ErrorKind::blocked, 1.0, 0.0, 4.0, Severity::minor},  // E; 30 N at the knob take 0.84 s from 2 to 1
+    {ErrorKind::blocked, 1.0, 0.0, 4.0, Severity::minor},  // E; a shift from 2 to 1 takes 0.84 s with 30 N at the knob
     {ErrorKind::missed_shift, -kNever, 0.0, kNever, Severity::minor},
     {ErrorKind::wrong_gear, -kNever, 0.0, kNever, Severity::minor},
     {ErrorKind::wrong_column, 1.0, 0.0, 3.0, Severity::minor},
@@ -35,8 +35,8 @@ constexpr std::array<ErrorRule, kErrorKindCount> kRules{{
     {ErrorKind::step_order, 1.0, 0.0, 4.0, Severity::minor},
     {ErrorKind::rollback, 0.10, 0.0, 0.5, Severity::minor},           // E
     {ErrorKind::jerk, 1.0, 0.0, 2.0, Severity::minor},                // fractions of jerk_limit(): see README.md
-    {ErrorKind::early_shift, -kNever, 0.0, kNever, Severity::minor},  // below the lesson's band
-    {ErrorKind::late_shift, -kNever, 0.0, kNever, Severity::minor},   // above the lesson's band
+    {ErrorKind::early_shift, -kNever, 0.0, kNever, Severity::minor},  // engine speed below the lesson's band
+    {ErrorKind::late_shift, -kNever, 0.0, kNever, Severity::minor},   // engine speed above the lesson's band
     {ErrorKind::too_slow, 2.5, 0.0, 6.0, Severity::minor},            // E
     {ErrorKind::wrong_direction, 1.0, 0.0, 5.0, Severity::severe},    // E
     {ErrorKind::slow_step, 1.0, 0.0, 2.0, Severity::minor},           // fractions of the step's allowed time: E

@@ -45,7 +45,7 @@ class GuidancePolicy {
   explicit GuidancePolicy(std::uint64_t seed, const GuidanceConfig& config = {});
 
   TrialPlan next();
-  TrialPlan retention() const noexcept;  // for a test after a day or a week: no guidance, no feedback in the drive
+  TrialPlan retention() const noexcept;  // a test after a day or a week: no guidance, no feedback in the drive
   void learn(double error) noexcept;     // error: run_error() of the trial just driven
 
   double gain() const noexcept { return gain_; }    // [1]

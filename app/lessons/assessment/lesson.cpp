@@ -125,7 +125,8 @@ void read_at(const haptics::TomlTable& table, LessonStep& step) {
     table.fail("at_km_per_h", "is allowed only in a step that waits for a forward gear");
 }
 
-// A step that waits for a gear guides to this gear. guide_to names the gear of other steps; it must not contradict.
+// A step that waits for a gear guides to that gear, and guide_to must not name a different one. A step that waits for
+// neutral, or for no gear, guides to the gear that guide_to names.
 LessonStep read_step(const haptics::TomlTable& table) {
   LessonStep step;
   step.prompt = table.text("prompt");
@@ -271,7 +272,7 @@ void check_slow_step(const haptics::TomlTable& root, const Lesson& lesson) {
 void check_times(const haptics::TomlTable& root, const Lesson& lesson) {
   double held = 0.0;
   for (const LessonStep& step : lesson.steps) held += step.until.held;
-  if (held >= lesson.time_limit) root.fail("time_limit_s", "must be longer than all held_s of the steps together");
+  if (held >= lesson.time_limit) root.fail("time_limit_s", "must be longer than the sum of held_s over all steps");
 }
 
 }  // namespace

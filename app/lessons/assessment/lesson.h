@@ -36,13 +36,14 @@ struct LessonStep {
   std::string prompt;  // "Press the clutch all the way down."
   std::string hint;    // shown when the step takes too long; may be empty
   DriveCondition until;
-  int gear = haptics::kNeutralGear;     // gear that the guidance leads to; kNeutralGear: none
-  double patience = 8.0;                // [s] time before the hint is shown
-  std::optional<double> within{};       // [s] a slower step is the error slow_step
-  std::optional<double> fails_after{};  // [s] if the lesson fails on slow_step, a slower step fails it; default: within
-  bool call = false;                    // prompt shown in both modes, because the learner cannot know when to act
-  bool may_be_skipped = false;          // prepares the next step, and is done when the next step is done
-  std::optional<double> at{};           // [m/s] road speed at which the gear of this step should be engaged
+  int gear = haptics::kNeutralGear;  // gear that the guidance leads to; kNeutralGear: none
+  double patience = 8.0;             // [s] time before the hint is shown
+  std::optional<double> within{};    // [s] a slower step is the error slow_step
+  // [s] A slower step fails the lesson, if the lesson fails on slow_step. >= within; empty: equal to within.
+  std::optional<double> fails_after{};
+  bool call = false;            // prompt shown in both modes, because the learner cannot know when to act
+  bool may_be_skipped = false;  // prepares the next step, and is done when the next step is done
+  std::optional<double> at{};   // [m/s] road speed at which the gear of this step should be engaged
 };
 
 struct LessonAbort {

@@ -11,7 +11,7 @@
 
 namespace gearshift::lessons {
 
-enum class LessonMode { follow_me, by_yourself };  // shows every step's prompt; shows only the goal
+enum class LessonMode { follow_me, by_yourself };  // follow_me prompts every step; by_yourself shows only the goal
 constexpr std::string_view to_string(LessonMode mode) noexcept {
   constexpr std::string_view kNames[] = {"follow_me", "by_yourself"};
   return kNames[static_cast<std::size_t>(mode)];

@@ -91,7 +91,7 @@ struct LessonRun::State {
   double highest = 0.0;         // [m] largest distance since the step began
   double step_began = 0.0;      // [s]
   double steps_done = 0.0;      // [s] when a step was last completed
-  double on_course = 0.0;       // [s] when the gear was last one that the step allows
+  double on_course = 0.0;       // [s] when the car was last in a gear that the step allows
 };
 
 LessonRun::LessonRun(const Lesson& lesson, const vehicle::CarSpec& car, const haptics::Gate& gate,

@@ -29,7 +29,7 @@ struct LessonView {
   std::string hint;    // may be empty
   std::size_t step = 0, steps = 0;
   int guided_gear = haptics::kNeutralGear;
-  std::vector<std::string> feedback;  // newest last: "The clutch came up 0.12 s before the gear was in."
+  std::vector<std::string> feedback;  // so far, newest last: "The clutch came up 0.12 s before the gear was in."
 };
 
 class LessonRun {

@@ -7,8 +7,8 @@
 
 namespace gearshift::lessons {
 
-// "Straight back.", "Into neutral, to the right against the spring, then forward.", "Lift the ring: to the left against
-// the spring, then forward." from: kNeutralGear for the lever at rest in the aisle. Both gears must be in the gate.
+// For example "Straight back." or "Into neutral, to the right against the spring, then forward." from: kNeutralGear for
+// a lever at rest in the aisle. Both gears must be in the gate.
 std::string describe_lever_path(const haptics::Gate& gate, int from, int to);
 
 std::string gear_word(int gear);  // "first", "reverse", "neutral"; "gear 7" above sixth

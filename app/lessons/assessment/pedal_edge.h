@@ -30,7 +30,7 @@ class PedalEdge {
 
   bool is_down() const noexcept { return down_; }
   bool is_past() const noexcept { return down_ && !below_; }  // beyond the bite point now, without hysteresis
-  bool went_down() const noexcept { return went_down_; }      // in the last update
+  bool went_down() const noexcept { return went_down_; }      // the pedal went down in the last update
   bool went_up() const noexcept { return went_up_; }
   double down_at() const noexcept { return down_at_; }  // [s] when the pedal last passed the bite point downwards
   double up_at() const noexcept { return up_at_; }      // [s] when the pedal last passed the bite point upwards

@@ -47,11 +47,11 @@ struct ShiftRecord {
   double force_peak = 0.0;       // [N] largest force of the hand
   double impulse = 0.0;          // [N s] integral of the hand's force over time
   double wall_work = 0.0;        // [J] work against the walls while penetration increases
-  double path_length = 0.0;      // [m] travelled by the lever
+  double path_length = 0.0;      // [m] distance travelled by the lever
   double path_efficiency = 1.0;  // [1] path length divided by the shortest path through the gate, >= 1
   double overshoot = 0.0;        // [m] largest penetration: distance of the lever from the drawn lever
   int wrong_columns = 0;         // number of slots entered off the path, without those of gears that were engaged
-  double block_time = 0.0;       // [s] time against a blocking synchroniser
+  double block_time = 0.0;       // [s] time of pushing against a blocking synchroniser
   double grind_time = 0.0;       // [s]
   double grind_energy = 0.0;     // [J]
   bool missed = false;           // the driver gave up, or returned to the same gear

@@ -38,7 +38,7 @@ std::optional<double> task_grade(std::span<const PastResult> past, std::string_v
 // A task's last three results. The task with more failed runs is the weaker; among equals, that with the lower grade.
 struct RecentResults {
   int runs = 0, failed = 0;
-  double grade = 0.0;  // [1] of 10, mean
+  double grade = 0.0;  // [1] of 10, mean grade
 };
 // Empty if there are no results.
 std::optional<RecentResults> recent_results(std::span<const PastResult> past, std::string_view task);

@@ -12,8 +12,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Looks up a learner by number if it is known: a learner with the same name may be a different person. Returns a row
-// with number 0 if there is none.
+// Looks up a learner by number if the number is known, because a learner with the same name may be a different person.
+// Returns a row with number 0 if there is none.
 template <class Person>
 LearnerRow row_of(std::vector<LearnerRow> rows, const Person& person) {
   for (LearnerRow& row : rows) {
@@ -119,7 +119,7 @@ void LearnerMemory::set_learner(const std::string& name) {
   runs_.clear();
   next_.clear();
   load();
-  if (person_->deleted) {  // the learner was deleted since the last selection: start a new one
+  if (person_->deleted) {  // the learner was deleted since the last selection: add a new learner
     person_ = find_or_add_person(name);
     load();
   }

@@ -9,7 +9,7 @@
 namespace gearshift::lessons {
 namespace {
 
-// The learner's name determines the seed, so there is one without a history, too. Names contain no zero byte.
+// The learner's name determines the seed, so a seed exists without a history, too. Names contain no zero byte.
 std::uint64_t seed_of(std::string_view learner, std::string_view lesson) {
   return haptics::fnv_1a(std::string(learner) + '\0' + std::string(lesson));
 }

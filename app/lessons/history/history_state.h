@@ -60,7 +60,7 @@ struct History::State {
   std::string unusable_message(const std::string& why) const;
   [[noreturn]] void fail(const SQLite::Exception& problem) const;
   [[noreturn]] void refuse(const std::string& why) const;
-  [[noreturn]] void fail_as_deleted() const;  // the learner, run or comment to be written to was deleted
+  [[noreturn]] void fail_as_deleted() const;  // throws HistoryDeleted: the learner, run or comment was deleted
 
   std::filesystem::path file;
   Clock now;

@@ -7,7 +7,7 @@
 namespace gearshift::lessons {
 namespace {
 
-// An error from a backup has no extended code: its primary code contains it.
+// For an error from a backup, getExtendedErrorCode() is negative and getErrorCode() already is the extended code.
 int extended_code(const SQLite::Exception& problem) noexcept {
   return problem.getExtendedErrorCode() >= 0 ? problem.getExtendedErrorCode() : problem.getErrorCode();
 }

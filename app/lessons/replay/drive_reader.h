@@ -27,13 +27,13 @@ class DriveReader {
   const haptics::TraceHeader& header() const noexcept { return reader_.header(); }
   const haptics::Gate& gate() const noexcept { return gate_; }
   const vehicle::CarSpec* car() const noexcept { return car_ ? &car_->spec() : nullptr; }    // null: no car
-  std::uint64_t cycles() const noexcept { return std::min(reader_.cycles(), max_cycles_); }  // next() returns no more
+  std::uint64_t cycles() const noexcept { return std::min(reader_.cycles(), max_cycles_); }  // upper limit of next()
 
   // Lever and controls are as recorded; the car is simulated. Without a car, or from the cycle on in which the
   // simulation diverges from the recording, pedals, gear and road speed are the recorded ones and all else keeps its
   // last value. Times increase strictly: a cycle whose time is not after the previous one is skipped.
   bool next(vehicle::DriveSample& sample);
-  bool has_diverged() const noexcept { return has_diverged_; }  // true if it did in any cycle read so far
+  bool has_diverged() const noexcept { return has_diverged_; }  // true if any cycle read so far diverged
 
  private:
   std::unique_ptr<haptics::LeverLoad> make_load(const std::string& name, const haptics::Gate& gate);

@@ -26,7 +26,7 @@ class LeverPath {
   // Returns empty paths if nothing was added. gate: the gate in which the shift was driven.
   ShiftPaths paths(const ShiftRecord& shift, const haptics::Gate& gate) const;
 
-  static constexpr double kChord = 5e-4;  // [m]; doubles when a path would exceed kMaxPoints
+  static constexpr double kChord = 5e-4;  // [m] chord length; doubles when a path would exceed kMaxPoints
   static constexpr std::size_t kMaxPoints = 4096;
 
  private:

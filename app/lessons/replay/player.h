@@ -27,7 +27,7 @@ class Player {
   // the end of the selection, where it stops.
   bool advance(double seconds);
   void seek(double time);      // [s] on the loop's clock; clamped to the selection
-  void start_at(double time);  // [s] since the drive began. Throws std::invalid_argument with its length
+  void start_at(double time);  // [s] since the drive began. Throws std::invalid_argument if it is too late
   void play(bool on);          // at the end of the selection, plays it again from its begin
   void set_pace(double pace);  // kMinPace to kMaxPace; clamped
   // Selects a shift, with kShiftMargin before and after it, and plays it from its start. Empty: selects the whole drive

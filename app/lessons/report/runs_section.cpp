@@ -21,7 +21,7 @@ double points_of_error(const LessonResult& result, std::size_t error) {
   return points;
 }
 
-// The points that an error cost or, if none, its severity: guided runs are not graded.
+// The points that the error cost, or its severity if it cost none (guided runs are not graded).
 std::string format_cost(const DrivingError& error, double points) {
   if (points > 0.0) return fmt::format("<strong>−{:.1f}</strong>", points);
   return title_from_key(to_string(error.severity)) + ":";
@@ -51,7 +51,7 @@ std::string error_list(const LessonResult& result) {
   return list + "</ul>";
 }
 
-// If deductions exceed the grade, their sum is shown, because the listed points do not add up to the grade.
+// If the deductions exceed the best grade, shows their sum, because they then do not add up to the grade.
 std::string format_lost_points(const LessonResult& result) {
   double points = 0.0;
   for (const Deduction& deduction : result.deductions) points += deduction.points;

@@ -24,14 +24,14 @@ struct RecordedCycle {
 };
 
 struct ClutchPress {
-  double from = 0.0, to = 0.0;  // [s] since the shift began; in between the pedal was past the bite point
+  double from = 0.0, to = 0.0;  // [s] since the shift began; the pedal was past the bite point between them
 };
 
 struct ShiftRecording {
   haptics::Gate gate;
   double alarm = 0.0;                 // [N] threshold of the over-push warning
   double end = 0.0;                   // [s] duration of the shift
-  bool has_car = false;               // false: no speeds, and `gear` is the lever's
+  bool has_car = false;               // false: no speeds, and `gear` comes from the lever
   std::vector<RecordedCycle> cycles;  // from kRecordingMargin before the shift to kRecordingMargin after it
   std::vector<ClutchPress> presses;   // in order; empty without a car
   std::vector<glm::dvec2> ideal;  // [m] shortest path from where the old gear was left to where the new gear engaged

@@ -26,8 +26,7 @@ const char* trend_label(Trend trend) {
   return "–";
 }
 
-// Bars for the earlier rate above the recent rate, on one scale. A dash if no runs were compared, which does not mean
-// 0.
+// Two bars on one scale: the earlier rate on top, the recent rate below. A dash, not 0, if no runs were compared.
 std::string bars(const WeakSpot& spot, double max_rate) {
   if (spot.trend == Trend::unknown) return "–";
   const auto bar = [&](const char* kind, double rate) {

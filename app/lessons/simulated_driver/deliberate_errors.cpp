@@ -21,7 +21,7 @@ bool SimulatedDriver::spoil_launch(const vehicle::DriveSample& now) {
   const bool dumps = is_due(ErrorKind::clutch_dump);
   const double revs = dumps ? kDumpSpeed : kJerkSpeed;
   if (feet_.hand_brake.value() > 0.05 && !is_due(ErrorKind::rollback) && !is_due(ErrorKind::stall)) {
-    // On a hill, revs first, handbrake second: otherwise the car would roll back.
+    // On a hill the driver revs up before releasing the handbrake, or the car would roll back.
     feet_.throttle.move_to(kHurryThrottle, 4.0);
     if (now.car.engine_speed >= revs) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
     return true;

@@ -20,7 +20,7 @@ inline constexpr double kMaxBlipTime = 1.5;       // [s] a blip is given up afte
 inline constexpr double kLightBite = 0.03;        // [1] pedal travel past the bite point with hardly any torque
 inline constexpr double kClutchRateCreep = 0.12;  // [1/s] clutch up, searching for the bite point without throttle
 inline constexpr double kLaunchSpeed = 167.6;     // [rad/s] engine speed at a launch: 1600 rpm
-inline constexpr double kLaunchSpeedAfterStall = 1.15;  // [1] engine speed relative to the previous launch
+inline constexpr double kLaunchSpeedAfterStall = 1.15;  // [1] engine speed of the next launch, relative to the last
 // [1] fraction of idle speed below which the driver presses the clutch to save the engine from stalling
 inline constexpr double kStallRescueSpeed = 0.75;
 inline constexpr double kRevHoldGain = 0.015;        // [s] throttle per rad/s of missing engine speed
@@ -40,8 +40,8 @@ inline constexpr double kShaftRestTime = 2.0;     // [s] wait with the clutch do
 inline constexpr double kStuckTime = 1.2;         // [s] push without effect before trying again
 inline constexpr double kBesideSlotTime = 0.2;    // [s] push next to a slot before trying again, plus the reaction time
 inline constexpr double kSyncPatience = 4.0;      // [s] push against a blocking ring before trying again
-inline constexpr double kMaxStepTime = 45.0;      // [s] without a completed step before giving up
-inline constexpr double kPauseAfterMiss = 3.8;    // [s]
+inline constexpr double kMaxStepTime = 45.0;      // [s] time without a completed step before giving up
+inline constexpr double kPauseAfterMiss = 3.8;    // [s] time without a new attempt after a missed shift
 inline constexpr double kClutchDown = 0.8;        // [1] pedal position that lessons define as down
 inline constexpr double kMinHillSlope = 0.02;     // [rad]
 inline constexpr double kMaxStandingSpeed = 0.3;  // [m/s]
@@ -49,8 +49,8 @@ inline constexpr double kMinRollingSpeed = 1.0;   // [m/s]
 inline constexpr double kMinDrivingSpeed = 4.5;   // [m/s] faster than the assessment's kMinDrivingSpeed of 4 m/s
 // [m/s] A car this fast still counts as driving after some seconds with the clutch down.
 inline constexpr double kMinCoastingSpeed = 5.0;
-inline constexpr double kRingFraction = 0.12;    // [1] fraction of the way from detent to gear, ends before the ring
-inline constexpr double kStrokeDelay = 0.06;     // [s] added to a stroke's duration of distance divided by pace
+inline constexpr double kRingFraction = 0.12;    // [1] fraction of the way from detent to gear, not past the ring
+inline constexpr double kStrokeDelay = 0.06;     // [s] duration of a stroke, in addition to distance divided by pace
 inline constexpr double kMouthDepth = 0.006;     // [m] depth of a stroke into a wrong slot
 inline constexpr double kMouthStrokeTime = 0.2;  // [s] duration of the last stroke into a wrong slot
 
@@ -59,7 +59,7 @@ inline constexpr double kDumpRate = 25.0;           // [1/s] foot slips off the 
 inline constexpr double kAbruptRate = 3.8;          // [1/s] clutch up in a hurry: 0.26 s for the whole travel
 inline constexpr double kNearRevs = 60.0;           // [rad/s] below this rev difference a jerk needs kDumpRate
 inline constexpr double kDumpSpeed = 419.0;         // [rad/s] engine speed for a dump at a launch: 4000 rpm
-inline constexpr double kBurnSpeedGain = 1.7;       // [1] rise of the engine speed of a launch, times the amount
+inline constexpr double kBurnSpeedGain = 1.7;       // [1] rise of a launch's engine speed, times the amount
 inline constexpr double kJerkSpeed = 272.0;         // [rad/s] engine speed for a jerk at a launch: 2600 rpm
 inline constexpr double kHurryThrottle = 0.6;       // [1]
 inline constexpr double kBaseOverPush = 55.0;       // [N] push of an impatient hand
@@ -73,7 +73,7 @@ inline constexpr double kLateStepFactor = 1.5;      // [1] delay relative to a s
 inline constexpr double kEarlyThrottle = 0.15;      // [1] throttle before the clutch is up
 inline constexpr double kThrottleLead = 0.6;        // [s] from throttle to clutch, times the amount
 inline constexpr double kSettleAfterOverRev = 5.0;  // [s] from over-revving until the clutch comes up
-inline constexpr double kEarlyShiftFactor = 0.8;    // [1] fraction of the right road speed for a shift
-inline constexpr double kLateShiftMargin = 4.2;     // [m/s] beyond the right road speed for a shift
+inline constexpr double kEarlyShiftFactor = 0.8;    // [1] early shifts happen below this fraction of the right speed
+inline constexpr double kLateShiftMargin = 4.2;     // [m/s] late shifts happen this far beyond the right speed
 
 }  // namespace gearshift::lessons

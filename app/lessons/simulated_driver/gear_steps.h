@@ -22,7 +22,7 @@ LessonStep stop_step();  // brings the car to a stop, clutch down
 LessonStep gear_step(int gear);
 // Adds the steps of a shift: clutch down, lever to `to`, clutch up.
 void add_shift(std::vector<LessonStep>& steps, int to);
-// Adds the steps from a stop with the clutch down up to the last of `gears`, through all of them.
+// Adds the steps that lead from a stop with the clutch down through all `gears`, in order.
 void add_upshifts(std::vector<LessonStep>& steps, const vehicle::CarSpec& car, const std::vector<int>& gears);
 
 // A drive from the car's state `from` to the start of `lesson`: to a stop, then to the lesson's gear and speed.

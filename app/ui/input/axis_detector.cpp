@@ -41,7 +41,7 @@ bool is_valid_in_file(const std::string& name) {
 
 }  // namespace
 
-// True while the same sticks as in the first frame are plugged in.
+// The first call records the sticks. False from the first frame in which they differ, even if they come back.
 bool AxisDetector::check_sticks(const std::vector<engine::PadState>& sticks) {
   const bool is_new = sticks_.empty();
   if (is_new)

@@ -127,7 +127,7 @@ void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run,
   draw_driving_errors(run.result, -1);
   ImGui::Spacing();
   if (run.recording.empty() && !run.result.shifts.empty())
-    put_wrapped("This run was not recorded, so it cannot be replayed.", ink::kSoft);
+    put_wrapped("No replay: this run was not recorded.", ink::kSoft);
   for (const lessons::ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out.playback);
   comments_.draw(controls, run.id, comments, out.lesson);
   ImGui::Unindent(0.7f * engine::ui_em());

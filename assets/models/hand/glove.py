@@ -43,7 +43,7 @@ def texels(hand):
         weights = np.clip(w[inside], 0, 1)
         out.append((y[inside], x[inside], weights @ p[tri], weights @ normals[tri], w[inside].min(-1)))
     rows, columns, places, turned, depth = (np.concatenate(k) for k in zip(*out))
-    # Each texel is written last, and so coloured, by the triangle in which it lies deepest.
+    # Sorted by depth: the last triangle that writes a texel is the one that contains it most deeply.
     order = np.argsort(depth)
     return rows[order], columns[order], places[order], turned[order]
 

@@ -153,7 +153,7 @@ TEST_CASE("during a lesson, a change of gate ends the lesson, and a replay is re
   PanelRequests look;
   look.playback.open = ReplayRequests::Shift{"nowhere.trace", 0.0};
   session.apply(look);
-  CHECK(session.message().find("leave it before") != std::string::npos);
+  CHECK(session.message().find("Leave the lesson first") != std::string::npos);
   CHECK(session.coach().view().phase == LessonPhase::driving);
   PanelRequests gate;
   gate.gate = "four_speed";
@@ -335,7 +335,7 @@ TEST_CASE("a replay requested during a lesson neither ends its recording nor sho
   PanelRequests replay;
   replay.replay = true;
   session.apply(replay);
-  CHECK(session.message().find("leave it before") != std::string::npos);
+  CHECK(session.message().find("Leave the lesson first") != std::string::npos);
   CHECK(session.recording());
   CHECK(session.panel_input().replay == nullptr);
 }

@@ -176,7 +176,8 @@ TEST_CASE("a lever that crosses the ring within one cycle is still held there: o
   const Gate gate = gate_of(car);
   for (const bool worn : {false, true}) {
     if (worn) car.synchro.friction = 0.9 * critical_friction(car.synchro);
-    for (const double before : {50.0, 0.9 * car.synchro.dog_speed}) {  // [rad/s] difference in the cycle before the ring
+    // [rad/s] speed difference in the cycle before the ring
+    for (const double before : {50.0, 0.9 * car.synchro.dog_speed}) {
       Synchroniser sleeve(car.synchro, gate, kScale, kNeutralGear, 1);
       SleeveInput in;
       in.slot = slot_of_gear(gate, 3);

@@ -52,8 +52,8 @@ TEST_CASE("solid objects hide the glass behind them, and are visible through the
   FrameScene no_pane = scene_at_rest(model);
   no_pane.nodes[0].visible = false;
   const Image without_pane = picture_from(renderer, model, no_pane, {0, 0, 2});
-  // Linear display values. Three quarters of the light pass, minus the 4 % that the pane reflects at n.v = 1; the
-  // reflection itself is black here.
+  // Linear display values. The pane reflects 4 % at n.v = 1 and transmits three quarters of the rest; what it reflects
+  // here is black.
   const auto linear = [](int code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
   CHECK(linear(picture.pixel(80, 60)[1]) / linear(without_pane.pixel(80, 60)[1]) ==
         doctest::Approx(0.75 * 0.96).epsilon(0.03));

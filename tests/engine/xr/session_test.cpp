@@ -267,8 +267,8 @@ TEST_CASE("an error from any call is reported, and the next session works normal
     for (int plan = 0; plan < 9; ++plan) {
       constexpr std::array kResults{XR_ERROR_RUNTIME_FAILURE, XR_ERROR_SESSION_LOST, XR_ERROR_OUT_OF_MEMORY};
       const XrResult result = kResults[static_cast<std::size_t>(plan % 3)];
-      // The 1st, 3rd and 5th call: of the three swapchains, created in the order eyes, depth, panel, these are eyes,
-      // panel, and depth in a later frame.
+      // Fails the 1st, 3rd or 5th call. Swapchains are used in the order eyes, depth, panel, so for a call made once per
+      // swapchain these are: eyes; panel; depth in a later frame.
       const int nth = 1 + plan / 3 * 2;
       CAPTURE(nth);
       CAPTURE(call);

@@ -294,12 +294,12 @@ TEST_CASE("invalid input while a person moves the lever is refused and changes n
   bench.move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060); });
   CHECK(refusal([&] { calibrator.find_axis(true, 2.0); }) == "two axes moved together. Push the lever straight");
   bench.move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
-  CHECK(calibrator.find_axis(true, 2.0) == "right is axis 1 of the stick, counting up");
+  CHECK(calibrator.find_axis(true, 2.0) == "pushing right moves axis 1 of the stick up");
   bench.move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
   CHECK(refusal([&] { calibrator.find_axis(false, 2.0); }) ==
         "the same axis moved as when you pushed to the right. Push the lever forward");
   bench.move_along([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
-  CHECK(calibrator.find_axis(false, 2.0) == "forward is axis 2 of the stick, counting down");
+  CHECK(calibrator.find_axis(false, 2.0) == "pushing forward moves axis 2 of the stick down");
 
   const auto lets_go_after = [&](double seconds) {
     bench.every_tick = [&, seconds, begin = bench.time()] {

@@ -111,7 +111,7 @@ TEST_CASE("position and force are right for every family and every polarity") {
 TEST_CASE("a stick turned by a quarter: its Y axis is select") {
   EmulatedStickConfig config = held_fast(StickFamily::openffboard);
   DeviceCalibration known = calibration_of(config);
-  std::swap(known.select, known.shift);  // the knob's forward is now to the right
+  std::swap(known.select, known.shift);  // pushing the knob forward now moves the stick's X axis
   StillHand hand(hand_at({0.010, 0.030}));
   LeverBench bench(config, known, hand);
   const LeverReading reading = bench.cycle({5.0, 2.0}, 500);

@@ -95,7 +95,7 @@ TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
 }
 
 // Device Control has one bit per command: off 02, stop all 04, reset 08. Set Effect has the start delay before the
-// gain, 2-byte directions of 0 to 36000 (9000 = 2328, 18000 = 4650) and two type-specific offsets at its end; the
+// gain, 2-byte directions of 0 to 36000 (9000 = 0x2328, 18000 = 0x4650) and two type-specific offsets at its end; the
 // maximum saturation is 7FFF.
 TEST_CASE("OpenFFBoard: the same sequence, with bits and other fields") {
   const SetupResult result = prepared(stick_of(StickFamily::openffboard));

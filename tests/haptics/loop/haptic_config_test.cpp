@@ -80,7 +80,7 @@ TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau, tau = 
         const double tau = (delay + 1) / rate, factor = hold == ContactHold::observer ? 0.58 : 0.35;
         const HapticTuning used = admitted(wanted, rate, delay, hold).tuning;
         CHECK(used.wall_stiffness <= std::min(20000.0, factor * 0.086 / (tau * tau)) * (1.0 + 1e-12));
-        // An observed hold needs at least 50 N s/m of damping; slow ones are not admitted at all.
+        // An observer hold needs at least 50 N s/m of damping; slow ones are not admitted at all.
         const bool observed = used.wall_damping >= 50.0 && hold == ContactHold::observer;
         if (!observed) CHECK(used.wall_damping == doctest::Approx(std::min(100.0, 0.35 * 0.086 / tau)));
         CHECK(used.aisle_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
@@ -275,7 +275,7 @@ TEST_CASE("the loop does not render the device's part of a wall: wanted minus de
 
 TEST_CASE(
     "where the loop cannot render the rest, the wall is the loop's part plus the device's, and the limit is reported") {
-  const double quiet = 0.35 * 0.086 / 16e-6;  // 3 samples of delay at 1 kHz
+  const double quiet = 0.35 * 0.086 / 16e-6;  // (4 ms)^2: 3 samples of delay plus one period
   const AdmittedTuning used = admitted_with_device_walls(400.0, 5000.0, 3, ContactHold::half_sample);
   CHECK(used.tuning.wall_stiffness == doctest::Approx(quiet + 400.0));
   const TuningLimit* wall = limit_of_wall(used);

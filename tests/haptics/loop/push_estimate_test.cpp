@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kWall = 0.01;  // [m] half width of the aisle whose wall the lever is pressed against
 
-// A lever without a force sensor for the loop; only the test reads the simulated sensor.
+// A lever that has no force sensor as far as the loop can see; only the test reads the simulated sensor.
 class SensorlessLever final : public HapticDevice {
  public:
   SensorlessLever(const SimulatedLeverConfig& config, HandDriver& hand)

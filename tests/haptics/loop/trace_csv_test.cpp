@@ -106,7 +106,7 @@ TEST_CASE("csv: the same in any locale") {
   CHECK(line == haptics::trace_csv_header());
   std::getline(stream, line);
   CHECK(by_name(line)["lever_x_mm"] == "-12.5");
-  CHECK(by_name(line)["time_s"] == "0");  // cycles are counted from the first
+  CHECK(by_name(line)["time_s"] == "0");  // time is measured from the file's first sample
   std::getline(stream, line);
   CHECK(by_name(line)["cycle"] == "1234567");
   CHECK_FALSE(std::getline(stream, line));

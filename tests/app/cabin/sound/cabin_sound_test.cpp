@@ -74,7 +74,7 @@ TEST_CASE("the engine's strongest line is its firing frequency, n / 60 * cylinde
   double worst = 0.0;
   Cabin four;
   for (const double load : {0.0, 0.4, 1.0}) {
-    for (double speed = 800.0; speed <= 6500.0; speed *= 1.17) {  // both at and between the centres of the bands
+    for (double speed = 800.0; speed <= 6500.0; speed *= 1.17) {  // speeds near kEngineBands and between them
       const double firing = speed / 60.0 * 4.0 / 2.0;
       const double hertz = strongest_line(left(engine_sound(four, speed, load, 2.0)));
       CAPTURE(speed);

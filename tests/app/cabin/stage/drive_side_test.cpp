@@ -118,7 +118,7 @@ const float* displacement_of(const engine::Model& cabin, int node) {
   return nullptr;
 }
 
-// The number of triangles whose normals point to their back, in world space.
+// The number of triangles whose vertex normals point away from their front face. `vertices` are in world space.
 int inside_out(const engine::Model& model, std::span<const engine::Vertex> vertices, const engine::Mesh& mesh) {
   int wrong = 0;
   for (const engine::Primitive& primitive : mesh.primitives) {

@@ -526,7 +526,7 @@ TEST_CASE("wrong gear: a gear that was not requested is reported as soon as it i
   const DrivingError error = only(in_shift([](DriveSample&, double) {}, {4, {}}), ErrorKind::wrong_gear);
   CHECK(error.value == 3.0);
   CHECK(error.wanted == 4.0);
-  CHECK(error_sentence(error) == "Gear 3 instead of 4.");
+  CHECK(error_sentence(error) == "You engaged third instead of fourth.");
   CHECK(in_shift([](DriveSample&, double) {}, {3, {}}).empty());
 }
 

@@ -2,6 +2,8 @@
 // prompted or not.
 #include "tests/app/lessons/assessment/honest_drives.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -52,6 +54,15 @@ TEST_CASE("a correct drive that differs from the prompts also gets the best grad
 
 namespace {
 
+// The forward gear that a prompt names.
+int gear_in(std::string_view prompt) {
+  constexpr std::array<std::string_view, 6> kNames{"first", "second", "third", "fourth", "fifth", "sixth"};
+  const auto found = std::find_if(kNames.begin(), kNames.end(),
+                                  [&](std::string_view name) { return prompt.find(name) != std::string_view::npos; });
+  REQUIRE(found != kNames.end());
+  return 1 + static_cast<int>(found - kNames.begin());
+}
+
 // Follows the prompts: reads each new one for `reading` seconds without moving the feet, then does what it says.
 void follow_prompts(ScriptedDrive& d, double reading) {
   Able a{d};
@@ -63,10 +74,9 @@ void follow_prompts(ScriptedDrive& d, double reading) {
     if (changed()) continue;
     if (says("blip")) {
       d.press(d.feet.brake, 0.0, 0.1);
-      const std::size_t lever = prompt.find("shift into ") + 11;
       a.lift();
       d.clutch_down();
-      d.lever(prompt[lever] - '0');
+      d.lever(gear_in(prompt));
       d.feet.throttle = 0.5;
       d.until([&] { return d.rpm() > std::stod(prompt.substr(prompt.find("blip to ") + 8)); }, 3.0);
       d.feet.throttle = 0.0;
@@ -86,7 +96,7 @@ void follow_prompts(ScriptedDrive& d, double reading) {
       a.lift();
       d.clutch_down();
     } else if (says("Shift into ")) {
-      d.lever(prompt[11] - '0');
+      d.lever(gear_in(prompt));
     } else {
       d.press(d.feet.clutch, 0.0, 0.8);
     }
@@ -157,7 +167,7 @@ TEST_CASE("after a wrong gear a hint says how to continue, and the lesson can be
   CAPTURE(errors_text(result));
   CHECK(result.end == LessonEnd::done);
   CHECK(result.grade == 9.5);
-  CHECK(errors_text(result) == "Gear 4 instead of 3. ");
+  CHECK(errors_text(result) == "You engaged fourth instead of third. ");
 }
 
 TEST_CASE("on the slope the prompt to release the handbrake comes once the clutch can hold the car, not before") {

@@ -218,7 +218,7 @@ TEST_CASE("a gear that was not requested is reported at once") {
   const Outcome run = driven.run();
   REQUIRE(run.result().errors.size() == 1);
   CHECK(run.result().errors[0].kind == ErrorKind::wrong_gear);
-  CHECK(run.view().feedback == std::vector<std::string>{"Gear 3 instead of 4."});
+  CHECK(run.view().feedback == std::vector<std::string>{"You engaged third instead of fourth."});
   CHECK(run.view().step == 1);
 }
 

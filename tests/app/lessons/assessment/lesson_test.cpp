@@ -43,7 +43,7 @@ constexpr Hostile kHostile[] = {
     {"no_task", ":1: task is missing: it must be text in quotes"},
     {"no_title", ":1: title is missing: it must be text in quotes"},
     {"not_toml", ":2: not valid TOML: "},
-    {"over_before_it_is_done", ":4: time_limit_s = 60: must be longer than all held_s of the steps together"},
+    {"over_before_it_is_done", ":4: time_limit_s = 60: must be longer than the sum of held_s over all steps"},
     {"pass_grade_eleven", ":4: pass_grade = 11: must be between 1 and 10"},
     {"pass_grade_zero", ":4: pass_grade = 0: must be between 1 and 10"},
     {"patience_of_a_saint", ":12: patience_s = 3600: must be between 1 and 60"},

@@ -16,7 +16,7 @@ TEST_CASE("the path is described: straight, across the aisle with or against the
   CHECK(describe_lever_path(five, 2, 4) == "Into neutral, let the spring pull the lever across, then back.");
   CHECK(describe_lever_path(five, 4, 5) == "Into neutral, to the right against the spring, then forward.");
   CHECK(describe_lever_path(five, 3, 2) == "Into neutral, to the left against the spring, then back.");
-  CHECK(describe_lever_path(five, kNeutralGear, 1) == "Left against the spring, then forward.");
+  CHECK(describe_lever_path(five, kNeutralGear, 1) == "To the left against the spring, then forward.");
   CHECK(describe_lever_path(five, kNeutralGear, 4) == "Back.");
   CHECK(describe_lever_path(five, 5, kNeutralGear) == "Pull the lever into neutral and let go.");
   const Gate dog_leg = shipped_gate("dog_leg_five");  // here second is where third usually is

@@ -176,7 +176,7 @@ TEST_CASE("a learner deleted at a random time while she drives is never created 
           coach.set_next(trial % 2 == 0 ? "two" : "");
         }
         char c = 0;
-        (void)!read(go_on[0], &c, 1);  // until the parent has deleted her
+        (void)!read(go_on[0], &c, 1);  // until the parent process has deleted the learner
         bench.trial(coach, "one");
         coach.set_next("two");
         (void)coach.flush();

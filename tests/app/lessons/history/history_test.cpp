@@ -246,7 +246,7 @@ TEST_CASE("a damaged, foreign or newer file is rejected in one sentence and not 
   foreign[71] ^= 1;  // application ID at offset 68, version at 60: sqlite.org/fileformat2.html, 1.3
   newer[63] = kSchemaVersion + 1;
   CHECK(refused(foreign, "not a history of this program"));
-  CHECK(refused(newer, "newer program"));
+  CHECK(refused(newer, "newer version of gearshift"));
   CHECK(refused(intact.substr(0, intact.size() / 2), "damaged"));
   std::string torn = intact;
   for (std::size_t i = 8192; i < 12288; ++i) torn[i] = 'x';

@@ -366,14 +366,14 @@ TEST_CASE(
       const ControlRect button = rig.rect(is_over ? "lesson_again" : "lesson_begin");
       const double foot = panel_shown ? rig.rect("stop").min.y : 720.0;
       CHECK(button.max.y < foot);
-      CHECK(says(is_over ? "again" : "(Enter)"));
+      CHECK(says(is_over ? "retry" : "(Enter)"));
     }
     CardRig rig(driven(), panel_shown);  // here the card is open already
     rig.input.coach = over(result_of("hill_start", failing_errors()));
     rig.frame();
     CHECK(rig.panel.control_rect("lesson_again").has_value());
     CHECK(rig.panel.control_rect("lesson_put_away").has_value());
-    CHECK(says("again"));
+    CHECK(says("retry"));
     CHECK(says("Close"));
     CHECK(says("Repeat"));
     CHECK(says("Not passed"));

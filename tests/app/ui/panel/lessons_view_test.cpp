@@ -169,7 +169,7 @@ TEST_CASE("a name with characters that the font lacks is accepted, with a note o
   const auto is_explained = [] {
     const std::vector<DrawnText> texts = drawn_texts();
     return std::any_of(texts.begin(), texts.end(), [](const DrawnText& text) {
-      return text.text.find(without_blanks("shown as ?")) != std::string::npos;
+      return text.text.find(without_blanks("shown as \"?\"")) != std::string::npos;
     });
   };
   rig.click("learner");
@@ -202,7 +202,7 @@ TEST_CASE("a click opens a past run; its shifts can be replayed if they were rec
   CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
   rig.click("run: 15");  // this run was not recorded
   CHECK_FALSE(rig.click("look: 15 0").playback.open.has_value());
-  CHECK(is_drawn("This run was not recorded, so it cannot be replayed."));
+  CHECK(is_drawn("No replay: this run was not recorded."));
 }
 
 TEST_CASE("each run shows its grade, or why it has none") {

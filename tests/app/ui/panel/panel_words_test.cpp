@@ -244,10 +244,10 @@ TEST_CASE("a preset is compared with the active values, not with the requested o
       if (text.text.ends_with("arethesame")) return text.text.substr(0, text.text.find("differ"));
     return std::string("nothing");
   };
-  CHECK(counted() == "0");
+  CHECK(counted() == "0settings");
   rig.input.compared->haptics.tuning.wall_stiffness = 1234.0;
   run_and_draw(rig);
-  CHECK(counted() == "1");
+  CHECK(counted() == "1setting");
   const std::string here = std::to_string(std::lround(runs.wall_stiffness)) + "N/m";
   CHECK(right_of("Wall stiffness") == std::vector<std::string>{here, "1234N/m"});
 }

@@ -1,4 +1,4 @@
-// A stick in the user's hand: the panel's texts and instructions for it, and that its push is only estimated.
+// A stick in the user's hand: the panel shows its state and instructions, and says that the push is only estimated.
 #include <string>
 
 #include <doctest/doctest.h>
