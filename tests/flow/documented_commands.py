@@ -30,7 +30,7 @@ BARE = re.compile(rf"^{PROGRAM}$")  # inline code that is only the program's nam
 GUIDES = ("TUNING.md", "GUIDE.md", "BUILDING.md")
 SKIPPED_FOLDERS = {"build", "out", ".git"}
 
-# The value used for a placeholder in capitals, in one verb or in all verbs.
+# The value used for an argument name in capitals, in one verb or in all verbs.
 VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "moving_off",
           "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
           "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}

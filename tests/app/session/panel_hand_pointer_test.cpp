@@ -1,4 +1,4 @@
-// Who controls the panel's pointer: the controller that points at the panel, or the mouse on the desk.
+// The panel's pointer follows the controller that points at the panel, or else the mouse on the desk.
 #include "app/session/panel_hand_pointer.h"
 
 #include <doctest/doctest.h>

@@ -14,7 +14,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// What each use requires according to the specification (Vulkan 1.3, "Image Layouts" and table "Supported access
+// The requirements of each use, from the specification (Vulkan 1.3, "Image Layouts" and table "Supported access
 // types").
 struct UseRequirement {
   ImageUse use;

@@ -170,7 +170,7 @@ UsbfsNode::Result UsbfsNode::clear_halt(unsigned endpoint) {
   return {};
 }
 
-// Of the driver requests, only "attach" (USBDEVFS_CONNECT) is supported.
+// Supports only one driver request, "attach" (USBDEVFS_CONNECT).
 UsbfsNode::Result UsbfsNode::driver_ioctl(unsigned code) {
   if (code != USBDEVFS_CONNECT) return {-1, ENOTTY};
   if (driver_bound_) return {-1, EBUSY};

@@ -1,4 +1,4 @@
-// What the driver sees in the door mirrors.
+// The driver's view in the door mirrors.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

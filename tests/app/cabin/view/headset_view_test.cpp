@@ -307,7 +307,7 @@ TEST_CASE("the instructor sees the left eye's picture in the area that the panel
     picture = server.picture(id);
     if (picture.pixel(250, 150)[1] > 200) break;
   }
-  // Of 400 x 300 px, 300 x 300 are free. There, the eye's picture of 256 x 192 px is scaled to 300 x 225.
+  // An area of 300 x 300 px out of 400 x 300 is free. There, the eye's picture of 256 x 192 px is scaled to 300 x 225.
   CHECK(picture.pixel(250, 150)[1] > 200);
   CHECK(picture.pixel(110, 150)[1] > 200);
   CHECK(picture.pixel(90, 150)[1] == 0);   // left of the picture

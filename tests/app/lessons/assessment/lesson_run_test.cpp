@@ -51,7 +51,7 @@ Lesson shift_lesson() {
   return lesson;
 }
 
-// What a run showed at its end, its result, and its shifts.
+// A run's last display, its result and its shifts.
 class Outcome {
  public:
   explicit Outcome(LessonRun& run) : view_(run.view()), result_(run.result()), shifts_(run.drain_shifts()) {

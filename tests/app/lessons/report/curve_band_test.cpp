@@ -36,7 +36,7 @@ TEST_CASE("after many trials the curve is as uncertain as its level") {
   CHECK(curve_deviation(*curve, kCount, 1e4) == doctest::Approx(curve->level.deviation).epsilon(1e-6));
 }
 
-// Of many fits to the same true curve, 95 % lie within two deviations of it at every trial (93.8 % by Student's t with
+// In many fits to the same true curve, 95 % lie within two deviations of it at every trial (93.8 % by Student's t with
 // 17 degrees of freedom).
 TEST_CASE("two deviations contain the true curve in about 95 of 100 fits") {
   std::mt19937 chance(2);
