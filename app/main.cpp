@@ -1,4 +1,4 @@
-// Entry point of the gearshift program: parses the command line and runs the chosen verb.
+// Entry point of the gearshift program: parses the command line and runs the chosen subcommand.
 #include <fcntl.h>
 
 #include <csignal>
@@ -17,18 +17,18 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
-// If stdin, stdout or stderr is closed, the next file opened would reuse its descriptor and receive our output.
-// /dev/null is opened read-only in its place, so that output to it fails and is reported like output to a full disk.
+// If stdin, stdout or stderr is closed, the next file opened would reuse its descriptor and receive our output. So
+// /dev/null is opened in its place, read-only: output to it then fails and is reported, just as if the disk were full.
 void reserve_standard_streams() {
   for (const int stream : {0, 1, 2})
     if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDONLY);  // open() returns the lowest free descriptor
 }
 
-// Ignores the signals of failing writes, so that the write returns an error instead of ending the program; the caller
-// of the write reports it.
+// Ignores the signals that a failing write raises. The write then returns an error instead of ending the program, and
+// the caller of the write reports the error.
 void ignore_write_signals() {
-  std::signal(SIGXFSZ, SIG_IGN);  // sent when a file reaches the size limit
-  std::signal(SIGPIPE, SIG_IGN);  // sent when the reader has closed the pipe
+  std::signal(SIGXFSZ, SIG_IGN);  // raised when a file reaches the size limit
+  std::signal(SIGPIPE, SIG_IGN);  // raised when the reader has closed the pipe
 }
 
 int run(int argc, char** argv) {
@@ -45,8 +45,8 @@ int run(int argc, char** argv) {
   }
 }
 
-// Turns an exit code of success into failure if not all output was written: a script must not take a truncated table
-// for a complete one.
+// Turns an exit code of success into failure if not all output could be written, so that a script does not mistake a
+// truncated table for a complete one.
 int check_output(int code) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
   gearshift::base::print_message("cannot write to standard output");

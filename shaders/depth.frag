@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Discards the holes of a masked material exactly as mesh.frag does, so that light passes through them.
+// Discards the same fragments of a masked material as mesh.frag, so that light passes through the material's holes.
 #include "shared.h"
 
 layout(constant_id = 0) const uint features = 0u;

@@ -1,5 +1,5 @@
-// Depth only: seen from the sun, or from the eyes in the depth prepass. gl_Position must be bit-identical to that in
-// mesh_vertex.glsl.
+// Vertex shader of the depth-only passes: the shadow pass as seen from the sun, and the depth prepass as seen from the
+// eyes. gl_Position must be bit-identical to that in mesh_vertex.glsl.
 layout(constant_id = 0) const uint features = 0u;
 
 layout(set = 0, binding = kBindPass) uniform Pass { PassData pass; };

@@ -52,7 +52,7 @@ layout(location = 0) out vec4 fragment_colour;
 
 const float kPi = 3.14159265;
 const float kDielectricF0 = 0.04;
-const float kMinSunRoughness = 0.06;  // lower limit for the sun's highlight, because the sun is not a point
+const float kMinSunRoughness = 0.06;  // smallest roughness for the sun's highlight, because the sun is not a point
 
 bool has(uint feature) { return (features & feature) != 0u; }
 
@@ -86,9 +86,9 @@ vec3 surroundings(vec3 direction, float roughness) {
                        : textureLod(reflections, direction, level).rgb;
 }
 
-// Fraction of the sun's light that is not shadowed: the mean of bilinearly weighted depth comparisons over 3x3 texels,
-// computed from 4x4 comparisons in four gathers. The weights are applied here because drivers need not filter depth,
-// and a software driver does not.
+// Fraction of the sun's light that reaches the surface: the mean, over 3x3 texels, of bilinearly weighted depth
+// comparisons. Four gathers supply the 4x4 comparisons for this. The shader applies the weights itself, because drivers
+// need not filter depth comparisons.
 float sunlit() {
   float side = pass.shadow_texel.y, depth = max(lookup.z, 0.0);
   vec2 at = lookup.xy * side - 0.5, texel = floor(at), f = at - texel, e = 1.0 - f;
@@ -118,7 +118,7 @@ void main() {
   vec3 n = shading_normal(), v = normalize(to_eye);
   float n_dot_v = clamp(dot(n, v), 1e-3, 1.0);
 
-  // Light from the sky, by the split sum. Light that is not reflected enters the surface.
+  // Light from the sky, by the split-sum approximation. Light that is not reflected enters the surface.
   vec2 ab = texture(brdf, vec2(n_dot_v, roughness)).xy;
   vec3 reflectance = f0 * ab.x + ab.y;
   vec3 diffuse = base.rgb * (1.0 - metallic) * (1.0 - reflectance);

@@ -21,8 +21,8 @@ layout(location = 5) out vec4 colour;
 layout(location = 6) flat out uint eye;
 invariant gl_Position;
 
-// [texels] Offset of the shadow lookup from the surface, along its normal. It covers the depth range of a sloped
-// surface within one texel.
+// [texels] The shadow map is looked up at this distance from the surface, along the normal. The offset covers the depth
+// range of a sloped surface within one texel.
 const float kNormalOffset = 1.5;
 
 void main() {
@@ -35,7 +35,7 @@ void main() {
 #endif
   to_eye = pass.eye[eye].xyz - world.xyz;
   // Normal and tangent are unit vectors for any scale of the node, because the slopes of the normal map are relative to
-  // them.
+  // unit vectors.
   normal = normalize(mat3(object.normal[0].xyz, object.normal[1].xyz, object.normal[2].xyz) * in_normal);
   uv = vec4(in_uv0 + object.uv_shift.xy, in_uv1);
   if ((features & (kHasMap << kMapNormal)) != 0u)

@@ -1,5 +1,5 @@
-// Definitions common to GLSL and C++: bindings, structs, limits, feature bits. Structs contain only vec4 and mat4, so
-// that std140 and C++ have the same layout.
+// Definitions common to GLSL and C++: bindings, structs, limits, feature bits. Structs in buffers contain only vec4 and
+// mat4, so that std140 and C++ have the same layout.
 #ifndef GEARSHIFT_SHADERS_SHARED_H
 #define GEARSHIFT_SHADERS_SHARED_H
 
@@ -20,9 +20,9 @@ using uint = std::uint32_t;
 // Set 0: one per pass and frame.
 SHARED uint kBindPass = 0u;         // PassData
 SHARED uint kBindObjects = 1u;      // ObjectData, one per node
-SHARED uint kBindReflections = 2u;  // cube, prefiltered by roughness
-SHARED uint kBindBrdf = 3u;         // scale and bias of F0 for (n.v, roughness)
-SHARED uint kBindShadow = 4u;       // depth, seen from the sun
+SHARED uint kBindReflections = 2u;  // cube of reflections, prefiltered by roughness
+SHARED uint kBindBrdf = 3u;         // scale and bias of the reflectance F0, by (n.v, roughness)
+SHARED uint kBindShadow = 4u;       // depth map, seen from the sun
 SHARED uint kBindMirror = 5u;       // the mirror's picture, one layer per eye
 SHARED uint kBindSky = 6u;          // cube, unfiltered
 SHARED uint kBindIndoors = 7u;      // like kBindReflections, for indoor nodes
@@ -37,10 +37,10 @@ SHARED uint kMaps = 5u;
 SHARED uint kBindMaterial = 5u;  // MaterialData
 
 // Specialization constant 0: features of a pipeline, as bits. The shader samples only maps that the material has.
-SHARED uint kHasMap = 1u;  // shifted left by kMap...: the map is present
+SHARED uint kHasMap = 1u;  // kHasMap << kMapNormal: the material has a normal map
 SHARED uint kAllMaps = 31u;
-SHARED uint kMapOnUv1 = 1u << 5;        // shifted left by kMap...: the map uses the second UV set
-SHARED uint kTransformedUv = 1u << 10;  // some map uses KHR_texture_transform
+SHARED uint kMapOnUv1 = 1u << 5;        // kMapOnUv1 << kMapNormal: the normal map uses uv1
+SHARED uint kTransformedUv = 1u << 10;  // at least one map uses KHR_texture_transform
 SHARED uint kVertexColour = 1u << 11;
 SHARED uint kMasked = 1u << 12;   // fragments with alpha below the cutoff are discarded
 SHARED uint kBlended = 1u << 13;  // alpha is written, for glass and ghosts
@@ -50,16 +50,17 @@ SHARED uint kShowsMirror = 1u << 16;  // reflects the mirror's picture instead o
 SHARED uint kLinearOut = 1u << 17;    // writes linear radiance, without tone mapping
 SHARED uint kIndoors = 1u << 18;      // lit by the indoor environment instead of the open sky
 
-// Specialization constants 1 to 27: irradiance / pi, outdoors or indoors, as a polynomial in the normal, see
-// irradiance() in mesh.frag. The light rarely changes, and a software driver is slow at reading 27 uniforms per pixel.
+// Specialization constants 1 to 27: irradiance / pi, outdoors or indoors, as a polynomial in the normal (9 terms for
+// each of 3 colours), see irradiance() in mesh.frag. They are not uniforms, because the light rarely changes, and a
+// software driver is slow at reading 27 uniforms per pixel.
 SHARED uint kIrradianceTerms = 9u;
 
-SHARED uint kReflectionLevels = 6u;  // levels of the cube, roughness 0 to 1
+SHARED uint kReflectionLevels = 6u;  // number of mip levels of the reflection cube, from roughness 0 to 1
 
 struct PassData {
-  mat4 clip_from_world[2];  // one per eye; in the shadow pass, the first is the sun's
+  mat4 clip_from_world[2];  // one per eye; the shadow pass uses only the first, for the sun
   vec4 eye[2];              // xyz [m] world
-  vec4 sky_centre[2];       // direction at clip (x, y): centre + x right + y down
+  vec4 sky_centre[2];       // direction at clip (x, y): sky_centre + x sky_right + y sky_down
   vec4 sky_right[2];
   vec4 sky_down[2];
   mat4 shadow_from_world;  // (u, v, depth)
@@ -72,7 +73,7 @@ struct PassData {
 
 struct ObjectData {
   mat4 world;
-  vec4 normal[3];  // columns of the normal matrix; normal[0].w: -1 if the node mirrors, else 1
+  vec4 normal[3];  // columns of the normal matrix; normal[0].w: -1 if `world` mirrors the node, else 1
   vec4 uv_shift;   // xy
 };
 
@@ -86,7 +87,7 @@ struct MaterialData {
 
 struct DrawData {
   uint object;
-  float emission;  // factor on the material's emission
+  float emission;  // factor for the material's emission
   float opacity;
   float thin;  // 1: both faces are visible, else 0
 };

@@ -1,4 +1,4 @@
-// A triangle that covers the whole picture at infinity: visible where nothing else was drawn.
+// A triangle that covers the whole picture at infinity. The sky is visible where nothing else was drawn.
 layout(set = 0, binding = kBindPass) uniform Pass { PassData pass; };
 layout(location = 0) out vec3 direction;
 

@@ -1,6 +1,6 @@
-// Converts radiance to linear display values in [0, 1]: a rational fit of the ACES reference and sRGB output
-// transforms. Stephen Hill's fit as published in MJP's BakingLab, ACES.hlsl, 2016: sRGB to a desaturated working space,
-// curve, back.
+// Converts radiance to linear display values in [0, 1]. The rational function approximates the ACES reference and sRGB
+// output transforms. It is Stephen Hill's fit, published in MJP's BakingLab, ACES.hlsl, 2016: from sRGB to a
+// desaturated working space, through the curve, and back.
 vec3 tone_map(vec3 radiance) {
   const mat3 in_matrix = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
   const mat3 out_matrix =

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 fs::path assets_folder() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) throw std::runtime_error(fmt::format("/proc/self/exe: cannot be read ({})", error.message()));
+  if (error) throw std::runtime_error(fmt::format("cannot read /proc/self/exe: {}", error.message()));
   return program.parent_path().parent_path() / "share" / "gearshift" / "assets";
 }
 
@@ -45,7 +45,8 @@ fs::path find_asset(std::string_view kind, const std::string& name_or_path) {
   if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {
     return assets_folder() / kind / (name_or_path + ".toml");
   }
-  // Anything that exists or looks like a path is returned as a path: reading it gives the most useful error message.
+  // Return text that looks like a path, or that names an existing file, unchanged. If reading this file fails, that
+  // error message is the clearest.
   fs::path path(name_or_path);
   std::error_code error;
   if (path.has_parent_path() || path.has_extension() || fs::exists(path, error)) return path;

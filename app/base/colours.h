@@ -1,4 +1,4 @@
-// Colours used in all drawings of a gate: dark on light; each colour has one meaning.
+// Colours of all drawings of a gate: dark on a light background. Each colour has one meaning.
 #pragma once
 
 namespace gearshift::base {

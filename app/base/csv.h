@@ -14,11 +14,11 @@
 
 namespace gearshift::base {
 
-// Quotes a field that contains a comma, a quote or a line end; quotes are doubled.
+// Puts a field in double quotes if it contains a comma, a double quote or a line end, and doubles the quotes in it.
 std::string csv_field(std::string_view text);
 
-// Significant digits of floating-point numbers: enough for every result, but 13.379 is not printed as
-// 13.379000000000001.
+// Significant digits of floating-point numbers: precise enough for every result, but few enough that 13.379 is not
+// printed as 13.379000000000001.
 inline constexpr int kCsvDigits = 12;
 
 // Builds a table field by field; the caller writes the column names as the first line. Independent of the locale.
@@ -35,7 +35,7 @@ class CsvTable {
 
  private:
   std::string text_;
-  bool first_ = true;  // the next field is the first one in its line
+  bool first_ = true;  // true if the next field is the first in its line
 };
 
 }  // namespace gearshift::base

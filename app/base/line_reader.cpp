@@ -34,7 +34,8 @@ std::optional<std::string> LineReader::read_line(double seconds) {
   if (std::optional<std::string> line = take_line()) return line;
   const int milliseconds = static_cast<int>(std::ceil(1e3 * seconds));
   if (at_end_) {
-    // Callers limit the rate of their loop by this wait, so it must take the full time at the end of the input too.
+    // Wait the full time even at the end of the input, because callers rely on this wait to limit the rate of their
+    // loops.
     poll(nullptr, 0, milliseconds);
     return std::nullopt;
   }

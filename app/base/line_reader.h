@@ -8,11 +8,11 @@ namespace gearshift::base {
 
 class LineReader {
  public:
-  explicit LineReader(int file) noexcept : file_(file) {}  // file: a descriptor that stays open
+  explicit LineReader(int file) noexcept : file_(file) {}  // file: descriptor that the caller keeps open
 
-  // Returns the next line without its line end. Waits at most `seconds` for it, not at all if 0; a signal ends the
-  // wait. Returns nothing if no line has arrived or the input has ended; even at the end of the input, the full time
-  // passes. A last line without a line end counts as a line.
+  // Returns the next line without its line end. Waits at most `seconds` for it; a signal ends the wait. Returns nothing
+  // if no line has arrived or the input has ended. At the end of the input, too, the call takes the full time. A last
+  // line without a line end counts as a line.
   std::optional<std::string> read_line(double seconds);
   bool at_end() const noexcept { return at_end_ && buffer_.empty(); }
 

@@ -4,7 +4,7 @@
 
 namespace gearshift::base {
 
-// Creates the folder and its parents if they are missing. Throws std::runtime_error with one sentence.
+// Creates the folder and its parents if they are missing. Throws std::runtime_error with a one-sentence message.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace gearshift::base

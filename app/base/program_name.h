@@ -4,7 +4,7 @@
 
 namespace gearshift::base {
 
-// "gearshift 0.1.0", as written to traces and pages.
+// Name and version, e.g. "gearshift 0.1.0", as written to traces and pages.
 std::string program_name();
 
 }  // namespace gearshift::base

@@ -23,7 +23,7 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // label: the current part of the work. fraction: the fraction of the work that is done, 0 to 1. Cheap enough to be
+  // `label`: name of the current part of the work. `fraction`: finished part of the work, 0 to 1. Cheap enough to be
   // called every cycle.
   void show(std::string_view label, double fraction) {
     if (!is_terminal_) return;

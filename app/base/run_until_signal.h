@@ -1,4 +1,5 @@
-// Runs long work with a progress bar. Ctrl-C, SIGTERM and a closed terminal stop it the next time it reports progress.
+// Runs long work with a progress bar. Ctrl-C, SIGTERM or closing the terminal stops the work the next time it reports
+// progress.
 #pragma once
 
 #include <functional>
@@ -12,11 +13,11 @@
 
 namespace gearshift::base {
 
-// Returns the result of the work, or prints a message and returns nothing if a signal has interrupted the work.
+// Returns the result of the work; if a signal interrupted the work, prints a message and returns std::nullopt.
 template <class Result>
 std::optional<Result> run_until_signal(
     const std::function<Result(const std::function<void(std::string_view, double)>&)>& work) {
-  struct Ended {  // not a std::exception, because the work catches those and continues with its next part
+  struct Ended {  // not a std::exception, because the work would catch it and continue
     std::string part;
   };
   const StopSignals signals;

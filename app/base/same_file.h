@@ -8,8 +8,8 @@
 
 namespace gearshift::base {
 
-// Follows links and also works for files that do not exist yet. Always false if the path names something other than a
-// regular file, such as /dev/null, which may be given more than once.
+// Follows links. Also works for files that do not exist yet. Returns false for anything but regular files, so that for
+// example /dev/null may be given more than once.
 inline bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
   if (a.empty() || b.empty()) return false;
   std::error_code error;

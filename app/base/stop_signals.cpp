@@ -6,7 +6,7 @@
 namespace gearshift::base {
 namespace {
 
-// Atomic because any thread may receive the signal; a sig_atomic_t would be valid only within that thread.
+// Atomic because the signal handler may run in any thread; a sig_atomic_t is safe only within a single thread.
 std::atomic<bool> is_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);  // a signal handler may use only lock-free atomics
 
@@ -16,7 +16,7 @@ void request_stop(int) {
 
 }  // namespace
 
-// The handlers are installed without SA_RESTART, so that blocking calls return and their callers notice the request.
+// The handlers are installed without SA_RESTART. So a signal ends blocking calls, and their callers notice the request.
 StopSignals::StopSignals() {
   is_requested = false;
   struct sigaction once = {};

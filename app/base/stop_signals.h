@@ -1,6 +1,6 @@
-// Lets a program that drives motors end cleanly on Ctrl-C, kill and a closed terminal: results are saved, motors are
-// off, the device is released. A second signal ends the program at once. A signal that was ignored when the program
-// started (nohup) stays ignored.
+// Lets a program that drives motors end cleanly on Ctrl-C, kill or a closed terminal: it can save results, switch the
+// motors off and release the device. A second signal ends the program at once. A signal that was ignored when the
+// program started (nohup) stays ignored.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace gearshift::base {
 class StopSignals {  // only one object may exist at a time
  public:
   StopSignals();
-  ~StopSignals();  // restores the previous handlers
+  ~StopSignals();  // restores the previous signal handlers
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 

@@ -30,7 +30,7 @@ struct Type {  // text style
 
 class Svg {
  public:
-  // page: the view box. pixels: number of pixels per unit of the view box.
+  // `page`: the view box. `pixels`: number of pixels per unit of the view box.
   Svg(const Rect& page, double pixels);
 
   // Defines a fill of diagonal stripes; use it with fill = "url(#name)".

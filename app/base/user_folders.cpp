@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The value of the variable if it is an absolute path, else empty. From the specification: "All paths set in these
-// environment variables must be absolute. If an implementation encounters a relative path [...] it should consider the
-// path invalid and ignore it."
+// Returns the value of the variable if it is an absolute path, else an empty string. From the specification: "All paths
+// set in these environment variables must be absolute. If an implementation encounters a relative path [...] it should
+// consider the path invalid and ignore it."
 fs::path absolute_variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr && *value == '/' ? fs::path(value) : fs::path{};
@@ -26,8 +26,8 @@ fs::path home(const char* variable) {
   if (fs::path by_variable = absolute_variable("HOME"); !by_variable.empty()) return by_variable;
   const passwd* user = getpwuid(getuid());
   if (user != nullptr && user->pw_dir != nullptr && *user->pw_dir == '/') return user->pw_dir;
-  throw std::runtime_error(std::string("there is no folder for your files: neither ") + variable +
-                           " nor HOME names one, and the system has no home folder for this user");
+  throw std::runtime_error(std::string("cannot find a folder for your files: set ") + variable +
+                           " or HOME to an absolute path (the system has no home folder for this user)");
 }
 
 fs::path base_folder(const char* variable, const char* below_home) {

@@ -25,7 +25,8 @@ void paste_shrunk(engine::Image& sheet, const engine::Image& picture, int left, 
 }  // namespace
 
 engine::Image contact_sheet(std::span<const engine::Image> pictures, int columns, int shrink, int margin) {
-  if (pictures.empty() || columns < 1 || shrink < 1) throw std::invalid_argument("a contact sheet needs pictures");
+  if (pictures.empty() || columns < 1 || shrink < 1)
+    throw std::invalid_argument("a contact sheet needs at least one picture");
   const int width = pictures[0].width / shrink, height = pictures[0].height / shrink;
   const int count = static_cast<int>(pictures.size());
   const int rows = (count + columns - 1) / columns;
@@ -36,7 +37,7 @@ engine::Image contact_sheet(std::span<const engine::Image> pictures, int columns
   for (int i = 0; i < count; ++i) {
     const engine::Image& picture = pictures[static_cast<std::size_t>(i)];
     if (picture.width != pictures[0].width || picture.height != pictures[0].height)
-      throw std::invalid_argument("the pictures of a contact sheet must have one size");
+      throw std::invalid_argument("all pictures on a contact sheet must have the same size");
     paste_shrunk(sheet, picture, margin + (i % columns) * (width + margin), margin + (i / columns) * (height + margin),
                  shrink);
   }

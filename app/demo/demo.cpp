@@ -32,8 +32,8 @@ cabin::Stage make_stage(const DemoSetup& setup, cabin::Cabin cabin) {
   return {cabin::stage_config(setup.tour.gate, setup.tour.lever.yoke, cabin), base::assets_folder() / "models"};
 }
 
-// Uploads the cabin. Once is enough for a cabin: all drives of a demo have the same car, and so the same red line on
-// the dial.
+// Uploads a cabin. One upload per cabin is enough: all drives of a demo use the same car, so the red line on the dial
+// never changes.
 void show_cabin(cabin::CabinView& view, cabin::Stage& stage, const FilmFrame& frame) {
   stage.place({frame.lever, frame.car, frame.time});
   view.set_model(stage.model());
@@ -47,7 +47,7 @@ engine::Image take_picture(cabin::CabinView& view, cabin::Stage& stage, const Fi
   return view.picture();
 }
 
-// Renders all pictures with one kind of cabin before those with the next, so that each model is uploaded only once.
+// Renders the pictures sorted by kind of cabin, so that each model is uploaded only once.
 std::vector<engine::Image> take_pictures(cabin::CabinView& view, const DemoSetup& setup, const std::vector<Shot>& shots,
                                          const lab::TourProgress& progress, DemoResult& result) {
   std::vector<engine::Image> pictures(shots.size());
@@ -113,7 +113,10 @@ lessons::LessonDriveConfig tour_drive(const DemoSetup& setup, const vehicle::Car
 
 DemoChapter tour_chapter(const FilmedDrive& tour, const std::optional<vehicle::CarSpec>& car) {
   if (!car)
-    return {"Through every gear", {"No shipped car has all the gears of this gate, so this drive has no car."}, {}, {}};
+    return {"Through every gear",
+            {"No shipped car has all the gears of this gate, so the drive was simulated without a car."},
+            {},
+            {}};
   DemoChapter chapter{"Through every gear", {car->title + "."}, {}, {}};
   for (std::string& sentences : describe_result(tour)) chapter.text.push_back(std::move(sentences));
   return chapter;
@@ -133,7 +136,7 @@ std::size_t DemoResult::pictures() const {
 
 DemoResult run_demo(const DemoSetup& setup, const lab::TourProgress& progress) {
   DemoResult result;
-  std::vector<FilmFrame> by_hand;  // film of the tour by a scripted hand, which has no car
+  std::vector<FilmFrame> by_hand;  // film of the tour by a scripted hand, without a car
   result.tour = lab::drive_tour(
       setup.tour, progress, [&](const haptics::HapticSnapshot& now, std::span<const haptics::HapticEvent> events) {
         by_hand.push_back(

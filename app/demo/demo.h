@@ -1,5 +1,5 @@
-// Renders the tour and two lessons off screen, with the same result on every run: pictures, sound, traces, plots, a
-// learner's report and a page that shows them.
+// Renders the tour (a drive through every gear) and two lessons off screen, with the same result on every run:
+// pictures, sound, traces, plots, a learner's report and a page that shows them.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ namespace gearshift::demo {
 struct DemoSetup {
   lab::TourSetup tour;
   cabin::ViewConfig view;
-  double film_rate = 0.0;  // [1/s] pictures per second of a film of the whole drive, from the driver's eye; 0: no film
+  double film_rate = 0.0;  // [1/s] frame rate of a film of the whole drive from the driver's eye; 0: no film
 };
 
 struct DemoPicture {
   std::string file, caption;
 };
 
-// One drive and its pictures.
+// One drive with its pictures.
 struct DemoChapter {
   std::string title;
   std::vector<std::string> text;  // description, in sentences
-  std::string trace;              // file name of the trace; empty: no trace
+  std::string trace;              // file name of the recording; empty: no recording
   std::vector<DemoPicture> pictures;
 };
 
@@ -43,9 +43,9 @@ struct DemoResult {
 };
 
 // Writes these files to setup.tour.folder, which must exist: NAME.png for each shot, contact_sheet.png, film/00000.png
-// ..., demo.wav, tour.trace, tour.csv, trajectory and force (svg, png), LESSON.trace, report.html, index.html. If no
-// shipped car has all gears of the gate, there is no car and there are no lessons. Throws FileError, GltfError,
-// GpuError.
+// ..., demo.wav, tour.trace, tour.csv, trajectory and force (each as svg and png), LESSON.trace, report.html,
+// index.html. If no shipped car has all gears of the gate, the tour has no car and the lessons are left out. Throws
+// FileError, GltfError, GpuError.
 DemoResult run_demo(const DemoSetup& setup, const lab::TourProgress& progress);
 
 }  // namespace gearshift::demo

@@ -19,8 +19,8 @@ namespace gearshift::demo {
 namespace {
 
 constexpr std::array<std::string_view, 2> kLessons{"hill_start", "up_through_the_gears"};
-constexpr std::array kErrors{0.9, 0.7, 0.5, 0.3, 0.15, 0.0};  // [1] skill error of each trial, see skill_of()
-// The runs' date and time: fixed, so that the page is the same on any day.
+constexpr std::array kErrors{0.9, 0.7, 0.5, 0.3, 0.15, 0.0};  // [1] skill error in each trial, see skill_of()
+// Date and time of the lesson runs. They are fixed, so that the page is the same on any day.
 constexpr std::string_view kDay = "2000-01-01T10:{:02}:00Z";
 constexpr const char* kLearner = "Simulated driver";
 
@@ -68,7 +68,7 @@ std::vector<std::string> describe_result(const FilmedDrive& drive) {
   const lessons::LessonResult& result = drive.result;
   std::vector<std::string> sentences{drive.lesson.goal};
   sentences.push_back(result.passed
-                          ? fmt::format("Passed with grade {:.1f} in {:.1f} s.", result.grade, result.duration)
+                          ? fmt::format("Passed in {:.1f} s with a grade of {:.1f}.", result.duration, result.grade)
                           : fmt::format("Not passed: {}", result.why));
   sentences.push_back(fmt::format("{} shift{}, {:.1f} kJ of heat in the clutch.", result.shifts.size(),
                                   result.shifts.size() == 1 ? "" : "s", 1e-3 * result.slip_energy));

@@ -12,7 +12,7 @@
 namespace gearshift::demo {
 namespace {
 
-// Additions to the common page style: a grid with the number of pictures per row that fits on the screen, or two on
+// Additions to the common page style: a grid with as many pictures per row as fit on the screen, or two per row on
 // paper.
 constexpr const char* kStyle = R"css(
 .sentences { margin: 0 0 1rem; padding: 0; list-style: none; max-width: 52rem; }
@@ -71,11 +71,11 @@ std::string chapter_html(const DemoChapter& chapter) {
 }
 
 constexpr const char* kDriven =
-    "A simulated driver goes through every gear of the gate and then takes two lessons, in a car with a full "
+    "A simulated driver shifts through every gear of the gate and then drives two lessons in a car with a full "
     "driveline. ";
 constexpr const char* kIntroduction =
-    "The lever shown always stays inside the gate. At the end, a scripted hand shifts through the same gate without a "
-    "car and pushes against the walls; the plots show the force that holds it back. Everything on this page is "
+    "The drawn lever always stays inside the gate. At the end, a scripted hand shifts through the same gate without a "
+    "car and pushes against the walls; the plots show the force that pushes it back. Everything on this page is "
     "deterministic: the traces replay bit for bit.";
 
 }  // namespace
@@ -98,8 +98,7 @@ void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
   for (const DemoChapter& chapter : result.chapters) out << chapter_html(chapter);
   out << "<section>\n<h2>Lever and force, by a scripted hand</h2>\n<div class=\"plots\">\n"
       << facts(setup, result) << gear_table(result.tour) << "</div>\n<div class=\"plots\">\n"
-      << figure("trajectory.svg",
-                "Paths of the real lever and of the displayed lever in the gate (Fig. 9 a of the paper)")
+      << figure("trajectory.svg", "Paths of the real lever and the drawn lever in the gate (Fig. 9 a of the paper)")
       << figure("force.svg", "Position and force against time (Fig. 9 b of the paper)")
       << "</div>\n<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, "
          "<a href=\"contact_sheet.png\">contact sheet</a></p>\n</section>\n<p>"

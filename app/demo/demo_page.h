@@ -5,7 +5,7 @@
 
 namespace gearshift::demo {
 
-// The page has no script and loads nothing from outside its folder. Throws FileError.
+// Writes a page that has no script and loads nothing from outside its folder. Throws FileError.
 void write_demo_page(const DemoSetup& setup, const DemoResult& result);
 
 }  // namespace gearshift::demo

@@ -1,4 +1,4 @@
-// A film: a recorded drive for rendering, with the state of lever and car every 1/60 s.
+// A film: a recorded drive from which pictures can be rendered, with the state of lever and car every 1/60 s.
 #pragma once
 
 #include <span>
@@ -16,10 +16,10 @@ struct FilmFrame {
   vehicle::VehicleState car;
 };
 
-// Every gear that the lever enters, in order, without neutral.
+// Returns every gear that the lever enters, in order, without neutral.
 std::vector<lab::GearTime> gears_of(std::span<const FilmFrame> film);
 
-// The frame nearest to this time [s]. The film must not be empty.
+// Returns the frame nearest to this time [s]. The film must not be empty.
 const FilmFrame& frame_at(std::span<const FilmFrame> film, double time);
 
 }  // namespace gearshift::demo

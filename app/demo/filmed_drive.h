@@ -1,4 +1,4 @@
-// Films a simulated driver's lesson with a car behind the lever.
+// Films a lesson that a simulated driver drives, with a car that loads the lever.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,10 @@ struct FilmedDrive {
   std::vector<FilmFrame> film;
 };
 
-// Drives a lesson like drive_lesson() and films it. Replaces the callbacks on_cycle and on_event of the config.
+// Drives a lesson like drive_lesson() and films it. Replaces the callbacks on_cycle and on_event in the config.
 FilmedDrive film_drive(lessons::LessonDriveConfig config);
 
-// The first shipped car that has every gear of the gate; empty if none has.
+// Returns the first shipped car that has every gear of the gate; empty if there is none.
 std::optional<vehicle::CarSpec> fitting_car(const haptics::Gate& gate);
 
 }  // namespace gearshift::demo

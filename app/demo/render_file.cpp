@@ -35,7 +35,7 @@ std::optional<std::array<glm::dvec3, 2>> two_points(std::string_view text) {
   return std::array<glm::dvec3, 2>{{{number[0], number[1], number[2]}, {number[3], number[4], number[5]}}};
 }
 
-constexpr double kField = 58.0;  // [deg] default field of view of cameras that are not named
+constexpr double kField = 58.0;  // [deg] default field of view of a camera without a name
 
 bool is_named(const std::string& camera) {
   return camera != kFittingCamera && camera.find(':') == std::string::npos;
@@ -45,18 +45,18 @@ engine::EyePose chosen_eye(const std::string& text) {
   if (is_named(text)) return cabin::camera(text);
   const auto points = two_points(text);
   if (!points || glm::distance((*points)[0], (*points)[1]) < 1e-6)
-    throw std::invalid_argument(
-        fmt::format("--camera {}: must be X,Y,Z:X,Y,Z, two different points (eye and target) in metres", text));
+    throw std::invalid_argument(fmt::format(
+        "--camera {}: must be two different points (eye and target) in metres, written as X,Y,Z:X,Y,Z", text));
   return engine::look_at((*points)[0], (*points)[1]);
 }
 
-// Throws if the picture would overwrite a file of the model. Called after loading, because the model's buffer and
-// texture files are known only then.
+// Throws if the picture would overwrite a file that belongs to the model. Called after loading, because only then are
+// the names of the model's buffer and texture files known.
 void check_not_written_over(const engine::Model& model, const std::filesystem::path& picture) {
   for (const std::filesystem::path& file : model.files) {
     if (base::is_same_file(picture, file))
-      throw std::runtime_error(
-          fmt::format("--out: the picture must not overwrite {}, which the model uses", file.string()));
+      throw std::runtime_error(fmt::format(
+          "--out: the picture would overwrite {}, a file of the model; choose another file", file.string()));
   }
 }
 

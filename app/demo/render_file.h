@@ -14,13 +14,13 @@ inline double ms_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-inline constexpr const char* kFittingCamera = "fit";  // shows the whole model
+inline constexpr const char* kFittingCamera = "fit";  // a camera that shows the whole model
 
 struct RenderFileSetup {
   std::filesystem::path file;
   std::filesystem::path out;  // PNG
   cabin::ViewConfig view;
-  std::optional<double> field;          // [deg] field of view across the shorter side; empty: the camera's default
+  std::optional<double> field;          // [deg] across the image's shorter side; empty: the camera's default
   std::string camera = kFittingCamera;  // kFittingCamera, name of a cabin camera, or "X,Y,Z:X,Y,Z": eye and target [m]
 };
 
@@ -32,7 +32,7 @@ struct RenderFileResult {
   std::string device;
 };
 
-void check_camera(const std::string& text);  // throws std::invalid_argument with one sentence
+void check_camera(const std::string& text);  // throws std::invalid_argument with a one-sentence message
 
 // Throws GltfError, GpuError, std::invalid_argument (camera), std::runtime_error (out).
 RenderFileResult render_file(const RenderFileSetup& setup);

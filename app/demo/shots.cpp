@@ -10,12 +10,12 @@ namespace gearshift::demo {
 namespace {
 
 constexpr double kRpm = 60.0 / 6.283185307179586;  // [rpm] per rad/s
-constexpr double kRestDelay = 0.25;                // [s] the lever is at rest this long after a gear has engaged
-constexpr double kHandDelay = 0.05;        // [s] the hand is still on the knob this long after a gear has engaged
-constexpr double kMinHandBrake = 0.9;      // [1] the handbrake holds the car if pulled further than this
-constexpr double kMinClutchTorque = 5.0;   // [N m] the clutch bites if it transmits more than this
-constexpr double kMinDrivingSpeed = 2.0;   // [m/s] the car is driving if it is faster than this
-constexpr double kStandstillSpeed = 0.05;  // [m/s] the car is at rest if it is slower than this
+constexpr double kRestDelay = 0.25;                // [s] delay after a gear engages: the lever is at rest
+constexpr double kHandDelay = 0.05;                // [s] delay after a gear engages: the hand still holds the knob
+constexpr double kMinHandBrake = 0.9;              // [1] the handbrake holds the car if pulled further than this
+constexpr double kMinClutchTorque = 5.0;           // [N m] the clutch bites if it transmits more than this
+constexpr double kMinDrivingSpeed = 2.0;           // [m/s] the car is driving if it is faster than this
+constexpr double kStandstillSpeed = 0.05;          // [m/s] the car is at rest if it is slower than this
 
 double depth_beyond_wall(const FilmFrame& frame) {
   return glm::distance(frame.lever.lever, frame.lever.proxy);
@@ -37,7 +37,7 @@ std::string speeds(const FilmFrame& frame) {
                      kRpm * frame.car.engine_speed, haptics::gear_name(frame.car.gear));
 }
 
-// The frame with the largest clutch torque while the handbrake holds the car; null if there is none.
+// Returns the frame with the largest clutch torque while the handbrake holds the car; null if there is no such frame.
 const FilmFrame* bite_frame(std::span<const FilmFrame> film) {
   const FilmFrame* best = nullptr;
   for (const FilmFrame& frame : film) {
@@ -48,8 +48,8 @@ const FilmFrame* bite_frame(std::span<const FilmFrame> film) {
   return best;
 }
 
-// The frame in which, in the moving car, the synchroniser ring rubs with the largest speed difference; null if there is
-// none.
+// Returns the frame of the moving car in which the synchroniser ring rubs with the largest speed difference; null if
+// there is no such frame.
 const FilmFrame* ring_frame(std::span<const FilmFrame> film) {
   const FilmFrame* best = nullptr;
   for (const FilmFrame& frame : film) {
@@ -59,7 +59,7 @@ const FilmFrame* ring_frame(std::span<const FilmFrame> film) {
   return best;
 }
 
-// The last frame before the gear engages, when the sleeve is about to slide over the gear's dogs.
+// Returns the last frame before the gear engages, when the sleeve is about to slide over the gear's dogs.
 const FilmFrame& before(std::span<const FilmFrame> film, const lab::GearTime& gear) {
   const FilmFrame& in = frame_at(film, gear.time);
   return &in == film.data() ? in : *(&in - 1);
@@ -75,7 +75,7 @@ std::vector<Shot> tour_shots(std::span<const FilmFrame> film) {
     if (std::none_of(gears.begin(), gears.end(), same)) gears.push_back(gear);
   }
   std::vector<Shot> shots;
-  shots.push_back({"cabin", "The cabin before the first gear", &film.front(), "driver"});
+  shots.push_back({"cabin", "The cabin before the first shift", &film.front(), "driver"});
   for (const lab::GearTime& gear : gears) {
     const std::string name = haptics::gear_name(gear.gear);
     shots.push_back({fmt::format("gear_{}", name), fmt::format("Gear {} engaged after {:.2f} s", name, gear.time),
@@ -90,8 +90,8 @@ std::vector<Shot> tour_shots(std::span<const FilmFrame> film) {
        &deepest, "gate"});
   if (gears.size() > 1) {
     shots.push_back({"gearbox",
-                     fmt::format("The gearbox cut open, between gears {} and {}", haptics::gear_name(gears[0].gear),
-                                 haptics::gear_name(gears[1].gear)),
+                     fmt::format("Cutaway view of the gearbox between gears {} and {}",
+                                 haptics::gear_name(gears[0].gear), haptics::gear_name(gears[1].gear)),
                      &before(film, gears[1]), "gearbox"});
     shots.push_back({"gearbox_in", fmt::format("The gearbox in gear {}", haptics::gear_name(gears[1].gear)),
                      &frame_at(film, gears[1].time + kRestDelay), "gearbox"});
@@ -116,11 +116,11 @@ std::vector<Shot> lesson_shots(std::span<const FilmFrame> film, const std::strin
                      bite, "driver"});
   }
   if (const FilmFrame* ring = ring_frame(film)) {
-    shots.push_back(
-        {lesson + "_ring",
-         fmt::format("The synchroniser blocks: the two sides differ by {:.0f} rpm while the hand pushes with {:.0f} N",
-                     kRpm * std::abs(ring->car.dog_difference), glm::length(ring->lever.f_h)),
-         ring, "gearbox"});
+    shots.push_back({lesson + "_ring",
+                     fmt::format("The synchroniser blocks the shift: its two sides differ by {:.0f} rpm while the hand "
+                                 "pushes with {:.0f} N",
+                                 kRpm * std::abs(ring->car.dog_difference), glm::length(ring->lever.f_h)),
+                     ring, "gearbox"});
     const std::vector<lab::GearTime> gears = gears_of(film);
     const auto next =
         std::find_if(gears.begin(), gears.end(), [&](const lab::GearTime& gear) { return gear.time > ring->time; });

@@ -10,19 +10,20 @@
 namespace gearshift::demo {
 
 struct Shot {
-  std::string name;     // file name of the picture, without extension
+  std::string name;     // file name of the picture without extension
   std::string caption;  // one sentence
   const FilmFrame* frame = nullptr;
-  std::string camera;  // see camera(); also selects the kind of cabin, see cabin_for_camera()
+  std::string camera;  // see camera(); also defines the kind of cabin, see cabin_for_camera()
 };
 
-// For both functions, the film must not be empty and must outlive the shots.
+// In the two functions below, the film must not be empty and must outlive the shots.
 
 // Shots of a drive through every gear: the cabin, each gear as it engages, the hand pushing into a wall, the gearbox
 // between two gears and in gear, the hand, the instruments.
 std::vector<Shot> tour_shots(std::span<const FilmFrame> film);
 // Shots of a lesson: the bite point while the handbrake still holds the car, a blocking synchroniser ring and then the
-// engaged dogs, the highest speed. Moments that do not occur in the drive are left out. lesson: prefix of the names.
+// engaged dogs, the highest speed. Moments that do not occur in the drive are left out. `lesson`: prefix for the names
+// of the shots.
 std::vector<Shot> lesson_shots(std::span<const FilmFrame> film, const std::string& lesson);
 
 }  // namespace gearshift::demo

@@ -17,8 +17,8 @@ void CycleRunner::cycle(const haptics::CycleCall& call, const haptics::CycleStat
   ran_.store(run_, std::memory_order_release);
 }
 
-// [ns] Time by which the thread woke up late. After an overrun, the thread was busy during the skipped deadlines, which
-// therefore do not count; it slept through all other skipped deadlines.
+// [ns] How late the thread woke up. This includes the deadlines that the thread slept through, but not those that
+// passed during an overrun, when it was busy.
 std::int64_t CycleRunner::lateness(const haptics::CycleCall& call,
                                    const haptics::CycleStatistics& statistics) noexcept {
   const bool was_at_work = statistics.overruns != latest_figures_.overruns;
@@ -32,7 +32,7 @@ std::int64_t CycleRunner::lateness(const haptics::CycleCall& call,
 void CycleRunner::publish(std::int64_t late_ns) noexcept {
   vehicle::DriveSample& now = record_.sample;
   now.lever = run_->loop.snapshot();
-  --now.lever.cycle;  // the loop has already counted this cycle
+  --now.lever.cycle;  // undo: the loop has already counted this cycle
   now.controls = run_->loop.controls();
   if (const vehicle::CarLoad* car_load = run_->car()) {
     now.car = car_load->state();

@@ -1,4 +1,5 @@
-// The part of the runtime on the haptic thread: runs the loop cycle by cycle and publishes a record of each cycle.
+// The part of the runtime that runs on the haptic thread: runs the loop cycle by cycle and publishes a record of each
+// cycle.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@
 namespace gearshift::runtime {
 
 struct CycleRecord {
-  vehicle::DriveSample sample;  // without a car, sample.car has default values
-  std::int64_t late_ns = 0;     // [ns] time by which the thread woke up after the deadline
+  vehicle::DriveSample sample;  // if there is no car, sample.car has default values
+  std::int64_t late_ns = 0;     // [ns] from the deadline to the wake-up of the thread
 };
 
 struct LoopFigures {
@@ -31,31 +32,32 @@ struct LoopFigures {
 class CycleRunner {
  public:
   static constexpr std::size_t kMaxRecords = 8192;    // 8 s of cycles at 1 kHz, 2 s at 4 kHz
-  static constexpr std::size_t kMaxForDriver = 4096;  // if the driver falls further behind, cycles are skipped
+  static constexpr std::size_t kMaxForDriver = 4096;  // a driver that is further behind misses cycles
 
   explicit CycleRunner(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}  // [ns] period of the thread
 
-  // Runs one cycle; real-time safe. statistics: those of the calling thread; null on the virtual clock, which is never
-  // late.
+  // Runs one cycle; real-time safe. `statistics`: those of the calling thread; null on the virtual clock, on which no
+  // cycle is late.
   void cycle(const haptics::CycleCall& call, const haptics::CycleStatistics* statistics) noexcept;
 
-  // The last cycle. Call only on the thread that runs the cycles.
+  // The newest sample. Call only on the thread that runs the cycles.
   const vehicle::DriveSample& newest() const noexcept { return record_.sample; }
 
-  // For the frame side. From the next cycle on, `next` runs; once has_run(next) is true, the previous run may be
-  // destroyed.
+  // Called by the frame side, i.e. not by the haptic thread. From the next cycle on, `next` runs; once has_run(next) is
+  // true, the previous run may be destroyed.
   void switch_to(LoopRun& next) noexcept { next_.store(&next, std::memory_order_release); }
   bool has_run(const LoopRun& run) const noexcept { return ran_.load(std::memory_order_acquire) == &run; }
   std::int64_t now_ns() const noexcept { return now_ns_.load(std::memory_order_relaxed); }  // newest cycle's deadline
 
-  haptics::SpscQueue<CycleRecord> records{kMaxRecords};  // if full, new records are dropped
-  // Null: no driver. Set before the first cycle. If full, new samples are dropped.
+  haptics::SpscQueue<CycleRecord> records{kMaxRecords};  // when full, new records are dropped
+  // Samples for the driver; null if there is no driver. Set before the first cycle. When the queue is full, new samples
+  // are dropped.
   std::unique_ptr<haptics::SpscQueue<vehicle::DriveSample>> for_driver;
   haptics::LatestValue<LoopFigures> figures;
   haptics::LatestValue<vehicle::VehicleState> car;
 
  private:
-  static constexpr std::size_t kStamps = 16;  // number of stamped cycles in the means of LoopFigures
+  static constexpr std::size_t kStamps = 16;  // stamped cycles over which LoopFigures are averaged
 
   std::int64_t lateness(const haptics::CycleCall& call, const haptics::CycleStatistics& statistics) noexcept;
   void publish(std::int64_t late_ns) noexcept;
@@ -67,8 +69,8 @@ class CycleRunner {
   std::atomic<std::int64_t> now_ns_{0};
   LoopRun* run_ = nullptr;
   CycleRecord record_;
-  LoopFigures latest_figures_;   // published after each stamped cycle, and at once when a deadline was missed
-  bool has_new_misses_ = false;  // true if deadlines were missed before this cycle
+  LoopFigures latest_figures_;   // published after each stamped cycle or missed deadline
+  bool has_new_misses_ = false;  // true if deadlines were missed just before this cycle
   std::array<std::array<std::int64_t, 8>, kStamps> stage_ns_{};  // [ns] ring buffer of the latest stamped cycles
   std::size_t stamps_ = 0;                                       // number of stamped cycles so far
 };

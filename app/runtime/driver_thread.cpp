@@ -7,8 +7,8 @@
 namespace gearshift::runtime {
 namespace {
 
-// Interval at which the thread polls for the next cycle. The haptic thread cannot wake it, because that would take a
-// system call, which the haptic thread must not make.
+// Interval at which the thread polls for the next cycle. The haptic thread cannot wake this thread, because that would
+// take a system call, and the haptic thread must not make one.
 constexpr std::chrono::microseconds kDriveEvery{250};
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The thread that runs a DriverFunction or a PedalSource while the lever runs in real time. It processes every cycle,
-// up to some milliseconds late.
+// A thread that runs a DriverFunction or a PedalSource while the lever runs in real time. It processes every cycle, up
+// to some milliseconds late.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace gearshift::runtime {
 
 class DriverThread {
  public:
-  // Calls `act` for each cycle from the queue, of which this thread is the only reader. The queue must outlive this
-  // object. The destructor waits until the current call of `act` returns.
+  // Calls `act` for each cycle from the queue. No other thread may read from the queue, which must outlive this object.
+  // The destructor waits until the current call of `act` returns.
   DriverThread(std::function<void(const vehicle::DriveSample&)> act, haptics::SpscQueue<vehicle::DriveSample>& cycles);
 
  private:

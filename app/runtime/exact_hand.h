@@ -1,4 +1,4 @@
-// A hand that gets a target for every cycle and takes it over exactly, including the velocity.
+// A hand that receives a target in every cycle and follows it exactly, including the velocity.
 #pragma once
 
 #include "haptics/device/hand.h"
@@ -8,7 +8,7 @@ namespace gearshift::runtime {
 
 class ExactHand final : public haptics::HandDriver {
  public:
-  // The channel must outlive this object, which is its only reader.
+  // The channel must outlive this object. Nothing else may read from the channel.
   explicit ExactHand(haptics::LatestValue<haptics::HandTarget>& channel) noexcept : channel_(channel) {}
 
   haptics::HandTarget next(double, glm::dvec2) noexcept override {

@@ -15,7 +15,7 @@ haptics::DriverControls merged(const haptics::DriverControls& driver,
   return both;
 }
 
-// Presses each pedal as deep as the deeper one of `person` and `pedals`.
+// Returns `person` with each pedal pressed as far as in `person` or `pedals`, whichever is further.
 haptics::DriverControls pressed(const haptics::DriverControls& person, const haptics::DriverControls& pedals) noexcept {
   haptics::DriverControls both = person;
   both.throttle = std::max(person.throttle, pedals.throttle);

@@ -22,8 +22,10 @@
 namespace gearshift::runtime {
 namespace {
 
-constexpr std::uint64_t kDrainInterval = 1000;  // [cycles] on the virtual clock; the queues hold 8 times this number
-// Pause between checks whether the haptic thread has run a cycle; its period is at least 250 us.
+// [cycles] Interval at which the queues are drained on the virtual clock. Each queue holds about 8 times as many
+// cycles.
+constexpr std::uint64_t kDrainInterval = 1000;
+// Pause between checks whether the haptic thread has run a cycle. The thread's period is at least 250 us.
 constexpr std::chrono::microseconds kPollPeriod{100};
 
 RuntimeConfig checked(RuntimeConfig config) {
@@ -35,14 +37,14 @@ RuntimeConfig checked(RuntimeConfig config) {
   return config;
 }
 
-constexpr std::int64_t kMaxPausePeriods = 11;  // maximum advance of the pedals after a pause, as for the loop's load
+constexpr std::int64_t kMaxPausePeriods = 11;  // longest time, in periods, by which the pedals advance per cycle
 
 // The real lever; null if the simulated lever is used.
 std::unique_ptr<haptics::HapticDevice> make_lever(const RuntimeConfig& config) {
   return config.lever ? config.lever(haptics::period_s(config.preset.haptics)) : nullptr;
 }
 
-// The gate, compiled for the reach of the lever, which moves on the sphere of a yoke or in a plane.
+// The gate, compiled for the range of the lever, which moves on the sphere of a yoke or in a plane.
 haptics::Gate gate_for(const RuntimeConfig& config, const haptics::HapticDevice* real_device) {
   const haptics::YokeGeometry& yoke = config.preset.lever.yoke;
   if (real_device == nullptr)
@@ -114,16 +116,16 @@ struct Runtime::State {
   std::unique_ptr<haptics::TraceRecorder> recorder;
   haptics::RealtimeThread thread;
 
-  // Used only by the frame side.
+  // The members below are used only by the frame side, i.e. not by the haptic thread.
   haptics::HapticSnapshot newest;
-  std::vector<vehicle::DriveSample> cycles;  // cycles not yet returned by drain_cycles()
+  std::vector<vehicle::DriveSample> cycles;  // not yet returned by drain_cycles()
   std::vector<haptics::HapticEvent> events;
   haptics::DurationHistogram lateness;
   std::uint64_t events_lost = 0;      // number of events lost in earlier loops
   bool wants_forces = false;          // true if the last request was arm(), false after disarm() or stop()
   std::int64_t start_ns = 0;          // [ns] one period before the first cycle, on the loop's clock
   std::int64_t virtual_ns = 0;        // [ns] time of the last cycle on the virtual clock
-  double pending_time = 0.0;          // [s] rest of the time requested by advance(), shorter than a period
+  double pending_time = 0.0;          // [s] time passed to advance() but not yet simulated, less than one period
   std::uint64_t unserved_cycles = 0;  // number of cycles since the queues were last drained; virtual clock only
 };
 
@@ -163,7 +165,7 @@ std::unique_ptr<haptics::HandDriver> Runtime::State::make_hand() {
   return std::make_unique<haptics::SmoothedHand>(input.hand(), haptics::period_s(config.preset.haptics));
 }
 
-// Hand and controls until the first set_hand(), set_controls() or action of the driver.
+// Hand and controls that apply until set_hand(), set_controls() or the driver changes them.
 vehicle::DriverAction Runtime::State::resting_action() const {
   vehicle::DriverAction action;
   action.hand.position = start_position();
@@ -197,8 +199,8 @@ void Runtime::State::begin() {
   start_ns = newest.time_ns - period_ns;
 }
 
-// The configuration with the tuning as last requested and the hold in use. With the same hold, the next loop admits the
-// same tuning as change_tuning() did.
+// The configuration with the tuning as last requested and the contact hold method in use. With the same method, the
+// next loop limits the tuning in the same way as change_tuning() did.
 haptics::HapticConfig Runtime::State::running_config() const {
   haptics::HapticConfig haptics = config.preset.haptics;
   haptics.contact.hold = admitted.hold;
@@ -210,15 +212,15 @@ haptics::TraceHeader Runtime::State::header(const char* replay_parameters, bool 
           config.layout.text, replay_parameters, armed};
 }
 
-// True if a fault has ended the forces and only arm() may restore them: the same rule as in HapticLoop::watch_guard().
+// True if a fault has ended the forces and only arm() may restore them. HapticLoop::watch_guard() has the same rule.
 bool Runtime::State::requires_manual_arming() const {
   const bool may_rearm = lever.spec().simulated && newest.fault != haptics::GuardFault::chatter;
   return newest.guard == haptics::GuardState::released || (newest.guard == haptics::GuardState::damped && !may_rearm);
 }
 
-// Replaces the running loop. Returns after the first cycle of the next one, so that later commands reach it and its
-// recording misses no cycle. If the old loop had a fault after the next one was created, the next one's forces, which
-// have hardly begun to ramp up, are ended too.
+// Replaces the running loop. Returns after the first cycle of the next loop, so that later commands reach that loop and
+// its recording misses no cycle. If the old loop had a fault after the next loop was created, the forces of the next
+// loop are ended too.
 void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
   input.connect(next->channels);
   runner.switch_to(*next);
@@ -236,8 +238,8 @@ void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
   send(haptics::LoopCommand::stop);
 }
 
-// Lets the driver or the pedals react to the cycle. Called on the virtual clock by the frame's thread, otherwise by the
-// DriverThread.
+// Lets the driver or the pedals respond to the cycle. On the virtual clock the frame's thread calls this function,
+// otherwise the DriverThread.
 void Runtime::State::act(const vehicle::DriveSample& cycle) {
   if (driver) return input.act(driver(cycle));
   const std::int64_t before_ns = std::exchange(acted_ns, cycle.lever.time_ns).value_or(cycle.lever.time_ns);
@@ -252,7 +254,7 @@ void Runtime::State::cycle_once() {
   if (++unserved_cycles >= kDrainInterval) drain_queues();
 }
 
-// On the virtual clock, drains the queues that the frame and the recorder's thread drain on the real clock.
+// Drains the queues on the virtual clock. On the real clock, the frame's thread and the recorder's thread do this.
 void Runtime::State::drain_queues() {
   unserved_cycles = 0;
   if (recorder) recorder->pump();
@@ -275,8 +277,8 @@ void Runtime::State::drain_events() {
   for (haptics::HapticEvent event; run->channels.events.pop(event);) events.push_back(event);
 }
 
-// Queues the command; the loop takes one command per cycle. If the queue is full: on the virtual clock, which may stand
-// still, drops the oldest command; on the real clock, waits until the loop has taken one.
+// Queues the command; the loop processes one command per cycle. If the queue is full on the virtual clock, which may be
+// stopped, drops the oldest command. If it is full on the real clock, waits until the loop has processed a command.
 void Runtime::State::send(haptics::LoopCommand command) {
   while (!run->channels.commands.push(command)) {
     haptics::LoopCommand oldest;
@@ -382,10 +384,10 @@ void Runtime::start_recording(const std::filesystem::path& file) {
   if (s.recorder) throw std::logic_error("a recording is already running; stop it first");
   s.update_snapshot();
   std::unique_ptr<LoopRun> next = s.make_run();
-  // A request for forces counts even if the loop has not processed the command yet.
+  // Forces that were requested count as on even if the loop has not processed the command yet.
   const bool armed = s.wants_forces && !s.requires_manual_arming();
   if (armed) next->loop.arm();
-  const haptics::TracePump pump = s.is_virtual() ? haptics::TracePump::by_caller : haptics::TracePump::own_thread;
+  const haptics::TracePump pump = s.is_virtual() ? haptics::TracePump::by_caller : haptics::TracePump::by_recorder;
   s.recorder = std::make_unique<haptics::TraceRecorder>(file, s.header(next->load().replay_parameters(), armed),
                                                         next->channels, pump);
   s.wants_forces = armed;
@@ -409,11 +411,11 @@ bool Runtime::is_recording() const noexcept {
 
 void Runtime::advance(double seconds) {
   State& s = *state_;
-  if (!s.is_virtual()) throw std::logic_error("advance() needs the virtual clock");
+  if (!s.is_virtual()) throw std::logic_error("advance() works only with the virtual clock");
   if (!(seconds > 0.0) || !std::isfinite(seconds)) return;
   const double period = 1e-9 * static_cast<double>(s.period_ns);
   s.pending_time += seconds;
-  // The small margin keeps a rounding error from dropping a cycle.
+  // The small margin prevents a rounding error from dropping a cycle.
   const std::int64_t cycles = std::llround(std::floor(s.pending_time / period + 1e-6));
   for (std::int64_t i = 0; i < cycles; ++i) s.cycle_once();
   s.pending_time -= static_cast<double>(cycles) * period;

@@ -2,8 +2,8 @@
 //
 // Two clocks: a real-time thread for users, or a virtual clock advanced by advance() for films and tests. A different
 // gate, preset or driver needs a new Runtime. The lever keeps running even if the frame side makes no calls for
-// seconds. Two kinds of lever: the preset's simulated one, with a hand controlled by set_hand() or a driver; or a real
-// one held by the user, for which only the user may request arm().
+// seconds. Two kinds of lever: a simulated one from the preset, with a hand controlled by set_hand() or a driver; or a
+// real one held by the user, for which only the user may request arm().
 #pragma once
 
 #include <array>
@@ -28,33 +28,35 @@ namespace gearshift::runtime {
 
 enum class RuntimeClock { real_time, virtual_time };
 
-// A scripted driver: called with the last cycle, returns hand target and controls for the next; the hand follows the
-// target exactly, velocity included. On the virtual clock it is called once per cycle, within advance() and
-// start_recording(). On the real clock a separate thread calls it in order, possibly some milliseconds late. It may
-// allocate but must not throw. If it falls seconds behind, cycles are skipped.
+// A scripted driver. It is called with the newest cycle and returns hand target and controls for the next cycle. The
+// hand follows the target exactly, including its velocity. On the virtual clock the function is called once per cycle,
+// within advance() and start_recording(). On the real clock a separate thread calls it in order, possibly some
+// milliseconds late. The function may allocate memory but must not throw. If the function falls seconds behind, cycles
+// are skipped.
 using DriverFunction = std::function<vehicle::DriverAction(const vehicle::DriveSample&)>;
 
-// The user's keyboard pedals: called with the last cycle and the seconds between the last two cycles, returns throttle,
-// brake and clutch for the next cycle (other fields are ignored). Called like a DriverFunction, so that pedals move on
-// the car's clock even at a low frame rate; and once before the first cycle, with 0 s.
+// The user's keyboard pedals. The function is called with the newest cycle and the seconds between the newest two
+// cycles. It returns throttle, brake and clutch for the next cycle; other fields are ignored. It is called in the same
+// way as a DriverFunction, so that pedals move on the car's clock even at a low frame rate. Also called once before the
+// first cycle, with 0 s.
 using PedalSource = std::function<haptics::DriverControls(const vehicle::DriveSample& cycle, double seconds)>;
 
-// Creates a real lever for a loop with this period [s], without moving it; only one may be in use at a time. Throws
-// std::invalid_argument with one sentence.
+// Creates a real lever for a loop with this period [s], without moving the lever. Only one real lever may be in use at
+// a time. Throws std::invalid_argument with a one-sentence message.
 using LeverFactory = std::function<std::unique_ptr<haptics::HapticDevice>(double period)>;
 
 struct RuntimeConfig {
   haptics::GateLayout layout;
   std::optional<vehicle::CarSpec> car;  // the car that loads the lever; empty: no load
-  vehicle::CarStart start;              // the car's first state; the lever starts in the same gear
-  double hand_brake = 0.0;              // [1] 0 to 1, until set_controls() or the driver changes it
-  haptics::Preset preset;               // a hand too soft to lead the lever is replaced, see leading_hand()
-  LeverFactory lever;     // replaces the preset's lever by a real one, and set_hand() is ignored; requires no `driver`
+  vehicle::CarStart start;              // the car's initial state; the lever starts in the car's gear
+  double hand_brake = 0.0;              // [1] 0 to 1; initial value
+  haptics::Preset preset;               // a hand too soft to move the lever is replaced, see leading_hand()
+  LeverFactory lever;     // if set: a real lever is used, set_hand() is ignored, and `driver` must be empty
   DriverFunction driver;  // empty: set_hand() and set_controls() are used
-  PedalSource feet;       // keyboard pedals, may be empty; ignored with a driver. See set_controls()
+  PedalSource feet;       // keyboard pedals; optional; ignored if there is a driver; see set_controls()
   RuntimeClock clock = RuntimeClock::real_time;
   std::uint64_t seed = 1;             // random seed of the car
-  std::string program = "gearshift";  // name and version of the program, for the trace
+  std::string program = "gearshift";  // program name and version, written to the trace
 };
 
 // Timing of the haptic thread.
@@ -64,15 +66,16 @@ struct LoopHealth {
   double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;
   std::uint64_t overruns = 0;     // number of cycles since the start that took longer than a period
   std::uint64_t skipped = 0;      // number of deadlines since the start that were missed, by overruns or late wake-ups
-  std::uint64_t events_lost = 0;  // number of events since the start that were lost because their queue was full
-  // [ns] Mean durations of read, estimate, proxy, couple, feel, load, guard and write in the latest stamped cycles.
+  std::uint64_t events_lost = 0;  // number of events since the start that were lost because the queue was full
+  // [ns] Mean durations of the eight stages of a cycle: read, estimate, proxy, couple, feel, load, guard and write;
+  // over the latest cycles with time stamps.
   std::array<double, 8> stage_ns{};
   double cycle_ns = 0.0;  // [ns] mean duration of a whole cycle: the sum of stage_ns
   bool realtime = false;
   std::string not_realtime_reason;  // empty if real-time
 };
 
-// Throws what Runtime's constructor would throw, without running anything, and returns the gate. Used with a detached
+// Throws the same errors as Runtime's constructor, without running anything, and returns the gate. Used with a detached
 // lever to check a configuration while the stick is still in use by a different runtime.
 haptics::Gate check_runtime(const RuntimeConfig& config);
 
@@ -80,47 +83,50 @@ class Runtime {
  public:
   // Starts the loop disarmed, with the lever in the start gear (a real lever is not moved). If the engine runs at the
   // start, the ignition is on until set_controls() changes it. Throws FileError (the gate does not fit the device),
-  // std::invalid_argument (also if the car does not fit the gate) or std::runtime_error with one sentence.
+  // std::invalid_argument (also if the car does not fit the gate) or std::runtime_error, each with a one-sentence
+  // message.
   explicit Runtime(const RuntimeConfig& config);
   ~Runtime();  // releases the motors and closes the recording
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
 
-  const RuntimeConfig& config() const noexcept;  // with the hand in use and the tuning as last requested
+  const RuntimeConfig& config() const noexcept;  // has the hand in use and the tuning as last requested
   const haptics::Gate& gate() const noexcept;
   const haptics::DeviceSpec& device() const noexcept;
   const haptics::AdmittedTuning& admitted() const noexcept;  // the tuning in use
 
-  // The frame side: all following functions must be called by the same thread.
+  // The frame side: all functions below must be called by the same thread.
   haptics::HapticSnapshot snapshot();                // newest state of the lever
   vehicle::VehicleState car();                       // newest state of the car; default values without a car
   std::vector<haptics::HapticEvent> drain_events();  // events since the last call, in order
-  // Returns every cycle since the last call, in order, but at most 8192. After more cycles, the newest are missing; the
-  // gap shows in HapticSnapshot::cycle.
+  // Returns every cycle since the last call, in order, but at most 8192. If there were more cycles, the newest are
+  // missing; HapticSnapshot::cycle shows the gap.
   std::vector<vehicle::DriveSample> drain_cycles();
-  // Uses position and push of the target. Ignored with a driver or a real lever.
+  // Uses position and push of the target. Has no effect with a driver or a real lever.
   void set_hand(const haptics::HandTarget& target);
-  // Without a driver, each pedal is as deep as the deeper one of `controls` and RuntimeConfig::feet. With a driver,
-  // only slope, guidance and guided gear are used, and replace those of the driver. Guidance needs a car.
+  // Without a driver, each pedal is as far down as in `controls` or RuntimeConfig::feet, whichever is further down.
+  // With a driver, only slope, guidance and guided gear of `controls` are used. They replace those of the driver.
+  // Guidance needs a car.
   void set_controls(const haptics::DriverControls& controls);
   haptics::AdmittedTuning change_tuning(const haptics::HapticTuning& wanted);  // see HapticLoop::change_tuning()
-  // arm() allows forces, which ramp up from zero; disarm() ends them; stop() switches the motors off at once, like the
-  // large red button. They take effect in the next cycle; the resulting guard state is in the snapshot: idle, armed,
-  // ramping, running or, after a fault, damped or released. A simulated lever leaves the state damped by itself after
-  // 50 ms without a fault, except after GuardFault::chatter (chatter even with a softer wall). In all other cases only
-  // arm() restores the forces.
+  // arm() allows forces, which ramp up from zero; disarm() ends them; stop() switches the motors off at once, like an
+  // emergency stop button. The commands take effect in the next cycle; the resulting guard state is in the snapshot:
+  // `idle`, `armed`, `ramping`, `running` or, after a fault, `damped` or `released`. A simulated lever leaves the state
+  // `damped` by itself after 50 ms without a fault, except after GuardFault::chatter (chatter that continued with a
+  // softer wall). In all other cases only arm() restores the forces.
   void arm();
   void disarm();
   void stop();
   LoopHealth health();
 
-  // A trace can be replayed only from the first cycle of a loop. So a recording starts a new loop between two cycles.
-  // If the old loop was armed, the new one is too, with forces ramping up from zero as after arm(). Lever, hand and
-  // clock continue; cycles count from 0 again, and the current gear is reported as engaged again (without a gear_left
-  // event before). The car continues from its state at the call; guidance fades in again from zero. Throws FileError if
-  // the file cannot be created, or std::logic_error if a recording is running; then nothing has changed.
+  // Starts a recording. This starts a new loop between two cycles, because a trace can be replayed only from the first
+  // cycle of a loop. If the old loop was armed, the new one is too, with forces ramping up from zero as after arm().
+  // Lever, hand and clock continue; cycles count from 0 again, and the current gear is reported as engaged again
+  // (without a gear_left event before). The car continues from its state at the call; guidance fades in again from
+  // zero. Throws FileError if the file cannot be created, or std::logic_error if a recording is running. In both cases
+  // nothing changes.
   void start_recording(const std::filesystem::path& file);
-  std::optional<std::string> poll_recording_problem();  // problem that ended the current recording, returned only once
+  std::optional<std::string> poll_recording_problem();  // problem that ended the recording, returned only once
   std::optional<std::string> stop_recording();          // returns the recording's problem; empty: it is complete
   bool is_recording() const noexcept;
 

@@ -1,4 +1,4 @@
-// A haptic loop with its channels and the load on its lever. A new one is created when a recording starts.
+// A haptic loop with its channels and the load on its lever. A new loop is created when a recording starts.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 namespace gearshift::runtime {
 
 struct LoopRun {
-  // Gate and device must outlive this object. Without a car the lever has no load and no guidance. Throws like
-  // HapticLoop.
+  // Gate and device must outlive this object. Without a car the lever has no load and no guidance. Throws the same
+  // errors as HapticLoop.
   LoopRun(const haptics::HapticConfig& config, const haptics::Gate& gate, haptics::HapticDevice& device,
           std::unique_ptr<vehicle::CarLoad> car_load = nullptr)
       : lesson(car_load ? std::make_unique<vehicle::LessonLoad>(std::move(car_load), gate) : nullptr),

@@ -1,4 +1,5 @@
-// Finds bindings by name. The user's own bindings, measured by `devices --calibrate`, have priority over shipped ones.
+// Finds a file of key and button bindings by name. The user's own bindings, measured by `devices --calibrate`, have
+// priority over shipped ones.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +14,8 @@ namespace gearshift::session {
 
 inline constexpr std::string_view kOwnBindings = "own";
 
-// An empty name means the user's own bindings if they exist, else "default". config_folder: the user's, or empty if the
-// user has none. Throws std::runtime_error with one sentence.
+// For an empty name, returns the user's own bindings if they exist, else "default". `config_folder`: the user's folder;
+// empty if the user has none. Throws std::runtime_error with a one-sentence message.
 inline std::filesystem::path bindings_file(const std::string& name, const std::filesystem::path& config_folder) {
   std::filesystem::path own = ui::user_bindings_file(config_folder, std::string(kOwnBindings));
   std::error_code ignored;

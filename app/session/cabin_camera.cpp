@@ -56,7 +56,7 @@ double CabinCamera::field() const {
 
 engine::EyePose CabinCamera::pose() const {
   engine::EyePose eye = cabin::camera(kPlaces[place_], side_);
-  // Turns by the yaw about the vertical of the cabin, not of the camera, so that the horizon stays level.
+  // Turns the view by the yaw about the vertical of the cabin, not of the camera, so that the horizon stays level.
   eye.orientation = glm::angleAxis(yaw_, glm::dvec3(0.0, 1.0, 0.0)) * eye.orientation *
                     glm::angleAxis(pitch_, glm::dvec3(1.0, 0.0, 0.0));
   return eye;

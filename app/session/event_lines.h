@@ -1,5 +1,5 @@
-// Prints one line on stdout for each engaged gear, each over-push and each change of the guard, and one with the loop's
-// health, for users and scripts that follow the session.
+// Prints lines on stdout for users and scripts that follow the session: one per engaged gear, over-push and state
+// change of the force guard, and one with the loop's health.
 #pragma once
 
 #include <cstdio>
@@ -12,7 +12,7 @@
 
 namespace gearshift::session {
 
-// The times of the events must count from the start of the session. push_estimated: the device has no force sensor.
+// The event times must count from the start of the session. `push_estimated`: true if the device has no force sensor.
 inline void print_events(std::span<const haptics::HapticEvent> events, bool push_estimated) {
   for (const haptics::HapticEvent& event : events) {
     const bool is_printed = event.kind == haptics::EventKind::gear_engaged ||
@@ -25,7 +25,7 @@ inline void print_events(std::span<const haptics::HapticEvent> events, bool push
   if (!events.empty()) std::fflush(stdout);
 }
 
-// Prints how well the loop met its deadlines, since its first cycle.
+// Prints how well the loop has met its deadlines since its first cycle.
 inline void print_health(const std::optional<runtime::LoopHealth>& health) {
   if (!health) return;
   base::print_out("loop: {} deadlines missed, {} cycles too long, {} events lost, {}\n", health->skipped,

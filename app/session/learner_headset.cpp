@@ -10,9 +10,10 @@ namespace {
 
 // Shortest and longest pause between two searches for a headset.
 constexpr std::chrono::seconds kMinPause(2), kMaxPause(60);
-// Delay before the removal of the headset is reported: a user who quits takes it off too, and needs no report.
+// The removal of the headset is reported after this delay, because a user who quits also removes the headset and
+// needs no report.
 constexpr std::chrono::seconds kTakenOffDelay(1);
-constexpr double kTip = 0.10;  // [m] length of the beam that shows the ray's origin while the hand touches the knob
+constexpr double kTip = 0.10;  // [m] length of the hand's beam while the user touches the knob
 
 engine::HeadsetPanel in_room(const engine::EyePose& cabin_from_room, const cabin::HangingPanel& panel) {
   return {engine::inverse(cabin_from_room) * panel.pose, panel.size, panel.low, panel.high};
@@ -42,14 +43,14 @@ bool LearnerHeadset::is_found() {
     return true;
   } catch (const engine::HeadsetAbsent& absent) {
     pause_ = kMinPause;
-    report_once(fmt::format("{}; the desktop shows the cabin until one is connected", absent.what()));
+    report_once(fmt::format("{}; the desktop shows the cabin until a headset is connected", absent.what()));
   } catch (const engine::HeadsetError& error) {
     report_once(fmt::format("{}; the desktop shows the cabin", error.what()));
   }
   return false;
 }
 
-// Reports the result of a search only if it differs from the last one, because the search is repeated.
+// Reports the result of a search only if it differs from the previous result, because the search is repeated.
 void LearnerHeadset::report_once(const std::string& message) {
   if (message == reported_) return;
   reported_ = message_ = message;
@@ -58,7 +59,7 @@ void LearnerHeadset::report_once(const std::string& message) {
 bool LearnerHeadset::open() {
   try {
     view_ = std::make_unique<cabin::HeadsetView>(setup_.view, std::move(found_), window_, ui_);
-  } catch (const std::exception& error) {  // from the headset's runtime or the GPU
+  } catch (const std::exception& error) {  // raised by the headset's runtime or the GPU
     lose(error.what());
     return false;
   }
@@ -66,7 +67,7 @@ bool LearnerHeadset::open() {
   return true;
 }
 
-// Runs the work. An error from the headset or its GPU closes the view instead of ending the trainer.
+// Calls `work`. An error from the headset or its GPU closes the view instead of ending the trainer.
 template <class Work>
 void LearnerHeadset::guarded(const Work& work) {
   try {
@@ -87,7 +88,7 @@ bool LearnerHeadset::is_leaving() const {
 }
 
 // Closes the view after an error. If the headset's runtime still withholds a frame, the view is destroyed on a separate
-// thread: a STOP by the user must not wait for the runtime.
+// thread, because a STOP by the user must not wait for the runtime.
 void LearnerHeadset::lose(const std::string& why) {
   if (view_ && view_->is_waiting()) {
     view_->release_window();
@@ -141,8 +142,9 @@ void LearnerHeadset::report_taken_off() {
   message_ = "the headset was taken off, so the desktop shows the cabin";
 }
 
-// Some headsets never report a position, some only after a while. Until then the head is placed at the driver's eye
-// point; the seat is recentred as soon as a position is known. A touch calibration needs a known position of the head.
+// Some headsets never report a position, some only after a while. While no position is known, the head is placed at the
+// driver's eye point. The seat is recentred whenever the position becomes known or unknown. A touch calibration needs a
+// known head position.
 void LearnerHeadset::update_seat(const cabin::Stage& stage) {
   const engine::HeadsetEyes& eyes = view_->eyes();
   if (std::exchange(placed_, eyes.is_known) != eyes.is_known) seating_.recentre();
@@ -186,7 +188,7 @@ void LearnerHeadset::follow_hands(const cabin::Stage& stage) {
 }
 
 void LearnerHeadset::apply(const cabin::HeadsetRequests& requests, double bound) {
-  if (requests.start_touching) panel_open_ = true;  // the panel shows the instructions
+  if (requests.start_touching) panel_open_ = true;  // because the panel shows the instructions
   seating_.apply_requests(requests, bound, view_->is_room_persistent());
 }
 

@@ -1,5 +1,5 @@
-// The headset in a running session: its pictures, its place in the cabin (the seat), and the hand that points at the
-// panel. The headset may be lost and found again; in the meantime the caller shows the cabin on the desktop.
+// The headset in a running session: its pictures, the user's seat in the cabin, and the hand that points at the panel.
+// The headset may be lost and found again; in the meantime the caller shows the cabin on the desktop.
 #pragma once
 
 #include <chrono>
@@ -21,9 +21,9 @@ namespace gearshift::session {
 
 struct HeadsetSetup {
   cabin::HeadsetViewConfig view;
-  std::filesystem::path seat_file;  // empty: the seat is not saved
+  std::filesystem::path seat_file;  // file in which the seat is saved; empty: not saved
   cabin::SeatSettings seat;
-  bool is_new = false;  // true if `seat` differs from the file and is to be saved there
+  bool is_new = false;  // true if `seat` differs from the file and must be saved
 };
 
 class LearnerHeadset {
@@ -31,28 +31,28 @@ class LearnerHeadset {
   // Does not open a headset yet. Window and panel must outlive this object.
   LearnerHeadset(const HeadsetSetup& setup, engine::Window& window, engine::UiContext& ui);
 
-  // Searches for a runtime with a headset, at most every 2 s. If it returns true, destroy the window's view, then call
-  // open().
+  // Searches for an OpenXR runtime with a headset, at most every 2 s. When this returns true, destroy the window's
+  // view, then call open().
   bool is_found();
-  // Creates the view with the runtime that is_found() has found. Returns false on failure; see take_message().
+  // Creates the view with the headset runtime that is_found() has found. Returns false on failure; see take_message().
   bool open();
   bool is_open() const noexcept { return view_ != nullptr; }
   bool is_held() const noexcept { return view_ && view_->is_waiting(); }  // the runtime withholds the next frame
   bool is_worn() const noexcept { return view_ && view_->is_shown(); }    // the user sees the headset's pictures
 
-  void set_model(const engine::Model& model);  // model of the stage; call only while is_open()
+  void set_model(const engine::Model& model);  // model: that of the stage; call only while is_open()
 
   // Call begin() and draw() once per frame, in this order. begin() waits for the headset's next frame and updates the
-  // seat. It returns false if nobody is wearing the headset; the caller then sets the frame rate. If the headset is
-  // lost, the view is destroyed: see is_open() and take_message().
+  // seat. It returns false if nobody is wearing the headset; the caller must then limit the frame rate. If the headset
+  // is lost, the view is destroyed: see is_open() and take_message().
   bool begin(const cabin::Stage& stage);
-  // visible: the part of the picture that the panel leaves free. card: that part together with the lesson card. desk:
-  // camera of the window while the user does not see through the headset.
+  // `visible`: the part of the picture that the panel leaves free. `card`: that part plus the lesson card. `desk`: the
+  // window's camera, used while nobody is wearing the headset.
   void draw(const engine::FrameScene& scene, const cabin::VisibleRegion& visible, const cabin::VisibleRegion& card,
             const engine::EyePose& desk);
 
-  // The functions from here to beam() are valid for the frame that has begun.
-  engine::EyePose head() const;  // pose in the cabin of the point midway between the eyes
+  // The functions from here to beam() return values for the frame that begin() has started.
+  engine::EyePose head() const;  // pose in the cabin; midway between the eyes
   struct Pointer {
     cabin::PanelHit hit;
     bool selects = false;
@@ -61,11 +61,11 @@ class LearnerHeadset {
   const std::optional<Pointer>& pointer() const noexcept { return pointer_; }  // the hand's pointer on the panel
   const std::optional<cabin::Beam>& beam() const noexcept { return beam_; }    // the hand's beam in cabin coordinates
   bool wants_exit() const noexcept { return wants_exit_; }
-  // True once after a menu button has opened the whole panel.
+  // Returns true once after a menu button has opened the whole panel.
   bool take_opened() noexcept { return std::exchange(opened_, false); }
 
   void recentre() noexcept { seating_.recentre(); }
-  // Call only while is_open(). bound [m]: allowed distance between felt and displayed lever.
+  // Call only while is_open(). `bound` [m]: maximum allowed distance between felt and displayed lever.
   void apply(const cabin::HeadsetRequests& requests, double bound);
   cabin::HeadsetReport report() const;
   double touch_error() const noexcept;  // [m] distance between felt and displayed lever due to the seat calibration
@@ -93,17 +93,17 @@ class LearnerHeadset {
   std::string reported_;  // the last reported reason why no headset is open
 
   cabin::SeatCalibration seating_;
-  bool was_worn_ = false;  // true if the headset was worn in the previous frame
-  // Time when the headset was taken off, if not reported yet.
+  bool was_worn_ = false;
+  // Time at which the headset was taken off; empty once this has been reported.
   std::optional<std::chrono::steady_clock::time_point> taken_off_at_;
-  bool placed_ = false;  // the head's position is known; until then the head is placed at the driver's eye point
+  bool placed_ = false;  // true if the head's position is known; else the head is placed at the driver's eye point
 
   cabin::HangingPanel panel_;
   std::optional<Pointer> pointer_;
   std::optional<cabin::Beam> beam_;
-  std::array<bool, 2> selected_{}, menu_{};  // per hand: trigger and menu button held in the previous frame
-  bool panel_open_ = false;  // true: the whole panel, false: only the lesson card; toggled by a hand's menu button
-  bool opened_ = false;      // see take_opened()
+  std::array<bool, 2> selected_{}, menu_{};  // for each hand, in the previous frame: trigger held; menu button held
+  bool panel_open_ = false;                  // false: only the lesson card; a hand's menu button toggles this
+  bool opened_ = false;                      // see take_opened()
   bool wants_exit_ = false;
   std::string message_;
 };

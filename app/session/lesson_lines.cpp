@@ -12,7 +12,7 @@
 namespace gearshift::session {
 namespace {
 
-// Removes the first two words of a sentence like "Not graded: the lever was guiding you." and capitalises the rest.
+// Removes the first two words from a text like "Not graded: the lever was guiding you." and capitalises the rest.
 std::string without_verdict(std::string why) {
   constexpr std::string_view kVerdict = "Not graded: ";
   if (!why.starts_with(kVerdict)) return why;
@@ -23,11 +23,11 @@ std::string without_verdict(std::string why) {
 
 std::string format_result(const lessons::LessonResult& result) {
   if (!lessons::is_graded(result)) return "not graded. " + without_verdict(result.why);
-  const std::string grade = fmt::format("grade {:.1f} of 10, ", result.grade);
+  const std::string grade = fmt::format("grade {:.1f}/10, ", result.grade);
   return grade + (result.passed ? "passed" : "not passed. " + result.why);
 }
 
-// True once the trial has cycles. `begin` is not sufficient: on the virtual clock a trial may begin at 0 s.
+// True once the trial has cycles. The duration is checked too, because on the virtual clock a trial may begin at 0 s.
 bool has_cycles(const lessons::LessonResult& result) {
   return result.begin != 0.0 || result.duration > 0.0;
 }
@@ -40,7 +40,7 @@ std::vector<std::string> LessonLines::new_lines(const lessons::CoachView& coach)
   const bool has_trial = phase_ == lessons::LessonPhase::driving || phase_ == lessons::LessonPhase::over;
   if (!has_trial && std::exchange(is_running_, false)) lines_.push_back(fmt::format("lesson {} ended early", lesson_));
   if (phase_ == lessons::LessonPhase::offered && before != phase_)
-    lines_.push_back(fmt::format("lesson {} offered: {}", coach.lesson, coach.goal));
+    lines_.push_back(fmt::format("lesson {} is ready to start: {}", coach.lesson, coach.goal));
   if (!has_trial || !has_cycles(coach.result)) return lines_;
   const bool fresh = phase_ == lessons::LessonPhase::driving && !is_running_;
   if (fresh || is_new_trial(coach.result)) begin(coach);
@@ -52,7 +52,7 @@ std::vector<std::string> LessonLines::new_lines(const lessons::CoachView& coach)
   return lines_;
 }
 
-// True for the first result of a trial, even if the previous trial ended within the same frame.
+// True if this result is the first one of a trial, even if the previous trial ended within the same frame.
 bool LessonLines::is_new_trial(const lessons::LessonResult& result) const {
   return result.begin != begin_ || result.duration < duration_;
 }

@@ -1,4 +1,4 @@
-// Turns the coach's progress into lines on stdout, for users and scripts that follow the lesson.
+// Turns the progress of a lesson into lines on stdout, for users and scripts that follow the lesson.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,13 @@ class LessonLines {
 
   std::vector<std::string> lines_;
   lessons::LessonPhase phase_ = lessons::LessonPhase::none;
-  std::string lesson_;                // key of the lesson being reported
-  std::optional<double> begin_;       // [s] start of the trial being reported
-  double duration_ = 0.0;             // [s] duration of the trial so far
-  bool is_running_ = false;           // true while the trial is running
-  std::size_t step_ = 0, hints_ = 0;  // step and number of hints reported so far
+  std::string lesson_;           // key of the lesson being reported
+  std::optional<double> begin_;  // [s] start of the trial being reported
+  double duration_ = 0.0;        // [s] duration of the trial so far
+  bool is_running_ = false;
+  std::size_t step_ = 0, hints_ = 0;  // step and number of hints already printed
 };
 
-void print_lines(const std::vector<std::string>& lines, double time);  // time [s] since the start of the session
+void print_lines(const std::vector<std::string>& lines, double time);  // time [s] since session start
 
 }  // namespace gearshift::session

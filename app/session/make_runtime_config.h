@@ -6,8 +6,9 @@
 
 namespace gearshift::session {
 
-// lesson: defines the state in which the car starts; null: no lesson, the car is parked. The hand "by itself" drives
-// the lesson or, without a lesson, laps through all gears. Throws FileError or std::invalid_argument with one sentence.
+// `lesson`: defines the car's state at the start. If it is null, the car is parked. The hand "by itself" drives the
+// lesson or, without a lesson, shifts through all gears again and again. Throws FileError or std::invalid_argument with
+// a one-sentence message.
 runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const ResolvedCar& chosen,
                                            const lessons::Lesson* lesson);
 

@@ -11,13 +11,13 @@ namespace gearshift::session {
 
 class PointingHand {
  public:
-  // Call once per frame. desk_leads_lever: the desktop mouse moves the lever instead of the panel's cursor. hand: where
-  // the hand points at the panel. size [px]: size of the panel's picture. seconds: length of the frame.
+  // Call once per frame. `desk_leads_lever`: true if the desktop mouse moves the lever, not the panel's cursor. `hand`:
+  // where the hand points at the panel. `size` [px]: size of the panel's picture. `seconds`: duration of the frame.
   void follow(const engine::WindowInput& desk, bool desk_leads_lever,
               const std::optional<LearnerHeadset::Pointer>& hand, glm::ivec2 size, double seconds) {
     const bool has_arrived = hand.has_value() && !was_present_;
     was_present_ = hand.has_value();
-    // A trigger that was already pulled when the hand reached the panel does not click.
+    // If the trigger was already pulled when the hand reached the panel, it does not click.
     is_pressed_ = hand && hand->selects && (is_pressed_ || (!has_arrived && !pulled_before_));
     pulled_before_ = hand && hand->selects;
     const bool desk_moves = !desk_leads_lever && (desk.mouse_moved != glm::dvec2(0.0) || desk.mouse_down[0]);

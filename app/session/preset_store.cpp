@@ -22,7 +22,7 @@ bool is_shipped(const std::string& name) {
 }
 
 // Folder of the user's presets; empty if there is no home folder.
-fs::path own_folder() {
+fs::path user_folder() {
   try {
     return base::user_presets_folder();
   } catch (const std::runtime_error&) {
@@ -31,9 +31,9 @@ fs::path own_folder() {
 }
 
 const char* name_problem(const std::string& name) {
-  if (name.empty()) return "it must not be empty";
-  if (name.front() == '.') return "it must not start with a dot";
-  if (name.find('/') != std::string::npos) return "it must not contain a slash";
+  if (name.empty()) return "the name must not be empty";
+  if (name.front() == '.') return "the name must not start with a dot";
+  if (name.find('/') != std::string::npos) return "the name must not contain a slash";
   return is_shipped(name) ? "a shipped preset already has that name" : nullptr;
 }
 
@@ -42,7 +42,7 @@ const char* name_problem(const std::string& name) {
 std::vector<std::string> preset_names() {
   std::vector<std::string> names = base::shipped_names("presets"), own;
   std::error_code error;
-  for (fs::directory_iterator entry(own_folder(), error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(user_folder(), error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().stem().string();
     if (entry->path().extension() == ".toml" && name_problem(name) == nullptr) own.push_back(name);
   }
@@ -53,7 +53,7 @@ std::vector<std::string> preset_names() {
 
 fs::path preset_file(const std::string& name) {
   std::error_code error;
-  const fs::path folder = own_folder(), own = folder / (name + ".toml");
+  const fs::path folder = user_folder(), own = folder / (name + ".toml");
   const bool is_own = !folder.empty() && name_problem(name) == nullptr && fs::exists(own, error);
   return is_own ? own : base::find_asset("presets", name);
 }

@@ -7,15 +7,17 @@
 
 namespace gearshift::session {
 
-// Names of the shipped presets, then of the user's own; only the shipped ones if there is no home folder.
+// Names of the shipped presets, followed by the user's own. If there is no home folder, only shipped presets are
+// listed.
 std::vector<std::string> preset_names();
 
-// name: the name of a shipped or a user's preset, or a path. Throws std::runtime_error with one sentence.
+// Returns the file of a preset. `name`: name of a shipped preset or of one that the user has saved, or a path. Throws
+// std::runtime_error with a one-sentence message.
 std::filesystem::path preset_file(const std::string& name);
 
-// The file in which to save a user's preset called `name`; creates the folder. Throws std::invalid_argument with one
-// sentence if a shipped preset has that name or it cannot be a file name. Throws std::runtime_error if there is no home
-// folder.
+// Returns the file in which to save a user's preset called `name`; creates the folder. Throws std::invalid_argument
+// with a one-sentence message if a shipped preset has this name or the name cannot be a file name. Throws
+// std::runtime_error if there is no home folder.
 std::filesystem::path user_preset_file(const std::string& name);
 
 }  // namespace gearshift::session

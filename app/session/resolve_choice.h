@@ -14,26 +14,26 @@ namespace gearshift::session {
 
 inline constexpr std::string_view kDefaultCar = "hatchback";
 
-// Throws FileError or std::invalid_argument with one sentence.
+// Throws FileError or std::invalid_argument with a one-sentence message.
 haptics::Preset resolve_preset(const SessionChoice& choice);
 
 struct ResolvedCar {
-  std::string car, gate;                 // names as in SessionChoice; never empty
+  std::string car, gate;                 // same kinds of names as in SessionChoice, but never empty
   std::optional<vehicle::CarSpec> spec;  // empty: kNoCar
   haptics::GateLayout layout;
 };
 
 // Replaces empty names in the choice: the car by the default car, the gate by the car's gate. Throws FileError or
-// std::runtime_error with one sentence.
+// std::runtime_error with a one-sentence message.
 ResolvedCar resolve_car(const SessionChoice& choice);
 
-// Returns the choice with its gate replaced. Keeps the car if it has every gear of the new gate; otherwise takes the
-// first shipped car that does, or kNoCar if none does. Throws like resolve_car().
+// Returns the choice with its gate replaced. Keeps the car if it has every gear of the new gate. Otherwise the choice
+// gets the first shipped car that has every gear, or kNoCar if there is no such car. Throws like resolve_car().
 SessionChoice with_gate(SessionChoice choice, const std::string& gate);
 
-// Returns the choice with the lesson's car and gate, if the lesson names them. Otherwise keeps the chosen ones, except
-// that the default car replaces kNoCar, and the car's gate replaces a gate that does not fit lesson and car. Throws
-// like resolve_car().
+// Returns the choice with the lesson's car and gate, if the lesson names them. Otherwise keeps the chosen ones, with
+// two exceptions: the default car replaces kNoCar, and the car's gate replaces a gate that does not fit lesson and car.
+// Throws like resolve_car().
 SessionChoice with_lesson(SessionChoice choice, const lessons::Lesson& lesson);
 
 }  // namespace gearshift::session

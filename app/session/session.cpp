@@ -40,7 +40,7 @@ bool same_geometry(const haptics::YokeGeometry& a, const haptics::YokeGeometry& 
   return a.radius == b.radius && a.theta_limit == b.theta_limit && a.phi_limit == b.phi_limit;
 }
 
-// The state that is displayed if there is no car: contains only pedals, gear and switches.
+// The car state that is displayed if there is no car; contains only pedals, gear and switches.
 vehicle::VehicleState standing_car(const haptics::DriverControls& controls, int gear) {
   vehicle::VehicleState car;
   car.running = false;
@@ -53,7 +53,7 @@ vehicle::VehicleState standing_car(const haptics::DriverControls& controls, int 
   return car;
 }
 
-// Describes the change that the user requests; the first one if there are several.
+// Describes the change that the user requests; if there are several, only the first one.
 std::string_view change_reason(const ui::PanelRequests& requests) {
   if (requests.car) return "the car changed";
   if (requests.gate) return "the gate changed";
@@ -63,7 +63,8 @@ std::string_view change_reason(const ui::PanelRequests& requests) {
 
 }  // namespace
 
-// Stops the motors first, because destroying other members may take long, for example OpenAL without a sound card.
+// Stops the motors first, because the destructors of other members may take long (for example, OpenAL without a sound
+// card).
 Session::~Session() {
   runtime_.reset();
 }
@@ -94,8 +95,8 @@ Session::Session(const SessionChoice& choice)
   panel_.device_name = choice.stick ? choice.stick->name() : std::string(kSimulatedDevice);
 }
 
-// True if a new runtime is to start with forces on. Forces that the user or a fault has switched off stay off until the
-// user switches them on. A real stick starts with forces only if the user switches them on in the same frame.
+// Returns true if a new runtime must start with forces on. Forces that the user or a fault has switched off stay off
+// until the user switches them on. A real stick starts with forces only if the user switches them on in the same frame.
 bool Session::should_arm() {
   if (choice_.stick) return armed_this_frame_;
   if (!runtime_) return true;
@@ -104,7 +105,7 @@ bool Session::should_arm() {
          (armed_this_frame_ || (guard != haptics::GuardState::released && guard != haptics::GuardState::damped));
 }
 
-// Starts a new runtime for the choice. On failure the running setup stays unchanged.
+// Starts a new runtime for the choice. On failure the old runtime keeps running unchanged.
 void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* lesson, std::string_view reason) {
   const ResolvedCar chosen = resolve_car(choice);
   runtime::RuntimeConfig config = make_runtime_config(choice, chosen, lesson);
@@ -119,7 +120,7 @@ void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* less
   const bool armed = should_arm();
   close_current(reason);
   adopt(runtime ? std::move(runtime) : replace_runtime(config), lesson);
-  wants_forces_ = armed;  // forces that a fault has switched off stay off in later changes too
+  wants_forces_ = armed;  // if a fault ended the forces, they stay off in later calls too
   if (armed) runtime_->arm();
   running_ = choice;
   running_.car = chosen.car;
@@ -128,7 +129,8 @@ void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* less
   if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
 }
 
-// Describes the first limited parameter; for a real stick preferably the wall stiffness, because the user feels it.
+// Describes the first limited parameter. For a real stick prefers the wall stiffness, because the user feels this limit
+// most.
 std::string Session::describe_limit() const {
   const haptics::AdmittedTuning admitted = runtime_->admitted();
   const auto wall =
@@ -142,7 +144,7 @@ std::string Session::describe_limit() const {
   return fmt::format("{}, so the walls were softened from {:.0f} to {:.0f} N/m", delay, wall->wanted, wall->used);
 }
 
-// Ends a running lesson early, closes recordings and ends a replay.
+// Ends a running lesson early, ends recordings and ends a replay.
 void Session::close_current(std::string_view reason) {
   const bool drives = coach_.view().phase == lessons::LessonPhase::driving;
   if (drives) coach_.leave();
@@ -170,8 +172,8 @@ void Session::adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Le
   runtime_->set_controls(effective_controls());
 }
 
-// A pedal source for the runtime with this lever number. All runtimes share the keyboard pedals, so that the pedals
-// keep their positions when the runtime changes; adopt() decides which runtime moves them.
+// Returns a pedal source for the runtime with the number `lever`. All runtimes share the keyboard pedals, so that the
+// pedals keep their positions when the runtime changes; adopt() decides which runtime moves them.
 runtime::PedalSource Session::pedal_source(int lever) const {
   return [keyboard = pedals_, lever](const vehicle::DriveSample& cycle, double seconds) {
     const bool coupled = cycle.car.gear != haptics::kNeutralGear && cycle.car.clutch_capacity > 0.0;
@@ -244,7 +246,8 @@ void Session::apply(const ui::PanelRequests& requests) {
   }
 }
 
-// Applies changes of gate, car, hand, preset and configuration. Tuned parameters are kept unless a preset is requested.
+// Applies changes of gate, car, hand, preset and configuration. Tuned parameters stay unchanged unless a preset is
+// requested.
 void Session::apply_choice(const ui::PanelRequests& requests) {
   if (!requests.gate && !requests.car && !requests.preset && !requests.hand && !requests.restart) return;
   SessionChoice wanted = choice_;
@@ -319,11 +322,11 @@ void Session::update_cabin() {
   report_sound();
 }
 
-// Reports the loss and the return of sound, each once.
+// Reports once when sound is lost, and once when it is back.
 void Session::report_sound() {
   if (sound_.silence_reason() == why_silent_) return;
   why_silent_ = sound_.silence_reason();
-  message_ = why_silent_.empty() ? "the sound is back" : why_silent_;
+  message_ = why_silent_.empty() ? "the sound works again" : why_silent_;
 }
 
 bool Session::take_new_runtime() {

@@ -1,4 +1,5 @@
-// A session: the running haptic loop with its car, the lessons, the cabin and its sound. Executes the panel's requests.
+// A session: the running haptic loop with its car, the lessons, the cabin and its sound. Executes what the user
+// requests in the panel.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +26,7 @@
 
 namespace gearshift::session {
 
-// Ignition and hand brake at the start of a lesson, to which the caller sets the user's switches.
+// Ignition and hand brake at the start of a lesson. The caller must set the user's switches to these values.
 struct CarSwitches {
   bool ignition = true;
   double hand_brake = 0.0;  // [1] 0: released, 1: fully applied
@@ -33,23 +34,25 @@ struct CarSwitches {
 
 class Session {
  public:
-  // Throws FileError, GltfError, std::invalid_argument or std::runtime_error with one sentence.
+  // Throws FileError, GltfError, std::invalid_argument or std::runtime_error with a one-sentence message.
   explicit Session(const SessionChoice& choice);
   ~Session();  // stops the haptic loop first
 
   // Call set_driver(), advance() and update_cabin() once per frame, in this order, and apply() at any time in a frame.
-  // They do not throw: a rejected request sets message(). Until the next set_driver(), `keys` move the keyboard pedals
-  // on the car's clock; each pedal is as deep as the deeper one of keyboard pedal and `controls`.
+  // They do not throw: if a request is rejected, message() says why. Until the next set_driver(), `keys` move the
+  // keyboard pedals on the car's clock. Each pedal is as far down as the keyboard pedal or the value in `controls`,
+  // whichever is further down.
   void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
                   const ui::PedalKeys& keys = {});
   void apply(const ui::PanelRequests& requests);
-  void advance(double seconds);  // advances lesson, replay and a virtual clock's haptic loop; reads events
+  void advance(double seconds);  // advances lesson, replay and a loop on the virtual clock; reads events
   void update_cabin();           // places the cabin's parts and updates the sound
 
   void set_foot_pace(const ui::PedalTiming& pace) { pedals_->set_timing(pace); }
 
-  // Replays a recorded drive: the shift with this index or, if `shift` is empty, the whole drive. from [s]: start time.
-  // Throws FileError, std::invalid_argument or std::runtime_error with one sentence.
+  // Replays a recorded drive: the shift with the index `shift` or, if `shift` is empty, the whole drive. `from` [s]:
+  // start time in the recording. Throws FileError, std::invalid_argument or std::runtime_error with a one-sentence
+  // message.
   void open_replay(const std::filesystem::path& recording, std::optional<std::size_t> shift = std::nullopt,
                    double from = 0.0);
 
@@ -57,21 +60,21 @@ class Session {
   void set_camera(std::string_view camera);    // see cabin_for_camera()
   bool take_new_model();                       // true once after the stage was rebuilt
   bool take_new_runtime();                     // true once after gate, car, hand or device have changed
-  std::optional<CarSwitches> take_switches();  // returned once after a lesson has begun
+  std::optional<CarSwitches> take_switches();  // not empty once after a lesson has begun
   const ui::PanelInput& panel_input();
   runtime::Runtime& runtime() { return *runtime_; }
   const lessons::Coach& coach() const { return coach_; }
-  const haptics::HapticSnapshot& shown() const { return shown_; }  // state shown in the cabin, live or replayed
-  const vehicle::VehicleState& car() const { return car_; }        // state shown in the cabin, live or replayed
+  const haptics::HapticSnapshot& shown() const { return shown_; }  // lever shown in the cabin, live or replayed
+  const vehicle::VehicleState& car() const { return car_; }        // car shown in the cabin, live or replayed
   const std::optional<vehicle::CarSpec>& car_spec() const { return runtime_->config().car; }
   const std::vector<haptics::HapticEvent>& events() const {
     return events_;
   }  // events of the running loop in this frame; times [ns] since the start of the session
   engine::SoundWorld& sound() { return sound_; }
-  double time() const { return time_; }  // [s] sum of the frames' lengths since the start of the session
-  // [s] time of the running loop's newest snapshot since the start of the session
+  double time() const { return time_; }  // [s] sum of all frame times since the session start
+  // [s] time of the running loop's newest snapshot, from the start of the session
   double lever_time() const { return 1e-9 * static_cast<double>(newest_ns_ - start_ns_); }
-  const std::string& message() const { return message_; }  // last message, such as a rejection; one sentence
+  const std::string& message() const { return message_; }  // last message, e.g. a rejection; one sentence
   bool recording() const { return runtime_ && runtime_->is_recording(); }
   // Call before the session ends. Ends a running lesson early, saves pending results and deletes recordings that the
   // history does not reference. Returns a sentence that says what could not be saved; empty if everything was saved.
@@ -80,12 +83,13 @@ class Session {
   void set_ears(const engine::EyePose& ears) { ears_ = ears; }
   void set_frame_ms(double ms) { frame_ms_ = ms; }
   void set_message(const std::string& message) { message_ = message; }
-  // report: the state of the headset; empty if no headset is open.
+  // `report`: the state of the headset; empty if no headset is open.
   void set_headset(std::optional<cabin::HeadsetReport> report) { panel_.headset = std::move(report); }
-  // offset [m]: distance between displayed and felt lever due to the seat calibration. The clamp of the displayed lever
-  // to the gate adds to it; if the sum exceeds ghost_offset, the lever is flagged as past the wall (kFlagGhost).
+  // `offset` [m]: distance between displayed and felt lever due to the seat calibration. The displayed lever is also
+  // limited to the gate, which adds to this distance. If the sum exceeds `ghost_offset`, the lever is flagged as past
+  // the wall (kFlagGhost).
   void set_visual_offset(double offset) { visual_offset_ = offset; }
-  // beam: the pointing hand's beam in cabin coordinates
+  // `beam`: starts at the pointing hand, in cabin coordinates; empty: no beam
   void set_pointer(const std::optional<cabin::Beam>& beam) { pointer_ = beam; }
   void set_keys(std::vector<ui::KeyHint> keys) { panel_.keys = std::move(keys); }
   void set_mouse_leads(bool leads) { panel_.mouse_moves_lever = leads; }
@@ -94,16 +98,16 @@ class Session {
   bool is_replaying_shift() const { return player_ && player_->shift(); }
 
  private:
-  // Defined in session_stick.cpp: the real stick.
+  // Functions for the real stick, defined in session_stick.cpp.
   bool arm();
   void poll_stick();
   haptics::Gate check_stick(runtime::RuntimeConfig config) const;
   std::unique_ptr<runtime::Runtime> replace_runtime(const runtime::RuntimeConfig& config);
   void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;
 
-  // Defined in session.cpp: the running loop, its cabin, one frame.
+  // Functions for the running loop, its cabin and one frame, defined in session.cpp.
   void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
-                 std::string_view reason = "the loop was restarted");  // reason: reported if a lesson ends by this
+                 std::string_view reason = "the loop was restarted");  // reason: reported if this ends a lesson
   void apply_choice(const ui::PanelRequests& requests);
   std::string describe_limit() const;
   void close_current(std::string_view reason);
@@ -139,7 +143,7 @@ class Session {
   // Defined in session_replay.cpp.
   void apply_replay_requests(const ui::ReplayRequests& requests);
   void open_last_recording();
-  // near [s]: shows the shift that begins nearest to this time; empty: the whole drive
+  // `near` [s]: the shift that begins nearest to this time is shown; if empty, the whole drive is shown
   void open_recording(const std::filesystem::path& recording, std::optional<double> near);
   void finish_opening();
   void show_opened();
@@ -157,36 +161,36 @@ class Session {
   void report_recording_problem();
 
   SessionChoice choice_;   // the user's choice
-  SessionChoice running_;  // choice_ with the lesson's car and gate; car and gate are never empty
+  SessionChoice running_;  // choice_ with the names of the car and gate in use, which are never empty
   cabin::Cabin cabin_;
   lessons::Coach coach_;
   std::unique_ptr<runtime::Runtime> runtime_;
   std::unique_ptr<cabin::Stage> stage_;
-  std::string stage_gate_;            // text of the gate layout that the stage was built for
-  haptics::YokeGeometry stage_yoke_;  // yoke that the stage was built for
+  std::string stage_gate_;            // text of the gate file for which the stage was built
+  haptics::YokeGeometry stage_yoke_;  // yoke for which the stage was built
   engine::SoundWorld sound_;
   cabin::CabinSound cabin_sound_;
   std::unique_ptr<lessons::DriveLoader> opening_;  // not null while a recording is being read
-  std::optional<double> opening_near_;             // [s] time of the shift to show, see open_recording()
+  std::optional<double> opening_near_;             // [s] time `near` of open_recording()
   std::optional<lessons::Player> player_;          // not empty during a replay
   // The user's keyboard pedals, moved by the loop's thread.
   std::shared_ptr<ui::KeyboardPedals> pedals_ = std::make_shared<ui::KeyboardPedals>();
-  int pedal_owner_ = 0;                      // number of the runtime that moves the pedals
-  haptics::DriverControls controls_;         // the user's controls, without the keyboard pedals
-  haptics::DriverControls newest_controls_;  // controls in the newest cycle
-  double slope_ = 0.0;                       // [rad] slope of the lesson's road
-  // True after a lesson, while the instructor holds clutch and brake: until the next lesson starts, the lesson is
+  int pedal_owner_ = 0;               // number of the runtime that moves the pedals
+  haptics::DriverControls controls_;  // the user's controls, without the keyboard pedals
+  haptics::DriverControls newest_controls_;
+  double slope_ = 0.0;  // [rad] slope of the lesson's road
+  // True after a lesson while the instructor holds clutch and brake. Ends when the next lesson starts, the lesson is
   // dismissed, or car, gate or hand change.
   bool is_car_held_ = false;
   std::size_t error_count_ = 0;  // number of driving errors in the current trial
-  bool is_unpassable_ = false;   // true if the current trial can no longer be passed
+  bool is_unpassable_ = false;
   std::optional<CarSwitches> switches_;
   engine::EyePose ears_;
   double visual_offset_ = 0.0;  // [m] see set_visual_offset()
   std::optional<cabin::Beam> pointer_;
   haptics::HapticSnapshot shown_;
   vehicle::VehicleState car_;                     // displayed state of the car
-  std::vector<haptics::HapticSnapshot> history_;  // displayed lever samples of this frame
+  std::vector<haptics::HapticSnapshot> history_;  // lever samples of this frame for the plots
   std::vector<haptics::HapticEvent> events_;
   ui::PanelInput panel_;
   std::filesystem::path last_recording_;
@@ -195,9 +199,9 @@ class Session {
   std::string why_silent_;                // sound_.silence_reason() in the previous frame
   bool wants_forces_ = true;              // true after arming, false after the user or a fault switched forces off
   bool armed_this_frame_ = false;         // the user switched forces on in this frame
-  bool is_stick_connected_ = false;       // state in the previous frame
+  bool is_stick_connected_ = false;       // the stick was connected in the previous frame
   bool is_lesson_recording_ = false;      // the running recording belongs to a lesson
-  bool is_recording_incomplete_ = false;  // the last recording belongs to a lesson and failed
+  bool is_recording_incomplete_ = false;  // the last recording belonged to a lesson and failed
   std::int64_t start_ns_ = 0;             // [ns] start of this session, on the loop's clock
   std::int64_t newest_ns_ = 0;            // [ns] time of the newest snapshot, on the loop's clock
   double time_ = 0.0;                     // [s] see time()

@@ -1,4 +1,5 @@
-// The session's lessons: offering, starting, driving and saving them, and who controls the car meanwhile.
+// Offers, starts, runs and saves the session's lessons, and decides whether the learner or the instructor controls the
+// car.
 #include <algorithm>
 #include <system_error>
 #include <utility>
@@ -27,7 +28,8 @@ std::string settings_text(const SessionChoice& choice, const haptics::HapticTuni
 
 }  // namespace
 
-// Offers the named lesson, or else the suggested one. With the automatic hand or without a car, only a named lesson.
+// Offers the lesson named in the choice, or else the suggested lesson. With the automatic hand or without a car, only a
+// named lesson is offered.
 void Session::offer_initial(const SessionChoice& choice) {
   std::string name = choice.lesson;
   const bool suggested = name.empty();
@@ -56,7 +58,7 @@ void Session::apply_lesson_requests(const ui::LessonRequests& requests) {
   if (coach_.view().phase != lessons::LessonPhase::driving) end_lesson_recording();
 }
 
-// Selects the learner. Throws for an invalid name, before anything changes.
+// Selects the learner. If the name is invalid, throws before anything changes.
 void Session::change_learner(const std::string& name) {
   if (!name.empty()) lessons::check_learner_name(name);
   const bool drives = coach_.view().phase == lessons::LessonPhase::driving;
@@ -75,7 +77,7 @@ void Session::leave_lesson() {
   if (drives) hold_car();
 }
 
-// Puts the report in front of the current message, such as the result of a recording or a limit.
+// Puts the report about the lesson's end in front of the current message, which may be about a recording or a limit.
 void Session::report_early_end(std::string_view reason) {
   message_ = fmt::format("the lesson ended early because {}{}{}", reason, message_.empty() ? "" : "; ", message_);
 }
@@ -105,7 +107,8 @@ void Session::begin_lesson() {
   runtime_->set_controls(effective_controls());
 }
 
-// Offers the lesson. From now on, an incomplete recording of the previous lesson is kept, see save_and_stop().
+// Offers the lesson. From now on, save_and_stop() no longer deletes the previous lesson's recording because it is
+// incomplete.
 void Session::offer(const lessons::Lesson& lesson) {
   coach_.offer(lesson);
   is_recording_incomplete_ = false;
@@ -118,7 +121,7 @@ fs::path Session::record_lesson(const lessons::Lesson& lesson) {
     start_recording(recording_name(lesson.key));
     is_lesson_recording_ = true;
     lesson_recordings_.insert(haptics::make_absolute(last_recording_).string());
-    message_ = news;  // no message about a recording that starts automatically
+    message_ = news;  // a recording that starts automatically needs no message
     return haptics::make_absolute(last_recording_);
   } catch (const std::exception& refused) {
     message_ = refused.what();
@@ -156,8 +159,8 @@ void Session::hold_car() {
   pedals_->set_keys({});
 }
 
-// Saves results first. If the disk is full, deletes unreferenced recordings and retries, then deletes the lesson's
-// incomplete recording and retries.
+// Saves results, then deletes unreferenced recordings. If results did not fit on the disk, tries again after this
+// deletion, and once more after deleting the lesson's incomplete recording.
 std::string Session::save_and_stop() {
   std::string unsaved = coach_.flush();
   end_lesson_recording();
@@ -171,7 +174,7 @@ std::string Session::save_and_stop() {
   return unsaved;
 }
 
-// Deletes this session's lesson recordings that no history row references. True if any was deleted.
+// Deletes this session's lesson recordings that no history row references. Returns true if any file was deleted.
 bool Session::delete_unreferenced_recordings() {
   bool any = false;
   std::error_code ignored;
@@ -180,8 +183,8 @@ bool Session::delete_unreferenced_recordings() {
   return any;
 }
 
-// The user's controls on the lesson's road, with the lesson's guidance. After a lesson the instructor brakes the car to
-// a stop.
+// Returns the user's controls with the lesson's slope and guidance. After a lesson the instructor brakes the car to a
+// stop.
 haptics::DriverControls Session::effective_controls() const {
   haptics::DriverControls controls = controls_;
   if (is_car_held_) {

@@ -1,4 +1,4 @@
-// The session's recordings: those that the user starts and those made automatically for lessons.
+// The session's recordings: those that the user starts, and those made automatically for lessons.
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -24,7 +24,7 @@ void Session::toggle_recording() {
     start_recording(recording_name("drive"));
 }
 
-// The folder of the recordings: next to the history file, which references them.
+// Returns the folder for recordings, which is next to the history file, because the history references the recordings.
 fs::path Session::recordings_folder() const {
   const fs::path data =
       choice_.history.empty() ? base::user_data_folder() : haptics::make_absolute(choice_.history).parent_path();
@@ -56,7 +56,7 @@ void Session::end_lesson_recording() {
   message_ = *problem;
 }
 
-// Ends the recording and reports the problem if it has failed.
+// Ends the recording if it has failed, and reports the problem.
 void Session::report_recording_problem() {
   const std::optional<std::string> problem = runtime_->poll_recording_problem();
   if (!problem) return;

@@ -19,8 +19,8 @@ void Session::open_last_recording() {
   open_recording(last_recording_, std::nullopt);
 }
 
-// Starts to read the recording in the background. On the virtual clock, waits for the end of reading, because no user
-// is waiting for the next frame.
+// Starts to read the recording in the background. On the virtual clock, waits until the recording has been read,
+// because no user is waiting for the next frame.
 void Session::open_recording(const fs::path& recording, std::optional<double> near) {
   check_can_replay();
   opening_ = std::make_unique<lessons::DriveLoader>(recording);
@@ -75,15 +75,15 @@ void Session::open_replay(const fs::path& recording, std::optional<std::size_t> 
   start_replay(std::move(player));
 }
 
-// Shows the recording in a cabin with the gate of the recording and the lever of the running preset. A drive recorded
-// with a simulated lever needs a preset with the same lever; one recorded with a stick fits any preset.
+// Shows the recording in a cabin with the recording's gate and the running preset's lever. A drive recorded with a
+// simulated lever needs a preset with the same lever; one recorded with a stick fits any preset.
 void Session::start_replay(lessons::Player player) {
   const haptics::TraceHeader& header = player.drive().header();
   const bool same_lever = header.device.yoke_radius == stage_yoke_.radius &&
                           header.device.workspace == haptics::workspace_half_extent(stage_yoke_);
   if (header.device.simulated && !same_lever)
-    throw std::runtime_error(
-        fmt::format("{}: recorded with a different lever; choose the matching preset first", player.file().string()));
+    throw std::runtime_error(fmt::format("{} was recorded with a different lever; choose the matching preset first",
+                                         player.file().string()));
   if (header.gate_text != stage_gate_) rebuild_stage(player.drive().gate(), header.gate_text, stage_yoke_, cabin_);
   message_ = fmt::format("replaying {}", player.file().string());
   player_ = std::move(player);
@@ -97,7 +97,7 @@ void Session::end_replay() {
   if (stage_gate_ != config.layout.text) rebuild_stage(runtime_->gate(), config.layout.text, stage_yoke_, cabin_);
 }
 
-// Takes the displayed state from the trace, except for the guard, whose live state must stay visible.
+// Displays the state from the trace, except for the guard, whose live state must stay visible.
 void Session::show_replay(double seconds) {
   if (player_->has_jumped()) ++run_;
   (void)player_->advance(seconds);

@@ -1,4 +1,4 @@
-// The session's real stick: used by one runtime at a time, and armed only by the user.
+// The session's real stick. Only one runtime at a time uses it, and only the user arms it.
 #include <stdexcept>
 #include <utility>
 
@@ -11,18 +11,20 @@
 
 namespace gearshift::session {
 
-// Switches the forces on. Refuses if the stick is not connected: it must not start to push when it is plugged in.
+// Switches the forces on. If the stick is not connected, refuses, because the stick must not start to push when it is
+// plugged in.
 bool Session::arm() {
   if (choice_.stick && !choice_.stick->connected()) {
     message_ = fmt::format("{} is not plugged in. Plug it in, then turn forces on.", choice_.stick->name());
     return false;
   }
   runtime_->arm();
-  if (choice_.stick) message_.clear();  // the message asked the user to switch forces on
+  if (choice_.stick) message_.clear();  // the message asked the user to turn forces on
   return true;
 }
 
-// Collects the stick's messages. Switches its forces off when it is disconnected; they stay off when it is reconnected.
+// Collects the stick's messages. When the stick is disconnected, switches its forces off; they stay off when it is
+// reconnected.
 void Session::poll_stick() {
   if (!choice_.stick) return;
   std::string news;
@@ -39,8 +41,8 @@ haptics::Gate Session::check_stick(runtime::RuntimeConfig config) const {
   return runtime::check_runtime(config);
 }
 
-// Ends the old runtime before it creates the new one, because only one may use the stick. All checks have passed
-// before; if the new runtime fails anyway, the old one is recreated.
+// Ends the old runtime before creating the new one, because only one runtime may use the stick. The new configuration
+// has already been checked; if the new runtime fails anyway, the old one is recreated.
 std::unique_ptr<runtime::Runtime> Session::replace_runtime(const runtime::RuntimeConfig& config) {
   if (!runtime_) return std::make_unique<runtime::Runtime>(config);
   const runtime::RuntimeConfig before = runtime_->config();
@@ -53,7 +55,7 @@ std::unique_ptr<runtime::Runtime> Session::replace_runtime(const runtime::Runtim
   }
 }
 
-// Throws unless the real stick is in the lesson's starting gear: unlike a simulated lever, only the user can move it.
+// Throws unless the real stick is in the lesson's starting gear, because only the user can move a real stick.
 void Session::check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const {
   if (!runtime_) return;
   if (!choice_.stick->connected())

@@ -13,8 +13,8 @@ void SharedInput::update(const engine::WindowInput& window, double seconds, glm:
   look(window, panel_has_mouse);
 }
 
-// The window's input as the panel gets it. Tracks the state of Shift, Ctrl and Alt itself, because a key event of a
-// modifier carries the state before the event.
+// The window's input as passed to the panel. This class tracks the state of Shift, Ctrl and Alt itself, because a key
+// event of a modifier carries the state before the event.
 engine::UiEvents SharedInput::for_panel(const engine::WindowInput& window, glm::dvec2 mouse,
                                         const std::optional<PanelPointer>& hand) {
   engine::UiEvents events;

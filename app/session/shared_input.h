@@ -1,5 +1,5 @@
-// Distributes a window's mouse and keys: in each frame, either the panel or the driver gets the mouse, and either of
-// them gets the keys.
+// Distributes a window's mouse and keys: in each frame, either the panel or the driver gets the mouse, and either the
+// panel or the driver gets the keys.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,15 @@ class SharedInput {
  public:
   explicit SharedInput(const ui::Bindings& bindings) : driver_({bindings}) {}
 
-  // Call once per frame, before the panel is drawn. seconds: time since the last call. mouse [px]: position of the
-  // window's mouse in the picture that the panel was drawn into. hand: pointer that replaces the window's mouse on the
-  // panel, but not for the driver.
+  // Call once per frame, before the panel is drawn. `seconds`: time since the previous call. `mouse` [px]: position of
+  // the window's mouse in the picture into which the panel was drawn. `hand`: a pointer that replaces the window's
+  // mouse on the panel, but not for the driver.
   void update(const engine::WindowInput& window, double seconds, glm::dvec2 mouse, const ui::Panel& panel,
               engine::UiContext& ui, const std::optional<PanelPointer>& hand = std::nullopt);
 
   ui::DriverInput& driver() noexcept { return driver_; }
-  // [px] Mouse motion in this frame that turns the view: with the right button held, pressed outside the panel.
+  // [px] Mouse movement in this frame that turns the view. The view turns while the right button is held, if the button
+  // was pressed outside the panel.
   glm::dvec2 turned() const noexcept { return turned_; }
 
  private:
@@ -33,7 +34,7 @@ class SharedInput {
 
   ui::DriverInput driver_;
   bool shift_ = false, control_ = false, alt_ = false;  // true while held
-  bool is_turning_ = false;  // the right button was pressed outside the panel and is still held
+  bool is_turning_ = false;  // the right button was pressed outside the panel and is still down
   bool right_was_down_ = false;
   glm::dvec2 turned_{0.0};
 };

@@ -27,19 +27,19 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kOffscreenRate = 30.0;         // [1/s] frames per simulated second
-constexpr int kSettling = 3;                    // number of frames until every part of the panel has its final height
+constexpr int kSettling = 3;                    // frames until every part of the panel has its final height
 constexpr double kMinFrameTime = 1.0 / 144;     // [s] shortest frame if the display does not limit the rate
-constexpr double kMaxFrameTime = 0.25;          // [s] a longer frame advances car and pedals by only this time
-constexpr std::chrono::seconds kViewRetry{1};   // pause between attempts to recreate the picture
-constexpr std::chrono::seconds kViewHolds{10};  // a new loss of the picture within this time is not reported
+constexpr double kMaxFrameTime = 0.25;          // [s] car and pedals advance by at most this per frame
+constexpr std::chrono::seconds kViewRetry{1};   // pause between attempts to recreate the view
+constexpr std::chrono::seconds kViewHolds{10};  // no message is printed if the view is lost again within this time
 
-// The part of the cabin's picture, `size` [px] large, that panel and card leave free.
+// The part of the cabin's picture that panel and lesson card leave free. `size` [px]: size of the picture.
 cabin::VisibleRegion free_region(const ui::Panel& panel, glm::dvec2 size) {
   const ui::ControlRect middle = panel.cabin_area();
   return {middle.min / size, middle.max / size};
 }
 
-// The part of the cabin's picture that columns and bar leave free, including the lesson card over it.
+// The part of the cabin's picture that the panel's columns and bar leave free. It contains the lesson card.
 cabin::VisibleRegion card_region(const ui::Panel& panel, glm::dvec2 size) {
   const ui::ControlRect between = panel.central_area();
   return {between.min / size, between.max / size};
@@ -55,14 +55,13 @@ void print_unsaved(const std::string& problem) {
   if (!problem.empty()) base::print_message("{}", haptics::printable(problem));
 }
 
-// Runs the trainer in a window, frame by frame.
 class WindowTrainer {
  public:
   explicit WindowTrainer(const TrainSetup& setup)
       : setup_(setup),
         window_(setup.view.width, setup.view.height, "gearshift"),
         headset_(setup.headset ? std::make_unique<LearnerHeadset>(*setup.headset, window_, ui_) : nullptr),
-        view_(first_view()),  // before session_, which starts the haptic loop
+        view_(first_view()),  // made before session_, which starts the haptic loop
         session_(setup.choice),
         shared_(setup.bindings),
         input_(shared_.driver()),
@@ -82,7 +81,7 @@ class WindowTrainer {
   int finish() {
     print_unsaved(session_.save_and_stop());
     print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
-    if (!session_.take_new_runtime()) health_ = session_.runtime().health();  // includes cycles since the newest frame
+    if (!session_.take_new_runtime()) health_ = session_.runtime().health();  // includes cycles after the last frame
     print_health(health_);
     if (!session_.recording()) return 0;
     const bool is_complete = session_.end_recording();
@@ -107,7 +106,7 @@ class WindowTrainer {
   }
 
  private:
-  // Size of the picture that the panel is drawn into. [px]
+  // Size [px] of the picture into which the panel is drawn.
   glm::ivec2 panel_size() const {
     return wears() ? setup_.headset->view.panel : cabin::eye_size(setup_.view, window_.framebuffer());
   }
@@ -130,7 +129,7 @@ class WindowTrainer {
     return desktop_view();
   }
 
-  // Switches to a headset if one is found; otherwise ensures that the window has a desktop view. A headset uses the
+  // Switches to a headset if one is found; otherwise makes sure that the window has a desktop view. A headset uses the
   // window as its mirror, so only one of the two views may exist.
   void find_view() {
     if (headset_ && headset_->is_found()) {
@@ -142,7 +141,7 @@ class WindowTrainer {
     if (!wears() && !view_) make_desktop_view();
   }
 
-  // Tries at most once per kViewRetry, in case the GPU is lost repeatedly.
+  // Tries at most once per kViewRetry, because the GPU may be lost repeatedly.
   void make_desktop_view() {
     const Clock::time_point now = Clock::now();
     if (now < next_view_) return;
@@ -176,8 +175,9 @@ class WindowTrainer {
     session_.set_message(news);
   }
 
-  // Waits for the next frame: for the headset's display while it is worn, otherwise for at least kMinFrameTime since
-  // the last frame. The wait comes before input is read, to keep the latency from input to picture short.
+  // Waits for the next frame. While the headset is worn, its display sets the time; otherwise the next frame comes at
+  // least kMinFrameTime after the previous one. The wait comes before input is read, to keep the latency from input to
+  // picture short.
   void pace() {
     find_view();
     const auto next =
@@ -202,7 +202,7 @@ class WindowTrainer {
     look_.turn(shared_.turned());
   }
 
-  // The hand's pointer, unless it points at an empty part of the panel.
+  // Where the hand points at the panel; empty if it does not, or if this part of the panel has no controls.
   std::optional<LearnerHeadset::Pointer> pointer_at_panel() const {
     if (!wears() || !headset_->pointer()) return std::nullopt;
     const std::optional<LearnerHeadset::Pointer>& pointer = headset_->pointer();
@@ -210,8 +210,8 @@ class WindowTrainer {
     return is_there ? pointer : std::nullopt;
   }
 
-  // Sets the listener and the pointing beam, and moves the desktop camera. In a headset the head alone sets the view,
-  // so the camera stays.
+  // Sets the listener and the pointing beam, and moves the desktop camera. While the headset is worn, only the head
+  // sets the view, so the camera does not move.
   void look() {
     const bool points = is_worn() && (pointer_ || !headset_->pointer());
     session_.set_pointer(points ? headset_->beam() : std::nullopt);
@@ -225,7 +225,8 @@ class WindowTrainer {
     session_.set_ears(look_.pose());
   }
 
-  // Passes the user's input to the session. After a change of gate, car, hand or device, the hand starts at the lever.
+  // Passes the user's input to the session. After a change of gate, car, hand or device, the hand starts at the lever's
+  // position.
   void set_driver() {
     if (session_.take_new_runtime()) {
       print_health(std::exchange(health_, std::nullopt));
@@ -302,12 +303,13 @@ class WindowTrainer {
         quit_ = true;
         break;
       default:
-        break;  // the driving actions, which DriverInput handles
+        break;  // driving actions, which DriverInput handles
     }
     session_.apply(requests);
   }
 
-  // Starts the offered lesson. Once a lesson is over, offers the next one if it was passed, else starts it again.
+  // Starts the offered lesson. After a passed lesson, offers the next one, if it is a different lesson. Otherwise
+  // restarts the lesson.
   void go_on(ui::LessonRequests& lesson) const {
     const lessons::CoachView& coach = session_.coach().view();
     if (session_.is_replaying()) return;
@@ -341,7 +343,7 @@ class WindowTrainer {
     if (wears()) {
       if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
       fresh_view_ = false;
-      if (!wears()) return;  // the headset was lost in set_model()
+      if (!wears()) return;  // set_model() may have lost the headset
       headset_->draw(session_.stage().scene(), free_region(panel_, panel_size()), card_region(panel_, panel_size()),
                      look_.pose());
       return;
@@ -359,30 +361,30 @@ class WindowTrainer {
 
   TrainSetup setup_;
   engine::Window window_;
-  const engine::Instance driver_{engine::GpuConfig{}};  // keeps the Vulkan driver loaded while views come and go
+  const engine::Instance driver_{engine::GpuConfig{}};  // keeps the Vulkan driver loaded between views
   engine::UiContext ui_;
   UiScale ui_scale_;
   ui::Panel panel_;
   std::unique_ptr<LearnerHeadset> headset_;  // null if no headset was requested
   std::unique_ptr<cabin::CabinView> view_;   // null while the headset is open
   Session session_;
-  std::optional<LearnerHeadset::Pointer> pointer_;  // place on the panel at which the hand points
+  std::optional<LearnerHeadset::Pointer> pointer_;  // where the hand points on the panel
   PointingHand pointing_;
   SharedInput shared_;
   ui::DriverInput& input_;
   CabinCamera look_;
   LessonLines lines_;
   Clock::time_point last_frame_;
-  double seconds_ = 1.0 / 60.0;  // [s] length of this frame
+  double seconds_ = 1.0 / 60.0;  // [s] duration of this frame
   bool help_ = false;
   bool quit_ = false;
   bool fresh_view_ = true;
   Clock::time_point next_view_{}, view_quiet_until_{};
-  std::optional<runtime::LoopHealth> health_;  // health of the running loop in the newest frame
+  std::optional<runtime::LoopHealth> health_;  // health of the loop in the newest frame
   std::string printed_message_;
 };
 
-// True if the lesson or the replay has come to its end.
+// True if the lesson or the replay has ended.
 bool is_done(const Session& session) {
   return session.coach().view().phase == lessons::LessonPhase::over || session.is_replay_over();
 }
@@ -433,7 +435,7 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   for (int i = 0; i < kSettling; ++i) draw();
   print_unsaved(session.save_and_stop());
   print_lines(lines.new_lines(session.coach().view()), session.lever_time());
-  view.set_model(session.stage().model());  // only the last frame is written
+  view.set_model(session.stage().model());  // loaded only now, because only the last frame is rendered
   view.begin();
   view.draw(session.stage().scene(), look.pose(), look.field(), free_region(panel, eye));
   const std::filesystem::path picture = offscreen.folder / "train.png";

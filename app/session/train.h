@@ -22,15 +22,15 @@ struct TrainSetup {
   double from = 0.0;                    // [s] start position in the recording
 };
 
-// Runs until the user quits. Prints a line for each engaged gear. Returns the exit code: 1 if the last recording
-// failed.
+// Runs until the user quits. Prints a line for each engaged gear. Returns the exit code, which is 1 if the last
+// recording failed.
 int train_in_window(const TrainSetup& setup);
 
 // Settings for train_offscreen(), which runs on the virtual clock at 30 frames per simulated second and writes the last
 // frame to train.png in the folder.
 struct OffscreenSetup {
   std::filesystem::path folder;
-  double seconds = 5.0;  // [s] > 0; maximum duration: the end of a lesson or a replay ends the run earlier
+  double seconds = 5.0;  // [s] > 0; maximum duration; the end of a lesson or replay also ends the run
 };
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen);
 

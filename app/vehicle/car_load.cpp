@@ -39,7 +39,8 @@ CarStart complete_start(const CarSpec& car, CarStart start) {
   return start;
 }
 
-// A line of values, a line with the car file's name, then the car file's text. Doubles read back exactly.
+// Text for make_car_load(): a line of values, a line with the car file's name, then the car file's text. Each double is
+// read back as exactly the same value.
 std::string format_parameters(const CarSpec& car, double force_limit, const CarStart& start, std::uint64_t seed) {
   return fmt::format("{} {} {} {} {} {} {} {} {} {}\n{}\n{}", kName, force_limit, seed, start.road_speed, start.gear,
                      engine_code(start), *start.engine_speed, *start.shaft_speed, start.distance, start.slip_energy,

@@ -18,7 +18,7 @@ constexpr double kPerKrpm = 1000.0 * kPerRpm;        // [rad/s]
 constexpr double kPerDegree = std::numbers::pi / 180.0;
 constexpr double kMetresPerMillimetre = 1e-3;
 
-// Allowed ranges of the file's values, in the file's units: wide enough for a moped and for a lorry.
+// Allowed ranges of the values in a car file, in the file's units. They are wide enough for a moped and for a lorry.
 constexpr haptics::Range kSpeedRpm{50.0, 20000.0};
 constexpr haptics::Range kTorquePointRpm{0.0, 20000.0};
 constexpr haptics::Range kTorqueNm{0.0, 5000.0};
@@ -67,7 +67,7 @@ void read_full_load(const haptics::TomlTable& table, EngineSpec& engine) {
   }
 }
 
-// Reports an error unless table[less] < table[more].
+// Reports an error unless the value of `less` is below the value of `more`.
 void require_order(const haptics::TomlTable& table, const char* less, const char* more) {
   const haptics::Range any{-1e9, 1e9};
   if (table.number(less, any) >= table.number(more, any)) table.fail(less, fmt::format("must be less than {}", more));
@@ -81,11 +81,11 @@ void check_engine(const haptics::TomlTable& table, const EngineSpec& engine) {
   require_order(table, "lug_below_rpm", "shift_to_rpm");
   require_order(table, "red_line_rpm", "limiter_rpm");
   if (engine.limiter - engine.limiter_band < engine.idle)
-    table.fail("limiter_band_rpm", "must not reach from limiter_rpm down to idle_rpm");
+    table.fail("limiter_band_rpm", "must not exceed limiter_rpm minus idle_rpm");
   const double first = engine.full_load[0].speed, last = engine.full_load[engine.points - 1].speed;
   if (first > engine.idle || last < engine.limiter)
     table.fail("full_load",
-               fmt::format("must reach from idle_rpm or below to limiter_rpm or above, but reaches from {} to {}",
+               fmt::format("must cover all speeds from idle_rpm to limiter_rpm, but covers only {} to {} rpm",
                            haptics::number_text(first / kPerRpm, 3), haptics::number_text(last / kPerRpm, 3)));
 }
 

@@ -1,4 +1,4 @@
-// A car as described by its TOML file: everything that affects shifting. The files name a source for each value.
+// A car as described by its TOML file: everything that affects shifting. The file names a source for each value.
 #pragma once
 
 #include <array>
@@ -36,13 +36,13 @@ struct EngineSpec {
   double shift_low = 210.0;      // [rad/s] lower end of the band for economical upshifts
   double shift_high = 262.0;     // [rad/s] upper end of the band for economical upshifts
   double lug_below = 120.0;      // [rad/s] below this speed, full load harms the engine
-  double shudder = 3.0;          // [N] amplitude of the vibration at a real car's knob as the engine dies
+  double shudder = 3.0;          // [N] amplitude of the vibration at the knob of a real car while the engine dies
 };
 
 struct ClutchSpec {
-  double capacity = 240.0;      // [N m] largest torque, pedal up
+  double capacity = 240.0;      // [N m] largest torque the clutch transmits, pedal up
   double bite = 0.75;           // [1] pedal position below which the clutch transmits torque
-  double closed = 0.15;         // [1] pedal position below which capacity is full; it grows quadratically from bite on
+  double closed = 0.15;         // [1] pedal position below which capacity is full; quadratic between bite and closed
   double disc_inertia = 0.006;  // [kg m^2] disc plus input shaft
 };
 
@@ -57,14 +57,14 @@ struct GearboxSpec {
 
 // All forward gears share these values; reverse has no synchroniser.
 struct SynchroSpec {
-  double friction = 0.10;        // [1] friction of the cone; below critical_friction() the synchroniser counts as worn
+  double friction = 0.10;        // [1] cone friction; below critical_friction() the synchroniser counts as worn
   double radius = 0.030;         // [m] mean radius of the cone
   double cone_angle = 0.11;      // [rad] half-angle
   double cones = 1.0;            // [1] number of friction surfaces
   double index_radius = 0.035;   // [m] radius of the blocking teeth
   double pointing_angle = 0.92;  // [rad] half-angle of the blocking teeth's points
   double index_friction = 0.09;  // [1]
-  double teeth = 36.0;           // [1] number of dogs
+  double teeth = 36.0;           // [1] number of dog teeth
   double dog_speed = 1.0;        // [rad/s] largest speed difference at which the dogs engage
   double lever_ratio = 9.0;      // [1] knob travel divided by sleeve travel
   double efficiency = 0.8;       // [1] efficiency of the linkage
@@ -74,11 +74,11 @@ struct BodySpec {
   double mass = 1200.0;               // [kg] with driver
   double rotating = 38.8;             // [kg] inertia of the wheels, as a mass at the rim
   double wheel_radius = 0.303;        // [m]
-  double resistance = 128.19;         // [N] a in a + b v + c v^2: rolling resistance
-  double resistance_slope = 0.0;      // [N s/m] b in a + b v + c v^2
-  double resistance_square = 0.4764;  // [N s^2/m^2] c in a + b v + c v^2: air drag
-  double brake_force = 9000.0;        // [N] with the pedal fully down
-  double hand_brake_force = 4500.0;   // [N] with the lever fully up
+  double resistance = 128.19;         // [N] rolling resistance, independent of speed
+  double resistance_slope = 0.0;      // [N s/m] part of the resistance proportional to speed
+  double resistance_square = 0.4764;  // [N s^2/m^2] air drag, proportional to speed squared
+  double brake_force = 9000.0;        // [N] brake force with the pedal fully down
+  double hand_brake_force = 4500.0;   // [N] brake force with the lever fully up
 };
 
 struct CarSpec {
@@ -94,17 +94,18 @@ struct CarSpec {
   std::string file;  // for messages
 };
 
-// Throws FileError with file, line, key, value and allowed range.
+// Both functions throw FileError with file, line, key, value and allowed range.
 CarSpec read_car(const std::filesystem::path& file);
 CarSpec parse_car(std::string_view text, const std::string& file_name);
 
-// Shaft speed divided by road speed [rad/m]: ratio * final drive / wheel radius. Negative in reverse, 0 in neutral.
+// Shaft speed divided by road speed [rad/m], i.e. ratio * final drive / wheel radius. Negative in reverse, 0 in
+// neutral.
 double shaft_per_road(const CarSpec& car, int gear) noexcept;
-// Torque at full throttle, net of engine friction [N m]. speed: [rad/s].
+// Torque at full throttle, net of engine friction [N m]. `speed` is in rad/s.
 double full_torque(const EngineSpec& engine, double speed) noexcept;
-// Engine friction with the throttle closed [N m]. speed: [rad/s].
+// Engine friction with the throttle closed [N m]. `speed` is in rad/s.
 double friction_torque(const EngineSpec& engine, double speed) noexcept;
-// Largest torque that the clutch can transmit [N m]. pedal: 0 up, 1 down.
+// Largest torque that the clutch can transmit [N m]. `pedal` is 0 when released and 1 when fully pressed.
 double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept;
 
 }  // namespace gearshift::vehicle

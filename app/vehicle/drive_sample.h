@@ -15,9 +15,9 @@ struct DriveSample {
   double time() const noexcept { return 1e-9 * static_cast<double>(lever.time_ns); }  // [s]
 };
 
-inline constexpr double kMaxSampleInterval = 0.1;  // [s] a longer interval is a gap in the recording
+inline constexpr double kMaxSampleInterval = 0.1;  // [s] a longer interval counts as a gap in the recording
 
-// True while the sleeve touches ring or dogs and the gear is not engaged.
+// True while the sleeve touches the synchroniser ring or the dogs, until the gear is in.
 inline bool touches_dogs(const DriveSample& sample) noexcept {
   return sample.car.sync != SyncPhase::free && sample.car.sync != SyncPhase::meshed;
 }

@@ -13,7 +13,8 @@ namespace {
 constexpr double kMaxStep = 0.5;       // [s]
 constexpr double kMaxSubstep = 0.002;  // [s] longest step of the midpoint rule
 constexpr double kGravity = 9.81;      // [m/s^2]
-// [N m] limit for one friction element. This torque brings two bodies (disc of usual inertia) to one speed in 0.1 ms.
+// [N m] Largest torque of one friction element. It brings a clutch disc of usual inertia to the engine's speed within
+// 0.1 ms.
 constexpr double kMaxTorque = 1e5;
 
 double finite(double value) noexcept {
@@ -99,8 +100,9 @@ void Driveline::set_input(const DrivelineInput& in) noexcept {
   is_first_step_ = false;
 }
 
-// Engaging dogs bring shaft and car to one speed at once. The clutch's torque is limited, so the clutch transmits no
-// impulse: the engine keeps its speed and the clutch slips.
+// Connects shaft and car by the dogs of `gear`. If `gear` is neutral, connects them by the cone of `cone_gear`.
+// Engaging dogs bring shaft and car to one speed at once. The clutch's torque is limited, so it transmits no impulse:
+// the engine keeps its speed and the clutch slips.
 void Driveline::mesh(int gear, int cone_gear) noexcept {
   const double per_road = shaft_per_road(car_, gear), cone_per_road = shaft_per_road(car_, cone_gear);
   if (per_road == 0.0) {
@@ -121,7 +123,8 @@ void Driveline::mesh(int gear, int cone_gear) noexcept {
   cone_gear_ = cone_gear;
 }
 
-// Time of the next kink of the clutch capacity, where torque begins or capacity is full. A substep ends there.
+// Returns the time of the next kink in the clutch capacity, where the moving pedal passes the bite point or the point
+// of full capacity. A substep ends at each kink.
 double Driveline::next_kink(double after) const noexcept {
   double next = length_;
   if (pedal_.from == pedal_.to) return next;
@@ -134,7 +137,8 @@ double Driveline::next_kink(double after) const noexcept {
 
 void Driveline::publish_state(double capacity) noexcept {
   const ChainMotion& motion = now_.motion;
-  const double engine = std::max(0.0, speed_[engine_body]);  // not -0, at which the car may have stopped the engine
+  // Changes -0 to 0: when the car stops the engine, the computed speed can be -0.
+  const double engine = std::max(0.0, speed_[engine_body]);
   state_.engine_speed = engine;
   state_.engine_load = engine_.load(engine, state_.throttle);
   state_.engine_torque = engine_.torque(engine, state_.throttle) - friction_torque(car_.engine, engine);

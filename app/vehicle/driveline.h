@@ -2,9 +2,9 @@
 //
 // Friction elements: the clutch (capacity set by the pedal), the synchroniser's cone, rolling resistance and brakes at
 // the car, drag at the shaft, and friction in the engine, which cannot turn backwards. Each element sticks or slips. A
-// step is split where an element changes from one to the other (event location); an element that starts to stick
-// conserves momentum; between events the midpoint rule is used. After kMaxEvents events in a substep, the rest of the
-// substep is solved by impulses.
+// step is split where an element starts to stick or to slip (event location). An element that starts to stick conserves
+// momentum. Between events the midpoint rule is used. After kMaxEvents events in a substep, the rest of the substep is
+// solved by impulses.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct DrivelineInput {
   bool starter = false;
   double slope = 0.0;        // [rad] uphill is positive
   int meshed = 0;            // gear whose dogs are engaged
-  int cone_gear = 0;         // gear whose cone rubs; 0: none. Always 0 while a gear is meshed
+  int cone_gear = 0;         // gear whose synchroniser cone rubs; 0: none. Always 0 while a gear is meshed
   double cone_torque = 0.0;  // [N m] capacity of the cone, measured at the gear, >= 0
 };
 
@@ -44,15 +44,14 @@ struct EnergyLedger {
 class Driveline {
  public:
   explicit Driveline(const CarSpec& car);
-  // Advances by `seconds` (limited to 0.5). Does not allocate. Inputs that are not finite count as 0.
-  // `in` holds the values at the end of the step. Pedals, slope and cone torque change linearly from the previous
-  // step's values (constant in the first step and in the first one after place()); gear and key change at the start of
-  // the step. If dogs engage at unequal speeds, shaft and car exchange momentum at once, and the clutch slips if
-  // necessary.
+  // Advances by `seconds` (at most 0.5). Does not allocate. Inputs that are not finite count as 0. `in` holds the
+  // values at the end of the step. Pedals, slope and cone torque change linearly from the previous step's values; they
+  // are constant in the first step after construction or place(). Gear and key change at the start of the step. If dogs
+  // engage at unequal speeds, shaft and car exchange momentum at once, and the clutch slips if necessary.
   void step(const DrivelineInput& in, double seconds) noexcept;
 
-  // Sets the speeds directly, in neutral, and resets the energy ledger: for the start of a lesson and for tests.
-  // stalled: the engine is off because it stalled; ignored if running.
+  // Sets the speeds directly, in neutral, and resets the energy ledger. Used at the start of a lesson and in tests.
+  // `stalled`: the engine is off because it stalled; ignored if `running`.
   void place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled = false) noexcept;
 
   // State of engine, clutch and car. Fields that the synchroniser determines keep their defaults.
@@ -68,7 +67,7 @@ class Driveline {
   };
   struct Loads {
     ChainLoads chain;
-    double lift = 0.0, brakes = 0.0;  // [N] gravity's part of chain.push, the brakes' part of chain.ground
+    double lift = 0.0, brakes = 0.0;  // [N] parts due to gravity (in chain.push) and to brakes (in chain.ground)
   };
   struct Reversed {
     bool clutch = false, cone = false;
@@ -78,7 +77,7 @@ class Driveline {
   struct Trial {
     PerBody speed;
     Loads loads;
-    ChainMotion motion;  // motion, like loads, is that of the step's midpoint
+    ChainMotion motion;  // motion and loads are those at the step's midpoint
     Solution end;
     bool ends_mode;
   };

@@ -8,7 +8,7 @@ namespace gearshift::vehicle {
 namespace {
 
 constexpr double kEventTime = 1e-11;  // [s] accuracy of event location
-constexpr int kMaxEvents = 20;        // per substep; then impulses take over: events can pile up (Zeno behaviour)
+constexpr int kMaxEvents = 20;        // per substep; impulses solve the rest, because events can accumulate (Zeno)
 
 // Speeds after `seconds`. Bodies that stick together get exactly matching speeds.
 PerBody advance_speeds(const FrictionChain& chain, const FrictionMode& mode, const PerBody& from, const PerBody& rate,
@@ -89,7 +89,8 @@ Driveline::Trial Driveline::try_step(double seconds) const noexcept {
   return trial;
 }
 
-// Returns the elements whose slip or rotation has changed sign. Elements without capacity do not count.
+// Returns the elements whose slip speed or rotation has changed sign. Elements without friction are omitted, except the
+// engine, which cannot turn backwards.
 Driveline::Reversed Driveline::reversed(const PerBody& speed, const Loads& loads) const noexcept {
   const FrictionMode& mode = now_.mode;
   const ChainLoads& capacity = loads.chain;
@@ -107,8 +108,8 @@ void Driveline::accept(const Trial& trial, double seconds) noexcept {
   if (!trial.ends_mode) now_ = trial.end;
 }
 
-// Makes elements that stop slipping within the event tolerance stick exactly. The speed that this removes builds up in
-// at most 10 ps; its kinetic energy is below rounding.
+// Makes elements that stop slipping within the event tolerance stick exactly. The removed slip speed is what builds up
+// in at most 10 ps, so its kinetic energy is below rounding.
 void Driveline::snap(const Reversed& elements) noexcept {
   if (!elements.any()) return;
   FrictionMode& mode = now_.mode;
@@ -119,7 +120,8 @@ void Driveline::snap(const Reversed& elements) noexcept {
   speed_ = collide(chain_, speed_, mode);
 }
 
-// Finds which elements stick from now on. Elements with a slip speed slip in that direction; the rest are solved for.
+// Finds which elements stick from now on. An element that already slips keeps slipping in the same direction; the modes
+// of the other elements are solved for.
 void Driveline::update_modes() noexcept {
   FrictionMode known;
   known.clutch = sign(speed_[engine_body] - speed_[shaft_body]);
@@ -128,8 +130,9 @@ void Driveline::update_modes() noexcept {
   now_ = solve_modes(chain_, loads_at(speed_, time_).chain, known, now_.mode);
 }
 
-// Impulse time stepping: loads and limits are held constant over the whole interval, and all elements are solved
-// together so that at its end each element sticks or slips against its full friction. First order, but always solvable.
+// Impulse time stepping: loads and limits are held constant over the whole interval. All elements are solved together
+// so that at the end of the interval each element sticks or slips against its full friction. The method is only
+// first-order accurate, but always has a solution.
 void Driveline::advance_by_impulses(double seconds) noexcept {
   ++fallbacks_;
   const Loads loads = loads_at(speed_, time_);
@@ -145,7 +148,7 @@ void Driveline::advance_by_impulses(double seconds) noexcept {
   update_modes();
 }
 
-// Energy is force times time times mean speed. The same forces changed the momentum, so the balance is exact.
+// Energy is force times time times mean speed. The same forces changed the momentum, so the energy balance is exact.
 void Driveline::account_energy(const Loads& loads, const ChainMotion& motion, const PerBody& to,
                                double seconds) noexcept {
   PerBody distance;

@@ -4,8 +4,8 @@
 
 namespace gearshift::vehicle {
 namespace {
-// The engine fires once the starter has turned it this fast and this far: the control of a four-stroke engine needs up
-// to two turns (12.57 rad) to find out which cylinder is next. Engineering values.
+// The engine fires once the starter has turned it this fast and this far. The control of a four-stroke engine needs up
+// to two turns (12.57 rad) to find out which cylinder is next. Both are engineering values.
 constexpr double kMinCrankSpeed = 0.5;    // [1] fraction of EngineSpec::starter_speed
 constexpr double kMinCrankAngle = 12.57;  // [rad]
 }  // namespace
@@ -27,7 +27,8 @@ void EngineControl::set(bool running, bool stalled) noexcept {
   has_run_ = running || stalled;
 }
 
-// An engine that fires below its stall speed, driven by the starter, has not run by itself yet.
+// The engine counts as running by itself only at or above its stall speed. Below that speed the starter still drives
+// it.
 void EngineControl::update(double speed) noexcept {
   firing_ = next(speed);
   if (!ignition_) {
@@ -49,13 +50,15 @@ EngineControl::FiringState EngineControl::next(double speed) const noexcept {
   return {running, running && cut};
 }
 
-// Below the table's first speed its first point applies: otherwise the starter could not bring the engine up to speed.
+// Below the table's first speed, the table's first point applies: otherwise the starter could not bring the engine up
+// to speed.
 double EngineControl::combustion_torque(double speed) const noexcept {
   const double tabled = spec_.points > 0 ? std::max(speed, spec_.full_load[0].speed) : speed;
   return full_torque(spec_, tabled) + friction_torque(spec_, speed);
 }
 
-// The idle control is proportional around the load that idling needs. The larger of its load and the pedal applies.
+// Proportional idle control: the load that idling needs, raised below idle speed and lowered above it. If the pedal's
+// load is larger, the pedal's load applies.
 double EngineControl::load(double speed, double pedal) const noexcept {
   if (!firing_.running || firing_.cut) return 0.0;
   const double idling = std::clamp(idle_load_ + spec_.idle_gain * (spec_.idle - speed), 0.0, 1.0);

@@ -10,14 +10,15 @@ class EngineControl {
   explicit EngineControl(const EngineSpec& spec) noexcept;
 
   void turn_key(bool ignition, bool starter) noexcept;
-  // Adds crankshaft rotation [rad]; counted only while the starter is on. While being started,
-  // the engine fires only after enough rotation.
+  // Adds crankshaft rotation [rad], counted only while the starter is on. A stopped engine fires only after enough
+  // rotation.
   void add_crank_angle(double angle) noexcept { cranked_ += starter_ ? angle : 0.0; }
-  // Sets the state directly. stalled: the engine is off because it stalled, the key still on; ignored if `running`.
+  // Sets the state directly. `stalled`: the engine is off because it stalled, and the key is still on; ignored if
+  // `running`.
   void set(bool running, bool stalled) noexcept;
   // Applies the effects of speed [rad/s] and key. Below its stall speed the engine dies, and stays off until the
-  // starter has turned it far and fast enough. It dies again if the key is released before the engine runs by itself.
-  // The limiter cuts the fuel until the speed has fallen by limiter_band.
+  // starter has turned it far and fast enough. If the key is released before the engine runs by itself, the engine dies
+  // again. The limiter cuts the fuel until the speed has fallen by limiter_band.
   void update(double speed) noexcept;
   bool would_change(double speed) const noexcept { return !(next(speed) == firing_); }
 
@@ -45,7 +46,7 @@ class EngineControl {
   bool ignition_ = true, starter_ = false;
   double cranked_ = 0.0;  // [rad] rotation since the starter was switched on
   FiringState firing_;
-  bool has_run_ = true, stalled_ = false;  // since the key was turned on
+  bool has_run_ = true, stalled_ = false;  // since the ignition was switched on
 };
 
 }  // namespace gearshift::vehicle

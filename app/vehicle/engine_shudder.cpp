@@ -6,7 +6,7 @@
 
 namespace gearshift::vehicle {
 namespace {
-constexpr double kFiringsPerTurn = 2.0;  // four cylinders, each firing every second turn
+constexpr double kFiringsPerTurn = 2.0;  // four cylinders, each of which fires every second turn
 constexpr double kMaxPeriod = 0.5;       // [s] same as kMaxStep in driveline.cpp
 }  // namespace
 

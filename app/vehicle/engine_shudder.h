@@ -6,24 +6,24 @@
 
 namespace gearshift::vehicle {
 
-// Fraction of the way from idle down to stall speed without shudder: gentle use of the clutch slows the engine by this
-// much before the idle control recovers.
+// Fraction of the speed range from idle down to stall in which the engine does not shudder. Gentle use of the clutch
+// slows the engine by up to this fraction before the idle control recovers.
 inline constexpr double kSmoothDip = 0.25;  // [1]
 
 // Strength of the vibration [1], 0 to 1, continuous. With engine speed w and w0 = idle - kSmoothDip (idle - stall):
 //   depth = (w0 - w) / (w0 - stall), limited to 0..1
-//   firing:  depth times the load T_clutch / T_friction(idle), limited to 0..1
-//   dead:    depth above the stall speed, w / stall below it: 1 as the engine dies under load, 0 at standstill
+//   engine running:      depth * load, with load = (clutch torque / engine friction at idle), limited to 0..1
+//   engine not running:  depth from the stall speed up, w / stall below it
 // The strength is 0 while the starter turns the engine, and with the ignition off.
 double engine_shudder(const EngineSpec& engine, const VehicleState& now) noexcept;
 
-// The engine's vibration at the lever: a force along the shift axis, a sine at the firing rate of four cylinders.
+// The engine's vibration at the lever: a sinusoidal force along the shift axis, at the firing rate of four cylinders.
 class LeverVibration {
  public:
-  // amplitude: force at the knob for shudder 1 [N].
+  // `amplitude`: force at the knob [N] when `shudder` is 1.
   explicit LeverVibration(double amplitude) noexcept : amplitude_(amplitude) {}
-  // Returns the force [N]: |force| <= amplitude * shudder. It starts at 0 and is exactly 0 while shudder is 0.
-  // engine_speed: [rad/s]. period: [s].
+  // Returns the force [N]: |force| <= amplitude * shudder. The force starts at 0 and is exactly 0 while `shudder` is 0.
+  // `engine_speed` is in rad/s, `period` in seconds.
   double step(double shudder, double engine_speed, double period) noexcept;
 
  private:

@@ -8,7 +8,7 @@
 namespace gearshift::vehicle {
 namespace {
 
-constexpr double kSlack = 1e-12;  // [1] tolerance relative to the forces: rounding must not cause slip
+constexpr double kSlack = 1e-12;  // [1] tolerance relative to the forces, so that rounding does not cause slip
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 // Distance of `force` from the range [low, high], 0 inside it.
@@ -17,7 +17,8 @@ double distance_outside(double force, double low, double high) noexcept {
   return by > 0.0 ? std::max(0.0, by - kSlack * (std::abs(force) + std::abs(force < low ? low : high))) : 0.0;
 }
 
-// Clutch and gear as arrays: link i joins bodies i and i + 1. While it sticks, speed i is ratio[i] times speed i + 1.
+// Clutch and gear as arrays. Link i joins bodies i and i + 1. While link i sticks, the speed of body i is ratio[i]
+// times the speed of body i + 1.
 struct Links {
   std::array<bool, 2> is_holding;
   std::array<double, 2> ratio, limit;
@@ -35,7 +36,7 @@ Links make_links(const FrictionChain& chain, const ChainLoads& loads, const Fric
 
 struct Segment {
   std::size_t first, last;     // first and last of the bodies that move as one
-  double force_in, force_out;  // [N m] or [N] acting on the first body, and passed on by the last one
+  double force_in, force_out;  // [N m] or [N] force on the first body; force passed on by the last body
 };
 
 // Acceleration is the sum of forces divided by the sum of inertias, both reduced to the last body; the torque of each
@@ -65,7 +66,8 @@ double solve_moving(const FrictionChain& chain, const ChainLoads& loads, const F
   return violation;
 }
 
-// Tooth losses depend on the direction of the power flow, which a solution without losses already shows.
+// Solves twice if the teeth have losses: the solution without losses shows the direction of the power flow, on which
+// the losses depend.
 void solve_moving_with_teeth(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode,
                              const Segment& segment, Links& links, ChainMotion& out) noexcept {
   double violation = solve_moving(chain, loads, mode, segment, 1.0, links, out);
@@ -79,8 +81,8 @@ void solve_moving_with_teeth(const FrictionChain& chain, const ChainLoads& loads
   if (segment.last == car_body) out.drive = transmitted * links.ratio[1] * links.torque[1];
 }
 
-// Solves bodies at rest on the ground. Their link torques are not unique, only bounded: a first pass from left to right
-// finds the ranges; a second pass, from right to left, picks the smallest torques that keep everything at rest.
+// Solves for bodies at rest on the ground. Their link torques are not unique, only bounded. A first pass from left to
+// right finds the ranges; a second pass from right to left picks the smallest torques that keep all bodies at rest.
 void solve_resting(const FrictionChain& chain, const ChainLoads& loads, const Segment& segment, Links& links,
                    ChainMotion& out) noexcept {
   std::array<double, 2> low{}, high{};
@@ -150,7 +152,7 @@ FrictionMode merged(const FrictionMode& known, const FrictionMode& guess) noexce
 
 constexpr int kModes = 3 * 3 * 3 * 3 * 3;
 
-// Enumerates the modes. Number 0, in which all elements stick, is the most frequent result of a change.
+// Returns mode `number`, 0 to kModes - 1. In mode 0 all elements stick; it is the most frequent result of a change.
 FrictionMode mode_of(int number) noexcept {
   FrictionMode mode;
   for (int* element :

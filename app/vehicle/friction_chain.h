@@ -15,7 +15,7 @@
 namespace gearshift::vehicle {
 
 enum Body : int { engine_body, shaft_body, car_body };
-using PerBody = std::array<double, 3>;  // indexed by Body; speeds: rad/s, rad/s, m/s
+using PerBody = std::array<double, 3>;  // indexed by Body; speeds are in rad/s, rad/s, m/s
 
 inline int sign(double x) noexcept {
   return (x > 0.0) - (x < 0.0);
@@ -37,7 +37,7 @@ struct ChainLoads {
   double cone = 0.0;    // [N m] capacity at the shaft
 };
 
-// For each element, 0: it sticks; +1 or -1: it slips or turns in that direction.
+// For each element: 0 if it sticks; +1 or -1 if it slips or turns in that direction.
 struct FrictionMode {
   int clutch = 0;  // +1: the engine is faster than the shaft
   int cone = 0;    // +1: the shaft is faster than the gear
@@ -50,7 +50,7 @@ struct ChainMotion {
   double gear = 0.0;       // [N m] torque from shaft to gear, measured at the shaft
   double drive = 0.0;      // [N] force of the gear on the car, after losses in the teeth
   PerBody ground{};        // [N m], [N m], [N] friction from the ground on each body
-  double violation = 0.0;  // total excess over friction limits, plus slip in the wrong direction; 0: consistent
+  double violation = 0.0;  // sum of excess over friction limits and of slip in the wrong direction; 0: consistent
 };
 
 // Motion in the given mode.
@@ -60,14 +60,14 @@ struct Solution {
   FrictionMode mode;
   ChainMotion motion;
 };
-// Returns the consistent mode and its motion. In `known`, +1 and -1 mark elements known to slip; elements at 0 are
-// solved for. `guess` is tried first. If rounding leaves no consistent mode, returns the one with the smallest
+// Returns the consistent mode and its motion. In `known`, +1 and -1 mark elements that are known to slip; the others
+// are solved for. `guess` is tried first. If rounding leaves no consistent mode, returns the mode with the smallest
 // violation.
 Solution solve_modes(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& known,
                      const FrictionMode& guess) noexcept;
 
-// Speeds after an impact in which bodies that stick together in `mode` reach one speed, and bodies that stick to the
-// ground come to rest. Bodies that stick to each other conserve their momentum.
+// Returns the speeds after an impact: bodies that stick together in `mode` reach one speed, bodies that stick to the
+// ground come to rest. Bodies that stick only to each other conserve their momentum.
 PerBody collide(const FrictionChain& chain, const PerBody& speed, const FrictionMode& mode) noexcept;
 
 double kinetic_energy(const FrictionChain& chain, const PerBody& speed) noexcept;  // [J]

@@ -14,20 +14,21 @@ struct Shape {
   double value = 0.0, slope = 0.0;
 };
 
-// |u|, rounded off where |v| < 1, v = u / width: slope v (3 - v^2) / 2, as in the gate's centring springs.
+// Like |u|, but rounded off for |u| < width. There the slope is v (3 - v^2) / 2 with v = u / width, as in the gate's
+// centring springs. For larger |u| the value is |u| - (0.375 width), so that it is continuous.
 Shape rounded(double u, double width) noexcept {
   const double v = u / width;
   if (std::abs(v) >= 1.0) return {std::abs(u) - 0.375 * width, v < 0.0 ? -1.0 : 1.0};
   return {width * v * v * (0.75 - 0.125 * v * v), 0.5 * v * (3.0 - v * v)};
 }
 
-// Rises from 0 to 1 over `width`, with zero slope at both ends.
+// Rises from 0 to 1 as u goes from 0 to width, with zero slope at both ends.
 Shape rise(double u, double width) noexcept {
   const double v = std::clamp(u / width, 0.0, 1.0);
   return {v * v * (3.0 - 2.0 * v), 6.0 * v * (1.0 - v) / width};
 }
 
-// Distance from the edge of the column to the edge of the nearest other column.
+// Distance [m] from the edge of this column of slots to the edge of the nearest other column.
 double gap_next_to(const haptics::Gate& gate, const haptics::Column& column) noexcept {
   double gap = gate.select_max - gate.select_min;
   for (const haptics::Column& other : haptics::columns(gate)) {
@@ -38,8 +39,8 @@ double gap_next_to(const haptics::Gate& gate, const haptics::Column& column) noe
 }
 
 struct Pull {
-  double energy = 0.0;  // [m] potential divided by the pull
-  dvec2 force{0.0};     // [1] force divided by the pull
+  double energy = 0.0;  // [m] guidance potential divided by kGuidancePull
+  dvec2 force{0.0};     // [1] guidance force divided by kGuidancePull
 };
 
 Pull pull_to(const haptics::Gate& gate, const haptics::Slot& slot, dvec2 p) noexcept {

@@ -1,6 +1,8 @@
-// A force that leads the lever to a gear, like an instructor's hand on the learner's; added to the force of a load.
+// A force that leads the lever to a gear, like an instructor's hand on the learner's. It is added to the force of a
+// load.
 //
-// Guidance is separate from the gearbox's mechanism: its walls are always there, while guidance fades (guidance.h).
+// Guidance is separate from the gearbox's mechanism: the walls of the mechanism are always there, while guidance fades
+// with the learner's progress (guidance.h).
 #pragma once
 
 #include <string>
@@ -12,12 +14,12 @@
 
 namespace gearshift::vehicle {
 
-inline constexpr double kGuidancePull = 3.0;  // [N] pull along the path at full strength, close to the gate's centring
-inline constexpr double kGuidanceRate = 2.0;  // [1/s] fastest change of the strength, which is 0 to 1
-inline constexpr double kGuidanceFadeTime = 1.0 / kGuidanceRate;  // [s] from full strength to zero
+inline constexpr double kGuidancePull = 3.0;  // [N] force at full strength, similar to the gates' centring force
+inline constexpr double kGuidanceRate = 2.0;  // [1/s] fastest change of the strength (0 to 1)
+inline constexpr double kGuidanceFadeTime = 1.0 / kGuidanceRate;  // [s] time from full to zero strength
 
 // Guidance at full strength for a proxy at this point: force F_g [N] and its potential V [J]. Both are zero if the gate
-// lacks the gear; the force is zero at the gear's rest position, too. With F = kGuidancePull:
+// lacks the gear. The force is also zero at the gear's rest position. With F = kGuidancePull:
 //
 //     V / F = X(x) - B (X(x) - X(c)) + (1 - W) S(|y|) + W (S(|y - y_gear|) - |y_gear|)
 //
@@ -28,12 +30,13 @@ inline constexpr double kGuidanceFadeTime = 1.0 / kGuidanceRate;  // [s] from fu
 glm::dvec2 guidance_force(const haptics::Gate& gate, int gear, glm::dvec2 proxy) noexcept;
 double guidance_energy(const haptics::Gate& gate, int gear, glm::dvec2 proxy) noexcept;
 
-// Follows DriverControls::guidance and guided_gear. The strength changes by at most kGuidanceRate, and a new gear
-// starts from zero strength, so guidance can release no more energy than its potential at full strength holds. Without
-// guidance the output is exactly that of the inner load.
+// Follows DriverControls::guidance and guided_gear. The strength changes by at most kGuidanceRate. When the gear
+// changes, the strength first falls to zero and then rises for the new gear. So for each gear, guidance releases at
+// most the energy that its potential holds at full strength. Without guidance the output is exactly that of the inner
+// load.
 class GuidedLoad final : public haptics::LeverLoad {
  public:
-  // inner must outlive this object; the gate is copied.
+  // `inner` must outlive this object; the gate is copied.
   GuidedLoad(haptics::LeverLoad& inner, const haptics::Gate& gate);
 
   haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override;

@@ -27,8 +27,8 @@ class LessonLoad final : public haptics::LeverLoad {
 };
 
 // For replay(): rebuilds the load that replay_parameters() describes, a LessonLoad or a CarLoad; returns null if the
-// text describes neither. Throws FileError if the car file in it is rejected, std::invalid_argument if the car does not
-// fit the gate.
+// text describes neither. Throws FileError if the car file in the text is rejected, std::invalid_argument if the car
+// does not fit the gate.
 std::unique_ptr<haptics::LeverLoad> make_lesson_load(const std::string& parameters, const haptics::Gate& gate);
 
 }  // namespace gearshift::vehicle

@@ -3,7 +3,8 @@
 namespace gearshift::vehicle {
 namespace {
 
-// Engine speed in `gear` at the current road speed, computed from that in the current gear. 0: no such gear.
+// Engine speed in `gear` at the current road speed, computed from the engine speed in the current gear. 0 if there is
+// no such gear.
 double engine_speed_in(const CarSpec& car, const VehicleState& now, int gear) noexcept {
   const double other = gear >= 1 ? shaft_per_road(car, gear) : 0.0;
   return other / shaft_per_road(car, now.gear) * now.engine_speed;

@@ -12,27 +12,29 @@
 namespace gearshift::vehicle {
 namespace {
 
-// SleeveStations, as fractions of the way from the detent's crest to the depth at which the gear counts as engaged.
+// Values of SleeveStations: fractions of the way from the detent's crest to the depth at which the gear counts as
+// engaged.
 constexpr double kBlock = 0.20;
 constexpr double kOut = 0.35;
 constexpr double kDogs = 0.45;
 constexpr double kHome = 0.95;
 
-constexpr double kContactTolerance = 1e-6;  // [m] a lever this close to a wall touches it
-constexpr double kStrutForce = 80.0;        // [N] force of the struts on the ring while the sleeve passes it
+constexpr double kContactTolerance = 1e-6;  // [m] a lever closer than this to a wall counts as touching it
+constexpr double kStrutForce = 80.0;        // [N] force of the spring struts on the ring while the sleeve passes
 constexpr double kBackTaper = 0.07;         // [1] tangent of the dogs' back taper, which holds the sleeve under load
-// [N s/m] damping of a sleeve that a pull beyond the holding force draws out
+// [N s/m] damping of the sleeve while a pull above the holding force draws it out
 constexpr double kDrawOutDamping = 20.0;
 constexpr double kMinLockForce = 0.2;         // [N] a smaller holding force cannot be felt and is dropped
 constexpr double kPushFilterTime = 0.010;     // [s] time constant of the push filter
-constexpr double kBumpFraction = 1.0 / 3.0;   // [1] largest second bump, as a fraction of the peak push
+constexpr double kBumpFraction = 1.0 / 3.0;   // [1] largest force of the second bump divided by the peak push
 constexpr double kMaxBumpStiffness = 2000.0;  // [N/m] largest slope of the bump
-// [kg] 0.35 times the lever's mass m: a bare lever does not buzz if the stiffness is <= 0.35 m / T^2 (haptic_config.h)
+// [kg] 0.35 times the lever's mass. A lever that no hand holds does not buzz if the stiffness is at most kQuietMass /
+// (cycle time)^2 (haptic_config.h).
 constexpr double kQuietMass = 0.03;
 constexpr double kRattleFraction = 0.25;   // [1] peak of the rattle divided by the push
-constexpr double kMinRattle = 0.01;        // [N] below this the rattle ends
+constexpr double kMinRattle = 0.01;        // [N] rattle force below which the rattle ends
 constexpr double kMaxRattle = 4.0;         // [N]
-constexpr double kMaxRattleRate = 120.0;   // [Hz] a hand does not feel a faster rattle
+constexpr double kMaxRattleRate = 120.0;   // [Hz] a hand cannot feel a faster rattle
 constexpr double kMinRattleSamples = 8.0;  // [cycles] smallest period of a rattle
 
 double smooth_step(double u) noexcept {
@@ -40,7 +42,7 @@ double smooth_step(double u) noexcept {
   return u * u * (3.0 - 2.0 * u);
 }
 
-// Next pseudorandom number of SplitMix64, >= 0 and < 1.
+// Next pseudorandom number of SplitMix64, in the range from 0 (included) to 1 (excluded).
 double draw(std::uint64_t& state) noexcept {
   std::uint64_t z = state += 0x9E3779B97F4A7C15;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9;
@@ -56,19 +58,22 @@ SleeveStations sleeve_stations(const haptics::Slot& slot) noexcept {
   return {slot.release_depth, at(kBlock), at(kOut), at(kDogs), at(kHome)};
 }
 
-// T_c / F, from the torque of n cones T_c = n F mu R / sin a, with the force F on the sleeve
+// Cone torque divided by the force F on the sleeve. The torque of n cones is (n F mu R) / sin a, with friction mu,
+// radius R and half-angle a.
 double cone_gain(const SynchroSpec& synchro) noexcept {
   return synchro.cones * synchro.friction * synchro.radius / std::sin(synchro.cone_angle);
 }
 
-// T_I / F, from the torque of the ring's teeth T_I = F R_I (cos b - mu_I sin b) / (sin b + mu_I cos b)
+// Torque of the ring's teeth divided by the force F on the sleeve. The torque is F R (cos b - mu sin b) / (sin b + mu
+// cos b), with the teeth's radius R, pointing angle b and friction mu.
 double index_gain(const SynchroSpec& synchro) noexcept {
   const double sine = std::sin(synchro.pointing_angle), cosine = std::cos(synchro.pointing_angle);
   const double mu = synchro.index_friction;
   return synchro.index_radius * (cosine - mu * sine) / (sine + mu * cosine);
 }
 
-// The torques of cone and teeth are both proportional to the push, so the push does not decide which one is larger.
+// The cone friction at which the torques of cone and ring teeth are equal. It does not depend on the push, because both
+// torques are proportional to the push.
 double critical_friction(const SynchroSpec& synchro) noexcept {
   return synchro.friction * index_gain(synchro) / cone_gain(synchro);
 }
@@ -125,7 +130,8 @@ void Synchroniser::update_mesh(const SleeveInput& in) noexcept {
   if (!is_meshed() && in.depth >= at_.dogs - kContactTolerance && speeds_match(in)) mesh(in.depth);
 }
 
-// The relative position of the teeth is random: the gear must turn aside by up to half a tooth in either direction.
+// Engages the slot's gear and sets the force of the second bump. That force depends on the teeth's relative position,
+// which is random: the sleeve must turn the gear by up to half a tooth in either direction.
 void Synchroniser::mesh(double depth) noexcept {
   meshed_ = haptics::slot_of(gate_, slot_).gear;
   held_depth_ = depth;
@@ -152,8 +158,8 @@ bool Synchroniser::speeds_match(const SleeveInput& in) const noexcept {
 }
 
 // The cone torque keeps the ring in the sleeve's way as long as the speeds differ. A lever that jumps past the ring
-// within one cycle has not passed it: the ring still blocks, and a wall holds the lever at its depth. Reverse has no
-// ring.
+// within one cycle has not passed it: the ring still blocks, and a wall holds the lever at the ring's depth. Reverse
+// has no ring.
 bool Synchroniser::ring_blocks(const SleeveInput& in) const noexcept {
   return ring_can_block_ && !has_passed_ring_ && !speeds_match(in) &&
          haptics::slot_of(gate_, slot_).gear != haptics::kReverseGear;
@@ -173,35 +179,36 @@ SyncPhase Synchroniser::phase(const SleeveInput& in) const noexcept {
   return ring_blocks(in) ? SyncPhase::synchronising : SyncPhase::passing;
 }
 
-// Force on the sleeve of the real gearbox [N] for a push on the device's knob [N].
+// Force on the sleeve of the real gearbox [N] that corresponds to a push on the device's knob [N].
 double Synchroniser::sleeve_force(double push) const noexcept {
   return std::max(0.0, push) / scale_ * synchro_.lever_ratio * synchro_.efficiency;
 }
 
-// The cone torque is proportional to the push, fading in smoothly between the detent and the depth at which the ring
-// blocks. While the sleeve moves through the ring, the struts supply the force: enough to hold the shaft's speed
-// against oil drag.
+// The cone torque is proportional to the push. It fades in smoothly between the detent and the depth at which the ring
+// blocks. While the sleeve moves through the ring, the spring struts press on the ring with enough force to hold the
+// shaft's speed against oil drag.
 double Synchroniser::cone_torque(const SleeveInput& in) const noexcept {
   if (haptics::slot_of(gate_, slot_).gear == haptics::kReverseGear || in.depth < at_.crest) return 0.0;
   if (has_passed_ring_) return cone_gain_ * kStrutForce;
   return cone_gain_ * sleeve_force(in.push) * smooth_step((in.depth - at_.crest) / (at_.block - at_.crest));
 }
 
-// Slipping dogs rub until their speeds match: with the clutch down, reverse or a worn gear eventually goes in.
+// Torque of clashing dogs, which rub until their speeds match. So with the clutch down, even reverse or a gear with a
+// worn synchroniser eventually goes in.
 double Synchroniser::rattle_torque(const SleeveInput& in) const noexcept {
   if (!dogs_clash(in)) return 0.0;
   return synchro_.index_friction * synchro_.index_radius * sleeve_force(in.push);
 }
 
-// Force at the device's knob [N] needed to pull the gear out, against friction and back taper of its loaded dogs.
+// Force at the device's knob [N] needed to pull the gear out, against friction and back taper of the loaded dogs.
 double Synchroniser::lock_force(const SleeveInput& in) const noexcept {
   if (in.clutch_open) return 0.0;
   const double sleeve = std::abs(in.load) * (synchro_.index_friction + kBackTaper) / synchro_.index_radius;
   return scale_ * sleeve / (synchro_.lever_ratio * synchro_.efficiency);
 }
 
-// Renders the friction that holds a loaded sleeve, as a wall: it follows the lever inwards and yields outwards only to
-// a pull above lock_force().
+// Renders the friction that holds a loaded sleeve as a wall. The wall follows the lever inwards, and yields outwards
+// only to a pull above lock_force().
 void Synchroniser::hold_under_load(const SleeveInput& in, double period, SleeveOutput& out) noexcept {
   const double lock = lock_force(in);
   out.torque_locked = lock > scale_ * kMaxHandForce;
@@ -212,14 +219,16 @@ void Synchroniser::hold_under_load(const SleeveInput& in, double period, SleeveO
   out.depth_min = lock < kMinLockForce ? 0.0 : held_depth_;
 }
 
-// The second bump: sin^2 in depth, so its slope is continuous; only on the way in. Largest slope: pi * peak / width.
+// Force of the second bump, only on the way in. It follows sin^2 of the depth, so its slope is continuous. The largest
+// slope is pi * peak / width.
 double Synchroniser::bump_force(double depth) const noexcept {
   if (bump_ == 0.0 || depth <= at_.dogs || depth >= at_.home) return 0.0;
   const double sine = std::sin(std::numbers::pi * (depth - at_.dogs) / (at_.home - at_.dogs));
   return -bump_ * sine * sine;
 }
 
-// Rattle of clashing dogs, at the rate at which teeth pass but no faster than a hand can feel. It only pushes outwards.
+// Magnitude of the rattle force of clashing dogs. It oscillates at the rate at which the teeth pass, but no faster than
+// a hand can feel. step() applies the force outwards.
 double Synchroniser::rattle_force(const SleeveInput& in, double period) noexcept {
   const bool on = dogs_clash(in);
   const double target = on ? std::min(kRattleFraction * push_, kMaxRattle) : 0.0;

@@ -6,8 +6,8 @@
 //       | indexes | the ring blocks while the speeds differ: a wall
 //
 // The synchroniser never sets the lever's position. It returns walls (limits of depth) and two small forces along the
-// slot: the second bump on the way in, and the rattle of clashing dogs. The speeds that it gets are those of the car's
-// last step; the push is one cycle old.
+// slot: the second bump on the way in, and the rattle of clashing dogs. Its inputs are the speeds from the
+// car's previous step and the push from the previous cycle.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace gearshift::vehicle {
 
-// Largest push of a driver on a real lever [N]: the alarm level of Lin and Young's paper (haptics/EQUATIONS.md). It
-// maps to the device's largest force, and all forces between lever and car are scaled by the same ratio.
+// Largest push of a driver on a real lever [N]: the alarm level in Lin and Young's paper (haptics/EQUATIONS.md). A push
+// this large corresponds to the device's largest force; all forces between lever and car are scaled by the same ratio.
 inline constexpr double kMaxHandForce = 60.0;
 
 // Depths in a slot [m], in increasing order.
@@ -36,14 +36,14 @@ SleeveStations sleeve_stations(const haptics::Slot& slot) noexcept;
 double cone_gain(const SynchroSpec& synchro) noexcept;
 // Torque with which the ring's teeth turn the ring aside, divided by the force on the sleeve [m].
 double index_gain(const SynchroSpec& synchro) noexcept;
-// Cone friction below which the sleeve can turn the ring aside before the speeds match. [1]
+// Cone friction [1] below which the sleeve can turn the ring aside before the speeds match.
 double critical_friction(const SynchroSpec& synchro) noexcept;
 
 struct SleeveInput {
   int slot = haptics::kNoSlot;  // slot that the lever is in
   double depth = 0.0;           // [m]
   double push = 0.0;            // [N] force of the hand on the knob; into the slot is positive
-  double feel = 0.0;            // [N] force of the gate's feel on the knob; into the slot is positive
+  double feel = 0.0;            // [N] force of the gate's springs and detents on the knob; into the slot is positive
   double difference = 0.0;      // [rad/s] speed difference of the slot's dogs, measured at the gear
   double load = 0.0;            // [N m] load torque, measured at the gear; either sign
   bool clutch_open = false;     // the clutch transmits no torque
@@ -56,7 +56,7 @@ struct SleeveOutput {
   double depth_min = 0.0;                 // [m] lower limit of depth; 0: no limit
   double depth_max = 0.0;                 // [m] upper limit of depth; the largest double: no limit
   double force = 0.0;                     // [N] force on the knob; into the slot is positive
-  double rattle = 0.0;  // [N] part of `force` from clashing dogs; it oscillates whatever the lever does
+  double rattle = 0.0;  // [N] part of `force` from clashing dogs; oscillates even if the lever is still
   SyncPhase phase = SyncPhase::free;
   double grind_power = 0.0;    // [W]
   bool torque_locked = false;  // the load is too high for any hand to pull the gear out
@@ -64,7 +64,7 @@ struct SleeveOutput {
 
 class Synchroniser {
  public:
-  // force_scale: device force divided by real force, > 0 and at most 1. meshed: gear engaged at the start; it stays
+  // `force_scale`: device force divided by real force, > 0 and <= 1. `meshed`: the gear engaged at the start. It stays
   // engaged only if the lever is in its slot at the first step.
   Synchroniser(const SynchroSpec& synchro, const haptics::Gate& gate, double force_scale, int meshed,
                std::uint64_t seed);

@@ -6,13 +6,13 @@
 namespace gearshift::vehicle {
 
 // Progress of the sleeve into a gear. Lovas, Savage, Magi: Dynamics of Gear Selector Mechanisms and Synchronisers,
-// 2006, distinguishes eight phases; these are the ones that a hand can tell apart.
+// 2006, distinguish eight phases; a hand can tell only the phases below apart.
 enum class SyncPhase : std::uint8_t {
   free,           // ring not touched
   indexing,       // past the detent, the ring turns into its blocking position
   synchronising,  // the cone rubs and the ring blocks the sleeve
   passing,        // speeds are equal, the sleeve turns the ring aside and moves on
-  second_bump,    // teeth meet: the sleeve turns the gear aside
+  second_bump,    // the sleeve's teeth meet the dogs and turn the gear aside
   clashing,       // dogs meet at unequal speeds: they rattle and do not engage
   meshed          // dogs engaged
 };
@@ -29,20 +29,21 @@ struct VehicleState {
   bool fuel_cut = false;       // the rev limiter has cut the fuel
   bool cranking = false;       // the starter turns the engine
   double shudder = 0.0;        // [1] 0 to 1: vibration of a labouring or dying engine
-  int shift_advice = 0;        // +1: shift up to save fuel; -1: shift down, the engine labours; 0: stay
+  int shift_advice = 0;        // +1: shift up; -1: shift down, because the engine labours; 0: stay
 
   // Clutch and gearbox
   double clutch_bite = 0.0;      // [1] pedal position at which a clutch coming up starts to transmit torque; 0: no car
   double clutch_closed = 0.0;    // [1] pedal position at which a clutch coming up has full capacity; 0: no car
   double clutch_capacity = 0.0;  // [N m] largest torque that the clutch can transmit now
   double clutch_torque = 0.0;    // [N m] torque transmitted; from engine to gearbox is positive
-  double shaft_speed = 0.0;      // [rad/s] gearbox input shaft and clutch disc; backwards is negative
+  double shaft_speed = 0.0;      // [rad/s] speed of gearbox input shaft and clutch disc; backwards is negative
   double slip_power = 0.0;       // [W] heating power in the clutch, >= 0
   double slip_energy = 0.0;      // [J] heat in the clutch since the start
   bool clutch_locked = false;
   int gear = 0;                      // engaged gear: kReverseGear, kNeutralGear or 1, 2, ...
   SyncPhase sync = SyncPhase::free;  // phase in the slot that the lever is in
-  // [rad/s] speed difference of the dogs in the lever's slot, measured at the gear; 0 in no slot or with a gear engaged
+  // [rad/s] speed difference of the dogs in the lever's slot, measured at the gear. It is 0 if the lever is in no slot
+  // or a gear is engaged.
   double dog_difference = 0.0;
   double grind_power = 0.0;    // [W] power lost in rattling dogs, >= 0
   bool grinding = false;       // dogs are rattling
@@ -56,7 +57,7 @@ struct VehicleState {
   double slope = 0.0;         // [rad] slope of the road; uphill is positive
   double throttle = 0.0, brake = 0.0, clutch = 0.0, hand_brake = 0.0;  // [1] 0 to 1, pedal and lever positions
   double steering = 0.0;                                               // [rad] steering wheel angle; left is positive
-  bool ignition = true;                                                // on with the engine off: warning lamps lit
+  bool ignition = true;                                                // lights the warning lamps if the engine is off
   bool turn_left = false, turn_right = false;                          // indicators
 
   // Lever

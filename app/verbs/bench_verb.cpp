@@ -48,7 +48,7 @@ std::string describe_gpu() {
     const engine::GpuTraits traits = engine::Gpu({}).traits();
     return traits.name + ", " + traits.driver;
   } catch (const std::exception&) {
-    return {};  // not an error, because most families need no GPU
+    return {};  // no error, because most families need no GPU
   }
 }
 
@@ -59,12 +59,12 @@ void report_problem(const std::string& problem) {
 struct Interrupted {};
 
 struct BenchMeasurement {
-  std::vector<lab::MeasuredRow> rows;  // results; for a family that failed, rows with the reason
+  std::vector<lab::MeasuredRow> rows;  // measured rows; if a family failed, its rows contain the reason
   bool is_complete = true;
 };
 
-// Measures the wanted families. If one fails, the others are measured anyway. Ctrl-C and similar signals stop the run
-// the next time a family reports its progress.
+// Measures the wanted families of rows. If a family fails, the other families are measured anyway. A signal such as
+// Ctrl-C stops the run the next time that a family reports its progress.
 BenchMeasurement measure(const BenchArguments& arguments) {
   base::ProgressBar progress;
   lab::BenchOptions options = arguments.options;
@@ -97,12 +97,13 @@ BenchMeasurement measure(const BenchArguments& arguments) {
   return measured;
 }
 
-// False for a run with fewer repetitions or changed block lengths, which cannot be compared with full runs.
+// False if the run has fewer repetitions or a different block length, because its results cannot be compared with those
+// of full runs.
 bool is_comparable(const lab::BenchOptions& options) {
   return !options.quick && options.jitter_block == lab::BenchOptions{}.jitter_block;
 }
 
-// Compares the run with this machine's last one, then saves it. A failure is reported but does not end the program, so
+// Compares the run with this machine's last run, then saves it. A failure is reported but does not end the program, so
 // that the results are not lost.
 void compare_and_save(lab::BenchRun& run) {
   try {
@@ -132,9 +133,9 @@ std::vector<lessons::ReportFile> format_files(const lab::BenchRun& run) {
   return files;
 }
 
-// Writes the result files. The measurement took minutes, so if a file cannot be written, this is reported and the
-// others are still written. Called before anything is printed to stdout, which may be a closed pipe. Returns the files
-// of the folder that were written completely; sets `all` to false if one is missing.
+// Writes the result files. If a file cannot be written, reports the problem and writes the other files anyway, because
+// the measurement took minutes. Called before anything is printed to stdout, which may be a closed pipe. Returns the
+// completely written files in the --out folder. `all`: set to false if a file is missing.
 std::vector<fs::path> write_files(const BenchArguments& arguments, std::optional<haptics::AtomicFile>& csv,
                                   const lab::BenchRun& run, bool& all) {
   std::vector<fs::path> written;
@@ -167,7 +168,7 @@ fs::path last_run_path(const lab::Machine& machine) {
   try {
     return lab::last_run_file(base::user_data_folder(), machine);
   } catch (const std::exception&) {
-    return {};  // compare_and_save() reports the problem
+    return {};  // compare_and_save() reports this problem
   }
 }
 
@@ -212,27 +213,27 @@ int run_bench(const BenchArguments& arguments) {
 
 void add_bench_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* verb =
-      app.add_subcommand("bench", "Measure the speed and error of the haptic loop, driveline, graphics and learning");
+  CLI::App* verb = app.add_subcommand(
+      "bench", "Measure the speed and accuracy of the haptic loop, driveline, graphics and learning");
   verb->footer(
       "Examples:\n"
       "  gearshift bench --quick\n"
       "  gearshift bench --family plant\n");
   std::vector<std::string> names;
   for (const lab::NamedFamily& family : lab::bench_families()) names.emplace_back(family.name);
-  verb->add_option("--family", arguments->families, "measure only this family; may be repeated")
+  verb->add_option("--family", arguments->families, "measure only this family of benchmarks; may be repeated")
       ->check(CLI::IsMember(names));
   verb->add_flag("--quick", arguments->options.quick,
-                 "fewer repetitions: takes about a minute, but its figures should not be quoted or compared");
+                 "use fewer repetitions: takes about a minute, but the results are too rough to quote or compare");
   verb->add_flag("--json", arguments->json, "print JSON to stdout");
-  verb->add_option("--csv", arguments->csv_file, "also write the rows as CSV")->type_name("FILE");
+  verb->add_option("--csv", arguments->csv_file, "also write the rows to this CSV file")->type_name("FILE");
   verb->add_option("--out", arguments->out,
                    "also write bench.html with plots, bench.csv, bench.json and FAMILY.svg to this folder")
       ->type_name("DIR");
-  verb->add_option(
-          "--block", arguments->options.jitter_block,
-          "length of each measuring block in the families jitter and beside [s]; 1 with --quick. Shorter blocks get no "
-          "verdict, and a run with another block length is not compared with the last run")
+  verb->add_option("--block", arguments->options.jitter_block,
+                   "length of each measurement block in the families jitter and beside [s]; 1 with --quick. Blocks "
+                   "shorter than the default are not checked against a goal, and only runs with the default length are "
+                   "compared with the last run")
       ->check(number_between(1.0, 600.0))
       ->capture_default_str();
   verb->callback([arguments, verb, &action] {

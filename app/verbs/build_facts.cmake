@@ -1,9 +1,10 @@
-# Writes the facts of this build to a header; does not touch the header if nothing has changed. Usage:
+# Writes facts about this build to a header. The header is not touched if nothing has changed. Usage:
 # cmake -D source=FOLDER -D header=FILE -D type=... -D compiler=... -D libraries=... -P build_facts.cmake
-set(commit "unknown")  # stays so without git, or for sources without their history
+set(commit "unknown")  # used if git or the source's history is not available
 find_program(git git)
 if(git)
-  # Uses only the .git in the source folder itself, because an unpacked release may lie inside a different repository.
+  # Use only the .git folder in the source folder itself, because an unpacked release may lie inside a different
+  # repository.
   execute_process(COMMAND ${git} --git-dir=${source}/.git --work-tree=${source} describe --always --dirty --abbrev=12
                   OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE code)
   if(code EQUAL 0)

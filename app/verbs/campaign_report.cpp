@@ -11,7 +11,7 @@
 namespace gearshift::verbs {
 namespace {
 
-constexpr std::size_t kMaxListedFailures = 20;  // maximum number of printed failures; the JSON has all of them
+constexpr std::size_t kMaxListedFailures = 20;  // maximum number of printed failures; the JSON contains all failures
 
 std::string law_row(lab::CampaignLaw law, const lab::LawSummary& summary) {
   const lab::LawText& law_info = lab::law_text(law);
@@ -24,7 +24,7 @@ std::string law_row(lab::CampaignLaw law, const lab::LawSummary& summary) {
 
 std::string laws_text(const lab::CampaignSummary& summary) {
   std::string text =
-      "| law | requirement | cases | worst value | bound | worst case | broken in cases "
+      "| law | requirement | cases | worst value | bound | worst case | cases that break the law "
       "|\n|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < lab::kCampaignLaws; ++i)
     text += law_row(static_cast<lab::CampaignLaw>(i), summary.laws[i]);
@@ -33,8 +33,8 @@ std::string laws_text(const lab::CampaignSummary& summary) {
 
 std::string groups_text(const lab::CampaignSummary& summary) {
   std::string text =
-      "| drawn property | value | cases | shifts | intended gear reached | cases with softened wall | cases stopped by "
-      "the guard | cases with limited tuning | cases with broken law |\n"
+      "| random property | value | cases | shifts | intended gear reached | cases with a softened wall | cases "
+      "stopped by the guard | cases with limited tuning | cases with a broken law |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const lab::CaseGroup& group : summary.groups) {
     const double reached =
@@ -58,14 +58,15 @@ std::string ripple_text(const lab::CampaignSummary& summary, bool promised) {
 
 std::string failures_text(const lab::CampaignSummary& summary) {
   if (summary.broken.empty()) return "No law was broken.\n";
-  std::string text = "| case | seed | law | value | bound | at s |\n|---|---|---|---|---|---|\n";
+  std::string text = "| case | seed | law | value | bound | time s |\n|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < summary.broken.size() && i < kMaxListedFailures; ++i) {
     const lab::BrokenLaw& one = summary.broken[i];
     text += fmt::format("| {} | {:016x} | {} | {:.4g} | {:.4g} | {:.3f} |\n", one.number, one.seed,
                         std::string(lab::law_text(one.law).name), one.result.value, one.result.bound, one.result.time);
   }
   if (summary.broken.size() > kMaxListedFailures)
-    text += fmt::format("\n{} more are listed in summary.json.\n", summary.broken.size() - kMaxListedFailures);
+    text +=
+        fmt::format("\n{} more broken laws are listed in summary.json.\n", summary.broken.size() - kMaxListedFailures);
   return text;
 }
 
@@ -84,15 +85,15 @@ nlohmann::ordered_json result_json(const lab::LawResult& result) {
 
 std::string campaign_text(const lab::CampaignSummary& summary) {
   return fmt::format(
-             "{} shifts in {} cases of seed {}: {} cycles, {:.1f} hours of simulated time; {} clean aims of a gripping "
-             "hand; {} cases rejected by the loop's checks\n\n",
+             "{} shifts in {} cases with seed {}: {} cycles, {:.1f} hours of simulated time; {} of the shifts must "
+             "reach the intended gear; {} cases rejected by the loop's checks\n\n",
              summary.shifts, summary.cases, summary.seed, summary.cycles, summary.seconds / 3600.0, summary.clean,
              summary.refused) +
          laws_text(summary) + "\n" + failures_text(summary) + "\n" + groups_text(summary) +
-         "\nPeak-to-peak motion of a lever held still for 3 s, measured in the last 0.5 s. Cases in which quiet is "
-         "promised:\n\n" +
-         ripple_text(summary, true) + "\nCases in which quiet is not promised:\n\n" + ripple_text(summary, false) +
-         "\n" + refusals_text(summary);
+         "\nPeak-to-peak motion of a lever held still for 3 s, measured in the last 0.5 s. Cases for which the "
+         "stability check guarantees no vibration:\n\n" +
+         ripple_text(summary, true) + "\nCases without a guarantee against vibration:\n\n" +
+         ripple_text(summary, false) + "\n" + refusals_text(summary);
 }
 
 std::string campaign_json(const lab::CampaignSummary& summary, const std::string& program) {
@@ -155,9 +156,8 @@ std::string case_text(const lab::CampaignCase& drawn, const lab::CaseOutcome& ou
       drawn.manner.last_push);
   if (!outcome.refused.empty()) return text + "rejected: " + outcome.refused + "\n";
   text += fmt::format(
-      "{} of {} shifts reached the intended gear; times that the wall was softened: {}; {:.1f} s of "
-      "simulated time\n",
-      outcome.reached, outcome.shifts, outcome.softened, outcome.seconds);
+      "{} of {} shifts reached the intended gear; the wall was softened {} time{}; {:.1f} s of simulated time\n",
+      outcome.reached, outcome.shifts, outcome.softened, outcome.softened == 1 ? "" : "s", outcome.seconds);
   for (std::size_t i = 0; i < lab::kCampaignLaws; ++i) {
     const lab::LawResult& result = outcome.laws.result(static_cast<lab::CampaignLaw>(i));
     const lab::LawText& law_info = lab::law_text(static_cast<lab::CampaignLaw>(i));

@@ -1,4 +1,4 @@
-// Formats a stability campaign as tables and as JSON.
+// Formats the results of a stability campaign as tables and as JSON.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace gearshift::verbs {
 
 std::string campaign_text(const lab::CampaignSummary& summary);  // Markdown
-// program: name, version and commit of the program that ran the campaign.
+// `program`: name, version and commit of the program that ran the campaign.
 std::string campaign_json(const lab::CampaignSummary& summary, const std::string& program);
 
 // Describes one case: its randomly drawn parameters and the result of every law.

@@ -33,13 +33,13 @@ namespace {
 
 constexpr const char* kCampaignFooter =
     "The seed and the case number determine the random gate, hand, rate, delay, jitter, encoder and tuning of each\n"
-    "case; the loop's checks limit its tuning or reject the case. A simulated hand then makes some dozens of shifts,\n"
-    "and every law is checked in every cycle.\n"
+    "case; the loop's checks may limit the tuning or reject the case. A simulated hand then makes several dozen\n"
+    "shifts, and every law is checked in every cycle.\n"
     "\n"
-    "Results are saved to cases.csv in the folder. If you stop the campaign (Ctrl-C), run the same command to resume\n"
-    "it. At the end, the folder contains summary.json and, for each failed case (100 at most), failures/SEED.trace\n"
-    "and SEED.txt, which names the broken laws. gearshift replay prints this too, with a command that reproduces the\n"
-    "failure. --case also writes a trace and, if a law is broken, such a text.\n"
+    "Results are saved to cases.csv in the folder. If you stop the campaign (Ctrl-C), run the same command to resume.\n"
+    "At the end, the folder contains summary.json and, for each of the first 100 failed cases, failures/SEED.trace\n"
+    "and SEED.txt, which names the broken laws. gearshift replay also prints these laws, with a command that\n"
+    "reproduces the failure. --case also writes a trace and, if a law is broken, a text file that names the law.\n"
     "\n"
     "Exit code: 0 if every law holds; 1 if a law is broken or the campaign failed or was stopped; 2 if the command\n"
     "line is invalid.\n"
@@ -68,12 +68,11 @@ int run_one_case(const CampaignArguments& arguments, const std::vector<haptics::
   return outcome.laws.any_broken() ? 1 : 0;
 }
 
-// Exits from the whole program, because the thread of a hung case cannot be stopped from outside. Finished cases are
-// already on disk.
+// Ends the whole program, because the thread of a hung case cannot be stopped. Finished cases are already on disk.
 [[noreturn]] void exit_with_hung_case(base::ProgressBar& bar, const lab::CampaignPlan& plan, std::uint64_t number) {
   bar.clear();
   base::print_message(
-      "case {} has not ended after {:g} s, so the campaign was stopped; finished cases are saved. To run only this "
+      "case {} did not finish within {:g} s, so the campaign was stopped; finished cases are saved. To run only this "
       "case: gearshift campaign --seed {} --case {} --out DIR",
       number, plan.case_time_limit, plan.seed, number);
   std::_Exit(1);

@@ -36,8 +36,8 @@ void reject_unknown_verb(const CLI::App& app, const std::string& word) {
   throw CLI::ParseError("unknown verb \"" + word + "\"; the verbs are " + verb_names(app), CLI::ExitCodes::ExtrasError);
 }
 
-// Rejects empty paths, which usually come from an unset shell variable: the output would go to the wrong place or be
-// lost.
+// Rejects empty paths, which usually come from an unset shell variable. With an empty path, the output would go to the
+// wrong place or be lost.
 void reject_empty_paths(const CLI::App& verb) {
   const auto is_file = [](const std::string& type) {
     const std::string kind = type.substr(0, type.find(':'));  // validators append ":..." to the type name
@@ -53,7 +53,7 @@ void reject_empty_paths(const CLI::App& verb) {
 }  // namespace
 
 VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv) {
-  app.require_subcommand(0, 1);  // a missing or unknown verb is reported below, with a better message than CLI11's
+  app.require_subcommand(0, 1);  // no verb is required here, because our own error message below is better than CLI11's
   VerbAction action;
   add_verbs(app, action);
   if (argc < 2) {

@@ -1,4 +1,5 @@
-// gearshift demo: renders the tour and two lessons off screen: pictures, sound, traces, plots and a page.
+// gearshift demo: renders a tour through all gears and two lessons off screen: pictures, sound, traces, plots and a
+// page.
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,7 +50,7 @@ int run(const DemoArguments& arguments) {
     base::print_out("{}\n", chapter.title);
     for (const std::string& sentence : chapter.text) base::print_out("  {}\n", sentence);
   }
-  if (result.has_report) base::print_out("{}/report.html: the report on the lessons\n", setup.tour.folder.string());
+  if (result.has_report) base::print_out("{}/report.html: the lesson report\n", setup.tour.folder.string());
   if (!result.tour.complete()) base::print_message("the simulated hand did not engage every gear in order");
   if (!result.passed) base::print_message("the simulated driver did not pass every lesson");
   return result.tour.complete() && result.tour.lost.times == 0 && result.passed ? 0 : 1;
@@ -72,14 +73,14 @@ void add_demo_verb(CLI::App& app, VerbAction& action) {
       "  gearshift demo --out demo\n"
       "  gearshift demo --gate dog_leg_five --out dog_leg\n");
   add_tour_options(*verb, arguments->tour);
-  verb->get_option("--out")->description("folder for page, pictures, sound, traces and plots; created if missing");
+  verb->get_option("--out")->description("folder for the page, pictures, sound, traces and plots; created if missing");
   verb->add_option("--size", arguments->size, "picture size [px]")->type_name("WxH")->capture_default_str();
   verb->add_option("--samples", arguments->samples, "samples per pixel: 1 or 4")
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
   verb->add_flag("--stereo", arguments->stereo, "render both eyes, side by side");
   verb->add_option("--film", arguments->film_rate,
-                   "also save the whole drive as a series of pictures, this many per second [1/s]")
+                   "also save the whole drive as a series of pictures, at this rate [pictures per second]")
       ->check(number_between(0.1, 60.0));
   verb->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }

@@ -1,4 +1,4 @@
-// gearshift devices: lists the connected sticks and their capabilities; calibrates them.
+// gearshift devices: lists the connected sticks and their capabilities, and calibrates them.
 #include <unistd.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::filesystem::path calibrations_folder() {
   return base::user_config_folder() / "devices";
 }
 
-// The folder of the calibrations; empty if no home folder is known, since nothing can have been calibrated then.
+// The folder of the calibrations. Empty if the home folder is unknown, in which case there are no calibrations.
 std::filesystem::path calibrations_to_read() {
   try {
     return calibrations_folder();
@@ -48,7 +48,7 @@ std::filesystem::path calibrations_to_read() {
   }
 }
 
-// The plugged-in sticks. On a machine without USB, prints the problem and returns an empty list.
+// Returns the connected sticks. On a machine without USB, prints the problem and returns an empty list.
 std::vector<runtime::ListedStick> plugged_sticks() {
   try {
     return runtime::list_sticks(haptics::usb_hid_devices(), calibrations_to_read());
@@ -58,7 +58,7 @@ std::vector<runtime::ListedStick> plugged_sticks() {
   }
 }
 
-// The devices that GLFW lists, including force-feedback sticks; empty without a display, which GLFW needs.
+// Returns the devices that GLFW lists, including force-feedback sticks. Empty without a display, which GLFW needs.
 std::vector<engine::PadState> glfw_pads() {
   return engine::has_display() ? engine::glfw_sticks() : std::vector<engine::PadState>{};
 }
@@ -120,17 +120,17 @@ void print_pads(const std::vector<engine::PadState>& pads) {
   print_rows(rows);
 }
 
-// Prints the udev rule that grants access, once for all sticks that the user may not open.
+// If the user may not open one of the sticks, prints once how to install the udev rule that grants access.
 void print_rule(const std::vector<runtime::ListedStick>& sticks) {
   const bool forbidden = std::any_of(
       sticks.begin(), sticks.end(), [](const runtime::ListedStick& stick) { return runtime::needs_permission(stick); });
   if (!forbidden) return;
   const std::string rule = (base::assets_folder() / "udev" / "70-gearshift.rules").string();
   base::print_out(
-      "To allow the user at this machine to open these sticks, run these commands once:\n"
+      "To let the logged-in user open these sticks, run these commands once:\n"
       "  sudo cp \"{}\" /etc/udev/rules.d/\n"
       "  sudo udevadm control --reload\n"
-      "Then plug the stick in again.\n",
+      "Then unplug the stick and plug it in again.\n",
       rule);
 }
 
@@ -155,8 +155,8 @@ int list_devices(bool as_json) {
   return 0;
 }
 
-// Calibrates the wanted device: measures a force-feedback stick, or lets the user assign the axes of other sticks and
-// pads, which needs a display for GLFW.
+// Calibrates the wanted device. Measures a force-feedback stick; for other sticks and pads, lets the user assign the
+// axes, which needs a display for GLFW.
 int calibrate(const std::string& wanted, bool again) {
   const std::vector<runtime::ListedStick> plugged = plugged_sticks();
   const runtime::ListedStick* stick = runtime::find_plugged_stick(wanted, plugged);

@@ -1,4 +1,4 @@
-// Ensures that an output file is neither an input nor a second output.
+// Ensures that an output file is neither an input nor another output.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace gearshift::verbs {
 
-// Throws CLI::ValidationError if the two paths name the same file. option: the option that names the output. both:
-// names of the two files for the message, e.g. "the drawing and the layout".
+// Throws CLI::ValidationError if both paths name the same file. `option`: the option that names the output. `both`:
+// description of the two files for the message, such as "the drawing and the layout".
 inline void check_distinct_outputs(const std::string& option, const std::string& both,
                                    const std::filesystem::path& written, const std::filesystem::path& other) {
   if (base::is_same_file(written, other)) throw CLI::ValidationError(option, both + " must be different files");

@@ -66,7 +66,7 @@ void add_gate_verb(CLI::App& app, VerbAction& action) {
   verb->footer(kGateExamples);
   verb->add_option("LAYOUT", options->layout, "layout file or shipped layout: " + join_names())->required();
   verb->add_flag("--json", options->json, "print JSON instead of the table");
-  verb->add_option("--svg", options->svg, "also draw the gate to scale in this file")->type_name("FILE");
+  verb->add_option("--svg", options->svg, "also save a scale drawing of the gate to this file")->type_name("FILE");
   verb->callback([options, &action] { action = [options] { return show_gate(*options); }; });
 }
 

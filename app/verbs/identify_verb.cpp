@@ -84,7 +84,7 @@ void add_identify_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--seed", arguments->seed,
                    "seed of the sensor noise and of the lever's model errors; default: the preset's")
       ->check(whole_number());
-  verb->add_option("--out", arguments->folder, "folder for Bode plots and test points; created if missing")
+  verb->add_option("--out", arguments->folder, "folder for the Bode plots and test points; created if missing")
       ->type_name("DIR");
   verb->add_flag("--json", arguments->json, "print JSON to stdout");
   verb->callback([arguments, &action] { action = [arguments] { return run_identify(*arguments); }; });

@@ -22,7 +22,8 @@ inline void add_mode_option(CLI::App& verb, std::optional<lessons::LessonMode>& 
           [&mode](const std::string& name) {
             mode = name == "follow-me" ? lessons::LessonMode::follow_me : lessons::LessonMode::by_yourself;
           },
-          "prompt each step, or only state the goal; default: follow-me until the lesson is passed")
+          "follow-me prompts every step, by-yourself states only the goal; default: follow-me until the lesson is "
+          "passed")
       ->check(CLI::IsMember({"follow-me", "by-yourself"}));
 }
 

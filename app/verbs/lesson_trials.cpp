@@ -27,7 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBatchSize = 256;  // [cycles] the coach's view is updated once per batch; each cycle is judged
+// [cycles] The coach judges every cycle, but updates its view only at this interval.
+constexpr std::size_t kBatchSize = 256;
 
 // Formats deducted points: "-2.0"; empty if the run is not graded.
 std::string format_points(const lessons::LessonResult& result, double points) {
@@ -51,12 +52,12 @@ void print_result(const lessons::LessonResult& result, std::int64_t run) {
   if (run > 0) base::print_out("Run {}: ", run);
   const std::size_t shifts = result.shifts.size();
   base::print_out("{} {} in {:.1f} s. ", shifts, shifts == 1 ? "shift" : "shifts", result.duration);
-  if (lessons::is_graded(result)) base::print_out("Grade {:.1f} of 10. ", result.grade);
+  if (lessons::is_graded(result)) base::print_out("Grade {:.1f}/10. ", result.grade);
   base::print_out("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
 }
 
 void print_shift(const lessons::ShiftRecord& shift, std::int64_t run) {
-  const std::int64_t number = shift.number + 1;  // printed numbers count from 1
+  const std::int64_t number = shift.number + 1;  // printed numbers start at 1
   if (run > 0) base::print_out("  run {}, shift {} saved: ", run, number);
   if (run == 0) base::print_out("  shift {}: ", number);
   base::print_out("{} to {} in {:.2f} s\n", haptics::gear_name(shift.from), haptics::gear_name(shift.to),
@@ -76,7 +77,7 @@ class Trials {
     int number = 0;
     while (number < trials_.runs && !base::StopSignals::requested()) drive(number++);
     coach_.flush();
-    // If the disk was full, deleting recordings that no run refers to may have made room for the results.
+    // If the disk was full, deleting unused recordings may have made room. Then try again to save the results.
     if (remove_unreferenced() && coach_.needs_room()) coach_.flush();
     report_coach_problem();
     if (number == trials_.runs && !is_interrupted_) return coach_.view().result.passed;
@@ -120,8 +121,8 @@ class Trials {
     print_result(coach_.view().result, coach_.view().run);
   }
 
-  // Prints goal and guidance. Called only once there are cycles, so that a lesson that cannot start prints only its
-  // error.
+  // Prints the lesson's goal and guidance. Called only after the first cycle, so that a lesson that cannot start prints
+  // only an error message.
   void print_start() {
     if (!std::exchange(has_printed_goal_, true))
       base::print_out("{}: {}\n", trials_.drive.lesson.title, trials_.drive.lesson.goal);
@@ -131,12 +132,14 @@ class Trials {
   void print_guidance() const {
     if (!trials_.help) return;
     const lessons::CoachView& view = coach_.view();
-    if (view.retention) base::print_out("Retention test after a day: no guidance.\n");
+    if (view.retention)
+      base::print_out("This run tests what you remember after a break of a day or more: no guidance.\n");
     if (!view.retention && view.guidance == 0.0) base::print_out("No guidance.\n");
     if (view.guidance > 0.0) base::print_out("Guidance {:.0f} %.\n", 100.0 * view.guidance);
   }
 
-  // Deletes automatic recordings to which no saved run refers, but not --trace files. Returns true if any was deleted.
+  // Deletes automatic recordings to which no saved run refers. Keeps files named with --trace. Returns true if it
+  // deleted a file.
   bool remove_unreferenced() {
     bool any = false;
     for (const std::string& file : coach_.take_unreferenced_recordings()) {
@@ -145,8 +148,8 @@ class Trials {
     return any;
   }
 
-  // Drives the lesson. A problem with an automatic recording does not stop it: if the recording cannot be created, the
-  // lesson runs without one; if the recording is incomplete, it is deleted to leave room for the history.
+  // Runs the lesson. If an automatic recording fails before the first cycle, runs the lesson without a recording. If it
+  // fails later, the results are kept. Either way, the failed recording is deleted.
   void run(lessons::LessonDriveConfig& drive, bool is_automatic_recording) {
     try {
       lessons::drive_lesson(drive, judge());
@@ -180,7 +183,7 @@ class Trials {
 
   lessons::LessonJudge judge() {
     return [this](const vehicle::DriveSample& sample) {
-      const lessons::LessonRun& run = coach_.judge(sample);
+      const lessons::LessonRun& run = coach_.assess(sample);
       is_interrupted_ = !run.is_over() && base::StopSignals::requested();
       const lessons::LessonProgress stand{run.view().step, run.view().guided_gear, run.is_over() || is_interrupted_};
       if (++pending_cycles_ == kBatchSize || stand.is_over) flush_cycles();
@@ -197,7 +200,7 @@ class Trials {
     report_coach_problem();
   }
 
-  // Call after the coach has saved the shifts.
+  // Call this after the coach has saved the shifts.
   void print_new_shifts() {
     const std::vector<lessons::ShiftRecord>& shifts = coach_.view().result.shifts;
     for (; trials_.prints_shifts && printed_shifts_ < shifts.size(); ++printed_shifts_)
@@ -210,16 +213,16 @@ class Trials {
     has_saved_ = has_saved_ || coach_.view().is_saving;
   }
 
-  // True if the problem was reported before. If nothing was ever saved, also true for a longer sentence that begins
-  // with a reported one, because it adds no information.
+  // True if the problem was already reported. Until something has been saved, also true if the problem begins with the
+  // text of a reported problem.
   bool is_already_reported(const std::string& problem) const {
     return std::any_of(reported_problems_.begin(), reported_problems_.end(), [&](const std::string& reported) {
       return problem == reported || (!has_saved_ && problem.starts_with(reported));
     });
   }
 
-  // Reports only the first problem with a recording: each run's recording has a different name, so all sentences would
-  // differ.
+  // Reports only the first problem with a recording. Each such message names a different file, so is_already_reported()
+  // would not recognise a repetition.
   void report_recording_problem(const std::string& problem) {
     if (!std::exchange(has_reported_recording_, true)) report_problem(problem);
   }
@@ -242,7 +245,7 @@ class Trials {
   std::size_t printed_shifts_ = 0;  // number of printed shifts of the current run
   std::set<std::string> automatic_recordings_;
   std::vector<std::string> reported_problems_;
-  bool is_interrupted_ = false;  // a signal stopped the current run, which counts as abandoned
+  bool is_interrupted_ = false;  // a signal stopped the current run; the run counts as abandoned
   bool has_saved_ = false, has_reported_recording_ = false, has_printed_goal_ = false, has_printed_guidance_ = false;
 };
 

@@ -57,7 +57,8 @@ std::string first_of(const std::string& option, const std::string& lesson, const
   return lesson.empty() ? fallback : lesson;
 }
 
-// The settings that are saved with a run: gate and car file, skill and deliberate errors of the simulated driver.
+// Returns the text that is saved with a run: the gate file, the car file, and the skill and the deliberate errors of
+// the simulated driver.
 std::string settings_of(const lessons::LessonDriveConfig& drive, const LessonArguments& arguments) {
   std::string text = fmt::format("gate = \"{}\"\ncar = \"{}\"\nsimulated_skill_error = {:g}\n", drive.gate.file,
                                  drive.car.file, arguments.skill_error);
@@ -73,8 +74,7 @@ void check_history(const std::string& trace, const fs::path& history) {
     check_distinct_outputs("--trace", "the recording and the history", trace, history.string() + suffix);
 }
 
-// Throws if the recording would overwrite a file that is not a recording: a mistyped name must not destroy a history or
-// any other file.
+// Throws if `trace` names an existing file that is not a recording, so that a mistyped name does not overwrite it.
 void check_recording(const std::string& trace) {
   std::error_code error;
   if (trace.empty() || !std::filesystem::is_regular_file(trace, error) || std::filesystem::is_empty(trace, error))
@@ -99,7 +99,7 @@ lessons::LessonDriveConfig make_drive(const LessonArguments& arguments) {
   config.guidance = arguments.guidance;
   config.seed = arguments.seed;
   for (const std::string& read : {config.lesson.file, config.car.file, config.gate.file})
-    check_distinct_outputs("--trace", "the recording and the lesson, car and gate", arguments.trace, read);
+    check_distinct_outputs("--trace", "the recording and the files of the lesson, car and gate", arguments.trace, read);
   check_recording(arguments.trace);
   config.trace = arguments.trace;
   return config;
@@ -139,7 +139,8 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("lesson", arguments->lesson, "shipped lesson or lesson file")->required();
   verb->add_option("--car", arguments->car, "shipped car or car file; default: the lesson's");
   verb->add_option("--gate", arguments->gate, "shipped gate or layout file; default: the lesson's or the car's");
-  verb->add_option("--skill-error", arguments->skill_error, "how unskilled the driver is: 0 is skilled, 1 a beginner")
+  verb->add_option("--skill-error", arguments->skill_error,
+                   "the driver's lack of skill: 0 is a skilled driver, 1 is a beginner")
       ->check(number_between(0.0, 1.0))
       ->capture_default_str();
   verb->add_option("--fault", arguments->errors, "driving error that the driver makes on purpose; may be repeated")
@@ -160,8 +161,9 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
   CLI::Option* learner = verb->add_option("--learner", arguments->learner, "save and record the runs under this name")
                              ->type_name("NAME")
                              ->check(validate_learner_name);
-  verb->add_option("--database", arguments->database,
-                   "history file to use instead of your own; recordings are saved in the folder recordings beside it")
+  verb->add_option(
+          "--database", arguments->database,
+          "history file to use instead of your own; recordings are saved next to this file, in the folder recordings")
       ->type_name("FILE")
       ->needs(learner);
   verb->add_option("--runs", arguments->runs, "number of runs, one after another")
@@ -171,7 +173,7 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
   add_mode_option(*verb, arguments->mode);
   verb->add_flag("--guided", arguments->guided, "choose the guidance automatically from this learner's past runs")
       ->excludes(guidance);
-  verb->add_flag("--verbose", arguments->verbose, "print a line for each shift once it is saved");
+  verb->add_flag("--verbose", arguments->verbose, "print a line after each shift is saved");
   verb->callback([arguments, &action] { action = [arguments] { return run_lesson(*arguments); }; });
 }
 

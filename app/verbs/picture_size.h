@@ -15,7 +15,7 @@ struct PictureSize {
   int width = 0, height = 0;  // [px]
 };
 
-// stereo: the width must be even, because both eyes share it. Throws CLI::ValidationError.
+// With `stereo`, the width must be even, because each eye gets half of it. Throws CLI::ValidationError.
 inline PictureSize picture_size(const std::string& text, bool stereo) {
   PictureSize size;
   const char* const end = text.data() + text.size();

@@ -4,7 +4,7 @@
 
 namespace gearshift::verbs {
 
-// Prints the results of a tour to stdout; prints problems and limited parameters to stderr.
+// Prints the results of a tour (a shift into every gear) to stdout. Prints problems and limited parameters to stderr.
 void print_tour(const lab::TourSetup& setup, const lab::TourResult& result);
 
 }  // namespace gearshift::verbs

@@ -66,8 +66,9 @@ void add_render_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--samples", arguments->samples, "samples per pixel: 1 or 4")
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
-  verb->add_option("--camera", arguments->camera,
-                   "fit, driver, ahead, lever, gate, cluster or gearbox; or the eye and its target as X,Y,Z:X,Y,Z [m]")
+  verb->add_option(
+          "--camera", arguments->camera,
+          "fit, driver, ahead, lever, gate, cluster or gearbox; or the eye and target points as X,Y,Z:X,Y,Z [m]")
       ->capture_default_str();
   verb->add_option("--fov", arguments->fov,
                    "field of view across the shorter side [deg]; default: 58, or that of the named camera")

@@ -73,7 +73,7 @@ std::unique_ptr<haptics::LeverLoad> make_load(const std::string& name, const hap
   return no_load ? std::move(no_load) : vehicle::make_lesson_load(name, gate);
 }
 
-// Exports every cycle, and replays up to the first difference, while it reads the file once.
+// Reads the file once. Exports every cycle, and replays the cycles up to the first difference.
 int replay_file(const ReplayOptions& options) {
   haptics::TraceReader reader(options.trace);
   haptics::Replayer replayer(reader.header(), options.trace.string(), make_load);
@@ -112,7 +112,7 @@ void print_shift(const lessons::ShiftRecord& shift, double begin) {
                   change, shift.clutch_time, shift.lever_time, shift.end - shift.begin, shift.missed ? "missed" : "");
 }
 
-// Lists the shifts of the part that replays as recorded. The list ends at the first cycle that replays differently.
+// Lists the shifts up to the first cycle whose replay differs from the recording.
 int list_shifts(const ReplayOptions& options) {
   const lessons::RecordedDrive drive(options.trace);
   if (!drive.has_car()) base::print_out("The drive has no car, so there are no shifts to list.\n");

@@ -1,4 +1,5 @@
-// gearshift report: learners' results as a table, a page or CSV; comments, next lesson, deletion.
+// gearshift report: learners' results as a table, a page or CSV. Also edits comments, sets the next lesson and deletes
+// learners.
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,8 +37,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReportHelp =
-    "Show learners' results: a table of all learners or, for one learner, a table of runs, a page with curves, "
-    "weaknesses, shifts and runs, or CSV files.";
+    "Show the results of all learners as a table, or the results of one learner as a table of runs, a web page or CSV "
+    "files.";
 constexpr const char* kReportExamples =
     "\nExamples:\n"
     "  gearshift report                                      all learners\n"
@@ -47,7 +48,8 @@ constexpr const char* kReportExamples =
     "  gearshift report --learner Ada --edit-comment 3 \"Calmer.\"   3 is the number of the comment in the table of "
     "runs\n"
     "  gearshift report --learner Ada --delete-comment 3\n"
-    "  gearshift report --learner Ada --next hill_start      overrides the suggested lesson; \"\" returns to it\n"
+    "  gearshift report --learner Ada --next hill_start      overrides the suggested lesson; \"\" restores the "
+    "suggestion\n"
     "  gearshift report --learner Ada --delete               permanently deletes Ada's results and recordings\n";
 
 constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kFaults = "faults.csv";
@@ -56,7 +58,7 @@ using NumberedText = std::pair<std::int64_t, std::string>;
 
 struct ReportArguments {
   std::string learner, database, out, by, next;
-  std::optional<NumberedText> comment, edit;    // comment: run's number and text; edit: comment's number and new text
+  std::optional<NumberedText> comment, edit;    // `comment`: run number, text; `edit`: comment number, new text
   std::optional<std::int64_t> deleted_comment;  // number of the comment to delete
   bool csv = false, sets_next = false, deletes_learner = false, yes = false;
 };
@@ -112,7 +114,7 @@ void write_report(const ReportArguments& arguments, lessons::History& history, c
                               [](const fs::path& file) { base::print_out("{}\n", file.string()); });
 }
 
-// Sets the learner's next lesson. lesson: key of a shipped lesson; empty: the suggested one.
+// Sets the learner's next lesson. `lesson` is the key of a shipped lesson; if empty, the suggested lesson comes next.
 void set_next(const std::string& lesson, lessons::History& history, const lessons::LearnerRow& learner) {
   const std::vector<lessons::Lesson> lessons = lessons::shipped_lessons();
   std::string keys;
@@ -151,7 +153,8 @@ std::string counted(std::size_t number, std::string_view noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
-// Reports deleted rows that are still in the file. left: the reason; empty if there are none. Returns the exit code.
+// Prints `left`, the reason why deleted rows may still be readable in the history file; empty if none are. Returns the
+// exit code.
 int report_leftovers(const std::string& left) {
   if (!left.empty()) base::print_message("{}", haptics::printable(left));
   return left.empty() ? 0 : 1;
@@ -172,14 +175,14 @@ void confirm(const ReportArguments& arguments, const lessons::LearnerRow& learne
   std::string again;
   const bool is_answered = static_cast<bool>(std::getline(std::cin, again));
   if (again == learner.name) return;
-  const bool is_line_open = !is_answered || isatty(STDIN_FILENO) == 0;  // on a terminal, Enter has ended the line
+  const bool is_line_open = !is_answered || isatty(STDIN_FILENO) == 0;  // in a terminal, Enter has ended the line
   if (is_line_open) base::print_to(stderr, "\n");
   throw std::runtime_error(fmt::format("{} was not deleted: {}", haptics::printable(learner.name),
                                        is_answered ? "the name does not match" : "no answer given"));
 }
 
-// Deletes the learner. If the learner no longer exists, finishes an earlier deletion that is still incomplete. first:
-// recordings that have already been deleted.
+// Deletes the learner. If the learner no longer exists, completes an earlier deletion that was interrupted. `first`:
+// recordings that are already deleted.
 int erase_learner(const ReportArguments& arguments, lessons::History& history, const std::vector<std::string>& first) {
   if (!history.find_learner(arguments.learner) && history.erasure_is_pending()) {
     const std::string left = history.finish_erasure();
@@ -210,8 +213,8 @@ std::unique_ptr<lessons::History> try_open_history(const fs::path& file) {
   }
 }
 
-// Deletes the learner from the history. If the disk is too full to open the history for writing, deletes the recordings
-// first to make room.
+// Deletes the learner from the history. If the disk is too full to open the history for writing, deletes the learner's
+// recordings first.
 int delete_history(ReportArguments arguments, const fs::path& file) {
   std::unique_ptr<lessons::History> history = try_open_history(file);
   std::vector<std::string> first;
@@ -239,7 +242,8 @@ int report_learner(const ReportArguments& arguments, lessons::History& history) 
   return 0;
 }
 
-// Runs the verb. Never creates a history, and opens it read-only if possible, so that no write permission is needed.
+// Runs the verb. Never creates a history. Opens the history read-only if possible, so that no write permission is
+// needed.
 int run_report(const ReportArguments& arguments) {
   const fs::path file = history_file(arguments);
   check_out(arguments, file);

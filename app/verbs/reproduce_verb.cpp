@@ -52,7 +52,7 @@ void print_result(const lab::Study& study, const std::vector<lab::Section>& sect
   base::print_out("{}\n", (study.folder / "index.html").string());
 }
 
-// Runs the verb. Checks all arguments before it creates the folder.
+// Runs the verb. Creates the output folder only after all arguments are checked.
 int run_reproduce(const ReproduceArguments& arguments) {
   const haptics::Preset preset = haptics::read_preset(base::find_asset("presets", arguments.preset).string());
   const lab::Study study =
@@ -73,15 +73,15 @@ int run_reproduce(const ReproduceArguments& arguments) {
 void add_reproduce_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<ReproduceArguments>();
   CLI::App* verb = app.add_subcommand(
-      "reproduce", "Reproduce every figure and table of the paper on a page, beside the printed values");
+      "reproduce", "Reproduce every figure and table of the paper on a page, next to the published values");
   verb->footer(
       "Examples:\n"
       "  gearshift reproduce --out paper\n");
-  verb->add_option("--out", arguments->folder, "folder for page, pictures and data; created if missing")
+  verb->add_option("--out", arguments->folder, "folder for the page, pictures and data; created if missing")
       ->type_name("DIR")
       ->required();
   verb->add_option("--preset", arguments->preset, "shipped preset or preset file")->capture_default_str();
-  verb->add_option("--only", arguments->only, "make only these sections: " + ids())
+  verb->add_option("--only", arguments->only, "create only these sections: " + ids())
       ->type_name("ID")
       ->check(reject_unknown_section);
   verb->callback([arguments, &action] { action = [arguments] { return run_reproduce(*arguments); }; });

@@ -64,7 +64,7 @@ std::string device_name(const StabilityArguments& arguments) {
 constexpr std::array kHolds = {haptics::ContactHold::zero_order, haptics::ContactHold::half_sample,
                                haptics::ContactHold::observer};
 
-// name: key of one of kHolds, which the option's check guarantees.
+// `name` must be the key of a hold in kHolds. The validator of the command-line option guarantees this.
 haptics::ContactHold hold_of(const std::string& name) {
   return *std::find_if(kHolds.begin(), kHolds.end(),
                        [&](haptics::ContactHold hold) { return name == haptics::hold_key(hold); });
@@ -97,8 +97,8 @@ std::vector<lab::JudgedHand> hands_of(const std::string& text) {
   return {{"given", *parsed}};
 }
 
-// Runs the analysis and rejects an invalid hand. Only the hand's three values are checked by the analysis; all other
-// options are checked against their ranges when they are parsed.
+// Runs the analysis. If the analysis rejects its input, the error names the hand: all other options were checked when
+// they were parsed.
 lab::StabilityAnswer answer_or_reject(const lab::StabilityQuestion& question, const std::string& hand) {
   try {
     return lab::answer(question);
@@ -116,7 +116,7 @@ void write(haptics::AtomicFile& out, const std::string& file, const std::string&
 void write_map(const StabilityArguments& arguments, const lab::StabilityQuestion& question,
                const lab::StabilityAnswer& answer) {
   if (arguments.svg_file.empty() && arguments.csv_file.empty()) return;
-  // prepare() detects a wrong path before the map is computed.
+  // prepare() reports an unusable path now, before the long computation of the map.
   std::optional<haptics::AtomicFile> svg, csv;
   if (!arguments.svg_file.empty()) svg.emplace(arguments.svg_file).prepare();
   if (!arguments.csv_file.empty()) csv.emplace(arguments.csv_file).prepare();
@@ -140,7 +140,7 @@ int run_stability(const StabilityArguments& arguments) {
 }
 
 void add_device_options(CLI::App& verb, StabilityArguments& arguments) {
-  verb.add_option("--axis", arguments.axis, "use the handle of this axis of the paper's device")
+  verb.add_option("--axis", arguments.axis, "use the mass, damping and stiffness of this axis of the paper's device")
       ->check(CLI::IsMember({"x", "y"}))
       ->capture_default_str();
   verb.add_option("--mass", arguments.mass, "mass of the handle [kg]")->check(number_between(1e-3, 1e3));
@@ -183,9 +183,10 @@ void add_stability_verb(CLI::App& app, VerbAction& action) {
   verb->footer(kStabilityExamples);
   add_device_options(*verb, *arguments);
   add_wall_options(*verb, *arguments);
-  verb->add_flag("--json", arguments->json, "print JSON to stdout; an infinite limit is null");
-  verb->add_option("--svg", arguments->svg_file, "draw a map of the stable K and B in this file")->type_name("FILE");
-  verb->add_option("--csv", arguments->csv_file, "write the map of the stable K and B to this file as CSV")
+  verb->add_flag("--json", arguments->json, "print JSON to stdout, with null for an infinite limit");
+  verb->add_option("--svg", arguments->svg_file, "draw a map of the stable K and B values to this file")
+      ->type_name("FILE");
+  verb->add_option("--csv", arguments->csv_file, "write the map of the stable K and B values to this file as CSV")
       ->type_name("FILE");
   verb->callback([arguments, &action] { action = [arguments] { return run_stability(*arguments); }; });
 }

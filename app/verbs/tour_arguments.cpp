@@ -15,9 +15,9 @@
 namespace gearshift::verbs {
 namespace {
 
-// Checks the hand by constructing a lever with it: the constructor throws if the hand cannot be simulated.
+// Checks the hand by constructing a lever with it. The constructor throws if the hand cannot be simulated.
 void check_on_lever(const haptics::HandImpedance& hand) {
-  constexpr std::int64_t kAnyPeriod = 1'000'000;  // [ns] the check does not depend on it
+  constexpr std::int64_t kAnyPeriod = 1'000'000;  // [ns] any value; the check does not depend on the period
   haptics::SimulatedLeverConfig config;
   config.hand = hand;
   haptics::IdleHand idle_hand;
@@ -59,18 +59,19 @@ lab::TourSetup make_tour_setup(const TourArguments& arguments) {
 }
 
 void add_tour_options(CLI::App& verb, TourArguments& arguments) {
-  verb.add_option("--out", arguments.folder, "folder for trace and plots; created if missing")
+  verb.add_option("--out", arguments.folder, "folder for the trace and plots; created if missing")
       ->type_name("DIR")
       ->required();
   verb.add_option("--gate", arguments.gate, "shipped gate or layout file")->capture_default_str();
-  verb.add_option("--preset", arguments.preset, "shipped preset or preset file with the device and the configuration")
+  verb.add_option("--preset", arguments.preset,
+                  "shipped preset or preset file: sets the device and the haptic parameters")
       ->capture_default_str();
   verb.add_option("--hand", arguments.hand,
                   "simulated hand: light, grip or arm; or its mass, damping and stiffness as M,B,K [kg, N s/m, N/m]; "
                   "default: the preset's hand, or grip if the preset's is too soft to move the lever");
   verb.add_option("--rate", arguments.rate, "rate of the haptic cycle [Hz]; default: the preset's")
       ->check(number_between(100.0, 4000.0));
-  verb.add_option("--seed", arguments.seed, "seed of the hand's random aims")
+  verb.add_option("--seed", arguments.seed, "seed of the random errors in the hand's aim")
       ->check(whole_number())
       ->capture_default_str();
 }

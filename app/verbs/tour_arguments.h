@@ -15,12 +15,12 @@ struct TourArguments {
   std::string folder;
   std::string gate = "paper";
   std::string preset = "default";
-  std::string hand;            // empty: the preset's hand, or "grip" if that hand is too soft to move the lever
+  std::string hand;            // empty: the preset's hand, or "grip" if the preset's is too soft to move the lever
   std::optional<double> rate;  // [Hz] empty: the preset's rate
   std::uint64_t seed = 1;
 };
 
-// Parses a hand. Throws CLI::ValidationError if it is invalid or not stiff enough to move the lever.
+// Parses a hand. Throws CLI::ValidationError if the hand is invalid or not stiff enough to move the lever.
 haptics::HandImpedance driving_hand(const std::string& text);
 
 void add_tour_options(CLI::App& verb, TourArguments& arguments);

@@ -1,4 +1,4 @@
-// gearshift tour: a simulated hand, or the user with a stick, shifts through every gear without graphics; writes a
+// gearshift tour: a simulated hand, or the user with a stick, shifts through every gear without graphics. Writes a
 // trace and plots.
 #include <unistd.h>
 
@@ -39,14 +39,14 @@ void print_files(const lab::TourSetup& setup) {
       setup.folder.string());
 }
 
-// Prints a line and flushes it, because the user at the stick, or a script, is waiting for it.
+// Prints a line and flushes stdout, because the user at the stick, or a script, is waiting for the line.
 void print_now(const std::string& line) {
   base::print_out("{}\n", line);
   std::fflush(stdout);
 }
 
-// Lets the user drive the tour with the stick. Releases the stick before it returns, so that the stick is free while
-// the plots are drawn.
+// Lets the user drive the tour with the stick. Closes the stick before it returns, so that other programs can use the
+// stick while the plots are drawn.
 lab::TourResult drive_by_person(lab::TourSetup& setup, const TourVerbArguments& arguments,
                                 const lab::TourProgress& progress) {
   const base::StopSignals signals;
@@ -75,7 +75,7 @@ int run_held_tour(const TourVerbArguments& arguments) {
   return 1;
 }
 
-// Runs the tour with a simulated hand. Checks all arguments before it creates the folder.
+// Runs the tour with a simulated hand. Creates the output folder only after all arguments are checked.
 int run_tour(const TourArguments& arguments) {
   const lab::TourSetup setup = make_tour_setup(arguments);
   base::make_folder(setup.folder);

@@ -23,23 +23,23 @@
 namespace gearshift::verbs {
 namespace {
 
-constexpr double kDefaultSeconds = 5.0, kMaxSeconds = 600.0;  // [s] durations of an off-screen run
+constexpr double kDefaultSeconds = 5.0, kMaxSeconds = 600.0;  // [s] default and maximum duration of an off-screen run
 
 struct TrainArguments {
   session::SessionChoice choice;
   std::string device{session::kSimulatedDevice}, bindings, size = "1280x720", offscreen, or_demo;
-  int samples = 0;  // 0: 4 on a GPU, 1 on a software driver
+  int samples = 0;  // samples per pixel; 0: 4 on a GPU, 1 with a software driver
   std::string database, replay;
   std::optional<std::size_t> shift;
   bool stereo = false, no_panel = false, silent = false;
   bool xr = false;
   double xr_scale = 1.0;         // [1] see HeadsetViewConfig::scale
-  std::string drive;             // left or right; empty: as saved for the headset, otherwise left
+  std::string drive;             // driver's side, left or right; empty: as saved for the headset, otherwise left
   std::optional<double> height;  // [m] see SeatSettings::height
-  std::vector<double> knob;      // [m] right, down, ahead, see KnobDistance
+  std::vector<double> knob;      // [m] distances right, down, ahead, see KnobDistance
   bool no_help = false;
   double from = 0.0;              // [s] start of the replay
-  std::optional<double> seconds;  // [s] empty: kDefaultSeconds, or kMaxSeconds for a replay
+  std::optional<double> seconds;  // [s] duration; empty: kDefaultSeconds, or kMaxSeconds for a replay
 };
 
 // The user's configuration folder; empty if there is no home folder.
@@ -56,7 +56,7 @@ cabin::DriveSide drive_side(const TrainArguments& arguments, cabin::DriveSide fa
   return arguments.drive == "right" ? cabin::DriveSide::right : cabin::DriveSide::left;
 }
 
-// Settings for the headset. Seat values given on the command line replace the saved ones and are saved.
+// Settings for the headset. Seat values given on the command line replace the saved values and are saved.
 session::HeadsetSetup headset_setup(const TrainArguments& arguments) {
   session::HeadsetSetup setup;
   setup.view.scale = arguments.xr_scale;
@@ -66,7 +66,9 @@ session::HeadsetSetup headset_setup(const TrainArguments& arguments) {
   if (!setup.seat_file.empty()) setup.seat = cabin::read_seat(setup.seat_file);
   const cabin::DriveSide saved = setup.seat.drive;
   setup.seat.drive = drive_side(arguments, saved);
-  if (setup.seat.drive != saved) setup.seat.touched.reset();  // measured with the lever on the other side
+  // If the driver changes sides, discard the saved pose: it was measured with the lever on the other side of the
+  // driver.
+  if (setup.seat.drive != saved) setup.seat.touched.reset();
   if (arguments.height) setup.seat.height = *arguments.height;
   if (arguments.knob.size() == 3)
     setup.seat.knob = cabin::KnobDistance{arguments.knob[0], arguments.knob[1], arguments.knob[2]};
@@ -91,7 +93,8 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
   setup.bindings = ui::read_bindings(session::bindings_file(arguments.bindings, config_folder()));
-  setup.panel = !arguments.no_panel && !arguments.stereo;  // in stereo each eye has only half the width
+  // In stereo each eye has only half of the picture's width. That is too narrow for the panel.
+  setup.panel = !arguments.no_panel && !arguments.stereo;
   setup.replay = arguments.replay;
   if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = session::kNoLesson;
   if (arguments.shift) setup.shift = *arguments.shift - 1;
@@ -104,13 +107,13 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   return setup;
 }
 
-// Runs the demo, which needs neither a display nor a user, with the same gate and preset.
+// Runs the demo, which needs neither a display nor a user, with the chosen gate and preset.
 int run_demo_instead(const TrainArguments& arguments) {
   if (arguments.or_demo.empty())
     throw std::runtime_error(
         "no display found; use gearshift train --offscreen DIR, or gearshift demo --out DIR for a tour");
   base::print_out("No display found. Running the demo with a simulated hand instead.\n");
-  std::fflush(stdout);  // shown at once, because the demo takes a minute
+  std::fflush(stdout);  // show the message at once, because the demo takes a minute
   TourArguments tour;
   tour.folder = arguments.or_demo;
   if (!arguments.choice.gate.empty()) tour.gate = arguments.choice.gate;
@@ -125,8 +128,8 @@ void warn_nothing_is_saved(const session::SessionChoice& choice) {
                       haptics::printable(choice.learner));
 }
 
-// Opens the stick that was named with --device; returns null for the simulated lever. The user holds the stick in real
-// time, so --device cannot be combined with a simulated hand or off-screen frames.
+// Opens the stick given with --device. Returns null for the simulated lever. The user moves the stick in real time, so
+// --device cannot be combined with a simulated hand or off-screen frames.
 std::shared_ptr<runtime::StickLever> held_stick(const TrainArguments& arguments) {
   if (arguments.device == session::kSimulatedDevice) return nullptr;
   if (!arguments.offscreen.empty())
@@ -134,7 +137,7 @@ std::shared_ptr<runtime::StickLever> held_stick(const TrainArguments& arguments)
   if (!arguments.choice.hand.empty())
     throw CLI::ValidationError("--hand cannot be used with --device, because your own hand holds the stick");
   if (!engine::has_display())
-    throw std::runtime_error("no display found; use gearshift tour --device NAME, which needs none");
+    throw std::runtime_error("no display found; use gearshift tour --device NAME, which needs no display");
   return runtime::open_stick(arguments.device, base::user_config_folder() / "devices");
 }
 
@@ -168,7 +171,7 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--lesson", arguments->choice.lesson,
                    "shipped lesson, lesson file, or none; default: the suggested one");
   verb->add_option("--learner", arguments->choice.learner,
-                   "save results under this name (not with a simulated driver, --hand \"by itself\")")
+                   "save results under this name (ignored with --hand \"by itself\")")
       ->type_name("NAME")
       ->check(validate_learner_name);
   verb->add_option("--database", arguments->database, "history file to use instead of your own")->type_name("FILE");
@@ -187,19 +190,19 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--hand", arguments->choice.hand,
                    "simulated hand: light, grip or arm; its mass, damping and stiffness as M,B,K [kg, N s/m, N/m]; or "
                    "\"by itself\" for a simulated driver");
-  verb->add_option("--bindings", arguments->bindings,
-                   "shipped bindings of keys, mouse and pad, or a bindings file; default: your own bindings (see "
-                   "gearshift devices), "
-                   "or \"default\"");
+  verb->add_option(
+      "--bindings", arguments->bindings,
+      "bindings of keys, mouse and pad: a shipped name or a file. If omitted: your own bindings (see gearshift "
+      "devices), or the shipped ones if you have none");
   verb->add_option("--size", arguments->size, "window size [px]")->type_name("WxH")->capture_default_str();
   verb->add_option("--samples", arguments->samples,
                    "samples per pixel: 1 or 4; default: 4, or 1 with a software renderer")
       ->check(CLI::IsMember({1, 4}));
-  CLI::Option* replay = verb->add_option("--replay", arguments->replay, "show this recorded drive instead of driving")
+  CLI::Option* replay = verb->add_option("--replay", arguments->replay, "replay this recorded drive instead of driving")
                             ->type_name("TRACE");
   CLI::Option* shift =
       verb->add_option("--shift", arguments->shift,
-                       "start the recorded drive at this shift, numbered as by gearshift replay --shifts")
+                       "start the recorded drive at this shift, numbered as in gearshift replay --shifts")
           ->check(whole_number(1, 1'000'000))
           ->needs(replay);
   verb->add_option("--from", arguments->from, "start the recorded drive at this time [s]")
@@ -221,26 +224,28 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
       ->needs(xr)
       ->check(number_between(0.3, 2.0))
       ->capture_default_str();
-  verb->add_option("--seat-height", arguments->height, "raise the seat by this much [m]; saved")
+  verb->add_option("--seat-height", arguments->height, "raise the seat by this much [m]; saved for later sessions")
       ->needs(xr)
       ->check(number_between(-0.3, 0.3));
-  verb->add_option("--knob", arguments->knob, "position of the real knob relative to your eyes [m]; saved")
+  verb->add_option("--knob", arguments->knob,
+                   "position of the real knob relative to your eyes [m]; saved for later sessions")
       ->type_name("RIGHT,DOWN,AHEAD")
       ->delimiter(',')
       ->expected(3)
       ->needs(xr)
       ->check(number_between(-1.5, 1.5));
   verb->add_flag("--no-panel", arguments->no_panel, "start without the panel; press F2 to show it");
-  verb->add_flag("--silent", arguments->silent, "switch the sound off");
+  verb->add_flag("--silent", arguments->silent, "turn the sound off");
   CLI::Option* offscreen =
       verb->add_option("--offscreen", arguments->offscreen,
                        "run without a window: write the last picture to this folder and print the gears")
           ->type_name("DIR");
   xr->excludes(stereo)->excludes(offscreen);
-  verb->add_option("--or-demo", arguments->or_demo, "if there is no display, run the demo into this folder")
+  verb->add_option("--or-demo", arguments->or_demo,
+                   "if there is no display, run the demo and write its files to this folder")
       ->type_name("DIR");
   verb->add_option("--seconds", arguments->seconds,
-                   "simulated time with --offscreen [s]; default: 5, or until the end of the replay")
+                   "simulated time to run with --offscreen [s]; default: 5, or the whole replay")
       ->check(number_between(0.1, kMaxSeconds));
   verb->callback([arguments, &action] { action = [arguments] { return run_train(*arguments); }; });
 }

@@ -1,5 +1,5 @@
-// The verbs of the program. Each function add_..._verb() adds a subcommand, which sets `action` when the user chooses
-// it.
+// The verbs of the program. Each function add_..._verb() adds a subcommand. When the user chooses the subcommand, it
+// sets `action`.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace gearshift::verbs {
 
-// The work of a verb. Returns the exit code: 0 for success, 1 if the work failed. If it throws, main() prints the
-// exception as one sentence to stderr and exits with 2 for bad usage (CLI::ParseError), with 1 for anything else.
+// Runs a verb. Returns the exit code: 0 for success, 1 if the verb failed. If the function throws, main() prints the
+// exception as one sentence to stderr. The exit code is then 2 for bad usage (CLI::ParseError), otherwise 1.
 using VerbAction = std::function<int()>;
 
-// Parses the command line and returns the action of the chosen verb; without a verb, that of `train`. Throws
-// CLI::ParseError for bad usage and for --help.
+// Parses the command line and returns the action of the chosen verb, or the action of `train` if there is no verb.
+// Throws CLI::ParseError for bad usage and for --help.
 VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv);
 std::string usage_sentence(const CLI::ParseError& refusal);  // the message, with control characters made printable
 
 struct TourArguments;
-int run_demo(const TourArguments& tour);  // runs `demo` with the defaults of all other options
+int run_demo(const TourArguments& tour);  // runs the verb `demo`; all its other options have their default values
 
 void add_train_verb(CLI::App& app, VerbAction& action);
 void add_demo_verb(CLI::App& app, VerbAction& action);

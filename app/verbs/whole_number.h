@@ -1,4 +1,5 @@
-// A check for seeds and counts. It is needed because CLI11 parses numbers like C: it reads -1 as 2^64 - 1 and 010 as 8.
+// A check for seeds and counts. It is needed because CLI11 parses numbers like C: it would accept -1 as 2^64 - 1 and
+// 010 as 8.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace gearshift::verbs {
 
-inline constexpr std::uint64_t kMaxWholeNumber = 999'999'999'999'999;  // below 2^53, so a double holds it exactly
+inline constexpr std::uint64_t kMaxWholeNumber = 999'999'999'999'999;  // below 2^53, so that a double holds it exactly
 
 // Accepts whole numbers from min to max. max must not exceed kMaxWholeNumber.
 inline CLI::Validator whole_number(std::uint64_t min = 0, std::uint64_t max = kMaxWholeNumber) {

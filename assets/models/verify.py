@@ -179,7 +179,8 @@ PIVOTS = {
     "BootRing": (0.330, 0.037, -0.270),
     "Handbrake": (0.335, -0.030, 0.170),
 }
-LAMPS = {  # by lamp: left edge of its colour field in the print atlas [px]; each field is 64 px square, from v = 580 px
+# By lamp: left edge [px] of its colour field in the print atlas. Each field is 64 px square, v = 580 to 644 px.
+LAMPS = {
     "TurnLeft": 1648,
     "TurnRight": 1648,
     "Oil": 1488,

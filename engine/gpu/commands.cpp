@@ -35,7 +35,7 @@ FrameRing::~FrameRing() {
   try {
     wait();
   } catch (const GpuError&) {
-    gpu_.wait_idle();  // the device is lost, so all submitted work has ended
+    gpu_.wait_idle();  // wait() fails if the device is lost; wait_idle() returns even then
   }
 }
 
@@ -47,7 +47,7 @@ VkCommandBuffer FrameRing::begin() {
     done_[index] = 0;
   }
   VkCommandBuffer commands = commands_[index];
-  // This also resets the commands of a frame that was begun but never ended.
+  // Also resets the commands of a frame that was begun but never ended.
   check(vkResetCommandBuffer(commands, 0), "vkResetCommandBuffer");
   begin_once(commands);
   return commands;

@@ -1,4 +1,4 @@
-// Descriptor set layouts, descriptor sets and the resources bound in them.
+// Creates descriptor set layouts, pipeline layouts and descriptor sets, and binds resources in the sets.
 #include "engine/gpu/pipeline.h"
 
 namespace gearshift::engine {

@@ -126,8 +126,8 @@ VkPhysicalDevice choose(VkInstance instance, bool swapchain, const std::string& 
   return best;
 }
 
-// Uses the device that the factory chooses: the one that the headset is connected to. Throws GpuError if it is not
-// usable.
+// Returns the device that the factory chooses, i.e. the one that the headset is connected to. Throws GpuError if the
+// device is not usable.
 VkPhysicalDevice choose_with(GpuFactory& factory, VkInstance instance, bool swapchain) {
   VkPhysicalDevice physical = factory.choose(instance);
   VkPhysicalDeviceProperties properties;

@@ -9,8 +9,8 @@ namespace gearshift::engine {
 
 class Device {
  public:
-  // Prefers a discrete device, then an integrated one, then a software one. wanted: substring of the device name;
-  // empty: any device. factory: selects and creates the device if not null.
+  // Prefers a discrete device, then an integrated one, then a software one. `wanted`: substring of the device name; if
+  // empty, any device is allowed. `factory`: if not null, selects and creates the device.
   Device(VkInstance instance, bool swapchain, const std::string& wanted, GpuFactory* factory);
   ~Device();
   Device(const Device&) = delete;

@@ -15,7 +15,7 @@
 
 namespace gearshift::engine {
 
-// Creates the Vulkan instance and device on our behalf: an XR runtime adds the extensions that its compositor needs and
+// Creates the Vulkan instance and device for the Gpu: an XR runtime adds the extensions that its compositor needs and
 // selects the device that the headset is connected to. Must outlive the Gpu.
 struct GpuFactory {
   virtual ~GpuFactory() = default;
@@ -25,18 +25,18 @@ struct GpuFactory {
 };
 
 struct GpuConfig {
-  std::vector<const char*> instance_extensions;  // required by the window
+  std::vector<const char*> instance_extensions;  // extensions required by the window
   bool swapchain = false;                        // VK_KHR_swapchain
   GpuFactory* factory = nullptr;                 // null: the Gpu creates instance and device itself
   bool validation = false;                       // core and synchronization validation, if the layer is installed
-  std::function<void(std::string_view)> on_validation;  // called with each validation message, never empty
+  std::function<void(std::string_view)> on_validation;  // called with each validation message, which is never empty
   std::filesystem::path pipeline_cache;                 // file name; empty: no cache
 };
 
 struct GpuTraits {
   std::string name;                  // device name
   std::string driver;                // driver name and version, as reported
-  bool is_cpu = false;               // a software driver; anisotropic filtering is off, as it takes seconds per frame
+  bool is_cpu = false;               // software driver, too slow for anisotropic filtering
   bool layered_vertex = false;       // a vertex shader can select the layer, so one pass can draw both eyes
   bool four_samples = false;         // 4x multisampling of colour and depth
   bool depth_clamp = false;          // pipelines can clamp the depth of geometry in front of the near plane
@@ -45,7 +45,6 @@ struct GpuTraits {
   std::uint32_t timestamp_bits = 0;  // 0: no timestamps
 };
 
-// A range of device memory.
 struct MemoryBlock;
 struct Allocation {
   VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -55,13 +54,13 @@ struct Allocation {
   MemoryBlock* block = nullptr;
 };
 enum class MemoryKind { device, upload, read_back };  // upload and read_back are mapped and coherent
-enum class MemoryUser { buffer, image };              // kept in separate blocks because of bufferImageGranularity
+enum class MemoryUser { buffer, image };              // separate memory blocks, because of bufferImageGranularity
 
 class Gpu {
  public:
   // Prefers a discrete device, then an integrated one, then a software one. GEARSHIFT_GPU=SUBSTRING in the environment
-  // selects a device by name; a factory's choice overrides both. Throws GpuError with one sentence if there is no
-  // Vulkan 1.3 device; the sentence names the package that provides a software driver.
+  // selects a device by name. A factory's choice overrides this order and this variable. Throws GpuError with one
+  // sentence if there is no Vulkan 1.3 device; the sentence names the package that provides a software driver.
   explicit Gpu(const GpuConfig& config);
   ~Gpu();  // waits until idle and saves the pipeline cache (written atomically)
   Gpu(const Gpu&) = delete;
@@ -83,11 +82,11 @@ class Gpu {
   void free(const Allocation& allocation) noexcept;
   VkDeviceSize allocated() const noexcept;  // [bytes] currently allocated
 
-  // Submits to the queue and returns the timeline value that is signalled on completion. The two binary semaphores are
-  // for a swapchain.
+  // Submits to the queue and returns the timeline value that is signalled on completion. The two semaphores are binary
+  // and are needed only for a swapchain.
   std::uint64_t submit(VkCommandBuffer commands, VkSemaphore wait_for = VK_NULL_HANDLE,
                        VkSemaphore then_signal = VK_NULL_HANDLE);
-  void wait(std::uint64_t value);           // blocks the calling thread. Throws GpuLost
+  void wait(std::uint64_t value);           // waits until the timeline semaphore reaches the value. Throws GpuLost
   bool is_done(std::uint64_t value) const;  // does not block
   void wait_idle() noexcept;                // also returns if the device is lost
 

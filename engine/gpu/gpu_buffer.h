@@ -1,4 +1,4 @@
-// Device buffers, mapped if the host reads or writes them.
+// Vulkan buffers, mapped if the host reads or writes the content.
 #pragma once
 
 #include <cstddef>

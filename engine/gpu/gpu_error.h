@@ -17,7 +17,7 @@ struct GpuLost : GpuError {
   using GpuError::GpuError;
 };
 
-// Throws GpuLost for VK_ERROR_DEVICE_LOST, GpuError for any other error; the message is "WHAT failed: VK_ERROR_...".
+// Throws GpuLost for VK_ERROR_DEVICE_LOST and GpuError for any other error. The message is "WHAT failed: VK_ERROR_...".
 void check(VkResult result, const char* what);
 
 }  // namespace gearshift::engine

@@ -1,7 +1,7 @@
 // Images that track their own state: transition() moves them from one use to the next, and expect() throws if an image
 // is in the wrong state.
 //
-// Synchronization validation does not check the attachments of dynamic rendering; this tracking covers them.
+// Synchronization validation does not check the attachments of dynamic rendering, but this tracking does.
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ class GpuImage {
   Allocation allocation_;
   struct LevelState {
     ImageUse use = ImageUse::none;
-    ImageUse discarded_use = ImageUse::none;  // use before discard_content(): barriers still wait for it
+    ImageUse discarded_use = ImageUse::none;  // use before discard_content(); barriers still wait for this use
   };
   std::vector<LevelState> states_;
 };
@@ -71,14 +71,14 @@ class GpuImage {
 inline constexpr std::uint32_t kAllLevels = ~0u;
 
 // Records the barrier that prepares the image for the given use, whatever its previous use: earlier writes become
-// visible and earlier reads are waited for. If the use does not change, records a barrier between two writes and
-// nothing between two reads.
+// visible and earlier reads are waited for. If the use does not change, records a barrier between two writes and no
+// barrier between two reads.
 void transition(VkCommandBuffer commands, GpuImage& image, ImageUse use, std::uint32_t first_level = 0,
                 std::uint32_t level_count = kAllLevels);
 
 // Returns the barrier that transition() would record, but for all levels and layers of the aspect and with a null
-// image; empty if no barrier is needed. If `from` is `none`, the content is dropped, but the barrier still waits for
-// discarded_use. Throws std::logic_error if `to` is `none`.
+// image. Returns empty if no barrier is needed. If `from` is `none`, the content is dropped, but the barrier still
+// waits for `discarded_use`. Throws std::logic_error if `to` is `none`.
 std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to, VkImageAspectFlags aspect,
                                                      ImageUse discarded_use = ImageUse::none);
 
@@ -86,7 +86,7 @@ std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to,
 // of an image.
 void expect(const GpuImage& image, ImageUse use, std::uint32_t level = 0);
 
-// Marks the content as no longer needed (a swapchain image after present; a target about to be cleared).
+// Marks the content as no longer needed, e.g. in a swapchain image after present or a target about to be cleared.
 void discard_content(GpuImage& image) noexcept;
 
 VkImageLayout layout_of(ImageUse use) noexcept;
@@ -104,26 +104,26 @@ struct SamplerDesc {
 };
 Sampler make_sampler(const Gpu& gpu, const SamplerDesc& desc);
 
-// Uploads the pixels, generates mip levels by blitting if `mips`, and leaves the image in ImageUse::sampled. Waits for
-// the upload.
+// Uploads the pixels, generates mip levels by blitting if `mips` is true, and leaves the image in ImageUse::sampled.
+// Waits for the upload.
 GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips);
 // Uploads raw texels, for lookup tables and environments: levels[i] holds level i of all layers.
 GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vector<std::byte>> levels);
 
 // Records a copy of all layers of level 0 into an image of the same size; the formats may differ. `from` must be in
-// copy_from, `to` in copy_to.
+// state `copy_from`, `to` in state `copy_to`.
 void copy_image(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to);
 
-// Records a blit of one layer, scaled into the rectangle `place` of another image. `from` must be in copy_from, `to` in
-// copy_to.
+// Records a blit of one layer, scaled into the rectangle `place` of another image. `from` must be in state `copy_from`,
+// `to` in state `copy_to`.
 void blit_into(VkCommandBuffer commands, const GpuImage& from, std::uint32_t layer, const GpuImage& to,
                const VkRect2D& place);
 
 // Records the barrier that lets the host read the results of copies once the commands have completed.
 void make_copies_visible_to_host(VkCommandBuffer commands);
 
-// Reads one layer of level 0 of an image with four bytes per pixel, and leaves the image in copy_from. Waits for the
-// copy.
+// Reads one layer of level 0 of an image with four bytes per pixel, and leaves the image in state `copy_from`. Waits
+// for the copy.
 Image read_back(Gpu& gpu, GpuImage& image, std::uint32_t layer = 0);
 
 }  // namespace gearshift::engine

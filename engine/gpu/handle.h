@@ -7,7 +7,7 @@
 
 namespace gearshift::engine {
 
-// Destroy: vkDestroySampler, vkDestroyPipeline, ... with the signature (VkDevice, handle, allocator).
+// `Destroy`: a function such as vkDestroySampler, with the signature (VkDevice, handle, allocator).
 template <class T, auto Destroy>
 class Handle {
  public:

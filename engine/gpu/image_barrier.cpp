@@ -1,4 +1,4 @@
-// The table of image uses and the barriers derived from it: the only place that knows layouts, stages and accesses.
+// The table of image uses and the barriers derived from it. Only this file knows layouts, stages and accesses.
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -15,8 +15,9 @@ struct Scope {
   VkAccessFlags2 reads, writes;
 };
 
-// In the order of ImageUse. `none` as a source means any earlier use. `present` waits and signals at the stage where
-// Gpu::submit waits for the swapchain's semaphore, so that the next use of the image is ordered after its acquisition.
+// One row per ImageUse, in the enum's order. `none` as a source means any earlier use. `present` waits and signals at
+// the stage where Gpu::submit waits for the swapchain's semaphore, so that the next use of the image is ordered after
+// its acquisition.
 constexpr std::array<Scope, 8> kScopes{{
     {"none", VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_ACCESS_2_MEMORY_WRITE_BIT},
     {"colour_target", VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -24,7 +25,8 @@ constexpr std::array<Scope, 8> kScopes{{
     {"depth_target", VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
      VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
-    // Vulkan resolves depth in the colour output stage (13.3, Render Pass Multisample Resolve Operations).
+    // Vulkan resolves depth in the colour output stage (specification, section "Render Pass Multisample Resolve
+    // Operations").
     {"depth_resolved", VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
      VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
@@ -57,7 +59,7 @@ std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to,
   return VkImageMemoryBarrier2{
       .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
       .srcStageMask = source.stages,
-      .srcAccessMask = source.writes,  // 0 after a read: nothing to flush, only an execution dependency
+      .srcAccessMask = source.writes,  // 0 after a read, because there is nothing to flush
       .dstStageMask = target.stages,
       .dstAccessMask = target.reads | target.writes,
       .oldLayout = layout_of(from),
@@ -71,7 +73,8 @@ std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to,
 void transition(VkCommandBuffer commands, GpuImage& image, ImageUse use, std::uint32_t first_level,
                 std::uint32_t level_count) {
   const std::uint32_t end = level_count == kAllLevels ? image.desc().levels : first_level + level_count;
-  if (end > image.desc().levels) throw std::logic_error("A transition includes levels that the image does not have.");
+  if (end > image.desc().levels)
+    throw std::logic_error("A transition includes mip levels that the image does not have.");
   std::vector<VkImageMemoryBarrier2> barriers;
   for (std::uint32_t level = first_level; level < end; ++level) {
     auto& state = image.states_[level];

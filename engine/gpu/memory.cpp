@@ -73,13 +73,13 @@ std::uint32_t DeviceMemory::type_for(std::uint32_t allowed, MemoryKind kind) con
       if (fits && (allowed >> i & 1u) != 0) return i;
     }
   }
-  throw GpuError("The device has no suitable memory type.");
+  throw GpuError("The graphics device has no suitable memory type.");
 }
 
 MemoryBlock& DeviceMemory::add_block(VkDeviceSize size, std::uint32_t type, MemoryUser user) {
   const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
   if (size > heap)
-    throw GpuError(fmt::format("The device has less than the {} MiB of memory that are needed.", size >> 20));
+    throw GpuError(fmt::format("The graphics device does not have the {} MiB of memory that are needed.", size >> 20));
   const VkMemoryAllocateInfo info{
       .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = size, .memoryTypeIndex = type};
   blocks_.reserve(blocks_.size() + 1);

@@ -10,12 +10,12 @@
 
 namespace gearshift::engine {
 
-// The free ranges within [0, size); adjacent ones are merged.
+// The free ranges within [0, size). Adjacent ranges are merged.
 class FreeRanges {
  public:
   explicit FreeRanges(VkDeviceSize size) : size_(size), free_{{0, size}} {}
-  // Allocates from the first free range that fits, and returns the offset; empty if none fits. alignment: a power of
-  // two
+  // Allocates from the first free range that fits, and returns its offset. Returns empty if none fits. `alignment`: a
+  // power of two.
   std::optional<VkDeviceSize> allocate(VkDeviceSize size, VkDeviceSize alignment);
   void release(VkDeviceSize offset, VkDeviceSize size);  // frees a range returned by allocate()
   bool is_unused() const { return free_.size() == 1 && free_.begin()->second == size_; }

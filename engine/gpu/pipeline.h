@@ -14,7 +14,7 @@ struct VertexInput {
   std::vector<VkVertexInputAttributeDescription> attributes;
 };
 
-enum class Blend { none, alpha };        // alpha: source over destination; straight alpha
+enum class Blend { none, alpha };        // alpha: source over destination, with straight (not premultiplied) alpha
 enum class Depth { none, test, write };  // test: greater or equal (reverse-Z); write: test and write
 
 struct PipelineDesc {
@@ -28,7 +28,7 @@ struct PipelineDesc {
   Blend blend = Blend::none;
   Depth depth_use = Depth::none;
   float depth_bias = 0.0f, depth_slope = 0.0f;
-  // Clamps depth if the device supports it; for casters in front of a shadow map's near plane.
+  // Clamps depth if the device supports it. Needed for shadow casters in front of a shadow map's near plane.
   bool depth_clamp = false;
   std::span<const std::uint32_t> constants;  // values of specialization constants 0, 1, 2, ... in both stages
 };

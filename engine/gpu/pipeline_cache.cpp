@@ -27,7 +27,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes) {
   return sum;
 }
 
-constexpr std::uintmax_t kMaxCacheBytes = std::uintmax_t{256} << 20;  // [bytes] ample: drivers store a few MiB
+constexpr std::uintmax_t kMaxCacheBytes = std::uintmax_t{256} << 20;  // [bytes] limit; drivers store a few MiB
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
   std::error_code problem;

@@ -24,7 +24,7 @@ VkBufferImageCopy level_copy(const GpuImage& image, std::uint32_t level, VkDevic
           .imageExtent = {side_at(image.desc().width, level), side_at(image.desc().height, level), 1}};
 }
 
-// Fills a mip level from the next larger one: each texel is the mean of four texels there.
+// Fills a mip level from the next larger level. Each texel is the mean of four texels of that level.
 void blit_level(VkCommandBuffer commands, GpuImage& image, std::uint32_t level) {
   transition(commands, image, ImageUse::copy_from, level - 1, 1);
   transition(commands, image, ImageUse::copy_to, level, 1);
@@ -68,12 +68,13 @@ GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips) {
 
 GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vector<std::byte>> levels) {
   if (levels.size() != desc.levels)
-    throw std::logic_error("The number of levels is not the one in the texture's description.");
+    throw std::logic_error("The number of mip levels differs from the texture's description.");
   ImageDesc full = desc;
   full.usage |= kTextureUsage;
   GpuImage image(gpu, full);
   std::size_t size = 0;
-  // Copy offsets must be multiples of the texel size, which is at most 16 bytes.
+  // Copy offsets must be multiples of the texel size, which is at most 16 bytes. So each size is rounded up to 16
+  // bytes.
   for (const auto& level : levels) size += (level.size() + 15) / 16 * 16;
   GpuBuffer staging(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
   std::vector<VkBufferImageCopy> copies;

@@ -25,8 +25,8 @@ using std::numbers::pi;
 // exponent).
 constexpr double kColourExponent = 0.7, kKneeIn = 0.4, kKneeOut = 0.95, kFeatureWidth = 0.082, kFeatureExponent = 0.5;
 
-// Contrast sensitivity as sums of Gaussians a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees (section 4.1.1, table 1 of
-// the paper).
+// Contrast sensitivity: sums of the Gaussians a * sqrt(pi / b) * exp(-(pi x)^2 / b), with x in degrees and the
+// coefficients a and b of the paper's table 1 (section 4.1.1).
 struct Sensitivity {
   double a1, b1, a2, b2;
 };
@@ -47,7 +47,7 @@ double linear_of(std::uint8_t srgb) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-// Converts to opponent colours, which are linear in light, so that they can be filtered.
+// Converts XYZ to opponent colours. They are linear in light, as the filters below require.
 dvec3 ycc_of_xyz(dvec3 xyz) {
   const dvec3 n = xyz / white;
   return {116.0 * n.y - 16.0, 500.0 * (n.x - n.y), 200.0 * (n.y - n.z)};
@@ -162,7 +162,7 @@ Ycc opponent(const Image& image) {
   return out;
 }
 
-// The picture as the eye resolves it, in Hunt-adjusted L*a*b*.
+// Returns the picture as the eye resolves it, in L*a*b* after the Hunt adjustment.
 std::vector<dvec3> perceived(const Ycc& in, Size size, double pixels_per_degree) {
   const Plane y = blurred(in.y, size, kLuminance, pixels_per_degree);
   const Plane cx = blurred(in.cx, size, kRedGreen, pixels_per_degree);
@@ -175,8 +175,8 @@ std::vector<dvec3> perceived(const Ycc& in, Size size, double pixels_per_degree)
   return out;
 }
 
-// Maps a colour distance to [0, 1], of which small differences get most (section 4.1.4). The largest distance is
-// between green and blue.
+// Maps a colour distance to a value between 0 and 1. Small distances get most of this range (section 4.1.4). The
+// largest distance is that between green and blue.
 double redistributed(double distance) {
   static const double max_distance =
       std::pow(hyab(hunt(lab_of_rgb({0, 1, 0})), hunt(lab_of_rgb({0, 0, 1}))), kColourExponent);
@@ -184,7 +184,7 @@ double redistributed(double distance) {
   return error < knee ? kKneeOut * error / knee : kKneeOut + (1.0 - kKneeOut) * (error - knee) / (max_distance - knee);
 }
 
-// --- feature error (section 4.2): edges and points in the luminance, detected with derivatives of a Gaussian ---
+// --- feature error (section 4.2): edges and points in the luminance, detected with the derivatives of a Gaussian ---
 
 struct Features {
   Plane edge, point;

@@ -21,14 +21,14 @@ struct Image {
 
 inline constexpr int kMaxImageSide = 16384;  // [px] limit for images that are read
 
-// Both functions throw std::runtime_error with one sentence that names file and reason. write_png() replaces the file
-// atomically.
+// write_png() and read_png() throw std::runtime_error with one sentence that names file and reason. write_png()
+// replaces the file atomically.
 void write_png(const std::filesystem::path& file, const Image& image);
 Image read_png(const std::filesystem::path& file);
 
 // encoded_size() and decode_image() take the bytes of a PNG or JPEG file and reject other formats. They throw
 // std::runtime_error with only the reason. encoded_size() reads only the header, so a caller can check the size before
-// any pixels are allocated.
+// memory for the pixels is allocated.
 struct ImageSize {
   int width = 0, height = 0;  // [px]
 };
@@ -39,8 +39,8 @@ Image decode_image(std::span<const std::uint8_t> bytes);
 // image.
 Image crop(const Image& image, int x, int y, int width, int height);
 
-// Places two images of equal height next to each other, for stereo on a desktop. Throws std::invalid_argument if
-// heights differ.
+// Places two images of equal height next to each other, to show a stereo pair on a desktop. Throws
+// std::invalid_argument if the heights differ.
 Image side_by_side(const Image& left, const Image& right);
 
 struct ImageDifference {
@@ -48,7 +48,7 @@ struct ImageDifference {
   double fraction_beyond = 0.0;  // [1] fraction of pixels that differ by more than `tolerance` in some channel
   int worst = 0;                 // [1/255] largest difference in any channel
 };
-// Throws std::invalid_argument if sizes differ. Ignores alpha. tolerance [1/255]
+// Ignores alpha. `tolerance`: [1/255]. Throws std::invalid_argument if sizes differ.
 ImageDifference difference(const Image& a, const Image& b, int tolerance = 3);
 
 }  // namespace gearshift::engine

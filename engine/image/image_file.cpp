@@ -78,14 +78,15 @@ bool is_device_or_pipe(const std::filesystem::path& file) {
          !std::filesystem::is_directory(found);
 }
 
-// Follows a symbolic link, so that the target is written and the link stays.
+// Follows a symbolic link, so that the link's target is written and the link stays.
 std::filesystem::path resolve_path(const std::filesystem::path& file) {
   const bool is_link = std::filesystem::is_symlink(file) && !is_device_or_pipe(file);
   return is_link ? std::filesystem::canonical(file) : file;
 }
 
-// Returns a temporary name that is unique to this process. The finished file is renamed to the target, so readers see
-// either the old picture or the new one.
+// Returns the name of the file to write: for a device or pipe the target itself, otherwise a temporary name that is
+// unique to this process. The finished file is renamed to the target, so readers see either the old picture or the new
+// one.
 std::filesystem::path part_of(std::filesystem::path target) {
   if (!is_device_or_pipe(target)) target += fmt::format(".{}.part", getpid());
   return target;
@@ -99,7 +100,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     check_shape(image);
     const std::vector<std::uint8_t> bytes = encoded_png(image);
     const std::filesystem::path target = resolve_path(file);
-    // Check this explicitly, because renaming would replace even a write-protected file.
+    // Check the write permission explicitly, because renaming would replace even a write-protected file.
     if (access(target.c_str(), W_OK) != 0 && errno != ENOENT) throw std::runtime_error(std::strerror(errno));
     part = part_of(target);
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
@@ -118,7 +119,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
 
 Image read_png(const std::filesystem::path& file) try {
   const std::vector<std::uint8_t> bytes = file_bytes(file);
-  if (!is_png(bytes)) throw std::runtime_error("it is not a PNG file");
+  if (!is_png(bytes)) throw std::runtime_error("the file is not a PNG picture");
   return decode_image(bytes);
 } catch (const std::exception& e) {
   throw std::runtime_error(fmt::format("{}: the picture cannot be read ({})", file.string(), e.what()));
@@ -126,16 +127,16 @@ Image read_png(const std::filesystem::path& file) try {
 
 ImageSize encoded_size(std::span<const std::uint8_t> bytes) {
   // stb decodes more formats, but less robustly.
-  if (!is_png(bytes) && !is_jpeg(bytes)) throw std::runtime_error("it is neither PNG nor JPEG");
-  if (bytes.size() > kMaxImageBytes) throw std::runtime_error("it is too large");
+  if (!is_png(bytes) && !is_jpeg(bytes)) throw std::runtime_error("the picture is neither PNG nor JPEG");
+  if (bytes.size() > kMaxImageBytes) throw std::runtime_error("the picture is too large");
   ImageSize size;
   int channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width, &size.height, &channels) == 0) {
-    throw std::runtime_error("its header is damaged");
+    throw std::runtime_error("the picture's header is damaged");
   }
   if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide || size.height > kMaxImageSide) {
-    throw std::runtime_error(fmt::format("it has {} x {} pixels, but each side may have only 1 to {}", size.width,
-                                         size.height, kMaxImageSide));
+    throw std::runtime_error(fmt::format("the picture has {} x {} pixels, but each side may have only 1 to {}",
+                                         size.width, size.height, kMaxImageSide));
   }
   return size;
 }
@@ -148,7 +149,7 @@ Image decode_image(std::span<const std::uint8_t> bytes) {
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
       stbi_image_free);
   if (pixels == nullptr || width != size.width || height != size.height)
-    throw std::runtime_error("its pixel data is damaged");
+    throw std::runtime_error("the pixel data is damaged");
   image.rgba.assign(pixels.get(),
                     pixels.get() + 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   return image;

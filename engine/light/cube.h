@@ -8,8 +8,8 @@
 
 namespace gearshift::engine {
 
-// Returns the point on the cube [-1, 1]^3; not a unit vector. Vulkan 1.3, 16.5.4 "Cube Map Face Selection": s and t in
-// [-1, 1] run right and down on faces +X -X +Y -Y +Z -Z.
+// Returns the point (s, t) of a face of the cube [-1, 1]^3; not a unit vector. Vulkan 1.3, section 16.5.4 "Cube Map
+// Face Selection": s and t in [-1, 1] run right and down on faces +X -X +Y -Y +Z -Z.
 inline glm::vec3 cube_point(int face, float s, float t) {
   switch (face) {
     case 0:

@@ -21,7 +21,7 @@ constexpr float kRoadHalfWidth = 6.0f;  // [m] the road runs along z
 constexpr float kSoftEdge = 2.0f;       // [m] blend from road to verge, so that reflections show no seam
 
 glm::vec3 sky_radiance(glm::vec3 direction, glm::vec3 towards_sun) {
-  // Haze thickens with the air mass towards the horizon.
+  // The haze increases with the air mass towards the horizon.
   const float haze = std::exp(-6.0f * direction.y);
   const float near_sun = glm::max(glm::dot(direction, towards_sun), 0.0f);
   const float glow = 0.5f * std::pow(near_sun, 6.0f) + 1.5f * std::pow(near_sun, 60.0f);

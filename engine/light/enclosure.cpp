@@ -17,12 +17,12 @@ namespace gearshift::engine {
 namespace {
 
 constexpr int kWindowSide = 16;  // [texels] face side of the cube map over which the windows are integrated
-constexpr int kLiningSide = 4;   // [texels] face side of the cube map that samples the windows' smooth light
+constexpr int kLiningSide = 4;   // [texels] face side of the cube map for the smooth light that the windows cast
 
 // A window of the car, in ranges [deg] of azimuth (0 ahead, 90 to the right) and elevation. The left side mirrors the
 // right.
 struct Pane {
-  float from, to;  // azimuth on the right side
+  float from, to;  // [deg] azimuth of a window on the right side
   float low, high;
 };
 
@@ -33,7 +33,7 @@ constexpr Pane kPanes[] = {{0.0f, 24.0f, -9.0f, 38.0f},
                            {61.0f, 122.0f, -9.0f, 25.0f},
                            {155.0f, 180.0f, -3.0f, 12.0f}};
 constexpr glm::vec3 kAbove{0.57f, 0.54f, 0.49f};     // albedo above the window sills: headliner, pillars
-constexpr glm::vec3 kBelow{0.060f, 0.058f, 0.055f};  // albedo below them: dash, seats, doors, carpet
+constexpr glm::vec3 kBelow{0.060f, 0.058f, 0.055f};  // albedo below the window sills: dash, seats, doors, carpet
 constexpr float kSill = -9.0f;                       // [deg] elevation of the window sills
 
 // A direction and the solid angle [sr] that it represents.
@@ -50,7 +50,7 @@ std::vector<Ray> cube_rays(int side) {
   return rays;
 }
 
-// Irradiance / pi that reaches the lining directly, before any reflection at the lining.
+// Irradiance divided by pi that reaches the lining (inner surface) of the room before any reflection there.
 class DirectLight {
  public:
   DirectLight(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance)
@@ -104,13 +104,13 @@ Radiance indoor_radiance(const Enclosure& room, const Radiance& open, glm::vec3 
 Enclosure car_cabin() {
   const auto height_of = [](float elevation) { return std::sin(glm::radians(elevation)); };
   struct Opening {
-    float from, to, low, high;  // from, to: azimuth [deg]; low, high: heights on the unit sphere
+    float from, to, low, high;  // `from`, `to`: azimuth [deg]; `low`, `high`: heights on the unit sphere
   };
   std::vector<Opening> openings;
   for (const Pane& pane : kPanes) openings.push_back({pane.from, pane.to, height_of(pane.low), height_of(pane.high)});
   const auto is_window = [=](glm::vec3 d) {
     const auto at_height = [&](const Opening& opening) { return d.y >= opening.low && d.y < opening.high; };
-    if (std::none_of(openings.begin(), openings.end(), at_height)) return false;  // avoids computing the azimuth
+    if (std::none_of(openings.begin(), openings.end(), at_height)) return false;  // avoids a slow atan2
     const float azimuth = glm::degrees(std::atan2(std::abs(d.x), -d.z));
     return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
       return at_height(opening) && azimuth >= opening.from && azimuth <= opening.to;

@@ -21,7 +21,8 @@ using Radiance = std::function<glm::vec3(glm::vec3 direction)>;
 // The sky outside the cabin: zenith, haze at the horizon, glow of the sun, asphalt and verge below the horizon.
 Radiance day_sky(glm::vec3 towards_sun);
 
-// A smooth function of direction from nine coefficients: sum_i c_i Y_i, real spherical harmonics up to degree 2.
+// A smooth function of direction, sum_i c_i Y_i with real spherical harmonics Y_i up to degree 2 and nine coefficients
+// c_i.
 struct Harmonics {
   std::array<glm::vec3, 9> c{};
   glm::vec3 operator()(glm::vec3 direction) const;
@@ -43,13 +44,14 @@ struct PrefilteredCube {
 inline constexpr int kPrefilterSamples = 64;  // per texel
 PrefilteredCube prefilter(const Radiance& radiance, int side = 64, int levels = 6, int samples = kPrefilterSamples);
 
-// BRDF part of the split sum: scale and bias of F0 for (n.v, roughness), GGX with height-correlated Smith visibility.
-// n.v > 0. The table is sampled at texel centres: u = n.v, v = roughness.
+// BRDF part of the split sum: scale and bias of F0, the reflectance at normal incidence, as functions of n.v > 0 and
+// roughness. GGX with height-correlated Smith visibility. The table is sampled at texel centres: u = n.v, v =
+// roughness.
 glm::dvec2 environment_brdf(double n_dot_v, double roughness, int samples);  // evaluates the integral
 struct BrdfTable {
   int side = 0;                                            // [texels]
-  std::vector<std::uint16_t> texels;                       // 2 unorm16 per texel, rows from roughness 0
-  glm::vec2 sample(float n_dot_v, float roughness) const;  // bilinear, like a GPU
+  std::vector<std::uint16_t> texels;                       // 2 unorm16 per texel; first row: roughness 0
+  glm::vec2 sample(float n_dot_v, float roughness) const;  // filters bilinearly, like a GPU
 };
 inline constexpr int kBrdfSide = 64;      // [texels]
 inline constexpr int kBrdfSamples = 128;  // per texel

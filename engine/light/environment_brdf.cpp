@@ -1,4 +1,4 @@
-// The BRDF integral of the split sum, by a quadrature made for it.
+// The BRDF integral of the split sum, evaluated by a quadrature designed for this integral.
 //
 // This work is based on:
 // Brian Karis. Real Shading in Unreal Engine 4. 2013 (the split sum)
@@ -44,8 +44,9 @@ Quadrature gauss_legendre(int n) {
   return q;
 }
 
-// GGX's visible normals seen from `view`. In the frame in which the ellipsoid of the given roughness is a sphere, half
-// vectors are the sum of the view direction and a point of the spherical cap z > -view.z, uniform in solid angle.
+// The visible normals of GGX seen from `view`. In the frame in which the ellipsoid of the given roughness is a sphere,
+// a half vector is the sum of the view direction and a point of the spherical cap z > -view.z. The points are uniform
+// in solid angle.
 class VisibleNormals {
  public:
   VisibleNormals(double n_dot_v, double alpha)
@@ -56,10 +57,10 @@ class VisibleNormals {
 
   double cap_low() const { return -sphere_.z; }
 
-  // Light reflected by the normal at height z of the cap; the azimuth is given by its cosine and sine.
   struct Reflection {
     double n_dot_l = 0.0, v_dot_h = 0.0;
   };
+  // Reflection at the normal that belongs to the cap's point at height z. The azimuth is given by its cosine and sine.
   Reflection reflect(double z, double cos_phi, double sin_phi) const {
     const double ring = std::sqrt(std::max(0.0, 1.0 - z * z));
     const glm::dvec3 half = glm::normalize(
@@ -68,8 +69,8 @@ class VisibleNormals {
     return {2.0 * v_dot_h * half.z - view_.z, v_dot_h};
   }
 
-  // Lowest height whose normal still reflects above the surface. Below it the integrand is zero; the quadrature must
-  // not straddle the kink there.
+  // Lowest height on the cap at which the normal reflects the view direction to above the surface. Below this height the
+  // integrand is zero. It has a kink here, so the quadrature starts here.
   double horizon(double cos_phi, double sin_phi) const {
     double low = cap_low(), high = 1.0;
     for (int i = 0; i < 20; ++i) {
@@ -79,7 +80,7 @@ class VisibleNormals {
     return high;
   }
 
-  // G2 / G1, split by Schlick's Fresnel term into the part that F0 scales and the constant part.
+  // Returns G2 / G1, split by Schlick's Fresnel term into a part that F0 scales and a constant part.
   glm::dvec2 weight(const Reflection& r) const {
     if (r.n_dot_l <= 0.0) return glm::dvec2(0.0);
     const double shadowing = (1.0 + lambda_view_) / (1.0 + lambda_view_ + lambda(r.n_dot_l));
@@ -100,7 +101,7 @@ class VisibleNormals {
 glm::dvec2 integrate(double n_dot_v, double roughness, const Quadrature& heights, const Quadrature& azimuths) {
   const VisibleNormals normals(n_dot_v, std::max(roughness * roughness, 1e-6));
   glm::dvec2 sum(0.0);
-  for (std::size_t j = 0; j < azimuths.node.size(); ++j) {  // azimuths cover half a turn; the other half mirrors it
+  for (std::size_t j = 0; j < azimuths.node.size(); ++j) {  // half a turn is enough, because of symmetry
     const double phi = glm::pi<double>() * azimuths.node[j], cos_phi = std::cos(phi), sin_phi = std::sin(phi);
     const double low = normals.horizon(cos_phi, sin_phi), length = 1.0 - low;
     glm::dvec2 ring(0.0);

@@ -18,7 +18,7 @@ std::array<float, 9> harmonics(glm::vec3 d) {
           0.546274f * (d.x * d.x - d.y * d.y)};
 }
 
-// Zonal coefficients of the clamped cosine, pi, 2 pi / 3, pi / 4 (same paper, eq. 8), divided by pi.
+// Zonal coefficients of the clamped cosine: pi, 2 pi / 3, pi / 4 (Ramamoorthi, Hanrahan 2001, eq. 8), divided by pi.
 constexpr std::array<float, 9> kLobe{1.0f, 2.0f / 3.0f, 2.0f / 3.0f, 2.0f / 3.0f, 0.25f, 0.25f, 0.25f, 0.25f, 0.25f};
 
 }  // namespace

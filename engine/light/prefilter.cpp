@@ -30,8 +30,9 @@ double radical_inverse(std::uint32_t i) {
   return inverse;
 }
 
-// Light directions reflected at GGX half vectors around the normal, only those above the surface (u < 1 / (1 +
-// alpha^2), n.h > sqrt(1/2)). The samples are the same for all texels of a level.
+// Light directions from reflection at GGX half vectors h around the normal n. Only directions above the surface are
+// returned: n.h > sqrt(1/2), i.e. random numbers u < 1 / (1 + alpha^2) with alpha = roughness^2. The samples are the
+// same for all texels of a level.
 std::vector<LobeSample> ggx_lobe(double roughness, int samples) {
   if (roughness == 0.0) return {{glm::vec3(0.0f, 0.0f, 1.0f), 1.0f}};
   const double a2 = std::pow(roughness, 4.0);

@@ -17,7 +17,8 @@ T load(const std::uint8_t* at) {
   return value;
 }
 
-// Normalised integers become c / 255, max(c / 127, -1), ... (glTF 2.0, 3.6.2.2).
+// Converts a number to float. A normalised integer c becomes c / 255, max(c / 127, -1), ... depending on its type (glTF
+// 2.0, section 3.6.2.2).
 float as_float(const std::uint8_t* at, ComponentType type, bool normalized) {
   switch (type) {
     case ComponentType::i8: {
@@ -38,7 +39,7 @@ float as_float(const std::uint8_t* at, ComponentType type, bool normalized) {
       break;
   }
   const auto value = load<float>(at);
-  if (!std::isfinite(value)) throw GltfError("it contains a number that is not finite");
+  if (!std::isfinite(value)) throw GltfError("the file contains a number that is not finite");
   return value;
 }
 
@@ -58,11 +59,11 @@ std::vector<T> read(const AccessorData& data, Convert convert) {
   for (std::size_t i = 0; data.elements.first != nullptr && i < data.count; ++i) {
     read_element(data, data.elements.first + i * data.elements.stride, &out[i * data.components], convert);
   }
-  std::uint64_t next = 0;  // lowest valid sparse index, as they must strictly increase
+  std::uint64_t next = 0;  // lowest valid value of the next sparse index: indices must increase
   for (std::size_t i = 0; i < data.sparse_count; ++i) {
     const std::uint8_t* at = data.sparse_indices.first + i * data.sparse_indices.stride;
     const std::uint64_t index = as_integer(at, data.sparse_type);
-    if (index < next || index >= data.count) throw GltfError("it has a sparse accessor with invalid indices");
+    if (index < next || index >= data.count) throw GltfError("the file has a sparse accessor with invalid indices");
     next = index + 1;
     read_element(data, data.sparse_values.first + i * data.sparse_values.stride, &out[index * data.components],
                  convert);

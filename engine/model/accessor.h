@@ -12,10 +12,10 @@ namespace gearshift::engine {
 enum class ComponentType : int { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 std::size_t byte_size(ComponentType type);
 
-// Elements at regular distances, the first one at `first`. If `first` is null, all numbers are zero.
+// Elements at regular distances, the first one at `first`. If `first` is null, all elements are zero.
 struct StridedData {
   const std::uint8_t* first = nullptr;
-  std::size_t stride = 0;  // [bytes] between the starts of elements
+  std::size_t stride = 0;  // [bytes] distance between the starts of elements
 };
 
 struct AccessorData {
@@ -24,7 +24,7 @@ struct AccessorData {
   std::size_t components = 1;  // per element
   ComponentType type = ComponentType::f32;
   bool normalized = false;
-  // For a sparse accessor: the elements that it replaces.
+  // For a sparse accessor: the indices of the replaced elements, and their new values.
   std::size_t sparse_count = 0;
   ComponentType sparse_type = ComponentType::u32;
   StridedData sparse_indices, sparse_values;

@@ -35,7 +35,7 @@ void append_materials(Model& target, const Model& part) {
   }
 }
 
-// `materials`: number of materials in `target` before the append.
+// Appends the meshes of `part`. `materials`: number of materials in `target` before `part` was appended.
 void append_meshes(Model& target, const Model& part, int materials) {
   const auto vertices = static_cast<std::uint32_t>(target.vertices.size());
   const auto indices = static_cast<std::uint32_t>(target.indices.size());

@@ -1,6 +1,7 @@
-// Builds a Model from a checked document, using tinygltf's structs. This is the only file that includes tinygltf, and
-// tinygltf is given only JSON that check_gltf() has passed: no file, no buffer, no image. tinygltf's own loader would
-// read images beyond the end of their buffers, a binary chunk eight bytes too far, and files from the working folder.
+// Builds a Model from a checked document, using tinygltf's structs. This is the only file that includes tinygltf.
+// tinygltf gets only JSON that check_gltf() has accepted, and no files, buffers or images. Its own loader has three
+// defects: it may read images beyond the end of their buffers, reads eight bytes beyond a binary chunk, and opens files
+// in the working folder.
 #include "engine/model/gltf.h"
 
 #include <algorithm>
@@ -66,7 +67,7 @@ class GltfReader {
     read_skins();
     for (const tinygltf::Mesh& mesh : source_.meshes) read_mesh(mesh);
     check_joints();
-    if (drop_flat_meshes(model_)) skip("meshes scaled to no volume or out of range");
+    if (drop_flat_meshes(model_)) skip("meshes scaled flat or out of range");
     model_.skipped.assign(skipped_.begin(), skipped_.end());
     model_.files = std::move(document_.files);
     return std::move(model_);
@@ -201,7 +202,7 @@ class GltfReader {
     while (!pending.empty()) {
       const auto [index, parent] = pending.back();
       pending.pop_back();
-      if (at(model_index_of_node_, index) != kNone) continue;  // a scene may list a root twice
+      if (at(model_index_of_node_, index) != kNone) continue;  // a scene may list a root node twice
       at(model_index_of_node_, index) = static_cast<int>(model_.nodes.size());
       const tinygltf::Node& in = at(source_.nodes, index);
       model_.nodes.push_back(read_node(in, index, parent));
@@ -232,7 +233,8 @@ class GltfReader {
     if (!in.matrix.empty()) {
       glm::dmat4 matrix;
       std::copy(in.matrix.begin(), in.matrix.end(), glm::value_ptr(matrix));  // both are column-major
-      if (!set_node_transform(matrix, out)) reject("has a matrix that is not made of translation, rotation and scale");
+      if (!set_node_transform(matrix, out))
+        reject("has a matrix that is not a combination of translation, rotation and scale");
     }
     if (!in.translation.empty()) out.translation = vec3_of(in.translation);
     if (!in.scale.empty()) out.scale = vec3_of(in.scale);
@@ -380,7 +382,7 @@ class GltfReader {
         if (weights[4 * i + k] < 0.0f) throw GltfError("a mesh has a negative joint weight");
         sum += weights[4 * i + k];
       }
-      if (sum < 1e-6) continue;  // no weights: keep VertexJoints' default
+      if (sum < 1e-6) continue;  // all weights are zero: keep VertexJoints' default
       for (std::size_t k = 0; k < 4; ++k) {
         out[i].weight[k] = static_cast<float>(weights[4 * i + k] / sum);
         const bool used = out[i].weight[k] > 0.0f;
@@ -410,7 +412,7 @@ class GltfReader {
     model_.vertex_joints.insert(model_.vertex_joints.end(), surface.joints.begin(), surface.joints.end());
   }
 
-  // --- skins: those that no node of the scene uses stay in the list, empty ---
+  // --- skins: a skin that no node of the scene uses remains in the list, but empty ---
 
   void read_skins() {
     std::set<int> used;
@@ -421,7 +423,7 @@ class GltfReader {
       const tinygltf::Skin& in = source_.skins[i];
       if (used.count(static_cast<int>(i)) == 0) continue;
       if (in.inverseBindMatrices != -1) matrices += accessor(in.inverseBindMatrices).count;
-      if (matrices > kMaxSkinMatrices) throw GltfError("its skins have too many matrices");
+      if (matrices > kMaxSkinMatrices) throw GltfError("the skins have too many matrices in total");
       model_.skins[i] = read_skin(in);
     }
   }

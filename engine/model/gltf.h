@@ -20,14 +20,14 @@ inline constexpr std::uint64_t kMaxSkinMatrices = 65'536;     // matrices in all
 inline constexpr int kMaxTextureSide = 8192;                  // [px]
 inline constexpr std::uint64_t kMaxTexturePixels = 1u << 28;  // pixels in all textures of a file
 
-// Reads the nodes of the file's default scene; if there is none, of its first scene; without scenes, all nodes. Node
-// and mesh names are those in the file.
+// Reads the nodes of the default scene, of the first scene if none is the default, or all nodes if the file has no
+// scene. Node and mesh names are those in the file.
 //
-// Missing normals are generated (flat, as glTF requires), as are tangents if a normal map needs them (MikkTSpace's
-// convention: per-triangle derivatives, averaged per vertex). A skinned mesh is read in its bind pose. The following is
-// repaired: normals and tangents of zero length, factors out of range, quaternions and weights that are not normalised.
-// A mesh whose scale, with that of its parent nodes, is zero or out of range is not drawn. Anything else that glTF
-// forbids rejects the file: throws GltfError with one sentence, file and reason.
+// Missing normals are generated (flat, as glTF requires). Missing tangents are generated if a normal map needs them
+// (MikkTSpace's convention: per-triangle derivatives, averaged per vertex). A skinned mesh is read in its bind pose.
+// These faults are repaired: normals and tangents of zero length, factors out of range, quaternions and weights that
+// are not normalised. A mesh is not drawn if its world matrix has a scale that is zero or out of range. Any other
+// violation of glTF rejects the file: throws GltfError with one sentence that names file and reason.
 Model read_gltf(const std::filesystem::path& file);
 
 }  // namespace gearshift::engine

@@ -15,7 +15,8 @@ namespace gearshift::engine {
 
 namespace {
 
-// Words in a .glb (glTF 2.0, 4.4). They are little-endian, like every machine that this is built for.
+// Magic number and chunk types of a .glb file (glTF 2.0, section 4.4). They are little-endian, like every supported
+// machine.
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
@@ -103,7 +104,7 @@ std::filesystem::path referenced_file(const std::string& name, const std::filesy
   if (!plain || relative.is_absolute()) throw GltfError("a URI is neither base64 data nor a relative path");
   std::error_code error;
   const std::filesystem::path root = std::filesystem::canonical(folder.empty() ? "." : folder, error);
-  // Resolve links before checking that the path is inside the folder.
+  // Resolve symbolic links before checking that the file is inside the folder.
   std::filesystem::path file = error ? root : std::filesystem::weakly_canonical(root / relative, error);
   if (error || !is_inside(file, root)) throw GltfError("a URI points outside the file's folder");
   return file;
@@ -123,8 +124,8 @@ std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw GltfError("there is no such file");
-  if (std::filesystem::is_directory(status)) throw GltfError("it is a folder, not a file");
-  if (!std::filesystem::is_regular_file(status)) throw GltfError("it is not a regular file");
+  if (std::filesystem::is_directory(status)) throw GltfError("this is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) throw GltfError("this is not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) throw GltfError(error.message());
   if (size > kMaxGltfBytes) throw GltfError("the file is too large");
@@ -139,12 +140,12 @@ std::vector<std::uint8_t> read_file_bytes(const std::filesystem::path& file) {
 GltfChunks parse_chunks(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 4 || word(bytes, 0) != kMagic) return {as_text(bytes), {}};
   if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) throw GltfError("the .glb header is cut off");
-  if (word(bytes, 4) != 2) throw GltfError(fmt::format("it has .glb version {}, not 2", word(bytes, 4)));
+  if (word(bytes, 4) != 2) throw GltfError(fmt::format("the file has .glb version {}, not 2", word(bytes, 4)));
   const std::uint32_t length = word(bytes, 8);
   if (length > bytes.size() || length < kHeaderBytes) throw GltfError("the file is cut off");
   std::span<const std::uint8_t> rest = bytes.first(length).subspan(kHeaderBytes);
   const Chunk json = read_chunk(rest);
-  if (json.type != kJsonChunk) throw GltfError("its first chunk is not JSON");
+  if (json.type != kJsonChunk) throw GltfError("the first chunk is not JSON");
   GltfChunks chunks{as_text(json.bytes), {}};
   if (!rest.empty()) {
     const Chunk binary = read_chunk(rest);
@@ -160,7 +161,7 @@ std::vector<std::uint8_t> read_uri(std::string_view uri, const std::filesystem::
     try {
       return read_file_bytes(files.back());
     } catch (const GltfError& e) {
-      throw GltfError(fmt::format("its file '{}' cannot be read ({})", printable_name(uri), e.what()));
+      throw GltfError(fmt::format("the referenced file '{}' cannot be read ({})", printable_name(uri), e.what()));
     }
   }
   const std::size_t comma = uri.find(',');

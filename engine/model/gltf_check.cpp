@@ -17,7 +17,7 @@ namespace {
 // glTF's component types.
 enum Component : std::uint64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-// glTF 2.0, 3.6.2.2: bytes per component; 0 for an unknown type.
+// Returns the bytes per component (glTF 2.0, section 3.6.2.2); 0 for an unknown type.
 std::uint64_t component_bytes(std::uint64_t type) {
   switch (type) {
     case i8:
@@ -34,7 +34,7 @@ std::uint64_t component_bytes(std::uint64_t type) {
   }
 }
 
-// glTF 2.0, 3.6.2.3: components per element; 0 for an unknown type.
+// Returns the components per element (glTF 2.0, section 3.6.2.3); 0 for an unknown type.
 std::uint64_t component_count(std::string_view type) {
   constexpr std::array<std::pair<std::string_view, std::uint64_t>, 7> counts{
       {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
@@ -47,10 +47,10 @@ struct Accessor {
   std::uint64_t component = 0;
   std::uint64_t count = 0;
   bool normalized = false;
-  bool stored = false;  // elements are in a buffer view; false: all are zero
+  bool stored = false;  // true: the elements are in a buffer view; false: all are zero
 };
 
-// Checks the top-level lists, each after those that it refers to.
+// Checks the top-level lists of the file. A list is checked after the lists to which it refers.
 class Check {
  public:
   Check(const nlohmann::json& json, std::size_t binary_bytes) : root_(json, ""), binary_bytes_(binary_bytes) {}
@@ -73,17 +73,19 @@ class Check {
   void check_asset() {
     const JsonItem asset = root_.required_item("asset");
     const std::string version = asset.required_text("version");
-    if (!version.starts_with("2.")) throw GltfError(fmt::format("it is glTF {}, not 2.0", printable_name(version)));
-    // glTF 2.0, 5.8: a reader must support minVersion.
+    if (!version.starts_with("2."))
+      throw GltfError(fmt::format("the file is glTF {}, not 2.0", printable_name(version)));
+    // Only a reader that supports `minVersion` may read the file (glTF 2.0, section 5.8).
     const std::string needs = asset.text("minVersion").value_or("2.0");
-    if (needs != "2.0") throw GltfError(fmt::format("it needs glTF {}, not 2.0", printable_name(needs)));
+    if (needs != "2.0")
+      throw GltfError(fmt::format("the file needs glTF {}, but only 2.0 is supported", printable_name(needs)));
   }
 
   void check_extensions() {
     root_.texts("extensionsUsed");
     for (const std::string& name : root_.texts("extensionsRequired")) {
       if (!is_supported_extension(name))
-        throw GltfError(fmt::format("it requires {}, which is not supported", printable_name(name)));
+        throw GltfError(fmt::format("the file requires {}, which is not supported", printable_name(name)));
     }
   }
 
@@ -95,7 +97,7 @@ class Check {
       if (in_chunk && size > binary_bytes_) item.reject("is longer than the binary chunk");
       if (!in_chunk) item.required_text("uri");
       total += size;
-      if (total > kMaxGltfBytes) throw GltfError("its buffers are too large in total");
+      if (total > kMaxGltfBytes) throw GltfError("the buffers are too large in total");
       buffer_bytes_.push_back(size);
     }
   }
@@ -112,13 +114,13 @@ class Check {
     }
   }
 
-  // Rejects the item unless `count` elements, starting at its byteOffset, lie inside its buffer view.
+  // Rejects the item if `count` elements, starting at the item's `byteOffset`, do not fit into its buffer view.
   void check_range(const JsonItem& item, std::uint64_t count, std::uint64_t element) const {
     const View& view = views_[item.required_index("bufferView", views_.size())];
     const std::uint64_t offset = item.integer("byteOffset", 0, view.length).value_or(0);
     const std::uint64_t stride = view.stride == 0 ? element : view.stride;
     if (stride < element) item.reject("has elements longer than their stride");
-    // No product here can exceed 2^64: count is below 2^24, stride below 2^8.
+    // The product cannot overflow: count is below 2^24 and stride is below 2^8.
     if ((count - 1) * stride + element > view.length - offset) item.reject("extends beyond its buffer view");
   }
 
@@ -226,7 +228,7 @@ class Check {
     if (mode > 4 && corners < 3) item.reject("is not a triangle");
     if (mode > 4) corners = 3 * (corners - 2);
     elements_ += std::max(vertices, corners);
-    if (elements_ > kMaxGltfElements) throw GltfError("it has too many vertices or indices");
+    if (elements_ > kMaxGltfElements) throw GltfError("the file has too many vertices or indices");
   }
 
   // Checks a primitive's attributes; returns the number of vertices.
@@ -246,8 +248,8 @@ class Check {
     return accessors_[position->second].count;
   }
 
-  // Types from glTF 2.0, 3.7.2.1, table of attributes. A name that is not in the table is allowed, because it is not
-  // read.
+  // Returns whether the type of an attribute is allowed (table in glTF 2.0, section 3.7.2.1). Attributes that are not
+  // in the table are allowed, because gltf.cpp does not read them.
   static bool is_allowed_type(std::string_view name, const Accessor& a) {
     const bool is_float = a.component == f32;
     const bool is_fraction = is_float || ((a.component == u8 || a.component == u16) && a.normalized);
@@ -283,7 +285,7 @@ class Check {
     check_no_cycle(children);
   }
 
-  // Each node has at most one parent, so any node not reachable from a root lies on or behind a cycle.
+  // Each node has at most one parent. So a node that cannot be reached from a root is on a cycle or below one.
   void check_no_cycle(const std::vector<std::vector<std::size_t>>& children) const {
     std::vector<std::size_t> reached;
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -293,7 +295,7 @@ class Check {
       const std::vector<std::size_t>& next = children[reached[i]];
       reached.insert(reached.end(), next.begin(), next.end());
     }
-    if (reached.size() != children.size()) throw GltfError("its node hierarchy contains a cycle");
+    if (reached.size() != children.size()) throw GltfError("the node hierarchy contains a cycle");
   }
 
   void check_skins() const {

@@ -7,9 +7,9 @@
 
 namespace gearshift::engine {
 
-// binary_bytes: size of the .glb's binary chunk, 0 if there is none. Throws GltfError with only the reason. After it
-// returns, all references are valid and all sizes are within the limits of gltf.h; the content of the buffers is still
-// unchecked.
+// `binary_bytes`: size of the binary chunk of a .glb; 0 if there is none. Throws GltfError, whose message states only
+// the reason, not the file. After the function returns, all references are valid and all sizes are within the limits of
+// gltf.h; the content of the buffers is still unchecked.
 void check_gltf(const nlohmann::json& root, std::size_t binary_bytes);
 
 }  // namespace gearshift::engine

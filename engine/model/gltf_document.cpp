@@ -30,8 +30,8 @@ void check_extent(std::string_view text) {
     if (c == '{' || c == '[') ++depth;
     if (c == '}' || c == ']') --depth;
     if (c == '{' || c == '[' || c == ',' || c == ':') ++values;
-    if (depth > kMaxJsonDepth) throw GltfError("its JSON is nested too deeply");
-    if (values > kMaxGltfValues) throw GltfError("its JSON has too many values");
+    if (depth > kMaxJsonDepth) throw GltfError("the JSON is nested too deeply");
+    if (values > kMaxGltfValues) throw GltfError("the JSON has too many values");
   }
 }
 
@@ -40,9 +40,9 @@ json parsed(std::string_view text) {
   try {
     return json::parse(text.begin(), text.end());
   } catch (const json::parse_error& e) {
-    throw GltfError(fmt::format("it is neither .glb nor JSON, or its JSON is invalid at byte {}", e.byte));
+    throw GltfError(fmt::format("the file is neither .glb nor valid JSON (error at byte {})", e.byte));
   } catch (const json::exception&) {
-    throw GltfError("its JSON has a number that is out of range");
+    throw GltfError("the JSON has a number that is out of range");
   }
 }
 
@@ -54,7 +54,7 @@ std::vector<std::uint8_t> buffer_bytes(GltfDocument& document, std::size_t index
   std::vector<std::uint8_t> bytes =
       read_uri(buffer.at("uri").get_ref<const std::string&>(), document.folder, document.files);
   if (bytes.size() < size) {
-    throw GltfError(fmt::format("buffers[{}] has {} bytes, not {}", index, bytes.size(), size));
+    throw GltfError(fmt::format("buffers[{}] has {} bytes instead of {}", index, bytes.size(), size));
   }
   bytes.resize(size);
   return bytes;
@@ -81,7 +81,7 @@ std::span<const std::uint8_t> image_bytes(GltfDocument& document, std::size_t im
     document.images.push_back(read_uri(uri, document.folder, document.files));
     std::uint64_t bytes = 0;
     for (const auto& read : document.images) bytes += read.size();
-    if (bytes > kMaxGltfBytes) throw GltfError("its images have too many bytes in total");
+    if (bytes > kMaxGltfBytes) throw GltfError("the images have too many bytes in total");
     return document.images.back();
   }
   const json& view = document.json.at("bufferViews").at(description.at("bufferView").get<std::size_t>());

@@ -1,4 +1,4 @@
-// A glTF file split into its JSON and the bytes it refers to, all checked. gltf.cpp builds the model from it.
+// A checked glTF file: its JSON, and the bytes to which the JSON refers. gltf.cpp builds the model from it.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@ struct GltfDocument {
   std::vector<std::vector<std::uint8_t>> images{};  // encoded images that are not in a buffer, loaded on demand
 };
 
-// Both functions throw GltfError with only the reason.
+// Both functions throw GltfError, whose message states only the reason, not the file.
 GltfDocument open_gltf(const std::filesystem::path& file);
 
-// Returns the encoded bytes of an image, wherever they are stored; valid as long as the document. Images outside of
-// buffers may have at most kMaxGltfBytes in total.
+// Returns the encoded bytes of an image, wherever they are stored. The bytes are valid as long as the document exists.
+// All images that are not in buffers may have at most kMaxGltfBytes in total.
 std::span<const std::uint8_t> image_bytes(GltfDocument& document, std::size_t image);
 
 }  // namespace gearshift::engine

@@ -28,7 +28,7 @@ void check_sizes(const std::vector<EncodedImage>& encoded) {
     }
     pixels += static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height) *
               static_cast<std::uint64_t>(image.uses);
-    if (pixels > kMaxTexturePixels) throw GltfError("its textures have too many pixels in total");
+    if (pixels > kMaxTexturePixels) throw GltfError("the textures have too many pixels in total");
   }
 }
 

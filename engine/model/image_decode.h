@@ -13,11 +13,12 @@ namespace gearshift::engine {
 struct EncodedImage {
   std::string path;  // for error messages: "images[3]"
   std::span<const std::uint8_t> bytes;
-  int uses = 1;  // number of copies of its pixels in the model
+  int uses = 1;  // number of textures that get a copy of the pixels
 };
 
-// Returns the images in order. Throws GltfError with only the reason: not PNG or JPEG, corrupt, or beyond the limits of
-// gltf.h. The limits are checked with the headers of all images before any image is decoded.
+// Returns the decoded images in the order of `encoded`. Throws GltfError if an image is not PNG or JPEG, is corrupt, or
+// exceeds the limits of gltf.h; the message states only the reason. Checks the sizes in the headers of all images
+// before it decodes any image.
 std::vector<Image> decode_images(const std::vector<EncodedImage>& encoded);
 
 }  // namespace gearshift::engine

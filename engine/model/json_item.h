@@ -1,4 +1,5 @@
-// Access to an untrusted JSON object: each accessor checks type and range, and its error names path and range.
+// Access to an untrusted JSON object. Each accessor checks the type and the range of the value; its error message
+// states the value's path and allowed range.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace gearshift::engine {
 
 class JsonItem {
  public:
-  // Throws GltfError if `value` is not an object. path: where the object is in the file, e.g. "accessors[3]"; empty for
-  // the root.
+  // Throws GltfError if `value` is not an object. `path`: place of the object in the file, for example "accessors[3]";
+  // empty for the root.
   JsonItem(const nlohmann::json& value, std::string path);
 
   bool has(const char* key) const;
@@ -22,7 +23,8 @@ class JsonItem {
   // Throws GltfError with the path followed by `what`.
   [[noreturn]] void reject(std::string_view what) const;
 
-  // These return empty if the key is missing, and throw if the value has the wrong type or is out of range.
+  // These functions return an empty value if the key is missing, and throw if the value has the wrong type or is out of
+  // range.
   std::optional<std::uint64_t> integer(const char* key, std::uint64_t low, std::uint64_t high) const;
   std::optional<std::size_t> index(const char* key, std::size_t count) const;  // index into a list of `count` items
   std::optional<double> number(const char* key) const;                         // finite, also when converted to float
@@ -31,13 +33,13 @@ class JsonItem {
   bool flag(const char* key) const;  // false if the key is missing
   void numbers(const char* key, std::size_t count) const;
 
-  // These throw also if the key is missing.
+  // These functions also throw if the key is missing.
   std::uint64_t required_integer(const char* key, std::uint64_t low, std::uint64_t high) const;
   std::size_t required_index(const char* key, std::size_t count) const;
   std::string required_text(const char* key) const;
   JsonItem required_item(const char* key) const;
 
-  // These return empty lists if the key is missing.
+  // These functions return empty lists if the key is missing.
   std::vector<JsonItem> items(const char* key) const;
   std::vector<std::size_t> indices(const char* key, std::size_t count) const;
   std::vector<std::string> texts(const char* key) const;

@@ -1,6 +1,7 @@
 // A drawable model on the CPU: the subset of glTF 2.0 that a cabin needs. No GPU code here.
 //
-// Metres, right-handed, +Y up. Textures follow glTF's convention: row 0 at the top, (0, 0) the upper left corner.
+// Coordinates are in metres, right-handed, with +Y up. Textures follow glTF: row 0 is at the top, and (0, 0) is the
+// upper left corner.
 #pragma once
 
 #include <cstdint>
@@ -53,9 +54,10 @@ struct TextureUse {
   int uv_set = 0;  // 0 or 1
   glm::vec2 offset{0.0f};
   glm::vec2 scale{1.0f};
-  float rotation = 0.0f;  // [rad] for its sign, see matrix()
-  // uv = matrix * vec3(uv of the set, 1). The sign of the rotation is that of the Khronos sample viewer and of the
-  // extension's example; the GLSL in the extension's text rotates the other way and contradicts both.
+  float rotation = 0.0f;  // [rad] matrix() defines the sign
+  // Transforms texture coordinates: uv = matrix() * vec3(uv of the set, 1). The sign of the rotation is that of the
+  // Khronos sample viewer and of the example in KHR_texture_transform. The GLSL code in the text of that extension
+  // rotates the other way.
   glm::mat3 matrix() const;
   bool plain() const { return offset == glm::vec2(0.0f) && scale == glm::vec2(1.0f) && rotation == 0.0f; }
 };
@@ -86,13 +88,13 @@ struct Primitive {
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  std::uint32_t first_vertex = 0;  // start of the vertices, which no other mesh uses
+  std::uint32_t first_vertex = 0;  // first vertex of this mesh; meshes do not share vertices
   std::uint32_t vertex_count = 0;
 };
 
 struct Node {
   std::string name;
-  int parent = kNone;  // comes before this node in Model::nodes
+  int parent = kNone;  // index of the parent, which is earlier in Model::nodes
   glm::vec3 translation{0.0f};
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   glm::vec3 scale{1.0f};
@@ -115,18 +117,18 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Skin> skins;
-  std::vector<std::string> skipped;          // features used by the file but not drawn, each named once
+  std::vector<std::string> skipped;          // features that the file uses but that are not drawn, each named once
   std::vector<std::filesystem::path> files;  // buffer and texture files that were read
 
-  int node(std::string_view name) const;  // first node of that name, or kNone
-  std::uint64_t triangle_count() const;   // triangles of all nodes that carry a mesh
+  int node(std::string_view name) const;  // index of the first node with this name, or kNone
+  std::uint64_t triangle_count() const;   // number of triangles of all nodes that carry a mesh
 };
 
-// World matrix of every node as placed by the file; one per entry of model.nodes.
+// Returns the world matrix of every node as placed by the file, one per entry of model.nodes.
 std::vector<glm::mat4> rest_pose(const Model& model);
 
-// World matrix of every node. local[i]: transform of node i relative to its parent. `local` and the result have one
-// entry per node.
+// Returns the world matrix of every node. local[i] is the transform of node i relative to its parent. `local` and the
+// result have one entry per node.
 std::vector<glm::mat4> world_from_local(const Model& model, const std::vector<glm::mat4>& local);
 
 }  // namespace gearshift::engine

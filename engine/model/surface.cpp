@@ -75,7 +75,7 @@ TextureFrame texture_frame(const Corners& t, const TextureUse& use, const glm::m
   const vec2 uv = uv_of(t.a, use, matrix);
   const vec2 d1 = uv_of(t.b, use, matrix) - uv, d2 = uv_of(t.c, use, matrix) - uv;
   const vec3 e1 = t.b.position - t.a.position, e2 = t.c.position - t.a.position;
-  const float area = d1.x * d2.y - d2.x * d1.y;  // negative if the texture is not mirrored, because v grows downwards
+  const float area = d1.x * d2.y - d2.x * d1.y;  // negative for a texture that is not mirrored: v grows downwards
   TextureFrame frame{(e1 * d2.y - e2 * d1.y) * (area < 0.0f ? -1.0f : 1.0f), false, area > 0.0f};
   frame.valid = area != 0.0f && normalize_in_place(frame.along_u);
   return frame;
@@ -88,8 +88,8 @@ class TangentSum {
   explicit TangentSum(Surface& surface)
       : surface_(surface), sum_(surface.vertices.size(), vec3(0.0f)), sign_(surface.vertices.size(), 0) {}
 
-  // Adds a corner's contribution: the direction in which u grows on its triangle, projected into the vertex's tangent
-  // plane, weighted by the angle of the corner.
+  // Adds a corner's contribution to its vertex: the direction in which u grows on the triangle, projected into the
+  // vertex's tangent plane and weighted by the angle at the corner.
   void add(std::size_t corner, const TextureFrame& frame, float angle) {
     const std::uint32_t vertex = vertex_for(corner, frame.mirrored ? -1 : 1);
     const vec3 n = surface_.vertices[vertex].normal;
@@ -121,7 +121,7 @@ class TangentSum {
 
   Surface& surface_;
   std::vector<vec3> sum_;
-  std::vector<int> sign_;  // 0: not visited yet
+  std::vector<int> sign_;  // sign of the bitangent, per vertex; 0: not visited yet
   std::unordered_map<std::uint32_t, std::uint32_t> duplicates_;
 };
 

@@ -1,5 +1,5 @@
-// The triangles of one primitive, and the work that glTF leaves to its reader: lists from strips and fans, normals,
-// tangents.
+// The triangles of one primitive. The functions convert strips and fans to triangle lists, and compute missing normals
+// and tangents, as glTF requires.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,11 @@ struct Surface {
 enum class TriangleMode : int { list = 4, strip = 5, fan = 6 };  // glTF's values
 std::vector<std::uint32_t> triangle_list(const std::vector<std::uint32_t>& indices, TriangleMode mode);
 
-// Gives each corner its own vertex, with its triangle's normal; the normal of a triangle without area is +Z.
+// Gives each corner of a triangle its own vertex, with the triangle's normal. A triangle without area gets the normal
+// +Z.
 void make_flat_normals(Surface& surface);
 
-// Normalises every normal; one of zero length becomes the area-weighted mean of its triangles' normals.
+// Normalises every normal. A normal of zero length becomes the area-weighted mean of the adjacent triangles' normals.
 void repair_normals(Surface& surface);
 
 // Computes tangents from positions, normals and the UV set of the normal map. Afterwards no vertex belongs to both a

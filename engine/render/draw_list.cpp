@@ -94,7 +94,7 @@ std::uint32_t features_in(PassKind pass, const DrawItem& item, const FeatureChoi
   if (item.indoors) features |= kIndoors;
   if (pass == PassKind::mirror) return mirror_features(features);
   if (!choice.normal_maps) features &= ~(kHasMap << kMapNormal);
-  if ((features & kAllMaps) == 0) features |= kEmits;  // without maps, emissive and other materials share one shader
+  if ((features & kAllMaps) == 0) features |= kEmits;  // materials without maps share one shader, emissive or not
   if (item.shows_mirror) return features | kShowsMirror;
   return choice.shadow ? features | kShadowed : features;
 }

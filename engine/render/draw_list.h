@@ -43,7 +43,7 @@ struct DrawList {
 };
 DrawList list_draws(std::span<const DrawItem> items, const Frusta& frusta, glm::vec3 eye);
 
-// Feature groups that the renderer has turned on.
+// Optional features that the renderer has turned on.
 struct FeatureChoice {
   bool shadow = true, normal_maps = true;
 };

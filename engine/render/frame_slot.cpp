@@ -12,12 +12,12 @@ namespace gearshift::engine {
 
 namespace {
 
-// [bytes] Distance between the passes' data in the uniform buffer: a multiple of 256, which suits every device (Vulkan
-// 1.3, required limits).
+// [bytes] Distance between the data of two passes in the uniform buffer: a multiple of 256, the largest offset
+// alignment that a device may require (Vulkan 1.3, required limits).
 constexpr VkDeviceSize kPassStride = (sizeof(shader::PassData) + 255) / 256 * 256;
 
-// Normals are transformed by the inverse transpose times the absolute value of the determinant: the cofactor matrix
-// without the determinant's sign.
+// The normal matrix is the inverse transpose times the absolute value of the determinant, that is, the cofactor matrix
+// times the sign of the determinant.
 shader::ObjectData object_data(const NodeState& state) {
   const glm::vec3 x(state.world[0]), y(state.world[1]), z(state.world[2]);
   const float sign = glm::dot(glm::cross(x, y), z) < 0.0f ? -1.0f : 1.0f;

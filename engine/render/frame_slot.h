@@ -1,4 +1,4 @@
-// Buffers that a frame in flight writes for the GPU. They must not be touched until that frame has completed.
+// Buffers that the CPU fills for one frame in flight. They must not be changed until the GPU has completed that frame.
 #pragma once
 
 #include <array>

@@ -19,8 +19,8 @@ Box transformed(const glm::mat4& world, const Box& box) {
   return {centre - reach, centre + reach};
 }
 
-// Planes from the rows of the matrix: Gribb, Hartmann. Fast Extraction of Viewing Frustum Planes from the
-// World-View-Projection Matrix. 2001
+// Derives the planes from the rows of the matrix (Gribb, Hartmann. Fast Extraction of Viewing Frustum Planes from the
+// World-View-Projection Matrix. 2001).
 Frusta::Frusta(std::span<const glm::mat4> clip_from_world) {
   for (const glm::mat4& clip : clip_from_world) {
     const glm::vec4 x = glm::row(clip, 0), y = glm::row(clip, 1), z = glm::row(clip, 2), w = glm::row(clip, 3);

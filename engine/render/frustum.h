@@ -21,8 +21,9 @@ Box united(const Box& a, const Box& b);
 // Axis-aligned bounding box of a transformed box.
 Box transformed(const glm::mat4& world, const Box& box);
 
-// The frusta of one or more clip spaces with depth in [0, 1]. A box counts as visible unless, for each frustum, it lies
-// completely outside one of its planes. A few boxes near the corners count as visible although they are not.
+// The frusta of one or more clip spaces with depth in [0, 1]. A box counts as invisible only if, for every frustum, it
+// lies completely outside one plane of that frustum. So a few invisible boxes near the corners of a frustum count as
+// visible.
 class Frusta {
  public:
   explicit Frusta(std::span<const glm::mat4> clip_from_world);

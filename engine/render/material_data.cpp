@@ -31,8 +31,8 @@ shader::MaterialData data_of(const Material& material) {
   data.surface = {material.metallic, material.roughness, material.occlusion_strength, material.alpha_cutoff};
   const auto maps = maps_of(material);
   for (std::uint32_t map = 0; map < shader::kMaps; ++map) {
-    // The rotation is counter-clockwise as seen with v pointing down: the convention that loaders follow
-    // (KhronosGroup/glTF issue 1563).
+    // A positive rotation is counter-clockwise when v points down, as in other glTF loaders (KhronosGroup/glTF issue
+    // 1563).
     const float c = std::cos(maps[map]->rotation), s = std::sin(maps[map]->rotation);
     const glm::vec2 scale = maps[map]->scale;
     data.uv_matrix[map] = {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};

@@ -19,16 +19,15 @@ struct MirrorWindow {
   glm::vec2 low{0.0f}, high{0.0f};  // [m] from the origin, along right and up
   float aspect() const { return (high.x - low.x) / (high.y - low.y); }
 
-  // Texture coordinates of a world point in the mirror's picture: the dot products of these rows with (point, 1). The
-  // picture shows what the mirrored eye sees through the window. That eye looks from behind, so u grows against
-  // `right`.
+  // The dot products of u_row() and v_row() with (world point, 1) are the point's texture coordinates in the mirror's
+  // picture. The mirrored eye looks through the window from behind, so u decreases along `right`.
   glm::vec4 u_row() const;
   glm::vec4 v_row() const;
 };
 MirrorWindow mirror_window(const glm::mat4& world, const Box& mesh);
 
-// The view from the mirrored eye, off-axis through the window. The near plane is the mirror, so that nothing behind it
-// is visible. Empty if the eye is behind the mirror or in its plane.
+// The view from the mirrored eye, off-axis through the window. The near plane is the plane of the mirror, so that
+// nothing behind the mirror is drawn. Empty if the eye is behind the mirror or in its plane.
 std::optional<View> mirror_view(const MirrorWindow& window, glm::vec3 eye);
 
 }  // namespace gearshift::engine

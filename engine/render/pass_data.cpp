@@ -16,8 +16,8 @@ void set_views(shader::PassData& data, std::span<const View> views) {
     const glm::mat3 world_from_view = glm::transpose(glm::mat3(views[eye].view_from_world));
     data.clip_from_world[eye] = clip_from_world(views[eye]);
     data.eye[eye] = glm::vec4(views[eye].eye, 1.0f);
-    // With the projection P, x_clip = P00 x + P20 z and w = -z, so at z = -1 the direction for x_clip is ((x_clip +
-    // P20) / P00, ...).
+    // The projection matrix P gives x_clip = P00 x + P20 z and w = -z. So the view direction with z = -1 has x =
+    // (x_clip + P20) / P00, and y likewise.
     const glm::vec3 centre(clip[2][0] / clip[0][0], clip[2][1] / clip[1][1], -1.0f);
     data.sky_centre[eye] = glm::vec4(world_from_view * centre, 0.0f);
     data.sky_right[eye] = glm::vec4(world_from_view[0] / clip[0][0], 0.0f);

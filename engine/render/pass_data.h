@@ -13,7 +13,7 @@ namespace gearshift::engine {
 
 glm::mat4 clip_from_world(const View& view);
 
-// Sets matrices, eye positions, and the directions for drawing the sky. views: one or two, one per eye.
+// Sets matrices, eye positions, and the directions for drawing the sky. `views` holds one view per eye, at most two.
 void set_views(shader::PassData& data, std::span<const View> views);
 void set_sun(shader::PassData& data, const FrameScene& scene);
 void set_shadow(shader::PassData& data, const ShadowFit& fit, int side);

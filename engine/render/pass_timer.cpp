@@ -37,7 +37,7 @@ void PassTimer::stamp_to_flush(VkCommandBuffer commands) {
 
 void PassTimer::read(std::uint32_t first) {
   std::array<std::uint64_t, kStamps> stamps{};
-  // A frame that failed half-way leaves some timestamps unwritten; the previous times are kept then.
+  // If a frame failed half-way, some of its timestamps are unwritten. The times of an earlier frame are then kept.
   if (vkGetQueryPoolResults(gpu_.device(), queries_.get(), first, kStamps, sizeof stamps, stamps.data(),
                             sizeof stamps[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
     return;

@@ -16,8 +16,8 @@ class PassTimer {
   void begin(VkCommandBuffer commands, int slot);
   // Marks the end of a pass. Must be called for the passes in this order: shadow, depth, mirror, main, overlay.
   void stamp(VkCommandBuffer commands);
-  // Writes a timestamp that is never read: it makes a software driver start shading, see
-  // Renderer::State::flush_collected_triangles(). Does nothing once a frame has written kFlushStamps of them.
+  // Writes a timestamp that is never read, which makes a software driver start shading: see
+  // Renderer::State::flush_collected_triangles(). Does nothing after kFlushStamps calls in one frame.
   void stamp_to_flush(VkCommandBuffer commands);
   const PassTimes& times() const noexcept { return times_; }
 

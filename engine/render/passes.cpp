@@ -13,7 +13,7 @@ namespace gearshift::engine {
 
 namespace {
 
-constexpr std::uint32_t kMaxCollectedTriangles = 5000;  // [triangles] after which a software driver is made to shade
+constexpr std::uint32_t kMaxCollectedTriangles = 5000;  // [triangles] limit of flush_collected_triangles()
 
 // The region that receives the sun's shadow: the part of the model inside the scene's shadow bounds, or the whole model
 // if that part is empty.
@@ -65,7 +65,7 @@ std::vector<glm::mat4> clips_of(std::span<const View> views, float margin) {
   return clips;
 }
 
-// Returns the views of the mirrored eyes; empty if either eye is behind the mirror.
+// Returns the views of the mirrored eyes, or an empty list if either eye is behind the mirror.
 std::vector<View> mirrored_views(const MirrorWindow& window, std::span<const View> views) {
   std::vector<View> mirrored;
   for (const View& view : views) {
@@ -229,8 +229,8 @@ void Renderer::State::prepare_targets(const Frame& frame) {
   prepare_target(mirror.depth.image, ImageUse::depth_target);
 }
 
-// Depth prepass, so that each pixel is shaded once. There is none with four samples, where a software driver would lose
-// more time in the additional pass over the triangles than it saves.
+// Depth prepass, so that each pixel is shaded once. Skipped with multisampling, because there the additional pass over
+// the triangles costs a software driver more time than it saves.
 void Renderer::State::draw_depth(Frame& frame) {
   if (picture.multisampled) return;
   frame.slot->write_pass(PassKind::depth, frame.data);
@@ -247,7 +247,7 @@ void Renderer::State::draw_mirror(Frame& frame) {
   shader::PassData data = frame.data;
   set_views(data, frame.mirror->views);
   frame.slot->write_pass(PassKind::mirror, data);
-  std::vector<DrawItem> others = frame.items;  // the mirror is not visible in itself
+  std::vector<DrawItem> others = frame.items;  // the mirror does not reflect itself
   std::erase_if(others,
                 [&](const DrawItem& item) { return item.node == static_cast<std::uint32_t>(frame.scene->mirror); });
   const DrawList list =
@@ -307,7 +307,7 @@ void Renderer::State::draw_eyes(const Frame& frame, PassKind pass, EyeImage& col
   for (const EyeGroup eyes : eye_groups()) {
     const Attachment colour_attachment{.view = view_of(colour, eyes)};
     Attachment depth_attachment{.view = view_of(depth, eyes), .store = VK_ATTACHMENT_STORE_OP_DONT_CARE};
-    // draw_depth() has filled it.
+    // draw_depth() has already filled the depth image.
     if (pass == PassKind::main && !picture.multisampled) depth_attachment.load = VK_ATTACHMENT_LOAD_OP_LOAD;
     if (pass == PassKind::main && picture.stores_depth) store_depth(depth_attachment, eyes);
     begin_rendering(frame.commands, colour.image.extent(), eyes.count, &colour_attachment, &depth_attachment);
@@ -341,7 +341,7 @@ void Renderer::State::record(const Frame& frame, PassKind pass, std::span<const 
 }
 
 // A software driver collects the triangles of a pass on one thread, and starts shading only when its buffer is full.
-// Writing a timestamp makes it start at once.
+// Writing a timestamp makes the driver start at once.
 void Renderer::State::flush_collected_triangles(const Frame& frame, std::uint32_t triangles) {
   if (!gpu.traits().is_cpu) return;
   collected_triangles += triangles;

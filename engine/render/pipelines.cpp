@@ -20,8 +20,8 @@ namespace gearshift::engine {
 
 namespace {
 
-// Avoids self-shadowing: pushes depth away from the sun (reverse-Z: smaller) in proportion to the slope of the surface
-// in the map. The normal offset in mesh_vertex.glsl prevents the rest.
+// Reduces self-shadowing: moves depth away from the sun (to smaller values, because of reverse-Z) in proportion to the
+// slope of the surface. The normal offset in mesh_vertex.glsl prevents the remaining self-shadowing.
 constexpr float kShadowSlopeBias = -1.5f;
 
 VertexInput vertex_input() {
@@ -59,8 +59,8 @@ SetLayout material_layout(const Gpu& gpu) {
   return make_set_layout(gpu, bindings);
 }
 
-// Expands the spherical harmonics (engine/light/irradiance.cpp) to a polynomial; the term with c6, 3 z^2 - 1, adds to
-// the constant and to the coefficient of z^2.
+// Expands the spherical harmonics (engine/light/irradiance.cpp) to a polynomial. The function of coefficient c6, 3 z^2
+// - 1, contributes to the constant term and to the coefficient of z^2.
 std::array<glm::vec3, shader::kIrradianceTerms> polynomial_of(const Irradiance& light) {
   constexpr std::array kFactor{0.282095f, 0.488603f, 0.488603f, 0.488603f, 1.092548f,
                                1.092548f, 0.946176f, 1.092548f, 0.546274f};

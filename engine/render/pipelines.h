@@ -32,7 +32,7 @@ class Pipelines {
  public:
   Pipelines(const Gpu& gpu, const RenderLayouts& layouts, VkSampleCountFlagBits samples, bool layered,
             const Irradiance& open, const Irradiance& indoors);
-  VkPipeline mesh(PassKind pass, std::uint32_t features);  // features: those of the pass, see features_in()
+  VkPipeline mesh(PassKind pass, std::uint32_t features);  // features: from features_in()
   VkPipeline sky(PassKind pass);
 
  private:
@@ -47,7 +47,7 @@ class Pipelines {
   const RenderLayouts& layouts_;
   VkSampleCountFlagBits samples_;
   bool layered_;
-  // Specialization constants of a shader; the first one is its features.
+  // Specialization constants of a shader; the first constant is the bit mask of its features.
   using Constants = std::array<std::uint32_t, 1 + 3 * shader::kIrradianceTerms>;
   static Constants constants_of(const Irradiance& light);
   Constants open_, indoors_;

@@ -3,7 +3,8 @@
 //
 // Each eye's picture is a layer of colour(), which can be blitted to a window, read back as a PNG, or copied to a
 // headset. Both eyes are drawn in one pass if the device lets a vertex shader select the layer, otherwise eye by eye.
-// Multisampled layers are resolved by vkCmdResolveImage (a resolve attachment for layer 1 stays black on one driver).
+// Multisampled layers are resolved by vkCmdResolveImage, because on one driver a resolve attachment for layer 1 stays
+// black.
 #pragma once
 
 #include <memory>
@@ -30,10 +31,11 @@ struct RenderConfig {
   EyePasses eye_passes = EyePasses::automatic;
   int shadow_side = 2048;   // [texels] 0: no shadows
   int mirror_height = 96;   // [px] 0: the mirror shows only its material
-  bool normal_maps = true;  // false: negative control for a test
-  bool keep_depth = false;  // makes depth() available for copying, for reprojection
-  // [1] widens the culling frusta by this fraction of the tangents of the half angles, for Finish::late_views(). A head
-  // turning at 300 deg/s turns by 3 deg in 10 ms, for which a picture 90 deg wide needs 0.1.
+  bool normal_maps = true;  // false only as the negative control of a test
+  bool keep_depth = false;  // keeps depth() for copying, e.g. for reprojection
+  // [1] Fraction by which the culling frusta are widened (tangents of the half angles), because Finish::late_views()
+  // may still turn the views. Example: a head that turns at 300 deg/s moves 3 deg in 10 ms. A picture 90 deg wide then
+  // needs about 0.1, because tan(48 deg) / tan(45 deg) = 1.11.
   float late_margin = 0.0f;
 };
 
@@ -55,18 +57,17 @@ class Renderer {
   void resize(const RenderConfig& config);  // applies a changed configuration. Waits for the frames in flight
   const RenderConfig& config() const noexcept;
 
-  // Records and submits one frame; views.size() == eyes. Overlays are drawn in order, on every eye. Returns the
-  // timeline value of the submission. Afterwards colour() is in ImageUse::copy_from.
+  // Records and submits one frame. `views` holds one view per eye. Overlays are drawn in order, on every eye. Returns
+  // the timeline value of the submission. Afterwards colour() is in ImageUse::copy_from.
   std::uint64_t draw(const FrameScene& scene, std::span<const View> views, std::span<Overlay* const> overlays = {});
 
-  // Hooks before the submission: a window appends its blit here, an XR session its copy.
+  // Hooks that run before the submission. A window records its blit here, an XR session its copy.
   struct Finish {
     virtual ~Finish() = default;
-    // slot: index of this frame among the kFramesInFlight, for per-frame buffers of the caller.
+    // `slot`: index of this frame, 0 to kFramesInFlight - 1, for the caller's per-frame buffers.
     virtual void record(VkCommandBuffer commands, GpuImage& colour, int slot) = 0;
-    // Latest views of the eyes, requested after recording and just before the submission; the frame is drawn from them.
-    // Empty: keep the views passed to draw(). The latest views may differ from those by no more than late_margin
-    // allows.
+    // Latest views of the eyes, requested after recording and just before the submission. They replace the views passed
+    // to draw(), from which they may differ by no more than late_margin allows. Empty: keep the views passed to draw().
     virtual std::span<const View> late_views() { return {}; }
     VkSemaphore wait_for = VK_NULL_HANDLE;
     VkSemaphore then_signal = VK_NULL_HANDLE;
@@ -75,8 +76,8 @@ class Renderer {
                      Finish& finish);
 
   GpuImage& colour() noexcept;  // one layer per eye, kColourFormat
-  // One layer per eye, kDepthFormat; values: near plane / distance; with multisampling, that of the first sample. In
-  // copy_from after draw(), if the config has keep_depth.
+  // One layer per eye, in kDepthFormat. Each value is near plane / distance; with multisampling, it is the first
+  // sample's value. After draw(), the image is in ImageUse::copy_from if the config has keep_depth.
   GpuImage& depth() noexcept;
   Image read_eye(int eye);  // waits for the GPU
   const PassTimes& times() const noexcept;

@@ -1,4 +1,4 @@
-// State of a renderer: set up by renderer.cpp, used for drawing by passes.cpp.
+// State of a renderer: renderer.cpp sets the state up, passes.cpp draws with it.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace gearshift::engine {
 
-// The mirror of this frame: its window, and the mirrored views of the eyes.
+// The car's mirror in this frame: its rectangle in the world (see MirrorWindow), and the eyes' views reflected in it.
 struct FrameMirror {
   MirrorWindow window;
   std::vector<View> views;
@@ -39,7 +39,7 @@ struct Frame {
   shader::PassData data{};  // uniforms common to the passes
 };
 
-// Eyes that the same commands draw: all eyes into the layers of an image, or a single eye into its layer.
+// Eyes drawn by the same commands: all eyes into the layers of an image, or a single eye into its layer.
 struct EyeGroup {
   std::uint32_t first = 0, count = 1;
 };
@@ -94,8 +94,8 @@ struct Renderer::State {
   ShadowTarget shadow;
   StaticCasters static_casters;
   VkRect2D dirty_shadow_texels{};  // texels of the map that show moving casters
-  // mirror_placeholder: one black texel, bound in place of the mirror's picture in all passes but the main one, and in
-  // the main pass until a mirror is visible
+  // `mirror_placeholder`: one black texel. It is bound in place of the mirror's picture in all passes but the main
+  // pass, and in the main pass until a mirror is visible.
   MirrorTarget mirror_placeholder, mirror;
   PictureTarget picture;
   std::unique_ptr<Pipelines> pipelines;

@@ -30,7 +30,7 @@ Sampler picture_sampler(const Gpu& gpu) {
   return make_sampler(gpu, {.u = kClamp, .v = kClamp});
 }
 
-// Interpolating between two roughness levels is expensive on a software driver, so it is off there.
+// Interpolating between two roughness levels is expensive on a software driver, so software drivers do not interpolate.
 Sampler reflection_sampler(const Gpu& gpu) {
   if (!gpu.traits().is_cpu) return picture_sampler(gpu);
   const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,

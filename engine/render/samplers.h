@@ -1,4 +1,4 @@
-// Samplers used by the renderer.
+// Texture samplers for tables, pictures, reflections and shadows.
 #pragma once
 
 #include "engine/gpu/gpu_image.h"

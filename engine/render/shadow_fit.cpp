@@ -14,10 +14,10 @@ namespace gearshift::engine {
 
 namespace {
 
-constexpr int kStepsPerWidth = 16;           // steps of the map's centre per width of the map
+constexpr int kStepsPerWidth = 16;           // the map's centre moves by multiples of width / kStepsPerWidth
 constexpr double kMinWidth = 1e-3;           // [m]
 constexpr double kWidthRatio = 1.189207115;  // 2^(1/4), ratio of consecutive map widths
-constexpr double kDepthStep = 0.25;          // [m] the depth range is rounded to multiples of this
+constexpr double kDepthStep = 0.25;          // [m] the depth range is rounded to multiples of kDepthStep
 
 struct Corner {
   glm::vec3 world;
@@ -25,8 +25,8 @@ struct Corner {
 };
 using Polygon = std::vector<Corner>;
 
-// Keeps the part of the polygon with dot(plane, clip) >= 0 (Ivan Sutherland, Gary Hodgman. Reentrant Polygon Clipping.
-// 1974).
+// Returns the part of the polygon with dot(plane, clip) >= 0 (Ivan Sutherland, Gary Hodgman. Reentrant Polygon
+// Clipping. 1974).
 Polygon clipped(const Polygon& polygon, glm::vec4 plane) {
   Polygon inside;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -40,7 +40,8 @@ Polygon clipped(const Polygon& polygon, glm::vec4 plane) {
   return inside;
 }
 
-// Left, right, top and bottom of the view pyramid. The near plane is omitted: the pyramid extends to its apex instead.
+// Left, right, top and bottom planes of the view pyramid. The near plane is omitted, so the pyramid extends to its
+// apex.
 constexpr std::array<glm::vec4, 4> kSides{{{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, 1, 0, 1}, {0, -1, 0, 1}}};
 
 std::array<glm::vec3, 8> corners_of(const Box& box) {
@@ -95,7 +96,8 @@ ShadowFit fit_shadow(std::span<const glm::vec3> points, glm::vec3 towards_sun, i
     low = glm::min(low, in_sun_frame);
     high = glm::max(high, in_sun_frame);
   }
-  // The map must be wide enough even after its centre is rounded to whole steps.
+  // The map is made one step wider than the points, because rounding its centre to whole steps moves it by up to half a
+  // step to either side.
   const int inner = side - 2 * kShadowMargin, texels_per_step = std::max(1, inner / kStepsPerWidth);
   const double slack = 1.0 - static_cast<double>(texels_per_step) / inner;
   const double needed = std::max({high.x - low.x, high.y - low.y, kMinWidth}) / slack;

@@ -10,7 +10,7 @@ namespace gearshift::engine {
 
 class StaticCasters {
  public:
-  // Call once per frame. Returns true if the static map is out of date: the sun or the fit changed, or a static caster
+  // Call once per frame. Returns true if the static map must be redrawn: the sun or the fit changed, or a static caster
   // moved, appeared or disappeared. A node that has moved once counts as moving from then on.
   bool update(const ShadowFit& fit, const FrameScene& scene, std::span<const DrawItem> items);
   bool is_static(std::uint32_t node) const { return !nodes_[node].moves; }

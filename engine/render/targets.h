@@ -41,14 +41,14 @@ struct MirrorTarget {
 struct ShadowTarget {
   ShadowTarget() = default;
   ShadowTarget(Gpu& gpu, std::uint32_t side);
-  GpuImage depth;  // the map that shaders sample
+  GpuImage depth;  // the shadow map that shaders sample
   ImageView view;
   GpuImage static_depth;  // static casters only; copied into depth before the moving casters are drawn
   ImageView static_view;
 };
 
 // Attachment for begin_rendering(), which calls vkCmdBeginRendering for one or more layers, and sets viewport and
-// scissor to the whole extent. The images must already be in the matching use.
+// scissor to the whole extent. The images must already have the matching ImageUse.
 struct Attachment {
   VkImageView view = VK_NULL_HANDLE;
   VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_CLEAR;

@@ -34,12 +34,12 @@ struct DeformedMesh {
   int node = kNone;              // kNone: all nodes that carry the mesh
 };
 
-// Shadows are computed only inside this box ([m] world); a smaller box gives sharper shadows.
+// Shadows are computed only inside this box [m, world space]. A smaller box gives sharper shadows.
 struct ShadowBounds {
   glm::vec3 low{-std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::max()};
 };
 
-// Content of one frame. The mirror, if any, is the plane z = 0 of its node and reflects on the +Z side.
+// Content of one frame. If there is a mirror, it is the plane z = 0 of its node, and its +Z side reflects.
 struct FrameScene {
   std::vector<NodeState> nodes;        // one per node of the model
   std::vector<DeformedMesh> deformed;  // may be empty

@@ -23,10 +23,11 @@ glm::dvec3 operator*(const EyePose& pose, glm::dvec3 point) {
   return pose.position + pose.orientation * point;
 }
 
-// With tangents l, r, d, u of the half angles and the near plane n, a view point (x, y, z), z < 0 ahead, becomes
+// The projection matrix. l, r, d and u are the tangents of the left, right, down and up half angles; n is the distance
+// of the near plane. A point (x, y, z) in view space, with z < 0 ahead of the eye, becomes
 //   w = -z,   x_clip = (2 x + (r + l) z) / (r - l),   y_clip = -(2 y + (u + d) z) / (u - d),   z_clip = n
-// so depth is n / -z: 1 at the near plane, 0 at infinity. This spends the exponent range of a float where depth values
-// are dense (Upchurch, Desbrun. Tightening the Precision of Perspective Rendering. 2012).
+// So depth is n / -z: 1 at the near plane, 0 at infinity. Far points have dense depth values near 0, where a float has
+// its finest steps (Upchurch, Desbrun. Tightening the Precision of Perspective Rendering. 2012).
 glm::mat4 off_axis_projection(const Fov& fov, double near_plane) {
   const double left = std::tan(fov.left), right = std::tan(fov.right);
   const double down = std::tan(fov.down), up = std::tan(fov.up);
@@ -58,7 +59,7 @@ View view_from(const EyePose& eye, const Fov& fov, double near_plane) {
 
 EyePose look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up) {
   const glm::dvec3 ahead = glm::normalize(target - eye);
-  // Looking straight up or down: any horizontal direction can serve as up.
+  // If `up` is parallel to `ahead`, use -z as the up direction. If `ahead` is parallel to z, too, use kRight.
   if (glm::length(glm::cross(ahead, up)) < 1e-6 * glm::length(up)) up = {0.0, 0.0, -1.0};
   if (glm::length(glm::cross(ahead, up)) < 1e-6) up = kRight;
   const glm::dvec3 right = glm::normalize(glm::cross(ahead, up));
@@ -70,8 +71,8 @@ StereoEyes stereo_eyes(const EyePose& head, const Fov& centre, double ipd, doubl
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const double offset = eye == 0 ? -0.5 * ipd : 0.5 * ipd;
     eyes.pose[eye] = {head.position + head.orientation * (offset * kRight), head.orientation};
-    // The screen is fixed, so the tangents of the angles to its edges shift by offset / distance when the eye moves by
-    // `offset`.
+    // An eye that is moved sideways by `offset` sees the edges of the fixed screen at other angles. The tangents of
+    // these angles change by offset / distance.
     eyes.fov[eye] = centre;
     eyes.fov[eye].left = std::atan(std::tan(centre.left) - offset / distance);
     eyes.fov[eye].right = std::atan(std::tan(centre.right) - offset / distance);
@@ -81,8 +82,8 @@ StereoEyes stereo_eyes(const EyePose& head, const Fov& centre, double ipd, doubl
 
 glm::dvec3 project(const View& view, glm::dvec3 point, glm::dvec2 size_px) {
   const glm::dvec4 clip = glm::dmat4(view.clip_from_view) * (glm::dmat4(view.view_from_world) * glm::dvec4(point, 1.0));
-  // clip.z is the distance of the near plane and clip.w that of the point: the difference is how far the point is
-  // beyond the near plane.
+  // clip.z is the distance of the near plane, and clip.w is the distance of the point. So clip.w - clip.z is the
+  // distance of the point beyond the near plane.
   return {0.5 * size_px.x * (1.0 + clip.x / clip.w), 0.5 * size_px.y * (1.0 + clip.y / clip.w), clip.w - clip.z};
 }
 

@@ -10,8 +10,8 @@ namespace gearshift::engine {
 
 namespace {
 
-// Without a sound card, ALSA and OpenAL print ten lines to stderr, and again at each attempt to reopen a lost device.
-// This cannot be turned off without linking ALSA.
+// Redirects stderr to /dev/null during its lifetime, because without a sound card, ALSA and OpenAL print ten lines to
+// stderr, and again at each attempt to reopen a lost device. This output can be turned off only by linking ALSA.
 class QuietStderr {
  public:
   QuietStderr() : saved_stderr_(dup(STDERR_FILENO)) {

@@ -12,14 +12,14 @@ namespace gearshift::engine {
 
 class SoundDevice {
  public:
-  // output: card or memory, as stereo floats at kSoundRate. Throws std::runtime_error with a short reason if the device
-  // cannot be opened.
+  // `output`: SoundOutput::card, or SoundOutput::memory, which renders stereo floats at kSoundRate. Throws
+  // std::runtime_error with a short reason if the device cannot be opened.
   explicit SoundDevice(SoundOutput output);
   virtual ~SoundDevice() = default;
   SoundDevice(const SoundDevice&) = delete;
   SoundDevice& operator=(const SoundDevice&) = delete;
 
-  virtual bool connected() const;  // false once the card was unplugged or its server ended
+  virtual bool connected() const;  // false after the card was unplugged or its server ended
   void make_current() const;
   void render(std::span<float> stereo);  // only for SoundOutput::memory
 

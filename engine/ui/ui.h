@@ -1,5 +1,5 @@
-// Dear ImGui with our own Vulkan pipelines: context, font, drawing. The Vulkan backend in Debian's 1.86 requires a
-// VkRenderPass, which we do not have.
+// Dear ImGui with our own Vulkan pipelines: context, font, drawing. Dear ImGui's own Vulkan backend (version 1.86, as
+// in Debian) requires a VkRenderPass, which this engine does not use.
 #pragma once
 
 #include <memory>
@@ -41,8 +41,8 @@ class UiContext {
   friend class UiOverlay;
 };
 
-// Draws the context's last frame. Each slot has its own buffers, which grow as needed. The font is the only supported
-// texture: any other throws std::logic_error.
+// Draws the context's newest frame. Each slot (frame in flight) has its own buffers, which grow as needed. The font is
+// the only supported texture: any other texture throws std::logic_error.
 class UiOverlay final : public Overlay {
  public:
   UiOverlay(Gpu& gpu, UiContext& context);

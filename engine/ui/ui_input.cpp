@@ -35,8 +35,9 @@ bool writes_text(int key) {
   return key >= kSpace && key <= kLastPrintable;
 }
 
-// True if Dear ImGui would miss this key when it goes down and up between two frames. Keys that write text do not
-// matter: their letters arrive separately.
+// True if Dear ImGui would miss this key when it goes down and up between two frames. False for a key that writes text,
+// because its letter arrives separately. But such a key counts if it is pressed with Ctrl, and Space also counts
+// outside a text field.
 bool is_polled_by_imgui(int key, bool control) {
   if (writes_text(key) && !control && (key != kSpace || ImGui::GetIO().WantTextInput)) return false;
   return std::any_of(std::begin(kKeys), std::end(kKeys), [&](const KeyPair& pair) { return pair.glfw == key; });
@@ -48,7 +49,7 @@ bool is_key_of_imgui(int key) {
 
 }  // namespace
 
-// Queues each letter after the key that typed it if there are as many letters as keys that write text; otherwise queues
+// Queues each letter after the key that typed it if there are as many letters as keys that write text. Otherwise queues
 // all letters before the keys.
 void UiKeyQueue::push(const UiEvents& events) {
   if (!events.focused) {
@@ -58,7 +59,7 @@ void UiKeyQueue::push(const UiEvents& events) {
   bool held[3] = {shift_, control_, alt_};
   const bool has_modifier_events =
       std::any_of(events.keys.begin(), events.keys.end(), [](const UiKey& key) { return modifier_of(key.key) >= 0; });
-  if (!has_modifier_events) {  // no modifier changed since the last push: use the final state
+  if (!has_modifier_events) {  // without modifier key events, the states in `events` apply to all keys
     held[0] = events.shift;
     held[1] = events.control;
     held[2] = events.alt;
@@ -83,7 +84,7 @@ void UiKeyQueue::push(const UiEvents& events) {
   alt_ = events.alt;
 }
 
-// True if the item must wait for the next frame: a frame has a single state for each key and modifier, and processes
+// True if the item must wait for the next frame. A frame has a single state for each key and modifier, and processes
 // its letters before its keys.
 bool UiKeyQueue::starts_frame(const Item& item) const {
   if (changed_.empty()) return false;

@@ -18,7 +18,7 @@ struct UiKey {
 // Input since the last frame.
 struct UiEvents {
   glm::dvec2 mouse{0.0};             // [px]
-  bool has_mouse = true;             // false: the mouse is captured by something else, or outside the window
+  bool has_mouse = true;             // false: the mouse is outside the window, or captured for another use
   bool draws_cursor = false;         // draw a cursor, because the system shows none
   std::array<bool, 5> mouse_down{};  // buttons that are down now: left, right, middle, ...
   glm::dvec2 scroll{0.0};            // [lines] up is positive
@@ -28,8 +28,8 @@ struct UiEvents {
   bool focused = true;  // false: the window has no focus, so all keys are up
 };
 
-// Queues keys and letters for the current context's ImGuiIO. Dear ImGui 1.86 sees only the key states at each frame, so
-// presses and releases between two frames are spread over several frames, in order.
+// Queues keys and letters for the current context's ImGuiIO. Dear ImGui 1.86 sees only the state of each key at each
+// frame. So presses and releases between two frames are spread over several frames, in order.
 class UiKeyQueue {
  public:
   void push(const UiEvents& events);
@@ -44,7 +44,7 @@ class UiKeyQueue {
   bool starts_frame(const Item& item) const;
 
   std::deque<Item> items_;
-  std::vector<int> changed_;                            // keys changed in this frame that Dear ImGui polls
+  std::vector<int> changed_;                            // keys polled by Dear ImGui that changed in this frame
   bool shift_ = false, control_ = false, alt_ = false;  // state after the last push
 };
 

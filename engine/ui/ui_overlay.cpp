@@ -28,7 +28,7 @@ namespace {
 constexpr VkDeviceSize kInitialBufferBytes = VkDeviceSize{64} * 1024;  // [bytes] initial size of each buffer
 constexpr std::uint32_t kPushBytes = 2 * sizeof(float);
 
-// The previous frame that used this slot has completed, so the old buffer can be replaced.
+// The previous frame in this slot has completed, so the old buffer can be replaced.
 void grow_buffer(Gpu& gpu, GpuBuffer& buffer, VkDeviceSize needed, VkBufferUsageFlags usage) {
   if (buffer && buffer.size() >= needed) return;
   const VkDeviceSize size = std::max({kInitialBufferBytes, needed, buffer.size() * 3 / 2});
@@ -51,7 +51,8 @@ void upload(Gpu& gpu, UiBuffers& buffers, const ImDrawData& data) {
   }
 }
 
-// A command's clip rectangle in whole pixels, limited to the picture; empty if it lies outside of the picture.
+// Returns a command's clip rectangle in whole pixels, limited to the picture; empty if the rectangle lies outside the
+// picture.
 VkRect2D scissor_of(const ImVec4& clip, VkExtent2D extent) {
   const auto pixel = [](float value, std::uint32_t max) {
     return static_cast<std::int32_t>(std::lround(std::clamp(value, 0.0f, static_cast<float>(max))));
@@ -127,7 +128,8 @@ UiOverlay::State::State(Gpu& a_gpu, UiContext& a_context) : gpu(a_gpu), context(
   sampler = make_sampler(gpu, smooth);
 }
 
-// Waits for the GPU, because frames in flight still read the old texture; the font changes rarely.
+// Waits for the GPU, because frames in flight still read the old texture. The wait is acceptable, because the font
+// changes rarely.
 void UiOverlay::State::rebuild_font(std::uint64_t version) {
   if (font_version == version) return;
   gpu.wait_idle();

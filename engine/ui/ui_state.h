@@ -11,7 +11,7 @@ namespace gearshift::engine {
 
 // Id of the font's texture in draw commands.
 inline ImTextureID font_texture() {
-  static char font_marker;  // its address is the id
+  static char font_marker;  // the address of this variable is the id
   return &font_marker;
 }
 

@@ -8,12 +8,12 @@
 namespace gearshift::engine {
 namespace {
 
-// From Debian's fonts-dejavu-core. Its digits have equal widths, so that changing numbers do not jitter.
+// Font from Debian's package fonts-dejavu-core. Its digits have equal widths, so that changing numbers do not jitter.
 constexpr const char* kRegular = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
 
-// Letters in the font atlas: Latin-1, dashes and ellipsis, arrows, comparisons. Pairs of first and last code point,
-// terminated by 0.
+// Letters in the font atlas: Latin-1, dashes and ellipsis, arrows, comparisons. Each pair is the first and last code
+// point of a range; 0 ends the list.
 constexpr ImWchar kLetters[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x2193, 0x2264, 0x2265, 0};
 
 struct FontFile {

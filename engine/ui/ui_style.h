@@ -5,7 +5,7 @@
 
 namespace gearshift::engine {
 
-// The fonts of the user interface, in the order of the atlas.
+// The fonts of the user interface, in their order in the font atlas.
 enum class UiFont : int { body, small, title, prompt, digits };
 
 ImFont* ui_font(UiFont font);  // a font of the current context

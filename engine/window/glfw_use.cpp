@@ -9,7 +9,7 @@
 namespace gearshift::engine {
 namespace {
 
-int users = 0;  // no lock needed: GLFW is used from one thread only
+int users = 0;  // no lock is needed, because GLFW is used from one thread only
 
 }  // namespace
 

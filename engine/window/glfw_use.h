@@ -13,7 +13,7 @@ class GlfwUse {
   GlfwUse& operator=(const GlfwUse&) = delete;
 };
 
-// Returns the text of GLFW's last error, which is then cleared; never empty.
+// Returns the text of GLFW's last error and clears the error. The text is never empty.
 std::string glfw_error();
 
 }  // namespace gearshift::engine

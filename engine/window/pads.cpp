@@ -15,7 +15,7 @@ std::vector<PadState> read_pads() {
     const unsigned char* button = glfwGetJoystickButtons(id, &buttons);
     const char* name = glfwGetJoystickName(id);
     const char* guid = glfwGetJoystickGUID(id);
-    if (name == nullptr || guid == nullptr) continue;  // the device was just unplugged, so all four are null
+    if (name == nullptr || guid == nullptr) continue;  // the device was just unplugged
     pads.push_back({name, {axis, axis + axes}, {button, button + buttons}, guid});
   }
   return pads;

@@ -9,12 +9,12 @@ namespace gearshift::engine {
 struct PadState {
   std::string name;
   std::vector<float> axes;             // [-1, 1]
-  std::vector<unsigned char> buttons;  // 0 or 1; the four directions of each hat follow the buttons
+  std::vector<unsigned char> buttons;  // 0 or 1; the last entries are the four directions of each hat
   std::string guid;                    // identifies the model: two devices of the same model have the same GUID
 };
 
-// Devices that are plugged in now, in the order of GLFW's joystick numbers. Call after GLFW was initialised, on its
-// thread.
+// Returns the devices that are plugged in now, in the order of GLFW's joystick numbers. Call after initialising GLFW,
+// on the thread that uses GLFW.
 std::vector<PadState> read_pads();
 
 // Like read_pads(), for a program without a window. Throws std::runtime_error with one sentence if there is no display,

@@ -12,7 +12,8 @@
 namespace gearshift::engine {
 namespace {
 
-// Longer than any display's period. If the compositor provides no image for that long, it is not showing our window.
+// Longer than the frame period of any display. A compositor that provides no image for this long is not showing our
+// window.
 constexpr std::uint64_t kAcquireTimeout = 100'000'000;  // [ns]
 
 Semaphore make_semaphore(VkDevice device) {
@@ -134,8 +135,9 @@ struct Swapchain::State {
   bool stale = true;        // the swapchain must be rebuilt before the next frame
   bool lost = false;        // the surface must be recreated, too
   std::vector<GpuImage> images;
-  std::vector<Semaphore> rendered;  // one per image, reusable once that image is acquired again
-  // One semaphore more than frames in flight, because an image is acquired before the frame waits for its slot.
+  std::vector<Semaphore> rendered;  // one per image; can be signalled again after its image is acquired again
+  // One more than the number of frames in flight, because a frame acquires its image before it waits for the oldest
+  // frame in flight.
   std::array<Semaphore, kFramesInFlight + 1> acquired;
   std::size_t frame = 0;
   std::uint32_t index = 0;  // index of the acquired image
@@ -167,7 +169,7 @@ void Swapchain::State::build() {
   VkSurfaceCapabilitiesKHR capabilities;
   check_surface(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu.physical(), surface, &capabilities),
                 "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
-  stale = true;  // until the build has completed
+  stale = true;  // stays true until the build has completed
   built_for = window.framebuffer();
   extent = choose_extent(capabilities, built_for);
   if (extent.width == 0 || extent.height == 0) return;
@@ -191,7 +193,7 @@ void Swapchain::State::build() {
                                       .clipped = VK_TRUE,
                                       .oldSwapchain = old};
   const VkResult result = vkCreateSwapchainKHR(gpu.device(), &info, nullptr, &swapchain);
-  vkDestroySwapchainKHR(gpu.device(), old, nullptr);  // the old one is retired even if the new one could not be created
+  vkDestroySwapchainKHR(gpu.device(), old, nullptr);  // a failed creation also retires the old swapchain
   if (result != VK_SUCCESS) swapchain = VK_NULL_HANDLE;
   check_surface(result, "vkCreateSwapchainKHR");
   const auto raw = query_list<VkImage>(
@@ -212,7 +214,7 @@ bool Swapchain::State::make_ready() {
       drop_surface();
       make_surface();
     }
-    // Not every driver reports that the image size no longer matches the window.
+    // Compare the sizes, because not every driver reports that the images no longer match the window.
     if (stale || framebuffer != built_for) build();
   } catch (const SurfaceLost&) {
     lost = true;
@@ -221,7 +223,7 @@ bool Swapchain::State::make_ready() {
   return !stale;
 }
 
-// Handles the result of acquire or present; returns true if the image can be used.
+// Handles the result of a call that acquires or presents an image. Returns true if the image can be used.
 bool Swapchain::State::handle_result(VkResult result, const char* what) {
   switch (result) {
     case VK_SUBOPTIMAL_KHR:
@@ -252,7 +254,7 @@ bool Swapchain::acquire() {
   const std::size_t next = (s.frame + 1) % s.acquired.size();
   const VkResult result = vkAcquireNextImageKHR(s.gpu.device(), s.swapchain, s.vsync ? kAcquireTimeout : 0,
                                                 s.acquired[next].get(), VK_NULL_HANDLE, &s.index);
-  // If the acquisition failed, the semaphore was not used; the next call then uses it again.
+  // If the acquisition failed, the semaphore was not used, so the next call uses the same one.
   if (!s.handle_result(result, "vkAcquireNextImageKHR")) return false;
   s.frame = next;
   return true;

@@ -11,22 +11,22 @@ namespace gearshift::engine {
 // Placement of a picture in the window: one of its layers, scaled into a fraction of the window's width.
 struct ShownLayer {
   std::uint32_t layer = 0;
-  float from = 0.0f, to = 1.0f;  // [1] as fractions of the window's width
+  float from = 0.0f, to = 1.0f;  // [1] fractions of the window's width
 };
 
-// Rectangle [px] of a layer in the window: as large as its part of the window allows, and centred in it.
+// Rectangle [px] of a layer in the window. It is as large as the layer's part of the window allows, and centred there.
 VkRect2D placement_of(const ShownLayer& layer, VkExtent2D picture, VkExtent2D window);
 
 class Swapchain {
  public:
-  // Without vsync, acquire() does not wait: for a window that mirrors the picture of a headset, which must not be
-  // delayed.
+  // Without vsync, acquire() does not wait. Use this for a window that mirrors the headset's picture, because waiting
+  // would delay the headset.
   Swapchain(Gpu& gpu, Window& window, bool vsync = true);
   ~Swapchain();
 
-  // Acquires the next image. False if there is nothing to present to (minimised, being resized): draw nothing, poll and
-  // try again. If true, acquired() and rendered() are the semaphores of this frame: wait for the first, signal the
-  // second.
+  // Acquires the next image. Returns false if the window can show no image now (minimised, being resized): draw
+  // nothing, poll the window and try again. If true, the frame must wait for the semaphore acquired() and signal
+  // rendered().
   bool acquire();
   VkSemaphore acquired() const noexcept;
   VkSemaphore rendered() const noexcept;

@@ -79,7 +79,7 @@ struct Window::State {
   GLFWwindow* window = nullptr;
   WindowInput input;
   std::array<bool, 5> held{};  // current mouse buttons
-  glm::dvec2 cursor{0.0};      // in GLFW's window coordinates, unbounded while captured
+  glm::dvec2 cursor{0.0};      // position in GLFW's window coordinates; unbounded while captured
   bool captured = false;
   bool shown = true;
   DesktopArea before_full_screen;
@@ -133,7 +133,8 @@ void Window::State::on_mouse_button(int button, bool down) {
   if (down) input.mouse_down[index] = true;
 }
 
-// A window manager can iconify the window or unmap it (another desktop). Nothing needs to be drawn in either case.
+// A window manager can iconify the window, or unmap it when the user changes the desktop. In both cases nothing needs
+// to be drawn.
 bool Window::State::is_visible() const {
   return glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_FALSE &&
          glfwGetWindowAttrib(window, GLFW_VISIBLE) == GLFW_TRUE;
@@ -206,7 +207,7 @@ void Window::capture_mouse(bool on) {
   if (glfwRawMouseMotionSupported() == GLFW_TRUE) glfwSetInputMode(s.window, GLFW_RAW_MOUSE_MOTION, on);
   glfwSetInputMode(s.window, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   s.captured = on;
-  glfwGetCursorPos(s.window, &s.cursor.x, &s.cursor.y);  // the jump of the cursor must not count as a movement
+  glfwGetCursorPos(s.window, &s.cursor.x, &s.cursor.y);  // capturing moves the cursor; do not count that as a movement
 }
 
 VkSurfaceKHR Window::make_surface(VkInstance instance) const {

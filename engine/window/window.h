@@ -48,13 +48,13 @@ class Window {
 
   static std::vector<const char*> instance_extensions();  // for GpuConfig; valid once a window exists
 
-  const WindowInput& poll();  // does not wait, except while minimised: at most 20 polls per second
+  const WindowInput& poll();  // does not wait, except while minimised: then at most 20 polls per second
   bool wants_close() const;
   glm::ivec2 framebuffer() const;  // [px] (0, 0) while minimised
   float content_scale() const;     // 1 at 96 dpi
-  void set_full_screen(bool on);   // on its current monitor
+  void set_full_screen(bool on);   // on the window's current monitor
   bool full_screen() const;
-  void capture_mouse(bool on);  // hides the cursor and makes its movement unbounded
+  void capture_mouse(bool on);  // hides the cursor and removes the limits of its movement
 
   VkSurfaceKHR make_surface(VkInstance instance) const;
 

@@ -12,18 +12,18 @@ struct HeadsetTiming {
   double period_ms = 0.0;
   double cpu_ms = 0.0;  // from the runtime's request for the frame to its submission
   double gpu_ms = 0.0;
-  double spare_ms = 0.0;  // from the end of drawing to the display time; negative: too late
+  double spare_ms = 0.0;  // from the end of drawing to the display time; negative if drawing ended too late
   // Estimated delay of the display: from the planned display time to the first display period that begins after drawing
   // ended. OpenXR does not report the actual display time.
   double late_ms = 0.0;
   std::uint64_t frames = 0;
   std::uint64_t dropped = 0;  // display periods without a new frame
-  std::uint64_t late = 0;     // frames whose drawing did not end in time
+  std::uint64_t late = 0;     // frames whose drawing ended too late for their planned display time
 };
 
 class FrameTimes {
  public:
-  // Adds a frame that was submitted at submit_ns and then took gpu_ms on the GPU.
+  // Adds a frame that was submitted at `submit_ns` and then took `gpu_ms` on the GPU.
   void add(const HeadsetFrame& frame, std::int64_t submit_ns, double gpu_ms);
   void pause() { last_display_ns_ = 0; }  // frames are not paced for a while: do not count this time as dropped frames
   const HeadsetTiming& timing() const noexcept { return timing_; }

@@ -9,7 +9,7 @@ namespace {
   case value:                          \
     return #name;
 
-// Used instead of xrResultToString, which needs an instance: there may be none.
+// Used instead of xrResultToString, which needs an OpenXR instance, because there may be no instance here.
 const char* to_string(XrResult result) {
   switch (result) {
     XR_LIST_ENUM_XrResult(GEARSHIFT_XR_CASE);

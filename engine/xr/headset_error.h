@@ -15,7 +15,7 @@ struct HeadsetAbsent : HeadsetError {
   using HeadsetError::HeadsetError;
 };
 
-// Session or runtime are lost: HeadsetSession, HeadsetRuntime and the Gpu created through that runtime must be
+// The session or the runtime is lost: HeadsetSession, HeadsetRuntime and the Gpu created through that runtime must be
 // recreated.
 struct HeadsetLost : HeadsetError {
   using HeadsetError::HeadsetError;

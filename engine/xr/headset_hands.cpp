@@ -8,7 +8,8 @@
 namespace gearshift::engine {
 namespace {
 
-// Input paths of a controller, below /user/hand/left or right; null: it has no such input.
+// An interaction profile: its path, and the input paths of the controller below /user/hand/left or /user/hand/right.
+// null: the controller has no such input.
 struct Profile {
   const char *name, *select, *menu, *scroll;
 };
@@ -20,7 +21,7 @@ constexpr Profile kProfiles[] = {
     {"/interaction_profiles/microsoft/motion_controller", "/input/trigger/value", "/input/menu/click",
      "/input/thumbstick"},
 };
-// The menu buttons of the two hands differ on this controller.
+// The menu buttons of the left and right hand differ on this controller.
 constexpr const char* kTouch = "/interaction_profiles/oculus/touch_controller";
 constexpr const char* kTouchMenus[] = {"/input/y/click", "/input/b/click"};
 constexpr const char* kHands[] = {"/user/hand/left", "/user/hand/right"};
@@ -74,7 +75,7 @@ XrAction HeadsetHands::make_action(const char* name, const char* label, XrAction
   return action;
 }
 
-// Suggests bindings for each profile. A profile unknown to the runtime is skipped; one of the others will match.
+// Suggests bindings for each controller profile. A profile unknown to the runtime is skipped.
 void HeadsetHands::suggest_bindings() {
   for (const Profile& profile : kProfiles) {
     std::vector<XrActionSuggestedBinding> bindings;

@@ -5,7 +5,7 @@
 namespace gearshift::engine {
 namespace {
 
-constexpr XrDuration kDestructionTimeout = 100'000'000;  // [ns] wait for an image; longer than a frame of any headset
+constexpr XrDuration kDestructionTimeout = 100'000'000;  // [ns] longest wait; exceeds the frame time of any headset
 
 bool is_depth(VkFormat format) {
   return format == VK_FORMAT_D32_SFLOAT;
@@ -92,8 +92,8 @@ GpuImage* HeadsetImages::acquire(XrDuration timeout) {
   return &image;
 }
 
-// The runtime provides its images in attachment layout and expects them back in it (XR_KHR_vulkan_enable2, "Swapchain
-// Image Layout").
+// The runtime provides its images in attachment layout and expects them back in the same layout (XR_KHR_vulkan_enable2,
+// "Swapchain Image Layout").
 void HeadsetImages::transition_for_release(VkCommandBuffer commands) {
   if (image_state_ != ImageState::waited) return;
   GpuImage& image = images_[index_];

@@ -10,16 +10,16 @@ namespace gearshift::engine {
 
 class HeadsetImages {
  public:
-  // Uses the first of the wanted formats that the runtime offers; throws HeadsetError if it offers none. layers: 1, or
-  // one per eye.
+  // Uses the first of the wanted formats that the runtime offers; throws HeadsetError if it offers none. `layers`: 1,
+  // or one per eye.
   HeadsetImages(XrSession session, const Gpu& gpu, glm::ivec2 size, std::uint32_t layers,
                 std::span<const VkFormat> wanted);
   ~HeadsetImages();
   HeadsetImages(const HeadsetImages&) = delete;
   HeadsetImages& operator=(const HeadsetImages&) = delete;
 
-  // Acquires and waits for the next image; the caller must transition it to copy_to. Returns null if the runtime has no
-  // free image within the timeout; then draw nothing. The image is ours until release().
+  // Acquires the next image and waits for it. The caller must transition it to copy_to, and may use it until release().
+  // Returns null if the runtime has no free image within the timeout; then draw nothing.
   GpuImage* acquire(XrDuration timeout);  // [ns]
   // Call after the submission that writes the image and restores its layout, see transition_for_release().
   void release();

@@ -14,7 +14,8 @@ namespace {
 constexpr const char* kNoRuntime =
     "no OpenXR runtime found; start the headset's software, or set XR_RUNTIME_JSON to the runtime's manifest";
 
-// Debian's loader prints four lines to std::cerr, whatever XR_LOADER_DEBUG says. We report the same in one sentence.
+// If there is no runtime, Debian's loader prints four lines to std::cerr, whatever XR_LOADER_DEBUG says. Our error
+// message says the same in one sentence.
 class QuietLoader {
  public:
   QuietLoader() : saved_buffer_(std::cerr.rdbuf(nullptr)) {}

@@ -17,7 +17,7 @@ struct HeadsetRuntime::State {
   XrInstance instance = XR_NULL_HANDLE;
   XrSystemId system = XR_NULL_SYSTEM_ID;
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
-  bool timespec = false;  // can convert our clock to the runtime's
+  bool timespec = false;  // the runtime can convert our clock's times to its own clock
   HeadsetTraits traits;
 
  private:

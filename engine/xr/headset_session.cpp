@@ -18,9 +18,9 @@ constexpr VkFormat kPictureFormats[] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R
                                         VK_FORMAT_R16G16B16A16_SFLOAT};
 constexpr VkFormat kDepthFormats[] = {VK_FORMAT_D32_SFLOAT};
 constexpr double kEyeDistance = 0.063;  // [m] assumed until the runtime has located the eyes
-// [ns] wait for an eye image; longer than a frame of any headset
+// [ns] longest wait for an eye image; exceeds the frame time of any headset
 constexpr XrDuration kEyeImageTimeout = 100'000'000;
-constexpr XrDuration kExtraImageTimeout = 5'000'000;  // [ns] wait for depth and panel, which a frame can do without
+constexpr XrDuration kExtraImageTimeout = 5'000'000;  // [ns] longest wait for depth and panel, which are optional
 
 std::vector<XrReferenceSpaceType> spaces_of(XrSession session) {
   return list_of<XrReferenceSpaceType>("xrEnumerateReferenceSpaces", XR_REFERENCE_SPACE_TYPE_VIEW,
@@ -136,7 +136,7 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
 
 HeadsetSession::State::~State() {
   if (wait_result.valid()) wait_result.wait();
-  gpu.wait_idle();  // frames in flight may still write to the runtime's images
+  gpu.wait_idle();  // because frames in flight may still write to the runtime's images
   hands.reset();
   colour.reset();
   depth.reset();
@@ -166,7 +166,8 @@ XrSpace HeadsetSession::State::make_space(XrReferenceSpaceType type) const {
   return created;
 }
 
-// Creates the images of eyes, depth and panel. Without depth the session still works: it is only used for reprojection.
+// Creates the images of eyes, depth and panel. Without depth images the session still works: depth is only used for
+// reprojection.
 void HeadsetSession::State::make_images(const HeadsetConfig& config) {
   colour = std::make_unique<HeadsetImages>(session, gpu, config.eye, 2, kPictureFormats);
   make_depth(config);
@@ -213,11 +214,12 @@ void HeadsetSession::State::handle_state(XrSessionState next) {
     check(xrEndSession(session), "xrEndSession");
     is_running = false;
   } else if (next == XR_SESSION_STATE_LOSS_PENDING) {
-    throw HeadsetLost("the headset was lost");
+    throw HeadsetLost("the connection to the headset was lost");
   }
 }
 
-// The event contains the pose of the new origin in the old space.
+// The event contains the pose of the new origin relative to the old space; the inverse of this pose converts old to new
+// coordinates.
 void HeadsetSession::State::queue_space_change(const XrEventDataReferenceSpaceChangePending& event) {
   if (event.referenceSpaceType == XR_REFERENCE_SPACE_TYPE_VIEW) return;
   SpaceChange change;
@@ -226,8 +228,8 @@ void HeadsetSession::State::queue_space_change(const XrEventDataReferenceSpaceCh
   pending.push_back({event.changeTime, change});
 }
 
-// Takes over the located eyes. If the position or the orientation of the head is not tracked, it keeps its last value.
-// Both eyes stay attached to the head.
+// Updates the eyes from the located views. While the head's position or orientation is not tracked, its last value is
+// used. Both eyes stay attached to the head.
 void HeadsetSession::State::update_eyes(const XrView* views, XrViewStateFlags flags) {
   const bool orientation_valid = (flags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0;
   const bool position_valid = (flags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0;
@@ -249,7 +251,7 @@ void HeadsetSession::State::update_eyes(const XrView* views, XrViewStateFlags fl
   eyes.is_known = eyes.is_known || eyes.is_tracked;
 }
 
-// Converts the last eye poses to the moved space, so that an untracked head stays where it was in the room.
+// Converts the last eye poses to the moved tracking space, so that an untracked head stays in place in the room.
 void HeadsetSession::State::move_last_eyes(const EyePose& new_from_old) {
   eye_midpoint = new_from_old * eye_midpoint;
   for (EyePose& eye : eyes.pose) eye = new_from_old * eye;

@@ -18,10 +18,10 @@ namespace gearshift::engine {
 
 struct HeadsetConfig {
   glm::ivec2 eye{0};    // [px] per eye
-  glm::ivec2 panel{0};  // [px] 0: no panel
+  glm::ivec2 panel{0};  // [px] size of the panel's picture; 0: no panel
 };
 
-// State of the session, in the order in which a session normally reaches them.
+// States of the session, in the order in which a session normally reaches them.
 enum class HeadsetState : std::uint8_t {
   idle,          // headset not worn, or in use by another program
   ready,         // the session has just begun
@@ -33,16 +33,16 @@ enum class HeadsetState : std::uint8_t {
 };
 std::string_view to_string(HeadsetState state) noexcept;
 
-// A frame. Times are on the runtime's clock.
+// Times are on the runtime's clock.
 struct HeadsetFrame {
   std::int64_t display_ns = 0;   // [ns] predicted display time
-  std::int64_t wait_end_ns = 0;  // [ns] end of the runtime's wait; 0 if the runtime's clock is not available
+  std::int64_t wait_end_ns = 0;  // [ns] end time of the runtime's wait; 0 if the runtime's clock is not available
   double period = 0.0;           // [s] display period
   bool should_render = false;    // false: drawing is unnecessary
 };
 
-// Eyes in the tracking space. If the position or the orientation of the head is not tracked, it keeps its last value;
-// both eyes stay attached to the head.
+// Eyes in the tracking space. While the head's position or orientation is not tracked, its last value is used; both
+// eyes stay attached to the head.
 struct HeadsetEyes {
   std::array<EyePose, 2> pose;
   std::array<Fov, 2> fov;
@@ -53,20 +53,23 @@ struct HeadsetEyes {
 
 // The origin of the tracking space has moved: a point that had coordinates p now has coordinates new_from_old * p.
 struct SpaceChange {
-  bool is_session_space = false;        // true: the space of all poses moved; false: the space that recentring moves
+  // True: the space in which this session gives all poses has moved. False: a different space moved, because the user
+  // recentred the view.
+  bool is_session_space = false;
   std::optional<EyePose> new_from_old;  // empty: unknown
 };
 
 struct HeadsetHand {
   bool is_tracked = false;
   bool is_position_tracked = false;  // position is tracked now, not estimated
-  EyePose aim;                       // points along its -Z
+  EyePose aim;                       // pose of the pointing ray, which points along -Z
   bool selects = false;              // trigger
   bool menu = false;                 // button
   glm::dvec2 scroll{0.0};            // [1] thumb stick, right and up are positive
 };
 
-// A rectangle of the panel's picture, placed in the room; its pose is that of its centre, facing +Z.
+// A rectangle of the panel's picture, placed in the room. `pose` is the pose of the rectangle's centre; the rectangle
+// faces +Z.
 struct HeadsetPanel {
   EyePose pose;
   glm::dvec2 size{0.0};            // [m]
@@ -79,33 +82,34 @@ class HeadsetSession {
   HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config);
   ~HeadsetSession();  // waits until the device is idle
 
-  // Handles the runtime's events since the last poll, and begins or ends the session as the runtime requests. Does
+  // Handles the runtime's events since the last poll(), and begins or ends the session as the runtime requests. Does
   // nothing while a wait for a frame is pending. Throws HeadsetLost.
   void poll();
   HeadsetState state() const noexcept;
   bool is_waiting() const noexcept;          // a wait for a frame is pending; the destructor waits for it to end
-  bool is_running() const noexcept;          // the runtime wants frames: wait() paces them
+  bool is_running() const noexcept;          // the runtime requests frames, so wait() paces them
   const HeadsetEyes& eyes() const noexcept;  // as last located; at first, side by side at the origin
   bool is_stage() const noexcept;            // poses are in a room-fixed space that persists from day to day
 
-  // Waits until the runtime wants the next frame, and begins it. Empty on timeout: the wait continues in the
-  // background, and the next call resumes it. A runtime may hold back a frame indefinitely. Throws HeadsetLost.
+  // Waits until the runtime requests the next frame, and begins that frame. Returns empty on timeout: the wait
+  // continues in the background, and the next call resumes it. A runtime may hold back a frame indefinitely. Throws
+  // HeadsetLost.
   std::optional<HeadsetFrame> wait(std::chrono::milliseconds timeout);
   HeadsetEyes locate(const HeadsetFrame& frame);
   std::array<HeadsetHand, 2> hands(const HeadsetFrame& frame);  // left, right; default values while not focused
   std::optional<SpaceChange> take_due_space_change(const HeadsetFrame& frame);  // empty until a change is due
 
-  // Images of this frame; null if the runtime has none free now, or if there is no depth or panel. Copy into them
-  // between acquire_images() and transition_for_release(), which is recorded. end() releases them, after the
-  // submission.
+  // Images of this frame; an image is null if the runtime has no free one, or if there is no depth or panel. Copy into
+  // the images between acquire_images() and transition_for_release(), which records a layout transition. end() releases
+  // the images, after the submission.
   struct Images {
     GpuImage *colour = nullptr, *depth = nullptr, *panel = nullptr;
   };
   Images acquire_images(bool panel);
   void transition_for_release(VkCommandBuffer commands);
 
-  // Submits the frame. eyes: the views from which it was drawn; null: no picture. panel: null if there is none.
-  // near_plane [m]: of the projection of the depth image.
+  // Submits the frame. `eyes`: the views from which it was drawn; null: no picture. `panel`: null if there is none.
+  // `near_plane`: near plane of the depth image's projection [m].
   void end(const HeadsetFrame& frame, const HeadsetEyes* eyes, double near_plane, const HeadsetPanel* panel);
 
   std::int64_t now_ns() const;  // [ns] on the runtime's clock; 0 if it is not available

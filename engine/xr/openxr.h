@@ -1,4 +1,4 @@
-// The OpenXR C API for this library: errors as exceptions, conversions of poses. Not to be included elsewhere.
+// The OpenXR C API for this library: errors as exceptions, conversions of poses. Include it only in engine/xr.
 #pragma once
 
 #include <time.h>
@@ -19,11 +19,12 @@
 
 namespace gearshift::engine {
 
-// Throws HeadsetLost if session or instance are lost, HeadsetError for any other error: "WHAT failed: XR_ERROR_...".
-// Success codes pass: XR_TIMEOUT_EXPIRED, XR_SESSION_NOT_FOCUSED, XR_FRAME_DISCARDED, ...
+// Throws HeadsetLost if the session or the instance is lost, and HeadsetError for any other error: "WHAT failed:
+// XR_ERROR_...". Does not throw for success codes such as XR_TIMEOUT_EXPIRED, XR_SESSION_NOT_FOCUSED or
+// XR_FRAME_DISCARDED.
 void check(XrResult result, const char* what);
 
-// OpenXR's two-call idiom for lists of unknown length. blank: an element with its type member set.
+// OpenXR's two-call idiom for lists of unknown length. `blank`: an element whose member `type` is set.
 template <class T, class Query>
 std::vector<T> list_of(const char* what, const T& blank, Query query) {
   std::uint32_t count = 0;

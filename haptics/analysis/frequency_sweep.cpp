@@ -20,11 +20,11 @@ using Complex = std::complex<double>;
 constexpr double kTau = 2.0 * std::numbers::pi;
 constexpr double kMinWindowTime = 1.0;  // [s]
 constexpr double kMinRampTime = 0.3;    // [s]
-constexpr int kMaxWindows = 60;         // then the response counts as never settled
-constexpr double kAgreement = 1e-3;     // [1] allowed difference between two windows, or their noise if larger
-constexpr double kMinDeviation = 1e-6;  // [1] lower bound of a response's deviation; no device is better
-constexpr double kStopFraction = 0.9;   // [1] fraction of the distance to the stop; beyond it the motors go off
-constexpr double kMaxOvershoot = 1.15;  // [1] fraction of the requested stroke; beyond it the amplitude is reduced
+constexpr int kMaxWindows = 60;         // after this number of windows a frequency is reported as `never_settled`
+constexpr double kAgreement = 1e-3;     // [1] two windows agree if they differ by less than this fraction or the noise
+constexpr double kMinDeviation = 1e-6;  // [1] lower bound of the reported relative uncertainty
+constexpr double kStopFraction = 0.9;   // [1] the sweep ends beyond this fraction of the distance to the stop
+constexpr double kMaxOvershoot = 1.15;  // [1] beyond this multiple of the requested stroke the amplitude is halved
 
 int axis_index(LeverAxis axis) {
   return axis == LeverAxis::x ? 0 : 1;
@@ -42,7 +42,8 @@ const SweepConfig& validated(const SweepConfig& config, const DeviceSpec& spec, 
   require_between("delay of the device", spec.delay, 0, kMaxLoopDelay, "cycles");
   if (config.literal && !spec.simulated) {
     throw std::invalid_argument(
-        "FrequencySweep: literal drives the lever to its stop, so it is allowed only with a simulated device");
+        "FrequencySweep: the option literal drives the lever to its stop, so the option is allowed only with a "
+        "simulated device");
   }
   return config;
 }
@@ -63,14 +64,16 @@ std::string_view fault_text(GuardFault fault) {
   }
 }
 
-// Ratio of the fundamental of a sampled and held sinusoid to the sinusoid itself.
+// Returns the complex ratio between the fundamental of a sampled-and-held sinusoid, which is a staircase, and the
+// original sinusoid.
 Complex hold(double omega, double period) {
   const Complex jwt{0.0, omega * period};
   return (1.0 - std::exp(-jwt)) / jwt;
 }
 
-// Standard deviation of a sinusoid's amplitude due to encoder quantisation: the harmonics alias onto the fundamental
-// with the Bessel function J1(2 pi A / q) at an unknown phase.
+// Uncertainty (standard deviation) of a sinusoid's amplitude due to encoder quantisation. For amplitude A and quantum q
+// the harmonics of the rounding error alias onto the fundamental. Their phase is unknown. Their amplitude is
+// proportional to q times the Bessel function J1(2 pi A / q), which decreases as sqrt(q / A).
 double rounding_deviation(double amplitude, double quantum) {
   return amplitude > 0.0 ? 0.1 * quantum * std::sqrt(quantum / amplitude) : 0.0;
 }
@@ -130,7 +133,7 @@ bool FrequencySweep::step(std::int64_t now_ns) noexcept {
   } else if (fresh && guard_.state() == GuardState::running) {
     process_sample(reading);
   } else {
-    send(commands_[cycles_ % commands_.size()], reading, fresh);  // the last command again; 0 until the guard runs
+    send(commands_[cycles_ % commands_.size()], reading, fresh);  // repeats the newest command; it is 0 at first
   }
   return !done_;
 }
@@ -156,7 +159,8 @@ void FrequencySweep::update_time(std::int64_t time_ns) noexcept {
   started_ = true;
 }
 
-// The guard gets no velocity: it would use the velocity only for damping after a fault, when the sweep is already over.
+// Sends the force to the device through the guard. Passes no velocity to the guard, because the guard uses it only to
+// damp the lever after a fault, and a fault ends the sweep.
 void FrequencySweep::send(glm::dvec2 force, const LeverReading& reading, bool fresh) noexcept {
   GuardInput in;
   in.force = force;
@@ -200,13 +204,15 @@ bool FrequencySweep::is_decreasing() const noexcept {
   return stage_ == Stage::fade || (stage_ == Stage::ramp && envelope_.to < envelope_.from);
 }
 
-// The plane force that acts along this axis's arc and does no work on the other axis.
+// The force in the gate plane that drives only this axis: it acts along the arc of this axis and does no work on the
+// other axis.
 glm::dvec2 FrequencySweep::wanted_force(const ArcSample& here) const noexcept {
   const double phase = kTau * tones_[current_].frequency * (time_ - tone_start_);
   return envelope_.at(time_) * std::sin(phase) * here.plane_per_arc;
 }
 
-// Until the next sample, the force that acts is the command sent `delay` samples ago, at the present pose.
+// In a window, adds the sample to the fit, with the command that was sent `delay` samples ago: the motors apply that
+// command until the next sample. Otherwise starts the next stage once the ramp or fade has ended.
 void FrequencySweep::measure(const ArcSample& here, const LeverReading& reading) noexcept {
   if (stage_ == Stage::window) {
     const DeviceSpec& spec = device_.spec();
@@ -273,9 +279,9 @@ void FrequencySweep::next_tone() noexcept {
   ramp_to(config_.literal ? max_amplitude_ : std::min(max_amplitude_, amplitude_for_stroke(omega)));
 }
 
-// Amplitude that should produce the requested stroke, predicted from the two frequencies above this one:
-// 1/G = k - m w^2 + j b w has three unknowns. With only one frequency measured, the response is assumed to grow with
-// the square of the period, as it does above all resonances.
+// Predicts the force amplitude that produces the requested stroke at this frequency. The two frequencies measured last
+// determine mass m, damping b and stiffness k in 1/G = k - m w^2 + j b w. If only one frequency has been measured, the
+// response is assumed to grow with the square of the period, as it does above all resonances.
 double FrequencySweep::amplitude_for_stroke(double omega) const noexcept {
   const double stroke = config_.stroke_fraction * stop_;
   const std::size_t known = response_.points.size();

@@ -36,8 +36,8 @@ std::vector<FrequencyPoint> measured_points(const FrequencyResponse& response) {
   return points;
 }
 
-// The compliance to a force that is held between samples: the discrete transfer function C (z - A)^-1 B of one step,
-// divided by the fundamental of the hold, so that it is comparable to compliance().
+// Frequency response of the position to a force that is held between samples: the discrete transfer function C (z -
+// A)^-1 B of one step. It is divided by the hold's own response, which makes it comparable to compliance().
 Complex held_compliance(const AxisModel& axis, double frequency, double period) {
   const AxisStepper stepper(axis, period);
   const AxisState of_x = stepper.step({1.0, 0.0}, 0.0), of_v = stepper.step({0.0, 1.0}, 0.0);
@@ -48,13 +48,14 @@ Complex held_compliance(const AxisModel& axis, double frequency, double period) 
   return sampled * jwt / (1.0 - 1.0 / z);
 }
 
-// The response that the experiment would report for this axis.
+// The response that a frequency sweep would report for this axis.
 Complex expected_response(const AxisModel& axis, const FrequencyPoint& point, double period) {
   const Complex held = held_compliance(axis, point.frequency, period);
   return point.held * held + (1.0 - point.held) * compliance(axis, point.frequency);
 }
 
-// Initial guess, which ignores the hold: the real part of 1/G is linear in k and m, the imaginary part in b.
+// Initial guess of mass m, damping b and stiffness k, which ignores the sample-and-hold. The real part of 1/G is linear
+// in k and m, and the imaginary part is linear in b.
 glm::dvec3 linear_fit(const std::vector<FrequencyPoint>& points) {
   double s1 = 0.0, sw = 0.0, sww = 0.0, sz = 0.0, szw = 0.0, b_numerator = 0.0, b_denominator = 0.0;
   for (const FrequencyPoint& point : points) {
@@ -68,7 +69,8 @@ glm::dvec3 linear_fit(const std::vector<FrequencyPoint>& points) {
   return {mass, b_numerator / b_denominator, (sz + mass * sw) / s1};
 }
 
-// Sums of r^2, gradient^T r and gradient^T gradient over all points, with residuals r in standard deviations.
+// Sums of r^2, g r and g g^T over all residuals r with gradient g, for a least-squares step. Residuals are in units of
+// their standard deviation.
 struct NormalEquations {
   glm::dmat3 matrix{0.0};
   glm::dvec3 slope{0.0};
@@ -121,7 +123,7 @@ Complex compliance(const AxisModel& axis, double frequency) noexcept {
 AxisFit fit_axis(const FrequencyResponse& response) {
   constexpr int kMaxIterations = 30;
   constexpr double kConvergence =
-      1e-6;  // [1] step length in standard deviations: a relative one would fail for a parameter of 0
+      1e-6;  // [1] largest final step, in standard deviations; a relative limit would fail for a parameter of 0
   const std::vector<FrequencyPoint> points = measured_points(response);
   glm::dvec3 p = linear_fit(points);
   NormalEquations sum;
@@ -144,7 +146,7 @@ AxisFit fit_axis(const FrequencyResponse& response) {
   return {model_of(p), model_of(deviation), misfit, static_cast<int>(points.size())};
 }
 
-// |1/G|^2 = m^2 w^4 + (b^2 - 2 m k) w^2 + k^2, a parabola in w^2.
+// Solves |1/G|^2 = 1 / gain^2 for w^2; |1/G|^2 = m^2 w^4 + (b^2 - 2 m k) w^2 + k^2 is quadratic in w^2.
 double frequency_at_gain(const AxisModel& axis, double gain) noexcept {
   const double m = axis.mass, b = axis.damping, k = axis.stiffness;
   const double middle = b * b - 2.0 * m * k, rest = k * k - 1.0 / (gain * gain);

@@ -16,37 +16,38 @@
 
 namespace gearshift::haptics {
 
-// The paper's eq (8): G(j omega) [m/N] at `frequency` [Hz] for a continuous force, not held between samples.
+// Position per force, G(j omega) [m/N] of the paper's eq (8), at `frequency` [Hz]. The force is continuous, not held
+// between samples.
 std::complex<double> compliance(const AxisModel& axis, double frequency) noexcept;
 
 struct AxisFit {
   AxisModel model;
   AxisModel deviation;  // standard uncertainty of mass, damping and stiffness
-  double misfit = 0.0;  // [1] about 1 if the points scatter as their deviations predict; above 1 it scales `deviation`
-  int points = 0;       // number of points used
+  double misfit = 0.0;  // [1] scatter of the points relative to their stated deviations; above 1 it scales `deviation`
+  int points = 0;       // number of points used in the fit
 };
 
-// Fits 1/G = k - m w^2 + j b w to the measured points by weighted least squares, then refines the fit with the exact
-// response to a force that the motors hold between samples. The measured response already accounts for the delay.
-// Throws std::invalid_argument with one sentence if there are fewer than three measured points, the fitted mass is not
-// positive, or the fit does not converge.
+// Fits mass m, damping b and stiffness k of 1/G = k - m w^2 + j b w to the measured points by weighted least squares.
+// Then refines the fit with the exact response to a force that the motors hold between samples. The measured response
+// already accounts for the delay. Throws std::invalid_argument with one sentence if fewer than three points were
+// measured, the fitted mass is not positive, or the fit does not converge.
 AxisFit fit_axis(const FrequencyResponse& response);
 
-// Highest frequency at which the gain still reaches `gain` [m/N]; 0 if it never does. [Hz]
+// Highest frequency [Hz] at which the axis still moves `gain` [m] per newton; 0 if it never does.
 double frequency_at_gain(const AxisModel& axis, double gain) noexcept;
 
-// Frequency at which the gain has fallen to 1/sqrt 2 (-3 dB) of its static value 1/k; 0 without a spring. [Hz] The
-// paper's "100 Hz" does not follow from its own eqs (11) and (12), whose bandwidths are 0.92 and 1.02 Hz.
+// Frequency [Hz] at which the gain has fallen to 1/sqrt 2 (-3 dB) of its static value 1/stiffness; 0 without a spring.
+// The paper states 100 Hz, but its own eqs (11) and (12) give 0.92 and 1.02 Hz.
 double bandwidth(const AxisModel& axis) noexcept;
 
 double damping_ratio(const AxisModel& axis) noexcept;  // [1] over-damped if above 1; infinite without a spring
-std::array<std::complex<double>, 2> poles(const AxisModel& axis) noexcept;  // [rad/s] slower pole first
+std::array<std::complex<double>, 2> poles(const AxisModel& axis) noexcept;  // [rad/s] the slower pole comes first
 
-// The device's row of Table 2, from its spec().
+// One device's values for Table 2 of the paper, computed from its spec().
 struct DeviceRow {
-  glm::dvec2 range_deg{0.0};      // [deg] angle from stop to stop, select and shift; 0 without a yoke
-  double continuous_force = 0.0;  // [N] at the tip, weaker axis; printed in the paper as "10.83 Nm"
-  double counts_per_deg = 0.0;    // [1/deg] 0 without a yoke or an encoder
+  glm::dvec2 range_deg{0.0};      // [deg] angle from stop to stop of the select and shift axis; 0 without a yoke
+  double continuous_force = 0.0;  // [N] at the tip, for the weaker axis; printed in the paper as "10.83 Nm"
+  double counts_per_deg = 0.0;    // [1/deg] encoder counts per degree; 0 without a yoke or an encoder
   double step = 0.0;              // [m] motion of the tip per encoder count
 };
 DeviceRow device_row(const DeviceSpec& spec) noexcept;

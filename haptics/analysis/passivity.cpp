@@ -13,17 +13,19 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kMinAngle = 1e-4;                           // [rad] w T
-constexpr double kMaxAngleStep = std::numbers::pi / 1024.0;  // [rad] search step: 7 per ripple of the longest delay
+constexpr double kMinAngle = 1e-4;  // [rad] smallest angle searched
+// [rad] Largest step between the angles searched. Delay (up to 15 samples) and velocity window (up to 64) give the
+// function at most 79 ripples per 2 pi, so the step covers each ripple with at least 25 points.
+constexpr double kMaxAngleStep = std::numbers::pi / 1024.0;
 
-// The right side of eq (13) at w T = angle [rad]. Using 1 - exp(-j a) = 2 sin(a/2) (sin(a/2) + j cos(a/2)) avoids
-// cancellation as w -> 0.
+// Right side of eq (13) at an angle [rad] = angular frequency * period. The rewritten form 1 - exp(-j a) = 2 sin(a/2)
+// (sin(a/2) + j cos(a/2)) avoids cancellation at small angles a.
 double demand_at(const Environment& environment, double period, double angle) {
   const Complex e = environment(std::polar(1.0, angle));
   return 0.5 * period * (e.real() - e.imag() / std::tan(0.5 * angle));
 }
 
-// Largest value between two angles around a single peak, by golden-section search.
+// Golden-section search for the maximum of f between two angles. f must have a single peak between them.
 template <typename Function>
 double peak(const Function& f, double low, double high) {
   constexpr double kInverseGoldenRatio = 1.0 / std::numbers::phi;
@@ -37,8 +39,9 @@ double peak(const Function& f, double low, double high) {
   return best;
 }
 
-// Largest value of an even function of the angle between 0 and pi, including the limit at 0, which can be the largest,
-// as for a delayed spring. The search step is fine enough to find every peak; each is then refined.
+// Largest value of an even function between the angles 0 and pi. The limit at 0 is included, because it can be the
+// maximum, for example for a delayed spring. A scan with a step fine enough to find every peak comes first; each peak
+// is then refined.
 template <typename Function>
 double max_over_angles(const Function& f) {
   double best = (4.0 * f(kMinAngle) - f(2.0 * kMinAngle)) / 3.0;
@@ -53,7 +56,7 @@ double max_over_angles(const Function& f) {
   return std::max(best, at_here);
 }
 
-// Passive stiffness limit of an environment that is linear in its stiffness: K spring + rest.
+// Largest passive stiffness K of the environment K * spring + rest.
 double stiffness_limit_of(double device_damping, const Environment& spring, const Environment& rest, double period) {
   require_between("device.damping", device_damping, 0.0, 1e9, "N s/m");
   if (damping_demand(rest, period) >= device_damping) return 0.0;

@@ -15,10 +15,10 @@ namespace gearshift::haptics {
 namespace {
 
 static_assert(2 + kMaxWindow + 1 + 3 + kMaxLoopDelay + 1 <=
-              kMaxStates);                    // lever, past positions, smooth velocity, estimate, queue
-constexpr double kMinStiffnessFactor = 1e-7;  // in units of m / T^2: the softest wall tested
+              kMaxStates);                    // terms: lever, past positions, smooth velocity, estimate, queue
+constexpr double kMinStiffnessFactor = 1e-7;  // softest wall tested, in units of m / T^2 (mass m, period T)
 constexpr double kMaxStiffness = 1e9;         // [N/m]
-constexpr double kScanRatio = 1.25;           // ratio of neighbouring tested stiffnesses
+constexpr double kScanRatio = 1.25;           // ratio between one tested stiffness and the next
 constexpr double kAccuracy = 1e-9;            // relative
 
 void check(const AxisModel& handle, const HandImpedance& hand) {
@@ -30,12 +30,12 @@ void check(const AxisModel& handle, const HandImpedance& hand) {
   require_between("hand.stiffness", hand.stiffness, 0.0, 1e6, "N/m");
 }
 
-// One cycle of the loop in contact. Its state, in this order: the lever's position and velocity; the past positions
-// used by the velocity estimate, newest first; the smooth velocity; the observer's position, velocity and hand force;
-// the delayed forces, oldest first. Parts that the law does not use are omitted.
+// One cycle of the loop in contact, as a linear map of its state. The state holds, in this order: the lever's position
+// and velocity; the past positions used by the velocity estimate, newest first; the smooth velocity; the observer's
+// position, velocity and hand force; the delayed forces, oldest first. Parts that the law does not use are omitted.
 class ContactCycle {
  public:
-  // The observer models only the handle; the lever moves with handle and hand.
+  // The observer models only the handle. The simulated lever has the impedance of handle and hand together.
   ContactCycle(const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period)
       : law_(law),
         wall_{law.stiffness, std::max(law.damping, kMinObserverDamping), period, law.delay, law.hold},
@@ -65,7 +65,7 @@ class ContactCycle {
 
     const double velocity = past.empty() ? 0.0 : (lever.position - past.back()) / (law_.window * period_);
     shift_in(past, lever.position);
-    const double previous_damping = free_damping_force(smooth);  // damping force of the previous cycle
+    const double previous_damping = free_damping_force(smooth);
     for (double& v : smooth) v += blend_ * (velocity - v);
     const double wall = estimate.empty() ? sampled_force(lever.position, velocity)
                                          : observed_force(estimate, queue, lever.position, previous_damping);
@@ -100,8 +100,8 @@ class ContactCycle {
     return -law_.stiffness * (position + 0.5 * horizon_ * velocity) - law_.damping * velocity;
   }
 
-  // As in LeverObserver, HapticLoop and contact_force(). queue: the force of the last period, then the delayed ones;
-  // other_force: commanded in addition to the wall's [N].
+  // Computes the force as LeverObserver, HapticLoop and contact_force() do. queue: the force of the previous period,
+  // then the delayed forces. other_force: force [N] commanded in addition to the wall's force.
   double observed_force(std::span<double> estimate, std::span<const double> queue, double position,
                         double other_force) const {
     const AxisEstimate before{estimate[0], estimate[1], estimate[2]};
@@ -115,8 +115,8 @@ class ContactCycle {
                                 observer_.compliance());
   }
 
-  // Queues the force and returns the force that acts now, written `delay` cycles ago. With an observer, the queue also
-  // keeps the returned force for the next cycle.
+  // Queues the new force and returns the force that acts now, which was computed `delay` cycles ago. With an observer,
+  // the returned force also stays in the queue for one more cycle.
   double advance_queue(std::span<double> queue, double force) const {
     if (queue.empty()) return force;
     const double oldest = queue.front();
@@ -128,7 +128,7 @@ class ContactCycle {
   ContactLaw law_;
   Coupling wall_;
   double period_;
-  double horizon_;  // [s] the position is predicted to the middle of this horizon
+  double horizon_;  // [s] the position is predicted to the middle of this time span
   AxisStepper plant_;
   AxisObserver observer_;
   double force_scale_;  // [N] force that moves the lever by about one metre per period
@@ -136,7 +136,8 @@ class ContactCycle {
   double blend_ = 0.0;  // [1] weight of the newest velocity in the smooth velocity
 };
 
-// The cycle is linear, so the columns of its matrix are the images of the unit vectors.
+// Spectral radius of the cycle's matrix. The cycle is linear, so the columns of the matrix are the images of the unit
+// vectors.
 double radius_of(const ContactCycle& cycle) {
   const std::size_t n = cycle.order();
   std::array<double, std::size_t{kMaxStates} * kMaxStates> matrix;

@@ -21,25 +21,25 @@ inline constexpr int kCalibrationDirections = 8;                                
 
 struct Weighing {
   double weight = 0.0;      // [gw]
-  int direction = 0;        // 0 to 7: multiple of 45 deg from +x towards +y
-  glm::dvec2 reading{0.0};  // [raw] f_s of both axes
+  int direction = 0;        // 0 to 7: angle from +x towards +y, in steps of 45 deg
+  glm::dvec2 reading{0.0};  // [raw] sensor reading f_s of both axes
 };
 
-// Simulates all weights in all directions on two sensors, each reading the mean of `samples` (1 to 100000). Throws
-// std::invalid_argument.
+// Simulates the calibration: loads two sensors with every weight in every direction and averages `samples` readings (1
+// to 100000) of each. Throws std::invalid_argument if `samples` is out of range.
 std::vector<Weighing> weigh(const ForceSensorModel& x, const ForceSensorModel& y, int samples, std::uint64_t seed);
 
-// Least-squares line f_s = offset + gain f_e of one axis, the inverse of the paper's eq (7).
+// Line fitted to one axis, reading f_s = offset + gain * force f_e: the inverse of the paper's eq (7).
 struct SensorLine {
-  double offset = 0.0, offset_deviation = 0.0;  // [raw] offset and its standard uncertainty
+  double offset = 0.0, offset_deviation = 0.0;  // [raw] reading without load, and its standard uncertainty
   double gain = 0.0, gain_deviation = 0.0;      // [raw/gw]
   double nonlinearity = 0.0;                    // [gw] largest deviation of a reading from the line
 };
 
 struct SensorCalibration {
   SensorLine x, y;
-  double direction_spread = 0.0;  // [1] largest deviation of a single direction's gain from 1 after calibration
-  double cross_force = 0.0;       // [gw] largest force read perpendicular to the weight
+  double direction_spread = 0.0;  // [1] largest deviation from 1 of a direction's ratio of calibrated force to weight
+  double cross_force = 0.0;       // [gw] largest force measured perpendicular to the weight
 };
 
 // Throws std::invalid_argument if an axis has fewer than three different forces.

@@ -10,7 +10,7 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxStates, kMaxStates>;
 
-// Absolute value of the conjugate pair of eigenvalues of the 2x2 block at i, computed without overflow.
+// Absolute value of the conjugate pair of eigenvalues of the 2x2 block that starts at i, computed without overflow.
 double pair_size(const Matrix& blocks, Eigen::Index i) {
   const double p = 0.5 * (blocks(i, i) - blocks(i + 1, i + 1)), low = blocks(i + 1, i), high = blocks(i, i + 1);
   const double unit = std::max({std::abs(p), std::abs(low), std::abs(high)});
@@ -20,7 +20,8 @@ double pair_size(const Matrix& blocks, Eigen::Index i) {
 
 }  // namespace
 
-// Bit-identical to Eigen::EigenSolver, but without its eigenvectors, which are unused and double the compile time.
+// Computes the same eigenvalues as Eigen::EigenSolver, bit for bit. That class also computes eigenvectors, which are
+// not needed here and double the compile time.
 double largest_eigenvalue(std::span<const double> entries, int order) noexcept {
   constexpr double kNotFound = std::numeric_limits<double>::infinity();
   const Eigen::Map<const Eigen::MatrixXd> matrix(entries.data(), order, order);
@@ -31,7 +32,7 @@ double largest_eigenvalue(std::span<const double> entries, int order) noexcept {
   Eigen::RealSchur<Matrix> schur(order);
   schur.computeFromHessenberg(hessenberg.matrixH(), Matrix(), false);
   if (schur.info() != Eigen::Success) return kNotFound;
-  const Matrix blocks = schur.matrixT() * scale;  // diagonal blocks of size 1, or 2 for a conjugate pair
+  const Matrix blocks = schur.matrixT() * scale;  // diagonal blocks: 1x1 for a real eigenvalue, 2x2 for a pair
   double largest = 0.0;
   for (Eigen::Index i = 0; i < order; ++i) {
     const bool is_pair = i + 1 < order && blocks(i + 1, i) != 0.0;

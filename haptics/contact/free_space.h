@@ -1,4 +1,5 @@
-// The convex regions that make up free space: neutral aisle, vertical aisles and chamfered mouths.
+// The convex regions whose union is free space: the neutral aisle, the vertical aisles and the chamfered mouths of the
+// slots.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +31,7 @@ inline AisleBox neutral_aisle(const Gate& gate, const Passage& passage) noexcept
   return {{passage.select_min, -gate.half_aisle}, {passage.select_max, gate.half_aisle}};
 }
 
-// A vertical aisle, shortened where a lockout closes a slot's mouth or the gearbox limits its depth.
+// A column's vertical aisle. It is shorter where a lockout closes a slot's mouth or the gearbox limits a slot's depth.
 inline AisleBox vertical_aisle(const Gate& gate, const Passage& passage, const Column& column) noexcept {
   const double mouth = gate.half_aisle + gate.chamfer;
   const auto is_closed = [&](int slot) { return slot != kNoSlot && (passage.closed >> slot & 1u) != 0; };
@@ -48,11 +49,11 @@ inline AisleBox vertical_aisle(const Gate& gate, const Passage& passage, const C
   return box;
 }
 
-// The chamfered mouth of one slot. In the coordinates u = x - center and v = sign * y, in which the slot points towards
-// +v, the mouth is the convex region |u| <= reach, -half_aisle <= v <= top, |u| + v <= reach + half_aisle, clipped to
-// min_x <= x <= max_x, because the neutral aisle may end there (at its own ends or at a lateral lockout).
+// The chamfered mouth of one slot, as a convex region. With u = x - center and v = sign * y, the slot points towards +v
+// and the mouth is |u| <= reach, -half_aisle <= v <= top, |u| + v <= reach + half_aisle. The mouth is clipped to min_x
+// <= x <= max_x, because the neutral aisle may end inside it (at the gate's end or at a lateral lockout).
 struct Mouth {
-  double center, sign;  // x of the column, +1 forward or -1 back
+  double center, sign;  // [m] x of the column; +1 if the slot is forward, -1 if back
   double reach, half_aisle, top;
   double min_x, max_x;
 };
@@ -81,7 +82,8 @@ inline glm::dvec2 nearest(const Mouth& mouth, glm::dvec2 p) noexcept {
   glm::dvec2 q = nearest(box, upright);
   const double limit = mouth.reach + mouth.half_aisle;
   if (std::abs(q.x - mouth.center) + q.y > limit) {
-    // The point is beyond a chamfer: project it onto the chamfer's 45 degree line and clamp it to the chamfer.
+    // The point is beyond a chamfer: project it onto the 45 degree line of the chamfer, then clamp it to the ends of
+    // the chamfer.
     const double right = upright.x < mouth.center ? -1.0 : 1.0;
     const double u = right * (upright.x - mouth.center);
     const double end = right > 0.0 ? mouth.max_x - mouth.center : mouth.center - mouth.min_x;

@@ -16,7 +16,7 @@ struct Interval {
   double low = 1.0, high = -1.0;
 };
 
-// The part of the line through p along `axis` that lies inside the aisle.
+// The part of the line through p, parallel to `axis`, that lies inside the aisle.
 Interval interval_in(const AisleBox& box, glm::dvec2 p, int axis) noexcept {
   const int other = 1 - axis;
   if (p[other] < box.min[other] - kEdgeTolerance || p[other] > box.max[other] + kEdgeTolerance) return {};
@@ -36,7 +36,7 @@ Interval interval_in(const Mouth& mouth, glm::dvec2 p, int axis) noexcept {
   return mouth.sign > 0.0 ? Interval{-mouth.half_aisle, top} : Interval{-top, mouth.half_aisle};
 }
 
-// Extends the span by a part that touches it.
+// Extends the span by `part` if the two touch or overlap.
 void extend(Interval& span, Interval part) noexcept {
   if (part.high < part.low || part.low > span.high + kEdgeTolerance || part.high < span.low - kEdgeTolerance) return;
   span = {std::min(span.low, part.low), std::max(span.high, part.high)};
@@ -44,8 +44,8 @@ void extend(Interval& span, Interval part) noexcept {
 
 }  // namespace
 
-// A line through the point along an axis can only meet the nearest column's aisle and mouths and the neutral aisle:
-// columns do not overlap, mouths included, and between them there is only the neutral aisle.
+// It suffices to examine the neutral aisle and the nearest column with its mouths: columns with their mouths do not
+// overlap, and only the neutral aisle lies between them.
 FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept {
   const Column& column = column_of(gate, nearest_column(gate, point.x));
   const Mouth forward = mouth_of(gate, passage, column, Side::forward);
@@ -57,7 +57,7 @@ FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) n
                            column.back_slot == kNoSlot ? Interval{} : interval_in(back, point, axis),
                            interval_in(neutral_aisle(gate, passage), point, axis)};
     Interval span_on_axis{point[axis], point[axis]};
-    for (int pass = 0; pass < 2; ++pass)  // two passes, for a span that goes through the aisle into both mouths
+    for (int pass = 0; pass < 2; ++pass)  // two passes: a part may touch the span only through a part later in `parts`
       for (const Interval& part : parts) extend(span_on_axis, part);
     span.low[axis] = span_on_axis.low;
     span.high[axis] = span_on_axis.high;

@@ -12,8 +12,8 @@ struct FreeSpan {
   glm::dvec2 low{0.0}, high{0.0};  // [m] per axis: low end (left, back), high end (right, forward)
 };
 
-// For each axis, the free interval containing the point on the line through it parallel to that axis. Respects
-// lockouts, chamfers and depth limits as move_proxy() does. The point must be in free space. Real-time safe.
+// For each axis: the free interval around the point, on the line through the point parallel to the axis. Respects
+// lockouts, chamfers and depth limits like move_proxy(). The point must be in free space. Real-time safe.
 FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept;
 
 // The smallest span that contains both spans.

@@ -11,9 +11,9 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kRestartAfter = 0.050;  // [s] without an accepted sample; then the estimator restarts
-constexpr double kGuardLead = 0.030;     // [s] margin to the guard's stale time: a faulty sensor trips the guard first
-constexpr double kRounding = 1e-6;       // [1] fraction of a count
+constexpr double kRestartAfter = 0.050;  // [s] the estimator restarts after this time without an accepted sample
+constexpr double kGuardLead = 0.030;     // [s] added to the guard's stale time, so that the guard reacts first
+constexpr double kRounding = 1e-6;       // [1] rounding tolerance, as a fraction of one encoder count
 
 }  // namespace
 
@@ -31,8 +31,8 @@ LeverMotion LeverEstimator::update(const LeverReading& reading) noexcept {
   if (is_lost && (!started_ || reading.sequence != last_sequence_)) return restart(reading);
   if (reading.sequence <= last_sequence_ || reading.time_ns <= last_time_ns_) return hold();
 
-  // The allowed jump grows with the time since the last reading, accepted or not, but for two periods at most: neither
-  // a faulty nor a silent sensor may make a larger jump plausible.
+  // The allowed jump grows with the time since the previous reading, accepted or not, up to two periods. Without this
+  // limit, a larger jump would become plausible after the sensor was faulty or silent.
   const glm::dvec2 travel = reading.position - motion_.position;
   const double since_last = std::min(2.0 * period_, seconds(last_time_ns_, reading.time_ns));
   const double since_accepted = seconds(accepted_time_ns_, reading.time_ns);
@@ -43,7 +43,8 @@ LeverMotion LeverEstimator::update(const LeverReading& reading) noexcept {
   return motion_;
 }
 
-// Velocity over `window` samples, or over all samples if there are fewer; `newest` if the window is 1.
+// Velocity over the newest `window` samples, or over all samples if there are fewer. Returns `newest` if the window is
+// 1.
 glm::dvec2 LeverEstimator::window_velocity(const LeverReading& reading, glm::dvec2 newest) const noexcept {
   const std::size_t window = std::min(static_cast<std::size_t>(config_.window), history_count_);
   if (window <= 1) return newest;
@@ -56,7 +57,7 @@ void LeverEstimator::store_sample(const LeverReading& reading) noexcept {
   ++history_count_;
 }
 
-// Time between two samples by the device's own clock, which need not be synchronous with the loop. At least half a
+// Time between two samples on the device's own clock, which need not be synchronous with the loop. Is at least half a
 // period, so that clock jitter cannot produce a large speed.
 double LeverEstimator::seconds(std::int64_t from_ns, std::int64_t to_ns) const noexcept {
   return std::max(0.5 * period_, 1e-9 * static_cast<double>(to_ns - from_ns));

@@ -12,30 +12,30 @@
 namespace gearshift::haptics {
 
 struct LeverMotion {
-  glm::dvec2 position{0.0};  // [m] newest accepted sample
-  glm::dvec2 velocity{0.0};  // [m/s] difference over the window; window 1: no lag, but one encoder count of noise
-  glm::dvec2 smooth_velocity{0.0};  // [m/s] low-passed, for damping in free space
-  bool fresh = false;               // this cycle's sample was new, finite and plausible
+  glm::dvec2 position{0.0};         // [m] newest accepted sample
+  glm::dvec2 velocity{0.0};         // [m/s] mean over the window; window 1: no lag, but one encoder count of noise
+  glm::dvec2 smooth_velocity{0.0};  // [m/s] low-pass filtered, for damping in free space
+  bool fresh = false;               // the sample of this cycle was new, finite and plausible
 };
 
 inline constexpr int kMaxWindow = 64;  // [samples]
 
 struct EstimatorConfig {
   double smoothing = 0.004;   // [s] 1e-5 to 1, time constant of smooth_velocity
-  double speed_limit = 10.0;  // [m/s] 0.1 to 1000, a faster jump is rejected
-  int window = 1;             // [samples] 1 to 64, span of the difference in `velocity`; above 1 needs allow_unstable
+  double speed_limit = 10.0;  // [m/s] 0.1 to 1000; a sample that implies a faster motion is rejected
+  int window = 1;             // [samples] 1 to 64, time span of the velocity estimate; more than 1 needs allow_unstable
 };
 
 class LeverEstimator {
  public:
-  // period [s]; count [m]: one encoder count at the tip, a jump that is always accepted; stale_time [s]: the guard's
-  // limit for stale readings
+  // `period`: cycle time [s]. `count`: size of one encoder count at the tip [m]; a jump of one count per axis is always
+  // accepted. `stale_time`: time after which the guard reports stale readings [s].
   LeverEstimator(const EstimatorConfig& config, double period, double count = 0.0, double stale_time = 0.0) noexcept;
 
-  // Motion after one reading. A reading that is not finite, jumps, goes backward in time or repeats is not fresh:
-  // position and velocity are held. After max(50 ms, stale_time + 30 ms) without an accepted sample the estimator
-  // restarts at the next finite one with zero velocity, whatever its position and sequence number; by then the guard
-  // has reacted to the stale readings. Real-time safe.
+  // Returns the motion after one reading. A reading that is not finite, jumps, goes backward in time or repeats the
+  // previous one is not fresh: position and velocity keep their values. After max(50 ms, `stale_time` + 30 ms) without
+  // an accepted sample, the estimator restarts with zero velocity at the next finite reading that is not a repetition,
+  // even if it jumps or goes backward in time. By then the guard has reacted to the stale readings. Real-time safe.
   LeverMotion update(const LeverReading& reading) noexcept;
 
  private:
@@ -48,18 +48,18 @@ class LeverEstimator {
 
   EstimatorConfig config_;
   double period_;
-  double jump_tolerance_;  // [m] length of a jump of one count on both axes at once
+  double jump_tolerance_;  // [m] length of a jump by one encoder count on both axes
   double restart_after_;   // [s]
-  double blend_;           // [1] weight of the newest sample in smooth_velocity
+  double blend_;           // [1] weight of the newest velocity in smooth_velocity
   LeverMotion motion_;
-  std::int64_t accepted_time_ns_ = 0;  // time of the last accepted sample
+  std::int64_t accepted_time_ns_ = 0;  // [ns] time of the last accepted sample
   std::uint64_t last_sequence_ = 0;    // sequence number of the last sample, accepted or not
   std::int64_t last_time_ns_ = 0;
   struct Sample {
     glm::dvec2 position{0.0};
     std::int64_t time_ns = 0;
   };
-  std::array<Sample, kMaxWindow> history_{};  // accepted samples, kept only if the window is longer than one
+  std::array<Sample, kMaxWindow> history_{};  // accepted samples; unused if the window is 1
   std::size_t history_count_ = 0;             // samples stored since the last start or restart
   double unaccepted_time_ = 0.0;              // [s] time since the last accepted sample
   bool started_ = false;

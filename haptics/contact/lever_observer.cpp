@@ -13,20 +13,21 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr std::int64_t kMaxSkippedCycles = 10;  // [cycles] a longer gap is only simulated to this length
-constexpr int kMaxBlindCycles = 10;             // [cycles] without a sample; then the observer restarts at the next one
+constexpr std::int64_t kMaxSkippedCycles = 10;  // [cycles] longest gap that is simulated in full
+constexpr int kMaxBlindCycles = 10;             // [cycles] the observer restarts after this many without a sample
 
-// Transition matrix of (position, velocity, hand) over one period: its columns are the images of the unit states.
+// Transition matrix of (position, velocity, hand force) over one period: the columns are the images of the unit states.
 dmat3 transition(const AxisStepper& stepper) noexcept {
   const AxisState x = stepper.step({1.0, 0.0}, 0.0), v = stepper.step({0.0, 1.0}, 0.0), w = stepper.step({}, 1.0);
   return {dvec3{x.position, x.velocity, 0.0}, dvec3{v.position, v.velocity, 0.0}, dvec3{w.position, w.velocity, 1.0}};
 }
 
-// Ackermann's formula for an observer that corrects with the sample of the same instant: the error evolves by
-// (I - L C) A with all poles at `pole`. L = (A - pole I)^3 [C A; C A^2; C A^3]^-1 (0, 0, 1).
+// Ackermann's formula for the observer gain L. The observer corrects its prediction with the sample of the same
+// instant, so the estimation error evolves by the matrix (I - L C) A. The gain L = (A - pole I)^3 [C A; C A^2; C
+// A^3]^-1 (0, 0, 1) places all eigenvalues of this matrix at `pole`.
 dvec3 correction_gain(const dmat3& a, double pole) noexcept {
   const dmat3 shifted = a - dmat3(pole);
-  const dvec3 first{a[0][0], a[1][0], a[2][0]};  // C A, C = (1, 0, 0)
+  const dvec3 first{a[0][0], a[1][0], a[2][0]};  // C A with C = (1, 0, 0)
   const dvec3 second = first * a, third = second * a;
   const dmat3 observability = glm::transpose(dmat3{first, second, third});
   return shifted * (shifted * (shifted * (glm::inverse(observability) * dvec3{0.0, 0.0, 1.0})));
@@ -70,7 +71,7 @@ ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 comma
   return out;
 }
 
-// Advances the estimate by one period under the command that took effect in it.
+// Advances the estimate by one period, under the command that was in effect during this period.
 void LeverObserver::advance_period(glm::dvec2 commanded) noexcept {
   newest_ = (newest_ + 1) % commands_.size();
   commands_[newest_] = commanded;
@@ -85,8 +86,8 @@ double LeverObserver::command_before(std::size_t age, int axis) const noexcept {
   return commands_[(newest_ + commands_.size() - age) % commands_.size()][axis];
 }
 
-// Updates the estimate with the sample, then predicts it through the commands still in the delay line to the moment
-// when the next command takes effect.
+// Corrects the estimate with the newest sample. Then predicts it to the moment when the next command takes effect,
+// using the commands that are still in the delay line.
 AxisEstimate LeverObserver::estimate_at_effect(Axis& axis, int index, const LeverMotion& motion) noexcept {
   const double sample = motion.position[index];
   if (!started_) axis.estimate = {sample, 0.0, 0.0};

@@ -1,12 +1,13 @@
-// Estimates position, velocity and the hand's force from position samples and motor forces, predicted to the moment
-// when the next command takes effect. Used for contact on devices with delay.
+// Estimates the lever's position and velocity and the hand's force from position samples and motor forces. The estimate
+// is predicted to the moment when the next command takes effect. Used for wall contact on devices with delay.
 //
 // This work is based on:
 // D. G. Luenberger. An Introduction to Observers. 1971
 // J. Ackermann. Der Entwurf linearer Regelungssysteme im Zustandsraum. 1972
 //
-// Each axis is modelled as m x'' + b x' + k x = u + w, with the known motor force u and the hand's force w, assumed
-// constant. All three poles of the estimation error are at exp(-bandwidth T).
+// Model of each axis: m x'' + b x' + k x = u + w, with mass m, damping b, stiffness k, known motor force u and hand
+// force w. The hand force is assumed constant. All three poles of the estimation error are at exp(-bandwidth T), with
+// period T.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,8 @@
 
 namespace gearshift::haptics {
 
-// Decay rate of the estimation error [1/s]. Faster amplifies encoder quantisation; slower cannot track a heavy hand.
+// Decay rate [1/s] of the observer's estimation error. A higher rate amplifies encoder quantisation; a lower rate
+// cannot track a heavy hand.
 inline double observer_bandwidth(double period) noexcept {
   return std::min(500.0, 1.25 / period);
 }
@@ -37,11 +39,11 @@ class AxisObserver {
  public:
   AxisObserver(const AxisModel& axis, double bandwidth, double period) noexcept;  // bandwidth [1/s], period [s]
 
-  // The estimate one period later, under the motor force `force` [N] and before the next sample is known.
+  // Predicts the estimate one period ahead, under the motor force `force` [N].
   AxisEstimate predict(const AxisEstimate& estimate, double force) const noexcept;
-  // The prediction, corrected by the position sample [m] of the predicted instant.
+  // Corrects a predicted estimate with the position sample [m] of the predicted instant.
   AxisEstimate correct(AxisEstimate predicted, double position) const noexcept;
-  // Displacement at the end of a period, per unit of force held during the period. [m/N]
+  // Displacement [m/N] at the end of a period, per newton of force held during the period.
   double compliance() const noexcept { return stepper_.step({}, 1.0).position; }
 
  private:
@@ -49,19 +51,19 @@ class AxisObserver {
   std::array<double, 3> gain_{};  // correction of position, velocity and hand force per metre of prediction error
 };
 
-// Predicted motion over the period in which the next command acts.
+// Predicted motion during the period in which the next command acts.
 struct ObservedMotion {
-  glm::dvec2 position{0.0};    // [m] position at the beginning of that period
-  glm::dvec2 end{0.0};         // [m] position at its end, without motor force; the loop adds other forces' effect
-  glm::dvec2 compliance{0.0};  // [m/N] displacement of `end` per unit of held force, per axis
+  glm::dvec2 position{0.0};    // [m] position when the next command takes effect
+  glm::dvec2 end{0.0};         // [m] position one period later, without any motor force
+  glm::dvec2 compliance{0.0};  // [m/N] per axis, displacement of `end` per newton of held force
 };
 
 class LeverObserver {
  public:
   LeverObserver(const DeviceSpec& spec, double period) noexcept;  // period [s]
 
-  // commanded: the force written in the previous cycle [N]; skipped: cycles missed since then, over which that force
-  // was held. Real-time safe.
+  // `commanded`: force written in the previous cycle [N]. `skipped`: number of cycles missed since then, during which
+  // the device held that force. Real-time safe.
   ObservedMotion update(const LeverMotion& motion, glm::dvec2 commanded, std::int64_t skipped = 0) noexcept;
 
  private:
@@ -79,7 +81,7 @@ class LeverObserver {
   std::size_t newest_ = 0;                                // index of the newest command
   std::size_t delay_;
   bool started_ = false;
-  int blind_cycles_ = 0;  // [cycles] time since the last fresh sample
+  int blind_cycles_ = 0;  // [cycles] since the last fresh sample
 };
 
 }  // namespace gearshift::haptics

@@ -14,14 +14,15 @@ namespace {
 
 using glm::dvec2;
 
-constexpr int kMaxLegs = 8;  // straight moves per cycle; stopping early is safe
+constexpr int kMaxLegs = 8;  // maximum number of straight moves per cycle; fewer are safe
 
 double distance2(dvec2 a, dvec2 b) noexcept {
   const dvec2 d = a - b;
   return glm::dot(d, d);
 }
 
-// The proxy's next target: the point nearest to the lever in any aisle that contains the proxy.
+// Target of the proxy's next straight move: the point nearest to the lever in any aisle or mouth that contains the
+// proxy.
 dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) noexcept {
   dvec2 best = p;
   double best2 = distance2(p, lever);

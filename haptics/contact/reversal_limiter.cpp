@@ -7,21 +7,21 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kReversalCounts = 4.0;       // [counts] motion back from an extreme; more than quantisation produces
-constexpr double kMinCount = 20e-6;           // [m] used instead of the encoder's count if the count is finer
-constexpr double kReversalWindow = 0.25;      // [s] time within which all reversals must fall: 10 Hz
+constexpr double kReversalCounts = 4.0;       // [counts] motion back that counts as a reversal; exceeds rounding
+constexpr double kMinCount = 20e-6;           // [m] smallest encoder count assumed
+constexpr double kReversalWindow = 0.25;      // [s] six reversals within this time are chatter (10 Hz or faster)
 constexpr double kTremorWidth = 0.8e-3;       // [m] widest swing of a hand's tremor, from reversal to reversal
-constexpr double kTremorWindow = 0.2;         // [s] kReversalWindow for swings narrower than a tremor: 12.5 Hz
-constexpr double kVibrationTimeout = 0.25;    // [s] longest time between a vibration's reversals: 2 Hz
+constexpr double kTremorWindow = 0.2;         // [s] replaces kReversalWindow for narrow swings (12.5 Hz or faster)
+constexpr double kVibrationTimeout = 0.25;    // [s] longest time between two reversals of a vibration (2 Hz or faster)
 constexpr double kCalmTime = 0.5;             // [s] after this time without chatter the lever counts as calm
-constexpr double kSoftening = 0.75;           // [1] factor on the stiffness per detection
-constexpr double kFloorFactor = 0.3;          // [1] floor of the stiffness in units of m / tau^2, tau = (delay + 1) T
-constexpr int kMaxBounces = 3;                // up to this many detections at the floor may be a decaying bounce
-constexpr double kSofteningBelowFloor = 0.5;  // [1] factor on the stiffness per detection after these bounces
-constexpr double kMinFraction = 1.0 / 64.0;   // [1] of the wanted stiffness; below this, softening has failed
-constexpr double kMinVibration = 0.02;        // [N] change back from an extreme; less cannot move a lever four counts
-constexpr double kVibrationMargin = 1.25;     // [1] factor on a pure sine's swing: no real vibration is a pure sine
-constexpr int kMaxPendingTurns = 2;           // number of vibration reversals by which the lever may lag: one each way
+constexpr double kSoftening = 0.75;           // [1] each detection of chatter multiplies the stiffness by this factor
+constexpr double kFloorFactor = 0.3;          // [1] stiffness floor as a factor on m / tau^2 (see the header)
+constexpr int kMaxBounces = 3;                // up to this many detections at the floor may be one decaying bounce
+constexpr double kSofteningBelowFloor = 0.5;  // [1] factor on the stiffness per detection once a bounce is ruled out
+constexpr double kMinFraction = 1.0 / 64.0;   // [1] fraction of the wanted stiffness at which softening has failed
+constexpr double kMinVibration = 0.02;        // [N] weaker vibrations cannot move a lever by four counts
+constexpr double kVibrationMargin = 1.25;     // [1] factor on `max_forced_swing_`: no real vibration is a pure sine
+constexpr int kMaxPendingTurns = 2;           // vibration reversals by which the lever may lag, one per direction
 
 }  // namespace
 
@@ -67,14 +67,14 @@ bool ReversalLimiter::detect_chatter(Axis& axis, double position) noexcept {
   if (axis.lever.width < kTremorWidth) axis.narrow_time = time_;
   const double window = time_ - axis.narrow_time < kReversalWindow ? kTremorWindow : kReversalWindow;
   axis.reversal_times[axis.count++ % kReversals] = time_;
-  const double first = axis.reversal_times[axis.count % kReversals];  // time of the oldest of kReversals reversals
+  const double first = axis.reversal_times[axis.count % kReversals];  // [s] time of the oldest of six reversals
   return axis.count >= kReversals && time_ - first < window;
 }
 
-// Against passive walls of any kind, a force of amplitude F at angular frequency w feeds at most pi F X per period into
-// a swing of amplitude X, and the lever's own damping dissipates pi b w X^2: X <= F / (b w). A wider swing gets its
-// energy from the wall. A vibration along one axis moves the tip along both, because the yoke couples the axes in the
-// corners.
+// Computes the widest swing that the vibration can cause. Per period, a force of amplitude F at angular frequency w
+// feeds at most pi F X into a swing of amplitude X, and the lever's own damping b dissipates pi b w X^2. So X <= F / (b
+// w) while all walls are passive, and a wider swing gets its energy from a wall. A vibration along one axis moves the
+// tip along both axes, because the yoke couples them in the corners.
 void ReversalLimiter::track_vibration(glm::dvec2 vibration) noexcept {
   const bool is_over = time_ - last_vibration_turn_ > kVibrationTimeout;
   for (Axis& axis : axis_) axis.pending_turns = is_over ? 0 : axis.pending_turns;
@@ -88,7 +88,8 @@ void ReversalLimiter::track_vibration(glm::dvec2 vibration) noexcept {
   }
 }
 
-// True if a reversal of the vibration explains this reversal of the lever; each explains only one.
+// True if this reversal of the lever is explained by a reversal of the vibration that has not yet explained another
+// one.
 bool ReversalLimiter::is_forced_turn(Axis& axis) noexcept {
   if (axis.pending_turns == 0 || axis.lever.width > max_forced_swing_) return false;
   --axis.pending_turns;

@@ -10,15 +10,16 @@ namespace {
 
 using glm::dvec2;
 
-// Mean penetration [m] during the coming hold, from the present penetration s0 and the predicted penetration s1.
+// Mean penetration [m] into the wall during the coming period. In the comments below, s0 is the present penetration and
+// s1 the predicted penetration at the end of the period; both are negative outside the wall.
 dvec2 mean_penetration(dvec2 now, dvec2 then, double depth_now, double depth_then, dvec2 step) noexcept {
   if (depth_now > 0.0 && depth_then > 0.0) return 0.5 * (now + then);
-  if (depth_then > 0.0) {  // entry: depth s1^2 / (2 (s1 - s0)); -s0 >= 0 is the distance to the wall
+  if (depth_then > 0.0) {  // entering the wall: mean depth s1^2 / (2 (s1 - s0)); -s0 is the distance to the wall
     const dvec2 normal = then / depth_then;
     const double travel = std::max(glm::dot(step, normal), depth_then);
     return then * (0.5 * depth_then / travel);
   }
-  const dvec2 normal = now / depth_now;  // exit: depth s0^2 / (2 (s0 - s1))
+  const dvec2 normal = now / depth_now;  // leaving the wall: mean depth s0^2 / (2 (s0 - s1))
   const double travel = std::max(-glm::dot(step, normal), depth_now);
   return now * (0.5 * depth_now / travel);
 }
@@ -33,7 +34,7 @@ double solved_force_inside(const Coupling& coupling, double begin, double free_e
 double solved_force(const Coupling& coupling, double begin, double free_end, double compliance) noexcept {
   const double k = coupling.stiffness, d = coupling.damping / coupling.period;
   if (begin <= 0.0 && free_end <= 0.0) return 0.0;
-  if (begin < 0.0) {  // entry: the hold ends at x, the positive root of  stiff x^2 - p x + begin free_end = 0
+  if (begin < 0.0) {  // entering the wall: `end` solves stiff end^2 - p end + begin free_end = 0
     const double stiff = 1.0 + compliance * (0.5 * k + d);
     const double p = free_end + begin + compliance * d * begin;
     const double end = (p + std::sqrt(p * p - 4.0 * stiff * begin * free_end)) / (2.0 * stiff);
@@ -41,7 +42,7 @@ double solved_force(const Coupling& coupling, double begin, double free_end, dou
   }
   const double inside = solved_force_inside(coupling, begin, free_end, compliance);
   if (free_end - compliance * inside >= 0.0) return std::max(0.0, inside);
-  // Exit: returns exactly the energy stored in the spring, F (begin - end) = K begin^2 / 2.
+  // Leaving the wall: return exactly the energy stored in the spring, F (begin - end) = K begin^2 / 2.
   const double travel_out = begin - free_end;
   return k * begin * begin / (travel_out + std::sqrt(travel_out * travel_out + 2.0 * compliance * k * begin * begin));
 }

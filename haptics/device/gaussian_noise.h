@@ -1,4 +1,4 @@
-// Normally distributed noise that depends only on the seed, not on the standard library.
+// Normally distributed noise. Equal seeds give equal noise with every standard library.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,13 @@
 
 namespace gearshift::haptics {
 
-// Box-Muller method on std::mt19937_64, because the standard specifies the sequence of that engine, but not that of
-// std::normal_distribution.
+// Gaussian noise by the Box-Muller method on std::mt19937_64. std::normal_distribution is not used, because the
+// standard does not specify its sequence, and it would differ between standard libraries.
 class GaussianNoise {
  public:
   explicit GaussianNoise(std::uint64_t seed) : engine_(seed) {}
 
-  double next() noexcept;  // mean 0, standard deviation 1. Real-time safe
+  double next() noexcept;  // next value: mean 0, standard deviation 1. Real-time safe
 
  private:
   double uniform() noexcept;  // in (0, 1]

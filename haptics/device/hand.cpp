@@ -6,7 +6,7 @@
 namespace gearshift::haptics {
 namespace {
 
-// Removes one number from the front of the text; it must be finite and >= 0.
+// Reads a number from the front of the text and removes it there. The number must be finite and >= 0.
 std::optional<double> parse_number(std::string_view& text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -1,7 +1,8 @@
-// A simulated hand on the knob: an impedance and the driver that moves its target.
+// A simulated hand on the knob, and the driver that moves its target.
 //
-// The hand holds the lever through its mass, damping and stiffness towards a target and may add a push. The impedance
-// acts along the plant's arcs, so that lever and hand together remain one exactly solvable axis.
+// The hand has mass, damping and stiffness. It pulls the lever towards a target and may add a push. These forces act
+// along the arcs on which the joints move the tip, so that lever and hand together remain one axis per joint, with an
+// exact solution.
 #pragma once
 
 #include <array>
@@ -13,9 +14,9 @@
 namespace gearshift::haptics {
 
 struct HandImpedance {
-  double mass = 0.0;       // [kg] mass that moves with the lever
-  double damping = 0.0;    // [N s/m] force per difference to the target's velocity
-  double stiffness = 0.0;  // [N/m] force per distance to the target
+  double mass = 0.0;       // [kg] mass of the hand, which moves with the lever
+  double damping = 0.0;    // [N s/m] force per velocity relative to the target
+  double stiffness = 0.0;  // [N/m] force per distance from the target
 };
 
 inline constexpr HandImpedance kBareHand{0.0, 0.0, 0.0};
@@ -30,30 +31,31 @@ struct NamedHand {
 inline constexpr std::array<NamedHand, 4> kNamedHands{
     {{"bare", kBareHand}, {"light", kLightHand}, {"grip", kGripHand}, {"arm", kArmHand}}};
 
-// [N/m] A hand softer than this cannot move a lever to a target.
+// [N/m] a hand with less stiffness cannot move a lever to a target
 inline constexpr double kMinLeadingStiffness = 50.0;
 
-// The hand itself, or a grip if it is too soft to lead.
+// Returns the hand itself, or kGripHand if the hand is too soft to move a lever.
 constexpr HandImpedance leading_hand(const HandImpedance& hand) noexcept {
   return hand.stiffness < kMinLeadingStiffness ? kGripHand : hand;
 }
 
-// Parses "bare", "light", "grip", "arm" or "M,B,K" in kg, N s/m, N/m (each finite and >= 0); empty otherwise.
+// Parses "bare", "light", "grip", "arm" or "mass,damping,stiffness" in kg, N s/m and N/m, each finite and >= 0. Returns
+// an empty optional for any other text.
 std::optional<HandImpedance> parse_hand(std::string_view text);
 
 struct HandTarget {
   glm::dvec2 position{0.0};   // [m] in the gate plane
   glm::dvec2 velocity{0.0};   // [m/s]
-  glm::dvec2 push{0.0};       // [N] force in addition to the impedance
-  bool pressed_down = false;  // knob pushed down or reverse button held
+  glm::dvec2 push{0.0};       // [N] additional force, independent of the target
+  bool pressed_down = false;  // the knob is pushed down or the reverse button is held
   bool lifted = false;        // lift ring held
 };
 
-// Supplies the hand's target. Called once per device period on the haptic thread; must be real-time safe.
+// Supplies the hand's target. Called once per device period on the haptic thread, so it must be real-time safe.
 class HandDriver {
  public:
   virtual ~HandDriver() = default;
-  // time: since the start [s]; lever: present position of the tip [m]
+  // `time`: time since the start [s]. `lever`: present position of the tip [m].
   virtual HandTarget next(double time, glm::dvec2 lever) noexcept = 0;
 };
 

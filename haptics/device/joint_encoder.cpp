@@ -7,7 +7,7 @@
 namespace gearshift::haptics {
 namespace {
 
-// For angles up to half a degree, where the next term of the series is below 1e-18.
+// Taylor series for angles up to half a degree, where its next term is below 1e-18.
 double tangent_of_small(double x) noexcept {
   const double x2 = x * x;
   return x * (1.0 + x2 * (1.0 / 3.0 + x2 * (2.0 / 15.0 + x2 * (17.0 / 315.0))));
@@ -30,7 +30,8 @@ void JointEncoder::read(double angle) noexcept {
   if (cell != cell_) read_tangent_ = std::tan(middle);
   cell_ = cell;
 
-  // tan(middle + offset) by the addition theorem: exact, and much cheaper than a second tangent.
+  // The tangent of `angle`, by the addition theorem from the tangents of `middle` (read_tangent_) and of the rest
+  // (`offset`). This is exact, and much faster than a second call of std::tan.
   const double offset = tangent_of_small(angle - middle);
   true_tangent_ = (read_tangent_ + offset) / (1.0 - read_tangent_ * offset);
 }

@@ -1,14 +1,14 @@
-// The encoder of one joint, and the tangent of the joint's angle: the true one and the one read.
+// The encoder of one joint. Provides the tangent of the joint's true angle and of the angle that the encoder reads.
 #pragma once
 
 namespace gearshift::haptics {
 
-// An angle inside an encoder cell is read as the cell's midpoint, so the error is at most half a count and unbiased.
-// All consumers need the tangent of the angle. Computing it is most of a sample's cost, so the tangent of the cell is
-// cached while the joint stays in the cell.
+// The encoder reads every angle inside one of its cells as the cell's midpoint. So the error has a mean of zero and is
+// at most half a count. The class provides tangents, because callers need only these. Computing a tangent takes most of
+// the time of a sample, so it is cached while the joint stays in the same cell.
 class JointEncoder {
  public:
-  // counts_per_degree: at least 1, or 0 to read the angle exactly
+  // `counts_per_degree`: at least 1, or 0 for an encoder without quantisation.
   explicit JointEncoder(double counts_per_degree) noexcept;
 
   void read(double angle) noexcept;  // [rad]

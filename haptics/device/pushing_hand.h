@@ -1,4 +1,4 @@
-// A hand for tests that pushes with a force given as a function of time.
+// A simulated hand for tests. It pushes with a force that is given as a function of time.
 #pragma once
 
 #include <functional>

@@ -7,8 +7,8 @@
 namespace gearshift::haptics {
 namespace {
 
-// The value with the fewest digits that identify it, independent of the locale; with an exponent only where it saves
-// many zeros.
+// Returns the shortest text that identifies the value, independent of the locale. Uses an exponent only for magnitudes
+// below 1e-4 or from 1e15.
 std::string format_number(double value) {
   const double size = std::abs(value);
   const bool is_plain = size == 0.0 || (size >= 1e-4 && size < 1e15);

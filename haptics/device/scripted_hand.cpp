@@ -10,8 +10,8 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kArrivalTolerance = 0.001;  // [m] smaller lags do not raise the effort
-constexpr double kRelaxationTime = 0.050;    // [s] decay of the effort once the lever has arrived
+constexpr double kArrivalTolerance = 0.001;  // [m] at this lag or less, the effort does not grow
+constexpr double kRelaxationTime = 0.050;    // [s] time constant of the effort's decay after the lever's arrival
 
 void check(const ScriptedHandConfig& config, double period) {
   require_between("ScriptedHand: start.x", config.start.x, -1.0, 1.0, "m");
@@ -35,10 +35,10 @@ void check(const HandStroke& stroke, std::size_t index) {
 }  // namespace
 
 // The minimum-jerk path between two positions at rest (Flash and Hogan) is
-//     a + (b - a)(10 s^3 - 15 s^4 + 6 s^5), s = t / duration
+//     a + (b - a)(10 s^3 - 15 s^4 + 6 s^5), with s = t / duration.
 HandTarget minimum_jerk(glm::dvec2 a, glm::dvec2 b, double t, double duration) noexcept {
   HandTarget target;
-  target.position = b;  // exactly b at the end, without rounding
+  target.position = b;  // at the end exactly b, without rounding errors
   if (t >= duration) return target;
   const double s = std::max(t / duration, 0.0);
   target.position = a + (b - a) * (s * s * s * (10.0 + s * (-15.0 + s * 6.0)));
@@ -88,7 +88,8 @@ const ScriptedHand::Segment& ScriptedHand::segment_at(double time) noexcept {
   return segments_[current_];
 }
 
-// Effort that opposes the lag decays, and effort along the lag grows, so the effort may change sign.
+// Effort that points against the lag decays, while effort in the direction of the lag is added. So the sum may change
+// sign.
 glm::dvec2 ScriptedHand::effort(glm::dvec2 lag) noexcept {
   for (int axis = 0; axis < 2; ++axis) {
     const bool is_behind = std::abs(lag[axis]) > kArrivalTolerance;

@@ -15,11 +15,11 @@
 namespace gearshift::haptics {
 namespace {
 
-// Limits beyond any real hand, which keep the numbers finite whatever a driver returns.
+// Limits beyond any real hand. They keep the simulation finite whatever a hand driver returns.
 constexpr double kMaxPush = 1e4;   // [N]
 constexpr double kMaxSpeed = 1e2;  // [m/s]
 
-constexpr std::uint64_t kRandomSeedMask = 0x9e3779b97f4a7c15;  // makes the sequence differ from the sensor noise's
+constexpr std::uint64_t kRandomSeedMask = 0x9e3779b97f4a7c15;  // makes random_() differ from the sensor noise
 
 void check(const std::string& name, const AxisModel& axis) {
   require_between(name + ".mass", axis.mass, 1e-3, 1e3, "kg");
@@ -97,13 +97,13 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
 
 }  // namespace
 
-// A factor uniformly distributed from 1 - fraction to 1 + fraction; exactly 1 if fraction is 0.
+// A random factor, uniformly distributed between 1 - fraction and 1 + fraction; exactly 1 if fraction is 0.
 double SimulatedLever::random_factor(double fraction) noexcept {
   constexpr double kStep = 1.0 / 4503599627370496.0;  // 2^-52
   return 1.0 + fraction * (static_cast<double>(random_() >> 11) * kStep - 1.0);
 }
 
-// The handle's true model, which differs from spec() by the model error.
+// The handle's true model. It differs from the model in spec() by the model error.
 AxisModel SimulatedLever::true_model(const AxisModel& nominal) {
   const double mass = nominal.mass * random_factor(config_.model_error);
   const double damping = nominal.damping * random_factor(config_.model_error);
@@ -146,7 +146,8 @@ LeverReading SimulatedLever::read(std::int64_t now_ns) noexcept {
   return reading_;
 }
 
-// Whole periods from the last sample to now. Advances last_ns_ by them, so it stays on the grid of periods.
+// Advances last_ns_ by the whole number of periods that brings it nearest to now_ns. Returns this number, limited to
+// kMaxPeriodsPerRead: the lever must move by so many periods.
 std::uint64_t SimulatedLever::consume_periods(std::int64_t now_ns) noexcept {
   if (now_ns <= last_ns_) return 0;
   const std::uint64_t behind = static_cast<std::uint64_t>(now_ns) - static_cast<std::uint64_t>(last_ns_);
@@ -168,8 +169,8 @@ void SimulatedLever::advance_period() noexcept {
   sample();
 }
 
-// Queries the driver and converts its target into a constant force along each arc. The axis already includes the hand's
-// mass, damping and stiffness, so this force is the rest of the hand's effect.
+// Queries the hand driver and converts its target into a constant force along each arc. The axis model already contains
+// the hand's mass, damping and stiffness. The force consists of the hand's push and the pull towards the target.
 void SimulatedLever::update_hand() noexcept {
   const glm::dvec2 here = plane_position(pose_, config_.yoke.radius);
   const double drift = static_cast<double>(drift_ns_) * 1e-9;
@@ -185,7 +186,7 @@ void SimulatedLever::update_hand() noexcept {
   y_.hand_drive = drive.y;
 }
 
-// A target that is not finite is replaced by the lever's position, a target out of reach by a point at rest at the
+// Replaces a target that is not finite by the lever's position, and a target out of reach by a point at rest at the
 // stop.
 SimulatedLever::ArcTarget SimulatedLever::arc_target(const HandTarget& target) const noexcept {
   if (!is_finite(target.position)) return {{x_.state.position, y_.state.position}, {}};
@@ -197,7 +198,7 @@ SimulatedLever::ArcTarget SimulatedLever::arc_target(const HandTarget& target) c
   return {arc_position(config_.yoke, q), arc_velocity(pose, velocity)};
 }
 
-// Exact inverse kinematics in tangents, clamped to the joints' stops.
+// Exact inverse kinematics: the tangents of the joint angles, limited to the joints' stops.
 PlanePose SimulatedLever::reachable_pose(glm::dvec2 plane) const noexcept {
   plane = glm::clamp(plane, -config_.yoke.radius, config_.yoke.radius);
   const double distance = glm::length(plane);
@@ -207,7 +208,7 @@ PlanePose SimulatedLever::reachable_pose(glm::dvec2 plane) const noexcept {
                     std::clamp(-plane.y / z, -tan_phi_limit_, tan_phi_limit_));
 }
 
-// Draws the true length of this period: a whole number of nanoseconds, so that time stamps represent it exactly.
+// Draws the true length of this period: a whole number of nanoseconds, so that time stamps are exact.
 void SimulatedLever::draw_period() noexcept {
   if (config_.period_jitter == 0.0) return;
   const std::int64_t length_ns = std::llround(static_cast<double>(period_ns_) * random_factor(config_.period_jitter));
@@ -215,14 +216,14 @@ void SimulatedLever::draw_period() noexcept {
   drift_ns_ += length_ns - static_cast<std::int64_t>(period_ns_);
 }
 
-// The command written `delay` periods ago, which takes effect now.
+// Returns the command that was written `delay` periods ago and takes effect now.
 const SimulatedLever::MotorCommand& SimulatedLever::due_command() noexcept {
   queue_[periods_ % queue_.size()] = written_;
   const std::uint64_t due = periods_ + queue_.size() - static_cast<std::uint64_t>(config_.delay);
   return queue_[due % queue_.size()];
 }
 
-// Each motor saturates on its own joint.
+// Moves the lever for one period without device walls. The force of each motor is limited on its own joint.
 void SimulatedLever::drive(const MotorCommand& command) noexcept {
   const glm::dvec2 wanted = arc_force(pose_, command.force);
   x_.actuator_force = x_.actuator.deliver(wanted.x, actual_period_);
@@ -232,7 +233,8 @@ void SimulatedLever::drive(const MotorCommand& command) noexcept {
   move(y_, actual_period_);
 }
 
-// As drive(), but in several parts of the period, with the walls' force added in each.
+// Moves the lever for one period with device walls. Splits the period into parts, and computes the wall force again for
+// each part.
 void SimulatedLever::drive_in_walls(const MotorCommand& command) noexcept {
   const double parts = std::ceil(actual_period_ * kDeviceWallRate), part = actual_period_ / parts;
   const glm::dvec2 commanded = arc_force(pose_, command.force);
@@ -248,7 +250,8 @@ void SimulatedLever::drive_in_walls(const MotorCommand& command) noexcept {
   reading_.actuator_force = plane_force(pose_, sum / parts);
 }
 
-// Whether the lever may reach a wall within this period, provided that its acceleration adds at most kMargin of travel.
+// True if the lever may reach a wall within this period. The margin is twice the travel at the present speed, plus
+// kMargin for the travel that acceleration adds.
 bool SimulatedLever::may_reach_walls(const LeverWalls& walls) const noexcept {
   constexpr double kMargin = 0.001;  // [m]
   if (walls.stiffness_fraction == 0.0 || config_.device_wall_stiffness == 0.0) return false;
@@ -257,7 +260,7 @@ bool SimulatedLever::may_reach_walls(const LeverWalls& walls) const noexcept {
   return !glm::all(glm::greaterThan(here - margin, walls.low)) || !glm::all(glm::lessThan(here + margin, walls.high));
 }
 
-// Wall force along the arcs, at the position extrapolated by `ahead` [s]. [N]
+// Wall force [N] along the arcs, at the position extrapolated by `ahead` [s].
 glm::dvec2 SimulatedLever::wall_force(const LeverWalls& walls, double ahead) const noexcept {
   const auto tangent = [&](const Axis& axis) {
     return std::tan((axis.state.position + ahead * axis.state.velocity) / config_.yoke.radius);
@@ -268,7 +271,8 @@ glm::dvec2 SimulatedLever::wall_force(const LeverWalls& walls, double ahead) con
   return arc_force(pose, walls.stiffness_fraction * config_.device_wall_stiffness * back);
 }
 
-// Away from the stops and without dry friction, one step with precomputed coefficients is the exact solution.
+// Moves the axis for `time` [s]. Away from the stops and without dry friction, one step of the linear model is the
+// exact solution.
 void SimulatedLever::move(Axis& axis, double time) const noexcept {
   const double force = axis.hand_drive + axis.actuator_force;
   if (axis.limits.coulomb_friction == 0.0) {
@@ -302,9 +306,10 @@ void SimulatedLever::sample() noexcept {
   reading_.lifted = target_.lifted;
 }
 
-// Force of the hand on the lever: f_h = m a + b v + k x - f, with the handle's m, b, k and the actuator force f. The
-// axis moves by (m + m_h) a = drive + f - (b + b_h) v - (k + k_h) x, so f_h = drive - k_h x - b_h v - m_h a. This form
-// also holds at a stop and under dry friction.
+// Force of the hand on the lever: f_h = m a + b v + k x - f, with the handle's mass m, damping b and stiffness k and
+// the actuator force f. The hand's own values are m_h, b_h and k_h, and `drive` is Axis::hand_drive. The axis moves by
+// (m + m_h) a = drive + f - (b + b_h) v - (k + k_h) x, so f_h = drive - k_h x - b_h v - m_h a. The second form also
+// holds at a stop and under dry friction.
 double SimulatedLever::hand_force(const Axis& axis) const noexcept {
   const HandImpedance& hand = config_.hand;
   const double massless = axis.hand_drive - hand.stiffness * axis.state.position - hand.damping * axis.state.velocity;
@@ -349,7 +354,7 @@ void SimulatedLever::place(glm::dvec2 position, glm::dvec2 velocity) noexcept {
   const glm::dvec2 speed = arc_velocity(pose, velocity);
   x_.state = {arc.x, speed.x};
   y_.state = {arc.y, speed.y};
-  x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand's target rests at the same position
+  x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand's target rests at the new lever position
   y_.hand_drive = config_.hand.stiffness * arc.y;
   update_pose();
 }

@@ -1,4 +1,5 @@
-// Simulation of the paper's joystick: exact plant, encoder, force sensor, motors and a hand on the knob.
+// Simulation of the joystick in the paper by W.-C. Lin and K.-Y. Young (Design of Force-Reflection Joystick System for
+// VR-Based Simulation): exact plant, encoder, force sensor, motors and a hand on the knob.
 #pragma once
 
 #include <array>
@@ -20,16 +21,17 @@ struct SimulatedLeverConfig {
   YokeGeometry yoke;
   AxisModel axis_x = kPaperAxisX;
   AxisModel axis_y = kPaperAxisY;
-  double coulomb_friction = 0.0;  // [N] per axis, 0 = none
-  // [counts/deg] 0: no quantisation, else 1 to 1e6. Table 2's 2250 counts over 80 deg are 74.5 um at the tip. The 75.4
-  // um quoted elsewhere are those of the bare encoder: 2500 lines x 4 = 10000 counts per turn = 27.8 per deg.
+  double coulomb_friction = 0.0;  // [N] dry friction per axis; 0: none
+  // [counts/deg] 1 to 1e6, or 0 for no quantisation. Table 2 of the paper gives 2250 counts over 80 deg, which are 74.5
+  // um per count at the tip. The value of 75.4 um in gate_layout.h is for the encoder alone: 2500 lines x 4 = 10000
+  // counts per turn = 27.8 counts/deg.
   double encoder_counts = 2250.0 / 80.0;
   ActuatorLimits actuator;
   ForceSensorModel force_sensor;
-  int delay = 0;                       // [cycles] 0 to 8, from write() to the force's effect
+  int delay = 0;                       // [cycles] 0 to 8, time from write() to the effect of the force
   double device_wall_stiffness = 0.0;  // [N/m] 0 to 1e5, stiffness of the device walls on both axes; 0: none
   HandImpedance hand = kBareHand;
-  // Deviations from spec(), for difficult test cases: uniformly distributed, determined by the seed.
+  // Random deviations from spec(), for difficult test cases. They are uniformly distributed and determined by the seed.
   double model_error = 0.0;    // [1] 0 to 0.5, largest relative error of each axis's mass, damping and stiffness
   double period_jitter = 0.0;  // [1] 0 to 0.5, largest relative error of each period
   std::uint64_t seed = 1;      // seed of sensor noise, model error and jitter
@@ -39,24 +41,25 @@ inline constexpr int kMaxSimulatedDelay = 8;  // [cycles]
 inline constexpr int kMaxPeriodsPerRead = 1000;
 inline constexpr double kDeviceWallRate = 4000.0;  // [Hz] lowest sampling rate of the device walls
 
-// Time advances only in whole periods T of the loop: read(now) advances the plant by the periods since the last read,
-// under the forces then due. Deterministic for a given sequence of calls.
+// Time advances only in whole periods T of the loop: read(now) moves the plant by the periods since the last read,
+// under the forces that take effect in these periods. The same sequence of calls always gives the same result.
 //
 //   first read         sets the clock's origin; returns a fresh reading, nothing moves
 //   now = last + n T   advances n periods and n sequence numbers; n is rounded and at most kMaxPeriodsPerRead:
 //                      the rest of a longer gap is dropped
 //   n <= 0             returns the last reading again, stale
 //
-// Device walls (set_device_walls) take effect with the delay of any command, but are rendered without delay: a spring
-// on the true position, sampled and held at kDeviceWallRate from the depth in the middle of each sample, saturating
-// with the motors. The encoder resolution that such a stick would use for them is not modelled.
+// A new setting of the device walls (set_device_walls) takes effect with the same delay as a force. The walls
+// themselves respond without delay: they are a spring on the true position. Its force is sampled and held at
+// kDeviceWallRate, computed from the depth in the middle of each sample, and limited by the motors. The encoder
+// resolution that a real stick would use for its walls is not modelled.
 //
 // With period_jitter each period lasts a whole number of nanoseconds between T (1 - jitter) and T (1 + jitter),
-// independent of the loop's clock; a reading's time_ns shows its true length.
+// independent of the loop's clock. A reading's time_ns includes this jitter.
 class SimulatedLever final : public HapticDevice {
  public:
-  // period_ns: the loop's period, 1 to 1e9 [ns]. The driver must outlive the lever. Throws std::invalid_argument with
-  // one sentence: parameter, value and allowed range.
+  // `period_ns`: period of the loop [ns], 1 to 1e9. `driver` must outlive the lever. Throws std::invalid_argument with
+  // one sentence that states parameter, value and allowed range.
   SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver);
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
@@ -73,7 +76,7 @@ class SimulatedLever final : public HapticDevice {
   void place(glm::dvec2 position, glm::dvec2 velocity = glm::dvec2(0.0)) noexcept;
 
  private:
-  // One joint along its arc. Handle and hand together form one exactly stepped axis.
+  // One joint along its arc. Handle and hand together form one axis, which is stepped exactly.
   struct Axis {
     AxisModel model;
     AxisStepper stepper;
@@ -81,11 +84,11 @@ class SimulatedLever final : public HapticDevice {
     Actuator actuator;
     JointEncoder encoder;
     AxisState state{};
-    double hand_drive = 0.0;      // [N] hand's force at x = 0: push + stiffness * target + damping * target velocity
-    double actuator_force = 0.0;  // [N] delivered during the last cycle
+    double hand_drive = 0.0;      // [N] hand force at x = 0: push + stiffness * target + damping * target velocity
+    double actuator_force = 0.0;  // [N] force delivered during the last cycle
   };
 
-  // The hand's target along the arcs.
+  // The hand's target, converted to positions and velocities along the arcs.
   struct ArcTarget {
     glm::dvec2 position{0.0}, velocity{0.0};
   };
@@ -122,20 +125,20 @@ class SimulatedLever final : public HapticDevice {
   std::uint64_t period_ns_;
   double period_;           // [s] nominal
   double actual_period_;    // [s] length of the current period, jitter included
-  std::mt19937_64 random_;  // random source of model error and jitter
+  std::mt19937_64 random_;  // random numbers for model error and jitter
   double tan_theta_limit_, tan_phi_limit_;
-  double reach_;  // [m] largest distance of the tip from the centre, in the corners
+  double reach_;  // [m] largest distance of the tip from the centre; reached in the corners
   Axis x_, y_;
   PlanePose pose_;  // pose at the true angles, without encoder quantisation
   HandTarget target_;
   GaussianNoise noise_;
 
-  std::array<MotorCommand, kMaxSimulatedDelay + 1> queue_{};  // delay line, indexed by period
+  std::array<MotorCommand, kMaxSimulatedDelay + 1> queue_{};  // delay line of commands, indexed by period number
   MotorCommand written_;
   std::uint64_t periods_ = 0;  // number of periods since the first read
   bool started_ = false;
   std::int64_t last_ns_ = 0;   // [ns] time of the last sample, on the loop's clock
-  std::int64_t drift_ns_ = 0;  // [ns] true time of the last sample minus last_ns_, due to jitter
+  std::int64_t drift_ns_ = 0;  // [ns] true time of the last sample minus last_ns_, caused by jitter
   LeverReading reading_;
 };
 

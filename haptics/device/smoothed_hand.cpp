@@ -8,12 +8,13 @@
 namespace gearshift::haptics {
 namespace {
 
-// x'' + (2/tau) x' + x/tau^2 = f: critically damped; f = target / tau^2 drives it to the target.
+// The axis x'' + (2/tau) x' + x/tau^2 = f with time constant tau. It is critically damped, and f = target / tau^2
+// drives it to the target.
 AxisModel critically_damped(double tau) noexcept {
   return {1.0, 2.0 / tau, 1.0 / (tau * tau)};
 }
 
-constexpr double kMaxPosition = 1.0;  // [m] farther than any lever moves; bounds the filter's state
+constexpr double kMaxPosition = 1.0;  // [m] limits the target; farther than any lever moves
 
 }  // namespace
 

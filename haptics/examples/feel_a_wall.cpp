@@ -1,5 +1,5 @@
-// Example that uses only the haptics library of this project: a simulated hand presses a simulated lever against a
-// gate's wall. Prints how deep the lever is in the wall, and the wall's force.
+// Example of the haptics library; needs no other part of this project. A simulated hand presses a simulated lever
+// against a wall of a gate. Prints how deep the lever is in the wall, and the wall's force.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -11,7 +11,7 @@
 
 namespace haptics = gearshift::haptics;
 
-// A gate of two columns. The neutral column has only a forward slot; at its back there is a wall.
+// A gate with two columns. The neutral column has only a forward slot; its back side is a wall.
 constexpr const char* kLayout = R"(
 name = "Two columns"
 [[column]]
@@ -25,7 +25,7 @@ back = "3"
 )";
 
 int main() {
-  haptics::HapticConfig config;  // 1 kHz, a wall of 5000 N/m
+  haptics::HapticConfig config;  // defaults: loop rate 1 kHz, wall stiffness 5000 N/m
   const std::int64_t period = haptics::period_ns(config);
 
   // Once the forces have ramped up, a hand pulls back with up to 15 N.
@@ -39,9 +39,9 @@ int main() {
   const haptics::Gate gate = haptics::compile_gate(layout, lever.spec().workspace);
 
   haptics::NoLoad no_load;
-  haptics::LoopChannels channels;  // output of snapshots, events and recordings to other threads
+  haptics::LoopChannels channels;  // pass snapshots, events and recordings to other threads
   haptics::HapticLoop loop(config, gate, lever, no_load, channels);
-  loop.arm();  // a program may arm only a simulated lever; a real lever must be armed by the user
+  loop.arm();  // allowed only because the lever is simulated; a real lever must be armed by the user
 
   std::printf("time [s]  depth [mm]  wall force [N]\n");
   for (int cycle = 0; cycle <= 2500; ++cycle) {
@@ -51,8 +51,8 @@ int main() {
       std::printf("%8.3f  %10.3f  %14.2f\n", 1e-9 * static_cast<double>(now.time_ns), 1e3 * (now.proxy.y - now.lever.y),
                   now.wall_force.y);
   }
-  // At rest the wall carries the push minus the forces of the lever's own spring and the gate's centring. The lever is
-  // almost 3 mm = 15 N / (5000 N/m) deep in the wall.
+  // At rest the wall force is a little less than the push of 15 N, because the lever's own spring and the gate's
+  // centring also resist the push. So the lever is slightly less than 15 N / (5000 N/m) = 3 mm deep in the wall.
   const haptics::HapticSnapshot& rest = loop.snapshot();
   const bool holds = rest.wall_force.y > 13.0 && rest.wall_force.y < 15.0;
   std::printf("%s\n", holds ? "the wall holds the hand back" : "the wall does not hold the hand back");

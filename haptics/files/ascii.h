@@ -1,5 +1,5 @@
-// Locale-independent case conversion for names and keys: in a Turkish locale std::tolower('I') is not 'i', and GLFW
-// sets the locale.
+// Case conversion for names and keys, independent of the locale. GLFW sets the user's locale, and in a Turkish locale
+// std::tolower('I') is not 'i'.
 #pragma once
 
 namespace gearshift::haptics {

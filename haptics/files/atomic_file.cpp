@@ -39,13 +39,14 @@ AtomicFile::~AtomicFile() {
   if (temporary_ != target_) fs::remove(temporary_, ignored);
 }
 
-// rename() would replace even a write-protected file, against its owner's intention.
+// Throws if the file is write-protected, because rename() would replace it anyway.
 void AtomicFile::check_writable() const {
   if (access(target_.c_str(), W_OK) == 0 || errno == ENOENT) return;
   throw FileError(file_.string(), 0, std::string("cannot be written (") + std::strerror(errno) + ")");
 }
 
-// Skipped for a pipe, whose reader would take the empty text for the whole content.
+// Writes an empty temporary file, to detect errors early. A device or pipe has no temporary file and is skipped,
+// because the reader of a pipe would take the empty text for the whole content.
 void AtomicFile::prepare() {
   if (temporary_ != target_) write("");
 }

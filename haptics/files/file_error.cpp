@@ -5,8 +5,8 @@
 namespace gearshift::haptics {
 namespace {
 
-// File name and reason are untrusted text: names come from the command line or a trace, reasons quote values from the
-// file.
+// File name and reason are untrusted text: file names come from the command line or a trace, and reasons quote values
+// from the file.
 std::string sentence(const std::string& file, int line, const std::string& reason) {
   return printable(line > 0 ? file + ":" + std::to_string(line) + ": " + reason : file + ": " + reason);
 }

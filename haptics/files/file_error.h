@@ -6,7 +6,7 @@
 
 namespace gearshift::haptics {
 
-// what() is one printable line: "FILE:LINE: ...", or "FILE: ..." if line is 0.
+// The text of what() is one printable line: "FILE:LINE: reason", or "FILE: reason" if line is 0.
 class FileError : public std::runtime_error {
  public:
   FileError(const std::string& file, int line, const std::string& reason);

@@ -1,8 +1,8 @@
 // This work is based on:
 // Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, Donald Eastlake. The FNV Non-Cryptographic Hash Algorithm. 2019
 //
-// A hash for persistent data: identical on every machine, unlike std::hash. Detects accidental changes, not deliberate
-// ones.
+// A hash for data that is stored. Unlike std::hash, it gives the same value on every machine. Detects accidental
+// changes, not deliberate ones.
 #pragma once
 
 #include <cstdint>

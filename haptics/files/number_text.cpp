@@ -7,7 +7,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kMaxFixedPoint = 1e15;  // larger doubles have hardly any digits after the point: use the exponent
+constexpr double kMaxFixedPoint = 1e15;  // values of this size or more get an exponent; they have hardly any decimals
 
 std::string shortest(double value) {
   char digits[64];
@@ -37,7 +37,7 @@ std::string millimetres_text(double metres) {
 }
 
 std::string fixed_text(double value, int decimals) {
-  std::array<char, 400> text;  // the longest double has 309 digits before the point
+  std::array<char, 400> text;  // long enough: a double has at most 309 digits before the point
   const auto [end, error] = std::to_chars(text.begin(), text.end(), value, std::chars_format::fixed, decimals);
   return {text.begin(), end};
 }

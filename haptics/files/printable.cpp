@@ -8,8 +8,8 @@ bool is_control(char c) {
   return byte < 0x20 || byte == 0x7f;
 }
 
-// Whether the text starts with a C1 control character: U+0080 to U+009F, in UTF-8 C2 80 to C2 9F. On a terminal, U+009B
-// starts an escape sequence.
+// True if the text starts with a C1 control character (U+0080 to U+009F), which UTF-8 encodes as C2 80 to C2 9F. On a
+// terminal, U+009B starts an escape sequence.
 bool starts_c1(std::string_view text) {
   if (text.size() < 2 || text[0] != '\xc2') return false;
   const auto second = static_cast<unsigned char>(text[1]);

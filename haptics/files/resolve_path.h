@@ -1,4 +1,4 @@
-// Resolving file names to absolute paths.
+// Converts file names to absolute paths.
 #pragma once
 
 #include <filesystem>
@@ -6,14 +6,15 @@
 
 namespace gearshift::haptics {
 
-// The absolute path; unchanged if the working folder no longer exists.
+// Returns the absolute path; returns `file` unchanged if the working folder no longer exists.
 inline std::filesystem::path make_absolute(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(file, error);
   return error ? file : absolute;
 }
 
-// The path without symbolic links at which the file is or would be created; empty if it cannot be determined.
+// Returns the path, without symbolic links, at which the file exists or would be created. Returns an empty path if that
+// path cannot be determined.
 inline std::filesystem::path resolve_path(std::filesystem::path file) {
   constexpr int kMaxLinks = 40;
   std::error_code error;

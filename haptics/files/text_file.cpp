@@ -19,7 +19,7 @@ std::string read_text_file(const std::filesystem::path& file) {
 
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(name, 0, "cannot be read");
-  // Reading one byte more than allowed detects an oversized file, even if the file grows in the meantime.
+  // Try to read one byte more than allowed, which detects an oversized file even if it grows in the meantime.
   std::string text(kMaxTextFile + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad()) throw FileError(name, 0, "cannot be read");

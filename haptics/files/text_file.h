@@ -1,4 +1,4 @@
-// Reading a small text file.
+// Reads a small text file.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace gearshift::haptics {
 
-inline constexpr std::uintmax_t kMaxTextFile = 1 << 20;  // [bytes] far longer than any hand-written file
+inline constexpr std::uintmax_t kMaxTextFile = 1 << 20;  // [bytes] far larger than any hand-written file
 
 // Returns the whole file. Throws FileError if it is missing, not a regular file, unreadable or larger than
 // kMaxTextFile.

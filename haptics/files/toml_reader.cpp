@@ -13,7 +13,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr std::size_t kMaxTextLength = 200;  // [bytes] of one value in a message: enough for names and sentences
+constexpr std::size_t kMaxTextLength = 200;  // [bytes] longest text value accepted; enough for names and sentences
 constexpr int kMaxKeyParts = 8;              // maximum number of parts of a dotted key such as "a.b.c"
 
 int line_of(const toml::node& node) {
@@ -26,7 +26,7 @@ std::string join(const std::vector<std::string>& items) {
   return list;
 }
 
-// Truncates long text, but not inside a UTF-8 character.
+// Truncates long text, but never inside a UTF-8 character.
 std::string shortened(std::string_view text) {
   constexpr std::size_t kShown = 40;
   if (text.size() <= kShown) return std::string(text);
@@ -35,7 +35,7 @@ std::string shortened(std::string_view text) {
   return std::string(text.substr(0, end)) + "...";
 }
 
-// A value as text for messages; tables and lists are only named.
+// Text of a value, for messages. A table is shown as "(a table)", a list as "(a list)".
 std::string value_text(const toml::node& node) {
   if (const auto* text = node.as_string()) return '"' + shortened(text->get()) + '"';
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
@@ -45,7 +45,7 @@ std::string value_text(const toml::node& node) {
   return node.is_array() ? "(a list)" : "(a date or time)";
 }
 
-// Index after the end of the string literal that starts at `at`, parsed as toml++ does.
+// Index of the first character after the string literal that starts at `at`. Parses the literal like toml++.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool is_long = text.substr(at).starts_with(std::string(3, quote));
@@ -58,14 +58,15 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     } else if (text.substr(at).starts_with(closing)) {
       at += closing.size();
       for (int more = 0; is_long && more < 2 && at < text.size() && text[at] == quote; ++more)
-        ++at;  // up to two quotes may precede the closing three
+        ++at;  // up to two quotes of the text may precede the three that close it
       return at;
     }
   }
   return text.size();
 }
 
-// toml++ accepts a key of a million parts, and destroying the resulting nested tables overflows the stack.
+// Rejects keys with too many parts. toml++ accepts even a million parts, but destroying such deeply nested tables
+// overflows the stack.
 void reject_long_keys(std::string_view text, const std::string& file) {
   const auto fail_at = [&](std::size_t at) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
@@ -104,9 +105,9 @@ struct TomlTable::Node {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
   const toml::table* table = nullptr;
   std::string file;
-  std::vector<std::string> known_keys;  // all keys queried so far
+  std::vector<std::string> known_keys;  // all keys the caller has asked for so far
 
-  // Looks up a key and marks it as known, whether or not the file contains it.
+  // Looks up a key and marks it as known, even if the file does not contain it.
   const toml::node* find(std::string_view key) {
     if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end()) known_keys.emplace_back(key);
     return table->get(key);
@@ -137,7 +138,7 @@ double TomlTable::number(std::string_view key, Range range) const {
   if (value == nullptr) fail(key, "is missing: it must be a number " + limits);
   if (!value->is_number()) fail(key, "must be a number " + limits);
   const double number = value->value<double>().value_or(NAN);
-  // Negated so that NaN, which compares false with everything, is rejected too.
+  // The condition is negated so that NaN is rejected too: comparisons with NaN are false.
   if (!(number >= range.min && number <= range.max)) fail(key, "must be " + limits);
   return number;
 }

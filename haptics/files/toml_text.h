@@ -1,4 +1,4 @@
-// Formatting values as TOML.
+// Formats values as TOML.
 #pragma once
 
 #include <charconv>
@@ -7,13 +7,14 @@
 
 namespace gearshift::haptics {
 
-// The shortest text that reads back to the same value, independent of the locale.
+// The shortest text that is read back as the same value. Independent of the locale.
 std::string toml_number(auto value) {
   char digits[64];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
-// A basic string with quotes and backslashes escaped. Control characters are not handled; the reader rejects them.
+// A TOML basic string: quotes and backslashes are escaped. Control characters are written unchanged, and the reader
+// rejects them.
 inline std::string toml_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {

@@ -1,4 +1,4 @@
-// Writing files that people may edit, with a check that the program can read them back.
+// Writes files that users may edit, and checks that the program can read them back.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace gearshift::haptics {
 
-// Writes the text to a temporary file, reads it back with `read`, which throws FileError on failure, and only then
-// replaces `file`. Throws FileError naming `file`; its previous content is then unchanged.
+// Writes the text to a temporary file and reads that file with `read`, which must throw FileError if it
+// fails. If `read` fails, throws a FileError that names `file`, and leaves `file` unchanged. Otherwise replaces `file`.
 void write_verified_file(const std::filesystem::path& file, std::string_view text,
                          const std::function<void(const std::filesystem::path&)>& read);
 

@@ -6,14 +6,16 @@
 namespace gearshift::haptics {
 namespace {
 
-// The piece that contains `at`. The curve is short, so a linear scan is faster than a binary search.
+// Returns the piece of the curve that contains `at`. A linear scan is faster than a binary search, because the curve is
+// short.
 const FeelCurve::Piece& piece_at(const FeelCurve& curve, double at) noexcept {
   std::size_t i = 0;
   while (i + 1 < static_cast<std::size_t>(curve.pieces) && curve.piece[i + 1].from <= at) ++i;
   return curve.piece[i];
 }
 
-// Coefficients, in powers of u = at - a.at, of the cubic that matches force and slope at both knots.
+// Coefficients of the cubic through both knots that has the force and slope given at each knot. The cubic is in powers
+// of u = at - a.at.
 std::array<double, 4> hermite(const FeelKnot& a, const FeelKnot& b) noexcept {
   const double h = b.at - a.at;
   const double rise = (b.force - a.force) / h;
@@ -81,7 +83,7 @@ SlopeRange slope_range(const FeelCurve& curve) noexcept {
     const double end = curve.piece[i + 1].from - piece.from;
     include(piece_slope(piece, 0.0));
     include(piece_slope(piece, end));
-    // The slope of a cubic is a parabola with its extreme where the second derivative vanishes.
+    // The slope of a cubic is a parabola. Its extreme is where the second derivative is zero.
     if (piece.c[3] == 0.0) continue;
     const double u = -piece.c[2] / (3.0 * piece.c[3]);
     if (u > 0.0 && u < end) include(piece_slope(piece, u));

@@ -31,7 +31,7 @@ std::vector<SlotLayout> gears_of(const ColumnLayout& column) {
   return slots;
 }
 
-// The gears of a range of columns as text: "1 and 2".
+// The gears of the columns from `first` to `last` as text, for example "1 and 2".
 std::string gear_list(const GateLayout& layout, std::size_t first, std::size_t last) {
   std::string list;
   for (std::size_t i = first; i < last; ++i) {
@@ -44,7 +44,7 @@ std::string gear_list(const GateLayout& layout, std::size_t first, std::size_t l
 
 void check_widths(const GateLayout& layout) {
   const double narrowest = std::min(layout.aisle_width, layout.slot_width);
-  // Negated so that NaN is rejected as well.
+  // The condition is negated so that NaN is rejected as well.
   if (!(narrowest >= kMinAisleWidth)) {
     fail(layout, layout.lines.gate,
          "an aisle of " + millimetres_text(narrowest) + " is too narrow; it must be at least " +
@@ -83,7 +83,7 @@ void check_spacing(const GateLayout& layout) {
   }
 }
 
-// The closed side of a junction deflects the lever into the column's slots, so no column can lie beyond that side.
+// The closed side of a junction deflects the lever into the column's slots, so no column may lie beyond this side.
 void check_junctions(const GateLayout& layout) {
   const std::size_t count = layout.columns.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -104,14 +104,15 @@ void check_junctions(const GateLayout& layout) {
   }
 }
 
-// When this runs, at least two columns have different gears, so at least one gear is a forward gear.
+// When this is called, at least two columns are known to have different gears. Only one of these gears can be reverse,
+// so at least one is a forward gear.
 void check_gears(const GateLayout& layout) {
   constexpr std::size_t kGears = kMaxGear - kReverseGear + 1;
   const auto at = [](int gear) {
     const int index = gear - kReverseGear;
     return static_cast<std::size_t>(index);
   };
-  std::array<int, kGears> line_of{};  // line of each gear in the file; 0: unknown
+  std::array<int, kGears> line_of{};  // line in the file where each gear was first seen; 0: not yet
   std::array<bool, kGears> is_present{};
   int highest = 0;
   for (const ColumnLayout& column : layout.columns) {
@@ -137,7 +138,7 @@ void check_gears(const GateLayout& layout) {
   }
 }
 
-// Largest |dF/dx| of the curve through these knots. [N/m]
+// Largest absolute slope |dF/dx| [N/m] of the curve through these knots.
 double steepest(const std::vector<FeelKnot>& knots) {
   const SlopeRange range = slope_range(make_feel_curve(knots));
   return std::max(range.max, -range.min);
@@ -168,10 +169,10 @@ void check_feel(const GateLayout& layout) {
   }
 }
 
-// The paper's handle has a spring (its eq (11)) that pulls towards the middle of the workspace.
+// The handle of the paper's joystick has a spring (eq (11)) that pulls towards the middle of the workspace.
 constexpr double kHandleStiffness = 14.8;  // [N/m]
 constexpr double kReturnMargin = 1.2;
-constexpr double kMinReturnForce = 0.5;  // [N] force required beyond the spring's, to overcome dry friction
+constexpr double kMinReturnForce = 0.5;  // [N] required beyond the spring's force, to overcome dry friction
 
 void check_return(const GateLayout& layout) {
   const double neutral = layout.columns[static_cast<std::size_t>(layout.neutral_column)].position;
@@ -183,8 +184,7 @@ void check_return(const GateLayout& layout) {
            ", or the lever would not return to the neutral column at " + millimetres_text(neutral));
 }
 
-// Largest allowed distance [m] of a wall from the centre for slots of this depth, rounded down to a tenth of a
-// millimetre.
+// Largest allowed distance [m] of a side wall from the centre, for slots of this depth. Rounded down to 0.1 mm.
 double outermost_wall(glm::dvec2 workspace, double radius, double depth) {
   const double y = depth + kWorkspaceMargin;
   const auto ellipse = [y](double half_x, double half_y) {
@@ -194,7 +194,7 @@ double outermost_wall(glm::dvec2 workspace, double radius, double depth) {
   return std::floor(1e4 * std::max(0.0, reach - kWorkspaceMargin)) * 1e-4;
 }
 
-// Checks that the slots' outer corners are in reach: there both joints are deflected most.
+// Checks that the tip reaches the outer corners of the slots, where both joints are deflected most.
 void check_corners(const GateLayout& layout, glm::dvec2 workspace, double radius) {
   const double depth = layout.slot_length;
   for (const ColumnLayout& column : layout.columns) {
@@ -240,7 +240,7 @@ void check_after_gear(const GateLayout& layout, const LockoutLayout& lockout) {
   const std::string gear = gear_name(lockout.gear);
   if (lockout.after_gear == lockout.gear) {
     fail(layout, lockout.line,
-         "gear " + gear + " could not be reached, because its lockout would wait for this same gear");
+         "gear " + gear + " could never be engaged, because its lockout would open only after the same gear");
   }
   if (column_of_gear(layout, lockout.after_gear) != column_of_gear(layout, lockout.gear)) {
     fail(layout, lockout.line,
@@ -274,9 +274,9 @@ bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept {
   return inside(point.x / half.x, point.y / radius) && inside(point.x / radius, point.y / half.y);
 }
 
-// The buffer's force has a potential, so a force across the aisle implies a pull along the aisle, towards the closed
-// wall. That pull is largest half-way into the buffer, at the open side of the aisle, and must be less than the
-// centring force.
+// The buffer's force has a potential, so wherever it pushes across the aisle it also pulls along the aisle, towards the
+// closed wall. This pull is largest half-way into the buffer, at the aisle wall next to an open slot. It must be less
+// than the centring force.
 void check_buffers(const GateLayout& layout, const Gate& gate) {
   const double center = layout.feel.center_force;
   for (const Buffer& buffer : buffers(gate)) {
@@ -286,8 +286,8 @@ void check_buffers(const GateLayout& layout, const Gate& gate) {
     if (buffer.force <= 0.0 || pull < center) continue;
     fail(layout, layout.lines.feel,
          "buffer_force_n = " + number_text(buffer.force) +
-             " would hold the lever at a closed junction; it pulls the lever there with " + number_text(pull, 2) +
-             " N, but center_force_n is only " + number_text(center));
+             " would hold the lever at a closed junction; there the buffer pulls the lever with " +
+             number_text(pull, 2) + " N, but center_force_n is only " + number_text(center));
   }
 }
 

@@ -1,4 +1,4 @@
-// Checks for impossible gate layouts.
+// Checks that reject impossible gate layouts.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -7,31 +7,32 @@
 
 namespace gearshift::haptics {
 
-// Smallest solid wall between the mouths of two columns. [m]
+// Smallest thickness [m] of the wall between the mouths of two neighbouring columns.
 inline constexpr double kMinWall = 0.002;
 
-// Steepest allowed slope of the feel: softer than the paper's wall, so that it does not feel like a wall. [N/m]
+// Largest slope [N/m] of the gate's forces. It is lower than the paper's wall stiffness, so that no force feels like a
+// wall.
 inline constexpr double kMaxFeelSlope = 4000.0;
 
-// Free travel required behind every wall, and behind both walls in a corner: the paper's wall of 5000 N/m reaches its
-// full 31.7 N at 6.3 mm, which must come before the hard stop. [m]
+// Free travel [m] required behind every wall and, in a corner, behind both walls. The paper's wall of 5000 N/m reaches
+// its full 31.7 N at a depth of 6.3 mm, and this must happen before the device's hard stop.
 inline constexpr double kWorkspaceMargin = 0.007;
 
-// Whether the tip of a yoke can reach a point. Two joints turn it about the centre of the sphere on which it moves,
-// each up to its stop: tan(theta) = x / z and tan(phi) = -y / z with z = sqrt(radius^2 - x^2 - y^2). A stop is a great
-// circle of that sphere, and so an ellipse in the gate plane:
+// True if the tip of a yoke can reach a point. The tip moves on a sphere, and two joints turn it about the sphere's
+// centre, each up to its stop: tan(theta) = x / z and tan(phi) = -y / z with z = sqrt(radius^2 - x^2 - y^2). A stop is
+// a great circle of this sphere, which is an ellipse in the gate plane:
 //
 //     (x / half.x)^2 + (y / radius)^2 <= 1      half.x = radius sin(stop of theta)
 //     (x / radius)^2 + (y / half.y)^2 <= 1      half.y = radius sin(stop of phi)
 //
-// half [m]: reach along each axis. With an infinite radius the region is a rectangle.
+// `half`: reach along each axis [m]. With an infinite radius the region is a rectangle.
 bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept;
 
-// Throws FileError with file, line and reason for the first error found.
-// workspace and radius: half and radius of reaches(). [m]
+// Throws FileError with file, line and reason for the first error found. `workspace` and `radius` [m] are the
+// parameters `half` and `radius` of reaches().
 void check_layout(const GateLayout& layout, glm::dvec2 workspace, double radius);
 
-// Throws FileError if a buffer would hold a free lever at its closed wall. This check needs the assembled gate.
+// Throws FileError if a buffer would hold a free lever at its closed wall. This check needs the compiled gate.
 void check_buffers(const GateLayout& layout, const Gate& gate);
 
 }  // namespace gearshift::haptics

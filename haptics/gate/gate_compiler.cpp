@@ -9,9 +9,8 @@
 namespace gearshift::haptics {
 namespace {
 
-// Width of the paper's rectangular buffer at the closed side of a junction, as a fraction of the slot's width. It is
-// wide because the buffer's force has a potential: the narrower the buffer, the harder it pulls towards the closed
-// wall.
+// Width of the paper's rectangular buffer at the closed side of a junction, as a fraction of the slot's width. The
+// buffer is wide because its force has a potential: a narrower buffer would pull harder towards the closed wall.
 constexpr double kBufferWidthFraction = 0.8;
 
 int add_slot(Gate& gate, int column, Side side, int gear, const GateLayout& layout) {
@@ -40,7 +39,7 @@ void add_column(Gate& gate, const ColumnLayout& from, const GateLayout& layout) 
   column.back = column.back_slot == kNoSlot ? -gate.half_aisle : -layout.slot_length;
 }
 
-// outward: -1 at the left end of the gate, +1 at the right end.
+// `outward`: -1 at the left end of the gate, +1 at the right end.
 void add_buffer(Gate& gate, const Column& column, int outward, const GateLayout& layout) {
   Buffer& buffer = gate.buffer[static_cast<std::size_t>(gate.buffer_count++)];
   buffer.wall = column.center + outward * column.half_width;
@@ -56,9 +55,9 @@ void add_buffers(Gate& gate, const GateLayout& layout) {
   if (layout.columns.back().junction == JunctionKind::closed) add_buffer(gate, built.back(), +1, layout);
 }
 
-// If all gears of a column have the same kind of lockout, a lateral wall can close off the whole column, as real gates
-// do for reverse. That is only possible at an end of the gate, because the wall blocks everything beyond it, and never
-// for after_gear, which concerns shifts within a column.
+// True if one lateral wall can close off the whole column, as in real gates for reverse. All gears of the column must
+// have the same kind of lockout. The column must be at an end of the gate, because the wall blocks everything beyond
+// it, and must not be the neutral column. The kind must not be `after_gear`, which concerns shifts within a column.
 bool can_be_lateral(const Gate& gate, int column, LockoutKind kind, const GateLayout& layout) {
   const bool at_end = column == 0 || column == gate.column_count - 1;
   if (!at_end || column == gate.neutral_column || kind == LockoutKind::after_gear) return false;

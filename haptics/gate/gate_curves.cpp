@@ -6,20 +6,22 @@
 namespace gearshift::haptics {
 namespace {
 
-// Fractions of the slot proper (from the end of the mouth to the end stop), so that the curve scales with the slot's
-// length. A real gate has its latch at about a quarter of the way and its lock in the second half.
+// Positions along the slot proper, as fractions of its length from the end of the mouth (0) to the end stop (1), so
+// that the curve scales with the slot. As in a real gate, the detent begins at about a quarter of the way, and the
+// lock is in the second half.
 constexpr double kBump = 0.14;
 constexpr double kLow = 0.28;
 constexpr double kCrest = 0.42;
 constexpr double kLock = 0.66;
 constexpr double kRest = 0.86;
 
-// Beyond the crest the lock pulls the lever in; the gear is engaged at three quarters of the way to rest.
+// Beyond the crest of the detent the lock pulls the lever in. The gear engages at three quarters of the way from the
+// crest to the rest position.
 constexpr double kEngage = kCrest + 0.75 * (kRest - kCrest);
 
-// A spring that levels off smoothly at its full force: F(u) = F (3u - u^3)/2, so F(1) = F and F'(1) = 0. Its curvature
-// is zero at u = 0, so its odd mirror image joins it with continuous slope.
-constexpr double kSpringSlope = 1.5;  // slope at u = 0, in units of F / length
+// A spring's force as a fraction of its largest force: (3 u - u^3) / 2. It reaches 1 with slope 0 at u = 1. It is an
+// odd function with zero curvature at u = 0, so it is also smooth where u changes its sign.
+constexpr double kSpringSlope = 1.5;  // slope at u = 0, in units of (largest force) / length
 
 double spring(double u) {
   return u * (3.0 - u * u) / 2.0;
@@ -52,15 +54,15 @@ std::vector<FeelKnot> aisle_knots(const GateLayout& layout) {
   return {{0.0, 0.0, -kSpringSlope * force / plateau}, {plateau, -force, 0.0}};
 }
 
-// On the chamfers free space narrows with depth, so the force towards neutral must not depend on depth there: only with
-// a constant force is the energy of a point independent of the path round the chamfer. Therefore the force is the same
-// at the knots `plateau` and `mouth`, whatever follows deeper in the slot.
+// At the chamfered mouth, free space narrows with depth. The force towards neutral must not depend on depth there: only
+// a constant force makes the energy of a point independent of the path round the chamfer. So the force is the same at
+// the knots `plateau` and `mouth`, whatever follows deeper in the slot.
 std::vector<FeelKnot> slot_knots(const GateLayout& layout) {
   const SlotStations s = slot_stations(layout);
   const FeelLayout& feel = layout.feel;
   const double low = std::min({feel.aisle_force, feel.mouth_force, feel.detent_force});
   const double lock_width = s.rest - s.lock;
-  const double stiffness = feel.lock_force / lock_width;  // [N/m] scale of the lock's spring
+  const double stiffness = feel.lock_force / lock_width;  // [N/m] lock force divided by the width of the lock's spring
   const double past_rest = (s.end - s.rest) / lock_width;
 
   std::vector<FeelKnot> knots = aisle_knots(layout);

@@ -1,6 +1,6 @@
-// Terms as in the paper: junctions are numbered from left to right. A pair is two parallel walls of one aisle segment,
-// so the paper's gate has 2 horizontal + 6 vertical = 8 pairs. End stops, closed sides of junctions and chamfers do not
-// belong to a pair.
+// Terms as in the paper: junctions are numbered from left to right. A wall pair is two parallel walls of one aisle
+// segment, so the paper's gate has 2 horizontal + 6 vertical = 8 pairs. End stops, closed sides of junctions and
+// chamfers do not belong to a pair.
 #include "haptics/gate/gate_description.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 constexpr int kNoPair = -1;
 constexpr const char* kRoman[kMaxColumns] = {"I", "II", "III", "IV", "V", "VI", "VII", "VIII"};
 
-// One side of a column, with depth = |y|.
+// One side of a column, forward or back. Depths are |y|.
 struct Branch {
   int slot = kNoSlot;
   double sign = 1.0;  // of y
@@ -29,8 +29,8 @@ bool is_last(const Gate& gate, int index) {
   return index == gate.column_count - 1;
 }
 
-// Length that a slot's chamfered mouth takes from the aisle's wall: 0 if there is no slot or if the aisle ends at the
-// slot's wall.
+// Length that the chamfer of a slot's mouth cuts off the aisle's wall on one side of the slot (`towards`: -1 left, +1
+// right). 0 if there is no slot, or if this is the outermost column on that side.
 double mouth_leg(const Gate& gate, int index, Side side, int towards) {
   if (branch_of(column_of(gate, index), side).slot == kNoSlot) return 0.0;
   const bool at_end_wall = towards < 0 ? is_first(index) : is_last(gate, index);
@@ -88,7 +88,7 @@ void describe_segment(const Gate& gate, int left, GateDescription& list) {
   }
 }
 
-// The walls of one slot, its mouth and its end stop; without a slot, the wall on the closed side of the junction.
+// The walls of one slot, its mouth and its end stop. Without a slot: the wall on the closed side of the junction.
 void describe_branch(const Gate& gate, int index, Side side, GateDescription& list) {
   const Column& column = column_of(gate, index);
   const Branch branch = branch_of(column, side);

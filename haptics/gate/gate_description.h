@@ -1,4 +1,5 @@
-// Description of a compiled gate's aisles, junctions and walls for `gearshift gate`; Fig. 7 of the paper.
+// Describes the aisles, junctions and walls of a compiled gate for the command `gearshift gate`; see Fig. 7 of the
+// paper.
 #pragma once
 
 #include <string>
@@ -11,7 +12,7 @@
 namespace gearshift::haptics {
 
 struct AisleInfo {
-  std::string name;  // "neutral" or the Roman numeral of its junction
+  std::string name;  // "neutral", or the Roman numeral of its junction
   bool horizontal = false;
   glm::dvec2 min{0.0}, max{0.0};  // [m]
 };
@@ -19,18 +20,18 @@ struct JunctionInfo {
   std::string name;                                                 // "I", "II", ... from left to right
   glm::dvec2 center{0.0};                                           // [m]
   bool left = false, right = false, forward = false, back = false;  // open directions
-  bool buffer = false;  // the closed side deflects the lever into the vertical aisle
+  bool buffer = false;  // the junction's closed side deflects the lever into the vertical aisle
 };
 enum class WallRole { aisle, chamfer, end_stop, closed_side };
-// "aisle", "chamfer", "end_stop", "closed_side".
+// The name of a wall role: "aisle", "chamfer", "end_stop" or "closed_side".
 const char* to_string(WallRole role) noexcept;
 struct WallInfo {
   glm::dvec2 from{0.0}, to{0.0};  // [m]
   WallRole role = WallRole::aisle;
-  int pair = -1;  // index into wall_pairs, or -1
+  int pair = -1;  // index into wall_pairs, or -1 if the wall has no partner
 };
 struct WallPairInfo {  // two parallel walls of one aisle segment
-  std::string name;    // "I-II" or the gear's name
+  std::string name;    // the junctions at both ends, for example "I-II", or the gear's name
   bool horizontal = false;
 };
 struct GateDescription {

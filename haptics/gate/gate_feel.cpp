@@ -6,15 +6,15 @@
 namespace gearshift::haptics {
 namespace {
 
-// Buffer potential V = -force g(u) W(y). g rises smoothly from the buffer's inner edge to the closed wall, where its
-// slope vanishes, so that pressing into that wall at one y and leaving it at a different y supplies no energy. For the
-// same reason W is constant beyond the aisle's walls.
+// The buffer's potential is V = -force g(u) W(y). g rises smoothly from the buffer's inner edge to the closed wall, and
+// its slope is zero at this wall. So a lever that is pressed into the wall at one y and leaves it at another y gains no
+// energy. W is constant beyond the aisle's walls for the same reason.
 struct Rise {
   double value, slope;  // g, dg/dx
 };
 
 Rise buffer_rise(const Buffer& buffer, double x) noexcept {
-  const double width = buffer.wall - buffer.inner;  // +1 or -1: direction towards the wall
+  const double width = buffer.wall - buffer.inner;  // [m] positive if the closed wall is on the right
   const double u = std::clamp((x - buffer.inner) / width, 0.0, 1.0);
   return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / width};
 }
@@ -23,13 +23,13 @@ struct Turn {
   double shape, integral;  // w, W(y) [m]
 };
 
-// With slots on both sides, the force points away from the centre line, with peak 1 at half_aisle / sqrt(5); with one
-// slot it points towards that slot, with peak 1 at the centre line.
+// The buffer's deflection across the aisle, with peak 1. With slots on both sides it points away from the centre line
+// and peaks at half_aisle / sqrt(5). With one slot it points towards this slot and peaks at the centre line.
 Turn buffer_turn(const Buffer& buffer, double half_aisle, double y) noexcept {
   const double v = std::clamp(y / half_aisle, -1.0, 1.0);
   const double rest = 1.0 - v * v;
   if (buffer.forward_open && buffer.back_open) {
-    const double norm = 25.0 * std::sqrt(5.0) / 16.0;  // 1 / max of v (1 - v^2)^2
+    const double norm = 25.0 * std::sqrt(5.0) / 16.0;  // 1 / (maximum of v (1 - v^2)^2), so that the peak is 1
     return {norm * v * rest * rest, norm * half_aisle * (1.0 - rest * rest * rest) / 6.0};
   }
   const double sign = buffer.forward_open ? 1.0 : -1.0;

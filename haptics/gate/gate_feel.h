@@ -1,4 +1,4 @@
-// Forces of the mechanism on a lever inside its aisles: centring, mouth bump, detent, lock, buffers.
+// Forces of the mechanism on a lever inside the aisles: centring, mouth bump, detent, lock and buffers.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -7,16 +7,16 @@
 
 namespace gearshift::haptics {
 
-// The slot that contains the point (beyond the neutral aisle), or kNoSlot.
+// The slot that contains the point; kNoSlot if the point is in the neutral aisle.
 int slot_at(const Gate& gate, glm::dvec2 point) noexcept;
 
-// Force on the lever with the proxy at this point of free space: the negative gradient of gate_energy. [N]
+// Force [N] on the lever when the proxy is at this point of free space: the negative gradient of gate_energy().
 glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept;
 
-// Potential of gate_feel(). It depends only on position, so no closed path supplies energy. [J]
+// Potential energy [J] of the forces of gate_feel(). It depends only on position, so no closed path supplies energy.
 double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept;
 
-// Largest restoring stiffness anywhere in the gate; the coupling must not be softer. [N/m]
+// Largest restoring stiffness [N/m] of the mechanism anywhere in the gate. The coupling must not be softer.
 double max_feel_stiffness(const Gate& gate) noexcept;
 
 }  // namespace gearshift::haptics

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr double kMillimetresPerMetre = 1e3;
 
-// Ranges of the file's values, in the file's units.
+// Allowed ranges of the values in a layout file, in the units of the file.
 constexpr Range kPositionMm{-200.0, 200.0};
 constexpr Range kAisleWidthMm{kMinAisleWidth * kMillimetresPerMetre, 40.0};
 constexpr Range kSlotWidthMm{kMinAisleWidth * kMillimetresPerMetre, 30.0};
@@ -21,7 +21,8 @@ constexpr Range kSlotLengthMm{kMinSlotProper * kMillimetresPerMetre, 120.0};
 constexpr Range kChamferMm{0.0, 10.0};
 constexpr Range kSpeedKmh{0.0, 400.0};
 
-// The paper's lever has a peak force of 31.7 N; a lock must leave some of it for the walls.
+// Allowed forces. The largest lock force is less than 31.7 N, the peak force of the paper's lever, because a lock must
+// leave part of this force for the walls.
 constexpr Range kCenterForceN{0.5, 10.0};
 constexpr Range kAisleForceN{0.0, 5.0};
 constexpr Range kMouthForceN{0.0, 15.0};
@@ -29,7 +30,7 @@ constexpr Range kDetentForceN{0.0, 20.0};
 constexpr Range kLockForceN{1.0, 25.0};
 constexpr Range kBufferForceN{0.0, 10.0};
 
-// "R", "1", "2", ...: every gear except neutral, which has no slot.
+// Gear names "R", "1", "2", ... Neutral has no slot and is not in the list.
 const std::vector<std::string>& gear_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list{gear_name(kReverseGear)};
@@ -64,7 +65,7 @@ ColumnLayout read_column(const TomlTable& table) {
   return column;
 }
 
-// Reads the columns in file order. Exactly one must be marked as neutral.
+// Reads the columns in the order of the file. Exactly one column must be marked as neutral.
 void read_columns(const TomlTable& root, GateLayout& layout) {
   const TomlTable* neutral = nullptr;
   const auto tables = root.tables("column");
@@ -121,7 +122,8 @@ LockoutKind read_kind(const TomlTable& table) {
   return *std::find_if(kKinds.begin(), kKinds.end(), [&](LockoutKind kind) { return word == to_string(kind); });
 }
 
-// Speeds are read only for a speed lockout, so in other lockouts they are rejected as unknown keys instead of ignored.
+// Reads the speeds only for a speed lockout. In any other lockout they are therefore rejected as unknown keys instead
+// of being ignored.
 LockoutLayout read_lockout(const TomlTable& table) {
   LockoutLayout lockout;
   lockout.line = table.line();

@@ -1,4 +1,4 @@
-// A gate layout as written in its file: read and range-checked, but not yet assembled.
+// A gate layout as written in its file: read and range-checked, but not yet compiled.
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,21 @@
 
 namespace gearshift::haptics {
 
-// 4 mm are 53 counts of the paper's encoder (75.4 um each). In a narrower aisle both walls would be felt at once.
+// 4 mm are 53 counts of the paper's encoder (75.4 um each). In a narrower aisle the user would feel both walls at the
+// same time.
 inline constexpr double kMinAisleWidth = 0.004;  // [m] minimum width of the neutral aisle and of a slot
 inline constexpr double kMinSlotProper = 0.010;  // [m] minimum length of a slot behind its mouth
 
 enum class JunctionKind { open, closed };  // closed: an end junction with a buffer on its closed side
 
 struct SlotLayout {
-  int gear = kNeutralGear;  // kReverseGear or 1, 2, ...
+  int gear = kNeutralGear;  // kReverseGear, or a forward gear 1, 2, ...
   int line = 0;             // in the file
 };
 
 struct ColumnLayout {
   double position = 0.0;     // [m] x of the centre line
-  SlotLayout forward, back;  // gear kNeutralGear = no slot on this side
+  SlotLayout forward, back;  // a gear of kNeutralGear means no slot on this side
   JunctionKind junction = JunctionKind::open;
   int line = 0;
 };
@@ -39,15 +40,15 @@ struct LockoutLayout {
 
 // Forces at the knob. haptics/gate/README.md shows the resulting curve along a slot.
 struct FeelLayout {
-  double center_force = 3.0;  // [N] select centring towards the neutral column
-  double aisle_force = 1.0;   // [N] shift centring inside the neutral aisle
-  double mouth_force = 4.0;   // [N] bump at the slot's mouth, towards neutral
-  double detent_force = 6.0;  // [N] resistance before a gear engages
-  double lock_force = 12.0;   // [N] pull-out force of an engaged gear
-  double buffer_force = 4.0;  // [N] deflecting force in a closed junction's buffer
+  double center_force = 3.0;  // [N] centres the lever sideways, towards the neutral column
+  double aisle_force = 1.0;   // [N] centres the lever fore and aft in the neutral aisle
+  double mouth_force = 4.0;   // [N] resists entering a slot's mouth
+  double detent_force = 6.0;  // [N] resists the lever before a gear engages
+  double lock_force = 12.0;   // [N] resists pulling the lever out of an engaged gear
+  double buffer_force = 4.0;  // [N] deflects the lever in the buffer of a closed junction
 };
 
-// Line numbers in the file, for messages about parts that have no `line` member. 0: unknown.
+// Line numbers in the file, for error messages about parts that have no `line` member. 0: unknown.
 struct LayoutLines {
   int gate = 0;
   int slot_length = 0;
@@ -57,13 +58,13 @@ struct LayoutLines {
 struct GateLayout {
   std::string name;
   std::string file;                   // for messages
-  std::string text;                   // the whole file as read, for traces
-  std::vector<ColumnLayout> columns;  // from left to right
+  std::string text;                   // content of the layout file, for storing in traces
+  std::vector<ColumnLayout> columns;  // in order from left to right
   int neutral_column = 0;
-  double aisle_width = 0.012;  // [m] width of the neutral aisle, wall to wall
-  double slot_width = 0.010;   // [m] wall to wall
-  double slot_length = 0.040;  // [m] length from the aisle's centre line to the end stop
-  double chamfer = 0.004;      // [m] leg of the 45 degree slot mouths
+  double aisle_width = 0.012;  // [m] width of the neutral aisle, from wall to wall
+  double slot_width = 0.010;   // [m] width of a slot, from wall to wall
+  double slot_length = 0.040;  // [m] from the neutral aisle's centre line to the end stop
+  double chamfer = 0.004;      // [m] leg of the 45 degree chamfer at slot mouths
   FeelLayout feel;
   std::vector<LockoutLayout> lockouts;
   LayoutLines lines;

@@ -7,8 +7,8 @@
 namespace gearshift::haptics {
 namespace {
 
-// The gear for the lever's position, given the engaged gear: between release and engage depth nothing changes, and a
-// gear stays engaged only in its own slot.
+// The gear at this lever position, given the gear that is engaged now. Between release depth and engage depth nothing
+// changes. A gear stays engaged only while the lever is in its slot.
 int gear_at(const Gate& gate, glm::dvec2 proxy, int engaged) noexcept {
   const int index = slot_at(gate, proxy);
   if (index == kNoSlot) return kNeutralGear;

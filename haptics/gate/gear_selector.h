@@ -1,4 +1,4 @@
-// Determines the engaged gear, with hysteresis in depth and debouncing in time; at most one gear at a time.
+// Determines the engaged gear, at most one at a time. Uses hysteresis in depth and debouncing in time.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,14 +11,14 @@ class GearSelector {
  public:
   explicit GearSelector(double debounce) noexcept : debounce_(debounce) {}  // [s]
 
-  // proxy [m]: position of the drawn lever; period [s]. Returns the engaged gear. Real-time safe.
+  // `proxy`: position of the drawn lever [m]. `period`: cycle time [s]. Returns the engaged gear. Real-time safe.
   int update(const Gate& gate, glm::dvec2 proxy, double period) noexcept;
 
   int gear() const noexcept { return gear_; }
 
  private:
   double debounce_;
-  double candidate_time_ = 0.0;  // [s] time since the candidate was first detected
+  double candidate_time_ = 0.0;  // [s] time since the candidate gear was first detected
   int gear_ = kNeutralGear;
   int candidate_ = kNeutralGear;
 };

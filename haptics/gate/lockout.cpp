@@ -7,7 +7,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kSideTolerance = 1e-9;  // [m] a lever at the side of a slot counts as inside despite rounding
+constexpr double kSideTolerance = 1e-9;  // [m] tolerance for rounding at the sides of a slot
 
 bool is_beyond(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy) noexcept {
   if (lockout.lateral) return lockout.beyond * (proxy.x - lockout.barrier) > 0.0;
@@ -24,11 +24,11 @@ bool has_left_column(const Gate& gate, int gear, glm::dvec2 proxy) noexcept {
   return std::abs(proxy.x - column.center) > column.half_width + gate.chamfer + kSideTolerance;
 }
 
-// New latch state of one lockout; unchanged between its two thresholds.
+// New state of a latching lockout, true if closed. Between the two thresholds the state is unchanged.
 bool is_latched(const Gate& gate, const Lockout& lockout, const LockoutInputs& in, glm::dvec2 proxy,
                 bool was_closed) noexcept {
   if (lockout.kind == LockoutKind::speed) {
-    const double speed = std::abs(in.road_speed);  // NaN leaves the state unchanged
+    const double speed = std::abs(in.road_speed);  // a speed of NaN leaves the state unchanged
     return was_closed ? !(speed < lockout.open_below) : speed > lockout.close_above;
   }
   if (in.gear == lockout.after_gear) return true;
@@ -69,7 +69,7 @@ Passage open_passage(const Gate& gate) noexcept {
 
 Passage Lockouts::update(const Gate& gate, const LockoutInputs& in, glm::dvec2 proxy) noexcept {
   Passage passage = open_passage(gate);
-  std::uint32_t bit = 1u;  // this lockout's bit in latched_
+  std::uint32_t bit = 1u;  // bit of the current lockout in latched_
   for (const Lockout& lockout : lockouts(gate)) {
     if (lockout.kind == LockoutKind::speed || lockout.kind == LockoutKind::after_gear) {
       latched_ = is_latched(gate, lockout, in, proxy, latched_ & bit) ? latched_ | bit : latched_ & ~bit;

@@ -1,4 +1,4 @@
-// The lockouts that are currently closed, and the free space that remains.
+// Determines which lockouts are closed and how they limit free space.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace gearshift::haptics {
 
-// The limits of free space in this cycle; an input of every proxy move.
+// How lockouts and gearbox limit free space in this cycle.
 struct Passage {
   double select_min = 0.0;  // [m] ends of the neutral aisle, narrowed by lateral lockouts
   double select_max = 0.0;
-  std::uint32_t closed = 0;    // one bit per slot: 1 if a wall closes its mouth
-  int limited_slot = kNoSlot;  // the slot whose depth the gearbox limits (synchroniser, torque lock)
-  double depth_min = 0.0;      // [m] limits of the depth in that slot
+  std::uint32_t closed = 0;    // one bit per slot: 1 if a wall closes the slot's mouth
+  int limited_slot = kNoSlot;  // slot in which synchroniser or torque lock limit the depth
+  double depth_min = 0.0;      // [m] allowed range of depth in limited_slot
   double depth_max = 0.0;
 };
 
@@ -29,11 +29,11 @@ struct LockoutInputs {
   int gear = kNeutralGear;  // engaged now
 };
 
-// The lockouts' state: the hysteresis of the speed lockouts and the last gear of the after_gear lockouts.
+// State of all lockouts: the hysteresis of the speed lockouts and the last gear of the `after_gear` lockouts.
 class Lockouts {
  public:
-  // Updates the state and returns the passage for the proxy [m]. A wall does not close while the lever is beyond it.
-  // Real-time safe.
+  // Updates the lockouts and returns the limits of free space. `proxy`: position of the drawn lever [m]. A wall does
+  // not close while the lever is beyond it. Real-time safe.
   Passage update(const Gate& gate, const LockoutInputs& in, glm::dvec2 proxy) noexcept;
 
  private:

@@ -1,4 +1,4 @@
-// The simplest gate: one straight aisle without feel. Used to study a single wall, and as open space for emulated
+// The simplest gate: one straight aisle without forces. Used to study a single wall, and as open space for emulated
 // mechanical elements.
 #pragma once
 
@@ -6,7 +6,8 @@
 
 namespace gearshift::haptics {
 
-// Free space |x| <= half_length, |y| <= half_width, no slot, no feel. [m], > 0
+// Returns a gate with the free space |x| <= half_length, |y| <= half_width [m], both > 0, and with neither slots nor
+// forces.
 Gate plain_aisle(double half_length, double half_width) noexcept;
 
 }  // namespace gearshift::haptics

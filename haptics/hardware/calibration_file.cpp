@@ -22,9 +22,9 @@ namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
 constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0};
-constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] minimum if the value is known
+constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] smallest valid values; 0 means not known
 
-using AxisName = std::pair<std::string_view, int>;  // name and usage on the Generic Desktop page
+using AxisName = std::pair<std::string_view, int>;  // name and usage ID on the HID Generic Desktop page
 constexpr std::array<AxisName, 9> kAxisNames{{{"x", 0x30},
                                               {"y", 0x31},
                                               {"z", 0x32},
@@ -205,9 +205,9 @@ std::string calibration_text(const DeviceCalibration& calibration) {
   const DeviceTiming& timing = calibration.timing;
   out.section("timing", "intervals and delay of the device");
   out.put("input_interval_s", timing.input_interval, "time between two readings; 0: not measured");
-  out.put("output_interval_s", timing.output_interval, "time between two forces");
+  out.put("output_interval_s", timing.output_interval, "time between two force commands");
   out.put("delay_s", timing.delay, "time from sending a force to its effect");
-  out.put("jitter_s", timing.jitter, "lateness of the latest in a hundred readings");
+  out.put("jitter_s", timing.jitter, "99 % of the readings are at most this late");
   out.section("buttons", "numbered from 1; 0: no button");
   out.put("press", calibration.press_button, "pushes the knob down");
   out.put("lift", calibration.lift_button, "lifts the ring");

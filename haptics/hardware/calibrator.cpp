@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kStartTime = 0.5, kEndTime = 0.3;  // [s] averaging time before the push, and at its end
 constexpr double kMinMotion = 0.20;                 // [1] fraction of the axis's logical range
-constexpr double kMaxCrossMotion = 0.5;             // [1] motion of any other axis, as a fraction of this axis's
+constexpr double kMaxCrossMotion = 0.5;             // [1] motion of another axis divided by the pushed axis's motion
 constexpr double kMaxCorrelation = 0.9;             // [1] correlation of the two axes' positions
-constexpr double kReleaseTime = 1.0;                // [s] last part of the measurement, without a hand
+constexpr double kReleaseTime = 1.0;                // [s] last part of the range measurement, after the release
 
 std::string format_percent(double fraction) {
   return number_text(100.0 * fraction, 0) + " %";
@@ -25,7 +25,7 @@ double middle_of_three(double a, double b, double c) noexcept {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-// Median of three neighbouring readings: removes jumps of a single reading.
+// Returns the running median of three readings, which removes single outliers.
 std::vector<double> without_jumps(const std::vector<double>& positions) {
   std::vector<double> smooth;
   for (std::size_t i = 2; i < positions.size(); ++i)
@@ -123,7 +123,7 @@ std::string Calibrator::find_axis(bool select, double seconds) {
   if (found_[select ? 1 : 0].usage == usage) {
     if (!select)
       throw CalibrationRefused("the same axis moved as when you pushed to the right. Push the lever forward");
-    found_[1] = {};  // left over from an earlier run with the axes swapped
+    found_[1] = {};  // discards the result of an earlier run with the axes swapped
   }
   found_[select ? 0 : 1] = {usage, moved[largest] > 0.0 ? 1 : -1};
   return std::string("pushing ") + (select ? "right" : "forward") + " moves axis " + std::to_string(largest + 1) +
@@ -158,14 +158,15 @@ std::string Calibrator::measure_range(double seconds) {
   return "select from " + counts_text(new_select) + "; shift from " + counts_text(new_shift);
 }
 
-// A new range invalidates everything measured with the old range, so the result starts from an empty axis.
+// Returns an axis with its direction, stops and rest position. Its other values are not set, because values measured
+// with the old range are no longer valid.
 LeverAxisCalibration Calibrator::range_of(const std::string& name, const FoundAxis& found,
                                           const std::vector<double>& positions, double centre, double range) {
   if (positions.empty()) throw CalibrationRefused("the time was too short to move the lever at all");
   const auto [low, high] = std::minmax_element(positions.begin(), positions.end());
   const double lowest = *low, highest = *high;
   if (highest - lowest < kMinMotion * range)
-    throw CalibrationRefused(name + " moved over only " + format_percent((highest - lowest) / range) +
+    throw CalibrationRefused(name + " moved by only " + format_percent((highest - lowest) / range) +
                              " of its range. Move the lever to all its stops");
   const double rest_fraction = (centre - lowest) / (highest - lowest);
   if (rest_fraction < 0.25 || rest_fraction > 0.75)

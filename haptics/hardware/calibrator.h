@@ -24,15 +24,15 @@ inline constexpr double kCautiousForce = 0.10;  // [1] fraction of the full forc
 
 enum class CalibrationStep : std::uint8_t { range, numbers, polarity, timing, handle, springs };
 
-// Steps still to do, in the order in which they must be done. springs: the device supports springs (PidAbility).
+// Calibration steps still to do, in the required order. `springs`: true if the device supports springs (PidAbility).
 std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs);
 
 enum class LeverButton : std::uint8_t { press, lift, stop };
 
 class Calibrator {
  public:
-  // Starts from `known`. The driver must be prepared and streaming, and must outlive the calibrator. The calibrator
-  // acts as the driver's haptic side: no other thread may send commands.
+  // `known`: the calibration to start from. The driver must be prepared and streaming, and must outlive the calibrator.
+  // The calibrator sends the driver's commands, so no other thread may send any.
   Calibrator(PidDriver& driver, CalibrationTick tick, const DeviceCalibration& known);
 
   const DeviceCalibration& calibration() const noexcept { return calibration_; }
@@ -41,31 +41,34 @@ class Calibrator {
   // failed.
 
   // Finds the device axis that moves, and its direction. The user holds the lever still, then pushes it fully right
-  // (select) or forward (shift) and holds it there, all within `seconds`. Call for select first.
+  // (select) or forward (shift) and holds it there, all within `seconds`. Call it for the select axis first.
   std::string find_axis(bool select, double seconds);
-  // The user moves the lever to all its stops, then lets go for the last second. Call find_axis() for both axes first.
+  // Measures each axis's counts at both stops and at rest. The user moves the lever to all its stops, then releases it
+  // for the last second. Call find_axis() for both axes first.
   std::string measure_range(double seconds);
-  // Stores the knob's travel between the stops, 0.02 to 0.5 m, and its force at full magnitude, 0.5 to 100 N.
+  // Stores each axis's travel at the knob between the stops (0.02 to 0.5 m) and the force at the knob at full magnitude
+  // (0.5 to 100 N).
   std::string set_numbers(double select_travel, double shift_travel, double full_force);
-  // Waits up to `seconds` for a button press. Buttons already held at the start are ignored.
+  // Waits up to `seconds` for a button press and stores the button's number. Ignores buttons already held at the start.
   std::string find_button(LeverButton button, double seconds);
 
   std::string measure_polarity();  // sign of constant forces and of springs, per axis
   std::string measure_timing();    // intervals, jitter, delay
-  std::string measure_handle();    // mass, damping and stiffness; after set_numbers()
+  std::string measure_handle();    // mass, damping, stiffness; call it after set_numbers()
   // Measures spring stiffness [N/m] and damper strength [N s/m]; call it after set_numbers(). The sign of a damper is
-  // found at kCautiousForce of its maximum coefficient. If only the dampers fail, the springs are still stored.
+  // measured at the fraction kCautiousForce of its maximum coefficient. If only the dampers fail, the springs are still
+  // stored.
   std::string measure_springs();
 
  private:
   struct FoundAxis {
     int usage = 0;  // 0: not found yet
-    int sign = 0;   // +1: counts rise to the right, or forward; -1: they fall
+    int sign = 0;   // +1: counts rise when the lever moves right or forward; -1: they fall
   };
   struct AxisPlace {
     std::size_t report = 0;  // index of the axis in the report
     std::size_t motor = 0;   // index of the motor in the driver
-    double sign = 1.0;       // +1: counts rise to the right, or forward; -1: they fall
+    double sign = 1.0;       // +1: counts rise when the lever moves right or forward; -1: they fall
   };
 
   AxisPlace axis_place(const LeverAxisCalibration& axis) const;

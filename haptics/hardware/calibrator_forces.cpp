@@ -12,29 +12,31 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kMoved = 0.02, kMinMoved = 0.01;          // [1] fraction of the range
+constexpr double kMoved = 0.02, kMinMoved = 0.01;          // [1] fraction of the axis's range
 constexpr std::int64_t kPushTime = 250'000'000;            // [ns] longest push
 constexpr double kSpringOffset = 0.25;                     // [1] fraction of the full deflection
 constexpr double kLoadForce = 0.05, kLoadFrequency = 5.0;  // [1] fraction of the full force; [Hz]
-constexpr double kLoadDither = 0.01;  // [1] alternating offset, so that every tick has a new force to send
-constexpr std::int64_t kLoadTime = 2'100'000'000, kLoadStart = 100'000'000;  // [ns] total, and initial part not counted
+constexpr double kLoadDither = 0.01;  // [1] added with alternating sign, so that the force changes in every tick
+constexpr std::int64_t kLoadTime = 2'100'000'000, kLoadStart = 100'000'000;  // [ns] total time; initial part, ignored
 constexpr std::size_t kMinReadings = 50;
 constexpr double kPulseForce = 0.05, kMaxPulseForce = 0.4;  // [1] fraction of the full force
-constexpr double kDampedPulseForce = 0.2;                   // [1] fraction of the full force, against a strong damper
+constexpr double kDampedPulseForce = 0.2;                   // [1] replaces kPulseForce if the damper is strong
 constexpr std::int64_t kPulseTime = 60'000'000, kCoastTime = 400'000'000, kNoForceTime = 1'000'000'000;  // [ns]
-constexpr std::int64_t kSettingTime = 20'000'000;              // [ns] until the steady part of the command has arrived
-constexpr double kPulseMotion = 0.06, kMinPulseMotion = 0.03;  // [1] fraction of the range
+constexpr std::int64_t kSettingTime = 20'000'000;              // [ns] time for the damper setting to reach the stick
+constexpr double kPulseMotion = 0.06, kMinPulseMotion = 0.03;  // [1] fraction of the axis's range
 constexpr double kMaxResidual = 0.2;                           // [1]
-constexpr double kMaxDifference = 0.25;                        // [1] allowed difference of two fits: relative,
-constexpr double kMaxDampingDifference = 2.0, kMaxDelayDifference = 0.002;  // [1/s], [s] or absolute
+// Two fits agree if each parameter differs by no more than its relative or its absolute limit.
+constexpr double kMaxDifference = 0.25;                                     // [1] relative
+constexpr double kMaxDampingDifference = 2.0, kMaxDelayDifference = 0.002;  // [1/s], [s] absolute
 constexpr std::size_t kMaxPairs = 5;
 constexpr double kMaxMeasuredDelay = 0.1;  // [s]
-constexpr double kMaxBalanceForce = 0.4;   // [1] fraction of the full force, pushed against a spring
-constexpr double kMinBalance = 0.01;       // [1] fraction of the range
-constexpr double kDamper = 0.5;            // [1] fraction of the maximum coefficient; enough to measure
-constexpr double kMaxHandleSpringForce =
-    0.3;                             // [1] of the full force, at a stop; if larger, a hand must be on the lever
-constexpr double kMinBraking = 0.3;  // [N s/m] minimum to determine the sign of a damper
+constexpr double kMaxBalanceForce = 0.4;   // [1] fraction of the full force; largest push against a spring
+constexpr double kMinBalance = 0.01;       // [1] fraction of the axis's range
+constexpr double kDamper = 0.5;            // [1] damper coefficient in the measurement, fraction of the maximum
+// [1] largest plausible force of the handle's own spring at a stop, as a fraction of the full force. A stronger spring
+// means that a hand is on the lever.
+constexpr double kMaxHandleSpringForce = 0.3;
+constexpr double kMinBraking = 0.3;  // [N s/m] smallest damping whose sign can be determined
 
 StickCommand idle_command() noexcept {
   StickCommand command;
@@ -102,7 +104,8 @@ std::string Calibrator::measure_polarity() {
   return sentence;
 }
 
-// Pushes both ways with the smallest of three forces that moves the lever.
+// Finds the sign of a constant force. Pushes the lever in both directions, with the smallest of three forces that moves
+// it.
 int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name) const {
   for (const double magnitude : {0.25 * kCautiousForce, 0.5 * kCautiousForce, kCautiousForce}) {
     StickCommand command = idle_command();
@@ -119,7 +122,8 @@ int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::
                            " % of the full force. Check that the stick has power and can move freely");
 }
 
-// Motion [1] of the range to the right or forward, from rest under that command.
+// Applies the command to the lever at rest. Returns the motion to the right or forward [1], as a fraction of the axis's
+// range.
 double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickCommand& command) const {
   const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
   const double from = rig.rest(place.report, idle_command()), other_from = rig.position(other);
@@ -135,8 +139,8 @@ double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickComman
   return moved * place.sign;
 }
 
-// A spring whose centre is next to the lever pulls the lever there or pushes it away. The spring's saturation limits
-// the force.
+// Commands a spring whose centre is kSpringOffset away from the lever. Returns +1 if the spring pulls the lever to the
+// centre, -1 if it pushes the lever away, and 0 if the lever does not move. The spring's saturation limits the force.
 int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
   const PidLayout& pid = driver_.layout();
   if (!pid.has_effect(PidEffect::spring) || !pid.set_condition.exists()) return 0;
@@ -147,7 +151,7 @@ int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
     const double here = rig.deflection(place.report), offset = here < 0.0 ? kSpringOffset : -kSpringOffset;
     StickCommand command = idle_command();
     command.spring[place.motor] = {here + offset, 0.0, coefficient, kCautiousForce};
-    const double moved = push(rig, place, command) * place.sign;  // motion in the direction of rising counts
+    const double moved = push(rig, place, command) * place.sign;  // positive if the counts rise
     if (std::abs(moved) < kMinMoved) continue;
     return (moved > 0.0) == (offset > 0.0) ? 1 : -1;
   }
@@ -169,7 +173,8 @@ std::string Calibrator::measure_timing() {
          number_text(1e3 * answer_time(timing), 1) + " ms";
 }
 
-// Measured while the lever moves and both axes get a new force every tick, because an idle stick is faster.
+// Measures how often the stick sends readings and accepts forces. Meanwhile, moves the lever and changes the forces of
+// both axes in every tick, because an idle stick would transfer reports faster.
 DeviceTiming Calibrator::measure_intervals(StickRig& rig) const {
   const AxisPlace select = axis_place(calibration_.select), shift = axis_place(calibration_.shift);
   const double from_x = rig.rest(select.report, idle_command()), from_y = rig.rest(shift.report, idle_command());
@@ -203,8 +208,8 @@ DeviceTiming Calibrator::measure_intervals(StickRig& rig) const {
   return timing;
 }
 
-// rest: command in effect before, during and after the pulse. The lever first comes to rest without this command,
-// because with a damper it would take seconds.
+// Measures the response to one pulse, which adds the force `magnitude` to the command `rest`. The lever first comes to
+// rest under the idle command, because under a damper that would take seconds.
 Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const {
   const double from = rig.rest(place.report, idle_command());
   for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kSettingTime;) rig.step(rest);
@@ -232,8 +237,7 @@ Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const StickComman
   return measured;
 }
 
-// One pulse in each direction, with `magnitude` doubled until the lever moves far enough. The final magnitude is left
-// in `magnitude`.
+// Measures one pulse in each direction. Doubles `magnitude` until the lever moves far enough.
 std::array<Pulse, 2> Calibrator::pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest,
                                         double& magnitude) const {
   while (true) {
@@ -245,8 +249,8 @@ std::array<Pulse, 2> Calibrator::pulses(StickRig& rig, const AxisPlace& place, c
   }
 }
 
-// Fits the lever's dynamics, in counts, under a damper of that coefficient, to the first two pairs of pulses that
-// agree. A single pair cannot tell a nudge or a late cycle from the lever's dynamics.
+// Fits the lever's dynamics, in counts, under a device damper of coefficient `damper`. Pairs of pulses are measured
+// until two pairs agree, because a nudge or a late cycle can spoil a single pair.
 PulseFit Calibrator::fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name,
                          double damper) const {
   const AxisPlace place = axis_place(axis);
@@ -257,7 +261,7 @@ PulseFit Calibrator::fit(StickRig& rig, const LeverAxisCalibration& axis, const 
   std::vector<PulseFit> fits;
   while (fits.size() < kMaxPairs) {
     pairs.push_back(pulses(rig, place, rest, magnitude));
-    rig.step();  // motors off: the fit takes longer than a command stays valid
+    rig.step();  // switches the motors off, because a command would expire during the fit
     fits.push_back(fit_of(pairs.back(), name));
     for (std::size_t i = 0; i + 1 < fits.size(); ++i) {
       if (!fits_agree(fits[i], fits.back())) continue;
@@ -303,8 +307,8 @@ std::string Calibrator::measure_handle() {
     if (!(mass >= 0.005 && mass <= 20.0))
       throw CalibrationRefused("a handle of " + number_text(mass, 4) +
                                " kg is not plausible. Check the full force and the travel");
-    const double stop_force =
-        0.5 * found.stiffness * mass * axis.travel;  // [N] force of the handle's own spring at a stop
+    // [N] force of the handle's own spring at a stop
+    const double stop_force = 0.5 * found.stiffness * mass * axis.travel;
     if (stop_force > kMaxHandleSpringForce * axis.full_force)
       throw CalibrationRefused((select ? "select has a spring of " : "shift has a spring of ") +
                                newtons_per_metre(found.stiffness * mass) +
@@ -333,10 +337,10 @@ std::string Calibrator::measure_springs() {
   return driver_.layout().has_effect(PidEffect::damper) ? springs + "; " + measure_dampers() : springs;
 }
 
-// Finds a damper's sign first, with kCautiousForce as a fraction of the maximum coefficient, then its strength.
+// Measures the sign of each damper first, with the small coefficient kCautiousForce, and then its strength.
 std::string Calibrator::measure_dampers() {
   DeviceCalibration found = calibration_;
-  if (!found.has_handle()) return "the dampers were not measured, because the handle is not known";
+  if (!found.has_handle()) return "the dampers were not measured, because the handle has not been measured yet";
   StickRig rig(driver_, tick_);
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
@@ -345,7 +349,8 @@ std::string Calibrator::measure_dampers() {
     axis->damper_sign = braking > 0.0 ? 1 : -1;
     axis->damper_strength = damping_by(rig, *axis, name, kDamper * axis->damper_sign) / kDamper;
     if (axis->damper_strength <= 0.0)
-      throw CalibrationRefused("the damper of " + name + " drives the lever with either sign");
+      throw CalibrationRefused("the damper of " + name +
+                               " accelerates the lever with either sign instead of braking it");
   }
   calibration_ = found;
   return "dampers of up to " + number_text(found.select.damper_strength, 1) + " N s/m in select and " +
@@ -353,13 +358,14 @@ std::string Calibrator::measure_dampers() {
          (found.select.damper_sign * found.shift.damper_sign > 0 ? "" : ", with opposite signs");
 }
 
-// Damping [N s/m] that a damper of that coefficient adds to the handle's own damping.
+// Damping [N s/m] that a damper of coefficient `damper` adds to the handle's own damping.
 double Calibrator::damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name,
                               double damper) const {
   return fit(rig, axis, name, damper).damping * axis.handle.mass - axis.handle.damping;
 }
 
-// Pushes against the strongest spring with a known force in each direction, and measures where the lever comes to rest.
+// Measures the stiffness [N/m] of the strongest device spring: pushes against it with a known force in each direction
+// and compares where the lever comes to rest.
 double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis) const {
   const AxisPlace place = axis_place(axis);
   const BitField& coefficient = driver_.layout().set_condition.positive_coefficient;

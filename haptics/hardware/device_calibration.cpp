@@ -9,7 +9,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kRounding = 1e-9;      // [1] fraction of a cycle
+constexpr double kRounding = 1e-9;      // [1] fraction of a cycle, tolerance for rounding errors
 constexpr double kSlowestLoop = 100.0;  // [Hz]
 
 std::string describe_too_slow(double answer, double period) {
@@ -21,7 +21,7 @@ std::string describe_too_slow(double answer, double period) {
   return sentence + "a rate of " + number_text(rate, 0) + " Hz would work";
 }
 
-// Resolution [m] per count, on the coarser side of the centre.
+// Distance [m] per count, on the coarser side of the centre.
 double step_of(const LeverAxisCalibration& axis) noexcept {
   if (axis.low == axis.high) return 0.0;
   return 0.5 * axis.travel / std::min(std::abs(axis.high - axis.centre), std::abs(axis.centre - axis.low));
@@ -56,7 +56,7 @@ DeviceSpec spec_of(const DeviceCalibration& calibration, double period) {
   const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
   DeviceSpec spec;
   spec.max_force = calibration.has_polarity() ? glm::dvec2{select.full_force, shift.full_force} : glm::dvec2{0.0};
-  spec.continuous_force = spec.max_force;  // the device's firmware protects its motors
+  spec.continuous_force = spec.max_force;  // not below max_force, because the firmware protects the motors
   spec.workspace = 0.5 * glm::dvec2{select.travel, shift.travel};
   spec.position_step = std::max(step_of(select), step_of(shift));
   spec.delay = delay_cycles(calibration.has_timing() ? calibration.timing : kUnmeasuredTiming, period);

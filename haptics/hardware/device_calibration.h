@@ -14,25 +14,25 @@ namespace gearshift::haptics {
 
 // One axis of the lever: select or shift.
 struct LeverAxisCalibration {
-  int usage = 0x30;  // device axis: usage of the Generic Desktop page; only X (0x30) and Y (0x31) have motors
-  double low = 0.0, centre = 0.0,
-         high = 0.0;              // [counts] at the left or back stop, at rest, at the right or forward stop;
-                                  // low > high: the device counts the other way; low == high: not known
+  int usage = 0x30;  // HID usage of the axis (Generic Desktop page); only X (0x30) and Y (0x31) have motors
+  // [counts] readings at the left or back stop, at rest, and at the right or forward stop. If low > high, the counts
+  // decrease from left to right or from back to front. If low == high, the stops are not known.
+  double low = 0.0, centre = 0.0, high = 0.0;
   double travel = 0.0;            // [m] knob travel from stop to stop; 0: not known
   double full_force = 0.0;        // [N] force at the knob at full magnitude; 0: not known
   int constant_sign = 0;          // +1: a positive magnitude pushes right or forward; -1: left or back; 0: not measured
   int spring_sign = 0;            // +1: a spring pulls to its centre; -1: it pushes away; 0: not measured
   double spring_stiffness = 0.0;  // [N/m] stiffness at the knob at the maximum coefficient; 0: not measured
-  AxisModel handle{0.0, 0.0, 0.0};  // handle without a hand; mass 0: not measured
+  AxisModel handle{0.0, 0.0, 0.0};  // handle's mass, damping and stiffness, without a hand; mass 0: not measured
   int damper_sign = 0;              // +1: a damper brakes; -1: it drives the lever; 0: not measured
   double damper_strength = 0.0;     // [N s/m] damping at the knob at the maximum coefficient; 0: not measured
 };
 
 struct DeviceTiming {
   double input_interval = 0.0;   // [s] median time between readings; 0: not measured
-  double output_interval = 0.0;  // [s] between outputs
+  double output_interval = 0.0;  // [s] mean time between outputs
   double delay = 0.0;            // [s] time from sending a force until readings show its effect
-  double jitter = 0.0;           // [s] p99 of the input interval minus its median
+  double jitter = 0.0;           // [s] 99th percentile of the input interval minus its median
 };
 
 struct DeviceCalibration {
@@ -52,27 +52,31 @@ struct DeviceCalibration {
   bool has_handle() const noexcept { return select.handle.mass > 0.0 && shift.handle.mass > 0.0; }
 };
 
-// Values assumed if nothing was measured. A slow stick with a light, lightly damped handle is the safe assumption.
+// Values for a stick that was not measured. They are on the safe side: a slow stick with a light, lightly damped
+// handle.
 inline constexpr DeviceTiming kUnmeasuredTiming{0.002, 0.002, 0.004, 0.0};
 inline constexpr AxisModel kUnmeasuredHandle{0.05, 1.0, 0.0};
 inline constexpr double kMinSpring = 100.0;  // [N/m] weaker springs are not used for device walls
-inline constexpr double kMinDamper = 3.0;    // [N s/m] weaker dampers are not used in device walls
+inline constexpr double kMinDamper = 3.0;    // [N s/m] weaker dampers are not used for device walls
 
-// [s] Worst case from a reading to the effect of the force computed from it: the reading is up to one interval plus
-// jitter old when it is used, the force waits for the other axis' output, and acts after the device's delay.
+// [s] Longest time from a motion of the lever to the effect of the force computed from it. It is the sum of the
+// reading's age (at most one input interval plus jitter), the wait while the other axis's output is sent (one output
+// interval), and the device's delay.
 double answer_time(const DeviceTiming& timing) noexcept;
 
-// answer_time() in whole cycles of `period`: the smallest delay >= 0 with (1 + delay) T >= answer_time(). Throws
-// std::invalid_argument beyond the longest delay that the loop supports; the message names a rate that would work.
+// answer_time() in cycles of `period` [s]: the smallest delay >= 0 for which (1 + delay) * period >= answer_time().
+// Throws std::invalid_argument if the delay is longer than the loop supports; the message names a rate that would work,
+// if there is one.
 int delay_cycles(const DeviceTiming& timing, double period);
 
 // The device's properties for the loop. Until the polarity is measured, max_force is 0. Throws as delay_cycles() does.
 DeviceSpec spec_of(const DeviceCalibration& calibration, double period);
 
-// The path VENDOR_PRODUCT[_SERIAL].toml in the folder, with the serial reduced to letters, digits, '-' and '_'.
+// The path VENDOR_PRODUCT[_SERIAL].toml in the folder. Characters of the serial number other than letters, digits and
+// '-' are replaced by '_'.
 std::filesystem::path calibration_file(const std::filesystem::path& folder, const HidIdentity& device);
 
-// Empty if there is no file. Throws FileError with file, line, key, value and range.
+// Returns an empty value if there is no file. Throws FileError if the file is invalid.
 std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& file);
 
 // Writes every number losslessly and creates the folder if needed. Throws FileError if the file cannot be written or

@@ -59,8 +59,8 @@ void InputWatch::watch_still(Axis& axis, std::int64_t place, double force, doubl
   axis.force.add(force);
   axis.spring.add(spring);
   const bool is_pushed = std::max(std::abs(force), std::abs(spring)) > kMinPushForce;
-  const bool was_still =
-      axis.forced_time >= kFrozenTime;  // stays frozen until the axis moves; meanwhile its force fades out
+  // Once forced_time has reached kFrozenTime, it stays constant until the axis moves; meanwhile the force fades out.
+  const bool was_still = axis.forced_time >= kFrozenTime;
   if (!was_still) axis.forced_time = std::max(0.0, axis.forced_time + (is_pushed ? passed : -kStillnessDecay * passed));
   const bool is_still = axis.forced_time >= kFrozenTime;
   const double change = is_still ? -passed / kFadeOutTime : passed / kFadeInTime;

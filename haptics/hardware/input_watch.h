@@ -9,31 +9,33 @@
 
 namespace gearshift::haptics {
 
-inline constexpr double kMinJump = 0.25;       // [1] jump between two reports, of the range; no hand is that fast
+inline constexpr double kMinJump = 0.25;  // [1] jump between two reports, fraction of the range; no hand is that fast
 inline constexpr double kMaxJumpTime = 0.020;  // [s] reports further apart than this are not compared
-inline constexpr double kMaxReportGap = 0.1;   // [s] if the gap is longer, the program was not reading
-inline constexpr double kFrozenTime = 2.0;     // [s] time under force without motion of a single count: frozen
-inline constexpr double kFrozenForce = 0.30;   // [1] variation of the force during that time, of the full force
-inline constexpr double kMinPushForce = 0.05;  // [1] fraction of the full force; less counts as no force
-inline constexpr double kStillnessDecay =
-    0.2;                                     // [s/s] rate at which time under force decays without force; slow enough
-                                             // that an alternating force still counts
-inline constexpr double kFadeOutTime = 1.0;  // [s] in which a force fades to zero
-inline constexpr double kFadeInTime = 0.05;  // [s] in which a force returns
+inline constexpr double kMaxReportGap = 0.1;  // [s] a longer gap between reports means that the program was not reading
+inline constexpr double kFrozenTime = 2.0;  // [s] a force fades out if its axis does not move by a count for this time
+// [1] Fraction of the full force. The sensor of an axis is frozen if it reported no motion for kFrozenTime although the
+// force on the axis changed by more than this fraction.
+inline constexpr double kFrozenForce = 0.30;
+inline constexpr double kMinPushForce = 0.05;  // [1] fraction of the full force; weaker forces count as no force
+// [s/s] rate at which the accumulated time under force decreases while there is no force. The rate is so low that an
+// alternating force still accumulates time.
+inline constexpr double kStillnessDecay = 0.2;
+inline constexpr double kFadeOutTime = 1.0;  // [s] time in which a force fades to zero
+inline constexpr double kFadeInTime = 0.05;  // [s] time in which a faded force returns
 
-// The result depends only on the reports. Each axis is judged separately, because one sensor may fail while the other
-// works.
+// Each axis is judged separately, because one sensor may fail while the other works.
 //
-// A constant force proves nothing about a sensor. So a force above kMinPushForce is faded out once its axis has not
-// moved by a single count for kFrozenTime. With a working sensor the lever then moves under the hand, and the force is
-// back after a count or two; with a dead sensor the force ends. A device spring counts with its coefficient while the
-// lever is outside its dead band, because only the device knows the spring's actual force.
+// While the force is constant, a lever that does not move may be held by a hand or have a dead sensor. So the force is
+// faded out if it exceeds kMinPushForce and its axis has not moved by a single count for kFrozenTime. With a working
+// sensor, the lever then moves under the hand and the force returns after a count or two; with a dead sensor, the force
+// stays off. For a device spring, its coefficient is compared with kMinPushForce while the lever is outside the
+// spring's dead band, because only the device knows the actual force.
 class InputWatch {
  public:
-  // axes: indices of X and Y among the report's axes.
+  // `axes`: indices of X and Y in the report's list of axes.
   InputWatch(const LeverReport& report, std::array<std::size_t, 2> axes);
 
-  // force and springs: what the device renders now, as fractions of full force and full deflection.
+  // `force` and `springs` are those that the device renders now, as fractions of full force and full deflection.
   void update(const LeverCounts& counts, std::array<double, 2> force, std::array<PidSpring, 2> springs,
               std::int64_t time_ns) noexcept;
   void reset_force() noexcept;  // call it when the motors are switched off
@@ -54,8 +56,8 @@ class InputWatch {
   struct Axis {
     double middle = 0.0, half_range = 1.0;  // [counts]
     std::int64_t place = 0;                 // [counts] newest position
-    double forced_time = 0.0;               // [s] time under force at that position
-    Span force, spring;                     // range of values seen at that position
+    double forced_time = 0.0;               // [s] time under force at `place`
+    Span force, spring;                     // range of values while the axis was at `place`
     double force_fraction = 1.0;
     bool frozen = false;
   };

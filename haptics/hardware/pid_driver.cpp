@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kSilence = static_cast<std::int64_t>(1e9 * kCommandSilence);  // [ns]
 constexpr std::int64_t kMillisecond = 1'000'000;                                     // [ns]
-constexpr std::int64_t kUnarrived = 100 * kMillisecond;  // [ns] an output in transit for this time is stuck
+constexpr std::int64_t kUnarrived = 100 * kMillisecond;  // [ns] an output that is in transit for longer is stuck
 constexpr std::int64_t kSlowness = 500 * kMillisecond;   // [ns] period for which transfer times are averaged
 constexpr std::int64_t kMinArrivals = 5;
 
@@ -35,7 +35,7 @@ std::array<std::size_t, 2> stick_axes(const LeverReport& lever) {
   return found;
 }
 
-// False if the command contains a NaN or an infinity; it is then replaced by an empty command.
+// False if the command contains a NaN or an infinity.
 bool is_number(const StickCommand& command) noexcept {
   bool finite = std::isfinite(command.constant[0]) && std::isfinite(command.constant[1]);
   for (const double damper : command.damper) finite = finite && std::isfinite(damper);
@@ -109,7 +109,8 @@ void PidDriver::on_input(std::span<const std::uint8_t> report, std::int64_t time
   if (const std::optional<PidStatus> status = decode_state(pid_, report)) on_state_report(*status, time_ns);
 }
 
-// Readings of a frozen sensor are dropped, so that the loop sees no fresh reading.
+// Checks the position sensors and publishes the reading. Readings of a frozen sensor are dropped, so that the loop sees
+// no fresh reading.
 void PidDriver::on_lever_report(const LeverCounts& counts, std::int64_t time_ns) noexcept {
   watch_.update(counts, scheduler_.force(), scheduler_.spring(), time_ns);
   if (watch_.jump() > 0.0) problems_.raise(StickProblem::position_jump, std::lround(100.0 * watch_.jump()));
@@ -124,7 +125,7 @@ void PidDriver::on_lever_report(const LeverCounts& counts, std::int64_t time_ns)
   publish();
 }
 
-// If the device has switched itself off, its motors stay off until the user arms it again.
+// After any fault except effect_stopped, the motors stay off until the user arms the lever again.
 void PidDriver::on_state_report(const PidStatus& status, std::int64_t time_ns) noexcept {
   switch (scheduler_.on_report(status, time_ns)) {
     case StickFault::none:
@@ -153,7 +154,8 @@ HidBytes PidDriver::next_output(std::int64_t now_ns) noexcept {
   return report;
 }
 
-// Ignores the command if it was sent before the last release.
+// Applies the newest command. Replaces it with an empty command if it was sent before the last release or belongs to an
+// ended session.
 void PidDriver::apply_command(std::int64_t now_ns) noexcept {
   if (commands_.update()) command_ns_ = now_ns;
   const std::uint64_t releases = releases_.load(std::memory_order_acquire);
@@ -163,14 +165,14 @@ void PidDriver::apply_command(std::int64_t now_ns) noexcept {
   const bool is_current = prepared_ && newest.session == state_.session && newest.releases == releases;
   driven_ = is_current && newest.command.enabled;
   StickCommand command = is_current ? newest.command : StickCommand{};
-  for (std::size_t i = 0; i < 2; ++i) {  // the device walls fade as well: they rely on the same sensor
+  for (std::size_t i = 0; i < 2; ++i) {  // also fades the device walls, because they use the same sensor
     command.constant[i] *= watch_.force_fraction(i);
     command.spring[i].coefficient *= watch_.force_fraction(i);
   }
   scheduler_.set_command(command);
 }
 
-// Detects that the haptic side is late or dead while this thread runs; otherwise its last force would be renewed
+// Switches the motors off if the haptic side sends no commands. Otherwise this thread would renew the last force
 // forever.
 void PidDriver::watch_silence(std::int64_t now_ns) noexcept {
   if (!driven_ || now_ns - command_ns_ <= kSilence) return;
@@ -178,7 +180,7 @@ void PidDriver::watch_silence(std::int64_t now_ns) noexcept {
   end_session();
 }
 
-// Voids all earlier commands and switches the motors off.
+// Invalidates all earlier commands and switches the motors off.
 void PidDriver::end_session() noexcept {
   ++state_.session;
   scheduler_.set_command({});
@@ -203,8 +205,8 @@ void PidDriver::on_sent(std::int64_t time_ns) noexcept {
   publish();
 }
 
-// A wall that is stable at the calibrated answer time can vibrate on a slower stick. The check needs most outputs
-// within half a second to be late, because a single late one proves nothing.
+// A wall that is stable at the calibrated answer time can vibrate on a slower stick, so the motors are switched off if
+// most outputs within half a second are late. A single late output proves nothing.
 void PidDriver::watch_slowness(std::int64_t now_ns) noexcept {
   const std::int64_t transfer = now_ns - handed_ns_, answer = answer_ns_.load(std::memory_order_relaxed);
   ++arrivals_.all;
@@ -248,7 +250,7 @@ void PidDriver::post_command(const StickCommand& command) noexcept {
   if (is_new) wake();
 }
 
-// Writing to the eventfd does not block; if its counter is full, the reader wakes up anyway.
+// This write does not block. It fails only if the counter of the eventfd is full, and then the reader wakes up anyway.
 void PidDriver::wake() const noexcept {
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = write(wake_fd_, &one, sizeof one);

@@ -2,13 +2,13 @@
 // full force. The calibration adds metres and newtons (pid_lever.h).
 //
 // Two threads use it. The port's thread prepares the device, streams, and finishes it; the haptic thread (or a
-// calibration) reads the state and sends commands. They exchange only the newest complete values.
+// calibration) reads the state and sends commands. The threads exchange only the newest complete values.
 //
-//   prepare    pid_setup.h: creates the effects with zero force; actuators stay off
-//   stream     report_scheduler.h: when enabled, actuators on, effects started and renewed long before they end, so
-//              that the force ends if the program dies; the value with the largest error first, one report per tick
-//   release    sent before anything else: actuators off (or stop all, or zero force, whichever the device supports)
-//   finish     stop all, actuators off, free blocks, reset
+//   prepare    creates the effects with zero force; the actuators stay off (pid_setup.h)
+//   stream     sends one report per tick (report_scheduler.h). While enabled, turns the actuators on, and starts the
+//              effects again before they end. Thus the force ends soon if the program dies.
+//   release    turns the actuators off, stops all effects and sets the forces to zero, before anything else is sent
+//   finish     stops all effects, turns the actuators off, frees the blocks and resets the device
 //
 // Each command carries the session of the state it was computed from; commands of an ended session are ignored. A
 // session ends when the device is prepared again, when a fault switches the motors off, or when the haptic side stops
@@ -35,10 +35,9 @@
 
 namespace gearshift::haptics {
 
-inline constexpr double kCommandSilence =
-    0.1;  // [s] time without a command after which enabled motors are switched off
+// [s] Time without a command after which enabled motors are switched off.
+inline constexpr double kCommandSilence = 0.1;
 
-// Newest state of the device.
 struct StickState {
   std::uint64_t session = 0;   // 0: not prepared yet
   std::uint64_t sequence = 0;  // number of accepted lever reports
@@ -71,26 +70,28 @@ class PidDriver final : public HidStream {
   void on_sent(std::int64_t time_ns) noexcept override;
   bool should_end() const noexcept override { return end_.load(std::memory_order_relaxed); }
 
-  // Haptic side, one thread. Real-time safe; command() and release() write to the wake-up descriptor. A command expires
-  // after kCommandSilence, so repeat it every cycle.
+  // The haptic thread or a calibration calls the next three functions, on one thread only. They are real-time safe;
+  // command() and release() write to an eventfd. A command expires after kCommandSilence, so it must be repeated every
+  // cycle.
   StickState state() noexcept;
   void command(const StickCommand& command) noexcept;
-  void release() noexcept;  // switches off before anything else; a later command() may enable again
+  void release() noexcept;  // switches the motors off before anything else is sent; a later command() may enable them
 
-  // Sets the answer time from the calibration [s]; any thread. The motors go off if the stick takes more than twice
-  // that time for its outputs.
+  // Sets the calibrated answer time [s]. May be called on any thread. The motors are switched off if most outputs take
+  // longer than twice this time plus 1 ms.
   void expect_answer(double seconds) noexcept {
     answer_ns_.store(std::llround(1e9 * seconds), std::memory_order_relaxed);
   }
   void end() noexcept { end_.store(true, std::memory_order_relaxed); }  // makes stream() return
-  // The next problem since the device was prepared, as one sentence; each kind is reported once.
+  // Returns the next problem since the device was prepared, as one sentence, or an empty value if there is none. Each
+  // kind of problem is returned once.
   std::optional<std::string> take_problem() { return problems_.take(); }
 
  private:
   struct Command {
     StickCommand command;
-    std::uint64_t session = 0;   // session of the state it was computed from
-    std::uint64_t releases = 0;  // number of releases before it
+    std::uint64_t session = 0;   // session of the state that the command was computed from
+    std::uint64_t releases = 0;  // number of releases before the command
   };
 
   struct Arrivals {  // arrived outputs
@@ -135,7 +136,7 @@ class PidDriver final : public HidStream {
   bool driven_ = false;          // the last command is valid and enables the motors
   std::int64_t unarrived_ns_ = 0;
   bool unarrived_ = false;      // an output has been in transit since unarrived_ns_
-  std::int64_t handed_ns_ = 0;  // when the last output was handed out
+  std::int64_t handed_ns_ = 0;  // when the last output was handed to the port
   Arrivals arrivals_;
 
   // The haptic side.

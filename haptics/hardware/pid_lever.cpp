@@ -84,8 +84,9 @@ PidLever::Axis PidLever::make_axis(const LeverAxisCalibration& calibration, bool
   return axis;
 }
 
-// Signed coefficient that makes `wanted` out of the effect's maximum `strongest`. A condition with inverted polarity
-// needs a negative coefficient; 0 if the device cannot encode one or lacks the effect.
+// Signed coefficient for a stiffness or damping of `wanted`; `strongest` is the value at coefficient 1. An effect with
+// inverted polarity needs a negative coefficient. Returns 0 if the device cannot encode this coefficient or lacks the
+// effect.
 double PidLever::coefficient(PidEffect effect, int sign, double wanted, double strongest) const noexcept {
   const PidSetCondition& set = driver_.layout().set_condition;
   if (wanted == 0.0 || !set.exists() || !driver_.layout().has_effect(effect)) return 0.0;
@@ -174,8 +175,8 @@ void PidLever::damp_in_walls() noexcept {
   }
 }
 
-// In the cycle in which a new session is noticed, the loop's command was still meant for the old session, so it is
-// dropped.
+// Sends the command. If the session has changed in this cycle (halted_), the loop computed the command for the old
+// session, so an empty command is sent instead.
 void PidLever::send() noexcept {
   if (halted_) command_ = {};
   driver_.command(command_);

@@ -15,7 +15,7 @@ namespace gearshift::haptics {
 class LeverAxisMap {
  public:
   LeverAxisMap() = default;
-  // field: position of the axis in the report, with its logical range [counts]
+  // `field`: position of the axis in the report, with its logical range [counts]
   LeverAxisMap(const LeverAxisCalibration& axis, const BitField& field) noexcept;
 
   double metres(double counts) const noexcept;  // linear on each side of the centre, also beyond the stops
@@ -29,17 +29,17 @@ class LeverAxisMap {
 
 class PidLever final : public HapticDevice {
  public:
-  // The driver must outlive the lever. period: the loop's period [s]. Throws std::invalid_argument if the calibration
-  // has no range, the stick lacks an axis, or its delay is longer than the loop supports.
+  // The driver must outlive the lever. `period`: period of the loop [s]. Throws std::invalid_argument if the
+  // calibration has no range, the stick lacks an axis, or the stick's delay is longer than the loop supports.
   PidLever(const DeviceCalibration& calibration, PidDriver& driver, double period);
   ~PidLever() override { driver_.release(); }
   PidLever(const PidLever&) = delete;
   PidLever& operator=(const PidLever&) = delete;
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
-  // The reading is fresh if a new report has arrived from the device. The actuator force is computed from the forces
-  // sent and from the device walls at this depth, because these sticks do not measure it. After a reconnect, or after
-  // the driver has switched the motors off, one reading has `stop` set, so that the user has to arm the lever again.
+  // The reading is fresh if a new report has arrived from the device. These sticks do not measure the actuator force,
+  // so it is computed from the forces sent and from the device walls. After a reconnect, or after the driver has
+  // switched the motors off, one reading has `stop` set, so that the user has to arm the lever again.
   LeverReading read(std::int64_t now_ns) noexcept override;
   void switch_on() noexcept override { command_.enabled = drives(); }  // sent with the next write()
   void write(glm::dvec2 force) noexcept override;                      // no force until the polarity is measured
@@ -52,9 +52,9 @@ class PidLever final : public HapticDevice {
     std::size_t report = 0;   // index of the axis in the report
     std::size_t motor = 0;    // index of the motor in the driver: X, Y
     double full_force = 0.0;  // [N] 0: no motor, or its force is not known
-    double sign = 0.0;        // sign of a constant force
+    double sign = 0.0;        // sign of constant forces: +1, -1, or 0 if there is no motor
     double spring = 0.0;      // signed spring coefficient of the device walls; 0: no device walls
-    double damper = 0.0;      // signed damper coefficient in the device walls; 0: none
+    double damper = 0.0;      // signed damper coefficient of the device walls; 0: none
   };
 
   Axis make_axis(const LeverAxisCalibration& calibration, bool drives) const;
@@ -75,7 +75,7 @@ class PidLever final : public HapticDevice {
   glm::dvec2 position_{0.0};        // [m] newest
   std::uint64_t session_;           // session of the last state
   bool halted_ = false;             // the session changed in this cycle
-  bool stop_was_released_ = false;  // a stop button held since the start is ignored until it was released once
+  bool stop_was_released_ = false;  // a stop button held since the start is ignored until it has been released once
 };
 
 }  // namespace gearshift::haptics

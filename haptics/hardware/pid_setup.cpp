@@ -56,7 +56,8 @@ class StickSetup {
     return pid_.device_control.control.supports(static_cast<std::size_t>(control));
   }
 
-  // The pool report is optional and its answer is not used: if the device's memory is full, creating an effect fails.
+  // Requests the optional pool report, only to note a stick that does not answer. The answer itself is not needed,
+  // because creating an effect fails if the device's memory is full.
   void read_pool() {
     if (!pid_.pool.exists()) return;
     try {
@@ -109,17 +110,17 @@ class StickSetup {
   // On a device without a Create report, the effects exist from the start, as blocks 1, 2, ...
   int create(PidEffect effect) {
     if (!pid_.create.exists()) return ++implicit_blocks_;
-    const std::string refuses = std::string("the stick refuses a ") + to_string(effect) + ", because ";
+    const std::string refuses = std::string("a ") + to_string(effect) + " cannot be created, because ";
     const HidBytes report = encode_create(pid_, effect);
-    if (report.size == 0) throw HidError(refuses + "it does not support this effect");
+    if (report.size == 0) throw HidError(refuses + "the stick does not support this effect");
     port_.set_feature(report);
     if (!pid_.block_load.exists()) return ++implicit_blocks_;
     const BlockLoad load = poll_block_load();
     if (load.status == BlockLoad::Status::full)
-      throw HidError(refuses + "its memory for effects is full; unplug it and plug it in again");
-    if (load.status == BlockLoad::Status::error) throw HidError(refuses + "it reports an error");
-    if (load.status == BlockLoad::Status::pending) throw HidError(refuses + "it does not confirm the effect");
-    if (load.block == kNoBlock) throw HidError(refuses + "it assigns no effect block");
+      throw HidError(refuses + "the stick's memory for effects is full; unplug it and plug it in again");
+    if (load.status == BlockLoad::Status::error) throw HidError(refuses + "the stick reports an error");
+    if (load.status == BlockLoad::Status::pending) throw HidError(refuses + "the stick does not confirm the effect");
+    if (load.block == kNoBlock) throw HidError(refuses + "the stick assigns no effect block");
     return load.block;
   }
 
@@ -137,12 +138,13 @@ class StickSetup {
     return decode_block_load(pid_, report.view()).value_or(BlockLoad{});
   }
 
-  // Sets an effect with a finite duration. If the device refuses that for the first effect, all effects are endless.
+  // Sets an effect with a finite duration. If the device refuses a duration for the first effect, all effects are
+  // endless.
   void set(StickEffect effect, int block) {
     PidAbility& ability = result_.ability;
     if (accepts(effect, block, ability.finite ? kEffectDuration : kForever)) return;
     if (ability.blocks > 0 || !accepts(effect, block, kForever))
-      throw HidError(std::string("the stick refuses a ") + to_string(kind_of(effect)) + " with any parameters");
+      throw HidError(std::string("the stick rejects all parameters of a ") + to_string(kind_of(effect)));
     ability.finite = false;
     note(kEndless);
   }

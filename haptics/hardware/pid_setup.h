@@ -4,8 +4,8 @@
 //                  values zero -> actuators off -> gain full
 //   silence_stick  stop all -> actuators off -> free blocks -> reset -> actuators off
 //
-// A reset switches the actuators on (PID 1.0 section 5.9), and on some boards setting an effect does too; so they are
-// switched off again afterwards. The effects are constant X, constant Y, spring and damper.
+// A reset switches the actuators on (PID 1.0 section 5.9), and on some boards setting an effect does too, so the
+// actuators are switched off again afterwards. The effects are constant X, constant Y, spring and damper.
 //
 // This work is based on:
 // USB Implementers' Forum. Device Class Definition for Physical Interface Devices (PID), version 1.0. 1999
@@ -19,7 +19,6 @@
 
 namespace gearshift::haptics {
 
-// Capabilities of a prepared device.
 struct PidAbility {
   bool spring = false, damper = false;
   bool finite = true;              // effects end by themselves; false: the device refuses a duration (see `notes`)
@@ -32,7 +31,8 @@ struct PreparedStick {
   PidAbility ability;
 };
 
-// Throws HidDisconnected, or HidError if the device cannot make a constant force; the device is then silenced.
+// Throws HidDisconnected if the stick was unplugged, and HidError if the device cannot make a constant force. The
+// motors are switched off before HidError is thrown.
 PreparedStick prepare_stick(HidPort& port, const PidLayout& pid);
 
 // Best effort: a report that fails is skipped.

@@ -19,12 +19,13 @@ using glm::dvec3;  // damping, stiffness, delay
 
 constexpr std::size_t kMinSamples = 20;
 constexpr int kMaxSteps = 60;
-// Several starting points, because the method finds the nearest minimum, not the lowest.
+// There are several starting points, because the Levenberg-Marquardt method can end in a minimum that is not the
+// lowest.
 constexpr std::array kFirstDampings{3.0, 30.0, 150.0};                             // [1/s]
 constexpr std::array kFirstStiffnesses{20.0, 200.0, 1000.0, 4000.0};               // [1/s^2]
 constexpr std::array kFirstDelays{0.0, 0.003, 0.007, 0.012, 0.020, 0.035, 0.060};  // [s]
 constexpr std::size_t kDescents = 4;
-constexpr std::size_t kSampleStride = 8;  // uses every 8th sample until the best starting point is known
+constexpr std::size_t kSampleStride = 8;  // the search for the best starting point uses every 8th sample
 constexpr dvec3 kMinModel{0.0, 0.0, -0.005}, kMaxModel{2000.0, 1e5, 0.2};
 
 // Response to a unit step at time 0.
@@ -50,7 +51,7 @@ class PulseProblem {
 
   struct Trial {
     dvec3 model{0.0};
-    double gain = 0.0, error = 0.0;  // error: sum of squares
+    double gain = 0.0, error = 0.0;  // error: sum of the squared residuals
     std::vector<double> residuals;   // residuals: measured minus modelled
   };
 
@@ -71,7 +72,8 @@ class PulseProblem {
     return trial;
   }
 
-  // Levenberg-Marquardt from `from`. A large lambda means a short step along the gradient.
+  // Minimises the error with the Levenberg-Marquardt method, starting from `from`. If `lambda` is large, the step is
+  // short and follows the steepest descent.
   Trial descend(const dvec3& from) const {
     Trial best = try_model(from);
     double lambda = 1e-3;
@@ -94,7 +96,7 @@ class PulseProblem {
         [&](const Pulse& pulse, const PulseSample& sample) { return pulse_response(model, pulse, sample.time); });
   }
 
-  // Values minus their mean in each pulse, because the position before a pulse is known only to one count.
+  // Subtracts each pulse's mean from its values, so that the starting position, known only to one count, cancels out.
   std::vector<double> centred(const auto& value_of) const {
     std::vector<double> values;
     for (const Pulse& pulse : pulses_) {
@@ -134,7 +136,7 @@ class PulseProblem {
   double power_ = 0.0;
 };
 
-// Searches for the lowest minimum, using fewer samples.
+// Searches for the lowest minimum with every 8th sample. The result is the starting point for the full fit.
 dvec3 find_start(std::span<const Pulse> pulses) {
   const PulseProblem problem(pulses, kSampleStride);
   std::vector<PulseProblem::Trial> trials;

@@ -4,7 +4,7 @@
 //   x'' + damping x' + stiffness x = gain u(t - delay),   u = magnitude for the length of the pulse, then 0
 //
 // The gain and each pulse's starting position follow in closed form from the other three parameters (variable
-// projection); those are found by the Levenberg-Marquardt method.
+// projection), which are found by the Levenberg-Marquardt method.
 //
 // This work is based on:
 // Gene Golub, Victor Pereyra. The Differentiation of Pseudo-Inverses and Nonlinear Least Squares Problems Whose Variables
@@ -23,15 +23,15 @@ struct PulseSample {
 };
 
 struct Pulse {
-  double magnitude = 0.0;  // [1] -1 to 1, of the full force
+  double magnitude = 0.0;  // [1] -1 to 1, fraction of the full force
   double length = 0.0;     // [s] from sending the pulse to sending its end
   std::vector<PulseSample> samples;
 };
 
 struct PulseFit {
   double gain = 0.0;       // [length/s^2] acceleration at magnitude 1
-  double damping = 0.0;    // [1/s] b / m
-  double stiffness = 0.0;  // [1/s^2] k / m
+  double damping = 0.0;    // [1/s] damping divided by mass
+  double stiffness = 0.0;  // [1/s^2] stiffness divided by mass
   double delay = 0.0;      // [s]
   double residual = 0.0;   // [1] RMS of the residuals divided by the RMS of the motion
 };

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kDuration = static_cast<std::int64_t>(1e9 * kEffectDuration);  // [ns]
 constexpr std::int64_t kRenew = static_cast<std::int64_t>(1e9 * kRenewAfter);         // [ns]
-constexpr std::int64_t kReportLag = 50'000'000;  // [ns] state reports may be older than a command by this time
+constexpr std::int64_t kReportLag = 50'000'000;  // [ns] longest delay of a state report
 constexpr int kOnce = 1;                         // loop count
 
 double difference(const PidCondition& a, const PidCondition& b) noexcept {
@@ -59,14 +59,15 @@ std::array<PidSpring, 2> ReportScheduler::spring() const noexcept {
   return spring;
 }
 
-// Whether the effect should play. Constant forces always play, so that the first force needs only one report.
+// True if the effect should play. Constant forces always play, so that the first force needs only one report.
 bool ReportScheduler::is_wanted(std::size_t effect) const noexcept {
   if (effect_[effect].block == kNoBlock) return false;
   switch (static_cast<StickEffect>(effect)) {
     case StickEffect::spring:
       return command_.spring[0].coefficient != 0.0 || command_.spring[1].coefficient != 0.0;
-    case StickEffect::
-        damper:  // keeps playing with coefficient 0: starting it takes three reports, at the moment of contact
+    case StickEffect::damper:
+      // Once started, a damper keeps playing, even with coefficient 0, because starting it again takes three reports,
+      // which is too long at a contact.
       return command_.damper[0] != 0.0 || command_.damper[1] != 0.0 || effect_[effect].playing;
     default:
       return true;
@@ -113,7 +114,8 @@ void ReportScheduler::expire(std::int64_t now_ns) noexcept {
   }
 }
 
-// On a device without an actuator switch the values go to zero first, then the effects stop.
+// Chooses the next report that switches the motors off: actuators off, stop all, values to zero. Effects that still
+// play, because the device has no command to stop all, are stopped one by one at the end.
 void ReportScheduler::next_off() noexcept {
   if (on_ && has_switch() && control(PidControl::disable_actuators, Sent::Kind::off)) return;
   if (plays() && control(PidControl::stop_all, Sent::Kind::all_stopped)) return;
@@ -166,7 +168,8 @@ void ReportScheduler::send_worst(std::int64_t now_ns) noexcept {
   if (index < kValues) send_value(index, target_value(index));
 }
 
-// Whether the device already has this setting, by the encoded bytes: a difference below its resolution does not count.
+// True if the device already has this setting. The encoded bytes are compared, so that a difference below the device's
+// resolution does not count.
 bool ReportScheduler::is_current(std::size_t value, const PidCondition& setting) noexcept {
   if (encode(value, setting) != value_[value].sent) return false;
   value_[value].current = setting;
@@ -230,7 +233,8 @@ void ReportScheduler::started(Effect& effect, std::size_t index, std::int64_t no
   effect.renew_ns = now_ns + kRenew - stagger;
 }
 
-// A state report may be older than the last command, so a contradiction is ignored within kReportLag of a command.
+// A state report may be older than the last command, so a report that contradicts the command is ignored for
+// kReportLag.
 StickFault ReportScheduler::on_report(const PidStatus& status, std::int64_t now_ns) noexcept {
   const PidState& layout = pid_.state;
   if (!command_.enabled) return StickFault::none;

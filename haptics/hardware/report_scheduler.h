@@ -4,7 +4,7 @@
 //   1  off        after release() or while disabled: actuators off, stop all, values to zero
 //   2  on         actuators on; for each effect needed but not playing: first its values, then its start
 //   3  renew      an effect that has played for kRenewAfter is started again, long before it ends
-//   4  values     the value with the largest error times waiting time, so that none starves
+//   4  values     the value with the largest product of error and waiting time, so that no value waits forever
 //   5  nothing    if nothing has changed
 #pragma once
 
@@ -20,7 +20,6 @@ namespace gearshift::haptics {
 inline constexpr double kEffectDuration = 0.3;  // [s] an effect ends after this time unless it is renewed
 inline constexpr double kRenewAfter = 0.1;      // [s] time after an effect's start at which it is started again
 
-// The effects created on a stick.
 enum class StickEffect : std::uint8_t { constant_x, constant_y, spring, damper };
 inline constexpr std::size_t kStickEffects = 4;
 using StickBlocks = std::array<int, kStickEffects>;  // effect block index per effect; kNoBlock: not created
@@ -33,14 +32,14 @@ class ReportScheduler {
   explicit ReportScheduler(const PidLayout& pid) noexcept : pid_(pid) {}  // pid must outlive the scheduler
 
   // Starts from the state in which prepare_stick() leaves the device: actuators off, nothing playing, every value zero.
-  // finite: effects end by themselves after kEffectDuration.
+  // `finite`: whether effects end by themselves after kEffectDuration.
   void begin(const StickBlocks& blocks, bool finite) noexcept;
 
   void set_command(const StickCommand& command) noexcept { command_ = command; }
   void release() noexcept { released_ = true; }  // switches the motors off first, whatever the command says
 
-  // The next report; size 0: none. Call it after the last one has arrived; if called earlier, the last one counts as
-  // lost and is scheduled again.
+  // Returns the next report; size 0: none. Must be called after the previous report has arrived; otherwise the previous
+  // report counts as lost and is scheduled again.
   HidBytes next(std::int64_t now_ns) noexcept;
   void arrived(std::int64_t now_ns) noexcept;
   StickFault on_report(const PidStatus& status, std::int64_t now_ns) noexcept;
@@ -48,7 +47,7 @@ class ReportScheduler {
   // Forces and springs that the device renders now.
   std::array<double, 2> force() const noexcept;      // [1] constant forces
   std::array<PidSpring, 2> spring() const noexcept;  // coefficient 0: none
-  bool drives() const noexcept;                      // actuators on, an effect playing, as far as is known
+  bool drives() const noexcept;  // the actuators are on and an effect is playing, as far as is known
 
  private:
   // The values sent to the device: constant X, Y, spring X, Y, damper X, Y. The magnitude of a constant force is stored

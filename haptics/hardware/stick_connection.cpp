@@ -19,10 +19,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kFirstWait{12}, kMaxWait{1000};  // the first wait is the time to look for an absent device
+constexpr milliseconds kFirstWait{12}, kMaxWait{1000};  // pause between attempts, doubled every time
 constexpr milliseconds kStableTime{1000};               // after streaming this long, earlier problems are forgotten
-constexpr std::size_t kMaxMessages = 64;                // longest queue; the oldest messages are dropped
-constexpr int kPriority = 70;                           // below the haptic loop's priority: never delay the loop
+constexpr std::size_t kMaxMessages = 64;                // in the queue; if it is full, the oldest message is dropped
+constexpr int kPriority = 70;  // below the haptic loop's priority, so that the loop is never delayed
 
 }  // namespace
 
@@ -48,23 +48,23 @@ struct StickConnection::State {
   std::optional<PidAbility> ability;
   std::deque<std::string> messages;
 
-  // Used only by the thread.
+  // Used only by the connection's thread.
   std::vector<std::string> reported;               // messages reported since the stick last worked
   std::string name;                                // name of the device, once it has been opened
   bool was_connected = false;                      // the device was prepared at least once
-  bool has_failed = false;                         // failed while streaming: further failures are not reported
-  std::optional<Clock::time_point> streams_since;  // of this connection
+  bool has_failed = false;                         // a stream has failed, so further failures are not reported
+  std::optional<Clock::time_point> streams_since;  // start of the current stream
   milliseconds pause = kFirstWait;
   std::thread thread;
 };
 
-// No exception may leave the thread: an unexpected one is reported, and the connection is tried again.
+// No exception may leave the thread: an unexpected exception is reported, and the connection is tried again.
 void StickConnection::State::run() noexcept {
   while (!stopping) {
     try {
       open_and_stream();
     } catch (const HidDisconnected& error) {
-      if (!was_connected) report_once(error.what());  // if not streaming, "unplugged" was already reported
+      if (!was_connected) report_once(error.what());  // otherwise "unplugged" was already reported
       has_failed = false;
     } catch (const std::exception& error) {
       report_once(error.what());
@@ -107,7 +107,8 @@ void StickConnection::State::connect(HidPort& port) {
   connected = true;
   has_failed = false;
   streams_since = Clock::now();
-  // The destructor's end() may have come before prepare(), which resets the driver's end flag.
+  // If the destructor called end() before prepare(), prepare() has cleared the driver's end flag, and stream() would
+  // not return.
   if (stopping) return;
   const RealtimeScope realtime(kPriority);
   port.stream(driver.stream_config(tick_ns), driver);

@@ -1,5 +1,6 @@
-// Keeps the connection to a stick on its own thread: opens it, prepares it, streams, and reconnects after it was
-// unplugged, retrying at growing intervals (12 ms to 1 s). The haptic loop only notices that no fresh readings arrive.
+// Maintains the connection to a stick on a thread of its own: opens and prepares the stick, streams, and reconnects
+// after an unplug, retrying at growing intervals (12 ms to 1 s). The haptic loop only notices that no fresh readings
+// arrive.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +19,17 @@ using PortOpener = std::function<std::unique_ptr<HidPort>()>;
 
 class StickConnection {
  public:
-  // The driver must outlive the connection. tick_ns: minimum interval between outputs [ns].
+  // The driver must outlive the connection. `tick_ns`: minimum interval between outputs [ns].
   StickConnection(PidDriver& driver, PortOpener open, std::int64_t tick_ns);
   ~StickConnection();  // switches the motors off and closes the device
   StickConnection(const StickConnection&) = delete;
   StickConnection& operator=(const StickConnection&) = delete;
 
   bool connected() const noexcept;            // prepared and streaming
-  std::optional<PidAbility> ability() const;  // of the device, as last prepared
-  // The next message, oldest first: unplugged, reconnected, or a problem, one sentence each. A problem is reported once
-  // until the stick has worked for a second; after a failure while streaming, further failures are not reported.
+  std::optional<PidAbility> ability() const;  // capabilities of the device when last prepared; empty before
+  // Returns the oldest message (unplugged, reconnected, or a problem) as one sentence, or an empty value if there is
+  // none. A problem of the connection is reported again only after the stick has streamed for a second or was
+  // unplugged. After a failure while streaming, further failures are not reported until the stick is connected again.
   std::optional<std::string> take_message();
 
  private:

@@ -10,19 +10,20 @@
 
 namespace gearshift::haptics {
 
+// The comment on a problem lists the detail values that raise() takes for it, or explains a problem without details.
 enum class StickProblem : std::uint8_t {
-  wrong_length,    // a: bytes received, b: bytes declared by the descriptor
-  unknown_report,  // a: report ID
-  frozen,          // a: seconds
-  faded_out,       // a: seconds
-  position_jump,   // a: percent of the range
+  wrong_length,    // number of bytes received, number of bytes declared by the descriptor
+  unknown_report,  // report ID
+  frozen,          // [s] time under force without motion
+  faded_out,       // [s] time until the force had faded out
+  position_jump,   // jump [%] of the range
   switched_off,    // the device switched its motors off
-  effect_stopped,  // the device stopped an effect
-  no_power,        // the motors have no power
-  safety_switch,   // the safety switch is open
-  output_stuck,    // an output report does not complete
-  slow_output,     // a: milliseconds per output, b: answer time from the calibration [ms]
-  no_commands      // a: milliseconds; the haptic side is late or dead, not the stick's fault
+  effect_stopped,
+  no_power,
+  safety_switch,  // the safety switch is open
+  output_stuck,   // an output report does not complete
+  slow_output,    // [ms] time per output, [ms] answer time from the calibration
+  no_commands     // [ms] time without a command, because the haptic side is late or dead
 };
 inline constexpr std::size_t kStickProblems = 12;
 
@@ -39,8 +40,8 @@ class StickProblems {
   struct Detail {
     std::atomic<std::int64_t> a{0}, b{0};
   };
-  std::atomic<std::uint64_t> raised_and_reported_{
-      0};  // one bit per kind in each half: raised in the low half, reported in the high half
+  // One bit per kind in each half: the low half holds the raised problems, the high half the reported problems.
+  std::atomic<std::uint64_t> raised_and_reported_{0};
   std::array<Detail, kStickProblems> detail_;
 };
 

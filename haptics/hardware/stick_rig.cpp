@@ -7,12 +7,12 @@ namespace gearshift::haptics {
 namespace {
 
 constexpr std::int64_t kMaxReadingGap = 500'000'000;      // [ns] longest time without a reading
-constexpr std::int64_t kStillTime = 300'000'000;          // [ns] without motion
+constexpr std::int64_t kStillTime = 300'000'000;          // [ns] required time without motion
 constexpr std::int64_t kMaxRestTime = 5'000'000'000;      // [ns] longest time to come to rest
 constexpr std::int64_t kStrictStillTime = 3'000'000'000;  // [ns] after this time kRelaxedStill applies
-constexpr double kStill = 0.0005, kRelaxedStill = 0.005;  // [1] fraction of the range
+constexpr double kStill = 0.0005, kRelaxedStill = 0.005;  // [1] largest motion when still, fraction of the axis's range
 constexpr double kMinStill = 2.0;                         // [counts]
-constexpr double kMaxRunaway = 0.35;                      // [1] fraction of the range
+constexpr double kMaxRunaway = 0.35;                      // [1] fraction of the axis's range
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 
 namespace gearshift::haptics {
 
-// One sentence that says why a measurement is not valid.
+// Thrown if a measurement is not valid. The message states the reason in one sentence.
 class CalibrationRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -43,8 +43,8 @@ class StickRig {
   double range(std::size_t axis) const noexcept;       // [counts] width of the axis's logical range
   double deflection(std::size_t axis) const noexcept;  // [1] -1 to 1, from end to end of the logical range
 
-  // Repeats the command until the axis is still and returns its mean position [counts]. Throws CalibrationRefused if it
-  // does not come to rest.
+  // Repeats the command until the axis is still and returns its mean position [counts]. Throws CalibrationRefused if
+  // the axis does not come to rest.
   double rest(std::size_t axis, const StickCommand& command = {});
 
   // Throws CalibrationRefused if the axis is further from `from` [counts] than a measurement may move it.

@@ -8,9 +8,9 @@
 
 namespace gearshift::haptics {
 
-// The first byte is always the report ID: 0 if the device uses no IDs (it is then not sent).
+// The first byte is always the report ID. If the device uses no report IDs, the byte is 0 and is not sent.
 struct HidBytes {
-  static constexpr std::size_t kMaxSize = 256;  // [bytes] longer reports are not used here and ignored
+  static constexpr std::size_t kMaxSize = 256;  // [bytes] longer reports are ignored
   std::array<std::uint8_t, kMaxSize> bytes{};
   std::size_t size = 0;  // [bytes] ID included; 0: no report
 

@@ -17,7 +17,8 @@ bool contains_field(std::span<const std::uint8_t> report, const BitField& field)
   return field.exists() && kIdBits + offset + bits <= 8 * report.size();
 }
 
-// The bytes that contain a field of at most 32 bits, read as one number, and the field's position in it.
+// Reads and writes the bytes that contain a field (at most 32 bits) as one number. `shift` is the field's position in
+// this number.
 struct Window {
   explicit Window(const BitField& field) noexcept
       : byte((kIdBits + static_cast<std::size_t>(field.offset)) / 8),
@@ -40,8 +41,8 @@ struct Window {
   std::uint64_t mask;
 };
 
-// Limits the logical range to what the field's bits can hold. Uses their full range if the logical range is missing or
-// inverted.
+// Limits the logical range to the values that the field's bits can hold. If the logical range is missing or inverted,
+// the full range of the bits is used.
 void limit_range(BitField& field) noexcept {
   const bool is_signed = field.min < 0;
   const std::int64_t min = is_signed ? -(std::int64_t{1} << (field.bits - 1)) : 0;
@@ -73,7 +74,7 @@ bool is_axis(HidUsage usage, int bits) {
   return usage.page == kSimulation && usage.id >= 0xb0 && bits > 1;
 }
 
-// Number of elements that have a usage of their own; elements beyond the last usage are spare.
+// Number of elements that have a usage of their own; elements beyond the last usage are not used.
 int usage_count(const HidField& field) {
   return std::min(field.count, static_cast<int>(field.usages.size()));
 }

@@ -17,17 +17,18 @@ struct BitField {
   int offset = 0;                 // [bits] position of the first bit after the report ID
   int bits = 0;                   // 0: the device has no such field; else 1 to 32
   std::int64_t min = 0, max = 0;  // logical range, limited to what `bits` can hold; signed if min < 0
-  std::int64_t zero =
-      0;  // logical value that represents zero: 0 for a signed logical range; the value at physical 0 if only
-          // the physical range is signed; otherwise the minimum
+  // Logical value that means zero. If the logical range is signed, it is 0. If only the physical range is signed, it is
+  // the value at physical 0. Otherwise it is the minimum.
+  std::int64_t zero = 0;
   bool exists() const noexcept { return bits > 0; }
 };
 
 // The bit field of one element; bits = 0 unless the field has 1 to 32 bits.
 BitField bit_field(const HidField& field, int element) noexcept;
 
-std::int64_t read_bits(std::span<const std::uint8_t> report, const BitField& field) noexcept;  // 0 beyond the report
-// Clamps to the logical range. Writes nothing if the report is too short.
+// Returns 0 if the report is too short.
+std::int64_t read_bits(std::span<const std::uint8_t> report, const BitField& field) noexcept;
+// Writes the value, clamped to the logical range. Writes nothing if the report is too short.
 void write_bits(std::span<std::uint8_t> report, const BitField& field, std::int64_t value) noexcept;
 
 inline constexpr std::size_t kMaxAxes = 8, kMaxButtons = 64;

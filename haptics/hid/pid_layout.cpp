@@ -15,7 +15,7 @@ constexpr HidUsage pid_usage(std::uint16_t id) noexcept {
   return {0x0f, id};
 }
 
-// Usages of the Physical Interface page, in the order of the enumerations.
+// Usages of the Physical Interface page, in the order of the corresponding enumerators in pid_layout.h.
 constexpr std::array<std::uint16_t, kPidEffects> kEffectUsages{0x26, 0x27, 0x30, 0x31, 0x32, 0x33,
                                                                0x34, 0x40, 0x41, 0x42, 0x43};
 constexpr std::array<std::uint16_t, kPidControls> kControlUsages{0x97, 0x98, 0x99, 0x9a, 0x9b, 0x9c};
@@ -23,7 +23,6 @@ constexpr std::array<std::uint16_t, kPidOperations> kOperationUsages{0x79, 0x7a,
 constexpr std::array<std::uint16_t, 3> kStatusUsages{0x8c, 0x8d, 0x8e};
 constexpr std::uint16_t kBlock = 0x22;
 
-// An element of a field.
 struct FieldElement {
   const HidField* field = nullptr;
   int element = 0;
@@ -31,8 +30,8 @@ struct FieldElement {
   BitField bits() const noexcept { return field == nullptr ? BitField{} : bit_field(*field, element); }
 };
 
-// The fields of one report: all fields of the given kind inside a collection of the given usage that have the same
-// report ID as the first such field. Empty if the report is longer than HidBytes::kMaxSize.
+// All fields of one report: the fields of the given kind inside a collection with the given usage. The first such field
+// determines the report ID; fields with another ID are left out. Empty if the report is longer than HidBytes::kMaxSize.
 class ReportView {
  public:
   ReportView(const ReportDescriptor& descriptor, ReportKind kind, HidUsage collection) : descriptor_(descriptor) {
@@ -51,7 +50,6 @@ class ReportView {
 
   PidReport report() const { return report_; }
 
-  // The first element with that usage.
   FieldElement find(HidUsage usage) const {
     for (const HidField* field : fields_) {
       if (field->array && field->usages.size() != 1) continue;
@@ -63,14 +61,14 @@ class ReportView {
   }
   BitField value(std::uint16_t id) const { return find(pid_usage(id)).bits(); }
 
-  // This view, restricted to the inner collection of that usage.
+  // The fields of this view that are inside a collection with the given usage.
   ReportView within(HidUsage collection) const {
     ReportView result = *this;
     std::erase_if(result.fields_, [&](const HidField* field) { return !descriptor_.is_within(*field, collection); });
     return result;
   }
 
-  // One element for X and one for Y, found by the axis's usage or by its ordinal.
+  // Finds one element for X and one for Y by their axis usages. An axis without such a usage is found by its ordinal.
   std::array<FieldElement, 2> of_axes() const {
     std::array<FieldElement, 2> result;
     for (std::uint16_t axis = 0; axis < 2; ++axis) {
@@ -96,8 +94,8 @@ class ReportView {
     const auto found = std::find(field.usages.begin(), field.usages.end(), usage);
     if (choice.supported[which] || found == field.usages.end()) return;
     const auto index = static_cast<int>(found - field.usages.begin());
-    // Several usages of one multi-bit field are the options that its number selects, even if it is not flagged as an
-    // array.
+    // If a multi-bit field has more usages than elements, its value selects one of the usages, even if the field is not
+    // flagged as an array.
     if (field.bits > 1 && (field.array || static_cast<int>(field.usages.size()) > field.count)) {
       const BitField bits = bit_field(field, 0);
       const std::int64_t number = field.logical_min + index;
@@ -127,16 +125,16 @@ double power_of_ten(int exponent) {
   return std::pow(10.0, exponent);
 }
 
-// Physical size of a count; 1 if the field has no physical range.
+// Physical size of one count; 1 if the field has no physical range.
 double physical_per_count(const HidField& field) {
   const auto logical = static_cast<double>(field.logical_max - field.logical_min);
   const auto physical = static_cast<double>(field.physical_max - field.physical_min);
   return logical > 0.0 && physical > 0.0 ? physical / logical : 1.0;
 }
 
-// [s] per count. Milliseconds, as on all known devices, if the field has no unit of time.
+// [s] per count. If the field has no unit of time, a count is a millisecond, as on all known devices.
 double duration_unit(const FieldElement& place) {
-  constexpr std::uint32_t dimensions = 0xfffffff0, time = 0x1000;  // HID 1.11 section 6.2.2.7: seconds, any system
+  constexpr std::uint32_t dimensions = 0xfffffff0, time = 0x1000;  // unit code of seconds: HID 1.11 section 6.2.2.7
   if (place.field == nullptr || (place.field->unit & dimensions) != time) return 1e-3;
   return physical_per_count(*place.field) * power_of_ten(place.field->unit_exponent);
 }
@@ -159,7 +157,8 @@ Report begin(const ReportView& view) {
   return report;
 }
 
-// The direction fields: the ordinals in the Direction collection, or else a field with the Direction usage itself.
+// The direction fields: one per axis inside the Direction collection. If there are none, the one field with the
+// Direction usage.
 std::array<FieldElement, 2> directions(const ReportView& view) {
   const std::array<FieldElement, 2> result = view.within(pid_usage(0x57)).of_axes();
   return result[0].field != nullptr ? result : std::array<FieldElement, 2>{view.find(pid_usage(0x57)), FieldElement{}};
@@ -282,7 +281,8 @@ PidState state_of(const ReportDescriptor& descriptor) {
   return report;
 }
 
-// A rumble-only pad also has a Set Effect report with magnitudes and a duration, but no effect blocks.
+// True if the device can make a constant force. A rumble-only gamepad also has a Set Effect report, but no effect
+// blocks.
 bool can_push(const PidLayout& pid) {
   return pid.set_effect.exists() && pid.set_effect.block.exists() && pid.set_constant.exists() &&
          pid.set_constant.block.exists() && pid.set_constant.magnitude.exists() && pid.operate.exists() &&

@@ -37,17 +37,16 @@ inline constexpr std::size_t kPidControls = 6;
 enum class PidOperation : std::uint8_t { start, start_solo, stop };
 inline constexpr std::size_t kPidOperations = 3;
 
-// A report; size 0 if the device does not have it.
 struct PidReport {
   std::uint8_t id = 0;
-  std::size_t size = 0;  // [bytes] ID included
+  std::size_t size = 0;  // [bytes] ID included; 0: no such report
   bool exists() const noexcept { return size > 0; }
 };
 
 // A choice among N options: either one field that holds the option's number, or one bit per option.
 template <std::size_t N>
 struct PidChoice {
-  BitField field;                        // holds the number; empty if there is one bit per option
+  BitField field;                        // holds the option's number; empty if there is one bit per option
   std::array<std::int64_t, N> number{};  // number of each supported option
   std::array<BitField, N> bit{};         // bit of each option, if there is one bit per option
   std::array<bool, N> supported{};
@@ -58,7 +57,7 @@ struct PidSetEffect : PidReport {
   BitField block, duration, trigger_repeat, sample_period, gain, trigger_button, direction_enable, start_delay;
   PidChoice<kPidEffects> type;
   std::array<BitField, 2> axis_enable;  // X, Y
-  std::array<BitField, 2> direction;    // 8 or 16 bits; only [0] is used, as an angle; [1] is 0
+  std::array<BitField, 2> direction;    // 8 or 16 bits; [0] holds the angle, [1] is always sent as 0
   double duration_unit = 1e-3;          // [s] per count
   double full_turn = 0.0;               // [counts] of direction per 360 degrees
 };
@@ -117,7 +116,7 @@ struct PidLayout {
   }
 };
 
-// Empty if the device is not a PID device, or uses the page only for rumble.
+// Empty if the device is not a PID device, or uses the PID page only for rumble.
 std::optional<PidLayout> find_pid(const ReportDescriptor& descriptor);
 
 }  // namespace gearshift::haptics

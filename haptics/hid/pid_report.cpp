@@ -32,7 +32,7 @@ void put_fraction(HidBytes& bytes, const BitField& field, double fraction) noexc
   put(bytes, field, field.zero + rounded(limited * span_counts));
 }
 
-// A block index outside the field's range would be clamped to a different block.
+// False for a block index outside the field's range, because encoding would clamp the index to a different block.
 bool is_valid_block(const BitField& field, int block) noexcept {
   return block > kNoBlock && block >= field.min && block <= field.max;
 }
@@ -50,8 +50,8 @@ bool is_selected(const PidChoice<N>& choice, std::size_t which, std::span<const 
   return read_bits(report, choice.field) == choice.number[which];
 }
 
-// kForever is encoded as all ones. If all ones is outside the logical range, it is a null value, which means endless;
-// otherwise it is the longest possible duration.
+// kForever is encoded as all ones. Outside the logical range, all ones is a HID null value and means endless; inside
+// the range, it is the longest possible duration.
 void put_duration(HidBytes& bytes, const PidSetEffect& effect, double seconds) noexcept {
   BitField field = effect.duration;
   if (!field.exists()) return;
@@ -66,7 +66,7 @@ void put_duration(HidBytes& bytes, const PidSetEffect& effect, double seconds) n
   put(bytes, field, rounded(std::clamp(counts, 1.0, std::max(max_counts, 1.0))));
 }
 
-// Direction 0 is from the far side and turns clockwise, so X is a quarter turn and Y half a turn.
+// Direction 0 means a force from the far side, and angles increase clockwise. So X is a quarter turn and Y half a turn.
 void put_direction(HidBytes& bytes, const PidSetEffect& effect, int axis) noexcept {
   put(bytes, effect.direction_enable, 1);
   const BitField& field = effect.direction[0];

@@ -1,5 +1,5 @@
-// Encodes and decodes PID reports: pure functions of a layout, real-time safe. Fields that the device lacks are left
-// out; the encoding of a report that it lacks is empty (size 0).
+// Encodes and decodes PID reports: pure functions of a layout, real-time safe. Fields that the device lacks are
+// skipped. A report that the device lacks is encoded as an empty report (size 0).
 #pragma once
 
 #include <array>
@@ -19,14 +19,14 @@ struct PidEffectSettings {
   PidEffect effect = PidEffect::constant;
   double duration = 0.3;  // [s] > 0; kForever: endless, or as long as possible
   double gain = 1.0;      // [1] 0 to 1
-  // Axis on which the effect acts: 0 X, 1 Y, -1 both (for conditions). Encoded in the axis enable bits and, if the
-  // device has a direction field, as a direction: X 90 degrees, Y 180 degrees (PID 1.0 section 4.2: 0 is from the far
-  // side, clockwise).
+  // Axis on which the effect acts: 0 X, 1 Y, -1 both (for conditions). The axis is encoded in the axis enable bits and,
+  // if the device has a direction field, as a direction: X 90 degrees, Y 180 degrees (PID 1.0 section 4.2: 0 degrees is
+  // a force from the far side, angles increase clockwise).
   int axis = 0;
 };
 inline constexpr double kForever = 1e9;  // [s]
 
-struct PidCondition {  // for one axis; fractions of full deflection (-1 to 1) and of full force (0 to 1)
+struct PidCondition {  // for one axis; fractions of full deflection (-1 to 1) or full force (0 to 1)
   double centre = 0.0;
   double dead_band = 0.0;    // half width of the zone without force
   double coefficient = 0.0;  // force per deflection; 1: the device's maximum
@@ -52,8 +52,8 @@ struct PoolInfo {
   bool device_managed = false;
 };
 struct PidStatus {
-  bool actuators_enabled = false, actuator_power = true, safety_switch = true,
-       paused = false;  // defaults if the device does not report them
+  // The initial values apply to fields that the device does not report.
+  bool actuators_enabled = false, actuator_power = true, safety_switch = true, paused = false;
   bool playing = false;
   int block = kNoBlock;
 };

@@ -11,10 +11,10 @@ namespace gearshift::haptics {
 namespace {
 
 constexpr std::size_t kMaxFields = 4096, kMaxCollections = 4096;
-constexpr std::size_t kMaxUsages = 1024;                 // kept per field; further usages are not needed here
-constexpr std::uint64_t kMaxReportBits = 8 * 0xffffULL;  // per report: its length in bytes is a 16-bit number
+constexpr std::size_t kMaxUsages = 1024;                 // maximum number stored per field; further usages are ignored
+constexpr std::uint64_t kMaxReportBits = 8 * 0xffffULL;  // a report's length in bytes has 16 bits
 
-// Section 6.2.2.2: an item has a type, a tag and up to four bytes of data.
+// HID 1.11 section 6.2.2.2: an item has a type, a tag and up to four bytes of data.
 enum class ItemType { main, global, local, reserved };
 
 struct Item {
@@ -41,17 +41,17 @@ struct Limit {
   }
 };
 
-struct Range {
+struct ValueRange {
   Limit min, max;
 
   std::int64_t low() const { return min.as_signed(); }
-  // With a minimum of 0, the maximum 25 FF means 255.
+  // If the minimum is not negative, the maximum is unsigned: the Logical Maximum item 0x25 0xFF then means 255, not -1.
   std::int64_t high() const { return low() < 0 ? max.as_signed() : std::int64_t{max.data}; }
 };
 
 struct Globals {
   std::uint16_t page = 0;
-  Range logical, physical;
+  ValueRange logical, physical;
   std::uint32_t unit = 0, bits = 0, count = 0;
   int unit_exponent = 0;
   std::uint8_t report_id = 0;
@@ -59,13 +59,13 @@ struct Globals {
 
 struct LocalUsage {
   HidUsage usage;
-  bool with_page = false;  // a 32-bit usage, which includes its page
+  bool with_page = false;  // true for a 32-bit usage, which includes its page
 };
 
 struct Locals {
   std::vector<LocalUsage> usages;
-  std::optional<LocalUsage> low, high;         // ends of a usage range, as far as known
-  bool in_set = false, set_has_usage = false;  // within a set of alternative usages between delimiters
+  std::optional<LocalUsage> low, high;         // first and last usage of a range, once declared
+  bool in_set = false, set_has_usage = false;  // state inside a delimited set of alternative usages
 };
 
 class Parser {
@@ -165,7 +165,7 @@ class Parser {
       case 0x4:
         globals_.physical.max = {item.data, item.size};
         break;
-      // The exponent is a signed nibble: 55 0D and 55 FD both mean -3.
+      // The exponent is a signed nibble: the Unit Exponent items 0x55 0x0D and 0x55 0xFD both mean -3.
       case 0x5:
         globals_.unit_exponent = (static_cast<int>(item.data & 0xf) ^ 8) - 8;
         break;
@@ -199,7 +199,7 @@ class Parser {
   }
 
   void pop(const Item& item) {
-    if (pushed_.empty()) refuse(item.at, "a state that was never pushed is popped");
+    if (pushed_.empty()) refuse(item.at, "a Pop item has no matching Push item");
     globals_ = pushed_.back();
     pushed_.pop_back();
   }
@@ -227,7 +227,7 @@ class Parser {
         locals_.set_has_usage = false;
         break;
       default:
-        break;  // strings and designators
+        break;  // string and designator items are ignored
     }
     if (locals_.low && locals_.high) {
       add_usages(*locals_.low, *locals_.high);
@@ -235,7 +235,7 @@ class Parser {
     }
   }
 
-  // Only the first of a set of alternative usages counts: section 6.2.2.8.
+  // Only the first usage of a set of alternative usages counts (HID 1.11 section 6.2.2.8).
   void add_usages(LocalUsage low, LocalUsage high) {
     if (locals_.in_set && locals_.set_has_usage) return;
     locals_.set_has_usage = true;
@@ -245,9 +245,9 @@ class Parser {
     }
   }
 
-  // The page in effect at the main item applies to the usages before it (section 6.2.2.8), back to the last usage
-  // declared under that page. So if X and Y are declared under one page and a throttle under the next, each keeps its
-  // own page.
+  // By HID 1.11 section 6.2.2.8, the usage page in effect at a main item applies to all usages declared before it. Here
+  // it applies only to the usages after the last one that already has this page. So X and Y keep their page if a
+  // throttle is declared under the next page.
   void resolve_pages() {
     for (auto usage = locals_.usages.rbegin(); usage != locals_.usages.rend(); ++usage) {
       if (usage->with_page) continue;
@@ -268,7 +268,7 @@ class Parser {
   }
 
   void end_collection(const Item& item) {
-    if (collection_ < 0) refuse(item.at, "a collection that never began ends here");
+    if (collection_ < 0) refuse(item.at, "an End Collection item has no matching Collection item");
     collection_ = result_.collections[static_cast<std::size_t>(collection_)].parent;
   }
 
@@ -277,7 +277,7 @@ class Parser {
     if (result_.fields.size() == kMaxFields) refuse(item.at, "more than 4096 fields");
     std::uint64_t& end = ends_[static_cast<std::size_t>(kind)][globals_.report_id];
     const std::uint64_t length = std::uint64_t{globals_.bits} * globals_.count;
-    if (length > kMaxReportBits - end) refuse(item.at, "the report becomes longer than 65535 bytes");
+    if (length > kMaxReportBits - end) refuse(item.at, "the report is longer than 65535 bytes");
     HidField field = field_of(item.data, kind);
     field.offset = static_cast<int>(end);
     end += length;

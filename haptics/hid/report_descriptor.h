@@ -25,7 +25,7 @@ struct HidCollection {
   int parent = -1;        // -1: top level
 };
 
-// One main item: `count` equal, consecutive elements.
+// One main item of the descriptor: `count` consecutive elements of equal size.
 struct HidField {
   ReportKind kind = ReportKind::input;
   std::uint8_t report_id = 0;  // 0: the device uses no report IDs
@@ -33,15 +33,15 @@ struct HidField {
   int bits = 0;                // [bits] per element, > 0; more than 32 are not supported
   int count = 0;               // elements, > 0
   bool constant = false;       // padding
-  bool array = false;          // an element holds the number of a usage, not a value
+  bool array = false;          // true: an element holds the number of a usage, not a value
   bool relative = false;
-  std::int64_t logical_min = 0, logical_max = 0;    // as the device intends: 25 FF after 15 00 means 255
+  std::int64_t logical_min = 0, logical_max = 0;    // a maximum of 0xFF means 255 unless the minimum is negative
   std::int64_t physical_min = 0, physical_max = 0;  // 0, 0: same as the logical range
   std::uint32_t unit = 0;
   int unit_exponent = 0;  // -8 to 7
-  // Variables: the usage of each element; the last one applies to all remaining elements. More usages than elements: a
-  // choice that the device's author forgot to flag as an array. Arrays: the usages of the values from logical_min
-  // upwards.
+  // For variables: the usage of each element; the last usage applies to all remaining elements. More usages than
+  // elements mean a choice that the device's author forgot to flag as an array. For arrays: the usages of the values
+  // from logical_min upwards.
   std::vector<HidUsage> usages;
   int collection = -1;  // innermost collection
 
@@ -57,7 +57,7 @@ struct ReportDescriptor {
   // Size of the report [bytes], including one byte for the ID even if the device uses none; 0: no such report.
   std::size_t report_size(ReportKind kind, std::uint8_t id) const noexcept;
 
-  // True if the field is inside a collection of that usage, at any depth.
+  // True if the field is inside a collection with the given usage, at any depth.
   bool is_within(const HidField& field, HidUsage collection) const noexcept;
 };
 

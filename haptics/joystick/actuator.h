@@ -1,29 +1,31 @@
-// Motor force limits: peak force for a limited time, continuous force indefinitely.
+// Force limits of the motors: a peak force for a limited time, a continuous force indefinitely.
 #pragma once
 
 namespace gearshift::haptics {
 
 struct ActuatorLimits {
-  double peak_force = 31.7;         // [N] 3.8 N m / 0.12 m
-  double continuous_force = 10.83;  // [N] 1.3 N m / 0.12 m; printed in Table 2 as "10.83 Nm"
-  double overload_time = 5.0;       // [s] how long a cold motor can hold the peak force (i^2 t)
+  double peak_force = 31.7;         // [N] peak torque / radius: 3.8 N m / 0.12 m
+  double continuous_force = 10.83;  // [N] continuous torque / radius: 1.3 N m / 0.12 m; paper's Table 2: "10.83 Nm"
+  double overload_time = 5.0;       // [s] time for which a cold motor can hold the peak force (i^2 t limit)
 };
 
-// The motor of one axis. Load above the continuous force heats it as i^2 t; once the heat budget is used up, the force
-// is limited to the continuous force until half of the budget has recovered. A constant force F above the continuous
-// force Fc uses up the budget of a cold motor in overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2), with the peak force Fp.
+// The motor of one axis. Forces above the continuous force heat the motor with the square of the force (i^2 t). Once
+// the heat budget is used up, the force is limited to the continuous force until half of the budget has recovered. A
+// cold motor can hold a constant force F for the time overload_time * (Fp^2 - Fc^2) / (F^2 - Fc^2), with peak force Fp
+// and continuous force Fc < F.
 class Actuator {
  public:
   explicit Actuator(const ActuatorLimits& limits) noexcept : limits_(limits) {}
 
-  // Force [N] delivered for the commanded force during the next `period` [s]; 0 if the command is not finite.
+  // Returns the force [N] that the motor delivers for the commanded force during the next `period` [s]; 0 if the
+  // command is not finite.
   double deliver(double commanded, double period) noexcept;
 
   bool is_overloaded() const noexcept { return is_overloaded_; }
 
  private:
   ActuatorLimits limits_;
-  double heat_ = 0.0;  // [N^2 s] heat above that of the continuous load
+  double heat_ = 0.0;  // [N^2 s] heat beyond what the continuous force produces
   bool is_overloaded_ = false;
 };
 

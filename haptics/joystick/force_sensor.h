@@ -12,15 +12,16 @@ inline constexpr double kNewtonPerGramWeight = 9.80665e-3;
 struct ForceSensorModel {
   double offset = 19.04;        // [raw] eq (7)
   double gain = 0.1551;         // [raw/gw] eq (7)
-  double resolution_gw = 44.0;  // [gw] resolution, 0.044 kgf in X and Y
-  double range_gw = 22000.0;    // [gw] range, 22 kgf in X and Y
-  double noise_gw = 0.0;        // [gw] standard deviation before the resolution is applied
+  double resolution_gw = 44.0;  // [gw] 0.044 kgf in x and y
+  double range_gw = 22000.0;    // [gw] saturation force, 22 kgf in x and y
+  double noise_gw = 0.0;        // [gw] standard deviation of the noise, before rounding to the resolution
 };
 
-// Reading [raw] of one axis for a true force [N]: saturated at the range, rounded to the resolution.
+// Reading [raw] of one axis for a true force [N]. It saturates at the sensor's range and is rounded to the sensor's
+// resolution.
 double sensor_reading(const ForceSensorModel& sensor, double force, double noise_gw = 0.0) noexcept;
 
-// Force [N] from a reading [raw], by the paper's eq (7).
+// Converts a reading [raw] to a force [N] with the paper's eq (7).
 double force_from_reading(const ForceSensorModel& sensor, double reading) noexcept;
 
 }  // namespace gearshift::haptics

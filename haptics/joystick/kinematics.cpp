@@ -8,8 +8,8 @@ namespace gearshift::haptics {
 namespace {
 
 struct SinCos {
-  double st, ct, sp, cp;  // sine and cosine of theta and phi
-  double d;               // D = 1 - sin^2(phi) sin^2(theta), the root's argument in eqs (1), (2) and (5)
+  double st, ct, sp, cp;  // sines and cosines of theta and phi
+  double d;               // D = 1 - sin^2(phi) sin^2(theta), under the root in eqs (1), (2) and (5)
 };
 
 SinCos sin_cos(JointAngles q) noexcept {
@@ -24,8 +24,8 @@ PlanePose pose_at(JointAngles q) noexcept {
 
 }  // namespace
 
-// Eq (2) of the paper, corrected. The paper prints -sin(phi) sin(theta) for y, but the normal of eq (1) has cos(theta),
-// and only that satisfies |p| = rho.
+// Eq (2) of the paper, corrected. The paper prints -sin(phi) sin(theta) in the y component. But the normal of eq (1)
+// has cos(theta) there, and only cos(theta) puts the tip on the sphere, |p| = rho.
 glm::dvec3 tip_position(const YokeGeometry& yoke, JointAngles q) noexcept {
   const SinCos s = sin_cos(q);
   return yoke.radius / std::sqrt(s.d) * glm::dvec3(s.cp * s.st, -s.sp * s.ct, s.cp * s.ct);
@@ -57,8 +57,8 @@ glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept {
   return {yoke.radius * q.theta, -yoke.radius * q.phi};
 }
 
-// The paper's eq (5), corrected: for x the paper prints sin(phi) instead of cos(phi), for y it omits the sign. The
-// third component makes the force tangential to the sphere.
+// Eq (5) of the paper, corrected: in the x component the paper prints sin(phi) instead of cos(phi); in the y component
+// it omits the sign. The z component makes the force tangential to the sphere.
 glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept {
   const SinCos s = sin_cos(q);
   const glm::dvec3 direction{torque.theta * s.ct / s.cp, -torque.phi * s.cp / s.ct,
@@ -66,7 +66,7 @@ glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torqu
   return std::sqrt(s.d) / yoke.radius * direction;
 }
 
-// tau = J^T f, where J is the derivative of the paper's eq (2).
+// tau = J^T f: torques tau, tip force f, and the derivative J of the tip position (eq (2) of the paper).
 JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 force) noexcept {
   const SinCos s = sin_cos(q);
   const double scale = yoke.radius / (s.d * std::sqrt(s.d));
@@ -76,7 +76,7 @@ JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 f
   return {scale * theta, scale * phi};
 }
 
-// The paper's eq (6): the torques as forces along the arcs (rho theta, -rho phi).
+// Eq (6) of the paper: converts the torques to forces along the arcs (rho theta, -rho phi).
 glm::dvec2 tip_force_small_angle(const YokeGeometry& yoke, JointTorques torque) noexcept {
   return {torque.theta / yoke.radius, -torque.phi / yoke.radius};
 }

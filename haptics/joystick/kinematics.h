@@ -14,14 +14,14 @@
 namespace gearshift::haptics {
 
 struct YokeGeometry {
-  double radius = 0.120;                                 // [m] rho, centre to tip
-  double theta_limit = 40.0 * std::numbers::pi / 180.0;  // [rad] stop of the select axis, both sides
-  double phi_limit = 35.0 * std::numbers::pi / 180.0;    // [rad] stop of the shift axis, both sides
+  double radius = 0.120;                                 // [m] rho: distance from the yoke's centre to the tip
+  double theta_limit = 40.0 * std::numbers::pi / 180.0;  // [rad] stop of the select axis, the same on both sides
+  double phi_limit = 35.0 * std::numbers::pi / 180.0;    // [rad] stop of the shift axis, the same on both sides
 };
 
 struct JointAngles {
-  double theta = 0.0;  // [rad] about Y: moves the tip along +select
-  double phi = 0.0;    // [rad] about X: moves the tip along -shift
+  double theta = 0.0;  // [rad] rotation about Y; positive moves the tip along +select
+  double phi = 0.0;    // [rad] rotation about X; positive moves the tip along -shift
 };
 
 struct JointTorques {
@@ -29,39 +29,40 @@ struct JointTorques {
   double phi = 0.0;    // [N m]
 };
 
-// Exact tip position [m]: the paper's eq (2) with the corrected y component.
+// Exact position of the tip [m]: eq (2) of the paper with the y component corrected.
 glm::dvec3 tip_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 
-// Tip position [m] for small angles: the paper's eq (3). Used only to show its error: 3.1 mm per component at 20 deg.
+// Position of the tip [m] for small angles: eq (3) of the paper. Used only to show the error of this approximation: 3.1
+// mm in x and in y if both angles are 20 deg.
 glm::dvec3 tip_position_small_angle(const YokeGeometry& yoke, JointAngles q) noexcept;
 
-// Inverse of tip_position() for any point on the upper half sphere. [rad]
+// Inverse of tip_position(): joint angles [rad] for any point on the upper half of the sphere.
 JointAngles joint_angles(glm::dvec3 tip) noexcept;
 
-// The gate lies in the plane (px, py), onto which the tip is projected: the tip's position there [m], and the angles
-// [rad] for a plane point with |plane| < radius.
+// The gate lies in the plane (px, py), onto which the tip is projected. plane_position() gives the tip's position in
+// this plane [m]. joint_angles_from_plane() gives the angles [rad] for a point with |plane| < radius.
 glm::dvec2 plane_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 JointAngles joint_angles_from_plane(const YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
-// Reach of the tip [m] in the gate plane along each axis with the other joint upright: rho sin(limit). The workspace is
-// not a rectangle: a point off both axes needs larger angles, atan2(px, pz) and atan2(-py, pz) with the tip's height
-// pz.
+// Reach of the tip [m] along each axis of the gate plane while the other joint is upright: rho sin(limit). The
+// workspace is not a rectangle: a point off both axes needs the larger angles atan2(px, pz) and atan2(-py, pz), where
+// pz is the tip's height.
 glm::dvec2 workspace_half_extent(const YokeGeometry& yoke) noexcept;
 
-// The plant's coordinates: the arc lengths (rho theta, -rho phi), one per axis. [m]
+// Position as arc lengths [m], one per axis: (rho theta, -rho phi). plant.h uses these coordinates.
 glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 
-// Force at the tip [N], tangential to the sphere, from the joint torques: the paper's eq (5), corrected.
+// Force at the tip [N], tangential to the sphere, for given joint torques: eq (5) of the paper, corrected.
 glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
 
-// Inverse of tip_force(), tau = J^T f: joint torques [N m] equivalent to a force at the tip.
+// Inverse of tip_force(): joint torques [N m] that are equivalent to a force at the tip (tau = J^T f).
 JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 force) noexcept;
 
-// Force at the tip [N] for small angles: the paper's eq (6).
+// Force at the tip [N] for small angles: eq (6) of the paper.
 glm::dvec2 tip_force_small_angle(const YokeGeometry& yoke, JointTorques torque) noexcept;
 
-// The maps tip_force() and joint_torques() for generalised forces in the gate plane (fz = 0), whose work is f . d(px,
-// py). [N], [N m]
+// Conversions like tip_force() and joint_torques(), but for generalised forces in the gate plane (fz = 0), whose work
+// is f . d(px, py). Forces in [N], torques in [N m].
 glm::dvec2 plane_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
 JointTorques joint_torques_from_plane(const YokeGeometry& yoke, JointAngles q, glm::dvec2 force) noexcept;
 

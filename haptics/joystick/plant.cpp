@@ -6,8 +6,8 @@
 namespace gearshift::haptics {
 namespace {
 
-// x'' + 2 a x' + w2 x = f/m. With S(t) the position's response to a unit initial velocity (S(0) = 0, S'(0) = 1) and I
-// the integral of S: x(t) = (1 - w2 I) x0 + S v0 + I f/m, v(t) = -w2 S x0 + S' v0 + S f/m.
+// Equation of motion x'' + 2 a x' + w2 x = f/m. S(t) is the position after a unit initial velocity (S(0) = 0, S'(0) =
+// 1), and I is the integral of S. Then x(t) = (1 - w2 I) x0 + S v0 + I f/m and v(t) = -w2 S x0 + S' v0 + S f/m.
 struct Modes {
   double a;     // [1/s] damping / (2 mass)
   double w2;    // [1/s^2] stiffness / mass
@@ -15,7 +15,7 @@ struct Modes {
 };
 
 struct Response {
-  double free;   // 1 - w2 I: response to the initial position
+  double free;   // 1 - w2 I: response to a unit initial position
   double s;      // [s] S
   double slope;  // S'
   double i;      // [s^2] I
@@ -26,11 +26,11 @@ Modes modes(const AxisModel& axis) noexcept {
   return {a, w2, a * a - w2};
 }
 
-// For short times I is computed as its power series, from I'' + 2 a I' + w2 I = 1. For such times the closed forms
-// below divide differences of nearly equal numbers (0/0 for a free mass); the series does not, at any damping.
+// Response for short times: the power series of I, from I'' + 2 a I' + w2 I = 1. For short times the closed forms below
+// would divide differences of nearly equal numbers (0/0 for a free mass). The series is accurate at any damping.
 Response short_response(const Modes& mode, double t) noexcept {
-  double before = 0.0, term = 0.5 * t * t;  // terms c_n t^n of I for n = 1 and 2
-  double i = term, s_t = 2.0 * term;        // I, and t S = t I'
+  double before = 0.0, term = 0.5 * t * t;  // terms c_n t^n of the series of I, for n = 1 and n = 2
+  double i = term, s_t = 2.0 * term;        // sums of the series of I and of t S = t I'
   for (int n = 3; n <= 32 && std::abs(term) + std::abs(before) > 1e-18 * i; ++n) {
     const double next = -(2.0 * mode.a * t * (n - 1) * term + mode.w2 * t * t * before) / (n * (n - 1));
     before = term;
@@ -42,20 +42,20 @@ Response short_response(const Modes& mode, double t) noexcept {
   return {1.0 - mode.w2 * i, s, 1.0 - 2.0 * mode.a * s - mode.w2 * i, i};
 }
 
-// Integral of exp(p t) from 0 to t.
+// Returns the integral of exp(p t) from 0 to t.
 double integral_of_exp(double p, double t) noexcept {
   return p == 0.0 ? t : std::expm1(p * t) / p;
 }
 
-// Response for disc >= 0: two real poles p1 >= p2. Computing p1 = -(a - r) would cancel for a soft spring; p1 = w2 / p2
-// does not.
+// Response for disc >= 0: two real poles p1 >= p2. With a soft spring p1 = -(a - r) would lose digits by cancellation,
+// so p1 is computed as w2 / p2.
 Response over_damped(const Modes& mode, double t) noexcept {
   const double r = std::sqrt(mode.disc);
   const double p1 = -mode.w2 / (mode.a + r), p2 = -(mode.a + r);
   const double e1 = std::exp(p1 * t), e2 = std::exp(p2 * t);
   const double s = r > 0.0 ? e1 * -std::expm1(-2.0 * r * t) / (2.0 * r) : t * e1;
   const double free = e1 - p1 * s;
-  const bool is_separated = r * t >= 0.5;  // for long times the difference of the integrals cancels; 1 - free does not
+  const bool is_separated = r * t >= 0.5;  // false for nearly equal poles, whose integrals cannot be subtracted exactly
   const double i =
       is_separated ? (integral_of_exp(p1, t) - integral_of_exp(p2, t)) / (2.0 * r) : (1.0 - free) / mode.w2;
   return {free, s, e2 + p1 * s, i};
@@ -77,8 +77,8 @@ double sign(double x) noexcept {
   return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Time until the next zero of the velocity [s], infinite if there is none, for a motion with this speed [m/s] and
-// inertial force along it [N]. With C, S the (hyperbolic) cosine and sine of the mode:
+// Time [s] until the velocity is next zero; infinite if it never is. `speed`: present speed [m/s]. `inertial`: mass
+// times acceleration in the direction of motion [N]. With the (hyperbolic) cosine C and sine S of the mode:
 //     v(t) = exp(-a t) (v0 C + g S), g = v'(0) + a v0
 double time_of_reversal(const AxisModel& axis, double speed, double inertial) noexcept {
   const Modes mode = modes(axis);
@@ -87,14 +87,14 @@ double time_of_reversal(const AxisModel& axis, double speed, double inertial) no
     const double w = std::sqrt(-mode.disc);
     return std::atan2(w * speed, -g) / w;
   }
-  if (g >= 0.0) return HUGE_VAL;  // the motion creeps to rest without reversing
+  if (g >= 0.0) return HUGE_VAL;  // the motion slows down to rest without reversing
   const double r = std::sqrt(mode.disc), ratio = -r * speed / g;
   if (ratio >= 1.0) return HUGE_VAL;
   return r > 0.0 ? std::atanh(ratio) / r : -speed / g;
 }
 
-// Time in [0, end] at which a motion that is monotone up to `end` reaches `position` [s].
-// Newton steps, with bisection when one leaves the bracket.
+// Time [s], between 0 and `end`, at which the motion reaches `position`. The motion must be monotone up to `end`. Uses
+// Newton steps, and bisection where a Newton step leaves the bracket.
 double time_at(const AxisModel& axis, AxisState start, double force, double end, double position) noexcept {
   const double along = sign(position - start.position);
   double low = 0.0, high = end, t = end;
@@ -143,7 +143,8 @@ AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisS
     if (at_stop) state.position = std::copysign(limits.stop, state.position);
     if (at_stop && state.velocity * state.position > 0.0) state.velocity = 0.0;
 
-    // Between two events (reversals or impacts) friction is a constant force, so each segment is exact.
+    // Between two events (reversals or impacts) friction is a constant force, so the motion between them has an exact
+    // solution.
     const double start = inertial_force(axis, limits, state, force);
     if (state.velocity == 0.0 && start == 0.0) return state;
     const double along = sign(state.velocity != 0.0 ? state.velocity : start);

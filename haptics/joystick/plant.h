@@ -24,10 +24,10 @@ struct AxisState {
   double velocity = 0.0;  // [m/s]
 };
 
-// State after `time` >= 0 [s] under a constant force [N], for over-, under- and critically damped axes.
+// State after `time` >= 0 [s] under a constant force [N]. Valid for over-, under- and critically damped axes.
 AxisState advance(const AxisModel& axis, AxisState state, double force, double time) noexcept;
 
-// advance() with the coefficients precomputed for one step length.
+// Like advance(), with the coefficients precomputed for one step length.
 class AxisStepper {
  public:
   AxisStepper(const AxisModel& axis, double period) noexcept;  // mass > 0, period [s] >= 0
@@ -37,23 +37,23 @@ class AxisStepper {
   }
 
  private:
-  double xx_, xv_, vx_, vv_;  // state transition in one period
-  double xf_, vf_;            // response to the held force
+  double xx_, xv_, vx_, vv_;  // effect of the old state on the new state after one period
+  double xf_, vf_;            // effect of the held force on the new state
 };
 
 struct AxisLimits {
   double stop = std::numeric_limits<double>::infinity();  // [m] > 0, inelastic hard stops at +stop and -stop
-  double coulomb_friction = 0.0;                          // [N] dry friction, 0 = none
+  double coulomb_friction = 0.0;                          // [N] dry friction; 0: none
 };
 
-// advance() with dry friction (the axis sticks if the force cannot overcome it) and inelastic hard stops. Reversals and
-// impacts inside the step are located, so the result does not depend on the step length. After kMaxAxisEvents reversals
-// and impacts in one step the axis is set at rest, which can only remove energy.
+// Like advance(), with dry friction and inelastic hard stops. The axis sticks while the force cannot overcome friction.
+// Reversals and impacts inside the step are located, so the result does not depend on the step length. After
+// kMaxAxisEvents reversals and impacts in one step the axis is stopped, which can only remove energy.
 inline constexpr int kMaxAxisEvents = 64;
 AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force,
                           double time) noexcept;
 
-// Mass times the axis's present acceleration [N]: 0 if friction or a stop holds it at rest.
+// Mass times the axis's present acceleration [N]; 0 while friction or a stop holds the axis at rest.
 double inertial_force(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force) noexcept;
 
 }  // namespace gearshift::haptics

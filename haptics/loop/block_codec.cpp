@@ -37,10 +37,10 @@ constexpr bool find_field(const T& value, std::string_view path, std::size_t& at
   return found;
 }
 
-// Offset [bytes] of a field in an encoded sample. An unknown name does not compile.
+// Offset [bytes] of a field in an encoded sample. An unknown field name is a compile error.
 consteval std::size_t field_offset(std::string_view path) {
   std::size_t at = 0;
-  if (!find_field(TraceSample{}, path, at)) throw std::invalid_argument("no field of that name");
+  if (!find_field(TraceSample{}, path, at)) throw std::invalid_argument("there is no field with that name");
   return at;
 }
 
@@ -53,14 +53,14 @@ enum class Rule {
   sum            // sum of three fields of this sample
 };
 
-// Prediction of one 8-byte word. All other bytes are predicted by the previous sample.
+// Prediction of one 8-byte word. Bytes without a prediction of their own are predicted to equal the previous sample's.
 struct Prediction {
   Rule rule = Rule::same;
   std::size_t at = 0;
   std::size_t from = 0, and_from = 0, and_also = 0;
 };
 
-// In sample order. Within its own sample, each prediction refers only to earlier fields.
+// Sorted by position in the sample. A prediction from the current sample reads only earlier fields.
 constexpr std::array kPredictions = {
     Prediction{Rule::extrapolated, field_offset("deadline_ns")},
     Prediction{Rule::extrapolated, field_offset("reading.sequence")},
@@ -84,8 +84,8 @@ constexpr std::array kPredictions = {
 };
 
 constexpr bool refers_to_known(const Prediction& prediction) {
-  const bool uses_none =
-      prediction.rule == Rule::extrapolated || prediction.rule == Rule::previous;  // no field of the sample itself
+  // These rules read only previous samples.
+  const bool uses_none = prediction.rule == Rule::extrapolated || prediction.rule == Rule::previous;
   const std::size_t last = std::max({prediction.from, prediction.and_from, prediction.and_also});
   return uses_none || last + sizeof(Word) <= prediction.at;
 }
@@ -109,7 +109,7 @@ double number_at(const std::byte* sample, std::size_t at) noexcept {
   return std::bit_cast<double>(word_at(sample, at));
 }
 
-// Processors differ in the bits of NaN and infinity, so such predictions are replaced by 0.
+// Returns the bits of a predicted number; 0 if it is NaN or infinite, because a NaN's bits depend on the processor.
 Word bits_of(double sum) noexcept {
   return std::isfinite(sum) ? std::bit_cast<Word>(sum) : 0;
 }
@@ -140,8 +140,8 @@ Word predicted_word(const Prediction& prediction, const SampleContext& context) 
   return 0;
 }
 
-// XORs a sample with its prediction; encoding and decoding are the same operation. For both, `context.now` is the plain
-// sample, and no prediction reads a part of it that is not yet decoded.
+// XORs a sample with its prediction; encoding and decoding are the same operation. `context.now` is the decoded sample;
+// predictions read only those parts of it that are already decoded.
 void apply_predictions(const SampleContext& context, const std::byte* from, std::byte* to) noexcept {
   std::size_t at = 0;
   const auto previous = [&](std::size_t end) {
@@ -156,13 +156,13 @@ void apply_predictions(const SampleContext& context, const std::byte* from, std:
   previous(kSampleBytes);
 }
 
-// Makes `sample` the previous sample of the next one.
+// Makes `sample` the previous sample for the next prediction.
 void advance_to(SampleContext& context, const std::byte* sample) noexcept {
   context.older = context.before == kZeroSample.data() ? sample : context.before;
   context.before = sample;
 }
 
-constexpr std::size_t kMinRun = 3;  // [zeros] shortest run, because a run costs two numbers
+constexpr std::size_t kMinRun = 3;  // [zeros] shortest encoded run, because each run needs two numbers
 
 std::size_t zeros_at(std::span<const std::byte> bytes) noexcept {
   std::size_t zeros = 0;

@@ -48,7 +48,7 @@ std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t so_far) noex
 }
 
 // Every step is invertible, so two different words give two different states. Two multiplications are needed: after a
-// single one, a flipped top bit still changes only one or two bits, which a later word could flip back.
+// single multiplication, a flipped top bit changes only one or two bits, which a later word could flip back.
 void RunHash::mix(std::uint64_t word) noexcept {
   state_ = (state_ ^ word) * 0xBF58476D1CE4E5B9;
   state_ = (state_ ^ (state_ >> 32)) * 0x94D049BB133111EB;

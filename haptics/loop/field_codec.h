@@ -16,7 +16,7 @@ namespace gearshift::haptics {
 
 static_assert(std::endian::native == std::endian::little, "the trace is written by copying native bytes");
 
-// The representation of a leaf field in the file.
+// The field's bits as stored in the trace file.
 template <LeafField T>
 auto leaf_bits(T value) noexcept {
   if constexpr (std::is_same_v<T, double>)

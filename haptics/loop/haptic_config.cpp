@@ -16,12 +16,15 @@
 namespace gearshift::haptics {
 namespace {
 
-// These bounds were found by a search over impact phases, hands, quantisation, jitter and plant error: see README.md.
-constexpr double kQuiet = 0.35;          // in units of m / tau^2 and of m / tau: for the half-sample hold
-constexpr double kQuietObserved = 0.58;  // in units of m / tau^2: for the observer hold
-constexpr double kObservedTau = 0.0045;  // [s] longest tau at which the observer is better
-constexpr double kGainMargin = 1.1;      // factor on the stiffness: margin for plant error and jitter
-constexpr double kMinSlew = 2.0;         // [N/cycle] at 1 the wall force rises so slowly that an arm moves by 80 mm
+// These bounds were found by a search over impact phases, hands, quantisation, jitter and plant error: see
+// haptics/loop/README.md.
+constexpr double kQuiet = 0.35;          // [1] half-sample hold: limit of stiffness*lag^2/mass and of damping*lag/mass
+constexpr double kQuietObserved = 0.58;  // [1] observer hold: limit of stiffness*lag^2/mass
+constexpr double kObservedTau = 0.0045;  // [s] longest lag at which the observer hold is preferred
+constexpr double kGainMargin = 1.1;      // [1] factor on the stiffness, a margin for plant error and jitter
+// [N/cycle] The smallest allowed slew limit. At 1 N/cycle the force rises too slowly for a wall: an arm moves the lever
+// 80 mm.
+constexpr double kMinSlew = 2.0;
 constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kObservedLaw = "the observer hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
@@ -29,11 +32,11 @@ constexpr const char* kStableLaw = "the spectral radius of the sampled loop must
 constexpr const char* kFreeLaw = "the spectral radius of the sampled lever must be below 1 outside the loop's walls";
 constexpr const char* kObservedDampingLaw =
     "the observer hold needs B >= 50 N s/m, or the lever vibrates when a heavy arm holds it";
-constexpr const char* kObserverLaw = "the spectral radius of the observed loop is below 1 at no K";
-constexpr const char* kFeelLaw = "the proxy is passive only if no force of the gate is stiffer than the wall";
+constexpr const char* kObserverLaw = "with the observer hold, the spectral radius of the loop is not below 1 at any K";
+constexpr const char* kFeelLaw = "the proxy is passive only if no gate force is stiffer than the wall";
 
-// Limits a value to a bound, or with allow_unstable only reports the bound. If several laws limit a parameter, the last
-// is reported.
+// Limits a value to a bound, or with allow_unstable only reports the bound. If several laws limit a parameter, only the
+// law applied last is reported.
 struct Limiter {
   bool allow_unstable;
   std::vector<TuningLimit>& limits;
@@ -58,7 +61,7 @@ double lag(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   return (spec.delay + 1.0) * period_s(config);
 }
 
-// Selects the observer if the half-sample hold cannot reach the wanted stiffness because of the device's delay.
+// Selects the observer hold if the half-sample hold cannot reach the wanted stiffness because of the device's delay.
 ContactHold select_hold(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   if (config.contact.hold != ContactHold::automatic) return config.contact.hold;
   const double tau = lag(config, spec);
@@ -79,8 +82,8 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   limiter.limit(tuning.wall_stiffness, stiffness, TuningParameter::wall_stiffness, observed ? kObservedLaw : kQuietLaw);
 }
 
-// Raises the damping to the minimum of the observer hold, even with allow_unstable, because the hold does not work with
-// less.
+// Raises the damping to the minimum of the observer hold, even with allow_unstable, because the observer hold does not
+// work with less damping.
 void raise_observed_damping(AdmittedTuning& admitted) {
   double& damping = admitted.tuning.wall_damping;
   if (admitted.hold != ContactHold::observer || damping >= kMinObserverDamping) return;
@@ -100,7 +103,7 @@ bool has_device_walls(const DeviceSpec& spec) noexcept {
 }
 
 // Calls visit for every axis and hand in a wall, with and without the device wall. To the loop, the device wall acts
-// like a part of the hand.
+// like additional stiffness and damping of the hand.
 void for_each_pressed_lever(const DeviceSpec& spec, const auto& visit) {
   for_each_lever(spec, visit);
   if (!has_device_walls(spec)) return;
@@ -121,8 +124,8 @@ ContactLaw loop_law(const HapticConfig& config, const AdmittedTuning& admitted, 
   return law;
 }
 
-// Checks the damping without the loop's wall stiffness. A lever without damping or spring is exactly on the boundary,
-// which counts as stable.
+// True if the lever is stable with this damping but without the loop's wall stiffness. A lever without damping or
+// spring has a spectral radius of exactly 1, which counts as stable here.
 bool is_stable_without_wall(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec,
                             double wall_damping) {
   ContactLaw law = loop_law(config, admitted, spec);
@@ -150,7 +153,8 @@ void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, Admi
   limiter.limit(admitted.tuning.limit_damping, trial.tuning.limit_damping, TuningParameter::limit_damping, kFreeLaw);
 }
 
-// Delayed damping can destabilise a lever held by the device's spring, however soft the loop's wall is.
+// Limits the damping of the loop's wall on a device that renders walls itself. The loop's damping is delayed, so it can
+// destabilise a lever in the device's spring, however soft the loop's own wall is.
 void limit_damping_with_device_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
                                      const Limiter& limiter) {
   if (!has_device_walls(spec) || admitted.hold == ContactHold::observer) return;
@@ -161,10 +165,10 @@ void limit_damping_with_device_walls(const HapticConfig& config, const DeviceSpe
 
 struct StableStiffness {
   double max = std::numeric_limits<double>::infinity();  // [N/m]
-  std::string_view hand;                                 // the hand with which this limit was found
+  std::string_view hand;                                 // the hand model that sets the limit
 };
 
-// Checks this stiffness and softer ones, down to an eighth of it.
+// True if the lever is stable at `stiffness` and at lower values, down to an eighth of `stiffness`.
 bool is_stable_up_to(const AxisModel& axis, const HandImpedance& hand, ContactLaw law, double stiffness,
                      double period) {
   for (law.stiffness = stiffness; law.stiffness > stiffness / 8.0; law.stiffness *= 0.8)
@@ -172,8 +176,8 @@ bool is_stable_up_to(const AxisModel& axis, const HandImpedance& hand, ContactLa
   return true;
 }
 
-// Checks each hand at the wanted stiffness, or at the limit found so far: a search is needed only for a hand that is
-// unstable there.
+// Finds the highest stable stiffness. The slow search for a limit runs only for a hand that is unstable at the wanted
+// stiffness or at the lowest limit found so far.
 StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
   StableStiffness stable;
   ContactLaw law = loop_law(config, admitted, spec);
@@ -218,8 +222,8 @@ void add_device_part(AdmittedTuning& admitted, double& value, TuningParameter pa
   if (limit->bound >= wanted) admitted.limits.erase(limit);
 }
 
-// Admits the tuning with the half-sample hold, if the damping that the observer needs is itself unstable on this
-// device.
+// Admits the tuning with the half-sample hold. Used if the observer hold is selected, but the damping that it needs is
+// unstable on this device.
 AdmittedTuning fall_back_to_half_sample(HapticConfig config, const DeviceSpec& device, const Gate& gate,
                                         std::string_view hand) {
   config.contact.hold = ContactHold::half_sample;
@@ -233,14 +237,20 @@ AdmittedTuning fall_back_to_half_sample(HapticConfig config, const DeviceSpec& d
 void check_unstable_options(const HapticConfig& config, const DeviceSpec& spec) {
   if (config.contact.allow_unstable && !spec.simulated)
     throw std::invalid_argument(
-        "study = true is allowed only with a simulated device, because unstable values are not safe");
+        "study = true (Allow unstable) is allowed only with a simulated device, because unstable values are not safe");
   if (config.contact.allow_unstable) return;
   if (config.estimator.window > 1)
     throw std::invalid_argument(
-        "window_samples above 1 needs study = true, because it lets damping destabilise a wall");
-  if (!config.contact.reversal_limiter) throw std::invalid_argument("reversal_limiter = false needs study = true");
+        "window_samples above 1 needs study = true (Allow unstable), because a longer window lets damping destabilise "
+        "a wall");
+  if (!config.contact.reversal_limiter)
+    throw std::invalid_argument(
+        "reversal_limiter = false needs study = true (Allow unstable), because only the limiter stops a lever that "
+        "chatters");
   if (config.contact.energy_control == EnergyControl::passivity_controller)
-    throw std::invalid_argument("energy_control = passivity_controller needs study = true");
+    throw std::invalid_argument(
+        "energy_control = passivity_controller needs study = true (Allow unstable), because it damps only after the "
+        "lever has gained energy");
 }
 
 }  // namespace
@@ -327,7 +337,7 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   DeviceSpec spec = scale_device_walls(device, config.tuning);
   AdmittedTuning out{config.tuning, select_hold(config, spec), {}};
   if (out.hold == ContactHold::observer)
-    spec.device_wall_damping = glm::dvec2(0.0);  // because the observer would attribute the damper's force to the hand
+    spec.device_wall_damping = glm::dvec2(0.0);  // the observer would attribute the damper's force to the hand
   out.tuning.wall_damping -= usable_wall_damping(spec);
   const Limiter limiter{config.contact.allow_unstable, out.limits};
   limit_to_quiet(config, spec, out, limiter);
@@ -358,7 +368,7 @@ const char* to_string(TuningParameter parameter) noexcept {
 }
 
 std::string describe(const TuningLimit& limit) {
-  const bool is_hold = limit.parameter == TuningParameter::hold;  // `hold` is no number: its values are enumerators
+  const bool is_hold = limit.parameter == TuningParameter::hold;  // the values of `hold` are enumerators, not numbers
   const auto text = [&](double value) {
     return is_hold ? hold_key(static_cast<ContactHold>(value)) : short_text(value);
   };

@@ -21,8 +21,8 @@ namespace {
 using glm::dvec2;
 
 constexpr double kRearmAfter = 0.050;      // [s] duration of fresh readings before a simulated lever re-arms itself
-constexpr double kContactApart = 0.030;    // [s] away from the wall before a touch counts as a new impact
-constexpr double kSaturationHold = 0.050;  // [s] force below the limit before saturation ends
+constexpr double kContactApart = 0.030;    // [s] a touch after this time away from the wall counts as a new impact
+constexpr double kSaturationHold = 0.050;  // [s] saturation ends after this time with the force below the limit
 constexpr double kShortfall = 1.0;  // [N] difference between commanded and delivered force that a hand would notice
 constexpr std::int64_t kMaxCatchUpCycles = 10;  // the load catches up at most this many cycles after an overrun
 
@@ -91,10 +91,10 @@ AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
   check_tuning(wanted);
   HapticConfig config = config_;
   config.tuning = wanted;
-  config.contact.hold = admitted_.hold;  // the hold cannot change while the loop runs
+  config.contact.hold = admitted_.hold;  // the contact hold method cannot change while the loop runs
   AdmittedTuning admitted = admit_tuning(config, spec_, gate_);
   if (admitted.hold != admitted_.hold) {
-    throw std::invalid_argument("this tuning needs another hold; restart the loop to use it");
+    throw std::invalid_argument("this tuning needs a different hold; restart the loop to use it");
   }
   channels_.tuning.write(admitted.tuning);
   return admitted;
@@ -161,15 +161,15 @@ void HapticLoop::read_device(std::int64_t deadline_ns) noexcept {
   if (reading_.stop) guard_.stop();
 }
 
-// The reversal limiter's state applies only to the wall on which it was found, so it is reset.
+// A change of the wall's stiffness or damping resets the reversal limiter, whose state applies only to the old wall.
 void HapticLoop::retune(const HapticTuning& tuning) noexcept {
   const bool same_wall = tuning.wall_stiffness == tuning_.wall_stiffness && tuning.wall_damping == tuning_.wall_damping;
   if (!same_wall) limiter_.reset();
   tuning_ = tuning;
 }
 
-// Arming places the proxy at the lever, so that an old penetration cannot pull. While forces are on the proxy is not
-// moved: otherwise pressing the arm key would carry it through a wall.
+// Arming places the proxy at the lever, so that an old penetration cannot pull. While forces are on, arming does not
+// move the proxy; otherwise pressing the arm key could move the proxy through a wall.
 void HapticLoop::arm() noexcept {
   if (reading_.stop) return guard_.reject_arming();
   if (!guard_.arm()) return;
@@ -206,8 +206,8 @@ ContactForce HapticLoop::couple_lever(std::int64_t skipped) noexcept {
   const Coupling coupling{stiffness, damping, period_, spec_.delay, admitted_.hold};
   if (admitted_.hold != ContactHold::observer) return contact_force(coupling, gate_, passage_, proxy_, motion_);
   ObservedMotion observed = observer_.update(motion_, out_.commanded, skipped);
-  // The previous cycle's feel and load forces also move the lever. If that motion counted as penetration, the wall's
-  // edge would become a force step.
+  // The prediction leaves out all motor forces, so this adds the motion that the previous cycle's feel and load forces
+  // cause. Without it, the predicted depth would be wrong by this motion, and the force would jump at the wall's edge.
   const dvec2 other_force = out_.feel_force + load_output_.force;
   if (is_finite(other_force)) observed.end += observed.compliance * other_force;
   return contact_force(coupling, gate_, passage_, proxy_, observed);
@@ -217,8 +217,8 @@ dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
   const double speed = glm::length(motion_.smooth_velocity);
   const double excess = std::max(0.0, speed - tuning_.speed_limit);
   const double damping = tuning_.aisle_damping + (excess > 0.0 ? tuning_.limit_damping * excess / speed : 0.0);
-  const double softened =
-      std::min(tuning_.feel_scale * stiffest_feel_, out_.wall_stiffness);  // the feel must not be stiffer than the wall
+  // The feel must not be stiffer than the wall.
+  const double softened = std::min(tuning_.feel_scale * stiffest_feel_, out_.wall_stiffness);
   const double scale = stiffest_feel_ > 0.0 ? softened / stiffest_feel_ : tuning_.feel_scale;
   return scale * gate_feel(gate_, mean_proxy) - damping * motion_.smooth_velocity;
 }
@@ -257,8 +257,8 @@ void HapticLoop::drive(const GuardOutput& command) noexcept {
   if (device_wall_stiffness_ > 0.0 || device_wall_damping_ > 0.0) send_device_walls(command.ramp);
 }
 
-// The command takes effect one delay later, so the union of the present free space and the free space at that time is
-// sent. A wall that moves closer therefore reaches the device late; until then only the loop's part resists.
+// Device walls take effect one delay later, so the union of the free space now and the free space at that time is sent.
+// A wall that moves closer therefore reaches the device late; until then, only the loop's part resists.
 void HapticLoop::send_device_walls(double ramp) noexcept {
   const double wall_fraction = device_wall_stiffness_ > 0.0
                                    ? std::min(1.0, tuning_.wall_stiffness / device_wall_stiffness_)
@@ -285,13 +285,13 @@ dvec2 HapticLoop::device_wall_force(const LeverWalls& walls) const noexcept {
   return walls.stiffness_fraction * spec_.device_wall_stiffness * (inside - motion_.position);
 }
 
-// Whether the wanted force exceeds the device's limit: the loop's part by itself, or together with the device walls.
+// True if the wanted force exceeds the device's limit: the loop's part by itself, or together with the device walls.
 bool HapticLoop::is_saturated(const GuardOutput& command) const noexcept {
   const dvec2 all = glm::abs(command.force + device_wall_force(walls_)), max_force = spec_.max_force;
   return command.saturated || all.x > max_force.x || all.y > max_force.y;
 }
 
-// The paper's eq (4): f_j = f_h - f_a.
+// Force balance of the lever, the paper's eq (4): joystick force f_j = hand force f_h - actuator force f_a.
 void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
   const bool is_measured = spec_.measures_hand_force && is_finite(reading_.hand_force);
   if (is_finite(reading_.actuator_force)) out_.f_a = -reading_.actuator_force;
@@ -307,9 +307,9 @@ void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
   set_flag(kFlagFresh, motion_.fresh);
 }
 
-// Estimated push of the hand, used without a force sensor or if its value is not finite: the force that balances the
-// motors and the handle's spring and damping, neglecting inertia. When the motors saturate, that balance is not known;
-// the estimate is then the force that the wall would need at this depth.
+// Estimates the hand's push if there is no force sensor or its value is not finite. The estimate is the force that
+// balances the motors and the handle's spring and damping; inertia is neglected. When the motors saturate, the force
+// that the wall would need at this depth replaces the motors' force.
 dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
   dvec2 damping{spec_.axis_x.damping, spec_.axis_y.damping};
   for (int i = 0; i < 2; ++i) {
@@ -344,8 +344,8 @@ void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
   const std::uint64_t age = 1 + static_cast<std::uint64_t>(spec_.delay);
   const Sent due = out_.cycle >= age ? sent_[(out_.cycle - age) % sent_.size()] : Sent{};
   const dvec2 expected = due.force + device_wall_force(due.walls);
-  const double moves =
-      device_wall_stiffness_ * period_ * glm::length(motion_.velocity);  // [N] change of the wall force within a period
+  // [N] change of the wall force within a period
+  const double moves = device_wall_stiffness_ * period_ * glm::length(motion_.velocity);
   const bool falls_short = motion_.fresh && glm::length(expected + out_.f_a) > kShortfall + moves;
   sent_[out_.cycle % sent_.size()] = {command.force, walls_};
   unsaturated_time_ = is_saturated(command) || falls_short ? 0.0 : unsaturated_time_ + period_;
@@ -368,7 +368,8 @@ void HapticLoop::watch_contact() noexcept {
   contact_free_time_ = touches ? 0.0 : contact_free_time_ + period_;
 }
 
-// If the lever chatters on a wall, lowers the stiffness; if that does not help, the guard enters the state damped.
+// Lowers the stiffness if the lever chatters on a wall. If a lower stiffness does not help, the guard enters the state
+// `damped`.
 void HapticLoop::watch_chatter() noexcept {
   if (!config_.contact.reversal_limiter) return;
   if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness, load_output_.vibration))
@@ -377,9 +378,9 @@ void HapticLoop::watch_chatter() noexcept {
   if (limiter_.is_exhausted()) guard_.damp();
 }
 
-// A simulated lever re-arms itself after a fault once its readings have been fresh for a while. A real lever waits for
-// the user to arm it, and so does any lever that chattered. The motors are released in every state without force, and
-// in the first cycle, because an earlier loop may have left them on.
+// After a fault, a simulated lever re-arms itself once its readings have been fresh for a while. A real lever, or any
+// lever that chattered, waits for the user to arm it. The motors are released once each time the guard reaches a state
+// without force. They are also released if the loop starts in one, because an earlier loop may have left them on.
 void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   const bool has_changed = guard_.state() != out_.guard;
   const bool is_new = has_changed || out_.cycle == 0;

@@ -4,8 +4,8 @@
 // feel -> load -> guard -> write.
 //
 // A wall can be rendered in two parts. If the device renders walls itself (DeviceSpec::device_wall_stiffness,
-// device_wall_damping), the loop sends it their positions, and the device renders its part of the stiffness and damping
-// without delay; the loop renders the rest. HapticTuning describes the whole wall.
+// device_wall_damping), the loop sends the walls' positions to the device. The device renders its part of the stiffness
+// and damping without delay, and the loop renders the rest. HapticTuning describes the whole wall.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ const char* to_string(LoopCommand command) noexcept;
 // All inputs and outputs of one cycle: enough to replay it and compare.
 struct TraceSample {
   std::int64_t deadline_ns = 0;  // [ns]
-  std::int64_t skipped = 0;      // deadlines missed before this one, >= 0
+  std::int64_t skipped = 0;      // deadlines missed before this cycle, >= 0
   LeverReading reading;
   DriverControls controls;
   HapticTuning tuning;  // tuning applied in this cycle
@@ -56,7 +56,7 @@ struct LoopChannels {
 };
 
 // Time stamps between the eight calls. They are taken only every 64th cycle, because nine clock reads take longer than
-// a cycle.
+// the work of a cycle.
 struct StageStamps {
   static constexpr std::uint64_t kEvery = 64;
   std::uint64_t cycle = 0;
@@ -65,8 +65,8 @@ struct StageStamps {
 
 class HapticLoop {
  public:
-  // Checks config and device (throws std::invalid_argument) and limits the tuning. All references must outlive the
-  // loop.
+  // Checks config and device (throws std::invalid_argument) and limits the tuning. All referenced objects must outlive
+  // the loop.
   HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverLoad& load,
              LoopChannels& channels);
 
@@ -74,17 +74,17 @@ class HapticLoop {
   // noexcept, no allocation, no lock, no system call of its own.
   void cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept;
 
-  const HapticSnapshot& snapshot() const noexcept { return out_; }       // on the loop's own thread
-  const DriverControls& controls() const noexcept { return controls_; }  // after a cycle, on the loop's thread
-  const AdmittedTuning& admitted() const noexcept { return admitted_; }  // at the start
+  const HapticSnapshot& snapshot() const noexcept { return out_; }       // call it on the loop's thread
+  const DriverControls& controls() const noexcept { return controls_; }  // call it after a cycle, on the loop's thread
+  const AdmittedTuning& admitted() const noexcept { return admitted_; }  // tuning and limits at the start
 
-  // Allows forces, ramped up from zero. Call it before the first cycle; while the loop runs, use LoopCommand::arm. Has
-  // no effect while forces are on or while the device's panic button is held (fault: stopped).
+  // Allows forces and ramps them up from zero. Call it before the first cycle; while the loop runs, use
+  // LoopCommand::arm. Has no effect while forces are on or while the device's panic button is held (fault `stopped`).
   void arm() noexcept;
 
   // Changes the tuning while the loop runs; call it on the thread that writes to the channels. The tuning is checked
   // and limited as at the start and takes effect in the next cycle. Throws std::invalid_argument if a value is out of
-  // range or needs a different hold than the current one.
+  // range or needs a ContactHold other than the one in use.
   AdmittedTuning change_tuning(const HapticTuning& wanted);
 
   // Time stamps of the most recent cycle that was stamped.
@@ -147,9 +147,9 @@ class HapticLoop {
   Proxy proxy_;
   LeverOutput load_output_;
   LeverWalls walls_;              // walls last sent to the device
-  bool proxy_placed_ = false;     // the proxy was placed at the lever since the start or the last arming
+  bool proxy_placed_ = false;     // the proxy has been placed at the lever since the start or the last arming
   bool first_step_ = true;        // the load's first step, which gets period 0
-  bool motors_released_ = false;  // the motors of a real device in state damped were released
+  bool motors_released_ = false;  // the motors of a real device in state damped have been released
   double healthy_time_ = 0.0;     // [s] duration of fresh readings so far, to re-arm a simulated lever
   struct Sent {
     glm::dvec2 force{0.0};  // [N]

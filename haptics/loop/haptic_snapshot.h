@@ -15,8 +15,8 @@ namespace gearshift::haptics {
 inline constexpr std::uint32_t kFlagContact = 1u << 0;        // the lever is pressed into a wall
 inline constexpr std::uint32_t kFlagSaturated = 1u << 1;      // the wanted force exceeds the device's limit
 inline constexpr std::uint32_t kFlagOverPush = 1u << 2;       // the hand pushes harder than the warning threshold
-inline constexpr std::uint32_t kFlagPushEstimated = 1u << 3;  // the push is estimated, without a valid sensor value
-inline constexpr std::uint32_t kFlagGhost = 1u << 4;          // lever and proxy are too far apart
+inline constexpr std::uint32_t kFlagPushEstimated = 1u << 3;  // the push is estimated, for lack of a sensor value
+inline constexpr std::uint32_t kFlagGhost = 1u << 4;          // lever and proxy are further apart than ghost_offset
 inline constexpr std::uint32_t kFlagFresh = 1u << 5;          // this cycle's reading was new and plausible
 
 struct HapticSnapshot {
@@ -31,8 +31,8 @@ struct HapticSnapshot {
   glm::dvec2 commanded{0.0};    // [N] force after the guard
   glm::dvec2 f_h{0.0};          // [N] force of the hand, the paper's eq (4)
   glm::dvec2 f_a{0.0};          // [N] force of the actuators against the hand, the paper's eq (4)
-  glm::dvec2 f_j{0.0};          // [N] f_h - f_a, which moves the joystick, the paper's eq (4)
-  double wall_stiffness = 0.0;  // [N/m] in use: admitted stiffness after the reversal limiter
+  glm::dvec2 f_j{0.0};          // [N] f_h - f_a, the force that moves the joystick, the paper's eq (4)
+  double wall_stiffness = 0.0;  // [N/m] admitted stiffness, lowered by the reversal limiter
   double road_speed = 0.0;      // [m/s]
   int slot = kNoSlot;
   int gear = kNeutralGear;

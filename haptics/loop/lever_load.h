@@ -10,8 +10,9 @@
 // move the lever: if the lever is outside a limit, the limit is applied at the lever's depth.
 //
 // `vibration` is the part of the force that shakes the lever intentionally, so that the loop does not mistake it for
-// chatter on a wall. It must only contain forces with a frequency of their own, none that react to the lever's motion.
+// chatter on a wall. It must not contain forces that react to the lever's motion.
 //
+// The simplest load:
 //   LeverOutput NoLoad::step(const LeverInput&, double) noexcept { return {}; }
 #pragma once
 
@@ -42,19 +43,19 @@ struct LeverInput {
   glm::dvec2 proxy{0.0};     // [m] proxy
   glm::dvec2 push{0.0};      // [N] force of the hand on the knob, measured or estimated
   int slot = kNoSlot;        // slot of the proxy
-  double depth = 0.0;        // [m] depth of the proxy in that slot, from the aisle's centre line; 0 outside
+  double depth = 0.0;        // [m] depth of the proxy in its slot, from the aisle's centre line; 0 outside all slots
   int gear = kNeutralGear;   // engaged gear
   DriverControls controls;
 };
 
 struct LeverOutput {
   glm::dvec2 force{0.0};  // [N] force on the lever
-  glm::dvec2 vibration{
-      0.0};  // [N] part of `force` that vibrates by itself, independent of the lever's motion: a stalling engine
+  // [N] part of `force` that vibrates independently of the lever's motion, such as the shaking of a stalling engine
+  glm::dvec2 vibration{0.0};
   int limited_slot = kNoSlot;                             // slot with a depth limit, such as a blocking synchroniser
   double depth_min = 0.0;                                 // [m]
   double depth_max = std::numeric_limits<double>::max();  // [m]
-  double road_speed = 0.0;                                // [m/s] forward +; drives the speed lockout
+  double road_speed = 0.0;                                // [m/s] positive forward; input of the speed lockout
 };
 
 class LeverLoad {

@@ -12,11 +12,11 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr Range kAnySeed{0.0, 9007199254740992.0};  // 2^53: every integer up to it is exact as a double
+constexpr Range kAnySeed{0.0, 9007199254740992.0};  // 2^53: every integer up to this value is exact as a double
 constexpr double kMaxMass = 1e3, kMaxDamping = 1e4, kMaxStiffness = 1e6;
 
-// Reads a key if present and otherwise keeps the default. The key is mandatory if a different key has put the default
-// out of range.
+// Reads a key if present and otherwise keeps the default. The key is required if the default is outside the range,
+// which can depend on other keys.
 void read(const TomlTable& table, std::string_view key, double& value, Range range) {
   const bool possible = value >= range.min && value <= range.max;
   if (table.has(key) || !possible) value = table.number(key, range);

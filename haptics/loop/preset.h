@@ -14,7 +14,8 @@ struct Preset {
   SimulatedLeverConfig lever;
 };
 
-// Missing keys keep the struct's defaults. Throws FileError with file, line, key, value and range.
+// Missing keys keep the struct's defaults. If the file is invalid, throws FileError with file, line, key, value and
+// range.
 Preset read_preset(const std::string& file);
 
 }  // namespace gearshift::haptics

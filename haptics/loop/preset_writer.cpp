@@ -12,7 +12,8 @@
 namespace gearshift::haptics {
 namespace {
 
-// The number of degrees that the reader converts (times pi / 180) to exactly this angle.
+// Returns the number of degrees that read_preset() converts to exactly this angle, or the nearest number if there is
+// none.
 double degrees_of(double radians) {
   const double nearest = radians * 180.0 / std::numbers::pi;
   for (const double candidate : {nearest, std::nextafter(nearest, 0.0), std::nextafter(nearest, HUGE_VAL)})
@@ -40,20 +41,6 @@ std::string hand_text(const HandImpedance& hand) {
     if (named.mass == hand.mass && named.damping == hand.damping && named.stiffness == hand.stiffness)
       return std::string(name);
   return toml_number(hand.mass) + ',' + toml_number(hand.damping) + ',' + toml_number(hand.stiffness);
-}
-
-std::string key_of(ContactHold hold) {
-  switch (hold) {
-    case ContactHold::automatic:
-      return "automatic";
-    case ContactHold::zero_order:
-      return "zero_order";
-    case ContactHold::half_sample:
-      return "half_sample";
-    case ContactHold::observer:
-      break;
-  }
-  return "observer";
 }
 
 std::string key_of(EnergyControl control) {
@@ -114,7 +101,7 @@ void put_tuning(TomlText& out, const HapticTuning& tuning) {
 
 void put_contact(TomlText& out, const ContactConfig& contact) {
   out.section("contact");
-  out.put("hold", key_of(contact.hold));
+  out.put("hold", std::string(hold_key(contact.hold)));
   out.put("energy_control", key_of(contact.energy_control));
   out.put("reversal_limiter", contact.reversal_limiter);
   out.put("study", contact.allow_unstable);

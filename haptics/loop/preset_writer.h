@@ -8,8 +8,8 @@
 
 namespace gearshift::haptics {
 
-// The text of a preset file. Numbers are written losslessly. An angle may come back one bit off if no number of degrees
-// gives exactly that value; an angle that was read from degrees always comes back exactly.
+// The text of a preset file. Numbers are written losslessly. An angle may change in its last bit if no number of
+// degrees gives exactly this value; an angle that was read from degrees stays exact.
 std::string preset_text(const Preset& preset);
 
 // Replaces the file atomically: writes a temporary file, reads it back, and renames it. The folder must exist. Throws

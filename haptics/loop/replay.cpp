@@ -93,11 +93,11 @@ std::unique_ptr<LeverLoad> make_known_load(const std::string& name, const Gate& 
   try {
     load = make_load(name, gate);
   } catch (const FileError& error) {
-    throw std::invalid_argument(std::string("its lever load is invalid: ") + error.what());
+    throw std::invalid_argument(std::string("its car or lesson is invalid: ") + error.what());
   }
   if (load) return load;
   const std::string first_line = printable(name.substr(0, std::min<std::size_t>(name.find('\n'), kShownName)));
-  throw std::invalid_argument("its lever load \"" + first_line + "\" is not known to this program");
+  throw std::invalid_argument("the lever load \"" + first_line + "\" is not known to this program");
 }
 
 }  // namespace
@@ -118,7 +118,7 @@ struct Replayer::Rig {
     channels.recording.store(true);
   }
 
-  // Feeds the recorded inputs of a cycle.
+  // Feeds the recorded inputs of one cycle to the loop.
   void feed(const TraceSample& recorded, bool new_tuning) noexcept {
     device.reading = recorded.reading;
     channels.controls.write(recorded.controls);
@@ -160,11 +160,12 @@ bool Replayer::step(const TraceSample& recorded) {
   const bool is_first = result_.cycles == 0;
   if (is_first && recorded.out.cycle != rig_->loop.snapshot().cycle)
     throw FileError(file_, 0,
-                    "the trace cannot be replayed, because it was begun in the middle of a run, at cycle " +
+                    "the trace cannot be replayed, because recording began in the middle of a run, at cycle " +
                         std::to_string(recorded.out.cycle));
   if (is_first) first_ns_ = recorded.deadline_ns;
 
-  // The tuning of the first cycle follows from the header. Feeding it would hide a wrong header.
+  // The loop derives the tuning of the first cycle from the trace header. Feeding the recorded tuning to it would hide
+  // an error in the header.
   rig_->feed(recorded, !is_first && !has_same_bits(recorded.tuning, last_.tuning));
   const TraceSample replayed = rig_->cycle(recorded.deadline_ns, recorded.skipped);
   last_ = recorded;

@@ -13,7 +13,7 @@
 
 namespace gearshift::haptics {
 
-// Makes the load identified by `name` for that gate; null if the name is unknown.
+// Makes the load identified by `name` for the given gate; null if the name is unknown.
 using LoadFactory = std::function<std::unique_ptr<LeverLoad>(const std::string& name, const Gate& gate)>;
 std::unique_ptr<LeverLoad> make_no_load(const std::string& name, const Gate& gate);
 

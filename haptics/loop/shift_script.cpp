@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec2;
 
-// Collects strokes and derives each one's duration from its length.
+// Collects strokes and computes each stroke's duration from its length.
 class StrokeWriter {
  public:
   StrokeWriter(dvec2 start, const ShiftStyle& style) : at_(start), style_(style) {}
@@ -59,7 +59,8 @@ const Column& column_at(const Gate& gate, double x) {
   return gate.column[static_cast<std::size_t>(nearest_column(gate, x))];
 }
 
-// An x outside the column at `x`: the neutral column's, or half way to a neighbour if `x` is in the neutral column.
+// An x position outside the column at `x`: the centre of the neutral column, or half way to a neighbouring column if
+// `x` is in the neutral column.
 double detour_x(const Gate& gate, double x) {
   const int here = nearest_column(gate, x);
   const double center = gate.column[static_cast<std::size_t>(here)].center;
@@ -67,10 +68,10 @@ double detour_x(const Gate& gate, double x) {
   return 0.5 * (center + gate.column[static_cast<std::size_t>(here > 0 ? here - 1 : here + 1)].center);
 }
 
-constexpr double kLean = 0.0015;  // [m] aim beyond a wall
+constexpr double kLean = 0.0015;  // [m] how far the hand aims beyond a wall
 
-// Offset of the aim in x: a hand slides along the gate's end wall into an outer slot, but aims at the middle of an
-// inner slot.
+// Offset of the aim in x. On the way into an outer slot, a hand slides along the gate's end wall, so it aims beyond
+// that wall. On the way into an inner slot, it aims at the slot's middle.
 double lean_at(const Gate& gate, double x, double direction) {
   const double half_width = column_at(gate, x).half_width;
   const double wall = x + std::copysign(half_width, direction);

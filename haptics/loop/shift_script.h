@@ -11,11 +11,12 @@ namespace gearshift::haptics {
 
 struct ShiftStyle {
   double pace = 0.20;           // [m/s] mean speed of a stroke
-  double reaction = 0.10;       // [s] added to every stroke
+  double reaction = 0.10;       // [s] added to the duration of every stroke
   double dwell_gear = 0.30;     // [s] dwell in each gear
   double dwell_neutral = 0.05;  // [s] dwell at each turn in the neutral aisle
-  bool leans =
-      true;  // aim 1.5 mm beyond end walls and end stops, as a hand does; otherwise at the gear's rest position
+  // true: the scripted hand aims 1.5 mm beyond end walls and end stops, as a human hand does; false: it aims at the
+  // gear's rest position
+  bool leans = true;
 };
 
 // Strokes from `start` [m] (in free space) through the gears in order (kNeutralGear is allowed): out of the slot, along
@@ -27,7 +28,8 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, glm::dvec2 start, std::s
 // All gears of the gate in the order of the paper's Fig. 9: forward gears rising, then reverse.
 std::vector<int> tour_order(const Gate& gate);
 
-// Hand settings for tour, bench and tests, with an effort that compensates for the softness of the hand's impedance.
+// Hand settings for the tour through all gears, the benchmarks and the tests. The effort compensates for the low
+// stiffness of the hand.
 ScriptedHandConfig touring_hand(glm::dvec2 start);
 
 }  // namespace gearshift::haptics

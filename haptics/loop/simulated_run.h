@@ -1,5 +1,5 @@
-// A complete headless lever: simulated device and hand, gate and loop on a virtual clock. Deterministic, and not tied
-// to real time.
+// Runs a complete lever without a display: simulated device and hand, gate and loop on a virtual clock. The run is
+// deterministic and not tied to real time.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,6 @@ class SimulatedRun {
   // The driver and the load, if given, must outlive the run. The lever starts armed.
   SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver, LeverLoad* load = nullptr);
 
-  // Runs one cycle and returns its snapshot.
   const HapticSnapshot& step() noexcept;
 
   double time() const noexcept { return 1e-9 * static_cast<double>(now_ns_); }       // [s] simulated

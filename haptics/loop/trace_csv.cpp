@@ -16,7 +16,7 @@ namespace {
 constexpr double kMm = 1e3;  // [mm/m]
 constexpr int kDigits = 12;  // significant digits; the trace itself is lossless
 
-// Collects cells. The same code builds the header and the lines, so that their columns always match.
+// Collects the cells of one line. The same code builds the header line and the data lines, so that their columns match.
 class Row {
  public:
   explicit Row(bool names) : names_(names) {}

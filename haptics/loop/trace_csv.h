@@ -13,7 +13,8 @@
 namespace gearshift::haptics {
 
 std::string trace_csv_header();
-// first_ns: deadline of the first cycle [ns], at which time_s is 0. The header and the lines have no line end.
+// first_ns: deadline of the first cycle [ns]; the column time_s is 0 there. Neither the header line nor the data lines
+// end with a newline.
 std::string trace_csv_line(const TraceSample& sample, std::int64_t first_ns);
 
 class TraceCsvFile {  // the file appears only after finish()

@@ -3,8 +3,8 @@
 //
 //   each_field(value, visit)   calls visit("name", member) for every member, in file order
 //
-// Each list uses a structured binding, so that it no longer compiles when its struct gains or loses a member. Then add
-// the member below, in the same order, and raise kTraceVersion; also raise it if a member changes its type.
+// Each list uses a structured binding, so that it no longer compiles when its struct gains or loses a member. Then
+// change the list in the same way and raise kTraceVersion. Also raise it if a member changes its type.
 #pragma once
 
 #include <concepts>
@@ -154,7 +154,7 @@ constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit)
   visit("flags", flags);
 }
 
-// `out` must be the last field: the outputs are the tail of an encoded sample.
+// `out` must be the last field, because the outputs must be the last bytes of an encoded sample.
 constexpr void each_field(FieldsOf<TraceSample> auto& sample, auto&& visit) {
   auto& [deadline_ns, skipped, reading, controls, tuning, command, out] = sample;
   visit("deadline_ns", deadline_ns);

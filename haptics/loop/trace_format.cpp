@@ -5,7 +5,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr std::uint32_t kMaxHeaderBytes = 4u << 20;  // upper bound; a layout file has a few kilobytes
+constexpr std::uint32_t kMaxHeaderBytes = 4u << 20;  // upper bound; a header's gate layout has only a few kilobytes
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {

@@ -1,7 +1,7 @@
 // Format of the trace file: all inputs needed to replay a drive, and all outputs.
 //
 //   magic 8 bytes | version u32 | header block | data blocks | end block
-//   block = frame (kind, size, samples, CRC of the payload, CRC of these four: u32 each) | payload
+//   block = frame (kind, size, samples, CRC of the payload, CRC of the previous four numbers; u32 each) | payload
 //
 // All numbers are little-endian. The payload of a data block is coded (block_codec.h); its CRC covers the coded bytes.
 // The version precedes the first block, so that a newer file is recognised whatever its blocks look like.
@@ -21,7 +21,7 @@
 
 namespace gearshift::haptics {
 
-// Binary, and chosen so that a file transfer that converts line ends damages the magic.
+// The magic contains a line end, so that a file transfer that converts line ends damages the magic and is detected.
 inline constexpr std::array<char, 8> kTraceMagic = {'\x89', 'G', 'S', 'T', 'R', 'C', '\r', '\n'};
 inline constexpr std::uint32_t kTraceVersion = 7;
 
@@ -37,7 +37,7 @@ struct TraceHeader {
   bool armed = false;                               // HapticLoop::arm() was called before the first cycle
 };
 
-// Encoded samples; the last kOutputBytes of each are its outputs.
+// Size of an encoded sample [bytes]; the last kOutputBytes of a sample are its outputs.
 inline constexpr std::size_t kSampleBytes = encoded_size<TraceSample>();
 inline constexpr std::size_t kOutputBytes = encoded_size<HapticSnapshot>();
 inline constexpr std::size_t kSamplesPerBlock = 256;
@@ -48,7 +48,7 @@ std::span<const std::byte> outputs_of(std::span<const std::byte, kSampleBytes> s
 std::vector<std::byte> encode_header(const TraceHeader& header);
 std::optional<TraceHeader> decode_header(std::span<const std::byte> payload);  // empty if malformed
 
-// Difference of two times from a file. They may have any value, so the difference wraps instead of overflowing.
+// Difference of two times from a file. The times may have any value, so the difference wraps instead of overflowing.
 constexpr std::int64_t nanoseconds_between(std::int64_t from, std::int64_t to) noexcept {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from));
 }
@@ -62,8 +62,8 @@ inline constexpr std::size_t kEndBytes = 17;
 std::array<std::byte, kEndBytes> encode_end(const TraceEnd& end) noexcept;
 std::optional<TraceEnd> decode_end(std::span<const std::byte> payload) noexcept;
 
-// The hash of a run covers its parameters and the outputs of every cycle. Hashing the parameters detects a parameter
-// that differs in its last bit even if no output depends on that bit, as with a threshold.
+// The hash of a run covers its parameters and the outputs of every cycle. The parameters are included so that a
+// difference in a parameter's last bit is detected even if no output depends on that bit.
 RunHash begin_hash(const TraceHeader& header);
 
 enum class BlockKind : std::uint32_t {
@@ -83,7 +83,8 @@ inline constexpr std::size_t kPreambleBytes = kTraceMagic.size() + sizeof kTrace
 
 std::array<std::byte, kFrameBytes> encode_frame(BlockKind kind, std::span<const std::byte> payload,
                                                 std::size_t samples = 0) noexcept;
-// Empty if the frame is damaged, of unknown kind, or has more bytes or samples than a block of that kind can have.
+// Returns an empty value if the frame is damaged, of unknown kind, or has more bytes or samples than a block of that
+// kind can have.
 std::optional<BlockFrame> decode_frame(std::span<const std::byte, kFrameBytes> bytes) noexcept;
 
 }  // namespace gearshift::haptics

@@ -28,7 +28,7 @@ void TraceReader::fail(const std::string& reason) const {
   throw FileError(name_, 0, reason);
 }
 
-// Throws FileError, or, when salvaging, marks the trace as torn and returns false.
+// Throws FileError. When salvaging, marks the trace as torn and returns false instead.
 bool TraceReader::stop_or_fail(const std::string& reason) {
   if (policy_ == TornTrace::refuse) fail(reason);
   torn_ = true;
@@ -65,7 +65,8 @@ void TraceReader::check_preamble() {
   FieldReader(std::span(bytes).subspan(kTraceMagic.size())).take(version);
   const auto refuse = [&](const std::string& age) {
     fail("the trace was recorded by " + age + " gearshift (format " + std::to_string(version) +
-         "), but this one reads only format " + std::to_string(kTraceVersion) + "; replay it with that version");
+         "), but this version reads only format " + std::to_string(kTraceVersion) +
+         "; replay the trace with that version");
   };
   if (version > kTraceVersion) refuse("a newer");
   if (version < kTraceVersion) refuse("an older");
@@ -91,7 +92,7 @@ void TraceReader::read_header() {
 }
 
 void TraceReader::scan_blocks(std::uint64_t at) {
-  torn_ = true;  // false again when the end block is found
+  torn_ = true;  // stays true until the end block is found
   while (size_ - at >= kFrameBytes)
     if (!scan_block(at)) return;
 }
@@ -102,7 +103,7 @@ bool TraceReader::scan_block(std::uint64_t& at) {
   read(at, bytes);
   const std::optional<BlockFrame> frame = decode_frame(bytes);
   if (!frame || frame->kind == BlockKind::header)
-    return stop_or_fail("the trace is damaged; there is no block " + at_byte(at) + ", where one is expected");
+    return stop_or_fail("the trace is damaged; a block is missing " + at_byte(at));
   const Block block{at + kFrameBytes, *frame};
   if (frame->size > size_ - block.at) return false;  // cut short
   at = block.at + frame->size;
@@ -133,7 +134,7 @@ void TraceReader::check_scanned() {
 }
 
 std::vector<std::byte> TraceReader::read_payload(const Block& block) {
-  std::vector<std::byte> payload(block.frame.size);  // safe: decode_frame() limits the size, the file is long enough
+  std::vector<std::byte> payload(block.frame.size);  // safe, because decode_frame() limits the size
   read(block.at, payload);
   return payload;
 }

@@ -1,5 +1,5 @@
-// Reads a trace file block by block and validates everything in it. Memory holds one block, and the position of every
-// block: 24 bytes per block, 0.1 byte per cycle.
+// Reads a trace file block by block and validates everything in it. Memory holds one block, and a 24-byte entry for
+// every block (0.1 byte per cycle).
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace gearshift::haptics {
 
 enum class TornTrace {
   refuse,  // reject an incomplete file
-  salvage  // read its intact cycles, up to the first damaged or missing block
+  salvage  // read the intact cycles of an incomplete file, up to the first damaged or missing block
 };
 
 class TraceReader {
@@ -27,10 +27,10 @@ class TraceReader {
 
   const TraceHeader& header() const noexcept { return header_; }
   std::uint64_t cycles() const noexcept { return cycles_; }  // number of cycles in all complete data blocks
-  bool torn() const noexcept { return torn_; }               // true only when salvaging
+  bool torn() const noexcept { return torn_; }               // the file is incomplete; true only when salvaging
 
-  // False after the last cycle. Throws FileError if a block is damaged, a cycle holds an invalid value or does not
-  // follow the previous one, or the hash differs from the one in the end block.
+  // Reads the next cycle; returns false after the last cycle. Throws FileError if a block is damaged, a cycle holds an
+  // invalid value or does not follow the previous one, or the hash differs from the one in the end block.
   bool next(TraceSample& sample);
 
   // Hash of the parameters and the outputs read so far.
@@ -69,8 +69,8 @@ class TraceReader {
   std::size_t next_block_ = 0;
   std::vector<std::byte> payload_;
   BlockCodec codec_;
-  std::vector<std::byte> samples_;  // samples decoded from the current block
-  std::size_t used_ = 0;            // [bytes] of samples_
+  std::vector<std::byte> samples_;
+  std::size_t used_ = 0;  // [bytes] of samples_
   std::uint64_t cycles_read_ = 0;
   std::uint64_t last_cycle_ = 0;
   RunHash hash_;

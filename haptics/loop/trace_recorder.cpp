@@ -5,7 +5,8 @@
 namespace gearshift::haptics {
 namespace {
 
-// The queue holds two seconds at 4 kHz.
+// Pause between two reads of the trace queue. It is short enough, because the queue holds the cycles of two seconds at
+// 4 kHz.
 constexpr std::chrono::milliseconds kPumpInterval{20};
 
 }  // namespace
@@ -15,7 +16,7 @@ TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TraceHeade
     : channels_(channels), writer_(file, header), lost_before_(channels.trace_lost.load()) {
   for (TraceSample left_over; channels_.trace.pop(left_over);) continue;
   channels_.recording.store(true);
-  if (pump == TracePump::own_thread) thread_ = std::thread([this] { run(); });
+  if (pump == TracePump::by_recorder) thread_ = std::thread([this] { run(); });
 }
 
 void TraceRecorder::pump() noexcept {
@@ -32,13 +33,13 @@ void TraceRecorder::run() noexcept {
 }
 
 void TraceRecorder::drain() noexcept {
-  // Read the loss counter before the queue: a loss that happens later is seen by the next call.
+  // Reads the loss counter before the queue. If a cycle is lost in between, the next call detects the loss.
   lost_ = lost_ || channels_.trace_lost.load() != lost_before_;
   for (TraceSample sample; channels_.trace.pop(sample);) take(sample);
   if (lost_ || !writer_.problem().empty()) stop_recording();
 }
 
-// Writes the cycles before the first gap and drops those after it, because a replay needs every input.
+// Writes the cycles before the first gap and drops all later cycles, because a replay needs every input.
 void TraceRecorder::take(const TraceSample& sample) noexcept {
   if (last_cycle_ && sample.out.cycle != *last_cycle_ + 1) lost_ = gap_ = true;
   last_cycle_ = sample.out.cycle;

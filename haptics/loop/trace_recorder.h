@@ -15,8 +15,8 @@
 namespace gearshift::haptics {
 
 enum class TracePump {
-  own_thread,  // pumped on the recorder's own thread, for a real-time loop
-  by_caller    // a headless run calls pump() at least once every 8000 cycles
+  by_recorder,  // the recorder's own thread empties the queue; for a real-time loop
+  by_caller     // the caller calls pump() at least once every 8000 cycles; for a headless run
 };
 
 struct RecordingResult {
@@ -28,8 +28,8 @@ struct RecordingResult {
 
 class TraceRecorder {
  public:
-  // Start it before the loop's first cycle; otherwise the trace cannot be replayed. Throws FileError if the file cannot
-  // be created. The channels must outlive the recorder.
+  // Create the recorder before the loop's first cycle; otherwise the trace cannot be replayed. Throws FileError if the
+  // file cannot be created. The channels must outlive the recorder.
   TraceRecorder(const std::filesystem::path& file, const TraceHeader& header, LoopChannels& channels, TracePump pump);
   ~TraceRecorder() { finish(); }
   TraceRecorder(const TraceRecorder&) = delete;
@@ -37,7 +37,7 @@ class TraceRecorder {
 
   void pump() noexcept;  // by_caller only
 
-  // The problem of a running recording, returned once.
+  // Returns the problem that stopped the recording, as one sentence, but only once.
   std::optional<std::string> take_problem();
 
   // Writes the rest of the queue and closes the file. Stop the loop first, or the last cycles will be missing (the

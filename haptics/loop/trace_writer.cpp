@@ -10,7 +10,8 @@ namespace gearshift::haptics {
 TraceWriter::TraceWriter(const std::filesystem::path& file, const TraceHeader& header)
     : name_(file.string()), file_(std::fopen(name_.c_str(), "wb")), hash_(begin_hash(header)) {
   if (!file_) throw FileError(name_, 0, std::string("cannot be written (") + std::strerror(errno) + ")");
-  // Blocks are large, so no buffer is needed; without it, an error is reported at the block that failed.
+  // Without buffering, a write error is reported at the block that failed. The blocks are large enough to be written
+  // directly.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   block_.reserve(kSamplesPerBlock * kSampleBytes);
   coded_.reserve(kMaxCodedBytes);
@@ -25,7 +26,7 @@ void TraceWriter::add(const TraceSample& sample) noexcept {
   if (!file_ || !problem_.empty()) return;
   const EncodedSample bytes = encode_sample(sample);
   hash_.add(outputs_of(bytes));
-  block_.insert(block_.end(), bytes.begin(), bytes.end());  // no allocation: within the reserved capacity
+  block_.insert(block_.end(), bytes.begin(), bytes.end());  // does not allocate, because the capacity was reserved
   ++cycles_;
   if (block_.size() == kSamplesPerBlock * kSampleBytes) flush();
 }

@@ -24,8 +24,8 @@ class TraceWriter {
   // are ignored.
   void add(const TraceSample& sample) noexcept;
 
-  // Writes the end block and closes the file. A file without an end block counts as torn. torn: also mark a complete
-  // file as torn, because cycles were lost.
+  // Writes the end block and closes the file. A file without an end block counts as torn. torn: cycles were lost, so
+  // the file is marked as torn although it has an end block.
   void finish(bool torn = false) noexcept;
 
   const std::string& problem() const noexcept { return problem_; }  // empty, or one sentence

@@ -8,7 +8,7 @@
 
 namespace gearshift::haptics {
 
-// The leading bit of ns selects the octave, the next kSubBits bits select the bin inside the octave.
+// The leading bit of `ns` selects the octave, and the next kSubBits bits select the bin inside the octave.
 std::size_t DurationHistogram::bin_of(std::uint64_t ns) noexcept {
   if (ns < (1u << kSubBits)) return static_cast<std::size_t>(ns);
   const int octave = static_cast<int>(std::bit_width(ns)) - 1 - kSubBits;
@@ -16,7 +16,7 @@ std::size_t DurationHistogram::bin_of(std::uint64_t ns) noexcept {
   return std::min<std::size_t>(static_cast<std::size_t>(bin), kBins - 1);
 }
 
-// Longest duration that falls into the bin. [ns]
+// Longest duration [ns] that falls into the bin.
 std::int64_t DurationHistogram::upper_edge(std::size_t bin) noexcept {
   if (bin < (2u << kSubBits)) return static_cast<std::int64_t>(bin);
   const std::size_t octave = (bin >> kSubBits) - 1;
@@ -34,7 +34,7 @@ void DurationHistogram::add(std::int64_t ns) noexcept {
 std::int64_t DurationHistogram::quantile(double q) const noexcept {
   if (count_ == 0) return 0;
   if (!(q < 1.0)) return max_;
-  // Rank of the quantile: at least the fraction q of all samples does not exceed the sample of this rank.
+  // The quantile is the sample of rank ceil(q * count), counted from the shortest duration.
   const double wanted = std::ceil(std::max(q, 0.0) * static_cast<double>(count_));
   const std::uint64_t rank = std::max<std::uint64_t>(static_cast<std::uint64_t>(wanted), 1);
   std::uint64_t counted = 0;

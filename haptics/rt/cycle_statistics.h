@@ -7,12 +7,12 @@
 
 namespace gearshift::haptics {
 
-// Log-spaced histogram of durations from 1 ns to over 10 s. Below 64 ns there is one bin per nanosecond, above that 64
-// bins per octave, so no bin is wider than 1/64 = 1.6 % of its value. Not synchronised: use it from one thread at a
-// time.
+// Log-spaced histogram of durations from 1 ns to over 10 s. Below 64 ns there is one bin per nanosecond, above 64 ns
+// there are 64 bins per octave, so no bin is wider than 1/64 = 1.6 % of its durations. Not synchronised: use it from
+// one thread at a time.
 class DurationHistogram {
  public:
-  void add(std::int64_t ns) noexcept;                 // negative counts as 0. Real-time safe
+  void add(std::int64_t ns) noexcept;                 // a negative duration counts as 0. Real-time safe
   std::int64_t quantile(double q) const noexcept;     // [ns] upper edge of the quantile's bin, 0 <= q <= 1; 0 if empty
   std::int64_t max() const noexcept { return max_; }  // [ns] exact
   std::uint64_t count() const noexcept { return count_; }
@@ -34,8 +34,8 @@ struct CycleStatistics {
   DurationHistogram wake_lateness;  // [ns] wake-up time minus deadline
   DurationHistogram duration;       // [ns] duration of the cycle's work
   std::uint64_t cycles = 0;
-  std::uint64_t overruns = 0;  // cycles that ended after the next deadline; the missed deadlines are skipped
-  std::uint64_t skipped = 0;   // deadlines skipped after an overrun or a wake-up late by a period or more
+  std::uint64_t overruns = 0;  // number of cycles that ended after the next deadline; the missed deadlines are skipped
+  std::uint64_t skipped = 0;   // number of deadlines skipped after an overrun or a wake-up late by at least a period
 };
 
 }  // namespace gearshift::haptics

@@ -18,14 +18,14 @@ class LatestValue {
   // Writer only.
   void write(const T& value) noexcept {
     slot_[back_].value = value;
-    // Release: when the reader gets this index, it sees the complete value. Acquire: the reader has finished with the
-    // slot that the exchange returns.
+    // acq_rel. Release: a reader that gets this index sees the complete value. Acquire: the reader has finished with
+    // the slot that the exchange returns.
     back_ = index_of(middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel));
   }
 
-  // Reader only. Fetches the newest value; true if it is newer than at the last call.
+  // Reader only. Fetches the newest value. Returns true if it is newer than the value fetched before.
   bool update() noexcept {
-    // Relaxed is enough for this check: only the reader clears the mark, and the exchange below gets the newest value.
+    // Relaxed is enough for this check: only the reader clears kFresh, and the exchange below gets the newest value.
     if (!(middle_.load(std::memory_order_relaxed) & kFresh)) return false;
     front_ = index_of(middle_.exchange(front_, std::memory_order_acq_rel));
     return true;

@@ -38,7 +38,7 @@ void cpu_relax() noexcept {
 #endif
 }
 
-// Faults in the stack pages below this frame, so that no cycle causes a page fault.
+// Touches the stack pages below this frame, so that no cycle causes a page fault.
 [[gnu::noinline]] void prefault_stack() noexcept {
   unsigned char stack[kStackBytes];
   volatile unsigned char* page = stack;
@@ -55,14 +55,15 @@ bool may_lock_any_amount() noexcept {
 }
 
 // Locked memory stays resident after free() unless malloc returns it to the kernel. By default malloc raises its mmap
-// threshold over time and keeps large blocks, such as a cabin's textures, in fragmented heaps: a session grew by 65 MB
-// with each change of the gate (tests/flow/soak.sh). A fixed threshold prevents that.
+// threshold over time and keeps large blocks, such as a cabin's textures, in fragmented heaps: memory grew by 65 MB
+// with each change of the gate (tests/flow/soak.sh). A fixed threshold prevents this growth.
 constexpr int kMmapThreshold = 1 << 20;  // [bytes] larger blocks get their own pages, which free() returns
 
 // lock_memory() and pin_to() return an error message, or an empty string.
 std::string lock_memory() {
   mallopt(M_MMAP_THRESHOLD, kMmapThreshold);
-  // With a finite limit, a lock that succeeds now would make a later allocation fail, which is worse than no lock.
+  // With a finite memlock limit, locking may succeed now, but a later allocation would then fail. This is worse than no
+  // lock.
   if (!may_lock_any_amount()) return "the memory lock was refused (allow it with 'memlock unlimited')";
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
   return std::string("the memory lock was refused (") + std::strerror(errno) + "; allow it with 'memlock unlimited')";
@@ -78,7 +79,7 @@ std::string pin_to(int core) {
 }
 
 // Keeps all cores out of deep idle states, from which they wake late, by holding /dev/cpu_dma_latency open with a value
-// of 0, as cyclictest does. Without permission this does nothing, and wake-ups are only later.
+// of 0, as cyclictest does. Without permission the class does nothing, and wake-ups are later.
 class AwakeCores {
  public:
   AwakeCores() noexcept : file_(open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
@@ -103,13 +104,14 @@ void append(std::string& sentence, const std::string& part) {
   sentence += part;
 }
 
-// The newest deadline that has passed, after a wake-up that is late by whole periods; earlier deadlines are skipped.
+// Returns the newest deadline that has passed, after a wake-up that is late by whole periods. Earlier deadlines are
+// skipped.
 CycleCall skip_to_newest(const CycleCall& call, std::int64_t woke, std::int64_t period) noexcept {
   const std::int64_t missed = (woke - call.deadline_ns) / period;
   return {call.deadline_ns + missed * period, call.skipped + missed};
 }
 
-// The first deadline after the end of a cycle; deadlines that have passed are skipped.
+// Returns the first deadline after the end of a cycle; deadlines that have passed are skipped.
 CycleCall next_deadline(const CycleCall& call, std::int64_t done, std::int64_t period) noexcept {
   const std::int64_t next = call.deadline_ns + period;
   const std::int64_t missed = done > next ? (done - next + period - 1) / period : 0;
@@ -118,7 +120,7 @@ CycleCall next_deadline(const CycleCall& call, std::int64_t done, std::int64_t p
 
 void check(const RealtimeConfig& config) {
   if (config.period_ns <= 0) throw std::invalid_argument("the period of a real-time thread must be above 0 ns");
-  if (config.spin_ns < 0) throw std::invalid_argument("the spin of a real-time thread must not be below 0 ns");
+  if (config.spin_ns < 0) throw std::invalid_argument("the spin time of a real-time thread must not be below 0 ns");
   if (config.priority < 1 || config.priority > 99)
     throw std::invalid_argument("the priority of a real-time thread must be 1 to 99");
 }
@@ -161,7 +163,7 @@ void RealtimeThread::prepare() {
   append(not_realtime_reason_, memory);
   append(not_realtime_reason_, pin_to(config_.core));
   if (!scheduling.empty() || !memory.empty()) not_realtime_reason_ += "; set these limits in /etc/security/limits.conf";
-  prctl(PR_SET_TIMERSLACK, 1UL);  // [ns] timer slack; the default of a normal thread is 50 us
+  prctl(PR_SET_TIMERSLACK, 1UL);  // [ns] timer slack; the default for a normal thread is 50 us
   prefault_stack();
 }
 

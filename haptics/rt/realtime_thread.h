@@ -39,9 +39,9 @@ class RealtimeThread {
   RealtimeThread(const RealtimeThread&) = delete;
   RealtimeThread& operator=(const RealtimeThread&) = delete;
 
-  // cycle must not throw. Throws std::runtime_error with one sentence if the policy is `required` and cannot be met,
-  // std::invalid_argument for a config out of range, std::logic_error if already running. Locks the memory of the whole
-  // process if permitted, and leaves it locked.
+  // `cycle` must not throw. Throws std::runtime_error with one sentence if the policy is `required` and cannot be met,
+  // std::invalid_argument if the config is out of range, std::logic_error if the thread is already running. Locks the
+  // memory of the whole process if permitted, and leaves it locked.
   void start(const RealtimeConfig& config, std::function<void(const CycleCall&)> cycle);
   void stop() noexcept;  // joins the thread within a period; may be called twice, but not inside `cycle`
 

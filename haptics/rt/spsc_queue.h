@@ -1,4 +1,4 @@
-// Bounded, ordered queue from one writer to one reader. push() returns false when it is full.
+// Bounded, ordered queue from one writer to one reader. push() returns false when the queue is full.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ class SpscQueue {
       cached_head_ = head_.load(std::memory_order_acquire);
       if (tail - cached_head_ > mask_) return false;
     }
-    slots_[tail & mask_] = value;  // free: the acquire of head_ above synchronises with the reader's release
+    slots_[tail & mask_] = value;  // the slot is free: the acquire load of head_ synchronises with the reader's release
     tail_.store(tail + 1, std::memory_order_release);
     return true;
   }
@@ -44,10 +44,10 @@ class SpscQueue {
   std::size_t capacity() const noexcept { return slots_.size(); }
 
  private:
-  // Three groups of cache lines: constant data read by both sides, the writer's, and the reader's. Each side caches the
-  // other's counter on its own line and reads the original only if the cached value says full or empty, so that a push
-  // and a pop at different positions share no cache line. The counters increase and wrap; only their difference
-  // matters.
+  // Three groups of cache lines: constant data that both sides read, the writer's data, and the reader's data. Each
+  // side caches the other side's counter on its own line and reads the original only if the cached value says full or
+  // empty. So a push and a pop at different positions share no cache line. The counters increase and wrap; only their
+  // difference matters.
   std::vector<T> slots_;
   std::size_t mask_;
   alignas(64) std::atomic<std::size_t> tail_{0};

@@ -6,9 +6,11 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kBoundFraction = 0.5;       // [1] of the lossless slope, at which a pushed lever never settles
-constexpr double kMaxDampingFraction = 0.5;  // [1] fraction of m / T
-constexpr double kMinSpeed = 1e-4;           // [m/s] below this speed damping has no effect
+// [1] slope of the bound as a fraction of Kim and Ryu's limit; below 1, because at the limit a pushed lever never comes
+// to rest
+constexpr double kBoundFraction = 0.5;
+constexpr double kMaxDampingFraction = 0.5;  // [1] highest damping, as a fraction of mass / period
+constexpr double kMinSpeed = 1e-4;           // [m/s] lowest speed at which damping is added
 
 }  // namespace
 
@@ -30,7 +32,7 @@ double PassivityController::control(double wanted, double last, double travel, b
     return wanted;
   }
   const double speed = travel / period_;
-  const double predicted = absorbed_energy_ - wanted * travel;  // balance if the next travel equals the last
+  const double predicted = absorbed_energy_ - wanted * travel;  // [J] energy balance if the same `travel` follows
   if (predicted >= 0.0 || std::abs(speed) < kMinSpeed) return wanted;
   const double damping = std::min(max_damping_, -predicted / (speed * speed * period_));
   return wanted - damping * speed;

@@ -12,13 +12,15 @@ namespace {
 
 using glm::dvec2;
 
-constexpr std::int64_t kArmedStaleFactor = 10;  // factor on stale_time while armed: a first reading may take that long
+constexpr std::int64_t kArmedStaleFactor = 10;  // factor on `stale_time` while armed: the first reading may take longer
 
-// After this long without a timely cycle (the process was stopped) lever and hand may be anywhere, so the previous
-// force must not resume by itself. The stick's driver waits equally long for a command.
+// [s] Longest time without a cycle that is on time. After a longer gap (for example, because the process was stopped),
+// lever and hand may be anywhere, so the previous force must not resume by itself. The stick's driver waits equally
+// long for a command.
 constexpr double kMaxLateTime = 0.1;  // [s]
 
-constexpr std::int64_t kUnlimitedCycles = 1'000'000'000'000;  // [cycles] avoids overflow: traces may hold any number
+// [cycles] Upper limit of all counters. It prevents overflow when a replayed trace contains a huge number of cycles.
+constexpr std::int64_t kUnlimitedCycles = 1'000'000'000'000;
 
 std::int64_t saturating_add(std::int64_t cycles, std::int64_t more) noexcept {
   return std::min(cycles + std::min(more, kUnlimitedCycles), kUnlimitedCycles);
@@ -80,10 +82,11 @@ GuardOutput ForceGuard::compute_output(const GuardInput& in, dvec2 travel) noexc
   return {last_force_ * ramp, saturated, ramp};
 }
 
-// Checks for every fault before a force is output. The most severe one wins.
+// Checks for every fault before a force is output. If several faults occur, the most severe fault is reported.
 void ForceGuard::check_faults(const GuardInput& in) noexcept {
-  const std::int64_t elapsed =
-      stale_cycles_ > 0 ? saturating_add(1, in.skipped) : 1;  // the device's thread may have been stopped too: 1 cycle
+  // In the first cycle after a fresh reading, the missed cycles do not count as stale, because the device's thread may
+  // have been stopped too.
+  const std::int64_t elapsed = stale_cycles_ > 0 ? saturating_add(1, in.skipped) : 1;
   stale_cycles_ = in.fresh ? 0 : saturating_add(stale_cycles_, elapsed);
   late_cycles_ = in.skipped > 0 ? saturating_add(late_cycles_, in.skipped) : 0;
   overruns_ = in.skipped > 0 ? overruns_ + 1 : 0;
@@ -118,8 +121,8 @@ dvec2 ForceGuard::apply_passivity_control(const GuardInput& in, dvec2 travel) no
   return force;
 }
 
-// Uses the newest command, even if it has not taken effect yet. Applied after the slew limit, so that a force that must
-// drop can drop at once.
+// The bound starts from the newest command, even if that command has not taken effect yet. It is applied after the slew
+// limit, so that a force that must drop can drop at once.
 dvec2 ForceGuard::apply_energy_bounding(dvec2 force, dvec2 travel) const noexcept {
   if (energy_control_ != EnergyControl::energy_bounding) return force;
   for (int i = 0; i < 2; ++i)
@@ -127,7 +130,7 @@ dvec2 ForceGuard::apply_energy_bounding(dvec2 force, dvec2 travel) const noexcep
   return force;
 }
 
-// The last force fades out within fade_time; damping is added while readings are fresh.
+// The last force fades out within `fade_time`; damping is added while readings are fresh.
 dvec2 ForceGuard::damped_force(const GuardInput& in) noexcept {
   fade_ = std::max(0.0, fade_ - period_ / config_.fade_time);
   const dvec2 damping = in.fresh ? -config_.damped_damping * in.velocity : dvec2{0.0, 0.0};

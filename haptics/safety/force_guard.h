@@ -1,9 +1,9 @@
-// The final check of every force. In this order: finite, passivity control (if enabled), slew, energy bounding (if
-// enabled), clamp, ramp. It also holds the state machine:
+// The final check of every force. Steps, in order: finiteness check, passivity control (if enabled), slew limit, energy
+// bounding (if enabled), clamp, ramp. The guard also runs this state machine:
 //
-//   idle -> armed -> ramping -> running      only on request of the user; a simulated lever arms itself
-//   damped    stale reading, too many overruns in a row, or chatter that softening the wall did not calm: the force
-//             fades out and only damping remains
+//   idle -> armed -> ramping -> running      only at the user's request; a simulated lever arms itself
+//   damped    stale reading, too many overruns in a row, or chatter that continues although the wall was softened: the
+//             force fades out and only damping remains
 //   released  limit exceeded, stop or device lost, force not finite, or a real device without commands for 0.1 s:
 //             motors off
 #pragma once
@@ -30,9 +30,9 @@ struct GuardConfig {
   double slew = 25.0;             // [N/cycle] 2 to 100, largest change per axis; an impact needs 16 at 1 kHz
   double ramp_time = 0.5;         // [s] 0.001 to 60, from armed to full force
   double stale_time = 0.020;      // [s] 0.001 to 1, time without a fresh reading before state damped
-  double fade_time = 0.020;       // [s] 0.001 to 1, in which the force fades out in state damped
+  double fade_time = 0.020;       // [s] 0.001 to 1, time in which the force fades out in state damped
   int overruns_in_row = 8;        // [cycles] 1 to 1000, consecutive overruns before state damped
-  double damped_damping = 5.0;    // [N s/m] 0 to 50, in state damped, while readings are fresh
+  double damped_damping = 5.0;    // [N s/m] 0 to 50, applied in state damped while readings are fresh
   double position_margin = 0.02;  // [m] 0 to 1; a position further outside the workspace is a fault
 };
 
@@ -42,7 +42,7 @@ struct GuardInput {
   glm::dvec2 velocity{0.0};  // [m/s] smoothed
   bool fresh = false;        // this cycle's reading is fresh
   bool in_contact = false;   // the lever is pressed into a wall
-  std::int64_t skipped = 0;  // [cycles] missed before this cycle
+  std::int64_t skipped = 0;  // [cycles] deadlines missed before this cycle
 };
 
 struct GuardOutput {
@@ -60,7 +60,7 @@ class ForceGuard {
   GuardOutput guard(const GuardInput& in) noexcept;  // call once per cycle. Real-time safe
 
   // State changes; call on the haptic thread between cycles.
-  bool arm() noexcept;            // idle, damped or released -> armed, then ramping once readings are fresh; else false
+  bool arm() noexcept;            // idle, damped or released -> armed; returns false in all other states
   void reject_arming() noexcept;  // keeps the state and reports the fault `stopped`
   void disarm() noexcept;         // any -> idle, force 0
   void stop() noexcept;           // armed, ramping, running or damped -> released: the panic button
@@ -91,12 +91,12 @@ class ForceGuard {
   std::size_t delay_;
   GuardState state_ = GuardState::idle;
   GuardFault fault_ = GuardFault::none;
-  glm::dvec2 last_force_{0.0};     // [N] commanded before the ramp
+  glm::dvec2 last_force_{0.0};     // [N] last command, before the ramp factor
   double ramp_ = 0.0;              // [1] 0 to 1
   glm::dvec2 fade_from_{0.0};      // [N] command when the state damped was entered
   double fade_ = 0.0;              // [1] remaining fraction of fade_from_, 1 to 0
-  std::int64_t stale_limit_;       // [cycles] limit without a fresh reading
-  std::int64_t late_limit_;        // [cycles] limit of cycles skipped in consecutive overruns
+  std::int64_t stale_limit_;       // [cycles] longest time without a fresh reading
+  std::int64_t late_limit_;        // [cycles] limit for late_cycles_
   std::int64_t stale_cycles_ = 0;  // [cycles] time since the last fresh reading
   std::int64_t late_cycles_ = 0;   // [cycles] skipped in the current run of overruns
   int overruns_ = 0;               // consecutive

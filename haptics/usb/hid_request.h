@@ -40,7 +40,7 @@ inline HidRequest get_report_descriptor(int interface) {
   return {0x81, 0x06, 0x2200, static_cast<std::uint16_t>(interface)};
 }
 
-// [bytes] at the start of a report that are not sent: the ID byte if the device uses no IDs.
+// Number of leading bytes of a report that are not sent: 1 (the ID byte) if the device uses no report IDs, otherwise 0.
 inline std::size_t wire_offset(const ReportDescriptor& reports) {
   return reports.numbered ? 0 : 1;
 }

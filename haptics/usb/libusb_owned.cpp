@@ -38,8 +38,8 @@ void throw_usb_failure(int code, const HidIdentity& identity, std::string_view a
       throw HidDisconnected(name + " was unplugged");
     case LIBUSB_ERROR_ACCESS:
       throw HidError(name +
-                     " may not be used by this user; install the udev rule assets/udev/70-gearshift.rules as its first "
-                     "lines explain, and plug the device in again");
+                     " may not be used by this user; install the udev rule assets/udev/70-gearshift.rules as described "
+                     "in its first lines, and plug the device in again");
     case LIBUSB_ERROR_BUSY:
       throw HidError(name + " is used by another program; close that program");
     case LIBUSB_ERROR_TIMEOUT:

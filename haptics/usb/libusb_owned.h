@@ -1,4 +1,5 @@
-// RAII types for libusb, and its errors as sentences. Only files in this folder include libusb.h, through this header.
+// RAII types for libusb, and libusb's errors as sentences. Only files in this folder include libusb.h, through this
+// header.
 #pragma once
 
 #include <libusb.h>

@@ -1,8 +1,8 @@
 // HID devices through libusb: lists them and opens ports. No other folder uses libusb.
 //
 // Threads: a port is used by one thread at a time. Each listing and each port has its own libusb context, so that one
-// thread can list devices while another streams. Without udev (containers, guests) an existing context never sees new
-// devices, so waiting for a device means listing again with a new context.
+// thread can list devices while another thread streams. Without udev (containers, guests) an existing context never
+// sees new devices, so waiting for a device means listing again with a new context.
 #pragma once
 
 #include <cstdint>
@@ -24,15 +24,15 @@ struct UsbHidDevice {
 
 inline constexpr int kFirstInterface = -1;
 
-// Sorted by port path. Opens each device briefly but detaches no kernel driver. Throws HidError if USB is not
-// available.
+// Lists all HID interfaces, sorted by port path. Opens each device briefly but detaches no kernel driver. Throws
+// HidError if USB is not available.
 std::vector<UsbHidDevice> usb_hid_devices();
 
 // Claims the interface: detaches the kernel driver, and attaches it again when the port is destroyed. Throws
-// HidDisconnected if no such device is plugged in, HidError if it may not be used (the sentence names the udev rule),
-// is in use by another program, or does not return its report descriptor. An empty serial means the first device with
-// the given vendor and product; a place, if not empty, must match too. interface: from usb_hid_devices(), or
-// kFirstInterface for the device's first HID interface.
+// HidDisconnected if no such device is plugged in. Throws HidError if the device may not be used (the sentence names
+// the udev rule), is in use by another program, or does not return its report descriptor. Vendor and product of the
+// device must match `wanted`; so must serial and place, unless they are empty. The first such device is used.
+// `interface`: from usb_hid_devices(), or kFirstInterface for the device's first HID interface.
 std::unique_ptr<HidPort> open_usb_hid(const HidIdentity& wanted, int interface = kFirstInterface);
 
 }  // namespace gearshift::haptics

@@ -16,7 +16,7 @@ struct UsbInterface {
   int number = 0;
   std::uint8_t in = 0, out = 0;         // addresses of the interrupt endpoints; 0: none
   std::size_t in_packet = 0;            // [bytes] maximum packet size of the IN endpoint
-  std::uint16_t descriptor_length = 0;  // [bytes] declared size of its report descriptor
+  std::uint16_t descriptor_length = 0;  // [bytes] declared size of the interface's report descriptor
 };
 
 // HID interfaces of the active configuration; empty if there are none or the device is not configured.

@@ -58,7 +58,7 @@ HidBytes UsbPort::get_feature(std::uint8_t id, std::size_t size) {
 }
 
 void UsbPort::set_feature(const HidBytes& report) {
-  HidBytes sent = report;  // libusb wants a writable buffer
+  HidBytes sent = report;  // libusb needs a writable buffer
   const std::span<std::uint8_t> wire = on_the_wire(sent, reports_);
   const HidRequest request = set_report(HidReportType::feature, report.id(), interface_.number);
   const int code = libusb_control_transfer(handle_.get(), request.type, request.request, request.value, request.index,

@@ -15,7 +15,7 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr std::int64_t kMaxErrorTime = 250'000'000;  // [ns] a hub may take this long to report a disconnect
+constexpr std::int64_t kMaxErrorTime = 250'000'000;  // [ns] tolerated error time; hubs may report disconnects this late
 constexpr std::int64_t kMaxCancelTime = kSecondNs;   // [ns] longest wait for cancelled transfers
 constexpr std::size_t kSetup = LIBUSB_CONTROL_SETUP_SIZE;
 
@@ -88,7 +88,7 @@ UsbStream::~UsbStream() {
   }
   libusb_set_pollfd_notifiers(&context_, nullptr, nullptr, nullptr);
   if (!any_pending()) return;
-  // The controller has not returned all transfers and may still write to them, so they are leaked.
+  // The controller has not returned all transfers and may still write to their memory, so it must never be freed.
   for (Slot* slot : slots_->all) slot->stream = nullptr;
   static_cast<void>(slots_.release());
 }
@@ -249,8 +249,8 @@ void UsbStream::service(std::int64_t now) noexcept {
   request_if_silent(now);
 }
 
-// Clears a stalled pipe. If the pipe stalls again before a successful transfer, it has failed; it is cleared anyway for
-// the next program that uses the device.
+// Clears a stalled pipe. If the pipe stalls again before a successful transfer, it has failed; the stall is cleared
+// anyway for the next program that uses the device.
 bool UsbStream::clear(PipeErrors& pipe, std::uint8_t endpoint, const char* what) noexcept {
   pipe.stalled = false;
   if (endpoint != 0 && libusb_clear_halt(&handle_, endpoint) == LIBUSB_ERROR_NO_DEVICE) {
@@ -282,7 +282,7 @@ void UsbStream::service_output(std::int64_t now) noexcept {
   Slot& slot = slots_->out;
   if (out_.stalled) {
     if (!clear(out_, interface_.out, "has stopped accepting data. Unplug it and plug it in again.")) return;
-    out_.resend = true;  // sends the report that was not accepted
+    out_.resend = true;  // resends the report that was not accepted
   }
   if (!out_.resend || slot.pending || now < out_.retry) return;
   out_.resend = false;

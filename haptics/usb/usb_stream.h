@@ -1,5 +1,5 @@
 // One run of HidPort::stream(): asynchronous transfers, and a loop that waits for a completed transfer, a wake-up or
-// the next tick. It allocates nothing per report, but libusb 1.0 allocates URBs.
+// the next tick. The stream allocates nothing per report, but libusb 1.0 allocates URBs.
 #pragma once
 
 #include <poll.h>
@@ -39,7 +39,7 @@ class UsbStream {
     bool pending = false;
   };
   struct Slots {
-    std::array<Slot, 2> in;  // one is always pending in the controller while the other is processed
+    std::array<Slot, 2> in;  // one transfer is pending in the controller while the other is processed
     Slot out, request;
     std::array<Slot*, 4> all{&in[0], &in[1], &out, &request};
   };
@@ -91,16 +91,16 @@ class UsbStream {
   HidStream& stream_;
 
   std::unique_ptr<Slots> slots_;
-  std::size_t longest_input_ = 0;  // [bytes] longest input report on the wire
-  std::size_t lever_size_ = 0;     // [bytes] lever report on the wire; 0: no such report
+  std::size_t longest_input_ = 0;  // [bytes] size of the longest input report on the wire
+  std::size_t lever_size_ = 0;     // [bytes] size of the lever report on the wire; 0: no such report
   PipeErrors in_, out_;
   std::optional<Failure> failure_;
   bool closing_ = false;
 
-  std::int64_t lever_ns_ = 0;  // time of the last lever report, or of the last request for one
+  std::int64_t lever_ns_ = 0;  // [ns] time of the last lever report, or of the last request for one
   int silent_stalls_ = 0, silent_timeouts_ = 0;
-  std::int64_t output_ns_ = 0;  // when the last output was submitted
-  std::int64_t polled_ns_ = 0;  // when next_output() was last called
+  std::int64_t output_ns_ = 0;  // [ns] when the last output was submitted
+  std::int64_t polled_ns_ = 0;  // [ns] when next_output() was last called
   bool woken_ = false;
 
   std::vector<pollfd> fds_;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The bench as a user runs it: output files, pages that contain the measurements, and an unreadable last run, which only
-# causes a warning.
+# Tests the bench as a user runs it: its output files, and pages that contain the measurements. If the file of the last
+# run is unreadable, the bench must only warn.
 # Usage: bench.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -30,11 +30,11 @@ check "JSON: the rows of the design's table are marked" \
   in_json '{r["design"] for r in run["rows"] if "design" in r} == {"delivered", "plant"}'
 check "a quick run is not saved" test ! -e data/gearshift/bench
 
-# The walls of the family `methods`: a wall that does not vibrate only because it gives way is not a candidate for the
-# default.
+# The family `methods`: a method whose wall is free of vibration only because it displays too little stiffness is not a
+# candidate for the default.
 check "a run of the family methods" bench --quick --family methods --out x
 check "JSON: only methods that display 97 % of the stiffness are candidates" in_json 'all(
-    [b["value"] <= 3 for b in r["beside"] if b["what"] == "error of the displayed stiffness"] == [True]
+    [b["value"] <= 3 for b in r["beside"] if b["what"] == "error in displayed stiffness"] == [True]
     for r in run["rows"] if "peak-to-peak" in r.get("trade", {}).get("error", {}).get("what", ""))'
 check "JSON: the default is one of them" in_json '"1000 Hz, delay 0: half-sample hold, B = 10" in
     [r["name"] for r in run["rows"] if r.get("trade", {}).get("chosen")]'
@@ -44,7 +44,7 @@ check "JSON: other methods are listed, but are no candidates" in_json 'any(r["na
 quick_seconds() { TIMEFORMAT='bench --quick took %R s, the processors %U + %S s'; time bench --quick --json; }
 if is_full_run; then check "a complete quick run" quick_seconds; fi
 
-# A family that cannot be measured loses only its own rows.
+# If a family cannot be measured, only its own rows have no values.
 check "a run without a Vulkan driver fails" is_refused env VK_ICD_FILENAMES=/nonexistent.json \
   "$gearshift" bench --quick --family plant --family picture --family feel --out x >out 2>err
 check "it is reported once" test "$(grep -c "^gearshift: cannot measure family picture: " err)" -eq 1 -a \
@@ -80,8 +80,8 @@ check "a full standard output is a failure" test $? -eq 1
 check "and the page is well-formed" is_xml unread/bench.html
 check "and the CSV is complete" test "$(wc -l <unread.csv)" -eq 2
 
-# When the bench ends early, each output file has its old content or complete new content.
-running() { # signal, seconds, argument ...: runs the bench, sends the signal this long after the folder exists
+# If the bench ends early, each output file must keep its old content or contain all rows of the completed families.
+running() { # takes a signal, seconds, arguments; sends the bench the signal this long after it made its output folder
   local signal=$1 after=$2
   shift 2
   rm -rf begun
@@ -99,13 +99,14 @@ running TERM 0 --family contact
 check "stopped in the first family: exit 1" test $? -eq 1
 check "and reports it" complains "interrupted while measuring family contact: no family was completed"
 check "and changes no file" as_of_old
-running TERM 4 --family plant --family contact # plant takes seconds, contact minutes
+running TERM 4 --family plant --family contact # after 4 s `plant` is complete, and `contact` still takes minutes
 check "stopped in the second family: exit 1" test $? -eq 1
 check "and names the family" complains "interrupted while measuring family contact: only completed families are reported"
 check "the completed family is saved" test "$(grep -c '^plant,' kept.csv) $(grep -c '^contact,' kept.csv)" = "6 0"
 check "the page, too" is_xml begun/bench.html
 
-# In the family `jitter` a measurement takes a minute: a stop request ends it early, and ends cyclictest, too.
+# In the family `jitter` one measurement takes a minute. A stop request must end it early, and also end the program
+# cyclictest.
 if command -v cyclictest >/dev/null; then
   running TERM 2 --family jitter
   check "a stop ends the wake-up measurements: exit 1" test $? -eq 1
@@ -113,8 +114,8 @@ if command -v cyclictest >/dev/null; then
   check "and leaves no process behind" is_refused pgrep -s 0 cyclictest
 fi
 
-# The results are written under the file's name, even if the file is moved or replaced during the run.
-meanwhile() { # command ...: runs it after the bench opened its CSV file
+# The results must be written under the given name, even if the CSV file is moved or replaced during the run.
+meanwhile() { # takes a command; runs the bench, and the command as soon as the bench has opened its CSV file
   echo "of old" >moving.csv
   "$gearshift" bench --family contact --quick --csv moving.csv >out 2>err &
   until compgen -G "moving.csv.part*" >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.01; done

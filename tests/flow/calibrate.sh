@@ -1,26 +1,25 @@
 #!/usr/bin/env bash
-# Calibrates force-feedback sticks with the answers of a user. The sticks are emulated beneath the real libusb. The
-# measured values are the true ones; an invalid answer repeats the question; earlier measurements stay if the user gives
-# up or the stick is unplugged. Tests one family of sticks, under ./test --full all of them.
+# Calibrates emulated force-feedback sticks through the real libusb, with the answers of a user. The measured values
+# must be the true ones. An invalid answer must repeat the question. Earlier measurements must stay if the user gives up
+# or the stick is unplugged. Tests one family of sticks; with ./test --full, all families.
 # Usage: calibrate.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
 needs_machine=yes
 source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
 write_calibrations
 
-# Calibrates a stick. The answers are the numbers that the program asks for, some of them invalid, then an Enter for
-# each measurement. There are more Enters than measurements, because on a busy machine a measurement may be rejected and
-# repeated.
+# Calibrates a stick. The input has the numbers that the program asks for, some of them invalid, and then an Enter for
+# each measurement. The extra Enters are for measurements that the program rejects and repeats on a busy machine.
 calibrate() {
   printf 'far\n5000\n140 mm\n140\n20\nwhat\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n' |
     with_stick --family "$1" -- "$gearshift" devices --calibrate "${name[$1]}" >"calibrate_$1.txt" 2>"calibrate_$1.err"
 }
-calibrated=sidewinder # only one, because each takes most of a minute
+calibrated=sidewinder # only one family, because each takes most of a minute
 is_full_run && calibrated=$families
 for family in $calibrated; do calibrate $family & running+=($!); done
 
-# Calibrates a stick again, with its own configuration folder, at the same time as the calibrations above.
-again() { # takes the name of the results and options of the emulator; stdin is the user's input
+# Calibrates a stick again with a different configuration folder. Runs in parallel with the calibrations above.
+again() { # takes the name for the output and options of the emulator; stdin is the user's input
   XDG_CONFIG_HOME=$work/another with_stick --family vjoy "${@:2}" -- \
     "$gearshift" devices --calibrate "${id[vjoy]}" --again >"$1.txt" 2>"$1.err"
 }
@@ -28,7 +27,7 @@ pushes_nothing() {
   echo | again again
   printed "Rejected: no axis moved" again && printed "Still missing: range" again
 }
-pulled_out() { # unplugs and reconnects the stick between two questions
+pulled_out() { # unplugs and reconnects the stick while the program waits for Enter
   mkfifo orders
   exec 8<>orders
   sleep 12 | again pulled_out --orders orders & running+=($!)
@@ -54,9 +53,9 @@ for family in $calibrated; do
   check "hands off is printed before the motors move" grep -q "^HANDS OFF" calibrate_$family.txt
   check "its forces push left and forward, as PID 1.0 says" grep -q "a positive force pushes left.*a positive force pushes forward" calibrate_$family.txt
 done
-# True values of the emulated stick: handle 0.095 and 0.086 kg, 3.0 and 2.9 N s/m, 15 and 16 N/m; spring 400 N/m and
-# damper 20 N s/m at their largest coefficients. The ranges below are wide, because the measurements run in real time on
-# a machine that may be busy.
+# True values of the emulated stick: handle (x and y) 0.095 and 0.086 kg, 3.0 and 2.9 N s/m, 15 and 16 N/m; spring
+# 400 N/m and damper 20 N s/m at their largest coefficients. The ranges below are wide, because the measurements run in
+# real time on a machine that may be busy.
 measured() { grep -l "^travel_m = 0.14" "$sticks"/*.toml; }
 check "the measurements are correct" python3 - $(measured) <<'END'
 import pathlib, re, sys

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The stability campaign as a user runs it: stopped in the middle and resumed, a single case, its trace replayed.
+# Tests the stability campaign as a user runs it: stopped in the middle and resumed; a single case; a replay of its
+# trace.
 # Usage: campaign.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -11,7 +12,7 @@ cut_short() { head -c $(($(stat -c %s "$1") - 300)) "$1" >cut && mv cut "$1"; }
 same() { diff <(sort "$1/cases.csv") <(sort "$2/cases.csv") && cmp "$1/summary.json" "$2/summary.json"; }
 
 check "200 shifts" campaign --out once --threads 1
-no_law_broken() { # all thirteen laws are in the table; five have a precondition, which a few cases may not meet (-)
+no_law_broken() { # checks that the table has all thirteen laws, none broken; "-": no case met the law's precondition
   local law
   for law in finite "free space" "no wall" force slew fades "gear holds" told; do
     grep -qE "^\| $law \| .* \| 0 \|$" out || return 1
@@ -26,13 +27,13 @@ cp -r once again
 check "stopped in the middle of a line" cut_short again/cases.csv
 check "resumed" campaign --out again --threads 1
 check "with the same result" same once again
-# Too little memory for eight threads: enough for three stacks of 1 GB and the rest of the program.
+# Too little memory for eight threads, but enough for three stacks of 1 GB and the rest of the program.
 if [ -z "${ASAN_OPTIONS-}${TSAN_OPTIONS-}" ]; then
   fewer() { (ulimit -s 1000000 -v 4000000 && campaign --out fewer --threads 8); }
   check "with too little memory it uses fewer threads" fewer
   check "with the same result" cmp -s once/summary.json fewer/summary.json
 fi
-ended() { # ends a campaign as Ctrl-C does; env, because a shell's background children ignore SIGINT
+ended() { # starts a campaign and ends it with SIGINT, like Ctrl-C; `env` undoes that background children ignore SIGINT
   env --default-signal=INT "$gearshift" campaign --seed 11 --out ended >out 2>err &
   until [ -s ended/cases.csv ]; do sleep 0.05; done
   sleep 1
@@ -40,7 +41,7 @@ ended() { # ends a campaign as Ctrl-C does; env, because a shell's background ch
   wait $!
   [ $? -eq 1 ]
 }
-hung_up() { # closes the terminal; under nohup the program continues
+hung_up() { # starts a campaign under nohup and sends it SIGHUP, as a closed terminal does; it must continue
   nohup "$gearshift" campaign --seed 11 --out hung_up --shifts 40 >out 2>err &
   until [ -s hung_up/cases.csv ]; do sleep 0.05; done
   kill -HUP $!
@@ -51,14 +52,14 @@ check "ended by Ctrl-C" ended
 check "the interruption is reported, and how to continue" grep -q "^gearshift: interrupted after [0-9]* finished cases\{0,1\}; run the same command to resume" err
 check "the same command continues" campaign --out ended --threads 1
 check "with the same result" cmp -s once/summary.json ended/summary.json
-refused() { # takes the exit code, text of the error, and the arguments of campaign
+refused() { # takes the exit code, the error message, and the arguments of campaign
   local code=$1 words=$2
   shift 2
   "$gearshift" campaign "$@" >out 2>err
   [ $? -eq "$code" ] && [ "$(wc -l <err)" = 1 ] && grep -q -- "$words" err && [ ! -e bad ]
 }
 check "the folder of a different campaign is rejected" refused 1 "another campaign" --seed 12 --out once
-unreadable() { # runs it as a user who may write the file, but not read it
+unreadable() { # runs the campaign as a user who may write cases.csv, but not read it
   chmod 222 once/cases.csv
   chmod 777 "$work" once
   cp once/cases.csv before
@@ -66,7 +67,7 @@ unreadable() { # runs it as a user who may write the file, but not read it
   [ $? -eq 1 ] && grep -q "cases.csv: cannot be read" err && cmp -s before once/cases.csv
 }
 as_nobody() { setpriv --reuid=65534 --regid=65534 --clear-groups "$gearshift" "$@"; }
-if [ "$(id -u)" = 0 ] && as_nobody gate paper >out 2>&1; then # skipped where only root can read the shipped files
+if [ "$(id -u)" = 0 ] && as_nobody gate paper >out 2>&1; then # skipped if only root can read the shipped files
   check "an unreadable file is reported and unchanged" unreadable
 fi
 check "a single case" "$gearshift" campaign --seed 11 --case 1 --out one
@@ -76,17 +77,17 @@ not_driven() {
     grep -qx "the case was rejected, so nothing was recorded" out
 }
 check "a case rejected by the loop's checks has no trace" not_driven
-# The only case in a million that breaks a law (app/lab/campaign/README.md). If that is fixed, use a different failing
-# case.
+# Of a million cases, only this one breaks a law (app/lab/campaign/README.md). If it no longer does, use a different
+# failing case.
 "$gearshift" campaign --seed 1 --case 26063 --out broken >out
 check "a case that breaks a law" [ $? -eq 1 ]
-reports_broken_law() { # the replay is identical, and prints the broken law and the text file's first line
+reports_broken_law() { # replay must print "identical", the broken law, and the first line of case_26063.txt
   "$gearshift" replay broken/case_26063.trace >out && grep -q "^identical bit for bit" out &&
-    grep -qE "^case_26063.trace: case 26063 of seed 1 breaks fades .* m, bound .*, at 49\.[0-9]+ s$" out &&
+    grep -qE "^case_26063.trace: case 26063 of seed 1 violates fades .* m, bound .*, at 49\.[0-9]+ s$" out &&
     grep -qF "$(head -n 1 broken/case_26063.txt)" out
 }
 check "replay prints the law, the time and the amount" reports_broken_law
-shows() { # runs the command that replay printed, without a window; takes more arguments
+shows() { # runs the command that replay printed, without a window and with the given extra arguments
   $(tail -n 1 out | sed "s|^gearshift|$gearshift|") --offscreen shown --size 64x36 --samples 1 --no-panel "$@" >shown.txt
 }
 check "the printed command shows the case" shows
@@ -94,7 +95,7 @@ check "from two seconds before, to the end of the drive" fails grep -qE "^ +[3-9
 sed -i '$s/--from .*/--from 30/' out
 check "the command with a later time" shows
 check "to the end of the drive as well" grep -qE "^ +1[0-9]\." shown.txt
-beyond() { ! shows --seconds 1 2>err && [ "$(wc -l <err)" = 1 ] && grep -q "49.5 s is not within the drive, which lasts 49.* s" err; }
+beyond() { ! shows --seconds 1 2>err && [ "$(wc -l <err)" = 1 ] && grep -q "49.5 s is outside the drive, which lasts 49.* s" err; }
 sed -i '$s/--from .*/--from 49.5/' out
 check "a time beyond the drive's end is rejected" beyond
 cp one/case_1.trace broken/other.trace && cp broken/case_26063.txt broken/other.txt

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Tests the floor of tests/coverage with tables at the floor and below it, and with an empty table.
+# Tests the minimum coverage that tests/coverage requires, with tables at the minimum, below it, and empty.
 # Usage: coverage_floor.sh GEARSHIFT SOURCE_FOLDER
 set -u
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 table=$2/tests/coverage_table.py
 
-counted() { # prints a table with these two numbers of covered lines, of 100 lines in each of two folders
+counted() { # prints a table of two folders with 100 lines each; arguments: the numbers of covered lines
   echo "filename,line_total,line_covered,branch_total,branch_covered"
   printf 'app/%s/x.cpp,100,%s,,\n' a "$1" b "$2"
 }

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The Debian package in a fresh Debian 12: it installs with its dependencies, an ordinary user without a display runs
-# the demo, and purging leaves nothing behind. Part of ./test --full. It takes some minutes; to run it by hand, as root
-# and with a network:
+# Tests the Debian package in a fresh Debian 12: it installs with its dependencies, an ordinary user without a display
+# can run the demo, and purging leaves nothing behind. ./test --full runs this test. It takes some minutes. To run it by
+# hand, as root and with a network:
 #   cmake --preset release && cmake --build --preset release --target package
 #   tests/flow/deb_in_chroot.sh build/release/gearshift_*.deb
 # Usage: deb_in_chroot.sh PACKAGE
 set -u
 command -v debootstrap >/dev/null || { echo "deb_in_chroot.sh: debootstrap is missing: apt-get install debootstrap" >&2; exit 2; }
-# The mounts are private to this script and disappear with it.
+# The script restarts itself with private mounts, which disappear when it ends.
 [ "$1" = --in-own-mounts ] || exec unshare --mount "$0" --in-own-mounts "$1"
 shift
 package=$(realpath "$1")
@@ -23,7 +23,7 @@ end_all() {
 
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
 as_user() { inside setpriv --reuid=1000 --regid=1000 --clear-groups env HOME=/home/user LANG=C.UTF-8 "$@"; }
-bring_up() { # makes a minimal Debian with its own mounts and this machine's package sources
+bring_up() { # installs a minimal Debian in $root; copies this machine's package sources and the package file into it
   debootstrap --variant=minbase bookworm "$root" >debootstrap.txt 2>&1 || { tail -n 5 debootstrap.txt; return 1; }
   local place
   for place in proc sys dev; do mount --rbind "/$place" "$root/$place" || return 1; done
@@ -38,7 +38,7 @@ install_package() {
   inside apt-get install -y -qq --no-install-recommends /var/tmp/gearshift.deb >install.txt 2>&1 ||
     { tail -n 5 install.txt; return 1; }
 }
-is_left() { # prints what the package left behind, not counting the user's files
+is_left() { # prints the package's remaining files, without the user's files
   find "$root/usr" "$root/etc" "$root/lib" "$root/var/lib" "$root/var/cache" -xdev -iname "*gearshift*" |
     grep -v "/var/lib/apt/" | grep .
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Force-feedback sticks as a user uses them, emulated beneath the real libusb: they are listed and driven through a
-# tour; the program is killed with kill -9; a stick has no access rights, or no stick is plugged in.
+# Tests force-feedback sticks as a user uses them, emulated beneath the real libusb: they are listed and driven through
+# a tour; the program is killed with kill -9; the user may not open a stick, or no stick is plugged in.
 # Usage: devices.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
 needs_machine=yes
@@ -16,10 +16,10 @@ check "the same with --json" with_stick --family vjoy --unplug-at 0 -- bash -c '
 check "the JSON has no sticks" python3 -c 'import json; assert json.load(open("none.json")) ["sticks"] == []'
 with_stick --family vjoy -- "$gearshift" tour --device rhino --out rhino >/dev/null 2>rhino.err
 check "an unknown stick is rejected with a list of those connected" \
-  grep -q '^gearshift: no stick "rhino" is plugged in; available sticks: vJoy.*1234:bead' rhino.err
+  grep -q '^gearshift: no stick that matches "rhino" is plugged in; available sticks: vJoy.*1234:bead' rhino.err
 check "in one sentence, and no folder is made" [ "$(wc -l <rhino.err)" -ge 1 -a ! -e rhino ]
 
-# Root may use any device, so the program runs as a different user.
+# Root may use any device. If this script runs as root, it therefore runs the program as a different user.
 forbidden() {
   with_stick --family sidewinder -- bash -c '
     chmod -R a+rwX "$UMOCKDEV_DIR" # everything that umockdev needs, its sockets included
@@ -60,7 +60,7 @@ early
 check "Enter before the prompt does not turn the forces on" grep -q "the forces cannot be turned on, because standard input is closed" early.err
 check "and the motors never pushed" silent_within 0 early "the start"
 
-# Kills the program while the hand presses into a wall: the effects must end by themselves.
+# Kills the program while the hand presses into a wall. The stick's effects must then end by themselves.
 killed() {
   with_stick --family openffboard --tour elsewhere.toml -- bash -c '
     mkfifo killed.in
@@ -72,7 +72,8 @@ killed() {
     kill -9 $!' 2>killed.err
 }
 
-# If forces are turned on while the stop button is held, they stay off, and the program reports why and asks again.
+# If the user turns the forces on while the stop button is held, the forces must stay off. The program must report the
+# reason and ask again.
 is_prompted() { printed "press Enter" refused "$1"; }
 refused() {
   mkfifo refused.in refused.orders
@@ -83,7 +84,7 @@ refused() {
     env --default-signal=INT "$gearshift" tour --device vjoy --gate paper --seconds 20 --out refused <&9 >refused.txt 2>refused.err &
   within 10 is_prompted 1
   echo hold 3 >&8
-  echo go 15 20 >&8 # a place behind a wall of the gate
+  echo go 15 20 >&8 # moves the lever to a place behind a wall of the gate
   sleep 0.3
   echo >&9
   within 5 is_prompted 2

@@ -25,19 +25,19 @@ import tempfile
 PROGRAM = (r"(cp|sed|sudo|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|\w+_fuzz|\w+_tests"
            r"|tests/\S+\.sh|tests/fuzz/run|tests/coverage|build/\S+)")
 PROGRAMS = re.compile(rf"^([A-Z_]+=\S+ )*(\./run|\./test|{PROGRAM})( |$)")
-BARE = re.compile(rf"^{PROGRAM}$")  # inline code that is only the program's name
-# In these guides, each command that is not run here must be marked with "# not run: why".
+BARE = re.compile(rf"^{PROGRAM}$")  # the program's name without arguments
+# In these guides, each command that this test does not run must be marked with "# not run: REASON".
 GUIDES = ("TUNING.md", "GUIDE.md", "BUILDING.md")
 SKIPPED_FOLDERS = {"build", "out", ".git"}
 
-# The value used for an argument name in capitals, in one verb or in all verbs.
+# Values for the arguments in capitals, for one verb ("gate NAME") or for all verbs ("FILE").
 VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "moving_off",
           "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
           "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
 
-# Commands that are not run here. Key: a pattern of the command. Value: the reason, then the file that does run it and
-# the words in that file which show this (\1: the pattern's first group); one of them must occur in the command, too.
-# Without a file, the command is only run by hand.
+# Commands that are not run here. Key: a pattern of the command. Value: the reason; the file that runs the command
+# instead; words in that file that prove it. \1 in these words is the pattern's first group. At least one of the words
+# must also occur in the command. An entry without a file is a command that is only run by hand.
 ELSEWHERE = {
     r"\./run$": ("installs and opens a window",),
     r"\./test": ("runs this test",),
@@ -175,7 +175,7 @@ class Runner:
     def environment(self, folder):
         env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         env.update(PATH=f"{self.work / 'bin'}:{env['PATH']}", HOME=str(folder / "home"))
-        env["XDG_CACHE_HOME"] = str(self.work / "cache")  # pipelines are compiled only once
+        env["XDG_CACHE_HOME"] = str(self.work / "cache")  # a shared cache, so that pipelines are compiled only once
         for kind in ("DATA", "CONFIG"):
             env[f"XDG_{kind}_HOME"] = str(folder / "home" / kind.lower())
         return env
@@ -187,7 +187,7 @@ class Runner:
         try:
             printed, _ = process.communicate(timeout=120)
         except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)  # bash and the processes that it started
+            os.killpg(process.pid, signal.SIGKILL)  # ends bash and the processes that it started
             process.communicate()
             raise
         return subprocess.CompletedProcess(text, process.returncode, printed)

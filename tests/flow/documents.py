@@ -50,6 +50,12 @@ class Documents:
             path = self.sources / word
             self.check(name, path.exists() or any(path.parent.glob(path.name + ".*")), f"{word} is not there")
 
+    def quotes(self, path, name, text):
+        """A ```cpp block must be a part of the .cpp file that the link before it names."""
+        for before, quoted in re.findall(r"((?:(?!```).)*?)```cpp\n(.*?)```", text, re.S):
+            files = re.findall(r"\]\(([^)\s]+\.cpp)\)", before)
+            self.check(name, files and quoted in (path.parent / files[-1]).read_text(), "quotes other code than its file has")
+
     def walked(self, path, name, text):
         """A table with the header "file" must list files of its folder."""
         for table in re.findall(r"^\| files? \|.*\n\|[-| ]+\n((?:\|.*\n?)+)", text, re.M):
@@ -133,6 +139,7 @@ def main():
     for path, name, text in documents.pages():
         documents.links(path, name, text)
         documents.paths(name, text)
+        documents.quotes(path, name, text)
         documents.walked(path, name, text)
         if path.name in GUIDES:
             documents.sentences(name, text)

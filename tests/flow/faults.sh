@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# System failures while a user drives a recorded lesson: the lever keeps running or has no force, each failure is
-# reported once, and run and recording are saved. A preloaded library makes clock, GPU, sound and writes fail; full and
-# read-only disks are small ones mounted for the test.
+# Tests system failures while a user drives a recorded lesson. The lever must keep running or have no force, each
+# failure must be reported once, and the run and its recording must be saved. A preloaded library makes clock, GPU,
+# sound and writes fail. The full and the read-only disk are small file systems that the test mounts.
 # Usage: faults.sh GEARSHIFT SOURCE_FOLDER PRELOADED_FAULTS
 set -u
 gearshift=$1 preloaded=$3
-# The test's disks are mounted where no other process sees them. Without the permission to mount, these faults are left
-# out, and if everything else passes, the test counts as skipped.
+# The test mounts its disks in a private namespace, where no other process sees them. Without the permission to mount,
+# the disk faults are not tested, and the test counts as skipped if everything else passes.
 has_mounts=${GEARSHIFT_OWN_MOUNTS:-}
 if [ -z "$has_mounts" ]; then
   [ "$(id -u)" = 0 ] && as_root=-m || as_root=-rm
@@ -24,12 +24,13 @@ export INJECTED_FAULTS=$work/faults ALSOFT_DRIVERS=null
 mkdir faults
 beneath=(env LD_PRELOAD="$preloaded")
 
-in_time() { within "$@" || { needs_machine=yes; false; }; } # only a test that waited in vain may blame the host
-inject() { echo "$2" >"faults/.$1" && mv "faults/.$1" "faults/$1"; } # takes the fault and its number
+in_time() { within "$@" || { needs_machine=yes; false; }; } # a slow host may have caused the timeout, see checks.sh
+# Takes a fault and its number, as explained in tests/support/preloaded/faults.cpp; starts the fault.
+inject() { echo "$2" >"faults/.$1" && mv "faults/.$1" "faults/$1"; }
 mend() { rm "faults/$1"; }
 logged() { [ "$(grep -cF -- "$1" "$log.txt" "$log.err" | awk -F: '{sum += $2} END {print sum}')" -ge "${2:-1}" ]; }
 is_reported_once() { [ "$(cat "$log.txt" "$log.err" | grep -cF -- "$1")" -eq 1 ]; } # sentence
-lesson() { # name, arguments ...: starts a recorded lesson, as a user does
+lesson() { # takes a name for the output and arguments; starts a recorded lesson, as a user does
   start "$@" --lesson moving_off --learner Ada --mode follow-me --no-help --no-panel --hand grip ||
     { needs_machine=yes; return 1; }
   xdotool windowfocus "$window"
@@ -48,9 +49,9 @@ END_OF_PYTHON
 }
 ended() { ended_by End || { needs_machine=yes; kill "$trainer" && wait "$trainer"; false; }; }
 runs=0
-hung_up() { find_program && kill -HUP "$pid" && wait "$trainer"; } # closes the program's terminal
-# Ends the lesson with its key, or with the given command. Then the newest run is in the history, marked as left, and
-# its recording is complete.
+hung_up() { find_program && kill -HUP "$pid" && wait "$trainer"; } # sends SIGHUP, as a closed terminal does
+# Ends the lesson with its key, or with the given command. Checks that the newest run is then in the history, marked as
+# left, and that its recording is complete.
 is_saved() {
   local rows recording
   runs=$((runs + 1))
@@ -69,7 +70,7 @@ lever_keeps_running() { ! grep -q "forces off, damping only\|motors off" "$log.t
 check "closed terminal: a lesson begins" lesson hung_up
 check "closed terminal: run and recording are saved" is_saved hung_up
 
-# Faults of the picture, the sound and the wall clock.
+# Tests faults of the picture, the sound and the wall clock.
 check "picture: a lesson begins" lesson picture
 inject gpu 1
 check "picture: reported" in_time 20 logged "restarting the display. The lever keeps running."
@@ -77,15 +78,15 @@ xdotool mousemove --window "$window" 50 50
 check "picture: the lever continues" lever_keeps_running
 inject sound 1
 check "sound: reported" in_time 10 logged "the sound device was lost"
-# The clock jumps while the sound device is lost, because OpenAL's null device measures time with this clock: OpenAL
-# would mix the sound of the jump before it lets a program end.
+# The clock jumps while the sound device is lost. Otherwise OpenAL's null device, which measures time with this clock,
+# would first mix an hour of sound, and the program would end late.
 inject clock 3600
 sleep 0.3
 inject clock -3600
-sleep 1.2 # sound is retried every second
+sleep 1.2 # the program retries the sound device every second
 check "clock: the lever continues" lever_keeps_running
 mend sound
-check "sound: back, reported" in_time 10 logged "sound is back"
+check "sound: back, reported" in_time 10 logged "sound works again"
 check "picture: reported once" is_reported_once "restarting the display"
 check "sound: reported once" is_reported_once "the sound device was lost"
 check "picture, sound, clock: run and recording are saved" is_saved
@@ -99,8 +100,8 @@ print(*sqlite3.connect(sys.argv[1]).execute("SELECT duration_s FROM lesson_run O
 check "clock: the duration of the lesson is correct, got $(span) s" awk -v s="$(span)" 'BEGIN {exit !(s > 1 && s < 200)}'
 check "and nothing else is reported, got: $(grep -v picture picture.err)" [ "$(wc -l <picture.err)" -eq 1 ]
 
-# The same jump while OpenAL plays to its null device (ALSOFT_DRIVERS above): it first mixes an hour of sound, so the
-# program ends late. The lever must not wait for this.
+# The clock jumps by an hour while OpenAL plays to its null device (ALSOFT_DRIVERS above). OpenAL first mixes an hour
+# of sound, so the program ends late. The lever must not wait for this.
 check "late end: a lesson begins" lesson late
 check "late end: it has forces" in_time 10 has_forces
 check "late end: it runs" find_program
@@ -119,7 +120,7 @@ mend clock
 late_is_saved() { runs=$((runs + 1)) && [ "$(left_runs | sed -n 1p)" -eq $runs ]; }
 check "late end: the run is saved" late_is_saved
 
-# A GPU device that is lost repeatedly: there is no picture, but lever, lesson and keys still work.
+# Tests a GPU device that is lost again and again: there is no picture, but lever, lesson and keys still work.
 check "no picture: a lesson begins" lesson blind
 rm -f faults/gpu_lost
 attempts() { wc -c <faults/gpu_lost; }
@@ -127,7 +128,7 @@ attempted() { [ "$(attempts)" -ge "$1" ]; }
 begin=$SECONDS
 inject gpu 2
 check "no picture: reported" in_time 20 logged "restarting the display"
-check "no picture: attempted again" in_time 20 attempted 4 # each attempt is lost at once; one attempt per second
+check "no picture: attempted again" in_time 20 attempted 4 # each new GPU device is lost at once; one attempt per second
 elapsed=$((SECONDS - begin))
 check "no picture: not more than each second, got: $(attempts) in $elapsed s" [ "$(attempts)" -le $((elapsed + 3)) ]
 check "no picture: alive" alive
@@ -136,8 +137,8 @@ check "no picture: the lever continues" lever_keeps_running
 check "no picture: saved" is_saved
 check "no picture: reported once, got: $(cat blind.err)" [ "$(wc -l <blind.err)" -eq 1 ]
 
-# The process is stopped. The wall clock is wrong from the start of this test: a history that showed the true time would
-# mean that the injected clock errors above had no effect.
+# Tests a process that is stopped for 3 s. The wall clock is an hour slow from the start of this test. The history must
+# contain the wrong time. This proves that the injected clock errors reach the program.
 inject clock -3600
 check "stopped: a lesson begins" lesson stopped
 is_stopped() { grep -q "^State:.T" "/proc/$pid/status"; }
@@ -164,7 +165,7 @@ check "stopped: the lever continued" lever_keeps_running
 check "stopped: the cycles of 3 s are counted as missed, got: $(missed)" [ "$(missed)" -ge 2900 ]
 check "stopped: nothing on stderr, got: $(cat stopped.err)" [ ! -s stopped.err ]
 
-# All threads on one core, together with a busy loop.
+# Tests all threads of the program on one core, together with a busy loop.
 check "one core: a lesson begins" lesson hog
 check "one core: it runs" find_program
 timeout 30 taskset -c 0 sh -c 'while :; do :; done' &
@@ -181,7 +182,7 @@ check "one core: missed deadlines are counted" \
   printed "^loop: [0-9]* deadlines missed, [0-9]* cycles too long, 0 events lost"
 check "one core: nothing on stderr, got: $(cat hog.err)" [ ! -s hog.err ]
 
-# The disk is temporarily read-only, as after disk errors, and works again before the end.
+# Tests a disk that is temporarily read-only, as after disk errors, and works again before the lesson's end.
 check "read-only meanwhile: a lesson begins" lesson refused
 inject write 30 # EROFS
 check "read-only meanwhile: reported" in_time 20 logged "the recording failed after"
@@ -217,7 +218,8 @@ if [ "$has_mounts" = yes ]; then
 
   mount -t tmpfs -o size=1m none home
   mount -o remount,ro home
-  XDG_DATA_HOME=$work/home/data XDG_CONFIG_HOME=$work/home/config # without its cache the driver starts slowly
+  # The cache folder stays writable, because the GPU driver starts slowly without its cache.
+  XDG_DATA_HOME=$work/home/data XDG_CONFIG_HOME=$work/home/config
   check "read-only home: a lesson begins" lesson read_only
   check "read-only home: the End key ends it" ended
   check "read-only home: reported at the start" [ "$(grep -c "the history cannot be used because .*Read-only" read_only.txt)" = 1 ]

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Force-feedback sticks, emulated beneath the real libusb, that fail during a tour: only the expected message appears,
-# once; without readings the motors go silent, and stay silent, because nobody presses Enter again; the drive so far is
-# saved.
+# Tests force-feedback sticks that fail during a tour, emulated beneath the real libusb. Only the expected message may
+# appear, and only once. Without readings the motors must stop. They must stay off, because nobody presses Enter again.
+# The part of the tour before the fault must be saved.
 # Usage: faulty_sticks.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
 needs_machine=yes
@@ -9,7 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
 write_calibrations complete
 enters=1
 
-# The expected message of each fault: a pattern for the complete output.
+# The message expected for each fault: a pattern that the complete output must match.
 blind="forces off: the stick sends no readings"
 declare -A due=(
   [jump]="the stick's position jumped by [0-9][0-9] % of its range between two reports"
@@ -18,15 +18,15 @@ $blind"
   [stuck]="the stick's position has not changed for 2 s while the force changed; its readings are ignored until the position changes
 $blind"
   [silent]="$blind"
-  [refuses-effects]="the stick refuses a constant force, because it reports an error"
-  [pool-full]="the stick refuses a constant force, because its memory for effects is full; unplug it and plug it in again"
+  [refuses-effects]="a constant force cannot be created, because the stick reports an error"
+  [pool-full]="a constant force cannot be created, because the stick's memory for effects is full; unplug it and plug it in again"
   [stalls-outputs]="vJoy * has stopped accepting data. Unplug it and plug it in again.
 forces off: the motors were switched off"
   [slow]="the stick takes [0-9]* ms per output, but responded after 7 ms when it was calibrated; the motors are off until you turn them on again
 forces off: the motors were switched off"
 )
-messages_of() { # all output before the table, except the tour's own lines
-  sed '/^Five speeds/,$d' "$1.txt" | grep -v -e '^Gears of the tour: ' -e '^The forces are off' -e '^Shift into ' -e ' engaged$' \
+messages_of() { # prints the output before the table, without the tour's usual lines
+  sed '/^Five speeds/,$d' "$1.txt" | grep -v -e '^The tour visits these gears: ' -e '^The forces are off' -e '^Shift into ' -e ' engaged$' \
     -e ' responds after '
 }
 prints_due_message() {
@@ -34,9 +34,11 @@ prints_due_message() {
   messages_of "$1" | sed 's/^/    printed: /'
   return 1
 }
-# True if the program also reported that the machine stalled for a fifth of a second or longer.
+# Succeeds if the program also reported that the machine was too slow.
 was_busy() { messages_of "$1" | grep -q -e "stopped an effect by itself" -e "no force was commanded" -e "too late"; }
-drive_with_fault() { # fault, family, time [s]: drives a tour with the fault; time 0: before the stick is prepared
+# Takes a fault, a stick family and a time [s]; drives a tour in which the fault begins at this time. A fault at time 0
+# is present before the program has prepared the stick.
+drive_with_fault() {
   for _ in 1 2 3; do
     rm -rf "$1" "$1.in"
     tour "$1" "$2" --fault "$1@$3"
@@ -44,19 +46,19 @@ drive_with_fault() { # fault, family, time [s]: drives a tour with the fault; ti
     was_busy "$1" || return
   done
 }
-stop_and_go() { # drives a tour and stops the program for 3 s while the hand presses into a wall
+stop_and_go() { # drives a tour and pauses the program for 3 s while the hand presses into a wall
   rm -rf stopped stopped.in
-  tour_seconds=6.5 # the rest of the time shows that no force returns
+  tour_seconds=6.5 # long enough to show that no force returns after 4.7 s
   tour stopped openffboard --stop-at 1.7 --continue-at 4.7
   echo $? >stopped.status
 }
-ended() { [ "$(cat "$1.status")" -le 1 ]; } # 1: not every gear was reached in the short time
+ended() { [ "$(cat "$1.status")" -le 1 ]; } # exit status 1 is allowed: the time may not suffice for every gear
 
-# At most three sticks at a time, because each stick and its program run in real time.
+# At most three sticks run at a time, because each stick and its program run in real time.
 tour_seconds=4
 drive_with_fault jump sidewinder 2 & drive_with_fault wrong-length openffboard 2 & drive_with_fault stalls-outputs vjoy 2 & wait
 drive_with_fault silent sidewinder 2 & drive_with_fault pool-full vjoy 0 & drive_with_fault refuses-effects sidewinder 0 & wait
-tour_seconds=5.5 # enough for the force from a stuck sensor, which decays within 3 s
+tour_seconds=5.5 # enough for the sensor to get stuck at 1.55 s and the force to decay within the next 3 s
 drive_with_fault slow vjoy 2 & hand_gate=$work/elsewhere.toml drive_with_fault stuck vjoy 1.55 & hand_gate=$work/elsewhere.toml stop_and_go & wait
 
 for fault in "${!due[@]}"; do
@@ -78,10 +80,10 @@ check "stopped: the program ends as it should" ended stopped
 check "stopped: the last effect ends" silent_within 330 stopped "the stop"
 check "stopped: but not at once, so it had pushed" [ "$(zero_force stopped "the stop")" -gt 0 ]
 check "stopped: no force returns when it continues" silent_within 0 stopped "the continue"
-# Two threads notice the stop. The one that wakes first reports its own message.
+# Two threads notice the pause. The one that wakes first reports it with its own message.
 reports_the_computer() {
   messages_of stopped | grep -q . &&
-    ! messages_of stopped | grep -v -e "^forces off: the computer was too late$" -e "^forces off: the motors were switched off$" -e "^no force was commanded for 100 ms; "
+    ! messages_of stopped | grep -v -e "^forces off: the computer was too slow$" -e "^forces off: the motors were switched off$" -e "^no force was commanded for 100 ms; "
 }
 check "stopped: the late computer is reported, and nothing about the stick" reports_the_computer
 check "stopped: the drive is saved" replays stopped

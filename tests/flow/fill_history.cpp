@@ -1,4 +1,4 @@
-// Fills a history for the flow tests: fill_history DATABASE RECORDING, where all runs refer to RECORDING.
+// Fills a history for the flow tests. Usage: fill_history DATABASE RECORDING. All runs refer to the file RECORDING.
 #include <cmath>
 #include <string>
 
@@ -24,7 +24,7 @@ ShiftRecord shift_of(int number) {
   return shift;
 }
 
-// Grades rise with the number of trials: 9 - 6 exp(-n / 3), rounded.
+// The grade rises with the number n of the trial: 9 - 6 exp(-n / 3), rounded to halves.
 LessonResult result_of(int trial) {
   LessonResult result;
   result.lesson = "up_through_the_gears";

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The first start in unusual environments: no home folder, a read-only one, folders with spaces, quotes and letters of
-# other scripts, a German and a Turkish locale. The output is the same in all locales, byte for byte.
+# Tests the first start in unusual environments: no home folder, a read-only home folder, folders with spaces, quotes
+# and letters of other scripts, a German and a Turkish locale. The output must be the same in all locales, byte for
+# byte.
 # Usage: first_start.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -8,8 +9,8 @@ source=$2
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 unset DISPLAY WAYLAND_DISPLAY XDG_DATA_HOME XDG_CONFIG_HOME XDG_CACHE_HOME XDG_RUNTIME_DIR LC_ALL MESA_SHADER_CACHE_DIR
 
-# As root, the program runs without root's right to write everywhere. (The user nobody may not enter a source tree in
-# root's home.)
+# As root, the program runs without root's right to write everywhere. (Running it as the user "nobody" would not work,
+# because this user cannot enter a source tree in root's home.)
 mkdir locked
 chmod 555 locked
 as_others=()
@@ -20,7 +21,7 @@ if ! "${as_others[@]}" true 2>/dev/null; then
   echo "no folder can be locked here: this root may not put its rights away"
   as_others=() locked=""
 fi
-start() { # takes the name of the result, HOME=..., and the arguments
+start() { # takes the name for the output, HOME=..., and the arguments
   local name=$1 home=$2
   shift 2
   "${as_others[@]}" env "$home" "$gearshift" "$@" >"$name.txt" 2>"$name.err" </dev/null
@@ -29,7 +30,7 @@ one_sentence() { [ "$(wc -l <"$1")" -eq 1 ] && grep -q "$2" "$1"; }
 for home in $locked; do
   check "$home: a lesson is passed" start lesson "HOME=$work/$home" lesson hill_start --learner Ada
   check "$home: one message that nothing is saved, got: $(cat lesson.err)" \
-    one_sentence lesson.err "the history cannot be used because its folder cannot be created (Permission denied)"
+    one_sentence lesson.err "the history cannot be used because the folder cannot be created (Permission denied)"
   start report "HOME=$work/$home" report --learner Ada --out page
   check "$home: a report fails" test $? -eq 1
   check "$home: in one sentence, got: $(cat report.err)" one_sentence report.err "history not found"
@@ -53,12 +54,12 @@ if [ -n "$locked" ]; then
   check "a read-only picture: one sentence, got: $(cat refused.err)" one_sentence refused.err "train.png: the picture cannot be written (Permission denied)"
   check "and it is unchanged" cmp train.png drawn/train.png
 fi
-nameless() { # arguments ...: runs without HOME, as a user unknown to the system
+nameless() { # takes arguments; runs the program without HOME, as a user unknown to the system
   unshare --user --map-user=4242 env -u HOME "$gearshift" "$@" >nameless.txt 2>nameless.err </dev/null
 }
 if unshare --user --map-user=4242 "$gearshift" --version >/dev/null 2>&1; then
   check "no home at all: a gate is shown" nameless gate paper
-  no_home() { one_sentence nameless.err "there is no folder for your files"; }
+  no_home() { one_sentence nameless.err "cannot find a folder for your files"; }
   check "no home at all: a lesson is passed" nameless lesson hill_start --learner Ada
   check "no home at all: one message that nothing is saved, got: $(cat nameless.err)" no_home
   check "no home at all: devices are listed" nameless devices
@@ -71,7 +72,7 @@ else
   echo "not shown: no home at all (no user may have a namespace of his own here)"
 fi
 
-# The same commands write the same files in each locale, in a folder whose name is hard to quote.
+# The same commands must write the same files in each locale, in a folder whose name is hard to quote.
 folder="Ordner ä ş ı İ 日本 o'clock \"q\" \`x\` \$HOME #1%41"
 session() { # locale
   (

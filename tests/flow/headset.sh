@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The complete trainer in a headset: a lesson is passed; the headset is taken off and put on, lost and found again; its
-# tracking space turns; its frames stop. The lever keeps running through all of it. The headset is the OpenXR test
-# runtime with a script for each run.
+# Tests the complete trainer in a headset: a lesson is passed; the headset is taken off and put on, lost and found
+# again; its tracking space turns; its frames stop. The lever must keep running all the time. The headset is the OpenXR
+# test runtime with a script for each run.
 # Usage: headset.sh GEARSHIFT SOURCE_FOLDER MANIFEST
 set -u
 needs_machine=yes
@@ -12,12 +12,12 @@ source "$flows/checks.sh"
 source "$flows/window.sh"
 source "$flows/worn.sh"
 
-# --- a lesson, driven by the simulated driver, until the user leaves with the headset's own menu
+# --- the simulated driver drives a lesson, until the headset's menu ends the program
 begin "a lesson starts in the headset" wear lesson --hand "by itself" --lesson hill_start --seat-height 0.05 < <(
   echo 'capture = {every = 3}'
   at 13 exit)
 check "the headset is reported" within 20 warned "$found"
-check "the lesson is passed in it" within 30 printed "lesson hill_start is over: grade .* of 10, passed"
+check "the lesson is passed in it" within 30 printed "lesson hill_start is over: grade .*/10, passed"
 check "the window shows the picture" shows_picture
 xdotool windowfocus "$window"
 key F9
@@ -37,7 +37,7 @@ for left in lesson/*_left.png; do
   check "$right" is_picture "$right"
   check "each eye has its own picture" differs "$left" "$right" 10000
 done
-# The card is a layer of its own (a quad), shows text, and changes with the lesson.
+# The text card is an OpenXR layer (a quad). It must show text and change with the lesson.
 card=$(ls lesson/*_quad.png | head -n 1) last_card=$(ls lesson/*_quad.png | tail -n 1)
 cover() { convert "$1" -alpha extract -format '%[fx:mean]' info: | python3 -c 'import sys; sys.exit(float(input()) < 0.15)'; }
 for one in "$card" "$last_card"; do
@@ -46,8 +46,8 @@ for one in "$card" "$last_card"; do
 done
 check "the text changes after the lesson" differs "$card" "$last_card" 1000
 
-# --- every session state; the room turned; interrupted head tracking. The car does not move, so the picture does not
-# change.
+# --- every session state; a turned tracking space; interrupted head tracking. The car does not move, so the picture
+# must not change.
 begin "it starts with the seat on the right" wear states --lesson none --car none --hand grip --drive right --knob -0.3,0.5,0.3 < <(
   echo 'capture = {every = 1}'
   at 6 visible
@@ -73,7 +73,7 @@ check "the session went through every state" [ "$(sed -n 's/^state //p' states/l
 hidden_frames() { grep "^frame .* hidden" states/log.txt; }
 check "there were hidden frames" [ "$(hidden_frames | wc -l)" -ge 3 ]
 check "the cabin is not drawn in hidden frames" [ "$(hidden_frames | grep -c projection)" = 0 ]
-# Prints the file of the first picture shown between two times [s].
+# Takes two times [s]; prints the file name of the first left-eye picture shown between them.
 picture_at() {
   sed -n 's/^frame \([0-9]*\) t=\([0-9.]*\) shown.*/\1 \2/p' states/log.txt | awk -v from="$1" -v until="$2" \
     '$2 > from && $2 < until {printf "states/frame_%06d_left.png\n", $1; exit}'
@@ -89,11 +89,12 @@ for line in 'right_m = -0.3' 'down_m = 0.5' 'ahead_m = 0.3'; do check "$line is 
 
 process() { pgrep -P $trainer; }
 open_files() { ls "/proc/$(process)/fd" | wc -l; }
-# Prints the smallest of many counts: a leaked thread is in all of them, a thread that waits for one frame is not.
+# Prints the smallest of 60 counts of the program's threads. Every count includes a leaked thread, but not every count
+# includes a thread that only waits for one frame.
 threads() { for i in $(seq 60); do ls "/proc/$(process)/task" | wc -l; sleep 0.02; done | sort -n | head -n 1; }
 code_kb() { awk '$2 ~ /^rwx/ {own = 1; next} /^[0-9a-f]+-/ {own = 0} own && /^Size:/ {sum += $2} END {print sum + 0}' "/proc/$(process)/smaps"; }
 
-# --- the headset is lost in two ways (--full: four) and found again; nothing leaks
+# --- the headset is lost in two ways (with --full: in four) and found again; nothing leaks
 begin "it starts" wear losses --lesson none --hand "by itself" < <(
   fails 25 xrEndFrame XR_ERROR_RUNTIME_FAILURE
   at 12 instance_loss
@@ -105,16 +106,15 @@ for i in $(seq $losses); do
   check "$i. found" soon 30 warned "$found" $i
   check "$i. lost" soon 30 warned "$lost" $i
   drawn=$(frames) shifts=$(engaged)
-  within 4 shows_desktop && cabin_shown=$((cabin_shown + 1)) # may fail, because the headset is soon found again
+  within 4 shows_desktop && cabin_shown=$((cabin_shown + 1)) # may fail, because the cabin is shown only briefly
   check "$i. found again" soon 30 warned "$found" $((i + 1))
-  # Two more frames bring the program to a steady state.
+  # After at least two more frames (more than drawn + 1) the program is in a steady state.
   check "$i. and shown again" soon 20 has_more_frames $((drawn + 1))
   [ $i = 1 ] && files=$(open_files) tasks=$(threads) code=$(code_kb) && warned "$lost" 2 && is_spoiled=yes
 done
-# When a headset is lost, a view that still waits for a frame is closed later, on its own thread, when the frame
-# arrives.
+# When a headset is lost, a view that still waits for a frame is closed on its own thread, when the frame arrives.
 no_more_threads() { now=$(threads) && alive && [ "$now" -le "$tasks" ]; }
-if [ -z "$is_spoiled" ]; then # skip if the headset was lost again during the count, which happens with slow sanitizers
+if [ -z "$is_spoiled" ]; then # skipped if the headset was lost again during the count, as happens with slow sanitizers
   check "no more open files ($files, $(open_files))" [ "$(open_files)" -le "$files" ]
   check "no more threads than $tasks" within 20 no_more_threads
   check "no driver code stayed in memory ($code, $(code_kb) KiB)" [ "$(code_kb)" -le $((code + 4096)) ]
@@ -126,14 +126,14 @@ check "the End key ends it" ended_by End
 check "no OpenXR rule was broken" broke_no_rule
 check "each frame is complete" each_frame_is_complete
 check "one message per event" [ "$(wc -l <losses.err)" = $((2 * losses + 1)) ]
-# A loss is reported by its event or by the first call that fails after it.
+# A loss may be reported by its event, or by the first call that fails after it.
 ways=("xrEndFrame failed: XR_ERROR_RUNTIME_FAILURE" "\(the OpenXR runtime is shutting down\|.* failed: XR_ERROR_INSTANCE_LOST\)"
-  "\(the headset was lost\|.* failed: XR_ERROR_SESSION_LOST\)" "xrWaitFrame failed: XR_ERROR_RUNTIME_FAILURE")
+  "\(the connection to the headset was lost\|.* failed: XR_ERROR_SESSION_LOST\)" "xrWaitFrame failed: XR_ERROR_RUNTIME_FAILURE")
 for what in "${ways[@]:0:losses}"; do
   check "reported: $what" is_reported_times "^gearshift: $what$lost" 1
 done
 
-# --- frames that repeatedly stop for half a second do not stop the lever
+# --- frames that stop for half a second, again and again, must not stop the lever
 begin "it starts" wear stalled --lesson none --hand "by itself" < <(
   for i in $(seq 2 8); do at $((3 * i / 2)).$((5 * (i % 2))) stall "periods = 45"; done
   at 14 stall "periods = 900")
@@ -143,7 +143,7 @@ check "pictures stopped at least three times" [ "$(awk '/^frame/ {sub("t=", "", 
 check "the loop continued" never_stopped
 check "and the motors stayed on" [ "$(grep -c "motors off\|fault" stalled.txt)" = 0 ]
 xdotool windowfocus "$window"
-# The runtime holds a frame back for 10 s. `within` counts whole seconds, so "within 4" means between 3 and 4.
+# The runtime holds back a frame for 10 s. `within` counts whole seconds, so "within 4" means between 3 and 4 s.
 is_held() { drawn=$(frames) && sleep 1 && ! has_more_frames "$drawn"; }
 check "no frame is shown any more" within 20 is_held
 xdotool key space

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A complete trainer with a real lever and a headset: both are found; the lever is drawn at its true place after its
-# knob was touched; only Enter turns the forces on; the stick is unplugged while the headset is worn; the stick keeps
-# running when the headset is lost. Prints the timing of the cycles with and without the headset. The stick is emulated
-# beneath the real libusb; the headset is the OpenXR test runtime.
+# Tests the complete trainer with a lever and a headset: both are found; the lever is drawn at its true place after the
+# user has touched its knob; only Enter turns the forces on; the stick is unplugged while the headset is worn; the stick
+# keeps running when the headset is lost. Prints the timing of the cycles with and without the headset. The stick is
+# emulated beneath the real libusb; the headset is the OpenXR test runtime.
 # Usage: headset_stick.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR MANIFEST
 set -u
 needs_machine=yes
@@ -16,18 +16,18 @@ puts_on=launch
 
 no_force_messages() { ! printed ' s  \(forces\|motors\) '; }
 in_room() { python3 "$flows/lever_in_room.py" "$@"; }
-# Prints the script's time of the last frame [s].
+# Prints the time of the last frame on the clock of the headset's script [s].
 script_time() { sed -n 's/^frame [0-9]* t=\([0-9.]*\).*/\1/p' "$log/log.txt" | tail -n 1; }
 is_later() { awk -v now="$(script_time)" -v then="$1" 'BEGIN {exit !(now > then)}'; }
 in_round() { within 20 is_later "$(awk -v round="$round" -v t="$1" 'BEGIN {print round + t}')"; }
-click() { # x, y: clicks at this point of the window
+click() { # takes x and y; clicks at this point of the window
   xdotool mousemove --window "$window" "$1" "$2"
   sleep 0.4
   xdotool click 1
   sleep 0.4
 }
 
-# --- the knob is touched in three gears with forces off; the stick is unplugged while the headset is worn
+# --- the user touches the knob in three gears with forces off; the stick is unplugged while the headset is worn
 mkfifo orders
 exec 8<>orders
 order() { echo "$*" >&8; }
@@ -39,15 +39,15 @@ begin "stick and headset are found" wear touched --device ffboard --preset ./pat
 check "the headset is reported" within 20 warned "$found"
 xdotool windowfocus "$window"
 check "the window shows it" within 20 shows_picture
-# The panel has 960 x 540 pixels and is in the middle of the window. The open tab is blue; the pixel that is read below
-# belongs to the tab that is open at first.
+# The panel has 960 x 540 pixels and is in the middle of the window. The open tab is blue. The pixel that is read below
+# is in the tab that is open at the start. It is no longer blue when the XR tab is open.
 tab_is_open() { window_picture && [[ $(convert "$log.png" -crop 1x1+733+144 txt:-) != *"#285C7A"* ]]; }
 opens_tab() { click 935 149 && tab_is_open; }
 check "the panel's XR tab opens" within 20 opens_tab
 before=$(ls touched/*_left.png | tail -n 1)
 touch_is_saved() { grep -qs "^\[touched\]" "$seat"; }
 # Touches the knob in three gears during one round of the headset's script: moves the lever to each gear before the
-# controller pulls its trigger there, and saves before the next round's first pull.
+# controller pulls its trigger there, and saves before the first pull of the next round.
 touch_in_a_round() {
   round=$(script_time | awk '{print 10 * int(($1 + 1.6) / 10 + 1)}')
   in_round -1.5
@@ -69,17 +69,17 @@ touch_in_a_round() {
   order go 0 0
   within 4 touch_is_saved
 }
-touch_in_some_round() { touch_in_a_round || touch_in_a_round || touch_in_a_round; } # a slow machine may miss a round
+touch_in_some_round() { touch_in_a_round || touch_in_a_round || touch_in_a_round; } # on a slow machine a round may fail
 check "the touches are saved" touch_in_some_round
 check "the knob is at its true place" in_room found "$seat"
 check "no forces so far" no_force_messages
-sleep 1.5 # until the lever is back and is drawn there
+sleep 1.5 # gives the lever time to return, and the picture time to show it
 touched=$(ls touched/*_left.png | tail -n 1)
 
 check "Enter turns the forces on" press_for Return "forces on" 1
 order go 15 0
 sleep 0.2
-order go 15 20 # into the wall next to a slot
+order go 15 20 # presses into the wall next to a slot
 sleep 1
 drawn=$(frames)
 window_picture && cp "$log.png" plugged.png
@@ -101,7 +101,7 @@ is_silent_after() { local ms; ms=$(zero "$1") && echo "    zero force $ms ms aft
 check "unplugged, the motors stop after the length of an effect" is_silent_after "the unplug"
 check "the motors stop after the program's end" is_silent_after "the program's end"
 
-# --- a new start with the calibrated seat: the headset is lost while the forces are on
+# --- a second start with the calibrated seat: the headset is lost while the forces are on
 in_room truth "$seat"
 beneath=(umockdev-wrapper "$emulator" --family openffboard --tour paper --log lost.log --)
 panel=--no-panel hang="left -0.3 right 0.3"
@@ -131,8 +131,8 @@ check "the forces stay on all the time" [ "$(grep -c "motors off\|forces off, da
 key F9
 check "the recording is complete" within 10 replays
 check "the End key ends it" ended_by End
-# The first check reads the output reports in the stick's log, which has the stick's clock. The second reads the
-# recorded cycles before and after the headset's loss, except for the second on either side of it.
+# The first check reads the output reports in the stick's log, which has the stick's clock. The second check
+# reads the recorded cycles, except those within 1 s of the headset's loss.
 check "the stick received force commands all the time" python3 - lost.log "$armed_at" "$checked_at" <<'END'
 import sys
 begin, end = map(float, sys.argv[2:])

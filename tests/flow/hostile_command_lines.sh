@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every bad command line: the documented exit code, one sentence on stderr, nothing on stdout, no file left behind.
+# Tests bad command lines: each must give the documented exit code, one sentence on stderr, nothing on stdout, and leave
+# no file behind.
 # Usage: hostile_command_lines.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -12,7 +13,7 @@ printf '\x89GSTRC\r\n\xff\xff\xff\xff' >newer.trace
 mkdir folder
 touch empty
 
-refuse() { # takes the exit code, part of the error, and the arguments
+refuse() { # takes the expected exit code, a part of the error message, and the arguments of the program
   local code=$1 part=$2
   shift 2
   "$gearshift" "$@" >out 2>err </dev/null
@@ -27,7 +28,7 @@ refuse() { # takes the exit code, part of the error, and the arguments
   fi
 }
 
-# A script whose standard output is full must get an error from the program.
+# If standard output is full, the program must report the error on stderr and with exit code 1.
 for verb in "gate paper" "lesson hill_start" "tour --help"; do
   "$gearshift" $verb >/dev/full 2>err
   if [ $? -ne 1 ] || ! grep -q "standard output" err; then
@@ -38,7 +39,7 @@ for verb in "gate paper" "lesson hill_start" "tour --help"; do
   fi
 done
 
-# If the error cannot be printed, the exit code is still right.
+# If the error message cannot be printed, the exit code must still be right.
 for way in '2>/dev/full' '2>&-' '>&- 2>&-' '<&- >&- 2>&-'; do
   for wanted in "2 tour --out t --rate 99" "1 gate no_such_gate" "2 fly"; do
     bash -c "\"\$@\" $way" - "$gearshift" ${wanted#* }
@@ -175,8 +176,8 @@ json.dump({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
 TEXTURED
 cp triangle.bin triangle.bin.kept
 cp skin.png skin.png.kept
-refuse 1 "must not overwrite" render triangle.gltf --out folder/../triangle.bin
-refuse 1 "must not overwrite" render triangle.gltf --out skin.png
+refuse 1 "would overwrite" render triangle.gltf --out folder/../triangle.bin
+refuse 1 "would overwrite" render triangle.gltf --out skin.png
 for one in triangle.bin skin.png; do cmp $one $one.kept || failed=$((failed + 1)); done
 refuse 2 "different files" stability --svg both --csv ./both
 refuse 2 "different files" bench --family plant --out t --csv t/bench.csv

@@ -41,7 +41,7 @@ def namespace_of(file):
 
 def types_defined(code):
     """Names of classes and enums that are defined at namespace level, outside of unnamed namespaces."""
-    scopes, names, start = [], [], 0  # scopes: whether each open brace belongs to a named namespace
+    scopes, names, start = [], [], 0  # scopes: for each open brace, whether it is a named namespace
     for brace in re.finditer(r"[{};]", code):
         if brace[0] == ";":
             start = brace.end()

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# Identification as a user runs it: the paper's m, b and k are recovered from the simulated lever, also with noise and
-# delay, with readable plots; a different lever is identified correctly, too.
+# Tests the identification as a user runs it: the paper's m, b and k are recovered from the simulated lever, also with
+# noise and delay, and plotted; a different lever is identified correctly, too.
 # Usage: identify.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-identify() { # takes the name of the result and the arguments
+identify() { # takes the name for the output and the arguments
   local name=$1
   shift
   "$gearshift" identify "$@" >"$name.txt" 2>"$name.err"
 }
-# Prints the nth number after "found" in the JSON: mass, damping, stiffness of x, then of y.
+# Takes the name of a JSON output and n; prints the nth "found" number: mass, damping and stiffness of x, then of y.
 found() { grep -o '"found": [0-9.e-]*' "$1.txt" | sed -n "$2p" | cut -d' ' -f2; }
-near() { # name, n, value, tolerance: compares the nth number; the tolerance is relative
+near() { # takes a name, n, a value and a relative tolerance; succeeds if the nth number is near the value
   awk -v a="$(found "$1" "$2")" -v b="$3" -v s="$4" 'BEGIN { exit !(a != "" && a / b < 1 + s && a / b > 1 - s) }'
 }
 far() { ! near "$@"; }
@@ -21,7 +21,7 @@ says() { grep -qF -- "$2" "$1.txt"; }
 
 check "identify" identify plain --out plain
 check "Table 2" says plain "10.83 Nm"
-check "the paper's literal amplitude drives the lever to the stop" says plain "drives the lever to the stop (it would move the lever by 484 mm)"
+check "the paper's literal amplitude drives the lever to the stop" says plain "drives the lever to the stop (the lever would move by 484 mm)"
 check "eq (7) of the paper" says plain "f_s = 19.04"
 check "nothing on stderr, because it is no terminal" [ ! -s plain.err ]
 for axis in x y; do
@@ -66,11 +66,11 @@ check "which differ by at most the model error" near other 1 0.3 0.3
 
 printf 'name = "x"\n[lever.axis_x]\nstiffness_n_per_m = 0\n' >springless.toml
 check "a lever without a spring" identify springless --preset springless.toml --axis x
-check "is reported in words" says springless "the axis has no spring, so no damping ratio and no bandwidth"
+check "is reported in words" says springless "the axis has no spring, so it has no damping ratio or bandwidth"
 check "and has no invalid number" [ "$(grep -c nan springless.txt)" -eq 0 ]
 
-# Bad command lines and levers: the documented exit code, one sentence, nothing on stdout.
-refuses() { # takes the exit code, part of the error, and the arguments
+# Bad command lines and levers must give the documented exit code, one sentence, and nothing on stdout.
+refuses() { # takes the expected exit code, a part of the error message, and the arguments of the program
   local code=$1 part=$2
   shift 2
   "$gearshift" identify "$@" >out 2>err

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# `cmake --install` into a folder whose name is hard to quote, then moved elsewhere, with the source tree hidden:
-# everything that the program reads is installed with it. Also the output of --version, the changelog, and the desktop
-# entry.
+# Runs `cmake --install` into a folder whose name is hard to quote, moves the folder and hides the source tree, to check
+# that everything that the program reads is installed with it. Also checks the output of --version, the changelog, and
+# the desktop entry.
 # Usage: install.sh GEARSHIFT SOURCE_FOLDER BUILD_FOLDER
 set -u
 source=$2
 build=$3
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export XDG_DATA_HOME=$work/data XDG_CACHE_HOME=$work/cache
-unset DISPLAY WAYLAND_DISPLAY DESTDIR MESA_SHADER_CACHE_DIR # the cache is in the hidden folder
+unset DISPLAY WAYLAND_DISPLAY DESTDIR MESA_SHADER_CACHE_DIR # the shader cache's folder is hidden below
 fails() { ! "$@"; }
 
 check "the program is installed" cmake --install "$build" --prefix "$work/erste Größe" --strip >install.txt
@@ -17,7 +17,7 @@ prefix="$work/zweite 'Größe'"
 cd "$prefix" || exit 1
 check "the folders of the assets" test "$(ls share/gearshift/assets | tr '\n' ' ')" = \
   "bindings cars gates lessons models presets udev "
-as_in_the_source() { # compares every file of the assets
+as_in_the_source() { # compares every installed asset with its source
   local file
   find share/gearshift/assets -type f | while read -r file; do
     cmp "$file" "$source/assets/${file#share/gearshift/assets/}" || return 1
@@ -29,12 +29,12 @@ check "every lesson, gate and model" test "$(find share/gearshift -name "*.toml"
 check "nothing else" fails grep -q . <(find . -type f ! -path "./share/gearshift/assets/*" ! -path ./bin/gearshift \
   ! -path "./share/doc/*" ! -path "./share/man/*" ! -name gearshift.desktop ! -name gearshift.svg ! -name "*.rules")
 check "the rule for udev" cmp lib/udev/rules.d/70-gearshift.rules "$source/assets/udev/70-gearshift.rules"
-# Assertions contain the names of their source files; a release build has no assertions.
+# Assertions contain the names of .h and .cpp files, so the check ignores these. A release build has no assertions.
 [ -n "${GEARSHIFT_SANITIZED:-}" ] || # sanitizer builds contain the names of source files, too
   check "the program does not contain the path of the source tree" fails grep -q . \
   <(strings -a bin/gearshift | grep -F "$source/" | grep -vE "\.(h|cpp)$")
 
-# Uses the installed program, with source tree and build folder hidden where mounts are allowed.
+# Uses the installed program. Where mounts are allowed, the source tree and the build folder are hidden meanwhile.
 cat >"$work/use.sh" <<'END'
 set -e
 [ -z "$2" ] || mount -t tmpfs none "$2"
@@ -64,7 +64,7 @@ done
 ln -s "$prefix/bin/gearshift" link
 check "a link to the program finds its files, too" ./link gate paper >gate.txt
 
-# The output of --version.
+# Checks the output of --version.
 version=$("$prefix/bin/gearshift" --version)
 printed() { grep -qE "$1" <<<"$version"; }
 number=$(sed -n 's/^project(gearshift VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
@@ -79,7 +79,7 @@ verbs_of_the_page() { page | sed -n '/^.SH VERBS/,/^.SH OPTIONS/ {/^.TP/ {n; s/^
 verbs_of_the_program() { "$prefix/bin/gearshift" --help | sed -n '/^Verbs:/,$ s/^  \([a-z]*\)  .*/\1/p'; }
 check "the manual page has a line for each verb" diff <(verbs_of_the_page) <(verbs_of_the_program)
 check "and names this version" grep -q "^.TH GEARSHIFT 1 \"[A-Z][a-z]* 20[0-9]*\" \"gearshift $number\"" <(page)
-dead_links() { # prints "PAGE: TARGET" for each relative link in an installed page to a file that is not installed
+dead_links() { # prints "PAGE: TARGET" for each relative link of an installed page whose target is not installed
   local page target
   find "$prefix/share/doc" -name "*.md" | while read -r page; do
     sed '/^```/,/^```/d; s/`[^`]*`//g' "$page" | grep -oP '\]\(\K[^)\s]+' | grep -vE '^[a-z]+:|^#' | while read -r target; do

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Saving the lessons of a simulated driver: a passed lesson is in the report, and its recording replays; a program
-# killed at 20 moments (--full: 50) loses no shift that it reported; programs share a history; an unusable history
-# causes one message, and the lesson is driven anyway.
+# Tests that the lessons of a simulated driver are saved: a passed lesson is in the report, and its recording replays; a
+# program that is killed at 20 moments (with --full: 50) loses no shift that it reported; several programs can share a
+# history; an unusable history causes one message, and the lesson is driven anyway.
 # Usage: lesson.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export XDG_DATA_HOME=$work/data
 
-learn() { # name of the result, arguments ...: drives a lesson and returns its exit code
+learn() { # takes the name for the output and the arguments; drives a lesson and returns its exit code
   local name=$1
   shift
   "$gearshift" lesson "$@" >"$name.txt" 2>"$name.err" </dev/null
@@ -26,7 +26,7 @@ exits() { # takes an exit code and a command
   "$@"
   [ $? -eq "$code" ]
 }
-refuse() { # takes part of the error and the arguments
+refuse() { # takes a part of the error message, and the arguments
   local part=$1
   shift
   exits 2 learn refused "$@" && [ "$(wc -l <refused.err)" -eq 1 ] && grep -qF -- "$part" refused.err
@@ -36,7 +36,7 @@ refuse() { # takes part of the error and the arguments
 check "without a name nothing is saved" learn nobody hill_start
 check "and no folder is made" test ! -e data
 check "a lesson is passed" learn kim hill_start --learner Kim --verbose
-check "and its grade is printed" grep -q '^Run 1: .*Grade 10.0 of 10. Passed.$' kim.txt
+check "and its grade is printed" grep -q '^Run 1: .*Grade 10.0/10. Passed.$' kim.txt
 check "each shift was reported, numbered from 1" grep -q '^  run 1, shift 1 saved: ' kim.txt
 check "and there is no shift 0" exits 1 grep -q 'shift 0' kim.txt
 check "nothing on stderr" test ! -s kim.err
@@ -75,10 +75,10 @@ check "two kinds of guidance" refuse "--guid" hill_start --guided --guidance 1
 check "a database without a learner" refuse "--database" hill_start --database t.db
 check "an invalid mode" refuse "--mode" hill_start --mode both
 
-# Kills the program at up to 50 moments, always with the same database.
+# Kills the program at 20 or 50 moments, always with the same database.
 kills=20
 is_full_run && kills=50
-reported_shifts() { # prints the shifts that the program had reported, as run,shift
+reported_shifts() { # prints the shifts that the program reported, each as RUN,SHIFT
   sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) saved: .*/\1,\2/p' "$@"
 }
 RANDOM=5
@@ -89,7 +89,7 @@ for round in $(seq $kills); do
   "$gearshift" lesson skip_shifts --runs 200 --learner K --database kill/h.db --verbose --seed "$round" \
     >>killed.txt 2>killed.err &
   program=$!
-  # In every second round the kill waits until something was reported, however slow the machine is.
+  # In every second round, the kill waits until the program has reported something, however slow the machine is.
   [ $((round % 2)) -eq 0 ] || timeout 20 sh -c 'until [ -s killed.txt ]; do sleep 0.005; done'
   sleep "0.$(printf %03d $((RANDOM % 281 + 20)))"
   kill -9 $program
@@ -97,10 +97,10 @@ for round in $(seq $kills); do
   reported_shifts killed.txt >>all_reported
   [ -s killed.err ] && cat killed.err
   [ -e kill/h.db ] || continue
-  # the kill came before the program added learner K
+  # skip the round if the kill came before the program added learner K
   if [ ! -s all_reported ] && ! report --learner K --database kill/h.db; then continue; fi
   report --learner K --database kill/h.db --out killed --csv || unusable=$((unusable + 1))
-  # only in every tenth round, because the report above checks the file in every round
+  # Checks the database completely only in every tenth round, because the report above already reads it in every round.
   [ $((round % 10)) -ne 0 ] || is_sound kill/h.db || unusable=$((unusable + 1))
   cut -d, -f1,2 killed/shifts.csv | sort >there
   lost=$((lost + $(sort all_reported | comm -23 - there | wc -l)))
@@ -115,8 +115,9 @@ import sqlite3
 print(sqlite3.connect("kill/h.db").execute("SELECT count(*) FROM lesson_run WHERE ended = 0").fetchone()[0])')" -gt $((kills * 2 / 5))
 check "after the kills a lesson is driven to its end" learn after skip_shifts --learner K --database kill/h.db
 
-# Stopped by a signal, during a lesson or between two: no run stays open, and each recording is complete.
-stopped() { # sends the signal to a lesson; env, because a shell's background children ignore SIGINT
+# A program stopped by a signal, during a lesson or between two lessons: no run stays open, and each recording is
+# complete.
+stopped() { # takes a signal; sends it during a lesson; uses env, because background children ignore SIGINT
   rm -f stopped.txt
   env --default-signal=INT "$gearshift" lesson up_through_the_gears --runs 5000 --learner S --database stop/h.db \
     --verbose >stopped.txt 2>stopped.err </dev/null &
@@ -124,7 +125,7 @@ stopped() { # sends the signal to a lesson; env, because a shell's background ch
   kill -"$1" $!
   wait $!
 }
-newest_recording() { # prints the newest recording, or that a run is still open
+newest_recording() { # prints the newest recording, or "a run is open" if a run has not ended
   python3 -c '
 import sqlite3, sys
 rows = sqlite3.connect(sys.argv[1]).execute("SELECT ended, recording FROM lesson_run ORDER BY id").fetchall()
@@ -162,7 +163,7 @@ check "and the newest replays" bit_for_bit "$(ls both/recordings/*.trace | tail 
 
 # An unusable history: one message, the lesson's normal exit code, and the file stays unchanged.
 cp data/gearshift/history.db good.db
-spoilt() { # takes the description, part of the error, and the file
+spoilt() { # takes the description, a part of the error message, and the file
   cp "$3" before.db
   check "$1: passed" learn spoilt hill_start --runs 2 --learner Kim --database "$3"
   check "$1: one sentence, got: $(cat spoilt.err)" test "$(wc -l <spoilt.err)" -eq 1
@@ -174,16 +175,16 @@ spoilt() { # takes the description, part of the error, and the file
 set_byte() { printf "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>/dev/null; }
 mkdir spoilt
 head -c 10000 good.db >spoilt/half.db
-spoilt "damaged" "it is damaged; the file is unchanged" spoilt/half.db
+spoilt "damaged" "the file is damaged; nothing was changed" spoilt/half.db
 echo "learner,grade" >spoilt/text.db
-spoilt "no history" "it is not a history of this program" spoilt/text.db
+spoilt "no history" "the file is not a gearshift history" spoilt/text.db
 cp good.db spoilt/newer.db
 set_byte spoilt/newer.db 63 '\377' # the last byte of the user version: sqlite.org/fileformat2.html, 1.3
-spoilt "newer" "it was written by a newer version of gearshift" spoilt/newer.db
+spoilt "newer" "the file was written by a newer version of gearshift" spoilt/newer.db
 check "no other files were made there" test "$(ls spoilt | wc -l)" -eq 3
 
-# A user without write permission. Root could write anyway, so root drops that right. (The user nobody may not enter a
-# source tree in root's home.)
+# A user without write permission. Root could write anyway, so root drops that right. (Running as the user "nobody"
+# would not work, because that user may not enter a source tree in root's home.)
 mkdir read_only
 cp good.db read_only/h.db
 chmod 755 "$work"
@@ -195,11 +196,11 @@ overrides=-dac_override,-dac_read_search
 check "read-only: passed" bash -c '"$@" >ro.txt 2>ro.err' - "${as_others[@]}" \
   "$gearshift" lesson hill_start --runs 2 --learner Kim --database read_only/h.db
 check "read-only: one sentence, got: $(cat ro.err)" test "$(wc -l <ro.err)" -eq 1
-check "read-only: the reason is named" grep -q "you have no permission to write to it\|it is read-only\|it cannot be opened" ro.err
+check "read-only: the reason is named" grep -q "you have no permission to write to the file\|the file is read-only\|the file cannot be opened" ro.err
 check "read-only: unchanged" cmp -s read_only/h.db good.db
 chmod 755 read_only
 
-# A full disk: a mounted one where possible, otherwise a limit on file size.
+# A full disk: a small mounted file system where mounts are allowed, otherwise a limit on the file size.
 cat >on_full_disk.sh <<'END'
 mkdir full
 if mount -t tmpfs -o size=1m none full 2>/dev/null; then
@@ -212,7 +213,7 @@ fi
 "$1" lesson hill_start --runs 3 --learner Kim --database full/h.db >full.txt 2>full.err
 code=$?
 cmp -s full/h.db good.db || code=9
-umount full 2>/dev/null # for a mount that root made without a namespace
+umount full 2>/dev/null # needed only if root mounted it without a namespace
 exit $code
 END
 if unshare -rm true 2>/dev/null; then
@@ -220,7 +221,7 @@ if unshare -rm true 2>/dev/null; then
 else
   check "full: passed, and the file is unchanged" bash on_full_disk.sh "$gearshift"
 fi
-reports_losses() { # one message at once, and the losses at the end
+reports_losses() { # stderr has one message at once, and a summary of the losses at the end
   [ "$(wc -l <full.err)" -eq 2 ] && head -n 1 full.err | grep -q "the disk is full" &&
     tail -n 1 full.err | grep -q "not saved: 3 runs"
 }
@@ -248,7 +249,7 @@ if unshare -rm true 2>/dev/null; then
     test "$(grep -c 'the recording failed' small.err)" -eq 1 -a "$(grep -c 'lost' small.err)" -eq 0
 fi
 
-# The recordings of several runs fill the disk: all rows are saved, whatever happens to the recordings.
+# The recordings of several runs fill the disk. All rows must be saved, even if recordings are lost.
 cat >on_filling_disk.sh <<'END'
 mkdir filling && mount -t tmpfs -o size=4m none filling || exit 9
 "$1" lesson up_through_the_gears --learner Kim --database filling/h.db --runs 6 >filling.txt 2>filling.err
@@ -267,9 +268,10 @@ if unshare -rm true 2>/dev/null; then
     grep -q "deleted Kim: 1 session, 6 runs, 24 shifts" filling_gone.txt
 fi
 
-# The database is upgraded by a newer program, or removed, while lessons are driven: reported, together with the losses.
+# The database is upgraded by a newer program, or removed, while lessons are driven. The program must report this, and
+# what it could not save.
 learn taken hill_start --learner Kim --database taken/h.db
-meanwhile() { # command ...: runs it after the third lesson run, while more are driven
+meanwhile() { # takes a command; starts 40 lesson runs, and runs the command during the third run or later
   "$gearshift" lesson skip_shifts --runs 40 --learner Kim --database taken/h.db --verbose \
     >taken.txt 2>taken.err </dev/null &
   local program=$!
@@ -288,17 +290,17 @@ upgrade_history() {
 meanwhile upgrade_history
 check "upgraded: no further run is written" test "$(count_runs)" -eq "$before"
 check "upgraded: reported with the losses, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
-  -n "$(grep "a newer version of gearshift has upgraded it" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
+  -n "$(grep "a newer version of gearshift has upgraded the file" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
 rm -rf taken
 learn taken hill_start --learner Kim --database taken/h.db
 meanwhile rm -f taken/h.db taken/h.db-wal taken/h.db-shm
 check "removed: reported with the losses, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
-  -n "$(grep "it was removed" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
+  -n "$(grep "the file was removed" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
 check "removed: not created again" test ! -e taken/h.db
 
-# The output cannot be delivered, because it is full, closed, or has no reader. Everything is saved, and the exit code
-# reports the failure.
-undelivered() { # takes the name, exit code, and a script that drives three runs with "$@"
+# Standard output is full, closed, or a pipe without a reader. Everything must be saved, and the exit code must report
+# the failure.
+undelivered() { # takes a name, the exit code, and a script that drives three runs with "$@"
   local runs="$gearshift lesson skip_shifts --runs 3 --verbose --learner Kim --database $1.db"
   check "$1: exit $2" exits "$2" bash -c "$3" - $runs
   check "$1: the report is written" report --learner Kim --database "$1.db" --out "$1" --csv
@@ -310,7 +312,8 @@ undelivered said_to_nobody 1 '{ "$@" 2>undelivered.err; echo $? >undelivered.cod
 check "said_to_nobody: reported, got: $(cat undelivered.err)" grep -q "cannot write to standard output" undelivered.err
 undelivered said_to_closed 1 '"$@" >&- 2>undelivered.err'
 check "said_to_closed: reported, got: $(cat undelivered.err)" grep -q "cannot write to standard output" undelivered.err
-mkdir no_folder && touch no_folder/recordings # so that recordings cannot be written; reported where output is possible
+# A file has the name of the recordings folder, so nothing can be recorded. The message about this cannot be printed.
+mkdir no_folder && touch no_folder/recordings
 for way in '2>/dev/full' '2>&-'; do
   cp good.db no_folder/h.db
   check "output to $way: passed" bash -c "\"\$@\" >undelivered.txt $way" - \
@@ -321,7 +324,7 @@ check "closed output: exit 1" exits 1 bash -c '"$@" >&- 2>/dev/null' - \
   "$gearshift" lesson skip_shifts --verbose --trace closed.trace
 check "closed output: the trace replays" bit_for_bit closed.trace
 
-# A mistyped name never overwrites a history; a recording may be overwritten.
+# A mistyped file name must never overwrite a history. A recording may be overwritten.
 cp good.db theirs.db
 check "a history is not overwritten by a recording" exits 2 learn over hill_start --learner Kim --database good.db --trace theirs.db
 check "in a sentence, got: $(cat over.err)" \
@@ -330,7 +333,8 @@ check "and it is unchanged" cmp -s good.db theirs.db
 check "a recording is overwritten" learn over skip_shifts --trace closed.trace
 check "by a recording that replays" bit_for_bit closed.trace
 
-# A history that was moved together with its recordings: they are found, drawn and deleted at the new place.
+# A history that was moved together with its recordings: the recordings must be found, drawn and deleted at the new
+# place.
 learn moved skip_shifts --learner Kim --database before/h.db
 mv before after_the_move
 report --learner Kim --database after_the_move/h.db --out moved
@@ -338,14 +342,14 @@ check "moved: drawn" grep -q 'class="path"' moved/index.html
 check "moved: deleted" report --learner Kim --database after_the_move/h.db --delete --yes
 check "moved: with its recording" test "$(ls after_the_move/recordings | wc -l)" -eq 0
 
-# Names with a special meaning in SQLite are plain file names here.
+# Names with a special meaning in SQLite are plain file names for gearshift.
 for name in :memory: file:name.db?mode=memory; do
   check "$name: passed" learn named hill_start --learner Kim --database "$name"
   check "$name: the file exists" test -s "$name"
   check "$name: Kim is in it" report --learner Kim --database "$name"
 done
 
-# Makes a history with a run of Kim's, and locks it from a second program, whose process is $holder.
+# Makes a history with one run, and locks it from a second program, whose process ID is $holder.
 hold() { # name, duration [s]
   learn "$1" hill_start --learner Kim --database "$1.db"
   python3 -c '
@@ -358,13 +362,13 @@ time.sleep(float(sys.argv[2]))' "$1.db" "$2" >"$1.out" &
   until grep -qs held "$1.out"; do sleep 0.05; done
 }
 
-# A history that is locked for longer than the program waits. The wait takes long, so its result is checked at the end.
+# A history that is locked for longer than the program waits. The wait is long, so its result is checked at the end.
 hold held_on 60
 holder_on=$holder
 learn held_on hill_start --learner Kim --database held_on.db &
 held_on=$!
 
-# A history that is locked during the whole lesson, and released a second after the lesson's end.
+# A history that is locked for 5 s: longer than the lesson, but shorter than the program waits after the lesson.
 hold held 5
 check "held by another program: passed" learn held hill_start --learner Kim --database held.db
 wait $holder
@@ -374,7 +378,7 @@ check "held: both runs are there" test "$(rows held/runs.csv)" -eq 2
 check "held: and completed" test "$(grep -c running held/runs.csv)" -eq 0
 check "held: with their recordings" bit_for_bit "$(ls recordings/*.trace | tail -n 1)"
 
-# The first history above: the loss is reported, although the wait was already reported.
+# The history held_on, which was locked above: the loss must be reported, although the wait was already reported.
 check "held on: passed" wait $held_on
 kill $holder_on
 wait $holder_on 2>/dev/null

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A user drives a lesson in the window, with mouse and keys under Xvfb, and passes; then the simulated driver passes it
-# without a window; both runs are in the report.
+# Tests a lesson in the window: a user drives it with mouse and keys under Xvfb, and passes. Then the simulated driver
+# passes the same lesson without a window. Both runs must be in the report.
 # Usage: lesson_in_window.sh GEARSHIFT SOURCE_FOLDER
 set -u
 needs_machine=yes
@@ -13,7 +13,7 @@ down() { xdotool keydown "$1"; }
 up() { xdotool keyup "$1"; }
 is_over() { printed "lesson moving_off is over"; }
 at_step() { printed "step $1 of 6"; }
-# Time for the engine to respond to the throttle [s]: a key press takes effect up to one frame late, and frames are long
+# [s] Time for the engine to respond to the throttle. A key press takes effect up to one frame late, and frames are long
 # on a busy machine.
 revs=1.2
 first=$("$gearshift" gate "$2/assets/gates/five_speed_r_right_down.toml" --json | python3 -c '
@@ -22,11 +22,11 @@ gears = {gear["name"]: gear for gear in json.load(sys.stdin)["gears"]}
 x, y = gears["1"]["rest_mm"]
 print(round(x), round(y * 1.1))')
 
-size=320x200 # small, because short frames read the keys sooner
+size=320x200 # small, so that frames are short and keys are read sooner
 check "it starts with the lesson" start drive --lesson moving_off --learner Ada --mode follow-me --no-help --no-panel
-check "and prints the lesson's goal" wait_for "lesson moving_off offered: Move off smoothly"
+check "and prints the lesson's goal" wait_for "lesson moving_off is ready to start: Move off smoothly"
 xdotool windowfocus "$window" mousemove --window "$window" 160 50 click 1
-sleep 2 # until the mouse moves the lever; there is no message for it
+sleep 2 # time for the click to take effect, because no message reports that the mouse moves the lever
 check "Enter begins it" press_for Return "lesson moving_off begins" 1
 down a
 check "clutch down" within 20 at_step 2
@@ -48,7 +48,7 @@ sleep $revs
 up a
 check "the car moves off again, and the lesson is over" within 20 is_over
 up f
-check "passed" printed "lesson moving_off is over: grade .* of 10, passed"
+check "passed" printed "lesson moving_off is over: grade .*/10, passed"
 import -window root over.png
 check "the End key ends it" ended_by End
 check "nothing on stderr except that there is no sound" [ "$(grep -vci 'sound' drive.err)" = 0 ]

@@ -15,16 +15,16 @@ import subprocess
 import sys
 
 TURN, SHIFT = math.radians(35), (-0.7, -0.6, 0.9)  # from room to cabin: turn about the vertical [rad], then shift [m]
-GEARS = {"neutral": (0, 0), "first": (-30, 35.8), "reverse": (30, -35.8)}  # [mm] in the gate plane
-# [m] error of the user's controller tip at each touch
+GEARS = {"neutral": (0, 0), "first": (-30, 35.8), "reverse": (30, -35.8)}  # [mm] lever positions in the gate plane
+# Offset of the controller's tip from the knob at each touch [m].
 TIP_OFF = {"neutral": (0.003, 0, 0), "first": (0, 0, 0.003), "reverse": (0, 0.003, 0)}
 # In each round the controller visits the three gears in turn and pulls its trigger there. There are several rounds,
 # because a slow program may miss one.
-ROUND, PULL, ROUNDS = 10, 1.2, 12  # [s], [s], number of rounds
-# [deg] yaw (to the left) and pitch (up) of the controller at each touch
+ROUND, PULL, ROUNDS = 10, 1.2, 12  # duration of a round [s] and of a pull [s]; number of rounds
+# Yaw (to the left) and pitch (up) of the controller at each touch [deg].
 HELD = {"neutral": (0, -60), "first": (45, -60), "reverse": (0, -15)}
-TOUCHED_AT = {"neutral": 0.8, "first": 3.8, "reverse": 7.2}  # [s] within a round
-# [m] the point between the eyes, in the cabin; [deg] yaw and pitch of the head, positive to the left and up
+TOUCHED_AT = {"neutral": 0.8, "first": 3.8, "reverse": 7.2}  # [s] time of the touch within a round
+# Point between the eyes in the cabin [m]; yaw (to the left) and pitch (up) of the head [deg].
 EYE, YAW, PITCH = (0.08, 0.58, 0.02), -35, -42
 
 
@@ -54,7 +54,7 @@ def script():
     pulls = [(ROUND * r + TOUCHED_AT[g], g) for r in range(ROUNDS) for g in GEARS]
     tips = {g: tuple(p + e for p, e in zip(to_room(knob(*GEARS[g])), TIP_OFF[g])) for g in GEARS}
     aim = [pose(tips[g], *HELD[g], t + after) for t, g in pulls for after in (-0.3, PULL + 0.2)]
-    print("stage_origin = {position = [0, 0, 0]}")  # LOCAL and STAGE space coincide, so the program may use either
+    print("stage_origin = {position = [0, 0, 0]}")  # stage and local space coincide, so the program may use either
     print(f"head = [{pose(to_room(EYE), YAW - math.degrees(TURN), PITCH, 0)}]")
     print(f"right = {{aim = [{', '.join(aim)}]}}")
     print('[[input]]\npath = "/user/hand/right/input/trigger/value"')
@@ -76,7 +76,7 @@ def found(seat):
     allowed = saved["error_m"] + 0.0035
     print(f"    the room is turned by {math.degrees(TURN):.2f} deg, found {saved['turn_deg']:.2f}; the knob is seen "
           f"{1e3 * touched:.1f} mm from where it was touched ({1e3 * allowed:.1f} allowed), {1e3 * anywhere:.1f} mm anywhere")
-    return touched <= allowed and anywhere < 0.010  # [m] half of ghost_offset_m, beyond which the ghost hand is shown
+    return touched <= allowed and anywhere < 0.010  # [m] half of ghost_offset_m, above which the ghost hand shows
 
 
 def truth(seat):

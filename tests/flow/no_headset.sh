@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The trainer is started with --xr, but there is no runtime or no headset, or the seat options are invalid: it runs in a
+# Tests the trainer with --xr if there is no runtime or no headset, or if the seat options are invalid: it runs in a
 # window as usual, or prints one error.
 # Usage: no_headset.sh GEARSHIFT SOURCE_FOLDER MANIFEST
 set -u
@@ -11,7 +11,7 @@ source "$flows/checks.sh"
 source "$flows/window.sh"
 source "$flows/worn.sh"
 
-# --- no runtime: a window as usual
+# --- no runtime: the trainer runs in a window as usual
 export XR_RUNTIME_JSON=/nowhere
 begin "without a runtime" start nowhere --xr --silent --no-panel --lesson none --hand "by itself"
 check "the window shows the cabin" within 20 shows_desktop
@@ -23,14 +23,14 @@ check "the message names the remedy" grep -q "^gearshift: no OpenXR runtime foun
 # --- no headset: reported once, however often the program searches for one
 begin "without a headset" wear nothing --lesson none --hand "by itself" < <(echo 'headset = false')
 check "the window shows the cabin" within 20 shows_desktop
-sleep 3 # the program searches again meanwhile
+sleep 3 # long enough for the program to search again
 check "one message" one_line
 check "the missing headset is reported" warned "^gearshift: no headset is connected to gearshift test runtime.*; the desktop shows the cabin"
 xdotool windowfocus "$window"
 check "the End key ends it" ended_by End
 
 # --- rejected options
-refused() { # takes the exit code, part of the error, and the arguments of train
+refused() { # takes the exit code, a part of the error message, and the arguments of train
   timeout 20 "$gearshift" train "${@:3}" >refused.txt 2>refused.err
   [ $? -eq "$1" ] && [ ! -s refused.txt ] && [ "$(wc -l <refused.err)" = 1 ] && grep -q -- "$2" refused.err
 }

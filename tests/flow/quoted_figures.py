@@ -7,8 +7,8 @@ import pathlib
 import re
 import sys
 
-ALONE, BUSY, CABIN = ("jitter", "alone"), ("jitter", "beside one busy thread per core"), ("beside", "beside the cabin drawn at full speed")
-# Placeholders in the name of a row, which match any words.
+ALONE, BUSY, CABIN = ("jitter", "alone"), ("jitter", "with one busy thread per core"), ("beside", "while the cabin is drawn at full speed")
+# Placeholders in row names; each matches any words.
 ANY_WORDS = ("RATE", "DRIVE", "LOAD", "...", "N")
 
 
@@ -50,7 +50,7 @@ def quoted(rows):
     fractions = [-beside("energy", f"energy added by the wall, worst impact, {rate} Hz", "worst fraction of the impact energy") for rate in (500, 1000, 2000)]
     p50, p99 = ("cycle", "whole cycle p50"), ("cycle", "whole cycle p99")
     cabin, driver = (("picture", f"cabin 1280x720, 1x, {what}") for what in ("shadow and mirror", "as the driver sees it"))
-    at_once = max(value for value in rows.all("faults", "^(?!overruns)"))
+    at_once = max(value for value in rows.all("faults", "^(?!consecutive overruns)"))
     yield "p50 {:.0f} ns, p99 {:.0f} ns | 200, 500 ns{} |".format(of(*p50), of(*p99), rows.missed(p50, p99))
     yield "{:.0f} x real time | 1000 x |".format(of("headless", "simulation at 1 kHz"))
     yield "{:.3f}, {:.3f}, {:.3f} mm | 0.02, 0.04, 0.10 |".format(*map(ripple, ("2000 Hz", "1000 Hz", "500 Hz")))
@@ -64,12 +64,12 @@ def quoted(rows):
     yield "{:.0f} ms | 1000 ms |".format(of("picture", "start to first frame, cabin loaded, no pipeline cache"))
     yield "{:.0f} ms (quartiles {:.0f} and {:.0f}); as the driver sees it {:.0f} ms | 60 ms{} |".format(
         of(*cabin), of(*cabin, "quartile_low"), of(*cabin, "quartile_high"), of(*driver), rows.missed(cabin, driver))
-    yield "{:.3f} px at most | 0.1 px |".format(*rows.all("quality", "^projected points"))
+    yield "{:.3f} px at most | 0.1 px |".format(*rows.all("quality", "^projection of"))
     yield "{:.0f} ms | 104 ms |".format(of("picture", "222000 untextured GGX triangles, 1280x720, 1x"))
     yield "within {:.4f} % of the reference; {:.0f} ns a step | 0.01 % |".format(
-        max(rows.all("driveline", ", 1 ms: event midpoint$")), of("driveline", "a step of 1 ms, headless"))
+        max(rows.all("driveline", ", 1 ms: event midpoint$")), of("driveline", "one step of 1 ms without display"))
     yield "{:.0e} and {:.0e} %; {:.0e} and {:.0e} | 0.01 %; rounding |".format(
-        *(of("driveline", name) for name in ("lock-up time against Jr dw / T", "slip energy against Jr dw^2 / 2",
+        *(of("driveline", name) for name in ("lock-up time compared with Jr dw / T", "slip energy compared with Jr dw^2 / 2",
                                              "momentum balance", "energy balance, worst drive")))
     yield "{:.0f} x, {:.0f} x real time | 400 x |".format(of("headless", "simulation at 1 kHz with the driveline"), of("headless", "a whole lesson"))
     yield "{:.1e} relative at 1 ms, {:.1f} ns a step | 1e-12 |".format(of("plant", "exact at 1 ms"), beside("plant", "exact at 1 ms", "cost"))

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Any glTF file as a picture: sizes, samples, cameras, stereo; broken files and arguments give one error.
+# Tests pictures of any glTF file: sizes, samples, cameras, stereo. Broken files and arguments must give one error.
 # Usage: render.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -9,19 +9,19 @@ unset DISPLAY WAYLAND_DISPLAY
 export GEARSHIFT_VALIDATION=1 XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/runtime
 mkdir -m 700 runtime
 
-render() { # takes the picture and the arguments
+render() { # takes the picture file and the arguments
   local picture=$1
   shift
   "$gearshift" render "$@" --out "$picture" >"$picture.txt" 2>"$picture.err" && is_png "$picture" && [ ! -s "$picture.err" ]
 }
 size_of() { od -An -t u1 -j 16 -N 8 "$1" | awk '{print $3*256+$4 "x" $7*256+$8}'; }
-refused() { # takes the exit code, error, and the arguments
+refused() { # takes the expected exit code, a part of the error message, and the arguments of the program
   local code=$1 sentence=$2
   shift 2
   "$gearshift" render "$@" >refused.txt 2>refused.err
   [ $? = "$code" ] && [ "$(wc -l <refused.err)" = 1 ] && grep -qE -- "$sentence" refused.err
 }
-alike() { # takes two pictures and the maximum RMS difference
+alike() { # takes two pictures and an RMS difference; succeeds if theirs is smaller
   [ "$(compare -metric RMSE "$1" "$2" null: 2>&1 | sed "s/.*(\(.*\))/\1/" | awk "{print (\$1 < $3)}")" = 1 ]
 }
 not_alike() { ! alike "$@"; }
@@ -36,7 +36,7 @@ for model in "$models"/*.glb; do
   check "$(basename "$model")" render "$(basename "$model").png" "$model" --size 160x120
 done
 
-# A cube of any size fills the same fraction of the picture when the camera is fitted to it.
+# A cube of any size must fill the same fraction of the picture when the camera is fitted to the cube.
 cube() { # edge in metres
   python3 - "$1" <<'END'
 import base64, json, struct, sys

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The saved data of learners as an instructor uses it: table, page, CSV, comment, next lesson, deletion.
+# Tests the saved data of learners as an instructor uses them: table, page, CSV, comment, next lesson, deletion.
 # Usage: report.sh GEARSHIFT SOURCE_FOLDER FILL_HISTORY
 set -u
 gearshift=$1
@@ -11,7 +11,7 @@ report() { # arguments ...
   "$gearshift" report "$@" >out 2>err </dev/null
 }
 says() { grep -qF -- "$1" out; }
-refuse() { # takes the exit code, part of the error, and the arguments
+refuse() { # takes the expected exit code, a part of the error message, and the arguments of the program
   local code=$1 part=$2
   shift 2
   "$gearshift" report "$@" >out 2>err </dev/null
@@ -64,8 +64,8 @@ report
 check "the suggested lesson is listed again" grep -Eq "start_and_stop$" out
 
 refuse 1 "known learners: Ada <i>Löwe</i>, Bob" --learner Eve
-refuse 1 "runs that do: 1, 2, 3" --learner "$ada" --comment 99 text --by Bo
-refuse 1 "runs that do: none" --learner Bob --comment 1 text --by Bo
+refuse 1 "who has these runs: 1, 2, 3" --learner "$ada" --comment 99 text --by Bo
+refuse 1 "who has these runs: none" --learner Bob --comment 1 text --by Bo
 refuse 2 "--by" --learner "$ada" --comment 1 text
 refuse 2 "--comment" --learner "$ada" --by Bo
 refuse 2 "--comment" --learner "$ada" --comment one text --by Bo
@@ -76,7 +76,7 @@ refuse 2 "different files" --database "a folder/runs.csv" --learner "$ada" --out
 check "no report over its history" cmp -s data/gearshift/history.db "a folder/runs.csv"
 rm "a folder/runs.csv"
 mkdir folder.db
-refuse 1 "it is a folder" --database folder.db
+refuse 1 "this is a folder" --database folder.db
 refuse 2 "--learner" --out t
 refuse 2 "--learner: must not be empty" --learner "" --delete --yes
 refuse 2 "--out: must not be empty" --learner "$ada" --out ""
@@ -88,15 +88,15 @@ refuse 2 "--delete" --learner "$ada" --delete --out t
 refuse 1 "/proc" --learner "$ada" --out /proc/nowhere
 head -c 4096 /dev/urandom >noise.db
 cp noise.db noise.before
-refuse 1 "it is not a history of this program; the file is unchanged" --database noise.db
+refuse 1 "the file is not a gearshift history; nothing was changed" --database noise.db
 check "and the file is unchanged" cmp -s noise.db noise.before
 
-# Deletion requires the name to be typed again; a different name or no name is rejected.
-deletes() { # takes the typed name
+# For a deletion the user must type the learner's name again. A different name or no name is rejected.
+deletes() { # takes the name that the user types
   printf '%s\n' "$1" | "$gearshift" report --learner "$ada" --delete >out 2>err
 }
 check "a different name deletes nothing" test "$(deletes Bob; echo $?)" -eq 1
-# The message must be on its own line, not after the prompt.
+# The message must be on a line of its own, not after the prompt.
 refusal_on_own_line() { [ "$(tail -n 1 err)" = "gearshift: $ada was not deleted: $1" ]; }
 check "and it reports it, got: $(tail -n 1 err)" refusal_on_own_line "the name does not match"
 check "nor does an empty name" test "$(report --learner "$ada" --delete; echo $?)" -eq 1
@@ -111,8 +111,8 @@ check "no byte of the name is left" test "$(cat data/gearshift/* | grep -ac Löw
 report
 check "the other learner is still there" says Bob
 
-# While a second program reads, the deleted rows are still in the database's log: this is reported, and a second
-# deletion removes them.
+# While a second program reads, the database's log still contains the deleted rows. This must be reported, and a second
+# deletion must remove the rows.
 python3 -c '
 import sqlite3, time
 reader = sqlite3.connect("data/gearshift/history.db", isolation_level=None)

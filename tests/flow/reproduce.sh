@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The paper's figures from one command: the complete page; some sections with their files; errors before any folder is
-# made; and figures that depend on the preset: 5 % more mass changes Figs 4, 8 and 9.
+# Tests the paper's figures from one command: the complete page; some sections with their files; errors before any
+# folder is made. A preset with 5 % more mass must change Figs 4, 8 and 9.
 # Usage: reproduce.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 presets=$2/assets/presets
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-reproduce() { # takes the folder and the arguments
+reproduce() { # takes the output folder and the arguments
   local folder=$1
   shift
   "$gearshift" reproduce --out "$folder" "$@" >"$folder.txt" 2>"$folder.err"
@@ -22,7 +22,7 @@ is_svg() { grep -q "</svg>" "$1"; }
 differs() { ! cmp -s "whole/$1" "heavier/$1"; }
 has_units() { head -n 1 "$1" | grep -qE '_(mm|deg|n|hz|s|gw|raw|1)(,|$)'; }
 
-# Every picture, link and table named on the page exists, and every opened tag is closed.
+# Checks that every picture, link and table named on the page exists, and that every opened tag is closed.
 page_is_complete() {
   [ -s "$1/index.html" ] || return 1
   local link
@@ -50,7 +50,7 @@ for table in whole/*.csv; do
   check "units in the header of $table" has_units "$table"
 done
 
-# The same preset gives the same figures; a preset with a different mass does not.
+# The same preset must give the same figures; a preset with a different mass must give different figures.
 figures=(bode_x bode_y wall tour)
 check "a page of three sections" reproduce again --only tour bode wall
 check "it has no other sections" [ "$(grep -c '<section' again/index.html)" -eq 3 ]
@@ -67,7 +67,7 @@ check "a name with markup" reproduce markup --preset markup.toml --only table
 check "the markup is only text" grep -qF '&lt;b&gt;&amp;&quot;' markup/index.html
 check "the paper's own wall" reproduce paper --preset paper --only gate
 
-# A section that fails does not affect the others.
+# A section that fails must not affect the others.
 sed 's/^coulomb_friction_n = .*/coulomb_friction_n = 20/' "$presets/default.toml" >stuck.toml
 reproduce stuck --preset stuck.toml --only bode gate
 check "a section with a stuck lever fails: exit 1" [ $? -eq 1 ]
@@ -82,8 +82,8 @@ check "a rate out of range" refuses 1 --preset slow.toml
 sed 's/^radius_m = .*/radius_m = 0.03/' "$presets/default.toml" >small.toml
 check "a lever that is too small for the gate" refuses 1 --preset small.toml
 
-# Ended early by Ctrl-C at a terminal: all child processes receive the signal, too, and no figure is truncated.
-ended() { # file: interrupts the program when the file appears
+# Ctrl-C in a terminal ends the run early. All child processes receive the signal, too. No figure may be truncated.
+ended() { # takes a file; runs the program and interrupts it when the file appears
   setsid env --default-signal=INT "$gearshift" reproduce --out ended --only wall tour >ended.txt 2>ended.err &
   until [ -e "ended/$1" ] || ! kill -0 $!; do sleep 0.001; done
   kill -INT -- -$!

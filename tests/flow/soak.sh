@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Hours of lessons in real time, with the simulated driver at the lever, in a window that is hidden except for a few
-# seconds per minute; or a week of simulated driving without a window. Memory, open files, threads and the loop's missed
-# deadlines go into a table. Growth is the slope against the hours driven in the second half of the table, minus twice
-# its standard error; it must not exceed a bound.
-# Usage: soak.sh GEARSHIFT SOURCE_FOLDER HOURS|week [CSV [HOURS_OF_WEEK]]: by hand, or shortened by ./test --full
+# Soak test. Drives lessons with the simulated driver: for hours in real time, in a window that is hidden except for a
+# few seconds per minute; or for a simulated week without a window. Records memory, open files, threads and the loop's
+# missed deadlines in a table. Growth is the slope per hour in the second half of the table, minus twice its standard
+# error; it must not exceed a bound.
+# Usage: soak.sh GEARSHIFT SOURCE_FOLDER HOURS|week [CSV [HOURS_OF_WEEK]]
+# Run it by hand; ./test --full runs a shorter version.
 set -u
 gearshift=$1 sources=$2 hours=$3 csv=$(realpath -m "${4:-soak.csv}") week=${5:-168}
 flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -11,7 +12,7 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 echo "what,seconds,rss_kb,files,threads,lessons,missed,too_long" >"$csv"
 
-sample() { # appends a row: what, process, seconds driven, lessons, deadlines missed, cycles too long
+sample() { # appends a row; takes name, process, driven seconds, lessons, missed deadlines, cycles that took too long
   local of=/proc/$2 rss threads files
   rss=$(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\).*/\1/p' "$of/status" 2>/dev/null)
   threads=$(sed -n 's/^Threads:[^0-9]*//p' "$of/status" 2>/dev/null)
@@ -19,11 +20,11 @@ sample() { # appends a row: what, process, seconds driven, lessons, deadlines mi
   [ -z "$rss" ] || [ -z "$threads" ] || echo "$1,$3,$rss,$files,$threads,$4,$5,$6" >>"$csv"
 }
 
-# Judges the second half of each process's rows, because warming up is not growth. The bound of 1 MB per hour is 24 MB
-# per day; saving a learner's lessons needs less. Without a window, sixty lessons count as an hour, which is what a
-# learner needs for them; a simulated driver needs a quarter of that. A process without a window may keep the free
-# channels of one loop, 3.4 MB: this is a step, but looks like a slope in a short run.
-check_growth() { # takes the largest step that is allowed [kB]
+# Checks only the second half of each process's rows, because memory use always rises at first. The bound is 1 MB per
+# hour (24 MB per day). Saving a learner's lessons grows the memory by less. A run without a window is faster than real
+# time, so sixty lessons count as one hour, the time that a learner would need. Such a run may also keep the memory of
+# one finished loop's channels (3.4 MB). That is a single step, but in a short run it looks like a slope.
+check_growth() { # takes the largest allowed single step of memory [kB]
   python3 - "$csv" "$1" <<'END_OF_PYTHON'
 import collections, csv, sys
 bound = {"rss_kb": 1000.0, "files": 0.5, "threads": 0.5}  # per hour
@@ -60,10 +61,10 @@ sys.exit(grown)
 END_OF_PYTHON
 }
 
-# After a lesson, the first Enter offers the next lesson and the second begins it.
 loop_sum() { sed -n "s/^loop: \([0-9]*\) deadlines missed, \([0-9]*\) cycles.*/\\$1/p" soak.txt | paste -sd+ | bc; }
 over() { grep -c ' is over: ' soak.txt; }
-drives() { [[ "$(grep "  lesson .* \(begins\|is over\|offered\)" soak.txt | tail -n 1)" == *begins ]]; }
+drives() { [[ "$(grep "  lesson .* \(begins\|is over\|is ready to start\)" soak.txt | tail -n 1)" == *begins ]]; }
+# Presses Enter twice: after a lesson, the first Enter offers the next lesson, and the second begins it.
 show_for_a_moment() {
   xdotool windowmap "$window" windowfocus "$window"
   sleep 1
@@ -75,7 +76,7 @@ show_for_a_moment() {
 }
 soak_in_window() {
   source "$flows/window.sh"
-  unset GEARSHIFT_VALIDATION # the validation layer's memory is not ours
+  unset GEARSHIFT_VALIDATION # the validation layer's own memory would count as the trainer's
   local end=$((SECONDS + life - 300)) period=60 process missed long
   [ "$life" -gt 900 ] || period=5
   check "it starts" start soak --hand "by itself" --lesson up_through_the_gears --no-help --silent
@@ -96,13 +97,13 @@ soak_in_window() {
   echo "$(over) lessons, $(loop_sum 1) deadlines missed, $(loop_sum 2) cycles too long"
 }
 
-# For each lesson, one process drives it for its fraction of the week. The last drive must equal that of a fresh
-# process, word for word: then no error has accumulated.
-driven_seconds() { # prints the seconds driven in this fraction of the week
+driven_seconds() { # prints the simulated seconds that the process has driven so far
   awk 'match($0, / in [0-9.]+ s\. /) {split(substr($0, RSTART + 4), word, " "); sum += word[1]}
        END {printf "%.0f", sum}' week.txt
 }
-drive_fraction() { # lesson
+# Drives one of the 13 lessons for its equal part of the simulated week, again and again in a single process. The output
+# of the last drive must equal that of a fresh process, word for word, which shows that no error has accumulated.
+drive_fraction() { # takes the lesson's name
   local lesson=$1 lesson_seconds=$((week * 3600 / 13)) seconds runs program
   "$gearshift" lesson "$lesson" >first.txt
   seconds=$(sed -n 's/.* in \([0-9]*\)\.[0-9] s\. .*/\1/p' first.txt | tail -n 1)

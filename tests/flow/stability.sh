@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Stability analysis as a user runs it: the known limits, the map as drawing and table, and every invalid input
-# rejected.
+# Tests the stability analysis as a user runs it: the known limits, the map as a drawing and as a table, invalid inputs.
 # Usage: stability.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -12,12 +11,12 @@ answers() { # arguments ...
 says() { grep -qF -- "$1" out; }
 value() { grep -m 1 "\"$1\":" out | sed 's/.*: //; s/,$//; s/"//g'; }
 is() { [ "$(value "$1")" = "$2" ]; }
-near() { # key, value, tolerance: compares the key's value; the tolerance is relative
+near() { # takes a key, value and relative tolerance; succeeds if the key's value in the output is near the given one
   value "$1" | awk -v want="$2" -v part="$3" \
     '{ off = $1 - want; ok = off <= part * want && -off <= part * want } END { exit !ok }'
 }
 
-refuse() { # takes the exit code, part of the error, and the arguments
+refuse() { # takes the expected exit code, a part of the error message, and the arguments of the program
   local code=$1 part=$2
   shift 2
   "$gearshift" stability "$@" >out 2>err </dev/null
@@ -26,8 +25,8 @@ refuse() { # takes the exit code, part of the error, and the arguments
     test $got -eq "$code" -a "$(wc -l <err)" -eq 1 -a ! -s out -a -n "$(grep -F -- "$part" err)"
 }
 
-# Expected values from tests/haptics/analysis/stability_table_test.cpp: 6032 N/m exact and 6000 passive at 1 kHz; 217
-# with one sample of delay at 100 Hz.
+# Expected limits from tests/haptics/analysis/stability_table_test.cpp: 6032 N/m (exact) and 6000 N/m (passive) at 1
+# kHz; 217 N/m with one sample of delay at 100 Hz.
 check "1 kHz answers" answers --json
 check "1 kHz: exact" near k_max_n_per_m 6032 0.001
 check "1 kHz: passive" near passive_k_max_n_per_m 6000 1e-9
@@ -65,14 +64,15 @@ check "the table begins with the answer" \
   awk -F, 'NR == 2 { ok = $1 == 0 && int($2) == 6031 && $6 == 6000 } END { exit !ok }' map.csv
 check "the table ends where nothing is stable" awk -F, 'END { exit !($1 > 190 && $2 == 0 && $6 == 0) }' map.csv
 
-# A handle on a stiff spring, without damping and with a delay of two samples: no wall is stable with any damping.
+# For a handle on a stiff spring, without damping and with two samples of delay, no wall is stable, whatever its
+# damping.
 check "a map where nothing is stable ends" \
   timeout 10 "$gearshift" stability --damping 0 --stiffness 95000 --delay 2 --svg none.svg --csv none.csv >out 2>err
 check "and reports it" says "not even a soft wall is stable"
 check "its drawing is whole" grep -q "</svg>" none.svg
 check "its table has a width" awk -F, 'END { exit !(NR == 122 && $1 > 0 && $2 == 0) }' none.csv
 
-# How the trainer would limit the same wall.
+# Checks how the trainer would limit a wall of 5000 N/m (the default) and 10 N s/m at 100 Hz.
 answers --hold half_sample --rate 100 --wall-damping 10 --json
 check "the trainer: K" near admitted_wall_stiffness_n_per_m 332.5 1e-9
 check "the trainer: B" near admitted_wall_damping_n_s_per_m 3.325 1e-9
@@ -88,7 +88,7 @@ answers --hold half_sample --rate 4000 --wall-stiffness 90000 --wall-damping 500
 check "the requested stiffness is limited to the trainer's maximum" is asked_wall_stiffness_n_per_m 20000.0
 check "the requested damping, too" is asked_wall_damping_n_s_per_m 100.0
 answers --hold half_sample --rate 4000 --wall-stiffness 90000
-check "and that is reported" says "(requested: K = 20000 N/m, B = 0 N s/m, the largest values that it accepts)"
+check "and that is reported" says "(values out of range were lowered to K = 20000 N/m, B = 0 N s/m, the largest that the trainer accepts)"
 for place in "--rate 50" "--rate 8000" "--window 2"; do
   answers $place --json
   check "the trainer does not run at $place: null" is admitted_wall_stiffness_n_per_m null

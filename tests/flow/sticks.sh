@@ -1,5 +1,5 @@
-# Sourced by the flow tests with force-feedback sticks, which are emulated beneath the real libusb. These tests are
-# called with GEARSHIFT SOURCE_FOLDER STICK_EMULATOR.
+# The flow tests with force-feedback sticks source this file. The sticks are emulated beneath the real libusb. These
+# tests have the arguments GEARSHIFT SOURCE_FOLDER STICK_EMULATOR.
 gearshift=$1
 emulator=$3
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
@@ -10,9 +10,10 @@ mkdir -p "$sticks"
 running=()
 end_all() { kill "${running[@]}" 2>/dev/null; }
 
-with_stick() { timeout 120 umockdev-wrapper "$emulator" "$@"; } # takes OPTIONS -- COMMAND
-printed() { [ "$(cat "$2.txt" 2>/dev/null | grep -c -- "$1")" -ge "${3:-1}" ]; } # takes a pattern, the log, and the minimum count
-within() { # seconds, command ...: repeats the command until it succeeds, for at most this time
+with_stick() { timeout 120 umockdev-wrapper "$emulator" "$@"; } # arguments: OPTIONS -- COMMAND
+# Takes a pattern, the name of a log, and the minimum number of matching lines (default 1).
+printed() { [ "$(cat "$2.txt" 2>/dev/null | grep -c -- "$1")" -ge "${3:-1}" ]; }
+within() { # takes seconds and a command; repeats the command until it succeeds, for at most this time
   local end=$((SECONDS + $1))
   shift
   until "$@"; do
@@ -21,10 +22,10 @@ within() { # seconds, command ...: repeats the command until it succeeds, for at
   done
 }
 
-# Writes a calibration file for an emulated stick. Without "complete", it has only what the user enters (counts decrease
-# forward). With "complete", it has all values, as the calibration measures them when program and emulation share two
-# cores.
-write_calibration() { # takes the file name, vendor, product, serial, low, rest, high, "complete" or nothing
+# Writes a calibration file for an emulated stick. The counts of the y axis fall when the lever moves forward, so
+# `low_counts` of [shift] is the highest count. Without "complete", the file has only the values that the user enters.
+# With "complete", it has all values, as a calibration measures them when program and emulation share two cores.
+write_calibration() { # takes file name, vendor, product, serial, low, rest, high, and "complete" or nothing
   local travel=0 force=0 select=0 shift=0 spring=0 spring_force=0 damper_force=0 mass=0 damping=0 stiffness=0
   local interval=0 delay=0 jitter=0
   [ "${8:-}" = complete ] && travel=0.14 force=20 select=-1 shift=1 spring=1 spring_force=350 damper_force=20 \
@@ -88,7 +89,7 @@ declare -A id=([sidewinder]=045e:001b [openffboard]=1209:ffb0 [vjoy]=1234:bead)
 # A preset whose guard tolerates the lateness of a busy machine.
 printf 'name = "patient"\n[guard]\nstale_time_s = 0.2\noverruns_in_row = 200\n' >patient.toml
 
-# A gate for the hand that leads it to where the paper's gate has a wall, so that it presses into the wall.
+# A gate for the emulated hand. Its slots lead the hand into the walls of the paper's gate, which the program renders.
 cat >elsewhere.toml <<END
 name = "Elsewhere"
 [gate]
@@ -105,12 +106,12 @@ position_mm = 15
 back = "2"
 END
 
-# The six-gear tour with the emulated hand, which shifts while the motors are on. Enter is sent whenever the program
-# asks for it.
+# Settings of tour(), which drives the tour of the paper's gate. The emulated hand shifts while the motors are on.
 tour_seconds=100 # at most
 enters=100       # at most
-hand_gate=paper  # the gate that the hand follows
-confirm_requests() { # log, process: sends an Enter to file 9 for each request, until the process ends
+hand_gate=paper  # the gate that the emulated hand follows
+# Takes the log and the process; sends an Enter to file descriptor 9 for each request, until the process ends.
+confirm_requests() {
   local confirmed=0
   while kill -0 "$2" 2>/dev/null; do
     if [ $confirmed -lt $enters ] && printed "press Enter" "$1" $((confirmed + 1)); then
@@ -120,7 +121,7 @@ confirm_requests() { # log, process: sends an Enter to file 9 for each request, 
     sleep 0.1
   done
 }
-tour() { # takes the name, the family, and options of the emulator
+tour() { # takes the name for the output, the stick family, and options of the emulator
   local name_of_run=$1 family=$2
   shift 2
   mkfifo "$name_of_run.in"
@@ -131,19 +132,19 @@ tour() { # takes the name, the family, and options of the emulator
   confirm_requests "$name_of_run" $run
   wait $run
 }
-in_order() { # checks in the log that every gear was engaged in the tour's order
+in_order() { # takes a log; checks that every gear was engaged in the tour's order
   local wanted gear
-  wanted="$(sed -n 's/^Gears of the tour: \(.*\)\.$/\1/p' "$1.txt" | tr -d ,) "
+  wanted="$(sed -n 's/^The tour visits these gears: \(.*\)\.$/\1/p' "$1.txt" | tr -d ,) "
   for gear in $(awk '/ engaged at/{print $1}' "$1.txt"); do
     [ "$gear" = "${wanted%% *}" ] && wanted=${wanted#* }
   done
   [ -z "$wanted" ]
 }
 replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^identical bit for bit"; }
-zero_force() { # log, event: prints the longest time [ms] for which the motors still pushed after the event
+zero_force() { # takes a log and an event; prints the longest time [ms] for which the motors still pushed after it
   sed -n "s/^stick_emulator: zero force \([0-9]*\) ms after $2.*/\1/p" "$1.err" | sort -n | tail -n 1
 }
-silent_within() { # time [ms], log, event: the motors stopped within this time after the event; an effect lasts 300 ms
+silent_within() { # takes a time [ms], a log and an event; the motors must stop within this time after the event
   local ms
   ms=$(zero_force "$2" "$3")
   [ -n "$ms" ] && [ "$ms" -le "$1" ]

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The tour as a user runs it: every shipped gate, readable plots, a trace that replays bit for bit in a second process,
-# the same hash in two runs, and a damaged trace that is rejected.
+# Tests the tour as a user runs it: every shipped gate, plots, a trace that replays bit for bit in a second process, the
+# same hash in two runs, and a damaged trace that is rejected.
 # Usage: tour_and_replay.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 gates=$2/assets/gates
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
-tour() { # takes the name of the result and the arguments
+tour() { # takes the output folder and the arguments
   local name=$1
   shift
   "$gearshift" tour --out "$name" "$@" >"$name.txt" 2>"$name.err"
@@ -27,6 +27,9 @@ for layout in "$gates"/*.toml; do
   check "drawing of $gate" draws "$gate"
 done
 check "a trace names the program that recorded it" grep -aq "$("$gearshift" --version | head -n 1)" paper/tour.trace
+# The paper's tour with the default preset. If this hash changes, the change must be intended, and CHANGELOG.md must
+# name it.
+check "the hash of the paper's tour, got: $(hash_of paper)" [ "$(hash_of paper)" = "hash fdc801653b99fbf7" ]
 check "order of Fig. 9" [ "$(order_of paper)" = "1 2 3 4 5 R " ]
 check "nothing on stderr, because it is no terminal" [ ! -s paper.err ]
 
@@ -37,11 +40,11 @@ done
 head -n 1 paper/tour.csv >header
 check "units in the header of tour.csv" grep -q "time_s,.*lever_x_mm" header
 
-# With a low speed limit, the guard finds readings implausible and repeatedly switches the forces off, so the tour does
-# not show the gate's feel.
+# With a low speed limit, the guard rejects readings as implausible and repeatedly switches the forces off, so the tour
+# does not show the gate's feel. This must be reported.
 sed 's/^speed_limit_m_per_s = 10 .*/speed_limit_m_per_s = 0.1/' "$2/assets/presets/default.toml" >doubts.toml
 check "without forces: exit 1" [ "$(tour doubts --preset doubts.toml; echo $?)" -eq 1 ]
-falls() { # counts in the table how often the guard's fault column changes from none to a fault
+falls() { # counts in tour.csv how often the guard's fault changes from none to a fault
   tail -n +2 doubts/tour.csv | cut -d, -f27 | awk '$0 != "none" && was == "none" {n++} {was = $0} END {print n}'
 }
 check "without forces: reported once, with number and times, got: $(cat doubts.err), $(falls)" \
@@ -57,7 +60,7 @@ for rate in 100 250 4000; do check "$rate Hz" tour "rate$rate" --rate $rate; don
 for hand in light arm 0.3,8,400; do check "hand $hand" tour "hand$hand" --hand $hand; done
 check "a different seed" tour seed --seed 2
 
-# Presets: a different lever, a delay that enables the observer, and the paper's own wall.
+# Tests three presets: `measured`, `paper` with the paper's own wall, and a longer lever with a delay of two cycles.
 printf 'name = "wide"\n[lever.yoke]\nradius_m = 0.15\n[lever]\ndelay_cycles = 2\nhand = "grip"\n' >wide.toml
 for preset in measured paper wide.toml; do
   tour "preset_$preset" --preset "$preset" --hand grip
@@ -67,7 +70,7 @@ done
 check "the paper's wall is reported as beyond its bound" grep -q "used anyway; the limit is" preset_paper.err
 check "a different seed gives different targets" [ "$(hash_of seed)" != "$(hash_of paper)" ]
 
-# Shifts in the drive of a lesson; a tour has no car, and so no shifts.
+# Lists the shifts of a recorded lesson. A tour has no car and therefore no shifts.
 "$gearshift" lesson skip_shifts --trace lesson.trace >lesson.txt
 check "a lesson's trace replays" sh -c '"$1" replay lesson.trace | grep -q "^identical bit for bit"' sh "$gearshift"
 "$gearshift" replay lesson.trace --shifts >shifts.txt

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The trainer as a user runs it, in a window under Xvfb: the mouse moves the lever through 1-2-3-4-5-R and the gears
-# engage; keys, panel, cameras, full screen, rapid resizing, a recording; and validation reports nothing.
+# Tests the trainer as a user runs it, in a window under Xvfb: the mouse moves the lever through 1-2-3-4-5-R and the
+# gears engage; keys, panel, cameras, full screen, rapid resizing, a recording; and the validation layer reports
+# nothing.
 # Usage: train.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -8,11 +9,11 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 source "$flows/window.sh"
 
-size=320x200 # small, because short frames read the mouse sooner
+size=320x200 # small, so that frames are short and the mouse is read sooner
 check "it starts" start drive --car none --gate paper --hand grip --no-panel
 check "its window exists" [ -n "$window" ]
 xdotool windowfocus "$window" mousemove --window "$window" 160 100 click 1
-sleep 2 # until the mouse moves the lever; there is no message for it
+sleep 2 # time for the click to take effect, because no message reports that the mouse moves the lever
 while read -r gear x y; do
   check "gear $gear by the mouse" shift_to "$gear" "$x" "$y"
 done < <("$gearshift" gate "$2/assets/gates/paper.toml" --json | python3 -c '
@@ -43,7 +44,7 @@ stops=1
 for _ in 1 2 3; do
   xdotool mousemove --window "$window" 150 150
   sleep 0.7
-  xdotool mousemove --window "$window" 565 365 click 1 # moves and clicks within one frame
+  xdotool mousemove --window "$window" 565 365 click 1 # the mouse moves and clicks within one frame
   stops=$((stops + 1))
   check "STOP by a click with the mouse coming from the cabin" wait_for "motors off" $stops
   check "the forces are turned on again" press_for Return "forces starting" $((stops + 1))
@@ -81,7 +82,7 @@ done
 ended_in_memory() {
   "$gearshift" train --offscreen ended --lesson up_through_the_gears --seconds 600 --size 64x36 --no-help --silent \
     >ended.txt 2>ended.err &
-  until [ -d ended ] || ! kill -0 $!; do sleep 0.005; done # afterwards the drive begins
+  until [ -d ended ] || ! kill -0 $!; do sleep 0.005; done # the folder appears just before the drive begins
   kill $!
   wait $!
   [ $? -eq 1 ]

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# A force-feedback stick that is unplugged at random moments of the tour and plugged in again: its motors are off within
-# the specified time, nothing is lost, and the tour continues when the user has turned the forces on again.
-# Usage: unplugged.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR [UNPLUGS [SEED]]: 10 times, or UNPLUGS rounded up to tens
+# Tests a force-feedback stick that is unplugged at random moments of the tour and plugged in again: its motors are off
+# within the specified time, nothing is lost, and the tour continues when the user has turned the forces on again.
+# Usage: unplugged.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR [UNPLUGS [SEED]]
+# Unplugs 10 times, or UNPLUGS times, rounded up to tens.
 set -u
 pairs=$(((${4:-10} + 9) / 10))
 seed=${5:-$RANDOM}
@@ -11,8 +12,8 @@ RANDOM=$seed
 write_calibrations complete
 
 seconds() { echo "$(($1 / 1000)).$(printf %03d $(($1 % 1000)))"; } # from milliseconds
-# Chooses five moments in a tour of about ten seconds. Must not run in a subshell, whose random numbers do not follow
-# the seed.
+# Chooses five moments in a tour of about ten seconds. Must not run in a subshell, where the random numbers do not
+# follow the seed.
 choose_moments() {
   local ms=0
   moments=()
@@ -25,7 +26,10 @@ choose_moments() {
 }
 
 of_family=($families)
-declare -A power_option=([bus]= [wall]=--own-power) max_ms=([bus]=20 [wall]=330) # limits in ms; an effect lasts 300 ms
+# [ms] Time limits until the motors are off. A stick powered by the bus stops at once; its limit is a tolerance of 20
+# ms. A stick with its own power plays the current effect to the end, for at most 300 ms; its limit adds a tolerance of
+# 30 ms.
+declare -A power_option=([bus]= [wall]=--own-power) max_ms=([bus]=20 [wall]=330)
 for ((i = 0; i < pairs; ++i)); do
   family=${of_family[$(((seed + i) % 3))]}
   for power in bus wall; do
@@ -38,7 +42,8 @@ for ((i = 0; i < pairs; ++i)); do
     run=$family.$power.$i
     check "$run: the tour succeeds" [ -e $run.ok ]
     check "$run: every gear is engaged, in order" in_order $run
-    # Four of five: the last unplug may coincide with the last gear.
+    # Only four of the five reports are required, because the last unplug may coincide with the last gear. Five requests
+    # for Enter are required: one per report, and one at the start, when the forces are off.
     check "$run: each unplug is reported" printed "was unplugged" $run 4
     check "$run: and each reconnection" printed "is connected again; its motors are still off" $run 4
     check "$run: only Enter restored its forces" printed "press Enter" $run 5

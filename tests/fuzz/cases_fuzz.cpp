@@ -1,5 +1,5 @@
-// Fuzzes a campaign's cases.csv: the file is either rejected in one sentence and left unchanged, or read without an
-// unfinished last line, continued, and read back the same.
+// Fuzzes `cases.csv`, the results file of a campaign. If the file is rejected, the error message must be one sentence,
+// and the file must stay unchanged. If it is accepted, its cases must be the same after they are written and read back.
 #include <string>
 
 #include "app/lab/campaign/case_file.h"
@@ -18,7 +18,8 @@ std::string text_in(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// The header that a campaign writes first. Without it nearly every input would be rejected at the header.
+// The header that a campaign writes first. Inputs without a header get this one, because nearly all of them would be
+// rejected otherwise.
 const std::string& head() {
   static const std::string text = [] {
     const FuzzedFile file("cases.csv");
@@ -45,8 +46,7 @@ std::string rewritten_text(const CaseFile& cases, const std::filesystem::path& n
   return text_in(name);
 }
 
-// Compares two rewritten files, because the original may contain the cases in a different order: rewriting sorts them
-// by number.
+// Compares two rewritten files. The original may differ from them, because rewriting sorts the cases by number.
 void check_round_trip(const CaseFile& cases) {
   const FuzzedFile first("first.csv"), second("second.csv");
   const std::string text = rewritten_text(cases, first.path());

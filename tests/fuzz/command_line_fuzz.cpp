@@ -1,6 +1,6 @@
-// Fuzzes the command line, one argument per input line: it is parsed, or rejected in one sentence. No verb runs; texts
-// that a verb parses only when it runs (a hand, a size, a camera) are parsed from every line. The first line also
-// becomes the value of the environment variables that locate the user's folders.
+// Fuzzes the command line, with one argument per line of input. The arguments must be parsed, or be rejected in one
+// sentence. No verb runs. Texts that a verb parses only when it runs (a hand, a size, a camera) are parsed from every
+// line. The first line also becomes the value of the environment variables that locate the user's folders.
 #include <stdlib.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ void check_arguments(const std::vector<std::string>& arguments) {
   }
 }
 
-// `read` throws CLI::ValidationError for invalid input.
+// Calls `read`, which throws CLI::ValidationError for invalid input.
 template <class Read>
 void check_text(const Read& read) {
   try {
@@ -88,7 +88,7 @@ void check_size(const std::string& text, bool stereo) {
 void check_camera_text(const std::string& text) {
   try {
     check_camera(text);
-  } catch (const std::invalid_argument& refusal) {  // the verb converts it in the same way
+  } catch (const std::invalid_argument& refusal) {  // the verb converts this exception in the same way
     throw CLI::ValidationError(refusal.what());
   }
 }

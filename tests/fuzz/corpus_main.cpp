@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 // NOLINTBEGIN(readability-identifier-naming,readability-redundant-declaration): libFuzzer requires these names
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-// Without libFuzzer, inputs are not mutated.
+// Stub for libFuzzer's function: without libFuzzer, inputs are not mutated.
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t*, std::size_t size, std::size_t) {
   return size;
 }
@@ -24,7 +24,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): an exce
   for (int i = 1; i < argc; ++i) {
     for (const fs::directory_entry& entry : fs::directory_iterator(argv[i])) {
       std::printf("%s\n", entry.path().c_str());
-      std::fflush(stdout);  // so that the last input printed is the failing one
+      std::fflush(stdout);  // flushes the name, so that it is printed even if this input crashes
       std::ifstream in(entry.path(), std::ios::binary);
       const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
       std::vector<std::uint8_t> data(bytes.begin(), bytes.end());

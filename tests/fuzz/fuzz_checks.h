@@ -1,4 +1,4 @@
-// Checks for all harnesses: a violated invariant prints its name and ends the program, which libFuzzer counts as a
+// Checks for all harnesses: a violated invariant prints its name and aborts the program, which libFuzzer counts as a
 // finding.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace gearshift::test {
 
-inline int accepted_inputs = 0;  // if a corpus has none, it only tests rejections
+inline int accepted_inputs = 0;  // number of inputs accepted; 0: the corpus tests only rejections
 
 inline void check_invariant(bool condition, std::string_view name) {
   if (condition) return;
@@ -24,14 +24,14 @@ inline void check_invariant(bool condition, std::string_view name) {
   std::abort();
 }
 
-// An error message must be one line of printable text, and name its subject.
+// Checks that an error message is one line of printable text and begins with `prefix`, the name of its subject.
 inline void check_sentence(const std::exception& refusal, std::string_view prefix) {
   const std::string_view message = refusal.what();
   const bool is_sentence = message.starts_with(prefix) && message.size() > prefix.size() && message.size() < 4000;
   check_invariant(is_sentence && haptics::is_printable(message), "one sentence, not \"" + std::string(message) + '"');
 }
 
-// A file with the fuzzed bytes, for readers that need a file.
+// A temporary file with the fuzzed bytes, for readers that need a file.
 class FuzzedFile {
  public:
   explicit FuzzedFile(const std::string& name) : path_(folder_ / name) {}

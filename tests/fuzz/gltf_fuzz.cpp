@@ -1,5 +1,5 @@
-// Fuzzes read_gltf(): any bytes are rejected in one sentence or give a valid model. The mutator keeps the lengths in
-// the .glb header consistent, because otherwise nearly every input would be rejected at its header.
+// Fuzzes read_gltf(): any bytes must be rejected in one sentence or give a valid model. The mutator keeps the lengths
+// in the .glb header consistent, because nearly every input would be rejected at its header otherwise.
 #include <algorithm>
 #include <cstring>
 #include <random>
@@ -47,7 +47,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   const std::size_t json_size = size < 28 ? 0 : integer_at(data + 12);
   std::string file;
   const bool is_glb = json_size > 0 && json_size <= size - 28 && text_of(data, size).starts_with("glTF");
-  // Sometimes mutates without regard to the structure, more often for a .gltf, which is text.
+  // Sometimes mutates the bytes without regard to the .glb structure. Does so more often for a .gltf, which is plain
+  // text.
   if (random() % (is_glb ? 8 : 2) == 0) return LLVMFuzzerMutate(data, size, max_size);
   if (!is_glb) {
     file = everything().glb();

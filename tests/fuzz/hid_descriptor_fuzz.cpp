@@ -1,5 +1,6 @@
-// Fuzzes a device's report descriptor: parse_report_descriptor() rejects it or returns valid fields, and the results of
-// find_lever_report() and find_pid() are encoded and decoded without leaving the reports' bytes.
+// Fuzzes a device's report descriptor and checks the laws in hid_laws.h: parse_report_descriptor() must reject the
+// descriptor or return valid fields. Reports found by find_lever_report() and find_pid() must be encoded and decoded
+// within the reports' bytes.
 #include <cstdio>
 #include <cstdlib>
 

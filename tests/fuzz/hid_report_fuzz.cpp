@@ -1,5 +1,5 @@
-// Fuzzes a device's reports, with a layout from tests/data/hid: a report is rejected, or decoded exactly as its bits
-// define it. The first byte of the input selects the device; the rest is the report.
+// Fuzzes a device's reports, with a layout from tests/data/hid. A report must be rejected, or be decoded exactly as its
+// bits define it. The first byte of the input selects the device; the rest is the report.
 #include <algorithm>
 #include <iterator>
 #include <vector>

@@ -1,5 +1,5 @@
-// Fuzzes the file of the bench's last run: the file is read, or rejected in one sentence and set aside. Results that
-// were read are saved again and read back the same.
+// Fuzzes the file with the bench's last run. The file must be read, or be rejected in one sentence and set aside.
+// Results that were read must be the same after saving and reading them again.
 #include "app/lab/bench/last_run.h"
 #include "tests/fuzz/fuzz_checks.h"
 
@@ -24,7 +24,7 @@ bool same(const LastRun& a, const LastRun& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), families);
 }
 
-// A file that cannot be read is kept aside, because the user may want to look at it.
+// Checks that an unreadable file was renamed and not changed, because the user may want to look at it.
 void check_set_aside(const std::filesystem::path& file, std::string_view bytes) {
   std::filesystem::path aside = file;
   aside += ".unreadable";

@@ -1,6 +1,7 @@
-// Fuzzes every kind of TOML file that users or the program write: the file is read, or rejected in one sentence that
-// names it. If its kind can be written, the contents are written and read back the same. The first letter of the input
-// selects the kind: Bindings, Car, Device's calibration, Gate, Headset's seat, Lesson, Preset.
+// Fuzzes every kind of TOML file that users or the program write. The file must be read, or be rejected in one sentence
+// that names the file. If the program can write this kind, the contents are written and must be read back the same. The
+// first letter of the input selects the kind: Bindings, Car, Device's calibration, Gate, Headset's seat, Lesson,
+// Preset.
 #include <cmath>
 
 #include "app/cabin/headset/seat_file.h"
@@ -30,7 +31,7 @@ FuzzedFile& the_file() {
 void read_gate(std::string_view text) {
   const GateLayout layout = parse_gate_layout(text, the_file().path().string());
   check_invariant(layout.text == text, "a layout keeps its text");
-  constexpr double kHalf = 0.08;  // [m] about the half travel of the paper's joystick
+  constexpr double kHalf = 0.08;  // [m] about half the travel of the paper's joystick
   const Gate gate = compile_gate(layout, {kHalf, kHalf});
   check_invariant(!slots(gate).empty(), "a gate has slots");
 }
@@ -77,8 +78,8 @@ void read_device(std::string_view text) {
                   "a calibration is written and read back");
 }
 
-// Writing converts the orientation's quaternion to an angle, which may change its last bits, so orientations are
-// compared with a tolerance.
+// Orientations are compared with a tolerance: writing converts the orientation's quaternion to an angle, which may
+// change the last bits.
 void read_a_seat(std::string_view text) {
   const SeatSettings seat = read_seat(the_file().put(text));
   write_seat(seat, the_file().path());
@@ -93,7 +94,7 @@ void read_a_seat(std::string_view text) {
                     "a knob is written and read back");
   if (!seat.touched) return;
   check_invariant(reread.touched->position == seat.touched->position, "a touched position is written and read back");
-  // q and -q are the same rotation
+  // The quaternions q and -q are the same rotation, hence the absolute value.
   const double alignment = std::abs(glm::dot(reread.touched->orientation, seat.touched->orientation));
   check_invariant(alignment > 1.0 - 1e-12, "an orientation is written and read back");
 }

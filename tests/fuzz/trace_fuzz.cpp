@@ -1,6 +1,7 @@
-// Fuzzes traces: a file is rejected in one sentence, or its cycles are read, exported, written and read back the same,
-// and replayed as `replay` and the trainer do. The mutator changes the contents of the blocks and keeps their checksums
-// valid, because otherwise every input would be rejected at a checksum. It starts from a drive with or without a car.
+// Fuzzes traces. A file must be rejected in one sentence, or its cycles must be the same after they are written and
+// read back. The cycles are also exported, and replayed both as by the verb `replay` and as by the trainer. The mutator
+// starts from the recording of a drive with or without a car. It changes the contents of blocks and then corrects their
+// checksums, because otherwise every input would be rejected at a checksum.
 #include <algorithm>
 #include <optional>
 #include <random>
@@ -42,7 +43,7 @@ std::unique_ptr<LeverLoad> make_load(const std::string& name, const Gate& gate) 
   return no_load ? std::move(no_load) : make_lesson_load(name, gate);
 }
 
-// Records a drive of a few cycles.
+// Returns the recording of a drive of kCycles cycles.
 Trace sample_trace(bool with_car) {
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   SimulatedRunConfig config;
@@ -67,12 +68,12 @@ std::optional<Trace> trace_in(std::string_view bytes) {
     Trace trace{reader.header(), {}, 0};
     for (TraceSample sample; reader.next(sample);) trace.samples.push_back(sample);
     if (!trace.samples.empty()) return trace;
-  } catch (const FileError&) {  // the caller then records a new trace
+  } catch (const FileError&) {  // the caller then uses a newly recorded trace
   }
   return std::nullopt;
 }
 
-// Mutates either all bytes, which may change their count, or eight bytes in place, which are then a changed number.
+// Mutates either all bytes, which may change their count, or only eight bytes in place, as if one number changed.
 void mutate(Bytes& bytes, Random& random) {
   auto* const data = reinterpret_cast<std::uint8_t*>(bytes.data());
   if (bytes.size() < 8 || random() % 4 != 0) {
@@ -89,8 +90,8 @@ void append(std::string& file, std::span<const std::byte> bytes) {
   file.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-// Builds a trace file with valid checksums, whatever its contents. The run's hash begins with the header as the reader
-// will decode it.
+// Builds a trace file with valid checksums from any header and samples. As in the reader, the hash of the run includes
+// the decoded header.
 std::string with_checksums(const Bytes& header, const std::vector<EncodedSample>& samples) {
   Bytes plain, coded;
   RunHash hash = begin_hash(decode_header(header).value_or(TraceHeader{}));
@@ -134,7 +135,7 @@ bool same(const Trace& a, const Trace& b) {
                     [](const TraceSample& x, const TraceSample& y) { return encode_sample(x) == encode_sample(y); });
 }
 
-// Runs `work`. Returns false if it rejected the file, which it must do in one sentence.
+// Returns true if `work` succeeds, and false if it rejects the file, which it must do in one sentence.
 template <class Work>
 bool is_accepted(const Work& work) {
   try {

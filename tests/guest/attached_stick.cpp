@@ -27,13 +27,14 @@ constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr std::uint32_t kFromDevice = 1;
 constexpr const char* kController = "/sys/devices/platform/vhci_hcd.0/";
 constexpr int kFullSpeed = 2;                            // enum usb_device_speed
-constexpr unsigned kDevice = 0x10002;                    // bus 1, device 2, of an invented host
-constexpr std::chrono::microseconds kPollInterval{500};  // between two polls for reports of the stick
+constexpr unsigned kDevice = 0x10002;                    // bus 1, device 2: invented numbers
+constexpr std::chrono::microseconds kPollInterval{500};  // how often the stick is polled for reports
 
 // The header of a USB/IP message, with big-endian numbers.
 struct Message {
   std::uint32_t command = 0, number = 0, device = 0, direction = 0, endpoint = 0;
-  // Their meaning: submit: flags, length, ...; unlink: the request's number; replies: status, length, ...
+  // The contents depend on the kind of message. A submit has flags, length and so on. An unlink has the number of the
+  // request to cancel. A reply has status, length and so on.
   std::array<std::uint32_t, 5> word{};
   std::array<std::uint8_t, 8> setup{};
 };
@@ -56,7 +57,7 @@ bool read_all(int fd, void* to, std::size_t size) {
   return true;
 }
 
-// Ignores errors: a closed connection is detected when the next request is read.
+// Ignores errors, because the next read from the socket detects a closed connection.
 void send_all(int fd, const void* from, std::size_t size) {
   [[maybe_unused]] const ssize_t sent = send(fd, from, size, MSG_NOSIGNAL);
 }
@@ -99,9 +100,9 @@ struct AttachedStick::Wire {
   void reply_to_inputs();
 
   EmulatedStick& stick;
-  std::mutex& mutex;  // guards the stick, the pending requests and writing to the socket
+  std::mutex& mutex;  // guards the stick, the pending requests and writes to the socket
   int server_socket = -1, kernel_socket = -1;
-  std::deque<Message> pending;  // requests for a report that is not available yet
+  std::deque<Message> pending;  // requests for reports that are not available yet
   bool is_ending = false;
   std::thread server, clock;
 };

@@ -1,4 +1,4 @@
-// Common code of the programs in the guest: waiting for a condition, and sticks plugged into the kernel.
+// Common code of the test programs in the guest: waiting for a condition, and sticks plugged into the kernel.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace gearshift::test {
 
 inline constexpr StickFamily kFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy};
 
-// Waits until the condition holds, for at most `seconds`. Returns false if it did not hold in that time.
+// Waits up to `seconds` until the condition holds. Returns false if it still does not hold.
 template <class Condition>
 bool becomes_true(Condition condition, double seconds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -25,7 +25,7 @@ bool becomes_true(Condition condition, double seconds) {
   return true;
 }
 
-// A stick plugged into the kernel.
+// An emulated stick plugged into the kernel.
 struct PluggedStick {
   PluggedStick(const EmulatedStickConfig& config, HandDriver& hand) : stick(config, hand) {
     stick.logs = false;
@@ -37,7 +37,7 @@ struct PluggedStick {
   int vendor() const { return stick.device_descriptor()[8] | stick.device_descriptor()[9] << 8; }
   int product() const { return stick.device_descriptor()[10] | stick.device_descriptor()[11] << 8; }
 
-  // Calls the function with the stick, while nothing else uses it.
+  // Calls the function with the stick, while no other thread uses the stick.
   template <class Function>
   auto with_stick(Function function) {
     const std::lock_guard<std::mutex> lock(mutex);

@@ -1,6 +1,6 @@
 #!/bin/busybox sh
-# First process of the guest: loads the modules, then runs the programs listed in /tests, in order. The last line
-# reports the result.
+# First process of the guest: loads the kernel modules, then runs the programs listed in /tests, in order. The last line
+# of output reports the result.
 b=/bin/busybox
 $b mount -t proc proc /proc
 $b mount -t sysfs sys /sys

@@ -1,6 +1,5 @@
-// Tests the Linux kernel's driver for PID sticks (drivers/hid/usbhid/hid-pidff.c) with the emulated families. The
-// driver is an independent implementation, so its acceptance is evidence that the emulation is right. Runs only in the
-// guest.
+// Tests the emulated sticks with the Linux kernel's driver for PID sticks (drivers/hid/usbhid/hid-pidff.c). The driver
+// is an independent implementation, so its acceptance is evidence that the emulation is right. Runs only in the guest.
 #include <fcntl.h>
 #include <linux/input.h>
 #include <sys/ioctl.h>
@@ -67,7 +66,7 @@ struct KernelStick {
     ioctl(events, EVIOCGBIT(kind, bits.size()), bits.data());
     return (bits[static_cast<std::size_t>(bit / 8)] >> (bit % 8) & 1) != 0;
   }
-  // Returns the effect's id, or the negative error.
+  // Returns the effect's ID, or a negative error number.
   int upload(ff_effect& effect) const {
     effect.id = -1;
     return ioctl(events, EVIOCSFF, &effect) < 0 ? -errno : effect.id;
@@ -110,7 +109,8 @@ TEST_CASE("hid-pidff accepts each family as a PID device, and knows its effects"
     CHECK(stick.has(FF_CONSTANT));
     CHECK(stick.has(FF_SPRING));
     CHECK(stick.has(FF_DAMPER));
-    // If the first block created has index 2, the driver assumes a built-in centring spring: true for the SideWinder.
+    // If the first block created has index 2, the driver assumes that block 1 is a built-in centring spring, and starts
+    // it. This applies to the SideWinder.
     CHECK(stick.has(FF_AUTOCENTER) == (family == StickFamily::sidewinder));
     const int playing = family == StickFamily::sidewinder ? 1 : 0;
     CHECK(becomes_true([&] { return stick.with_stick_state([](EmulatedStick& s) { return s.playing(); }) == playing; },
@@ -119,7 +119,7 @@ TEST_CASE("hid-pidff accepts each family as a PID device, and knows its effects"
 }
 
 TEST_CASE("a constant force from the kernel has the direction of linux/input.h, and ends on time") {
-  // Directions: 0 down (towards the user), 0x4000 left, 0x8000 up, 0xC000 right.
+  // Directions in linux/input.h: 0x0000 down (towards the user), 0x4000 left, 0x8000 up, 0xC000 right.
   const std::array<glm::dvec2, 4> pushes{{{0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}};
   for (StickFamily family : kFamilies) {
     CAPTURE(std::string(to_string(family)));
@@ -218,8 +218,8 @@ TEST_CASE("a full pool rejects a further effect, and accepts it after one was re
     ff_effect more = constant_force(0, 100);
     CHECK(stick.upload(more) == -ENOSPC);
     CHECK(ioctl(stick.events, EVIOCRMFF, last) == 0);
-    // The kernel frees a block through the output pipe and creates one through the control pipe, which may be faster,
-    // so the first attempts may fail.
+    // The kernel frees a block through the output pipe and creates one through the control pipe. The creation may
+    // overtake the freeing, so the first attempts may fail.
     CHECK(becomes_true([&] { return stick.upload(more) >= 0; }, 5.0));
   }
 }

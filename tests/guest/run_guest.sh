@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# Boots Debian's kernel in QEMU and runs programs there: run_guest.sh FOLDER SOURCES "PROGRAM [ARGUMENT...]"...
-# FOLDER caches the kernel (downloaded once) and the initial file system; SOURCES contains tests/data and assets.
+# Boots Debian's kernel in QEMU and runs programs there.
+# Usage: run_guest.sh FOLDER SOURCES "PROGRAM [ARGUMENT...]"...
+# FOLDER caches the kernel, which is downloaded once, and the initial file system. SOURCES is the folder that contains
+# tests/data and assets.
 set -euo pipefail
 folder=$1 sources=$2
 shift 2
@@ -24,7 +26,7 @@ get_kernel() { # downloads the kernel's package and extracts vmlinuz and the mod
 }
 [ -f kernel/vmlinuz ] || get_kernel
 
-copy_program() { # copies a program with its libraries, and appends the program and its arguments to the list
+copy_program() { # PROGRAM [ARGUMENT...]: copies the program and its libraries, and adds its command line to root/tests
   cp "$1" "root/$(basename "$1")"
   echo "/$(basename "$1") ${*:2}" >>root/tests
   local library
@@ -43,11 +45,11 @@ for module in "${modules[@]}"; do cp "kernel/$module.ko" root/modules/; echo "$m
 cp -r "$sources/tests/data/hid" "root$sources/tests/data/"
 cp -r "$sources"/assets/{gates,presets} "root$sources/assets/"
 : >root/tests
-for program in "$@"; do copy_program $program; done  # $program is unquoted, to split it into words
+for program in "$@"; do copy_program $program; done  # unquoted, to split it into words
 (cd root && find . | busybox cpio -o -H newc 2>/dev/null | gzip -1) >initrd
 
-# The guest's clock counts its instructions, one nanosecond each, and skips idle time. So a millisecond stays a
-# millisecond for the guest, however slow the emulating machine is.
+# The guest's clock advances by one nanosecond per instruction and skips idle time. A millisecond in the guest is
+# therefore independent of the speed of the emulating machine.
 timeout 1200 qemu-system-x86_64 -accel tcg -icount shift=0,sleep=off -rtc clock=vm -cpu max -smp 1 -m 512 \
   -nographic -nodefaults -serial stdio -no-reboot -kernel kernel/vmlinuz -initrd initrd \
   -append "console=ttyS0 loglevel=3 panic=-1 mitigations=off" </dev/null | tee log

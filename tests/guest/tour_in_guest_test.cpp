@@ -1,6 +1,6 @@
-// Device driver, calibration and haptic loop with the real libusb and the real kernel: takes a stick over from the
-// kernel's driver, calibrates it, shifts through a tour with a simulated hand, and returns the stick. Runs only in the
-// guest.
+// Tests device driver, calibration and haptic loop with the real libusb and the real kernel. The test takes a stick
+// over from the kernel's driver, calibrates it, shifts through every gear with a simulated hand, and returns the stick.
+// Runs only in the guest.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -31,13 +31,13 @@ using namespace gearshift;
 
 namespace {
 
-constexpr std::int64_t kTick = 1'000'000;  // [ns] between two outputs
+constexpr std::int64_t kTick = 1'000'000;  // [ns] period of the stick's outputs
 
 std::int64_t monotonic_ns() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Name of the kernel driver that is bound to the stick's interface; empty: none.
+// Returns the name of the kernel driver that is bound to the stick's interface; empty if none is.
 std::string kernel_driver() {
   std::error_code none;
   return std::filesystem::read_symlink("/sys/bus/usb/devices/1-1:1.0/driver", none).filename();
@@ -50,7 +50,7 @@ HidIdentity identity_of(const PluggedStick& plugged) {
   return identity;
 }
 
-// Our driver on a stick, set up as in the program.
+// The PID driver, connected to a stick as in the program.
 struct DrivenStick {
   explicit DrivenStick(const PluggedStick& plugged)
       : driver(plugged.stick.report_descriptor()),
@@ -62,7 +62,8 @@ struct DrivenStick {
   StickConnection connection;
 };
 
-// The part of a calibration that the user teaches: the stops in counts, the travel, the full force.
+// The part of a calibration that does not come from measurements with forces: the stops in counts, the travel, the full
+// force.
 DeviceCalibration taught_calibration(const EmulatedStickConfig& config, const PluggedStick& plugged) {
   const bool sidewinder = config.family == StickFamily::sidewinder, vjoy = config.family == StickFamily::vjoy;
   LeverAxisCalibration axis;
@@ -85,8 +86,8 @@ void copy_measured(LeverAxisCalibration& axis, const LeverAxisCalibration& measu
   axis.spring_stiffness = measured.spring_stiffness;
 }
 
-// Calibrates a stick. Without `measured`, measures everything; otherwise only the polarity, and copies the rest from
-// `measured`: the families have the same mechanism, and measuring takes most of the guest's time.
+// Calibrates a stick. If `measured` is null, measures everything. Otherwise measures only the polarity and copies the
+// rest from `measured`, because the families have the same mechanism and measuring takes most of the guest's time.
 DeviceCalibration calibrated(const EmulatedStickConfig& config, const DeviceCalibration* measured) {
   IdleHand idle_hand;
   PluggedStick plugged(config, idle_hand);
@@ -117,7 +118,7 @@ DeviceCalibration calibrated(const EmulatedStickConfig& config, const DeviceCali
   return calibration;
 }
 
-// Stays at the start position until begin() is called, then follows the script.
+// A hand that stays at the start position until begin() is called, and then follows its script.
 class WaitingHand final : public HandDriver {
  public:
   WaitingHand(glm::dvec2 start, std::vector<HandStroke> strokes, double period)
@@ -236,7 +237,8 @@ TEST_CASE("the six-gear tour: a stick is taken from the kernel's driver, calibra
     config.input_interval = 0.002;
     const DeviceCalibration calibration = calibrated(config, measured ? &*measured : nullptr);
     if (!measured) measured = calibration;
-    // A positive force comes from the right and from the user's side (PID 1.0 section 4.2).
+    // A positive device force comes from the right and from the user's side (PID 1.0 section 4.2), so it pushes to the
+    // left (negative x) and away from the user (positive y).
     CHECK(calibration.select.constant_sign == -1);
     CHECK(calibration.shift.constant_sign == 1);
     CHECK(calibration.select.spring_sign == 1);
@@ -248,7 +250,7 @@ TEST_CASE("the six-gear tour: a stick is taken from the kernel's driver, calibra
     drive_tour(plugged, hand, calibration, gate);
     CHECK(becomes_true([] { return kernel_driver() == "usbhid"; }, 5.0));
   }
-  // True values of the mechanism: 0.095 kg and 0.086 kg, springs of 400 N/m.
+  // True values of the emulated mechanism: masses of 0.095 kg and 0.086 kg, springs of 400 N/m.
   CHECK(measured->select.handle.mass == doctest::Approx(0.095).epsilon(0.1));
   CHECK(measured->shift.handle.mass == doctest::Approx(0.086).epsilon(0.1));
   CHECK(measured->select.spring_stiffness == doctest::Approx(400.0).epsilon(0.1));
@@ -259,7 +261,7 @@ TEST_CASE("a stick unplugged while it pushes is found again without udev, silent
   EmulatedStickConfig config;
   config.family = StickFamily::openffboard;
   config.input_interval = 0.002;
-  StillHand hand(hand_pushing({6.0, 0.0}));  // pushes to the end of the neutral aisle
+  StillHand hand(hand_pushing({6.0, 0.0}));  // pushes with 6 N, to the right end of the neutral aisle
   PluggedStick plugged(config, hand);
   DeviceCalibration calibration = taught_calibration(config, plugged);
   calibration.timing = {0.002, 0.001, 0.001, 0.0};

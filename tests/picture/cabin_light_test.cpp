@@ -1,5 +1,5 @@
-// Light in the cabin: compares the engine's windows and lining with rays cast in the model, and checks which nodes the
-// cabin's light affects.
+// Tests of the light in the cabin: compares the engine's windows and lining with rays that are traced in the model, and
+// checks which nodes the cabin's light affects.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -34,7 +34,7 @@ vec3 mean_colour(const Image& picture) {
   return vec3(4.0 * sum / static_cast<double>(picture.rgba.size()));
 }
 
-// Faces that are neither glass nor bodywork.
+// Returns the faces that belong neither to the glass nor to the bodywork.
 std::vector<Face> lining(const Model& model) {
   std::vector<vec3> albedo;
   for (const Material& material : model.materials) {
@@ -63,8 +63,8 @@ std::vector<Face> lining(const Model& model) {
   return faces;
 }
 
-// Returns the nearest face that a ray from kProbe hits; null if the ray leaves through a window (Möller, Trumbore.
-// Fast, Minimum Storage Ray/Triangle Intersection. 1997).
+// Returns the nearest face that a ray from kProbe hits, or null if the ray leaves through a window. Method: Möller,
+// Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997.
 const Face* first_hit(const std::vector<Face>& faces, vec3 direction) {
   const Face* hit = nullptr;
   float nearest = std::numeric_limits<float>::max();
@@ -92,7 +92,7 @@ TEST_CASE("car_cabin() has windows where rays leave the model, and the albedo of
     vec3 albedo{0.0f}, in_model{0.0f};
     float rays = 0.0f;
   };
-  std::array<Lining, 2> half;  // [0] below and [1] above the height of kProbe
+  std::array<Lining, 2> half;  // half[0]: below the height of kProbe; half[1]: above it
   for (int i = 0; i < kRays; ++i) {
     const float y = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / kRays, r = std::sqrt(1.0f - y * y);
     const float phi = 2.39996323f * static_cast<float>(i);
@@ -137,7 +137,7 @@ TEST_CASE("lit by the open sky, the console looks different; the view through th
   const ImageDifference lever =
       difference(photograph(rig.stage.scene(), camera("lever"), 40.0), photograph(as_open, camera("lever"), 40.0), 3);
   CHECK(lever.fraction_beyond > 0.5);
-  // An eye in front of the windscreen sees road, land and bonnet.
+  // From an eye in front of the windscreen, only road, land and bonnet are visible.
   const EyePose outside = look_at({0.335, 0.8, -1.3}, {0.335, 0.2, -4.0});
   const ImageDifference road =
       difference(photograph(rig.stage.scene(), outside, 40.0), photograph(as_open, outside, 40.0), 0);

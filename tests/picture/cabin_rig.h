@@ -1,4 +1,4 @@
-// The real cabin on the software driver, for tests that check pictures.
+// Draws the real cabin with the software driver, for tests that check pictures.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ inline cabin::StageConfig open_gate_cabin() {
   return config;
 }
 
-// Lever point and drawn lever at rest in the given gear, with the car stationary.
+// Input for the stage: the lever at rest in the given gear, in a stationary car.
 inline cabin::StageInput resting_in(const haptics::Gate& gate, int gear) {
   cabin::StageInput input;
   input.lever.gear = gear;

@@ -1,4 +1,4 @@
-// The pseudo-haptic clamp in the picture: the hand moves on, the visible knob does not.
+// Tests the pseudo-haptic clamp: when the hand pushes through a wall, the drawn knob stays at the wall.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -35,8 +35,8 @@ TEST_CASE("the drawn knob is where the exact kinematics put the proxy") {
   config.width = 320;
   config.height = 240;
   CabinRig rig(config);
-  // The tip is on the sphere of the yoke above the plane point p, so its height is sqrt(rho^2 - |p|^2); select is +X of
-  // the cabin, shift is -Z.
+  // tip(p) below: the lever's tip is on the yoke's sphere above the plane point p, so its height is sqrt(rho^2 -
+  // |p|^2), with radius rho. Select is the cabin's +X axis, shift the -Z axis.
   rig.stage.place(resting_in(rig.gate, kNeutralGear));
   const StageConfig cabin = open_gate_cabin();
   const double rho = cabin.yoke.radius;
@@ -53,8 +53,8 @@ TEST_CASE("the drawn knob is where the exact kinematics put the proxy") {
   }
 }
 
-// Loop, stage and picture together: an arm moves the lever into third and leans against the slot's wall with far more
-// force than the motors can produce.
+// Tests loop, stage and picture together. An arm moves the lever into third and leans against the slot's wall with far
+// more force than the motors can produce.
 TEST_CASE(
     "pushed 15 mm through a wall while the loop runs, the lever is still drawn in the slot, apart from the hand") {
   RuntimeConfig running;
@@ -84,7 +84,7 @@ TEST_CASE(
   rig.stage.place(input);
   CHECK(glm::distance(rig.stage.knob(), centre + tip(input.lever.proxy)) < 0.5e-3);
 
-  // Without the ghost of the hand (flags 0), the picture must equal that of a lever that is not pushed.
+  // Without the ghost hand (flags 0), the pushed lever must look exactly like a lever that is not pushed.
   const View view = cabin_view(camera("lever"), config);
   StageInput unpushed = input;
   unpushed.lever.lever = input.lever.proxy;

@@ -1,5 +1,5 @@
-// The right-hand-drive cabin under a mirrored sun must be the mirror image of the left-hand-drive cabin, except for
-// lettering. This checks lighting from the correct side, through normal maps as well, and culling.
+// Under a mirrored sun, the right-hand-drive cabin must be the mirror image of the left-hand-drive cabin, except for
+// lettering. This detects lighting from the wrong side, also through normal maps, and wrong culling.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -31,14 +31,15 @@ struct Region {
   const char* camera;
   int x, y, width, height;  // [px] in the picture of the left-hand-drive cabin
 };
-constexpr Region kRegions[] = {{"driver", 480, 190, 160, 130},  // the passenger's door and the edge of the seat
-                               {"ahead", 500, 0, 140, 200},     // pillar and roof, and the land beside them
+constexpr Region kRegions[] = {{"driver", 480, 190, 160, 130},  // passenger's door, edge of the seat
+                               {"ahead", 500, 0, 140, 200},     // pillar and roof, and land next to them
                                {"gate", 280, 40, 360, 320},     // hand and seat, whose leather has normal maps
                                {"cluster", 150, 110, 340, 160}};
 constexpr std::size_t kDials = 3;
 constexpr Region kSeat[] = {kRegions[2]};
 
-// Renders the views of the given cameras, with the left-hand-drive cabin's sun or its mirror image.
+// Renders the views of the cameras named in `regions`. If `mirror_sun` is true, the sun's direction is mirrored left to
+// right.
 template <std::size_t kCameras>
 std::array<Image, kCameras> render_side(DriveSide side, const Region (&regions)[kCameras], bool mirror_sun,
                                         bool normal_maps = true) {
@@ -73,7 +74,7 @@ Image part(const Image& image, const Region& r) {
   return crop(image, r.x, r.y, r.width, r.height);
 }
 
-// Fraction of pixels that may differ: edges do, because the sample positions of a pixel are not mirror-symmetric.
+// Fraction of pixels that may differ. Edges differ, because the sample positions of a pixel are not mirror-symmetric.
 constexpr double kEdges = 0.04;
 
 ImageDifference mirror_difference(const Region& region, const Image& left, const Image& right) {

@@ -15,7 +15,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// The design goal: differences of at most 3/255 per channel on 99.5 % of the pixels.
+// Design goal: at most 0.5 % of the pixels differ by more than 3/255 in any channel.
 constexpr int kTolerance = 3;
 constexpr double kMaxFractionBeyond = 0.005;
 

@@ -1,5 +1,5 @@
-// Compares stereo pictures of the real cabin, drawn in one pass or two, with single views; with a camera whose near
-// plane intersects the steering wheel.
+// Compares stereo pictures of the real cabin, drawn in one pass or in two, with the picture of each eye alone. The near
+// plane of the camera intersects the steering wheel.
 #include <array>
 
 #include <doctest/doctest.h>
@@ -12,10 +12,10 @@ using namespace gearshift::test;
 
 namespace {
 
-constexpr double kCutsTheWheel = 0.42;  // [m] near plane; the rim is 0.40 m in front of the driver's eye
+constexpr double kCutsTheWheel = 0.42;  // [m] near plane, beyond the wheel's rim at 0.40 m
 
-// [m] A box that each eye sees completely. The shadow map is fitted to the visible part of the box, so the map is the
-// same for one eye and for two.
+// Box [m] that each eye sees completely. The shadow map is fitted to the visible part of this box, so one eye and two
+// eyes use the same map.
 constexpr ShadowBounds kAboutTheGate{{0.22f, 0.0f, -0.40f}, {0.44f, 0.25f, -0.20f}};
 
 RenderConfig small(int eyes, int samples, EyePasses passes = EyePasses::automatic) {
@@ -52,7 +52,7 @@ void check_against_single_views(int samples, EyePasses passes) {
     CHECK_MESSAGE(error.fraction_beyond == 0.0, "eye ", eye, ", worst ", error.worst, "/255");
   }
   const ImageDifference eyes = difference(stereo.renderer.read_eye(0), stereo.renderer.read_eye(1), 3);
-  CHECK(eyes.fraction_beyond > 0.05);  // the eyes see different pictures
+  CHECK(eyes.fraction_beyond > 0.05);  // the left and right pictures differ
 }
 
 }  // namespace

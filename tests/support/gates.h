@@ -1,4 +1,4 @@
-// The shipped gates, compiled for the paper's joystick.
+// The shipped gates, compiled for the joystick that haptics/joystick models.
 #pragma once
 
 #include <string>

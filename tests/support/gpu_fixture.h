@@ -44,7 +44,7 @@ class GpuFixture {
     REQUIRE_MESSAGE(gpu_->validates(), "the package vulkan-validationlayers is not installed");
   }
   ~GpuFixture() {
-    gpu_.reset();  // now the validation layer reports objects that outlive the device
+    gpu_.reset();  // now, because the validation layer then reports objects that outlive the device
     for (const std::string& message : messages_) FAIL_CHECK(message);
   }
   GpuFixture(const GpuFixture&) = delete;
@@ -52,7 +52,7 @@ class GpuFixture {
 
   engine::Gpu& gpu() { return *gpu_; }
   bool silent() const { return messages_.empty(); }
-  // Returns and clears the validation messages so far; these do not fail the test.
+  // Returns and clears the validation messages so far. The returned messages do not fail the test.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
  private:

@@ -1,5 +1,5 @@
-// Memory held through malloc: allocated minus freed. Leaks show up in it more precisely than in the process size that
-// the system reports, which includes fragmentation and caches.
+// Memory that was allocated through malloc and not freed. Leaks are visible in this figure more precisely than in the
+// process size that the system reports, which includes fragmentation and caches.
 #pragma once
 
 #include <malloc.h>

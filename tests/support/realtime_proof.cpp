@@ -32,7 +32,7 @@ std::string RealtimeProof::verdict() const {
 
 namespace {
 
-// Result of the child, in memory shared with its parent.
+// Result of the child process, in memory shared with the parent process.
 struct Report {
   bool filtered = false;
   bool finished = false;

@@ -3,13 +3,13 @@
 // The code runs once in a forked child, so that the state of the test does not change. In the child
 //   allocations   are counted by overriding malloc, free and related functions, which operator new uses, too
 //   locks         are counted by overriding the pthread and semaphore functions that std::mutex and others use
-//   system calls  are trapped by a seccomp filter that allows only exit, and writes to one given descriptor, for
-//                 example that of a device
+//   system calls  are trapped by a seccomp filter that allows only exit, and writes to one given descriptor, such as
+//                 a device's
 // Reading the clock through the vDSO is not a system call. (Seccomp's strict mode does not work here: it forbids the
 // time stamp counter that the vDSO reads.)
 //
-// Link it only to test programs that use it: the overrides affect the whole program. Not built with sanitizers, which
-// override the same functions.
+// Link this library only to test programs that use it, because the overrides affect the whole program. It is not built
+// with sanitizers, which override the same functions.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 namespace gearshift::test {
 
 struct RealtimeProof {
-  bool ran = false;               // the work ran, to its end or to its first system call
+  bool ran = false;               // the work ran, completely or up to its first system call
   std::uint64_t allocations = 0;  // calls of malloc, free and related functions
   std::uint64_t locks = 0;        // calls that lock, try to lock, wait, or wake a waiter
   long system_call = -1;          // number of the first system call; -1: none
@@ -29,7 +29,7 @@ struct RealtimeProof {
   std::string verdict() const;  // one sentence
 };
 
-// `work` must not throw. Not reentrant. writable_fd: a descriptor that `work` may write to; -1: none.
+// `work` must not throw. Not reentrant. `writable_fd`: a descriptor that `work` may write to; -1: none.
 RealtimeProof prove_realtime(const std::function<void()>& work, int writable_fd = -1);
 
 }  // namespace gearshift::test

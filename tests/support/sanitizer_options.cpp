@@ -11,8 +11,8 @@
 #endif
 
 #if defined(GEARSHIFT_ASAN) || defined(__SANITIZE_THREAD__)
-// Libraries stay loaded, so that the sanitizers can name them in reports of leaks and races, and the suppressions below
-// match.
+// Overrides dlclose() to keep all libraries loaded. The sanitizers can then name these libraries in reports of leaks
+// and races, so that the suppressions below match.
 extern "C" int dlclose(void*) {
   return 0;
 }

@@ -1,5 +1,6 @@
-// Selects the letters of a Turkish locale during its lifetime: std::tolower('I') is 'I'. It compiles the locale into a
-// temporary folder, because none may be installed.
+// Selects the letters of a Turkish locale during its lifetime: std::tolower('I') is 'I', because the Turkish lower-case
+// letter (dotless i) does not fit into one byte. The locale is compiled into a temporary folder, because the system may
+// have no Turkish locale.
 #pragma once
 
 #include <cctype>

@@ -7,12 +7,12 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kDistance = 1.4;    // [m] from the driver's eyes
+constexpr double kDistance = 1.4;    // [m] from the driver's eyes to the panel
 constexpr double kWidth = 1.5;       // [m] width of the whole panel
-constexpr double kCardWidth = 0.75;  // [m] width of the lesson card's part
+constexpr double kCardWidth = 0.75;  // [m] width of the lesson card
 
 struct Direction {
-  double aside, above;  // [rad] towards the passenger +, up +
+  double aside, above;  // [rad] positive towards the passenger and up
 };
 constexpr Direction kPanel{36.0 * kDegree, 2.0 * kDegree};
 constexpr Direction kCardFoot{23.0 * kDegree, -6.5 * kDegree};  // direction of the card's lower edge

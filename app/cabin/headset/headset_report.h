@@ -13,10 +13,10 @@ namespace gearshift::cabin {
 
 struct HeadsetReport {
   std::string headset, runtime, state;
-  glm::ivec2 eye{0};  // [px] size of an eye's image
+  glm::ivec2 eye{0};  // [px] size of the image for one eye
   engine::HeadsetTiming timing;
   bool is_tracked = false;
-  bool orientation_only = false;  // the head's orientation is tracked, its position is not known yet
+  bool orientation_only = false;  // the head's orientation is tracked, but its position is not known yet
   SeatSettings seat;
   bool is_touched = false;   // the lever's position was determined by touches
   double touch_error = 0.0;  // [m] distance between real and drawn lever
@@ -28,7 +28,7 @@ struct HeadsetReport {
 struct HeadsetRequests {
   bool recentre = false;
   bool start_touching = false, save_touches = false;
-  bool forget_touches = false;       // cancel a running touch calibration, or else discard the saved one
+  bool forget_touches = false;       // cancels a running touch calibration, or else discards the saved one
   std::optional<double> height;      // [m] new SeatSettings::height
   std::optional<KnobDistance> knob;  // [m] new SeatSettings::knob
   bool forget_knob = false;

@@ -14,18 +14,18 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr glm::dvec3 kUp{0.0, 1.0, 0.0}, kAhead{0.0, 0.0, -1.0};
-constexpr double kMinHorizontal = 0.3;  // [1] a view direction whose horizontal part is smaller gives no heading
-constexpr double kMinSpread = 0.020;    // [m] minimum RMS distance of the touches from their mean
+constexpr double kMinHorizontal = 0.3;  // [1] smallest horizontal part of a view direction that gives a heading
+constexpr double kMinSpread = 0.020;    // [m] minimum RMS distance of the touches from their mean, to fit a rotation
 
-// The heading of the head [rad], positive to the right of the room's -Z. If the user looks straight down, the top of
-// the head points ahead and gives the heading.
+// The heading of the head [rad], positive to the right of the room's -Z. If the user looks straight down or up, the top
+// of the head gives the heading: it then points ahead or back.
 double heading(const glm::dquat& head) {
   glm::dvec3 look = head * kAhead;
   if (std::hypot(look.x, look.z) < kMinHorizontal) look = (look.y < 0.0 ? 1.0 : -1.0) * (head * kUp);
   return std::atan2(look.x, -look.z);
 }
 
-// The pose that turns by `turn` [rad] about the vertical and maps the point `room` to the point `cabin`.
+// A pose that rotates by `turn` [rad] about the vertical and maps the point `room` to the point `cabin`.
 engine::EyePose placed(double turn, glm::dvec3 room, glm::dvec3 cabin) {
   const glm::dquat orientation = glm::angleAxis(turn, kUp);
   return {cabin - orientation * room, orientation};
@@ -42,7 +42,7 @@ void check_knob(const KnobDistance& knob, DriveSide drive) {
   if (away > 0.0) return;
   const bool left = drive == DriveSide::left;
   throw std::invalid_argument(
-      fmt::format("with the driver on the {}, the knob must be on the {}, but {} m to the right was given",
+      fmt::format("when the driver sits on the {}, the knob must be on the {}; {} m to the right is on the wrong side",
                   left ? "left" : "right", left ? "right" : "left", haptics::number_text(knob.right)));
 }
 
@@ -56,9 +56,10 @@ engine::EyePose seat_at_lever(const engine::EyePose& head, const SeatPlaces& pla
   return placed(turn, head.position + away, places.knob);
 }
 
-// As in pivot calibration: an error e of the tip in controller axes is an error R e in the room, where R is the
-// controller's orientation. The part of it that the fit's translation and rotation cannot absorb is linear in e, so its
-// smallest RMS over all directions of e follows from the smallest singular value of this linear map.
+// Computes the fraction as in pivot calibration: an error e of the tip in controller axes is an error R e in the room,
+// where R is the controller's orientation. The part of this error that the fit's translation and rotation cannot absorb
+// is linear in e. The smallest RMS of that part, over all directions of a unit error e, follows from the smallest
+// singular value of the linear map.
 double LeverTouches::tip_error_fraction() const {
   if (touches_.size() < 3) return 0.0;
   const double count = static_cast<double>(touches_.size());
@@ -84,8 +85,9 @@ double LeverTouches::tip_error_fraction() const {
   return std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / count);
 }
 
-// A turn by a about y maps (x, z) to (x cos a + z sin a, z cos a - x sin a). The sum of squared distances between
-// turned room points and cabin points is smallest where the sum of their scalar products is largest.
+// Least-squares fit of a rotation about y by the angle a, which maps (x, z) to (x cos a + z sin a, z cos a - x sin a).
+// The sum of squared distances between rotated room points and cabin points is smallest where the sum of their scalar
+// products, along * cos a + across * sin a, is largest: a = atan2(across, along).
 std::optional<LeverTouches::Fit> LeverTouches::fit(const engine::EyePose& now) const {
   if (touches_.empty()) return std::nullopt;
   const double count = static_cast<double>(touches_.size());

@@ -10,8 +10,8 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr std::size_t kMinTouches = 3;
-constexpr double kMinErrorFraction = 0.15;  // [1] minimum of tip_error_fraction(); 45 deg about two axes give 0.26
-constexpr double kMaxEyeOffset = 0.6;       // [m] a seated driver's head is closer than this to the eye point
+constexpr double kMinErrorFraction = 0.15;  // [1] minimum tip_error_fraction(); 45 deg turns about two axes give 0.26
+constexpr double kMaxEyeOffset = 0.6;       // [m] maximum distance of a seated driver's head from the eye point
 
 }  // namespace
 
@@ -43,14 +43,14 @@ void SeatCalibration::seat_if_needed(const engine::EyePose& head, glm::dvec3 kno
     cabin_from_room_ = seat_at_eyes(head, places_, settings_.height);
 }
 
-// Uses the saved touch calibration again. It is wrong if the room was set up again while this program was not running,
-// which can be detected only if the head is far from the driver's seat as a result.
+// Restores the saved touch calibration. If the user set up the room again while this program was not running, the
+// calibration is wrong. The program detects this only if the calibration places the head far from the driver's eye
+// point.
 void SeatCalibration::restore_touch(const engine::EyePose& head) {
   if (glm::distance(*settings_.touched * head.position, places_.eye) > kMaxEyeOffset) {
     message_ =
-        "according to the saved touch points, your head is far from the steering wheel. Sit down and recentre, or "
-        "touch "
-        "the knob again.";
+        "the saved touch points place your head far from the steering wheel. Sit down and recentre, or touch the knob "
+        "again.";
     return;
   }
   touched_ = settings_.touched;
@@ -73,8 +73,9 @@ void SeatCalibration::on_headset_lost() noexcept {
   touched_.reset();
 }
 
-// Adapts to a change of the tracking space. If its origin has moved, transforms the calibration, because the real lever
-// has not moved. If the user has recentred, seats the user again; a touched lever still determines the position.
+// Adapts to a change of the tracking space. If the user has recentred, seats the user again; the position still comes
+// from the touch calibration if there is one. If the space's origin has moved, transforms the calibration, because the
+// real lever has not moved. If the origin's new place is unknown, drops the touch calibration.
 void SeatCalibration::follow(const engine::SpaceChange& change, bool is_room_persistent) {
   if (!change.is_session_space) {
     recentre();
@@ -93,7 +94,7 @@ void SeatCalibration::follow(const engine::SpaceChange& change, bool is_room_per
     return;
   }
   if (touched_ || (settings_.touched && is_room_persistent))
-    message_ = "the room was set up again, so the touch points no longer apply. Touch the knob again.";
+    message_ = "the headset's room setup has changed, so the touch points no longer apply. Touch the knob again.";
   touched_.reset();
   recentre();
   if (!settings_.touched || !is_room_persistent) return;
@@ -119,10 +120,12 @@ void SeatCalibration::finish_touching(double bound, bool is_room_persistent) {
         "again";
     return;
   }
-  const double error = fit_.worst / fraction;  // [m] possible error of the tip: `worst` shows only this fraction of it
+  const double error = fit_.worst / fraction;  // [m] largest possible tip error; `worst` is only `fraction` of it
   if (error > bound) {
     message_ = fmt::format(
-        "the lever may be up to {:.0f} mm from where it is drawn; at most {:.0f} mm is allowed. Touch the knob again.",
+        "the drawn lever could be as much as {:.0f} mm away from the real one, but only {:.0f} mm is allowed. Touch "
+        "the "
+        "knob again.",
         1e3 * error, 1e3 * bound);
     stop_touching();
     return;
@@ -133,8 +136,8 @@ void SeatCalibration::finish_touching(double bound, bool is_room_persistent) {
   touches_.forget();
   if (!is_room_persistent) {
     message_ =
-        "the lever is drawn where you touched it, but only for this session, because the headset's runtime cannot "
-        "recognise the room again";
+        "the touch points apply to this session only, because the headset's runtime cannot recognise the room next "
+        "time";
     return;
   }
   settings_.touched = touched_;

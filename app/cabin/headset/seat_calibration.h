@@ -15,7 +15,7 @@ namespace gearshift::cabin {
 
 class SeatCalibration {
  public:
-  // file: the file in which the settings are saved; empty: they are not saved. driver_eye: in cabin axes.
+  // `file`: where the settings are saved; if empty, they are not saved. `driver_eye`: in cabin axes.
   SeatCalibration(const SeatSettings& settings, std::filesystem::path file, glm::dvec3 driver_eye);
 
   const engine::EyePose& cabin_from_room() const noexcept { return cabin_from_room_; }
@@ -23,21 +23,22 @@ class SeatCalibration {
   void save_settings();
 
   // Call for each displayed frame. If the user is not seated yet, places the head at the driver's eyes, or relative to
-  // the lever if its position is known. is_room_persistent: the tracking space is the same in the next session.
+  // the lever if the lever's position is known. `is_room_persistent`: true if the tracking space stays the same in the
+  // next session.
   void seat_if_needed(const engine::EyePose& head, glm::dvec3 knob_at_rest, bool is_room_persistent);
   void recentre() noexcept { is_seated_ = false; }
   void on_headset_removed() noexcept;  // call when the headset is taken off: the next user is seated again
-  void on_headset_lost() noexcept;     // call when the connection is lost: only the saved settings are kept
+  void on_headset_lost() noexcept;     // call when the connection is lost: only the saved settings remain
   void follow(const engine::SpaceChange& change, bool is_room_persistent);
 
   bool is_touching() const noexcept { return touching_; }
-  void touch(const engine::EyePose& tip, glm::dvec3 knob_top);  // tip: in the room; knob_top: in the cabin
-  // bound [m]: allowed distance between real and drawn lever.
+  void touch(const engine::EyePose& tip, glm::dvec3 knob_top);  // tip: pose in the room; knob_top: in the cabin
+  // `bound` [m]: maximum allowed distance between real and drawn lever.
   void apply_requests(const HeadsetRequests& requests, double bound, bool is_room_persistent);
 
   double touch_error() const noexcept { return touched_ ? touch_error_ : 0.0; }  // [m] between real and drawn lever
   void report(HeadsetReport& report) const;
-  std::string take_message();  // returns each message once, one sentence; empty: no message
+  std::string take_message();  // one sentence, returned only once; empty: no message
 
  private:
   void restore_touch(const engine::EyePose& head);
@@ -49,7 +50,7 @@ class SeatCalibration {
   SeatPlaces places_;
   engine::EyePose cabin_from_room_;
   bool is_seated_ = false;
-  std::optional<engine::EyePose> touched_;  // the touch calibration in use: pose of the room in the cabin
+  std::optional<engine::EyePose> touched_;  // active touch calibration: pose of the room in the cabin
   double touch_error_ = 0.0;                // [m] error of touched_
   bool touching_ = false;
   engine::EyePose before_touching_;

@@ -22,14 +22,14 @@ double turn_of(const engine::EyePose& pose) {
   return glm::degrees(2.0 * std::atan2(pose.orientation.y, pose.orientation.w));
 }
 
-// A line with the shortest decimal number that reads back exactly.
+// A line with the shortest decimal number from which the value is read back exactly.
 std::string line(const char* key, double value) {
   char digits[64];
   return fmt::format("{} = {}\n", key, std::string(digits, std::to_chars(digits, digits + sizeof digits, value).ptr));
 }
 
 std::string text_of(const SeatSettings& seat) {
-  std::string text = "# Positions of driver and lever, saved by gearshift train --xr.\n\n";
+  std::string text = "# Positions of the driver and the lever, saved by gearshift train --xr.\n\n";
   text += fmt::format("drive = \"{}\"\n", seat.drive == DriveSide::left ? "left" : "right");
   text += line("seat_height_m", seat.height);
   if (seat.knob) {
@@ -38,9 +38,9 @@ std::string text_of(const SeatSettings& seat) {
   }
   if (seat.touched) {
     const glm::dvec3& at = seat.touched->position;
-    text += "\n[touched]  # the room's origin in the cabin\n" + line("x_m", at.x) + line("y_m", at.y) +
-            line("z_m", at.z) + line("turn_deg", std::remainder(turn_of(*seat.touched), 360.0)) +
-            line("error_m", seat.touch_error);
+    text += "\n[touched]  # where the headset's room lies in the cabin, found by touching the knob\n" +
+            line("x_m", at.x) + line("y_m", at.y) + line("z_m", at.z) +
+            line("turn_deg", std::remainder(turn_of(*seat.touched), 360.0)) + line("error_m", seat.touch_error);
   }
   return text;
 }
@@ -78,7 +78,7 @@ SeatSettings read_seat(const std::filesystem::path& file) {
 }
 
 void write_seat(const SeatSettings& seat, const std::filesystem::path& file) {
-  std::error_code ignored;  // a failure is reported by the write below
+  std::error_code ignored;  // ignored, because the write below reports the failure
   std::filesystem::create_directories(file.parent_path(), ignored);
   haptics::write_verified_file(file, text_of(seat), [](const std::filesystem::path& part) { (void)read_seat(part); });
 }

@@ -1,4 +1,4 @@
-// The seat calibration, saved between sessions.
+// Reads and writes the seat calibration, which is saved between sessions.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace gearshift::cabin {
 struct SeatSettings {
   DriveSide drive = DriveSide::left;       // the driver's side
   double height = 0.0;                     // [m] -0.3 to 0.3: raises the seat; unused if the lever's position is known
-  std::optional<KnobDistance> knob;        // [m] measured from the eyes, each -1.5 to 1.5
+  std::optional<KnobDistance> knob;        // [m] distances from the eyes, each -1.5 to 1.5
   std::optional<engine::EyePose> touched;  // pose of the room in the cabin, from touching the lever
   double touch_error = 0.0;                // [m] 0 to 0.1: error of `touched`
 };

@@ -10,12 +10,12 @@ namespace gearshift::cabin {
 
 namespace {
 
-// Place of the engine's sound: ahead of the dashboard, 0.2 m to the driver's right. The engine itself is in the car's
-// middle, 0.37 m to the right, but the whole bulkhead radiates its sound.
+// Place of the engine's sound: ahead of the dashboard, 0.2 m to the driver's right. The real engine is in the car's
+// middle, 0.37 m to the right, but its sound comes from the whole bulkhead.
 constexpr glm::vec3 kEnginePlace{0.2f, 0.2f, -1.5f};  // [m]
 constexpr glm::vec3 kCluster{0.0f, 0.37f, -0.70f};    // [m]
 constexpr float kWarningGain = 0.55f, kOverRevGain = 0.45f;
-constexpr float kWarningRadius = 0.5f;  // [m] so large that both ears hear a warning, wherever the driver looks
+constexpr float kWarningRadius = 0.5f;  // [m] so large that both ears hear the warning in every head pose
 
 }  // namespace
 
@@ -36,14 +36,14 @@ void CabinSound::set_config(const CabinSoundConfig& config) {
   for (const auto& [cylinders, engine] : engines_) engine.set(world_, 0.0, 0.0, 0.0, kEnginePlace);
   config_ = config;
   config_.cylinders = std::clamp(config.cylinders, 1, 12);
-  if (config_.engine) engine_voices();  // synthesised now, because synthesis in update() would delay a frame
+  if (config_.engine) engine_voices();  // synthesised here, because synthesis in update() would delay a frame
   world_.set_volume(config_.volume);
 }
 
 void CabinSound::on_event(const haptics::HapticEvent& event, glm::vec3 knob) {
   switch (event.kind) {
     case haptics::EventKind::wall_contact: {
-      // The peak force of an impact on a spring is proportional to its speed: v sqrt(k m).
+      // The gain is proportional to the impact speed, like the peak force when a mass hits a spring.
       const double gain = std::clamp(event.value / config_.loudest_impact, 0.0, 1.0);
       return world_.play(knock_, {knob, static_cast<float>(gain)});
     }
@@ -56,7 +56,7 @@ void CabinSound::on_event(const haptics::HapticEvent& event, glm::vec3 knob) {
     case haptics::EventKind::saturation_begin:
       return saturation_.hold.begin();
     default:
-      return;  // a warning's end is in the snapshot's flags; other events have no sound
+      return;  // silent; update() reads the end of a warning from the snapshot's flags
   }
 }
 

@@ -1,4 +1,4 @@
-// The sounds of the cabin: engine, starter, stall, grind, knocks, detents, warnings. All sounds are synthesised.
+// The sounds of the cabin: engine and driveline, knocks, gear clicks, warnings. All sounds are synthesised.
 #pragma once
 
 #include <map>
@@ -19,12 +19,12 @@ struct CabinSoundConfig {
   float volume = 0.7f;  // [1] 0 to 1
   bool engine = true;
   int cylinders = 4;            // 1 to 12; the four-stroke engine fires cylinders / 2 times per revolution
-  double dog_teeth = 36.0;      // [1] > 0; number of dog teeth, sets the pitch of the grind
-  double loudest_impact = 0.5;  // [m/s] impact speed for full gain of the knock; proportionally less below it
+  double dog_teeth = 36.0;      // [1] > 0; number of dog teeth; determines the pitch of the grind
+  double loudest_impact = 0.5;  // [m/s] impact speed at which the knock has full gain; proportional below
 };
 
-inline constexpr double kWarningLength = 0.3;  // [s] minimum length of a warning
-// [s] Saturation or over-rev that returns within this time continues the same warning.
+inline constexpr double kWarningLength = 0.3;  // [s] minimum duration of a warning
+// [s] If saturation or over-rev returns within this time, the same warning continues.
 inline constexpr double kSaturationHold = 0.25;
 
 class CabinSound {
@@ -34,8 +34,8 @@ class CabinSound {
 
   void on_event(const haptics::HapticEvent& event, glm::vec3 knob);  // call once for each event of the loop
   // Call in each frame, after on_event(). Updates the sounds of engine (by speed and load), starter, judder, limiter
-  // and grind; plays a chime when the engine stalls; sounds warnings while over-push, saturation or over-rev last.
-  // Calls the world's update(time) at the end. Coordinates are the cabin's: metres, +X right, +Y up, -Z ahead.
+  // and grind; plays a chime when the engine stalls; sounds warnings as long as over-push, saturation or over-rev
+  // lasts. Calls the world's update(time) at the end. Cabin coordinates: metres, +X right, +Y up, -Z ahead.
   void update(const haptics::HapticSnapshot& lever, const vehicle::VehicleState& car, const engine::EyePose& ears,
               glm::vec3 knob, double time);
   void set_config(const CabinSoundConfig& config);
@@ -57,7 +57,7 @@ class CabinSound {
   engine::ClipId knock_, gear_in_, gear_out_;
   CarVoices car_;
   Warning over_push_, saturation_, over_rev_;
-  // The engines by number of cylinders. A SoundWorld never drops its clips, so each engine is synthesised only once.
+  // Engine sounds by number of cylinders. A SoundWorld never frees its clips, so each engine is synthesised only once.
   std::map<int, EngineVoices> engines_;
 };
 

@@ -13,10 +13,10 @@ namespace gearshift::cabin {
 
 namespace {
 
-constexpr double kFiringsAt1Rpm = 2.0 / 60.0;  // [Hz] firing rate of four cylinders per 1/min of engine speed
+constexpr double kFiringsAt1Rpm = 2.0 / 60.0;  // [Hz] four-cylinder firing rate per 1/min of engine speed
 
 struct Partial {
-  double frequency;  // [Hz] a whole number of periods must fit in the loop
+  double frequency;  // [Hz] the loop must contain a whole number of periods
   double amplitude;
 };
 
@@ -28,19 +28,19 @@ void add_partials(std::vector<float>& loop, std::initializer_list<Partial> parti
   }
 }
 
-// Phase of sample n between two beats of a loop with `count` beats and `size` samples, 0 to 1.
+// Position of sample n between two beats, 0 to 1, in a loop with `count` beats and `size` samples.
 double phase_of(std::size_t n, std::size_t count, std::size_t size) {
   return static_cast<double>(n * count % size) / static_cast<double>(size);
 }
 
-// Envelope that rises at the beat and then decays. rise, fall: durations as fractions of the beat period [1].
+// Envelope that rises at the beat and then decays. `rise` and `fall`: durations as fractions of the beat period [1].
 double beat(double phase, double rise, double fall) {
   return std::min(phase / rise, 1.0) * std::exp(-phase / fall);
 }
 
-// A loop with the same strike at every beat; the tail of the last strike continues at the beginning of the loop.
+// A loop with the same strike at every beat; the tail of the last strike wraps around to the beginning of the loop.
 std::vector<float> repeated_strikes(std::size_t size, std::size_t beats, std::initializer_list<Mode> modes) {
-  constexpr double kTail = 0.3;  // [s] by then the slowest mode has decayed to exp(-10)
+  constexpr double kTail = 0.3;  // [s] after this time the slowest mode has decayed to exp(-10)
   std::vector<float> hit(samples_in(kTail)), out(size);
   strike(hit, 0.0, 1.0, modes);
   fade_out(hit, 0.05);
@@ -68,7 +68,7 @@ std::vector<float> grind_loop() {
       strength = 0.75f + 0.25f * strengths.next();
     }
     const auto gate = static_cast<float>(beat(phase_of(n, kTeeth, out.size()), kRise, kFall));
-    out[n] = std::tanh(8.0f * strength * gate * out[n]);  // distortion makes noise sound like rattle
+    out[n] = std::tanh(8.0f * strength * gate * out[n]);  // distortion makes the noise sound like a rattle
   }
   normalise(out, 0.9f);
   return out;
@@ -129,7 +129,7 @@ std::vector<float> over_rev_loop() {
 }
 
 std::vector<float> stall_chime() {
-  constexpr double kApart = 0.22;  // [s] from the first bell to the second
+  constexpr double kApart = 0.22;  // [s] time between the two bells
   std::vector<float> out(samples_in(1.2));
   for (const int n : {0, 1}) {
     const double f = kStallTones[n];

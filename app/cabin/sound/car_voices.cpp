@@ -11,12 +11,12 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr double kMinGrindGain = 0.32, kMaxGrindGain = 0.50;  // [1]
-constexpr double kLoudGrind = 100.0;                          // [W] power for kMaxGrindGain: the hand pushes hard
+constexpr double kLoudGrind = 100.0;                          // [W] from this power on, the gain is kMaxGrindGain
 constexpr double kStarterGain = 0.30, kJudderGain = 0.60, kLimiterGain = 0.22, kChimeGain = 0.8;  // [1]
-constexpr double kCutHold = 0.12;     // [s] longer than the limiter's pauses between fuel cuts
+constexpr double kCutHold = 0.12;     // [s] longer than the pauses between the limiter's fuel cuts
 constexpr float kChimeRadius = 0.5f;  // [m] so large that both ears hear the chime
 
-// Pitch at which a loop made for `loop_speed` must be played for `speed`.
+// Playback pitch that makes a loop for `loop_speed` sound like one for `speed`.
 float pitch_of(double speed, double loop_speed) {
   return static_cast<float>(speed / loop_speed);
 }

@@ -1,4 +1,4 @@
-// Plays the driveline's sounds: starter, stall, limiter, grinding dogs.
+// Plays the driveline's sounds: starter, judder, stall, limiter, grinding dogs.
 #pragma once
 
 #include <vector>
@@ -11,13 +11,14 @@
 
 namespace gearshift::cabin {
 
-// Rate at which teeth pass each other [Hz]: |difference| * teeth / (2 pi). difference [rad/s]: of the two speeds.
+// Rate [Hz] at which the teeth of two parts pass each other: |difference| * teeth / (2 pi). `difference`: difference of
+// the two speeds [rad/s].
 double tooth_pass_rate(double difference, double teeth) noexcept;
-// Gain, 0 to 1, of the sound of dogs that rattle with this power [W]. It grows from an audible minimum with the square
-// root of the power.
+// Gain, 0 to 1, for the sound of dogs that rattle with this power [W]. The gain grows from an audible minimum with the
+// square root of the power.
 double grind_gain(double power) noexcept;
 
-// Starts a loop at gain 0.
+// Starts playing a loop with gain 0.
 engine::VoiceId start_silent_loop(engine::SoundWorld& world, const std::vector<float>& samples);
 
 class CarVoices {
@@ -27,7 +28,8 @@ class CarVoices {
   struct Place {
     glm::vec3 engine{0.0f}, knob{0.0f}, cluster{0.0f};  // [m] world
   };
-  // Call in each frame. engine: also play starter, judder and limiter. teeth: number of dog teeth. time [s].
+  // Call in each frame. `engine`: if true, starter, judder and limiter are played too. `teeth`: number of dog teeth.
+  // `time`: [s].
   void set(engine::SoundWorld& world, const vehicle::VehicleState& car, bool engine, double teeth, const Place& at,
            double time);
 
@@ -39,7 +41,7 @@ class CarVoices {
   engine::VoiceId grind_, starter_, judder_, limiter_;
   engine::ClipId chime_;
   WarningHold cut_;      // joins the limiter's many short fuel cuts into one continuous stutter
-  bool stalled_ = true;  // state in the previous frame; at first true: a car that starts stalled is silent
+  bool stalled_ = true;  // was stalled in the last frame; initially true: no chime at the start
 };
 
 }  // namespace gearshift::cabin

@@ -13,26 +13,26 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr double kTau = 2.0 * std::numbers::pi;
-constexpr std::size_t kCycles = 40;  // engine cycles per loop: 2 s, so long that the noise does not seem to repeat
+constexpr std::size_t kCycles = 40;  // number of engine cycles per loop: 2 s, enough to hide that the noise repeats
 constexpr std::size_t kCycleSamples = static_cast<std::size_t>(engine::kSoundRate * 120.0 / kEngineLoopSpeed);
-constexpr double kMaxFrequency = 4000.0;  // [Hz] highest frequency heard at the band's own speed
-constexpr std::array<double, kEngineBands.size()> kLevels = {0.10, 0.14, 0.18, 0.22};  // RMS of the tone, full load
+constexpr double kMaxFrequency = 4000.0;  // [Hz] highest frequency heard at the engine speed of the band
+constexpr std::array<double, kEngineBands.size()> kLevels = {0.10, 0.14, 0.18, 0.22};  // RMS of the tone at full load
 
-// Ratio of the frequency heard at the band's own speed to the frequency in the loop.
+// The frequency heard at the band's own engine speed, divided by the frequency in the loop.
 double audible_per_loop_hertz(std::size_t band) {
   return kEngineBands[band] / kEngineLoopSpeed;
 }
 
-// [Hz] Highest frequency allowed in the loop: at most kMaxFrequency when heard, and not so high that it would alias at
-// the highest pitch of this band.
+// [Hz] Highest frequency allowed in the loop. It is heard at kMaxFrequency or lower, and does not alias at the highest
+// pitch of this band.
 double loop_limit(std::size_t band) {
   const double fastest = band + 1 < kEngineBands.size() ? kEngineBands[band + 1] : 8000.0;
   return std::min(kMaxFrequency / audible_per_loop_hertz(band), 0.45 * engine::kSoundRate * kEngineLoopSpeed / fastest);
 }
 
-// Amplitude of an order (multiple of the engine cycle's frequency) in a pulse train with one pulse per cylinder: about
-// 1 if the order is a multiple of the number of cylinders. The other orders, like the half orders of a real engine,
-// come only from differences between the cylinders' strengths.
+// Amplitude of an order (multiple of the engine cycle's frequency) in a pulse train with one pulse per cylinder. It is
+// about 1 if the order is a multiple of the number of cylinders. The other orders come only from differences between
+// the cylinders, like the half orders of a real engine.
 double pulse_train(int order, int cylinders) {
   constexpr float kSpread = 0.12f;
   Noise strengths(7);
@@ -44,8 +44,8 @@ double pulse_train(int order, int cylinders) {
   return std::abs(sum) / cylinders;
 }
 
-// Gain of the body's resonances, where panels and exhaust ring. The gain is smaller than the loss of a pulse from one
-// firing harmonic to the next, so that the firing frequency stays strongest.
+// Gain of the resonances of body panels and exhaust. From each harmonic of the firing frequency to the next, the pulse
+// train loses more than this gain adds. The firing frequency therefore stays strongest.
 double resonances(double hertz) {
   const auto bump = [hertz](double centre, double gain) {
     const double octaves = std::log2(hertz / centre) / 0.35;
@@ -54,7 +54,8 @@ double resonances(double hertz) {
   return 1.0 + bump(125.0, 0.25) + bump(310.0, 0.3) + bump(640.0, 0.3) + bump(1500.0, 0.4);
 }
 
-// Gain of the bulkhead's low pass: the sound is muffled when coasting; full throttle raises corner frequency and level.
+// Gain of the bulkhead's low pass: the sound is muffled when coasting; full throttle raises the corner frequency and
+// the level.
 double throttle_filter(double hertz, EngineLoad load) {
   constexpr double kCoasting = 0.3;
   if (load == EngineLoad::full) return std::pow(1.0 + std::pow(hertz / 450.0, 2.0), -0.9);
@@ -67,7 +68,7 @@ double partial(int order, int cylinders, std::size_t band, EngineLoad load) {
   return pulse_train(order, cylinders) * pulse * resonances(hertz) * throttle_filter(hertz, load);
 }
 
-// RMS of the tone at full load before its level is set; partials of different orders add in power.
+// RMS of the full-load tone before its level is set. The powers of partials of different orders add up.
 double full_tone_rms(int cylinders, std::size_t band, int orders) {
   double power = 0.0;
   for (int order = 1; order <= orders; ++order) {
@@ -76,7 +77,7 @@ double full_tone_rms(int cylinders, std::size_t band, int orders) {
   return std::sqrt(power);
 }
 
-// A table with one period of a sine; order k steps through it k entries at a time.
+// A table with one period of a sine; for order k, the caller advances k entries per sample.
 std::array<double, kCycleSamples> sine_of_cycle() {
   std::array<double, kCycleSamples> table{};
   for (std::size_t n = 0; n < table.size(); ++n) table[n] = std::sin(kTau * static_cast<double>(n) / kCycleSamples);
@@ -101,8 +102,8 @@ std::vector<double> tone_cycle(int cylinders, std::size_t band, EngineLoad load)
   return cycle;
 }
 
-// The noise of intake and exhaust, gated by the firings. The seed is always the same, so that the noise of different
-// loops also mixes in phase.
+// The noise of intake and exhaust, modulated by the firings. All loops use the same seed, so that their noise also
+// mixes in phase.
 std::vector<float> rush(int cylinders, std::size_t band, EngineLoad load) {
   const bool is_full = load == EngineLoad::full;
   const double to_loop = 1.0 / audible_per_loop_hertz(band);

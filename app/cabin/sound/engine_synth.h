@@ -1,7 +1,7 @@
 // Synthesises the engine's sound as loops. All loops are made for the same speed, kEngineLoopSpeed, so that they play
-// at the same pitch and stay in phase: partials of the same order add in amplitude, and a mix of two loops has a
-// spectrum between theirs, without beats. The loops differ in their timbre, which is that of the engine at the speed of
-// a band.
+// at the same pitch and stay in phase. Partials of the same order then add in amplitude, and a mix of two loops has a
+// spectrum between theirs, without beats. The loops differ in timbre: each has the timbre of the engine at the speed of
+// its band.
 #pragma once
 
 #include <array>
@@ -15,12 +15,12 @@ inline constexpr std::array<double, 4> kEngineBands = {900.0, 1800.0, 3400.0, 60
 enum class EngineLoad { coasting, full };
 
 // One loop: a whole number of engine cycles (two revolutions each) at kEngineLoopSpeed, with the engine's timbre at
-// kEngineBands[band]. cylinders: 1 to 12, four-stroke. The strongest partial is the firing frequency [Hz], speed / 60 *
-// cylinders / 2. Every partial is at least as strong at full load as when coasting.
+// kEngineBands[band]. `cylinders`: 1 to 12, four-stroke. The strongest partial is the firing frequency in Hz: (speed /
+// 60) * (cylinders / 2), speed in 1/min. Every partial is at least as strong at full load as when coasting.
 std::vector<float> engine_loop(int cylinders, std::size_t band, EngineLoad load);
 
-// Weight of each band's loop at a speed [1/min]: blends the two nearest bands by the logarithm of the speed. The sum of
-// the weights is 1.
+// Weight of each band's loop at an engine speed [1/min]. The two nearest bands are blended by the logarithm of the
+// speed. The sum of the weights is 1.
 std::array<double, kEngineBands.size()> band_weights(double speed);
 
 }  // namespace gearshift::cabin

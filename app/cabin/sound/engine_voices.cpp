@@ -6,7 +6,7 @@ namespace gearshift::cabin {
 
 namespace {
 
-constexpr double kRunning = 500.0;  // [1/min] below this speed the volume fades to 0
+constexpr double kRunning = 500.0;  // [1/min] below this speed, the volume is proportional to the speed
 
 }  // namespace
 

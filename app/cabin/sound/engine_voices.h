@@ -1,4 +1,4 @@
-// Plays the engine's loops, mixed by speed and load.
+// Plays the engine's loops, mixed by engine speed and load.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ class EngineVoices {
  public:
   EngineVoices(engine::SoundWorld& world, int cylinders);
 
-  // speed [1/min], load 0 to 1, gain 0 to 1. Silent at speed 0; the pitch follows the speed from 600 to 9600 1/min.
+  // speed [1/min], load 0 to 1, gain 0 to 1. Silent at speed 0; the pitch follows the speed between 600 and 9600 1/min.
   void set(engine::SoundWorld& world, double speed, double load, double gain, glm::vec3 position) const;
 
  private:
-  std::array<std::array<engine::VoiceId, 2>, kEngineBands.size()> voices_{};  // per band: coasting, full load
+  std::array<std::array<engine::VoiceId, 2>, kEngineBands.size()> voices_{};  // for each band: coasting, full load
 };
 
 }  // namespace gearshift::cabin

@@ -25,9 +25,9 @@ std::vector<float> looping_noise(std::size_t samples, std::uint64_t seed) {
   return out;
 }
 
-// The first pass only computes the filter's state at the end of the loop, which is the state before its beginning. The
-// remaining error, exp(-2 pi corner length / rate) for a loop of `length` samples, is far below one bit for all loops
-// of this program.
+// The first pass only computes the filter's state at the end of the loop, from which the second pass starts. The
+// remaining error is exp(-2 pi * corner * length / kSoundRate) for a loop of `length` samples. It is far below the
+// precision of a float for all loops of this program.
 void loop_low_pass(std::vector<float>& samples, double corner) {
   const auto blend = static_cast<float>(1.0 - std::exp(-2.0 * std::numbers::pi * corner / engine::kSoundRate));
   float state = 0.0f;

@@ -1,4 +1,4 @@
-// Seeded noise, and filters for loops, whose output continues from the end of the loop into its beginning.
+// Seeded noise and filters for loops. A filtered loop repeats without a step between its end and its beginning.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,8 @@
 
 namespace gearshift::cabin {
 
-// Uniform random numbers, -1 <= x < 1, the same on every machine, which the distributions of std do not guarantee.
+// Uniform random numbers from -1 (included) to 1 (excluded). Unlike those of the std distributions, they are the same
+// on every machine.
 class Noise {
  public:
   explicit Noise(std::uint64_t seed) : state_(seed) {}
@@ -19,7 +20,7 @@ class Noise {
 
 std::vector<float> looping_noise(std::size_t samples, std::uint64_t seed);
 
-// First-order filters, in place. corner: corner frequency [Hz] at kSoundRate.
+// First-order filters, in place. `corner`: corner frequency [Hz] at kSoundRate.
 void loop_low_pass(std::vector<float>& samples, double corner);
 void loop_high_pass(std::vector<float>& samples, double corner);
 

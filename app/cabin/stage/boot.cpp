@@ -10,8 +10,8 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr float kCollar = 0.058f;                 // [m] H in boot.h
-constexpr glm::vec3 kPivot{0.0f, -0.030f, 0.0f};  // [m] P in boot.h
+constexpr float kCollar = 0.058f;                 // [m] the collar height H in boot.h
+constexpr glm::vec3 kPivot{0.0f, -0.030f, 0.0f};  // [m] the pivot P in boot.h
 
 }  // namespace
 
@@ -28,8 +28,8 @@ void deform_boot(std::span<const engine::Vertex> rest, const glm::dquat& lever, 
     const float slope = 6.0f * t * (1.0f - t) / kCollar;  // dw/dy
     const glm::vec3 moved = change * (from.position - kPivot);
     to.position = from.position + w * moved;
-    // The Jacobian of the map: J = 1 + w (R - 1) + moved grad(w)^T. A normal transforms with the inverse transpose of
-    // J, a tangent with J.
+    // Jacobian J of the bending map in boot.h: J = 1 + w (R - 1) + d grad(w)^T, with d = P + R (p - P) - p, which is
+    // `moved`. A normal is transformed with the inverse transpose of J, a tangent with J.
     glm::mat3 jacobian = glm::mat3(1.0f) + w * change;
     jacobian[1] += slope * moved;
     to.normal = glm::normalize(glm::transpose(glm::inverse(jacobian)) * from.normal);

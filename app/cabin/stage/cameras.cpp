@@ -14,7 +14,7 @@ struct NamedCamera {
 
 constexpr glm::dvec3 kDriverEye{0.0, 0.635, 0.05};
 constexpr NamedCamera kCameras[] = {
-    {"driver", kDriverEye, {0.2805, 0.1275, -0.7647}, 72.0},  // shows the view from the horizon down to the gate
+    {"driver", kDriverEye, {0.2805, 0.1275, -0.7647}, 72.0},  // shows everything from the horizon down to the gate
     {"ahead", kDriverEye, {0.2249, 0.5999, -0.9240}, 62.0},   // shows road, instruments and interior mirror
     {"lever", {0.07, 0.36, -0.20}, {0.325, 0.10, -0.31}, 58.0},
     {"gate", {0.235, 0.275, -0.175}, {0.325, 0.070, -0.272}, 58.0},

@@ -5,7 +5,7 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr float kRadius = 1.2f;  // [m] minimum radius of curvature of door mirrors in UN Regulation 46
+constexpr float kRadius = 1.2f;  // [m] minimum radius of curvature that UN Regulation 46 allows for door mirrors
 constexpr float kTilt = 0.035f;  // [rad] tilt towards the ground
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace gearshift::cabin {
 enum class DriveSide { left, right };
 
 // [m] x of the plane at which the left-hand-drive cabin is mirrored to get the right-hand-drive one. The plane passes
-// through the lever, 5 mm from the car's centre plane, so that lever and gate stay in place within the console's
-// opening. The car is thereby shifted by 1 cm, which is not visible because the road is shifted too.
+// through the lever, so that lever and gate stay within the console's opening. The plane is 5 mm from the car's centre
+// plane, which shifts the car by 1 cm. The shift is not visible because the road is shifted too.
 inline constexpr double kMirrorPlane = 0.330;
 
 inline glm::dvec3 on_side(DriveSide side, glm::dvec3 point) noexcept {

@@ -10,16 +10,16 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr glm::dvec2 kPlinthHalf{0.0640, 0.0680};          // [m] half size of the plinth's foot, as of the boot's frame
+constexpr glm::dvec2 kPlinthHalf{0.0640, 0.0680};          // [m] half size of the plinth's foot and the boot's frame
 constexpr glm::dvec2 kMinHalf{0.034, 0.040};               // [m] minimum half size of the plate
-constexpr double kSideMargin = 0.009, kEndMargin = 0.006;  // [m] metal beyond openings and labels
-constexpr double kLampRoom = 0.010;                        // [m] room for the lamp ahead of the labels
+constexpr double kSideMargin = 0.009, kEndMargin = 0.006;  // [m] width of metal outside openings and labels
+constexpr double kLampRoom = 0.010;                        // [m] space for the lamp, in front of the labels
 constexpr double kCorner = 0.010;                          // [m] radius of the plate's corners
 constexpr int kCornerSteps = 6;
 constexpr double kBevel = 0.0004;     // [m] bevel of the outer edge
 constexpr double kLip = 0.0022;       // [m] height of the metal edge above the plinth
 constexpr double kInkAbove = 0.0001;  // [m] height of the labels' enamel above the face
-constexpr double kSign = 0.0090;      // [m] maximum label height
+constexpr double kSign = 0.0090;      // [m] maximum height of a label
 constexpr double kSignGap = 0.0025;   // [m] distance between opening and label
 constexpr double kSignWidth = 0.6;    // width of a label relative to its height
 constexpr glm::vec3 kInk{0.015f}, kReverseInk{0.42f, 0.012f, 0.010f}, kBright{1.0f}, kDeep{0.22f};
@@ -30,8 +30,8 @@ Loop scaled(const Loop& loop, double factor) {
   return copy;
 }
 
-// Makes the face, its bevelled edges, the plinth, and the walls of the opening. The walls converge towards the pivot,
-// so that they are parallel to the leaning lever.
+// Makes the plate's face and bevelled edges, the plinth, and the walls of the opening. The walls converge towards the
+// pivot, so that they are parallel to the leaning lever.
 void make_metal(GatePlate& plate) {
   const Loop& path = plate.opening.loop;
   const double edge = kPlateHeight - plate.opening.bevel, floor = kPlateHeight - kPlateThickness;
@@ -56,7 +56,7 @@ void make_metal(GatePlate& plate) {
   add_wall(plate.metal, {throat, edge, bright}, {bottom, floor, deep}, WallFace::from_left);
 }
 
-// Smallest distance between neighbouring columns, measured at the knob. [m]
+// Smallest distance [m] between neighbouring columns, measured at the knob.
 double label_room(const haptics::Gate& gate) {
   double room = 1.0;
   for (int i = 0; i + 1 < gate.column_count; ++i) {
@@ -79,7 +79,7 @@ void add_label(GatePlate& plate, const haptics::Gate& gate, const haptics::YokeG
   }
 }
 
-// Determines the size of the plate: as small as openings and labels allow, symmetric about the pivot, with room for the
+// Computes the size of the plate: as small as openings and labels allow, symmetric about the pivot, with space for the
 // lamp in front of the labels.
 void size_plate(GatePlate& plate) {
   plate.half = kMinHalf;

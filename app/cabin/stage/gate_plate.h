@@ -9,8 +9,8 @@
 
 namespace gearshift::cabin {
 
-// The plate is on a plinth, half way from the lever's pivot to the knob. At the height of the boot's frame the slots
-// would be so close together (see slot_opening.h) that only a lever as thin as a needle would leave metal between them.
+// The plate is on a plinth, half way from the lever's pivot to the knob. At the lower height of the boot's frame the
+// slots would be so close together (see slot_opening.h) that only a needle-thin lever would leave metal between them.
 inline constexpr double kPlateHeight = 0.062;     // [m] height of the plate's face above the pivot
 inline constexpr double kPlinthHeight = 0.030;    // [m] height of the plinth's foot (the console) above the pivot
 inline constexpr double kPlateThickness = 0.004;  // [m]
@@ -24,14 +24,15 @@ struct PlateLabel {
 struct GatePlate {
   SlotOpening opening;
   std::vector<PlateLabel> labels;
-  glm::dvec2 half{0.0};  // [m] half size of the plate, which depends on the gate
-  glm::dvec2 lamp{0.0};  // [m] place for a lamp of 4 mm radius, ahead of the labels
-  MeshData metal;        // origin of all three meshes: the lever's pivot; x right, y up, z back
+  glm::dvec2 half{0.0};  // [m] half the size of the plate, which depends on the gate
+  glm::dvec2 lamp{0.0};  // [m] position for a lamp with 4 mm radius, in front of the labels
+  MeshData metal;        // the lever's pivot is the origin of all three meshes; x right, y up, z back
   MeshData plinth;
   MeshData ink;
 };
 
-// Throws std::runtime_error if the gate's slots do not fit on the plate. All gates that fit the paper's joystick fit.
+// Throws std::runtime_error if the gate's slots do not fit on the plate. All gates that the paper's joystick can reach
+// fit.
 GatePlate make_gate_plate(const haptics::Gate& gate, const haptics::YokeGeometry& yoke);
 
 }  // namespace gearshift::cabin

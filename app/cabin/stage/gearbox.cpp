@@ -15,17 +15,17 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr glm::vec3 kPlace{0.70f, 0.19f, -0.42f};  // [m] position in the cabin: in front of the passenger's knees
+constexpr glm::vec3 kPlace{0.70f, 0.19f, -0.42f};  // [m] in cabin coordinates, in front of the passenger's knees
 constexpr double kMaxWidth = 0.54;                 // [m] width available at kPlace
-constexpr double kFingerReach = 0.030;             // [m] from the finger's axis to the middle of its tip
+constexpr double kFingerReach = 0.030;             // [m] from the selector finger's axis to the middle of its tip
 constexpr double kRingTravel = 0.0005;             // [m] travel of the ring until the cone grips
 constexpr double kKeysMeet = 0.003;                // [m] sleeve travel at which the keys begin to press on the ring
-constexpr double kTurnPerMetre = 0.5;              // [rad/m] turn of the hub per metre driven: slow enough to watch
-constexpr double kTurnPerTurn = 0.02;              // [1] turns of a free gear per turn of the engine, at ratio 1
-constexpr double kMaxStep = 0.1;                   // [s] limit of the time step between two frames
+constexpr double kTurnPerMetre = 0.5;              // [rad/m] hub rotation per metre driven, slow enough to watch
+constexpr double kTurnPerTurn = 0.02;              // [1] turns of a free gear with ratio 1 per turn of the engine
+constexpr double kMaxStep = 0.1;                   // [s] maximum time step from frame to frame
 constexpr double kGearSign = 0.030;                // [m] height of a gear's label
 constexpr const char* kEndName[2] = {"Forward", "Back"};
-constexpr double kDirection[2] = {1.0, -1.0};  // direction of the two ends along the shift axis
+constexpr double kDirection[2] = {1.0, -1.0};  // sign of each end's direction along the shift axis
 
 const haptics::Slot* slot_at(const haptics::Gate& gate, int column, int end) {
   const haptics::Column& c = haptics::column_of(gate, column);
@@ -39,9 +39,9 @@ std::vector<MeshPart> both(const engine::Model& model, const char* a, const char
   return parts;
 }
 
-// Adds a material that can replace all single-sided ones and returns its index. Their metallic and roughness values go
-// to one texel per material, packed as in glTF (roughness green, metallic blue); their colours go to the vertices, see
-// use_shared_material().
+// Adds a material that can replace all single-sided ones and returns its index. Metallic and roughness values go to a
+// texture with one texel per replaced material, packed as in glTF (roughness green, metallic blue); colours go to the
+// vertices, see use_shared_material().
 int add_shared_material(engine::Model& box) {
   engine::Texture surfaces;
   surfaces.pixels.width = static_cast<int>(box.materials.size());
@@ -79,7 +79,7 @@ void use_shared_material(engine::Model& box) {
   }
 }
 
-// Merges parts that move together into one mesh, which saves draws.
+// Merges parts that move together into one mesh, which reduces the number of draws.
 void join_parts(engine::Model& box) {
   set_parts(box, required_node(box, "Rail"), both(box, "Rail", "Fork"));
   set_parts(box, required_node(box, "Hub"), both(box, "Hub", "Shaft"));
@@ -95,8 +95,8 @@ int add_group(engine::Model& model, std::string name, glm::vec3 translation, int
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
-// Adds the number of a gear, which floats at the gear's end of the set: higher at the front end than at the rear end,
-// so that the gears hide neither number when the user looks down from the seat.
+// Adds the number of a gear. It floats at the gear's end of the set, higher at the front end than at the rear end. So
+// the gears hide neither number when the user looks down from the seat.
 void add_sign(MeshData& ink, const haptics::Slot& slot, double x) {
   const double direction = static_cast<int>(slot.side);
   for (const Stroke& stroke :
@@ -233,8 +233,8 @@ void Gearbox::place(const haptics::Gate& gate, glm::dvec2 lever, const vehicle::
   node(finger_).rotation = turned_about({1.0f, 0.0f, 0.0f}, std::asin(finger_shift / kFingerReach));
 }
 
-// Turns the gears and rings of a set. A free gear turns with the engine. Once the sleeve meets its dogs, the gear turns
-// with the hub, at an angle at which the teeth fit into the gaps.
+// Turns the gears and rings of a set. A free gear turns with the engine. Once the sleeve meets the gear's dogs, the
+// gear turns with the hub, at an angle at which the sleeve's teeth fit into the gear's gaps.
 void Gearbox::turn_gears(const haptics::Gate& gate, int column, double shift, const vehicle::VehicleState& car,
                          double step, Set& set, std::vector<engine::Node>& pose) {
   constexpr double kPitch = 2.0 * std::numbers::pi / kDogTeeth;

@@ -13,14 +13,14 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr glm::dvec3 kElbow{-0.085, 0.055, 0.325};  // [m] from the upright lever's knob, see assets/models/README.md
+constexpr glm::dvec3 kElbow{-0.085, 0.055, 0.325};  // [m] from the upright lever's knob (assets/models/README.md)
 
 glm::dquat turn_of(const glm::mat4& world) {
   return glm::normalize(glm::dquat(glm::quat_cast(glm::mat3(world))));
 }
 
-// Merges adjacent primitives with the same material, which saves draws. (The functions of mesh_parts.h do not support
-// skinned meshes.)
+// Merges adjacent primitives with the same material, which reduces the number of draws. (The functions of mesh_parts.h
+// do not support skinned meshes.)
 void join_neighbours(engine::Mesh& mesh) {
   std::vector<engine::Primitive> joined;
   for (const engine::Primitive& next : mesh.primitives) {
@@ -47,7 +47,7 @@ void Hand::add_to(engine::Model& model, const engine::Model& hand_model, glm::ve
   const int skin = required_node(model, "HandMesh");
   join_neighbours(model.meshes[static_cast<std::size_t>(model.nodes[static_cast<std::size_t>(skin)].mesh)]);
   const int ghost = add_twin(model, skin, "GhostHand", engine::kNone);
-  // The ghost needs no skin: it uses the hand's vertices after skinning.
+  // The ghost hand needs no skin: it uses the hand's vertices after skinning.
   model.nodes[static_cast<std::size_t>(ghost)].skin = engine::kNone;
 }
 

@@ -13,7 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);
 constexpr double kPedalTravel = 20.0 * kDegree;
 constexpr double kHandBrakeTravel = 30.0 * kDegree;
-constexpr double kIdleLimit = 300.0;  // [1/min] below this engine speed there is no oil pressure and no charging
+constexpr double kIdleLimit = 300.0;  // [1/min] oil, battery and engine lamps are lit below this engine speed
 
 bool blinks_now(double time) noexcept {
   const double phase = time * kBlinkRate;

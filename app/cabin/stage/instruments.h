@@ -13,35 +13,36 @@ namespace gearshift::cabin {
 inline constexpr double kTachTop = 8000.0;  // [1/min] end of the tachometer's scale
 inline constexpr double kSpeedTop = 220.0;  // [km/h] end of the speedometer's scale
 
-// Angle of a needle about its axis: 135 deg at zero, -135 deg at the end of the scale (`top`); limited to the scale.
+// Angle of a needle about its axis: 135 deg at zero, -135 deg at the end of the scale, `top`. The angle is limited to
+// the scale.
 double needle_angle(double value, double top) noexcept;  // [rad] counter-clockwise +
 
 double tach_angle(const vehicle::VehicleState& car) noexcept;   // [rad]
-double speed_angle(const vehicle::VehicleState& car) noexcept;  // [rad] the same in both directions of travel
+double speed_angle(const vehicle::VehicleState& car) noexcept;  // [rad] the same forward and in reverse
 
 // Vibration of parts while the engine labours or stalls: car.shudder times an oscillation between -1 and 1 that depends
-// only on time [s]. Its frequencies, 13 and 17 Hz, look fast but are slow enough for the frame rate.
+// only on time [s]. The oscillation's frequencies, 13 and 17 Hz, are low enough for the frame rate.
 double vibration(const vehicle::VehicleState& car, double time) noexcept;
 inline constexpr double kNeedleVibration = 0.035;  // [rad] amplitude of the needles at full shudder
 inline constexpr double kLeverVibration = 0.0007;  // [m] amplitude of the knob at full shudder
 
-// Offset of uv0 to a gear's field in the display's atlas, which has the fields R N 1 ... 9 side by side; offset 0 shows
-// "N".
+// Offset of uv0 that shows the field of a gear. The display's atlas has the fields R N 1 ... 9 side by side; offset 0
+// shows "N".
 glm::vec2 gear_field(int gear) noexcept;
 
-// Angles of the controls. [rad]
+// Angles [rad] of the controls.
 double pedal_angle(double pressed) noexcept;      // about +x
-double hand_brake_angle(double pulled) noexcept;  // about +x, on top of the angle at rest
+double hand_brake_angle(double pulled) noexcept;  // about +x, added to the angle at rest
 
 enum class Lamp : int { oil, battery, hand_brake, engine, stall, turn_left, turn_right, lever };
 inline constexpr int kLampCount = 8;
-// Names of the lamps' nodes, in the order of Lamp.
+// Names of the lamps' nodes, in the order of the enum Lamp.
 inline constexpr std::array<const char*, kLampCount> kLampNodes = {
     "LampOil", "LampBattery", "LampHandbrake", "LampEngine", "LampStall", "LampTurnLeft", "LampTurnRight", "LampLever"};
 
-inline constexpr double kBlinkRate = 1.5;  // [Hz] of the indicators: 90 flashes per minute; UN R6 requires 60 to 120
+inline constexpr double kBlinkRate = 1.5;  // [Hz] indicators: 90 flashes per minute; UN R6 requires 60 to 120
 
-// Brightness of a lamp: 0: dark, 1: lit. time [s]: for blinking.
+// Brightness of a lamp, from 0 (dark) to 1 (lit). time [s]: for blinking.
 float lamp_light(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever,
                  double time) noexcept;
 

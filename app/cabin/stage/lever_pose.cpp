@@ -16,8 +16,8 @@ glm::dvec3 lever_direction(const haptics::YokeGeometry& yoke, glm::dvec2 plane) 
 }
 
 glm::dquat lever_rotation(const haptics::YokeGeometry& yoke, glm::dvec2 plane) noexcept {
-  // The rotation from y to d has the axis y x d, and its half angle has the cosine (1 + d_y) / |y + d|. This works
-  // because the lever is never upside down.
+  // The rotation from the y axis to d has the axis y x d and a half angle with the cosine (1 + d_y) / |y + d|. This
+  // works because the lever is never upside down.
   const glm::dvec3 d = lever_direction(yoke, plane);
   return glm::normalize(glm::dquat(1.0 + d.y, d.z, 0.0, -d.x));
 }

@@ -9,13 +9,13 @@
 
 namespace gearshift::cabin {
 
-inline constexpr double kDrawnLever = 0.120;  // [m] pivot to knob centre in the cabin model
+inline constexpr double kDrawnLever = 0.120;  // [m] from pivot to knob centre in the cabin model
 
-// Unit vector along the lever when its tip is above this point of the gate plane, from the yoke's joint angles. Points
-// further away than 0.98 of the yoke's radius are limited to this distance.
+// Unit vector along the lever when its tip is above the point `plane` [m] of the gate plane, computed with the yoke's
+// joint angles. The point's distance from the origin is limited to 0.98 times the yoke's radius.
 glm::dvec3 lever_direction(const haptics::YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
-// The shortest rotation, without twist, of the upright lever into lever_direction().
+// The shortest rotation, without twist, from the upright lever to lever_direction().
 glm::dquat lever_rotation(const haptics::YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
 }  // namespace gearshift::cabin

@@ -10,10 +10,10 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr float kSmooth = 0.766f;  // cosine of 40 deg, the largest angle with smooth shading
+constexpr float kSmooth = 0.766f;  // cosine of 40 deg, the largest angle between faces with smooth shading
 
-// A tangent for a normal, along +x where possible. Its direction does not matter, because these surfaces have no normal
-// map.
+// A tangent for a normal, along +x where possible. The tangent's direction does not matter, because these surfaces have
+// no normal map.
 glm::vec4 tangent_of(glm::vec3 normal) {
   const glm::vec3 axis = std::abs(normal.x) < 0.9f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
   return {glm::normalize(axis - normal * glm::dot(axis, normal)), 1.0f};

@@ -25,18 +25,18 @@ glm::vec3 above(glm::dvec2 plate, double height) noexcept;
 // Adds horizontal triangles that are visible from above. corners: three per triangle, counter-clockwise.
 void add_flat(MeshData& mesh_data, std::span<const glm::dvec2> corners, double height, std::uint32_t colour);
 
-// A horizontal edge of a wall.
+// The upper or lower horizontal edge of a wall.
 struct Rim {
   const Loop& loop;
   double height;  // [m]
   std::uint32_t colour = 0xffffffffu;
 };
 enum class WallFace { from_left, from_right };
-// Adds a wall between two loops with equal numbers of points, visible from the left or the right side of the direction
-// of `top`. Neighbouring faces that turn by less than 40 deg get smooth shading.
+// Adds a wall between two loops with equal numbers of points. The wall is visible from the left or from the right of
+// the direction of `top`. Neighbouring faces that differ by less than 40 deg get smooth shading.
 void add_wall(MeshData& mesh_data, Rim top, Rim bottom, WallFace visible_side);
 
-// The triangles of a mesh that have the same material.
+// The triangles of a mesh that share a material.
 struct MaterialPart {
   const MeshData& mesh_data;
   int material = engine::kNone;

@@ -29,14 +29,15 @@ MeshData mesh_data_of(const engine::Model& model, const engine::Primitive& primi
 
 int required_node(const engine::Model& model, std::string_view name) {
   const int node = model.node(name);
-  if (node == engine::kNone) throw std::runtime_error("the models have no node '" + std::string(name) + "'");
+  if (node == engine::kNone) throw std::runtime_error("no model has a node named '" + std::string(name) + "'");
   return node;
 }
 
 int required_material(const engine::Model& model, std::string_view name) {
   const auto at = std::find_if(model.materials.begin(), model.materials.end(),
                                [&](const engine::Material& material) { return material.name == name; });
-  if (at == model.materials.end()) throw std::runtime_error("the models have no material '" + std::string(name) + "'");
+  if (at == model.materials.end())
+    throw std::runtime_error("no model has a material named '" + std::string(name) + "'");
   return static_cast<int>(at - model.materials.begin());
 }
 

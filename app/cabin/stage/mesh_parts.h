@@ -1,4 +1,4 @@
-// Functions that take the parts out of a mesh, change them and put them back, to reduce the number of draws.
+// Functions that split a mesh into parts, change them and put them back, to reduce the number of draws.
 #pragma once
 
 #include <string_view>
@@ -14,23 +14,24 @@ struct MeshPart {
   int material = engine::kNone;
 };
 
-// Index of the node or material with this name. They throw std::runtime_error with the name if the model lacks it.
+// These two functions return the index of the node or material with this name. They throw std::runtime_error with the
+// name if the model has none.
 int required_node(const engine::Model& model, std::string_view name);
 int required_material(const engine::Model& model, std::string_view name);
 
 std::vector<MeshPart> parts_of(const engine::Model& model, int node);
 
-// The node's parts, transformed by `placed`, which must be invertible.
+// Returns the node's parts, transformed by `placed`, which must be invertible.
 std::vector<MeshPart> transformed_parts(const engine::Model& model, int node, const glm::mat4& placed);
 
 // Gives the node a new mesh; parts with the same material are merged.
 void set_parts(engine::Model& model, int node, const std::vector<MeshPart>& parts);
 
-// Replaces one material of `node` by a material that the node already uses, which saves a draw.
+// Replaces one material of `node` by a material that the node already uses, which reduces the number of draws.
 void replace_material(engine::Model& model, std::string_view node, std::string_view from, std::string_view to);
 
-// Merges the mesh of node `from` into that of node `into` without moving it, which saves one draw per shared material.
-// Throws std::runtime_error unless both nodes have the same parent.
+// Merges the mesh of node `from` into that of node `into` without moving it. This reduces the number of draws by one
+// per material that the two meshes share. Throws std::runtime_error unless both nodes have the same parent.
 void merge_into(engine::Model& model, std::string_view from, std::string_view into);
 
 // Moves the parts of `node` that have this material to a new static node with the same parent.

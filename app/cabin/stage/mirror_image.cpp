@@ -9,15 +9,16 @@
 namespace gearshift::cabin {
 namespace {
 
-// Replaces the node's local matrix L by S L S, where S mirrors at x = 0. This mirrors the node at the x = 0 plane of
-// its parent, and the node's own axes at their x = 0 plane.
+// Replaces the node's local matrix L by S L S, where S mirrors at x = 0. This mirrors the node's position at its
+// parent's plane x = 0, and the node's content at the plane x = 0 of the node.
 void mirror_place(engine::Node& node) {
   node.translation.x = -node.translation.x;
   node.rotation.y = -node.rotation.y;
   node.rotation.z = -node.rotation.z;
 }
 
-// Mirrors the bind matrices like the joints, so that they map from the mirrored mesh to the mirrored joint.
+// Mirrors the bind matrices in the same way as the joints, so that they map from the mirrored mesh to the mirrored
+// joint.
 void mirror_skin(engine::Skin& skin) {
   const glm::mat4 mirror = glm::scale(glm::mat4(1.0f), {-1.0f, 1.0f, 1.0f});
   for (glm::mat4& bind : skin.inverse_bind) bind = mirror * bind * mirror;
@@ -40,7 +41,7 @@ void mirror_mesh(engine::Model& model, int mesh) {
     vertex.position.x = -vertex.position.x;
     vertex.normal.x = -vertex.normal.x;
     vertex.tangent.x = -vertex.tangent.x;
-    vertex.tangent.w = -vertex.tangent.w;  // the bitangent, a cross product, changes its sign
+    vertex.tangent.w = -vertex.tangent.w;  // mirroring reverses the bitangent, which is a cross product
   });
   for (engine::Primitive& primitive : mirrored.primitives) mirror_primitive(model, primitive);
 }

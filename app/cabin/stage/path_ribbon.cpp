@@ -18,10 +18,10 @@ constexpr double kMinPathLength = 1e-4;  // [m] shorter paths are treated as a p
 
 struct MeasuredPath {
   std::vector<glm::dvec2> points;
-  std::vector<double> at;  // [m] distance of each point along the path, increasing
+  std::vector<double> at;  // [m] distance from the start to each point along the path
 };
 
-// Measures the path along its points; drops non-finite and repeated points.
+// Computes the distances of the points along the path; drops non-finite and repeated points.
 MeasuredPath measure_path(std::span<const glm::dvec2> path) {
   MeasuredPath out;
   for (const glm::dvec2 point : path) {
@@ -45,8 +45,8 @@ bool is_gap(const PathStyle& style, double along) {
   return style.gap > 0.0 && std::fmod(along, style.dash + style.gap) > style.dash;
 }
 
-// A unit vector across the path and tangential to the sphere on which the knob moves. Returns `last` where the path
-// turns back on itself.
+// A unit vector across the path and tangential to the sphere on which the knob moves. Where the path reverses its
+// direction, returns `last`.
 glm::dvec3 side_of(glm::dvec3 before, glm::dvec3 here, glm::dvec3 after, glm::dvec3 last) {
   const glm::dvec3 side = glm::cross(after - before, glm::normalize(here));
   const double length = glm::length(side);

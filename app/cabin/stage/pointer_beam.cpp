@@ -19,7 +19,7 @@ constexpr double kStickRadius = 0.002, kBallRadius = 0.004;  // [m]
 constexpr int kAround = 8;
 constexpr glm::vec3 kBeamLight{0.10f, 0.50f, 0.70f};  // emission
 
-// Makes a body of revolution about z. outline: pairs of radius and z [m], from front (-z) to back.
+// Makes a solid of revolution about z. outline: pairs of radius and z [m], from front (-z) to back.
 MeshData turned_body(std::span<const glm::dvec2> outline) {
   MeshData body;
   for (const glm::dvec2 ring : outline) {

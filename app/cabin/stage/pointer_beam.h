@@ -11,10 +11,10 @@ struct Beam {
   glm::dvec3 from{0.0}, to{0.0};  // [m] ends of the beam in the cabin
 };
 
-inline constexpr const char* kBeamNode = "PointerBeam";  // the beam: 1 m long along its -Z, 4 mm thick
+inline constexpr const char* kBeamNode = "PointerBeam";  // node of the beam: 1 m long along its -Z, 4 mm thick
 inline constexpr const char* kBeamEndNode = "PointerEnd";
 
-// Below 1 so that the beam is blended, because blended meshes cast no shadow.
+// The value is below 1, so that the beam is drawn as a blended mesh, which casts no shadow.
 inline constexpr float kBeamOpacity = 0.9f;
 
 void add_pointer_beam(engine::Model& model);

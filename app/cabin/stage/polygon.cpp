@@ -26,7 +26,7 @@ double distance_to_chord(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) noexcept {
   return glm::distance(p, a + along * chord);
 }
 
-// Marks the points between `first` and `last` that must be kept; these two are kept anyway.
+// Marks the points to keep between `first` and `last`. These two end points are kept in any case.
 void keep_corners(const Loop& line, std::size_t first, std::size_t last, double tolerance, std::vector<char>& keep) {
   double worst = tolerance;
   std::size_t corner = first;
@@ -54,7 +54,7 @@ class EarClipper {
   std::vector<std::uint32_t> clip() {
     std::size_t i = 0, tried = 0;
     while (ring_.size() > 3) {
-      if (tried++ > ring_.size()) throw std::runtime_error("a plate's outline crosses itself");
+      if (tried++ > ring_.size()) throw std::runtime_error("the outline of a plate crosses itself");
       i %= ring_.size();
       if (!is_ear(i)) {
         ++i;
@@ -77,7 +77,7 @@ class EarClipper {
     if (turn(a, b, c) <= 0.0) return false;
     for (std::size_t j = 0; j < n; ++j) {
       const glm::dvec2 p = at(j);
-      if (p == a || p == b || p == c) continue;  // the bridge's ends occur twice
+      if (p == a || p == b || p == c) continue;  // skips copies of a corner: each end of the bridge occurs twice
       if (inside(p, a, b, c)) return false;
     }
     return true;
@@ -93,9 +93,9 @@ class EarClipper {
   std::vector<std::uint32_t> triangles_;
 };
 
-// Finds a vertex of the convex outline that is visible from `from`, the hole's rightmost point: takes the edge of the
-// outline to the right of this point, and of this edge the end that is further to the right. No point of the hole can
-// then be between the two.
+// Finds a vertex of the convex outline that is visible from `from`, the hole's rightmost point. Takes the outline's
+// edge to the right of `from`, and returns the end of this edge that is further to the right. No point of the hole can
+// then be between `from` and the vertex.
 std::size_t bridge_end(const Loop& outline, glm::dvec2 from) {
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const std::size_t next = (i + 1) % outline.size();
@@ -103,7 +103,7 @@ std::size_t bridge_end(const Loop& outline, glm::dvec2 from) {
     if (a.y <= from.y && from.y < b.y)
       return a.x >= b.x ? i : next;  // an upward edge is on the right side of a counter-clockwise loop
   }
-  throw std::runtime_error("the gate's slots reach beyond its plate");
+  throw std::runtime_error("the slots of the gate extend beyond its plate");
 }
 
 }  // namespace
@@ -116,7 +116,7 @@ double signed_area(const Loop& loop) noexcept {
 
 Loop simplified(const Loop& loop, double tolerance) {
   if (loop.size() < 4) return loop;
-  // Splits the loop at two points that are certainly corners: the point furthest from the loop's first point, and the
+  // The loop is split at two points that are certainly corners: the point furthest from the loop's first point, and the
   // point furthest from that corner.
   const auto furthest = [&](std::size_t from) {
     std::size_t best = from;

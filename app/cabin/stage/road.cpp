@@ -10,7 +10,7 @@ double tile_shift(double distance) noexcept {
 }
 
 BlockPlace block_place(int block, double distance) noexcept {
-  // The first displayed block is the one behind the car's block.
+  // The first displayed block is the one behind the block in which the car is.
   const auto first = static_cast<std::int64_t>(std::floor(distance / kBlockLength)) - 1;
   const std::int64_t ahead_of_first = ((block - first) % kBlocks + kBlocks) % kBlocks;
   BlockPlace place;

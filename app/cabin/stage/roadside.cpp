@@ -21,15 +21,15 @@ constexpr glm::vec3 kRoadPlace{0.335f, -0.53f, 0.0f};
 constexpr int kTilesAhead = 36, kTilesBehind = 11;
 constexpr double kLeftEdge = -5.7, kRightEdge = 2.2;  // [m] edges of the asphalt, relative to the middle of the lane
 
-// A copy of an object of road.glb. x [m]: to the right of the lane's middle; ahead [m]: from the block's near end; yaw
-// [rad].
+// A copy of an object from road.glb. x [m]: to the right of the lane's middle; ahead [m]: from the block's near end;
+// yaw [rad].
 struct RoadsideObject {
   const char* name;
   double x, ahead;
   double yaw = 0.0, size = 1.0;
 };
 
-// [m] Height of the ground at x; it continues the verge of the road tile.
+// [m] Height of the ground at x. The ground continues the verge of the road tile.
 double ground(double x) {
   constexpr double kProfile[][2] = {{0.0, 0.0},   {0.6, -0.05}, {1.6, -0.28},  {2.4, -0.30},
                                     {3.6, -0.06}, {8.0, 0.02},  {16.0, -0.05}, {30.0, -0.45}};
@@ -48,7 +48,7 @@ class Dice {
  public:
   explicit Dice(int block) : block_(block) {}
   double between(double low, double high) { return low + (high - low) * road_dice(block_, next_++); }
-  double side(double near, double far) {  // x at this distance from the road's left or right edge
+  double side(double near, double far) {  // x at a random distance from the asphalt
     const double off = between(near, far);
     return between(0.0, 1.0) < 0.5 ? kLeftEdge - off : kRightEdge + off;
   }
@@ -58,7 +58,7 @@ class Dice {
   int next_ = 0;
 };
 
-// Repeats an object along the block, the first one at `first`, then at every `step` [m].
+// Adds `count` copies of an object along the block, the first one at `first` [m] and the others `step` [m] apart.
 void add_row(const char* name, double x, double first, double step, int count, std::vector<RoadsideObject>& objects) {
   for (int i = 0; i < count; ++i) objects.push_back({name, x, first + step * i});
 }
@@ -118,7 +118,7 @@ std::vector<MeshPart> strip_of_tiles(const engine::Model& road) {
   return strip;
 }
 
-// Adds a node for parts whose material 0 is material `first_material` of the model.
+// Adds a node. first_material: index in `model` of the material that has index 0 in the parts.
 void add_node(engine::Model& model, std::string name, std::vector<MeshPart> parts, int first_material) {
   for (MeshPart& part : parts) part.material += first_material;
   engine::Node node;
@@ -128,7 +128,7 @@ void add_node(engine::Model& model, std::string name, std::vector<MeshPart> part
   set_parts(model, static_cast<int>(model.nodes.size()) - 1, parts);
 }
 
-// Extends the feet of the hills so far down that no gap opens when the fields tilt while the hills stay level.
+// Extends the hills downwards so far that no gap opens when the fields tilt while the hills stay level.
 void sink_feet(std::vector<MeshPart>& hills) {
   constexpr float kBelowFields = -1.0f, kFoot = -100.0f;  // [m]
   for (MeshPart& part : hills) {
@@ -146,7 +146,7 @@ std::string block_name(int block) {
 
 void Roadside::add_to(engine::Model& model, const engine::Model& road_model) {
   const auto first_material = static_cast<int>(model.materials.size());
-  engine::Model paints;  // contains only materials and textures
+  engine::Model paints;  // has only materials and textures, no meshes
   paints.materials = road_model.materials;
   paints.textures = road_model.textures;
   engine::append_model(model, paints);
@@ -158,7 +158,7 @@ void Roadside::add_to(engine::Model& model, const engine::Model& road_model) {
   stamp(road_model, "Hills", glm::mat4(1.0f), hills);
   sink_feet(hills);
   add_node(model, "Hills", std::move(hills), first_material);
-  // Leaves and the other objects share a texture, so both are drawn in one draw with the masked material of the leaves.
+  // Leaves and opaque objects share a texture, so both can use the leaves' masked material and need only one draw.
   const int masked = required_material(road_model, "Leaves"), opaque = required_material(road_model, "Roadside");
   for (int block = 0; block < kBlocks; ++block) {
     std::vector<MeshPart> parts;
@@ -172,7 +172,7 @@ void Roadside::add_to(engine::Model& model, const engine::Model& road_model) {
 }
 
 std::vector<std::string> Roadside::moving_names() {
-  std::vector<std::string> names{"RoadStrip", "Land", "Hills"};  // so that they are not merged with the cabin
+  std::vector<std::string> names{"RoadStrip", "Land", "Hills"};  // moving nodes are not merged with the cabin
   for (int block = 0; block < kBlocks; ++block) names.push_back(block_name(block));
   return names;
 }

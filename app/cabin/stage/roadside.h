@@ -14,13 +14,13 @@ namespace gearshift::cabin {
 
 class Roadside {
  public:
-  // Adds nodes "RoadStrip", "Land", "Hills" and "RoadBlock0" ... to the model, made of the objects of road_model
-  // (road.glb), which are placed with road_dice(). Throws std::runtime_error if an object is missing.
+  // Adds nodes "RoadStrip", "Land", "Hills" and "RoadBlock0" ... to the model. They consist of objects of road_model
+  // (road.glb), placed with road_dice(). Throws std::runtime_error if an object is missing.
   static void add_to(engine::Model& model, const engine::Model& road_model);
 
   static std::vector<std::string> moving_names();
 
-  explicit Roadside(const engine::Model& model);  // finds the nodes that add_to() made
+  explicit Roadside(const engine::Model& model);  // finds the nodes that add_to() has added
 
   // Moves the road back by the distance [m] that the car has driven, and tilts road and fields about the car by the
   // slope [rad], positive uphill; cabin and hills stay level.

@@ -11,7 +11,7 @@ namespace {
 constexpr glm::vec3 kOffPanel{0.0f, 0.0285f, 0.0006f};                          // [m] offset from the gear display
 constexpr glm::vec3 kGreen{0.02f, 0.42f, 0.06f}, kAmber{0.55f, 0.14f, 0.005f};  // emission
 
-// Corners [m] of the arrow that points up, as counter-clockwise triangles: one for the head, two for the shaft.
+// Corners [m] of an upward arrow, as counter-clockwise triangles: one for the head, two for the shaft.
 constexpr glm::vec2 kArrow[] = {{-0.0062f, 0.0f},     {0.0062f, 0.0f},     {0.0f, 0.0060f},
                                 {-0.0024f, -0.0055f}, {0.0024f, -0.0055f}, {0.0024f, 0.0f},
                                 {-0.0024f, -0.0055f}, {0.0024f, 0.0f},     {-0.0024f, 0.0f}};

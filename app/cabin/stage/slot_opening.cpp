@@ -14,12 +14,12 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr double kMaxRodRadius = 0.0030;    // [m] maximum radius of the rod
-constexpr double kRodFraction = 0.39;       // [1] ratio of the rod's radius to the distance between two slots
-constexpr double kWallStep = 0.001;         // [m] length of a wall's chords, at the knob: projection error below 2 um
-constexpr double kMaxCell = 0.0002;         // [m] maximum cell size of the grid
-constexpr double kSlotBevel = 0.0004;       // [m] maximum bevel of the opening's edge
-constexpr double kLoopTolerance = 0.00001;  // [m] tolerance when the outline is simplified
+constexpr double kMaxRodRadius = 0.0030;  // [m] maximum radius of the rod
+constexpr double kRodFraction = 0.39;     // [1] rod radius as a fraction of the distance between two slots
+constexpr double kWallStep = 0.001;    // [m] maximum length of the straight pieces that approximate a wall, at the knob
+constexpr double kMaxCell = 0.0002;    // [m] maximum cell size of the distance grid
+constexpr double kSlotBevel = 0.0004;  // [m] maximum bevel of the opening's edge
+constexpr double kLoopTolerance = 0.00001;  // [m] tolerance for simplifying the outline
 
 struct Segment {
   glm::dvec2 from{0.0}, to{0.0};
@@ -39,8 +39,8 @@ std::vector<Segment> projected_walls(const haptics::Gate& gate, const haptics::Y
   return walls;
 }
 
-// Ratio of the length of the rod's section with the plane to the rod's diameter, where the lever leans most: rho / p_z,
-// with the yoke's radius rho and the knob's height p_z.
+// Where the lever leans most, the rod's cross-section in the gate plate's plane is an ellipse. Returns its length divided
+// by the rod's diameter: rho / p_z, where rho is the yoke's radius and p_z the knob's height.
 double longest_section(const haptics::Gate& gate, const haptics::YokeGeometry& yoke) {
   double longest = 1.0;
   for (const haptics::WallInfo& wall : haptics::describe_gate(gate).walls) {
@@ -50,7 +50,7 @@ double longest_section(const haptics::Gate& gate, const haptics::YokeGeometry& y
   return longest;
 }
 
-// Smallest distance between two neighbouring slots, measured at the knob. [m]
+// Smallest distance [m] between two neighbouring slots, measured at the knob.
 double thinnest_wall(const haptics::Gate& gate) {
   double thinnest = std::numeric_limits<double>::infinity();
   for (int i = 0; i + 1 < gate.column_count; ++i) {
@@ -63,7 +63,7 @@ double thinnest_wall(const haptics::Gate& gate) {
   return thinnest;
 }
 
-// Signed distance from the opening's edge at the nodes of a square grid, negative inside the opening.
+// Signed distance from the opening's edge, stored at the nodes of a square grid; negative inside the opening.
 class Field {
  public:
   Field(glm::dvec2 low, glm::dvec2 high, double cell)
@@ -79,7 +79,7 @@ class Field {
     return value_[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)];
   }
 
-  // Updates the minimum distance to walls at all nodes within `reach` of the segment.
+  // Updates the distance to the nearest wall at all nodes within `reach` of the segment.
   void near(const Segment& segment, double reach) {
     const glm::dvec2 from = (glm::min(segment.from, segment.to) - reach - low_) / cell_;
     const glm::dvec2 to = (glm::max(segment.from, segment.to) + reach - low_) / cell_;
@@ -103,8 +103,8 @@ class Field {
   std::vector<double> value_;
 };
 
-// Finds the contour at value 0 by marching squares. A crossing has the number of the grid edge on which it lies. Lines
-// are stored as a map from each crossing to the next one, with the opening on their left.
+// Finds the contour at value 0 by marching squares. Each crossing has the number of the grid edge on which it lies.
+// Lines are stored as a map from each crossing to the next one, with the opening on their left.
 class Contour {
  public:
   explicit Contour(Field& field) : field_(field) {
@@ -124,8 +124,8 @@ class Contour {
   }
 
  private:
-  // Adds the lines in a cell. Walks around the cell's corners: each run of consecutive corners inside the opening gives
-  // a line, which starts where the walk leaves the run and ends where the walk entered it.
+  // Adds the contour lines in a cell. Walks around the cell's corners: each run of consecutive corners inside the
+  // opening gives a line, which starts where the walk leaves the run and ends where the walk entered it.
   void cell(int i, int j) {
     const int corner_i[5] = {i, i + 1, i + 1, i, i};
     const int corner_j[5] = {j, j, j + 1, j + 1, j};
@@ -171,8 +171,8 @@ class Contour {
 };
 
 // Moves a counter-clockwise loop inward by `by`, each point along the mean of the normals of its two edges. No edge
-// flips if all corner radii exceed `by`. This holds here, because the loop is itself an offset curve with a larger
-// offset.
+// reverses as long as every corner radius exceeds `by`. Here this is so, because the loop is an offset curve whose
+// offset is larger than `by`.
 Loop inset(const Loop& loop, double by) {
   const std::size_t n = loop.size();
   Loop moved(n);
@@ -180,7 +180,7 @@ Loop inset(const Loop& loop, double by) {
     const glm::dvec2 in = glm::normalize(loop[i] - loop[(i + n - 1) % n]);
     const glm::dvec2 out = glm::normalize(loop[(i + 1) % n] - loop[i]);
     const glm::dvec2 left{-in.y - out.y, in.x + out.x};
-    moved[i] = loop[i] + 2.0 * by / glm::dot(left, left) * left;  // a mitre, at the distance `by` from both edges
+    moved[i] = loop[i] + 2.0 * by / glm::dot(left, left) * left;  // mitred corner at the distance `by` from both edges
   }
   return moved;
 }
@@ -198,7 +198,7 @@ glm::dvec2 gate_point(const haptics::YokeGeometry& yoke, glm::dvec2 plate_point,
 SlotOpening slot_opening(const haptics::Gate& gate, const haptics::YokeGeometry& yoke, double height) {
   SlotOpening opening;
   const double lean = longest_section(gate, yoke);
-  // The distance between two slots on the plate is at least height / yoke.radius times their distance at the knob.
+  // On the plate, the distance between two slots is at least height / yoke.radius times their distance at the knob.
   const double metal = thinnest_wall(gate) * height / yoke.radius;
   opening.rod_radius = std::min(kMaxRodRadius, kRodFraction * metal / lean);
   opening.widened = lean * opening.rod_radius;

@@ -1,8 +1,8 @@
 // Computes the opening for a gate in a plate above the lever's pivot.
 //
-// The gate is defined at the knob. The lever is straight and turns about the yoke's centre. It therefore crosses a
-// plane at the height h above the centre at the central projection of the knob: q = h p / p_z, with the knob's position
-// p and its height p_z.
+// The gate is defined at the knob. The lever is straight and turns about the yoke's centre. So the point q at which it
+// crosses a plane at the height h above the centre is the central projection of the knob: q = h p / p_z, with the
+// knob's position p and its height p_z.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -13,15 +13,16 @@
 
 namespace gearshift::cabin {
 
-// The projection and its inverse. All values in [m]; x: select, y: shift, height: above the yoke's centre.
+// The projection from gate to plate and its inverse. All values in [m]; x: select, y: shift, height: above the yoke's
+// centre.
 glm::dvec2 plate_point(const haptics::YokeGeometry& yoke, glm::dvec2 gate_point, double height) noexcept;
 glm::dvec2 gate_point(const haptics::YokeGeometry& yoke, glm::dvec2 plate_point, double height) noexcept;
 
 struct SlotOpening {
   Loop loop;                // outline of the opening, counter-clockwise
-  Loop face;                // `loop` widened by the bevel: the edge on the plate's face; same number of points
+  Loop face;                // the edge on the plate's face: `loop` widened by the bevel, same number of points
   double rod_radius = 0.0;  // [m] largest lever radius that leaves metal between the slots
-  double widened = 0.0;     // [m] added to the lever's path on all sides: room for the section of the leaning rod
+  double widened = 0.0;     // [m] added on all sides of the lever's path: space for the leaning rod
   double bevel = 0.0;       // [m] width of the bevel
 };
 

@@ -26,8 +26,8 @@ namespace {
 
 constexpr double kKnobRadius = 0.024;  // [m] radius of the knob in the cabin model
 constexpr float kGhostOpacity = 0.4f;
-constexpr float kTransparentHand = 0.25f;  // opacity of the hand while paths are shown below it
-constexpr float kExposure = 3.0f;          // for views from inside the cabin, which is darker than the road
+constexpr float kTransparentHand = 0.25f;  // opacity of the hand while paths are shown
+constexpr float kExposure = 3.0f;          // exposure for views from inside the cabin, which is darker than the road
 constexpr engine::ShadowBounds kCabin{{-0.45f, -0.31f, -1.25f}, {1.12f, 0.96f, 1.45f}};  // [m]
 constexpr glm::vec3 kX{1.0f, 0.0f, 0.0f}, kZ{0.0f, 0.0f, 1.0f};
 
@@ -191,7 +191,7 @@ struct Stage::State {
     if (hand) set_hand_transparent(is_driven || is_ideal);
   }
 
-  // Makes the hand transparent or opaque. A transparent hand is drawn without its ghost.
+  // Makes the hand transparent or opaque. While the hand is transparent, the ghost hand is hidden.
   void set_hand_transparent(bool is_glass) {
     scene.nodes[static_cast<std::size_t>(hand->skin_node())].opacity = is_glass ? kTransparentHand : 1.0f;
     if (is_glass) scene.nodes[static_cast<std::size_t>(hand->ghost_node())].visible = false;

@@ -1,4 +1,5 @@
-// The stage: places everything in the cabin according to the state of loop and car. Uses only meshes and nodes, no GPU.
+// The stage: places everything in the cabin according to the state of lever and car. Uses only meshes and nodes, no
+// GPU.
 #pragma once
 
 #include <filesystem>
@@ -36,10 +37,10 @@ struct StageInput {
   haptics::HapticSnapshot lever;
   vehicle::VehicleState car;
   double time = 0.0;  // [s] for blinking and vibration
-  // The driven and the shortest path of a replayed shift, in the gate plane [m]; empty: no path. They are drawn just
-  // above the knob, with a transparent hand.
+  // The driven and the shortest path of a replayed shift, in the gate plane [m]; empty: no path. The paths are drawn
+  // just above the knob, with a transparent hand.
   std::span<const glm::dvec2> driven_path{}, ideal_path{};
-  std::optional<Beam> pointer{};  // beam of a pointing controller
+  std::optional<Beam> pointer{};  // beam of the pointing controller
 };
 
 class Stage {
@@ -49,7 +50,7 @@ class Stage {
   ~Stage();
 
   const engine::Model& model() const noexcept;  // static parts are merged; gate plate and gearbox match the gate
-  // True once after place() changed the dial's textures in model(), because the car's red line changed.
+  // Returns true once after place() has changed the dial's textures in model() because the car's red line changed.
   bool take_dial_change() noexcept;
 
   // Places everything. The drawn lever follows the proxy with the exact kinematics; while kFlagGhost is set, the ghost
@@ -69,9 +70,9 @@ class Stage {
   std::unique_ptr<State> state_;
 };
 
-// Named cameras: "driver", "ahead", "lever", "gate", "cluster", "gearbox". Each has its subject in the middle square of
-// the image, because the panel may cover the sides. For an unknown name, both functions throw std::invalid_argument,
-// which lists all names.
+// Named cameras: "driver", "ahead", "lever", "gate", "cluster", "gearbox". Each camera has its subject in the middle
+// square of the image, because the panel may cover the sides. For an unknown name, camera() and camera_field() throw
+// std::invalid_argument with a message that lists all names.
 engine::EyePose camera(std::string_view name, DriveSide side = DriveSide::left);
 double camera_field(std::string_view name);  // [deg] field of view across the shorter side of the image
 

@@ -27,14 +27,14 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr glm::vec3 kCapGround{0.012f}, kCapInk{0.75f}, kCapReverse{0.62f, 0.035f, 0.025f};  // linear colours
-constexpr int kCapSide = 256;               // [px] side of the cap's texture
+constexpr int kCapSide = 256;               // [px] side length of the cap's texture
 constexpr float kModelRod = 0.006f;         // [m] radius of LeverRod in the cabin model
-constexpr glm::dvec2 kLamp{-0.052, 0.059};  // [m] on the boot's frame, front left, where no hand hides the lamp
+constexpr glm::dvec2 kLamp{-0.052, 0.059};  // [m] on the boot's frame, front left, where the hand does not hide it
 constexpr double kLampRadius = 0.0040;      // [m]
 constexpr const char* kBodywork = "Bodywork";
 constexpr std::array kPedals{"PedalClutch", "PedalBrake", "PedalThrottle"};
 
-// Nodes that are moved but not mirrored to make a right-hand-drive car: print, controls, parts that turn.
+// Nodes that are moved but not mirrored to make a right-hand-drive car: print, controls, moving parts.
 constexpr std::string_view kUpright[] = {
     "Cluster",    "RadioScreen",   "ClimatePrint", "HazardButton", "SteeringColumn", "PedalClutch",
     "PedalBrake", "PedalThrottle", "LeverPivot",   "GhostPivot",   "Boot",           "GatePlate",
@@ -48,8 +48,8 @@ void hide(engine::Model& model, std::string_view name) {
   node_of(model, name).mesh = engine::kNone;
 }
 
-// Saves draws without a visible effect: small faces get a different material that the same part already uses, and parts
-// that turn about their own axis of symmetry become static.
+// Reduces the number of draws without a visible effect: small faces get a different material that the same part already
+// uses, and parts that turn about their own axis of symmetry become static.
 void reduce_draws(engine::Model& cabin) {
   for (const char* pedal : kPedals) {
     replace_material(cabin, pedal, "PlasticHard", "PlasticSoft");
@@ -58,13 +58,13 @@ void reduce_draws(engine::Model& cabin) {
   replace_material(cabin, "SteeringWheel", "PlasticSoft", "PlasticHard");
   split_static_part(cabin, "TachNeedle", "PlasticGloss");
   split_static_part(cabin, "SpeedNeedle", "PlasticGloss");
-  engine::Node& ring = node_of(cabin, "BootRing");  // made static: unlike the boot, its ring does not bend
+  engine::Node& ring = node_of(cabin, "BootRing");  // becomes static, because unlike the boot it does not bend
   const engine::Node& boot = node_of(cabin, "Boot");
   ring.translation += boot.translation;
   ring.parent = boot.parent;
 }
 
-// Moves the parts of the cabin's file that are lit by the open sky into one mesh with a node of its own.
+// Moves those parts of the cabin that are lit by the open sky into one mesh with a node of its own.
 void gather_bodywork(engine::Model& cabin) {
   const std::vector<glm::mat4> world = engine::rest_pose(cabin);
   std::vector<MeshPart> parts;
@@ -172,8 +172,8 @@ glm::vec3 knob_at_rest(const engine::Model& model) {
 }
 
 // Mirrors the cabin; call before static parts are merged. The pedals keep their order, with the clutch to the left of
-// the brake. The mirrored footrest ends up next to the throttle: the tunnel leaves no room on the other side, and
-// without the footrest the floor would show the hole and the baked shadow behind it.
+// the brake. The mirrored footrest is next to the throttle, because the tunnel leaves no room on the other side. The
+// footrest cannot be left out, because it hides a hole and a baked shadow in the floor.
 void make_right_hand_drive(engine::Model& model) {
   mirror_model(model, static_cast<float>(kMirrorPlane), kUpright);
   for (const char* pedal : kPedals) {
@@ -183,7 +183,7 @@ void make_right_hand_drive(engine::Model& model) {
 }
 
 // Reads the road's model. For a right-hand-drive car the sign is mirrored here and once more with the whole model, so
-// that it stays readable.
+// that the sign stays readable.
 engine::Model road_parts(const StageConfig& config, const std::filesystem::path& folder) {
   engine::Model road = engine::read_gltf(folder / "road.glb");
   if (config.drive == DriveSide::right) mirror_mesh(road, node_of(road, "Sign").mesh);

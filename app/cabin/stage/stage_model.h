@@ -1,5 +1,5 @@
-// Makes all meshes and nodes of the stage from the files of assets/models and the parts made for the gate, merged into
-// few draws.
+// Builds the meshes and nodes of the stage from the files in assets/models and from parts generated for the gate.
+// Merges them, so that few draw calls are needed.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace gearshift::cabin {
 
-// Throws GltfError (bad model file), std::runtime_error (a required node is missing).
+// Throws GltfError if a model file is invalid, std::runtime_error if a required node is missing.
 engine::Model make_stage_model(const StageConfig& config, const std::filesystem::path& folder);
 
 // Names of the nodes that are lit by the open sky: road, land, bodywork. All other nodes are inside the cabin.

@@ -10,7 +10,7 @@
 namespace gearshift::cabin {
 namespace {
 
-constexpr double kSharp = 0.7;  // cosine of the largest turn with a mitre; sharper corners get two rounded ends
+constexpr double kSharp = 0.7;  // cosine of the largest turn that is mitred; sharper turns get two rounded ends
 constexpr int kCapSteps = 6;
 
 // Adds an arc from angle `from` to angle `to` [deg], counter-clockwise if from < to.
@@ -91,7 +91,7 @@ void cap(std::vector<glm::dvec2>& corners, glm::dvec2 end, glm::dvec2 outward, d
 
 // Adds a line that has no sharp corners, with mitred joints.
 void ribbon(std::vector<glm::dvec2>& corners, const Line& line, double half) {
-  std::vector<glm::dvec2> side(line.size());  // from the line to its left edge
+  std::vector<glm::dvec2> side(line.size());  // vectors from the line to its left edge
   for (std::size_t i = 0; i < line.size(); ++i) {
     const glm::dvec2 in = glm::normalize(i > 0 ? line[i] - line[i - 1] : line[1] - line[0]);
     const glm::dvec2 out = glm::normalize(i + 1 < line.size() ? line[i + 1] - line[i] : line[i] - line[i - 1]);
@@ -110,7 +110,8 @@ double srgb(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// Coverage [1] by the stroke of the pixel around p, from the distance of p to the stroke's centre line.
+// Fraction [1] of the pixel around p that the stroke covers, computed from the distance between p and the stroke's
+// centre line.
 double coverage(const Stroke& stroke, glm::dvec2 p, double pixel) {
   double nearest = 1e9;
   for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {

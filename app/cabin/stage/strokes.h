@@ -1,4 +1,4 @@
-// Strokes, i.e. lines with a width: the font of the gear labels, and the shift pattern on the knob.
+// Strokes, i.e. lines with a width, for the font of the gear labels and the shift pattern on the knob.
 #pragma once
 
 #include <vector>
@@ -19,17 +19,18 @@ struct Stroke {
   glm::vec3 colour{1.0f};  // linear
 };
 
-// Strokes of "R", "N", "1" ... "9", centred at `centre`, with lines `width` wide. An unknown gear gives a box.
+// Strokes of the label "R", "N" or "1" to "9", centred at `centre`. `width` is the line width. The label of an unknown
+// gear is a box.
 std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, double width, glm::vec3 colour);
 
-// The shift pattern of a gate as printed on a knob, in the unit square, y up: columns at their relative distances,
-// slots of equal length, gear labels at their ends.
+// The gate's shift pattern as printed on a knob, in the unit square with y up. The distances between columns are to
+// scale. All slots have the same length, with the gear labels at their ends.
 std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour);
 
-// The triangles of a stroke with rounded ends and corners; three points per triangle, counter-clockwise.
+// Returns the triangles of a stroke with rounded ends and corners; three points per triangle, counter-clockwise.
 std::vector<glm::dvec2> stroke_triangles(const Stroke& stroke);
 
-// Draws the unit square into an sRGB image, row 0 at y = 1, with edges antialiased over one pixel.
+// Draws strokes in the unit square into an sRGB image whose row 0 is at y = 1; edges are antialiased over one pixel.
 engine::Image draw_strokes(const std::vector<Stroke>& strokes, int side, glm::vec3 ground);
 
 }  // namespace gearshift::cabin

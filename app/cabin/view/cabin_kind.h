@@ -1,4 +1,4 @@
-// Defines how much of the lever mechanism is visible in the cabin.
+// How much of the lever mechanism is visible in the cabin.
 #pragma once
 
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace gearshift::cabin {
 
-// closed: boot and hand; open_gate: slotted plate instead of boot and hand; cutaway: like open_gate, and in addition
-// the cut-away gearbox.
+// `closed`: boot and hand. `open_gate`: a slotted plate instead of boot and hand. `cutaway`: like `open_gate`, plus the
+// cut-away gearbox.
 enum class Cabin { closed, open_gate, cutaway };
 
 Cabin cabin_for_camera(std::string_view camera);  // see camera()

@@ -31,7 +31,7 @@ std::vector<engine::View> views_of(const ViewConfig& config, const engine::EyePo
           engine::view_from(eyes.pose[1], eyes.fov[1], config.near_plane)};
 }
 
-// Copies the image of the eye or both eyes into the window's image.
+// Copies the rendered image, or the images of both eyes, into the window's image.
 class PresentFinish final : public engine::Renderer::Finish {
  public:
   PresentFinish(engine::Swapchain& swapchain, bool stereo) : swapchain_(swapchain), stereo_(stereo) {

@@ -19,31 +19,32 @@
 namespace gearshift::cabin {
 
 struct ViewConfig {
-  int width = 1280, height = 720;  // [px] size of the whole image; with a window, the window's size is used instead
-  int samples = 0;                 // 1, 4, or 0: 4 on a GPU, 1 on a software driver
+  int width = 1280, height = 720;  // [px] size of the whole image; unused with a window, which has its own size
+  int samples = 0;                 // samples per pixel: 1 or 4; 0 means 4 on a GPU, 1 on a software driver
   bool stereo = false;             // render both eyes side by side
   double eye_distance = 0.063;     // [m]
   double screen_distance = 2.0;    // [m] distance from the eyes at which the parallax is zero
   double near_plane = 0.05;        // [m]
 };
 
-// [px] Size of one eye's image, at least 1 x 1, if the full image has the size `full_size`. The panel is drawn into
-// each eye's image.
+// [px] Size of the image for one eye, at least 1 x 1, if the full image has the size `full_size`. The panel is drawn
+// into the image for each eye.
 glm::ivec2 eye_size(const ViewConfig& config, glm::ivec2 full_size);
-// [px] The mouse position relative to the eye's image under the mouse.
+// [px] Returns the mouse position within the eye's image that the mouse is over.
 glm::dvec2 mouse_in_eye(const ViewConfig& config, glm::dvec2 mouse, glm::ivec2 full_size);
 
-// A frustum for an image of this size, centred in the visible region. field [rad]: field of view across the region's
-// shorter side. If the region is narrower than a fifth of the image, the whole image is used.
+// Returns a frustum for an image of this size, centred in the visible region. `field` [rad]: field of view across the
+// region's shorter side. If the region is narrower than a fifth of the image, the whole image is used instead.
 engine::Fov fov_around(double field, glm::dvec2 size, const VisibleRegion& part);
 
-// The program's GpuConfig. If the environment variable GEARSHIFT_VALIDATION is set, validation is on and prints each
-// message as one line on stderr. The pipeline cache is in the user's cache folder.
+// The GPU configuration of this program. If the environment variable GEARSHIFT_VALIDATION is set, validation is on and
+// prints each message as one line on stderr. The pipeline cache is in the user's cache folder.
 engine::GpuConfig gpu_config(bool with_window);
 
 class CabinView {
  public:
-  // window: null to render in memory. ui: null for no panel. Both must outlive the view. Throws GpuError.
+  // `window`: null to render in memory. `ui`: null if no panel is drawn. Window and UI must outlive the view. Throws
+  // GpuError.
   CabinView(const ViewConfig& config, engine::Window* window, engine::UiContext* ui);
   ~CabinView();
 
@@ -51,7 +52,7 @@ class CabinView {
 
   // Returns false if nothing can be shown in this frame, e.g. while the window is minimised or being resized.
   bool begin();
-  // Call after begin() has returned true. Draws, and presents the image if there is a window. field [deg]: field of
+  // Call after begin() has returned true. Draws, and presents the image if there is a window. `field` [deg]: field of
   // view across the shorter side of the visible region. Throws GpuLost.
   void draw(const engine::FrameScene& scene, const engine::EyePose& head, double field,
             const VisibleRegion& region = {});

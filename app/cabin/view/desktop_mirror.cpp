@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kPeriod = std::chrono::microseconds(33'000);
 
-// [px] The place of the picture when it is fitted into the visible part of the canvas and centred in it.
+// [px] Rectangle of the picture, which is fitted into the visible part of the canvas and centred there.
 VkRect2D place_in(const VisibleRegion& part, VkExtent2D canvas, VkExtent2D picture) {
   const glm::dvec2 size(canvas.width, canvas.height);
   const glm::dvec2 low = part.low * size, room = (part.high - part.low) * size;

@@ -1,6 +1,6 @@
 // Mirrors the learner's view, with the panel over it, in a window for the instructor: an image as large as the panel's
 // image in the headset, fitted into the middle of the window. The mirror never delays the headset: if the window has no
-// free image, the last one stays.
+// free image, the previous image stays visible.
 #pragma once
 
 #include <memory>
@@ -18,13 +18,13 @@ glm::dvec2 in_mirrored_panel(glm::dvec2 mouse, glm::ivec2 panel, glm::ivec2 wind
 
 class DesktopMirror {
  public:
-  // All arguments must outlive the mirror. size [px]: size of the panel's image. Throws GpuError.
+  // All arguments must outlive the mirror. `size` [px]: size of the panel's image. Throws GpuError.
   DesktopMirror(engine::Gpu& gpu, engine::Window& window, engine::UiContext& ui, glm::ivec2 size);
   ~DesktopMirror();
 
-  bool is_due() const;  // true 30 times per second; a higher rate would cost the headset GPU time
-  // Shows the first layer of `picture`, which must be in state copy_from, fitted into this part of the panel's image,
-  // with the panel over it.
+  bool is_due() const;  // true 30 times per second: a higher rate would take GPU time from the headset
+  // Shows the first layer of `picture`, fitted into `part` of the panel's image, with the panel over it. The layer must
+  // be in state `copy_from`.
   void show(engine::GpuImage& picture, const VisibleRegion& part);
 
  private:

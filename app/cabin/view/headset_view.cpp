@@ -23,7 +23,7 @@ engine::GpuConfig shared_with(engine::HeadsetRuntime& runtime) {
   return config;
 }
 
-// The scaled size [px] as an even number, limited to `largest`, the most that the runtime supports.
+// The scaled size [px], rounded to an even number and limited to `largest`, the runtime's maximum.
 int scaled(int recommended, int largest, double scale) {
   const int wanted = static_cast<int>(std::lround(0.5 * scale * recommended)) * 2;
   return std::clamp(wanted, 2, std::max(2, largest));
@@ -83,10 +83,10 @@ struct HeadsetView::State {
   engine::Renderer renderer;
   engine::HeadsetSession session;
   UiCanvas panel;
-  std::optional<DesktopMirror> mirror;  // empty if the window has failed; the headset still works then
+  std::optional<DesktopMirror> mirror;  // empty if the window has failed, which does not affect the headset
   engine::FrameTimes times;
-  std::optional<engine::HeadsetFrame> frame;  // the frame that has begun
-  bool is_shown = false;                      // the headset displays the frame that has begun last
+  std::optional<engine::HeadsetFrame> frame;  // the current frame, from begin() until draw()
+  bool is_shown = false;                      // true if the headset displays the newest frame
   std::string message;
   engine::HeadsetEyes eyes, shown_eyes, at_origin;
   bool drawn = false;  // true once there is an image to mirror
@@ -247,7 +247,8 @@ void HeadsetView::draw(const engine::FrameScene& scene, const engine::EyePose& c
     s.draw_cabin(scene, cabin_from_room, is_shown() ? s.eyes : s.at_origin, nullptr);
   }
   if (s.frame) {
-    // If no image could be acquired, the last image is shown again with the eye poses from which it was drawn.
+    // If no image could be acquired, the headset shows the previous image again, with the eye poses from which that
+    // image was drawn.
     const bool shows = s.frame->should_render;
     s.session.end(*s.frame, shows ? &s.shown_eyes : nullptr, s.config.near_plane, shows ? panel : nullptr);
     s.times.add(*s.frame, s.session.now_ns(), images.colour ? s.renderer.times().all : 0.0);

@@ -18,15 +18,15 @@
 namespace gearshift::cabin {
 
 struct HeadsetViewConfig {
-  double scale = 1.0;            // [1] 0.3 to 2, ratio of the image size to the size recommended by the headset
-  int samples = 0;               // 1, 4, or 0: 4 on a GPU, 1 on a software driver
+  double scale = 1.0;            // [1] 0.3 to 2: image size / size recommended by the headset
+  int samples = 0;               // samples per pixel: 1 or 4; 0: 4 on a GPU that supports it, otherwise 1
   double near_plane = 0.05;      // [m]
-  glm::ivec2 panel{1920, 1080};  // [px] size of the panel's image: 32 px per degree on the lesson card
+  glm::ivec2 panel{1920, 1080};  // [px] size of the panel's image; gives the lesson card 32 px per degree
 };
 
 class HeadsetView {
  public:
-  // window and ui must outlive the view. Throws HeadsetError with one sentence, or GpuError.
+  // window and ui must outlive the view. Throws HeadsetError with a one-sentence message, or GpuError.
   HeadsetView(const HeadsetViewConfig& config, std::unique_ptr<engine::HeadsetRuntime> runtime, engine::Window& window,
               engine::UiContext& ui);
   ~HeadsetView();
@@ -34,31 +34,33 @@ class HeadsetView {
   void set_model(const engine::Model& model);
 
   // Polls the headset. If the headset is in use, waits for its next frame, locates the eyes and returns true; draw()
-  // must follow. If the runtime withholds the frame for more than 50 ms, no frame begins, so that the keys for the
-  // lever are not delayed. This and the other functions throw HeadsetLost, after which the view must be recreated.
+  // must follow. If the runtime withholds the frame for more than 50 ms, returns true without a frame (see
+  // has_begun()), so that the user's keys for the lever are not delayed. This and the other functions throw
+  // HeadsetLost, after which the view must be recreated.
   bool begin();
-  bool has_begun() const noexcept;                   // true if a frame has begun
-  bool is_waiting() const noexcept;                  // the runtime withholds a frame, for which the destructor waits
+  bool has_begun() const noexcept;                   // true between begin() and draw()
+  bool is_waiting() const noexcept;                  // the runtime withholds a frame; the destructor waits for it
   void release_window();                             // ends the mirror, so that a different view can use the window
-  bool is_shown() const noexcept;                    // the headset displays the frame that has begun last
+  bool is_shown() const noexcept;                    // true if the headset displays the newest frame
   const engine::HeadsetEyes& eyes() const noexcept;  // poses of the eyes in the room
-  // The next two functions need a frame that has begun.
-  std::array<engine::HeadsetHand, 2> hands();  // left and right, poses in the room
+  // Call the next two functions only if has_begun().
+  std::array<engine::HeadsetHand, 2> hands();  // left and right hand, poses in the room
   std::optional<engine::SpaceChange> take_due_space_change();
 
-  // Draws from the current eye poses, submits the frame, and then updates the mirror. cabin_from_room: see
-  // SeatCalibration. panel: its place in the room; null: hidden. region: the part of the mirror's image for the view.
-  // If the headset displays no frames, only the mirror is drawn, from the room's origin.
+  // Draws from the current eye poses, submits the frame, and then updates the mirror. `cabin_from_room`: see
+  // SeatCalibration. `panel`: pose and size in the room; if null, the panel is hidden. `region`: the part of the
+  // mirror's image that shows the view. If the headset displays no frames, only the mirror is drawn, from the room's
+  // origin.
   void draw(const engine::FrameScene& scene, const engine::EyePose& cabin_from_room, const engine::HeadsetPanel* panel,
             const VisibleRegion& region);
 
   const engine::HeadsetTraits& headset() const noexcept;
   engine::HeadsetState state() const noexcept;
-  bool is_room_persistent() const noexcept;  // the tracking space is the same in the next session
+  bool is_room_persistent() const noexcept;  // true if the tracking space stays the same in the next session
   const engine::HeadsetTiming& timing() const noexcept;
   glm::ivec2 eye_size() const noexcept;  // [px]
   std::uint64_t validation_messages() const;
-  std::string take_message();  // returns once the reason why the mirror failed; empty: no failure
+  std::string take_message();  // why the mirror failed, returned only once; empty: no failure
 
  private:
   struct State;

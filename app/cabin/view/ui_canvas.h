@@ -10,12 +10,12 @@ class UiCanvas {
  public:
   UiCanvas(engine::Gpu& gpu, engine::UiContext& ui) : gpu_(gpu), overlay_(gpu, ui) {}
 
-  void fit(VkExtent2D extent);  // waits until the GPU is idle and recreates the image, if its size changes
+  void fit(VkExtent2D extent);  // if the size changes, waits until the GPU is idle and recreates the image
 
-  // Clears the image to transparent black and leaves it in state copy_to.
+  // Clears the image to transparent black and leaves it in state `copy_to`.
   engine::GpuImage& begin(VkCommandBuffer commands);
-  // Draws the panel over the image's content, with premultiplied alpha; leaves the image in state copy_from. slot: see
-  // Overlay.
+  // Draws the panel over the image's content, with premultiplied alpha. Leaves the image in state `copy_from`. `slot`:
+  // see Overlay.
   engine::GpuImage& draw(VkCommandBuffer commands, int slot);
 
  private:

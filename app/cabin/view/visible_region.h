@@ -5,7 +5,7 @@
 
 namespace gearshift::cabin {
 
-// Corners of the region, as fractions of the image, from its upper left corner. [1]
+// Upper left and lower right corner of the region [1], as fractions of the image's size, from its upper left corner.
 struct VisibleRegion {
   glm::dvec2 low{0.0}, high{1.0};
 };

@@ -13,7 +13,7 @@ std::string related_field(const BenchRow& row) {
   return base::csv_field(text);
 }
 
-// Columns: contest, method, cost, cost_unit, error, error_unit, chosen.
+// CSV fields: contest, method, cost, cost_unit, error, error_unit, chosen.
 std::string trade_fields(const std::optional<Trade>& trade) {
   if (!trade) return ",,,,,,";
   return fmt::format("{},{},{},{},{},{},{}", base::csv_field(trade->contest), base::csv_field(trade->method),

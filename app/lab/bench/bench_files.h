@@ -1,4 +1,4 @@
-// Formats a run as a table for a terminal, as CSV and as JSON. Does not measure or write files.
+// Formats a benchmark run as a table for a terminal, as CSV and as JSON.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace gearshift::lab {
 
 std::string bench_table(const BenchRun& run);
-std::string bench_csv(const BenchRun& run);   // RFC 4180 except that lines end with LF; program and date on each line
-std::string bench_json(const BenchRun& run);  // non-finite values are null
+std::string bench_csv(const BenchRun& run);   // RFC 4180, but lines end with LF; every line contains program and date
+std::string bench_json(const BenchRun& run);  // non-finite values become null
 
 }  // namespace gearshift::lab

@@ -65,7 +65,7 @@ std::string facts(const BenchRun& run) {
          row("Processor", fmt::format("{}, {} cores", m.cpu, m.cores)) + row("GPU", m.gpu) + row("System", m.system) +
          row("Build", fmt::format("{}, {}", m.build, m.compiler)) +
          row("CPU time used by others", run.contention ? format_contention(*run.contention) : "") +
-         row("Run", run.quick ? "quick (its figures should not be quoted)" : "full") + "</table>\n";
+         row("Run", run.quick ? "quick run; do not quote its figures" : "full") + "</table>\n";
 }
 
 std::string verdict_cell(const BenchRow& row) {
@@ -85,7 +85,7 @@ std::string number_cell(const std::string& text) {
   return fmt::format("<td class=\"number\">{}</td>", base::html_text(text));
 }
 
-// A row without a verdict is followed by a table row with its note.
+// Formats a measured row. If it has no verdict, a second table row shows its note.
 std::string answer_row(const BenchRow& row) {
   const bool is_judged = verdict_of(row) != Verdict::none;
   const std::string why = is_judged || row.note.empty() ? ""
@@ -99,7 +99,7 @@ std::string answer_row(const BenchRow& row) {
          why;
 }
 
-// A row of the design table, and the rows of this run that answer it.
+// Formats a requirement of the design and the measured rows of this run that answer it.
 std::string requirement_rows(const DesignRow& requirement, const BenchRun& run) {
   std::string answers;
   for (const MeasuredRow& measured : run.rows) {
@@ -200,7 +200,7 @@ std::size_t count_of(const BenchRun& run, Verdict verdict) {
   }));
 }
 
-// Summary: how many goals are met, and which are not.
+// Formats how many goals are met and lists the missed ones.
 std::string summary(const BenchRun& run) {
   const auto needs_mention = [](const BenchRow& row) { return verdict_of(row) == Verdict::missed || is_open(row); };
   const std::size_t met = count_of(run, Verdict::met), goals = met + count_of(run, Verdict::missed);
@@ -217,7 +217,8 @@ std::string summary(const BenchRun& run) {
                                  run.quick ? " in a quick run, which takes fewer samples than a full run" : "");
   const bool any_open = std::any_of(run.rows.begin(), run.rows.end(), [](const auto& m) { return is_open(m.row); });
   if (any_open)
-    text += " \"Open\" means that the goal lies between the quartiles, so the next run may give the other verdict.";
+    text +=
+        " \"Open\" means that the goal lies between the measured quartiles, so another run may decide the other way.";
   text += "</p>\n";
   if (table.empty()) return text;
   return text + "<table class=\"figures\">\n<tbody>\n" + table + "</tbody>\n</table>\n";

@@ -1,4 +1,4 @@
-// Formats a run as one self-contained HTML page.
+// Formats a benchmark run as one self-contained HTML page.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gearshift::lab {
 
-// The page is also well-formed XML, so that an XML parser can check it.
+// The page is also well-formed XML, so that tests can check it with an XML parser.
 std::string bench_page(const BenchRun& run);
 
 }  // namespace gearshift::lab

@@ -44,7 +44,7 @@ bool is_date(std::string text) {
   return text == "0000-00-00T00:00:00Z";
 }
 
-// Throws nlohmann's exceptions or std::invalid_argument if the JSON is not a saved run.
+// Throws nlohmann::json exceptions or std::invalid_argument if the JSON is not a saved run.
 LastRun from_json(const Json& json) {
   LastRun last;
   for (const auto& [name, family] : json.at("families").items()) {
@@ -76,7 +76,7 @@ std::string rename_unreadable(const fs::path& file) {
                  : "the file was renamed to " + aside.string();
 }
 
-// Compares the values as the table prints them.
+// True if the values differ in the four digits that the table prints.
 bool differs_as_shown(double a, double b) {
   return format_value(a) != format_value(b);
 }

@@ -1,4 +1,4 @@
-// The last full run of each family on one machine, saved in the user's data folder.
+// The latest full run of each family of rows on one machine, saved in the user's data folder.
 #pragma once
 
 #include <filesystem>
@@ -20,20 +20,21 @@ struct LastFigure {
 };
 
 struct LastFamily {
-  std::string date, program, contention;                   // of the last run; contention: text of format_contention()
+  std::string date, program, contention;                   // data of the last run; contention: format_contention()
   std::map<std::string, LastFigure, std::less<>> figures;  // key: the row's name
 };
 using LastRun = std::map<std::string, LastFamily, std::less<>>;  // by family
 
-// Empty if the file does not exist. A file that cannot be read or parsed is reported in one sentence and renamed to
-// FILE.unreadable (or FILE.unreadable2 and so on), so that this run can be saved.
+// Returns an empty LastRun if the file does not exist. If the file cannot be read or parsed, reports the problem in one
+// sentence and renames the file to FILE.unreadable (or FILE.unreadable2 and so on), so that the current run can be
+// saved.
 LastRun read_last_run(const std::filesystem::path& file, const std::function<void(const std::string&)>& report);
 
-// Empty for a row that was not measured now or is missing in the last run.
+// Empty if the row was not measured in this run or is missing from `last`.
 std::optional<SinceLast> since_last(const LastRun& last, const BenchRow& row);
-void compare(BenchRun& run, const LastRun& last);  // all rows, and the costs of the methods among them
+void compare(BenchRun& run, const LastRun& last);  // compares all rows and the costs of their methods
 
-// Replaces the families of this run in the file and keeps the others. Throws FileError.
+// Replaces the row families that this run contains and keeps all others in the file. Throws FileError.
 void save_run(const std::filesystem::path& file, LastRun last, const BenchRun& run);
 
 }  // namespace gearshift::lab

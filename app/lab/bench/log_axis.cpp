@@ -6,9 +6,9 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kMargin = 0.06;     // [1] margin beyond the outermost values, as a fraction of the span
+constexpr double kMargin = 0.06;     // [1] margin at each end, as a fraction of the span
 constexpr double kMinSpan = 0.6;     // [decades]
-constexpr double kFewDecades = 2.5;  // [decades] on axes of at most this span, ticks at 1, 2 and 5 are labelled
+constexpr double kFewDecades = 2.5;  // [decades] axes with at most this span also have labelled ticks at 2 and 5
 constexpr int kMaxNamedTicks = 7;
 
 std::vector<LogAxis::Tick> ticks_within(double low, double high) {

@@ -7,7 +7,7 @@ namespace gearshift::lab {
 
 class LogAxis {
  public:
-  // Values <= 0 are placed at the start of the axis, which is then at least a decade below the smallest positive value.
+  // Values <= 0 are placed at the start of the axis, at least a decade below the smallest positive value.
   explicit LogAxis(const std::vector<double>& figures);
 
   double fraction(double figure) const noexcept;  // [1] position: 0 at the start, 1 at the end; figure must be finite

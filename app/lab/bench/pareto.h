@@ -8,8 +8,8 @@
 
 namespace gearshift::lab {
 
-// Indices of the points (cost, error) on the front, cheapest first. A point is beaten by one that is no worse in both
-// and better in one, so equal points are both on the front. Points that are not finite are never on it.
+// Returns the indices of the points (cost, error) on the front, cheapest first. Point A beats point B if A is no worse
+// in both values and better in one, so equal points are all on the front. Non-finite points are never on the front.
 std::vector<std::size_t> pareto_front(const std::vector<glm::dvec2>& points);
 
 }  // namespace gearshift::lab

@@ -19,7 +19,9 @@ namespace {
 constexpr int kColumns = 2;
 constexpr double kPanelWidth = 480.0, kPlotHeight = 230.0;  // [px]
 constexpr double kLeft = 64.0, kRight = 24.0, kTop = 54.0, kBelow = 50.0, kLine = 18.0;
-constexpr double kNames = 30.0, kCostColumn = 104.0;      // [px] names from the left edge, end of costs from the right
+// [px] kNames: distance from the left edge to the method names. kCostColumn: distance from the right edge to the end of
+// the costs.
+constexpr double kNames = 30.0, kCostColumn = 104.0;
 constexpr double kDot = 4.5, kNumber = 11.0, kCap = 3.5;  // [px]
 constexpr const char* kBeaten = "#a9b4bf";
 constexpr const char* kOnFront = base::kInk;
@@ -36,7 +38,8 @@ std::vector<Contest> contests_of(std::string_view family, const std::vector<Benc
     if (contest == contests.end()) contest = contests.insert(contests.end(), Contest{});
     contest->push_back(&*row.trade);
   }
-  std::erase_if(contests, [](const Contest& contest) { return contest.size() < 2; });  // one method: nothing to compare
+  // A contest with a single method has nothing to compare.
+  std::erase_if(contests, [](const Contest& contest) { return contest.size() < 2; });
   return contests;
 }
 
@@ -125,7 +128,7 @@ class Panel {
     svg_.text({box_.x, box_.y - 9.0}, {12.0, base::kSoftInk}, axis_name(contest_.front()->error));
   }
 
-  // Draws the front as steps: between two methods, the reachable error is that of the cheaper one.
+  // Draws the front as steps: at each cost, the line shows the error of the best method that costs no more.
   void front_line() {
     std::vector<glm::dvec2> line;
     for (const std::size_t i : front_) {
@@ -138,7 +141,7 @@ class Panel {
     svg_.polyline(line, {base::kSoftInk, 1.4});
   }
 
-  // The end caps distinguish the bar from the front line, on which it may lie.
+  // Draws an error bar. Its end caps distinguish it from the front line, which may coincide with the bar.
   void bar(glm::dvec2 from, glm::dvec2 to, glm::dvec2 cap, const base::Pen& pen) {
     svg_.line(from, to, pen);
     svg_.line(from - cap, from + cap, pen);
@@ -158,7 +161,7 @@ class Panel {
     if (trade.chosen) svg_.ring(at(trade), kDot + 3.0, {kChosen, 1.6});
   }
 
-  // Places the number next to its dot, away from other dots and numbers.
+  // Places a method's number next to its dot, away from other dots and numbers.
   void number(std::size_t i) {
     const glm::dvec2 dot = at(*contest_[i]);
     constexpr std::array<glm::dvec2, 8> kPlaces{
@@ -173,7 +176,7 @@ class Panel {
     svg_.text(best + glm::dvec2(0.0, 4.0), {kNumber, base::kInk, "middle", contest_[i]->chosen}, std::to_string(i + 1));
   }
 
-  // [px] distance to the nearest dot or number that would be covered, limited to kEnough.
+  // [px] Distance to the nearest other dot or number, at most kEnough; halved near the plot's edge and outside it.
   double clearance(glm::dvec2 place, std::size_t index) const {
     constexpr double kEnough = 14.0;
     double nearest = kEnough;

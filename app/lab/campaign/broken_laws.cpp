@@ -17,8 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReplayCommand = "gearshift train --replay ";
-constexpr double kLeadTime = 2.0;       // [s] shown before the violation; covers the window in which a hold is checked
-constexpr std::size_t kMaxLines = 100;  // lines read at most, even from a file that is not ours
+// [s] The replay starts this long before the violation, so that it includes the motion that the law has measured.
+constexpr double kLeadTime = 2.0;
+constexpr std::size_t kMaxLines = 100;  // maximum number of lines to read, in case another program wrote the file
 
 fs::path text_file_of(fs::path trace) {
   return trace.replace_extension(".txt");
@@ -26,7 +27,7 @@ fs::path text_file_of(fs::path trace) {
 
 std::string line_of(const BrokenLaw& one, std::uint64_t campaign_seed) {
   const LawText& law_info = law_text(one.law);
-  return fmt::format("case {} of seed {} breaks {} ({}): {:.4g} {}, bound {:.4g}, at {:.3f} s", one.number,
+  return fmt::format("case {} of seed {} violates {} ({}): {:.4g} {}, bound {:.4g}, at {:.3f} s", one.number,
                      campaign_seed, std::string(law_info.name), std::string(law_info.requirement), one.result.value,
                      std::string(law_info.unit), one.result.bound, one.result.time);
 }

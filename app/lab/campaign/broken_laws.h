@@ -1,5 +1,5 @@
-// Text files beside the traces of failed cases, with the trace's name and extension .txt: the broken laws, when and by
-// how much they were broken, and the command that shows it.
+// Text files about failed cases. Each lies beside the trace of its case, with the trace's name and the extension .txt.
+// It lists the broken laws, the time and size of each violation, and the command that replays it.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace gearshift::lab {
 
-// Writes the text, or deletes it if no law is broken. Throws FileError.
+// Writes the text file, or deletes it if `broken` is empty. Throws FileError.
 void write_broken_laws(const std::filesystem::path& trace, std::uint64_t campaign_seed,
                        std::span<const BrokenLaw> broken);
 
-// The lines of the text about this trace, with the trace's full path in the commands; empty if the text names a
-// different trace or does not exist.
+// Returns the text for this trace, with the trace's full path in the commands. Returns an empty string if the text file
+// does not exist or names a different trace.
 std::string broken_laws_text(const std::filesystem::path& trace);
 
 }  // namespace gearshift::lab

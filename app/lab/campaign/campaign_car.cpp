@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kCarSeed = 0x2545f4914f6cdd1d, kStartSeed = 0x9fb21c651e98df25, kFeetSeed = 0x589965cc75374cc3;
 constexpr double kMaxRoadSpeed = 40.0;  // [m/s]
 
-// Writes the car file line by line, drawing each value when its line is written.
+// Writes the car file line by line and draws each value when it writes the line.
 class CarText {
  public:
   explicit CarText(Chance& chance) : chance_(chance) {}
@@ -31,7 +31,7 @@ class CarText {
   std::string text_;
 };
 
-// The speeds are drawn in the order that a car file requires.
+// Draws speeds that satisfy a car file's condition: stall < idle < red line < limiter.
 void write_engine(CarText& car, Chance& chance) {
   const double limiter = chance.decades(1500.0, 15000.0), idle = limiter * chance.between(0.1, 0.25);
   const double max_torque = chance.decades(1.0, 5000.0);
@@ -71,7 +71,7 @@ void write_gearbox(CarText& car, Chance& chance) {
   double ratio = chance.decades(1.0, 20.0);
   for (int gear = 1; gear <= haptics::kMaxGear; ++gear) {
     car.put(fmt::format("ratio_{}", gear).c_str(), ratio);
-    ratio *= chance.between(0.78, 0.99);  // after eight of these steps the ratio is still in the allowed range
+    ratio *= chance.between(0.78, 0.99);  // small steps: the ratio of the ninth gear is still in its allowed range
   }
   car.decades("ratio_r", 0.5, 20.0);
   car.decades("final_drive", 0.5, 20.0);

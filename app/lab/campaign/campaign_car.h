@@ -1,4 +1,4 @@
-// Random cars behind the lever, from a moped to a lorry, and random pedals.
+// Random cars, from a moped to a lorry, and random pedal inputs.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace gearshift::lab {
 
-// A car with nine gears and reverse, so that it fits every gate, and values over the whole range that a car file
-// allows. The same seed gives the same file on every machine.
+// A car with nine forward gears and reverse, so that it fits every gate. Its values cover the whole range that a car
+// file allows. A seed gives the same car on every machine.
 vehicle::CarSpec random_car(std::uint64_t seed);
 vehicle::CarStart random_start(std::uint64_t seed);
 
-// Pedals, starter and slope that change at random moments.
+// Pedals, starter and slope that change at random times.
 class CampaignPedals {
  public:
   explicit CampaignPedals(std::uint64_t seed);
-  const haptics::DriverControls& at(double time);  // [s] rising
+  const haptics::DriverControls& at(double time);  // time: [s], must not decrease
 
  private:
   Chance chance_;

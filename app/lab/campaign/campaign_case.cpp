@@ -11,9 +11,9 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr std::uint64_t kWideSeed = 0x8f14e45fceea167a;  // makes draws of wide cases independent of the others
+constexpr std::uint64_t kWideSeed = 0x8f14e45fceea167a;  // makes the draws of widen() independent of all other draws
 constexpr double kCountPerDegree =
-    haptics::YokeGeometry{}.radius * std::numbers::pi / 180.0;  // [m] encoder count at the tip, at one count per degree
+    haptics::YokeGeometry{}.radius * std::numbers::pi / 180.0;  // [m] motion of the tip per degree
 
 haptics::HandImpedance hand_of(CaseHand kind, Chance& chance) {
   switch (kind) {
@@ -51,7 +51,7 @@ CaseManner manner_of(CaseHand kind, Chance& chance) {
   return manner;
 }
 
-// In half of the cases each value is the shipped one, otherwise any allowed value.
+// Each value keeps its default with probability 0.5.
 haptics::HapticTuning tuning_of(Chance& chance) {
   haptics::HapticTuning tuning;
   if (chance.happens(0.5)) tuning.wall_stiffness = chance.decades(100.0, 20000.0);
@@ -78,7 +78,7 @@ haptics::HapticConfig haptics_of(Chance& chance) {
   config.contact = contact_of(chance);
   if (chance.happens(0.2)) config.estimator.smoothing = chance.decades(1e-5, 1.0);
   if (chance.happens(0.02))
-    config.estimator.window = 1 + chance.below(haptics::kMaxWindow);  // a fraction above 1 needs allow_unstable
+    config.estimator.window = 1 + chance.below(haptics::kMaxWindow);  // a window above 1 needs allow_unstable
   if (chance.happens(0.2)) config.guard.slew = chance.decades(1.5, 100.0);
   config.guard.ramp_time = chance.decades(0.001, 0.5);
   if (chance.happens(0.2)) config.guard.stale_time = chance.decades(0.001, 1.0);
@@ -87,7 +87,7 @@ haptics::HapticConfig haptics_of(Chance& chance) {
   return config;
 }
 
-// Scales mass, damping and stiffness by 0.5 to 2.
+// Multiplies mass, damping and stiffness by random factors from 0.5 to 2.
 haptics::AxisModel other_axis(haptics::AxisModel axis, Chance& chance) {
   axis.mass *= chance.decades(0.5, 2.0);
   axis.damping *= chance.decades(0.5, 2.0);
@@ -100,7 +100,7 @@ haptics::SimulatedLeverConfig lever_of(CaseHand kind, std::uint64_t seed, Chance
   lever.seed = seed;
   lever.hand = hand_of(kind, chance);
   lever.delay = chance.below(4);
-  const bool is_promised = chance.happens(0.7);  // errors that the laws allow: 5 %, 10 %
+  const bool is_promised = chance.happens(0.7);  // true: within the stability check's 5 % plant error and 10 % jitter
   lever.model_error = chance.between(0.0, is_promised ? 0.05 : 0.2);
   if (chance.happens(0.6)) lever.period_jitter = chance.between(0.0, is_promised ? 0.1 : 0.5);
   if (chance.happens(0.7)) lever.encoder_counts = kCountPerDegree / chance.decades(1e-6, 0.5e-3);
@@ -110,12 +110,14 @@ haptics::SimulatedLeverConfig lever_of(CaseHand kind, std::uint64_t seed, Chance
   if (chance.happens(0.2)) lever.axis_x = other_axis(lever.axis_x, chance);
   if (chance.happens(0.2)) lever.axis_y = other_axis(lever.axis_y, chance);
   if (chance.happens(0.15)) lever.actuator.peak_force = chance.between(15.0, 60.0);
-  if (chance.happens(0.8)) lever.actuator.overload_time = 1e4;  // [s] never tires
+  if (chance.happens(0.8)) lever.actuator.overload_time = 1e4;  // [s] never overheats
   return lever;
 }
 
-// Draws from their whole allowed ranges the values that are drawn narrowly above. The speed limit stays at 10 m/s or
-// more: the motors can accelerate a bare handle to that speed between the stops, and faster readings count as faults.
+// Draws further settings from their whole allowed ranges. The functions above draw them from narrower ranges or not at
+// all.
+// The estimator's speed limit is at least 10 m/s: the motors can accelerate a bare handle to that speed between the
+// stops, and a reading above the limit is a fault.
 void widen(CampaignCase& drawn, Chance& chance) {
   drawn.is_wide = true;
   haptics::HapticConfig& haptics = drawn.haptics;

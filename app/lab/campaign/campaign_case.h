@@ -1,5 +1,5 @@
-// One case of the stability campaign with everything drawn from its seed. Draws from all settings that a user could
-// make, not only those known to work; the loop's checks limit or reject them.
+// One random case of the stability campaign, computed from its seed. A case may have any setting that a user could
+// choose, even one that the loop must limit or reject.
 #pragma once
 
 #include <array>
@@ -16,52 +16,52 @@ namespace gearshift::lab {
 
 enum class CaseHand : int {
   bare,     // no hand: the lever is kicked, pushed and released
-  light,    // a listed hand
-  grip,     // a listed hand
-  arm,      // a listed hand
-  heavy,    // 1 to 3 kg
-  stiff,    // 1000 to 3000 N/m
-  nervous,  // a grip that trembles at 8 to 12 Hz
-  hasty     // a grip that is fast, misses and overshoots
+  light,    // haptics::kLightHand
+  grip,     // haptics::kGripHand
+  arm,      // haptics::kArmHand
+  heavy,    // a hand of 1 to 3 kg
+  stiff,    // a hand of 1000 to 3000 N/m
+  nervous,  // like `grip`, with a tremor of 8 to 12 Hz
+  hasty     // like `grip`, but fast, inaccurate and overshooting
 };
 inline constexpr std::array<std::string_view, 8> kCaseHandNames{"bare",  "light", "grip",    "arm",
                                                                 "heavy", "stiff", "nervous", "hasty"};
 
-// How the hand moves.
+// The hand's style of movement.
 struct CaseManner {
   double pace = 0.2;           // [m/s] mean speed of a stroke
-  double aim_noise = 0.0;      // [m] standard deviation of every aim
-  double overshoot = 0.0;      // [m] distance beyond the gear's end before returning
-  double tremor = 0.0;         // [N] amplitude on both axes
+  double aim_noise = 0.0;      // [m] standard deviation of each aim
+  double overshoot = 0.0;      // [m] distance beyond the gear's end position before returning
+  double tremor = 0.0;         // [N] amplitude of the tremor on both axes
   double tremor_rate = 10.0;   // [Hz]
-  double wrong_aims = 0.0;     // [1] fraction of shifts that go somewhere else first, such as into a wall or lockout
-  double side_pushes = 0.0;    // [1] fraction of gears in which the hand pushes sideways
+  double wrong_aims = 0.0;     // [1] fraction of shifts with a detour, such as into a wall or lockout
+  double side_pushes = 0.0;    // [1] fraction of shifts after which the hand pushes sideways in gear
   double hardest_push = 25.0;  // [N] largest sideways push
-  double last_push = 20.0;     // [N] push in the last hold
+  double last_push = 20.0;     // [N] push of the hand at the end of the case
   bool leans_aside = false;    // the last push is sideways instead of towards the gear's end stop
 };
 
-inline constexpr int kCaseShifts = 40;  // tried per case
+inline constexpr int kCaseShifts = 40;  // number of shifts tried per case
 
 struct CampaignCase {
   std::uint64_t number = 0, seed = 0;
-  int shipped_gate = -1;  // index into the shipped layouts sorted by name; -1: the random layout of this seed
+  int shipped_gate = -1;  // index into the shipped layouts sorted by name; -1: a random layout drawn from `seed`
   CaseHand hand = CaseHand::grip;
   CaseManner manner;
   haptics::HapticConfig haptics;
   haptics::SimulatedLeverConfig lever;
-  int shifts = kCaseShifts;  // shifts tried; 0 without a hand
+  int shifts = kCaseShifts;  // number of shifts that the hand tries; 0 without a hand
   bool is_wide = false;      // gate, rate, delay, plant error and tuning are drawn from their whole ranges
-  bool has_car = false;      // the load is random_car() of this seed
+  bool has_car = false;      // the load is random_car(seed)
 };
 
-// Every seventh case is wide: 4, 11, ... The draws of all other cases are the same as before wide cases were added.
+// Cases 4, 11, 18 and so on are wide (see CampaignCase::is_wide).
 inline constexpr std::uint64_t kWideEvery = 7, kFirstWide = 4;
 
-// The case's seed: output `number` of splitmix64 started with the campaign's seed.
+// Returns the case's seed: output `number` of a splitmix64 generator with the campaign's seed.
 std::uint64_t case_seed(std::uint64_t campaign_seed, std::uint64_t number) noexcept;
 
-// Draws a case. The result is the same on every machine.
+// Draws a random case. The result is equal on every machine.
 CampaignCase drawn_case(std::uint64_t campaign_seed, std::uint64_t number, int shipped_gates);
 
 // Size of an encoder count at the tip; 0 without an encoder. [m]

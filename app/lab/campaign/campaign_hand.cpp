@@ -14,11 +14,11 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kHold = 3.0;                              // [s] length of each hold
+constexpr double kHold = 3.0;                              // [s] duration of each hold
 constexpr double kSpringPatience = 0.15;                   // [s] extra time in neutral per unit of feel_scale above 1
-constexpr std::uint64_t kScriptSeed = 0xd1b54a32d192ed03;  // makes the hand's draws independent of those of the case
+constexpr std::uint64_t kScriptSeed = 0xd1b54a32d192ed03;  // makes the hand's draws independent of the case's draws
 
-// Writes the script, stroke by stroke.
+// Builds the hand's script stroke by stroke.
 class ScriptWriter {
  public:
   ScriptWriter(const haptics::Gate& gate, const CampaignCase& drawn, dvec2 start)
@@ -46,7 +46,7 @@ class ScriptWriter {
     script.holds.push_back({begin, time_});
   }
 
-  // Aims into a wall, a slot that may have a lockout, or anywhere, and returns along the neutral aisle.
+  // Aims at a random point or at a random slot, which may have a lockout. Then returns along the neutral aisle.
   void aim_wrongly() {
     const dvec2 home = at_;
     dvec2 aim{home.x + between(-0.03, 0.03), between(-0.05, 0.05)};
@@ -99,7 +99,7 @@ std::vector<int> drawn_gears(ScriptWriter& writer, const haptics::Gate& gate, in
   return gears;
 }
 
-// Script for a lever that no hand holds: random pushes with pauses, then a constant push, then no force.
+// Writes the script for a lever without a hand: random pushes with pauses, then a constant push, then no force.
 void write_kicks(ScriptWriter& writer, const CampaignCase& drawn) {
   for (int i = 0; i < 20; ++i) {
     const double angle = writer.between(0.0, 2.0 * std::numbers::pi);
@@ -117,7 +117,8 @@ void write_shifts(ScriptWriter& writer, const haptics::Gate& gate, const Campaig
   haptics::ShiftStyle style;
   style.pace = drawn.manner.pace;
   style.dwell_gear = 0.3 + drawn.haptics.gear_debounce;
-  // The hand's effort must exceed the aisle's spring before it can enter a slot.
+  // A stronger feel needs a longer stop in neutral, so that the hand's force can grow above the aisle's spring force
+  // before the hand enters a slot.
   style.dwell_neutral += kSpringPatience * std::max(0.0, drawn.haptics.tuning.feel_scale - 1.0);
   bool clean = drawn.manner.aim_noise == 0.0 && drawn.manner.overshoot == 0.0;
   const bool is_steady = clean;
@@ -144,8 +145,8 @@ void write_shifts(ScriptWriter& writer, const haptics::Gate& gate, const Campaig
                                        : dvec2{0.0, side * drawn.manner.last_push});
 }
 
-// A hand pushes as hard as gate and damping require, but its effort must not grow faster than b k / m, or it would
-// oscillate.
+// Raises the hand's `effort_limit` to what feel and damping require. Keeps `effort_gain`: the hand would oscillate with
+// a gain above b * k / m (b, k, m: damping, stiffness and mass of the hand).
 haptics::ScriptedHandConfig hand_config(const CampaignCase& drawn, dvec2 start) {
   if (drawn.hand == CaseHand::bare) return {start};
   haptics::ScriptedHandConfig hand = haptics::touring_hand(start);

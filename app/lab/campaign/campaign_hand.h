@@ -1,4 +1,4 @@
-// The hand of a case: shifts, wrong aims, pushes, and two long holds in which it keeps still.
+// The scripted hand of a case: shifts, wrong aims, pushes, and two long holds during which the hand keeps still.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace gearshift::lab {
 
-// A shift to be tried: the gear should be engaged at `end`.
+// A shift that the hand tries. The gear should be engaged at time `end`.
 struct TriedShift {
   int gear = haptics::kNeutralGear;
-  double end = 0.0;    // [s] after the hand has rested in the gear
-  bool clean = false;  // aimed straight at the gear, without noise or detours
+  double end = 0.0;    // [s] time at which the hand has finished resting in the gear
+  bool clean = false;  // the hand aims straight at the gear, without noise or detours
 };
 
-// A time in which the hand is still: target and push keep the values that they had kSettling after `begin`.
+// A period in which the hand keeps still: from kSettling after `begin` until `end`, its target and push are constant.
 struct Hold {
   double begin = 0.0, end = 0.0;  // [s]
 };
@@ -30,17 +30,17 @@ struct HandScript {
 
 HandScript make_script(const haptics::Gate& gate, const CampaignCase& drawn, glm::dvec2 start);
 
-// Follows the script with its tremor, and is still in the holds.
+// Follows the script with a tremor, and keeps still during the holds.
 class CampaignHand final : public haptics::HandDriver {
  public:
-  // The script must outlive the hand.
+  // The script must outlive this object.
   CampaignHand(const CampaignCase& drawn, const HandScript& script, glm::dvec2 start);
 
   haptics::HandTarget next(double time, glm::dvec2 lever) noexcept override;
 
   double duration() const noexcept { return script_hand_.duration(); }  // [s]
-  double time() const noexcept { return time_; }                        // [s] on the hand's clock, jitter included
-  const haptics::HandTarget& last() const noexcept { return last_; }    // target of the last period
+  double time() const noexcept { return time_; }                        // [s] simulated time including jitter
+  const haptics::HandTarget& last() const noexcept { return last_; }    // target in the last period
 
  private:
   const Hold* hold_at(double time) noexcept;

@@ -17,33 +17,37 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kRounding = 1e-9;         // [m], [N], [J] rounding error, far too small to feel
-constexpr double kMaxCommandError = 1e-6;  // [N] difference of commanded and delivered force by rounding in the yoke
-constexpr double kQuietRipple = 1e-3;  // [m] limit for a single case; the goal is a p95 of 0.3 mm, shown in the summary
-constexpr double kQuietCounts = 6.0;   // [counts] the limiter detects a reversal of 4 counts; plus 1 count at each end
+constexpr double kRounding = 1e-9;         // [m], [N], [J] tolerance for rounding errors, too small to feel
+constexpr double kMaxCommandError = 1e-6;  // [N] tolerance for rounding: commanded minus delivered force
+// [m] Limit for the peak-to-peak motion in a single case. The goal over all cases is stricter: at most 0.3 mm in 95 %
+// of the cases.
+constexpr double kQuietRipple = 1e-3;
+// [counts] The same limit for coarse encoders, as a number of encoder counts. The reversal limiter only detects motions
+// of at least 4 counts, and the true motion can be 1 count larger at each end.
+constexpr double kQuietCounts = 6.0;
 
-constexpr double kSmallSwing = 0.8e-3;  // [m] width of a swing caused by a hand's tremor, see reversal_limiter.cpp
+constexpr double kSmallSwing = 0.8e-3;  // [m] peak-to-peak width of a tremor, see reversal_limiter.cpp
 
 constexpr std::array<LawText, kCampaignLaws> kLawTexts{{
     {"finite", "every output is a finite number", "bad cycles"},
     {"free space", "the displayed lever stays in free space", "cycles outside"},
-    {"no wall", "the displayed lever crosses no wall and moves no further than the lever plus 0.5 m/s per cycle",
-     "of the allowed distance"},
+    {"no wall", "the displayed lever crosses no wall and is never faster than the lever by more than 0.5 m/s",
+     "times the allowed distance"},
     {"lockout", "the displayed lever passes no closed lockout", "crossings"},
     {"force", "the commanded force is within the device's maximum", "N"},
     {"slew", "the commanded force changes by no more per cycle than the guard allows", "N"},
-    {"energy", "with energy bounding, no more energy is released than was stored or taken by the device's damping",
+    {"energy", "with energy bounding, no more energy is released than was stored or dissipated by the device's damping",
      "J"},
     {"guard", "the guard finds no fault", "(number of the fault)"},
     {"quiet", "a lever that is held still does not vibrate", "m"},
-    {"fades", "while the lever is held still, a swing dies away within seconds", "m"},
+    {"fades", "while the hand keeps still, any remaining oscillation of the lever decays within seconds", "m"},
     {"gear holds", "while the lever is held still, the gear changes at most once", "changes"},
-    {"reached", "every gear that a gripping hand cleanly aims at is engaged", "missed"},
+    {"reached", "a gripping hand that aims cleanly at a gear engages it", "missed"},
     {"told", "no event is lost", "events"},
 }};
 
-// Shortest path from `in`, a point in that slot, to `b` outside it. It passes the mouth; if `b` is on the same side of
-// the mouth, it is reflected there like a ray. [m]
+// Length of the shortest path from `in`, a point in the slot, to `b`, a point outside the slot, through the slot's
+// mouth. If both points are on the same side of the mouth, the path is reflected at the mouth, like a ray. [m]
 double min_exit_path(const haptics::Gate& gate, int slot_number, dvec2 in, dvec2 b) noexcept {
   const haptics::Slot& slot = haptics::slot_of(gate, slot_number);
   const double side = static_cast<int>(slot.side), mouth = side * gate.half_aisle;
@@ -55,9 +59,9 @@ double min_exit_path(const haptics::Gate& gate, int slot_number, dvec2 in, dvec2
   return glm::distance(in, through) + glm::distance(through, b);
 }
 
-// Lower bound of the length of a path through free space from a to b. [m]
+// Lower bound for the length of a path through free space from a to b. [m]
 double min_free_path(const haptics::Gate& gate, dvec2 a, dvec2 b) noexcept {
-  // Rounding may put a point on the aisle's wall into a slot; that does not count.
+  // A point on the aisle's wall counts as outside the slot, even if rounding puts it inside.
   const auto slot_of_point = [&](dvec2 p) {
     return std::abs(p.y) <= gate.half_aisle + kRounding ? haptics::kNoSlot : haptics::slot_at(gate, p);
   };
@@ -70,13 +74,13 @@ double min_free_path(const haptics::Gate& gate, dvec2 a, dvec2 b) noexcept {
   return std::max(length, std::abs(a.y) + std::abs(b.y) - 2.0 * gate.half_aisle);
 }
 
-// True if p is beyond that lockout's wall.
+// True if p is beyond the lockout's wall.
 bool is_past(const haptics::Gate& gate, const haptics::Lockout& lockout, dvec2 p) noexcept {
   if (lockout.lateral) return lockout.beyond * (p.x - lockout.barrier) > kRounding;
   const haptics::Slot& slot = haptics::slot_of(gate, lockout.slot);
   const haptics::Column& column = haptics::column_of(gate, slot.column);
   const double mouth = gate.half_aisle + gate.chamfer;
-  // Rounding may put a point on the slot's side wall outside the slot; that is not a crossing.
+  // A point on the slot's side wall counts as inside the slot, even if rounding puts it outside.
   const bool in_column = std::abs(p.x - column.center) <= column.half_width + gate.chamfer + kRounding;
   return in_column && static_cast<int>(slot.side) * p.y > mouth + kRounding;
 }
@@ -92,7 +96,7 @@ bool is_active(haptics::GuardState state) noexcept {
          state == haptics::GuardState::running;
 }
 
-// Decay rate of a swing by the damping of handle and hand. [1/s]
+// Decay rate of an oscillation that is damped by handle and hand. [1/s]
 double passive_decay(haptics::AxisModel handle, const haptics::HandImpedance& hand) noexcept {
   return 0.5 * (handle.damping + hand.damping) / (handle.mass + hand.mass);
 }
@@ -127,7 +131,8 @@ LawLimits law_limits(const haptics::HapticConfig& config, const haptics::Simulat
   limits.slew = config.guard.slew;
   limits.ramp = std::min(1.0, limits.period / config.guard.ramp_time);
   limits.can_drop_at_once = config.contact.energy_control == haptics::EnergyControl::energy_bounding;
-  // Energy bounding may return half of the energy that the nominal damping dissipates in a nominal period.
+  // Energy bounding may return half of the energy that the nominal damping dissipates in a nominal period. The true
+  // damping must dissipate at least as much in the longest period.
   const bool is_enough = 1.0 - lever.model_error >= 0.5 * (1.0 + lever.period_jitter);
   limits.energy_bounded =
       limits.can_drop_at_once && is_enough && spec.delay == 0 && spec.device_wall_stiffness == dvec2(0.0);
@@ -192,13 +197,13 @@ void force_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& recor
   record.note(CampaignLaw::force, force[axis], limits.max_force[axis], 1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
-// While the guard's ramp rises, its step adds to the allowed change. In state `armed` there is no force yet, and the
-// command shown is the end of an earlier ramp-down.
+// While the guard's ramp rises, its step adds to the allowed change. In state `armed` the change is not checked: no
+// force acts yet, and the command is still the last value of an earlier ramp-down.
 void slew_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& record) noexcept {
   if (!is_active(cycle.now.guard) || !is_active(cycle.before.guard) || cycle.before.guard == haptics::GuardState::armed)
     return;
   const dvec2 now = cycle.now.commanded, before = cycle.before.commanded;
-  // A force may drop to zero at once, but not beyond it.
+  // With energy bounding, a force may drop to zero in one cycle. Only a rise, or the part beyond zero, counts.
   const dvec2 allowed_drop = glm::max(dvec2(0.0), glm::sign(now) * before);
   const dvec2 change = limits.can_drop_at_once ? glm::abs(now) - allowed_drop : glm::abs(now - before);
   const bool is_ramping = cycle.before.guard != haptics::GuardState::running;
@@ -216,9 +221,10 @@ void guard_law(const CyclePair& cycle, LawRecord& record) noexcept {
 
 void EnergyLaw::update(const CyclePair& cycle, dvec2 true_travel, const LawLimits& limits, LawRecord& record) noexcept {
   const dvec2 previous = cycle.before.commanded, command = cycle.now.commanded, delivered = -cycle.now.f_a;
-  const bool is_delivered = glm::length(delivered - previous) < kMaxCommandError;  // an overheated motor delivers less
+  // An overheated motor delivers less than commanded.
+  const bool is_delivered = glm::length(delivered - previous) < kMaxCommandError;
   if (!limits.energy_bounded || !is_active(cycle.now.guard) || !is_delivered) return reset();
-  const dvec2 slope = limits.damping / limits.period;  // [N/m] c
+  const dvec2 slope = limits.damping / limits.period;  // [N/m] damping / period
   const dvec2 dissipated = limits.min_damping / limits.max_period * true_travel * true_travel;
   const dvec2 net = delivered * true_travel + (command * command - previous * previous) / (2.0 * slope) - dissipated;
   const dvec2 measured_travel = cycle.now.lever - cycle.before.lever;
@@ -226,7 +232,7 @@ void EnergyLaw::update(const CyclePair& cycle, dvec2 true_travel, const LawLimit
                                                                  glm::abs(true_travel) + glm::abs(measured_travel));
   if (surplus_ == 0.0) allowed_ = limits.count * (glm::abs(previous.x) + glm::abs(previous.y));
   const double sum = surplus_ + net.x + net.y;
-  surplus_ = sum < 0.0 ? 0.0 : sum;  // also keeps NaN
+  surplus_ = sum < 0.0 ? 0.0 : sum;  // a NaN stays NaN
   allowed_ += 0.5 * limits.count * (mistaken.x + mistaken.y);
   last_travel_ = true_travel;
   record.note(CampaignLaw::energy, surplus_, allowed_ + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));

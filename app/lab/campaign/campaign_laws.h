@@ -1,4 +1,4 @@
-// Laws that must hold in every cycle of every admitted case, one function per law.
+// Laws that must hold in every cycle of every admitted case, with one function per law.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@ namespace gearshift::lab {
 
 enum class CampaignLaw : std::size_t {
   finite,         // all output values are finite
-  free_space,     // the drawn lever is in the gate's free space
-  no_wall,        // the drawn lever moves only through free space, no further per cycle than a proxy may
-  lockout,        // the drawn lever never passes a closed lockout
-  force,          // the command is within the device's force
-  slew,           // the command changes no faster than the guard allows
-  energy,         // with energy bounding, the motors never generate more than the device's damping dissipated
+  free_space,     // the displayed lever (the proxy) is in the gate's free space
+  no_wall,        // the displayed lever moves only through free space, and no further per cycle than a proxy may
+  lockout,        // the displayed lever never passes a closed lockout
+  force,          // the commanded force is within the device's maximum
+  slew,           // the commanded force changes no faster than the guard allows
+  energy,         // with energy bounding, the motors never generate more energy than the device's damping dissipated
   guard,          // the guard detects no fault
-  quiet,          // a lever that is held still does not move
-  fades,          // while the lever is held, a swing decays, with every hand and even if quiet is not promised
-  gear_holds,     // while the lever is held, the gear changes once at most; it re-engages only after really leaving
-  reached,        // a gear that was cleanly aimed at is engaged
+  quiet,          // while the hand keeps still, the lever does not move
+  fades,          // while the hand keeps still, an oscillation decays, even in cases without the law `quiet`
+  gear_holds,     // while the hand keeps still, the gear changes at most once; a gear re-engages only after its release
+  reached,        // the hand engages every gear at which it aims cleanly
   no_lost_events  // no event is lost; called "told" in files
 };
 inline constexpr std::size_t kCampaignLaws = 13;
@@ -45,7 +45,7 @@ struct LawResult {
 
 class LawRecord {
  public:
-  // Keeps the worst value: NaN first, then the furthest beyond its bound, else the nearest to it.
+  // Keeps the worst value: NaN if there was one, otherwise the value with the largest excess over its bound.
   void note(CampaignLaw law, double value, double bound, double time) noexcept;
   const LawResult& result(CampaignLaw law) const noexcept { return results_[static_cast<std::size_t>(law)]; }
   LawResult& result(CampaignLaw law) noexcept { return results_[static_cast<std::size_t>(law)]; }
@@ -60,17 +60,17 @@ struct LawLimits {
   double period = 0.001;          // [s]
   glm::dvec2 max_force{0.0};      // [N]
   double slew = 0.0;              // [N] per cycle
-  double ramp = 0.0;              // [1] per cycle, step of the guard's ramp
-  bool can_drop_at_once = false;  // with energy bounding the force may fall faster than the slew limit
-  bool energy_bounded = false;    // the guard bounds energy; needs no delay, no device walls, and enough damping
-  glm::dvec2 damping{0.0};        // [N s/m] of the bare handle, as known to the loop
-  glm::dvec2 min_damping{0.0};    // [N s/m] lower bound for the true handle
+  double ramp = 0.0;              // [1] step of the guard's force ramp per cycle
+  bool can_drop_at_once = false;  // energy bounding is on, so the force may fall faster than the slew limit
+  bool energy_bounded = false;    // the energy law applies: energy bounding, no delay, no device walls, enough damping
+  glm::dvec2 damping{0.0};        // [N s/m] damping of the bare handle that the loop assumes
+  glm::dvec2 min_damping{0.0};    // [N s/m] lower bound for the damping of the true handle
   double max_period = 0.001;      // [s] longest period
   double count = 0.0;             // [m] size of an encoder count; 0: no encoder
-  double ripple = 0.0;            // [m] largest peak-to-peak motion allowed while held still
-  double small_swing = 0.0;       // [m] peak-to-peak width of a hand's tremor or the encoder's resolution
-  double remaining_swing = 1.0;   // [1] fraction of a wider swing that may remain after kFading
-  double frame = 0.1;             // [s] between polls of the events, as in a slow frame of the window
+  double ripple = 0.0;            // [m] largest peak-to-peak motion allowed while the hand keeps still
+  double small_swing = 0.0;       // [m] peak-to-peak motion that a tremor or the encoder's resolution may cause
+  double remaining_swing = 1.0;   // [1] fraction of an oscillation above small_swing that may remain after kFading
+  double frame = 0.1;             // [s] time between polls of the events, as in a slow frame of the window
 };
 LawLimits law_limits(const haptics::HapticConfig& config, const haptics::SimulatedLeverConfig& lever,
                      const haptics::DeviceSpec& spec) noexcept;
@@ -79,7 +79,7 @@ LawLimits law_limits(const haptics::HapticConfig& config, const haptics::Simulat
 struct CyclePair {
   const haptics::HapticSnapshot& now;
   const haptics::HapticSnapshot& before;
-  bool pressed_down = false, lifted = false;  // state of the hand when this cycle read the lever
+  bool pressed_down = false, lifted = false;  // whether the hand pressed down or lifted the knob
 };
 
 void finite_law(const CyclePair& cycle, LawRecord& record) noexcept;
@@ -90,7 +90,8 @@ void force_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& recor
 void slew_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& record) noexcept;
 void guard_law(const CyclePair& cycle, LawRecord& record) noexcept;
 
-// Tracks which lockouts the last gear or the road speed has closed.
+// Checks that the displayed lever passes no closed lockout. Tracks which lockouts are closed by the previous gear or by
+// the road speed.
 class LockoutLaw {
  public:
   void update(const CyclePair& cycle, const haptics::Gate& gate, LawRecord& record) noexcept;
@@ -99,11 +100,13 @@ class LockoutLaw {
   std::uint32_t closed_ = 0;  // bit per lockout
 };
 
-// Passivity of the whole device, computed from the true motion. Over any interval the delivered force generates no more
-// energy than was stored at its start, S = sum F^2 / (2 c) over both axes with c = b / T (Kim & Ryu 2010), plus the
-// dissipation of the handle, at least b dx^2 / T per period (Cauchy-Schwarz: a steady speed dissipates least). With an
-// encoder count q, the loop can misjudge the travel by up to q at each end; summed by parts this allows another
-// (q / 2) (|dF| + c |d dx|) per period and q c / 2 times the path itself, true or measured.
+// Checks the device's passivity with the true motion. In any interval, the motors may generate at most the energy
+// stored at the start plus the energy that the handle dissipates.
+// Stored energy: the sum of F^2 / (2 c) over both axes, with force F and c = damping b / period T (Kim & Ryu 2010).
+// Dissipation: at least b dx^2 / T per period with travel dx (Cauchy-Schwarz: a steady speed dissipates least).
+// Encoder: with count size q, the loop can misjudge the travel by up to q at each end. This allows another q |F| at the
+// start, and (q / 2) (|dF| + c |d dx|) per period with changes dF and d dx, and (q c / 2) times the sum of true and
+// measured travel.
 class EnergyLaw {
  public:
   void update(const CyclePair& cycle, glm::dvec2 true_travel, const LawLimits& limits, LawRecord& record) noexcept;
@@ -111,26 +114,27 @@ class EnergyLaw {
  private:
   void reset() noexcept;
 
-  double surplus_ = 0.0, allowed_ = 0.0;  // [J] surplus since it was last zero
+  double surplus_ = 0.0, allowed_ = 0.0;  // [J] surplus: energy generated in excess since the surplus was last zero
   glm::dvec2 last_travel_{0.0};           // [m]
 };
 
-// A gear may re-engage only after the lever has moved out by at least the distance between engage and release depth.
+// While the hand keeps still, the gear may change at most once. A gear may re-engage only after the lever's depth in
+// the slot has fallen to `release_depth` or less.
 class GearLaw {
  public:
   void update(const CyclePair& cycle, const haptics::Gate& gate, bool held_still, LawRecord& record) noexcept;
 
  private:
-  int changes_ = 0;                   // while held still
+  int changes_ = 0;                   // number of gear changes while the hand keeps still
   int last_ = haptics::kNeutralGear;  // last engaged gear
-  double nearest_ = 0.0;              // [m] smallest depth in its slot since the release; 0: the lever left the slot
+  double nearest_ = 0.0;              // [m] smallest depth in the slot since the gear engaged; 0: lever left the slot
 };
 
-// Back-and-forth motion of the true lever while held still. Sliding in one direction does not count.
+// Measures the true lever's back-and-forth motion while the hand keeps still. Sliding in one direction does not count.
 class HeldSwing {
  public:
   void update(glm::dvec2 lever) noexcept;
-  double span() const noexcept;  // [m] peak-to-peak, the larger of both axes
+  double span() const noexcept;  // [m] peak-to-peak motion, on the axis where it is larger
 
  private:
   glm::dvec2 low_{1.0}, high_{-1.0};  // [m]
@@ -138,10 +142,10 @@ class HeldSwing {
 };
 void quiet_law(double span, const LawLimits& limits, double time, LawRecord& record) noexcept;
 
-// On any spring, handle and hand damp a swing by exp(-b t / (2 m)) with their total b and m. The law requires half of
-// that decay rate, because a wall gets stiffer with depth and is not perfectly passive. A swing that persists or grows
-// must be receiving energy.
-inline constexpr double kFading = 1.0;  // [s] between the ends of the two compared windows
+// Checks that an oscillation decays while the hand keeps still. Against any spring, handle and hand damp an oscillation
+// like exp(-b t / (2 m)), with total damping b and mass m. The law requires half of this decay rate, because a wall
+// gets stiffer with depth and is not perfectly passive. An oscillation that persists or grows must be gaining energy.
+inline constexpr double kFading = 1.0;  // [s] time between the ends of the two compared windows
 void fades_law(double before, double after, const LawLimits& limits, double time, LawRecord& record) noexcept;
 
 }  // namespace gearshift::lab

@@ -19,8 +19,8 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kQuietWindow = 0.5;        // [s] window at the end of a hold; long enough for a swing of 2 Hz
-constexpr double kGearSettleTime = 1.0;     // [s] into a hold, after which the gear must not change
+constexpr double kQuietWindow = 0.5;        // [s] duration of the measurement at the end of a hold: one period of 2 Hz
+constexpr double kGearSettleTime = 1.0;     // [s] from this time into a hold, the gear must not change
 constexpr std::uint64_t kPumpEvery = 4096;  // [cycles]
 
 haptics::GateLayout layout_of(const CampaignCase& drawn, std::span<const haptics::GateLayout> shipped) {
@@ -38,30 +38,30 @@ haptics::SimulatedRunConfig run_config(const CampaignCase& drawn, const haptics:
   return config;
 }
 
-// Only a gripping hand without a car must reach the gears it aims at cleanly: it does not ring, and is as strong as the
-// gate but not as a synchroniser.
+// True if the hand must reach every gear at which it aims cleanly. Other hands may oscillate or be too weak for the
+// gate, and a car's synchroniser can be stronger than the hand.
 bool can_shift(const CampaignCase& drawn) {
   return drawn.hand == CaseHand::grip && !drawn.has_car;
 }
 
-// The loop's checks promise quiet and no guard faults for the listed hands (a trembling one is still in a hold) and for
-// the plant error and jitter with which they were established. With energy bounding a wall is passive but not quiet.
+// True if the stability check guarantees a lever without vibration and guard faults. The guarantee excludes the hands
+// `heavy` and `stiff`, plant errors above 5 %, and jitter above 10 %. It also excludes energy bounding, with which a
+// wall is passive but may still vibrate.
 bool is_promised(const CampaignCase& drawn) {
   const bool is_listed = drawn.hand != CaseHand::heavy && drawn.hand != CaseHand::stiff;
   const bool is_bounded = drawn.haptics.contact.energy_control == haptics::EnergyControl::energy_bounding;
   return drawn.lever.model_error <= 0.05 && drawn.lever.period_jitter <= 0.1 && is_listed && !is_bounded;
 }
 
-// True for exactly the configurations that the loop's checks must reject: those that need allow_unstable, and too low a
-// slew.
+// True if the loop must reject the configuration: it needs allow_unstable, or its slew limit is too low.
 bool is_forbidden(const CampaignCase& drawn) {
   const haptics::HapticConfig& config = drawn.haptics;
   return config.estimator.window > 1 || config.contact.energy_control == haptics::EnergyControl::passivity_controller ||
          config.guard.slew < 2.0;
 }
 
-// True if a lockout of this gear requires leaving a different column first. A lagging hand may return before the lever
-// has left that column; then the lockout is rightly closed.
+// True if this gear has a lockout that opens only after the lever has left another gear's column. A hand may return
+// before the lagging lever has left that column. The lockout is then rightly closed.
 bool has_detour(const haptics::Gate& gate, int gear) {
   return std::any_of(
       haptics::lockouts(gate).begin(), haptics::lockouts(gate).end(), [&](const haptics::Lockout& lockout) {
@@ -75,7 +75,6 @@ std::unique_ptr<haptics::LeverLoad> make_load(const CampaignCase& drawn, const h
                                             random_start(drawn.seed), drawn.seed);
 }
 
-// One case while it runs.
 class CaseRun {
  public:
   CaseRun(const CampaignCase& drawn, const haptics::GateLayout& layout)
@@ -100,12 +99,12 @@ class CaseRun {
     haptics::HapticSnapshot before = run_.step();
     true_position_ = run_.lever().true_position();
     const double max_cycles =
-        1.0 + 2.0 * hand_.duration() / run_.period();  // a period lasts at least half its nominal length
+        1.0 + 2.0 * hand_.duration() / run_.period();  // a period lasts at least half its nominal duration
     while (hand_.time() < hand_.duration()) {
       if (drawn_.has_car) run_.channels().controls.write(feet_.at(run_.time()));
       const haptics::HapticSnapshot& now = run_.step();
       if (static_cast<double>(now.cycle) > max_cycles)
-        throw std::runtime_error(fmt::format("case {} does not end", out.number));
+        throw std::runtime_error(fmt::format("case {} did not finish in time", out.number));
       check_cycle({now, before, hand_.last().pressed_down, hand_.last().lifted});
       if (recorder && now.cycle % kPumpEvery == 0) recorder->pump();
       before = now;
@@ -136,16 +135,17 @@ class CaseRun {
     free_space_law(cycle, gate, out.laws);
     is_plausible_ =
         is_plausible_ && glm::length(run_.lever().true_velocity()) < 0.9 * drawn_.haptics.estimator.speed_limit;
-    const bool is_proxy_reset = !is_plausible_ || out.stopped > 0;  // after rearming, the proxy starts at the lever
+    const bool is_proxy_reset = !is_plausible_ || out.stopped > 0;  // after rearming, the proxy restarts at the lever
     if (!is_proxy_reset) no_wall_law(cycle, gate, limits_, out.laws);
     if (!is_proxy_reset) lockouts_.update(cycle, gate, out.laws);
     force_law(cycle, limits_, out.laws);
     slew_law(cycle, limits_, out.laws);
     check_guard(cycle);
-    // The estimator drops implausible readings, so the energy of that travel is not bounded.
+    // Not checked once a speed was implausible: the estimator drops such readings, so energy bounding cannot see all of
+    // the lever's travel.
     if (is_plausible_) energy_.update(cycle, run_.lever().true_position() - true_position_, limits_, out.laws);
     true_position_ = run_.lever().true_position();
-    const bool is_in_or_out = is_held_still() && !drawn_.has_car;  // a synchroniser may delay the gear
+    const bool is_in_or_out = is_held_still() && !drawn_.has_car;  // a car's synchroniser may delay the gear
     if (!is_proxy_reset) gears_.update(cycle, gate, is_in_or_out, out.laws);
     check_hold(cycle.now);
     check_shift(cycle.now);
@@ -186,12 +186,13 @@ class CaseRun {
     }
   }
 
-  // An overheated motor gives way, so no wall on it can be quiet. This is reported as saturation.
+  // An overheated motor yields, so a wall may vibrate. The loop reports an overheated motor as saturated.
   bool is_overheated(const haptics::HapticSnapshot& now) const {
     return drawn_.lever.actuator.overload_time < 100.0 && (now.flags & haptics::kFlagSaturated) != 0;
   }
 
-  // A shift is clean only if the previous gear was reached; otherwise it starts from a different place than planned.
+  // Counts a shift that is over. If the shift was clean, its gear must be engaged. A shift is clean only if the
+  // previous gear was reached, because otherwise it does not start as planned.
   void check_shift(const haptics::HapticSnapshot& now) {
     const std::size_t done = static_cast<std::size_t>(out.shifts);
     if (done >= script_.shifts.size() || hand_.time() < script_.shifts[done].end) return;
@@ -223,12 +224,12 @@ class CaseRun {
   LockoutLaw lockouts_;
   EnergyLaw energy_;
   GearLaw gears_;
-  HeldSwing quiet_, before_;  // swing at the end of a hold; swing from 2 kFading to kFading before its end
+  HeldSwing quiet_, before_;  // motion at the end of a hold, and in a window that ends kFading earlier
   std::size_t hold_ = 0;
   glm::dvec2 true_position_{0.0};
   bool was_previous_reached_ = true;
   bool was_overheated_ = false;
-  bool is_plausible_ = true;  // no reading so far implied a speed that the loop treats as a fault
+  bool is_plausible_ = true;  // the lever was always slower than 90 % of the estimator's speed limit
 };
 
 }  // namespace
@@ -245,7 +246,7 @@ CaseOutcome run_case(const CampaignCase& drawn, std::span<const haptics::GateLay
     CaseOutcome out;
     out.number = drawn.number;
     out.refused = refusal.what();
-    std::replace(out.refused.begin(), out.refused.end(), ',', ';');  // a field of cases.csv contains no comma
+    std::replace(out.refused.begin(), out.refused.end(), ',', ';');  // fields of cases.csv must not contain commas
     return out;
   }
   if (is_forbidden(drawn)) throw std::runtime_error("the loop's checks accepted an invalid case");

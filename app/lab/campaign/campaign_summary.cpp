@@ -10,9 +10,10 @@ namespace gearshift::lab {
 namespace {
 
 constexpr std::array<double, 6> kRateBands{100.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0};  // [Hz]
-constexpr int kLongDelay = 4;  // [cycles] longer delays are counted with this one
+constexpr int kLongDelay = 4;  // [cycles] delays of this length or longer form one group
 
-// True if `a` is further beyond its bound than `b`, or nearer to it.
+// True if `a` is further beyond its bound than `b`, or has a smaller margin to its bound. Bounds above 0 are compared
+// by the ratio of value and bound.
 bool is_worse(const LawResult& a, const LawResult& b) {
   if (a.broken() != b.broken()) return a.broken();
   if (a.bound > 0.0 && b.bound > 0.0) return a.value / a.bound > b.value / b.bound;

@@ -1,4 +1,4 @@
-// Summary of a campaign: worst value of each law, groups of drawn cases, rejections and failures.
+// Summary of a campaign: worst value of each law, groups of similar cases, rejections and failures.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@
 namespace gearshift::lab {
 
 struct LawSummary {
-  std::uint64_t cases = 0, checks = 0;  // number of cases in which the law was checked, and of checks
+  std::uint64_t cases = 0, checks = 0;  // number of cases in which the law was checked; number of checks
   std::uint64_t broken = 0;             // cases
-  LawResult worst;                      // the value nearest to its bound, or furthest beyond it
+  LawResult worst;                      // value furthest beyond its bound, or else nearest to it
   std::uint64_t worst_case = 0;
 };
 
@@ -25,7 +25,7 @@ struct BrokenLaw {
   LawResult result;
 };
 
-// Cases with a common property.
+// Statistics of cases with a common property, such as the hand "grip".
 struct CaseGroup {
   std::string of, name;  // "hand", "grip"
   std::uint64_t cases = 0, shifts = 0, reached = 0;
@@ -33,19 +33,19 @@ struct CaseGroup {
 };
 
 struct RippleCell {
-  double slowest = 0.0, fastest = 0.0;  // [Hz] of the loop
+  double slowest = 0.0, fastest = 0.0;  // [Hz] range of the loop's rate
   int delay = 0;                        // [cycles] delay; 4 means 4 or more
-  bool promised = true;                 // quiet is promised
+  bool promised = true;                 // the stability check guarantees no vibration
   std::uint64_t cases = 0;
-  double median = 0.0, p95 = 0.0, max = 0.0;  // [m] peak-to-peak motion in the worst hold of each case
+  double median = 0.0, p95 = 0.0, max = 0.0;  // [m] statistics of the cases' largest peak-to-peak motion in a hold
 };
 
 struct CampaignSummary {
   std::uint64_t seed = 0, cases = 0, refused = 0, shifts = 0, clean = 0, cycles = 0;
-  double seconds = 0.0;  // [s] simulated
+  double seconds = 0.0;  // [s] simulated time
   std::array<LawSummary, kCampaignLaws> laws;
-  std::vector<BrokenLaw> broken;                  // by case
-  std::map<std::string, std::uint64_t> refusals;  // number of rejections by reason, without its values
+  std::vector<BrokenLaw> broken;                  // sorted by case
+  std::map<std::string, std::uint64_t> refusals;  // number of rejections by reason; numbers are removed from the reason
   std::vector<CaseGroup> groups;
   std::vector<RippleCell> ripple;
 };

@@ -72,7 +72,7 @@ class LineReader {
     if (!parse(value) || !(value >= min && value <= max)) refuse(fmt::format("a number from {} to {}", min, max));
     ++at_;
   }
-  void any_number(double& value) {  // the values of a diverged lever may be infinite or NaN
+  void any_number(double& value) {  // a diverged lever may have infinite or NaN values
     if (!parse(value)) refuse("a number");
     ++at_;
   }
@@ -94,7 +94,8 @@ class LineReader {
   std::size_t at_ = 0;
 };
 
-// before: number of lines before this one. Cases are handed out in order, filling gaps first.
+// `before`: number of preceding lines. It limits the case number, because cases start in order and on at most
+// kMaxThreads threads.
 CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>& columns, std::uint64_t before) {
   LineReader in(line, columns);
   CaseOutcome out;
@@ -155,7 +156,8 @@ CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : n
     throw std::runtime_error(name_ + ": another campaign is writing to this file; choose another folder with --out");
   std::string text = read_text(file);
   const std::size_t old_size = text.size();
-  if (text.size() < head.size() && head.starts_with(text)) text.clear();  // the program was stopped in the first lines
+  // The program may have been stopped while it wrote the header.
+  if (text.size() < head.size() && head.starts_with(text)) text.clear();
   if (!text.empty() && !text.starts_with(head)) {
     throw std::runtime_error(
         fmt::format("{}: the file belongs to another campaign (\"{}\" instead of \"# {}\"); choose another folder with "
@@ -169,17 +171,17 @@ CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : n
   if (text.empty()) std::fputs(head.c_str(), file_.get());
 }
 
-// Returns the end of the last complete line.
+// Reads the cases in the lines from `begin` into cases_. Returns the end position of the last complete line.
 std::size_t CaseFile::read_cases(std::string_view text, std::size_t begin) {
   const std::string line = column_line();
   const std::vector<std::string_view> columns = fields_of(std::string_view(line).substr(0, line.size() - 1));
-  int number = 3;  // of the line
+  int number = 3;  // line number; lines 1 and 2 are the header
   for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++number) {
     try {
       CaseOutcome out = read_case(text.substr(begin, end - begin), columns, cases_.size());
       const std::uint64_t of_case = out.number;
       if (!cases_.emplace(of_case, std::move(out)).second)
-        throw std::runtime_error(fmt::format("case {} occurs twice", of_case));
+        throw std::runtime_error(fmt::format("case {} appears twice", of_case));
     } catch (const std::runtime_error& problem) {
       throw std::runtime_error(fmt::format("{}:{}: {}", name_, number, problem.what()));
     }
@@ -192,7 +194,7 @@ void CaseFile::add(const CaseOutcome& outcome) {
   const bool is_written = file_ && std::fputs(line.c_str(), file_.get()) >= 0 && std::fflush(file_.get()) == 0;
   if (is_written) return;
   if (file_) why_ = std::strerror(errno);
-  file_.reset();  // write nothing more, so that a truncated line remains the last one
+  file_.reset();  // write no more lines, so that the truncated line stays the last line
   throw std::runtime_error(fmt::format("{}: cannot be written ({})", name_, why_));
 }
 

@@ -1,4 +1,4 @@
-// Saves the finished cases of a campaign, one per line, in a file that may be truncated at any moment.
+// A file with the finished cases of a campaign, one per line. The file may be truncated at any time.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,11 @@ inline constexpr int kMaxThreads = 256;  // maximum number of threads of a campa
 
 class CaseFile {
  public:
-  // Reads the existing lines, drops an incomplete last line and appends after it. of: identifies the campaign in one
-  // line (seed, gates, program). Throws std::runtime_error with one sentence if the file belongs to a different
-  // campaign, is invalid (names line, column, value and range; a case number cannot exceed the number of lines by more
-  // than the threads), is being written by another program, or cannot be read or written; the file is then unchanged.
+  // Reads the existing lines, drops an incomplete last line, and opens the file for appending. `of`: one line that
+  // identifies the campaign (seed, gates, program). Throws std::runtime_error with one sentence, and leaves the file
+  // unchanged, if the file belongs to a different campaign, is invalid, is being written by another program, or cannot
+  // be read or written. For an invalid file, the sentence names line, column, value and range. A case number is invalid
+  // if it exceeds the number of preceding lines by kMaxThreads or more.
   CaseFile(const std::filesystem::path& file, const std::string& of);
 
   const std::map<std::uint64_t, CaseOutcome>& cases() const noexcept { return cases_; }
@@ -33,7 +34,7 @@ class CaseFile {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
   };
 
-  std::string name_, why_;  // why_: reason of the first failed write, after which no more lines are written
+  std::string name_, why_;  // why_: reason of the first failed write; no lines are written after it
   std::map<std::uint64_t, CaseOutcome> cases_;
   std::unique_ptr<std::FILE, Close> file_;
 };

@@ -1,4 +1,4 @@
-// Random draws that are the same on every machine: std::mt19937_64 is standardised, the distributions are not.
+// Random draws that are equal on every machine: std::mt19937_64 is standardised, the library's distributions are not.
 #pragma once
 
 #include <cmath>

@@ -26,7 +26,8 @@
 namespace gearshift::lab {
 namespace {
 
-// Identifies the campaign: a different program or different gates would give different cases for the same numbers.
+// Text that identifies the campaign. It contains program and gates, because with different ones a case number means a
+// different case.
 std::string campaign_id(const CampaignPlan& plan, std::span<const haptics::GateLayout> shipped) {
   std::string gates;
   for (const haptics::GateLayout& layout : shipped) gates += layout.text;
@@ -34,7 +35,7 @@ std::string campaign_id(const CampaignPlan& plan, std::span<const haptics::GateL
                      plan.program);
 }
 
-// CPU time of a thread; unlike elapsed time, it does not advance while the thread is stopped or preempted. [s]
+// CPU time of a thread [s]. Unlike elapsed time, it does not advance while the thread is stopped or preempted.
 double processor_time(clockid_t clock) {
   timespec time{};
   clock_gettime(clock, &time);
@@ -90,7 +91,7 @@ class CampaignWork {
     changed_.notify_all();
   }
 
-  // Waits until `threads` threads have finished; returns false after `timeout`.
+  // Waits until `threads` threads have finished. Returns false after `timeout`.
   bool wait(std::chrono::milliseconds timeout, std::size_t threads) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, timeout, [&] { return finished_threads_ == threads; });
@@ -121,7 +122,8 @@ class CampaignWork {
 
   bool is_enough() const { return shifts_ >= plan_.shifts; }
 
-  // Advances finished_cases_ to the first case that is not finished.
+  // Advances `finished_cases_` to the first case that is not finished, and adds up the shifts. Stops as soon as there
+  // are enough shifts.
   void count_finished() {
     for (auto found = cases_.find(finished_cases_); !is_enough() && found != cases_.end();
          found = cases_.find(finished_cases_)) {
@@ -135,16 +137,16 @@ class CampaignWork {
   std::condition_variable changed_;
   std::optional<CaseFile> file_;
   std::map<std::uint64_t, CaseOutcome> cases_;
-  std::uint64_t next_ = 0;            // next case to hand out
-  std::uint64_t finished_cases_ = 0;  // all cases before this one are finished
-  std::uint64_t shifts_ = 0;          // tried in those
+  std::uint64_t next_ = 0;            // number of the next case to hand out
+  std::uint64_t finished_cases_ = 0;  // all cases with a lower number are finished
+  std::uint64_t shifts_ = 0;          // number of shifts tried in the finished cases
   std::map<std::thread::id, Running> running_;
   bool is_ended_ = false;
   std::size_t finished_threads_ = 0;
   std::exception_ptr problem_;
 };
 
-// An unexpected exception ends the campaign; its message names the case, so that it can be run on its own.
+// Runs a case. An unexpected exception ends the campaign. Its message names the case, so that the case can be repeated.
 CaseOutcome outcome_of(std::uint64_t number, const CampaignPlan& plan, std::span<const haptics::GateLayout> shipped) {
   try {
     return run_case(drawn_case(plan.seed, number, static_cast<int>(shipped.size())), shipped);
@@ -171,7 +173,7 @@ std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<cons
   try {
     while (static_cast<int>(threads.size()) < plan.threads) threads.emplace_back([&] { work(shared, plan, shipped); });
   } catch (const std::system_error&) {
-    if (threads.empty()) throw;  // if a thread cannot be started, continue with fewer
+    if (threads.empty()) throw;  // if only some threads could be started, continue with them
   }
   while (!shared.wait(std::chrono::milliseconds(100), threads.size()))
     if (progress && !progress(shared.status())) shared.end();

@@ -1,5 +1,5 @@
-// Runs many random cases on all cores. Finished cases are saved in the folder, so that a stopped campaign can be
-// resumed. The result does not depend on the number of threads or on when it was stopped.
+// Runs many random cases on several threads. Finished cases are saved in a folder, so that a stopped campaign can be
+// resumed. The result does not depend on the number of threads or on interruptions.
 #pragma once
 
 #include <cstddef>
@@ -17,31 +17,34 @@ namespace gearshift::lab {
 
 struct CampaignPlan {
   std::uint64_t seed = 1;
-  std::string program;  // program and commit; another one may not resume the campaign. Uncommitted changes are not
-                        // distinguished
-  std::uint64_t shifts = 1'000'000;  // minimum number of shifts tried; cases are run completely and in order
-  std::filesystem::path folder;      // must exist; receives cases.csv, one line per case. Empty: nothing is saved
+  // Program and commit; uncommitted changes are not distinguished. A different program cannot resume the campaign.
+  std::string program;
+  std::uint64_t shifts = 1'000'000;  // minimum number of tried shifts; cases are run completely and in order
+  std::filesystem::path folder;      // existing folder for cases.csv, with one line per case; empty: nothing is saved
   int threads = 1;                   // at most kMaxThreads
   double case_time_limit = 60.0;     // [s] of CPU time; a case normally takes 0.1 s
 };
 
 struct CampaignStatus {
   double fraction = 0.0;                 // 0 to 1
-  std::optional<std::uint64_t> overdue;  // a case beyond the time limit, which may never end
+  std::optional<std::uint64_t> overdue;  // number of a case that exceeds the time limit and may never end
 };
 
-// Called a few times per second on the calling thread. After false is returned, no more cases are started.
+// Called on the calling thread: about every 0.1 s by drive_campaign(), after each case by record_failures(). If the
+// function returns false, no more cases are started.
 using CampaignProgress = std::function<bool(const CampaignStatus& status)>;
 
-// Runs the first cases that together try `plan.shifts` shifts and returns them in order; fewer if stopped. Throws
-// FileError or std::runtime_error with one sentence if the folder holds a different campaign or cannot be written.
+// Runs as many cases as are needed to try `plan.shifts` shifts, and returns their outcomes in order. Returns fewer
+// outcomes if stopped. Throws FileError, or std::runtime_error with one sentence if the folder holds a different
+// campaign or cannot be written.
 std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<const haptics::GateLayout> shipped,
                                         const CampaignProgress& progress);
 
 inline constexpr std::size_t kMaxTraces = 100;
 
-// Runs failed cases again, at most kMaxTraces, and records them as failures/SEED.trace in the plan's folder for
-// `gearshift replay`. Returns the number of failed cases. Throws FileError or std::runtime_error with one sentence.
+// Runs the failed cases again, at most kMaxTraces of them. Records each as failures/SEED.trace in the plan's folder,
+// where SEED is the case's seed in hexadecimal, and writes its text file (broken_laws.h). Returns the number of failed
+// cases. Throws FileError, or std::runtime_error with one sentence.
 std::size_t record_failures(const CampaignPlan& plan, std::span<const BrokenLaw> broken,
                             std::span<const haptics::GateLayout> shipped, const CampaignProgress& progress);
 

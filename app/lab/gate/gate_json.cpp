@@ -119,7 +119,7 @@ std::string gate_json(const GateReport& report) {
   json["gears"] = gears_json(report);
   json["buffers"] = buffers_json(report.gate);
   json["lockouts"] = lockouts_json(report.gate);
-  // A file name need not be valid UTF-8; replace invalid bytes.
+  // Replaces invalid UTF-8, which file names may contain.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -20,15 +20,15 @@ struct GateReport {
 std::string gate_table(const GateReport& report);
 std::string gate_json(const GateReport& report);
 
-// Shared by both formats:
+// Helpers of both formats.
 
 double millimetres(double metres);                                                // rounded to a nanometre
 std::vector<std::string> open_directions(const haptics::JunctionInfo& junction);  // "left", "right", ...
 const char* axis_name(bool horizontal);                                           // "select" or "shift"
 const std::string& junction_name(const GateReport& report,
-                                 const haptics::Slot& slot);  // name of the slot's column: "I", ...
+                                 const haptics::Slot& slot);  // name of the slot's column, such as "I"
 
-// Two facing walls: their distance, and the length over which they face each other. [m]
+// [m] Two facing walls: their distance, and the length over which they face each other.
 struct PairSize {
   double width = 0.0, length = 0.0;
   std::vector<std::size_t> walls;  // indices into GateDescription::walls

@@ -33,7 +33,7 @@ void draw_buffers(base::Svg& svg, const haptics::Gate& gate) {
   }
 }
 
-// Place of a junction's name: centred in it, or beside its buffer.
+// Position of a junction's name: in the middle of the junction, or beside its buffer.
 struct NamePlace {
   double x = 0.0;  // [mm]
   const char* anchor = "middle";
@@ -60,7 +60,7 @@ void draw_junctions(base::Svg& svg, const haptics::Gate& gate, const haptics::Ga
   }
 }
 
-// Lockouts at the same place share one bar; the legend lists them.
+// Lockouts at the same place are drawn as one bar. The legend lists each lockout.
 void draw_lockouts(base::Svg& svg, const haptics::Gate& gate) {
   const base::Pen pen{base::kLockoutColour, 1.2, kLongDash};
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
@@ -110,7 +110,7 @@ void draw_legend(base::Svg& svg, const haptics::Gate& gate, glm::dvec2 at) {
   legend.ring("neutral: the lever returns here");
   legend.line({base::kGearColour, 0.3}, "the gear engages here");
   legend.line({base::kGearColour, 0.3, base::kShortDash}, "the gear releases here");
-  legend.dot("the engaged lever rests here");
+  legend.dot("the lever rests here in gear");
   legend.line({base::kClosedColour, lessons::kStopWidth}, "closed side of a junction");
   if (gate.buffer_count > 0) legend.buffer("buffer: deflects the lever into the slots");
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {

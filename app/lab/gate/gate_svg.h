@@ -8,8 +8,8 @@
 
 namespace gearshift::lab {
 
-// A complete SVG document: plate, aisles, walls by role, rest positions, junctions, buffers, lockouts, a scale in
-// millimetres, a legend, and a plot of the force along a slot.
+// Returns a complete SVG document: plate, aisles, walls by role, rest positions, junctions, buffers, lockouts, a scale
+// in millimetres, a legend, and a plot of the force along a slot.
 std::string gate_svg(const haptics::Gate& gate, const haptics::GateDescription& description, std::string_view title);
 
 }  // namespace gearshift::lab

@@ -11,7 +11,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kStep = 0.1e-3;      // [m] step of the drawn curve
+constexpr double kStep = 0.1e-3;      // [m] step of the plotted curve
 constexpr double kForceTick = 4.0;    // [N]
 constexpr double kDepthTick = 0.010;  // [m]
 
@@ -47,7 +47,7 @@ class SlotPlot {
       svg_.line({x(depth), box_.bottom()}, {x(depth), box_.bottom() + 1.0}, {base::kSoftInk, 0.2});
       svg_.text({x(depth), box_.bottom() + 3.6}, {2.2, base::kSoftInk, "middle"}, fmt::format("{:.0f}", depth * 1e3));
     }
-    // In every layout, the upper half of the plot is empty before the crest, so the labels fit there.
+    // The curve does not cross the first label: in every layout, it runs below this label up to its crest.
     svg_.text({x(mouth_) + 1.2, y(0.0) - 1.4}, {2.1, base::kSoftInk}, "pulls into gear");
     svg_.text({x(mouth_) + 1.2, box_.bottom() - 1.6}, {2.1, base::kSoftInk}, "pushes back");
   }
@@ -82,7 +82,7 @@ class SlotPlot {
   const haptics::Slot& slot_;
   base::Rect box_;
   double mouth_;               // [m] depth at which the mouth ends and the straight slot begins
-  double limit_ = kForceTick;  // [N] at the top of the plot
+  double limit_ = kForceTick;  // [N] force at the top of the plot
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Plots the force along a slot: positive forces pull the lever into the gear, negative ones push it back.
+// Plots the force along a slot. Positive forces pull the lever into the gear, negative ones push it back.
 #pragma once
 
 #include "app/base/svg.h"

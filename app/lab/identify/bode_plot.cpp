@@ -40,7 +40,8 @@ void write_points(const std::filesystem::path& file, const AxisIdentification& a
   haptics::write_text_file(file, text);
 }
 
-// Plots as in Fig. 4: gain above, phase below, test points as *, and the fitted curve.
+// gnuplot commands for the layout of Fig. 4 in Lin and Young's paper: gain above, phase below, test points as *, and
+// the fitted curve.
 std::string bode_commands(const AxisIdentification& axis, std::string_view nominal) {
   const haptics::AxisModel& model = axis.fit.model;
   const double edge = haptics::bandwidth(model);

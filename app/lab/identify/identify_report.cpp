@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kTau = 2.0 * std::numbers::pi;
-constexpr double kMaxPlausibleMisfit = 3.0;  // above this, noise cannot explain how far the points are from the curve
+constexpr double kMaxPlausibleMisfit = 3.0;  // [1] noise cannot explain a larger misfit between points and curve
 
 struct Quantity {
   const char* name;
@@ -33,7 +33,7 @@ std::array<double, 2> pole_frequencies(const haptics::AxisModel& axis) {
   return {std::abs(pole[0]) / kTau, std::abs(pole[1]) / kTau};
 }
 
-// False if the stiffness is smaller than twice its standard deviation, so that it may be zero.
+// False if the stiffness is less than twice its standard deviation, so that it may be zero.
 bool has_spring(const haptics::AxisFit& fit) {
   return fit.model.stiffness > 2.0 * fit.deviation.stiffness;
 }
@@ -61,17 +61,16 @@ std::string axis_text(const AxisIdentification& axis) {
   text += has_spring(fit)
               ? fmt::format("  damping ratio {:.2f}, {}, bandwidth {:.2f} Hz\n", haptics::damping_ratio(fit.model),
                             poles_text(fit.model), haptics::bandwidth(fit.model))
-              : "  the axis has no spring, so no damping ratio and no bandwidth\n";
+              : "  the axis has no spring, so it has no damping ratio or bandwidth\n";
   text +=
       fmt::format("  {} points from {:.3g} to {:.3g} Hz, misfit {:.2g}{}\n", fit.points,
                   axis.response.points.front().frequency, axis.response.points.back().frequency, fit.misfit,
                   fit.misfit > kMaxPlausibleMisfit ? "; mass, damping and stiffness alone do not explain them" : "");
-  text +=
-      fmt::format("  at 1 Hz, one third of the maximum force, {:.1f} N, {} (it would move the lever by {:.0f} mm)\n\n",
-                  axis.literal.amplitude,
-                  axis.literal.end == haptics::PointEnd::hit_stop ? "drives the lever to the stop"
-                                                                  : "does not drive the lever to the stop",
-                  1e3 * needed_stroke(axis));
+  text += fmt::format("  at 1 Hz, one third of the maximum force ({:.1f} N) {} (the lever would move by {:.0f} mm)\n\n",
+                      axis.literal.amplitude,
+                      axis.literal.end == haptics::PointEnd::hit_stop ? "drives the lever to the stop"
+                                                                      : "does not drive the lever to the stop",
+                      1e3 * needed_stroke(axis));
   return text;
 }
 
@@ -83,7 +82,7 @@ std::string bandwidths_text(const Identification& found) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-// The paper's X axis is a rotation axis; turning about it moves the tip along our y.
+// In Lin and Young's paper, X is an axis of rotation. Turning the lever about it moves the tip along our y.
 std::string table2_text(const Identification& found) {
   const haptics::DeviceRow row = haptics::device_row(found.spec);
   constexpr const char* kLine = "{:<24}{:>22}{:>18}{:>14}{:>14}\n";
@@ -104,8 +103,8 @@ std::string table2_text(const Identification& found) {
   if (row.step > 0.0) {
     const haptics::AxisModel& axis = found.axes.front().fit.model;
     text += fmt::format(
-        "    One newton moves axis {} by at least one encoder count up to {:.0f} Hz, and by at least 3 dB less than a\n"
-        "    count up to {:.0f} Hz. This may be why the paper's sweep ended at 65 Hz.\n",
+        "    One newton moves axis {} by at least one encoder count at up to {:.0f} Hz, and by at least 0.71 counts\n  "
+        "  (-3 dB) at up to {:.0f} Hz. This may be why the paper's sweep ended at 65 Hz.\n",
         to_string(found.axes.front().response.axis), haptics::frequency_at_gain(axis, row.step),
         haptics::frequency_at_gain(axis, row.step / std::numbers::sqrt2));
   }
@@ -123,8 +122,9 @@ std::string calibration_text(const Identification& found) {
   return fmt::format("force sensor, 7 weights in 8 directions; the preset has f_s = {:g} + {:g} f_e, in gw, eq (7)\n",
                      found.sensor.offset, found.sensor.gain) +
          line_text("x", sensor.x) + line_text("y", sensor.y) +
-         fmt::format("  directions agree within {:.2f} %; at most {:.1f} gw are read perpendicular to the weight\n",
-                     100.0 * sensor.direction_spread, sensor.cross_force);
+         fmt::format(
+             "  directions agree within {:.2f} %; the sensor reads at most {:.1f} gw perpendicular to the weight\n",
+             100.0 * sensor.direction_spread, sensor.cross_force);
 }
 
 Json point_json(const haptics::FrequencyPoint& point) {

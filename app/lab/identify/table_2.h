@@ -1,4 +1,4 @@
-// The lines of the paper's Table 2 that can be measured on our levers, with the printed values.
+// The lines of Table 2 in Lin and Young's paper that can be measured on our levers, with the printed values.
 #pragma once
 
 namespace gearshift::lab {

@@ -28,8 +28,8 @@ std::string script_of(const Figure& figure) {
   return script;
 }
 
-// A terminal sends Ctrl-C to all programs in it. gnuplot ignores it: it finishes soon anyway, and if interrupted would
-// leave an incomplete figure under its final name.
+// Blocks Ctrl-C and the other signals that end a program. This process is about to become gnuplot, which inherits the
+// blocked signals. An interrupted gnuplot would leave an incomplete figure, and gnuplot finishes soon anyway.
 void ignore_terminal_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -37,7 +37,8 @@ void ignore_terminal_signals() {
   sigprocmask(SIG_BLOCK, &signals, nullptr);
 }
 
-// `waiting` may throw to stop the work; the exception is passed on only after gnuplot has finished the figure.
+// Waits for gnuplot and returns its exit code, or 127 if it did not exit normally. `waiting` may throw to stop the
+// program; the exception is rethrown only after gnuplot has ended.
 int wait_for(pid_t child, const std::function<void()>& waiting) {
   int status = 0;
   pid_t ended = 0;
@@ -59,7 +60,7 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& script, 
   const pid_t child = fork();
   if (child == 0) {
     ignore_terminal_signals();
-    setenv("LC_ALL", "C.UTF-8", 1);  // available everywhere; without UTF-8 gnuplot complains about the degree sign
+    setenv("LC_ALL", "C.UTF-8", 1);  // available everywhere; gnuplot needs UTF-8 for the degree sign
     if (chdir(directory.c_str()) == 0) execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }

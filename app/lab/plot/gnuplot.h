@@ -1,4 +1,4 @@
-// Draws figures with gnuplot. A single script, written next to its data, produces the SVG and the PNG.
+// Draws figures with gnuplot. One script, saved next to the data, produces both SVG and PNG.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ struct Figure {
   std::string name;      // file name without extension
   int width = 900;       // [px]
   int height = 600;      // [px]
-  std::string commands;  // all commands except terminal and output; paths relative to the folder
+  std::string commands;  // all commands except terminal and output; paths are relative to the folder
 };
 
 // Writes NAME.gp, NAME.svg and NAME.png to the folder. Calls `waiting` every few milliseconds while gnuplot works.

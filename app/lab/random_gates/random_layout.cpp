@@ -1,5 +1,5 @@
-// Repeats the rules of the gate compiler on purpose, in tenths of a millimetre and of a newton: the compiler must
-// accept everything that is generated here.
+// Generates layouts by the rules of the gate compiler. The rules are repeated here on purpose, so that tests can check
+// that the compiler accepts every generated layout. Units: 0.1 mm and 0.1 N.
 #include "app/lab/random_gates/random_layout.h"
 
 #include <algorithm>
@@ -16,14 +16,15 @@ namespace gearshift::lab {
 namespace {
 
 constexpr double kRadius = 1200.0;        // [0.1 mm] radius of the yoke
-constexpr double kHalfX = 771.3;          // [0.1 mm] 120 mm sin(40 deg)
-constexpr double kHalfY = 688.2;          // [0.1 mm] 120 mm sin(35 deg)
+constexpr double kHalfX = 771.3;          // [0.1 mm] largest x: 120 mm sin(40 deg)
+constexpr double kHalfY = 688.2;          // [0.1 mm] largest y: 120 mm sin(35 deg)
 constexpr int kMargin = 70;               // [0.1 mm] space behind the walls
-constexpr int kMaxSlotLength = 600;       // [0.1 mm] maximum slot length: beyond it, two columns may not fit
-constexpr int kWall = 20;                 // [0.1 mm] minimum wall between two mouths
+constexpr int kMaxSlotLength = 600;       // [0.1 mm] in longer slots, two columns may not fit
+constexpr int kWall = 20;                 // [0.1 mm] minimum width of the wall between two mouths
 constexpr double kMaxStiffness = 4000.0;  // [N/m] maximum stiffness
 
-// Random draws that are the same on every machine: the random engine is standardised, the distributions are not.
+// Random draws that are equal on every machine. Uses only the standardised random engine, because the distributions of
+// the standard library are not standardised.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -52,7 +53,7 @@ struct Plan {
   int aisle, slot_width, chamfer, slot_length;           // [0.1 mm]
   int center, aisle_force, mouth, detent, lock, buffer;  // [0.1 N]
   std::vector<int> position;                             // [0.1 mm]
-  std::vector<std::string> forward, back;                // names of the gears; "" = none
+  std::vector<std::string> forward, back;                // names of the gears; "": no gear
   std::size_t neutral = 0;
 };
 
@@ -60,18 +61,20 @@ void plan_sizes(Dice& dice, Plan& plan) {
   plan.aisle = dice.between(80, 140);
   plan.slot_width = dice.between(60, 100);
   plan.chamfer = dice.coin() ? dice.between(1, 40) : dice.between(0, 40);
-  plan.center = dice.between(17, 50);  // a neutral column may be up to 65 mm from the centre
+  // The gate compiler requires a centring force of at least 0.5 N plus 1.2 times the force of the handle's spring (14.8
+  // N/m). If the neutral column is at most 65 mm from the centre, this is at most 1.7 N.
+  plan.center = dice.between(17, 50);
   plan.aisle_force = dice.between(2, 20);
   plan.mouth = dice.between(10, 50);
   plan.detent = dice.between(10, 70);
   plan.lock = dice.between(40, 140);
-  // A buffer that rotates the lever one way pulls it sideways with 3/2 of (16/15 of half the aisle) / (0.8 of the slot)
-  // of its force, which must stay below the centring force.
+  // The sideways pull of a buffer must stay below the centring force. `pull` is its largest value, divided by the
+  // buffer's force: 3/2 x 16/15 x (half the aisle) / (0.8 x slot width).
   const double pull = 1.5 * (16.0 / 15.0) * (0.5 * plan.aisle) / (0.8 * plan.slot_width);
   plan.buffer = dice.between(0, static_cast<int>(0.95 * plan.center / pull));
 }
 
-// Not always valid.
+// Draws each size and force from its whole allowed range. The combination may be invalid.
 void plan_wide_sizes(Dice& dice, Plan& plan) {
   plan.aisle = dice.between(40, 400);
   plan.slot_width = dice.between(40, 300);
@@ -84,8 +87,9 @@ void plan_wide_sizes(Dice& dice, Plan& plan) {
   plan.buffer = dice.between(0, 100);
 }
 
-// A smooth step of height F over a length l has a maximum slope of 1.5 F/l, so the slot must be long enough. As
-// fractions from mouth to end stop: bump 0.14, rise of the detent 0.14, rise of the lock 0.24, fall of the lock 0.20.
+// Chooses a slot length at which no force is steeper than kMaxStiffness. A smooth step of height F over length l has a
+// maximum slope of 1.5 F/l. Lengths of the steps, as fractions of the slot: bump 0.14, rise of the detent 0.14, rise of
+// the lock 0.24, fall of the lock 0.20.
 void plan_length(Dice& dice, Plan& plan) {
   const auto need = [](int tenths_of_newton, double fraction) {
     return 1.5 * 0.1 * tenths_of_newton / fraction / kMaxStiffness * 1e4;  // [0.1 mm]
@@ -97,8 +101,9 @@ void plan_length(Dice& dice, Plan& plan) {
   plan.slot_length = dice.between(std::min(min_length, kMaxSlotLength), kMaxSlotLength);
 }
 
-// Maximum lateral position of a wall such that the corner of its slot and the margin behind it are reachable. The stop
-// of a joint is an ellipse in the plane, (x / half.x)^2 + (y / radius)^2 = 1 for theta.
+// Returns the largest sideways position of a slot wall at which the lever can still reach the corner of the slot, with
+// kMargin to spare. The stops of the joints theta and phi are two ellipses in the gate plane: (x / kHalfX)^2 + (y /
+// kRadius)^2 = 1 and (x / kRadius)^2 + (y / kHalfY)^2 = 1.
 int max_lateral_position(int slot_length) {
   const auto side = [y = slot_length + kMargin](double half_x, double half_y) {
     return half_x * std::sqrt(1.0 - (y / half_y) * (y / half_y));
@@ -106,7 +111,7 @@ int max_lateral_position(int slot_length) {
   return static_cast<int>(std::min(side(kHalfX, kRadius), side(kRadius, kHalfY))) - kMargin;
 }
 
-// Returns false if two columns do not fit.
+// Draws the number and the positions of the columns. Returns false if two columns do not fit.
 bool plan_positions(Dice& dice, Plan& plan) {
   const int min_pitch = plan.slot_width + 2 * plan.chamfer + kWall;
   const int reach = max_lateral_position(plan.slot_length);
@@ -133,7 +138,7 @@ void plan_gears(Dice& dice, Plan& plan) {
   plan.back.assign(columns, "");
   std::vector<std::string*> slots;
   for (std::size_t i = 0; i < columns; ++i) {
-    const int kind = dice.between(0, 3);  // 0 forward only, 1 back only, otherwise both
+    const int kind = dice.between(0, 3);  // 0: forward only, 1: back only, 2 or 3: both
     if (kind != 1) slots.push_back(&plan.forward[i]);
     if (kind != 0) slots.push_back(&plan.back[i]);
   }
@@ -182,7 +187,8 @@ std::string lockouts_text(Dice& dice, const Plan& plan) {
   return text;
 }
 
-// Draws the remaining parameters after sizes and forces; empty if they do not fit.
+// Draws the parameters other than sizes and forces. Returns the text of the layout file; empty if two columns do not
+// fit.
 std::string layout_text(Dice& dice, Plan& plan, std::uint64_t seed) {
   plan_length(dice, plan);
   if (!plan_positions(dice, plan)) return {};

@@ -1,4 +1,4 @@
-// Random gate layouts for property tests: valid by construction, and like those that a user could write.
+// Random gate layouts for property tests. All are valid and could have been written by a user.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace gearshift::lab {
 
-// The text of a layout file. The same seed gives the same text on every machine. The gate fits the paper's joystick,
-// corners included.
+// Returns the text of a layout file. Equal seeds give equal texts on every machine. The simulated joystick can reach
+// the whole gate, including its corners.
 std::string random_layout_text(std::uint64_t seed);
 haptics::GateLayout random_layout(
-    std::uint64_t seed);  // the same layout, parsed; error messages call the file "random_SEED.toml"
+    std::uint64_t seed);  // the parsed layout; error messages call the file "random_SEED.toml"
 
-// A layout with sizes and forces from their whole ranges, drawn repeatedly until the gate compiler accepts it.
+// Draws layouts with sizes and forces from their whole ranges until the gate compiler accepts one.
 haptics::GateLayout random_wide_layout(std::uint64_t seed);
 
 }  // namespace gearshift::lab

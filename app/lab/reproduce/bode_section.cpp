@@ -33,7 +33,8 @@ double stop_on_x_arc(const Study& study) {
   return study.preset.lever.yoke.radius * study.preset.lever.yoke.theta_limit;
 }
 
-// With the paper's literal amplitude the lever hits its stop, so its motion is computed from the fit.
+// Plots the lever's motion with our force amplitude and with the paper's amplitude, one third of the peak force. With
+// the paper's amplitude the lever hits its stop, so that curve is computed from the fitted model.
 void draw_amplitudes(const Study& study, const AxisIdentification& x, const haptics::FrequencyResponse& literal) {
   const double third = third_of_peak(study);
   CsvFile csv(study, "bode_amplitude", "frequency_hz,used_n,used_mm,third_n,third_mm,third_hit_the_stop_1");
@@ -81,18 +82,18 @@ Finding model_finding(const char* paper_text, const haptics::AxisFit& fit, const
 }
 
 std::string describe_bandwidth(const haptics::AxisModel& axis) {
-  if (haptics::bandwidth(axis) == 0.0) return "none, because it has no spring";
+  if (haptics::bandwidth(axis) == 0.0) return "none, because the axis has no spring";
   return fmt::format("{:.2f} Hz (at 100 Hz, {:.0f} dB below)", haptics::bandwidth(axis),
                      decibels(std::abs(haptics::compliance(axis, 0.0) / haptics::compliance(axis, 100.0))));
 }
 
 Finding bandwidth_finding(const haptics::AxisModel& x, const haptics::AxisModel& y) {
   return {
-      "Section 2.4: the transfer function shows a 3 dB output at about 100 Hz, the bandwidth",
+      "Section 2.4: the output is at 3 dB at about 100 Hz, the bandwidth",
       fmt::format("frequency at which the gain is 3 dB below the gain at rest: X {}; Y {}", describe_bandwidth(x),
                   describe_bandwidth(y)),
       fmt::format("100 Hz does not follow from (11) and (12), whose bandwidths are {:.2f} and {:.2f} Hz, because both "
-                  "axes are over-damped (damping ratios {:.2f} and {:.2f}); it cannot be verified",
+                  "axes are over-damped (damping ratios {:.2f} and {:.2f}), so the claim cannot be verified",
                   haptics::bandwidth(haptics::kPaperAxisX), haptics::bandwidth(haptics::kPaperAxisY),
                   haptics::damping_ratio(haptics::kPaperAxisX), haptics::damping_ratio(haptics::kPaperAxisY))};
 }
@@ -107,7 +108,7 @@ Finding amplitude_finding(const Study& study, const AxisIdentification& x, const
   }
   const double third = third_of_peak(study);
   return {
-      "Section 2.4: amplitude one third of the maximum output torque",
+      "Section 2.4: the amplitude is one third of the maximum output torque",
       fmt::format("{:.1f} N drives the X axis to its stop at {} of {} test points, up to {:.1f} Hz; at 1 Hz the "
                   "lever would need {:.0f} mm, but the stop is at {:.0f} mm of arc",
                   third, hits, literal.points.size(), highest,
@@ -116,7 +117,7 @@ Finding amplitude_finding(const Study& study, const AxisIdentification& x, const
       "is smaller"};
 }
 
-// If the gain is measured in encoder counts per newton, 0 dB means one count per newton.
+// Describes the gain in encoder counts per newton; 0 dB is one count per newton.
 std::string describe_counts(const haptics::AxisModel& x, double step, double moved) {
   if (step == 0.0) return "cannot be compared, because the preset's lever has no encoder";
   const auto crossing = [&](double level) {
@@ -163,7 +164,8 @@ Section bode_section(const Study& study) {
           {{"bode_x", "Fig. 4 (a): the X axis. Test points (*), the fitted curve, and the paper's curve behind it."},
            {"bode_y", "Fig. 4 (b): the Y axis."},
            {"bode_amplitude",
-            "Why less than one third of the maximum is used at low frequencies: force and resulting motion, X axis."}}};
+            "Force and resulting motion of the X axis, which show why the sweep uses less than one third of the "
+            "maximum force at low frequencies."}}};
 }
 
 }  // namespace gearshift::lab

@@ -14,9 +14,9 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr int kSamples = 1000;  // averaged per reading
+constexpr int kSamples = 1000;  // samples averaged per reading
 
-// Deviation of a reading from the fitted line of one axis. [gw]
+// Deviation of a reading from the fitted line of one axis. [gw] (gram-weight)
 double residual(const haptics::SensorLine& line, double reading, double force) {
   return (reading - line.offset) / line.gain - force;
 }
@@ -65,19 +65,18 @@ Finding line_finding(const char* axis, const haptics::SensorLine& line) {
 }
 
 Finding directions(const haptics::SensorCalibration& fit) {
-  return {
-      "Section 2.3: consistent readings in all those directions",
-      fmt::format("the gain of the worst direction is {:.1f} % off; at most {:.0f} gw are read perpendicular to the "
-                  "weight",
-                  100.0 * fit.direction_spread, fit.cross_force),
-      "explained by the resolution"};
+  return {"Section 2.3: the readings are consistent in all directions",
+          fmt::format("in the worst direction, the gain is off by {:.1f} %; the sensor reads at most {:.0f} gw "
+                      "perpendicular to the weight",
+                      100.0 * fit.direction_spread, fit.cross_force),
+          "explained by the resolution"};
 }
 
 Finding linearity(const haptics::ForceSensorModel& sensor, const haptics::SensorCalibration& fit) {
   const double worst = std::max(fit.x.nonlinearity, fit.y.nonlinearity);
-  return {"Section 2.3: linearly proportional; sensitivity 0.044 kgf in X and Y",
-          fmt::format("the reading farthest from the line is {:.1f} gw off", worst),
-          fmt::format("{:.2f} of the resolution of {:g} gw; rounding accounts for up to 0.5",
+  return {"Section 2.3: the readings are linearly proportional, with a sensitivity of 0.044 kgf in X and Y",
+          fmt::format("the worst reading is {:.1f} gw away from the line", worst),
+          fmt::format("{:.2f} times the resolution of {:g} gw; rounding explains up to 0.5 times",
                       worst / sensor.resolution_gw, sensor.resolution_gw)};
 }
 

@@ -19,15 +19,17 @@ namespace {
 using glm::dvec2;
 
 struct Crosstalk {
-  double angle = 0.0;   // [deg] offset of the lever in Y, and stroke in X
+  double angle = 0.0;   // [deg] constant lever angle in Y; the stroke in X has the same angle
   double motion = 0.0;  // [%] ratio of the motion in Y to the motion in X
   double force = 0.0;   // [%] ratio of the force in Y to the force in X
 };
 
 // Pushes the lever along x with springs on both axes and measures the effect on y.
 Crosstalk couple_axes(const Study& study, double degrees, bool joints) {
-  constexpr double kCouplingFraction = 0.4;  // [1] fraction of limit (14); the motors can hold the largest angle
-  constexpr double kMove = 0.5;              // [s] each way
+  // [1] Stiffness of the springs as a fraction of the paper's limit, eq (14). With it the motors can hold the largest
+  // angle.
+  constexpr double kCouplingFraction = 0.4;
+  constexpr double kMove = 0.5;  // [s] duration of each movement
   Trial trial = free_trial(study, kPaperRate);
   const haptics::SimulatedLeverConfig& lever = trial.lever;
   const double spring_x = kCouplingFraction * element_limits(lever.axis_x, 1.0 / kPaperRate).spring;
@@ -39,7 +41,7 @@ Crosstalk couple_axes(const Study& study, double degrees, bool joints) {
     const double forward_part = haptics::minimum_jerk({0.0, 0.0}, {1.0, 0.0}, time, kMove).position.x;
     const double return_part = haptics::minimum_jerk({0.0, 0.0}, {1.0, 0.0}, time - kMove, kMove).position.x;
     haptics::HandTarget target;
-    target.push = {push * (forward_part - return_part), upright};  // also holds the handle against its spring in Y
+    target.push = {push * (forward_part - return_part), upright};  // `upright` balances the handle's own spring in Y
     return target;
   };
   trial.lever.hand = haptics::kBareHand;
@@ -99,10 +101,11 @@ void add_coupling(const Study& study, Section& section) {
   section.findings.push_back({"Section 3: \"only insignificant coupling effects between the two joints\"",
                               "springs on each joint separately, pushed along X, measured in Y: " + joints,
                               "springs in the gate plane with the exact kinematics: " + plane});
-  section.pictures.push_back(
-      {"coupling",
-       "Effect on Y when the lever is pushed along X, with springs on both axes and Y offset by the same angle. The "
-       "effect is caused by the kinematics and is insignificant near the middle, as the paper says."});
+  section.pictures.push_back({"coupling",
+                              "Motion and force in Y while the lever is pushed along X. Both axes have springs; Y is "
+                              "held at an angle equal to "
+                              "the stroke in X. The coupling comes from the kinematics and is insignificant near the "
+                              "middle, as the paper says."});
 }
 
 }  // namespace gearshift::lab

@@ -1,4 +1,4 @@
-// Section 3 of the paper: coupling between the axes. With springs on both, pushes along one axis and measures the
+// Section 3 of the paper: coupling between the axes. Both axes have a spring; a push along one axis also moves the
 // other.
 #pragma once
 

@@ -13,13 +13,13 @@
 namespace gearshift::lab {
 namespace {
 
-// The paper's Fig. 6 (b): 200 Hz, the lever enters the wall at 188 ms and leaves it at 213 ms.
+// The paper's Fig. 6 (b): at 200 Hz, the lever enters the wall at 188 ms and leaves it at 213 ms.
 constexpr double kPeriod = 1.0 / 200.0;             // [s]
 constexpr double kEnters = 0.188, kLeaves = 0.213;  // [s]
-constexpr double kEntrySpeed = 0.3;                 // [m/s] not in the paper; the percentages do not depend on it
+constexpr double kEntrySpeed = 0.3;                 // [m/s] not in the paper; does not affect the percentages
 constexpr int kFirst = 36, kLast = 44;              // [samples] 180 to 220 ms
 
-// Depth of the lever at `time` [m]: a parabola through entry and exit, as if a constant force threw it back.
+// Depth of the lever at `time` [m]: a parabola through entry and exit, as if a constant force threw the lever back.
 double depth(double time) {
   const double half = 0.5 * (kLeaves - kEnters), middle = 0.5 * (kLeaves + kEnters);
   const double u = (time - middle) / half;
@@ -29,13 +29,13 @@ double sampled_depth(int sample) {
   return depth(sample * kPeriod);
 }
 
-// Energy stored in a spring at the depth `at`. [J]
+// Energy stored in a spring at depth `at`. [J]
 double stored(double stiffness, double at) {
   return 0.5 * stiffness * std::max(0.0, at) * std::max(0.0, at);
 }
 
-// Force of the shipped coupling during the hold that begins at a sample, without damping; positive against the lever.
-// [N]
+// Force of the trainer's own coupling, without damping, in the period that begins at a sample. Positive: out of the
+// wall. [N]
 double coupled_force(const haptics::Coupling& coupling, int sample) {
   static const haptics::Gate gate = wall_at_zero();
   const haptics::Passage passage = haptics::open_passage(gate);
@@ -45,8 +45,8 @@ double coupled_force(const haptics::Coupling& coupling, int sample) {
   return -haptics::contact_force(coupling, gate, passage, haptics::place_proxy(gate, motion.position), motion).force.x;
 }
 
-// Force of the observer hold if it predicts the end of the hold exactly. The path is prescribed, so the force does not
-// change it. [N]
+// Force [N] of the observer hold if the observer predicts the position at the end of the period exactly. The lever's
+// path is prescribed, so the force does not change it.
 double observed_force(const haptics::Coupling& coupling, int sample) {
   constexpr double kRigid = 1e-9;  // [m/N] practically rigid
   return haptics::solved_force(coupling, sampled_depth(sample), sampled_depth(sample + 1), kRigid);
@@ -56,11 +56,11 @@ struct Hold {
   const char* name;
   const char* tag;
   std::array<double, kLast> force{};  // [N] by sample
-  double first = 0.0, second = 0.0;   // [J] energy generated in region I and in region II
-  double total = 0.0;                 // [J] energy generated over the whole contact
+  double first = 0.0, second = 0.0;   // [J] energy generated in regions I and II (see regions())
+  double total = 0.0;                 // [J] energy generated over the complete contact
 };
 
-// Sums the energy that the held force supplies to the lever beyond what the ideal spring does.
+// Sums the energy that the held force supplies to the lever beyond what an ideal spring would supply.
 void sum_energy(Hold& hold, double stiffness) {
   for (int i = kFirst; i < kLast; ++i) {
     const double begin = sampled_depth(i), end = sampled_depth(i + 1);
@@ -75,7 +75,7 @@ void sum_energy(Hold& hold, double stiffness) {
 std::array<Hold, 3> make_holds(double stiffness) {
   std::array<Hold, 3> holds{Hold{"zero-order hold, as in the paper", "zero_order"},
                             Hold{"half-sample hold, the shipped default", "half_sample"},
-                            Hold{"ideal hold, which knows where it ends", "observed"}};
+                            Hold{"ideal hold, which knows the next position", "observed"}};
   haptics::Coupling coupling{stiffness, 0.0, kPeriod, 0, haptics::ContactHold::zero_order};
   for (int i = kFirst; i < kLast; ++i) {
     const auto sample = static_cast<std::size_t>(i);
@@ -89,9 +89,10 @@ std::array<Hold, 3> make_holds(double stiffness) {
   return holds;
 }
 
-// Writes position and held forces divided by g, as in the paper's figure: g = 1, so both use one scale.
+// Writes the position and, for each hold, the force divided by the wall's stiffness g, as in the paper's figure. Both
+// quantities are lengths and share one scale.
 void write_curves(const Study& study, const std::array<Hold, 3>& holds, double stiffness) {
-  constexpr int kFine = 50;  // points per hold
+  constexpr int kFine = 50;  // points per sampling period
   CsvFile csv(study, "deferred_force",
               "time_ms,depth_mm,zero_order_force_over_g_mm,half_sample_force_over_g_mm,observed_force_over_g_mm");
   for (int i = kFirst * kFine; i < kLast * kFine; ++i) {
@@ -103,7 +104,8 @@ void write_curves(const Study& study, const std::array<Hold, 3>& holds, double s
   csv.finish();
 }
 
-// The paper's regions I and II: from a wall crossing to the next sample, which detects it.
+// gnuplot commands for the paper's regions I and II. Each region lasts from a wall crossing to the next sample, which
+// detects the crossing.
 std::string regions(const char* force) {
   const double entry_detected = std::ceil(kEnters / kPeriod) * kPeriod,
                exit_detected = std::ceil(kLeaves / kPeriod) * kPeriod;
@@ -144,7 +146,7 @@ std::string energies(const Hold& hold, double peak_energy) {
                      energy(hold.second, peak_energy), energy(hold.total, peak_energy));
 }
 
-// Start of the first and end of the last hold with a force. [ms]
+// [ms] Times at which the first period with a force begins and the last one ends.
 std::array<double, 2> force_times(const Hold& hold) {
   int first = kLast, last = kFirst;
   for (int i = kFirst; i < kLast; ++i) {
@@ -170,19 +172,19 @@ Section deferred_force_section(const Study& study) {
       "A prescribed path enters the wall at {:g} ms and leaves it at {:g} ms, sampled at {:g} Hz; the entry speed is "
       "{:g} m/s. The wall force is computed from these samples as in the trainer, for a spring of {:g} N/m without "
       "damping. The third hold is an ideal one, which knows where the lever will be when the hold ends, like an "
-      "observer with a perfect model. The energy is what the held force gives the lever beyond an ideal spring, during "
+      "observer with a perfect model. The energy is what the held force adds to the lever compared with an ideal "
+      "spring, during "
       "the hold in which the lever enters the wall (region I) and the one in which it leaves the wall (region II). "
       "Percentages refer to the {:.3g} mJ stored at the deepest point.",
       1e3 * kEnters, 1e3 * kLeaves, 1.0 / kPeriod, kEntrySpeed, stiffness, 1e3 * peak_energy);
-  section.findings = {{"Fig. 6 (b): entered at 188 ms, \"the simulated reflective force was computed until 190 ms\"; "
-                       "left at 213 ms, until "
-                       "215 ms",
+  section.findings = {{"Fig. 6 (b): the lever enters at 188 ms, but \"the simulated reflective force was computed "
+                       "until 190 ms\"; it leaves at 213 ms, but the force lasts until 215 ms",
                        fmt::format("zero-order hold: force from {:g} to {:g} ms", begins, ends),
                        fmt::format("{:+.2g} and {:+.2g} ms", begins - 190.0, ends - 215.0)},
                       {"Section 3.1: \"late energy generation\" in regions I and II",
                        "zero-order hold: " + energies(holds[0], peak_energy), "the paper gives no numbers"},
                       {"Section 3.1: the cure is \"a sampling rate up to 1 K Hz\" or a slow joystick",
-                       "half-sample hold at the same 200 Hz: " + energies(holds[1], peak_energy) +
+                       "half-sample hold, also at 200 Hz: " + energies(holds[1], peak_energy) +
                            "; ideal hold: " + energies(holds[2], peak_energy),
                        fmt::format("{:+.0f} % and {:+.0f} % of the zero-order hold's energy",
                                    100.0 * holds[1].total / holds[0].total, 100.0 * holds[2].total / holds[0].total)}};

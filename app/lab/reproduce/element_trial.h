@@ -1,5 +1,5 @@
-// Shared by the trials of emulated elements: their passivity limits, a lever without walls that is moved by a hand, and
-// the force of each hold with its motion.
+// Helpers for trials of emulated elements (spring, damper, mass): the elements' passivity limits, a lever without walls
+// that a hand moves, and force and motion in each sampling period.
 #pragma once
 
 #include <vector>
@@ -12,24 +12,24 @@
 namespace gearshift::lab {
 
 inline constexpr double kPaperRate = 100.0;  // [Hz] section 3: "the maximum updating frequency of the system at 100 Hz"
-inline constexpr double kElementFraction = 0.8;  // [1] used fraction of the paper's limits (14), (16), (18), (20)
+inline constexpr double kElementFraction = 0.8;  // [1] fraction of the paper's limits (14), (16), (18), (20)
 
 struct ElementLimits {
-  double spring, damper, mass;  // [N/m], [N s/m], [kg] limit of each element if it is the only one
+  double spring, damper, mass;  // [N/m], [N s/m], [kg] limit of each element if the other two are zero
 };
 ElementLimits element_limits(const haptics::AxisModel& handle, double period);
 
-// A trial with no forces except the element's: no walls nearby, no feel, no damping by the loop.
+// Returns a trial in which only the element causes forces: no walls nearby, no gate forces, no damping by the loop.
 Trial free_trial(const Study& study, double rate);
 
 // Runs a trial in which a gripping hand moves the lever along the strokes.
 TrialRun run_with_hand(Trial trial, const std::vector<haptics::HandStroke>& strokes, haptics::LeverLoad* load);
 
-// One hold: the force against the hand, and the true motion as (position, velocity, acceleration). [m], [m/s], [m/s^2]
+// One sampling period: the force against the hand, and position, velocity and acceleration. [N], [m], [m/s], [m/s^2]
 struct ElementHold {
   double time, force;
-  glm::dvec3 sampled;  // as the paper's (19) computes it: velocity is half a period old, acceleration a whole one
-  glm::dvec3 actual;   // true motion in the middle of the hold
+  glm::dvec3 sampled;  // motion as in the paper's eq (19): velocity lags by T/2, acceleration by T (period)
+  glm::dvec3 actual;   // true motion in the middle of the period
 };
 
 std::vector<ElementHold> holds_of(const TrialRun& run, int axis);

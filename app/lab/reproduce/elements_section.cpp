@@ -43,8 +43,9 @@ void add_limits(const Study& study, Section& section) {
   section.findings.push_back(
       limit_row("(14): K < 605 and 566 N/m in X and Y at 100 Hz", lx.spring, ly.spring, 605.0, 566.0, "N/m", why));
   section.findings.push_back(limit_row("(16): B < 3.0 and 2.9 N s/m", lx.damper, ly.damper, 3.0, 2.9, "N s/m", ""));
-  section.findings.push_back(limit_row("(18): M < 0.015 and 0.014 kg", lx.mass, ly.mass, 0.015, 0.014, "kg",
-                                       fmt::format("; 2.9 T/2 = {:g} is printed as 0.014", 2.9 / (2.0 * kPaperRate))));
+  section.findings.push_back(
+      limit_row("(18): M < 0.015 and 0.014 kg", lx.mass, ly.mass, 0.015, 0.014, "kg",
+                fmt::format("; 2.9 T/2 is {:g}, but is printed as 0.014", 2.9 / (2.0 * kPaperRate))));
   section.findings.push_back({"(21): K + 200 B + 200^2 M < 605 and 566",
                               fmt::format("K + {:.4g} B + {:.5g} M < {:.4g} and {:.4g}", lx.spring / lx.damper,
                                           lx.spring / lx.mass, lx.spring, ly.spring),
@@ -55,16 +56,16 @@ void add_limits(const Study& study, Section& section) {
 
 struct Emulation {
   const char* name;
-  double spring, damper, mass;  // [1] fractions of the element's limits
+  double spring, damper, mass;  // [1] fractions of the elements' limits
 };
-// The fractions of each emulation add up to kElementFraction, as the paper's (20) requires.
+// The fractions of each emulation add up to kElementFraction (0.8). The paper's eq (20) requires a sum below 1.
 constexpr std::array<Emulation, 4> kEmulations{{{"spring", kElementFraction, 0.0, 0.0},
                                                 {"damper", 0.0, kElementFraction, 0.0},
                                                 {"mass", 0.0, 0.0, kElementFraction},
                                                 {"impedance", 0.3, 0.3, 0.2}}};
 
-// Spring and damper keep their values of 100 Hz at every rate, to be comparable. At a higher rate the paper's (18)
-// allows less mass.
+// At every rate, spring and damper have their values for 100 Hz, so that the rates can be compared. The mass must be
+// lower at a higher rate, because of the limit in the paper's eq (18).
 haptics::AxisModel element_of(const Emulation& emulation, const haptics::AxisModel& handle, double rate) {
   const ElementLimits slow = element_limits(handle, 1.0 / kPaperRate), at_rate = element_limits(handle, 1.0 / rate);
   return {emulation.mass * std::min(slow.mass, at_rate.mass), emulation.damper * slow.damper,
@@ -87,7 +88,7 @@ constexpr std::array<dvec2, 5> kAlongX{{{1, 0}, {-1, 0}, {1, 0}, {-1, 0}, {0, 0}
 constexpr std::array<dvec2, 5> kAlongY{{{0, 1}, {0, -1}, {0, 1}, {0, -1}, {0, 0}}};
 constexpr std::array<dvec2, 6> kBothAxes{{{0.6, 0.6}, {-0.6, 0.6}, {-0.6, -0.6}, {0.6, -0.6}, {0.6, 0.6}, {0, 0}}};
 
-// Fits F = K x + B v + M a to the sampled or true motion by least squares.
+// Fits force F = K x + B v + M a to the sampled or true motion (x, v, a) by least squares.
 dvec3 fit(const std::vector<ElementHold>& holds, dvec3 ElementHold::*motion) {
   glm::dmat3 normal(0.0);
   dvec3 projected(0.0);
@@ -98,13 +99,13 @@ dvec3 fit(const std::vector<ElementHold>& holds, dvec3 ElementHold::*motion) {
   return glm::inverse(normal) * projected;
 }
 
-// The wanted and the fitted elements as (K, B, M).
+// Wanted and fitted elements as (stiffness K, damping B, mass M).
 struct Emulated {
   dvec3 x, y;                      // wanted
-  dvec3 single_x, single_y;        // fitted to the sampled motion, one axis at a time
-  dvec3 both_x, both_y;            // fitted to the sampled motion, both axes at once
-  dvec3 actual;                    // fitted to the true motion, only X
-  std::vector<ElementHold> curve;  // only X
+  dvec3 single_x, single_y;        // fitted to the sampled motion, one axis moving at a time
+  dvec3 both_x, both_y;            // fitted to the sampled motion, both axes moving at once
+  dvec3 actual;                    // fitted to the true motion, X axis only
+  std::vector<ElementHold> curve;  // X axis only
 };
 
 dvec3 vector_of(const haptics::AxisModel& model) {
@@ -129,12 +130,12 @@ Emulated emulate(const Study& study, const Emulation& emulation, double rate) {
   return out;
 }
 
-using EmulatedPair = std::array<Emulated, 2>;  // runs at 100 Hz and at the preset's rate
+using EmulatedPair = std::array<Emulated, 2>;  // results at 100 Hz and at the preset's rate
 
 constexpr std::array<const char*, 3> kNumber{"K", "B", "M"};
 constexpr std::array<const char*, 3> kUnit{"N/m", "N s/m", "kg"};
 
-// "K 480 N/m, B 2.4 N s/m": only the elements that were wanted.
+// Formats values such as "K 480 N/m, B 2.4 N s/m". Omits elements that are zero in `wanted`.
 std::string values(dvec3 kbm, dvec3 wanted) {
   std::string text;
   for (int i = 0; i < 3; ++i) {
@@ -145,7 +146,7 @@ std::string values(dvec3 kbm, dvec3 wanted) {
   return text;
 }
 
-// Largest deviation of element i (K, B or M) over all fits. [%]
+// Largest deviation of element i (0: K, 1: B, 2: M) in all fits. [%]
 double deviation(const Emulated& emulated, int i) {
   const double x = emulated.x[i], y = emulated.y[i];
   double max_deviation = 0.0;
@@ -155,7 +156,7 @@ double deviation(const Emulated& emulated, int i) {
   return max_deviation;
 }
 
-// "K 0.03 %, B 0.4 %"
+// Formats deviations such as "K 0.03 %, B 0.4 %".
 std::string deviations(const Emulated& emulated) {
   std::string text;
   for (int i = 0; i < 3; ++i) {
@@ -244,8 +245,9 @@ std::string mass_noise(const Study& study, const Emulated& fast, double rate) {
       mass * count * rate * rate, 1e3 * mass);
 }
 
-// The hand feels a spring force that is half a period old, and a damper force that is a whole period old. The device's
-// damping b makes up for this lag in (14) and (16).
+// Compares the fitted spring and damper with the expected effect of lag. The hand feels the spring force half a period
+// late, like a damping of -K T/2, and the damper force a full period late, like a mass of -B T. In the paper's
+// equations (14) and (16), the device's damping b compensates for this lag.
 Finding lag_row(const Emulated& spring, const Emulated& damper) {
   const double hold_damping = -0.5 * spring.x.x / kPaperRate, mass = -damper.x.y / kPaperRate;
   return {"(14): b must exceed K T/2",
@@ -265,11 +267,11 @@ void add_emulation(const Study& study, Section& section) {
     const Emulated &slow = all[i][0], &fast = all[i][1];
     section.findings.push_back(
         {fmt::format("Section 3: \"the joystick well emulated these objects\" ({})", kEmulations[i].name),
-         fmt::format("X at 100 Hz, wanted {}: {} alone, {} together with Y. X at {:g} Hz, wanted {}: {} alone, {} "
-                     "together with Y",
+         fmt::format("X at 100 Hz, requested {}: {} alone, {} together with Y. X at {:g} Hz, requested {}: {} alone, "
+                     "{} together with Y",
                      values(slow.x, slow.x), values(slow.single_x, slow.x), values(slow.both_x, slow.x), rate,
                      values(fast.x, fast.x), values(fast.single_x, fast.x), values(fast.both_x, fast.x)),
-         fmt::format("both axes, alone and together: at most {} off at 100 Hz and {} off at {:g} Hz{}",
+         fmt::format("both axes, alone and together, are off by at most {} at 100 Hz and {} at {:g} Hz{}",
                      deviations(slow), deviations(fast), rate,
                      kEmulations[i].mass > 0.0 ? "; " + mass_noise(study, fast, rate) : "")});
   }
@@ -278,8 +280,8 @@ void add_emulation(const Study& study, Section& section) {
   draw_elements(study, all);
   section.pictures.push_back(
       {"elements",
-       "Force of emulated elements on X against the true motion in the middle of each hold; a gripping hand "
-       "moves the lever. The width of the 100 Hz curves is the lag of the hold."});
+       "Force of emulated elements on X against the true motion in the middle of each hold, while a gripping hand "
+       "moves the lever. The lag of the hold makes the 100 Hz curves wide."});
 }
 
 }  // namespace

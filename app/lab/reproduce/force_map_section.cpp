@@ -18,7 +18,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr int kSteps = 28;  // steps of the force map, in each direction
+constexpr int kSteps = 28;  // grid steps of the force map in each direction
 
 struct MotorTorques {
   double rated = 0.0, peak = 0.0;  // [N m]
@@ -32,7 +32,7 @@ double force_of(const haptics::YokeGeometry& yoke, haptics::JointAngles q, hapti
   return glm::length(haptics::tip_force(yoke, q, torque));
 }
 
-// Maps one motor at a time; the forces of both motors add as vectors.
+// Writes the force map of each motor separately. The total force is the vector sum of both.
 void write_map(const Study& study) {
   const haptics::YokeGeometry& yoke = study.preset.lever.yoke;
   const auto [rated, peak] = motor_torques(study.preset.lever);
@@ -71,13 +71,15 @@ void draw_map(const Study& study) {
            map_panel(fmt::format("shift motor, peak {:.2f} N m", peak).c_str(), "shift_peak_n"))});
 }
 
-// Relative error of the paper's (6): ratio of the exact force's x component to that of (6), minus 1.
+// Relative error of the paper's small-angle approximation, eq (6): x component of the exact force, divided by that of
+// eq (6), minus 1.
 double small_angle_excess(const haptics::YokeGeometry& yoke, haptics::JointAngles q) {
   const haptics::JointTorques torque{1.0, 0.0};
   return haptics::tip_force(yoke, q, torque).x / haptics::tip_force_small_angle(yoke, torque).x - 1.0;
 }
 
-// The paper's (5) as printed, with sin(phi) instead of cos(phi). Used only to show its error.
+// The paper's eq (5) as printed, with sin(phi) instead of cos(phi). Used only to show the error of the printed
+// equation.
 double printed_x_force(const haptics::YokeGeometry& yoke, haptics::JointAngles q, double torque) {
   const double st = std::sin(q.theta), sp = std::sin(q.phi);
   return std::sqrt(1.0 - sp * sp * st * st) / yoke.radius * torque * std::cos(q.theta) / sp;
@@ -121,8 +123,9 @@ unset multiplot
                            fmt::arg("orange", base::kBufferColour))});
 }
 
-// Largest relative difference between the power at the tip and at the motors [1], over the workspace with both joints
-// moving. The motion is the numeric derivative of (2), so the check depends on neither force map.
+// Largest relative difference between the power at the tip and the power at the motors [1], over the workspace with
+// both joints moving. The tip's velocity is a numeric derivative of the paper's eq (2), so this check does not depend
+// on any force map.
 double power_mismatch(const haptics::YokeGeometry& yoke) {
   constexpr double kStep = 1e-6;  // [rad]
   const haptics::JointTorques torque{1.0, -0.7}, rate{0.6, 0.8};
@@ -143,11 +146,12 @@ double power_mismatch(const haptics::YokeGeometry& yoke) {
 
 struct ForceFlow {
   double hand = 0.0;      // [N] largest push
-  double moved = 0.0;     // [N] largest force that the motion requires
-  double mismatch = 0.0;  // [N] root mean square of f_j minus the required force
+  double moved = 0.0;     // [N] largest force that the lever's motion requires
+  double mismatch = 0.0;  // [N] root mean square of the paper's f_j, eq (4), minus the required force
 };
 
-// Force along the arcs that the motion requires: m a + b v + k x of the handle, from the true motion of two samples.
+// Computes the force that the handle's motion requires, m a + b v + k x along the arcs, with the handle's mass m,
+// damping b and stiffness k. The acceleration comes from the true velocities of two samples.
 class MotionForce {
  public:
   MotionForce(const haptics::DeviceSpec& device, const haptics::YokeGeometry& yoke, double period)
@@ -175,7 +179,7 @@ class MotionForce {
   glm::dvec2 last_velocity_{0.0};
 };
 
-// Runs a shift into the first gear of the tour through the shipped cycle.
+// Simulates the tour's first shift, into first gear, with the trainer's haptic cycle.
 ForceFlow drive_force_flow(const Study& study) {
   haptics::SimulatedRunConfig config{study.preset.haptics, study.preset.lever, study.gate,
                                      haptics::rest_position(study.gate, haptics::kNeutralGear)};
@@ -239,14 +243,12 @@ Finding misprint(const Study& study) {
   const double rated = motor_torques(study.preset.lever).rated;
   const double printed = printed_x_force(yoke, pose, rated),
                true_force = haptics::tip_force(yoke, pose, {rated, 0.0}).x;
-  return {
-      "(5): f_ax = sqrt D / rho tau_theta cos(theta) / sin(phi), f_ay = sqrt D / rho tau_phi cos(phi) / cos(theta)",
-      fmt::format("with cos(phi) in the denominator of x and a minus sign in y, f . dp = tau . dq holds to {:.0e}",
-                  power_mismatch(yoke)),
-      fmt::format(
-          "a misprint; at 10, 10 deg and the rated torque the printed form gives {:.1f} N instead of {:.1f} N, and at "
-          "phi = 0 infinity",
-          printed, true_force)};
+  return {"(5): f_ax = sqrt D / rho tau_theta cos(theta) / sin(phi), f_ay = sqrt D / rho tau_phi cos(phi) / cos(theta)",
+          fmt::format("with cos(phi) in the denominator of x and a minus sign in y, f . dp = tau . dq holds to {:.0e}",
+                      power_mismatch(yoke)),
+          fmt::format("a misprint; with both joints at 10 deg and the rated torque, the printed form gives {:.1f} N "
+                      "instead of {:.1f} N, and at phi = 0 it is infinite",
+                      printed, true_force)};
 }
 
 Finding flow_finding(const Study& study, const ForceFlow& flow) {
@@ -262,12 +264,12 @@ Finding flow_finding(const Study& study, const ForceFlow& flow) {
 Finding motors(const Study& study) {
   const auto [rated, peak] = motor_torques(study.preset.lever);
   const double radius = study.preset.lever.yoke.radius;
-  return {
-      "Section 2.2: maximum output torque 3.8 \"N/m\"; Table 2: 10.83 \"Nm\"",
-      fmt::format("{:.2f} N m give {:.1f} N at the tip for a short time; {:.2f} N m give {:.2f} N continuously", peak,
-                  peak / radius, rated, rated / radius),
-      fmt::format("peak torque {}; the correct units are N m and N. Neither force reaches the 60 N of a person's push",
-                  relative(peak, 3.8))};
+  return {"Section 2.2: maximum output torque 3.8 \"N/m\"; Table 2: 10.83 \"Nm\"",
+          fmt::format("{:.2f} N m give {:.1f} N at the tip for a short time; {:.2f} N m give {:.2f} N continuously",
+                      peak, peak / radius, rated, rated / radius),
+          fmt::format("peak torque {}; the correct units are N m and N. Neither force reaches the 60 N with which a "
+                      "person can push",
+                      relative(peak, 3.8))};
 }
 
 }  // namespace

@@ -35,10 +35,10 @@ void draw_gate(const Study& study, const haptics::GateDescription& list) {
   haptics::write_text_file(study.folder / "gate.svg", gate_svg(study.gate, list, study.layout.name));
 }
 
-constexpr double kView = 0.020;        // [m] half-width of the view of a junction
+constexpr double kView = 0.020;        // [m] half-width of a junction's view
 constexpr double kArrowEvery = 0.002;  // [m]
 
-// Writes the force of the mechanism on the lever at points of the free space around each junction.
+// Writes the gate's force on the lever at points of the free space around each junction.
 void write_forces(const Study& study, const haptics::GateDescription& list) {
   CsvFile csv(study, "junctions", "junction,x_mm,y_mm,force_x_n,force_y_n");
   const int points = static_cast<int>(std::lround(kView / kArrowEvery));
@@ -56,7 +56,7 @@ void write_forces(const Study& study, const haptics::GateDescription& list) {
   csv.finish();
 }
 
-// gnuplot commands that draw the walls of gate.csv.
+// gnuplot commands that draw the walls from gate.csv.
 std::string wall_lines() {
   const auto walls = [](const char* which, const char* colour) {
     return fmt::format(
@@ -102,7 +102,7 @@ haptics::SimulatedRunConfig run_without_hand(const Study& study, glm::dvec2 star
 }
 
 struct NeutralReturn {
-  double time = 0.0;    // [s] until the lever stays within a millimetre of neutral; infinite if it does not
+  double time = 0.0;    // [s] time until the lever stays within 1 mm of neutral; infinite if it never does
   double offset = 0.0;  // [m] final distance from neutral
 };
 
@@ -143,8 +143,8 @@ class PullingHand final : public haptics::HandDriver {
 };
 
 struct LockTrial {
-  double drift = 0.0;  // [m] along the slot during kIdleTime
-  double pull = 0.0;   // [N] pull that moved the lever out of gear; infinite if it stayed
+  double drift = 0.0;  // [m] motion along the slot during kIdleTime
+  double pull = 0.0;   // [N] pull that moved the lever out of gear; infinite if the lever stayed in gear
 };
 
 LockTrial pull_out(const Study& study, const haptics::Slot& slot) {
@@ -207,7 +207,7 @@ Finding buffer_finding(const haptics::Gate& gate, const haptics::GateDescription
   const auto with_buffer = std::count_if(list.junctions.begin(), list.junctions.end(),
                                          [](const haptics::JunctionInfo& junction) { return junction.buffer; });
   return {
-      "Section 4: a rectangular buffer region at their closed ends; force from the vertical direction deviates the "
+      "Section 4: a junction has a rectangular buffer region at its closed end, where a vertical force diverts the "
       "joystick into the vertical aisle",
       fmt::format("{} buffers with a force of up to {:.1f} N across the aisle", with_buffer, max_force),
       fmt::format("the paper names no force; here it is the layout's {:g} N minus the centring force of the aisle",
@@ -223,7 +223,7 @@ Finding lock_finding(const Study& study) {
     min_pull = std::min(min_pull, trial.pull);
     max_pull = std::max(max_pull, trial.pull);
   }
-  return {"Section 4: a locking function when the joystick rests in the six gear positions",
+  return {"Section 4: a locking function holds the joystick in each of the six gear positions",
           fmt::format("all {} gears hold the lever against a pull of {:.1f} to {:.1f} N; an untouched lever moves by "
                       "{:.2f} mm along the slot",
                       study.gate.slot_count, min_pull, max_pull, 1e3 * drift),
@@ -242,8 +242,8 @@ Finding return_finding(const Study& study, const haptics::GateDescription& list)
     times += fmt::format("{}from {} in {:.2f} s", times.empty() ? "" : ", ", junction.name, back.time);
     offset = std::max(offset, back.offset);
   }
-  return {"Section 4: an automatic return to the neutral position, at junction II, away from the gears",
-          fmt::format("released, the lever returns to within 1 mm: {}", times),
+  return {"Section 4: outside the gears, the joystick returns automatically to neutral at junction II",
+          fmt::format("after its release, the lever returns to within 1 mm of neutral: {}", times),
           fmt::format("the lever comes to rest {:.2f} mm from the middle", 1e3 * offset)};
 }
 
@@ -264,7 +264,7 @@ Section gate_section(const Study& study) {
           study.layout.name, study.layout.columns.size()),
       {pairs_finding(list), junctions_finding(list), buffer_finding(study.gate, list, study.layout.feel.buffer_force),
        lock_finding(study), return_finding(study, list)},
-      {{"gate", "Fig. 7 (a), (b): the gate as assembled, and the force along a slot."},
+      {{"gate", "Fig. 7 (a), (b): the assembled gate, and the force along a slot."},
        {"junctions",
         "Fig. 7 (c): the junctions enlarged. Arrows: the force on the lever, 0.5 mm per newton. Shaded: the "
         "buffers; brown: the closed sides."}}};

@@ -15,31 +15,31 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kHardSpeed = 0.5, kGentleSpeed = 0.1;  // [m/s] of the first impact
-constexpr double kMinsky = 0.5;                         // [1] paper's (22): B / (K T) above about 0.5
+constexpr double kHardSpeed = 0.5, kGentleSpeed = 0.1;  // [m/s] speed of the first impact
+constexpr double kMinsky = 0.5;                         // [1] damping / (stiffness x period), by the paper's eq (22)
 constexpr double kDuration = 2.0;                       // [s]
-constexpr double kJudgedTime = 0.2;                     // [s] at the end of the run, in which the ripple is measured
-constexpr double kCalmRipple = 0.3e-3;                  // [m] peak-to-peak: four counts of the paper's encoder
-constexpr int kPhases = 16;                             // phases of the impact within a sampling period
+constexpr double kJudgedTime = 0.2;                     // [s] last part of the run, in which the ripple is measured
+constexpr double kCalmRipple = 0.3e-3;                  // [m] peak-to-peak limit: four counts of the paper's encoder
+constexpr int kPhases = 16;                             // number of different impact times within a sampling period
 
-// A lever thrown at a wall of the aisle.
+// A lever that is thrown at a wall of the aisle.
 struct Case {
   std::string tag, title;
   haptics::HapticConfig haptics;
-  haptics::HandImpedance hand;  // a resting hand that does not push
+  haptics::HandImpedance hand;  // this hand rests on the lever and does not push
   double speed = kHardSpeed;
 };
 
 struct Outcome {
-  TrialRun run;  // run of the phase with the largest ripple
+  TrialRun run;  // the run with the largest ripple
   haptics::Gate gate;
-  double ripple = 0.0;                 // [m] peak-to-peak at the end of `run`
-  int calm = 0;                        // number of phases in which the lever came to rest
-  double radius = 0.0;                 // [1] spectral radius when pressed to one wall
+  double ripple = 0.0;                 // [m] peak-to-peak motion at the end of `run`
+  int calm = 0;                        // number of runs (one per phase) in which the lever came to rest
+  double radius = 0.0;                 // [1] spectral radius of the loop while the lever is pressed against one wall
   double motor_energy_fraction = 0.0;  // [1] impact_energy_fraction(), averaged over the phases
 };
 
-// Ratio of the energy that the motors supply in the first contact to the impact energy. [1]
+// Energy that the motors supply in the first contact, divided by the impact energy. [1]
 double impact_energy_fraction(const Trial& trial, const TrialRun& run) {
   const std::vector<TrialContact> all = contacts(run, trial.gate);
   if (all.empty()) return 0.0;
@@ -73,7 +73,7 @@ Outcome throw_lever(const Study& study, const Case& one) {
   return worst;
 }
 
-// The paper's wall on the device of the study.
+// The wall of the preset "paper".
 haptics::HapticConfig paper_wall() {
   return haptics::read_preset(base::find_asset("presets", "paper").string()).haptics;
 }
@@ -88,7 +88,7 @@ haptics::HapticConfig at_rate(haptics::HapticConfig haptics, double rate) {
   return haptics;
 }
 
-// The measures against oscillation that the paper names, at one rate.
+// The paper's measures against oscillation, and the undamped wall for comparison.
 std::vector<Case> make_cures(const haptics::HapticConfig& wall) {
   const haptics::HapticConfig damped = with_damping(wall);
   return {{"bare", "bare handle", wall, haptics::kBareHand, kHardSpeed},
@@ -100,7 +100,7 @@ std::vector<Case> make_cures(const haptics::HapticConfig& wall) {
           {"both", "lower speed and damping", damped, haptics::kBareHand, kGentleSpeed}};
 }
 
-// Describes contacts, ripple and energy.
+// Describes contacts, ripple and energy of a case.
 std::string describe(const Case& one, const Outcome& outcome) {
   return fmt::format(
       "{:g} m/s at {:g} Hz: {:.0f} contacts per second, {:.2f} mm peak-to-peak at the end; in the first impact the "
@@ -135,14 +135,14 @@ std::vector<std::vector<double>> ripples(const Study& study, const haptics::Hapt
   return all;
 }
 
-// Lowest rate at and above which all tried rates are calm; 0 if even the highest is not. [Hz]
+// Lowest tested rate [Hz] for which the lever comes to rest at this rate and at all higher tested rates; 0 if none.
 double sufficient_rate(const std::vector<double>& ripple) {
   double lowest = 0.0;
   for (std::size_t i = ripple.size(); i-- > 0 && ripple[i] < kCalmRipple;) lowest = rates()[i];
   return lowest;
 }
 
-// Lowest impact speed at which the bare handle keeps bouncing. [m/s]
+// Lowest impact speed at which a lever without a hand keeps bouncing. [m/s]
 double critical_speed(const Study& study, const haptics::HapticConfig& wall) {
   double calm = 0.0, bounces = kHardSpeed;
   while (bounces - calm > 0.002) {
@@ -183,7 +183,7 @@ void draw_curves(const Study& study, const std::vector<Case>& cases, const std::
             kDuration, panels)});
 }
 
-// Draws a row of squares per measure: at which rates does the lever come to rest?
+// Draws a row of squares per measure, which show at which rates the lever comes to rest.
 void draw_rates(const Study& study, const std::vector<Case>& cases, const std::vector<std::vector<double>>& ripple) {
   TrialTable table;
   table.add("rate_hz", rates());
@@ -214,10 +214,10 @@ void draw_rates(const Study& study, const std::vector<Case>& cases, const std::v
 
 std::string describe_sufficient_rate(const std::vector<double>& ripple) {
   const double rate = sufficient_rate(ripple);
-  return rate > 0.0 ? fmt::format("sufficient from {:g} Hz upwards", rate) : "not sufficient at any tested rate";
+  return rate > 0.0 ? fmt::format("sufficient at {:g} Hz and above", rate) : "not sufficient at any tested rate";
 }
 
-// One finding per case, in the order of make_cures(); the last case is our default.
+// Returns one finding per case, in the order of make_cures(). The last case is our default.
 std::vector<Finding> findings(const std::vector<Case>& cases, const std::vector<Outcome>& outcomes,
                               const std::vector<std::vector<double>>& ripple) {
   std::vector<Finding> all;
@@ -228,13 +228,13 @@ std::vector<Finding> findings(const std::vector<Case>& cases, const std::vector<
   };
   row("Section 3.1: \"the joystick might bounce between the walls when it hit the wall hard\"", 0);
   row("Section 3.1: \"alleviated with the operator's hand resting on the joystick\" (light hand)", 1);
-  row("the same statement (grip)", 2);
-  row("the same statement (arm)", 3);
+  row("Section 3.1: the same statement (grip)", 2);
+  row("Section 3.1: the same statement (arm)", 3);
   row("Section 3.1: \"by introducing the damping into the virtual wall\", B/(K T) > 0.5 of (22)", 4);
   row("Section 3.1: \"speed reduction of the joystick\"", 5);
   row("Section 3.1: \"with both speed reduction ... and damping ... stability under a violated passivity condition\"",
       6);
-  row("(not in the paper: the preset)", 7);
+  row("(not in the paper) the preset's wall", 7);
   return all;
 }
 
@@ -252,7 +252,7 @@ Section oscillation_section(const Study& study) {
   draw_curves(study, cases, outcomes);
   draw_rates(study, make_cures(wall), ripple);
 
-  Section section{"oscillation", "Section 3.1: oscillation at a wall, and measures against it", "", {}, {}};
+  Section section{"oscillation", "Section 3.1: oscillation at a wall, and how to prevent it", "", {}, {}};
   section.text = fmt::format(
       "The lever is moved towards a wall of an aisle {:g} mm wide and released at the first sample inside the wall. "
       "The "
@@ -268,7 +268,7 @@ Section oscillation_section(const Study& study) {
       {"oscillation",
        "A lever thrown at the paper's wall, with the measures that the paper names against bouncing; the last panel "
        "shows the preset. Dashed: the walls. The scales differ."},
-      {"oscillation_rates", "The same against the rate: the lowest rate from which each measure suffices."}};
+      {"oscillation_rates", "The same measures at different rates: the lowest rate at which each measure suffices."}};
   return section;
 }
 

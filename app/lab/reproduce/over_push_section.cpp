@@ -12,7 +12,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kStrongest = 120.0, kRampTime = 4.0;  // [N] twice the paper's push; [s] ramp to it
+constexpr double kStrongest = 120.0, kRampTime = 4.0;  // [N] twice the paper's push; [s] duration of the ramp up to it
 constexpr double kPaperPush = 60.0;                    // [N] section 3.1
 constexpr double kStepTime = 1.0;                      // [s]
 
@@ -20,8 +20,8 @@ double ramp_push(double time) {
   return kStrongest * time / kRampTime;
 }
 
-// The hand's spring holds it at the wall, and it pushes into the wall with a given force. overheated: the motors give
-// only their continuous force.
+// A hand pushes into the wall with a given force, and its spring pulls towards the wall's surface. If `overheated`, the
+// motors deliver only their continuous force.
 TrialRun push(const Study& study, const haptics::HandImpedance& hand, double (*force)(double), double duration,
               bool overheated) {
   Trial trial;
@@ -52,11 +52,11 @@ const TrialSample* first_with(const TrialRun& run, std::uint32_t flag) {
 
 std::string describe_moment(const TrialSample* sample) {
   if (!sample) return "never";
-  return fmt::format("after {:.2f} s, with a push of {:.1f} N, {:.1f} N at the sensor and {:.1f} mm deep", sample->time,
-                     ramp_push(sample->time), sample->hand.x, 1e3 * sample->position.x);
+  return fmt::format("after {:.2f} s, at a push of {:.1f} N, a sensor reading of {:.1f} N and a depth of {:.1f} mm",
+                     sample->time, ramp_push(sample->time), sample->hand.x, 1e3 * sample->position.x);
 }
 
-// Largest distance of the drawn lever outside the aisle. [m]
+// Largest distance of the displayed lever (proxy) beyond the wall. [m]
 double drawn_outside(const TrialRun& run) {
   double max_distance = 0.0;
   for (const TrialSample& sample : run.samples) max_distance = std::max(max_distance, sample.proxy.x);
@@ -82,7 +82,7 @@ set xlabel "push of the hand [N]"
 set ylabel "depth in the wall [mm]"
 set yrange [-3:100]
 set key top left
-plot {ghost} with lines dashtype 2 linecolor "{soft}" title "above this, the real hand is shown", \
+plot {ghost} with lines dashtype 2 linecolor "{soft}" title "beyond this, the real hand is shown", \
   "over_push.csv" using "push_n":"bare_depth_mm" \
     with lines linewidth 1.5 linecolor "{orange}" title "push without hand impedance", \
   "" using "push_n":"grip_depth_mm" with lines linewidth 1.5 linecolor "{red}" title "gripping hand", \
@@ -131,8 +131,8 @@ void add_ramp_findings(const Study& study, const TrialRun& bare, const TrialRun&
   const double stiffness = grip.admitted.tuning.wall_stiffness, depth = lever.actuator.peak_force / stiffness;
   const TrialSample* saturated = first_with(grip, haptics::kFlagSaturated);
   section.findings.push_back(
-      {"(from section 2.2: 3.8 N m divided by 0.12 m) the motors give 31.7 N, so with a wall of 5000 N/m they "
-       "saturate at a depth of 6.3 mm",
+      {"Section 2.2: the motors give 3.8 N m, which is 31.7 N at 0.12 m, so with a wall of 5000 N/m they saturate at a "
+       "depth of 6.3 mm",
        fmt::format("saturation without hand impedance {}; with a grip {}",
                    describe_moment(first_with(bare, haptics::kFlagSaturated)), describe_moment(saturated)),
        fmt::format("{:.1f} N divided by {:g} N/m is {:.2f} mm{}", lever.actuator.peak_force, stiffness, 1e3 * depth,
@@ -146,12 +146,11 @@ void add_ramp_findings(const Study& study, const TrialRun& bare, const TrialRun&
        "stop; therefore saturation triggers the warning, too"});
   section.findings.push_back(
       {"Section 3.1: \"retain the image of the joystick within the aisle\"",
-       fmt::format(
-           "the displayed lever is at most {:.3g} mm outside; from {:g} mm the real hand is shown: without a hand's "
-           "impedance {}; with a grip {}",
-           1e3 * std::max(drawn_outside(bare), drawn_outside(grip)), 1e3 * study.preset.haptics.ghost_offset,
-           describe_moment(first_with(bare, haptics::kFlagGhost)),
-           describe_moment(first_with(grip, haptics::kFlagGhost))),
+       fmt::format("the displayed lever is at most {:.3g} mm outside the aisle; the real hand is shown from a depth of "
+                   "{:g} mm: without hand impedance {}; with a grip {}",
+                   1e3 * std::max(drawn_outside(bare), drawn_outside(grip)), 1e3 * study.preset.haptics.ghost_offset,
+                   describe_moment(first_with(bare, haptics::kFlagGhost)),
+                   describe_moment(first_with(grip, haptics::kFlagGhost))),
        "the paper calls this \"useful, when the real and virtual feeling were not that much different\", but gives no "
        "distance"});
 }

@@ -47,12 +47,12 @@ std::string describe_device(const haptics::DeviceSpec& device) {
 std::string format_tuning(const haptics::AdmittedTuning& admitted) {
   const haptics::HapticTuning& t = admitted.tuning;
   return fmt::format(
-      "walls: {:g} N/m, {:g} N s/m, {}; aisles: {:g} N s/m; above {:g} m/s: {:g} N s/m; gate forces x {:g}",
+      "walls: {:g} N/m, {:g} N s/m, {}; aisles: {:g} N s/m; above {:g} m/s: {:g} N s/m; gate forces scaled by {:g}",
       t.wall_stiffness, t.wall_damping, haptics::to_string(admitted.hold), t.aisle_damping, t.speed_limit,
       t.limit_damping, t.feel_scale);
 }
 
-// Table of the configuration with which all sections were computed.
+// Formats the configuration with which all sections were computed.
 std::string configuration(const Study& study) {
   const auto row = [](std::string_view what, const std::string& value) {
     return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, base::html_text(value));

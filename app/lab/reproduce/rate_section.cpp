@@ -17,7 +17,7 @@ namespace gearshift::lab {
 namespace {
 
 constexpr double kSpeed = 0.3, kPush = 20.0;              // [m/s], [N]
-constexpr double kRateDuration = 1.2, kRateJudged = 0.2;  // [s] length of a run, and its measured end
+constexpr double kRateDuration = 1.2, kRateJudged = 0.2;  // [s] durations of a run and of its last, evaluated part
 constexpr double kSlowRate = 100.0;                       // [Hz] the paper's
 constexpr haptics::HandTarget kPushing{{0.0, 0.0}, {0.0, 0.0}, {kPush, 0.0}, false, false};
 
@@ -33,7 +33,7 @@ std::array<RateCase, 3> make_cases(const Study& study) {
   return {RateCase{"paper", "the paper's wall, 100 Hz",
                    haptics::read_preset(base::find_asset("presets", "paper").string()).haptics},
           RateCase{"ours", "the preset's wall", study.preset.haptics},
-          RateCase{"slow", "the preset's wall at 100 Hz, as limited", slow}};
+          RateCase{"slow", "the preset's wall, limited for 100 Hz", slow}};
 }
 
 Trial wall_trial(const Study& study, const RateCase& one, const haptics::HandImpedance& hand) {
@@ -46,7 +46,7 @@ Trial wall_trial(const Study& study, const RateCase& one, const haptics::HandImp
   return trial;
 }
 
-// The lever meets the wall at a steady speed, and the hand then pushes it into the wall.
+// The lever meets the wall at a steady speed, then the hand pushes it into the wall.
 TrialRun impact(const Study& study, const RateCase& one, const haptics::HandImpedance& hand) {
   Trial trial = wall_trial(study, one, hand);
   trial.start = before(0.0, kSpeed, haptics::period_s(one.haptics));
@@ -55,10 +55,10 @@ TrialRun impact(const Study& study, const RateCase& one, const haptics::HandImpe
   return run_trial(trial);
 }
 
-// Position differences between samples while the lever, pressed into the wall and nearly at rest, stays near kDepth.
-// There the cycle is linear and a small disturbance grows with its largest eigenvalue. Runs without encoder
-// quantisation, which is not linear, and without the reversal limiter (this needs allow_unstable), so that the admitted
-// tuning stays as it is.
+// Returns the position changes from sample to sample of a lever that is pressed into the wall, nearly at rest at
+// kDepth. Near this depth the cycle is linear, and a small disturbance grows with the cycle's largest eigenvalue.
+// Encoder quantisation is off, because it is not linear. The reversal limiter is off, so that the stiffness stays
+// constant; for this, `allow_unstable` must be set.
 std::vector<double> free_steps(const Study& study, const RateCase& one, const haptics::HandImpedance& hand,
                                const haptics::AdmittedTuning& admitted) {
   constexpr double kDepth = 0.002, kDisturbance = 1e-8, kRounding = 1e-15;  // [m]
@@ -84,11 +84,12 @@ std::vector<double> free_steps(const Study& study, const RateCase& one, const ha
   return steps;
 }
 
-constexpr std::size_t kMaxOrder = 4;  // states of the cycle without delay: lever (2), last sample, smoothed velocity
+// Number of states of the cycle without delay: two of the lever, the last sample, and the smoothed velocity.
+constexpr std::size_t kMaxOrder = 4;
 
-// The linear recurrence of a given order that best predicts each step from the previous ones.
+// The linear recurrence that best predicts each step from the previous steps.
 struct Recurrence {
-  double radius = 0.0;  // [1] magnitude of its largest root
+  double radius = 0.0;  // [1] magnitude of the recurrence's largest root
   double misfit = 0.0;  // [1] root mean square of the residuals, relative to the steps
 };
 
@@ -106,7 +107,8 @@ NormalEquations solve(NormalEquations rows, std::size_t order) {
   return rows;
 }
 
-// Divides each equation by the size of its terms, so that early and late steps have equal weight.
+// Fits the recurrence of this order by least squares. Each equation is divided by the size of its terms, so that early
+// and late steps have equal weight.
 Recurrence recurrence(const std::vector<double>& steps, std::size_t order) {
   NormalEquations normal{};
   double squares = 0.0, count = 0.0;
@@ -132,7 +134,8 @@ Recurrence recurrence(const std::vector<double>& steps, std::size_t order) {
           std::sqrt(std::max(0.0, squares) / count)};
 }
 
-// Growth per cycle: largest root of the lowest-order recurrence that fits the steps. 0 if there are too few steps.
+// Growth of a disturbance per cycle [1]: the largest root of the lowest-order recurrence that fits the steps. 0 if
+// there are too few steps.
 double growth(const std::vector<double>& steps) {
   constexpr double kMaxMisfit = 1e-3;
   if (steps.size() < 3 * kMaxOrder) return 0.0;
@@ -144,7 +147,7 @@ double growth(const std::vector<double>& steps) {
 
 struct Result {
   TrialRun run;
-  double predicted = 0.0, measured = 0.0;  // [1] growth per cycle; 0: not measured
+  double predicted = 0.0, measured = 0.0;  // [1] growth of a disturbance per cycle; 0 if not measured
 };
 
 Result examine(const Study& study, const RateCase& one, const haptics::HandImpedance& hand) {
@@ -168,7 +171,7 @@ std::string describe(const RateCase& one, const Result& result) {
 
 std::string radii(const Result& result) {
   if (result.measured == 0.0)
-    return fmt::format("growth per cycle: {:.4f} predicted; it grows or dies out too fast to be measured",
+    return fmt::format("growth per cycle: {:.4f} predicted; the disturbance grows or decays too fast to be measured",
                        result.predicted);
   return fmt::format("growth per cycle: {:.4f} measured, {:.4f} predicted ({})", result.measured, result.predicted,
                      relative(result.measured, result.predicted));
@@ -201,11 +204,11 @@ Section rate_section(const Study& study) {
   Section section{"rate", "Section 3.1: 5000 N/m at 100 Hz, the paper's wall and the preset's", "", {}, {}};
   section.text = fmt::format(
       "The lever meets the wall at {:g} m/s and is then pushed with {:g} N, once without hand impedance and once "
-      "by "
-      "a gripping hand. The wall is the paper's (presets/paper.toml, which allows unstable values), the preset's, and "
-      "the preset's at {:g} Hz with the stiffness that is accepted at that rate. The growth per cycle of a tiny "
+      "with that of a gripping hand. Three walls are tested: the paper's (presets/paper.toml, which allows unstable "
+      "values), the preset's, and the preset's at {:g} Hz with the stiffness that is accepted at that rate. The growth "
+      "per cycle of a tiny "
       "disturbance of the pressed lever is measured in the same simulation and compared with the predicted spectral "
-      "radius; a wall with more than 1 is unstable.",
+      "radius; a wall with a radius above 1 is unstable.",
       kSpeed, kPush, kSlowRate);
   TrialTable table;
   for (const haptics::NamedHand& named :
@@ -231,9 +234,8 @@ Section rate_section(const Study& study) {
                     "{}unset key\n{}unset multiplot\n",
                     panel(cases, "bare", "push without hand impedance"), panel(cases, "grip", "gripping hand"))});
   section.pictures = {{"rate",
-                       "A push of 20 N into the wall: at the paper's wall at 100 Hz the lever bounces, at the preset's "
-                       "it comes to rest. "
-                       "At 100 Hz the preset's wall is softened until it is stable."}};
+                       "A push of 20 N into the wall: the lever bounces at the paper's wall at 100 Hz, but comes to "
+                       "rest at the preset's wall. At 100 Hz, the preset's wall is softened until it is stable."}};
   return section;
 }
 

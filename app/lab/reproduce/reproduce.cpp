@@ -35,8 +35,8 @@ std::vector<NamedSection> chosen_sections(const std::vector<std::string>& only) 
   return chosen;
 }
 
-// Constructs a lever and loop that are never stepped: this throws for invalid configurations and yields the admitted
-// tuning.
+// Constructs a lever and a loop without running them. The constructors throw if the configuration is invalid, and
+// compute the admitted tuning.
 void query_loop(Study& study) {
   haptics::IdleHand idle_hand;
   haptics::SimulatedRun run(
@@ -46,7 +46,7 @@ void query_loop(Study& study) {
   study.admitted = run.loop().admitted();
 }
 
-// If a section fails, returns a section that gives the reason, so that the others are still made.
+// If a section fails, returns a section that contains only the reason, so that the other sections can still be made.
 Section make_or_explain(const NamedSection& section, const Study& study) {
   try {
     return section.make(study);
@@ -80,7 +80,7 @@ std::vector<Section> make_sections(Study study, const std::vector<std::string>& 
                                    const ReproduceProgress& progress) {
   const std::vector<NamedSection> chosen = chosen_sections(only);
   std::vector<Section> made;
-  study.on_progress = [&](std::string_view) {  // the progress bar only has room for the section's name
+  study.on_progress = [&](std::string_view) {  // ignores the text, because the progress bar shows the section's name
     progress(chosen[made.size()].id, static_cast<double>(made.size()) / static_cast<double>(chosen.size()));
   };
   for (const NamedSection& section : chosen) {

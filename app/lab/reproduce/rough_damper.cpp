@@ -19,7 +19,7 @@ struct Roughness {
   double speed = 0.0;         // [m/s] largest
   double acceleration = 0.0;  // [m/s^2] largest
   double peak = 0.0;          // [N] largest force
-  double step = 0.0;          // [N] largest change from one hold to the next
+  double step = 0.0;          // [N] largest change of the force from one period to the next
   std::vector<ElementHold> curve;
 };
 
@@ -80,13 +80,13 @@ std::string damper_panel(const char* title, const char* tag, double rate, const 
   return fmt::format("set title \"{}\"\n{}{}", title, ranges, curves);
 }
 
-// Runs of the damper on both strokes at 100 Hz, at the preset's rate, and as the loop's filtered damping; and runs of a
-// spring.
+// Results for the emulated damper at 100 Hz and at the preset's rate, for the loop's filtered damping, and for a
+// spring. `slow` and `fast` are the two hand movements.
 struct RoughRuns {
-  double rate = 0.0, damping = 0.0, stiffness = 0.0;  // [Hz] the preset's, [N s/m] of the damper, [N/m] of the spring
+  double rate = 0.0, damping = 0.0, stiffness = 0.0;  // [Hz] preset's rate, [N s/m] of the damper, [N/m] of the spring
   Roughness slow, fast;                               // at 100 Hz
   Roughness slow_preset, fast_preset, slow_filtered, fast_filtered;
-  Roughness spring_run;  // the spring on the fast stroke, at 100 Hz
+  Roughness spring_run;  // the spring with the fast movement at 100 Hz
 };
 
 RoughRuns rough_runs(const Study& study) {
@@ -154,9 +154,9 @@ Finding spring_finding(const RoughRuns& runs, double count) {
               "damper: {:.0f} %",
               runs.stiffness, spring_run.step, spring_run.peak, 100.0 * spring_run.step / spring_run.peak,
               100.0 * fast.step / fast.peak),
-          fmt::format("not confirmed; both forces are held for one period T of the loop and then step by about omega T "
-                      "of their peak (omega: the stroke's angular frequency); one encoder count is {:.2g} N for the "
-                      "spring and {:.2g} N for the damper",
+          fmt::format("not confirmed; both forces are held for one period T of the loop, so each step is about omega T "
+                      "times the peak (omega: the stroke's angular frequency). One encoder count changes the spring's "
+                      "force by {:.2g} N and the damper's by {:.2g} N",
                       runs.stiffness * count, runs.damping * count * kPaperRate)};
 }
 
@@ -172,7 +172,7 @@ void add_rough_damper(const Study& study, Section& section) {
   section.pictures.push_back(
       {"rough_damper",
        "An emulated damper. At 100 Hz its force is a staircase when the lever is fast, because the velocity changes "
-       "much within a period; at the preset's rate only the encoder counts are visible."});
+       "considerably within a period; at the preset's rate only the encoder counts are visible."});
 }
 
 }  // namespace gearshift::lab

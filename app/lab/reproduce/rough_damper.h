@@ -1,5 +1,5 @@
-// Section 3 of the paper: roughness of an emulated damper compared with a spring, on slow and fast strokes, at 100 Hz
-// and at the preset's rate.
+// Section 3 of the paper: an emulated damper feels rougher than a spring. Compares both for slow and fast strokes, at
+// 100 Hz and at the preset's rate.
 #pragma once
 
 #include "app/lab/reproduce/section.h"

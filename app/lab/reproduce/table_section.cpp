@@ -15,10 +15,10 @@
 namespace gearshift::lab {
 namespace {
 
-// Measurement of one axis under a command that exceeds its motor's force, until it is at the stop and the motor has
-// overheated.
+// Measurements of one axis. Its motor is commanded far above its maximum force until the lever is at the stop and the
+// motor has overheated.
 struct DrivenAxis {
-  double angle = 0.0;       // [rad] angle of the stop, as read by the encoder
+  double angle = 0.0;       // [rad] angle of the stop, as measured by the encoder
   double peak = 0.0;        // [N] largest motor force along the arc
   double continuous = 0.0;  // [N] motor force at the end
 };
@@ -124,7 +124,7 @@ Finding bandwidth_finding(const DeviceMeasured& measured) {
   return {"Table 2: bandwidth 100 Hz",
           fmt::format("{:.2f} Hz in X, {:.2f} Hz in Y (3 dB below the gain at rest)", measured.bandwidth_x,
                       measured.bandwidth_y),
-          "not confirmed (see Fig. 4); 100 Hz may be true of the drive and the motor without the lever"};
+          "not confirmed (see Fig. 4); 100 Hz may be the bandwidth of drive and motor without the lever"};
 }
 
 Finding range_finding(const DeviceMeasured& measured) {
@@ -145,7 +145,7 @@ Section table_section(const Study& study) {
       "table",
       "Table 2: comparison with other devices",
       "Range and forces are measured on the preset's lever while each motor is commanded to give more force than it "
-      "can, "
+      "can produce, "
       "until the lever is at the stop and the motor overheats. The bandwidth follows from the identified m, b and k.",
       {force_finding(study, measured), precision_finding(study, measured), bandwidth_finding(measured),
        range_finding(measured)},

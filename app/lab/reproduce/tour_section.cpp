@@ -25,9 +25,9 @@ Finding order_finding(const TourResult& tour) {
   std::vector<std::string> gears;
   for (const GearTime& one : tour.engaged)
     gears.push_back(fmt::format("{} at {:.1f} s", haptics::gear_name(one.gear), one.time));
-  return {"Section 4: from neutral to the five speed gear positions, and finally to reverse",
+  return {"Section 4: the lever moves from neutral through the five forward gears, and finally into reverse",
           gears.empty() ? "no gear was engaged" : fmt::format("{}", fmt::join(gears, ", ")),
-          tour.complete() ? "none; every gear in this order and no other"
+          tour.complete() ? "none; every gear was engaged in this order, and no other gear"
                           : "the simulated hand did not engage every gear in order"};
 }
 
@@ -41,7 +41,7 @@ Finding confined_finding(const TourResult& tour) {
 Finding force_finding(const TourResult& tour) {
   return {"Fig. 9 (b): the force response, which reflects how the joystick hit the wall",
           fmt::format("the hand pushes with up to {:.1f} N", tour.strongest),
-          "Fig. 9 is missing in our copy of the paper, and the text gives no numbers"};
+          "Fig. 9 is missing from our copy of the paper, and the text gives no numbers"};
 }
 
 std::string format_hand(const Study& study, const haptics::HandImpedance& hand) {

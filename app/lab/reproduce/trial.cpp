@@ -15,10 +15,11 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kSettleTime = 0.050;  // [s] at full force before the start; filters and estimates settle
-constexpr double kApproach = 0.015;    // [s] at a steady speed before a contact
+constexpr double kSettleTime = 0.050;  // [s] time at full force before the start, so that filters and estimates settle
+constexpr double kApproach = 0.015;    // [s] time of steady motion before a contact
 
-// The trial's hand. Before begin() it holds the lever at the start position against motors and spring.
+// The hand of a trial. Before begin() is called, the hand holds the lever at the start position against motors and
+// spring.
 class TrialHand final : public haptics::HandDriver {
  public:
   explicit TrialHand(const Trial& trial) : trial_(trial) {}

@@ -1,5 +1,5 @@
-// One recorded run of the shipped cycle with a lever, a hand and a gate. Records the true motion of the handle, not the
-// encoder's.
+// A recorded run of the trainer's haptic cycle with a lever, a hand and a gate. Records the true motion of the handle,
+// not the encoder readings.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace gearshift::lab {
 
-// The hand's target as a function of the time since the start [s] and the lever's position [m].
+// Returns the hand's target. `time`: time since the start [s]. `lever`: position of the lever [m].
 using HandFunction = std::function<haptics::HandTarget(double time, glm::dvec2 lever)>;
 
 struct Trial {
@@ -24,7 +24,7 @@ struct Trial {
   haptics::SimulatedLeverConfig lever;
   haptics::Gate gate;
   glm::dvec2 start{0.0};     // [m] the lever is held here until the motors are at full force
-  glm::dvec2 velocity{0.0};  // [m/s] at the start
+  glm::dvec2 velocity{0.0};  // [m/s] velocity at the start
   HandFunction hand;
   haptics::LeverLoad* load = nullptr;
   double duration = 1.0;  // [s]
@@ -32,54 +32,55 @@ struct Trial {
 
 struct TrialSample {
   double time = 0.0;          // [s]
-  glm::dvec2 position{0.0};   // [m] true
-  glm::dvec2 velocity{0.0};   // [m/s] true
-  glm::dvec2 proxy{0.0};      // [m] drawn lever
-  glm::dvec2 motor{0.0};      // [N] on the lever, over the period that ends at `time`
-  glm::dvec2 hand{0.0};       // [N] as read by the force sensor
+  glm::dvec2 position{0.0};   // [m] true position
+  glm::dvec2 velocity{0.0};   // [m/s] true velocity
+  glm::dvec2 proxy{0.0};      // [m] displayed lever
+  glm::dvec2 motor{0.0};      // [N] motor force on the lever during the period that ends at `time`
+  glm::dvec2 hand{0.0};       // [N] force measured by the force sensor
   glm::dvec2 wall{0.0};       // [N] wall force computed at `time`
-  glm::dvec2 commanded{0.0};  // [N] total command computed at `time`
-  std::uint32_t flags = 0;    // kFlag...: each flag is first set in the cycle of its event
+  glm::dvec2 commanded{0.0};  // [N] total force command computed at `time`
+  std::uint32_t flags = 0;    // kFlag... constants at `time`
 };
 
 struct TrialRun {
   double period = 0.0;  // [s]
   haptics::AdmittedTuning admitted;
-  double stiffness = 0.0;  // [N/m] wall stiffness in use at the end
+  double stiffness = 0.0;  // [N/m] wall stiffness at the end
   std::vector<TrialSample> samples;
 };
 
 TrialRun run_trial(const Trial& trial);
 
-// Moves the lever along x at a steady speed until it is at the wall; from then on the hand's target is `after`.
+// Returns a hand that moves the lever along x at a steady speed up to the wall. From then on the hand's target is
+// `after`.
 HandFunction carried_to(double wall, double speed, const haptics::AxisModel& axis, haptics::HandTarget after);
-// Start position for carried_to(). phase: fraction of a period (0 to 1) after a sample at which the lever meets the
-// wall.
+// Start position for carried_to(). `phase`: time between a sample and the contact, as a fraction of the period (0 to
+// 1).
 glm::dvec2 before(double wall, double speed, double period, double phase = 0.5);
 
-// A gate whose free space is x < 0, so that x is the penetration of its wall.
+// A gate whose free space is x < 0, so that a positive x is the penetration of the wall.
 haptics::Gate wall_at_zero();
 
-// One contact with a wall: x beyond an end of the gate's aisle.
+// One contact of the lever with a wall that ends the gate's aisle in the x direction.
 struct TrialContact {
-  double begin = 0.0, end = 0.0;  // [s] `end` is the end of the run if the lever stays in the wall
-  double speed = 0.0;             // [m/s] at the impact
-  double energy = 0.0;            // [J] supplied to the lever by the motors
-  bool left = false;              // the lever left the wall again
+  double begin = 0.0, end = 0.0;  // [s] times; if the lever stays in the wall, `end` is the end of the run
+  double speed = 0.0;             // [m/s] speed at the impact
+  double energy = 0.0;            // [J] energy that the motors supply to the lever
+  bool left = false;              // true if the lever left the wall
 };
 std::vector<TrialContact> contacts(const TrialRun& run, const haptics::Gate& gate);
 
-// Spectral radius that the library predicts for the wall and hand of the trial, along x; above 1 it is unstable. [1]
+// Predicted spectral radius for the trial's wall and hand along x; above 1 the contact is unstable. [1]
 double predicted_radius(const Trial& trial, const haptics::AdmittedTuning& admitted);
 
 double deepest(const TrialRun& run);                       // [m] largest x
-double peak_to_peak(const TrialRun& run, double seconds);  // [m] motion along x in the last `seconds`
+double peak_to_peak(const TrialRun& run, double seconds);  // [m] range of x in the last `seconds`
 
 // A CSV table whose columns may have different lengths, for runs at different rates.
 class TrialTable {
  public:
   void add(std::string name, std::vector<double> cells);
-  // Adds a column that contains `value` of each sample of a run.
+  // Adds a column with value(sample) for each sample of the run.
   template <class Value>
   void add(std::string name, const TrialRun& run, Value value) {
     std::vector<double> cells;

@@ -1,5 +1,5 @@
-// The elements that the paper's joystick emulates: spring, damper, mass or all three, the paper's (19), independently
-// per axis.
+// The elements that the paper's joystick emulates with eq (19): a spring, a damper, a mass or a combination. The axes
+// are independent.
 #pragma once
 
 #include <array>
@@ -11,11 +11,14 @@
 
 namespace gearshift::lab {
 
-// E(z) = K + B (z - 1)/(T z) + M ((z - 1)/(T z))^2: backward differences of the samples, without a filter.
+// The transfer function from displacement to resisting force is E(z) = K + B (z - 1)/(T z) + M ((z - 1)/(T z))^2 with
+// stiffness K, damping B, mass M and period T. Velocity and acceleration are backward differences of the samples,
+// without a filter.
 class VirtualElement final : public haptics::LeverLoad {
  public:
-  // rest: position in the gate plane at which the springs are relaxed [m]. A model of all zeros means no element. The
-  // elements act in the gate plane or, if a yoke is given, on each joint separately, as with the paper's (3) and (6).
+  // `rest`: position in the gate plane at which the springs are relaxed [m]. A model of all zeros means no element.
+  // `joints`: if a yoke is given, the elements act on each joint separately, as with the paper's equations (3) and (6).
+  // Otherwise they act in the gate plane.
   VirtualElement(const haptics::AxisModel& x, const haptics::AxisModel& y, glm::dvec2 rest,
                  std::optional<haptics::YokeGeometry> joints) noexcept;
 
@@ -28,9 +31,9 @@ class VirtualElement final : public haptics::LeverLoad {
 
   std::array<haptics::AxisModel, 2> element_;
   std::optional<haptics::YokeGeometry> joints_;
-  glm::dvec2 rest_;           // [m] in the element's coordinates, as are the two below
-  glm::dvec2 position_{0.0};  // [m] of the last sample
-  glm::dvec2 step_{0.0};      // [m] displacement from the sample before the last to the last
+  glm::dvec2 rest_;           // [m] in the element's coordinates, as are position_ and step_
+  glm::dvec2 position_{0.0};  // [m] position in the last sample
+  glm::dvec2 step_{0.0};      // [m] displacement between the last two samples
 };
 
 }  // namespace gearshift::lab

@@ -14,9 +14,9 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kAimBefore = -0.020, kAimBehind = 0.030;  // [m] targets of the hand; the wall is at 0
+constexpr double kAimBefore = -0.020, kAimBehind = 0.030;  // [m] targets of the hand before and behind the wall (at 0)
 constexpr double kStroke = 0.35, kRest = 0.20;             // [s]
-constexpr double kFirstPart = 0.005;                       // [s] start of a contact in which rate-hardness is measured
+constexpr double kFirstPart = 0.005;                       // [s] first part of a contact, used for rate-hardness
 
 // A gripping hand pushes into the wall, rests there and pulls out again, as in the paper's Fig. 8.
 TrialRun push_and_pull(const Study& study) {
@@ -36,11 +36,11 @@ TrialRun push_and_pull(const Study& study) {
   return run_trial(trial);
 }
 
-// The wall's measured force against the true penetration.
+// Relation between the wall's measured force and the true penetration.
 struct Reflection {
   double stiffness = 0.0;    // [N/m] slope
   double correlation = 0.0;  // [1]
-  double residual = 0.0;     // [N] root mean square of force - K x for the wanted K
+  double residual = 0.0;     // [N] root mean square of force minus K x, for the wanted stiffness K and the depth x
   double peak = 0.0;         // [N]
   double depth = 0.0;        // [m] deepest
 };
@@ -66,7 +66,7 @@ Reflection reflect(const TrialRun& run, double wanted) {
           *std::max_element(x.begin(), x.end())};
 }
 
-// Rate-hardness: initial rate of rise of the motor force divided by the impact speed. [N/m]
+// Rate-hardness: initial rate of change of the motor force divided by the impact speed. [N/m]
 double rate_hardness(const TrialRun& run, const TrialContact& contact) {
   double rise = 0.0;
   for (const TrialSample& sample : run.samples) {
@@ -116,8 +116,7 @@ Section wall_section(const Study& study) {
 
   Section section{"wall", "Fig. 8: pushing into a virtual wall and pulling out", "", {}, {}};
   section.text = fmt::format(
-      "A gripping hand ({:g} kg, {:g} N s/m, {:g} N/m) aims from {:g} mm before the wall to {:g} mm behind the wall "
-      "and "
+      "A gripping hand ({:g} kg, {:g} N s/m, {:g} N/m) aims from {:g} mm in front of the wall to {:g} mm behind it and "
       "back, at {:g} Hz with the preset's wall of {:g} N/m and {:g} N s/m. The force is measured by the paper's sensor "
       "in steps of {:.2f} N.",
       haptics::kGripHand.mass, haptics::kGripHand.damping, haptics::kGripHand.stiffness, -1e3 * kAimBefore,

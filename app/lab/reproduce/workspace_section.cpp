@@ -14,10 +14,11 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr int kLines = 8;          // steps of the joint grid, in each direction
-constexpr int kStepsPerSide = 40;  // of a curve
+constexpr int kLines = 8;          // number of grid steps of each joint, from stop to stop
+constexpr int kStepsPerSide = 40;  // number of steps from the centre to each end of a curve
 
-// The paper's (2) as printed, with sin(theta) in y where (1) has cos(theta). Used only to show its error.
+// The paper's eq (2) as printed, with sin(theta) in y where eq (1) has cos(theta). Used only to show the error of the
+// printed equation.
 glm::dvec3 printed_tip(const haptics::YokeGeometry& yoke, haptics::JointAngles q) {
   const double st = std::sin(q.theta), sp = std::sin(q.phi), cp = std::cos(q.phi);
   return yoke.radius / std::sqrt(1.0 - sp * sp * st * st) * glm::dvec3(cp * st, -sp * st, cp * std::cos(q.theta));
@@ -28,7 +29,7 @@ void add_row(CsvFile& csv, const haptics::YokeGeometry& yoke, haptics::JointAngl
   csv.row({q.theta / kDegree, q.phi / kDegree, tip.x, tip.y, tip.z, small.x, small.y});
 }
 
-// Writes lines on which one joint is fixed and the other goes from stop to stop.
+// Writes lines along which one joint is fixed and the other joint moves from stop to stop.
 void write_grid(const Study& study) {
   const haptics::YokeGeometry& yoke = study.preset.lever.yoke;
   CsvFile csv(study, "workspace", "theta_deg,phi_deg,x_mm,y_mm,z_mm,small_angle_x_mm,small_angle_y_mm");
@@ -71,7 +72,7 @@ struct SmallAngleError {
   double component = 0.0, plane = 0.0, space = 0.0;  // [m]
 };
 
-// Error of the paper's small-angle formula (3) with both joints at the same angle.
+// Error of the paper's small-angle formula, eq (3), with both joints at the given angle.
 SmallAngleError small_angle_error(const haptics::YokeGeometry& yoke, double angle) {
   const glm::dvec3 error =
       haptics::tip_position_small_angle(yoke, {angle, angle}) - haptics::tip_position(yoke, {angle, angle});
@@ -121,10 +122,11 @@ unset multiplot
                            fmt::arg("limit", yoke.theta_limit / kDegree))});
 }
 
-// Largest errors of the paper's tip position (2) over a fine grid of poses.
+// Largest errors of the tip position by the paper's eq (2), over a fine grid of poses. `rho` is the radius of the
+// sphere on which the tip moves.
 struct GridSurvey {
-  double printed_radius = 0.0;  // [m] distance from the sphere of radius rho, with (2) as printed
-  double radius = 0.0;          // [m] distance from the sphere with the corrected (2)
+  double printed_radius = 0.0;  // [m] distance from the sphere of radius rho, by the paper's eq (2) as printed
+  double radius = 0.0;          // [m] distance from the sphere of radius rho, by the corrected eq (2)
   double round_trip = 0.0;      // [rad] difference between the joint angles and those recomputed from the tip
 };
 
@@ -153,8 +155,8 @@ Finding small_plane_angles(const haptics::YokeGeometry& yoke) {
   const auto [c35, p35, s35] = at(35.0);
   return {
       "(3): for small angles p = rho (theta, -phi, 1)",
-      fmt::format("with both joints at 10, 20 and 35 deg, (3) is {:.2f}, {:.1f} and {:.1f} mm off per component", c10,
-                  c20, c35),
+      fmt::format("with both joints at 10, 20 and 35 deg, (3) is off by {:.2f}, {:.1f} and {:.1f} mm per component",
+                  c10, c20, c35),
       fmt::format("{:.2f}, {:.1f} and {:.0f} mm in the plane; {:.1f}, {:.0f} and {:.0f} mm in space; the exact form "
                   "is used throughout",
                   p10, p20, p35, s10, s20, s35)};
@@ -162,7 +164,7 @@ Finding small_plane_angles(const haptics::YokeGeometry& yoke) {
 
 Finding misprint(const GridSurvey& worst) {
   return {"(2): p_y = -rho sin(phi) sin(theta) / sqrt D", "-rho sin(phi) cos(theta) / sqrt D, as in (1)",
-          fmt::format("a misprint; the radius is up to {:.1f} mm off as printed, {:.1g} mm when corrected",
+          fmt::format("a misprint; the radius is off by up to {:.1f} mm as printed, and by {:.1g} mm when corrected",
                       1e3 * worst.printed_radius, 1e3 * worst.radius)};
 }
 
@@ -180,9 +182,11 @@ Finding ranges(const haptics::YokeGeometry& yoke) {
 }
 
 Finding inverse(const GridSurvey& worst) {
-  return {"Section 2.1: the intersection of T_x and T_y determines the yoke; no inverse is given",
-          "theta = atan2(p_x, p_z), phi = atan2(-p_y, p_z)",
-          fmt::format("inverse of the forward map: within {:.0e} rad in the whole workspace", worst.round_trip)};
+  return {
+      "Section 2.1: the intersection of the trajectories T_x and T_y determines where the yoke points; the paper gives "
+      "no inverse",
+      "theta = atan2(p_x, p_z), phi = atan2(-p_y, p_z)",
+      fmt::format("inverse of the forward map: within {:.0e} rad in the whole workspace", worst.round_trip)};
 }
 
 }  // namespace

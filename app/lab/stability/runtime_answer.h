@@ -1,4 +1,5 @@
-// The wall that the trainer would use instead of the wanted one, as decided by the check that protects its loop.
+// The wall that the trainer would use in place of the wanted wall: the trainer's own stability check may limit or
+// reject the wanted values.
 #pragma once
 
 #include <string>
@@ -9,10 +10,10 @@
 namespace gearshift::lab {
 
 struct RuntimeAnswer {
-  std::string problem;               // why the trainer rejects these values; empty if it accepts them
-  double stiffness = 0.0;            // [N/m] the wanted stiffness, clipped to a tuning's valid range
-  double damping = 0.0;              // [N s/m] the wanted damping, clipped to a tuning's valid range
-  haptics::AdmittedTuning admitted;  // for a device with this handle on both axes, and every listed hand
+  std::string problem;               // why the trainer rejects the wanted values; empty if it accepts them
+  double stiffness = 0.0;            // [N/m] the wanted stiffness, clipped to the trainer's valid range
+  double damping = 0.0;              // [N s/m] the wanted damping, clipped to the trainer's valid range
+  haptics::AdmittedTuning admitted;  // for every named hand, and a device with the question's handle on both axes
 };
 
 RuntimeAnswer query_runtime(const StabilityQuestion& question);

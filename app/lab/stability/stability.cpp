@@ -8,7 +8,7 @@ namespace gearshift::lab {
 namespace {
 
 constexpr int kMapSteps = 120;
-constexpr double kMinMapEnd = 0.01;  // [1] minimum width of the map divided by m / T; used if no damping is stable
+constexpr double kMinMapEnd = 0.01;  // [1] lower end of the search in damping_end(), as a fraction of `inertia`
 
 haptics::ContactLaw with_damping(haptics::ContactLaw wall, double damping) {
   wall.damping = damping;
@@ -29,8 +29,8 @@ double passive_limit(const StabilityQuestion& question, double damping) {
                                           question.period());
 }
 
-// Damping above which no stiffness is stable. If the observer is stable with any damping, a value well beyond practical
-// use.
+// Returns the damping above which no stiffness is stable. If every damping is stable (observer hold), returns a value
+// far above practical ones.
 double damping_end(const StabilityQuestion& question, const JudgedHand& judged) {
   const double inertia = (question.handle.mass + judged.hand.mass) / question.period();
   double good = 0.0, bad = 4.0 * (inertia + question.handle.damping + judged.hand.damping);
@@ -42,8 +42,8 @@ double damping_end(const StabilityQuestion& question, const JudgedHand& judged) 
   return bad;
 }
 
-// Upper end of the map: includes the damping at which the first hand becomes unstable, the device's own damping (where
-// the passivity limit ends) and the wanted damping.
+// Returns the damping at the right end of the map. The map contains three values: the lowest damping at which some hand
+// has no stable stiffness; the device's own damping, where the passivity limit ends; the wanted damping.
 double map_end(const StabilityQuestion& question) {
   double end = damping_end(question, question.hands.front());
   for (const JudgedHand& judged : question.hands) end = std::min(end, damping_end(question, judged));

@@ -26,7 +26,8 @@ std::string format_law(const haptics::ContactLaw& wall) {
 std::string passive_law(const haptics::ContactLaw& wall) {
   const bool closed = wall.hold == haptics::ContactHold::zero_order && wall.window == 1 && wall.delay == 0;
   return closed ? "(20) of the paper, K T/2 + B < b"
-                : "(13) of the paper, T/2 Re{(1 - e^-jwT) E} / (1 - cos wT) < b at every w";
+                : "(13) of the paper, T/2 Re{(1 - e^-jwT) E} / (1 - cos wT) < b at every frequency w (E: the "
+                  "wall's response at w)";
 }
 
 std::string up_to(double limit) {
@@ -85,7 +86,7 @@ std::string format_runtime_answer(const haptics::ContactLaw& wall, const Runtime
                                  format_wall(admitted.tuning.wall_stiffness, admitted.tuning.wall_damping),
                                  haptics::to_string(admitted.hold), admitted.limits.empty() ? "." : ":");
   if (is_clipped(wall, runtime))
-    text += fmt::format("  (requested: {}, the largest values that it accepts)\n",
+    text += fmt::format("  (values out of range were lowered to {}, the largest that the trainer accepts)\n",
                         format_wall(runtime.stiffness, runtime.damping));
   for (const haptics::TuningLimit& limited : admitted.limits) text += fmt::format("  {}\n", haptics::describe(limited));
   return text;
@@ -104,7 +105,7 @@ Json limited_json(const haptics::TuningLimit& limited) {
           {"hand", limited.hand}};
 }
 
-// All values are null if the trainer does not run.
+// If the trainer rejects the wanted wall, the values are null.
 Json runtime_json(const RuntimeAnswer& runtime) {
   const haptics::HapticTuning& tuning = runtime.admitted.tuning;
   const auto known = [&](const auto& value) { return runtime.problem.empty() ? Json(value) : Json(nullptr); };

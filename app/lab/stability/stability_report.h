@@ -14,7 +14,7 @@ std::string stability_json(const StabilityQuestion& question, const StabilityAns
                            const RuntimeAnswer& runtime);
 std::string stability_csv(const StabilityQuestion& question, const StabilityMap& map);
 
-// Shared by text and drawing:
+// Helpers for text and drawing.
 std::string describe_device(const StabilityQuestion& question);  // "the paper's X axis: m = 0.095 kg, ..."
 std::string describe_loop(const StabilityQuestion& question);    // "1000 Hz, no delay, zero-order hold, ..."
 

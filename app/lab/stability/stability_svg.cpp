@@ -26,7 +26,7 @@ constexpr const char* kStableColour = "#e3eef8";
 constexpr const char* kDash = "1.6 1.6";
 constexpr std::array<const char*, 4> kHandColours = {base::kGearColour, "#2e8b57", base::kBufferColour, "#7b4ba8"};
 
-// The next larger value of 1, 2 or 5 times a power of ten.
+// Rounds up to 1, 2 or 5 times a power of ten.
 double round_up(double number) {
   const double power = std::pow(10.0, std::floor(std::log10(number)));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -78,7 +78,7 @@ class MapPlot {
     for (const std::vector<double>& limits : map.limits) {
       for (std::size_t i = 0; i < lowest.size(); ++i) lowest[i] = std::min(lowest[i], limits[i]);
     }
-    for (std::vector<dvec2> piece : pieces(map.damping, lowest)) {
+    for (std::vector<dvec2> piece : segments_of(map.damping, lowest)) {
       piece.emplace_back(piece.back().x, kPlot.bottom());
       piece.emplace_back(piece.front().x, kPlot.bottom());
       svg_.polygon(piece, kStableColour);
@@ -86,7 +86,7 @@ class MapPlot {
   }
 
   void curve(const std::vector<double>& damping, const std::vector<double>& limits, const base::Pen& pen) {
-    for (const std::vector<dvec2>& piece : pieces(damping, limits)) svg_.polyline(piece, pen);
+    for (const std::vector<dvec2>& piece : segments_of(damping, limits)) svg_.polyline(piece, pen);
   }
 
   void point(double damping, const char* colour) {
@@ -121,8 +121,9 @@ class MapPlot {
     svg_.text({x(damping), kPlot.bottom() + 4.2}, {2.6, base::kInk, "middle"}, grouped(damping));
   }
 
-  // The visible parts of a curve, clipped at the bottom of the plot.
-  std::vector<std::vector<dvec2>> pieces(const std::vector<double>& damping, const std::vector<double>& limits) const {
+  // The parts of a curve above the bottom of the plot.
+  std::vector<std::vector<dvec2>> segments_of(const std::vector<double>& damping,
+                                              const std::vector<double>& limits) const {
     std::vector<std::vector<dvec2>> all;
     const auto crossing = [&](std::size_t in, std::size_t out) {
       const double inside = std::min(limits[in], 1e9);
@@ -140,10 +141,10 @@ class MapPlot {
   }
 
   base::Svg& svg_;
-  double end_;                           // [N s/m] at the right edge
+  double end_;                           // [N s/m] damping at the right edge
   double wanted_;                        // [N/m]
-  double lowest_ = 1e9, highest_ = 1.0;  // [N/m] range of K that the plot must include
-  double low_ = 0.0, high_ = 1.0;        // log10 of K at the bottom and the top
+  double lowest_ = 1e9, highest_ = 1.0;  // [N/m] range of stiffness that the plot must include
+  double low_ = 0.0, high_ = 1.0;        // log10 of the stiffness [N/m] at the bottom and the top of the plot
 };
 
 class MapLegend {

@@ -1,4 +1,4 @@
-// Draws the K-B map.
+// Draws the map of stable stiffness K and damping B.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace gearshift::lab {
 
-// A complete SVG document: each hand's limit against the wall's damping, the passivity limit, the wanted wall, and the
-// area that is stable with every hand. K has a logarithmic scale.
+// Returns a complete SVG document. It plots stiffness (logarithmic) against damping: the limit of each hand, the
+// passivity limit, the wanted wall, and the area that is stable with every hand.
 std::string stability_svg(const StabilityQuestion& question, const StabilityAnswer& answer, const StabilityMap& map);
 
 }  // namespace gearshift::lab

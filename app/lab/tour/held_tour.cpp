@@ -33,13 +33,13 @@ bool is_off(haptics::GuardState state) {
          state == haptics::GuardState::released;
 }
 
-// Describes the fault to the user at the stick.
+// Describes the fault to the user who holds the stick.
 const char* describe_fault(haptics::GuardFault fault) {
   switch (fault) {
     case haptics::GuardFault::stale_reading:
       return "the stick sends no readings";
     case haptics::GuardFault::overruns:
-      return "the computer was too late";
+      return "the computer was too slow";
     case haptics::GuardFault::stopped:
       return "the motors were switched off";
     default:
@@ -47,14 +47,14 @@ const char* describe_fault(haptics::GuardFault fault) {
   }
 }
 
-// Start time of the running loop's first cycle. [ns]
+// Start time [ns] of the running loop's first cycle.
 std::int64_t first_cycle_of(runtime::Runtime& runtime) {
   const haptics::HapticSnapshot now = runtime.snapshot();
   const std::int64_t period = haptics::period_ns(runtime.config().preset.haptics);
   return now.time_ns - static_cast<std::int64_t>(now.cycle) * period;
 }
 
-// A tour driven by the user: poll() is called until the tour is over.
+// A tour that the user drives with a stick. Call poll() until the tour is over.
 class HeldDrive {
  public:
   HeldDrive(runtime::Runtime& runtime, runtime::StickLever& stick, base::LineReader& answers, const TourOutput& output,
@@ -70,13 +70,14 @@ class HeldDrive {
     std::string order;
     for (const int gear : result_.wanted)
       order += fmt::format("{}{}", order.empty() ? "" : ", ", haptics::gear_name(gear));
-    output_(fmt::format("Gears of the tour: {}.", order));
+    output_(fmt::format("The tour visits these gears: {}.", order));
   }
 
   void poll() {
     read_answer();
     follow_stick();
-    const haptics::HapticSnapshot now = runtime_.snapshot();  // read before the events, which may switch is_armed_ off
+    // Read the snapshot before the events, because they may reset is_armed_.
+    const haptics::HapticSnapshot now = runtime_.snapshot();
     follow_lever();
     watch_arming(now);
     if (const std::optional<std::string> problem = runtime_.poll_recording_problem()) {
@@ -85,13 +86,13 @@ class HeldDrive {
     }
   }
 
-  // True if the forces are off and standard input is closed, so that nobody can arm the stick.
+  // True if the forces are off and standard input is closed, so that the user cannot turn the forces on.
   bool cannot_continue() const { return answers_.at_end() && is_off(runtime_.snapshot().guard) && !is_armed_; }
 
  private:
   void ask_to_arm() {
     if (!is_connected_ || is_awaiting_enter_) return;
-    while (answers_.read_line(0.0)) continue;  // discard input typed before the prompt
+    while (answers_.read_line(0.0)) continue;  // discard input that was typed before the prompt
     is_awaiting_enter_ = true;
     output_("The forces are off. Hold the stick, then press Enter to turn them on.");
   }
@@ -111,11 +112,11 @@ class HeldDrive {
     ask_for_gear();
   }
 
-  // A stick that is unplugged loses its forces; when it returns, they stay off until the user arms it again.
+  // If the stick is unplugged, its forces go off. They stay off after it is plugged in again, until the user arms them.
   void follow_stick() {
     while (const std::optional<std::string> message = stick_.take_message()) {
       output_(*message);
-      has_reported_absence_ = true;  // the connection's message gives the reason
+      has_reported_absence_ = true;  // the message already gives the reason
     }
     const bool was_connected = std::exchange(is_connected_, stick_.connected());
     if (was_connected && !is_connected_) {
@@ -139,7 +140,7 @@ class HeldDrive {
       if (event.time_ns >= begin_ns_) handle_event(event);
   }
 
-  // Time since the first recorded cycle, as in tour.csv.
+  // Time [s] since the first recorded cycle, as in tour.csv.
   double seconds_at(std::int64_t time_ns) const { return 1e-9 * static_cast<double>(time_ns - begin_ns_); }
 
   void handle_event(const haptics::HapticEvent& event) {
@@ -164,7 +165,8 @@ class HeldDrive {
     ask_to_arm();
   }
 
-  // Rejected arming has no event: the stop button is held, or the lever is too far outside the gate.
+  // Detects that arming was rejected, for which there is no event. Arming is rejected while the stop button is held or
+  // the lever is too far outside the gate.
   void watch_arming(const haptics::HapticSnapshot& now) {
     if (!is_armed_ || !is_off(now.guard) || now.time_ns < armed_at_ns_ + kArmTimeout) return;
     is_armed_ = false;
@@ -184,7 +186,7 @@ class HeldDrive {
   bool is_armed_ = false;  // the user has armed the forces, and they have not been switched off since
   std::int64_t armed_at_ns_ = 0;
   bool is_connected_ = false;
-  bool has_reported_absence_ = false;  // true also if the stick has been connected
+  bool has_reported_absence_ = false;  // also true once the stick has been connected
   bool is_awaiting_enter_ = false;
 };
 

@@ -1,4 +1,5 @@
-// The tour driven by the user with a stick: prompts for each gear, and switches forces on only after Enter.
+// The tour (one shift into every gear), driven by the user with a stick. Prompts for each gear. Forces go on only after
+// the user has pressed Enter.
 #pragma once
 
 #include <functional>
@@ -10,13 +11,13 @@
 
 namespace gearshift::lab {
 
-// Prints a line for the user at the stick.
+// Prints a line for the user who holds the stick.
 using TourOutput = std::function<void(const std::string& line)>;
 
-// Runs in real time and records like drive_tour() until every gear was engaged in order (other gears in between are
-// allowed), `seconds` have passed, or the program is asked to end. If the stick is unplugged, waits for it to return.
-// Compiles setup.gate for the stick; the setup's hand and seed are not used. Throws FileError, std::invalid_argument or
-// std::runtime_error with one sentence; the recording is kept.
+// Runs in real time and records like drive_tour(). Ends when every gear was engaged in order, when `seconds` have
+// passed, or when the program is asked to end. Other gears may be engaged in between. If the stick is unplugged, waits
+// until it is connected again. Compiles `setup.gate` for the stick; ignores the hand and the seed in `setup`. Throws
+// FileError, std::invalid_argument or std::runtime_error with one sentence; the recording is not deleted.
 TourResult drive_held_tour(TourSetup& setup, runtime::StickLever& stick, double seconds, base::LineReader& answers,
                            const TourOutput& output, const TourProgress& progress);
 

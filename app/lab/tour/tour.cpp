@@ -18,7 +18,7 @@ namespace gearshift::lab {
 namespace {
 
 constexpr double kAimNoise = 0.002;  // [m] standard deviation of the hand's aims
-constexpr int kPumpEvery = 1000;     // [cycles] between writes of the trace queue to the file
+constexpr int kPumpEvery = 1000;     // [cycles] interval between writes of the trace queue to the file
 
 haptics::TraceHeader header_of(const TourSetup& setup, const haptics::DeviceSpec& spec) {
   haptics::TraceHeader header;
@@ -57,7 +57,8 @@ haptics::ScriptedHand hand_through(const std::vector<int>& gears, const TourSetu
   return {config, haptics::shift_strokes(setup.gate, start, gears, setup.style), haptics::period_s(setup.haptics)};
 }
 
-// before: the fault in the previous cycle. Arming again clears it.
+// Counts each fault when it begins. `before`: the fault in the previous cycle. Arming clears a fault, so a fault that
+// occurs again counts again.
 void count_force_loss(const haptics::HapticSnapshot& now, haptics::GuardFault before, double time, LostForces& lost) {
   if (now.fault == haptics::GuardFault::none || now.fault == before) return;
   if (lost.times++ == 0) lost.fault = now.fault, lost.time = time;

@@ -22,9 +22,9 @@ struct TourSetup {
   haptics::Gate gate;
   haptics::SimulatedLeverConfig lever;  // the hand must be stiff enough to move the lever
   haptics::HapticConfig haptics;
-  std::uint64_t seed = 1;  // seed of the hand's aims
+  std::uint64_t seed = 1;  // seed of the hand's random aims
   haptics::ShiftStyle style;
-  std::filesystem::path folder;  // must exist; receives tour.trace and tour.csv
+  std::filesystem::path folder;  // must exist; the tour writes tour.trace and tour.csv to it
 };
 
 // The time at which a gear engaged.
@@ -33,7 +33,8 @@ struct GearTime {
   double time = 0.0;  // [s]
 };
 
-// How often the guard switched the forces off, and why and when it first did. A simulated lever rearms automatically.
+// The number of times that the guard switched the forces off, and the reason and time of the first. A simulated lever
+// re-arms itself, so this can happen several times in a tour.
 struct LostForces {
   int times = 0;
   haptics::GuardFault fault = haptics::GuardFault::none;
@@ -45,24 +46,24 @@ struct TourResult {
   std::vector<GearTime> engaged;             // gears that engaged, in order of time
   std::vector<haptics::TuningLimit> limits;  // parameters that were limited for the device
   double admitted = 0.0;                     // [N/m] wall stiffness at the start
-  double softest = 0.0;                      // [N/m] lowest wall stiffness in use; lowered when the lever chatters
-  double duration = 0.0;                     // [s] simulated
-  double deepest = 0.0;                      // [m] largest distance of the lever from the drawn lever
-  double strongest = 0.0;                    // [N] largest push of the hand
-  std::uint64_t cycles = 0;                  // driven
-  std::uint64_t contacts = 0;                // cycles in contact with a wall
+  double softest = 0.0;                      // [N/m] lowest wall stiffness; the loop lowers it when the lever chatters
+  double duration = 0.0;                     // [s] simulated time
+  double deepest = 0.0;                      // [m] largest distance between the lever and the displayed lever (proxy)
+  double strongest = 0.0;                    // [N] largest force of the hand
+  std::uint64_t cycles = 0;                  // number of simulated cycles
+  std::uint64_t contacts = 0;                // number of cycles in contact with a wall
   std::uint64_t hash = 0;                    // hash of the recording
-  LostForces lost;                           // only filled for a simulated hand
+  LostForces lost;                           // set only for a simulated hand
 
   bool complete() const;            // exactly the wanted gears were engaged, in order
-  bool visited_in_order() const;    // the wanted gears were engaged in order, others between them allowed
-  double contact_fraction() const;  // [1] fraction of the cycles
+  bool visited_in_order() const;    // the wanted gears were engaged in order; other gears in between are allowed
+  double contact_fraction() const;  // [1] fraction of cycles in contact with a wall
 };
 
-// Called often with the current part of the work and the fraction of it that is done (0 to 1).
+// Called often. `what`: the current part of the work. `fraction`: the completed fraction of that part, 0 to 1.
 using TourProgress = std::function<void(std::string_view what, double fraction)>;
 
-// Called every 1/60 s of the drive with the newest cycle and the events since the last call.
+// Called every 1/60 s of simulated time with the newest cycle and the events since the last call.
 inline constexpr double kWatchPeriod = 1.0 / 60.0;  // [s]
 using TourWatch = std::function<void(const haptics::HapticSnapshot& now, std::span<const haptics::HapticEvent> events)>;
 
@@ -72,10 +73,11 @@ void measure(const haptics::HapticSnapshot& now, TourResult& result);
 // Drives and records the tour. Throws FileError if a file cannot be written.
 TourResult drive_tour(const TourSetup& setup, const TourProgress& progress, const TourWatch& watch = {});
 
-// Writes tour.csv from the tour.trace in the folder. Returns the recording's hash. Throws FileError.
+// Writes tour.csv from tour.trace in the folder. Returns the recording's hash. Throws FileError.
 std::uint64_t write_tour_table(const std::filesystem::path& folder, const TourProgress& progress);
 
-// Draws Fig. 9 (a) and (b) of the paper for this run from tour.csv: trajectory.{svg,png}, force.{svg,png}.
+// Draws this tour from tour.csv like Fig. 9 (a) and (b) of Lin and Young's paper (haptics/EQUATIONS.md):
+// trajectory.{svg,png} and force.{svg,png}.
 void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgress& progress);
 
 }  // namespace gearshift::lab

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kWalls = "gate_walls.dat";
 constexpr const char* kTable = "tour.csv";
-// The lever and the select axis are red; the drawn lever and the shift axis are blue.
+// The lever and the select axis are red; the displayed lever (proxy) and the shift axis are blue.
 constexpr const char* kRed = base::kLockoutColour;
 constexpr const char* kBlue = base::kGearColour;
 
@@ -41,8 +41,8 @@ std::string gear_labels(const haptics::Gate& gate) {
   return labels;
 }
 
-// Formats a gnuplot source with two columns of tour.csv. `cut` selects these columns first, because gnuplot converts
-// every cell that it reads.
+// Formats a gnuplot data source for two columns of tour.csv. The program `cut` extracts the columns, because gnuplot
+// would otherwise waste time converting all cells of the file.
 class Curves {
  public:
   explicit Curves(const std::filesystem::path& folder) {
@@ -82,7 +82,7 @@ set grid linecolor "{grid}"
       fmt::arg("hand", curve("lever_x_mm", "lever_y_mm")), fmt::arg("drawn", curve("proxy_x_mm", "proxy_y_mm")));
 }
 
-// Draws a dashed line at each time when a gear engaged. has_labels: with the gear's name above it.
+// Draws a dashed line at each time at which a gear engaged. `has_labels`: also draws the gear's name above the line.
 std::string gear_marks(const TourResult& result, bool has_labels) {
   std::string marks = "unset arrow\nunset label\n";
   for (const GearTime& gear : result.engaged) {
@@ -95,8 +95,8 @@ std::string gear_marks(const TourResult& result, bool has_labels) {
   return marks;
 }
 
-// One panel of force.png: both axes of a quantity over time. The invisible points give the panel a height, because
-// gnuplot complains if all values are 0.
+// A panel of force.png that plots both axes of a quantity over time. The invisible points give the panel a height,
+// because gnuplot prints a warning if all values are 0.
 std::string panel(const Curves& curve, const char* label, const char* x, const char* y, double width) {
   return fmt::format(R"gp(set ylabel "{}"
 plot sample [-1:1] "+" using (0):1 with points pointsize 0 notitle, \

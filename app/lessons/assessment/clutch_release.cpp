@@ -9,17 +9,17 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kMaxReleaseTime = 5.0;    // [s] a release is over after this time at the latest (engineering value)
-constexpr double kMaxBrakeForJerk = 0.05;  // [1] brake pedal; above this value the brake causes the jerk
-constexpr double kLaunchTime = 3.0;        // [s] typical launch (engineering value)
+constexpr double kMaxReleaseTime = 5.0;    // [s] longest duration of one clutch release (engineering value)
+constexpr double kMaxBrakeForJerk = 0.05;  // [1] brake pedal position above which jerk is not counted
+constexpr double kLaunchTime = 3.0;        // [s] duration of a typical launch (engineering value)
 constexpr double kGravity = 9.81;          // [m/s^2]
-constexpr double kHillHoldTime = 1.05;     // [s] the clutch holds the car before the launch (engineering value)
+constexpr double kHillHoldTime = 1.05;     // [s] time for which the clutch holds the car on a hill (engineering value)
 
 }  // namespace
 
 namespace {
 
-// Effective mass of the car [kg], including the inertia of wheels, clutch disc and input shaft.
+// Effective mass of the car in a gear [kg], including the inertia of wheels, clutch disc and input shaft.
 double mass_in(const vehicle::CarSpec& car, double per_road) noexcept {
   return car.body.mass + car.body.rotating + car.clutch.disc_inertia * per_road * per_road;
 }

@@ -1,4 +1,4 @@
-// Follows each release of the clutch in gear, from the bite point until it locks: detects a dump, a burn or a jerk.
+// Monitors each clutch release in gear until the clutch has locked. Detects a clutch dump, excess clutch heat and jerk.
 #pragma once
 
 #include <optional>
@@ -11,30 +11,32 @@
 
 namespace gearshift::lessons {
 
-inline constexpr double kMinJerkLimit = 110.0;  // [m/s^3] smallest limit in any gear, from measurements (README.md)
-// [1] jerk_limit() as a fraction of the jerk of a clutch that grips at once. Engineering value.
+inline constexpr double kMinJerkLimit = 110.0;  // [m/s^3] smallest jerk limit in any gear; measured, see README.md
+// [1] jerk limit divided by the jerk of a clutch that engages instantly. Engineering value.
 inline constexpr double kJerkFraction = 0.5;
 
-// Jerk at which a release of the clutch in this gear becomes an error [m/s^3]: half of the filtered jerk of a clutch
-// that grips at once (the acceleration then steps by C i eta / m), but at least kMinJerkLimit. Even a perfect launch
-// has some jerk, more with a stronger clutch and a lower gear; a shift need not have any.
+// Jerk above which a clutch release in this gear is an error [m/s^3]: half of the filtered jerk of a clutch that
+// engages instantly, but at least kMinJerkLimit. Even a perfect launch causes some jerk, which grows with a stronger
+// clutch and in a lower gear.
 double jerk_limit(const vehicle::CarSpec& car, int gear) noexcept;
 
-// Heat at which a release of the clutch in this gear becomes an error [J]: the heat of a launch on the flat with the
-// engine held at shift_high, the speed for upshifts, which no launch needs. An engine held at speed w that accelerates
-// a car of inertia J (reduced to the clutch) from rest to w does the work J w^2. Half of this work becomes kinetic
-// energy and half becomes heat, however long the launch takes. On a slope [rad] the slipping clutch also carries the
-// hill's torque T, which adds w T times (half the launch time plus the whole time the car is held before the launch).
+// Clutch heat above which a clutch release in this gear is an error [J]: the heat of a launch with the engine held at
+// the car's `shift_high`, the engine speed for upshifts. No launch needs such a high engine speed.
+//
+// On the flat, an engine held at speed w that accelerates a car of inertia J (seen at the clutch) from rest to w does
+// the work J w^2. Half of this work becomes kinetic energy and half becomes heat, however long the launch takes. On a
+// slope [rad], the slipping clutch also carries the torque T of the car's weight. This adds the heat w T (t / 2 + h),
+// where t is the launch time and h is the time for which the clutch holds the car before the launch.
 double burn_limit(const vehicle::CarSpec& car, int gear, double slope = 0.0) noexcept;
 
 class ClutchRelease {
  public:
   explicit ClutchRelease(const vehicle::CarSpec& car);
 
-  // Call every cycle. Returns the error of a release that has just ended, if any: a dump, else a burn, else a jerk.
-  // If the engine stalled, neither burn nor jerk is reported.
+  // Call every cycle. When a clutch release ends, returns its most serious error, if any: a clutch dump before a clutch
+  // burn, and a clutch burn before a jerk. If the engine stalled, only a dump is returned.
   std::optional<DrivingError> add(const vehicle::DriveSample& sample, double dt);
-  std::optional<DrivingError> finish() noexcept;  // call at the end of the drive: judges a release in progress
+  std::optional<DrivingError> finish() noexcept;  // call at the end of the drive; judges a release in progress
 
  private:
   bool is_over(const vehicle::DriveSample& sample) noexcept;

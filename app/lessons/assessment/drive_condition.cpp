@@ -3,7 +3,7 @@
 namespace gearshift::lessons {
 namespace {
 
-// [1] Positions of brake pedal and handbrake above which the car counts as held. Engineering values.
+// [1] Positions of brake pedal and handbrake above which the brakes hold the car. Engineering values.
 constexpr double kMinHoldingBrake = 0.05, kMinHoldingHandBrake = 0.5;
 
 bool matches(const std::optional<bool>& wanted, bool actual) noexcept {

@@ -7,10 +7,10 @@
 
 namespace gearshift::lessons {
 
-// Inputs of a condition that a single sample does not contain.
+// Inputs of a DriveCondition that are not part of a single sample.
 struct DriveProgress {
-  double distance = 0.0;     // [m] driven forward since the lesson began
-  double rolled_back = 0.0;  // [m] rolled back since the step began
+  double distance = 0.0;     // [m] distance driven forward since the lesson began
+  double rolled_back = 0.0;  // [m] distance rolled back since the step began
 };
 
 bool holds(const DriveCondition& condition, const vehicle::DriveSample& sample, const DriveProgress& progress) noexcept;
@@ -18,14 +18,15 @@ bool holds(const DriveCondition& condition, const vehicle::DriveSample& sample, 
 // True if the condition has no terms and would therefore always hold.
 bool is_empty(const DriveCondition& condition) noexcept;
 
-// A condition that must hold for some time.
+// Checks whether a condition has been true for long enough without a break.
 class HeldCondition {
  public:
-  // True once the condition has held continuously for its `held` time.
+  // Returns true once the condition has been true without a break for `condition.held` seconds.
   bool update(const DriveCondition& condition, const vehicle::DriveSample& sample,
               const DriveProgress& progress) noexcept;
   void reset() noexcept { *this = HeldCondition(); }
-  bool began_false() const noexcept { return began_false_; }  // false at the first sample after the reset
+  // True if the first sample after reset() did not meet the condition.
+  bool began_false() const noexcept { return began_false_; }
 
  private:
   bool on_ = false;

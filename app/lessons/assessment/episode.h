@@ -1,4 +1,4 @@
-// A condition that lasts for a while, may have short gaps, and is reported once.
+// Detects a condition that lasts for some time, tolerates short gaps, and reports each episode once.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@ namespace gearshift::lessons {
 
 class Episode {
  public:
-  // min_length: shorter episodes are not reported. max_length: an episode is reported at this length even if it
-  // continues. [s]
+  // `min_length` [s]: shorter episodes are not reported. `max_length` [s]: an episode is reported at this length even
+  // if the condition continues.
   explicit Episode(double min_length, double max_length = 1e9) noexcept
       : min_length_(min_length), max_length_(max_length) {}
 
-  // True in the one update in which the episode is to be reported. A value that is not finite counts as zero.
+  // Returns true once per episode, when the episode should be reported. A value that is not finite counts as zero.
   bool update(bool on, double value, double time, double dt) noexcept {
     gap_ = on ? 0.0 : gap_ + dt;
     if (on && !open_) {
@@ -31,7 +31,7 @@ class Episode {
     return is_due(gap_ >= kEpisodeGap);
   }
 
-  // Call at the end of the drive. Returns true if an open episode is to be reported.
+  // Call at the end of the drive. Returns true if an open episode should be reported.
   bool finish() noexcept { return is_due(true); }
 
   bool is_open() const noexcept { return open_; }

@@ -14,22 +14,22 @@ namespace gearshift::lessons {
 namespace {
 
 // Engineering values.
-constexpr double kStallWindow = 1.0;         // [s] a stall is reported with the highest engine speed of this last time
-constexpr double kLugLoad = 0.7;             // [1] fraction of the available torque
-constexpr double kMaxRidingTime = 6.0;       // [s] riding or coasting is reported after this time, even if it continues
+constexpr double kStallWindow = 1.0;         // [s] window before a stall whose highest engine speed is reported
+constexpr double kLugLoad = 0.7;             // [1] fraction of the available torque that counts as high load
+constexpr double kMaxRidingTime = 6.0;       // [s] riding or coasting is reported after this time even if it continues
 constexpr double kMinRidingPedal = 0.08;     // [1] pedal
 constexpr double kMinRidingForce = 3.0;      // [N]
-constexpr double kMinDrivingSpeed = 4.0;     // [m/s] a slower driver may need the clutch to stop or to creep
+constexpr double kMinDrivingSpeed = 4.0;     // [m/s] the clutch may be needed below this speed, to stop or to creep
 constexpr double kBraking = 0.05;            // [1] pedal
-constexpr double kHardBraking = 0.5;         // [1] pedal: the driver wants to stop, whatever the speed
-constexpr double kMaxShiftTime = 6.0;        // [s] after this time an open clutch is coasting, no longer a shift
-constexpr double kMaxDownshiftFactor = 1.2;  // [1] factor for the car's shift_high
-constexpr double kMinBlockedPush = 3.0;      // [N] push against a synchroniser
+constexpr double kHardBraking = 0.5;         // [1] brake pedal position that shows the intention to stop at any speed
+constexpr double kMaxShiftTime = 6.0;        // [s] after this time an open clutch counts as coasting, not as a shift
+constexpr double kMaxDownshiftFactor = 1.2;  // [1] largest engine speed for a downshift, relative to `shift_high`
+constexpr double kMinBlockedPush = 3.0;      // [N] smallest hand force that counts as a push against a synchroniser
 constexpr double kMinRollbackSpeed = 0.01;   // [m/s]
-constexpr double kStartupTime = 1.0;         // [s] time for a started engine to reach idle
-constexpr double kSpeedTolerance = 0.07;     // [1] relative tolerance before a target speed: accuracy of a needle
-// [m/s] A shift may come this much after its target speed: at 1.5 m/s^2 the car slows by 12 km/h while the driver reads
-// (1.05 s, Green 2000) and shifts (1.2 s).
+constexpr double kStartupTime = 1.0;         // [s] time that a started engine needs to reach idle speed
+constexpr double kSpeedTolerance = 0.07;     // [1] relative tolerance of early shifts: speedometer accuracy
+// [m/s] A shift may come this much later than its target speed. A car that decelerates at 1.5 m/s^2 slows by 12 km/h
+// while the driver reads the prompt (1.05 s, Green 2000) and shifts (1.2 s).
 constexpr double kSpeedOvershoot = 12.0 / haptics::kKmhPerMps;
 
 bool is_moving(double speed) noexcept {
@@ -57,7 +57,7 @@ bool is_down(const ShiftRecord& record) noexcept {
   return is_between_gears(record) && record.to >= 1 && record.to < record.from;
 }
 
-// True if the throttle was released before the clutch went down: a later rise of the engine speed is then a blip.
+// True if the throttle was released before the clutch was pressed. Any later rise of the engine speed is then a blip.
 bool lifted_first(const ShiftRecord& record) {
   const auto first = std::find_if(record.steps.begin(), record.steps.end(), [](ShiftStep step) {
     return step == ShiftStep::throttle_off || step == ShiftStep::clutch_down;
@@ -137,7 +137,8 @@ void ErrorDetector::update_rolling_time(const vehicle::DriveSample& now, bool mo
 
 void ErrorDetector::watch_engine(const vehicle::DriveSample& now, double dt) {
   const double speed = now.car.engine_speed;
-  // An engine that fires only while the starter turns it has not started yet.
+  // While the starter turns the engine, the engine may already fire. The engine counts as started only at its stall
+  // speed or above.
   has_run_ = has_run_ || (now.car.running && speed >= car_.engine.stall);
   const bool died = last_.car.running && !now.car.running && now.car.ignition;
   if (died && has_run_) has_stalled_ = report_if(ErrorKind::stall, now.time(), engine_.value());
@@ -152,8 +153,9 @@ void ErrorDetector::watch_engine(const vehicle::DriveSample& now, double dt) {
   update_episode(lugging_, labours, 0.0, now.time(), dt);
 }
 
-// Riding the clutch: foot on the pedal with the lever at rest in gear and the clutch not slipping, while neither
-// braking nor shifting. An open clutch is reported as coasting, or as a slow shift.
+// Detects riding the clutch: the foot rests on the pedal although the gear is engaged, the clutch does not slip, and
+// the driver neither brakes nor shifts. An open clutch is not reported here, but as coasting or as a slow shift. Also
+// collects the errors of clutch releases.
 void ErrorDetector::watch_feet(const vehicle::DriveSample& now, double dt) {
   if (const auto error = release_.add(now, dt)) errors_.push_back(*error);
   const int slot = now.lever.slot;
@@ -165,13 +167,13 @@ void ErrorDetector::watch_feet(const vehicle::DriveSample& now, double dt) {
   update_episode(riding_clutch_, rides, 0.0, now.time(), dt);
 }
 
-// True if the driver brakes hard, or brakes in a gear that is already too high for the speed.
+// True if the driver brakes hard, or brakes at a speed too low for the last gear driven (`driven_gear_`).
 bool ErrorDetector::is_stopping(const vehicle::DriveSample& now) const noexcept {
   const double turns = std::abs(vehicle::shaft_per_road(car_, driven_gear_) * now.car.road_speed);
   return now.car.brake > kHardBraking || (now.car.brake > kBraking && turns < car_.engine.lug_below);
 }
 
-// Coasting: rolling without a connection between engine and wheels, for no reason.
+// Detects coasting: engine and wheels are disconnected although the driver neither shifts nor stops.
 void ErrorDetector::watch_drive(const vehicle::DriveSample& now, double dt) {
   if (now.car.gear != haptics::kNeutralGear && now.car.clutch_locked) driven_gear_ = now.car.gear;
   const bool open = now.car.gear == haptics::kNeutralGear || now.car.clutch >= car_.clutch.bite;
@@ -180,7 +182,8 @@ void ErrorDetector::watch_drive(const vehicle::DriveSample& now, double dt) {
   if (coasting_.episode.update(coasts, 0.0, now.time(), dt)) report_coasting();
 }
 
-// One press of the clutch is one mistake: no coasting is reported within a shift that is reported as too slow.
+// Reports coasting, except in a shift already reported as too slow, because one press of the clutch causes both. If the
+// gear has changed in the shift in progress, the error is kept in `coasted_` until the shift is judged.
 void ErrorDetector::report_coasting() {
   const double began = coasting_.episode.begin();
   if (began >= slow_from_ && began <= slow_to_) return;
@@ -205,7 +208,8 @@ void ErrorDetector::watch_hand(const vehicle::DriveSample& now, bool shifting, d
   update_episode(over_push_, over, push, now.time(), dt);
 }
 
-// The gear of the lever's slot, if the lever is past the detent or touches ring or dogs; else neutral.
+// Returns the gear whose slot the lever is in, if the lever is past the detent or touches the synchroniser ring or
+// dogs; otherwise neutral.
 int ErrorDetector::gear_reached_for(const vehicle::DriveSample& now) const noexcept {
   if (now.lever.slot == haptics::kNoSlot) return haptics::kNeutralGear;
   const haptics::Slot& slot = haptics::slot_of(gate_, now.lever.slot);
@@ -213,7 +217,8 @@ int ErrorDetector::gear_reached_for(const vehicle::DriveSample& now) const noexc
                                                                                          : haptics::kNeutralGear;
 }
 
-// A push against the ring is reported as `blocked` with the clutch down, and as `no_clutch` with the clutch up.
+// Detects grinding, and pushes against the synchroniser ring with the clutch down (`blocked`). With the clutch up, only
+// records the largest difference of speeds (`touch_error_`); judge_clutch() uses it for `no_clutch`.
 void ErrorDetector::watch_dogs(const vehicle::DriveSample& now, double dt) {
   const bool open = now.car.clutch >= car_.clutch.bite;
   const bool touching = vehicle::touches_dogs(now);
@@ -230,7 +235,8 @@ void ErrorDetector::watch_dogs(const vehicle::DriveSample& now, double dt) {
   update_episode(grind_, now.car.grinding, now.car.grind_power, now.time(), dt);
 }
 
-// Reports reverse while rolling forward, or a forward gear while rolling back, once per visit to the slot.
+// Reports shifting into reverse while rolling forward, or into a forward gear while rolling back. Reports at most once
+// until the lever leaves the slot.
 void ErrorDetector::watch_direction(const vehicle::DriveSample& now) {
   const int gear = gear_reached_for(now);
   if (gear == haptics::kNeutralGear) wrong_way_ = false;
@@ -239,7 +245,8 @@ void ErrorDetector::watch_direction(const vehicle::DriveSample& now) {
   if (arrives && !wrong_way_) wrong_way_ = report_if(ErrorKind::wrong_direction, now.time(), against);
 }
 
-// Reports a gear that was not asked for. Going back to the gear just left does not count.
+// Reports a gear that was engaged although the lesson did not ask for it, or at the wrong road speed. Returning to the
+// previous gear is allowed.
 void ErrorDetector::watch_gear(const vehicle::DriveSample& now, int wanted_gear, double at) {
   const int gear = now.car.gear;
   const bool engaged = gear != last_.car.gear && gear != haptics::kNeutralGear;
@@ -257,12 +264,12 @@ void ErrorDetector::watch_gear(const vehicle::DriveSample& now, int wanted_gear,
   if (gear != haptics::kNeutralGear) last_gear_ = gear;
 }
 
-// After a stall the driver may use any forward gear up to the wanted one, to move off again.
+// True if `gear` may be used to move off again after a stall: any forward gear up to the requested one.
 bool ErrorDetector::is_moving_off_again(int gear, int wanted_gear) const noexcept {
   return has_stalled_ && gear >= 1 && gear <= wanted_gear;
 }
 
-// Reports a gear that was engaged well before or well after the road speed that the lesson asks for.
+// Reports a gear that was engaged far from the road speed that the lesson asks for.
 void ErrorDetector::judge_speed(const vehicle::DriveSample& now, double at) {
   const double speed = now.car.road_speed;
   const bool up = now.car.gear > last_gear_;
@@ -281,7 +288,7 @@ void ErrorDetector::judge_speed(const vehicle::DriveSample& now, double at) {
   reported_speed_ = true;
 }
 
-// Reports rolling back, except in reverse.
+// Once the car has stopped rolling back, reports how far it rolled. Rolling in reverse gear is not reported.
 void ErrorDetector::watch_rollback(const vehicle::DriveSample& now) {
   const bool rolls = now.car.road_speed < -kMinRollbackSpeed && last_gear_ != haptics::kReverseGear;
   if (rolls) return;
@@ -322,10 +329,10 @@ void ErrorDetector::finish() {
   if (const auto error = release_.finish()) errors_.push_back(*error);
 }
 
-void ErrorDetector::judge(const ShiftRecord& record) {
+void ErrorDetector::check_shift(const ShiftRecord& record) {
   const std::size_t before = errors_.size();
   const bool without_clutch = judge_clutch(record);
-  // A gear missed because the clutch was not used is already reported as no_clutch.
+  // A gear missed because the clutch was not used is already reported as `no_clutch`.
   const int missed = missed_gear(record);
   if (record.missed && !without_clutch && missed != haptics::kNeutralGear) {
     report_if(ErrorKind::missed_shift, record.end, missed, record.number);
@@ -341,8 +348,8 @@ void ErrorDetector::judge(const ShiftRecord& record) {
   reported_speed_ = false;
 }
 
-// The last gear that was tried and never engaged; else the gear that the lesson asks for. The gear that was left cannot
-// be missed: the lever passes its detent on the way out.
+// Returns the last gear that was tried but never engaged. If there is none, returns the gear that the lesson asks for.
+// The old gear is excluded, because the lever passes the old gear's detent on the way out.
 int ErrorDetector::missed_gear(const ShiftRecord& record) const noexcept {
   const auto missed = [&](int gear) { return gear != record.from && gear != record.to && !contains(engaged_, gear); };
   const auto tried = std::find_if(tried_.rbegin(), tried_.rend(), missed);
@@ -350,7 +357,7 @@ int ErrorDetector::missed_gear(const ShiftRecord& record) const noexcept {
   return missed(wanted_gear_) ? wanted_gear_ : haptics::kNeutralGear;
 }
 
-// Reports errors of clutch timing. Returns true for a shift without the clutch and without matched revs.
+// Reports errors in clutch timing. Returns true if the shift was made without the clutch and with unmatched revs.
 bool ErrorDetector::judge_clutch(const ShiftRecord& record) {
   if (record.clutch_time == 0.0) {
     const double error = std::max(std::abs(touch_error_), std::abs(record.rev_error));
@@ -361,7 +368,7 @@ bool ErrorDetector::judge_clutch(const ShiftRecord& record) {
   return false;
 }
 
-// Rise of engine speed that the new gear requires [rad/s]; a blip that provides this rise is no flare.
+// Rise of engine speed that the new gear requires [rad/s]. A rise up to this value is a correct blip, not an error.
 double ErrorDetector::flare_needed(const ShiftRecord& record) const noexcept {
   const double asked = vehicle::shaft_per_road(car_, record.to) * last_.car.road_speed;
   return std::max(0.0, asked - record.engine_speed);
@@ -371,8 +378,9 @@ const ErrorDetector::RollingTime& ErrorDetector::rolling_time_in(const ShiftReco
   return record.end < shift_began_ ? rolling_before_ : rolling_;
 }
 
-// Only time while rolling counts: at a standstill there is no hurry. While the car is braked to a stop the clutch is
-// down anyway, so only the time between the gears counts. A shift already reported as coasting is not reported again.
+// Reports a slow shift. Only time while rolling counts. If the car is braked to a stop, the clutch is down anyway, so
+// only the time between leaving the old gear and engaging the new one counts. A shift already reported as coasting is
+// skipped.
 void ErrorDetector::judge_time(const ShiftRecord& record, const RollingTime& rolled) {
   const double took = std::min(rolled.relevant_time(), std::max(record.clutch_time, record.lever_time));
   const bool coasted = coasted_at_ >= record.begin && coasted_at_ <= record.end;
@@ -396,19 +404,19 @@ void ErrorDetector::judge_engine(const ShiftRecord& record) {
   if (speed > band_.to) report_if(ErrorKind::late_shift, record.begin, speed, record.number);
 }
 
-// An open throttle and mismatched revs are two separate mistakes. In a downshift a blip is correct, and the rev error
-// shows how good it was.
+// An open throttle during the shift and mismatched revs after the shift are two separate errors. In a downshift with a
+// blip, the throttle is correct, so only the rev error is judged.
 void ErrorDetector::judge_revs(const ShiftRecord& record) {
   const bool blips = is_down(record) && lifted_first(record);
   if (!blips) report_if(ErrorKind::throttle_in_shift, record.begin, record.flare - flare_needed(record), record.number);
   const double asked = vehicle::shaft_per_road(car_, record.to) * last_.car.road_speed;
-  // If the gear requires less than idle speed, the clutch has to slip.
+  // If the new gear requires less than idle speed, the clutch has to slip, so a rev error is unavoidable.
   if (record.clutch_time > 0.0 && asked > car_.engine.idle) {
     report_if(ErrorKind::rev_mismatch, record.end, std::abs(record.rev_error), record.number);
   }
 }
 
-// Reports a downshift at too high a speed; the speed at which the gear was engaged counts.
+// Reports a downshift at too high a speed. The speed at the moment of engaging the gear is judged.
 void ErrorDetector::judge_gear(const ShiftRecord& record) {
   const double ratio = demanded_speed_ / max_downshift_speed(car_, band_);
   if (!is_down(record) || reported_speed_ || ratio < threshold(ErrorKind::early_downshift)) return;
@@ -416,8 +424,9 @@ void ErrorDetector::judge_gear(const ShiftRecord& record) {
   errors_.push_back({ErrorKind::early_downshift, severity, record.end, demanded_speed_, record.number});
 }
 
-// Judges the order only of shifts between gears while driving: moving off needs throttle before clutch. Errors of
-// clutch or throttle timing are errors of order, too, but already reported.
+// Judges the order of steps only in shifts between gears while driving, because moving off needs throttle before
+// clutch. Skips shifts that already have an error of clutch or throttle timing, because that error is the cause of the
+// wrong order.
 void ErrorDetector::judge_order(const ShiftRecord& record, std::size_t errors_before) {
   if (!is_between_gears(record) || rolling_time_in(record).is_engine_not_ready || !is_moving(last_.car.road_speed))
     return;
@@ -427,14 +436,14 @@ void ErrorDetector::judge_order(const ShiftRecord& record, std::size_t errors_be
   };
   const auto first = errors_.begin() + static_cast<std::ptrdiff_t>(errors_before);
   if (std::any_of(first, errors_.end(), is_cause_reported)) return;
-  // Steps swapped within the tolerance of the clutch timing count as in order.
+  // Here a negative `clutch_lead` or `clutch_lag` is within its tolerance, so the two steps that it swaps do not count.
   const int forgiven = (record.clutch_lead < 0.0 ? 2 : 0) + (record.clutch_lag < 0.0 ? 2 : 0);
   if (report_if(ErrorKind::step_order, record.begin, record.steps_out_of_place - forgiven, record.number))
     errors_.back().wanted = static_cast<double>(first_order_mistake(record.steps, record.from, record.to));
 }
 
 bool ErrorDetector::report_if(ErrorKind kind, double time, double value, std::int64_t shift) {
-  if (!(value >= threshold(kind))) return false;  // false for NaN, too
+  if (!(value >= threshold(kind))) return false;  // the negated comparison rejects NaN, too
   errors_.push_back({kind, error_severity(kind, value), time, value, shift});
   return true;
 }

@@ -17,31 +17,33 @@
 namespace gearshift::lessons {
 
 struct ShiftBand {
-  double from = 0.0, to = 1e9;  // [rad/s] engine speeds for upshifts
+  double from = 0.0, to = 1e9;  // [rad/s] engine speed band for upshifts
 };
 
-// Highest engine speed for which a downshift is appropriate [rad/s]: the upper end of the lesson's band, if it has one,
-// because above this a driver would shift up again; else 1.2 times the upper end of the car's band. In the hatchback
-// that is 3000 rpm, the most that unhurried drivers use (UDRIVE: advised 2000 to 2500, actual 1400 to 3000).
+// Highest engine speed that the lower gear of a downshift may require [rad/s]. If the lesson has an upshift band, this
+// is the band's upper end, because above it a driver would shift up again. Otherwise it is 1.2 times the upper end of
+// the car's band. In the hatchback this is 3000 rpm, the most that unhurried drivers use (UDRIVE study: 2000 to 2500
+// rpm advised, 1400 to 3000 rpm driven).
 double max_downshift_speed(const vehicle::CarSpec& car, const ShiftBand& band) noexcept;
 
-// Reports causes, not their consequences; comments in error_detector.cpp explain which consequences are left out.
+// Reports the cause of a mistake, but not the errors that follow from this cause. error_detector.cpp states which
+// errors are left out.
 class ErrorDetector {
  public:
-  // reading: time that it takes to read the prompts during a shift [s].
+  // `reading` [s]: time to read the prompts during a shift. It is added to the time allowed for a shift.
   ErrorDetector(const vehicle::CarSpec& car, const haptics::Gate& gate, ShiftBand band = {}, double reading = 0.0);
 
-  // Call every cycle, in order. wanted_gear: gear that the lesson asks for now; kNeutralGear: none. shifting: result of
-  // ShiftMeter::is_open(). at: road speed at which wanted_gear should be engaged [m/s]; 0: any.
+  // Call every cycle, in order. `wanted_gear`: gear that the lesson asks for now; kNeutralGear for none. `shifting`:
+  // result of ShiftMeter::is_open(). `at`: road speed [m/s] at which `wanted_gear` should be engaged; 0 for any speed.
   void add(const vehicle::DriveSample& sample, int wanted_gear, bool shifting, double at = 0.0);
 
-  // Judges the shift whose record ShiftMeter returned for the last sample. Call after add().
-  void judge(const ShiftRecord& record);
+  // Judges a shift. Call after add(), with the record that ShiftMeter returned for the same sample.
+  void check_shift(const ShiftRecord& record);
 
-  // End of the drive: reports conditions that still last.
+  // Call at the end of the drive: reports errors that are still in progress.
   void finish();
 
-  // Errors since the last call.
+  // Returns the errors found since the last call.
   std::vector<DrivingError> drain_errors();
 
  private:
@@ -52,12 +54,13 @@ class ErrorDetector {
     Episode episode;
   };
 
-  // Time that the car rolled faster than kMinDrivingSpeed during a shift.
+  // Time during a shift in which the car rolled faster than kMinDrivingSpeed.
   struct RollingTime {
-    double all = 0.0;                  // [s]
-    double left = 0.0, in = 0.0;       // [s] `all` when the old gear was left, and when the last gear was engaged
+    double all = 0.0;  // [s]
+    // [s] Value of `all` when the old gear was left (`left`), and when a gear was last engaged (`in`).
+    double left = 0.0, in = 0.0;
     bool is_braked_to_stop = false;    // the car was braked below kMinDrivingSpeed with the clutch down
-    bool is_engine_not_ready = false;  // engine off or just started: its speed says nothing about the driver
+    bool is_engine_not_ready = false;  // engine off or just started, so engine speed is not judged
     double relevant_time() const noexcept { return is_braked_to_stop ? in - left : all; }
   };
 
@@ -87,7 +90,7 @@ class ErrorDetector {
   bool judge_clutch(const ShiftRecord& record);
   double flare_needed(const ShiftRecord& record) const noexcept;
   int missed_gear(const ShiftRecord& record) const noexcept;
-  // Reports an error if the value reaches the threshold of its kind.
+  // Reports an error if `value` reaches the threshold of `kind`. Returns true if an error was reported.
   bool report_if(ErrorKind kind, double time, double value, std::int64_t shift = -1);
   int gear_reached_for(const vehicle::DriveSample& now) const noexcept;
 
@@ -100,28 +103,31 @@ class ErrorDetector {
   WatchedEpisode over_rev_, lugging_, riding_clutch_, riding_lever_, over_push_, grind_, block_, coasting_;
   vehicle::DriveSample last_;
   bool first_ = true;
-  bool has_run_ = false;         // the engine has run by itself since it was last off
-  bool has_stalled_ = false;     // the engine has stalled and not yet run in a requested gear again
+  bool has_run_ = false;         // the engine has run without the starter since it was last off
+  bool has_stalled_ = false;     // the engine stalled and has not run in a requested gear since
   double runs_since_ = -1e9;     // [s]
   bool shift_moved_ = false;     // the gear has changed during the current shift
   double shift_moved_at_ = 0.0;  // [s]
   bool shifting_ = false;
   double shift_began_ = 0.0;                 // [s]
   double slow_from_ = 0.0, slow_to_ = -1.0;  // [s] begin and end of the last shift reported as too slow
-  double coasted_at_ = -1.0;                 // [s] begin of the last coasting that was reported
-  std::vector<DrivingError> coasted_;        // coasting errors held back while an open shift may be the cause
-  RollingTime rolling_, rolling_before_;     // for the current or last shift; for the shift before that
-  bool wrong_way_ = false;                   // wrong direction already reported for this visit to the slot
+  double coasted_at_ = -1.0;                 // [s] begin of the last coasting that was reported as an error
+  std::vector<DrivingError> coasted_;        // coasting errors held back until the current shift is judged
+  // Rolling times in the current or most recent shift (`rolling_`), and in the shift before that (`rolling_before_`).
+  RollingTime rolling_, rolling_before_;
+  bool wrong_way_ = false;                   // wrong_direction already reported for this visit to the slot
   int last_gear_ = haptics::kNeutralGear;    // last gear that was engaged
-  int driven_gear_ = haptics::kNeutralGear;  // last gear with the clutch locked
-  std::vector<int> tried_;       // gears that the lever was pushed towards since the last record, newest last
-  std::vector<int> engaged_;     // gears that were engaged since the last record
-  bool reported_speed_ = false;  // a gear engaged at the wrong road speed was reported
-  double demanded_speed_ = 0.0;  // [rad/s] engine speed that the last gear required when it was engaged
+  int driven_gear_ = haptics::kNeutralGear;  // last gear that was engaged with the clutch locked
+  std::vector<int> tried_;       // gears that the lever was pushed towards since the last shift record, newest last
+  std::vector<int> engaged_;     // gears that were engaged since the last shift record
+  bool reported_speed_ = false;  // a wrong road speed was already reported for the current shift
+  double demanded_speed_ = 0.0;  // [rad/s] engine speed that the last engaged gear required when engaged
   int wanted_gear_ = haptics::kNeutralGear;
   bool touching_ = false;
-  double touch_error_ = 0.0;  // [rad/s] engine minus gear speed at the worst touch of ring or dogs with the clutch up
-  double highest_ = 0.0;      // [m] distance at which the car last stood or rolled forward
+  // [rad/s] Largest difference between engine speed and gear speed when the lever began to touch the ring or dogs with
+  // the clutch up.
+  double touch_error_ = 0.0;
+  double highest_ = 0.0;  // [m] value of `distance` when the car last stood or rolled forward
   std::vector<DrivingError> errors_;
 };
 

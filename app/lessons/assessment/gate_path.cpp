@@ -13,8 +13,8 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kSlack = 1e-4;  // [m] tolerance: the path may touch a corner
-constexpr double kStep = 5e-4;   // [m] distance between the checked points of a segment
+constexpr double kSlack = 1e-4;  // [m] tolerance, so that the path may touch a corner
+constexpr double kStep = 5e-4;   // [m] spacing of the points checked on a path segment
 
 bool is_free(const haptics::Gate& gate, dvec2 from, dvec2 to) {
   const int parts = 1 + static_cast<int>(glm::distance(from, to) / kStep);
@@ -24,7 +24,7 @@ bool is_free(const haptics::Gate& gate, dvec2 from, dvec2 to) {
   return true;
 }
 
-// The corners at which a taut path towards x leaves the slot that contains `point`, from the slot outwards.
+// Returns the corners at which the shortest path towards x leaves the slot that contains `point`, innermost first.
 std::vector<dvec2> corners(const haptics::Gate& gate, dvec2 point, double x) {
   if (std::abs(point.y) <= gate.half_aisle) return {};
   const haptics::Column& column = haptics::column_of(gate, haptics::nearest_column(gate, point.x));
@@ -47,7 +47,7 @@ bool is_free(const haptics::Gate& gate, const std::vector<dvec2>& path) {
   return true;
 }
 
-// The path between the ends through those bends whose bit is set in `chosen`.
+// Returns the path from `from` to `to` through those of the `bends` whose bit is set in `chosen`.
 std::vector<dvec2> path_over(dvec2 from, const std::vector<dvec2>& bends, std::size_t chosen, dvec2 to) {
   std::vector<dvec2> path{from};
   const auto go = [&](dvec2 next) {

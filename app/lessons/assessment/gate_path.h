@@ -9,11 +9,11 @@
 
 namespace gearshift::lessons {
 
-// The shortest path between two points through free space, with all lockouts open: its two ends and the corners between
-// them [m]. Consecutive points differ; if the ends coincide, the path is a single point.
+// Returns the shortest path [m] between two points through the gate's free space, with all lockouts open: the two end
+// points and the corners between them. Consecutive points differ. If the end points coincide, the path is one point.
 //
-// Like a taut string, the path bends only at the corners of the slots that contain its ends, at most two per end. If an
-// end lies outside free space, the path is the straight line.
+// The path bends only at corners of the slots that contain its end points, at most two per end point. If an end point
+// lies outside free space, the path is a straight line.
 std::vector<glm::dvec2> shortest_path(const haptics::Gate& gate, glm::dvec2 from, glm::dvec2 to);
 
 double shortest_path_length(const haptics::Gate& gate, glm::dvec2 from, glm::dvec2 to);  // [m]

@@ -8,7 +8,8 @@
 namespace gearshift::lessons {
 namespace {
 
-// Engineering values: with a pass grade of 6, eight minor errors or two severe ones still pass, but not one more.
+// Points deducted by severity. Engineering values: with a pass grade of 6, a run passes with up to eight minor errors
+// or up to two severe ones.
 constexpr std::array<double, 4> kPoints{0.0, 0.5, 2.0, 4.0};
 
 double points_of_all(std::span<const DrivingError> errors) noexcept {
@@ -17,14 +18,15 @@ double points_of_all(std::span<const DrivingError> errors) noexcept {
   return points;
 }
 
-// True if a step was slower than within_s, but not slow enough to fail the lesson.
+// True if the error is a step that took longer than the step's `within`, but less than its `fails_after`.
 bool is_within_tolerance(const Lesson& lesson, const DrivingError& error) {
   return std::any_of(lesson.steps.begin(), lesson.steps.end(), [&](const LessonStep& step) {
     return step.fails_after && step.prompt == error.step && error.value < *step.fails_after;
   });
 }
 
-// The first error that fails the lesson. Even a minor one does, because its threshold already includes a tolerance.
+// Returns the first error that fails the lesson, or null. Even a minor error can fail the lesson, because the error's
+// threshold already includes a tolerance.
 const DrivingError* failing_error(const Lesson& lesson, const LessonResult& result) {
   const auto fails = [&](const DrivingError& error) {
     return fails_on(lesson, error.kind) && !is_within_tolerance(lesson, error);
@@ -33,13 +35,14 @@ const DrivingError* failing_error(const Lesson& lesson, const LessonResult& resu
   return found == result.errors.end() ? nullptr : &*found;
 }
 
-// Why the lesson was not passed; empty if it was. The message of an abort condition is kept.
+// Returns why the lesson was not passed; empty if it was passed. If an abort condition has already set `result.why`,
+// returns that text, unless the run is not graded.
 std::string reason(const Lesson& lesson, const LessonResult& result) {
   if (result.guided) return "Not graded: the lever was guiding you.";
   if (!result.had_forces) return "Not graded: the lever's forces were off.";
-  if (!result.is_complete) return "Not graded: part of the drive was lost.";
+  if (!result.is_complete) return "Not graded: part of the drive was not recorded.";
   if (result.end == LessonEnd::aborted && !result.why.empty()) return result.why;
-  if (result.end == LessonEnd::left) return "You left the lesson.";  // whichever errors came before
+  if (result.end == LessonEnd::left) return "You left the lesson.";  // takes precedence over earlier errors
   if (const DrivingError* error = failing_error(lesson, result)) return error_sentence(*error);
   if (result.end == LessonEnd::aborted) return "The lesson was stopped early.";
   if (result.end == LessonEnd::out_of_time) return fmt::format("Not finished within {:.0f} s.", lesson.time_limit);

@@ -1,4 +1,4 @@
-// Grades a lesson: every point deducted names its driving error.
+// Grades a lesson run by deducting points for driving errors.
 #pragma once
 
 #include <array>
@@ -13,22 +13,22 @@ namespace gearshift::lessons {
 
 inline constexpr double kBestGrade = 10.0;
 
-// Points deducted for one error. [1] A note costs nothing.
+// Points deducted for one error of this severity [1]; 0 for a note.
 double points_of(Severity severity) noexcept;
 
-// Number of errors of severity note, minor, severe and very_severe.
+// Returns the number of errors of each severity: note, minor, severe, very_severe.
 std::array<std::size_t, 4> count_by_severity(std::span<const DrivingError> errors) noexcept;
 
-// Sets deductions, grade, passed and why from end, errors, guided, had_forces and is_complete. The grade is 10 minus
-// the deductions, at least 0, and 0 if the lesson was aborted or not finished in time. A guided or incomplete run has
-// no deductions and a grade of 0, and it is not passed.
+// Computes the result's `deductions`, `grade`, `passed` and `why` from its other members. The grade is 10 minus the
+// deductions, but at least 0. The grade is 0 if the lesson was aborted or not finished in time. A guided or incomplete
+// run has no deductions and a grade of 0, and is not passed.
 void grade_result(const Lesson& lesson, LessonResult& result);
 
-// True if the grade is meaningful: the run was unguided and complete, it is over, and the learner did not leave it.
+// True if the grade is valid: the run is over, it was unguided and complete, and the learner did not leave it early.
 bool is_graded(const LessonResult& result) noexcept;
 
-// Error of a run, guided or not, for the guidance policy: points for its driving errors divided by 10, at most 1; 1 if
-// the lesson was not completed.
+// Overall error of a run [1], guided or not, as the input of GuidancePolicy. It is the points for the run's driving
+// errors divided by 10, at most 1. If the lesson was not completed, it is 1.
 double run_error(const LessonResult& result) noexcept;
 
 }  // namespace gearshift::lessons

@@ -6,7 +6,7 @@
 namespace gearshift::lessons {
 namespace {
 
-// SplitMix64 (Steele, Lea, Flood. Fast Splittable Pseudorandom Number Generators. 2014).
+// Random number generator SplitMix64 (Steele, Lea, Flood. Fast Splittable Pseudorandom Number Generators. 2014).
 std::uint64_t draw(std::uint64_t& state) noexcept {
   std::uint64_t z = (state += 0x9e3779b97f4a7c15u);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -18,38 +18,39 @@ namespace gearshift::lessons {
 // All defaults are engineering values.
 struct GuidanceConfig {
   double start = 1.0;               // [1] guidance gain of a beginner
-  double forgetting = 0.9;          // [1] f of a beginner: fraction of the gain left after a trial
-  double forgetting_skilled = 0.6;  // [1] f of a skilled learner, to whom guidance does more harm
-  // [1] run_error that counts as the worst possible trial: the most that a pass grade of 6 tolerates
+  double forgetting = 0.9;          // [1] factor f that reduces a beginner's gain after each trial
+  double forgetting_skilled = 0.6;  // [1] factor f for a skilled learner, to whom guidance does more harm
+  // [1] run_error() that counts as the worst possible trial: the largest error that still reaches a pass grade of 6
   double full_error = 0.4;
-  double per_error = 0.2;       // [1] k: gain added by a worst possible trial
+  double per_error = 0.2;       // [1] factor k: gain added after the worst possible trial
   double min_gain = 0.05;       // [1] smaller gains are treated as 0
-  double skill_memory = 0.7;    // [1] weight of the old skill estimate after a trial
-  double bandwidth_from = 0.4;  // [1] from this skill on, feedback only on errors
-  double summary_from = 0.75;   // [1] from this skill on, feedback only at the end
+  double skill_memory = 0.7;    // [1] weight of the previous skill estimate in the running mean
+  double bandwidth_from = 0.4;  // [1] skill from which only errors get feedback, without hints
+  double summary_from = 0.75;   // [1] skill from which feedback comes only at the end
 };
 
-// After a pause of this length, which includes a night, a trial measures retention. Engineering value.
+// A trial after a pause of at least this length is a retention test. Engineering value: 20 h normally include a night.
 inline constexpr std::int64_t kRetentionPause = std::int64_t{20} * 3600;  // [s]
 
 struct TrialPlan {
-  double guidance = 0.0;  // [1] 0 to 1 for DriverControls and LessonRunConfig; 0: the trial is graded
+  double guidance = 0.0;  // [1] guidance gain, 0 to 1; 0: unguided, so the trial is graded
   HintStyle hints = HintStyle::prescriptive;
 };
 
-// After each trial, guided or not, the gain g becomes clamp(f g + k e, 0, 1), with e = min(1, error / full_error) and f
-// falling from forgetting to forgetting_skilled as skill grows. Two of every four trials are unguided, in an order
-// drawn from the seed. The same seed and errors give the same plans.
+// After each trial, guided or not, the guidance gain g becomes f g + k e, limited to 0 to 1. The error e is the trial's
+// error divided by `full_error`, at most 1. The factor k is `per_error`. The factor f falls from `forgetting` to
+// `forgetting_skilled` as skill grows. Two of every four trials are unguided, in an order drawn from the seed. The same
+// seed and errors always give the same plans.
 class GuidancePolicy {
  public:
   explicit GuidancePolicy(std::uint64_t seed, const GuidanceConfig& config = {});
 
   TrialPlan next();
-  TrialPlan retention() const noexcept;  // a test after a day or a week: no guidance, no feedback in the drive
+  TrialPlan retention() const noexcept;  // plan of a retention test: unguided, feedback only at the end
   void learn(double error) noexcept;     // error: run_error() of the trial just driven
 
   double gain() const noexcept { return gain_; }    // [1]
-  double skill() const noexcept { return skill_; }  // [1] running mean of 1 - e
+  double skill() const noexcept { return skill_; }  // [1] running mean of one minus the trial error
 
  private:
   void shuffle() noexcept;

@@ -6,11 +6,12 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr double kOmega = 6.283185307179586 * kJerkCutoff;  // [rad/s]
-constexpr double kDecay = kOmega * 0.70710678118654752440;  // [1/s] s, which is also the damped frequency
+constexpr double kDecay = kOmega * 0.70710678118654752440;  // [1/s] decay rate s, equal to the damped frequency
 
 }  // namespace
 
-// The solution is e(t) = exp(-s t) (e0 cos(s t) + (e0' + s e0) / s sin(s t)), where e = y - u.
+// Steps the filter by its exact solution e(t) = exp(-s t) (e0 cos(s t) + (e0' + s e0) / s sin(s t)). The error e is the
+// output minus the input, e0 and e0' are the error and its rate at the start of the period, and s is kDecay.
 double JerkFilter::update(double acceleration, double dt) noexcept {
   if (!std::isfinite(acceleration) || !std::isfinite(dt)) return rate_;
   if (!filled_) {

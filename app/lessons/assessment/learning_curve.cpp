@@ -32,14 +32,15 @@ double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Sum of products of both series, each minus its offset.
+// Sum of (a - a_offset) (b - b_offset) over all elements.
 double products(std::span<const double> a, double a_offset, std::span<const double> b, double b_offset) {
   return std::transform_reduce(a.begin(), a.end(), b.begin(), 0.0, std::plus<>(),
                                [&](double x, double y) { return (x - a_offset) * (y - b_offset); });
 }
 
-// For a given time constant the fit is linear (variable projection), and its sum of squares is convex in the level. If
-// the best level is out of bounds, the best level within them is the nearer bound, with the optimal gain for it.
+// For a fixed time constant the fit is linear (variable projection), and its squared error is convex in the level. So
+// if the best level is out of bounds, the nearer bound is the best allowed level; the gain is then fitted for this
+// level.
 LinearFit fit_for(std::span<const double> grades, double trials, const LevelBounds& bounds) {
   std::vector<double> decay(grades.size());
   for (std::size_t n = 0; n < decay.size(); ++n) decay[n] = std::exp(-static_cast<double>(n) / trials);
@@ -59,7 +60,7 @@ LinearFit fit_for(std::span<const double> grades, double trials, const LevelBoun
   return fit;
 }
 
-// Refines log(trials) between the two neighbours of the best grid point by golden-section search.
+// Golden-section search for the best log(trials) between `low` and `high`, the neighbours of the best grid point.
 double refine_trials(std::span<const double> grades, const LevelBounds& bounds, double low, double high) {
   const double golden = (std::sqrt(5.0) - 1.0) / 2.0;
   const auto cost = [&](double x) { return fit_for(grades, std::exp(x), bounds).square; };
@@ -77,7 +78,8 @@ double refine_trials(std::span<const double> grades, const LevelBounds& bounds, 
   return (low + high) / 2.0;
 }
 
-// Time constant with the smallest squared error; empty if it lies on the edge of the grid.
+// Returns the time constant with the smallest squared error, in trials; empty if the best one lies at an end of the
+// grid.
 std::optional<double> best_trials(std::span<const double> grades, const LevelBounds& bounds) {
   const double fastest = std::log(kFastest), slowest = std::log(kSlowest * static_cast<double>(grades.size()));
   const double step = (slowest - fastest) / kGrid;
@@ -91,7 +93,8 @@ std::optional<double> best_trials(std::span<const double> grades, const LevelBou
   return std::exp(refine_trials(grades, bounds, fastest + step * (best - 1), fastest + step * (best + 1)));
 }
 
-// Variances of level, gain and trials: the diagonal of noise^2 (J^T J)^-1. A fixed level has variance 0.
+// Variances of level, gain and trials: the diagonal of noise^2 (J^T J)^-1, where J is the Jacobian of the curve. A
+// level fixed at its bound has variance 0.
 glm::dvec3 variances(const LearningCurve& curve, std::size_t count) {
   glm::dmat3 information(0.0);
   const double trials = curve.trials.value;
@@ -118,7 +121,7 @@ double LearningCurve::at(double n) const noexcept {
 
 std::optional<LearningCurve> fit_learning_curve(std::span<const double> grades, const LevelBounds& bounds) {
   if (grades.size() < kMinTrials) return std::nullopt;
-  // Bounds can turn even a straight line into a curve, so the fit must find a curve without bounds, too.
+  // With bounds, even grades on a straight line can fit a curve. So a curve must be found without bounds, too.
   if (!best_trials(grades, {})) return std::nullopt;
   const std::optional<double> trials = best_trials(grades, bounds);
   if (!trials) return std::nullopt;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRadPerSecond = 6.283185307179586 / 60.0;  // per rpm
 
-// Allowed ranges of the file's values, in the file's units.
+// Allowed ranges of the values in a lesson file, in the file's units.
 constexpr haptics::Range kPedal{0.0, 1.0};
 constexpr haptics::Range kEngineRpm{0.0, 10000.0};
 constexpr haptics::Range kSpeedKmPerH{-60.0, 250.0};
@@ -31,18 +31,19 @@ constexpr haptics::Range kPassGrade{1.0, 10.0};
 constexpr haptics::Range kTimeLimitS{10.0, 1800.0};
 constexpr std::size_t kMaxSteps = 64;
 
-// Conditions of the steps that shift_to creates. Engineering values.
-constexpr double kClutchDown = 0.8;        // [1] pedal, beyond the bite point of every car
+// Conditions of the steps that the key `shift_to` in a lesson file creates. Engineering values.
+constexpr double kClutchDown = 0.8;        // [1] pedal position beyond every car's bite point
 constexpr double kClutchUp = 0.2;          // [1]
 constexpr double kFootOffThrottle = 0.05;  // [1]
 constexpr double kPedalPatience = 6.0;     // [s]
 
-// Tolerance of the car's band. The shift light comes on at the band's upper end; seeing the light and lifting the foot
-// takes 1.05 s (Green 2000). In this time, in first gear at a third of the throttle, the engine gains up to 580 rpm.
-// Engineering values.
-constexpr double kBandFrom = 0.9, kBandTo = 1.3;  // [1] factors for the ends of the car's band
+// Tolerance around the car's upshift band. The shift light comes on at the band's upper end, and the driver needs 1.05
+// s to see the light and lift the foot (Green 2000). In this time, in first gear at a third of the throttle, the engine
+// gains up to 580 rpm. The factor 1.3 allows 750 rpm in the hatchback (band up to 2500 rpm) and 660 rpm in the diesel
+// (up to 2200 rpm). Engineering values.
+constexpr double kBandFrom = 0.9, kBandTo = 1.3;  // [1] factors for the lower and upper end of the band
 
-// "R", "N", "1", "2", ...
+// Labels from reverse to the highest gear: "R", "N", "1", "2", ...
 const std::vector<std::string>& gear_labels() {
   static const std::vector<std::string> words = [] {
     std::vector<std::string> list;
@@ -68,13 +69,14 @@ void read_limit(const haptics::TomlTable& table, const std::string& key, haptics
   if (table.has(key)) value = table.number(key, range) * unit;
 }
 
-// Reads the keys NAME_above and NAME_below, each with the unit's suffix: "speed_above_km_per_h".
+// Reads the keys NAME_above and NAME_below, each followed by the unit, for example "speed_above_km_per_h".
 void read_limits(const haptics::TomlTable& table, const std::string& name, const std::string& unit_name,
                  haptics::Range range, double unit, std::optional<double>& above, std::optional<double>& below) {
   read_limit(table, name + "_above" + unit_name, range, unit, above);
   read_limit(table, name + "_below" + unit_name, range, unit, below);
   if (above && below && *above >= *below) {
-    table.fail(name + "_above" + unit_name, "can never be met: it must be smaller than " + name + "_below" + unit_name);
+    table.fail(name + "_above" + unit_name,
+               "could never be met; the value must be smaller than " + name + "_below" + unit_name);
   }
 }
 
@@ -101,7 +103,7 @@ DriveCondition read_condition(const haptics::TomlTable& table) {
   read_limit(table, "rolled_back_above_m", kRolledBackM, 1.0, c.rolled_back_above);
   c.held = table.number_or("held_s", c.held, kHeldS);
   table.reject_unknown_keys();
-  if (is_empty(c)) table.fail({}, "this condition is empty, so it would be met at once");
+  if (is_empty(c)) table.fail({}, "the condition is empty and would be met at once");
   return c;
 }
 
@@ -118,15 +120,15 @@ LessonStart read_start(const haptics::TomlTable& table) {
   return start;
 }
 
-// Reads the road speed at which the gear of this step should be engaged.
+// Reads the road speed (`at_km_per_h`) at which the gear of this step should be engaged.
 void read_at(const haptics::TomlTable& table, LessonStep& step) {
   read_limit(table, "at_km_per_h", kAtKmPerH, 1.0 / haptics::kKmhPerMps, step.at);
   if (step.at && step.until.gear.value_or(haptics::kNeutralGear) < 1)
     table.fail("at_km_per_h", "is allowed only in a step that waits for a forward gear");
 }
 
-// A step that waits for a gear guides to that gear, and guide_to must not name a different one. A step that waits for
-// neutral, or for no gear, guides to the gear that guide_to names.
+// Reads one step. A step that waits for a gear guides the lever to that gear, so its `guide_to` must not name a
+// different one. Any other step guides the lever to the gear that its `guide_to` names, if any.
 LessonStep read_step(const haptics::TomlTable& table) {
   LessonStep step;
   step.prompt = table.text("prompt");
@@ -138,7 +140,7 @@ LessonStep read_step(const haptics::TomlTable& table) {
   read_limit(table, "fails_after_s", kWithinS, 1.0, step.fails_after);
   step.until = read_condition(table.table("until"));
   if (step.within && *step.within <= step.until.held) {
-    table.fail("within_s", "can never be met: it must be longer than the step's held_s");
+    table.fail("within_s", "must be longer than held_s of the same step, or no attempt could be in time");
   }
   if (step.fails_after && (!step.within || *step.fails_after < *step.within)) {
     table.fail("fails_after_s", "must be at least within_s, which this step must also set");
@@ -154,8 +156,8 @@ LessonStep read_step(const haptics::TomlTable& table) {
   return step;
 }
 
-// Adds three steps for shift_to = "3": clutch down, lever, clutch up. The first step prepares the second and may be
-// skipped; the shift itself may not.
+// Adds three steps for a line such as `shift_to = "3"`: clutch down, shift into the gear, clutch up. Only the first
+// step may be skipped.
 void add_shift(const haptics::TomlTable& table, std::vector<LessonStep>& steps) {
   const int gear = read_gear(table, "shift_to");
   if (gear == haptics::kNeutralGear)
@@ -193,7 +195,7 @@ bool has(const std::vector<ErrorKind>& kinds, ErrorKind kind) noexcept {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-// Reads [faults]: "counts" or "fails" for each kind of error that this lesson checks.
+// Reads the table [faults], which contains "counts" or "fails" for each kind of error that this lesson assesses.
 void read_error_rules(const haptics::TomlTable& table, Lesson& lesson) {
   for (int i = 0; i < kErrorKindCount; ++i) {
     const auto kind = static_cast<ErrorKind>(i);
@@ -206,7 +208,8 @@ void read_error_rules(const haptics::TomlTable& table, Lesson& lesson) {
     table.fail({}, "[faults] must name at least one error, or the lesson's grade would mean nothing");
 }
 
-// True if a step has a target speed. Without one, a shift can be early or late only if the lesson has a band.
+// True if a step has a target speed. Without target speeds, a shift can be too early or too late only if the lesson has
+// an upshift band.
 bool has_speeds(const Lesson& lesson) {
   return std::any_of(lesson.steps.begin(), lesson.steps.end(),
                      [](const LessonStep& step) { return step.at.has_value(); });
@@ -240,27 +243,27 @@ void read_steps(const haptics::TomlTable& root, Lesson& lesson) {
       lesson.steps.push_back(read_step(table));
     }
   }
-  if (lesson.steps.empty()) root.fail("step", "is missing: write one [[step]] for each thing to do");
+  if (lesson.steps.empty()) root.fail("step", "is missing: write one [[step]] for each action");
   if (lesson.steps.size() > kMaxSteps)
     root.fail("step", "has more than 64 steps (each shift_to counts as three); split the lesson in two");
   for (const haptics::TomlTable& table : root.tables("abort")) lesson.aborts.push_back(read_abort(table));
 }
 
-// A gear can be wrong only if a step asks for one.
+// Rejects the rule `wrong_gear` in a lesson that never asks for a gear.
 void check_wrong_gear(const haptics::TomlTable& errors, const Lesson& lesson) {
   const auto asks = [](const LessonStep& step) { return step.gear != haptics::kNeutralGear; };
   const std::string_view key = to_string(ErrorKind::wrong_gear);
   if (!errors.has(key) || std::any_of(lesson.steps.begin(), lesson.steps.end(), asks)) return;
-  errors.fail(key, "no step asks for a gear, so none could be wrong");
+  errors.fail(key, "no step asks for a gear, so no gear could be wrong");
 }
 
-// A step can be slow only if it has a time limit, and a lesson with a time limit for a step must check slow_step.
+// Rejects the rule `slow_step` in a lesson without time limits for steps, and time limits for steps without this rule.
 void check_slow_step(const haptics::TomlTable& root, const Lesson& lesson) {
   const auto timed = [](const LessonStep& step) { return step.within.has_value(); };
   const bool has = std::any_of(lesson.steps.begin(), lesson.steps.end(), timed);
   const std::string_view key = to_string(ErrorKind::slow_step);
   const haptics::TomlTable errors = root.table("faults");
-  if (errors.has(key) && !has) errors.fail(key, "no step sets within_s, so none could be slow");
+  if (errors.has(key) && !has) errors.fail(key, "no step sets within_s, so no step could be slow");
   if (has && !errors.has(key)) errors.fail(key, "is missing, but a step sets within_s");
   const auto fails = [](const LessonStep& step) { return step.fails_after.has_value(); };
   const bool may_fail = std::any_of(lesson.steps.begin(), lesson.steps.end(), fails);
@@ -268,7 +271,7 @@ void check_slow_step(const haptics::TomlTable& root, const Lesson& lesson) {
     errors.fail(key, "must be \"fails\", because a step sets fails_after_s");
 }
 
-// The steps' hold times must fit into the lesson's time limit.
+// Rejects a lesson whose steps must be held, in total, for at least the lesson's time limit.
 void check_times(const haptics::TomlTable& root, const Lesson& lesson) {
   double held = 0.0;
   for (const LessonStep& step : lesson.steps) held += step.until.held;

@@ -14,7 +14,7 @@
 
 namespace gearshift::lessons {
 
-// All terms that are set must hold at the same time, for `held` seconds without a break.
+// Met when all terms that are set have been true together for `held` seconds without a break.
 struct DriveCondition {
   std::optional<int> gear;
   std::optional<bool> ignition, running, clutch_locked;
@@ -27,22 +27,23 @@ struct DriveCondition {
   std::optional<double> hand_brake_above, hand_brake_below;  // [1]
   std::optional<double> engine_above, engine_below;          // [rad/s]
   std::optional<double> speed_above, speed_below;            // [m/s]
-  std::optional<double> distance_above;                      // [m] driven forward since the lesson began
-  std::optional<double> rolled_back_above;                   // [m] rolled back since the step began
+  std::optional<double> distance_above;                      // [m] distance driven forward since the lesson began
+  std::optional<double> rolled_back_above;                   // [m] distance rolled back since the step began
   double held = 0.0;                                         // [s]
 };
 
 struct LessonStep {
-  std::string prompt;  // "Press the clutch all the way down."
+  std::string prompt;  // for example "Press the clutch all the way down."
   std::string hint;    // shown when the step takes too long; may be empty
   DriveCondition until;
   int gear = haptics::kNeutralGear;  // gear that the guidance leads to; kNeutralGear: none
   double patience = 8.0;             // [s] time before the hint is shown
-  std::optional<double> within{};    // [s] a slower step is the error slow_step
-  // [s] A slower step fails the lesson, if the lesson fails on slow_step. >= within; empty: equal to within.
+  std::optional<double> within{};    // [s] time limit; a slower step is the error slow_step
+  // [s] Time after which a slow step fails the lesson, if the lesson fails on `slow_step`. At least `within`. If it is
+  // empty, `within` applies.
   std::optional<double> fails_after{};
-  bool call = false;            // prompt shown in both modes, because the learner cannot know when to act
-  bool may_be_skipped = false;  // prepares the next step, and is done when the next step is done
+  bool call = false;            // the prompt is shown in every LessonMode, because the learner cannot know when to act
+  bool may_be_skipped = false;  // prepares the next step; skipped if the next step is done first
   std::optional<double> at{};   // [m/s] road speed at which the gear of this step should be engaged
 };
 
@@ -65,16 +66,16 @@ struct Lesson {
   std::string title;
   std::string goal;  // shown before the drive
   std::string task;  // skill that the lesson trains: "moving_off", "upshift", ...
-  std::string car;   // name; empty: the selected car
-  std::string gate;  // name; empty: the car's gate
+  std::string car;   // name of the car; empty: the car that the user selected
+  std::string gate;  // name of the gate; empty: the car's own gate
   LessonStart start;
   std::vector<LessonStep> steps;
   std::vector<LessonAbort> aborts;
   std::vector<ErrorKind> fails_on;          // "fails" in the file: any of these errors fails the lesson
-  std::vector<ErrorKind> counted;           // "counts": these errors cost points. Kinds in neither list are notes
+  std::vector<ErrorKind> counted;           // "counts" in the file: these errors cost points; all others are notes
   double shift_from = 0.0, shift_to = 1e9;  // [rad/s] engine speed band for upshifts
-  bool band_of_car = false;                 // the band is that of the car, see lesson_in_car()
-  double pass_grade = 6.0;                  // [1] of 10
+  bool band_of_car = false;                 // use the car's band, see lesson_in_car()
+  double pass_grade = 6.0;                  // [1] 0 to 10
   double time_limit = 120.0;                // [s]
   std::string text;                         // the whole file
   std::string file;                         // for messages
@@ -84,16 +85,17 @@ struct Lesson {
 Lesson read_lesson(const std::filesystem::path& file);
 Lesson parse_lesson(std::string_view text, const std::string& file_name);
 
-// True if the lesson fails on that kind of error.
+// True if the lesson fails on this kind of error.
 bool fails_on(const Lesson& lesson, ErrorKind kind) noexcept;
 
-// True if the lesson fails on that kind of error or deducts points for it.
+// True if the lesson fails on this kind of error or deducts points for it.
 bool assesses(const Lesson& lesson, ErrorKind kind) noexcept;
 
-// Tells the learner which errors fail the lesson: "You fail if you stall or dump the clutch." Empty if none does.
+// Tells the learner which errors fail the lesson, for example "You fail if you stall or dump the clutch." Empty if no
+// error fails the lesson.
 std::string failing_errors_sentence(const Lesson& lesson);
 
-// The lesson as driven in that car: with the car's upshift band, if the lesson leaves the band to the car.
+// Returns the lesson as driven in this car: with the car's upshift band, if the lesson uses the car's band.
 Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car);
 
 }  // namespace gearshift::lessons

@@ -23,7 +23,7 @@ constexpr std::string_view to_string(LessonEnd end) noexcept {
   return kNames[static_cast<std::size_t>(end)];
 }
 
-// Points deducted, and the error they were deducted for.
+// Points deducted for one driving error.
 struct Deduction {
   std::size_t error = 0;  // index into LessonResult::errors
   double points = 0.0;    // [1] of 10
@@ -34,10 +34,10 @@ struct LessonResult {
   std::string task;
   LessonMode mode = LessonMode::follow_me;
   LessonEnd end = LessonEnd::running;
-  bool guided = false;      // guidance was active: no grade
-  bool is_complete = true;  // no sample and no force was lost; otherwise there is no grade
+  bool guided = false;      // guidance was active, so the run is not graded
+  bool is_complete = true;  // no samples were lost and forces were on; otherwise the run is not graded
   bool had_forces = true;   // false if the run is incomplete because the lever had no forces
-  double begin = 0.0;       // [s] on the loop's clock
+  double begin = 0.0;       // [s] on the haptic loop's clock
   double duration = 0.0;    // [s]
   double grade = 0.0;       // [1] 0 to 10: 10 minus the deductions; 0 if not finished
   bool passed = false;

@@ -17,12 +17,12 @@
 namespace gearshift::lessons {
 namespace {
 
-// [s] extra time for a shift in progress after the last step (engineering value)
+// [s] Longest wait after the last step for a shift in progress to end. Engineering value.
 constexpr double kMaxShiftOverrun = 3.0;
-// [s] Time to read the two prompts that appear while the clutch is down: for each, 0.75 s to react to an expected
+// [s] Time to read the two prompts that appear while the clutch is down. Each takes 0.75 s to react to an expected
 // signal and 0.3 s to read (Green. How long does it take to stop? 2000).
 constexpr double kReading = 2.0 * 1.05;
-constexpr double kMaxOffCourseTime = 3.0;  // [s] after this time in a wrong gear, a hint says so (engineering value)
+constexpr double kMaxOffCourseTime = 3.0;  // [s] time in a wrong gear after which a hint is shown (engineering value)
 
 void check_gear(const Lesson& lesson, const haptics::Gate& gate, int gear) {
   if (gear == haptics::kNeutralGear || haptics::slot_of_gear(gate, gear) != haptics::kNoSlot) return;
@@ -56,7 +56,7 @@ struct LessonRun::State {
   void begin(const vehicle::DriveSample& sample);
   void measure(const vehicle::DriveSample& sample, double dt);
   void add_shift(const std::optional<ShiftRecord>& ended);
-  void judge(std::vector<DrivingError> errors);
+  void apply_errors(std::vector<DrivingError> errors);
   void attribute(DrivingError& error) const;
   int gear_wanted(int gear) const noexcept;
   double speed_wanted(int gear) const noexcept;
@@ -88,10 +88,10 @@ struct LessonRun::State {
   bool began = false;
   double start_distance = 0.0;  // [m]
   double start_slip = 0.0;      // [J]
-  double highest = 0.0;         // [m] largest distance since the step began
+  double highest = 0.0;         // [m] largest distance reached in the current step
   double step_began = 0.0;      // [s]
-  double steps_done = 0.0;      // [s] when a step was last completed
-  double on_course = 0.0;       // [s] when the car was last in a gear that the step allows
+  double steps_done = 0.0;      // [s] time when the last step was completed
+  double on_course = 0.0;       // [s] time when the car was last in a gear that the step allows
 };
 
 LessonRun::LessonRun(const Lesson& lesson, const vehicle::CarSpec& car, const haptics::Gate& gate,
@@ -149,19 +149,19 @@ void LessonRun::State::measure(const vehicle::DriveSample& sample, double dt) {
   const std::optional<ShiftRecord> ended = meter.add(sample);
   detector.add(sample, gear_wanted(sample.car.gear), meter.is_open(), speed_wanted(sample.car.gear));
   add_shift(ended);
-  judge(detector.drain_errors());
+  apply_errors(detector.drain_errors());
 }
 
 void LessonRun::State::add_shift(const std::optional<ShiftRecord>& ended) {
   if (!ended) return;
-  detector.judge(*ended);
+  detector.check_shift(*ended);
   result.shifts.push_back(*ended);
   new_shifts.push_back(*ended);
   for (DrivingError& error : result.errors) attribute(error);
 }
 
-// Kinds of errors that this lesson does not check become notes.
-void LessonRun::State::judge(std::vector<DrivingError> errors) {
+// An error of a kind that this lesson does not assess becomes a note.
+void LessonRun::State::apply_errors(std::vector<DrivingError> errors) {
   for (DrivingError& error : errors) {
     const bool counts = assesses(lesson, error.kind);
     if (!counts) error.severity = Severity::note;
@@ -172,14 +172,15 @@ void LessonRun::State::judge(std::vector<DrivingError> errors) {
   if (!errors.empty()) grade_result(lesson, result);
 }
 
-// Assigns an error to the shift during which it happened, whichever of the two is reported first.
+// Assigns an error to the shift in which the error was made. Error and shift may be reported in any order.
 void LessonRun::State::attribute(DrivingError& error) const {
   for (const ShiftRecord& record : result.shifts) {
     if (error.shift < 0 && error.time >= record.begin && error.time <= record.end) error.shift = record.number;
   }
 }
 
-// Returns `gear` if this step, or one reachable by skipping, asks for it; else the last gear that these steps ask for.
+// Considers the current step and the steps that can be reached by skipping. Returns `gear` if one of them asks for it,
+// otherwise the gear of the last step among them that asks for a gear.
 int LessonRun::State::gear_wanted(int gear) const noexcept {
   int wanted = haptics::kNeutralGear;
   for (std::size_t i = view.step; !all_done() && i <= view.step + ahead.size(); ++i) {
@@ -189,7 +190,7 @@ int LessonRun::State::gear_wanted(int gear) const noexcept {
   return wanted;
 }
 
-// Road speed [m/s] at which this step, or one reachable by skipping, wants `gear` engaged; 0: any.
+// Road speed at which the current step, or a step that can be reached by skipping, asks for `gear` [m/s]; 0: any speed.
 double LessonRun::State::speed_wanted(int gear) const noexcept {
   for (std::size_t i = view.step; !all_done() && i <= view.step + ahead.size(); ++i) {
     if (lesson.steps[i].at && lesson.steps[i].until.gear == gear) return *lesson.steps[i].at;
@@ -207,8 +208,8 @@ bool LessonRun::State::aborts(const vehicle::DriveSample& sample) {
   return false;
 }
 
-// A step that may be skipped is done when a later one is, so that the learner is not held up. A later step counts only
-// if its condition was false when this step began.
+// A step that may be skipped also ends when a later step is done, so that it does not block the learner. The later step
+// counts as done only if its condition was false when the current step began.
 void LessonRun::State::follow_steps(const vehicle::DriveSample& sample) {
   while (!all_done()) {
     const bool done = held.update(lesson.steps[view.step].until, sample, progress());
@@ -221,7 +222,7 @@ void LessonRun::State::follow_steps(const vehicle::DriveSample& sample) {
   }
 }
 
-// Number of steps skipped now, including the current one; 0: none.
+// Number of steps that the learner has just skipped, including the current step; 0: none.
 std::size_t LessonRun::State::steps_ahead(const vehicle::DriveSample& sample) {
   std::size_t skipped = 0;
   for (std::size_t i = 0; i < ahead.size(); ++i) {
@@ -231,8 +232,7 @@ std::size_t LessonRun::State::steps_ahead(const vehicle::DriveSample& sample) {
   return skipped;
 }
 
-// Judges the duration of the step that was completed, of a skipped step (until the next one was completed), or of the
-// step in which the lesson ended.
+// Judges how long the current step took until `time` [s], when the step was completed or skipped, or the lesson ended.
 void LessonRun::State::judge_time(double time) {
   const LessonStep& step = lesson.steps[view.step];
   const double took = time - step_began;
@@ -240,7 +240,7 @@ void LessonRun::State::judge_time(double time) {
   DrivingError error{ErrorKind::slow_step, error_severity(ErrorKind::slow_step, took / *step.within), time, took};
   error.step = step.prompt;
   error.wanted = *step.within;
-  judge({error});
+  apply_errors({error});
 }
 
 void LessonRun::State::go_to(std::size_t step) {
@@ -254,7 +254,7 @@ void LessonRun::State::go_to(std::size_t step) {
   view.prompt = prompted ? lesson.steps[step].prompt : lesson.goal;
 }
 
-// In a wrong gear the step can never complete, so this hint is shown whatever the hint style.
+// In a wrong gear the step can never be completed, so the hint to change gear is shown in every hint style.
 void LessonRun::State::update_hint(const vehicle::DriveSample& sample) {
   if (all_done()) return;
   const LessonStep& step = lesson.steps[view.step];
@@ -267,14 +267,15 @@ void LessonRun::State::update_hint(const vehicle::DriveSample& sample) {
   }
 }
 
-// Gear that the earlier steps left the car in.
+// Returns the gear in which the steps before `index` leave the car.
 int LessonRun::State::gear_before(std::size_t index) const noexcept {
   int gear = lesson.start.gear;
   for (std::size_t i = 0; i < index; ++i) gear = lesson.steps[i].until.gear.value_or(gear);
   return gear;
 }
 
-// Returns the hint from the file; if there is none and the step waits for a gear, the lever's path in this gate.
+// Returns the hint from the lesson file. If there is none and the step waits for a gear, returns a description of the
+// lever's path to that gear.
 std::string LessonRun::State::hint_of(std::size_t index) const {
   const LessonStep& step = lesson.steps[index];
   if (!step.hint.empty() || !step.until.gear) return step.hint;
@@ -296,7 +297,7 @@ void LessonRun::State::end(LessonEnd how) {
   if (!all_done()) judge_time(last.time());
   add_shift(meter.finish());
   detector.finish();
-  judge(detector.drain_errors());
+  apply_errors(detector.drain_errors());
   grade_result(lesson, result);
   if (config.hints != HintStyle::summary) return;
   for (const DrivingError& error : result.errors) {

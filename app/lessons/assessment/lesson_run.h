@@ -1,4 +1,4 @@
-// A lesson run: follows the samples, prompts, judges, and ends the lesson.
+// One run of a lesson: processes the samples, shows prompts, judges the driving, and ends the lesson.
 //
 // The result depends only on the samples: the same drive gives the same result, live or replayed.
 #pragma once
@@ -29,7 +29,8 @@ struct LessonView {
   std::string hint;    // may be empty
   std::size_t step = 0, steps = 0;
   int guided_gear = haptics::kNeutralGear;
-  std::vector<std::string> feedback;  // so far, newest last: "The clutch came up 0.12 s before the gear was in."
+  // Feedback sentences so far, newest last, for example "The clutch came up 0.12 s before the gear was in."
+  std::vector<std::string> feedback;
 };
 
 class LessonRun {
@@ -47,9 +48,9 @@ class LessonRun {
   const LessonView& view() const noexcept;
   bool is_over() const noexcept;
   bool is_in_shift() const noexcept;
-  // The result so far; final once is_over().
+  // The result so far. It is final once is_over() is true.
   const LessonResult& result() const noexcept;
-  // Shifts that ended since the last call, for the history.
+  // Returns the shifts that ended since the last call.
   std::vector<ShiftRecord> drain_shifts();
 
  private:

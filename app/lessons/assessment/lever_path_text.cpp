@@ -6,10 +6,10 @@
 namespace gearshift::lessons {
 namespace {
 
-// Position of a gear. Neutral is in the column that the spring pulls towards.
+// Position of a gear in the gate. Neutral is in the column that the spring pulls the lever to.
 struct Place {
   int column = 0;
-  int side = 0;  // -1 back, 0 aisle, +1 forward
+  int side = 0;  // -1: back, 0: neutral, +1: forward
 };
 
 Place place_of(const haptics::Gate& gate, int gear) noexcept {
@@ -25,7 +25,8 @@ bool is_locked(const haptics::Gate& gate, int gear, haptics::LockoutKind kind) n
                      });
 }
 
-// Text for the motion along the aisle. The spring pulls towards the neutral column and resists motion away from it.
+// Describes the sideways motion in neutral. The spring pulls towards the neutral column and resists motion away from
+// it.
 std::string across(const haptics::Gate& gate, int from, int to) {
   if (to == gate.neutral_column) return "let the spring pull the lever across";
   const std::string side = to > from ? "right" : "left";

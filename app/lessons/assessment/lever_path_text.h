@@ -7,10 +7,10 @@
 
 namespace gearshift::lessons {
 
-// For example "Straight back." or "Into neutral, to the right against the spring, then forward." from: kNeutralGear for
-// a lever at rest in the aisle. Both gears must be in the gate.
+// Returns a sentence such as "Straight back." or "Into neutral, to the right against the spring, then forward." `from`:
+// current gear, or kNeutralGear. Both gears must exist in the gate.
 std::string describe_lever_path(const haptics::Gate& gate, int from, int to);
 
-std::string gear_word(int gear);  // "first", "reverse", "neutral"; "gear 7" above sixth
+std::string gear_word(int gear);  // for example "first", "reverse" or "neutral"; "gear 7" above sixth
 
 }  // namespace gearshift::lessons

@@ -3,16 +3,16 @@
 
 namespace gearshift::lessons {
 
-// The pedal counts as down from the bite point on, and as up once it is kBand above the bite point. Even so, up_at() is
-// the time at which the pedal passed the bite point.
+// The pedal counts as down when it reaches the bite point, and as up when it has risen kBand above the bite point.
+// up_at() is nevertheless the time at which the pedal passed the bite point itself.
 class PedalEdge {
  public:
-  // [1] fraction of the pedal's travel; more than the noise of a potentiometer (engineering value)
+  // [1] hysteresis as a fraction of pedal travel; more than the noise of a potentiometer (engineering value)
   static constexpr double kBand = 0.02;
 
   explicit PedalEdge(double bite) noexcept : bite_(bite) {}
 
-  // pedal [1]: 0 up, 1 down; time [s].
+  // `pedal` [1]: 0 is up, 1 is down. `time` [s].
   void update(double pedal, double time) noexcept {
     const bool was = down_;
     if (pedal >= bite_) {

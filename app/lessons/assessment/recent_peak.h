@@ -7,8 +7,8 @@
 
 namespace gearshift::lessons {
 
-// Stores the value of largest magnitude, with its sign, for each of ten parts of the window. So the result covers 90 to
-// 100 % of the window. Values that are not finite are skipped.
+// Divides the window into ten parts and stores, for each part, the value of largest magnitude with its sign. So the
+// result covers the last 90 to 100 % of the window's length. Values that are not finite are skipped.
 class RecentPeak {
  public:
   explicit RecentPeak(double window) noexcept : part_(window / kParts) {}  // [s]

@@ -1,12 +1,12 @@
-// The names of a shift's quantities, with their units, as database columns and CSV headers use them.
+// Names of a shift's quantities with their units, used as database columns and CSV headers.
 #pragma once
 
 #include "app/lessons/assessment/shift_record.h"
 
 namespace gearshift::lessons {
 
-// Calls visit(name, field) for every double and every count, in the order of shift_record.h. record: a ShiftRecord,
-// const or not.
+// Calls visit(name, field) for every double and every count of `record`, in the order of ShiftRecord. The record may be
+// const.
 constexpr void each_figure(auto& record, auto&& visit) {
   visit("begin_s", record.begin);
   visit("end_s", record.end);

@@ -13,20 +13,20 @@
 namespace gearshift::lessons {
 namespace {
 
-// Engineering values, except the 5 % and the 2 s, which are defined in shift_record.h.
-constexpr double kTorqueWindow = 0.5;  // [s] time before a shift, long enough to include lifting the throttle
+// Engineering values, except 5 % (kTorqueGapFraction) and 2 s (kGiveUpTime), which shift_record.h defines.
+constexpr double kTorqueWindow = 0.5;  // [s] window for the torque before a shift; includes the release of the throttle
 constexpr double kTorqueGapFraction = 0.05;
-constexpr double kMinTorque = 5.0;         // [N m] at the wheels; with less torque before the shift there is no gap
-constexpr double kFirstTorque = 1.0;       // [N m] clutch torque, above the drag of an open clutch
-constexpr double kGiveUpTime = 2.0;        // [s] time with the clutch up and no attempt until the driver has given up
-constexpr double kMinPush = 3.0;           // [N] push on ring or dogs that counts as still trying
-constexpr double kMinLeverMotion = 0.002;  // [m] an abandoned lever is in use again once it has moved this far
-constexpr double kMaxSlipTime = 5.0;       // [s] with gear in and clutch up, the shift is over after this much slip
+constexpr double kMinTorque = 5.0;         // [N m] wheel torque before the shift below which no torque gap is measured
+constexpr double kFirstTorque = 1.0;       // [N m] clutch torque that counts as engaged; exceeds an open clutch's drag
+constexpr double kGiveUpTime = 2.0;        // [s] a shift is given up after this time with the clutch up and no attempt
+constexpr double kMinPush = 3.0;           // [N] smallest force on ring or dogs that counts as an attempt
+constexpr double kMinLeverMotion = 0.002;  // [m] smallest lever movement that may begin a shift after an abandoned one
+constexpr double kMaxSlipTime = 5.0;       // [s] a shift ends after this much slip with the gear in and the pedal up
 constexpr double kThrottleOn = 0.08;       // [1]
 constexpr double kThrottleOff = 0.04;      // [1]
-constexpr double kPedalOverlap = 0.2;      // [s] pedals moved within this time count as moved together: one full stroke
-constexpr double kMinChord = 5e-4;         // [m] shortest lever motion that counts: seven counts of the paper's encoder
-constexpr double kMinPath = 0.005;         // [m] efficiency is not computed for shorter paths
+constexpr double kPedalOverlap = 0.2;      // [s] pedal steps within this time, one full stroke, count as simultaneous
+constexpr double kMinChord = 5e-4;         // [m] shortest lever movement that counts; longer than the encoder's noise
+constexpr double kMinPath = 0.005;         // [m] path efficiency is not computed for shorter paths
 
 double area(double before, double now, double dt) noexcept {
   return 0.5 * (before + now) * dt;
@@ -87,25 +87,25 @@ bool ShiftMeter::rests_in(const vehicle::DriveSample& now, int gear) const noexc
   return slot.gear == gear && std::abs(now.lever.proxy.y) >= slot.engage_depth;
 }
 
-// Slot that the lever is in, if it is past the mouth; else kNoSlot.
+// Returns the slot that the lever is in, if the lever is past the slot's chamfered entry. Otherwise returns kNoSlot.
 int ShiftMeter::slot_past_mouth(const vehicle::DriveSample& now) const noexcept {
   const bool behind = std::abs(now.lever.proxy.y) > gate_.half_aisle + gate_.chamfer;
   return behind ? haptics::slot_at(gate_, now.lever.proxy) : haptics::kNoSlot;
 }
 
-// True if the lever touches ring or dogs of a gear other than the one it came from.
+// True if the lever touches ring or dogs of a gear other than the old gear.
 bool ShiftMeter::is_trying_another(const vehicle::DriveSample& now) const noexcept {
   const int slot = slot_past_mouth(now);
   return vehicle::touches_dogs(now) && slot != haptics::kNoSlot &&
          haptics::slot_of(gate_, slot).gear != open_.record.from;
 }
 
-// True if the lever is pressed against ring or dogs.
+// True if the lever pushes against ring or dogs.
 bool ShiftMeter::is_pushing(const vehicle::DriveSample& now) const noexcept {
   return vehicle::touches_dogs(now) && glm::length(now.lever.f_h) > kMinPush;
 }
 
-// True if the lever is still where it was when the last shift was abandoned.
+// True if the lever is still where the last shift was abandoned.
 bool ShiftMeter::is_where_abandoned(const vehicle::DriveSample& now) const noexcept {
   return left_slot_ != haptics::kNoSlot && haptics::slot_at(gate_, now.lever.proxy) == left_slot_ &&
          std::abs(std::abs(now.lever.proxy.y) - left_depth_) < kMinLeverMotion;
@@ -118,7 +118,8 @@ bool ShiftMeter::begins(const vehicle::DriveSample& now) const noexcept {
   return slot_past_mouth(now) != haptics::kNoSlot || now.car.gear != haptics::kNeutralGear;
 }
 
-// True if another shift begins while the last one is pending or its clutch still slips.
+// True if the next shift begins before the previous record was returned. Either that record is pending, or the gear is
+// in and the pedal is up (`coupled`), but the clutch still slips.
 bool ShiftMeter::begins_next(const vehicle::DriveSample& now) const noexcept {
   return (open_.coupled || stage_ == Stage::settling) && (pedal_.went_down() || now.car.gear != open_.record.to);
 }
@@ -132,7 +133,8 @@ void ShiftMeter::begin(const vehicle::DriveSample& now, bool throttle_was_on) {
   open_.torque_before = torque_.value();
   open_.slip_before = last_.car.slip_energy;
   open_.lever_path = {now.lever.proxy, now.lever.lever, 0.0};
-  // After the request for guidance ends, the force takes this time to fade.
+  // After the last request for guidance, the force fades for kGuidanceFadeTime. A shift that begins in this time still
+  // counts as guided.
   open_.record.guided = now.time() - guided_at_ <= vehicle::kGuidanceFadeTime;
   if (!throttle_was_on) open_.record.steps.push_back(ShiftStep::throttle_off);
   stage_ = Stage::open;
@@ -171,7 +173,8 @@ void ShiftMeter::follow_clutch(const vehicle::DriveSample& now) {
   open_.record.guided = open_.record.guided || now.controls.guidance > 0.0;
 }
 
-// A gear is left when the lever leaves its rest position; neutral is left when the lever enters a slot.
+// Records when the lever leaves the old gear, and which slots it enters. A gear counts as left when the lever leaves
+// the gear's rest position; neutral counts as left when the lever enters a slot.
 void ShiftMeter::follow_lever(const vehicle::DriveSample& now) {
   const int slot = slot_past_mouth(now);
   const bool is_out =
@@ -190,7 +193,8 @@ void ShiftMeter::follow_lever(const vehicle::DriveSample& now) {
   open_.last_slot = slot;
 }
 
-// Steps within one sample, and two pedals moved together, are recorded in the order taught.
+// Records the steps of the shift. Steps that happen within one sample, and two pedals moved together, are recorded in
+// the taught order.
 void ShiftMeter::follow_steps(const vehicle::DriveSample& now, bool throttle_was_on) {
   auto& steps = open_.record.steps;
   const int gear = now.car.gear, before = last_.car.gear;
@@ -229,7 +233,7 @@ void ShiftMeter::follow_gear(const vehicle::DriveSample& now) {
   open_.coupled = open_.gear_in && !pedal_.is_down();
 }
 
-// Compares the speeds of engine and new gear just before the clutch transmits torque.
+// Records the difference between the speeds of engine and new gear just before the clutch transmits torque.
 void ShiftMeter::measure_rev_error(const vehicle::DriveSample& now) {
   if (!open_.gear_in || open_.has_rev_error) return;
   const bool locks = now.car.clutch_locked && !pedal_.is_down();
@@ -261,7 +265,7 @@ void ShiftMeter::integrate(const vehicle::DriveSample& now, double dt) {
   if (size > kMinTorque && drive < kTorqueGapFraction * size) record.torque_gap += dt;
 }
 
-// Also called after the end of the shift, while the filter still responds to the shift.
+// Also called after the end of the shift, while the jerk filter settles.
 void ShiftMeter::integrate_comfort(const vehicle::DriveSample& now, double dt) {
   open_.record.jerk_peak = std::max(open_.record.jerk_peak, std::abs(filter_.jerk()));
   open_.fourth_power += area(fourth(last_.car.acceleration), fourth(now.car.acceleration), dt);
@@ -289,7 +293,8 @@ bool ShiftMeter::is_shift() const noexcept {
   return open_.dogs_out || open_.tried;
 }
 
-// Does not depend on where the lever is: it may be in a mouth, or off the rest position of an engaged gear.
+// Updates how the shift could end now, if at all (`rest`), and since when (`rest_since`). Ignores the lever's position,
+// because a shift can also end with the lever in a slot's mouth or away from the engaged gear's rest position.
 void ShiftMeter::update_rest(const vehicle::DriveSample& now) {
   Rest rest = pedal_.is_down() || is_pushing(now) ? Rest::busy : Rest::given_up;
   if (open_.coupled) rest = Rest::coupled;
@@ -303,7 +308,7 @@ bool ShiftMeter::has_ended(const vehicle::DriveSample& now) const noexcept {
   return open_.rest == Rest::given_up && rested > kGiveUpTime;
 }
 
-// is_complete: false if the drive ends before the shift does.
+// `is_complete`: false if the drive ends before the shift does.
 void ShiftMeter::end(const vehicle::DriveSample& at, bool is_complete) {
   ShiftRecord& record = open_.record;
   record.end = at.time();
@@ -315,7 +320,7 @@ void ShiftMeter::end(const vehicle::DriveSample& at, bool is_complete) {
       record.to == haptics::kNeutralGear ? open_.tried && !was_in(open_.tried_gear) : record.to == record.from;
   if (open_.gear_in) record.lever_time = open_.gear_in_at - open_.left_at;
   if (open_.clutch_used && open_.left) record.clutch_lead = open_.left_at - open_.clutch_down_at;
-  // A clutch released too early counts even if the driver pressed it again because the gear would not go in.
+  // A clutch release before the gear was in counts, even if the driver then pressed the clutch again.
   const double last_up = !is_complete && pedal_.is_down() ? at.time() : pedal_.up_at();
   const double up_at = open_.early_up_at > 0.0 ? open_.early_up_at : last_up;
   if (open_.clutch_used && open_.gear_in) record.clutch_lag = up_at - open_.gear_in_at;

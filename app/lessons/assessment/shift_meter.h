@@ -18,18 +18,19 @@
 
 namespace gearshift::lessons {
 
-// Integrals use the trapezoidal rule; times are accurate to one period. README.md in this folder defines what
-// shift_record.h leaves open. Do not use on the haptic thread: records allocate memory.
+// Detects and measures the shifts of a drive. Integrals use the trapezoidal rule; times are accurate to one period.
+// README.md defines details that shift_record.h leaves open. Do not use on the haptic thread, because records allocate
+// memory.
 class ShiftMeter {
  public:
   ShiftMeter(const vehicle::CarSpec& car, const haptics::Gate& gate);
 
-  // Call every cycle, in order. Returns the record of a shift that has ended, kJerkSettlingTime after its end or when
-  // the next one begins. A shift that is abandoned before the gear was left leaves no record.
+  // Call every cycle, in order. Returns a shift's record kJerkSettlingTime after the shift has ended, or earlier if the
+  // next shift begins. An abandoned shift has a record only if the old gear was left or a different gear was tried.
   std::optional<ShiftRecord> add(const vehicle::DriveSample& sample);
 
-  // Call at the end of the drive. Returns a pending shift, or the shift in progress if a gear was left or a different
-  // gear tried. Steps that were still to come do not count as out of place.
+  // Call at the end of the drive. Returns the record of a pending shift, or of the shift in progress if the old gear
+  // was left or a different gear was tried. Steps missing because the drive ended do not count as out of place.
   std::optional<ShiftRecord> finish();
 
   bool is_open() const noexcept { return stage_ == Stage::open; }  // a shift has begun and not ended
@@ -38,7 +39,7 @@ class ShiftMeter {
 
  private:
   enum class Stage { idle, open, settling };
-  // coupled: gear in, clutch up; given_up: clutch up without a new gear, and no further attempt
+  // `coupled`: gear in and clutch up. `given_up`: clutch up without a new gear, and no further attempt.
   enum class Rest { busy, coupled, given_up };
 
   struct LeverPath {         // path of the lever as a sum of chords
@@ -60,17 +61,17 @@ class ShiftMeter {
     double rest_since = 0.0;      // [s]
     double fourth_power = 0.0;    // [m^4/s^7] integral of the acceleration's fourth power
     Rest rest = Rest::busy;
-    bool left = false;      // the lever has left the gear's rest position, or neutral
+    bool left = false;      // the lever has left the old gear's rest position, or has left neutral
     bool dogs_out = false;  // the old gear was disengaged
     bool tried = false;     // a gear other than the old one was tried
     bool gear_in = false;   // a gear has been engaged since the old one was left
-    bool coupled = false;   // gear_in, and the clutch is up
+    bool coupled = false;   // gear_in is true and the clutch is up
     bool clutch_used = false;
     bool clutch_is_down = false;
     bool has_rev_error = false;
     int tried_gear = haptics::kNeutralGear;
     std::array<bool, haptics::kMaxSlots> engaged{};  // gears engaged during the shift
-    int last_slot = haptics::kNoSlot;                // slot that the lever was in at the last sample, past the mouth
+    int last_slot = haptics::kNoSlot;                // slot of the last sample; kNoSlot if not past the mouth
     std::array<int, haptics::kMaxSlots> entered{};
     LeverPath lever_path;
   };
@@ -114,7 +115,7 @@ class ShiftMeter {
   int gear_ = haptics::kNeutralGear;  // gear at the end of the last shift
   int left_slot_ = haptics::kNoSlot;  // slot where the lever stayed when the last shift was abandoned
   double left_depth_ = 0.0;           // [m]
-  double guided_at_ = -1e9;           // [s] last time guidance was requested
+  double guided_at_ = -1e9;           // [s] time of the last request for guidance
   std::int64_t number_ = 0;
 };
 

@@ -1,8 +1,8 @@
-// Measurements of one shift: the data behind scoring and feedback.
+// Measurements of one shift, used for grading and feedback.
 //
 // A shift begins when the clutch pedal passes its bite point downwards or the lever leaves the gear's rest position,
-// whichever is first. It ends when gear and clutch are engaged again, or when the driver gives up: 2 s with the clutch
-// up and no gear.
+// whichever is first. The shift ends when gear and clutch are engaged again, or when the driver gives up: the clutch
+// has been up for 2 s without a gear.
 #pragma once
 
 #include <cstdint>
@@ -16,42 +16,42 @@ namespace gearshift::lessons {
 enum class ShiftStep : std::uint8_t { throttle_off, clutch_down, neutral, gear, clutch_up, throttle_on };
 
 struct ShiftRecord {
-  std::int64_t number = 0;  // number within its lesson run, from 0
-  double begin = 0.0;       // [s] on the loop's clock
+  std::int64_t number = 0;  // number of the shift in its lesson run, from 0
+  double begin = 0.0;       // [s] on the haptic loop's clock
   double end = 0.0;         // [s]
   int from = haptics::kNeutralGear;
   int to = haptics::kNeutralGear;  // gear engaged at the end
-  bool guided = false;             // a guidance force was active or still fading: never graded
+  bool guided = false;             // a guidance force was active or still fading, so the shift is not graded
 
   // Time
   double clutch_time = 0.0;  // [s] time with the pedal pressed beyond the bite point
-  double lever_time = 0.0;   // [s] from leaving one gear to engaging the next
-  double torque_gap = 0.0;   // [s] time with less than 5 % of the drive torque before the shift
+  double lever_time = 0.0;   // [s] time from leaving one gear to engaging the next
+  double torque_gap = 0.0;   // [s] time with less than 5 % of the drive torque from before the shift
 
   // Engine and clutch
-  double engine_speed = 0.0;     // [rad/s] engine speed at the beginning
+  double engine_speed = 0.0;     // [rad/s] engine speed at the beginning of the shift
   double slip_energy = 0.0;      // [J]
   double slip_power_peak = 0.0;  // [W]
   // [rad/s] engine speed minus shaft speed when the clutch first transmits torque after the gear was engaged
   double rev_error = 0.0;
   double flare = 0.0;        // [rad/s] rise of engine speed while the clutch was down
-  double clutch_lead = 0.0;  // [s] from clutch down to gear left; negative: gear left first
-  // [s] from gear engaged to clutch up; negative: clutch up first, even if it was pressed again
+  double clutch_lead = 0.0;  // [s] time from clutch down to gear left; negative: gear left first
+  // [s] time from gear engaged to clutch up; negative: clutch up first, even if it was pressed again later
   double clutch_lag = 0.0;
 
   // Comfort
-  double jerk_peak = 0.0;       // [m/s^3] largest jerk of the acceleration after a 15 Hz second-order low-pass
-  double vibration_dose = 0.0;  // [m/s^1.75] VDV, ISO 2631-1: fourth-power dose of the acceleration, unweighted
+  double jerk_peak = 0.0;       // [m/s^3] largest jerk, from the acceleration after a 15 Hz second-order low-pass
+  double vibration_dose = 0.0;  // [m/s^1.75] vibration dose value (ISO 2631-1) of the unweighted acceleration
 
   // Lever
-  double force_peak = 0.0;       // [N] largest force of the hand
+  double force_peak = 0.0;       // [N] largest hand force
   double impulse = 0.0;          // [N s] integral of the hand's force over time
   double wall_work = 0.0;        // [J] work against the walls while penetration increases
   double path_length = 0.0;      // [m] distance travelled by the lever
   double path_efficiency = 1.0;  // [1] path length divided by the shortest path through the gate, >= 1
-  double overshoot = 0.0;        // [m] largest penetration: distance of the lever from the drawn lever
-  int wrong_columns = 0;         // number of slots entered off the path, without those of gears that were engaged
-  double block_time = 0.0;       // [s] time of pushing against a blocking synchroniser
+  double overshoot = 0.0;        // [m] largest penetration: distance between lever point and displayed lever
+  int wrong_columns = 0;         // number of slots entered off the path, except slots of gears that were engaged
+  double block_time = 0.0;       // [s] time spent pushing against a blocking synchroniser
   double grind_time = 0.0;       // [s]
   double grind_energy = 0.0;     // [J]
   bool missed = false;           // the driver gave up, or returned to the same gear

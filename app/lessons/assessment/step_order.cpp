@@ -12,9 +12,9 @@ namespace {
 
 using Steps = std::vector<ShiftStep>;
 
-// For each j, the edit distance between the whole of a and the first j steps of b.
+// Returns, for each j, the edit distance between all of `a` and the first j steps of `b`.
 std::vector<int> edit_distances(std::span<const ShiftStep> a, std::span<const ShiftStep> b) {
-  std::vector<int> row(b.size() + 1);  // [j] distance between the first i steps of a and the first j of b
+  std::vector<int> row(b.size() + 1);  // row[j]: distance between the first i steps of a and the first j steps of b
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 0; i < a.size(); ++i) {
     int diagonal = row[0]++;
@@ -33,8 +33,9 @@ Steps double_declutched() {
   return {throttle_off, clutch_down, neutral, clutch_up, clutch_down, gear, clutch_up, throttle_on};
 }
 
-// All variants of `order` with a blip that starts between its first clutch down and its last clutch up. The blip ends
-// in the same range or right after it, or is held into the drive and replaces the final throttle step.
+// Returns all variants of `order` with a blip (a short press of the throttle) that starts between the first clutch down
+// and the last clutch up. The throttle is released before or right after the last clutch up, or stays pressed and
+// replaces the final throttle step.
 std::vector<Steps> with_blip(const Steps& order) {
   const auto first = std::find(order.begin(), order.end(), ShiftStep::clutch_down) - order.begin() + 1;
   const auto last = order.rend() - std::find(order.rbegin(), order.rend(), ShiftStep::clutch_up) - 1;

@@ -1,4 +1,4 @@
-// The orders of a shift's steps that the lessons teach, and how far a shift deviated from them.
+// The step orders that lessons teach for a shift, and how far a driven shift deviated from them.
 #pragma once
 
 #include <span>
@@ -13,16 +13,16 @@ namespace gearshift::lessons {
 // neutral step; a shift into neutral has no gear step.
 std::vector<ShiftStep> taught_steps(int from, int to);
 
-// Smallest number of steps to insert, remove or replace that turns `steps` into one of the orders taught (Levenshtein
-// distance); swapping two steps costs 2. The orders taught are: the plain order; between two gears also double
-// declutching (clutch up and down again in neutral); into a lower gear also both of these with a blip. A blip starts
-// anywhere between the first clutch down and the last clutch up. It ends in the same range or right after it, or is
-// held into the drive. Whether the throttle was back on before the shift ended does not matter. is_complete: false if
-// the shift was cut short; missing steps at its end then do not count.
+// Smallest number of steps to insert, remove or replace to turn `steps` into a taught order (Levenshtein distance);
+// swapping two steps costs 2. Every shift may use the plain order. A shift between two gears may also use double
+// declutching: clutch up and down again in neutral. In a downshift, both orders may contain a blip, which starts
+// between the first clutch down and the last clutch up, and ends by the last clutch up, right after it, or only in the
+// drive after the shift. Whether the throttle was back on before the shift ended does not matter. `is_complete`: false
+// if the shift was cut short. Steps missing at its end then do not count.
 int steps_out_of_place(std::span<const ShiftStep> steps, int from, int to, bool is_complete = true);
 
-// The first mistake compared with the plain order. Returns `other` if the order is right, or if OrderMistake has no
-// value for the deviation.
+// Returns the first mistake relative to the plain order. Returns `other` if there is no mistake, or if OrderMistake has
+// no value for it.
 OrderMistake first_order_mistake(std::span<const ShiftStep> steps, int from, int to);
 
 }  // namespace gearshift::lessons

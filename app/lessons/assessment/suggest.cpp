@@ -21,13 +21,14 @@ bool is_weaker(const RecentResults& a, const RecentResults& b) noexcept {
   return more != 0 ? more > 0 : a.grade < b.grade;
 }
 
-// One failed run is no weakness while the lesson is still being learnt.
+// True if at least half of the recent runs failed. A lesson that was never passed counts as weak only after three runs,
+// because failed runs are normal at first.
 bool is_weak(const RecentResults& form, bool passed_once) noexcept {
   const bool tried = passed_once || form.runs >= static_cast<int>(kLastResults);
   return tried && 2 * form.failed >= form.runs;
 }
 
-// The weakest lesson that was passed once; with `only_weak`, the weakest lesson for which is_weak() is true.
+// Returns the weakest lesson among those passed once or, with `only_weak`, among those for which is_weak() is true.
 const Lesson* weakest(std::span<const Lesson> lessons, std::span<const PastResult> past, bool only_weak) {
   const Lesson* found = nullptr;
   RecentResults lowest;

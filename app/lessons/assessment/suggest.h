@@ -16,7 +16,7 @@ namespace gearshift::lessons {
 struct PastResult {
   std::string lesson;  // key
   std::string task;
-  double grade = 0.0;  // [1] of 10
+  double grade = 0.0;  // [1] 0 to 10
   bool passed = false;
 };
 std::optional<PastResult> past_result(const LessonResult& result);  // empty if not graded
@@ -26,27 +26,29 @@ struct Suggestion {
   std::string why;     // one sentence
 };
 
-// The shipped lessons in teaching order. Starting and stopping come before the first shift, as in Carnetsoft's course.
+// The shipped lessons in teaching order. Starting and stopping come before the first shift, as in the driving course by
+// Carnetsoft.
 inline constexpr std::array<std::string_view, 13> kTeachingOrder{
     "start_and_stop", "bite_point",   "moving_off",     "up_through_the_gears", "down_through_the_gears",
     "reverse",        "hill_start",   "emergency_stop", "skip_shifts",          "eco_driving",
     "rev_matching",   "another_gate", "six_speed"};
 
-// Mean grade of a task's last three results; empty if there are none. [1] of 10
+// Mean grade of a task's last three results [1], 0 to 10; empty if there are none.
 std::optional<double> task_grade(std::span<const PastResult> past, std::string_view task);
 
-// A task's last three results. The task with more failed runs is the weaker; among equals, that with the lower grade.
+// Summary of a task's last three results. The task with the larger fraction of failed runs is the weaker one; if the
+// fractions are equal, the task with the lower grade.
 struct RecentResults {
   int runs = 0, failed = 0;
-  double grade = 0.0;  // [1] of 10, mean grade
+  double grade = 0.0;  // [1] 0 to 10, mean grade
 };
 // Empty if there are no results.
 std::optional<RecentResults> recent_results(std::span<const PastResult> past, std::string_view task);
 
-// Suggests, in this order of priority: the weakest lesson that needs practice (at least half of its task's last three
-// results failed, and the lesson was passed once or the task has three results); the first lesson never passed; the
-// weakest lesson. `lessons` is in teaching order; if it is empty, so is the result. The instructor may choose a
-// different lesson.
+// Suggests the weakest lesson that needs practice. If none needs practice, suggests the first lesson never passed. If
+// all were passed, suggests the weakest lesson. A lesson needs practice if at least half of its task's last three
+// results failed, and if the lesson was passed once or the task has three results. `lessons` is in teaching order; if
+// it is empty, the result is empty, too.
 std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const PastResult> past);
 
 }  // namespace gearshift::lessons

@@ -65,15 +65,15 @@ struct Coach::State {
 
   CoachConfig config;
   LearnerMemory memory;
-  std::optional<std::string> startup_problem;  // reason why there is no history
+  std::optional<std::string> startup_problem;  // why there is no history; reported to the user once
   CoachView view;
   std::optional<Lesson> lesson;
   std::optional<LessonMode> chosen_mode;  // mode that the user chose for this lesson
   std::unique_ptr<LessonRun> run;         // the current or last trial
-  std::optional<std::uint64_t> cycle;     // number of the trial's last cycle
+  std::optional<std::uint64_t> cycle;     // number of the trial's last cycle in the haptic loop
   ForceGap forces;                        // time without forces in the trial
   bool has_saved_run = false;             // the displayed trial has a saved or pending run
-  bool is_view_stale = false;             // cycles were judged since the view was updated
+  bool is_view_stale = false;             // cycles were judged since the last update of the view
   std::string settings, recording;
 };
 
@@ -123,7 +123,7 @@ void Coach::set_help(bool on) {
 void Coach::offer(const Lesson& lesson) {
   state_->leave();
   if (!state_->lesson || state_->lesson->key != lesson.key) state_->chosen_mode.reset();
-  state_->lesson = lesson;  // both may be the same object
+  state_->lesson = lesson;
   state_->memory.reload();
   state_->refresh_view();
   state_->offer();
@@ -169,8 +169,8 @@ void Coach::add(std::span<const vehicle::DriveSample> samples) {
   if (over) state.finish_trial();
 }
 
-const LessonRun& Coach::judge(const vehicle::DriveSample& sample) {
-  if (!state_->is_driving()) throw std::logic_error("no lesson is driven");
+const LessonRun& Coach::assess(const vehicle::DriveSample& sample) {
+  if (!state_->is_driving()) throw std::logic_error("no lesson is in progress");
   state_->is_view_stale = true;
   (void)state_->process_samples({&sample, 1});
   return *state_->run;
@@ -271,7 +271,7 @@ void Coach::State::update_standings() {
   for (const Lesson& each : config.lessons) view.lessons.push_back(standing_in(each, past));
 }
 
-// A lesson chosen by the instructor has priority over the suggestion, if it is in the config.
+// Prefers the lesson that the instructor chose, if `config` contains that lesson.
 void Coach::State::suggest() {
   const std::string& wanted = memory.next_lesson();
   const auto is_wanted = [&](const Lesson& each) { return each.key == wanted; };
@@ -343,7 +343,7 @@ void Coach::State::begin(const vehicle::CarSpec& car, const haptics::Gate& gate)
   has_saved_run = false;
 }
 
-// Returns true when the trial is over; later samples do not belong to it.
+// Judges the samples up to the end of the trial and ignores later ones. Returns true if the trial is over.
 bool Coach::State::process_samples(std::span<const vehicle::DriveSample> samples) {
   for (const vehicle::DriveSample& sample : samples) {
     if (run->is_over()) break;
@@ -354,13 +354,14 @@ bool Coach::State::process_samples(std::span<const vehicle::DriveSample> samples
   return run->is_over();
 }
 
-// Detects a lost cycle, and a restarted loop, which numbers its cycles from the start again.
+// Marks the run incomplete if cycles were lost, or if the loop was restarted, which restarts the cycle numbers.
 void Coach::State::check_cycle(const vehicle::DriveSample& sample) {
   if (cycle && sample.lever.cycle != *cycle + 1) run->mark_incomplete();
   cycle = sample.lever.cycle;
 }
 
-// A trial without forces does not show what was learnt: the learner feels no walls and no synchronisers.
+// Marks the trial if the lever had no forces for too long. Such a trial is not graded, because the learner felt neither
+// walls nor synchronisers.
 void Coach::State::check_forces(const vehicle::DriveSample& sample) {
   const bool was_long = forces.is_long();
   forces.add(sample, run->is_in_shift());

@@ -20,13 +20,13 @@ enum class LessonPhase {
   over  // the result is shown
 };
 
-// A lesson of the list, with the learner's results in this lesson.
+// A lesson in the list of lessons, with the learner's results in this lesson.
 struct LessonStanding {
   std::string key, title, task;
   int trials = 0;                // number of graded trials
-  std::optional<double> grade;   // [1] of 10, grade of the last graded trial
+  std::optional<double> grade;   // [1] 0 to 10, grade of the last graded trial
   bool passed = false;           // a graded trial was passed
-  std::optional<double> best{};  // [1] of 10, best grade of all graded trials
+  std::optional<double> best{};  // [1] 0 to 10, best grade of all graded trials
 };
 
 struct CoachView {
@@ -34,7 +34,7 @@ struct CoachView {
   std::string learner;                // empty: no learner; nothing is saved
   std::vector<std::string> learners;  // known learners, sorted by name
   bool is_saving = false;             // the history is open and the learner was not deleted
-  bool learner_deleted = false;  // another program deleted the learner; nothing is saved until the user chooses one
+  bool learner_deleted = false;       // deleted by another program; nothing is saved until the user chooses a learner
 
   // Choice of the lesson
   std::vector<LessonStanding> lessons;  // in teaching order
@@ -46,7 +46,7 @@ struct CoachView {
   std::string lesson, title, goal;  // the lesson's key, title and goal; empty in phase none
   LessonMode mode = LessonMode::follow_me;
   bool help_wanted = true;  // chosen by the user; false: no trial is guided
-  double guidance = 0.0;    // [1] gain of this trial; 0: the trial is graded
+  double guidance = 0.0;    // [1] guidance gain of this trial; 0: the trial is graded
   HintStyle hints = HintStyle::prescriptive;
   bool retention = false;   // first trial after a day: unguided, without hints
   LessonView now;           // set in phases driving and over
@@ -56,7 +56,7 @@ struct CoachView {
 
   // Past runs
   std::vector<RunRow> runs;                       // the learner's runs, newest first, at most kMaxRunsShown
-  std::vector<std::vector<CommentRow>> comments;  // one list per run
+  std::vector<std::vector<CommentRow>> comments;  // in the order of `runs`
 };
 
 inline constexpr std::size_t kMaxRunsShown = 50;

@@ -8,7 +8,7 @@ namespace {
 constexpr double kMaxGapInShifts = 1.0;  // [s] engineering value
 constexpr double kMaxGap = 3.0;          // [s] engineering value
 
-// The ramp after arming counts as forces: it takes only half a second.
+// The ramp after arming counts as having forces, because it takes only half a second.
 bool has_forces(haptics::GuardState state) noexcept {
   return state == haptics::GuardState::running || state == haptics::GuardState::ramping;
 }

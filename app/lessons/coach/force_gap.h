@@ -1,4 +1,4 @@
-// Measures how long the lever had no forces during a trial, because of STOP, forces off, a fault, or not being armed.
+// Measures how long the lever had no forces during a trial, for example after STOP or a fault.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@ class ForceGap {
  public:
   void add(const vehicle::DriveSample& sample, bool in_shift) noexcept;  // call in order
 
-  // True if forces were missing for too long to judge the drive: more than 1 s within shifts or 3 s in all.
+  // True if the lever had no forces for too long to judge the drive: for more than 1 s within shifts, or more than 3 s
+  // in total.
   bool is_long() const noexcept;
 
  private:

@@ -12,8 +12,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Looks up a learner by number if the number is known, because a learner with the same name may be a different person.
-// Returns a row with number 0 if there is none.
+// Finds a learner by number, because a learner with the same name may be a different person. If the number is unknown,
+// finds the learner by name. Returns a row with number 0 if there is no such learner.
 template <class Person>
 LearnerRow row_of(std::vector<LearnerRow> rows, const Person& person) {
   for (LearnerRow& row : rows) {
@@ -23,7 +23,8 @@ LearnerRow row_of(std::vector<LearnerRow> rows, const Person& person) {
   return {};
 }
 
-// Replaces a run of which the history has only a part; inserts any other run by date.
+// Adds a pending run to `runs`. Replaces the row of the same run if it is partly saved, otherwise inserts the run by
+// date.
 void merge_pending(std::vector<RunRow>& runs, const RunRow& pending) {
   const auto same = std::find_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.id == pending.id; });
   if (same != runs.end()) {
@@ -65,7 +66,7 @@ void LearnerMemory::open(milliseconds lock_timeout) {
   }
 }
 
-// Reports the same sentence again only after the history has saved something in between.
+// Reports a problem. Repeats the same sentence only if the history has saved something in between.
 void LearnerMemory::report(const std::string& problem) {
   if (problem != reported_) problem_ = reported_ = problem;
 }
@@ -78,7 +79,7 @@ bool LearnerMemory::read(const Work& work) {
     work();
     is_read_blocked_ = false;
     return true;
-  } catch (const HistoryBusy&) {  // rare: keeps what was read before, until the next attempt
+  } catch (const HistoryBusy&) {  // the data of the last successful read stays in use
   } catch (const HistoryError& problem) {
     is_usable_ = false;
     report(problem.what());
@@ -105,7 +106,7 @@ std::vector<std::string> LearnerMemory::learners() {
   return names;
 }
 
-// Returns the learner selected before under this name, or a new one.
+// Returns the learner that was selected earlier under this name, otherwise a new learner.
 LearnerMemory::PersonPtr LearnerMemory::find_or_add_person(const std::string& name) {
   const auto known = std::find_if(people_.begin(), people_.end(),
                                   [&](const PersonPtr& person) { return person->name == name && !person->deleted; });
@@ -119,7 +120,7 @@ void LearnerMemory::set_learner(const std::string& name) {
   runs_.clear();
   next_.clear();
   load();
-  if (person_->deleted) {  // the learner was deleted since the last selection: add a new learner
+  if (person_->deleted) {  // deleted since the last selection: add a new learner
     person_ = find_or_add_person(name);
     load();
   }
@@ -137,7 +138,7 @@ void LearnerMemory::reload() {
   drop_deleted();
 }
 
-// Data that cannot be read keeps its last state until the next attempt.
+// Loads the learner's data. If reading fails, the data of the last successful read stays in use until the next attempt.
 void LearnerMemory::load() {
   changes_.reset();
   if (person_->deleted) runs_.clear(), next_.clear();
@@ -181,7 +182,7 @@ bool LearnerMemory::drop_deleted() {
   return any;
 }
 
-// Drops a deleted learner's pending writes. The current or last run stays visible but has no learner. Returns true if
+// Drops a deleted learner's pending writes. The current or last run stays visible but is never saved. Returns true if
 // anything was pending.
 bool LearnerMemory::drop_pending_of(const PersonPtr& person) {
   const std::size_t before = pending_runs_.size() + pending_comments_.size() + pending_choices_.size();
@@ -221,7 +222,7 @@ void LearnerMemory::add_comment(std::int64_t run, const std::string& author, con
   write_now();
 }
 
-// A comment that is not saved yet is changed in place.
+// Changes the pending entry of the comment. If the comment is already saved, it has none, and one is added.
 void LearnerMemory::edit_comment(std::int64_t run, std::int64_t comment, const std::string& text) {
   const std::int64_t now = now_();
   PendingComment* pending = find_pending_comment(comment);
@@ -282,7 +283,8 @@ void LearnerMemory::end_run(const LessonResult& result) {
   write_now();
 }
 
-// If the history does not reference the recording yet, its path is simply not written.
+// Removes the recording's path from the current or last run. If the run is not in the history yet, the path is never
+// written.
 void LearnerMemory::clear_recording() {
   for (RunRow& row : runs_) {
     if (row.id == last_run_) row.recording.clear();

@@ -1,7 +1,8 @@
 // Saves a learner's runs, comments and choices in the history, and keeps them in memory until they are saved.
 //
-// It runs in the frame loop, which also polls STOP. So only the first attempt waits for a file that another program has
-// locked, up to the lock timeout; while the file stays locked, further attempts do not wait.
+// This class runs in the frame loop, which also polls the STOP button and must not block. If another program locks the
+// file, only the first write waits, at most for the lock timeout. Later attempts do not wait while the file stays
+// locked.
 #pragma once
 
 #include <chrono>
@@ -17,10 +18,10 @@
 
 namespace gearshift::lessons {
 
-// Problems of the history do not throw; each is reported once, in one sentence. Data that the history could not save is
-// kept in order and retried at each write and by retry_pending(). Learners are identified by their number in the
-// history, not by name: if a learner was deleted there, this is reported, the learner's pending data is dropped, and
-// later writes never create the learner again.
+// Problems with the history do not throw; take_problem() returns each of them once, as one sentence. Data that could
+// not be saved is kept in order; each later write and retry_pending() try again to save it. Learners are identified by
+// their number in the history, not by name. If another program deletes a learner, this class reports it, drops the
+// learner's pending data and does not create the learner again.
 class LearnerMemory {
  public:
   LearnerMemory(const std::filesystem::path& history, std::string program, Clock now,
@@ -29,55 +30,55 @@ class LearnerMemory {
   LearnerMemory(const LearnerMemory&) = delete;
   LearnerMemory& operator=(const LearnerMemory&) = delete;
 
-  // True while results can be saved, and also while the history is locked for a moment.
+  // True if results can be saved. Stays true while another program locks the history for a moment.
   bool is_usable() const noexcept { return history_ && is_usable_ && !is_learner_deleted(); }
   std::optional<std::string> take_problem();
-  std::string problem() const { return problem_.value_or(""); }  // problem not yet taken, or empty
+  std::string problem() const { return problem_.value_or(""); }  // problem not yet returned, or empty
   std::vector<std::string> learners();                           // sorted by name
 
-  // Selects the learner of that name, or a new one. Empty: no learner. Writes nothing yet.
+  // Selects the learner with this name. If there is none, selects a new learner. An empty name selects no learner.
+  // Writes nothing to the history.
   void set_learner(const std::string& name);
   const std::string& learner() const noexcept { return person_->name; }
   // True if another program deleted the learner: nothing is written until the next set_learner(), even with the same
   // name.
   bool is_learner_deleted() const noexcept { return person_->deleted; }
-  // Reads again if another program has written; opens a history that could not be opened before.
+  // Reads the history again if another program has changed it, and opens a history that could not be opened before.
   void reload();
 
-  // Runs of this learner, oldest first, including those not saved yet; these have negative numbers until they are
-  // saved.
+  // Runs of the current learner, oldest first. Unsaved runs are included and have negative numbers.
   const std::vector<RunRow>& runs() const noexcept { return runs_; }
-  std::vector<CommentRow> comments(std::int64_t run);  // comments have negative numbers until they are saved
+  std::vector<CommentRow> comments(std::int64_t run);  // unsaved comments have negative numbers
   void add_comment(std::int64_t run, const std::string& author, const std::string& text);
   void edit_comment(std::int64_t run, std::int64_t comment, const std::string& text);
   void delete_comment(std::int64_t run, std::int64_t comment);
   const std::string& next_lesson() const noexcept { return next_; }  // key, or empty
   void set_next_lesson(const std::string& lesson);
 
-  // begin_run() and end_run() enclose a run; it begins with its first sample.
+  // Call begin_run() at the first sample of a run and end_run() at its end.
   void begin_run(const LessonResult& result, const std::string& settings, const std::string& recording);
   bool in_run() const noexcept { return in_run_; }
   void add_shift(const ShiftRecord& shift);
   void end_run(const LessonResult& result);
   void clear_recording();  // removes the recording from the current or last run
-  // Number of the current or last run; 0: some of its data is not saved yet.
+  // Number of the current or last run in the history; 0 while part of the run is not saved.
   std::int64_t run_number() const noexcept;
 
-  // Retries pending writes, a few times per second however often it is called. True: something was written, or a
-  // learner was dropped.
+  // Retries pending writes, at most twice per second however often it is called. Returns true if something was written,
+  // or if data of a deleted learner was dropped.
   bool retry_pending();
-  // Writes all that is pending before the program ends, waiting up to 3 s in all. Reports what is still pending
-  // afterwards as a problem.
+  // Writes all pending data before the program ends, waiting for the history for at most 3 s. Reports data that is
+  // still pending as a problem.
   void flush();
   // True if writes are pending because the disk is full.
   bool needs_room() const noexcept { return is_disk_full_; }
-  // Returns recordings that the history will never reference, and forgets them.
+  // Returns recordings that the history will never reference, each at most once.
   std::vector<std::string> take_unreferenced_recordings();
 
  private:
   using Moment = std::chrono::steady_clock::time_point;
 
-  enum class WriteResult { done, retry, dropped };  // dropped: can never be written because the learner was deleted
+  enum class WriteResult { done, retry, dropped };  // dropped: the learner was deleted
 
   struct Person {
     std::string name;     // empty: no learner
@@ -98,7 +99,7 @@ class LearnerMemory {
     PersonPtr owner;
     std::int64_t run = 0;
     std::int64_t at = 0;  // [s] since 1970
-    CommentRow row;       // id < 0: a new comment; else the new content of an existing one
+    CommentRow row;       // id < 0: a new comment; else new content of an existing comment
     bool deleted = false, written = false;
   };
   struct PendingChoice {
@@ -125,7 +126,7 @@ class LearnerMemory {
   void report(const std::string& problem);
   std::chrono::milliseconds current_lock_timeout() const;
   template <class Work>
-  bool read(const Work& work);  // returns false on failure or without a history
+  bool read(const Work& work);  // returns false if reading fails or there is no history
   template <class Work>
   WriteResult try_write(Person& owner, std::int64_t at, const Work& work);
   PersonPtr find_or_add_person(const std::string& name);
@@ -151,7 +152,7 @@ class LearnerMemory {
   std::int64_t session_for(const PendingRun& run);
   std::int64_t id_for(Person& person);
 
-  static constexpr std::chrono::milliseconds kNoWait{0};  // used while the file is known to be locked
+  static constexpr std::chrono::milliseconds kNoWait{0};  // lock timeout for a file that is known to be locked
 
   std::filesystem::path file_;
   std::string program_;
@@ -160,24 +161,25 @@ class LearnerMemory {
   std::optional<Moment> flush_deadline_;
   std::optional<std::int64_t> write_time_;  // [s] since 1970: date of the current write; empty: now
   std::unique_ptr<History> history_;
-  bool is_usable_ = true;                             // the last write succeeded
-  bool is_locked_ = false, is_read_blocked_ = false;  // locked by another program at the last attempt
-  bool is_disk_full_ = false;                         // the disk was full at the last attempt
-  bool flush_failed_ = false;                         // the last flush failed and nothing was added since
-  std::string reported_, reason_;                     // last reported problem; last reason why a write is pending
-  std::string loss_message_;                          // last message about unsaved data
-  std::string waiting_message_;                       // last message about pending writes
+  bool is_usable_ = true;  // false after a failed read or write; a locked file does not count
+  // True if another program had locked the file at the last write (is_locked_) or read (is_read_blocked_).
+  bool is_locked_ = false, is_read_blocked_ = false;
+  bool is_disk_full_ = false;      // the disk was full at the last attempt
+  bool flush_failed_ = false;      // the last flush failed and nothing was added since
+  std::string reported_, reason_;  // last reported problem; last reason why a write is pending
+  std::string loss_message_;       // last message about unsaved data
+  std::string waiting_message_;    // last message about pending writes
   std::optional<std::string> problem_;
 
   PersonPtr person_ = std::make_shared<Person>();  // the current learner
   std::vector<PersonPtr> people_;                  // all learners selected so far, without deleted ones
   std::string next_;
   std::vector<RunRow> runs_;
-  std::optional<std::int64_t> changes_;  // History::changes() at the last read; empty: not read
+  std::optional<std::int64_t> changes_;  // History::changes() at the last read; empty: not read yet
   std::optional<DrivingSession> session_;
 
-  // Not yet saved in the history.
-  std::vector<PendingRun> pending_runs_;  // in driving order; the last one may still be running
+  // Data that is not saved in the history yet.
+  std::vector<PendingRun> pending_runs_;  // in driving order; the last run may still be in progress
   std::vector<PendingComment> pending_comments_;
   std::vector<PendingChoice> pending_choices_;  // at most one per learner
   std::vector<PendingRemoval> pending_removals_;

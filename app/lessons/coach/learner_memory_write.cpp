@@ -1,4 +1,4 @@
-// Writes pending data to the history: in order, with lock timeouts, for the learner it belongs to.
+// Writes pending data to the history in order. A write waits at most the lock timeout for a locked file.
 #include <algorithm>
 #include <utility>
 
@@ -12,10 +12,10 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kRetryInterval{500};  // shortest time between two attempts
+constexpr milliseconds kRetryInterval{500};  // shortest time between two write attempts
 constexpr milliseconds kMaxWriteTime{50};    // limit per frame for all pending writes
 
-// For example ", 2 runs"; empty for 0.
+// Returns text such as ", 2 runs"; empty if the count is 0.
 std::string counted(std::ptrdiff_t count, const char* one, const char* many) {
   return count == 0 ? std::string() : fmt::format(", {} {}", count, count == 1 ? one : many);
 }
@@ -60,7 +60,7 @@ LearnerMemory::WriteResult LearnerMemory::try_write(Person& owner, std::int64_t 
   return result;
 }
 
-// False if there is no learner or no history file, or if the learner was deleted.
+// True if the owner's data can still be saved: there is a learner, not deleted, and a history file.
 bool LearnerMemory::waits_for_history(const Person& owner) const noexcept {
   return !owner.name.empty() && !owner.deleted && !file_.empty();
 }
@@ -91,7 +91,7 @@ bool LearnerMemory::has_pending() const noexcept {
          std::any_of(pending_removals_.begin(), pending_removals_.end(), is_pending);
 }
 
-// For example "2 runs, 1 comment".
+// Returns text such as "2 runs, 1 comment".
 std::string LearnerMemory::describe_pending() const {
   const auto is_pending = [this](const auto& entry) { return is_waiting(entry); };
   // Counts comments on unsaved runs as well.
@@ -125,13 +125,13 @@ void LearnerMemory::flush() {
   flush_deadline_.reset();
   flush_failed_ = has_pending();
   const std::string unsaved = describe_pending();
-  // Everything was saved after all: drop the message about unsaved data.
+  // If everything is saved now, drop the message about unsaved data.
   if (!flush_failed_ && (problem_ == loss_message_ || problem_ == waiting_message_)) problem_.reset();
   if (!unsaved.empty()) report(loss_message_ = fmt::format("{}; not saved: {}", reason_, unsaved));
 }
 
-// Writes in order: an entry that must wait delays all later ones. Returns true if anything was written or a learner was
-// dropped.
+// Writes in order, so an entry that cannot be written yet delays all later entries. Returns true if anything was
+// written, or if data of a deleted learner was dropped.
 bool LearnerMemory::write_pending(Moment until) {
   if (!history_ || !has_pending()) return false;
   bool any = false, keep_going = true;
@@ -153,7 +153,7 @@ bool LearnerMemory::write_pending(Moment until) {
   return drop_deleted() || any;
 }
 
-// Writes the begin of the run, its new shifts and its end, as far as they are known.
+// Writes the start of the run. Then writes its new shifts or, once the run is over, its result.
 LearnerMemory::WriteResult LearnerMemory::write(PendingRun& run) {
   const std::vector<ShiftRecord>& shifts = run.row.result.shifts;
   WriteResult result = WriteResult::done;
@@ -168,7 +168,7 @@ LearnerMemory::WriteResult LearnerMemory::write(PendingRun& run) {
   return result;
 }
 
-// A comment deleted by another program in the meantime stays deleted.
+// Adds, edits or deletes a comment in the history. If another program has deleted the comment, it stays deleted.
 LearnerMemory::WriteResult LearnerMemory::write(PendingComment& comment) {
   const WriteResult result = try_write(*comment.owner, comment.at, [&] {
     const CommentRow& row = comment.row;
@@ -201,7 +201,6 @@ void LearnerMemory::begin(PendingRun& run) {
   renumber(run, history_->begin_run(run.row.session, run.row.result, run.row.recording));
 }
 
-// Replaces the run's number wherever it is used.
 void LearnerMemory::renumber(PendingRun& run, std::int64_t number) {
   const std::int64_t before = std::exchange(run.row.id, number);
   for (RunRow& row : runs_) {
@@ -223,7 +222,8 @@ std::int64_t LearnerMemory::session_for(const PendingRun& run) {
   return session_->id;
 }
 
-// Creates the learner only if it never was in the history. A deleted learner keeps its old number, so its writes fail.
+// Returns the learner's number in the history. Creates the learner if it has none yet. A deleted learner keeps the old
+// number, so that writes for that learner fail.
 std::int64_t LearnerMemory::id_for(Person& person) {
   if (person.id == 0) person.id = history_->find_or_add_learner(person.name);
   return person.id;

@@ -9,7 +9,7 @@
 namespace gearshift::lessons {
 namespace {
 
-// The learner's name determines the seed, so a seed exists without a history, too. Names contain no zero byte.
+// The seed depends only on the names of learner and lesson, not on the history. A zero byte separates the two names.
 std::uint64_t seed_of(std::string_view learner, std::string_view lesson) {
   return haptics::fnv_1a(std::string(learner) + '\0' + std::string(lesson));
 }
@@ -25,7 +25,7 @@ PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::
   GuidancePolicy policy(seed_of(learner, lesson));
   std::optional<std::int64_t> last;
   for (const RunRow& run : runs) {
-    // A run that ended early does not count: the same plan applies again.
+    // Skip a run that ended early, so that the next trial uses the plan of that run again.
     if (run.result.lesson != lesson || !was_completed(run)) continue;
     (void)policy.next();
     policy.learn(run_error(run.result));

@@ -15,8 +15,8 @@ struct PlannedTrial {
   bool retention = false;  // first trial after kRetentionPause: unguided, without hints
 };
 
-// Feeds all completed runs of the lesson, including retention tests, to the policy; runs that ended early are left out.
-// The same runs always give the same plan. runs: all runs of this learner, oldest first; now: [s] since 1970.
+// Feeds the completed runs of the lesson, including retention tests, to a GuidancePolicy. Skips runs that ended early.
+// The same runs always give the same plan. `runs`: all runs of this learner, oldest first. `now`: [s] since 1970.
 PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::span<const RunRow> runs,
                         std::int64_t now);
 

@@ -19,9 +19,9 @@ History::History(const std::filesystem::path& file, Clock now, std::chrono::mill
   } catch (const HistoryFull&) {
     std::error_code none;
     const bool is_new = std::filesystem::file_size(file, none) == 0 || none;
-    throw HistoryFull(fmt::format(
-        "{}: the history cannot be {}", file.string(),
-        is_new ? "created because the disk is full" : "opened because the disk is full; the file is unchanged"));
+    throw HistoryFull(file.string() +
+                      (is_new ? ": the history cannot be created because the disk is full"
+                              : ": the history cannot be opened because the disk is full; the file is unchanged"));
   }
 }
 

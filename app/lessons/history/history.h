@@ -1,8 +1,8 @@
 // The history of learners in one SQLite file, by default history.db in the user's data folder.
 //
-// Every writing call is one transaction: a killed process loses only the shift in progress. Two programs may use one
-// file at once. A file that cannot be used is left unchanged and the caller continues without a history. Use from one
-// thread.
+// Every call that writes is one transaction, so a killed process loses only the shift in progress. Two programs may use
+// one file at once. A file that cannot be used is left unchanged, and the caller continues without a history. Use from
+// one thread.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@
 
 namespace gearshift::lessons {
 
-// what() is one sentence with the file and the reason: damaged, from a newer program, read-only, disk full, ...
+// what() is one sentence that names the file and the reason: damaged, from a newer program, read-only, disk full, ...
 struct HistoryError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -41,19 +41,19 @@ struct LearnerRow {
   std::int64_t id = 0;
   std::string name;
   std::string made_at;      // ISO 8601, UTC
-  std::string next_lesson;  // chosen by the instructor; empty: as suggested
+  std::string next_lesson;  // lesson chosen by the instructor; empty: the suggested lesson
 };
 
 struct RunRow {
   std::int64_t id = 0;
   std::int64_t session = 0;
   std::string begun_at;   // ISO 8601, UTC
-  std::string recording;  // trace file: relative to the history's folder if below it, else absolute; or empty
-  LessonResult result;    // with driving errors, deductions and shifts; all figures are finite even in a damaged file
+  std::string recording;  // trace file, relative to the history's folder if inside it; may be empty
+  LessonResult result;    // with driving errors, deductions and shifts; all numbers are finite even in a damaged file
 };
 
-// True if the run was driven to its end, whatever the result: runs ended early or never ended count neither as practice
-// nor as a test.
+// True if the run was driven to its end, whatever the result. Runs that the learner left or that never ended count
+// neither as practice nor as a retention test.
 inline bool was_completed(const RunRow& run) noexcept {
   return run.result.end != LessonEnd::running && run.result.end != LessonEnd::left;
 }
@@ -67,20 +67,20 @@ struct CommentRow {
 
 using RecordingRemover = std::function<void(const std::vector<std::string>&)>;  // must not throw
 
-// Default time for which a call waits for another program that is writing.
+// Default time that a call waits for another program that is writing.
 inline constexpr std::chrono::milliseconds kHistoryLockTimeout{3000};
 
 enum class HistoryUse {
   write,  // creates a missing file and migrates an older one
-  // Works on a copy of the current state in memory: neither file nor folder needs write permission, and writing calls
-  // throw HistoryError.
+  // Works on a copy of the current state in memory: neither file nor folder needs write permission, and calls that
+  // write throw HistoryError.
   read
 };
 
 class History {
  public:
-  // Opens the file, or creates it and its folder; `now` provides the dates that are written. Like all other functions,
-  // throws HistoryError, or HistoryBusy if the file stayed locked for longer than lock_timeout.
+  // Opens the file, or creates the file and its folder. `now` provides the dates that are written. This constructor and
+  // all other functions throw HistoryError, or HistoryBusy if the file stays locked for longer than `lock_timeout`.
   explicit History(const std::filesystem::path& file, Clock now = system_seconds,
                    std::chrono::milliseconds lock_timeout = kHistoryLockTimeout, HistoryUse use = HistoryUse::write);
   ~History();
@@ -89,26 +89,26 @@ class History {
 
   void set_lock_timeout(std::chrono::milliseconds lock_timeout);  // applies to each call; 0: do not wait
 
-  // Finds or adds the learner and returns its number. Throws std::invalid_argument for an invalid name.
+  // Returns the learner's number; adds the learner if necessary. Throws std::invalid_argument for an invalid name.
   std::int64_t find_or_add_learner(std::string_view name);
   std::optional<LearnerRow> find_learner(std::string_view name);
   std::vector<LearnerRow> learners();
   void set_next_lesson(std::int64_t learner, std::string_view lesson);  // empty: as suggested
 
   std::int64_t begin_session(std::int64_t learner, std::string_view program);
-  // Adds the settings used from now on: gate, car and preset as text.
+  // Adds the settings that are used from now on, as text: gate, car and preset.
   void add_settings(std::int64_t session, std::string_view text);
 
-  // Stores what is known so far: lesson, task, mode, guided. A recording below the history's folder is stored with its
-  // relative path, so that both can be moved or copied together.
+  // Stores what is known at the start of a run: lesson, task, mode, guided. A recording below the history's folder is
+  // stored with its relative path, so that the folder can be moved or copied with its recordings.
   std::int64_t begin_run(std::int64_t session, const LessonResult& result, std::string_view recording);
   void add_shift(std::int64_t run, const ShiftRecord& shift);
   // Stores the final result; adds shifts that were not added by add_shift().
   void end_run(std::int64_t run, const LessonResult& result);
-  void clear_recording(std::int64_t run);  // the run has no recording any more
+  void clear_recording(std::int64_t run);  // removes the path of the run's recording
 
-  // For the instructor. Throw std::invalid_argument for an invalid name or comment (user_text.h). Return false if the
-  // comment does not exist (any more).
+  // Comments by the instructor. The functions throw std::invalid_argument for an invalid name or comment (user_text.h).
+  // edit_comment() and delete_comment() return false if the comment does not exist (any more).
   std::int64_t add_comment(std::int64_t run, std::string_view author, std::string_view text);  // returns its number
   bool edit_comment(std::int64_t comment, std::string_view text);  // only the newest text is kept
   bool delete_comment(std::int64_t comment);
@@ -117,18 +117,18 @@ class History {
   std::vector<CommentRow> comments(std::int64_t run);
   std::vector<std::string> settings(std::int64_t session);
 
-  // Absolute path of RunRow::recording; empty stays empty.
+  // Returns the absolute path of a RunRow::recording; empty for an empty path.
   std::filesystem::path recording_file(std::string_view recording) const;
-  // Recordings of this learner's runs that no other learner's run references, as stored.
+  // Returns the recordings that only this learner's runs reference, with their paths as stored.
   std::vector<std::string> recordings(std::int64_t learner);
 
   // Returns a number that changes whenever another program, or another History, writes to the file.
   std::int64_t changes();
 
-  // Deletes the learner's rows and, through `remove`, the recordings that no other learner references, in one
-  // transaction: if the process is killed during it, the learner can be erased again. Returns an empty string once the
-  // data is erased from the file and its log; otherwise one sentence on what prevents that, and the erasure stays
-  // pending until finish_erasure() succeeds. finish_erasure() returns the same.
+  // Deletes the learner's rows in one transaction, and calls `remove` with the recordings that no other learner
+  // references. If the process is killed meanwhile, the learner can be erased again. Returns an empty string once the
+  // data is erased from the file and its log. Otherwise returns one sentence on the obstacle, and the erasure stays
+  // pending until finish_erasure() succeeds. The result of finish_erasure() has the same meaning.
   [[nodiscard]] std::string erase_learner(std::int64_t learner, const RecordingRemover& remove);
   bool erasure_is_pending();
   [[nodiscard]] std::string finish_erasure();

@@ -5,7 +5,7 @@
 namespace gearshift::lessons {
 namespace {
 
-// The recordings that only this learner's runs reference.
+// Recordings that only this learner's runs reference.
 std::vector<std::string> recordings_of(SQLite::Database& database, std::int64_t learner) {
   SQLite::Statement rows(
       database,
@@ -18,13 +18,14 @@ std::vector<std::string> recordings_of(SQLite::Database& database, std::int64_t 
   return recordings;
 }
 
-// Empties the write-ahead log. Returns what prevents that, or empty. SQLite reports no error if another program reads.
+// Empties the write-ahead log. Returns an empty string, or the reason why the log could not be emptied. If another program is reading the file, SQLite
+// does not throw but returns a nonzero result.
 std::string empty_log(SQLite::Database& database) {
   const bool is_busy = database.execAndGet("PRAGMA wal_checkpoint(TRUNCATE)").getInt() != 0;
-  return is_busy ? "another program is reading it" : "";
+  return is_busy ? "another program is reading the file" : "";
 }
 
-// Returns the result of `work`, or the reason why it failed.
+// Returns the result of `work`, or the reason if `work` throws.
 template <class Work>
 std::string try_to(SQLite::Database& database, const Work& work) {
   try {
@@ -66,8 +67,8 @@ bool History::erasure_is_pending() {
       [&] { return state_->database->execAndGet("SELECT count(*) FROM pending_erasure").getInt64() > 0; });
 }
 
-// The deleted rows are already overwritten in new pages of the log. The checkpoint removes the old pages, VACUUM
-// returns their space.
+// Completes an erasure. The deletion has overwritten the rows only in new pages of the log. VACUUM frees the space of
+// these rows, and the checkpoint in empty_log() removes the old pages.
 std::string History::finish_erasure() {
   SQLite::Database& database = *state_->database;
   const auto exec = [&](const char* text) {

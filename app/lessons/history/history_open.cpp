@@ -20,7 +20,8 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kRetryInterval{10};
 
-// Keeps a killed program's log at close, so that a rejected file stays unchanged to the byte.
+// Stops SQLite from merging a killed program's log into the file when it closes the file. A rejected file then stays
+// unchanged to the byte.
 void keep_log_at_close(SQLite::Database& database, bool on) {
   sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, on ? 1 : 0, nullptr);
 }
@@ -31,15 +32,15 @@ bool has_content(const fs::path& file) {
   return !ignored && size > 0;
 }
 
-// True if the log's index cannot be created: no permission or no space. If the disk itself does not respond, the second
-// attempt fails with the same error.
+// True if the error may mean that the log's index cannot be created: no permission or no space. If the cause is a
+// failing disk, the next attempt fails with the same error.
 bool cannot_create_index(const SQLite::Exception& problem) {
   const int code = primary_code(problem);
   return code == SQLITE_CANTOPEN || code == SQLITE_READONLY || code == SQLITE_IOERR;
 }
 
-// Checks the current user's write permission. Without permission SQLite would open the file for reading and leave a log
-// that no one may write.
+// True if the current user may write to the file. Checked first, because SQLite would open a write-protected file
+// read-only and leave a log that no one may write to.
 bool is_writable(const fs::path& file) {
   return euidaccess(file.c_str(), W_OK) == 0;
 }
@@ -56,7 +57,7 @@ FileStamp stamp_of(const fs::path& file) {
   return {fs::last_write_time(file, ignored), fs::file_size(file, ignored)};
 }
 
-// The file as a URI that opens it as immutable: sqlite.org/uri.html, section 3.1.
+// Returns a URI that opens the file as immutable: sqlite.org/uri.html, section 3.1.
 std::string immutable_uri(const std::string& absolute) {
   std::string uri = "file:";
   for (const char c : absolute) {
@@ -72,7 +73,7 @@ void History::State::open() {
   std::error_code problem;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), problem);
   if (problem == std::errc::no_space_on_device) throw HistoryFull(problem.message());
-  if (problem) refuse(fmt::format("its folder cannot be created ({})", problem.message()));
+  if (problem) refuse(fmt::format("the folder cannot be created ({})", problem.message()));
   const std::string from = absolute_path();
   check_writable(from);
   const bool has_log = file_exists(from + "-wal");
@@ -89,17 +90,19 @@ void History::State::open() {
   });
 }
 
-// A log left by a program without write permission blocks all writers. The error names the log so that the user can
-// remove it.
+// Throws if the file or its log cannot be written. A log left by a program without write permission blocks all writers,
+// so the error names this log and the user can remove it.
 void History::State::check_writable(const std::string& from) const {
-  if (file_exists(from) && !is_writable(from)) refuse("you have no permission to write to it");
+  if (file_exists(from) && !is_writable(from)) refuse("you have no permission to write to the file");
   for (const char* suffix : {"-wal", "-shm"}) {
     if (file_exists(from + suffix) && !is_writable(from + suffix))
-      refuse(fmt::format("you have no permission to write to {}{} beside it", file.filename().string(), suffix));
+      refuse(
+          fmt::format("you have no permission to write to {}{} in the same folder", file.filename().string(), suffix));
   }
 }
 
-// Writes nothing and blocks no writer; an older version is migrated only in memory.
+// Copies the file into memory. Writes nothing to disk and blocks no writer; an older version is migrated only in
+// memory.
 void History::State::open_copy() {
   const std::string from = absolute_path();
   translating_errors([&] {
@@ -115,8 +118,8 @@ void History::State::open_copy() {
   });
 }
 
-// Copies the file with its log, if there is one. For a file without write permission no log is created: a log made by
-// such a reader could not be written by anyone else either.
+// Copies the file with its log, if there is one. If the file is not writable, creates no log, because no other program
+// could write to that log either.
 void History::State::copy_locked(const std::string& from) {
   const bool has_log = file_exists(from + "-wal");
   if (file_exists(from) && !is_writable(from) && !(has_log && file_exists(from + "-shm"))) return copy_immutable(from);
@@ -125,59 +128,62 @@ void History::State::copy_locked(const std::string& from) {
   copy_from(source);
 }
 
-// Even a reader writes to the log's index. If the index cannot be created, the file is opened as immutable
-// (sqlite.org/wal.html, "Read-Only Databases"). So there must be no log, and the file must be unchanged afterwards.
+// Copies a file for which no log index can be created. SQLite needs the index even for reading, unless the file is
+// opened as immutable (sqlite.org/wal.html, "Read-Only Databases"). The copy is correct only if there is no log and if
+// the file is unchanged afterwards.
 void History::State::copy_immutable(const std::string& from) {
   if (has_content(from + "-wal"))
-    refuse("it has a write-ahead log, which only a program with write permission in that folder can read");
+    refuse("the file has a write-ahead log, which can only be read with write permission in the file's folder");
   const FileStamp before = stamp_of(from);
   SQLite::Database source(immutable_uri(from), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
   copy_from(source);
   if (stamp_of(from) != before || has_content(from + "-wal"))
-    throw HistoryBusy(unusable_message("another program is writing to it"));
+    throw HistoryBusy(unusable_message("another program is writing to the file"));
 }
 
 void History::State::copy_from(SQLite::Database& source) {
   SQLite::Backup backup(*database, source);
   const int result = backup.executeStep();
-  if (result != SQLITE_DONE) throw SQLite::Exception("another program has locked it", result);
+  if (result != SQLITE_DONE) throw SQLite::Exception("another program has locked the file", result);
 }
 
-// Returns an absolute path, because "file:x" and ":memory:" are valid file names, too.
+// Returns an absolute path, because SQLite would treat the valid file names "file:x" and ":memory:" specially.
 std::string History::State::absolute_path() const {
   std::error_code problem;
   std::string absolute = fs::absolute(file, problem).string();
-  if (problem) refuse(fmt::format("it cannot be found ({})", problem.message()));
-  if (fs::is_directory(absolute, problem)) refuse("it is a folder, not a file");
-  if (file_exists(absolute) && !fs::is_regular_file(absolute, problem)) refuse("it is not a regular file");
+  if (problem) refuse(fmt::format("the file cannot be found ({})", problem.message()));
+  if (fs::is_directory(absolute, problem)) refuse("this is a folder, not a file");
+  if (file_exists(absolute) && !fs::is_regular_file(absolute, problem)) refuse("this is not a regular file");
   return absolute;
 }
 
-// Checks in one transaction, because another program may be creating the file at this moment.
+// Checks the file and returns the version of its schema, in one transaction, because another program may be creating
+// the file at this moment.
 int History::State::checked_version() {
   SQLite::Transaction snapshot(*database);
   const int version = version_in_file();
-  if (database->execAndGet("PRAGMA quick_check(1)").getString() != "ok") refuse("it is damaged; the file is unchanged");
+  if (database->execAndGet("PRAGMA quick_check(1)").getString() != "ok")
+    refuse("the file is damaged; nothing was changed");
   return version;
 }
 
-// Returns 0 for an empty file without an owner. Rejects files of other programs.
+// Returns the version of the schema, 0 for an empty file. Rejects files of other programs.
 int History::State::version_in_file() {
   const int application = database->execAndGet("PRAGMA application_id").getInt();
   const int version = database->execAndGet("PRAGMA user_version").getInt();
   const bool is_empty = database->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
   const bool is_history = application == kApplicationId;
   if (is_history && version > kSchemaVersion)
-    refuse("it was written by a newer version of gearshift; the file is unchanged");
+    refuse("the file was written by a newer version of gearshift; nothing was changed");
   const bool is_new = is_empty && version == 0 && (is_history || application == 0);
   if (!is_new && (is_empty || !is_history || version < 1))
-    refuse("it is not a history of this program; the file is unchanged");
+    refuse("the file is not a gearshift history; nothing was changed");
   return version;
 }
 
 void History::State::migrate() {
   SQLite::Transaction transaction(*database, SQLite::TransactionBehavior::IMMEDIATE);
-  // Another program may have migrated the file in the meantime.
+  // Read the version again, because another program may have migrated the file in the meantime.
   for (int from = version_in_file(); from < kSchemaVersion; ++from) {
     database->exec(kMigrations[static_cast<std::size_t>(from)]);
     if (from + 1 == kRelativeRecordingsVersion) make_recordings_relative();
@@ -187,17 +193,19 @@ void History::State::migrate() {
   transaction.commit();
 }
 
-// Fails if the file was removed, replaced or upgraded. A removed file would accept writes that no one can ever read.
+// Throws if the file was removed, replaced or upgraded. Writes to a removed file would succeed, but no one could read
+// them.
 void History::State::check_still_current() {
   int has_moved = 0;
   sqlite3_file_control(database->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
-  if (has_moved != 0) refuse("it was removed or replaced");
+  if (has_moved != 0) refuse("the file was removed or replaced");
   const int version = database->execAndGet("PRAGMA user_version").getInt();
-  if (version > kSchemaVersion) refuse("a newer version of gearshift has upgraded it; the file is unchanged");
-  if (version != kSchemaVersion) refuse("another program has changed its version; the file is unchanged");
+  if (version > kSchemaVersion) refuse("a newer version of gearshift has upgraded the file; nothing was written");
+  if (version != kSchemaVersion) refuse("another program has changed the version of the file; nothing was written");
 }
 
-// Switching to a write-ahead log needs exclusive access for a moment, and SQLite does not wait for that by itself.
+// Switching to a write-ahead log needs exclusive access for a moment. SQLite does not wait for this access, so this
+// function tries again.
 void History::State::enable_write_ahead_log() {
   for (milliseconds waited{0};; waited += kRetryInterval) {
     try {
@@ -208,7 +216,7 @@ void History::State::enable_write_ahead_log() {
       sqlite3_sleep(static_cast<int>(kRetryInterval.count()));
     }
   }
-  // A killed process loses nothing; a power failure loses the last seconds.
+  // With this setting, a killed process loses nothing; a power failure may lose the last seconds.
   database->exec("PRAGMA synchronous = NORMAL");
 }
 

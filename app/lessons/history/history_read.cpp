@@ -6,7 +6,7 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr double kMaxPoints = 10.0;
-constexpr std::int64_t kMaxShifts = 1'000'000;  // limit per run; shifts are numbered from 0
+constexpr std::int64_t kMaxShifts = 1'000'000;  // largest number of shifts per run; shifts are numbered from 0
 
 bool is_shift_number(std::int64_t number) noexcept {
   return number >= 0 && number < kMaxShifts;
@@ -38,7 +38,7 @@ class RunParts {
     rows.bind(1, run);
   }
 
-  // Skips a shift between impossible gears, or with an impossible number.
+  // Reads one shift. Skips rows with an impossible gear or shift number.
   void read_shift(LessonResult& result) {
     const std::int64_t from = shift_rows_.getColumn(1).getInt64(), to = shift_rows_.getColumn(2).getInt64();
     const std::int64_t number = shift_rows_.getColumn(0).getInt64();
@@ -59,7 +59,7 @@ class RunParts {
 
   void read_error(LessonResult& result) {
     const std::optional<ErrorKind> kind = error_kind_of(error_rows_.getColumn(0).getString());
-    if (!kind) return;  // written by a different version of the program
+    if (!kind) return;  // this version of the program does not know the kind of this error
     const double points = std::clamp(figure_in(error_rows_, 5), 0.0, kMaxPoints);
     if (points > 0.0) result.deductions.push_back({result.errors.size(), points});
     const std::int64_t shift = error_rows_.getColumn(4).getInt64();
@@ -118,7 +118,7 @@ std::optional<LearnerRow> History::find_learner(std::string_view name) {
 
 std::vector<RunRow> History::runs(std::int64_t learner) {
   return state_->translating_errors([&] {
-    // Reads one snapshot, even while another program is writing.
+    // Reads all rows from one snapshot, even while another program is writing.
     SQLite::Transaction snapshot(*state_->database);
     SQLite::Statement rows = state_->query(
         "SELECT r.id, session, r.begun_at, recording, lesson, task, mode, ended, guided, whole, begin_s, duration_s, "

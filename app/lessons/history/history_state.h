@@ -27,7 +27,7 @@ struct History::State {
   void replace_errors(std::int64_t run, const LessonResult& result);
 
   // recording_path.cpp
-  std::string relative_recording(const std::string& recording) const;  // path as stored in a row
+  std::string relative_recording(const std::string& recording) const;  // path as stored in the history
 
   std::string date() const { return format_utc(now()); }
   SQLite::Statement query(const std::string& text) { return {*database, text}; }
@@ -60,7 +60,7 @@ struct History::State {
   std::string unusable_message(const std::string& why) const;
   [[noreturn]] void fail(const SQLite::Exception& problem) const;
   [[noreturn]] void refuse(const std::string& why) const;
-  [[noreturn]] void fail_as_deleted() const;  // throws HistoryDeleted: the learner, run or comment was deleted
+  [[noreturn]] void fail_as_deleted() const;  // throws HistoryDeleted, because the learner, run or comment was deleted
 
   std::filesystem::path file;
   Clock now;

@@ -1,4 +1,5 @@
-// Recordings are stored relative to the history's folder, so that both can be moved or copied together.
+// Recordings are stored relative to the history's folder, so that the folder can be moved or copied with its
+// recordings.
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
@@ -12,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Relative path of the file, or empty if it is not below the folder. Both must be absolute; only their components are
-// compared.
+// Relative path of the file, or empty if the file is not below the folder. Both paths must be absolute; only their
+// components are compared.
 fs::path path_below(const fs::path& folder, const fs::path& file) {
   const auto [in_folder, in_file] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
   const bool ends_with_slash = in_folder != folder.end() && in_folder->empty() && std::next(in_folder) == folder.end();
@@ -38,7 +39,8 @@ fs::path folder_of(const fs::path& history) {
 
 }  // namespace
 
-// First compares the paths as given, so that a link in the history's folder can move with it; then resolves links.
+// Compares the paths first as given, and only then with links resolved, so that a link inside the history's folder can
+// move with the folder.
 std::string History::State::relative_recording(const std::string& recording) const {
   const fs::path trace(recording), folder = folder_of(file);
   if (!trace.is_absolute()) return recording;
@@ -47,7 +49,7 @@ std::string History::State::relative_recording(const std::string& recording) con
   return relative.empty() ? recording : relative.string();
 }
 
-// Runs within the transaction of the migration.
+// Runs within the transaction of the schema migration.
 void History::State::make_recordings_relative() {
   SQLite::Statement rows = query("SELECT DISTINCT recording FROM lesson_run WHERE recording LIKE '/%'");
   std::vector<std::string> recordings;
@@ -62,7 +64,8 @@ void History::State::make_recordings_relative() {
 }
 
 fs::path History::recording_file(std::string_view recording) const {
-  return recording.empty() ? fs::path() : folder_of(file()) / recording;  // an absolute path replaces the folder
+  // If `recording` is an absolute path, operator/ ignores the folder.
+  return recording.empty() ? fs::path() : folder_of(file()) / recording;
 }
 
 }  // namespace gearshift::lessons

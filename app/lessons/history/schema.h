@@ -7,9 +7,9 @@
 
 namespace gearshift::lessons {
 
-inline constexpr int kApplicationId = 0x47534849;  // "GSHI", in the file header
+inline constexpr int kApplicationId = 0x47534849;  // "GSHI", stored in the file header
 
-// Columns of a run, after its number.
+// Columns of a lesson run, except its number.
 inline constexpr const char* kRunColumns = R"sql(
   session INTEGER NOT NULL REFERENCES session ON DELETE CASCADE,
   begun_at TEXT NOT NULL,
@@ -29,8 +29,8 @@ inline constexpr const char* kRunColumns = R"sql(
   engine_work_j REAL NOT NULL);
 )sql";
 
-// Script i turns version i into version i + 1. All needed scripts run in one transaction, with foreign keys off, so
-// that recreating a table does not delete dependent rows.
+// Script i upgrades the schema from version i to i + 1. All needed scripts run in one transaction, with foreign keys
+// off, so that recreating a table does not delete dependent rows.
 inline const std::array<std::string, 6> kMigrations{
     // 1
     R"sql(
@@ -105,8 +105,8 @@ CREATE TABLE comment (
 CREATE INDEX session_of_learner ON session (learner);
 CREATE INDEX run_of_session ON lesson_run (session);
 )sql",
-    // 2: numbers are never reused (AUTOINCREMENT). Otherwise another program that still drives for an erased learner
-    // could write into a later learner's rows.
+    // Version 2: row numbers are never reused (AUTOINCREMENT). Otherwise a program that is still recording a run of
+    // an erased learner could write into the rows of a later learner.
     R"sql(
 CREATE TABLE new_learner (
   id INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -134,17 +134,17 @@ ALTER TABLE new_run RENAME TO lesson_run;
 CREATE INDEX session_of_learner ON session (learner);
 CREATE INDEX run_of_session ON lesson_run (session);
 )sql",
-    // 3: for slow_step, stores the prompt of the slow step and its time limit.
+    // Version 3: stores the prompt and the time limit of the step for the error slow_step.
     R"sql(
 ALTER TABLE fault ADD COLUMN step TEXT NOT NULL DEFAULT '';
 ALTER TABLE fault ADD COLUMN wanted_s REAL NOT NULL DEFAULT 0;
 )sql",
-    // 4: a row in pending_erasure means that erased data may still be in the log or in free pages.
+    // Version 4: a row in pending_erasure means that erased data may still be in the log or in free pages.
     R"sql(
 CREATE TABLE pending_erasure (
   since TEXT NOT NULL);
 )sql",
-    // 5: comments can be edited and deleted, so their numbers must not be reused either.
+    // Version 5: comments can be edited and deleted, so their numbers must not be reused either.
     R"sql(
 CREATE TABLE new_comment (
   id INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -157,7 +157,7 @@ INSERT INTO new_comment (id, run, made_at, author, text) SELECT id, run, made_at
 DROP TABLE comment;
 ALTER TABLE new_comment RENAME TO comment;
 )sql",
-    // 6: a recording below the history's folder is stored with its relative path (done by recording_path.cpp).
+    // Version 6: a recording below the history's folder is stored with its relative path (done by recording_path.cpp).
     ""};
 inline constexpr int kRelativeRecordingsVersion = 6;  // first version with relative paths
 inline constexpr int kSchemaVersion = static_cast<int>(std::tuple_size_v<decltype(kMigrations)>);

@@ -7,7 +7,7 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kMaxFigure = 1e9;  // [1] largest number in any unit; fits an int (engineering value)
+constexpr double kMaxFigure = 1e9;  // largest stored magnitude, in the number's unit; fits an int (engineering value)
 
 double figure(double value) noexcept {
   return std::isfinite(value) ? std::clamp(value, -kMaxFigure, kMaxFigure) : 0.0;

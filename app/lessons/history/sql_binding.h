@@ -1,5 +1,5 @@
-// Private to this folder: binds and reads numbers, flags and enumerations of a row. The file's content is not trusted:
-// everything read is forced into its valid range.
+// Private to this folder: binds and reads numbers, flags and enumerations of a row. The file is not trusted, so every
+// value that is read is forced into its valid range.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -14,7 +14,8 @@
 
 namespace gearshift::lessons {
 
-// Both functions limit numbers to 1e9 in magnitude; a value that is not finite becomes 0, like a value never measured.
+// bind_figure() and figure_in() limit numbers to 1e9 in magnitude. A value that is not finite becomes 0, which also
+// stands for a value that was never measured.
 void bind_figure(SQLite::Statement& statement, int index, double value);
 double figure_in(const SQLite::Statement& row, int index);
 

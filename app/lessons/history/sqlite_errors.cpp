@@ -26,8 +26,8 @@ bool is_busy(const SQLite::Exception& problem) noexcept {
   return primary_code(problem) == SQLITE_BUSY || primary_code(problem) == SQLITE_LOCKED;
 }
 
-// SQLite reports SQLITE_FULL only for the database file: growing the log's index fails with a different code, and an
-// exceeded quota shows only in errno.
+// True if the disk is full. SQLite reports SQLITE_FULL only for the database file: if the log's index cannot grow,
+// SQLite reports a different code, and an exceeded quota shows only in errno.
 bool is_full(const SQLite::Exception& problem, sqlite3* database) noexcept {
   if (primary_code(problem) == SQLITE_FULL || extended_code(problem) == SQLITE_IOERR_SHMSIZE) return true;
   if (primary_code(problem) != SQLITE_IOERR || database == nullptr) return false;
@@ -40,19 +40,19 @@ std::string reason_of(const SQLite::Exception& problem, sqlite3* database) {
   if (is_full(problem, database)) return "the disk is full";
   switch (primary_code(problem)) {
     case SQLITE_NOTADB:
-      return "it is not a history of this program; the file is unchanged";
+      return "the file is not a gearshift history; nothing was changed";
     case SQLITE_CORRUPT:
-      return "it is damaged; the file is unchanged";
+      return "the file is damaged; nothing was changed";
     case SQLITE_READONLY:
     case SQLITE_PERM:
-      return "it is read-only";
+      return "the file is read-only";
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      return "another program has locked it";
+      return "another program has locked the file";
     case SQLITE_CANTOPEN:
-      return "it cannot be opened";
+      return "the file cannot be opened";
     case SQLITE_IOERR:
-      return "the disk does not respond";
+      return "the disk cannot be read or written";
     default:
       return problem.what();
   }

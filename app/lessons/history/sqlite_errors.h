@@ -9,15 +9,16 @@ struct sqlite3;
 
 namespace gearshift::lessons {
 
-inline constexpr const char* kDeleted = "its learner, run or comment was deleted by another program";
+inline constexpr const char* kDeleted = "the learner, run or comment was deleted by another program";
 
 int primary_code(const SQLite::Exception& problem) noexcept;  // SQLITE_CANTOPEN, ...
 
-// True if the referenced row does not exist (any more); other violated constraints are bugs of this program.
+// True if a referenced row does not exist (any more). Other violated constraints are bugs in this program.
 bool is_missing_parent(const SQLite::Exception& problem) noexcept;
 bool is_busy(const SQLite::Exception& problem) noexcept;
-bool is_full(const SQLite::Exception& problem, sqlite3* database) noexcept;  // disk full; database may be null
+// True if the disk is full. `database` may be null.
+bool is_full(const SQLite::Exception& problem, sqlite3* database) noexcept;
 
-std::string reason_of(const SQLite::Exception& problem, sqlite3* database);  // a clause without a full stop
+std::string reason_of(const SQLite::Exception& problem, sqlite3* database);  // reason as a clause without a full stop
 
 }  // namespace gearshift::lessons

@@ -17,15 +17,14 @@ struct Span {
 
 constexpr char32_t kLineBreak = U'\n';
 
-// Unicode 15, category Zs.
+// Blanks (Unicode 15, category Zs).
 constexpr Span kBlanks[] = {{0x20, 0x20},     {0xa0, 0xa0},     {0x1680, 0x1680}, {0x2000, 0x200a},
                             {0x202f, 0x202f}, {0x205f, 0x205f}, {0x3000, 0x3000}};
 
-// C0, DEL, C1, separators of lines and paragraphs.
+// Control characters: C0, DEL, C1, line and paragraph separators.
 constexpr Span kControls[] = {{0x00, 0x1f}, {0x7f, 0x9f}, {0x2028, 0x2029}};
 
-// Characters without width or ink, or that change the writing direction: a name with such a character looks the same as
-// a different name.
+// Characters that are invisible or change the writing direction: with them, two different names can look the same.
 constexpr Span kInvisible[] = {
     {0xad, 0xad},     {0x34f, 0x34f},   {0x61c, 0x61c},   {0x115f, 0x1160},   {0x17b4, 0x17b5},  {0x180b, 0x180f},
     {0x200b, 0x200f}, {0x202a, 0x202e}, {0x2060, 0x206f}, {0x2800, 0x2800},   {0x3164, 0x3164},  {0xfe00, 0xfe0f},
@@ -54,7 +53,7 @@ std::size_t sequence_length(unsigned char byte) {
   return byte < 0xf5 ? 4 : 0;
 }
 
-// Removes the first code point from the text and returns it; empty if the text does not start with a valid one.
+// Removes the first code point from the text and returns it; empty if the text does not start with a valid code point.
 std::optional<char32_t> take_point(std::string_view& text) {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
   const std::size_t length = sequence_length(byte(0));
@@ -81,7 +80,7 @@ std::optional<std::u32string> points_of(std::string_view text) {
   return points;
 }
 
-// Returns the problem as the predicate of a sentence, "must not be blank"; empty: no problem.
+// Returns the problem as the predicate of a sentence, for example "must not be blank"; empty: no problem.
 std::string points_problem(UserText kind, const std::u32string& points) {
   for (const char32_t point : points) {
     if (is_in(kControls, point) && !(kind == UserText::comment && point == kLineBreak))

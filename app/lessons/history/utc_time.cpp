@@ -19,7 +19,7 @@ std::string format_utc(std::int64_t seconds) {
   const std::time_t time = seconds;
   std::tm utc{};
   gmtime_r(&time, &utc);
-  std::array<char, 40> text{};  // the year may have ten digits and a sign
+  std::array<char, 40> text{};  // room for a year with ten digits and a sign
   return {text.data(), std::strftime(text.data(), text.size(), kFormat, &utc)};
 }
 

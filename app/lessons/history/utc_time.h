@@ -9,10 +9,10 @@
 
 namespace gearshift::lessons {
 
-using Clock = std::function<std::int64_t()>;  // [s] since 1970, UTC
+using Clock = std::function<std::int64_t()>;  // returns the UTC time in seconds since 1970
 
 std::int64_t system_seconds();                                 // current time of the system clock
 std::string format_utc(std::int64_t seconds);                  // ISO 8601, UTC
-std::optional<std::int64_t> parse_utc(std::string_view date);  // empty for text that format_utc() does not write
+std::optional<std::int64_t> parse_utc(std::string_view date);  // empty if the text is not in the format of format_utc()
 
 }  // namespace gearshift::lessons

@@ -1,4 +1,4 @@
-// Loads a recorded drive on its own thread: an hour of driving takes many seconds to read.
+// Loads a recorded drive on its own thread, because reading an hour of driving takes many seconds.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ class DriveLoader {
   std::filesystem::path file_;
   std::promise<Player> promise_;
   std::future<Player> player_;
-  std::jthread thread_;  // declared last, so that it ends before the members it uses
+  std::jthread thread_;  // declared last, so that the thread ends before the members it uses
 };
 
 }  // namespace gearshift::lessons

@@ -15,9 +15,12 @@ const vehicle::CarLoad* car_in(const haptics::LeverLoad* load) noexcept {
   return dynamic_cast<const vehicle::CarLoad*>(load);
 }
 
-constexpr double kMaxMagnitude = 1e9;  // in any unit; its square must fit a float for drawing (engineering value)
+// Largest magnitude of a plausible number, in any unit. Its square must fit into a float for drawing. Engineering
+// value.
+constexpr double kMaxMagnitude = 1e9;
 
-// A device may report any number, but the loop's outputs and the driver's controls must be plausible.
+// True if the number is finite and at most kMaxMagnitude. Used for the loop's outputs and the driver's controls. Device
+// readings are not checked, because a faulty device may report any number.
 template <class T>
 bool is_plausible(const T& value) noexcept {
   if constexpr (std::is_same_v<T, double>) {
@@ -30,7 +33,7 @@ bool is_plausible(const T& value) noexcept {
   }
 }
 
-// Copies what the recording itself contains about the car.
+// Copies the part of the car's state that the recording contains.
 void apply_recorded(const haptics::TraceSample& sample, vehicle::VehicleState& car) noexcept {
   car.throttle = sample.controls.throttle;
   car.brake = sample.controls.brake;
@@ -51,7 +54,8 @@ DriveReader::DriveReader(const std::filesystem::path& file, std::uint64_t max_cy
       replayer_(reader_.header(), file.string(),
                 [this](const std::string& name, const haptics::Gate& gate) { return make_load(name, gate); }) {}
 
-// car_ stays valid: the replayer owns the load, and the load's address does not change.
+// Creates the lever load with the name in the recording. car_ points to the car in the load, if any. The pointer stays
+// valid, because the replayer owns the load and never moves it.
 std::unique_ptr<haptics::LeverLoad> DriveReader::make_load(const std::string& name, const haptics::Gate& gate) {
   gate_ = gate;
   if (std::unique_ptr<haptics::LeverLoad> no_load = haptics::make_no_load(name, gate)) return no_load;
@@ -63,7 +67,7 @@ std::unique_ptr<haptics::LeverLoad> DriveReader::make_load(const std::string& na
 void DriveReader::check(const haptics::TraceSample& sample) const {
   if (is_plausible(sample.out) && is_plausible(sample.controls)) return;
   throw haptics::FileError(
-      name_, 0, "the trace is damaged; cycle " + std::to_string(sample.out.cycle) + " contains an impossible number");
+      name_, 0, "the trace is damaged; cycle " + std::to_string(sample.out.cycle) + " contains an invalid number");
 }
 
 bool DriveReader::next(vehicle::DriveSample& sample) {

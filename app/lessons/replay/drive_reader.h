@@ -1,4 +1,5 @@
-// Reads a recorded drive cycle by cycle. Traces do not contain the car, so it is simulated again alongside.
+// Reads a recorded drive cycle by cycle. Traces do not contain the state of the car, so the car is simulated again
+// during reading.
 #pragma once
 
 #include <algorithm>
@@ -17,23 +18,24 @@ namespace gearshift::lessons {
 
 class DriveReader {
  public:
-  static constexpr std::uint64_t kMaxCycles = 4'000'000;  // an hour at 1 kHz; even a file of 1 MB can claim this many
+  static constexpr std::uint64_t kMaxCycles = 4'000'000;  // an hour at 1 kHz; even a 1 MB file can claim this many
 
-  // Reads the intact part of a damaged trace, at most `max_cycles` cycles. Like next(), throws FileError if the file is
-  // missing or damaged, if its car or gate is rejected, if its lever load is unknown, if it was recorded from the
-  // middle of a run, or if it contains an implausible number.
+  // Reads at most `max_cycles` cycles. If the trace is damaged, reads only its intact part. Like next(), throws
+  // FileError if the file is missing or has no intact part, if its car or gate is rejected, if its lever load is
+  // unknown, if it was recorded from the middle of a run, or if it contains an implausible number.
   explicit DriveReader(const std::filesystem::path& file, std::uint64_t max_cycles = kMaxCycles);
 
   const haptics::TraceHeader& header() const noexcept { return reader_.header(); }
   const haptics::Gate& gate() const noexcept { return gate_; }
-  const vehicle::CarSpec* car() const noexcept { return car_ ? &car_->spec() : nullptr; }    // null: no car
-  std::uint64_t cycles() const noexcept { return std::min(reader_.cycles(), max_cycles_); }  // upper limit of next()
+  const vehicle::CarSpec* car() const noexcept { return car_ ? &car_->spec() : nullptr; }  // null: no car
+  // Upper limit of the number of cycles that next() returns.
+  std::uint64_t cycles() const noexcept { return std::min(reader_.cycles(), max_cycles_); }
 
-  // Lever and controls are as recorded; the car is simulated. Without a car, or from the cycle on in which the
-  // simulation diverges from the recording, pedals, gear and road speed are the recorded ones and all else keeps its
-  // last value. Times increase strictly: a cycle whose time is not after the previous one is skipped.
+  // Returns the next cycle; false at the end. Lever and controls come from the recording; the car is simulated. Without
+  // a car, or once the simulation diverges from the recording, pedals, gear and road speed come from the recording and
+  // all other values of the car stay unchanged. Skips a cycle whose time is not after the previous cycle's time.
   bool next(vehicle::DriveSample& sample);
-  bool has_diverged() const noexcept { return has_diverged_; }  // true if any cycle read so far diverged
+  bool has_diverged() const noexcept { return has_diverged_; }  // true once any cycle has diverged
 
  private:
   std::unique_ptr<haptics::LeverLoad> make_load(const std::string& name, const haptics::Gate& gate);

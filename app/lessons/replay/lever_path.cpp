@@ -8,7 +8,7 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kTimeTolerance = 1e-7;  // [s] rounding errors of summed times
+constexpr double kTimeTolerance = 1e-7;  // [s] tolerance for rounding errors of summed times
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void LeverPath::add(double time, glm::dvec2 place) {
   if (points_.size() >= kMaxPoints) coarsen();
 }
 
-// Drops every other point; later points are stored at the coarser spacing.
+// Drops every other point, and doubles the distance at which later points are stored.
 void LeverPath::coarsen() {
   std::size_t count = 0;
   for (std::size_t i = 0; i < points_.size(); i += 2) points_[count++] = points_[i];
@@ -31,7 +31,8 @@ void LeverPath::coarsen() {
   chord_ *= 2.0;
 }
 
-// At any time the lever is within one chord of the last stored point not after that time.
+// Each path begins at the last point stored before its start time, and ends at the last point stored before its end
+// time. At these times, the lever is within one chord length of the points.
 ShiftPaths LeverPath::paths(const ShiftRecord& shift, const haptics::Gate& gate) const {
   const ShiftTimes times = shift_times(shift);
   const double left = shift.from == haptics::kNeutralGear ? 0.0 : times.lever_left.value_or(0.0);

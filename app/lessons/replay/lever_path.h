@@ -1,4 +1,4 @@
-// Collects the path of the displayed lever in a shift and computes the shortest possible one.
+// Collects the path of the displayed lever in a shift and computes the shortest possible path.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,14 @@
 namespace gearshift::lessons {
 
 struct ShiftPaths {
-  // [m] path from the old gear (or, from neutral, from the first movement) to the new gear. If no gear was engaged, the
-  // path ends with the shift.
+  // [m] Path from leaving the old gear to engaging the new gear. A shift from neutral: from the first movement. A shift
+  // in which no gear was engaged: to the end of the shift.
   std::vector<glm::dvec2> driven;
   std::vector<glm::dvec2> ideal;  // [m] shortest path between the ends of `driven`, see shortest_path()
 };
 
-// Receives every cycle of a shift and stores chords, so the ends of a path are accurate to one chord length.
+// Receives every cycle of a shift, but stores only points that are one chord apart. So the ends of a path are accurate
+// to one chord length.
 class LeverPath {
  public:
   void clear();                             // call at the start of each shift
@@ -26,7 +27,7 @@ class LeverPath {
   // Returns empty paths if nothing was added. gate: the gate in which the shift was driven.
   ShiftPaths paths(const ShiftRecord& shift, const haptics::Gate& gate) const;
 
-  static constexpr double kChord = 5e-4;  // [m] chord length; doubles when a path would exceed kMaxPoints
+  static constexpr double kChord = 5e-4;  // [m] initial chord length; doubled when a path exceeds kMaxPoints
   static constexpr std::size_t kMaxPoints = 4096;
 
  private:

@@ -40,7 +40,7 @@ void Player::seek(double time) {
 void Player::start_at(double time) {
   const double length = drive_.end() - drive_.begin();
   if (!(time >= 0.0 && time <= length))
-    throw std::invalid_argument(fmt::format("{:g} s is not within the drive, which lasts {:.3f} s", time, length));
+    throw std::invalid_argument(fmt::format("{:g} s is outside the drive, which lasts {:.3f} s", time, length));
   jump_to(drive_.begin() + time);
 }
 

@@ -13,8 +13,8 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kSampleSpacing = 0.004;  // [s] between kept samples
-constexpr double kRounding = 1e-9;        // [1] fraction of a cycle
+constexpr double kSampleSpacing = 0.004;  // [s] time between stored samples
+constexpr double kRounding = 1e-9;        // [1] tolerance as a fraction of a cycle
 
 // Finds the shifts in a sequence of cycles, with their paths.
 class ShiftFinder {
@@ -62,7 +62,7 @@ RecordedDrive::RecordedDrive(const std::filesystem::path& file, const std::stop_
   samples_.reserve(reader.cycles() / every + 2);
   vehicle::DriveSample sample;
   for (std::uint64_t cycle = 0; reader.next(sample); ++cycle) {
-    if (stop.stop_requested()) throw haptics::FileError(file.string(), 0, "was not read to the end");
+    if (stop.stop_requested()) throw haptics::FileError(file.string(), 0, "reading the trace was cancelled");
     if (finder && !reader.has_diverged()) finder->add(sample);
     if (cycle % every == 0) samples_.push_back(sample);
   }
@@ -72,7 +72,7 @@ RecordedDrive::RecordedDrive(const std::filesystem::path& file, const std::stop_
   has_diverged_ = reader.has_diverged();
 }
 
-// Leaves room for the last cycle, which is always kept.
+// Limits the samples to kMaxSamples - 1, because the last cycle is stored in addition.
 std::uint64_t RecordedDrive::stride(double rate, std::uint64_t cycles) noexcept {
   const auto apart = static_cast<std::uint64_t>(std::ceil(kSampleSpacing * rate - kRounding));
   const std::uint64_t room = kMaxSamples - 1;

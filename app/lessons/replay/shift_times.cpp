@@ -11,7 +11,8 @@ bool has(const ShiftRecord& shift, ShiftStep step) {
 
 }  // namespace
 
-// A shift begins with the clutch or the lever, whichever is first; the sign of clutch_lead shows which.
+// A shift begins when the clutch or the lever moves, whichever is first. The sign of `clutch_lead` shows which one it
+// was.
 ShiftTimes shift_times(const ShiftRecord& shift) {
   ShiftTimes times;
   times.end = shift.end - shift.begin;

@@ -10,7 +10,7 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr double kTextSize = 12.0;  // [px]
-constexpr double kRounding = 1e-9;  // [1] fraction of a step
+constexpr double kRounding = 1e-9;  // [1] rounding tolerance as a fraction of the grid step
 
 std::string format_tick(double value) {
   return (value < 0.0 ? "−" : "") + fmt::format("{:.6g}", std::abs(value));

@@ -17,8 +17,8 @@ class Chart {
  public:
   Chart(base::Svg& svg, const base::Rect& box, ChartRange x, ChartRange y) : svg_(svg), box_(box), x_(x), y_(y) {}
 
-  glm::dvec2 at(double x, double y) const noexcept;  // position on the page
-  // Grid lines at every multiple of `step`; x_grid and y_grid also write the numbers.
+  glm::dvec2 at(double x, double y) const noexcept;  // position of a data point on the page
+  // Grid lines at every multiple of `step`; x_grid() and y_grid() also write the numbers.
   void x_lines(double step) const;
   void x_grid(double step) const;
   void y_grid(double step) const;

@@ -26,8 +26,8 @@ bool is_bad(const ChosenShift& chosen) {
   return chosen.points > 0.0 || chosen.shift.missed || !chosen.errors.empty();
 }
 
-// Stricter than the error rules, because the best shifts are examined closely. Only blocking is allowed up to its error
-// threshold, because every synchroniser takes some time.
+// True for a shift without a flaw. Stricter than the error rules, because readers examine the best shifts closely.
+// Blocking is the exception: it is allowed up to its error threshold, because every synchroniser takes some time.
 bool is_clean(const ShiftRecord& shift) {
   const bool in_order = shift.steps_out_of_place == 0 && shift.clutch_lead >= 0.0 && shift.clutch_lag >= 0.0;
   const bool went_in = shift.block_time < error_rule(ErrorKind::blocked).raise && shift.grind_time == 0.0;

@@ -9,7 +9,7 @@
 
 namespace gearshift::lessons {
 
-inline constexpr std::size_t kMaxChosenShifts = 3;  // for `worst` and for `best`
+inline constexpr std::size_t kMaxChosenShifts = 3;  // largest size of `worst` and of `best`
 
 struct ChosenShift {
   std::int64_t run = 0;
@@ -21,13 +21,13 @@ struct ChosenShift {
 };
 
 struct ChosenShifts {
-  std::vector<ChosenShift> worst;  // most points first; then missed, then most errors, then latest
+  std::vector<ChosenShift> worst;  // most points lost first; if equal: missed first, then most errors, then latest
   std::vector<ChosenShift> best;   // from gear to gear without any flaw, quickest first
 };
 
-// Considers graded runs only. The worst exclude shifts without deductions, misses and errors. The best exclude shifts
-// with an error or note, a step out of order, the lever before the clutch, the clutch before the gear, a block, a grind
-// or a wrong slot.
+// Considers graded runs only. `worst` contains only shifts with a deduction, a miss or an error. `best` contains no
+// shift with an error or note, a step out of order, blocking long enough to be an error, grinding or a wrong slot. In
+// `best`, the clutch was down before the lever moved, and came up after the gear was in.
 ChosenShifts choose_shifts(const LearnerHistory& history);
 
 }  // namespace gearshift::lessons

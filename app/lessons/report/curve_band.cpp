@@ -20,7 +20,8 @@ glm::dvec3 slope_at(const LearningCurve& curve, double n) noexcept {
 
 double curve_deviation(const LearningCurve& curve, std::size_t trials, double n) noexcept {
   glm::dmat3 information(0.0);
-  // Keeps the matrix invertible; has no other effect, because the level's slope is zero.
+  // The derivative with respect to a level at its bound is 0 in every trial. So this 1 keeps the matrix invertible
+  // without affecting the result.
   if (curve.at_bound) information[0][0] = 1.0;
   for (std::size_t i = 0; i < trials; ++i) {
     const glm::dvec3 slope = slope_at(curve, static_cast<double>(i));

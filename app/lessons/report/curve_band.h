@@ -7,9 +7,9 @@
 
 namespace gearshift::lessons {
 
-// Standard deviation of curve.at(n) for n >= 0, with the curve fitted to `trials` grades: sqrt(g C g') with g = d at(n)
-// / d (level, gain, trials) and C = noise^2 (J'J)^-1, where J holds the slopes at the fitted trials. A level at its
-// bound is fixed, so its slope is left out.
+// Standard deviation of curve.at(n), for n >= 0 and a curve fitted to `trials` grades: sqrt(g C g'). The gradient g
+// contains the derivatives of at(n) with respect to level, gain and trials. The covariance C is noise^2 (J'J)^-1, where
+// the rows of J are the gradients at the fitted trials. A level at its bound is fixed, so its derivative is left out.
 double curve_deviation(const LearningCurve& curve, std::size_t trials, double n) noexcept;
 
 }  // namespace gearshift::lessons

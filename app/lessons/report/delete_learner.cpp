@@ -43,7 +43,7 @@ void remove_recording(const fs::path& file, DeletionReport& report) {
     return;
   }
   if (!is_trace(file)) {
-    report.not_deleted.push_back(file.string() + ": not a recording");
+    report.not_deleted.push_back(file.string() + ": this is not a recording");
     return;
   }
   fs::remove(file, error);

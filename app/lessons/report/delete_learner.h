@@ -18,11 +18,13 @@ struct DeletionReport {
   std::string remaining_data;            // one sentence on why the file still contains deleted data; else empty
 };
 
-// Keeps a recording that another learner's run references, and any file that is not a trace, because a forged history
-// must not decide what is deleted. If HistoryError is thrown, the learner still exists and can be deleted again.
+// Deletes the learner's rows and recordings. Keeps a recording that another learner's run references. Also keeps any
+// file that is not a trace, so that a forged history cannot delete other files. If HistoryError is thrown, the learner
+// still exists, and the deletion can be repeated.
 DeletionReport delete_learner(History& history, const LearnerRow& learner);
 
-// Deletes only the recordings of a learner, by the same rules: this needs no disk space and frees some for the rows.
+// Deletes only the learner's recordings, by the same rules. This needs no disk space, and frees some for deleting the
+// rows.
 DeletionReport remove_recordings(History& history, const LearnerRow& learner);
 
 }  // namespace gearshift::lessons

@@ -88,7 +88,7 @@ void draw_gears(base::Svg& svg, const haptics::Gate& gate) {
     across_slot(svg, gate, slot, slot.engage_depth, {base::kGearColour, 0.25});
     across_slot(svg, gate, slot, slot.release_depth, {base::kGearColour, 0.25, base::kShortDash});
     svg.dot(in_slot(slot, x, slot.rest), 0.7, base::kGearColour);
-    // Digits are about 0.73 of the font size high; half of that centres them on the rim.
+    // Digits are about 0.73 times the font size high. An offset of about half this height centres them on the rim.
     const glm::dvec2 label = in_slot(slot, x, slot.end + 0.5e-3 * kPlateRim) + glm::dvec2(0.0, 1.95);
     svg.text(label, {5.4, base::kGearColour, "middle", true}, haptics::gear_name(slot.gear));
   }

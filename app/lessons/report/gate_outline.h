@@ -18,7 +18,7 @@ constexpr double mm(double metres) {
 glm::dvec2 on_page(glm::dvec2 metres);
 
 base::Rect gate_plate(const haptics::Gate& gate);  // bounding box of the walls plus a rim
-// Draws a line across a slot from wall to wall. depth: [m]
+// Draws a line across a slot from wall to wall, at `depth` [m].
 void across_slot(base::Svg& svg, const haptics::Gate& gate, const haptics::Slot& slot, double depth,
                  const base::Pen& pen);
 

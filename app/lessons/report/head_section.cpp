@@ -32,7 +32,7 @@ std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> l
   return fmt::format(
       "<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>, chosen by the instructor.{}</p>\n",
       base::html_text(lesson_title(lessons, wanted)),
-      suggestion ? " Going by the grades, the next lesson would be " + base::html_text(suggested) : "");
+      suggestion ? " Based on the grades, the next lesson would be " + base::html_text(suggested) : "");
 }
 
 }  // namespace

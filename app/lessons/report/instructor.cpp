@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void refuse(const char* kind, std::int64_t number, const LearnerRow& learner,
                          const std::vector<std::int64_t>& known) {
-  throw std::runtime_error(fmt::format("{0} {1} does not belong to {2}; {0}s that do: {3}", kind, number,
+  throw std::runtime_error(fmt::format("{0} {1} does not belong to {2}, who has these {0}s: {3}", kind, number,
                                        haptics::printable(learner.name),
                                        known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }

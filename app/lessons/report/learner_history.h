@@ -1,4 +1,4 @@
-// Everything in the history about one learner, as plain rows: the input for page and tables.
+// Everything in the history about one learner, as plain rows: the input of the HTML page and the tables.
 #pragma once
 
 #include <vector>

@@ -18,7 +18,7 @@ std::string format_next_lesson(const LearnerHistory& history, std::span<const Le
   return suggestion ? haptics::printable(suggestion->lesson) : "-";
 }
 
-// Lists the comments with the numbers needed to edit them; line breaks become blanks.
+// Lists the comments with the numbers needed to edit them. Line breaks within a comment become blanks.
 std::string comment_lines(const LearnerHistory& history) {
   std::string lines;
   for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) {

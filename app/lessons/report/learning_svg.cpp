@@ -14,13 +14,13 @@
 namespace gearshift::lessons {
 namespace {
 
-// Sizes on the page. [px]
+// Sizes [px] on the page.
 constexpr base::Rect kPage{0.0, 0.0, 480.0, 280.0};
 constexpr base::Rect kBox{40.0, 28.0, 426.0, 206.0};
 
 constexpr const char* kBandColour = "#dce8f5";
-constexpr double kBandDeviations = 2.0;    // [1] half width of the band in standard deviations: about 95 %
-constexpr std::size_t kMinAxisTrials = 6;  // shortest axis, in trials
+constexpr double kBandDeviations = 2.0;    // [1] half width of the confidence band (about 95 %) in standard deviations
+constexpr std::size_t kMinAxisTrials = 6;  // shortest axis, in number of trials
 constexpr int kCurveSteps = 160;
 
 class LearningPlot {
@@ -69,9 +69,10 @@ class LearningPlot {
   }
 
  private:
-  // Trial number along the curve, from 0 for the first trial to the last.
+  // Trial number (0 for the first trial) at point `step` of the drawn curve, which ends at the last trial.
   double trial_at(int step) const { return static_cast<double>(task_.trials.size() - 1) * step / kCurveSteps; }
-  // n counts from 0, as in the curve; the axis counts from 1. Points outside the scale are drawn at its edge.
+  // `n` counts trials from 0, as the curve does; the axis counts from 1. Points outside the scale are drawn at its
+  // edge.
   glm::dvec2 at(double n, double grade) const { return chart_.at(n + 1.0, std::clamp(grade, 0.0, kBestGrade)); }
 
   const TaskProgress& task_;

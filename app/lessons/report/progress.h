@@ -21,7 +21,7 @@ std::string day_of(std::string_view time);  // "2026-01-02", the day of an ISO 8
 
 struct Totals {
   std::size_t days = 0, sessions = 0, runs = 0, shifts = 0;
-  double driven = 0.0;              // [s] driven in finished runs
+  double driven = 0.0;              // [s] driving time in finished runs
   std::string first_day, last_day;  // empty if there are no runs
 };
 Totals totals(const LearnerHistory& history);

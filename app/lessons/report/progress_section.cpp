@@ -16,7 +16,7 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr std::size_t kMinRunsForCurve = 5;  // same as kMinTrials in learning_curve.cpp
+constexpr std::size_t kMinRunsForCurve = 5;  // equal to kMinTrials in learning_curve.cpp
 constexpr std::size_t kMinRunsForChart = 3;
 
 std::string format_estimate(const Estimate& e) {
@@ -87,7 +87,7 @@ std::string charts(const std::vector<TaskProgress>& tasks, std::span<const Lesso
   return figures.empty() ? figures : "<div class=\"curves\">\n" + figures + "</div>\n";
 }
 
-// For example "Reverse: 8.0 (Run 3), 8.5 (Run 7)".
+// Returns text such as "Reverse: 8.0 (Run 3), 8.5 (Run 7)".
 std::string grades_item(const TaskProgress& task, std::span<const Lesson> lessons) {
   std::string grades;
   for (const GradedTrial& trial : task.trials) {
@@ -97,7 +97,7 @@ std::string grades_item(const TaskProgress& task, std::span<const Lesson> lesson
   return fmt::format("<li>{}: {}</li>", base::html_text(task_title(lessons, task.task)), grades);
 }
 
-// The tasks with too few runs for a chart, all in one row.
+// Lists the tasks with too few runs for a chart, all in one row.
 std::string few_runs(const std::vector<TaskProgress>& tasks, std::span<const Lesson> lessons) {
   std::string items;
   for (const TaskProgress& task : tasks) {
@@ -117,7 +117,7 @@ constexpr const char* kHowToRead =
     "the "
     "number of runs until 37 % of that distance is left. The pale band contains the curve with about 95 % confidence; "
     "± is one standard deviation. Grades lie between 0 and 10, and so does A: if the fit would "
-    "put A beyond that range, A is fixed at the limit, and B and τ are fitted for it.";
+    "put A beyond that range, A is fixed at the limit, and only B and τ are fitted.";
 
 // The newest retention trials of a lesson, after a day and after a week.
 struct RetentionRow {
@@ -144,9 +144,9 @@ std::string retention_cells(const std::optional<RetentionTrial>& trial) {
 }
 
 constexpr const char* kRetentionCaption =
-    "How much of a lesson is left after a break: the grades of the last graded run before the break and of the first "
-    "run after it. A day means a break of at least 20 hours, a week one of at least six days; the newest of each is "
-    "shown.";
+    "How much of a lesson is retained after a break: the grades of the last graded run before the break and of the "
+    "first run after the break. A day means a break of at least 20 hours, a week means a break of at least six days; "
+    "only the newest of each is shown.";
 
 std::string retention_part(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::vector<RetentionRow> rows = retention_rows(history);

@@ -22,12 +22,12 @@ namespace {
 constexpr double kWidth = 560.0, kLeft = 44.0, kInner = 502.0;
 constexpr base::Rect kForceBox{kLeft, 28.0, kInner, 150.0};
 constexpr double kSpeedHeight = 110.0, kPedalHeight = 50.0, kGearHeight = 16.0;
-constexpr double kGap = 30.0;   // above each chart, for its label
-constexpr double kAxis = 44.0;  // below the last chart
+constexpr double kGap = 30.0;   // space for the label above each chart
+constexpr double kAxis = 44.0;  // space below the last chart
 constexpr double kPixelsPerMillimetre = 3.0;
 
-constexpr double kMinForceScale = 20.0;  // [N] smallest range of the scale
-constexpr double kMinSpeedSpan = 500.0;  // [1/min] smallest range of the scale
+constexpr double kMinForceScale = 20.0;  // [N] smallest range of the force axis
+constexpr double kMinSpeedSpan = 500.0;  // [1/min] smallest range of the speed axis
 constexpr double kPerMinute = 30.0 / std::numbers::pi;
 constexpr std::size_t kMaxParts = 400;
 constexpr const char* kPedalColour = "#8d99a6";
@@ -37,7 +37,8 @@ constexpr const char* kGearGround = "#cfe0f2";
 constexpr const char* kShaftColour = "#d9822b";
 constexpr const char* kIdealColour = "#2e7d4f";
 
-// Splits the recording into equal parts and keeps the lowest and highest force of each, so that no peak is lost.
+// Splits the recording into equal parts and keeps the lowest and the highest force of each part, so that no peak is
+// lost.
 std::vector<RecordedCycle> thin_out(const std::vector<RecordedCycle>& cycles) {
   const std::size_t part = std::max<std::size_t>(1, cycles.size() / kMaxParts);
   std::vector<RecordedCycle> thinned;
@@ -91,7 +92,7 @@ class ShiftCharts {
     draw(chart, {base::kInk, 1.6}, [](const RecordedCycle& c) { return c.force; });
   }
 
-  // The scale does not start at zero, to show where the two speeds meet.
+  // The axis does not start at zero, to show clearly where the two speeds meet.
   void speeds(const base::Rect& box) {
     double low = 1e9, high = 0.0;
     for (const RecordedCycle& c : cycles_) {

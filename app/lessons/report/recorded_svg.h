@@ -7,8 +7,8 @@
 
 namespace gearshift::lessons {
 
-// Charts over time: hand force; with a car, engine and gearbox shaft speed; pedals; gear.
+// Charts over time: hand force, engine and gearbox shaft speeds (only with a car), pedals, gear.
 std::string force_svg(const ShiftRecording& shift);
-std::string path_svg(const ShiftRecording& shift);  // paths of hand, displayed lever and the shortest path in the gate
+std::string path_svg(const ShiftRecording& shift);  // paths of hand and displayed lever, and the shortest path
 
 }  // namespace gearshift::lessons

@@ -20,7 +20,7 @@ struct ErrorUnit {
   std::string_view key, unit;
 };
 
-// Units of the errors' values, by key, so that a new kind of error does not shift the others.
+// Units of the errors' values by error key, so that a new kind of error does not shift the units of other errors.
 constexpr ErrorUnit kUnits[] = {
     {"stall", "rad/s"},        {"over_rev", "rad/s"},    {"lugging", "s"},
     {"clutch_dump", "W"},      {"clutch_early", "s"},    {"clutch_late", "s"},

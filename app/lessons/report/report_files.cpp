@@ -20,7 +20,7 @@ std::string names_of(std::span<const ReportFile> files) {
   return names.empty() ? "nothing" : names;
 }
 
-// A failed stream does not report the reason, so check for a full disk.
+// True if the folder's disk has less than `bytes` free. Needed because a failed stream does not report why it failed.
 bool has_no_room(const fs::path& folder, std::size_t bytes) {
   std::error_code unknown;
   const fs::space_info room = fs::space(folder, unknown);

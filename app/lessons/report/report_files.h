@@ -12,7 +12,7 @@ struct ReportFile {
   std::string name, text;
 };
 
-// Writes the files in order and calls `written` after each. Throws std::runtime_error with one sentence: which file
+// Writes the files in order and calls `written` after each. Throws std::runtime_error. Its message says which file
 // could not be written and why, and which files were written and which were not.
 void write_report_files(const std::filesystem::path& folder, std::span<const ReportFile> files,
                         const std::function<void(const std::filesystem::path&)>& written);

@@ -80,7 +80,8 @@ ShownShift show_shift(const ChosenShift& chosen, const std::filesystem::path& fo
   ShownShift shift{chosen, {}, {}};
   if (chosen.recording.empty()) return shift;
   try {
-    shift.recorded = read_shift(folder / chosen.recording, chosen.shift);  // an absolute path replaces the folder
+    // If the recording's path is absolute, operator/ ignores `folder`.
+    shift.recorded = read_shift(folder / chosen.recording, chosen.shift);
   } catch (const std::exception& problem) {
     shift.problem = problem.what();
   }

@@ -16,7 +16,7 @@ namespace gearshift::lessons {
 struct ShownShift {
   ChosenShift chosen;
   std::optional<ShiftRecording> recorded;
-  std::string problem;  // why the recording is not shown; empty if it is shown or if there is none
+  std::string problem;  // why the recording is not shown; empty if it is shown or does not exist
 };
 struct ShownShifts {
   std::vector<ShownShift> worst, best;

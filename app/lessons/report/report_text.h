@@ -10,7 +10,7 @@
 
 namespace gearshift::lessons {
 
-std::string title_from_key(std::string_view key);  // "Moving off" for "moving_off"
+std::string title_from_key(std::string_view key);  // for example "Moving off" for "moving_off"
 
 // The lesson's title, or its key as text if the lesson is unknown.
 std::string lesson_title(std::span<const Lesson> lessons, std::string_view key);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kHour = 3600.0, kDay = 24.0 * kHour;  // [s]
 
 struct Past {                         // state of one lesson
-  std::optional<std::int64_t> begun;  // [s] since 1970, begin of the last run
+  std::optional<std::int64_t> begun;  // [s] since 1970, start of the last run
   std::optional<RetentionTrial::Before> graded;
 };
 
@@ -29,7 +29,7 @@ std::vector<RetentionTrial> retention_trials(const LearnerHistory& history) {
   std::map<std::string, Past> lessons;
   for (const ReportedRun& run : history.runs) {
     const LessonResult& result = run.row.result;
-    if (!was_completed(run.row)) continue;  // same rule as the coach's retention tests
+    if (!was_completed(run.row)) continue;  // skips runs that ended early, as the coach does
     Past& past = lessons[result.lesson];
     const std::optional<std::int64_t> begun = parse_utc(run.row.begun_at);
     const std::optional<double> pause = pause_before(past, begun);

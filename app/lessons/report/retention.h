@@ -1,4 +1,4 @@
-// Retention: how much of a lesson is left after a break of a day or a week.
+// Retention: how well a learner still drives a lesson after a break of a day or a week.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,14 @@ struct RetentionTrial {
   std::optional<Before> before;  // the previous graded run of this lesson; empty: none
 };
 
-// Graded runs that began at least kRetentionPause after the previous run of the same lesson, graded or not. Oldest
-// first. Runs that ended early or never ended are ignored, and so are unreadable dates.
+// Graded runs that began at least kRetentionPause after the previous run of the same lesson, graded or not. The oldest
+// is first. Runs that ended early or never ended are ignored. A run is left out if its date or the previous run's date
+// is unreadable.
 std::vector<RetentionTrial> retention_trials(const LearnerHistory& history);
 
-// Maps the run numbers of retention trials to the break before each [s].
+// Maps the run number of each retention trial to the break before the trial [s].
 std::map<std::int64_t, double> retention_pauses(const LearnerHistory& history);
 
-std::string format_pause(double seconds);  // "26 hours", "8 days"
+std::string format_pause(double seconds);  // for example "26 hours" or "8 days"
 
 }  // namespace gearshift::lessons

@@ -21,13 +21,13 @@ double points_of_error(const LessonResult& result, std::size_t error) {
   return points;
 }
 
-// The points that the error cost, or its severity if it cost none (guided runs are not graded).
+// Returns the points that the error cost. If it cost none, as in a guided run, returns the error's severity.
 std::string format_cost(const DrivingError& error, double points) {
   if (points > 0.0) return fmt::format("<strong>−{:.1f}</strong>", points);
   return title_from_key(to_string(error.severity)) + ":";
 }
 
-// For example "−2.0 The engine stalled at 350 rpm. (12.4 s into the run, shift 3)", plus advice if `advised`.
+// Returns text such as "−2.0 The engine stalled at 350 rpm. (12.4 s into the run, shift 3)", plus advice if `advised`.
 std::string error_item(const LessonResult& result, std::size_t i, bool advised) {
   const DrivingError& error = result.errors[i];
   const std::string cost = format_cost(error, points_of_error(result, i));
@@ -39,7 +39,7 @@ std::string error_item(const LessonResult& result, std::size_t i, bool advised) 
                      base::html_text(error_sentence(error)), error.time - result.begin, shift, advice);
 }
 
-// Adds advice once per kind of error that cost points.
+// Lists the errors, with advice for the first error of each kind that cost points.
 std::string error_list(const LessonResult& result) {
   if (result.errors.empty()) return {};
   std::string list = "<ul>";
@@ -51,7 +51,8 @@ std::string error_list(const LessonResult& result) {
   return list + "</ul>";
 }
 
-// If the deductions exceed the best grade, shows their sum, because they then do not add up to the grade.
+// If the deductions exceed the best grade, shows their sum, because the grade then does not show how many points were
+// lost.
 std::string format_lost_points(const LessonResult& result) {
   double points = 0.0;
   for (const Deduction& deduction : result.deductions) points += deduction.points;
@@ -67,7 +68,7 @@ std::string format_outcome(const LessonResult& result) {
          format_lost_points(result);
 }
 
-// Comments are placed below the findings: few runs have any, and a separate column would waste space.
+// Comments are placed below the driving errors, because few runs have comments and a separate column would waste space.
 std::string comments_list(const std::vector<CommentRow>& comments) {
   std::string list;
   for (const CommentRow& comment : comments) {
@@ -85,7 +86,7 @@ std::string format_begin(const std::string& begun_at) {  // "2026-01-02<br>10:00
                      base::html_text(begun_at.size() >= 16 ? begun_at.substr(11, 5) : std::string()));
 }
 
-// pause: [s] break before a retention trial; else 0.
+// `pause` [s]: break before a retention trial; 0 for any other run.
 std::string format_mode(const LessonResult& result, double pause) {
   std::string words = result.mode == LessonMode::follow_me ? "follow me" : "do it yourself";
   if (result.guided) words += ", guided";

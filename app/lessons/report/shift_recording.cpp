@@ -26,7 +26,8 @@ RecordedCycle cycle_of(const vehicle::DriveSample& sample, double time) {
           sample.lever.proxy};
 }
 
-// Counts clutch presses like the shift's record. A press still held at the end of the shift ends there.
+// Collects the times of the clutch presses, as counted in the shift's record. If the pedal is still down at the end of
+// the shift, the press ends there.
 class Presses {
  public:
   explicit Presses(const vehicle::CarSpec* car) : pedal_(car ? car->clutch.bite : 1.0), has_car_(car != nullptr) {}
@@ -58,7 +59,7 @@ class Presses {
 }  // namespace
 
 ShiftRecording read_shift(const std::filesystem::path& trace, const ShiftRecord& shift) {
-  DriveReader reader(trace);  // an incomplete recording from a killed process is still useful
+  DriveReader reader(trace);  // also reads the incomplete recording of a killed process
   ShiftRecording recorded;
   recorded.gate = reader.gate();
   recorded.alarm = reader.header().config.over_push.warn_above;

@@ -36,7 +36,7 @@ std::string figures_row(const ShownShift& shown, std::span<const Lesson> lessons
 std::string figures_table(std::span<const ShownShift> shifts, std::span<const Lesson> lessons) {
   const auto head = [](const char* words) { return fmt::format("<th class=\"number\">{}</th>", words); };
   std::string table = "<table class=\"shifts\">\n<thead><tr><th>Shift</th><th>Gears</th><th>Lesson</th>";
-  for (const char* words : {"Points lost", "Clutch before lever [s]", "Clutch after gear [s]", "No drive [s]",
+  for (const char* words : {"Points lost", "Clutch down before lever [s]", "Clutch up after gear [s]", "No drive [s]",
                             "Clutch heat [J]", "Jerk [m/s³]", "Push [N]", "Path / shortest"})
     table += head(words);
   table += "<th>Steps</th></tr></thead>\n<tbody>\n";

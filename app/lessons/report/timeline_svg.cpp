@@ -18,7 +18,7 @@ namespace {
 constexpr double kPageWidth = 960.0;
 constexpr double kTop = 30.0;  // legend
 constexpr double kLabels = 130.0;
-constexpr double kNumbers = 96.0;  // for the bars' durations, right of the axis
+constexpr double kNumbers = 96.0;  // space for the bars' durations, right of the axis
 constexpr double kBar = 15.0, kBarGap = 4.0;
 constexpr double kLine = 17.0;  // height of an error's sentence
 constexpr double kShiftGap = 18.0;
@@ -41,10 +41,11 @@ double axis_length(std::span<const ShownShift> shifts) {
 
 struct Clutch {
   std::vector<ClutchPress> presses;
-  bool is_known = true;  // false: pressed more than once, at unknown times
+  bool is_known = true;  // false: several presses at unknown times
 };
 
-// Clutch presses from the recording; without one, from the shift's record if there was only one press.
+// Returns the clutch presses in the recording. Without a recording, uses the shift's record, which contains the times
+// only if there was a single press.
 Clutch clutch_of(const ShownShift& shown, const ShiftTimes& times) {
   if (shown.recorded && !shown.recorded->presses.empty()) return {shown.recorded->presses, true};
   if (times.presses > 1) return {{}, false};
@@ -52,7 +53,8 @@ Clutch clutch_of(const ShownShift& shown, const ShiftTimes& times) {
   return {};
 }
 
-// Time of an error since the shift began. An early clutch release is reported at the end of the shift, but came before.
+// Time from the start of the shift to an error [s]. An early clutch release is reported at the end of the shift, but
+// happened earlier.
 double moment_of(const DrivingError& error, const ShiftRecord& shift, const ShiftTimes& times) {
   const bool came_up = error.kind == ErrorKind::clutch_early && times.gear_in && shift.clutch_lag < 0.0;
   return came_up ? *times.gear_in + shift.clutch_lag : error.time - shift.begin;
@@ -128,7 +130,7 @@ class Timeline {
     }
   }
 
-  // Marks the parts of the lever's movement that no clutch press covers.
+  // Marks the parts of the lever's movement during which the clutch was not pressed.
   void without_clutch(double left, double in, const std::vector<ClutchPress>& presses, double top) {
     double from = left;
     for (const ClutchPress& press : presses) {

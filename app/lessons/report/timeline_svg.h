@@ -8,8 +8,9 @@
 
 namespace gearshift::lessons {
 
-// Requires at least one shift. If the pedal went down more than once, its times come from the recording; without a
-// recording the clutch bar is pale, and lever movement without the clutch is not marked.
+// Requires at least one shift. If the clutch was pressed more than once, the times of the presses come from the
+// recording. If there is no recording then, the clutch bar is pale, and lever movement without the clutch is not
+// marked.
 std::string timeline_svg(std::span<const ShownShift> shifts);
 
 }  // namespace gearshift::lessons

@@ -11,14 +11,14 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kRare = 0.05 - 1e-9;  // [1] one-sided limit of probability; exactly 5 % is not below it
+constexpr double kRare = 0.05 - 1e-9;  // [1] one-sided significance level: strictly below 5 %
 
 double log_binomial(std::size_t k, std::size_t n) noexcept {
   const auto of = static_cast<double>(n), in = static_cast<double>(k);
   return std::lgamma(of + 1.0) - std::lgamma(in + 1.0) - std::lgamma(of - in + 1.0);
 }
 
-// Hypergeometric probabilities [1] of 0, 1, ... runs with the error in the later half.
+// Hypergeometric probabilities [1] that 0, 1, ... runs of the later half have the error.
 std::vector<double> later_half_distribution(const LessonHalves& lesson) {
   const std::size_t with = lesson.earlier + lesson.recent, all = 2 * lesson.runs;
   std::vector<double> chances(std::min(with, lesson.runs) + 1, 0.0);
@@ -98,7 +98,8 @@ WeakSpot spot_of(ErrorKind kind, std::span<const LessonResult* const> results) {
   return spot;
 }
 
-// An error that occurs only as notes, or only in runs outside both halves, has no trend.
+// Sets the spot's rates in both halves, and its trend. The trend stays unknown if the error occurred only as a note, or
+// only in runs outside both halves.
 void compare(WeakSpot& spot, const std::vector<LessonHalves>& lessons) {
   LessonHalves sum;
   for (const LessonHalves& lesson : lessons) {

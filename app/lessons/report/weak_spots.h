@@ -20,10 +20,11 @@ enum class Trend { unknown, falling, unclear, rising };  // unknown: the compare
 
 struct WeakSpot {
   ErrorKind kind = ErrorKind::stall;
-  std::array<std::size_t, 4> by_severity{};  // note, minor, severe, very severe
+  std::array<std::size_t, 4> by_severity{};  // number of errors by severity: note, minor, severe, very severe
   std::size_t count = 0;
   double points = 0.0;  // [1] total deduction
-  // [1] runs with the error per 10 runs, in the first and second half of each lesson's runs
+  // [1] runs with the error per 10 runs, in the first half (`earlier`) and the second half (`recent`) of each lesson's
+  // runs
   double earlier = 0.0, recent = 0.0;
   double per_ten = 0.0;  // [1] errors per 10 shifts, without notes; 0 if there were no shifts
   Trend trend = Trend::unknown;
@@ -36,18 +37,19 @@ struct Weaknesses {
 };
 
 // Considers graded runs only. The runs of each lesson are split into halves (without the middle run of an odd number),
-// so that a different mix of lessons does not count as a change. A run counts once per kind of error; notes do not
+// so that a different mix of lessons does not count as a change. A run counts once per kind of error. Notes do not
 // count.
 Weaknesses weaknesses(const LearnerHistory& history);
 
 // For one lesson: the number of runs in each half, and how many runs of each half had the error.
 struct LessonHalves {
-  std::size_t runs = 0, earlier = 0, recent = 0;  // earlier, recent <= runs
+  std::size_t runs = 0, earlier = 0, recent = 0;  // `earlier` and `recent` are at most `runs`
 };
 
-// The trend is rising or falling if the number of later runs with the error, or a more extreme number, has a
-// probability below 5 % under the hypothesis of no change: that within each lesson every run is equally likely to have
-// the error. Then each lesson's later half is a draw without replacement, and the draws of all lessons add up.
+// Tests the hypothesis of no change: within each lesson, every run is equally likely to have the error. Each lesson's
+// later half is then a draw without replacement, and the draws of all lessons add up. The trend is rising or falling if
+// the observed number of later runs with the error, or a more extreme number, has a probability below 5 % under this
+// hypothesis.
 Trend trend_of(std::span<const LessonHalves> lessons);
 
 }  // namespace gearshift::lessons

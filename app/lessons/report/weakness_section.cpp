@@ -26,7 +26,8 @@ const char* trend_label(Trend trend) {
   return "–";
 }
 
-// Two bars on one scale: the earlier rate on top, the recent rate below. A dash, not 0, if no runs were compared.
+// Draws two bars on one scale: the earlier rate on top, the recent rate below. Draws a dash, not 0, if no runs were
+// compared.
 std::string bars(const WeakSpot& spot, double max_rate) {
   if (spot.trend == Trend::unknown) return "–";
   const auto bar = [&](const char* kind, double rate) {
@@ -36,7 +37,8 @@ std::string bars(const WeakSpot& spot, double max_rate) {
   return bar("earlier", spot.earlier) + "<br>" + bar("recently", spot.recent);
 }
 
-// Adds the advice and, because "Slow step" says too little, the newest error's sentence.
+// Returns the HTML of the error's name, the newest error's sentence if it names a step, and the advice. The sentence is
+// needed because the name "Slow step" does not say which step.
 std::string format_spot_name(const WeakSpot& spot) {
   std::string words = base::html_text(title_from_key(to_string(spot.kind)));
   const auto add = [&](std::string_view line) {

@@ -12,7 +12,7 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kTopGearTime = 2.0;     // [s] time in the highest gear (engineering value)
+constexpr double kTopGearTime = 2.0;     // [s] time driven in the highest gear (engineering value)
 constexpr double kBackUpDistance = 2.0;  // [m] engineering value
 constexpr double kTourLimit = 300.0;     // [s]
 
@@ -109,7 +109,7 @@ Lesson tour_lesson(const vehicle::CarSpec& car, const haptics::Gate& gate) {
   lesson.goal = "Drive through every gear, up and down again, and reverse a little.";
   lesson.time_limit = kTourLimit;
   for (int kind = 0; kind < kErrorKindCount; ++kind) {
-    // The tour shifts down without blips, which have a lesson of their own.
+    // The driver of the tour does not blip on downshifts, so `rev_mismatch` is not counted.
     if (static_cast<ErrorKind>(kind) != ErrorKind::rev_mismatch) lesson.counted.push_back(static_cast<ErrorKind>(kind));
   }
 

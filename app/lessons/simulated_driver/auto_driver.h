@@ -20,16 +20,16 @@ struct AutoDriverConfig {
   DeliberateErrors errors;
   std::uint64_t seed = 1;
   double period = 1e-3;  // [s] between samples
-  bool again = false;    // after the lesson, drive back and repeat it; false: stop and let go
+  bool again = false;    // after the lesson, drive back to its start and repeat it; false: stop
 };
 
 class AutoDriver {
  public:
-  explicit AutoDriver(const AutoDriverConfig& config);  // throws std::invalid_argument if the gate lacks a gear
+  explicit AutoDriver(const AutoDriverConfig& config);  // throws std::invalid_argument if the gate lacks a needed gear
   ~AutoDriver();
   AutoDriver(AutoDriver&&) noexcept;
 
-  vehicle::DriverAction act(const vehicle::DriveSample& sample);  // call every cycle, in order; allocates
+  vehicle::DriverAction act(const vehicle::DriveSample& sample);  // call every cycle, in order; allocates memory
   bool is_over() const noexcept;
 
  private:
@@ -37,7 +37,7 @@ class AutoDriver {
   std::unique_ptr<State> state_;
 };
 
-// The lesson of an automatic driver that has no other: a drive through every gear, up, down and back to a stop.
+// Default lesson of an automatic driver: a drive through every gear, up, down and back to a stop.
 Lesson tour_lesson(const vehicle::CarSpec& car, const haptics::Gate& gate);
 
 }  // namespace gearshift::lessons

@@ -1,4 +1,4 @@
-// Deliberate errors, except those within a shift.
+// Deliberate errors of the simulated driver, except errors within a shift.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 namespace gearshift::lessons {
 
-// True if a deliberate error of the launch is still to be made.
+// True if the driver still has to make a deliberate error during the launch.
 bool SimulatedDriver::has_pending_error(const vehicle::DriveSample& now) const noexcept {
   if (now.car.gear == haptics::kNeutralGear) return false;
   const bool hill = std::abs(lesson_.start.slope) > kMinHillSlope;
@@ -21,13 +21,14 @@ bool SimulatedDriver::spoil_launch(const vehicle::DriveSample& now) {
   const bool dumps = is_due(ErrorKind::clutch_dump);
   const double revs = dumps ? kDumpSpeed : kJerkSpeed;
   if (feet_.hand_brake.value() > 0.05 && !is_due(ErrorKind::rollback) && !is_due(ErrorKind::stall)) {
-    // On a hill the driver revs up before releasing the handbrake, or the car would roll back.
+    // Rev up before releasing the handbrake, because otherwise the car would roll back on a hill.
     feet_.throttle.move_to(kHurryThrottle, 4.0);
     if (now.car.engine_speed >= revs) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
     return true;
   }
   if (feet_.hand_brake.value() > 0.05) {
-    if (intent().motion == Motion::bite) feet_.hand_brake.move_to(0.0, kHandBrakeRate);  // before the clutch bites
+    // Release the handbrake before the clutch bites.
+    if (intent().motion == Motion::bite) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
     hold_revs(launch_speed_);
     feet_.clutch.move_to(0.5 * (car_.clutch.bite + kClutchDown), kClutchRateToBite);
     rolls_since_ = now.time();
@@ -64,7 +65,7 @@ bool SimulatedDriver::make_over_rev(const vehicle::DriveSample& now) {
   return true;
 }
 
-// The highest gear in which the engine would labour at this speed; neutral if there is none from the current gear up.
+// Returns the highest gear, from the current gear up, in which the engine would labour at this speed; neutral if none.
 int SimulatedDriver::lugging_gear(const vehicle::DriveSample& now) const noexcept {
   for (int gear = haptics::kMaxGear; gear >= std::max(1, now.car.gear); --gear) {
     if (haptics::slot_of_gear(gate_, gear) == haptics::kNoSlot) continue;
@@ -74,22 +75,24 @@ int SimulatedDriver::lugging_gear(const vehicle::DriveSample& now) const noexcep
   return haptics::kNeutralGear;
 }
 
-// Rolls on with the clutch down for no reason.
+// Makes the error `coasting`: the car rolls with the clutch open for no reason. Returns true while the error is in
+// progress.
 bool SimulatedDriver::make_coasting(const vehicle::DriveSample& now) {
   if (!is_due(ErrorKind::coasting)) return false;
-  // If a shift came next, an open clutch would only make that shift slow.
+  // Do not coast just before a shift. There, an open clutch would count only as a slow shift.
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 2 && !intent().next_gear;
   if (coasts_until_ == 0.0 && coupled && now.car.road_speed > kMinCoastingSpeed)
     coasts_until_ = pause_until_ = now.time() + kCoastTime * errors_.of(ErrorKind::coasting);
   if (coasts_until_ == 0.0 || (now.time() >= coasts_until_ && mark_done(ErrorKind::coasting))) return false;
   feet_.throttle.move_to(0.0, kLiftRate);
   feet_.brake.move_to(0.0, kBrakeRate);
-  // Open the clutch, but not as far as lessons require for "clutch down", or a step of a shift would be done.
+  // Open the clutch, but press the pedal less far than a step "clutch down" requires, so that no such step is
+  // completed.
   feet_.clutch.move_to(car_.clutch.bite + kOpenMargin, kPressRate);
   return true;
 }
 
-// For a deliberate wrong_direction: reverse while the car still rolls forward.
+// For the deliberate error `wrong_direction`, returns reverse while the car still rolls forward; otherwise empty.
 std::optional<int> SimulatedDriver::early_reverse_gear(const vehicle::DriveSample& now) const {
   const bool rolls = now.car.road_speed > kMinRollingSpeed && now.car.road_speed < kMinCoastingSpeed;
   const bool is_next = current_step_ + 1 < intents_.size() && intents_[current_step_ + 1].gear == haptics::kReverseGear;
@@ -97,7 +100,7 @@ std::optional<int> SimulatedDriver::early_reverse_gear(const vehicle::DriveSampl
   return clutch_is_down_ ? intents_[current_step_ + 1].gear : std::nullopt;
 }
 
-// For a deliberate early_downshift: the lower gear at once, instead of slowing down first.
+// For the deliberate error `early_downshift`, returns the lower gear before the car has slowed down; otherwise empty.
 std::optional<int> SimulatedDriver::early_downshift_gear(const vehicle::DriveSample& now) const {
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear > 1;
   if (!is_due(ErrorKind::early_downshift) || intent().motion != Motion::slow || !coupled) return std::nullopt;
@@ -130,7 +133,8 @@ bool SimulatedDriver::make_lugging(const vehicle::DriveSample& now) {
   return true;
 }
 
-// In a lesson with a stop the deliberate stall happens there, otherwise at once.
+// True if the driver should now stall the engine on purpose by braking with the clutch up. Only in lessons that start
+// with a rolling car: in the stop if the lesson contains one, otherwise at once.
 bool SimulatedDriver::should_stall_by_brake(const vehicle::DriveSample& now) const noexcept {
   if (!is_due(ErrorKind::stall) || lesson_.start.speed <= 0.0 || now.car.gear == haptics::kNeutralGear) return false;
   const auto is_stop = [](const LessonIntent& wants) { return wants.motion == Motion::stop; };

@@ -3,77 +3,81 @@
 
 namespace gearshift::lessons {
 
-inline constexpr double kPressRate = 5.0;         // [1/s] clutch pressed: 0.2 s for the whole travel
+inline constexpr double kPressRate = 5.0;         // [1/s] pressing the clutch: 0.2 s for the whole travel
 inline constexpr double kLiftRate = 8.0;          // [1/s] throttle released
 inline constexpr double kThrottleRate = 2.5;      // [1/s] throttle pressed
 inline constexpr double kBrakeRate = 4.0;         // [1/s]
 inline constexpr double kHandBrakeRate = 3.0;     // [1/s]
-inline constexpr double kClutchRateToBite = 2.5;  // [1/s] clutch up, before it transmits torque
-// [1/s] clutch up from the bite point to full capacity while the car rolls; takes 0.6 s
+inline constexpr double kClutchRateToBite = 2.5;  // [1/s] releasing the clutch before it transmits torque
+// [1/s] releasing the clutch from the bite point to full capacity while the car rolls; takes 0.6 s
 inline constexpr double kClutchRateThroughBite = 0.95;
-inline constexpr double kClutchRateLaunch = 0.25;      // [1/s] clutch up at a launch, from bite point until it locks
-inline constexpr double kClutchRateAfterLaunch = 1.2;  // [1/s] clutch up at a launch, after it has locked
+inline constexpr double kClutchRateLaunch = 0.25;      // [1/s] releasing the clutch in a launch, from bite to lock
+inline constexpr double kClutchRateAfterLaunch = 1.2;  // [1/s] releasing the clutch in a launch, after it has locked
 inline constexpr double kDumpSlip = 160.0;    // [rad/s] engine minus shaft speed when dumping the clutch while rolling
 inline constexpr double kRevTolerance = 8.0;  // [rad/s] accuracy of judging the engine speed by ear
 inline constexpr double kRevSettleTime = 0.12;    // [s] the engine speed must stay within the tolerance this long
 inline constexpr double kMaxBlipTime = 1.5;       // [s] a blip is given up after this time
-inline constexpr double kLightBite = 0.03;        // [1] pedal travel past the bite point with hardly any torque
-inline constexpr double kClutchRateCreep = 0.12;  // [1/s] clutch up, searching for the bite point without throttle
+inline constexpr double kLightBite = 0.03;        // [1] pedal travel past the bite point that hardly transmits torque
+inline constexpr double kClutchRateCreep = 0.12;  // [1/s] releasing the clutch to find the bite point without throttle
 inline constexpr double kLaunchSpeed = 167.6;     // [rad/s] engine speed at a launch: 1600 rpm
-inline constexpr double kLaunchSpeedAfterStall = 1.15;  // [1] engine speed of the next launch, relative to the last
+inline constexpr double kLaunchSpeedAfterStall =
+    1.15;  // [1] engine speed of the next launch divided by that of the last
 // [1] fraction of idle speed below which the driver presses the clutch to save the engine from stalling
 inline constexpr double kStallRescueSpeed = 0.75;
 inline constexpr double kRevHoldGain = 0.015;        // [s] throttle per rad/s of missing engine speed
 inline constexpr double kRevHoldThrottle = 0.06;     // [1] throttle that keeps a free engine turning
 inline constexpr double kBiteDrop = 22.0;            // [rad/s] drop of engine speed that signals the bite point
-inline constexpr double kIdleDrop = 6.0;             // [rad/s] drop at idle that signals the bite point
+inline constexpr double kIdleDrop = 6.0;             // [rad/s] drop of idle speed that signals the bite point
 inline constexpr double kAccelerateThrottle = 0.45;  // [1] throttle
 inline constexpr double kCruiseThrottle = 0.15;      // [1]
 inline constexpr double kSlowBrake = 0.2;            // [1]
 inline constexpr double kStopBrake = 0.3;            // [1]
-inline constexpr double kHandLead = 0.06;            // [s] from clutch down to the start of the hand
+inline constexpr double kHandLead = 0.06;            // [s] from clutch down to the start of the hand's movement
 inline constexpr double kClutchLag = 0.06;           // [s] from gear engaged to clutch up
-// [s] If the clutch would come up early by at most this time, the foot waits: the hand feels that no gear is in yet.
+// [s] A foot that would lift the clutch too early by at most this time waits, because the hand feels that the gear is
+// not engaged yet.
 inline constexpr double kMaxClutchLead = 0.06;
-inline constexpr double kKnobReleaseTime = 0.15;  // [s] from gear engaged to letting go of the knob
+inline constexpr double kKnobReleaseTime = 0.15;  // [s] from gear engaged to the hand releasing the knob
 inline constexpr double kShaftRestTime = 2.0;     // [s] wait with the clutch down before engaging reverse
-inline constexpr double kStuckTime = 1.2;         // [s] push without effect before trying again
-inline constexpr double kBesideSlotTime = 0.2;    // [s] push next to a slot before trying again, plus the reaction time
-inline constexpr double kSyncPatience = 4.0;      // [s] push against a blocking ring before trying again
-inline constexpr double kMaxStepTime = 45.0;      // [s] time without a completed step before giving up
-inline constexpr double kPauseAfterMiss = 3.8;    // [s] time without a new attempt after a missed shift
-inline constexpr double kClutchDown = 0.8;        // [1] pedal position that lessons define as down
-inline constexpr double kMinHillSlope = 0.02;     // [rad]
+inline constexpr double kStuckTime = 1.2;         // [s] time of pushing without effect before a new attempt
+inline constexpr double kBesideSlotTime = 0.2;  // [s] time of pushing beside a slot before retrying, plus reaction time
+inline constexpr double kSyncPatience = 4.0;    // [s] time of pushing on a blocking synchroniser before a new attempt
+inline constexpr double kMaxStepTime = 45.0;    // [s] time without a completed step before giving up
+inline constexpr double kPauseAfterMiss = 3.8;  // [s] time without a new attempt after a missed shift
+inline constexpr double kClutchDown = 0.8;      // [1] pedal position that lessons define as down
+inline constexpr double kMinHillSlope = 0.02;   // [rad]
 inline constexpr double kMaxStandingSpeed = 0.3;  // [m/s]
 inline constexpr double kMinRollingSpeed = 1.0;   // [m/s]
-inline constexpr double kMinDrivingSpeed = 4.5;   // [m/s] faster than the assessment's kMinDrivingSpeed of 4 m/s
-// [m/s] A car this fast still counts as driving after some seconds with the clutch down.
+inline constexpr double kMinDrivingSpeed = 4.5;   // [m/s] slightly above kMinDrivingSpeed of the assessment (4 m/s)
+// [m/s] Lowest speed for the deliberate errors `coasting` and `too_slow`. It is high enough that the car still counts
+// as driving after some seconds with the clutch down.
 inline constexpr double kMinCoastingSpeed = 5.0;
-inline constexpr double kRingFraction = 0.12;    // [1] fraction of the way from detent to gear, not past the ring
+// [1] In a missed shift, the stroke ends at this fraction of the way from detent to gear, before the synchroniser ring.
+inline constexpr double kRingFraction = 0.12;
 inline constexpr double kStrokeDelay = 0.06;     // [s] duration of a stroke, in addition to distance divided by pace
 inline constexpr double kMouthDepth = 0.006;     // [m] depth of a stroke into a wrong slot
 inline constexpr double kMouthStrokeTime = 0.2;  // [s] duration of the last stroke into a wrong slot
 
-// Constants of deliberate errors. "times the amount": multiplied by DeliberateErrors::amount.
-inline constexpr double kDumpRate = 25.0;           // [1/s] foot slips off the clutch
-inline constexpr double kAbruptRate = 3.8;          // [1/s] clutch up in a hurry: 0.26 s for the whole travel
-inline constexpr double kNearRevs = 60.0;           // [rad/s] below this rev difference a jerk needs kDumpRate
-inline constexpr double kDumpSpeed = 419.0;         // [rad/s] engine speed for a dump at a launch: 4000 rpm
-inline constexpr double kBurnSpeedGain = 1.7;       // [1] rise of a launch's engine speed, times the amount
+// Constants of deliberate errors. "times the amount": multiplied by the entry of `DeliberateErrors::amount`.
+inline constexpr double kDumpRate = 25.0;           // [1/s] speed of the clutch pedal when the foot slips off
+inline constexpr double kAbruptRate = 3.8;          // [1/s] releasing the clutch abruptly: 0.26 s for the whole travel
+inline constexpr double kNearRevs = 60.0;           // [rad/s] with less rev difference, a jerk needs kDumpRate
+inline constexpr double kDumpSpeed = 419.0;         // [rad/s] engine speed for a clutch dump at a launch: 4000 rpm
+inline constexpr double kBurnSpeedGain = 1.7;       // [1] relative rise of engine speed at a launch, times the amount
 inline constexpr double kJerkSpeed = 272.0;         // [rad/s] engine speed for a jerk at a launch: 2600 rpm
 inline constexpr double kHurryThrottle = 0.6;       // [1]
-inline constexpr double kBaseOverPush = 55.0;       // [N] push of an impatient hand
-inline constexpr double kOverPushGain = 35.0;       // [N] additional push, times the amount
-inline constexpr double kRestingPedal = 0.09;       // [1] pedal under a resting foot
+inline constexpr double kBaseOverPush = 55.0;       // [N] hand force of an impatient driver
+inline constexpr double kOverPushGain = 35.0;       // [N] additional hand force, times the amount
+inline constexpr double kRestingPedal = 0.09;       // [1] position of a pedal with a resting foot
 inline constexpr double kRestingPedalGain = 0.03;   // [1] additional pedal travel, times the amount
-inline constexpr double kDawdleTime = 4.0;          // [s] time with the clutch down, times the amount
-inline constexpr double kCoastTime = 5.5;           // [s] time with the clutch open while driving, times the amount
-inline constexpr double kOpenMargin = 0.02;         // [1] pedal travel beyond the bite point
+inline constexpr double kDawdleTime = 4.0;          // [s] time for which the clutch stays down, times the amount
+inline constexpr double kCoastTime = 5.5;           // [s] time of driving with the clutch open, times the amount
+inline constexpr double kOpenMargin = 0.02;         // [1] pedal travel past the bite point when coasting
 inline constexpr double kLateStepFactor = 1.5;      // [1] delay relative to a step's allowed time, times the amount
-inline constexpr double kEarlyThrottle = 0.15;      // [1] throttle before the clutch is up
-inline constexpr double kThrottleLead = 0.6;        // [s] from throttle to clutch, times the amount
+inline constexpr double kEarlyThrottle = 0.15;      // [1] throttle that is pressed before the clutch is up
+inline constexpr double kThrottleLead = 0.6;        // [s] from throttle pressed to clutch up, times the amount
 inline constexpr double kSettleAfterOverRev = 5.0;  // [s] from over-revving until the clutch comes up
-inline constexpr double kEarlyShiftFactor = 0.8;    // [1] early shifts happen below this fraction of the right speed
-inline constexpr double kLateShiftMargin = 4.2;     // [m/s] late shifts happen this far beyond the right speed
+inline constexpr double kEarlyShiftFactor = 0.8;    // [1] early shifts happen below this fraction of the correct speed
+inline constexpr double kLateShiftMargin = 4.2;     // [m/s] late shifts happen this far past the correct speed
 
 }  // namespace gearshift::lessons

@@ -84,7 +84,7 @@ void SimulatedDriver::stop(const vehicle::DriveSample& now) {
   if (due || !now.car.clutch_locked || now.car.gear == haptics::kNeutralGear) press_clutch();
 }
 
-// Holds the engine speed by ear: proportional control, limited by the speed of the foot.
+// Holds the engine speed by ear: proportional control, limited by how fast the foot moves.
 void SimulatedDriver::hold_revs(double speed) {
   const double throttle = kRevHoldThrottle + kRevHoldGain * (speed - perceived_speed_);
   feet_.throttle.move_to(std::clamp(throttle, 0.0, 0.8), 4.0);
@@ -115,7 +115,7 @@ void SimulatedDriver::release(const vehicle::DriveSample& now) {
   feet_.clutch.move_to(0.0, kClutchRateAfterLaunch);
 }
 
-// gear_speed: engine speed that the gear requires [rad/s].
+// Releases the clutch while the car rolls. `gear_speed`: engine speed [rad/s] in this gear at the present road speed.
 void SimulatedDriver::release_rolling(const vehicle::DriveSample& now, double gear_speed) {
   const bool slips = !now.car.clutch_locked;
   const bool jerks = errors_.of(ErrorKind::jerk) >= 0.5, dumps = is_due(ErrorKind::clutch_dump);
@@ -133,7 +133,8 @@ void SimulatedDriver::release_rolling(const vehicle::DriveSample& now, double ge
   feet_.clutch.move_to(0.0, carries_nothing || holds ? kClutchRateToBite : jerks ? abrupt_rate_ : release_rate_);
 }
 
-// Brings the engine to `speed` and holds it there. Returns true once the speed is reached, or after a time limit.
+// Brings the engine to `speed` and holds the engine there. Returns true once the speed is reached, or after a time
+// limit.
 bool SimulatedDriver::match_revs(const vehicle::DriveSample& now, double speed) {
   if (blip_since_ < 0.0) blip_since_ = now.time();
   const double meant = speed * rev_bias_;
@@ -144,7 +145,7 @@ bool SimulatedDriver::match_revs(const vehicle::DriveSample& now, double speed) 
   return are_revs_matched_ || now.time() - blip_since_ > kMaxBlipTime;
 }
 
-// Moves off: throttle first, then the clutch quickly up to the bite point, then slowly until it locks.
+// Moves off: first the throttle, then the clutch quickly up to the bite point and slowly until it locks.
 void SimulatedDriver::launch(const vehicle::DriveSample& now) {
   if (spoil_launch(now)) return;
   const double target = launch_target();

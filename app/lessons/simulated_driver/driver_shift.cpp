@@ -1,4 +1,4 @@
-// A shift: clutch, throttle, and the hand's way through the gate.
+// A shift of the simulated driver: clutch, throttle, and the hand's path through the gate.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -43,7 +43,7 @@ std::optional<int> SimulatedDriver::wanted_gear(const vehicle::DriveSample& now)
   return other(wants.next_gear);
 }
 
-// True if, for a deliberate grind, the clutch should come up in neutral first, so that the gearbox shaft turns.
+// True if the driver should first lift the clutch in neutral, so that the gearbox shaft turns and the gears can grind.
 bool SimulatedDriver::should_spin_shaft(const vehicle::DriveSample& now) const noexcept {
   const bool is_stopped_in_neutral =
       now.car.gear == haptics::kNeutralGear && std::abs(now.car.road_speed) < kMaxStandingSpeed;
@@ -51,7 +51,7 @@ bool SimulatedDriver::should_spin_shaft(const vehicle::DriveSample& now) const n
          now.car.shaft_speed < 0.8 * car_.engine.idle;
 }
 
-// Target road speed of the step, or of the next step, which it may prepare [m/s].
+// Returns the target road speed of this step or, if this step has none, of the next step [m/s].
 std::optional<double> SimulatedDriver::speed_to_shift(std::size_t step) const noexcept {
   for (std::size_t i = step; i < lesson_.steps.size() && i <= step + 1; ++i) {
     if (lesson_.steps[i].at) return lesson_.steps[i].at;
@@ -59,14 +59,16 @@ std::optional<double> SimulatedDriver::speed_to_shift(std::size_t step) const no
   return std::nullopt;
 }
 
-// True for a deliberate upshift below the lesson's band or the step's speed.
+// True if the driver should shift up too early on purpose: below the step's speed or, without one, below the lesson's
+// band of engine speeds.
 bool SimulatedDriver::should_shift_early(const vehicle::DriveSample& now) const noexcept {
   if (!is_due(ErrorKind::early_shift) || now.car.engine_speed < 1.25 * car_.engine.idle) return false;
   const std::optional<double> at = speed_to_shift(current_step_ + 1);
   return at ? now.car.road_speed < kEarlyShiftFactor * *at : now.car.engine_speed < lesson_.shift_from;
 }
 
-// True while the driver delays a shift on purpose, until above the lesson's band or far beyond the step's speed.
+// True while the driver delays a shift on purpose, until the engine speed is above the lesson's band or the road speed
+// is far past the step's speed.
 bool SimulatedDriver::should_shift_late(const vehicle::DriveSample& now) const noexcept {
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
   if (!is_due(ErrorKind::late_shift) || !coupled || !intent().next_gear) return false;
@@ -87,7 +89,7 @@ SimulatedDriver::Detour SimulatedDriver::detour_for(const vehicle::DriveSample& 
   return Detour::none;
 }
 
-// A wrong gear that the gate has, preferably one that is too high; neutral if there is none.
+// Returns a wrong gear that the gate has, preferably a gear that is too high; neutral if there is none.
 int SimulatedDriver::wrong_gear_for(int gear, int from) const noexcept {
   for (const int wrong : {gear + 1, gear + 2, gear - 2, gear - 1}) {
     if (wrong >= 1 && wrong != from && haptics::slot_of_gear(gate_, wrong) != haptics::kNoSlot) return wrong;
@@ -115,9 +117,10 @@ void SimulatedDriver::begin_shift(const vehicle::DriveSample& now, int gear) {
   if (late > 0.0) shift_.press_at = now.time() + 0.35 * late, shift_.hand_lead = -10.0;
   const double lag = kClutchLag + noise(skill_.timing_spread);
   const bool dawdles = errors_.of(ErrorKind::too_slow) > 0.0;
-  // If the foot is only slightly too early, the hand feels the ring still blocking, and the foot waits.
+  // A foot that is too early by at most kMaxClutchLead waits, because the hand feels that the synchroniser ring still
+  // blocks.
   shift_.clutch_early = (lag < -kMaxClutchLead && !dawdles) || errors_.of(ErrorKind::clutch_early) > 0.0;
-  release_at_ = std::max(0.0, lag);  // relative to the engagement of the gear until end_shift()
+  release_at_ = std::max(0.0, lag);  // [s] delay after the gear is engaged; end_shift() converts it
   if (is_due(ErrorKind::wrong_direction) && now.car.road_speed < -kMinRollingSpeed)
     mark_done(ErrorKind::wrong_direction);
 }
@@ -146,7 +149,8 @@ void SimulatedDriver::shift_feet(const vehicle::DriveSample& now) {
   const bool early = shift_.clutch_early && shift_.between_gears && hand_.in_last_stroke();
   shift_.releases_early = early && hand_.time_waiting(time) < kStuckTime && (shift_.releases_early || in_ring);
   if (shift_.releases_early) {
-    // Quickly past the bite point, then slowly: with the pedal further up, the ring would never let the gear in.
+    // Lift the pedal quickly to just past the bite point, and then slowly. With the pedal further up, the synchroniser
+    // ring would never let the gear in.
     const double bite = car_.clutch.bite;
     feet_.clutch.move_to(bite - 0.08, feet_.clutch.value() > bite - 0.03 ? 8.0 : 0.15);
   } else if (time >= shift_.press_at) {
@@ -158,7 +162,8 @@ void SimulatedDriver::press_clutch() {
   feet_.clutch.move_to(1.0, kPressRate);
 }
 
-// Reverse has no synchroniser: wait until the gearbox shaft has stopped.
+// Reverse has no synchroniser, so the driver waits until the gearbox shaft has stopped: kShaftRestTime with the clutch
+// down.
 bool SimulatedDriver::waits_for_shaft(const vehicle::DriveSample& now) const noexcept {
   if (shift_.gear != haptics::kReverseGear || errors_.of(ErrorKind::grind) > 0.0) return false;
   return now.time() - clutch_down_at_ < kShaftRestTime;
@@ -198,7 +203,7 @@ bool SimulatedDriver::is_behind_detent(const vehicle::DriveSample& now) const no
   return std::abs(now.lever.proxy.y) >= haptics::slot_of(gate_, now.lever.slot).release_depth;
 }
 
-// Starts the hand towards the gear, from the lever's position.
+// Starts moving the hand from the lever's position to the gear.
 void SimulatedDriver::reach(const vehicle::DriveSample& now, int gear) {
   const glm::dvec2 from = now.lever.lever;
   std::vector<haptics::HandStroke> strokes;
@@ -227,7 +232,7 @@ std::vector<haptics::HandStroke> SimulatedDriver::strokes_to(glm::dvec2 from, in
   return haptics::shift_strokes(gate_, from, gears, style);
 }
 
-// Strokes to just beyond the mouth of the gear's slot.
+// Returns the strokes to a point just beyond the mouth of the gear's slot.
 std::vector<haptics::HandStroke> SimulatedDriver::strokes_into_mouth(glm::dvec2 from, int old_gear, int gear) const {
   if (gear == haptics::kNeutralGear) return {};
   std::vector<haptics::HandStroke> strokes = strokes_to(from, old_gear, gear);
@@ -236,7 +241,8 @@ std::vector<haptics::HandStroke> SimulatedDriver::strokes_into_mouth(glm::dvec2 
   return strokes;
 }
 
-// Abandons the shift: back to neutral, clutch up, and a pause before the next attempt.
+// Abandons the shift: moves the lever back to neutral, then lifts the clutch. After a missed shift, or a shift without
+// the clutch, the driver waits for kPauseAfterMiss before the next attempt.
 void SimulatedDriver::draw_back(const vehicle::DriveSample& now) {
   done_errors_[static_cast<std::size_t>(ErrorKind::no_clutch)] |= !shift_.uses_clutch;
   const bool rests = shift_.detour == Detour::missed || !shift_.uses_clutch;

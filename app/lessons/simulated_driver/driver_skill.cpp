@@ -7,11 +7,11 @@ namespace {
 
 // A beginner in the first hour of practice. Engineering values.
 //
-// brake_effort: in the same emergency novices decelerated half as much as experienced drivers (Loeb, Kandadai,
-// McDonald,
-// Winston. Emergency Braking in Adults Versus Novice Teen Drivers. 2015). Launch: beginners rush the pedal through the
-// bite point and use too little throttle, which instructors name as the causes of stalls; there are no measurements of
-// how much.
+// `brake_effort`: in the same emergency, novices decelerated half as much as experienced drivers (Loeb, Kandadai,
+// McDonald, Winston. Emergency Braking in Adults Versus Novice Teen Drivers. 2015).
+//
+// `release_haste` and `launch_speed_factor`: beginners lift the clutch pedal too fast through the bite point and use
+// too little throttle; instructors name both as causes of stalls. No measurements were found.
 constexpr DriverSkill kBeginner{0.45, 0.18, 0.007, 0.05, 0.30, 0.50, 0.18, 2.0, 0.25, 0.50, 0.5, 0.75, 0.0, 0.45};
 
 }  // namespace

@@ -15,7 +15,7 @@ void Foot::move_to(double goal, double rate) noexcept {
   rate_ = rate;
 }
 
-// The tremor is an Ornstein-Uhlenbeck process: its spread does not depend on the period.
+// The tremor is an Ornstein-Uhlenbeck process, so its standard deviation does not depend on the time step.
 double Foot::step(double dt) noexcept {
   value_ += std::clamp(goal_ - value_, -rate_ * dt, rate_ * dt);
   if (noise_ <= 0.0 || value_ <= 0.0 || value_ >= 1.0) return value_;

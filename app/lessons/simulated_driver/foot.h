@@ -1,4 +1,4 @@
-// A foot on a pedal, or a hand on the handbrake: it moves to its goal at a given rate, with tremor on the way.
+// A foot on a pedal, or a hand on the handbrake: moves to a goal at a given rate, with tremor on the way.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@ namespace gearshift::lessons {
 
 class Foot {
  public:
-  // noise: standard deviation of a pedal held between its ends [1]; at either end there is none.
+  // `noise`: standard deviation [1] of the pedal's tremor. A pedal that is fully up or fully down has no tremor.
   Foot(double noise, std::uint64_t seed) : noise_(noise), random_(seed) {}
 
   void place(double value) noexcept { value_ = goal_ = value; }
-  // goal [1] 0 to 1; rate [1/s] > 0.
+  // `goal`: 0 to 1. `rate` [1/s]: > 0.
   void move_to(double goal, double rate) noexcept;
   void hold() noexcept { goal_ = value_; }
-  double step(double dt) noexcept;  // [1] 0 to 1: pedal position
+  double step(double dt) noexcept;  // returns the pedal position [1], 0 to 1
 
   double value() const noexcept { return value_; }  // without tremor
   double goal() const noexcept { return goal_; }

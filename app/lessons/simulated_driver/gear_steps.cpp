@@ -11,14 +11,16 @@ namespace gearshift::lessons {
 namespace {
 
 // Engineering values.
-constexpr double kMinPressed = 0.8;        // [1]
-constexpr double kClutchUp = 0.2;          // [1]
-constexpr double kMaxLifted = 0.05;        // [1] throttle
-constexpr double kMaxStopSpeed = 0.14;     // [m/s] 0.5 km/h
-constexpr double kMinPullFactor = 1.15;    // [1] lowest engine speed in a new gear, relative to EngineSpec::lug_below
-constexpr double kDownshiftFactor = 0.85;  // [1] of the band's lower end; < 1: no downshift right after an upshift
-constexpr double kMaxShiftFactor = 0.85;   // [1] fraction of the red line
-constexpr double kSpeedReached = 0.95;     // [1] fraction of a target that counts as reached
+constexpr double kMinPressed = 0.8;      // [1]
+constexpr double kClutchUp = 0.2;        // [1]
+constexpr double kMaxLifted = 0.05;      // [1] throttle
+constexpr double kMaxStopSpeed = 0.14;   // [m/s] 0.5 km/h
+constexpr double kMinPullFactor = 1.15;  // [1] lowest engine speed after an upshift, divided by EngineSpec::lug_below
+// [1] Engine speed after a downshift, divided by EngineSpec::shift_low. It is below 1, so that a downshift does not
+// follow at once after an upshift.
+constexpr double kDownshiftFactor = 0.85;
+constexpr double kMaxShiftFactor = 0.85;   // [1] highest upshift speed as a fraction of the red line
+constexpr double kSpeedReached = 0.95;     // [1] fraction of a target speed that counts as reached
 constexpr double kMaxApproachTime = 90.0;  // [s]
 
 LessonStep step(std::string prompt, DriveCondition until) {

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kRetentionTrials = 2;
 
-// The C++ standard defines the numbers of this engine, but not those of std::uniform_real_distribution.
+// Random numbers that are equal on all platforms. Does not use std::uniform_real_distribution: the C++ standard defines
+// the numbers of std::mt19937_64, but not those of the distributions.
 class RandomSource {
  public:
   explicit RandomSource(std::uint64_t seed) : engine_(seed), noise_(seed + 1) {}
@@ -41,7 +42,7 @@ bool is_reported(const LessonResult& result, ErrorKind kind) {
                      [&](const DrivingError& error) { return error.kind == kind && error.severity != Severity::note; });
 }
 
-// The grade; 0 for an unfinished lesson, however clean its first part was.
+// Returns the grade. An unfinished lesson scores 0, even if it contains no errors.
 double score(const LessonResult& result) noexcept {
   return result.end == LessonEnd::done ? result.grade : 0.0;
 }
@@ -127,7 +128,7 @@ PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, cons
   std::vector<double> retained;
   int guided = 0, early = 0;
   for (int i = 0; i < learners; ++i) {
-    RandomSource random(seed + static_cast<std::uint64_t>(i));  // the same drivers for every kind of practice
+    RandomSource random(seed + static_cast<std::uint64_t>(i));  // the same drivers in every kind of practice
     const double start = random.between(model.min_start_error, 1.0);
     const double rate = std::min(1.0, model.rate * std::exp(model.rate_spread * random.normal()));
     Trainee trainee{start, rate, GuidancePolicy(random.seed())};

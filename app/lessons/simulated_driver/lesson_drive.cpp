@@ -19,7 +19,7 @@ namespace {
 constexpr const char* kProgram = "lesson drive";
 constexpr std::uint64_t kPumpEvery = 4096;  // [cycles] half the capacity of the loop's queue
 
-// The hand on the simulated lever. Its target is the driver's decision after the last cycle.
+// The hand on the simulated lever. Its target is the one that the driver chose after the previous cycle.
 class DecidedHand final : public haptics::HandDriver {
  public:
   haptics::HandTarget next(double, glm::dvec2) noexcept override { return target; }

@@ -1,4 +1,4 @@
-// Drives a lesson with a simulated driver: hand, lever, loop, car and assessment on a virtual clock, as fast as
+// Drives a lesson with a simulated driver. Hand, lever, loop, car and assessment run on a virtual clock, as fast as
 // possible.
 #pragma once
 
@@ -26,16 +26,16 @@ struct LessonDriveConfig {
   DeliberateErrors errors;
   LessonMode mode = LessonMode::by_yourself;
   HintStyle hints = HintStyle::prescriptive;
-  double guidance = 0.0;                                      // [1] 0 to 1
+  double guidance = 0.0;                                      // [1] gain of the guidance force, 0 to 1
   std::uint64_t seed = 1;                                     // seed of the driver and of the tooth positions
-  double rate = 1000.0;                                       // [Hz] 100 to 4000
+  double rate = 1000.0;                                       // [Hz] cycles per second, 100 to 4000
   std::filesystem::path trace;                                // empty: none
   std::function<void(const vehicle::DriveSample&)> on_cycle;  // called every cycle; may be empty
   // Called for each event of a cycle, before on_cycle; may be empty.
   std::function<void(const haptics::HapticEvent&)> on_event;
 };
 
-// The gate compiled for the simulated lever that drive_lesson() uses. Throws like compile_gate().
+// Returns the gate, compiled for the simulated lever that drive_lesson() uses. Throws like compile_gate().
 haptics::Gate driven_gate(const haptics::GateLayout& layout);
 
 // State of the lesson after a cycle, for the driver's next action.
@@ -46,13 +46,12 @@ struct LessonProgress {
 };
 using LessonJudge = std::function<LessonProgress(const vehicle::DriveSample&)>;
 
-// Drives until `judge` reports the end or the driver gives up; the judge decides on mode and hints. Throws like the
-// overload below.
+// Drives until `judge` reports the end or the driver gives up. Throws like the overload without `judge` (below).
 void drive_lesson(const LessonDriveConfig& config, const LessonJudge& judge);
 
 // Drives with a LessonRun as judge. The result is exactly reproducible. Throws std::invalid_argument if lesson, car and
-// gate do not fit together, and FileError if the trace cannot be written: before the first cycle, or after the last
-// cycle if the disk is full.
+// gate do not fit together. Throws FileError if the trace cannot be created (before the first cycle) or completed
+// (after the last cycle).
 LessonResult drive_lesson(const LessonDriveConfig& config);
 
 }  // namespace gearshift::lessons

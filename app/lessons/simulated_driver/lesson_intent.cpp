@@ -5,7 +5,7 @@
 namespace gearshift::lessons {
 namespace {
 
-constexpr double kMaxStopTarget = 0.4;  // [m/s] a lower target speed means stopping
+constexpr double kMaxStopTarget = 0.4;  // [m/s] a step with a target speed below this value is a stop
 constexpr double kWalkingSpeed = 1.3;   // [m/s]
 
 Motion motion_of(const DriveCondition& c) {

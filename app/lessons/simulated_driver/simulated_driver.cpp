@@ -83,13 +83,13 @@ vehicle::DriverAction SimulatedDriver::act(const vehicle::DriveSample& now, std:
   return action;
 }
 
-// The right foot serves both pedals: from the throttle it reaches the brake a moment later.
+// True if the right foot can brake. Moving the foot from throttle to brake takes a moment.
 bool SimulatedDriver::is_foot_free(double time) noexcept {
   if (feet_.throttle.value() > 0.0) on_throttle_at_ = time;
   return feet_.brake.value() > 0.0 || time - on_throttle_at_ >= skill_.foot_change;
 }
 
-// The driver acts on a step only after noticing and reading it.
+// Makes the driver act on a step only after the time needed to notice the step and to read its prompt.
 void SimulatedDriver::notice(std::size_t step, double time) {
   if (noticed_at_ < 0.0) noticed_at_ = progress_at_ = time;
   if (step != noticed_step_) {
@@ -102,7 +102,7 @@ void SimulatedDriver::notice(std::size_t step, double time) {
   if (time - noticed_at_ >= reaction_) current_step_ = noticed_step_;
 }
 
-// A prompt with the same text as the previous one needs no reading.
+// Time [s] to read the step's prompt; 0 if its text is the same as in the previous step.
 double SimulatedDriver::reading_time_of(std::size_t step) const noexcept {
   const bool same = step > 0 && lesson_.steps[step].prompt == lesson_.steps[step - 1].prompt;
   return same ? 0.0 : skill_.reading_time;
@@ -123,7 +123,7 @@ double SimulatedDriver::shaft_speed_in(const vehicle::DriveSample& now, int gear
   return vehicle::shaft_per_road(car_, gear) * now.car.road_speed;
 }
 
-// Turns the key when the lesson asks for it, and after a stall. Returns true while the engine is being started.
+// Turns the key if the lesson requires it or the engine has stalled. Returns true while the engine is being started.
 bool SimulatedDriver::handle_restart(const vehicle::DriveSample& now) {
   if (intent().ignition == false) ignition_ = false;
   const bool wanted = intent().start || (has_run_ && intent().ignition != false);

@@ -1,5 +1,4 @@
-// A simulated driver of a lesson: it perceives what a real driver perceives, and moves hand and feet as a real driver
-// can.
+// A simulated driver: perceives what a real driver perceives, and moves hand and feet as a real driver can.
 //
 // The lesson is the driver's only instruction: each step's condition defines what to do (lesson_intent.h). No code is
 // specific to one lesson.
@@ -25,22 +24,22 @@ namespace gearshift::lessons {
 
 class SimulatedDriver {
  public:
-  // car and gate must outlive the driver. period: time between calls of act() [s], > 0.
+  // `car` and `gate` must outlive the driver. `period`: time between two calls of act() [s], > 0.
   SimulatedDriver(const Lesson& lesson, const vehicle::CarSpec& car, const haptics::Gate& gate,
                   const DriverSkill& skill, const DeliberateErrors& errors, std::uint64_t seed, double period);
 
   // Call before the first act(): feet and key start from these positions.
   void take_over(const haptics::DriverControls& controls) noexcept;
 
-  // Call once per cycle with the last cycle and the current step. Returns the action for the next cycle, without
-  // guidance. Allocates.
+  // Call once per cycle with the sample of the previous cycle and the number of the current step. Returns the action
+  // for the next cycle; its guidance is not set. Allocates memory.
   vehicle::DriverAction act(const vehicle::DriveSample& now, std::size_t step);
 
-  // True if there was no progress for so long that a learner would ask for help.
+  // True if the driver made no progress for so long that a learner would ask for help.
   bool has_given_up() const noexcept { return has_given_up_; }
 
  private:
-  enum class Detour { none, wrong_gear, blocked, missed, back };  // deliberate deviation from the intended shift
+  enum class Detour { none, wrong_gear, blocked, missed, back };  // deliberate deviation from the planned shift
 
   struct Shift {
     int gear = haptics::kNeutralGear;
@@ -51,9 +50,9 @@ class SimulatedDriver {
     bool releases_early = false;  // the clutch is coming up too early
     bool in_hand = false;         // the hand has started to move
     double lift_at = 0.0;         // [s] when the throttle is released
-    double flares_until = 0.0;    // [s] until then the throttle stays pressed, as a deliberate error
+    double flares_until = 0.0;    // [s] until this time the throttle stays pressed, as a deliberate error
     double press_at = 0.0;        // [s] when the clutch is pressed
-    double hand_lead = 0.0;       // [s] from the clutch passing its bite point to the start of the hand
+    double hand_lead = 0.0;       // [s] time from clutch at bite point to the start of the hand's movement
   };
 
   struct Feet {
@@ -117,7 +116,7 @@ class SimulatedDriver {
   bool should_stall_by_brake(const vehicle::DriveSample& now) const noexcept;
   bool make_brake_stall(const vehicle::DriveSample& now);
 
-  Lesson lesson_;  // as driven in this car
+  Lesson lesson_;  // with this car's upshift band
   const vehicle::CarSpec& car_;
   const haptics::Gate& gate_;
   DriverSkill skill_;
@@ -127,16 +126,16 @@ class SimulatedDriver {
   double period_;
   Feet feet_;
   StrokeHand hand_;
-  std::array<bool, kErrorKindCount> done_errors_{};  // one-time errors already made
+  std::array<bool, kErrorKindCount> done_errors_{};  // errors made only once that are already made
 
   std::size_t current_step_ = 0, noticed_step_ = 0;
   double noticed_at_ = -1.0;       // [s]
-  double reaction_ = 0.0;          // [s] reaction time for the step noticed last
-  double on_throttle_at_ = -10.0;  // [s] when the right foot was last on the throttle
+  double reaction_ = 0.0;          // [s] reaction time for the last step that was noticed
+  double on_throttle_at_ = -10.0;  // [s] time when the right foot was last on the throttle
   double progress_at_ = 0.0;
   bool has_given_up_ = false;
   bool ignition_ = false, starter_ = false;
-  bool has_run_ = false, was_running_ = false;  // the engine has run before; ran in the last cycle
+  bool has_run_ = false, was_running_ = false;  // engine ran before; engine ran in the last cycle
 
   bool shifting_ = false;
   Shift shift_;
@@ -149,7 +148,7 @@ class SimulatedDriver {
   double abrupt_rate_ = 1.0;      // [1/s] rate of a clutch release with a deliberate jerk
   double rev_bias_ = 1.0;         // [1] intended engine speed divided by the correct one
   double launch_speed_ = 0.0;     // [rad/s] intended engine speed of the current launch
-  double brake_effort_ = 1.0;     // [1] brake pedal after a call to stop
+  double brake_effort_ = 1.0;     // [1] brake pedal position for a call to stop
   double blip_since_ = -1.0;      // [s]
   double perceived_speed_ = 0.0;  // [rad/s] engine speed as heard
   double matched_since_ = 0.0;    // [s]
@@ -160,10 +159,10 @@ class SimulatedDriver {
   double lug_time_ = 0.0;       // [s]
   double lug_since_ = 0.0;      // [s]
   double rolls_since_ = 0.0;    // [s]
-  double slow_since_ = 0.0;     // [s] when the engine was first heard to be so slow that the clutch must be pressed
+  double slow_since_ = 0.0;     // [s] when the engine first sounded so slow that the clutch must be pressed
   double coasts_until_ = 0.0;   // [s] end of deliberate coasting; 0: not started
-  bool is_lingering_ = false;   // staying too long in a gear that should be left
-  bool over_rev_late_ = false;  // makes over_rev by a late shift from a low gear; else with the clutch down
+  bool is_lingering_ = false;   // deliberately staying too long in a gear
+  bool over_rev_late_ = false;  // true: the over_rev error is made by a late shift; false: with the clutch down
 };
 
 }  // namespace gearshift::lessons

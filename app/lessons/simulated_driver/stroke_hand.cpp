@@ -9,13 +9,13 @@
 namespace gearshift::lessons {
 namespace {
 
-// Engineering values. The hand relaxes twice as fast as touring_hand(): the effort that pulled the lever out of a gear
-// must not carry it on into the slot across the aisle.
+// Engineering values. kRelaxationTime is half of the value in ScriptedHand. With a longer time, the effort that pulls
+// the lever out of a gear would push it on into the opposite slot.
 constexpr double kEffortGain = 4000.0;       // [N/(m s)]
 constexpr double kMaxEffort = 28.0;          // [N]
 constexpr double kArrivalTolerance = 0.001;  // [m]
 constexpr double kRelaxationTime = 0.025;    // [s]
-constexpr double kMaxCornerCut = 0.005;      // [m] the hand may cut a corner by this much: half a slot's width
+constexpr double kMaxCornerCut = 0.005;      // [m] the hand may cut a corner by this distance: half a slot's width
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// A hand that follows a list of strokes and sees where the lever is: each stroke begins when the lever has arrived at
-// the end of the previous stroke.
+// A hand that moves the lever along a list of strokes. Each stroke begins when the lever has arrived at the end of the
+// previous stroke.
 #pragma once
 
 #include <cstddef>
@@ -9,23 +9,23 @@
 
 namespace gearshift::lessons {
 
-// Minimum-jerk strokes and effort like ScriptedHand, but the strokes wait while something blocks the lever. Without
-// strokes the hand has let go: it follows the lever and only leans on it with `lean`.
+// Makes minimum-jerk strokes as ScriptedHand does, but waits while something blocks the lever. Without strokes, the
+// hand has released the lever: its target follows the lever, and the lever feels only the push of set_lean().
 class StrokeHand {
  public:
-  explicit StrokeHand(double period) noexcept;  // [s] between calls of next()
+  explicit StrokeHand(double period) noexcept;  // period: time between two calls of next() [s]
 
   void start(std::vector<haptics::HandStroke> strokes, glm::dvec2 from, double time);
   void release_lever() noexcept { strokes_.clear(); }
-  void set_lean(glm::dvec2 push) noexcept { lean_ = push; }          // [N] push while the hand has let go
+  void set_lean(glm::dvec2 push) noexcept { lean_ = push; }          // [N] push while the hand has released the lever
   void set_extra(glm::dvec2 push) noexcept { extra_ = push; }        // [N] push added to a stroke
-  void set_push_limit(double push) noexcept { push_limit_ = push; }  // [N] fixed weak push; 0: push as hard as needed
+  void set_push_limit(double push) noexcept { push_limit_ = push; }  // [N] constant weak push; 0: as hard as needed
   haptics::HandTarget next(double time, glm::dvec2 lever) noexcept;
 
   bool has_released_lever() const noexcept { return strokes_.empty(); }
   bool in_last_stroke() const noexcept { return !strokes_.empty() && current_ + 1 == strokes_.size(); }
-  bool is_at_end(double time) const noexcept;       // the last stroke is over, whether or not the lever followed
-  double time_waiting(double time) const noexcept;  // [s] since the stroke's planned end, if the lever has not arrived
+  bool is_at_end(double time) const noexcept;       // the last stroke is over, even if the lever did not follow
+  double time_waiting(double time) const noexcept;  // [s] time since the planned end of the current stroke; 0 before
 
  private:
   glm::dvec2 effort(glm::dvec2 lag) noexcept;

@@ -23,10 +23,10 @@ constexpr std::chrono::milliseconds kTick{1};
 constexpr std::chrono::seconds kOpensWithin{10};
 
 void throw_if_stopped() {
-  if (base::StopSignals::requested()) throw CalibrationEnded("Stopped: the motors are off.");
+  if (base::StopSignals::requested()) throw CalibrationEnded("Stopped. The motors are off.");
 }
 
-// The calibration to start from: the earlier one if the stick's reports are still the same and `again` is false, else a
+// The calibration to start from: the earlier one if the stick's reports have not changed and `again` is false, else a
 // new one that contains only the stick's identity.
 KnownStick starting_calibration(const ListedStick& stick, const fs::path& folder, bool again) {
   KnownStick fresh;
@@ -40,7 +40,8 @@ KnownStick starting_calibration(const ListedStick& stick, const fs::path& folder
   if (!known) return fresh;
   const bool is_same = known->report_descriptor.empty() || known->report_descriptor == fresh.report_descriptor;
   if (is_same) return KnownStick{known->calibration, fresh.report_descriptor};
-  base::print_line("The stick's reports have changed since the last calibration, so that calibration is discarded.");
+  base::print_line(
+      "The stick's report format has changed since the last calibration, so the old calibration is discarded.");
   return fresh;
 }
 
@@ -84,11 +85,11 @@ std::string ask(OpenStick& stick, base::LineReader& answers, const std::string& 
     if (const std::optional<std::string> line = answers.read_line(0.2)) return *line;
     throw_if_stopped();
     stick.report_message();
-    if (answers.at_end()) throw CalibrationEnded("Stopped: standard input was closed.");
+    if (answers.at_end()) throw CalibrationEnded("Stopped because standard input was closed.");
   }
 }
 
-// Returns a list of the measurements that are still missing at the end.
+// Runs the calibration dialog and saves its results. Returns a list of the measurements that are still missing.
 std::string run_dialog(OpenStick& stick, KnownStick& known, const fs::path& folder, int file) {
   base::LineReader answers(file);
   CalibrationDialog dialog;
@@ -122,8 +123,8 @@ int calibrate_stick(const std::string& wanted, const fs::path& folder, bool agai
   KnownStick known = starting_calibration(stick, folder, again);
   OpenStick held(known, open);
   base::print_line(
-      fmt::format("Calibrating {} ({}). You can press Ctrl-C at any time: the motors go off, and finished measurements "
-                  "are kept.",
+      fmt::format("Calibrating {} ({}). Press Ctrl-C at any time to stop: the motors turn off, and finished "
+                  "measurements are saved.",
                   stick_name(stick.identity), stick_id(stick.identity)));
   const std::string missing = run_dialog(held, known, folder, answers);
   const std::string file = haptics::calibration_file(folder, stick.identity).string();

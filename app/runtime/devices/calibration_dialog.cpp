@@ -40,12 +40,12 @@ class DialogRunner {
         return run_numbers();
       case haptics::CalibrationStep::polarity:
         return measure_hands_off(
-            "This step measures in which direction the forces push. The stick moves a little, with at most a tenth of "
+            "This step measures in which direction the forces push. The stick moves a little, using at most a tenth of "
             "its force.",
             Needed::yes, [&] { return calibrator_.measure_polarity(); });
       case haptics::CalibrationStep::timing:
         return measure_hands_off(
-            "This step measures how fast the stick responds. The stick shakes a little for some seconds.", Needed::yes,
+            "This step measures how fast the stick responds. The stick shakes a little for a few seconds.", Needed::yes,
             [&] { return calibrator_.measure_timing(); });
       case haptics::CalibrationStep::handle:
         return measure_hands_off(
@@ -90,11 +90,11 @@ class DialogRunner {
   template <class Measure>
   void measure_hands_off(const std::string& instruction, Needed needed, const Measure& measure) {
     repeat_until_measured("HANDS OFF the stick: its motors will move it. " + instruction, needed, measure);
-    save();  // even after a skipped measurement: part of it, such as the springs, may have succeeded
+    save();  // even if the step was skipped: a part of it (e.g. the springs) may have been measured
   }
 
-  // Finds the axes and buttons, then measures the range. The range comes last because a calibration without it repeats
-  // this whole step.
+  // Finds the axes and buttons, then measures the range. A calibration without a range repeats this whole step, so the
+  // range is measured last.
   void run_range() {
     dialog_.print("The motors stay off during this step.");
     repeat_until_measured(
@@ -122,9 +122,9 @@ class DialogRunner {
 
   void run_button(haptics::LeverButton button, const char* purpose) {
     repeat_until_measured(
-        fmt::format("Choose the button of the stick that you will use {}. Press Enter, and then press "
-                    "this button within {:g} s.",
-                    purpose, times_.button),
+        fmt::format(
+            "Choose the button on the stick that you will use {}. Press Enter, then press that button within {:g} s.",
+            purpose, times_.button),
         Needed::no, [&] { return calibrator_.find_button(button, times_.button); });
   }
 
@@ -144,7 +144,7 @@ class DialogRunner {
     const double shift =
         ask_number("How far does the knob travel from the back stop to the forward stop?", 20, 500, "mm");
     const double force = ask_number(
-        "What is the stick's maximum force at the knob? Take it from the data sheet (torque divided by lever "
+        "What is the stick's maximum force at the knob? Take the value from the data sheet (torque divided by lever "
         "length), or measure it with a spring scale.",
         0.5, 100, "N");
     dialog_.print("  Saved: " + calibrator_.set_numbers(1e-3 * select, 1e-3 * shift, force) + ".");

@@ -1,5 +1,5 @@
-// Calibrates a stick in a dialog with the user. Each step announces what will happen, prints and saves its result, and
-// is repeated after an invalid result. A script can answer instead of the user.
+// Calibrates a stick in a dialog with the user. Each step announces what will happen, then prints and saves its result;
+// a step with an invalid result is repeated. A script can answer instead of the user.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace gearshift::runtime {
 
-// Thrown when the input has ended or the program was asked to stop. what(): one sentence.
+// Thrown when the input has ended or the program was asked to stop. what() is one sentence.
 class CalibrationEnded : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -18,18 +18,19 @@ class CalibrationEnded : public std::runtime_error {
 
 struct CalibrationDialog {
   std::function<void(const std::string& line)> print;
-  std::function<std::string(const std::string& question)> ask;  // returns one line; throws CalibrationEnded
+  std::function<std::string(const std::string& question)> ask;  // returns one line or throws CalibrationEnded
   std::function<void(const haptics::DeviceCalibration&)> save;  // called after each step
 };
 
 // Time limits for the user. [s]
 struct CalibrationTimes {
   double axis = 4.0;    // time to push the lever to one side
-  double range = 10.0;  // time to move the lever along all its stops and let go of it before the last second
+  double range = 10.0;  // time to move the lever along all its stops and release it before the last second
   double button = 6.0;  // time to press a button
 };
 
-// Runs the missing steps in order. springs: the stick renders springs. Exceptions from `ask` and `save` pass through.
+// Runs the missing steps in order. `springs`: whether the stick can render springs. Exceptions from `ask` and `save`
+// are passed on to the caller.
 void calibrate(haptics::Calibrator& calibrator, bool springs, const CalibrationDialog& dialog,
                const CalibrationTimes& times = {});
 

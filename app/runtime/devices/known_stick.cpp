@@ -20,8 +20,8 @@ fs::path descriptor_file(fs::path calibration) {
   return calibration.replace_extension(".hid");
 }
 
-// Reads the saved report descriptor. If that fails, returns an empty one: the stick can then only be opened while it is
-// plugged in, and counts as unchanged.
+// Reads the saved report descriptor, and returns an empty one on failure. Without the descriptor the program can neither
+// wait for a stick that is not plugged in nor detect that the stick's reports have changed.
 std::vector<std::uint8_t> read_descriptor(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -73,7 +73,7 @@ std::optional<KnownStick> read_known_stick(const fs::path& folder, const haptics
   if (!is_its)
     throw haptics::FileError(
         file.string(), 0,
-        fmt::format("this is the calibration of {}, not of {}; delete this file and calibrate the stick again",
+        fmt::format("this file is the calibration of {}, not of {}; delete the file and calibrate the stick again",
                     stick_id(identity_of(found)), stick_id(device)));
   return known;
 }

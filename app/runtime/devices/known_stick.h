@@ -1,5 +1,5 @@
-// Saved data of a calibrated stick: its calibration, and its report descriptor at that time. With these the program can
-// wait for a stick that is not plugged in, and detect that a stick's reports have changed.
+// Saved data of a calibrated stick: its calibration, and its report descriptor when it was calibrated. With these data
+// the program can wait for a stick that is not plugged in, and detect that a stick's reports have changed.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ struct KnownStick {
   std::vector<std::uint8_t> report_descriptor;
 };
 
-// The stick's identity without a port, so that it matches the stick at any port.
+// The stick's identity without a USB port, so that it matches the stick at any port.
 haptics::HidIdentity identity_of(const haptics::DeviceCalibration& calibration);
 
-// The stick's product name; if it is empty, stick_id().
+// Returns the stick's product name, or stick_id() if the product name is empty.
 std::string stick_name(const haptics::HidIdentity& identity);
-std::string stick_id(const haptics::HidIdentity& identity);  // vendor and product id: "045e:001b"
+std::string stick_id(const haptics::HidIdentity& identity);  // vendor and product id, e.g. "045e:001b"
 
-// Lists what must still be measured before forces are allowed; empty if nothing is missing.
+// Lists what must still be measured before the stick may render forces; empty if nothing is missing.
 std::string describe_missing(const haptics::DeviceCalibration& calibration);
 
 // Returns the device's saved data; empty if it was never calibrated. Throws FileError.

@@ -59,12 +59,12 @@ const haptics::HidIdentity& listed_identity(const ListedStick& stick) {
 }
 
 [[noreturn]] void refuse_absent(const std::string& wanted, std::span<const ListedStick> plugged) {
-  const std::string none = fmt::format("no stick \"{}\" is plugged in", haptics::printable(wanted));
-  if (plugged.empty()) throw std::runtime_error(none + ", and no other stick is plugged in either");
+  const std::string none = fmt::format("no stick that matches \"{}\" is plugged in", haptics::printable(wanted));
+  if (plugged.empty()) throw std::runtime_error(none + "; no other stick was found");
   throw std::runtime_error(fmt::format("{}; available sticks: {}", none, describe_sticks(plugged, listed_identity)));
 }
 
-// Finds a calibrated stick by its saved data, because it is not plugged in.
+// Searches the saved calibrations for a stick that is not plugged in. Empty: none matches.
 std::optional<KnownStick> absent_stick(const std::string& wanted, const std::filesystem::path& folder) {
   const std::vector<KnownStick> known = known_sticks(folder).sticks;
   const auto identity = [](const KnownStick& stick) { return identity_of(stick.calibration); };
@@ -84,8 +84,8 @@ void check_calibrated(const haptics::DeviceCalibration& calibration) {
                                        stick_name(stick), missing, stick_id(stick)));
 }
 
-// The stick's identity, normally without the port, so that the stick may be replugged at a different port. It contains
-// the port if the user named the stick by its port or an identical stick is plugged in.
+// The stick's identity, normally without the USB port, so that the stick may be replugged at a different port. The
+// identity contains the port if the user named the stick by its port, or if an identical stick is plugged in.
 haptics::HidIdentity identity_to_open(const ListedStick& stick, const std::string& wanted,
                                       std::span<const ListedStick> plugged) {
   const auto is_same = [&stick](const ListedStick& other) {
@@ -112,7 +112,7 @@ void check_has_forces(const ListedStick& stick) {
   if (!stick.problem.empty()) throw std::runtime_error(stick.problem);
   if (stick.force != StickForce::force_feedback)
     throw std::runtime_error(
-        fmt::format("{} cannot be used with --device ({}); use it without --device, like a gamepad",
+        fmt::format("{} cannot be used with --device ({}); use this stick without --device, like a gamepad",
                     stick_name(stick.identity), describe_forces(stick)));
 }
 

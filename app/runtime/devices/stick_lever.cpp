@@ -17,7 +17,7 @@ haptics::PortOpener with_descriptor_check(haptics::PortOpener open, const KnownS
     if (port->report_descriptor() == stick.report_descriptor) return port;
     const haptics::HidIdentity identity = identity_of(stick.calibration);
     throw haptics::HidError(
-        fmt::format("the reports of {} have changed since its calibration; run: gearshift devices --calibrate {}",
+        fmt::format("the report format of {} has changed since calibration; run: gearshift devices --calibrate {}",
                     stick_name(identity), stick_id(identity)));
   };
 }

@@ -1,4 +1,4 @@
-// A force-feedback stick that stays open, and the lever device that it provides to haptic loops.
+// A force-feedback stick that stays open, and the lever device that the stick provides to haptic loops.
 //
 // One stick outlives many loops: each change of gate, car or preset starts a new loop, and the stick stays open in
 // between with its motors off. If the stick is unplugged, this class waits until it is plugged in again.
@@ -16,17 +16,18 @@
 
 namespace gearshift::runtime {
 
-inline constexpr std::int64_t kTickNs = 1'000'000;  // [ns] full-speed USB frame: a pipe carries one report per frame
+inline constexpr std::int64_t kTickNs = 1'000'000;  // [ns] a full-speed USB frame, in which a pipe carries one report
 
 class StickLever {
  public:
-  // Opens the stick, and reopens it when it has been replugged, on a separate thread. The stick's reports must be the
-  // same as when it was calibrated. Throws HidError or std::invalid_argument with one sentence.
+  // Opens the stick, and reopens it on a separate thread when it has been replugged. The stick's reports must be the
+  // same as when it was calibrated. Throws HidError or std::invalid_argument with a one-sentence message.
   StickLever(const KnownStick& stick, haptics::PortOpener open);
   ~StickLever();  // switches the motors off and releases the device
 
-  // The lever for a loop with this period [s]; creating it moves nothing. Only one may exist at a time, and it must not
-  // outlive this object. Throws std::invalid_argument if the stick responds too slowly for a loop at that rate.
+  // Returns the lever for a loop with this period [s] without moving the stick. Only one such lever may exist at a
+  // time, and it must not outlive this object. Throws std::invalid_argument if the stick responds too slowly for a loop
+  // at this rate.
   std::unique_ptr<haptics::HapticDevice> lever(double period);
   // Like lever(), but not connected to the stick: for checking limits while the connected lever is in use.
   std::unique_ptr<haptics::HapticDevice> detached_lever(double period);
@@ -36,8 +37,8 @@ class StickLever {
   double answer_time() const noexcept { return haptics::answer_time(stick_.calibration.timing); }  // [s] worst case
   bool connected() const noexcept { return connection_.connected(); }
 
-  // Returns the next message about the stick, in order, each once and in one sentence: missing abilities, unplugged,
-  // connected again, faults. Empty: no message.
+  // Returns the next message about the stick: a missing ability, an unplug, a reconnection or a fault. Each message is
+  // one sentence and is returned only once. Empty: no message.
   std::optional<std::string> take_message();
 
  private:

@@ -45,7 +45,7 @@ void apply_calibration(const std::filesystem::path& folder, ListedStick& stick) 
   }
 }
 
-// The entry for the device; empty if the device is not a stick.
+// Returns the list entry for the device; empty if the device is not a stick.
 std::optional<ListedStick> listed(const haptics::UsbHidDevice& device, const std::filesystem::path& folder) {
   ListedStick stick;
   stick.identity = device.identity;

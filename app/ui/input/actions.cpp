@@ -1,34 +1,34 @@
-// The input actions with their names in files and their texts in the help window.
+// The table of input actions: names in files and texts in the help window.
 #include "app/ui/input/bindings.h"
 
 namespace gearshift::ui {
 
 const std::vector<ActionInfo>& all_actions() {
   static const std::vector<ActionInfo> actions = {
-      {Action::lever_left, "lever_left", "lever to the left", true},
-      {Action::lever_right, "lever_right", "lever to the right", true},
-      {Action::lever_forward, "lever_forward", "lever forward", true},
-      {Action::lever_back, "lever_back", "lever back", true},
+      {Action::lever_left, "lever_left", "move the lever left", true},
+      {Action::lever_right, "lever_right", "move the lever right", true},
+      {Action::lever_forward, "lever_forward", "move the lever forward", true},
+      {Action::lever_back, "lever_back", "move the lever back", true},
       {Action::push_down, "push_down", "push the knob down, or hold the reverse button", true},
-      {Action::lift, "lift", "hold the lift ring", true},
+      {Action::lift, "lift", "hold the lift ring up", true},
       {Action::throttle, "throttle", "throttle", true},
       {Action::throttle_light, "throttle_light", "a little throttle", true},
       {Action::brake, "brake", "brake", true},
       {Action::clutch, "clutch", "clutch", true},
       {Action::clutch_hold, "clutch_hold", "hold the clutch where it is", true},
       {Action::starter, "starter", "starter", true},
-      {Action::hand_brake, "hand_brake", "handbrake on or off", false},
-      {Action::ignition, "ignition", "ignition on or off", false},
-      {Action::arm, "arm", "turn forces on; start the offered lesson", false},
-      {Action::stop, "stop", "stop: turn forces off", false},
+      {Action::hand_brake, "hand_brake", "turn the handbrake on or off", false},
+      {Action::ignition, "ignition", "turn the ignition on or off", false},
+      {Action::arm, "arm", "turn forces on and start the offered lesson", false},
+      {Action::stop, "stop", "stop (turn forces off)", false},
       {Action::recentre, "recentre", "recentre the hand and the view", false},
-      {Action::full_screen, "full_screen", "full screen or window", false},
+      {Action::full_screen, "full_screen", "switch between full screen and window", false},
       {Action::help, "help", "show these controls", false},
       {Action::panel, "panel", "show or hide the panel", false},
       {Action::next_camera, "next_camera", "next camera", false},
       {Action::record, "record", "start or end a recording", false},
       {Action::undo, "undo", "undo the last tuning change", false},
-      {Action::redo, "redo", "redo the tuning change", false},
+      {Action::redo, "redo", "redo the last tuning change", false},
       {Action::grab_mouse, "grab_mouse", "capture the mouse to move the lever, or release it", false},
       {Action::quit, "quit", "quit", false},
   };

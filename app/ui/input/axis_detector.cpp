@@ -12,13 +12,13 @@ namespace gearshift::ui {
 namespace {
 
 constexpr double kMinMove = 0.2;        // [1] smaller changes of the raw value (-1 to 1) count as no movement
-constexpr double kMaxSecondAxis = 0.5;  // [1] how far a second axis may move, as a fraction of the most moved axis
-constexpr double kMinPedalSide = 0.75;  // [1] minimum fraction of a pedal's range on one side of its rest position
-constexpr double kMinLeverSide = 0.15;  // [1] minimum fraction of a lever's range on each side of its rest position
+constexpr double kMaxSecondAxis = 0.5;  // [1] maximum motion of a second axis, divided by the largest motion
+constexpr double kMinPedalSide = 0.75;  // [1] minimum fraction of a pedal's range that lies on one side of rest
+constexpr double kMinLeverSide = 0.15;  // [1] minimum fraction of a lever's range that lies on each side of rest
 constexpr int kMinRestFrames = 20;      // minimum number of frames recorded at rest
-constexpr double kMaxDeadZone = 0.25;   // [1] of the range; an axis that needs a larger dead zone is rejected
-constexpr double kMinZone = 0.02;       // [1] minimum dead zone; also the end zone
-constexpr double kNoiseMargin = 1.5;    // [1] ratio of dead zone to measured noise, which may grow later
+constexpr double kMaxDeadZone = 0.25;   // [1] maximum dead zone, as a fraction of the range; a noisier axis is rejected
+constexpr double kMinZone = 0.02;       // [1] minimum dead zone; also used as the end zone
+constexpr double kNoiseMargin = 1.5;    // [1] dead zone divided by measured noise; above 1, as noise may grow later
 
 // Rounds up to hundredths, because the user may read and edit the number in the bindings file.
 double rounded_up(double fraction) {
@@ -28,10 +28,10 @@ double rounded_up(double fraction) {
 double dead_zone(double wander, double range, const std::string& axis_name) {
   const double zone = std::max(kMinZone, rounded_up(kNoiseMargin * wander / range));
   if (zone > kMaxDeadZone)
-    throw std::invalid_argument(
-        fmt::format("{} moved by {:.2f} of its range while it should be at rest. Don't touch the control after you "
-                    "release it.",
-                    axis_name, wander / range));
+    throw std::invalid_argument(fmt::format(
+        "{} moved by {:.2f} of its range when it should have been at rest. Don't touch the control after you "
+        "release it.",
+        axis_name, wander / range));
   return zone;
 }
 
@@ -41,7 +41,8 @@ bool is_valid_in_file(const std::string& name) {
 
 }  // namespace
 
-// The first call records the sticks. False from the first frame in which they differ, even if they come back.
+// The first call records the sticks. Later calls return false from the first frame in which the sticks differ, even if
+// the recorded sticks come back.
 bool AxisDetector::check_sticks(const std::vector<engine::PadState>& sticks) {
   const bool is_new = sticks_.empty();
   if (is_new)
@@ -108,7 +109,7 @@ AxisDetector::Place AxisDetector::axis_with_max_travel() const {
   return places[0];
 }
 
-// A binding that finds the same stick and axis again.
+// Returns a binding that finds this stick and axis again.
 AxisBinding AxisDetector::binding_of(const Place& at) const {
   const Stick& stick = sticks_[at.stick];
   AxisBinding axis;
@@ -133,7 +134,7 @@ AxisBinding AxisDetector::pedal(const Place& at) const {
   return axis;
 }
 
-// The end that the lever reached first is left or back (the prompt asks for this order).
+// The end that the lever reached first counts as left or back, because the prompt asks for that end first.
 AxisBinding AxisDetector::lever(const Place& at) const {
   const AxisRange& range = range_of(at);
   AxisBinding axis = binding_of(at);
@@ -146,7 +147,7 @@ AxisBinding AxisDetector::lever(const Place& at) const {
     throw std::invalid_argument(
         describe_axis(at) +
         " moved to only one side of its rest position. Move the lever to one end, then to the other.");
-  // Distance between the lever's rest positions before and after the motion.
+  // Distance between the lever's rest positions before and after it was moved.
   const double before = std::abs(range.first - range.rest());
   const double slack = before < 0.5 * side ? before : 0.0;
   axis.dead_zone = dead_zone(slack + 0.5 * (range.rest_high - range.rest_low), side, describe_axis(at));
@@ -159,7 +160,7 @@ AxisBinding AxisDetector::result() const {
   const Place at = axis_with_max_travel();
   if (range_of(at).rests < kMinRestFrames)
     throw std::invalid_argument(describe_axis(at) +
-                                " was not recorded at rest. Release the control and don't touch it for a second.");
+                                " was not at rest long enough. Release the control and don't touch it for a second.");
   return control_ == Control::pedal ? pedal(at) : lever(at);
 }
 

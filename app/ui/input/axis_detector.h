@@ -1,5 +1,5 @@
 // Detects an axis while the user moves one control: which axis it is, its end values, its rest position and the noise
-// there. It reads no clock and opens no device: the caller passes the sticks frame by frame.
+// there. The detector reads no clock and opens no device: the caller passes the sticks frame by frame.
 //
 //   AxisDetector detector(AxisDetector::Control::pedal);
 //   detector.record_move(list)   each frame, while the pedal is pressed all the way and released; a lever is moved to

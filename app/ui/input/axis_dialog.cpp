@@ -38,7 +38,8 @@ constexpr Control kControls[] = {
      "Move the LEVER to the left, then to the right, and let go."},
     {&Bindings::lever_shift, AxisDetector::Control::lever, "Move the LEVER back, then forward, and let go."}};
 
-// Returns true if the axis was found, false if skipped.
+// Asks the user to move the control until its axis is found and assigned, or the user skips it. Returns false if
+// skipped.
 bool assign_axis(const Control& control, Bindings& bindings, const AxisDialog& dialog) {
   for (;;) {
     AxisDetector detector(control.kind);
@@ -78,7 +79,8 @@ std::string ask_line(base::LineReader& answers, const std::string& question, con
   for (;;) {
     if (const std::optional<std::string> line = answers.read_line(0.0)) return *line;
     if (base::StopSignals::requested()) throw runtime::CalibrationEnded("Stopped. Nothing was changed.");
-    if (answers.at_end()) throw runtime::CalibrationEnded("Stopped because standard input ended. Nothing was changed.");
+    if (answers.at_end())
+      throw runtime::CalibrationEnded("Stopped because standard input was closed. Nothing was changed.");
     frame();
     std::this_thread::sleep_for(kFrame / 2);
   }

@@ -16,7 +16,7 @@ namespace gearshift::ui {
 namespace {
 
 constexpr int kMaxPads = 16, kMaxAxes = 64, kMaxButtons = 128;
-constexpr double kMinSpan = 0.1;    // [1] minimum distance between `from` and `to`: shorter ranges are switches
+constexpr double kMinSpan = 0.1;    // [1] minimum distance of `from` and `to`; a shorter axis would act as a switch
 constexpr double kMinSide = 0.05;   // [1] minimum fraction of a lever's range on each side of its centre
 constexpr double kMaxZones = 0.95;  // [1] maximum sum of dead zone and end zone
 
@@ -40,8 +40,8 @@ std::optional<int> button_of(std::string_view word) {
   return button < kMaxButtons ? std::optional(button) : std::nullopt;
 }
 
-// Reads a table with lines of the form action = "name, name, ...". of: converts a name to its key or button code.
-// kind: describes valid names in error messages.
+// Reads a table with lines of the form ACTION = "NAME, NAME, ...". `of` converts a name to its key or button code.
+// `kind` describes valid names in error messages.
 std::map<Action, std::vector<int>> read_actions(const haptics::TomlTable& table,
                                                 const std::function<std::optional<int>(std::string_view)>& of,
                                                 const std::string& kind) {
@@ -67,13 +67,12 @@ int read_integer(const haptics::TomlTable& table, std::string_view key, int max)
   return static_cast<int>(number);
 }
 
-// An axis that is already bound.
 struct BoundAxis {
   std::string_view action;
   AxisBinding axis;
 };
 
-// True if both bindings use a common part of the same axis. Two pedals may use one half of an axis each.
+// True if both bindings use the same part of the same axis. Two pedals may share an axis, each using one half.
 bool overlap(const AxisBinding& a, const AxisBinding& b) {
   if (a.stick != b.stick || a.pad != b.pad || a.axis != b.axis) return false;
   const auto [a_low, a_high] = std::minmax(a.from, a.to);
@@ -86,8 +85,7 @@ void read_centre(const haptics::TomlTable& table, AxisBinding& read) {
   read.centre = table.number("centre", {-1.0, 1.0});
   const double fraction = (*read.centre - read.from) / (read.to - read.from);
   if (!(fraction > kMinSide && fraction < 1.0 - kMinSide))
-    table.fail("centre",
-               fmt::format("must be well inside the range between from ({}) and to ({})", read.from, read.to));
+    table.fail("centre", fmt::format("must lie well between \"from\" ({}) and \"to\" ({})", read.from, read.to));
 }
 
 void read_axis(const haptics::TomlTable& axes, std::string_view key, std::optional<AxisBinding>& axis,
@@ -107,7 +105,8 @@ void read_axis(const haptics::TomlTable& axes, std::string_view key, std::option
   read.dead_zone = table.number_or("dead_zone", read.dead_zone, {0.0, 0.9});
   read.end_zone = table.number_or("end_zone", read.end_zone, {0.0, 0.9});
   if (read.dead_zone + read.end_zone > kMaxZones)
-    table.fail("end_zone", fmt::format("must not exceed {} together with dead_zone ({})", kMaxZones, read.dead_zone));
+    table.fail("end_zone",
+               fmt::format("the sum of end_zone and dead_zone ({}) must not exceed {}", read.dead_zone, kMaxZones));
   const auto other = std::find_if(used.begin(), used.end(), [&](const auto& one) { return overlap(one.axis, read); });
   if (other != used.end()) table.fail("axis", fmt::format("is already bound to {}", other->action));
   table.reject_unknown_keys();
@@ -159,11 +158,12 @@ std::string joined(const std::vector<int>& codes, const std::function<std::strin
   return list;
 }
 
-// The help text of an axis: that of the action with the same key, or else a text for the lever's axes.
+// Returns the help text of an axis: the text of the action with the same key. The lever's axes have no such action and
+// get a separate text.
 std::string_view axis_help(std::string_view key) {
   for (const ActionInfo& action : all_actions())
     if (action.key == key) return action.help;
-  return key == "lever_select" ? "lever sideways" : "lever forward and back";
+  return key == "lever_select" ? "move the lever sideways" : "move the lever forward and back";
 }
 
 }  // namespace
@@ -180,7 +180,7 @@ Bindings read_bindings(const std::filesystem::path& file) {
   read_pace(root, bindings);
   root.reject_unknown_keys();
   if (!bindings.keys.contains(Action::stop))
-    root.fail({}, "[keys] has no stop; set a key for it, so that you can always turn forces off");
+    root.fail({}, "[keys] has no key for stop; set one, so that you can always turn forces off");
   return bindings;
 }
 
@@ -205,7 +205,7 @@ std::string help_text(const Bindings& bindings) {
   for (const ActionInfo& action : all_actions())
     if (const auto keys = bindings.keys.find(action.action); keys != bindings.keys.end())
       line(joined(keys->second, key_label), action.help);
-  line("Mouse", "moves the lever after you click the cabin");
+  line("Mouse", "move the lever (click the cabin first)");
   for (const ActionInfo& action : all_actions())
     if (const auto buttons = bindings.pad_buttons.find(action.action); buttons != bindings.pad_buttons.end())
       line(joined(buttons->second,

@@ -1,5 +1,5 @@
-// Bindings of keys, buttons and axes, read from a TOML file; the shipped one is assets/bindings/default.toml.
-// Actions missing from the file are not bound; only `stop` must have a key.
+// Bindings of keys, buttons and axes, read from a TOML file; the shipped file is assets/bindings/default.toml. An
+// action that is missing from the file is not bound. Only `stop` must have a key.
 #pragma once
 
 #include <filesystem>
@@ -13,16 +13,16 @@
 
 namespace gearshift::ui {
 
-// All input actions. Held actions act as long as the key is held, the others once per key press.
+// A held action acts as long as its key is held; any other action acts once per key press.
 enum class Action {
-  // held actions of the hand
+  // held actions that move the hand
   lever_left,
   lever_right,
   lever_forward,
   lever_back,
   push_down,
   lift,
-  // held actions of the car
+  // held actions that control the car
   throttle,
   throttle_light,
   brake,
@@ -47,36 +47,36 @@ enum class Action {
 };
 struct ActionInfo {
   Action action;
-  std::string_view key;   // in the file: "lever_left"
-  std::string_view help;  // in the help window: "lever to the left"
+  std::string_view key;   // name in the bindings file: "lever_left"
+  std::string_view help;  // text in the help window: "move the lever left"
   bool held;
 };
 const std::vector<ActionInfo>& all_actions();
 
-// How a stick moves the hand.
 enum class LeverMode {
-  moves,  // deflection sets the hand's speed; released: the hand stays. For sticks with a centring spring
-  places  // deflection sets the hand's position. For levers that stay where they are put
+  moves,  // for self-centring sticks: deflection sets the hand's speed, so the hand stops when the stick is released
+  places  // for levers that stay in place when released: deflection sets the hand's position
 };
 
 struct Bindings {
   std::map<Action, std::vector<int>> keys;  // GLFW_KEY_...
   std::map<Action, std::vector<int>> pad_buttons;
-  std::string button_stick;  // part of the name, or the GUID, of the sticks with these buttons; empty: all sticks
+  std::string button_stick;  // pad_buttons apply to sticks whose name contains this, or whose GUID it is; empty: all
   std::optional<AxisBinding> lever_select, lever_shift, throttle, brake, clutch;
   LeverMode lever_mode = LeverMode::moves;
   double stick_speed = 0.3;       // [m/s] hand speed at full deflection of the stick, with LeverMode::moves
   double mouse_mm_per_px = 0.12;  // [mm] hand motion in the lever plane per mouse pixel
   double key_speed = 0.25;        // [m/s] hand speed while a lever key is held
   double pedal_time = 0.25;       // [s] time that a key needs to move a pedal over its full travel
-  double clutch_slip_time = 1.2;  // [s] time that the clutch pedal, by key, needs to rise through the bite zone
+  double clutch_slip_time = 1.2;  // [s] time in which the clutch pedal, moved by a key, rises through the bite zone
 };
 
 // Throws FileError, which names file, line, key, value and allowed range. Each key and each button may have only one
 // action; ranges of an axis that are bound to different actions must not overlap.
 Bindings read_bindings(const std::filesystem::path& file);
 
-// Writes a file that read_bindings() reads back unchanged. If it throws FileError, an existing file is unchanged.
+// Writes a file that read_bindings() reads back unchanged. If the function throws FileError, an existing file is
+// unchanged.
 void write_bindings(const Bindings& bindings, const std::filesystem::path& file);
 std::string bindings_text(const Bindings& bindings);
 
@@ -84,8 +84,8 @@ std::string bindings_text(const Bindings& bindings);
 // std::invalid_argument with one sentence if the name cannot be a file name.
 std::filesystem::path user_bindings_file(const std::filesystem::path& config_folder, const std::string& name);
 
-// The text of the help window (F1): one line per bound action, then lines for mouse and pad; a tab separates the input
-// from the action.
+// Returns the text of the help window (F1): one line per bound action, then lines for mouse and pad. A tab separates
+// the input from the action.
 std::string help_text(const Bindings& bindings);
 
 // A driving action and the first key bound to it, for example "clutch" and "A".
@@ -93,7 +93,7 @@ struct DrivingKey {
   std::string_view action;
   std::string key;
 };
-// In the order of use; actions without a key are left out.
+// Returns the keys in the order in which the legend shows them; actions without a key are left out.
 std::vector<DrivingKey> driving_keys(const Bindings& bindings);
 
 }  // namespace gearshift::ui

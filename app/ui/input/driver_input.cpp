@@ -13,8 +13,8 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kMinAxisMove = 0.02;  // [1] axis motion below this is noise
-constexpr double kPushTravel = 0.05;   // [m] mouse travel beyond the hand's reach that gives max_push
+constexpr double kMinAxisMove = 0.02;  // [1] axis motion smaller than this is noise
+constexpr double kPushTravel = 0.05;   // [m] mouse motion beyond the hand's reach at which the push is `max_push`
 constexpr double kBeyondGate = 0.02;   // [m] reach of the hand beyond the gate, see hand_reach()
 
 enum WatchedAxis : std::size_t { select_axis, shift_axis, throttle_axis, brake_axis, clutch_axis };
@@ -26,9 +26,9 @@ bool is_once(Action action) {
   return info != actions.end() && !info->held;
 }
 
-constexpr double kMaxKeyLead = 0.05;  // [m] maximum lead of the hand with keys or stick: 25 N with a 500 N/m grip
-constexpr double kRestDelay = 0.3;    // [s] time after the release of keys or stick until kRestLead applies
-constexpr double kRestLead = 0.005;   // [m] maximum lead after kRestDelay: 2.5 N hold the lever against its centring
+constexpr double kMaxKeyLead = 0.05;  // [m] maximum lead of the hand over the lever: 25 N at the hand's 500 N/m
+constexpr double kRestDelay = 0.3;    // [s] time from the release of keys or stick until kRestLead applies
+constexpr double kRestLead = 0.005;   // [m] maximum lead after kRestDelay: 2.5 N, enough to hold the lever off centre
 
 }  // namespace
 
@@ -60,7 +60,8 @@ void DriverInput::update(const engine::WindowInput& input, double seconds, bool 
   read_pedals(input);
 }
 
-// A key pressed and released between two frames is held for one frame.
+// Applies the frame's key events. release() takes effect in the next update(), so a key that is pressed and released
+// between two frames is held for one frame.
 void DriverInput::update_keys(const engine::WindowInput& input, bool ui_has_keys) {
   for (const engine::KeyEvent& key : input.keys) {
     const Source source{false, key.key};
@@ -189,8 +190,9 @@ glm::dvec2 DriverInput::key_speed() const {
                                                  direction(Action::lever_forward, Action::lever_back)};
 }
 
-// Limits the hand to its reach and, if the lever is blocked, to a short distance from it, so that a key held too long
-// does not push.
+// Moves the hand at `speed` for `seconds`, within its reach and at most kMaxKeyLead from the lever, so that a key held
+// too long does not push hard on a blocked lever. kRestDelay after the motion, moves the hand once, to at most
+// kRestLead from the lever.
 void DriverInput::aim_by_speed(glm::dvec2 speed, double seconds) {
   const bool moves = speed != glm::dvec2(0.0);
   if (moves) {
@@ -233,7 +235,7 @@ void DriverInput::set_car(bool ignition, double hand_brake) {
   controls_.hand_brake = hand_brake;
 }
 
-// The axis's raw value; empty until the axis has moved.
+// Returns the axis's raw value; empty until the axis has moved.
 std::optional<double> DriverInput::raw_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis,
                                             std::size_t watch) {
   if (!axis) return std::nullopt;

@@ -1,18 +1,19 @@
 // Converts window input to the driver's hand and pedals. Needs no window; the result depends only on the input.
 //
-//   hand    Moved by the mouse while captured, by lever keys at a fixed speed, or by a stick at a speed proportional to
-//           the square of its deflection; with LeverMode::places, the stick's deflection sets the position, from when
-//           it leaves its rest position until it is back. The hand stays within reach; mouse motion beyond reach
-//           becomes a push against whatever holds the lever. With keys or a stick, the hand leads the lever by at most
-//           5 cm, and by at most 5 mm from 0.3 s after their release, so that it does not lean on the lever forever.
-//   pedals  The held pedal keys, for KeyboardPedals, which moves the pedals on the car's clock; and the pedal axes,
-//           each only after its first motion, since a pad does not report an axis's true position before.
-//   mouse   Captured for the lever by a click on the cabin or by grab_mouse. Released by grab_mouse or when the window
-//           loses the focus.
+//   hand    The hand is moved by the captured mouse, by lever keys at a fixed speed, or by a stick at a speed
+//           proportional to the square of its deflection. With LeverMode::places, the deflection of the stick sets the
+//           hand's position while the stick is away from rest. The hand stays within reach; mouse motion beyond reach
+//           becomes a push on the lever. With keys, or with a stick that sets the speed, the hand leads the
+//           lever by at most 5 cm. 0.3 s after their release the hand moves back to at most 5 mm from the lever, so
+//           that it does not push on the lever permanently.
+//   pedals  The held pedal keys are passed to KeyboardPedals, which moves the pedals on the car's clock. A pedal axis
+//           is used only after its first motion, because a pad does not report the true position of an axis earlier.
+//   mouse   A click on the cabin, or the action `grab_mouse`, captures the mouse for the lever. `grab_mouse` again, or
+//           the loss of the window's focus, releases the mouse.
 //   panel   Keys and clicks that the panel uses are ignored, with two exceptions: `stop` with a key that types no text,
-//           and grab_mouse while the mouse is captured.
-//   chords  A key pressed with Ctrl or Alt held is ignored, except for `stop`, and grab_mouse while the mouse is
-//           captured. If Ctrl or Alt is itself bound, it is a key like any other.
+//           and `grab_mouse` while the mouse is captured.
+//   chords  A key pressed with Ctrl or Alt held is ignored, except for `stop`, and `grab_mouse` while the mouse is
+//           captured. If Ctrl or Alt is itself bound to an action, it acts like any other key.
 #pragma once
 
 #include <array>
@@ -35,7 +36,7 @@ namespace gearshift::ui {
 struct InputConfig {
   Bindings bindings;
   glm::dvec2 reach{0.06, 0.06};  // [m] limit of the hand on each side of the origin, see hand_reach()
-  double max_push = 75.0;        // [N] push per axis with the mouse 50 mm beyond reach: above the over-push warning
+  double max_push = 75.0;        // [N] push per axis with the mouse 50 mm beyond reach; triggers the over-push warning
 };
 
 // [m] Reach of the hand: 20 mm beyond the gate's end stops and end walls, limited to the device's workspace. A hand
@@ -46,25 +47,24 @@ class DriverInput {
  public:
   explicit DriverInput(const InputConfig& config);
 
-  // Call once per frame. seconds: time since the last call. ui_has_mouse: the panel uses the mouse. ui_has_keys: it
-  // uses the keyboard.
+  // Call once per frame. `seconds`: time since the last call. `ui_has_mouse`: the panel uses the mouse. `ui_has_keys`:
+  // the panel uses the keyboard.
   void update(const engine::WindowInput& input, double seconds, bool ui_has_mouse, bool ui_has_keys);
 
   const haptics::HandTarget& hand() const noexcept { return hand_; }
-  const haptics::DriverControls& controls() const noexcept { return controls_; }  // pedals: from the axes only
+  const haptics::DriverControls& controls() const noexcept { return controls_; }  // pedal axes only, no pedal keys
   // Pedal keys held until the next update(). A key pressed and released between two frames is held for one frame.
   PedalKeys pedal_keys() const;
   const std::vector<Action>& pressed() const noexcept { return pressed_; }  // one-shot actions of this frame, in order
   bool mouse_moves_lever() const noexcept { return mouse_moves_lever_; }    // the mouse is captured
 
   void recentre(glm::dvec2 lever);                          // puts the hand at the lever, without a push
-  void set_reach(glm::dvec2 reach);                         // [m] call when gate or device changes
+  void set_reach(glm::dvec2 reach);                         // [m] call when the gate or the device changes
   void feel(glm::dvec2 lever) noexcept { lever_ = lever; }  // [m] lever point; call once per frame, before update()
   void release_mouse() noexcept { mouse_moves_lever_ = mouse_moved_lever_ = false; }
-  void set_car(bool ignition, double hand_brake);  // call at the start of a lesson; hand_brake: 0 to 1
+  void set_car(bool ignition, double hand_brake);  // call at the start of a lesson; hand_brake [1]: 0 to 1
 
  private:
-  // Detects an axis's first movement; the axis is ignored until then.
   struct AxisWatch {
     std::optional<double> first;
     bool moved = false;
@@ -102,18 +102,18 @@ class DriverInput {
   InputConfig config_;
   glm::dvec2 aim_{0.0};            // [m] target of the hand; the part beyond reach becomes a push
   glm::dvec2 lever_{0.0};          // [m] lever point
-  double since_key_motion_ = 1.0;  // [s] since a key or stick moved the hand; not counted beyond kRestDelay
+  double since_key_motion_ = 1.0;  // [s] time since a key or stick moved the hand, at most kRestDelay
   haptics::HandTarget hand_;
   haptics::DriverControls controls_;
   std::vector<Action> pressed_;
   bool mouse_moves_lever_ = false;
-  bool mouse_moved_lever_ = false;        // value in the last frame: mouse motion before the capture does not count
-  bool was_clicked_ = false;              // the left button was down in the last frame
-  bool was_focused_ = false;              // the window had the focus in the last frame
-  std::set<Source> down_;                 // keys and buttons held in this frame, even if only for part of it
-  std::set<Source> newly_down_;           // keys and buttons in down_ that were pressed in this frame
-  std::set<Source> released_;             // keys and buttons in down_ that were released in this frame
-  std::array<AxisWatch, 5> watch_;        // lever_select, lever_shift, throttle, brake, clutch
+  bool mouse_moved_lever_ = false;  // mouse_moves_lever_ in the last frame; used to skip motion before the capture
+  bool was_clicked_ = false;        // the left button was down in the last frame
+  bool was_focused_ = false;        // the window had the focus in the last frame
+  std::set<Source> down_;           // keys and buttons held in this frame, even if only for part of it
+  std::set<Source> newly_down_;     // keys and buttons in down_ that were pressed in this frame
+  std::set<Source> released_;       // keys and buttons in down_ that were released in this frame
+  std::array<AxisWatch, 5> watch_;  // for lever_select, lever_shift, throttle, brake, clutch
   std::array<bool, 2> stick_controls_{};  // select, shift
 };
 

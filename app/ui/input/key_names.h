@@ -1,5 +1,5 @@
-// Names of keys and pad controls. A key is named after its position on a US keyboard, like GLFW's key codes. Unlike
-// those of glfwGetKeyName(), the names are the same on every layout: "A" is always the key to the right of Caps Lock.
+// Names of keys and pad controls. A key is named after its position on a US keyboard, like GLFW's key codes. The names
+// are the same on every layout, unlike those from glfwGetKeyName(): "A" is always the key to the right of Caps Lock.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@ namespace gearshift::ui {
 
 std::string key_name(int key);                     // "A", "F1", "Left Shift", ...; "Key 999" for an unknown key
 std::optional<int> key_of(std::string_view name);  // GLFW_KEY_...
-std::string key_label(int key);                    // as printed on the key: "[", "A", "F1", "Left Shift"
+std::string key_label(int key);                    // text printed on the key: "[", "A", "F1", "Left Shift"
 bool types_text(int key) noexcept;                 // true if the key may enter a character in a text field
 
-// Names of an Xbox pad's controls, by their numbers on Linux (the kernel's xpad driver): "RB", "LT". Unknown numbers
-// give "button 12", "axis 7".
+// Names of the controls of an Xbox pad, such as "RB" and "LT". The numbers are those of the Linux kernel's xpad driver.
+// The name of an unknown number is text such as "button 12" or "axis 7".
 std::string pad_button_label(int button);
 std::string pad_axis_label(int axis);
 

@@ -6,24 +6,25 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kLightThrottle = 0.2;  // [1] enough throttle to move off
-constexpr double kFreeSpeed = 180.0;    // [rad/s] 1700 rpm: an uncoupled engine this fast gets no light throttle
-constexpr double kFreeBand = 50.0;      // [rad/s] light throttle falls to 0 in this range below kFreeSpeed
+constexpr double kLightThrottle = 0.2;  // [1] fraction of full throttle; enough to move off
+constexpr double kFreeSpeed = 180.0;    // [rad/s] about 1700 rpm; an uncoupled engine gets no light throttle above this
+constexpr double kFreeBand = 50.0;      // [rad/s] range below kFreeSpeed in which light throttle falls to 0
 
-// Limits the revs of an uncoupled engine, as a foot would: a fifth of the throttle would over-rev it.
+// Returns the light throttle [1]. While the engine is not coupled to the wheels, the throttle falls to 0 as the engine
+// speed approaches kFreeSpeed. A constant kLightThrottle would over-rev the engine.
 double light_throttle(double engine_speed, bool coupled) {
   if (coupled) return kLightThrottle;
   return kLightThrottle * std::clamp((kFreeSpeed - engine_speed) / kFreeBand, 0.0, 1.0);
 }
 
-// The pedal position after `seconds` of motion towards `to`. time [s]: duration of the full travel.
+// Returns the pedal position after `seconds` of motion towards `to`. `time`: duration of the full travel [s].
 double ramped(double pedal, double to, double seconds, double time) {
   const double step = seconds / time;
   return std::clamp(to, pedal - step, pedal + step);
 }
 
-// The position of the released clutch pedal `seconds` later: it rises quickly, but slowly from clutch_bite to
-// clutch_closed.
+// Returns the position of the released clutch pedal after `seconds`: the pedal rises fast, but slowly from clutch_bite
+// to clutch_closed.
 double release_clutch(double pedal, double seconds, const PedalTiming& pace) {
   const double edges[] = {pace.clutch_bite, pace.clutch_closed, 0.0};
   const double quick = 1.0 / pace.pedal_time, slow = (pace.clutch_bite - pace.clutch_closed) / pace.slip_time;

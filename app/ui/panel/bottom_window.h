@@ -7,9 +7,9 @@
 
 namespace gearshift::ui {
 
-inline constexpr float kBottomMargin = 0.8f;  // [em] margin at the window's sides; the margin below it is half as wide
+inline constexpr float kBottomMargin = 0.8f;  // [em] margin on each side of the window; below it, half of this
 
-// [px] Width available in `room` without the margins, at most `max` [em]. Below kMinBottomWidth no text fits.
+// [px] Width available in `room` without the margins, at most `max` [em]. Below kMinBottomWidth, no text fits.
 float bottom_width(const ControlRect& room, float max);
 inline constexpr float kMinBottomWidth = 10.0f;  // [em]
 

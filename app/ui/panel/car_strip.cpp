@@ -13,9 +13,9 @@ namespace gearshift::ui {
 namespace {
 
 constexpr float kBar = 3.2f;         // [em]
-constexpr double kBiteTorque = 5.0;  // [N m] a slipping clutch bites above this
+constexpr double kBiteTorque = 5.0;  // [N m] clutch torque above which a slipping clutch counts as biting
 
-struct Zone {  // bite zone in fractions of the pedal travel [1]; not drawn if empty (from >= to)
+struct Zone {  // bite zone in fractions of the pedal travel [1]; not drawn if empty (`from` >= `to`)
   double from = 0.0, to = 0.0;
 };
 

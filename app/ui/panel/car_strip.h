@@ -1,4 +1,4 @@
-// One line about the car on the lesson card, shown while the panel's bar is hidden.
+// One line about the car on the lesson card, shown while the control bar is hidden.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace gearshift::ui {
 
-inline constexpr double kHandBrakeOn = 0.05;  // [1] the handbrake lamp is lit above this
+inline constexpr double kHandBrakeOn = 0.05;  // [1] lever position above which the handbrake lamp is lit
 
-double slope_percent(const vehicle::VehicleState& car);  // rounded as printed; positive uphill
+double slope_percent(const vehicle::VehicleState& car);  // [%] rounded to the displayed precision; positive uphill
 
-// Draws pedals, speeds and active warnings from the left edge, wrapping as needed. The clutch bar changes colour while
-// the clutch bites, i.e. slips and transmits torque.
+// Draws pedals, speeds and active warnings from left to right, wrapped if necessary. The clutch bar changes colour
+// while the clutch bites, i.e. slips and transmits torque.
 void draw_car_strip(const vehicle::VehicleState& car, int gear);
 
 }  // namespace gearshift::ui

@@ -14,7 +14,8 @@ glm::dvec2 wanted_force(const haptics::HapticSnapshot& snapshot) {
   return snapshot.wall_force + snapshot.feel_force + snapshot.load_force;
 }
 
-// The larger component, which decides about clipping because the device limits each axis separately.
+// Returns the larger component. The device limits each axis separately, so this component decides whether the force is
+// clipped.
 double larger_component(glm::dvec2 force) {
   return std::max(std::abs(force.x), std::abs(force.y));
 }

@@ -1,4 +1,4 @@
-// Compares the delivered force (f_a) with the rendered force: shows how much of it the device clips.
+// Compares the delivered force (f_a) with the rendered force, to show how much of the rendered force the device clips.
 #pragma once
 
 #include <imgui.h>
@@ -13,7 +13,7 @@ namespace gearshift::ui {
 class ClipMeter {
  public:
   void push(const haptics::HapticSnapshot& snapshot);
-  // Uses the window's full width.
+  // Draws across the full width of the window.
   void draw(Controls& controls, const haptics::HapticSnapshot& now, const haptics::DeviceSpec& device) const;
   static float height();  // [px]
 

@@ -11,11 +11,12 @@ class ClipRecord {
   static constexpr double kSpan = 10.0;  // [s]
   static constexpr int kBins = 100;
 
-  // time [s] must not decrease within a run; a smaller time starts a new run. wanted [N]: the larger axis component.
+  // `time` [s]: if smaller than the previous time, a new run starts. `wanted` [N]: the larger component of the rendered
+  // force.
   void push(double time, double wanted, bool clipped) noexcept;
 
-  double fraction() const noexcept;  // [1] fraction of the samples within the span that were clipped
-  double peak() const noexcept;      // [N] largest wanted force within the span
+  double fraction() const noexcept;  // [1] fraction of the samples in the last kSpan that were clipped
+  double peak() const noexcept;      // [N] largest `wanted` in the last kSpan
 
  private:
   struct Bin {
@@ -23,7 +24,7 @@ class ClipRecord {
     double peak = 0.0;  // [N]
   };
   std::array<Bin, kBins> bins_{};  // ring buffer indexed by time
-  std::int64_t newest_ = 0;        // [bins] time of the newest sample since time 0
+  std::int64_t newest_ = 0;        // [bins] time of the newest sample, counted in bins from time 0
   bool empty_ = true;
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kEditLines = 4.0f;
 
-// Returns true if the text is valid; otherwise shows the reason below the field, unless the field is empty.
+// Returns true if the text is valid. Otherwise shows the reason below the field, unless the field is empty.
 bool is_accepted(lessons::UserText kind, const char* label, const char* text) {
   if (*text == '\0') return false;
   const std::string problem = lessons::user_text_problem(kind, label, text);
@@ -78,7 +78,7 @@ void CommentList::draw_edit(Controls& controls, std::int64_t run, LessonRequests
   if (comment_button(controls, "comment_cancel", "Cancel")) change_ = Change::none;
 }
 
-// Asks for confirmation before a comment is deleted, which cannot be undone.
+// Asks for confirmation before deleting a comment, because a deletion cannot be undone.
 void CommentList::draw_delete(Controls& controls, std::int64_t run, LessonRequests& out) {
   const engine::WithFont small(engine::UiFont::small);
   if (controls.button("comment_delete_sure", "Delete permanently", {0.0f, 0.0f}, ink::kBadDeep)) {

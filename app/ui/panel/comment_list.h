@@ -26,7 +26,7 @@ class CommentList {
   void draw_field(Controls& controls, std::int64_t run, LessonRequests& out);
 
   Change change_ = Change::none;
-  std::int64_t changed_ = 0;  // CommentRow::id of the comment being changed
+  std::int64_t changed_ = 0;  // CommentRow::id of the comment being edited
   std::array<char, lessons::kMaxCommentBytes + 1> edited_{};
   std::array<char, lessons::kMaxNameBytes + 1> author_{};
   std::array<char, lessons::kMaxCommentBytes + 1> text_{};

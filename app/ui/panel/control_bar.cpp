@@ -38,7 +38,8 @@ class BarCursor {
   float height_;
 };
 
-// zone_from, zone_to [1]: the bite zone in fractions of the pedal travel; not drawn if empty (from >= to).
+// `zone_from`, `zone_to` [1]: the bite zone in fractions of the pedal travel; not drawn if empty (`zone_from` >=
+// `zone_to`).
 void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colour, double zone_from = 0.0,
            double zone_to = 0.0) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -115,19 +116,21 @@ struct Lamp {
 Lamp slope_lamp(const vehicle::VehicleState& car) {
   const double slope = slope_percent(car);
   if (slope == 0.0) return {{}, false, 0, ""};
-  return {fmt::format("Slope {:+.0f} %", slope), true, ink::kText, "Road slope; positive is uphill."};
+  return {fmt::format("Slope {:+.0f} %", slope), true, ink::kText, "Road slope; positive values are uphill."};
 }
 
-// The over-push warning says so if the push is only estimated, i.e. if the device has no force sensor.
+// The lamp that lights if the user pushes harder than the device can resist. Its text says if this is only an estimate,
+// because the device has no force sensor.
 Lamp over_push_lamp(const haptics::HapticSnapshot& now) {
   const bool on = (now.flags & haptics::kFlagOverPush) != 0, estimated = (now.flags & haptics::kFlagPushEstimated) != 0;
   return {estimated && on ? "Push (estimated)" : "Over-push", on, ink::kBad,
-          estimated ? "You seem to be pushing harder than the device can hold. This is an estimate: the device has no "
-                      "force sensor."
-                    : "You are pushing harder than the device can hold."};
+          estimated
+              ? "You seem to be pushing harder than the device can resist. This is an estimate: the device has no "
+                "force sensor."
+              : "You are pushing harder than the device can resist."};
 }
 
-// [em] Width of the first column of lamps: wider if its longest name, "Push (estimated)", may appear.
+// Width [em] of the first column of lamps. The column is wider if its longest name, "Push (estimated)", may appear.
 float first_lamp_width(const PanelInput& input) {
   return (input.now.flags & haptics::kFlagPushEstimated) != 0 ? kEstimatedLamps : kLamps;
 }
@@ -143,11 +146,11 @@ void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
         "More force was requested than the device can deliver."},
        {"Past wall", (now.flags & haptics::kFlagGhost) != 0, ink::kWarn,
         "Your hand has pushed the real lever through a wall; the drawn lever stays in the gate."}},
-      {{"Grinding", car.grinding, ink::kBad, "The gears are grinding. Press the clutch."},
-       {"Over-rev", car.over_revved, ink::kBad, "The engine is above its red line. Ease off the throttle."},
+      {{"Grinding", car.grinding, ink::kBad, "Lit while the gears grind: press the clutch."},
+       {"Over-rev", car.over_revved, ink::kBad, "Lit while the engine is above its red line: ease off the throttle."},
        {"Softened", softened, ink::kWarn, "The walls were softened because the lever chattered against one."}},
-      {{"Handbrake", car.hand_brake > kHandBrakeOn, ink::kBad, "The handbrake is on."},
-       {"Ignition", car.ignition, ink::kGood, "The ignition is on."},
+      {{"Handbrake", car.hand_brake > kHandBrakeOn, ink::kBad, "Lit while the handbrake is on."},
+       {"Ignition", car.ignition, ink::kGood, "Lit while the ignition is on."},
        slope_lamp(car)}};
   const float em = engine::ui_em(), line = parts.height() / 3.0f;
   const float above = 0.5f * (line - engine::ui_font(engine::UiFont::small)->FontSize);
@@ -166,7 +169,8 @@ void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
   }
 }
 
-// Loop rate, lateness and missed cycles in one line; the less important ones are left out to fit `width` [px].
+// Returns loop rate, lateness and missed cycles in one line. The less important figures are left out if the line would
+// be wider than `width` [px].
 std::string loop_line(const PanelInput& input, float width) {
   const runtime::LoopHealth& health = input.health;
   std::string rate = fmt::format("{:.0f} Hz", health.rate);
@@ -180,8 +184,8 @@ std::string loop_line(const PanelInput& input, float width) {
   return rate;
 }
 
-// Draws the message, and one line of loop figures below it. If the message or a path in it is cut off, a tooltip shows
-// the whole text. Returns true if no line of the message is cut off.
+// Draws the message, and below it one line of loop figures. If the message or a path in the message is cut off, a
+// tooltip shows the whole text. Returns true if no line of the message is cut off.
 bool draw_message(Controls& controls, const BarCursor& parts, float width, const PanelInput& input) {
   const engine::WithFont small(engine::UiFont::small);
   const ImVec2 low = parts.low();
@@ -257,7 +261,7 @@ void draw_force_switch(Controls& controls, const BarCursor& parts, float width, 
   }
 }
 
-// The button cannot end the recording of a lesson, which ends with the lesson.
+// The button cannot end a lesson's recording, because that recording ends with the lesson.
 void draw_recording(Controls& controls, const BarCursor& parts, float width, const PanelInput& input,
                     PanelRequests& out) {
   const float gap = 0.25f * engine::ui_em();
@@ -276,7 +280,7 @@ void draw_recording(Controls& controls, const BarCursor& parts, float width, con
   out.replay = controls.button("replay", "Replay", size);
 }
 
-// Stops on the press of the mouse button, not on its release, which is lost if the mouse leaves the button.
+// Stops on mouse-down, because the release is lost if the pointer leaves the button first.
 void draw_stop(Controls& controls, const BarCursor& parts, float width, PanelRequests& out) {
   const engine::WithFont large(engine::UiFont::digits);
   controls.button("stop", "STOP", {width, parts.height()}, ink::kBadDeep);

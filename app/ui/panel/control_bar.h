@@ -5,7 +5,7 @@
 
 namespace gearshift::ui {
 
-// Returns true if the whole message fits.
+// Returns true if the whole message fits in the bar.
 bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out);
 
 }  // namespace gearshift::ui

@@ -1,4 +1,5 @@
-// Records where each named control was drawn, so that a test or script can click it, and whether its text fitted.
+// Records where each named control was drawn, so that a test or script can click the control. Also counts the texts
+// that did not fit.
 #pragma once
 
 #include <imgui.h>
@@ -22,7 +23,7 @@ class Controls {
  public:
   void begin_frame() noexcept;
 
-  // The control's place; empty if the control was not drawn in this frame or is scrolled out of view.
+  // Returns the control's place; empty if the control was not drawn in this frame or is scrolled out of view.
   std::optional<ControlRect> rect(std::string_view name) const;
   int shortened() const noexcept { return shortened_; }  // number of texts in this frame that did not fit
 
@@ -30,8 +31,8 @@ class Controls {
 
   bool button(const char* name, const char* label, ImVec2 size = {0.0f, 0.0f});
   bool button(const char* name, const char* label, ImVec2 size, ImU32 colour);
-  // Draws a drop-down list, `width` [px] wide. Returns the chosen option if it differs from the current one. label
-  // converts an option to its displayed text; null: options are displayed unchanged.
+  // Draws a drop-down list, `width` [px] wide. Returns the chosen option if it differs from the current one. `label`:
+  // converts an option to its displayed text; if null, options are displayed unchanged.
   std::optional<std::string> choice(const char* name, const std::string& current, std::span<const std::string> options,
                                     float width, std::string (*label)(const std::string&) = nullptr);
   // Draws a dash in the curve's colour, then the text in the small font, e.g. "f_h 12.3 N".

@@ -9,8 +9,8 @@
 
 namespace gearshift::ui {
 
-// True if the advice for an error is to be shown: not for a note, and only once per kind. listed: the errors already
-// drawn above it.
+// True if advice for the error is to be shown: not for errors of severity `note`, and only once per kind of error.
+// `listed`: the errors drawn above this one.
 bool needs_advice(const lessons::LessonResult& result, std::size_t error, const std::vector<std::size_t>& listed);
 void put_advice(lessons::ErrorKind kind);
 

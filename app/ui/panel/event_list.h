@@ -11,7 +11,8 @@ namespace gearshift::ui {
 class EventList {
  public:
   void add(std::span<const haptics::HapticEvent> events);
-  // Draws the events that fit in the rest of the window, newest first. push_estimated: the device has no force sensor.
+  // Draws as many events as fit in the rest of the window, newest first. `push_estimated`: true if the device has no
+  // force sensor.
   void draw(bool push_estimated) const;
 
  private:

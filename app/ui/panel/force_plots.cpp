@@ -17,8 +17,8 @@ double along(PlotAxis axis, glm::dvec2 vector) {
   return axis == PlotAxis::select ? vector.x : vector.y;
 }
 
-// Plot range [mm]: up to the outermost wall plus at least 5 mm, for a hand that pushes through it, rounded up to whole
-// centimetres.
+// Plot range [mm]: at least 5 mm beyond the outermost wall, because a hand can push through the wall; rounded up to
+// whole centimetres.
 PlotRange reach_of(const haptics::Gate& gate, PlotAxis axis) {
   double reach = std::max(std::abs(gate.select_min), std::abs(gate.select_max));
   if (axis == PlotAxis::shift) {

@@ -19,9 +19,9 @@ class ForcePlots {
   static constexpr double kSpan = 5.0;  // [s] time span of the plots against time
 
   void push(const haptics::HapticSnapshot& snapshot);
-  void clear() { axes_ = {}; }  // call for a new run, whose curves must not join the old ones
+  void clear() { axes_ = {}; }  // call when a new run starts: its curves must not join the old ones
   void draw_axis_choice(Controls& controls);
-  // Draws the plots one below the other at the cursor, full width, `height` [px] in total.
+  // Draws the plots at the cursor, one below the other, in full width, `height` [px] in total.
   void draw(Controls& controls, float height, const haptics::Gate& gate, const haptics::HapticSnapshot& now,
             const Trail& trail);
 

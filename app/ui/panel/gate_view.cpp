@@ -13,8 +13,8 @@ namespace gearshift::ui {
 namespace {
 
 constexpr double kRim = 0.011;           // [m] width of the plate beyond the outermost walls, for the gear labels
-constexpr double kScaleLength = 0.020;   // [m] length of the scale
-constexpr double kArrowFraction = 0.35;  // [1] of the view's shorter side: arrow length at the device's maximum force
+constexpr double kScaleLength = 0.020;   // [m] length that the scale shows
+constexpr double kArrowFraction = 0.35;  // [1] arrow length at maximum force, divided by the view's shorter side
 
 // Maps gate coordinates [m] to pixels; forward is up.
 struct GateFrame {
@@ -60,7 +60,7 @@ void draw_free_space(const Canvas& c, const haptics::GateDescription& gate) {
   }
   for (const haptics::WallInfo& wall : gate.walls) {
     if (wall.role != haptics::WallRole::chamfer) continue;
-    // A chamfer adds a triangle of free space at the slot's corner.
+    // A chamfer adds a triangle of free space at the corner of a slot.
     c.list.AddTriangleFilled(c.frame.at(wall.from), c.frame.at(wall.to), c.frame.at({wall.to.x, wall.from.y}),
                              ink::kFree);
   }
@@ -142,7 +142,7 @@ void draw_driven_path(const Canvas& c, std::span<const glm::dvec2> path) {
 // Draws the path dashed; the dash pattern continues around corners.
 void draw_ideal_path(const Canvas& c, std::span<const glm::dvec2> path) {
   const double dash = 0.5 * static_cast<double>(c.em) / c.frame.px_per_m, period = 1.7 * dash;
-  double along = 0.0;  // [m] since the last dash began
+  double along = 0.0;  // [m] path length since the last dash began
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double length = glm::distance(path[i - 1], path[i]);
     const auto place = [&](double at) { return c.frame.at(path[i - 1] + (path[i] - path[i - 1]) * (at / length)); };
@@ -169,7 +169,7 @@ void draw_arrow(const Canvas& c, ImVec2 from, glm::dvec2 force, double px_per_n,
                            colour);
 }
 
-// Draws the proxy as a disc and the lever point as a ring; the line between them is the penetration.
+// Draws the proxy as a disc and the lever point as a ring. The line between disc and ring is the penetration.
 void draw_lever(const Canvas& c, const haptics::HapticSnapshot& now, double px_per_n) {
   const ImVec2 lever = c.frame.at(now.lever), proxy = c.frame.at(now.proxy);
   const bool ghost = (now.flags & haptics::kFlagGhost) != 0;

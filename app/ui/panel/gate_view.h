@@ -12,12 +12,12 @@
 
 namespace gearshift::ui {
 
-// The path driven in a replayed shift, and the shortest path of that shift. [m] in the gate plane; may be empty.
+// Paths of a replayed shift in the gate plane [m]: the driven path and the shortest one. May be empty.
 struct ShownPaths {
   std::span<const glm::dvec2> driven{}, ideal{};
 };
 
-// Draws the view at ImGui's cursor, `size` [px] large. max_force [N]: the device's limit, which scales the arrows.
+// Draws the view at ImGui's cursor, `size` [px] large. `max_force` [N]: the device's limit, which scales the arrows.
 void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::HapticSnapshot& now, const Trail& trail,
                     double max_force, const ShownPaths& paths = {});
 

@@ -10,7 +10,7 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kMaxHeight = 0.3, kMaxDistance = 1.5;  // [m] limits of the seat file
+constexpr double kMaxHeight = 0.3, kMaxDistance = 1.5;  // [m] limits of values in the seat file
 
 const char* tracking_note(const cabin::HeadsetReport& headset) {
   if (headset.is_tracked) return "";
@@ -40,7 +40,8 @@ void draw_frames(const cabin::HeadsetReport& headset) {
   ImGui::EndTable();
 }
 
-// Draws a field that shows a value [m] in millimetres. Returns the new value [m] if the user changed it. max [m].
+// Draws a field that shows a value [m] in millimetres. Returns the new value [m] if the user changed it. `max` [m]:
+// largest allowed value.
 std::optional<double> length_field(Controls& controls, const char* name, const char* label, double value, double max) {
   double shown = 1e3 * value;
   const double min_mm = -1e3 * max, max_mm = 1e3 * max;
@@ -56,7 +57,7 @@ std::optional<double> length_field(Controls& controls, const char* name, const c
   return changed ? std::optional(1e-3 * shown) : std::nullopt;
 }
 
-// is_real: the lever is a physical stick, so its position matters.
+// `is_real`: true if the lever is a physical stick, so that its position matters.
 void draw_touch_buttons(Controls& controls, const cabin::HeadsetReport& headset, bool is_real,
                         cabin::HeadsetRequests& out) {
   out.start_touching = controls.button("headset_touch", "Touch the knob");
@@ -69,7 +70,7 @@ void draw_touch_buttons(Controls& controls, const cabin::HeadsetReport& headset,
   } else if (headset.seat.touched) {
     ImGui::SameLine();
     out.forget_touches = controls.button("headset_forget", "Forget points");
-    put_wrapped("The saved touch points do not match this room. They are kept, but not used here.", ink::kWarn);
+    put_wrapped("The saved touch points do not match this room. They remain saved, but are not used here.", ink::kWarn);
   } else if (is_real) {
     put_wrapped(
         "The lever's position is not calibrated and may be drawn several centimetres off. Choose \"Touch the knob\".",
@@ -80,7 +81,7 @@ void draw_touch_buttons(Controls& controls, const cabin::HeadsetReport& headset,
 std::string format_touches(const cabin::HeadsetReport& headset) {
   if (headset.touches == 0) return "No points touched yet.";
   if (headset.touches == 1) return "1 point touched.";
-  return fmt::format("{} points touched, at most {:.0f} mm apart.", headset.touches, 1e3 * headset.worst_touch);
+  return fmt::format("{} points touched, up to {:.0f} mm off.", headset.touches, 1e3 * headset.worst_touch);
 }
 
 void draw_touch_instructions(Controls& controls, const cabin::HeadsetReport& headset, cabin::HeadsetRequests& out) {
@@ -102,7 +103,7 @@ void draw_seat(Controls& controls, const cabin::HeadsetReport& headset, bool is_
     draw_touch_instructions(controls, headset, out);
   else
     draw_touch_buttons(controls, headset, is_real, out);
-  if (headset.is_touched || headset.touching) return;  // the touches define the knob's position
+  if (headset.is_touched || headset.touching) return;  // the touched points define the knob's position
   if (!seat.knob) {
     out.height = length_field(controls, "headset_height", "Seat raised by", seat.height, kMaxHeight);
     // Initial values: the knob's position in the drawn cabin.

@@ -5,7 +5,8 @@
 
 namespace gearshift::ui {
 
-// Sets `open` to false when the user closes the window. bindings: one per line, a tab between key and action.
+// Sets `open` to false when the user closes the window. `bindings`: one binding per line, with a tab between key and
+// action.
 void draw_help(bool& open, const std::string& bindings);
 
 }  // namespace gearshift::ui

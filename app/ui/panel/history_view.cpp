@@ -16,7 +16,7 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr double kMinShownTime = 0.005;  // [s] shorter times than this are not shown
+constexpr double kMinShownTime = 0.005;  // [s] times shorter than this are not shown
 
 // Describes clutch timing and rev match, the first things that grading checks.
 std::string describe_clutch_timing(const lessons::ShiftRecord& shift) {

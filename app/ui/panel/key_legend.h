@@ -8,12 +8,12 @@
 
 namespace gearshift::ui {
 
-void draw_keys(const std::vector<KeyHint>& keys);  // key caps with their actions, wrapped
+void draw_keys(const std::vector<KeyHint>& keys);  // draws key caps with their actions, in as many lines as needed
 
 // Shows how to restart a stalled engine; names the starter key if one is bound.
 void draw_restart_prompt(const std::vector<KeyHint>& keys);
 
-// A prompt that says what the mouse does now and how to change that.
+// Returns a prompt that says what the mouse controls and how to change that.
 const char* mouse_prompt(bool mouse_moves_lever, bool panel_shown);
 
 }  // namespace gearshift::ui

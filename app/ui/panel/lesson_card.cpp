@@ -18,12 +18,12 @@ namespace gearshift::ui {
 namespace {
 
 constexpr float kMaxCardWidth = 52.0f;  // [em]
-// Height of the card: usual and maximum fraction of the room's height [1], and minimum [em].
+// Usual and maximum height of the card as fractions of the available height [1], and its minimum height [em].
 constexpr float kHeightFraction = 0.25f, kMaxHeightFraction = 0.62f, kMinHeight = 10.8f;
 constexpr double kFreshTime = 5.0;        // [s] how long a new feedback sentence is drawn large
 constexpr std::size_t kOlderShown = 2;    // number of older feedback sentences shown
-constexpr double kLittleTimeLeft = 20.0;  // [s] the time left is shown as a warning below this
-constexpr float kDefaultFoot = 5.0f;      // [em] assumed height of the controls until they have been drawn once
+constexpr double kLittleTimeLeft = 20.0;  // [s] remaining time below which the time is shown as a warning
+constexpr float kDefaultFoot = 5.0f;      // [em] assumed height of the controls until they are first drawn
 
 bool begin_card(const ControlRect& room, ImVec2 size) {
   const float em = engine::ui_em();
@@ -45,7 +45,7 @@ bool small_button(Controls& controls, const char* name, const char* label) {
   return controls.button(name, label);
 }
 
-// Draws a switch with two options. Returns true if it was clicked, which selects the option that is off.
+// Draws a switch with two options. Returns true if it was clicked; a click selects the option that is off.
 bool draw_switch(Controls& controls, const char* name, const char* first, const char* second, bool is_second) {
   const ImVec2 padding = ImGui::GetStyle().FramePadding, low = ImGui::GetCursorScreenPos();
   const float left = button_width(first), right = button_width(second), height = ImGui::GetFrameHeight();
@@ -74,7 +74,7 @@ const char* describe_attempt(const lessons::CoachView& coach) {
                   : "Only the goal is shown; on some attempts the lever guides your hand.";
 }
 
-// Draws a word on a background of its colour, in line with the last item if it fits.
+// Draws a word on a coloured background, on the line of the previous item if it fits there.
 void draw_badge(const char* text, ImU32 colour) {
   const engine::WithFont small(engine::UiFont::small);
   const float em = engine::ui_em(), width = width_of(text) + 0.8f * em;
@@ -87,7 +87,7 @@ void draw_badge(const char* text, ImU32 colour) {
   list.AddText({low.x + 0.4f * em, low.y}, colour, text);
 }
 
-// Draws a bar with one segment per step, coloured by state: done, current, to come.
+// Draws a bar with one segment per step; the colour shows whether the step is done, current or still to come.
 void draw_progress(std::size_t step, std::size_t steps) {
   if (steps == 0) return;
   const float em = engine::ui_em(), all = ImGui::GetContentRegionAvail().x, gap = 0.25f * em;
@@ -121,7 +121,7 @@ void draw_time_left(const lessons::CoachView& coach) {
   put(words, left <= kLittleTimeLeft ? ink::kWarn : ink::kSoft, engine::UiFont::small);
 }
 
-// True if the live lever's forces are off. False during a replay, when input.now is the recording's state.
+// True if the live lever's forces are off; false during a replay, because input.now is then the recording's state.
 bool are_forces_off(const PanelInput& input) {
   const haptics::GuardState guard = input.now.guard;
   return input.replay == nullptr && guard != haptics::GuardState::running && guard != haptics::GuardState::ramping;
@@ -171,7 +171,7 @@ double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_
   return room.max.y - static_cast<double>(size.y + kBottomMargin * em);
 }
 
-// Forgets the needed height if the lesson or the screen size changes.
+// Resets the needed height if the lesson or the screen size changes.
 void LessonCard::follow(const lessons::CoachView& coach, ImVec2 size) {
   if (coach.lesson == lesson_ && size.x == size_.x && size.y == size_.y) return;
   lesson_ = coach.lesson;
@@ -187,16 +187,16 @@ void LessonCard::note_new_feedback(const lessons::CoachView& coach) {
   feedback_count_ = feedback;
 }
 
-// Draws the texts with body(), in an area that scrolls if necessary, and the controls below them with foot(). body()
-// returns the height of the texts that must be visible [px].
+// Calls body() to draw the texts in an area that scrolls if necessary, and foot() to draw the controls below them.
+// body() returns the height [px] of the texts that must be visible.
 template <class Body, class Foot>
 void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const Foot& foot) {
   float& foot_height = foot_[static_cast<std::size_t>(phase)];
   const bool is_known = foot_height > 0.0f;
   const float top = ImGui::GetCursorPosY(), reserved = is_known ? foot_height : kDefaultFoot * engine::ui_em();
   const float height = std::max(engine::ui_em(), ImGui::GetContentRegionAvail().y - reserved);
-  // No scroll bar next to a prompt, or before the height of the controls is known: it would appear for single frames
-  // and change the line breaks.
+  // No scroll bar while a lesson is driven, or before the height of the controls is known. Otherwise the bar would
+  // appear for single frames and change the line breaks.
   const int bar = phase == lessons::LessonPhase::driving || !is_known ? ImGuiWindowFlags_NoScrollbar : 0;
   ImGui::BeginChild("texts", {0.0f, height}, false, ImGuiWindowFlags_NavFlattened | bar);
   const float visible_height = body();
@@ -207,7 +207,7 @@ void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const 
   needed_ = std::max(needed_, top + visible_height + foot_height + 0.5f * engine::ui_em());
 }
 
-// Draws the key legend and the prompt that says what moves the lever; while the panel is hidden, also the car's state.
+// Draws the key legend and a prompt that says what moves the lever; while the panel is hidden, also the car's state.
 void LessonCard::draw_controls_and_car(const FrameContext& now) {
   if (!now.input.keys.empty() && !now.input.is_automatic_hand) {
     draw_keys(now.input.keys);
@@ -224,7 +224,7 @@ void LessonCard::draw_offered(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
   LessonRequests& out = now.out.lesson;
   draw_title(coach);
-  if (small_button(now.controls, "lesson_put_away", "Not now")) out.dismiss_lesson = true;
+  if (small_button(now.controls, "lesson_dismiss", "Not now")) out.dismiss_lesson = true;
   const auto body = [&] {
     put_wrapped(coach.goal, ink::kText, engine::UiFont::prompt);
     if (!now.input.fail_conditions.empty()) put_wrapped(now.input.fail_conditions, ink::kSoft);
@@ -305,7 +305,7 @@ void LessonCard::draw_feedback(const std::vector<std::string>& feedback, float& 
   }
 }
 
-// Draws the result and the next lesson. Enter has the same effect as the coloured button, whose label says so.
+// Draws the result and the next lesson. Enter has the same effect as the coloured button; the button's label says so.
 void LessonCard::draw_over(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
   LessonRequests& out = now.out.lesson;
@@ -327,7 +327,7 @@ void LessonCard::draw_over(FrameContext& now) {
       same_line_if_fits(button_width(next));
       if (primary_button(now.controls, "lesson_next", next, can_continue)) out.offer = coach.next;
     }
-    if (small_button(now.controls, "lesson_put_away", "Close")) out.dismiss_lesson = true;
+    if (small_button(now.controls, "lesson_dismiss", "Close")) out.dismiss_lesson = true;
   };
   draw_parts(
       lessons::LessonPhase::over, [&] { return draw_lesson_end(coach); }, foot);

@@ -12,14 +12,14 @@ namespace gearshift::ui {
 
 class LessonCard {
  public:
-  // Draws along the lower edge of `room` [px] and returns the card's upper edge, or the room's lower edge if no lesson
-  // is selected or no text fits. The height stays the same in all phases of a lesson unless a text needs more. While
-  // the panel is hidden, the card also shows the car's state.
+  // Draws along the lower edge of `room` [px]. Returns the card's upper edge [px], or the lower edge of `room` if no
+  // lesson is selected or no text fits. The height is the same in all phases of a lesson unless a text needs more.
+  // While the panel is hidden, the card also shows the car's state.
   double draw(Controls& controls, const PanelInput& input, bool panel_shown, const ControlRect& room,
               PanelRequests& out);
 
  private:
-  struct FrameContext {  // everything needed to draw one frame
+  struct FrameContext {
     Controls& controls;
     const PanelInput& input;
     const lessons::CoachView& coach;
@@ -42,7 +42,7 @@ class LessonCard {
   std::string lesson_;              // the lesson that size_ and needed_ belong to
   ImVec2 size_{0.0f, 0.0f};         // [px] minimum size of the card
   float needed_ = 0.0f;             // [px] largest height that this lesson's texts have needed
-  std::array<float, 4> foot_{};     // [px] height below the texts, per phase
+  std::array<float, 4> foot_{};     // [px] height of the controls below the texts, per phase of the lesson
 };
 
 }  // namespace gearshift::ui

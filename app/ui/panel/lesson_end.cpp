@@ -54,7 +54,7 @@ void draw_outcome(const lessons::CoachView& coach) {
   ImGui::EndGroup();
 }
 
-// True for errors that cost points, or would have cost points if the run were graded.
+// True for errors that cost points, and for errors that would cost points if the run were graded.
 bool is_listed(const lessons::LessonResult& result, std::size_t error) {
   return points_lost(result, error) > 0.0 ||
          (!is_grade_shown(result) && result.errors[error].severity != lessons::Severity::note);
@@ -74,7 +74,7 @@ void draw_driving_error(const lessons::LessonResult& result, std::size_t index, 
     put(fmt::format("-{:.1f}", points), severity_colour(error.severity), engine::UiFont::small);
 }
 
-// The reason why the run ended early, which costs all points; empty if the run was completed.
+// Returns the reason why the run ended early, which costs all points; empty if the run was completed.
 std::string format_end(const lessons::LessonResult& result) {
   std::string words;
   if (result.end == lessons::LessonEnd::out_of_time) words = "Time's up";

@@ -12,17 +12,18 @@ namespace gearshift::ui {
 
 std::string lesson_title(const lessons::CoachView& coach, const std::string& key);  // returns an unknown key unchanged
 
-bool is_grade_shown(const lessons::LessonResult& result);         // graded and not left early
-std::string format_verdict(const lessons::LessonResult& result);  // "7.5", or why not graded: "guided", "data lost"
+bool is_grade_shown(const lessons::LessonResult& result);         // true if the run is graded and was not left early
+std::string format_verdict(const lessons::LessonResult& result);  // "7.5", or why ungraded: "guided", "data lost"
 ImU32 verdict_colour(const lessons::LessonResult& result);
 ImU32 severity_colour(lessons::Severity severity);
 
-double points_lost(const lessons::LessonResult& result, std::size_t error);  // [1] points out of 10
+double points_lost(const lessons::LessonResult& result, std::size_t error);  // [1] points lost by the error, out of 10
 
 std::string format_gears(const lessons::ShiftRecord& shift);  // "1 → 2"
 std::string format_rpm(double speed);                         // speed [rad/s]
 
-// Converts "2026-01-02T10:00:00Z" to local time: "2026-01-02 11:00". Any other text is returned unchanged.
+// Converts a UTC time such as "2026-01-02T10:00:00Z" to local time, for example "2026-01-02 11:00". Any other text is
+// returned unchanged.
 std::string format_local_time(const std::string& utc);
 std::string format_time_zone(std::time_t now);  // the local time zone: "UTC+01:00"
 

@@ -37,7 +37,7 @@ bool is_pressed(ImGuiKey_ key) {
   return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
 }
 
-// Draws the known learners as a drop-down list, `width` [px] wide like the name field before it.
+// Draws the known learners as a drop-down list. `width` [px]: width of the opened list.
 void draw_known(Controls& controls, const lessons::CoachView& coach, float width, LessonRequests& out) {
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, 24.0f * engine::ui_em()});
   const bool open = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
@@ -65,7 +65,7 @@ bool has_all_glyphs(const std::string& name) {
   return true;
 }
 
-// Draws a line below the name field; the line is blank if there is nothing to report, so that the layout does not move.
+// Draws a note below the name field. Without a note the line is blank, so that the layout does not move.
 void draw_note(const lessons::CoachView& coach, const std::string& name, const std::string& problem, bool is_typing,
                bool is_automatic_hand) {
   if (!problem.empty()) return put_wrapped(problem, ink::kWarn);
@@ -107,7 +107,7 @@ void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool ca
   ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 0.22f * em, ImGui::GetItemRectMax().y}, ink::kAccent, 1.0f);
 }
 
-// Draws a tick on a disc for a passed lesson, a ring for one that was tried, nothing for one that was not.
+// Draws a tick on a disc if the lesson was passed, a ring if it was only tried, and nothing if it was never tried.
 void draw_standing(const lessons::LessonStanding& lesson) {
   const float em = engine::ui_em(), radius = 0.42f * em;
   const ImVec2 low = ImGui::GetCursorScreenPos();
@@ -208,20 +208,20 @@ void LessonsView::draw(Controls& controls, const lessons::CoachView& coach, bool
                        LessonRequests& out) {
   draw_learner(controls, coach, is_automatic_hand, out);
   ImGui::Spacing();
-  // Disables the other lessons while one is driven: a click on them must not discard it.
+  // While a lesson is driven, disables the other lessons: a click on one of them must not discard the current lesson.
   const bool can_offer = coach.phase != lessons::LessonPhase::driving;
   draw_suggested(controls, coach, can_offer, out);
   ImGui::Spacing();
   draw_list(controls, coach, can_offer, out);
 }
 
-// Draws the learner's name field. Enter or leaving the field applies a typed name; Escape discards it.
+// Draws the field for the learner's name. Pressing Enter or leaving the field applies a typed name; Escape discards it.
 void LessonsView::draw_learner(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand,
                                LessonRequests& out) {
   if (coach.learner != shown_) fill(name_, shown_ = coach.learner);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Learner");
-  ImGui::SameLine(4.6f * engine::ui_em() - ImGui::GetStyle().WindowPadding.x);  // aligned with the choices above
+  ImGui::SameLine(4.6f * engine::ui_em() - ImGui::GetStyle().WindowPadding.x);  // aligned with the lists above
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::SetNextItemWidth(width - ImGui::GetFrameHeight());
   const bool entered =

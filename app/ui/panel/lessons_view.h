@@ -11,7 +11,7 @@ namespace gearshift::ui {
 
 class LessonsView {
  public:
-  // is_automatic_hand: a simulated hand drives, so nothing is saved for the selected learner.
+  // is_automatic_hand: the simulated driver is driving, so nothing is saved for the learner.
   void draw(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand, LessonRequests& out);
 
  private:

@@ -65,7 +65,7 @@ void draw_stages(const runtime::LoopHealth& health) {
 void draw_loop_view(const PanelInput& input) {
   draw_timing(input);
   ImGui::Spacing();
-  ImGui::TextDisabled("Cost per cycle stage");
+  ImGui::TextDisabled("Time per cycle stage");
   draw_stages(input.health);
 }
 

@@ -1,4 +1,4 @@
-// The loop's timing and the cost of each stage.
+// Timing of the haptic loop, and the time that each stage of a cycle takes.
 #pragma once
 
 #include "app/ui/panel/panel.h"

@@ -1,5 +1,5 @@
-// A note over the cabin: the last message, shown if the bar is hidden or too narrow for it; and above the message, what
-// the user has to do, shown until it is done.
+// A note over the cabin. It shows the newest message if the status bar is hidden or too narrow for the message. Above
+// the message it shows what the user has to do, until the user has done it.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ class MessageNote {
  public:
   static constexpr double kShowTime = 8.0;  // [s] a message is shown for this long
 
-  // Call once per frame. Draws along the upper edge of `room` [px]. is_in_bar: the bar shows the whole message. to_do:
-  // what the user has to do; may be empty.
+  // Call once per frame. Draws along the upper edge of `room` [px]. is_in_bar: the status bar shows the whole message.
+  // to_do: what the user has to do; may be empty.
   void draw(const std::string& message, bool is_in_bar, const std::string& to_do, const ControlRect& room);
 
  private:

@@ -5,10 +5,10 @@
 
 namespace gearshift::ui::ink {
 
-using namespace engine::ink;  // the colours of all windows
+using namespace engine::ink;  // colours that all windows share
 
 inline constexpr ImU32 kHand = IM_COL32(104, 178, 240, 255);      // f_h
-inline constexpr ImU32 kActuator = IM_COL32(242, 153, 74, 255);   // f_a and commanded force
+inline constexpr ImU32 kActuator = IM_COL32(242, 153, 74, 255);   // delivered force (f_a) and commanded force
 inline constexpr ImU32 kJoystick = IM_COL32(176, 148, 230, 255);  // f_j
 inline constexpr ImU32 kLever = IM_COL32(232, 236, 241, 255);     // lever point
 inline constexpr ImU32 kProxy = IM_COL32(94, 200, 168, 255);      // proxy

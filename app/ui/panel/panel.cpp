@@ -31,9 +31,10 @@
 namespace gearshift::ui {
 namespace {
 
-// Two columns and a bar around the cabin. The left column is left out where the cabin would be too narrow.
+// Layout of the panel around the cabin: two columns and a bar. The left column is not shown if the cabin would become
+// too narrow.
 struct Layout {
-  float bar, left, right;  // [px] 0: left out
+  float bar, left, right;  // [px] sizes; 0: not shown
   ImVec2 screen;
 };
 
@@ -72,7 +73,7 @@ void draw_view_reset(Controls& controls, PanelRequests& out) {
   out.reset_view = controls.button("reset_view", kLabel);
 }
 
-// The label of a hand. On the command line, the hand that the simulated driver leads is called "by itself".
+// The command line calls the simulated driver's hand "by itself".
 std::string hand_label(const std::string& hand) {
   return hand == "by itself" ? "simulated driver" : hand;
 }
@@ -96,7 +97,7 @@ bool tabs_fit(std::span<const Tab> tabs) {
   return room > 0.0f;
 }
 
-// In a narrow column, makes the tabs small and close together.
+// Makes the tabs smaller and closer together, for a narrow column.
 class TabStyle {
  public:
   explicit TabStyle(bool dense) : dense_(dense) {
@@ -118,7 +119,7 @@ class TabStyle {
   bool dense_;
 };
 
-// The replayed drive's gate during a replay, otherwise the live one.
+// Returns the gate of the replayed drive during a replay, otherwise the gate of the live lever.
 const haptics::Gate& viewed_gate(const PanelInput& input) {
   return input.replay == nullptr ? *input.gate : input.replay->drive().gate();
 }
@@ -135,7 +136,7 @@ struct Panel::State {
   bool visible = true;
   bool help = false;
   std::string bindings;
-  std::vector<TuningView::Step> steps;  // requested between two frames
+  std::vector<TuningView::Step> steps;  // steps requested between two frames
   Controls controls;
   Trail trail;
   ForcePlots plots;
@@ -149,7 +150,7 @@ struct Panel::State {
   ReplayBar replay;
   EventList events;
   MessageNote note;
-  bool message_fits = false;  // true if the bar shows the whole message in this frame
+  bool message_fits = false;  // true if the status bar shows the whole message in this frame
   std::int64_t last_ns = -1;  // [ns] time of the newest snapshot of this run
   std::uint64_t run = 0;
   ControlRect cabin_area, central_area;
@@ -180,7 +181,8 @@ void Panel::State::follow(const PanelInput& input) {
     clip = ClipMeter();
     last_ns = -1;
   }
-  // `now` may be newer than the history: the snapshots in between arrive with the next frame.
+  // `now` may be newer than the end of the history. If it were added as well, the snapshots in between, which arrive in
+  // the next frame, would be ignored as too old.
   for (const haptics::HapticSnapshot& snapshot : input.history) follow(snapshot);
   if (input.history.empty()) follow(input.now);
   events.add(input.events);
@@ -273,7 +275,7 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
 }
 
 // Draws the parts that are shown even while the panel is hidden: note, replay bar and lesson card. During a replay the
-// card is hidden unless a lesson is being driven. Bar and card reduce the cabin's area.
+// card is hidden unless a lesson is being driven. Replay bar and card reduce the cabin's area.
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
   const ControlRect room = central_area = cabin_area;
   note.draw(input.message, message_fits, stick_request(input), room);

@@ -33,16 +33,16 @@ struct PanelInput {
   haptics::HapticConfig haptics;                // configuration in use, but with the requested tuning
   haptics::AdmittedTuning admitted;             // tuning in use
   haptics::HapticSnapshot now;
-  // Changes if the lever is replaced, a replay starts or ends, or a replay jumps in time; trajectory, plots and
-  // clipping are then cleared.
+  // Changes if the lever is replaced, a replay starts or ends, or a replay jumps in time. The panel then clears
+  // trajectory, plots and clipping display.
   std::uint64_t run = 0;
   std::vector<haptics::HapticSnapshot> history;  // snapshots since the last frame
   std::vector<haptics::HapticEvent> events;      // events since the last frame; times [ns] since the program's start
   runtime::LoopHealth health;
   vehicle::VehicleState car;
   std::string gate_name, preset_name, hand_name, device_name;
-  std::optional<StickView> stick;                  // none: a simulated lever
-  std::vector<std::string> gates, presets, hands;  // available choices; `hands` is empty if a real hand moves the lever
+  std::optional<StickView> stick;                  // physical stick; none: the lever is simulated
+  std::vector<std::string> gates, presets, hands;  // choices; `hands` is empty if a real hand moves the lever
   std::optional<haptics::Preset> compared;         // preset named by PanelRequests::compare; none if unreadable
   bool recording = false;
   std::string message;  // the last message, one sentence
@@ -55,10 +55,10 @@ struct PanelInput {
   std::vector<KeyHint> keys;                    // keys that drive the car, in the order of use; may be empty
   bool mouse_moves_lever = false;               // the mouse is captured and moves the lever
   bool is_automatic_hand = false;               // a simulated hand drives: keys and mouse do nothing, nothing is saved
-  bool instructor_holds_pedals = false;         // true after a lesson, until the next lesson or Close
+  bool instructor_holds_pedals = false;         // true after a lesson, until the next lesson or the Close button
   bool is_unpassable = false;                   // the current run can no longer be passed
   std::optional<cabin::HeadsetReport> headset;  // none: no headset in use
-  std::string fail_conditions;                  // the errors that fail the lesson, one sentence; may be empty
+  std::string fail_conditions;                  // sentence that names the errors that fail the lesson; may be empty
 };
 
 struct LessonRequests {
@@ -68,7 +68,7 @@ struct LessonRequests {
   std::optional<lessons::LessonMode> mode;
   std::optional<bool> help;
   std::optional<std::string> learner;  // name of a known or new learner; empty string: no learner
-  std::optional<std::string> next;     // lesson that the instructor chose as the next; empty string: as suggested
+  std::optional<std::string> next;     // next lesson, chosen by the instructor; empty string: as suggested
   struct Comment {
     std::int64_t run = 0;
     std::string author, text;
@@ -92,18 +92,18 @@ struct ReplayRequests {
   std::optional<double> seek;        // [s]
   std::optional<bool> play;
   std::optional<double> pace;
-  bool close = false;  // back to the live lever
+  bool close = false;  // end the replay, return to the live lever
 };
 
 // The user's requests of this frame. The caller carries them out and shows problems in PanelInput::message.
 struct PanelRequests {
   bool arm = false, disarm = false, stop = false, record = false, replay = false, reset_view = false;
-  std::optional<haptics::HapticTuning> tuning;    // to be applied; already checked to be admissible unchanged
-  std::optional<haptics::HapticConfig> restart;   // restart the loop with this; values are within their ranges
-  std::optional<std::string> gate, preset, hand;  // change to the file with this name
+  std::optional<haptics::HapticTuning> tuning;    // tuning to apply; already checked to be admissible
+  std::optional<haptics::HapticConfig> restart;   // restart the loop with this configuration; its values are in range
+  std::optional<std::string> gate, preset, hand;  // name of the gate, preset or hand to select
   std::optional<std::string> save_preset;         // preset name
   std::optional<std::string> compare;             // name of a preset to be read into PanelInput::compared
-  std::optional<std::string> car;                 // change to this car and its gate
+  std::optional<std::string> car;                 // change to this car, and to its gate
   LessonRequests lesson;
   ReplayRequests playback;
   cabin::HeadsetRequests headset;
@@ -119,14 +119,15 @@ class Panel {
   // Call once per frame, between UiContext::begin and end.
   PanelRequests draw(const PanelInput& input);
 
-  // Call between UiContext::end and the next begin. True if the panel, as last drawn, uses a mouse press at this place
-  // [px], or a key press. A drag that began on the panel belongs to the panel until the button is released.
+  // Call between UiContext::end and the next UiContext::begin. covers(): true if a mouse press at this place [px] goes
+  // to the panel as last drawn. has_keyboard(): true if a key press goes to the panel. A drag that began on the panel
+  // belongs to the panel until the button is released.
   bool covers(glm::dvec2 mouse) const;
   bool has_keyboard() const;
 
-  // [px] The area that columns, bar, replay bar and lesson card leave to the cabin, as of the last draw().
+  // The area [px] that columns, status bar, replay bar and lesson card leave free for the cabin, as of the last draw().
   ControlRect cabin_area() const noexcept;
-  // [px] The area between columns and bar, for cabin, replay bar and card, as of the last draw().
+  // The area [px] between columns and status bar, for cabin, replay bar and lesson card, as of the last draw().
   ControlRect central_area() const noexcept;
 
   void undo();  // takes effect in the next draw()
@@ -134,18 +135,19 @@ class Panel {
   bool visible() const noexcept;
   void set_visible(bool on) noexcept;
   bool shows_help() const noexcept;
-  // bindings_text: one binding per line, a tab between key and action.
+  // bindings_text: one binding per line, with a tab between key and action.
   void show_help(bool on, const std::string& bindings_text);
 
   // For tests and scripts, as of the last draw(): the place of a named control, and how many texts did not fit. Names:
   // Bar: "stop", "arm", "disarm", "record", "replay". Left column: "reset_view", "axis_shift", "axis_select".
-  // Right column: "car", "gate", "preset", "hand", each with "gate: NAME" while open; "tab_lesson", "tab_history",
-  // "tab_tuning", "tab_setup", "tab_loop", "tab_presets", and "tab_headset" while a headset is in use.
+  // Right column: the lists "car", "gate", "preset" and "hand"; while a list is open, also its entries, for example
+  // "gate: NAME"; "tab_lesson", "tab_history", "tab_tuning", "tab_setup", "tab_loop", "tab_presets", and "tab_headset"
+  // while a headset is in use.
   // Lessons: "learner" (Enter applies the name), "learner_known" with "learner: NAME" (empty name: no learner),
   // "lesson_suggested", "lesson: KEY", "next: KEY", "next_as_suggested". History: "run: ID" opens it; then
   // "look: ID SHIFT", "comment_author", "comment", "comment_add"; per comment "comment_edit: ID" ("comment_text",
   // "comment_save", "comment_cancel"), "comment_delete: ID" (then "comment_delete_sure").
-  // Card: "lesson_begin", "mode", "help", "lesson_put_away"; "lesson_leave"; "lesson_again", "lesson_next".
+  // Card: "lesson_begin", "mode", "help", "lesson_dismiss"; "lesson_leave"; "lesson_again", "lesson_next".
   // Replay: "replay_shift: INDEX", "replay_time", "replay_play", "replay_pace: 0.1" (0.25, 0.5, 1, 2),
   // "replay_whole", "replay_close".
   // Tuning, setup: "wall_stiffness_n_per_m" and the other keys, "slot_a", "slot_b", "undo", "redo", "reset",

@@ -1,10 +1,11 @@
-// The keyboard controls the car unless the user is navigating the panel with it.
+// Decides whether the keyboard controls the car or the panel. It controls the panel only while the user navigates in
+// the panel.
 #pragma once
 
 namespace gearshift::ui {
 
 // Call after NewFrame and before drawing the panel's windows. Tab enters the panel at the window `first_window`, if the
-// panel is shown; Escape leaves it. Clicking the panel does not move the keyboard focus to it.
+// panel is shown; Escape leaves the panel. Clicking the panel does not move the keyboard focus to it.
 void update_keyboard_focus(const char* first_window, bool shown);
 
 // Call between two frames. True if the panel uses the next key press.

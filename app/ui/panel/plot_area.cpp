@@ -11,7 +11,7 @@
 namespace gearshift::ui {
 namespace {
 
-// Grid spacing that puts about `max` lines in the range.
+// Returns a grid spacing that divides the range into at most `max` intervals.
 double grid_step(PlotRange range, double max) {
   return nice_above((range.high - range.low) / max, 1e-6);
 }
@@ -79,7 +79,7 @@ void PlotArea::draw_grid() {
   each_x([&](double x) { list_->AddLine({at(x, 0.0).x, low_.y}, {at(x, 0.0).x, high_.y}, shade(x)); });
 }
 
-// Draws the lowest and the highest number first, then those in between that do not overlap the others.
+// Draws the lowest and the highest number first, then the numbers in between that do not overlap those already drawn.
 void PlotArea::draw_y_numbers() {
   std::vector<double> all;
   each_y([&](double y) { all.push_back(y); });
@@ -121,8 +121,8 @@ void PlotArea::draw_x_numbers() {
   });
 }
 
-// Draws two points per column, its minimum and maximum, in their likely order in time: minimum first if the column's
-// last value is not below its first.
+// Draws two points per column, minimum and maximum, in their likely order in time: the minimum first if the column's
+// last value is not below its first value.
 void PlotArea::strip(const Strip& strip, double factor, ImU32 colour) {
   static thread_local std::vector<ImVec2> line;
   const float width = (high_.x - low_.x) / static_cast<float>(strip.columns());

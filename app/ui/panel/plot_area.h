@@ -11,14 +11,15 @@ struct PlotRange {
   double low = 0.0, high = 1.0;
 };
 
-// The smallest of `min` times 1, 2, 5, 10, 20, 50, ... that is not below `value`. value, min > 0.
+// Returns the smallest of `min` times 1, 2, 5, 10, 20, 50, ... that is not below `value`. Requires positive arguments.
 double nice_above(double value, double min);
 
 class PlotArea {
  public:
-  // Covers `size` [px] at ImGui's cursor and draws background and grid. The y axis has its numbers inside the plot, at
-  // the left; the x axis below it, but none if x_unit is null. Numbers on the y axis that would overlap are left out.
-  // numbers_outside: the y axis has its numbers to the left of the cursor, where the caller leaves room for them.
+  // Covers `size` [px] at ImGui's cursor and draws background and grid. The numbers of the y axis are inside the plot,
+  // at the left; if they would overlap, some are left out. The numbers of the x axis are below the plot; if x_unit is
+  // null, there are none. numbers_outside: the numbers of the y axis are to the left of the cursor, where the caller
+  // must leave space for them.
   PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bool numbers_outside = false);
   ~PlotArea();
   PlotArea(const PlotArea&) = delete;
@@ -27,7 +28,7 @@ class PlotArea {
   ImVec2 at(double x, double y) const;
   int columns() const { return static_cast<int>(high_.x - low_.x); }  // width of the plot in pixel columns
 
-  void strip(const Strip& strip, double factor, ImU32 colour);  // the strip's time span fills the width
+  void strip(const Strip& strip, double factor, ImU32 colour);  // draws the strip across the full width
   ImDrawList& list() { return *list_; }
 
  private:

@@ -12,7 +12,7 @@
 namespace gearshift::ui {
 namespace {
 
-// Draws the settings that differ between two presets; equal ones are only counted.
+// Draws a row for each setting that differs between two presets, and the number of settings that are equal.
 class Difference {
  public:
   void row(const char* label, const std::string& here, const std::string& there) {

@@ -21,7 +21,7 @@ namespace gearshift::ui {
 namespace {
 
 constexpr float kMaxBarWidth = 80.0f, kOpeningWidth = 36.0f;                    // [em]
-constexpr float kPedalHeight = 2.1f, kSpeedHeight = 2.5f, kForceHeight = 2.1f;  // [em] room for two axis numbers
+constexpr float kPedalHeight = 2.1f, kSpeedHeight = 2.5f, kForceHeight = 2.1f;  // [em] enough for two axis numbers
 constexpr std::array<double, 5> kPaces{0.1, 0.25, 0.5, 1.0, 2.0};
 constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);  // [rpm] per rad/s
 constexpr double kMinSpan = 1e-3;                         // [s]
@@ -39,13 +39,14 @@ double end_bar(const ControlRect& room) {
   return std::clamp(top, room.min.y, room.max.y);
 }
 
-// [px] Width reserved for the numbers to the left of the curves. The slider and the shift marks are indented by it too,
-// so that they share the curves' time axis.
+// Width [px] reserved for the numbers to the left of the curves. The slider and the shift marks are indented by this
+// width, so that they share the curves' time axis.
 float gutter() {
   return width_of("8888", engine::UiFont::small) + 0.6f * engine::ui_em();
 }
 
-// The bar's title: lesson, learner and time of the run if the history knows it, else the file name; then car and gate.
+// Returns the bar's title. It begins with lesson, learner and time of the run, or with the file name if the history
+// does not have the run. Car and gate follow.
 std::string heading(const lessons::Player& replay, const lessons::CoachView& coach) {
   const std::filesystem::path file = replay.file().filename();
   const auto run = std::find_if(coach.runs.begin(), coach.runs.end(), [&](const lessons::RunRow& row) {
@@ -81,8 +82,8 @@ struct Overview {
   float at(double time) const { return low.x + size.x * static_cast<float>((time - begin) / span); }
 };
 
-// Place of a shift's button [px]. The button is as wide as the shift is long, or as its label if that is wider and fits
-// before the next button. The last button may extend to the left for its label.
+// Left edge and width of a shift's button [px]. The button is as wide as the shift's duration, or as its label if that
+// is wider and fits before the next button. The last button may extend to the left for its label.
 struct Mark {
   float from, width;
   bool named;
@@ -132,7 +133,7 @@ void draw_shift_marks(Controls& controls, const lessons::Player& replay, ReplayR
   ImGui::Dummy(size);
 }
 
-// Draws a legend entry as wide as its widest value, so that the entries to its right do not move.
+// Draws a legend entry with room for its widest value, so that the entries to its right do not move.
 void entry(Controls& controls, ImU32 colour, const std::string& text, const char* widest, bool first = false) {
   const float em = engine::ui_em(), width = width_of(widest, engine::UiFont::small) + 1.4f * em;
   if (!first) same_line_if_fits(width);

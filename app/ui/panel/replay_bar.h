@@ -13,7 +13,8 @@ namespace gearshift::ui {
 
 class ReplayBar {
  public:
-  // Draws along the lower edge of `room` [px]; returns the bar's upper edge, or the room's lower edge without a replay.
+  // Draws along the lower edge of `room` [px]. Returns the bar's upper edge [px], or the lower edge of `room` if there
+  // is no replay.
   double draw(Controls& controls, const PanelInput& input, const ControlRect& room, ReplayRequests& out);
 
  private:
@@ -30,7 +31,7 @@ class ReplayBar {
   void draw_curves(const lessons::Player& replay);
 
   std::optional<Curves> curves_;
-  const vehicle::DriveSample* samples_ = nullptr;  // the samples the curves were made from
+  const vehicle::DriveSample* samples_ = nullptr;  // recorded samples from which the curves were made
   double from_ = 0.0, to_ = 0.0;                   // [s]
 };
 

@@ -1,4 +1,4 @@
-// Parameters that are fixed while the loop runs: name, unit and range, for sliders and comparisons.
+// Parameters that are fixed while the loop runs, with name, unit and range, for sliders and comparisons.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ struct SetupField {
   const char* key;
   const char* label;
   const char* unit;
-  double factor;    // shown value = factor x value in SI units
-  double min, max;  // in SI units; the range that check_config() accepts
+  double factor;    // displayed value divided by the value in SI units
+  double min, max;  // range that check_config() accepts, in SI units
   int decimals;
   bool logarithmic;
   double (*get)(const haptics::HapticConfig&);

@@ -61,7 +61,7 @@ SetupView::Values SetupView::values_of(const haptics::HapticConfig& config) {
   return values;
 }
 
-// Discards the staged values when the running configuration changes.
+// Discards the edited values when the running configuration changes.
 void SetupView::follow(const haptics::HapticConfig& running) {
   const Values values = values_of(running);
   if (!has_values_ || values != running_) {
@@ -100,7 +100,7 @@ void SetupView::draw_choices(Controls& controls) {
   draw_checkbox(controls, "study", "Allow unstable", staged_.contact.allow_unstable);
 }
 
-// Checks the staged values, but only after a change, because a check can take milliseconds.
+// Checks the edited values only after a change, because a check can take milliseconds.
 void SetupView::judge(const PanelInput& input) {
   const Values staged = values_of(staged_);
   if (staged == judged_) return;
@@ -125,7 +125,7 @@ void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests&
   {
     const engine::WithFont small(engine::UiFont::small);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0.15f * engine::ui_em()});
-    ImGui::TextDisabled("Takes effect after a restart.");
+    ImGui::TextDisabled("Changes apply when the loop restarts.");
     draw_choices(controls);
     draw_fields(controls);
     ImGui::PopStyleVar();
@@ -134,7 +134,7 @@ void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests&
   draw_restart(controls, input, out);
 }
 
-// Draws the buttons and the verdict below the scrolling fields, where they are always visible.
+// Draws the buttons and the result of the check below the scrolling fields, where both are always visible.
 void SetupView::draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out) {
   const bool changed = values_of(staged_) != running_;
   if (changed) judge(input);
@@ -151,7 +151,7 @@ void SetupView::draw_restart(Controls& controls, const PanelInput& input, PanelR
   const engine::WithFont small(engine::UiFont::small);
   ImGui::PushStyleColor(ImGuiCol_Text, changed && !rejection_.empty() ? ink::kBad : ink::kWarn);
   ImGui::TextWrapped("%s", text.empty() && allow_unstable
-                               ? "Unstable values are allowed: everything is used exactly as set."
+                               ? "Unstable values are allowed, so all values are used exactly as set."
                                : text.c_str());
   ImGui::PopStyleColor();
 }

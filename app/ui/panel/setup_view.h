@@ -20,12 +20,12 @@ class SetupView {
   void draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out);
   void judge(const PanelInput& input);
 
-  using Values = std::array<double, kSetupFields.size() + 4>;  // values of the fields, then of the four choices
+  using Values = std::array<double, kSetupFields.size() + 4>;  // fields first, then four drop-down lists
   static Values values_of(const haptics::HapticConfig& config);
 
   haptics::HapticConfig staged_;
   Values running_{}, judged_{};
-  std::string rejection_, limits_text_;  // verdict on the staged values
+  std::string rejection_, limits_text_;  // result of the check of staged_
   bool has_values_ = false;
 };
 

@@ -10,7 +10,7 @@ namespace gearshift::ui {
 // "plugged in, responds after 3.1 ms", "unplugged"
 std::string format_stick_state(const StickView& stick);
 
-// The next instruction for using the stick; empty if there is no stick or its forces are on.
+// Returns the next instruction for using the stick; empty if there is no stick or its forces are on.
 std::string stick_request(const PanelInput& input);
 
 }  // namespace gearshift::ui

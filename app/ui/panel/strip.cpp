@@ -35,7 +35,8 @@ void Strip::push(double time, double value) {
   while (samples_.front().time < time - span_) samples_.pop_front();
 }
 
-// Adds the sample to its column and clears the columns between the last sample's and this one, which hold old values.
+// Adds the sample to its column. If the sample starts a new column, first clears this column and the columns skipped
+// since the previous sample, because their values are outdated.
 void Strip::add(const Sample& sample) {
   const std::int64_t here = place(sample.time);
   const bool first = samples_.empty();

@@ -1,5 +1,5 @@
-// A value against time, reduced to the minimum and maximum per plot column, so that even a one-sample peak is visible
-// at any zoom. The columns lie on a fixed grid of time, so the curve does not flicker while the plot scrolls.
+// A value against time, reduced to the minimum and maximum per plot column, so that even a peak of a single sample is
+// visible at any zoom. The columns lie on a fixed time grid, so the curve does not flicker while the plot scrolls.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,15 @@ class Strip {
  public:
   Strip(double span, int columns);  // span [s] > 0; columns >= 1
 
-  // Amortised O(1). A time earlier than the last one clears the strip first. Non-finite values are ignored.
+  // Takes amortised O(1) time. A time before that of the previous value clears the strip first. Non-finite values are
+  // ignored.
   void push(double time, double value);
 
   void set_columns(int columns);  // rebuilds the columns if their number changes
   int columns() const noexcept { return static_cast<int>(columns_.size()); }
-  const StripColumn& column(int from_oldest) const noexcept;  // from_oldest: 0 to columns() - 1
+  const StripColumn& column(int from_oldest) const noexcept;  // from_oldest: 0 (oldest column) to columns() - 1
 
-  StripColumn extent() const noexcept;  // all columns combined; `first` and `last` are not meaningful
+  StripColumn extent() const noexcept;  // all columns combined into one; `first` and `last` are meaningless
 
   double span() const noexcept { return span_; }
 
@@ -40,8 +41,8 @@ class Strip {
 
   double span_;
   std::vector<StripColumn> columns_;  // ring buffer indexed by time
-  std::int64_t newest_ = 0;           // [columns] time of the last sample since time 0
-  std::deque<Sample> samples_;        // samples within the span
+  std::int64_t newest_ = 0;           // [columns] time of the newest sample, counted in columns from time 0
+  std::deque<Sample> samples_;        // samples in the last `span` seconds
 };
 
 }  // namespace gearshift::ui

@@ -39,11 +39,11 @@ float button_width(std::string_view label) {
   return width_of(label) + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
 
-// Takes care not to split UTF-8 characters of several bytes.
+// Never splits a UTF-8 character of several bytes.
 std::string without_middle(std::string_view text, float width) {
   const auto is_continuation = [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; };
   constexpr std::string_view kEllipsis = "\u2026";
-  constexpr float kHead = 0.2f;  // [1] of the width for the beginning of a path: its end is more informative
+  constexpr float kHead = 0.2f;  // [1] fraction of the width for the beginning of a path; its end is more informative
   const float room = width - width_of(kEllipsis);
   if (width_of(text) <= width) return std::string(text);
   std::size_t end = 0;

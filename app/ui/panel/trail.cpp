@@ -7,7 +7,7 @@
 namespace gearshift::ui {
 namespace {
 
-// A point is added to the trail if one of these differences to the last point is exceeded.
+// A point is added to the trail if its difference from the trail's newest point exceeds at least one of these limits.
 constexpr double kMinTrailDistance = 0.3e-3;  // [m]
 constexpr double kMinTrailForce = 0.5;        // [N]
 constexpr double kMaxTrailStep = 0.05;        // [s]

@@ -1,4 +1,4 @@
-// Lever path and commanded force of the last seconds, thinned to what the eye can resolve.
+// Lever path and commanded force in the last seconds, thinned to what the eye can resolve.
 #pragma once
 
 #include <deque>
@@ -19,7 +19,7 @@ class Trail {
 
   void push(const haptics::HapticSnapshot& snapshot);  // a time earlier than the last one clears the trail first
   const std::deque<TrailPoint>& points() const noexcept { return points_; }
-  double age(const TrailPoint& point) const noexcept;  // [1] 0: new, 1: kSpan old, about to be dropped
+  double age(const TrailPoint& point) const noexcept;  // [1] 0: new; 1: as old as kSpan, about to be dropped
 
  private:
   std::deque<TrailPoint> points_;  // oldest first

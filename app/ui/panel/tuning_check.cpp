@@ -12,7 +12,7 @@
 namespace gearshift::ui {
 namespace {
 
-// The configuration with the running loop's hold, which cannot change while the loop runs.
+// Returns the configuration with the contact hold method of the running loop, which cannot change while the loop runs.
 haptics::HapticConfig with_running_hold(const TuningQuestion& question) {
   haptics::HapticConfig config = question.config;
   config.contact.hold = question.hold;
@@ -24,8 +24,8 @@ TuningQuestion with_value(TuningQuestion question, const TuningField& field, dou
   return question;
 }
 
-// Bisects between an admissible and an inadmissible value; returns an admissible one within a thousandth of the
-// interval from the limit.
+// Bisects between an admissible and an inadmissible value. Returns an admissible value whose distance from the limit is
+// at most a thousandth of the interval.
 double last_admissible(const TuningQuestion& question, const TuningField& field, double good, double bad) {
   constexpr int kHalvings = 10;
   for (int i = 0; i < kHalvings; ++i) {
@@ -35,8 +35,8 @@ double last_admissible(const TuningQuestion& question, const TuningField& field,
   return good;
 }
 
-// The value to which the loop limits a field's minimum or maximum. If that value would limit a different field too:
-// the last value that limits no field.
+// Returns the value that the loop would use if `field` were set to `extreme`, its minimum or maximum. If the question's
+// tuning is admissible (`is_admissible`) but would not be with that value, returns the last admissible one towards it.
 double limited_extreme(const TuningQuestion& question, const TuningField& field, double extreme, bool is_admissible) {
   const TuningAnswer answered = answer(with_value(question, field, extreme));
   const double reached = answered.refused.empty() ? answered.admitted.tuning.*field.member : extreme;
@@ -61,7 +61,7 @@ TuningAnswer answer(const TuningQuestion& question) {
     haptics::check_tuning(question.config.tuning);
     out.admitted = haptics::admit_tuning(with_running_hold(question), question.device, *question.gate);
     if (out.admitted.hold != question.hold)
-      out.refused = "This needs another Hold setting. Change it in Setup and restart the loop.";
+      out.refused = "These values need a different Hold setting. Change Hold in Setup and restart the loop.";
   } catch (const std::invalid_argument& refused) {
     out.refused = refused.what();
   }
@@ -79,7 +79,8 @@ StableRanges stable_ranges(const TuningQuestion& question) {
     ranges[i] = {limited_extreme(safe, field, field.min, is_admissible),
                  limited_extreme(safe, field, field.max, is_admissible)};
   }
-  // The stable range of the wall begins at the stiffness of the feel: a softer wall would limit the feel.
+  // The gate's feel (centring, detents) is limited if the wall is softer than the feel. So the wall's stable range
+  // begins at the stiffness of the feel.
   const std::size_t wall = tuning_field("wall_stiffness_n_per_m");
   const double feel = question.config.tuning.feel_scale * haptics::max_feel_stiffness(*question.gate);
   if (feel > 0.99 * ranges[wall].min && answer(with_value(safe, kTuningFields[wall], feel)).admissible)

@@ -1,5 +1,5 @@
-// Checks whether a tuning is stable as requested. If not, gives the reason and stable values. Uses admit_tuning() like
-// the loop.
+// Checks whether a tuning is stable as requested. If it is not, gives the reason and stable values. Uses
+// admit_tuning(), as the loop does.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 namespace gearshift::ui {
 
 struct TuningAnswer {
-  bool admissible = false;           // can be used unchanged; true for any valid tuning with allow_unstable
-  haptics::AdmittedTuning admitted;  // what the loop would use; the requested tuning if it is rejected
+  bool admissible = false;           // usable unchanged; true for any valid tuning if allow_unstable is set
+  haptics::AdmittedTuning admitted;  // tuning that the loop would use; if rejected, the requested one
   std::string refused;               // reason for rejection, one sentence; empty if not rejected
 };
 
@@ -26,28 +26,29 @@ struct TuningQuestion {
   haptics::HapticConfig config;  // contains the requested tuning
   haptics::DeviceSpec device;
   const haptics::Gate* gate = nullptr;                            // never null
-  haptics::ContactHold hold = haptics::ContactHold::half_sample;  // hold of the running loop, which keeps it
+  haptics::ContactHold hold = haptics::ContactHold::half_sample;  // contact hold method of the running loop
 };
 
 TuningAnswer answer(const TuningQuestion& question);
 
-// Ignores allow_unstable, so the ranges are those for a lever that a user may touch. If the requested tuning is not
+// Returns the ranges for a lever that a user may touch, so allow_unstable is ignored. If the requested tuning is not
 // admissible, the ranges are those to which the loop would limit each field.
 StableRanges stable_ranges(const TuningQuestion& question);
 
 // The admissible tuning nearest to the requested one, i.e. what the loop would use; empty if there is none.
 std::optional<haptics::HapticTuning> nearest_stable(const TuningQuestion& question);
 
-// Describes a TuningLimit in a sentence: value, bound, rule, and the hand for which the bound is lowest.
+// Describes a TuningLimit in a sentence: value, bound, stability rule, and the modelled hand with the lowest bound.
 std::string format_limit(const haptics::TuningLimit& limited);
 
 // Caches the last answer until one of its inputs changes.
 class TuningJudge {
  public:
   const TuningAnswer& judge(const TuningQuestion& question);
-  // Checks many tunings, which takes 1 to some tens of milliseconds. frozen: returns the last ranges without checking.
+  // Checks many tunings, which takes 1 ms to some tens of milliseconds. frozen: returns the previous ranges without a
+  // check.
   const StableRanges& ranges(const TuningQuestion& question, bool frozen = false);
-  int evaluations() const noexcept { return evaluations_; }  // number of evaluations not served from the cache
+  int evaluations() const noexcept { return evaluations_; }  // number of questions not answered from the cache
 
  private:
   using Basis = std::array<double, 22>;  // all numbers on which an answer depends

@@ -1,4 +1,4 @@
-// Parameters that can be tuned while the loop runs: name, unit and range, for sliders, checks and comparisons.
+// Parameters that can be tuned while the loop runs, with name, unit and range, for sliders, checks and comparisons.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct TuningField {
   std::string_view key;  // the parameter's name in files and in admit_tuning()
   const char* unit;
   double haptics::HapticTuning::*member;
-  double min, max;  // the range that check_tuning() accepts
+  double min, max;  // range that check_tuning() accepts
   int decimals;
   const char* description;
 };
@@ -34,7 +34,7 @@ inline constexpr std::array<TuningField, 6> kTuningFields{{
      "Extra damping force per m/s above the speed limit."},
 }};
 
-// Index into kTuningFields; its size if the key is unknown.
+// Index into kTuningFields; the size of kTuningFields if the key is unknown.
 std::size_t tuning_field(std::string_view key) noexcept;
 
 }  // namespace gearshift::ui

@@ -13,7 +13,7 @@ const haptics::HapticTuning& TuningHistory::current() const noexcept {
 void TuningHistory::change(const haptics::HapticTuning& tuning, bool same_drag) {
   Track& t = track();
   if (tuning == current()) return;
-  t.steps.resize(t.now + 1);  // drops the steps that were undone
+  t.steps.resize(t.now + 1);  // drops the steps that the user has undone
   if (same_drag && t.now > 0) {
     t.steps.back() = tuning;
     return;

@@ -1,4 +1,4 @@
-// Undo history of the tuning, with two slots A and B that can be compared with one click.
+// Undo history of the tuning. It has two slots, A and B, which the user can compare with one click.
 #pragma once
 
 #include <array>
@@ -13,17 +13,18 @@ enum class TuningSlot : int { a, b };
 
 class TuningHistory {
  public:
-  explicit TuningHistory(const haptics::HapticTuning& start = {});  // start: first tuning of both slots
+  explicit TuningHistory(const haptics::HapticTuning& start = {});  // start: initial tuning of both slots
 
   const haptics::HapticTuning& current() const noexcept;
   TuningSlot slot() const noexcept { return slot_; }
 
-  // Adds an undo step. same_drag: both this change and the last one come from the same drag of a slider; merges them.
+  // Adds an undo step. same_drag: this change comes from the same drag of a slider as the previous change; both become
+  // one step.
   void change(const haptics::HapticTuning& tuning, bool same_drag = false);
   void undo() noexcept;  // no effect if there is nothing to undo
   void redo() noexcept;
   void reset();                                      // returns to the start tuning; can be undone
-  void switch_slot() noexcept;                       // not an undo step: each slot has its own history
+  void switch_slot() noexcept;                       // adds no undo step: each slot has its own history
   void restart(const haptics::HapticTuning& start);  // call for a new run; resets both slots and clears their history
 
   bool can_undo() const noexcept;

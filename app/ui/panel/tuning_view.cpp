@@ -84,7 +84,7 @@ void TuningView::edit(const haptics::HapticTuning& tuning, const PanelInput& inp
 void TuningView::apply_step(Step step, const PanelInput& input, PanelRequests& out) {
   switch (step) {
     case Step::undo:
-      if (!is_refused(input)) history_.undo();  // if the last edit was rejected, undo only discards it
+      if (!is_refused(input)) history_.undo();  // if the last edit was rejected, undo only discards that edit
       break;
     case Step::redo:
       history_.redo();
@@ -101,7 +101,7 @@ void TuningView::apply_step(Step step, const PanelInput& input, PanelRequests& o
 
 void TuningView::draw(Controls& controls, const PanelInput& input, PanelRequests& out) {
   draw_steps(controls, input, out);
-  // While a slider is dragged, its own range does not change; the other ranges are updated after its release.
+  // All ranges stay unchanged while a slider is dragged, and are updated when it is released.
   ranges_ = judge_.ranges(question(input, edited_), ImGui::IsAnyItemActive());
   for (std::size_t i = 0; i < kTuningFields.size(); ++i) draw_field(i, controls, input, out);
   draw_verdict(controls, input, out);
@@ -156,7 +156,7 @@ void TuningView::draw_field(std::size_t index, Controls& controls, const PanelIn
   if (changed) edit(wanted, input, out);
 }
 
-// Draws the verdict on the edited values, one or two sentences.
+// Draws the result of the check of the edited values, one or two sentences.
 void TuningView::draw_verdict(Controls& controls, const PanelInput& input, PanelRequests& out) {
   ImGui::Separator();
   if (is_refused(input)) {
@@ -168,7 +168,7 @@ void TuningView::draw_verdict(Controls& controls, const PanelInput& input, Panel
   } else {
     put_wrapped(fmt::format("Stable with every hand model ({}).", haptics::to_string(input.admitted.hold)), ink::kGood);
     for (const haptics::TuningLimit& limit : input.admitted.limits)
-      put_wrapped("Limited at the start. " + format_limit(limit), ink::kWarn);
+      put_wrapped("Limited when the loop started. " + format_limit(limit), ink::kWarn);
   }
 }
 

@@ -1,6 +1,6 @@
 // Sliders for parameters that may change while the loop runs, each with its stable range.
 //
-// An admissible edit is applied at once. For an inadmissible one, the running value stays active and the reason is
+// An admissible edit is applied at once. If an edit is not admissible, the running value stays active and the reason is
 // shown.
 #pragma once
 
@@ -17,7 +17,7 @@ class TuningView {
  public:
   enum class Step { undo, redo, reset, switch_slot };
 
-  void follow(const PanelInput& input);  // call first in each frame: the running values may have changed elsewhere
+  void follow(const PanelInput& input);  // call first in each frame: the running values may have changed
   void apply_step(Step step, const PanelInput& input, PanelRequests& out);
   void draw(Controls& controls, const PanelInput& input, PanelRequests& out);
 
@@ -37,9 +37,9 @@ class TuningView {
 
   TuningHistory history_;
   TuningJudge judge_;
-  StableRanges ranges_{};  // ranges as last drawn
+  StableRanges ranges_{};  // stable ranges as last drawn
   haptics::HapticTuning edited_, running_;
-  std::array<haptics::HapticTuning, 8> requested_{};  // ring buffer: the caller may apply a request some frames later
+  std::array<haptics::HapticTuning, 8> requested_{};  // newest requests: the caller may apply one some frames later
   std::size_t request_count_ = 0;
   bool same_drag_ = false;  // true after the first change in the current drag of a slider
   bool started_ = false;

@@ -68,7 +68,7 @@ def build_dial(name, side):
     D = shifted(side * DIAL_DX, -0.0015, 0)
     scene.empty(name + "Dial", D, "Cluster")
     face = Part(name + "Face", D, name + "Dial")
-    size = 2 * DIAL_R * 256 / 250  # the printed face covers 250 of the picture's 256 px
+    size = 2 * DIAL_R * 256 / 250  # the printed dial face covers 250 of the picture's 256 px
     face.flat(D, circle(DIAL_R + 0.0008, 48), 0, "Prints", (prints.rect(name.lower()), D, size, size))
     face.build()
     needle = Part(name + "Needle", D, name + "Dial")
@@ -77,7 +77,7 @@ def build_dial(name, side):
     cap = [(0.0085, 0.001), (0.0085, 0.0065), (0.0075, 0.008), (0.0002, 0.0083)]
     needle.lathe(D, cap, "PlasticGloss", n=18)
     needle.build()
-    # The needle rests on zero: turned about Blender's -Y, which is +Z in glTF.
+    # At rest the needle points to zero. It turns about Blender's -Y axis, which is +Z in glTF.
     scene.rest_rotation(name + "Needle", Matrix.Rotation(radians(-DIAL_SWEEP / 2), 4, "Y"))
 
 

@@ -6,12 +6,12 @@ CENTRE_X = 0.335  # x of the car's centre line, to the right of the driver
 HALF_BELT = 0.70  # inner half width at the belt line
 HALF_ROOF = 0.56  # inner half width at the roof rail
 FLOOR_Z = -0.27
-GROUND_Z = -0.53  # road under the tyres: 0.26 m below the driver's heel, with the eye 1.165 m above it
+GROUND_Z = -0.53  # road surface: 0.26 m below the driver's heel, 1.165 m below the eye
 BELT_Z = 0.42  # top of the door panels
 ROOF_Z = 0.945  # highest point of the roof lining, on the centre line
 RAIL_Z = 0.885  # height of the roof lining at the roof rails
-SCREEN_BASE = (1.20, 0.405)  # foot and head (y, z) of the windscreen on the centre line; rake 31 deg
-SCREEN_HEAD = (0.42, 0.875)
+SCREEN_BASE = (1.20, 0.405)  # (y, z) of the windscreen's lower edge on the centre line; rake 31 deg
+SCREEN_HEAD = (0.42, 0.875)  # (y, z) of the windscreen's upper edge on the centre line
 DASH_TOP_Z, DASH_NOSE_Y = 0.445, 0.655
 
 WHEEL_CENTRE, WHEEL_D, WHEEL_TILT = Vector((0, 0.40, 0.365)), 0.37, 25.0
@@ -19,20 +19,20 @@ RIM_R = 0.0155  # half the thickness of the rim
 
 CLUSTER_CENTRE, CLUSTER_TILT = Vector((0, 0.70, 0.366)), 18.0
 DIAL_R, DIAL_DX = 0.046, 0.070  # radius of a dial; distance of the dials' centres from the cluster's centre
-DIAL_SWEEP = 270.0  # clockwise, from 135 deg left of twelve o'clock
-# End of the scale and start of the red zone [1000/min], end of the scale [km/h].
+DIAL_SWEEP = 270.0  # [deg] range of the needle, clockwise from 135 deg left of twelve o'clock
+# Tachometer: end of the scale and start of the red zone [1000/min]. Speedometer: end of the scale [km/h].
 TACH_TOP, TACH_RED, SPEED_TOP = 8, 6.5, 220
 
-LEVER_LENGTH = 0.120  # from the pivot to the knob's centre: the radius of the device's yoke
+LEVER_LENGTH = 0.120  # from the pivot to the knob's centre; the yoke of the real device has the same radius
 KNOB_CENTRE = Vector((CENTRE_X - 0.005, 0.27, 0.127))
 KNOB_D = 0.048
 LEVER_PIVOT = KNOB_CENTRE - Vector((0, 0, LEVER_LENGTH))
 GATE_Z = LEVER_PIVOT.z + 0.030  # upper face of the gate plate
-# Outer size of the plate's frame, and size of its opening, which has corners of 10 mm radius.
+# Gate plate: outer size of the frame, and size of the frame's opening, whose corners have a radius of 10 mm.
 GATE_OUTER, GATE_OPENING = (0.128, 0.136), (0.098, 0.106)
 GATE_INSERT_DEPTH = 0.003  # depth of the insert's surface below the frame's surface
 
-PEDALS = {  # x, pad width, pad height
+PEDALS = {  # x of the centre, pad width, pad height
     "Clutch": (-0.135, 0.070, 0.062),
     "Brake": (-0.005, 0.085, 0.062),
     "Throttle": (0.125, 0.052, 0.125),

@@ -7,7 +7,7 @@ from cabin.dimensions import CENTRE_X, HANDBRAKE_PIVOT
 from craft.geometry import rounded, smooth_path
 from craft.part import Part
 
-REST = 9.0  # [deg] the mesh is already turned by this
+REST = 9.0  # [deg] angle at rest, at which the mesh is modelled
 
 
 def build():

@@ -19,7 +19,7 @@ from craft.geometry import at, frame, lerp, rounded, smooth_path
 from craft.part import Part
 
 GATE = Matrix.Translation((LEVER_PIVOT.x, LEVER_PIVOT.y, GATE_Z))
-GATE_FACE = frame((LEVER_PIVOT.x, LEVER_PIVOT.y, GATE_Z), 90)  # looks up: depth is height above the gate, z is forward
+GATE_FACE = frame((LEVER_PIVOT.x, LEVER_PIVOT.y, GATE_Z), 90)  # faces up; its y axis points down, its z axis forward
 BOOT_HEIGHT = KNOB_CENTRE.z - 0.032 - GATE_Z
 CAP_R = 0.0167
 

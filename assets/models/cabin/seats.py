@@ -12,7 +12,8 @@ HALF_W = SEAT_W / 2
 STRIPS = ["Fabric"] * 5 + ["Leather"] * 7
 STRIPS = STRIPS + STRIPS[::-1]  # cloth in the middle, leather on the bolsters
 
-# Sections: y, height in the middle, bolster height above that, underside, width factor, depth of the cross seam.
+# Cross sections of the cushion: y, height in the middle, bolster height above the middle, height of the underside,
+# width factor, depth of the cross seam.
 CUSHION = [
     (-0.20, -0.10, 0.010, -0.17, 0.93, 0),
     (-0.185, -0.075, 0.020, -0.19, 0.97, 0),
@@ -30,7 +31,8 @@ CUSHION = [
     (0.355, -0.040, 0.016, -0.15, 0.975, 0),
     (0.372, -0.075, 0.0, -0.125, 0.95, 0),
 ]
-# Sections: height along the back, forward offset, bolster depth, half width, thickness, depth of the cross seam.
+# Cross sections of the backrest: height along the back, forward offset, bolster depth, half width, thickness, depth of
+# the cross seam.
 BACK = [
     (-0.04, -0.02, 0.01, 0.225, 0.09, 0),
     (-0.02, -0.005, 0.03, 0.238, 0.11, 0),

@@ -19,16 +19,16 @@ VIEWPOINTS = [
     (0.0, 0.60, -0.05),
     (0.33, -0.60, 0.70),
     (0.33, 0.75, 0.75),
-    (0.07, 0.20, 0.36),  # the next four are the stage's cameras: lever, gate, cluster, gearbox
+    (0.07, 0.20, 0.36),  # this and the next three are cameras of app/cabin/stage: lever, gate, cluster, gearbox
     (0.235, 0.175, 0.275),
     (0.0, 0.475, 0.455),
     (0.56, 0.12, 0.45),
-    (-0.10, -0.12, 0.58),  # the next three are head positions around the driver's
+    (-0.10, -0.12, 0.58),  # this and the next two are other head positions of the driver
     (0.12, 0.10, 0.62),
     (0.0, 0.05, 0.72),
     (0.33, 0.47, 0.79),  # the interior mirror
 ]
-# Moving parts hide nothing and are never cut, because the faces behind them are revealed in other poses.
+# Moving parts: they hide no other faces and keep all their own, because a different pose may reveal any of these.
 MOVING = ("SteeringWheel", "Pedal", "Handbrake", "Lever", "Knob", "Boot", "TachNeedle", "SpeedNeedle", "SunVisor")
 NEAR = ("Knob", "Boot", "GatePlate", "Lever", "Cluster", "Tach", "Speed", "Gear", "SteeringWheel")
 CLOSE = (
@@ -69,4 +69,4 @@ CAMERAS = {  # position, target, horizontal field of view [deg]
     "top": (Vector((CENTRE_X, -0.2, 3.2)), Vector((CENTRE_X, 0.25, 0)), 45),
 }
 
-HIDDEN = {"top": ("RoofLining", "SunVisor"), "gate": ("Boot",)}  # by preview camera: parts that it does not show
+HIDDEN = {"top": ("RoofLining", "SunVisor"), "gate": ("Boot",)}  # parts left out, by preview camera

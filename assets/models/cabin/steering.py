@@ -10,8 +10,8 @@ from craft.geometry import at, bump, frame, lerp, rounded, smooth_path, superell
 from craft.part import Part, bezel, round_section
 
 F = frame(WHEEL_CENTRE, WHEEL_TILT)
-RADIUS = WHEEL_D / 2 - RIM_R  # from the wheel's centre to the centre of the rim's section
-# Angle [deg], width at the hub and at the rim [m].
+RADIUS = WHEEL_D / 2 - RIM_R  # from the wheel's centre to the centre of the rim's cross section
+# Spokes: angle [deg]; width at the hub and at the rim [m].
 SPOKES = ((-8, 0.056, 0.036), (188, 0.056, 0.036), (270, 0.060, 0.046))
 
 

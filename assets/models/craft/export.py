@@ -62,7 +62,7 @@ def drop_unused_attributes(gltf, keep_uv):
             sets, has_normal_map = texture_sets(material)
             if material.get("name") in keep_uv:
                 sets.add(0)
-            last = max(sets, default=-1)  # glTF requires texture sets to be numbered without gaps
+            last = max(sets, default=-1)  # lower UV sets are kept, because glTF requires numbers without gaps
             unused = {"TEXCOORD_%d" % k for k in range(last + 1, 4)}
             if not has_normal_map:
                 unused.add("TANGENT")

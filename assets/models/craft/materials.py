@@ -2,7 +2,7 @@
 import bpy
 
 MATERIALS = {}
-REPEATS = {}  # per material: texture repeats per metre in UV0, the box projection
+REPEATS = {}  # by material: texture repeats per metre in UV0, which is a box projection
 
 
 def clear():

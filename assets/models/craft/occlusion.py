@@ -14,8 +14,8 @@ from craft.materials import MATERIALS, load_image
 
 SIZE = 2048  # texels per side
 NEAR, FAR = (SIZE, 0.25, 48), (SIZE // 2, 0.90, 48)  # texels per side, reach [m], rays per texel
-FAR_SHARE = 0.40  # weight of the FAR picture: most cabin walls are within its reach of a different wall
-FLOOR = 0.26  # darkest value in the picture, because light bounces more than once
+FAR_SHARE = 0.40  # weight of the FAR picture; low, because most cabin walls have another wall within 0.90 m
+FLOOR = 0.26  # darkest value in the picture, because reflected light reaches even covered corners
 
 
 def wanted(ob):
@@ -101,7 +101,7 @@ def bake(objects):
     layer.active_render = True
     near, far = openness(node, *NEAR), openness(node, *FAR)
     path = save_occlusion(near * (1 - FAR_SHARE + FAR_SHARE * far))
-    mesh = whole.data  # must be removed, too: the exporter crashes on an orphan mesh with an empty slot
+    mesh = whole.data  # removed below, because the exporter crashes on an unused mesh with an empty material slot
     bpy.data.objects.remove(whole)
     bpy.data.meshes.remove(mesh)
     bpy.data.materials.remove(target)
@@ -115,7 +115,7 @@ def bake(objects):
 
 def save_occlusion(values):
     softened = FLOOR + (1 - FLOOR) * values**0.8
-    softened[-2:, :2] = 0.5  # the texel that all hidden faces use
+    softened[-2:, :2] = 0.5  # all hidden faces use this corner
     path = os.path.join(textures.FOLDER, "occlusion.jpg")
     Image.fromarray((softened * 255).astype(np.uint8)).convert("RGB").save(path, quality=88)
     return path

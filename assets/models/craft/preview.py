@@ -39,7 +39,7 @@ def add_sky():
     ramp.color_ramp.elements[1].color = (0.50, 0.62, 0.85, 1)
     ramp.color_ramp.elements.new(0.15).color = (0.75, 0.80, 0.85, 1)
     path, strength = new("ShaderNodeLightPath"), new("ShaderNodeMapRange")
-    # The sky is dimmer where the camera sees it directly.
+    # The sky lights the scene with strength 2.6, but the camera sees it with strength 0.8.
     strength.inputs[3].default_value, strength.inputs[4].default_value = 2.6, 0.8
     for a, b in (
         (where.outputs["Generated"], split.inputs[0]),

@@ -9,7 +9,7 @@ from mathutils.bvhtree import BVHTree
 from craft import scene
 from craft.facing import directions
 
-RAYS = 20000  # from each viewpoint, in all directions; the rays find large faces whose corners are hidden
+RAYS = 20000  # number of rays from each viewpoint; they find large faces whose corners are hidden
 
 
 def sees_through(ob):

@@ -147,7 +147,7 @@ def build_fork():
     width = []
     for i in range(n + 1):
         t = abs(2 * i / n - 1)
-        width.append(lerp(0.0065, 0.0, t) + 0.012 * max(0.0, 1 - (t / 0.22) ** 2))  # widens into a web up to the rail
+        width.append(lerp(0.0065, 0.0, t) + 0.012 * max(0.0, 1 - (t / 0.22) ** 2))  # wider in the middle, near the rail
     outline = [(inner * cos(a), inner * sin(a)) for a in angles[::-1]]
     outline += [((outer + w) * cos(a), (outer + w) * sin(a)) for a, w in zip(angles, width)]
     part.panel(frame((0, 0, 0)), outline, -thick, thick, "PaintedFork", bevel=0.0007, seg=1)
@@ -163,7 +163,7 @@ def build_finger():
     """Selector finger: turns about x above the rails; its tip is between the lugs of the selected rail."""
     axis = Vector((d.RAIL[0], 0, d.RAIL[1] + d.FINGER_AXIS))
     part = Part("Finger", axis, "Gearbox", smooth=40)
-    F = frame(axis, yaw=90)  # its face (-y) looks along +x
+    F = frame(axis, yaw=90)  # the frame's -y axis points along +x
     part.lathe(
         F,
         [(0.0063, -0.008), (0.0105, -0.008), (0.0110, -0.007), (0.0110, 0.007), (0.0105, 0.008), (0.0063, 0.008)],

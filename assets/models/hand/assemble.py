@@ -8,8 +8,8 @@ from hand import glove as picture
 from hand import gltf, grip, sleeve
 
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "generic_hand_right.glb")
-LOOK = (-22.0, 8.0, 10.0)  # [deg] turn of the hand: heading (right is negative), fingers raised, thumb side raised
-ELBOW = np.array([-0.085, 0.055, 0.325])  # [m] from the knob's centre, in glTF axes: left, above, behind
+LOOK = (-22.0, 8.0, 10.0)  # [deg] rotation of the hand: heading (negative: right), fingers up, thumb side up
+ELBOW = np.array([-0.085, 0.055, 0.325])  # [m] relative to the knob's centre, in glTF axes: to the left, above, behind
 FOREARM = 0.235  # [m] length of the sleeve
 JOINTS = {"Wrist": "wrist", "Palm": "middle-finger-metacarpal"}
 PARENTS = {"Wrist": None, "Palm": "Wrist"}
@@ -95,7 +95,7 @@ def with_normals(mesh):
     tangents, hands = np.zeros_like(p), np.zeros(len(p))
     for k in range(3):
         np.add.at(tangents, t[:, k], along_u)
-        np.add.at(hands, t[:, k], -sign)  # minus, because glTF's v points down
+        np.add.at(hands, t[:, k], -sign)  # negative, because v points down in glTF
     tangents -= normals * np.sum(normals * tangents, axis=1, keepdims=True)
     length = np.linalg.norm(tangents, axis=1, keepdims=True)
     spare = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.9, [[1.0, 0, 0]], [[0, 1.0, 0]]))

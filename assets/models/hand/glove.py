@@ -12,9 +12,10 @@ from craft import textures
 
 SIDE = 1024  # px
 LEATHER, SKIN, THREAD, STEEL = (47, 36, 31), (182, 126, 98), (196, 170, 130), (170, 172, 176)  # sRGB
-CUFF = (0.02, 0.02, 0.46, 0.115)  # u0, v0, u1, v1, outside the hand's UV islands; u runs around the wrist, v along it
+# The cuff's area in the picture: u0, v0, u1, v1, outside the hand's UV islands; u runs around the wrist, v along it.
+CUFF = (0.02, 0.02, 0.46, 0.115)
 FINGERS = ("index", "middle", "ring", "pinky")
-# Opening on the back of the hand: centre and half axes, x and z [mm].
+# The glove's opening on the back of the hand: centre and half axes in x and z [mm].
 OPENING = (np.array([1.0, -25.0]), np.array([9.5, 17.0]))
 
 
@@ -43,7 +44,8 @@ def texels(hand):
         weights = np.clip(w[inside], 0, 1)
         out.append((y[inside], x[inside], weights @ p[tri], weights @ normals[tri], w[inside].min(-1)))
     rows, columns, places, turned, depth = (np.concatenate(k) for k in zip(*out))
-    # Sorted by depth: the last triangle that writes a texel is the one that contains it most deeply.
+    # Sorted by depth inside the triangle: where triangles share a texel, the one that contains it most deeply writes
+    # last.
     order = np.argsort(depth)
     return rows[order], columns[order], places[order], turned[order]
 

@@ -9,7 +9,7 @@ from craft.prints import FONT
 from road import foliage
 
 WIDTH, HEIGHT, CELL = 1024, 512, 32
-SIGN = (0.0, 0.5, 0.25, 1.0)  # uv rectangles, v upwards
+SIGN = (0.0, 0.5, 0.25, 1.0)  # UV rectangles (u0, v0, u1, v1), v upwards
 SPRUCE = (0.252, 0.004, 0.498, 0.996)
 BOUGH = (0.502, 0.004, 0.998, 0.996)
 CELLS = {  # sRGB

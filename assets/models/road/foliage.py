@@ -5,7 +5,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 OVER = 2  # supersampling
-# sRGB colours under the holes, because coarser mip levels mix them in.
+# sRGB colours of the transparent texels. They matter because coarser mip levels mix them with the leaves.
 GROUND = {"bough": (58, 84, 32), "spruce": (36, 58, 38)}
 
 

@@ -2,9 +2,9 @@
 from road.pieces import Thing
 
 LENGTH, LANE, LINE = 12.0, 3.5, 0.12
-DASH = 4.0  # [m] length of a dash, after which a gap of 8 m follows: one dash per tile
+DASH = 4.0  # [m] length of a dash of the lane marking; a gap of 8 m follows
 VERGE = 30.0  # [m] width of the grass on either side
-LEFT, RIGHT = -LANE * 1.5, LANE / 2  # x of the edge lines
+LEFT, RIGHT = -LANE * 1.5, LANE / 2  # [m] x of the edge lines
 SHOULDER = 0.45
 
 

@@ -48,7 +48,7 @@ TEST_CASE("lines arrive one by one however the pipe splits them, and the end of 
   CHECK_FALSE(answers.read_line(1.0).has_value());
 }
 
-// At the end of the input, a read must still wait for its timeout: a caller that polls would otherwise occupy the core
+// At the end of the input, a read must still wait for its timeout. Otherwise a caller that polls would occupy the core
 // that the haptic loop needs.
 TEST_CASE("at the end of the input a read still waits for its timeout; an unreadable file counts as ended") {
   const auto waits = [](LineReader& answers) {

@@ -8,14 +8,14 @@
 
 using gearshift::base::StopSignals;
 
-// POSIX may deliver a signal for the process to any of its threads. Under the thread sanitizer, this test also proves
-// that the other threads learn of the signal without a data race.
+// POSIX lets any thread receive a signal that is sent to the process. Under the thread sanitizer, this test also proves
+// that the polling thread sees the signal without a data race.
 TEST_CASE("a signal delivered to another thread is seen by the thread that polls") {
   const StopSignals signals;
   CHECK_FALSE(StopSignals::requested());
   std::thread other([] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // lets the main thread poll first
-    std::raise(SIGTERM);                                         // delivered to this thread
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // lets the main thread start polling
+    std::raise(SIGTERM);                                         // raise() delivers the signal to this thread
   });
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!StopSignals::requested() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
@@ -23,8 +23,8 @@ TEST_CASE("a signal delivered to another thread is seen by the thread that polls
   other.join();
 }
 
-// A signal that was ignored when the program started (nohup ignores SIGHUP) must stay ignored: closing the terminal
-// must not end a run that takes hours.
+// A signal that was ignored when the program started must stay ignored. nohup, for example, ignores SIGHUP, so that
+// closing the terminal does not end a run that takes hours.
 TEST_CASE("an ignored signal stays ignored, and all handlers are restored at the end") {
   std::signal(SIGHUP, SIG_IGN);
   {

@@ -1,4 +1,4 @@
-// A lever that a user holds: the program does not move it, only the user arms it, and its recordings replay.
+// A real lever in the user's hand: the program does not move it, only the user arms it, and its recordings replay.
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -21,13 +21,13 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// The emulated stick's state, commands and failures. Outlives the runtimes that use it.
+// The emulated stick's state, commands and failures, which outlive the runtimes that use the stick.
 struct Stick {
   ScriptedHand hand = tour_of(paper_gate());
-  bool silent = false;         // if true, read() repeats the last reading
+  bool silent = false;         // if true, read() returns the last reading again
   int delay = 0;               // [cycles]
   double period = 0.0;         // [s] cycle period for which the lever was last opened
-  int opened = 0, driven = 0;  // number of levers opened, and of readings taken
+  int opened = 0, driven = 0;  // how many levers were opened, and how many readings were taken
   glm::dvec2 force{0.0};       // [N] the latest command
   double strongest = 0.0;      // [N] magnitude of the largest command so far
   bool on = false;             // whether the motors are on
@@ -95,8 +95,9 @@ TEST_CASE("frame input does not move the lever, and no force acts until the user
   elsewhere.push = {50.0, 50.0};
   runtime.set_hand(elsewhere);
   runtime.advance(0.001);
-  CHECK(glm::distance(runtime.snapshot().lever, glm::dvec2(0.0, 0.003)) < 2e-4);  // 0.2 mm: two counts of its encoder
-  runtime.advance(20.0);                                                          // the hand tours the gate
+  // The lever is still where it was opened, within 0.2 mm: less than three counts of its encoder.
+  CHECK(glm::distance(runtime.snapshot().lever, glm::dvec2(0.0, 0.003)) < 2e-4);
+  runtime.advance(20.0);  // the hand moves through all gears
   CHECK(runtime.snapshot().guard == GuardState::idle);
   CHECK(stick.strongest == 0.0);
   CHECK((runtime.snapshot().flags & kFlagPushEstimated) != 0);
@@ -133,7 +134,7 @@ TEST_CASE("after a fault only the user restores the forces") {
 }
 
 TEST_CASE("a recording that begins during or after a fault does not restore forces; the user does") {
-  for (const double after : {0.005, 0.5}) {  // [s] during the fade-out of the last force, and long after it
+  for (const double after : {0.005, 0.5}) {  // [s] 0.005: while the last force fades out; 0.5: long afterwards
     CAPTURE(after);
     const TempFolder folder;
     Stick stick;
@@ -186,7 +187,7 @@ TEST_CASE("with 3 cycles of delay, the stability law lowers the wall stiffness, 
   stick.delay = 3;
   const Runtime runtime(held(stick));
   const AdmittedTuning& admitted = runtime.admitted();
-  const double tau = 4e-3, mass = kPaperAxisY.mass;  // [s] (delay + 1) cycles; [kg] the lighter axis
+  const double tau = 4e-3, mass = kPaperAxisY.mass;  // tau [s]: (3 + 1) cycles; mass [kg]: of the lighter axis
   const double fraction = admitted.hold == ContactHold::observer ? 0.58 : 0.35;
   CHECK(admitted.tuning.wall_stiffness <= fraction * mass / (tau * tau) * (1.0 + 1e-9));
   CHECK_FALSE(admitted.limits.empty());
@@ -200,7 +201,7 @@ TEST_CASE("an invalid setup is rejected before the lever is opened, and a mere c
   CHECK_THROWS_AS((void)check_runtime(driven), std::invalid_argument);
   CHECK_THROWS_AS(Runtime{driven}, std::invalid_argument);
   RuntimeConfig study = held(stick);
-  study.preset.haptics.contact.allow_unstable = true;  // unsafe on a lever that a user holds
+  study.preset.haptics.contact.allow_unstable = true;  // not allowed on a lever that a user holds
   CHECK_THROWS_AS((void)check_runtime(study), std::invalid_argument);
   CHECK_THROWS_AS(Runtime{study}, std::invalid_argument);
   CHECK(stick.driven == 0);

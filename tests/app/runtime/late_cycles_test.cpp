@@ -1,4 +1,4 @@
-// After a late wake-up, the loop also reports the deadlines that passed while its thread slept.
+// After a late wake-up, the loop also reports the deadlines that it missed while its thread slept.
 #include <doctest/doctest.h>
 
 #include "app/runtime/cycle_runner.h"
@@ -32,7 +32,7 @@ TEST_CASE("skipped deadlines are counted, and separately the cycles that took to
     deadline += (1 + missed) * period_ns(config);
     runner.cycle({deadline, missed}, &statistics);
     runner.figures.update();
-    CHECK(runner.figures.value().skipped == skipped);  // immediately: the next update may never come
+    CHECK(runner.figures.value().skipped == skipped);  // reported immediately, because there may be no further update
     CHECK(runner.figures.value().overruns == overruns);
   }
   runner.figures.update();

@@ -1,4 +1,4 @@
-// The runtime's cycle callback keeps the guarantees of the haptic cycle: no allocation, no lock, no system call.
+// The runtime's cycle callback keeps the guarantees of the haptic cycle: no allocation, no lock and no system call.
 #include "tests/support/realtime_proof.h"
 
 #include <memory>
@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::int64_t kPeriod = 1'000'000;  // [ns]
 
-// Proves it first without a car, then with a recorded car whose guidance is switched on and off. Every queue overflows,
-// including the scripted driver's.
+// Runs the callback first without a car, then with a car that is recorded and whose guidance is switched on and off.
+// Every queue overflows, including the scripted driver's.
 void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
   const Gate gate = paper_gate();
   ScriptedHand script = tour_of(gate);
@@ -42,7 +42,7 @@ void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
 
   const RealtimeProof proof = prove_realtime([&] {
     std::int64_t now = 0;
-    runner->cycle({now, 0}, statistics.get());  // no loop is set yet
+    runner->cycle({now, 0}, statistics.get());  // the callback has no loop yet
     runner->switch_to(*first);
     for (int i = 0; i < 20'000; ++i) {
       const std::int64_t skipped = i % 500 == 0 ? 3 : 0;

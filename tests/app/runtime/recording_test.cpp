@@ -33,8 +33,8 @@ HapticTuning softer(const Runtime& runtime) {
   return tuning;
 }
 
-// A device whose end stop reads 8 um beyond the range that its guard allows (encoder rounding): pushing the lever
-// against the stop causes a fault.
+// A configuration whose guard allows no position beyond the device's end stop. For a lever at the stop, the rounding
+// encoder reports a position 8 um beyond it, so pushing the lever against the stop causes a fault.
 RuntimeConfig breakable(RuntimeClock clock) {
   RuntimeConfig config = runtime_config(clock);
   config.preset.haptics.guard.position_margin = 0.0;
@@ -66,11 +66,11 @@ TEST_CASE(
   const HapticSnapshot before = runtime.snapshot();
   runtime.start_recording(folder / "drive.trace");
   CHECK(runtime.is_recording());
-  runtime.change_tuning(runtime.config().preset.haptics.tuning);  // applied in the recording's second cycle
+  runtime.change_tuning(runtime.config().preset.haptics.tuning);  // takes effect in the recording's second cycle
   const HapticSnapshot after = runtime.snapshot();
   CHECK(after.time_ns == before.time_ns + 1'000'000);
   CHECK(glm::distance(after.lever, before.lever) < 0.0005);  // the lever does not jump
-  CHECK(after.wall_stiffness == 1500.0);                     // the tuning does not change either
+  CHECK(after.wall_stiffness == 1500.0);                     // [N/m] from softer(); new tuning applies a cycle later
   person.shift_to(2);
   HapticTuning tuning = softer(runtime);
   tuning.aisle_damping = 5.0;
@@ -94,7 +94,7 @@ TEST_CASE(
   CHECK(trace.samples.front().controls.clutch == 0.7);
   CHECK(trace.samples.size() > 3000);
   CHECK(replay(trace).bit_for_bit());
-  // A trace without its armed state must differ in the replay, and a trace without its first cycle must be rejected.
+  // Without its armed state, the trace must replay differently. Without its first cycle, it must be rejected.
   Trace unarmed = trace;
   unarmed.header.armed = false;
   CHECK_FALSE(replay(unarmed).bit_for_bit());
@@ -154,7 +154,7 @@ TEST_CASE("a recording never switches forces on, neither in a disarmed runtime n
   runtime.arm();
   runtime.advance(1.0);
   CHECK(runtime.snapshot().guard == GuardState::running);
-  runtime.stop();  // the loop has not processed the stop yet
+  runtime.stop();  // the loop has not yet handled this when the recording begins
   runtime.start_recording(folder / "stopped.trace");
   runtime.advance(1.0);
   CHECK(runtime.snapshot().commanded == glm::dvec2(0.0));
@@ -184,7 +184,7 @@ TEST_CASE("a file that cannot be created changes nothing; a second recording is 
 TEST_CASE("a fault while the file is being opened persists: the recording's loop commands no force") {
   const TempFolder folder;
   const std::filesystem::path pipe = folder / "pipe.trace";
-  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);  // opening a FIFO for writing blocks until it is opened for reading
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);  // opening a FIFO for writing blocks until a reader opens it
   Runtime runtime(breakable(RuntimeClock::real_time));
   runtime.arm();
   std::this_thread::sleep_for(std::chrono::milliseconds(800));
@@ -265,7 +265,7 @@ TEST_CASE("a destroyed runtime's recording is closed and complete") {
     Runtime runtime(runtime_config(RuntimeClock::virtual_time));
     runtime.arm();
     runtime.start_recording(folder / "drive.trace");
-    runtime.advance(20.0);  // more cycles than the recorder's queue holds
+    runtime.advance(20.0);  // 20 s are more cycles than the recorder's queue can hold
   }
   const Trace trace = read_trace(folder / "drive.trace");
   CHECK(trace.samples.size() == 20000);

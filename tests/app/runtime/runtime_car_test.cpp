@@ -1,4 +1,4 @@
-// A runtime with a car connected to its lever: driven, recorded from the middle of a drive, replayed.
+// A runtime with a car connected to its lever: driven, recorded from the middle of a drive, and replayed.
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
@@ -76,7 +76,7 @@ TEST_CASE("the car continues when a recording begins, and the trace replays bit 
   CHECK(after.running);
   CHECK(after.road_speed == doctest::Approx(before.road_speed).epsilon(0.001));
   CHECK(after.engine_speed == doctest::Approx(before.engine_speed).epsilon(0.001));
-  CHECK(after.distance == before.distance);  // the recording starts a new loop, whose first cycle has zero duration
+  CHECK(after.distance == before.distance);  // the recording starts a new loop, whose first cycle has no duration
   CHECK(after.slip_energy >= before.slip_energy);
   feet(runtime, 0.0, 1.0);
   person.shift_to(3);
@@ -88,7 +88,7 @@ TEST_CASE("the car continues when a recording begins, and the trace replays bit 
   const ReplayResult result = replay(trace, make_lesson_load);
   CHECK(result.bit_for_bit());
   CHECK(result.cycles > 1500);
-  // With guidance off, a replay with the car alone, without the guided load, gives the same cycles bit for bit.
+  // The recording has no guidance, so a replay of the car without its guided load gives the same cycles bit for bit.
   const auto bare = [](const std::string& name, const Gate& gate) {
     return make_car_load(name.substr(std::string("guided ").size()), gate);
   };

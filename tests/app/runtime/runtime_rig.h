@@ -1,4 +1,4 @@
-// A runtime for tests, and a simulated user who moves its lever through the gears.
+// A runtime for tests, and a simulated user who moves the lever through the gears.
 #pragma once
 
 #include <chrono>
@@ -30,9 +30,9 @@ inline runtime::RuntimeConfig hatchback(runtime::RuntimeClock clock) {
 
 inline const std::vector<int> kPaperTour{1, 2, 3, 4, 5, haptics::kReverseGear};
 
-// A hand that moves at 60 frames per second: straight to the neutral line, along it through the neutral column to the
-// slot's column, and into the slot, 20 mm beyond the gear's rest position. Knob and ring are held for reverse. `frame`
-// is called after each hand position and must advance the runtime by one frame.
+// A hand that moves at 60 frames per second: straight to the neutral line, along this line through the neutral column
+// to the slot's column, and into the slot, 20 mm beyond the gear's rest position. For reverse, it holds the knob down
+// and the ring lifted. `frame` is called after each hand position and must advance the runtime by one frame.
 class LeadingPerson {
  public:
   static constexpr double kFrame = 1.0 / 60.0;  // [s]
@@ -111,7 +111,7 @@ bool becomes_true(const Condition& condition) {
   return condition();
 }
 
-// Appends the gears engaged in `events` to `gears`, in order.
+// Appends to `gears` the gears that were engaged in `events`, in order.
 inline void add_gears(const std::vector<haptics::HapticEvent>& events, std::vector<int>& gears) {
   for (const haptics::HapticEvent& event : events)
     if (event.kind == haptics::EventKind::gear_engaged) gears.push_back(static_cast<int>(event.value));

@@ -1,4 +1,4 @@
-// The runtime on its virtual clock: its lever is moved, armed, tuned and observed.
+// The runtime on a virtual clock: its lever is moved, armed, tuned and observed.
 #include "app/runtime/runtime.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// Pulls the lever forward into third gear, with the hand's target 20 mm beyond the end stop at 40 mm.
+// Moves the lever forward into third gear and against its end stop at 40 mm: the hand's target is at 60 mm.
 void press_wall(Runtime& runtime) {
   HandTarget target;
   target.position = {0.0, 0.06};
@@ -99,7 +99,7 @@ TEST_CASE("arm, disarm and stop: forces ramp up in half a second and are gone in
   CHECK(runtime.snapshot().guard == GuardState::released);
   CHECK(runtime.snapshot().commanded == glm::dvec2(0.0));
   runtime.advance(1.0);
-  CHECK(runtime.snapshot().guard == GuardState::released);  // only the user can arm it again
+  CHECK(runtime.snapshot().guard == GuardState::released);  // only the user can arm the lever again
   runtime.arm();
   runtime.advance(1.0);
   CHECK(runtime.snapshot().guard == GuardState::running);
@@ -126,7 +126,7 @@ TEST_CASE("the wall holds a lever that the hand pulls through it; without forces
   runtime.disarm();
   runtime.advance(1.0);
   CHECK(runtime.snapshot().lever.y > 0.055);
-  CHECK(runtime.snapshot().proxy.y <= 0.040 + 1e-9);  // with forces off the proxy still stays in the gate
+  CHECK(runtime.snapshot().proxy.y <= 0.040 + 1e-9);  // even without forces, the proxy stays in the gate
 }
 
 TEST_CASE("a changed tuning is limited, used and stored; values out of range change nothing") {
@@ -141,11 +141,11 @@ TEST_CASE("a changed tuning is limited, used and stored; values out of range cha
   CHECK((runtime.admitted().tuning == wanted));
 
   HapticTuning soft = wanted;
-  soft.wall_stiffness = 1000.0;  // [N/m] softer than the gate's feel, so feel_scale is limited
+  soft.wall_stiffness = 1000.0;  // [N/m] softer than the gate's feel allows, so `feel_scale` is limited
   const AdmittedTuning admitted = runtime.change_tuning(soft);
   CHECK(admitted.tuning.feel_scale < 1.0);
   CHECK(admitted.limits.size() == 1);
-  CHECK((runtime.config().preset.haptics.tuning == soft));  // the configuration stores the requested tuning
+  CHECK((runtime.config().preset.haptics.tuning == soft));  // the configuration keeps the requested tuning
   CHECK((runtime.admitted().tuning == admitted.tuning));
 
   HapticTuning impossible = wanted;
@@ -180,7 +180,7 @@ TEST_CASE("every cycle since the last call is returned once, in order") {
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.advance(0.25);
   const std::vector<DriveSample> first = runtime.drain_cycles();
-  (void)runtime.health();  // does not consume any cycle
+  (void)runtime.health();  // health() must not consume cycles
   DriverControls controls;
   controls.clutch = 0.25;
   runtime.set_controls(controls);
@@ -237,6 +237,6 @@ TEST_CASE("an invalid configuration is rejected with one sentence") {
   config.preset.haptics.rate = 0.0;
   CHECK_THROWS_AS(Runtime{config}, std::invalid_argument);
   config = runtime_config(RuntimeClock::virtual_time);
-  config.preset.lever.yoke.radius = 0.03;  // the gate does not fit into this yoke
+  config.preset.lever.yoke.radius = 0.03;  // the gate does not fit into such a small yoke
   CHECK_THROWS_AS(Runtime{config}, std::runtime_error);
 }

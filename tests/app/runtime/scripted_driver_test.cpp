@@ -1,5 +1,5 @@
-// A scripted driver is called with every cycle, and its hand target is used unchanged. Only the instructor sets road
-// and guidance.
+// A scripted driver is called with every cycle, and the lever gets exactly the hand target that the driver returns.
+// Only the instructor sets road and guidance.
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -23,8 +23,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// A driver whose hand jumps and reverses, so that any filter between it and the lever would show. Its action depends on
-// its input, so that any deviation grows.
+// A driver whose hand jumps and reverses, to reveal any filter between hand and lever. Its action depends on its input,
+// so any deviation grows.
 DriverAction restless(const DriveSample& now) {
   const double t = now.time();
   DriverAction action;
@@ -34,7 +34,7 @@ DriverAction restless(const DriveSample& now) {
   action.controls.ignition = true;
   action.controls.throttle = 0.3 + 0.2 * std::sin(t) - 0.001 * now.car.engine_speed;
   action.controls.clutch = std::fmod(t, 1.0);
-  action.controls.guidance = 1.0;  // ignored: only the instructor sets guidance and slope
+  action.controls.guidance = 1.0;  // ignored, because only the instructor sets guidance and slope
   action.controls.guided_gear = 5;
   action.controls.slope = 0.5;
   return action;
@@ -54,8 +54,8 @@ class DriverHand final : public HandDriver {
   HandTarget target;
 };
 
-// The reference, computed without Runtime: lever, loop and car without guidance on a virtual clock. Each action is
-// applied in the next cycle.
+// The expected drive, computed without Runtime from lever, loop and car on a virtual clock, without guidance. Each
+// action is applied in the next cycle.
 std::vector<DriveSample> driven_without_runtime(const RuntimeConfig& config, const Gate& gate, int cycles) {
   SimulatedRunConfig setup;
   setup.haptics = config.preset.haptics;
@@ -114,7 +114,7 @@ TEST_CASE("on the virtual clock the driver gets every cycle once, and its action
     REQUIRE(same(cycles[i], expected[i]));
     REQUIRE(cycles[i].lever.cycle == i);
   }
-  CHECK(cycles.back().car.engine_speed > 10.0);  // [rad/s] the drive had an effect
+  CHECK(cycles.back().car.engine_speed > 10.0);  // [rad/s] the driver has started the engine
 }
 
 TEST_CASE("the driver controls hand and pedals, the instructor road and guidance, and neither overrides the other") {
@@ -179,7 +179,7 @@ TEST_CASE("recorded on the virtual clock, a scripted drive replays bit for bit a
   for (std::size_t i = 0; i < driven->size(); ++i) CHECK((*driven)[i] == (i < 700 ? i : i - 700));
   const Trace trace = read_trace(folder / "a.trace");
   CHECK(trace.samples.size() == 800);
-  CHECK(trace.samples[0].controls.throttle != 0.0);  // the throttle is not reset when the recording begins
+  CHECK(trace.samples[0].controls.throttle != 0.0);  // recording does not reset the throttle
   CHECK(replay(trace, make_lesson_load).bit_for_bit());
 }
 
@@ -217,7 +217,7 @@ TEST_CASE(
   }
   const std::size_t at_end = driven->cycles.size();
   sleep_ms(20);
-  CHECK(driven->cycles.size() == at_end);  // no call of the driver after the runtime has ended
+  CHECK(driven->cycles.size() == at_end);  // the driver is not called after the runtime has ended
   REQUIRE(at_end > 100);
   bool guided = false;
   for (std::size_t i = 1; i < at_end; ++i) {

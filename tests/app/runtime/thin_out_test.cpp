@@ -1,4 +1,4 @@
-// Downsampling keeps the order, the number of points within the limit, and the peaks.
+// Downsampling keeps the order and the peaks, and returns at most the requested number of points.
 #include "app/runtime/thin_out.h"
 
 #include <random>
@@ -36,7 +36,7 @@ TEST_CASE("a single peak and a single gap survive any downsampling") {
     std::vector<double> newtons(3 + chance() % 3000, 5.0);
     const std::size_t peak = chance() % newtons.size(), pause = chance() % newtons.size();
     newtons[pause] = 1.0;
-    newtons[peak] = -60.0;  // a push to the left is a peak too
+    newtons[peak] = -60.0;  // a push to the left is negative, but also a peak
     const auto all = pushes(newtons);
     const std::size_t limit = 2 + chance() % 100;
     const auto few = thin_out(all, limit);
@@ -59,7 +59,7 @@ TEST_CASE("the intervals are even: neighbours are at most two intervals apart") 
   for (double& push : newtons) push = static_cast<double>(chance() % 1000);
   const auto few = thin_out(pushes(newtons), 200);
   CHECK(few.size() == 200);
-  // 100 intervals of 100 cycles each, two points per interval
+  // There are 100 intervals of 100 cycles with two points each, so neighbours are at most 200 cycles apart.
   for (std::size_t i = 1; i < few.size(); ++i) CHECK(few[i].cycle - few[i - 1].cycle <= 200);
 }
 

@@ -21,10 +21,10 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 glm::dvec3 ahead(const CabinCamera& look) {
   return look.pose().orientation * glm::dvec3(0.0, 0.0, -1.0);
 }
-double heading(const CabinCamera& look) {  // [deg] to the right of the driving direction (-Z)
+double heading(const CabinCamera& look) {  // [deg] angle to the right of straight ahead (-Z)
   return std::atan2(ahead(look).x, -ahead(look).z) / kDegree;
 }
-double height(const CabinCamera& look) {  // [deg] above the horizon
+double height(const CabinCamera& look) {  // [deg] angle above the horizon
   return std::asin(ahead(look).y) / kDegree;
 }
 
@@ -88,12 +88,12 @@ TEST_CASE("watching a shift turns the driver's view to the lever and back; other
   CHECK(look.place() == "lever");
   CHECK(look.field() == camera_field("lever"));
   look.turn({50.0, 0.0});
-  CHECK_FALSE(look.follow_shift(true));  // the user's direction is kept during the shift
+  CHECK_FALSE(look.follow_shift(true));  // during the shift, the user's direction is kept
   CHECK(look.pose().orientation != camera("lever").orientation);
   CHECK(look.follow_shift(false));
   CHECK(look.place() == "driver");
   CHECK(look.follow_shift(true));
-  look.next();  // the user chooses a camera during the shift
+  look.next();  // during the shift, the user chooses a different camera
   const std::string chosen(look.place());
   CHECK_FALSE(look.follow_shift(false));
   CHECK(look.place() == chosen);

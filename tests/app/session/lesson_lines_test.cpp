@@ -11,7 +11,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-// The coach's view during a trial whose first cycle was at `begin` [s], `duration` [s] ago.
+// The coach's view of a trial that began at `begin` [s] and has lasted `duration` seconds.
 CoachView trial(double begin, std::size_t step, Lines feedback = {}, double duration = 1.0) {
   CoachView coach;
   coach.phase = LessonPhase::driving;
@@ -45,7 +45,7 @@ TEST_CASE("a trial is reported from its first cycle on; its steps, its messages 
   CHECK(lines.new_lines(trial(2.0, 0)) == Lines{});
   CHECK(lines.new_lines(trial(2.0, 1, {"a"})) == Lines{"step 2 of 3: Go.", "a"});
   CHECK(lines.new_lines(over(2.0, LessonEnd::done, {"a", "b"})) ==
-        Lines{"b", "lesson moving_off is over: grade 9.5 of 10, passed"});
+        Lines{"b", "lesson moving_off is over: grade 9.5/10, passed"});
   CHECK(lines.new_lines(over(2.0, LessonEnd::done, {"a", "b"})) == Lines{});
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("a trial that replaces the previous one within a frame is reported as 
   CHECK(lines.new_lines(trial(5.0, 0, {"c"})) ==
         Lines{"previous attempt ended early", "lesson moving_off begins", "step 1 of 3: Go.", "c"});
   CHECK(lines.new_lines(over(5.0, LessonEnd::done, {"c"})).size() == 1);
-  CHECK(lines.new_lines(not_begun()) == Lines{});  // the next trial, before its first cycle
+  CHECK(lines.new_lines(not_begun()) == Lines{});  // the next trial has no cycle yet
   CHECK(lines.new_lines(trial(9.0, 0)) == Lines{"lesson moving_off begins", "step 1 of 3: Go."});
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("trials whose first cycle is at 0 s, as on a virtual clock, are report
     CHECK(lines.new_lines(trial(0.0, 0)) == Lines{"lesson moving_off begins", "step 1 of 3: Go."});
     CHECK(lines.new_lines(trial(0.0, 1, {"a"}, 2.0)) == Lines{"step 2 of 3: Go.", "a"});
     CHECK(lines.new_lines(over(0.0, LessonEnd::done, {"a"})) ==
-          Lines{"lesson moving_off is over: grade 9.5 of 10, passed"});
+          Lines{"lesson moving_off is over: grade 9.5/10, passed"});
   }
   CHECK(lines.new_lines(trial(0.0, 0, {}, 5.0)).size() == 2);
   CHECK(lines.new_lines(trial(0.0, 0, {}, 0.1)) ==
@@ -88,7 +88,7 @@ TEST_CASE("a trial replaced by a different offer, or by none, is reported once a
     coach.lesson = next == LessonPhase::none ? "" : "hill_start";
     coach.goal = "Go up.";
     Lines expected{"lesson moving_off ended early"};
-    if (next == LessonPhase::offered) expected.emplace_back("lesson hill_start offered: Go up.");
+    if (next == LessonPhase::offered) expected.emplace_back("lesson hill_start is ready to start: Go up.");
     CHECK(lines.new_lines(coach) == expected);
     CHECK(lines.new_lines(coach) == Lines{});
   }

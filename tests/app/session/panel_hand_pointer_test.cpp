@@ -1,4 +1,5 @@
-// The panel's pointer follows the controller that points at the panel, or else the mouse on the desk.
+// The panel's pointer follows the controller that points at the panel. Without a controller, it follows the desktop's
+// mouse.
 #include "app/session/panel_hand_pointer.h"
 
 #include <doctest/doctest.h>
@@ -28,12 +29,12 @@ TEST_CASE("a controller on the panel has the pointer until the mouse moves; its 
   REQUIRE(came);
   CHECK(came->at == glm::dvec2(500.0, 100.0));
   CHECK_FALSE(came->down);
-  CHECK(came->scroll.y == doctest::Approx(0.6));  // thumbstick half forward: 0.5 x 12 lines/s x 0.1 s
+  CHECK(came->scroll.y == doctest::Approx(0.6));  // thumbstick half forward for 0.1 s: 0.5 x 12 lines/s x 0.1 s
   desk.mouse_moved = {3.0, 0.0};
-  CHECK(follow(at(0.5, 0.2), true));  // a mouse that moves the lever does not take the pointer
+  CHECK(follow(at(0.5, 0.2), true));  // while the mouse moves the lever, the controller keeps the pointer
   CHECK_FALSE(follow(at(0.5, 0.2)));
   desk.mouse_moved = {0.0, 0.0};
-  CHECK_FALSE(follow(at(0.5, 0.2)));  // the ray has stayed on the panel
+  CHECK_FALSE(follow(at(0.5, 0.2)));  // only the controller's trigger takes the pointer back from the mouse
   const auto clicks = follow(at(0.5, 0.2, true));
   REQUIRE(clicks);
   CHECK(clicks->down);

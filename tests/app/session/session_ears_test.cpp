@@ -1,4 +1,4 @@
-// A session's sound, on the virtual clock and rendered to memory.
+// The sound of a session on a virtual clock, rendered to memory.
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -28,7 +28,7 @@ struct EarLevels {
   double left = 0.0, right = 0.0;  // [1] RMS of the samples
 };
 
-// The level of one second of the idling engine at each ear.
+// The RMS level at each ear over one second, with the engine at idle.
 EarLevels engine_levels(Session& session, const EyePose& ears) {
   session.set_ears(ears);
   std::vector<float> stereo;
@@ -52,10 +52,11 @@ TEST_CASE("the session's sound depends on the position and direction of the list
   const glm::dvec3 seat{0.0, 0.65, 0.05};
   const EarLevels ahead = engine_levels(session, look_at(seat, seat + glm::dvec3(0.0, 0.0, -1.0)));
   CHECK(ahead.right > 1e-3);
-  CHECK(ahead.right > ahead.left);  // the engine is on the car's centre line, to the right of the driver
+  CHECK(ahead.right > ahead.left);  // the engine's sound comes from the driver's right
   const EarLevels back = engine_levels(session, look_at(seat, seat + glm::dvec3(0.0, 0.0, 1.0)));
   CHECK(back.left > back.right);
-  // From 20 m behind the seat, the engine is more than ten times as far away as from the seat.
+  // From 20 m behind the seat, the engine is 13 times as far away as from the seat, i.e. 22 dB quieter. The test
+  // requires 15 dB.
   const glm::dvec3 behind{0.0, 0.65, 20.0};
   const EarLevels far = engine_levels(session, look_at(behind, behind + glm::dvec3(0.0, 0.0, -1.0)));
   CHECK(decibels(ahead.right / far.right) > 15.0);

@@ -1,4 +1,4 @@
-// Keyboard pedals move on the car's clock, so their path does not depend on the frame rate.
+// The keyboard's pedals move on the car's clock, so their path does not depend on the frame rate.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kCycle = 1e-3;               // [s]
 constexpr double kClosed = 0.2, kBite = 0.7;  // [1] clutch pedal positions
-constexpr double kSlip = 1.0, kPedal = 0.25;  // [s] time from bite to closed, time for the full travel
+constexpr double kSlip = 1.0, kPedal = 0.25;  // [s] time from bite to closed; time for the full travel
 
 struct FeetRig {
   TempFolder folder;
@@ -41,7 +41,8 @@ struct FeetRig {
   }
 };
 
-// [1] The expected clutch position for a key pressed at 0 s and released at 0.5 s, derived from the pace above.
+// [1] The expected clutch position at `time` [s], if the key is pressed at 0 s and released at 0.5 s. Computed from the
+// constants above.
 double clutch_at(double time) {
   if (time <= 0.5) return std::min(1.0, time / kPedal);
   const double quick = (1.0 - kBite) * kPedal, left = time - 0.5 - quick;
@@ -50,7 +51,7 @@ double clutch_at(double time) {
   return std::max(0.0, kClosed - (left - kSlip) / kPedal);
 }
 
-// The clutch position [1] that the car received in each cycle. The keys are read once per frame.
+// [1] The clutch position that the car received in each cycle. The keys are read once per frame.
 std::vector<double> clutch_driven(Session& session, double frames_per_second) {
   std::vector<double> path;
   session.set_foot_pace({kPedal, kSlip, kClosed, kBite});
@@ -105,14 +106,14 @@ TEST_CASE("on the real clock a pedal moves even while no frame is drawn") {
   session.set_driver({}, {}, {.brake = true});
   session.advance(0.0);
   std::set<double> brakes;
-  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // no frame in this time
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // no frame is drawn in this time
   for (const DriveSample& cycle : session.runtime().drain_cycles()) brakes.insert(cycle.controls.brake);
-  CHECK(brakes.size() > 20);  // per frame, it would be one or two
+  CHECK(brakes.size() > 20);  // if the pedal moved once per frame, there would be one or two positions
   CHECK(*brakes.rbegin() == 1.0);
 }
 
 TEST_CASE("on the real clock a keyboard clutch keeps its pace through a change of gate, while both levers run") {
-  constexpr double kAllTheWay = 8.0;  // [s] time for the whole release
+  constexpr double kAllTheWay = 8.0;  // [s] time for the clutch to come up completely
   const FeetRig rig;
   Session session(rig.choice(RuntimeClock::real_time, "none"));
   session.set_foot_pace({.pedal_time = kPedal, .slip_time = kAllTheWay, .clutch_closed = 0.0, .clutch_bite = 1.0});
@@ -137,5 +138,5 @@ TEST_CASE("on the real clock a keyboard clutch keeps its pace through a change o
     passed += std::chrono::duration<double>(Steady::now() - begin).count();
   }
   CHECK(went > 0.0);
-  CHECK(went <= (passed + 0.03) / kAllTheWay);  // 30 ms: a snapshot may be several cycles old
+  CHECK(went <= (passed + 0.03) / kAllTheWay);  // + 0.03 s, because a snapshot may be several cycles old
 }

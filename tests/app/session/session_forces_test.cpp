@@ -1,4 +1,5 @@
-// Forces that the user switched off stay off after any change of gate, preset or hand, until the user arms the lever.
+// If the user has switched the forces off, they stay off after any change of gate, preset or hand until the user arms
+// the lever.
 #include <chrono>
 #include <string>
 #include <thread>
@@ -41,7 +42,7 @@ struct ForcesRig {
     requests.*request = true;
     session.apply(requests);
   }
-  // Makes a change that needs a new runtime.
+  // Requests change number `which` (0, 1, ...). Each of these changes needs a new runtime.
   void change(int which) {
     PanelRequests requests;
     if (which == 0) requests.gate = "four_speed";
@@ -65,7 +66,7 @@ TEST_CASE("after STOP or Forces off, no gate, preset, hand or restart restores t
       ForcesRig rig;
       REQUIRE(rig.has_forces());
       rig.ask(request);
-      if (which % 2 == 0) rig.go(0.5);  // in the other cases, the change comes within the same frame
+      if (which % 2 == 0) rig.go(0.5);  // for odd `which`, the change comes in the same frame as the request
       rig.change(which);
       rig.go(2.0);
       CHECK_FALSE(rig.has_forces());
@@ -121,7 +122,7 @@ TEST_CASE("event times are relative to the session's start, across every change 
 TEST_CASE("forces removed by a fault are not restored by two changes or the start of a lesson; only arming does") {
   for (const bool lesson : {false, true}) {
     ForcesRig rig;
-    // With a position margin of zero, a hand that pushes against the device's end stop causes a fault.
+    // With a position margin of zero, pushing against the device's end stop causes a fault.
     PanelRequests restart;
     restart.restart = rig.session.runtime().config().preset.haptics;
     restart.restart->guard.position_margin = 0.0;

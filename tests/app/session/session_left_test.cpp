@@ -1,4 +1,4 @@
-// The ways in which a lesson can end early, the message about each, and who controls the car afterwards.
+// Tests how a lesson can end early, the message for each case, and who controls the car afterwards.
 #include <functional>
 #include <string>
 
@@ -52,7 +52,7 @@ struct LeftRig {
     REQUIRE(session.coach().view().phase == LessonPhase::driving);
   }
   bool says(const std::string& words) const { return session.message().find(words) != std::string::npos; }
-  // Whether the learner controls the car: no pedal is pressed, so a pressed pedal would be the instructor's.
+  // Whether the learner controls the car. The learner presses no pedal, so a pressed pedal is the instructor's.
   bool has_car() {
     DriverControls free;
     free.ignition = true;
@@ -85,7 +85,7 @@ TEST_CASE("every way to end a lesson early is reported with its reason") {
     CAPTURE(rig.session.message());
     CHECK(rig.says("ended early"));
     CHECK(rig.says(one.why));
-    rig.ask(one.request);  // the same request while no lesson is running
+    rig.ask(one.request);  // no lesson is running now, so none can end early
     CHECK_FALSE(rig.says("ended early"));
   }
 }
@@ -103,7 +103,7 @@ TEST_CASE("after a lesson the instructor holds the car, and the panel shows it, 
     rig.ask([](PanelRequests& requests) { requests.lesson.leave = true; });
     CHECK_FALSE(rig.has_car());
     CHECK(rig.session.panel_input().instructor_holds_pedals);
-    // Offering a lesson does not return the car yet.
+    // Offering a lesson does not return the car to the learner; only choosing a lesson does.
     rig.ask([](PanelRequests& requests) { requests.lesson.offer = "hill_start"; });
     CHECK_FALSE(rig.has_car());
     CHECK(rig.session.panel_input().instructor_holds_pedals);
@@ -154,7 +154,7 @@ TEST_CASE("the panel shows that a trial can no longer be passed, from the failin
   LeftRig rig;
   rig.begin();
   CHECK_FALSE(rig.session.panel_input().is_unpassable);
-  DriverControls stalls;  // the clutch will be released at once, without throttle
+  DriverControls stalls;  // the engine will stall when the test releases the clutch
   stalls.ignition = true;
   stalls.clutch = 1.0;
   HandTarget first;

@@ -1,4 +1,4 @@
-// Lessons in a running session, on the virtual clock: driven, saved, replayed.
+// Lessons in a running session on the virtual clock: driven, saved and replayed.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -67,7 +67,8 @@ void go(Session& session, double seconds) {
   }
 }
 
-// Drives the lesson to its end as a competent user would, through the hand and pedal inputs, one frame per millisecond.
+// Drives the lesson to its end as a competent user would. Uses the hand and pedal inputs, with one frame per
+// millisecond.
 const CoachView& drive_as_person(Session& session) {
   if (session.coach().view().phase == LessonPhase::offered)
     ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
@@ -114,7 +115,7 @@ TEST_CASE("a competent driver passes a lesson in the running session; run, shift
   CHECK_FALSE(session.recording());
   const Trace trace = read_trace(history.recording_file(runs[0].recording).string());
   CHECK(replay(trace, make_lesson_load).bit_for_bit());
-  // The recording covers the whole lesson, with every shift.
+  // The recording covers every shift of the lesson. A shift may end up to 0.5 s after the last recorded cycle.
   for (const ShiftRecord& shift : runs[0].result.shifts) {
     CHECK(shift.begin > 1e-9 * static_cast<double>(trace.samples.front().out.time_ns));
     CHECK(shift.end < 1e-9 * static_cast<double>(trace.samples.back().out.time_ns) + 0.5);
@@ -191,7 +192,8 @@ TEST_CASE("any shift in the history can be replayed in the cabin as it was recor
     const auto then = std::find_if(trace.samples.begin(), trace.samples.end(), [time](const TraceSample& sample) {
       return 1e-9 * static_cast<double>(sample.out.time_ns) > time - 4.1e-3;
     });
-    // The lever moves at most 0.5 m/s, and a sample is at most 4 ms old, so the error is at most 2 mm.
+    // The lever moves at most 0.5 m/s and the sample is at most 4 ms old, so the shown position differs from the sample
+    // by at most 2 mm.
     CHECK(glm::length(session.shown().proxy - then->out.proxy) < 2e-3);
     CHECK(session.car().clutch == doctest::Approx(then->controls.clutch).epsilon(0.05));
     CHECK(session.car().engine_speed > 50.0);
@@ -289,7 +291,7 @@ TEST_CASE("a damaged history is reported in one sentence and left unchanged; the
 TEST_CASE("a lesson whose recording fails is still assessed and saved") {
   LessonRig rig;
   {
-    History history(rig.history);  // the database must exist before file sizes are limited
+    History history(rig.history);  // the database must exist before the file sizes are limited
     (void)history.find_or_add_learner("Ada");
   }
   const SmallFiles small(200'000);  // [bytes]
@@ -306,11 +308,11 @@ TEST_CASE("in a guided trial the lever guides and no grade is given; without hel
     CHECK(session.coach().guidance() == 0.0);
     unguided.learner += "a";
   }
-  // The lever starts in first gear, and the first step that names a gear names second, so that is the guided gear. Two
-  // of the first four trials are guided.
+  // The lesson starts in first gear. The first step that names a gear names second, so the guidance leads to second.
+  // Two of the first four trials are guided.
   SessionChoice person = rig.choice("up_through_the_gears", "grip");
   person.help = true;
-  person.learner = "Bo";  // a new learner, so that Ada's trials do not affect the guidance
+  person.learner = "Bo";  // a new learner, because Ada's trials would affect the guidance
   for (int trial = 0; trial < 4; ++trial) {
     Session driven(person);
     const CoachView& coach = drive_as_person(driven);
@@ -366,7 +368,7 @@ TEST_CASE(
   rolls.clutch = 1.0;
   session.set_driver({}, rolls);
   for (int i = 0; i < 20 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kLessonFrame);
-  REQUIRE(session.coach().view().phase == LessonPhase::over);  // the lesson ended because the car rolled back one metre
+  REQUIRE(session.coach().view().phase == LessonPhase::over);  // the car rolled back one metre, which ended the lesson
   CHECK(session.car().road_speed < -0.5);
   go(session, 2.0);
   CHECK(session.car().road_speed == 0.0);

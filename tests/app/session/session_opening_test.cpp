@@ -1,5 +1,5 @@
-// A recorded drive loads in the background: the lever keeps running, loading can be cancelled, and a rejected file is
-// reported.
+// Tests loading a recorded drive in the background: the lever keeps running, loading can be cancelled, and a rejected
+// file is reported.
 #include <chrono>
 #include <filesystem>
 #include <thread>
@@ -32,7 +32,7 @@ struct OpeningRig {
     choice.sound = SoundOutput::none;
     return Session(choice);
   }
-  // Records a drive of `seconds` seconds on the virtual clock, which is faster than real time.
+  // Records a drive of `seconds` seconds on the virtual clock, which runs faster than real time.
   fs::path recorded(double seconds) const {
     fs::path file = folder / "long.trace";
     Session driven = session(RuntimeClock::virtual_time);
@@ -55,7 +55,7 @@ ReplayRequests open(const fs::path& file) {
   return playback;
 }
 
-// Runs frames until loading has ended, and returns their number.
+// Runs frames until loading has ended, and returns the number of frames.
 int wait(Session& session) {
   int frames = 0;
   for (; frames < 6000 && !session.panel_input().opening.empty(); ++frames) {

@@ -1,4 +1,4 @@
-// Which changes the session reports to the panel as a new run, on the virtual clock.
+// Tests which changes the session reports to the panel as a new run. Uses the virtual clock.
 #include <cstdint>
 #include <functional>
 
@@ -36,7 +36,7 @@ TEST_CASE("a new lever and the start or end of a replay are new runs for the pan
   CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
   CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
   CHECK(changes([](PanelRequests& r) { r.replay = true; }, 1));
-  CHECK_FALSE(changes([](PanelRequests&) {}, 60));  // the replay has reached its end, after 0.5 s
+  CHECK_FALSE(changes([](PanelRequests&) {}, 60));  // the replay reaches its end after 0.5 s, i.e. 30 frames
   CHECK(changes([](PanelRequests& r) { r.playback.seek = 0.0; }, 1));
   CHECK(changes([](PanelRequests& r) { r.playback.close = true; }));
   CHECK(changes([](PanelRequests& r) { r.gate = "four_speed"; }));

@@ -1,5 +1,5 @@
-// The clamp limits the total offset between the felt and the drawn lever: the offset of the headset's seat reduces the
-// offset that is left for the clamp.
+// If the total offset between the felt and the drawn lever is too large, the lever is flagged as past the wall. The
+// offset of the headset's seat counts as part of this total.
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
@@ -20,7 +20,7 @@ TEST_CASE("a seat offset counts towards the 20 mm at which the true hand is show
   choice.lesson = std::string(kNoLesson);
   Session session(choice);
   HandTarget hand;
-  hand.position = {0.0, 0.012};  // into the cross aisle's wall, where no slot is
+  hand.position = {0.0, 0.012};  // against the wall of the cross aisle, where there is no slot
   const auto go = [&](double offset) {
     session.set_visual_offset(offset);
     for (int i = 0; i < 90; ++i) {

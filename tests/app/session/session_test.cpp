@@ -1,4 +1,4 @@
-// The user's requests at the panel, on the virtual clock, without window, GPU or sound card.
+// The user's requests at the panel. Tested on the virtual clock, without window, GPU or sound card.
 #include "app/session/session.h"
 
 #include <algorithm>
@@ -115,7 +115,7 @@ TEST_CASE("a change of hand also keeps a restart's configuration and the tuning 
 TEST_CASE("a failed recording is reported in the same frame, and has ended") {
   Rig rig;
   {
-    const SmallFiles small(60'000);  // [bytes] enough for a few tenths of a second
+    const SmallFiles small(60'000);  // [bytes] room to record a few tenths of a second
     rig.ask(&PanelRequests::record);
     CHECK(rig.says("recording to"));
     rig.go(3.0);
@@ -137,7 +137,8 @@ TEST_CASE("a change of gate ends the recording and reports where the file is, or
   CHECK(replay(trace, make_lesson_load).bit_for_bit());
   CHECK(trace.header.program == program_name());
   {
-    // [bytes] More than the header and less than a block, so the error occurs only when the file is closed.
+    // [bytes] More than the trace's header and less than one of its blocks, so the write fails only when the file is
+    // closed.
     const SmallFiles small(10'000);
     rig.ask(&PanelRequests::record);
     rig.go(0.1);
@@ -182,7 +183,8 @@ TEST_CASE("a replay shows the trace's cycles in order, each once, and the runnin
     events += input.events.size();
   }
   REQUIRE(cycles.size() > 235);
-  for (std::size_t i = 1; i < cycles.size(); ++i) REQUIRE(cycles[i] == cycles[i - 1] + 4);  // one snapshot every 4 ms
+  // The panel's history has one snapshot per 4 ms, i.e. per four cycles at 1 kHz.
+  for (std::size_t i = 1; i < cycles.size(); ++i) REQUIRE(cycles[i] == cycles[i - 1] + 4);
   CHECK(events == 0);
   rig.go(1.5);
   // The replay stops at the trace's end.
@@ -206,7 +208,8 @@ TEST_CASE("a trace is shown in the gate of its recording, and a change of gate e
   const glm::dvec2 shown = rig.session.shown().lever;
   rig.ask(&PanelRequests::gate, "four_speed");
   rig.session.advance(1.0 / 60.0);
-  CHECK_FALSE(rig.session.panel_input().events.empty());  // events of the running lever, e.g. that it was armed
+  // The replay has ended, so the panel gets the running lever's events, for example that it was armed.
+  CHECK_FALSE(rig.session.panel_input().events.empty());
   CHECK(rig.session.panel_input().gate->slot_count == 5);
   (void)rig.session.take_new_model();
   rig.ask(&PanelRequests::replay);
@@ -291,7 +294,7 @@ TEST_CASE("the cameras that look into the mechanism open the cabin") {
   rig.session.set_camera("gate");
   CHECK(rig.session.take_new_model());
   CHECK(rig.session.stage().model().triangle_count() != closed);
-  rig.ask(&PanelRequests::gate, "four_speed");  // the new stage is opened too
+  rig.ask(&PanelRequests::gate, "four_speed");  // the gearbox is cut open in the new stage too
   rig.session.set_camera("gate");
   CHECK(rig.session.take_new_model());
   CHECK_FALSE(rig.session.take_new_model());

@@ -1,4 +1,5 @@
-// Panel and driver share one window with the shipped bindings. Tests which of them gets which input, frame by frame.
+// Panel and driver share one window with the shipped bindings. This file tests, frame by frame, which of the two gets
+// an input.
 #include "app/session/shared_input.h"
 
 #include <string>
@@ -25,7 +26,7 @@ struct Desk {
   SharedInput shared{read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml")};
   DriverInput& driver = shared.driver();
   WindowInput window;
-  std::optional<glm::dvec2> mouse;  // [px] position in the panel's picture, if it differs from the window's
+  std::optional<glm::dvec2> mouse;  // [px] mouse position in the panel's picture; if empty, `window.mouse` is used
 
   Desk() {
     rig.input.now.guard = GuardState::running;
@@ -42,7 +43,7 @@ struct Desk {
     window.keys.clear();
     return rig.asked;
   }
-  // Presses and releases a key, and returns all requests made meanwhile.
+  // Presses and releases a key, and returns all requests made in these frames.
   PanelRequests key(int code, bool control = false) {
     window.keys = {{code, true, false, control, false}};
     PanelRequests all = frame();
@@ -81,8 +82,8 @@ TEST_CASE("a click on STOP counts once, on press, in the frame in which the mous
     CHECK(all.disarm == (std::string(name) == "disarm"));
     CHECK_FALSE(desk.driver.mouse_moves_lever());
   }
-  Desk desk;  // In the reverse direction, a click on the cabin moves the hand, although the mouse was on the panel
-              // before.
+  // A click on the cabin moves the hand, even if the mouse was on the panel in the previous frame.
+  Desk desk;
   desk.window.mouse = desk.middle("stop");
   desk.frame();
   desk.window.mouse = {640.0, 300.0};
@@ -123,7 +124,7 @@ TEST_CASE("with the shipped bindings Tab enters the panel, and its arrow keys do
   desk.key(GLFW_KEY_UP);
   CHECK(desk.driver.hand().position == glm::dvec2(0.0));
   CHECK(desk.rig.panel.visible());
-  for (int i = 0; i < 3; ++i) desk.key(GLFW_KEY_ESCAPE);  // leaves the panel again
+  for (int i = 0; i < 3; ++i) desk.key(GLFW_KEY_ESCAPE);  // leaves the panel
   CHECK_FALSE(desk.rig.panel.has_keyboard());
   CHECK_FALSE(desk.driver.mouse_moves_lever());
   desk.window.keys = {{GLFW_KEY_RIGHT, true, false, false, false}};
@@ -150,7 +151,7 @@ TEST_CASE("Ctrl+Tab cycles through the panel's parts, and Space presses the focu
   desk.key(GLFW_KEY_G, true);
   CHECK_FALSE(desk.driver.mouse_moves_lever());
   for (int i = 0; i < 3; ++i) desk.key(GLFW_KEY_ESCAPE);
-  desk.key(GLFW_KEY_TAB);  // focuses the first control of the status bar
+  desk.key(GLFW_KEY_TAB);  // Tab moves the focus to the first control of the status bar
   CHECK(desk.key(GLFW_KEY_SPACE).disarm);
   CHECK(desk.driver.pressed().empty());
 }

@@ -1,4 +1,4 @@
-// The car's curves and the engine's control, compared with values computed by hand.
+// The car's curves and the engine's control, compared with values that were computed by hand.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -81,12 +81,12 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until the starte
   control.update(300.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(300.0, 1.0) == 0.0);
-  control.add_crank_angle(100.0);  // turned by the car, not by the starter
+  control.add_crank_angle(100.0);  // [rad] turned by the car, not by the starter, so not counted
   control.turn_key(true, true);
   control.add_crank_angle(12.5);
   control.update(15.0);
   CHECK_FALSE(control.running());
-  control.add_crank_angle(0.1);  // now two turns, 12.566 rad
+  control.add_crank_angle(0.1);  // [rad] 12.5 + 0.1 is more than two turns, 12.566
   control.update(14.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(0.0, 0.0) == 60.0);
@@ -96,7 +96,7 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until the starte
   control.turn_key(true, false);
   control.update(15.0);
   CHECK_FALSE(control.running());
-  control.turn_key(true, true);  // the count of turns starts again
+  control.turn_key(true, true);  // the starter must again turn the engine twice
   control.update(15.0);
   CHECK_FALSE(control.running());
 }

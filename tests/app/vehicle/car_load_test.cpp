@@ -1,4 +1,4 @@
-// Complete shifts: a hand on the simulated lever, feet on the pedals, the car connected to the lever.
+// Complete shifts: a hand on the simulated lever, feet on the pedals, and a car that is connected to the lever.
 #include "app/vehicle/car_load.h"
 
 #include <algorithm>
@@ -18,13 +18,13 @@ using glm::dvec2;
 
 namespace {
 
-// Statistics of a drive. drive() also checks invariants in every cycle.
+// Measurements during a drive. drive() also checks invariants in every cycle.
 struct CarDrive {
-  double blocked = 0.0, ground = 0.0;  // [s] with the ring blocking, with the dogs grinding
+  double blocked = 0.0, ground = 0.0;  // [s] time with the ring blocking; time with the dogs grinding
   double deepest = 0.0;                // [m] largest depth of the proxy in a slot
-  double push = 0.0;                   // [N] largest push along the slot
+  double push = 0.0;                   // [N] the hand's largest push along the slot
   bool stalled = false;
-  std::vector<int> gears;  // in the order in which they engaged
+  std::vector<int> gears;  // the engaged gears, in order
 
   void drive(CarRun& run, double seconds) {
     const double end = run.time() + seconds;
@@ -33,7 +33,7 @@ struct CarDrive {
       const HapticSnapshot& lever = run.step();
       const VehicleState& car = run.state();
       if (lever.gear != before && lever.gear != kNeutralGear) {
-        REQUIRE(car.gear == lever.gear);  // a gear counts as engaged only with its dogs engaged
+        REQUIRE(car.gear == lever.gear);  // the lever's gear is reported only if its dogs are engaged
         gears.push_back(lever.gear);
       }
       before = lever.gear;
@@ -93,7 +93,9 @@ class Lever final : public HapticDevice {
   DeviceSpec spec_;
 };
 
-// [s] How long the ring blocks a hand in total while it shifts 2-3-2-1; 100 if first gear is not reached.
+// Returns the total time [s] for which the ring blocks the hand during the shifts 2-3-2-1; 100 if first gear is not
+// reached. `rate` [Hz] is the loop's, `delay` [cycles] is the device's. `measures`: whether the device measures the
+// hand's force.
 double blocked_time(const CarSpec& car, double rate, int delay, bool measures) {
   const Gate gate = gate_of(car);
   HapticConfig haptics;
@@ -194,7 +196,7 @@ TEST_CASE("without the clutch a hard wall blocks the gear, however long and hard
           const HapticSnapshot& lever = run.step();
           REQUIRE(lever.gear == kNeutralGear);
           REQUIRE(std::abs(lever.proxy.y) <= block + 1e-9);
-          REQUIRE(lever.load_force == dvec2(0.0));  // a plain wall, without rattle or vibration
+          REQUIRE(lever.load_force == dvec2(0.0));  // the ring blocks like a plain wall, without rattle or vibration
         }
         CHECK(std::abs(run.loop().snapshot().proxy.y) == doctest::Approx(block));
         CHECK(load.state().sync == SyncPhase::synchronising);
@@ -228,8 +230,8 @@ TEST_CASE("without the clutch a gear engages when the falling engine speed match
   }
 }
 
-// Users of other simulators complain about gears that engage while they grind, and about grinding that ignores the
-// push.
+// Reason for this test: users of other simulators complain that grinding gears engage, and that the grinding does not
+// depend on the push.
 TEST_CASE(
     "a worn synchroniser grinds at a hard wall, louder with more push, and no gear engages before the speeds match") {
   CarSpec car = shipped_car("hatchback");
@@ -261,7 +263,7 @@ TEST_CASE(
     CHECK(run.loop().snapshot().gear == 2);
     CHECK(ground > 0.05);
     CHECK(power > 1.4 * quieter);
-    CHECK(max_step < 3.0);  // [N] change from one cycle to the next
+    CHECK(max_step < 3.0);  // [N] force change per cycle
     quieter = power;
   }
 }
@@ -285,11 +287,11 @@ TEST_CASE(
     }
     return false;
   };
-  const double lock_feel = 12.0;  // [N] pull-out force of the gate's own feel
+  const double lock_feel = 12.0;  // [N] force with which the gate's own feel holds the gear
   for (const int gear : {1, 2, 3}) {
     CAPTURE(gear);
     CHECK_FALSE(pulled_out(gear, 31.0, clutch_up(1.0)));
-    CHECK_FALSE(pulled_out(gear, 60.0, clutch_up(1.0)));  // a pull that exceeds the device's force
+    CHECK_FALSE(pulled_out(gear, 60.0, clutch_up(1.0)));  // [N] more than the device's 31.7, yet the gear holds
     CHECK(pulled_out(gear, lock_feel + 2.0, clutch_down()));
     DriverControls full_throttle = clutch_down();
     full_throttle.throttle = 1.0;
@@ -340,7 +342,8 @@ TEST_CASE("over many shifts, no gear stays engaged in neutral, and no force rema
     const HapticSnapshot& lever = run.step();
     in_neutral = lever.slot == kNoSlot ? in_neutral + 0.001 : 0.0;
     if (lever.slot == kNoSlot) REQUIRE(run.state().gear == kNeutralGear);
-    if (lever.slot == kNoSlot) REQUIRE(lever.load_force == dvec2(0.0));  // no rattle or bump outside the slots
+    // Outside the slots, the car exerts no force on the lever.
+    if (lever.slot == kNoSlot) REQUIRE(lever.load_force == dvec2(0.0));
     if (in_neutral > 0.012) REQUIRE(lever.gear == kNeutralGear);
     times += in_neutral > 0.012 && in_neutral < 0.0135 ? 1 : 0;
   }
@@ -385,9 +388,10 @@ TEST_CASE("reverse is locked out by the gate at 30 km/h, blocked by its dogs at 
   CHECK(drive_at(2.0, 2.0, walking) == kNeutralGear);
   CHECK(walking.deepest == doctest::Approx(dogs));
   CHECK(walking.ground > 0.2);
-  CHECK(drive_at(0.0, 2.0, resting) == kReverseGear);  // after 2 s the shaft has slowed down
+  CHECK(drive_at(0.0, 2.0, resting) == kReverseGear);  // after a wait of 2 s the shaft has stopped
   CHECK(resting.ground == 0.0);
-  CHECK(drive_at(0.0, 0.1, hasty) == kReverseGear);  // after 0.1 s the shaft still turns, and the grinding dogs stop it
+  // After a wait of 0.1 s the shaft still turns, and the dogs grind until it stops.
+  CHECK(drive_at(0.0, 0.1, hasty) == kReverseGear);
   CHECK(hasty.ground > 0.1);
 }
 
@@ -418,7 +422,7 @@ TEST_CASE("the energy ledger balances over a whole drive, and the cone's heat fo
   CHECK(before + went.engine == doctest::Approx(out + run.load.driveline().kinetic_energy()).epsilon(1e-9));
   CHECK(went.cone > 20.0);
   CHECK(heat == doctest::Approx(went.cone).epsilon(0.05));
-  CHECK(work < 0.001);  // [J] the car does no work on the hand
+  CHECK(work < 0.001);  // [J] the car does practically no work on the hand
 }
 
 TEST_CASE("a device of 31.7 N renders 0.53 of the real forces, a strong device all of them") {

@@ -1,5 +1,5 @@
-// A drive with a car connected to the lever is recorded, and replayed from its inputs and the load's replay parameters
-// only.
+// Records a drive with a car connected to the lever, and replays it. The replay uses only the recorded inputs and the
+// load's replay parameters.
 #include <string>
 #include <vector>
 
@@ -17,8 +17,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// The clutch is pressed most of the time and then stays up, so that one shift lacks it and the engine stalls; it is
-// restarted at 8 s. The slope varies all the time.
+// The clutch is pressed most of the time. From 5 s to 8 s it stays up, so one shift lacks the clutch, and the engine
+// stalls. At 8 s the clutch is pressed and the engine is restarted. The slope varies all the time.
 DriverControls busy_feet(double time) {
   DriverControls feet = std::fmod(time, 1.1) < 0.9 ? clutch_down() : clutch_up(0.37);
   if (time > 5.0) feet = clutch_up();
@@ -115,15 +115,15 @@ TEST_CASE("a load's name gives the same load; without a car name there is none, 
     LeverInput in;
     in.controls.ignition = true;
     same->step(in, 0.001);
-    CHECK(same->state().stalled == stalled);  // the ignition stays on, so a stall stays reported
+    CHECK(same->state().stalled == stalled);  // a stall stays reported while the ignition is on
     CHECK(start_from(same->state()).stalled == stalled);
   }
 
   Trace trace = recorded(car);
   trace.header.load.replace(trace.header.load.find("ratio_2 = 1.94"), 14, "ratio_2 = 9.94");
-  CHECK(refusal(trace).find("cannot be replayed, because its lever load is invalid: hatchback.toml:") !=
+  CHECK(refusal(trace).find("cannot be replayed, because its car or lesson is invalid: hatchback.toml:") !=
         std::string::npos);
   CHECK(refusal(trace).find("must be less than ratio_1") != std::string::npos);
   trace.header.load = "a \x1b[31mship\nof wood";
-  CHECK(refusal(trace).find("its lever load \"a ?[31mship\" is not known to this program") != std::string::npos);
+  CHECK(refusal(trace).find("the lever load \"a ?[31mship\" is not known to this program") != std::string::npos);
 }

@@ -1,4 +1,4 @@
-// Runs hand, feet, lever, loop and car together on a virtual clock.
+// Hand, feet, lever, loop and car, run together on a virtual clock.
 #pragma once
 
 #include <functional>
@@ -63,7 +63,7 @@ struct CarRun {
   Feet feet_;
 };
 
-// A hand that waits for `wait` seconds and then shifts through `gears` as a practised driver does.
+// A hand that waits for `wait` seconds, and then shifts through `gears` like a practised driver.
 inline haptics::ScriptedHand shifting_hand(const haptics::Gate& gate, int from, std::vector<int> gears,
                                            double wait = 0.2, double dwell = 0.5) {
   const glm::dvec2 start = haptics::rest_position(gate, from);
@@ -74,7 +74,8 @@ inline haptics::ScriptedHand shifting_hand(const haptics::Gate& gate, int from, 
   return {haptics::touring_hand(start), std::move(strokes), 0.001};
 }
 
-// A start in `gear` at the road speed at which the shaft turns at `shaft_speed` [rad/s]. The engine turns with it.
+// A start in `gear` while the car rolls: shaft and engine turn at `shaft_speed` [rad/s], and the road speed corresponds
+// to it.
 inline vehicle::CarStart rolling_in(const vehicle::CarSpec& car, int gear, double shaft_speed) {
   vehicle::CarStart start;
   start.gear = gear;

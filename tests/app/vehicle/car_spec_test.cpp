@@ -1,4 +1,4 @@
-// Car files are read, and invalid ones are rejected in one sentence with file, line and reason.
+// Tests of reading car files. An invalid file must be rejected in one sentence with file, line and reason.
 #include "app/vehicle/car_spec.h"
 
 #include <algorithm>
@@ -22,10 +22,10 @@ namespace {
 
 struct Hostile {
   const char* file;
-  const char* sentence;  // the expected message after the file name
+  const char* sentence;  // the expected message, without the file name
 };
 
-// Expected lines and reasons, written down by reading the files in tests/data/hostile_cars.
+// The expected line numbers and reasons, written by hand from the files in tests/data/hostile_cars.
 constexpr Hostile kHostile[] = {
     {"bite_beyond_pedal", ":34: bite_pedal = 1.2: must be between 0 and 1"},
     {"capacity_missing", ":32: capacity_nm is missing: it must be a number between 1 and 10000"},
@@ -41,7 +41,7 @@ constexpr Hostile kHostile[] = {
     {"idle_above_shift", ":20: idle_rpm = 2100: must be less than shift_from_rpm"},
     {"idle_below_stall", ":22: stall_rpm = 350: must be less than idle_rpm"},
     {"inertia_nan", ":19: inertia_kgm2 = nan: must be between 0.01 and 10"},
-    {"limiter_band_to_idle", ":25: limiter_band_rpm = 1000: must not reach from limiter_rpm down to idle_rpm"},
+    {"limiter_band_to_idle", ":25: limiter_band_rpm = 1000: must not exceed limiter_rpm minus idle_rpm"},
     {"lug_above_shift", ":30: lug_below_rpm = 2500: must be less than shift_to_rpm"},
     {"massless", ":61: mass_kg = 0: must be between 100 and 60000"},
     {"negative_reverse", ":43: ratio_r = -3.17: must be between 0.1 and 20"},
@@ -69,11 +69,9 @@ constexpr Hostile kHostile[] = {
     {"too_many_points",
      ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, but has 25"},
     {"torque_begins_late",
-     ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, but reaches from 1500 to "
-     "7000"},
+     ":4: full_load = (a list): must cover all speeds from idle_rpm to limiter_rpm, but covers only 1500 to 7000 rpm"},
     {"torque_stops_short",
-     ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, but reaches from 600 to "
-     "6000"},
+     ":4: full_load = (a list): must cover all speeds from idle_rpm to limiter_rpm, but covers only 600 to 6000 rpm"},
     {"unknown_key", ":68: abs is not a known key; known keys: mass_kg"},
     {"unknown_table", ":69: turbo is not a known key; known keys: title, gate, engine, clutch, gearbox, synchro, body"},
     {"wheel_in_metres", ":63: wheel_radius_mm = 0.303: must be between 100 and 1000"},
@@ -126,7 +124,7 @@ TEST_CASE("the hatchback is the car used for the other methods, in SI units") {
   CHECK(car.synchro.cone_angle == doctest::Approx(0.11345).epsilon(1e-4));
   CHECK(car.synchro.radius == doctest::Approx(0.03));
   CHECK(car.body.wheel_radius == doctest::Approx(0.3032));
-  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // computed by hand from ratios and wheel
+  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // [km/h] speed per 1000 rpm, computed by hand
   for (int gear = 1; gear <= 5; ++gear)
     CHECK(3.6 * road_speed_at(car, gear, 1000.0 * kRpm) == doctest::Approx(kmh_per_krpm[gear - 1]).epsilon(0.007));
   CHECK(shaft_per_road(car, 6) == 0.0);
@@ -151,6 +149,7 @@ TEST_CASE("a gate with a gear that the car lacks is rejected when they are combi
   const Gate six = shipped_gate("six_speed_r_left_up");
   const std::string sentence = "this gate has a gear 6, but the car \"hatchback\" does not";
   CHECK_THROWS_WITH_AS(CarLoad(car, six, kPaperForce), sentence.c_str(), std::invalid_argument);
-  CHECK_NOTHROW(CarLoad(car, shipped_gate("four_speed"), kPaperForce));  // this gate only lacks fifth gear
+  // This gate has no fifth gear, which is allowed.
+  CHECK_NOTHROW(CarLoad(car, shipped_gate("four_speed"), kPaperForce));
   CHECK_THROWS_AS(CarLoad(car, gate_of(car), 0.0), std::invalid_argument);
 }

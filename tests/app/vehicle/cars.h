@@ -1,4 +1,4 @@
-// The shipped cars, and functions that tests of them use.
+// The shipped cars, and functions for tests that use them.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace gearshift::test {
 
 inline constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
-inline constexpr double kPaperForce = 31.7;              // [N] largest force of the paper's lever
+inline constexpr double kPaperForce = 31.7;              // [N] the largest force of the paper's lever
 
 inline vehicle::CarSpec shipped_car(const std::string& name) {
   return vehicle::read_car(GEARSHIFT_ASSETS "/cars/" + name + ".toml");
@@ -25,7 +25,7 @@ inline double ratio_of(const vehicle::CarSpec& car, int gear) {
   return std::abs(vehicle::shaft_per_road(car, gear)) * car.body.wheel_radius / car.gearbox.final_drive;
 }
 
-// The road speed [m/s] at which the shaft turns at `shaft_speed` [rad/s] in `gear`.
+// [m/s] The road speed at which the shaft turns at `shaft_speed` [rad/s] in `gear`.
 inline double road_speed_at(const vehicle::CarSpec& car, int gear, double shaft_speed) {
   return shaft_speed / vehicle::shaft_per_road(car, gear);
 }

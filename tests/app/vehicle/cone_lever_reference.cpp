@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kLocate = 1e-13;  // [s]
 
-enum { arc, speed, smooth, shaft, road, heat, states };  // arc and speed: the lever's position and speed along its arc
+// Indices into the state: the lever's position and speed along its arc, its filtered speed (smooth), the speeds of the
+// shaft and the car (road), and the cone's heat. `states` is their number.
+enum { arc, speed, smooth, shaft, road, heat, states };
 using Y = std::array<double, states>;
 
 Y sum(Y y, double h, const Y& d) {
@@ -23,7 +25,7 @@ int side(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
 }
 
-// Rises from 0 at u = 0 to 1 at u = 1, with zero slope at both ends.
+// A smooth step: rises from 0 at u = 0 to 1 at u = 1, with zero slope at both ends.
 double rise(double u) {
   return u <= 0.0 ? 0.0 : u >= 1.0 ? 1.0 : 3.0 * u * u - 2.0 * u * u * u;
 }
@@ -57,8 +59,7 @@ class Reference {
   }
 
  private:
-  // [N] The gate's feel at a depth: the detent's bump at the mouth, a dip, the detent's crest, then the pull of the
-  // lock.
+  // [N] The gate's force at depth `at`: a bump at the mouth, a dip, the detent's crest, then the pull into the gear.
   double feel(double at) const {
     const RingSlot& s = slot_;
     const auto between = [at](double a, double from, double b, double to) {
@@ -86,7 +87,7 @@ class Reference {
     return std::clamp(wanted, -s.max_motor_force, s.max_motor_force);
   }
 
-  // [N] The hand's force along the arc, without the inertia of the hand.
+  // [N] The hand's force along the arc, without the force that accelerates the hand's own mass.
   double drive(const Y& y, double t) const {
     const SlotHand& hand = case_.hand;
     if (hand.speed == 0.0) return hand.push * slope_at(y) - hand.grip.damping * y[speed];
@@ -108,8 +109,8 @@ class Reference {
 
   double slip(const Y& y) const { return y[shaft] - per_road_ * y[road]; }
 
-  // [N m] The cone's torque at the shaft. The ring is pressed with a fraction of the push, which rises from 0 at the
-  // detent's crest to 1 at the depth where the ring blocks.
+  // [N m] The cone's torque at the shaft. Only a fraction of the push presses on the ring. The fraction rises from 0 at
+  // the detent's crest to 1 at the depth where the ring blocks.
   double cone(const Y& y, double t) const {
     const double fraction = rise((depth(y) - slot_.crest) / (slot_.block - slot_.crest));
     return torque_per_push_ * std::max(0.0, push(y, t)) * fraction;
@@ -124,7 +125,7 @@ class Reference {
     return opened * (vehicle::full_torque(e, w) + friction) - friction;
   }
 
-  // [N m] The torque on the shaft without the Coulomb drag.
+  // [N m] The torque on the shaft without its Coulomb drag.
   double shaft_torque(const Y& y, double t) const {
     return engine(y[shaft]) - side(slip(y)) * cone(y, t) - car_.gearbox.drag_slope * y[shaft];
   }
@@ -186,12 +187,12 @@ class Reference {
   const ConeLeverCase& case_;
   const vehicle::CarSpec& car_;
   const RingSlot& slot_;
-  double per_road_ = 0.0, ratio_ = 1.0;  // [rad/m] shaft per road; [1] shaft to gear
-  double torque_per_push_ = 0.0;         // [m] cone torque at the shaft divided by the push
+  double per_road_ = 0.0, ratio_ = 1.0;  // [rad/m] shaft angle per distance driven; [1] shaft speed / gear speed
+  double torque_per_push_ = 0.0;         // [m] cone torque at the shaft / push
   double inertia_ = 0.0;                 // [kg m^2]
   Y y_{};
   bool touches_ = false;
-  int turn_ = 0;  // direction in which the shaft turns; 0: its drag holds it still
+  int turn_ = 0;  // sign of the shaft's speed; 0 if the shaft is held by its drag
 };
 
 }  // namespace

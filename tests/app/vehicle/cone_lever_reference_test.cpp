@@ -1,4 +1,5 @@
-// Cone and lever coupled: the shipped hand, haptic loop and car, compared with the same laws in continuous time.
+// The coupling of cone and lever: the shipped hand, haptic loop and car are compared with the same laws in continuous
+// time.
 #include "tests/app/vehicle/cone_lever_reference.h"
 
 #include <algorithm>
@@ -19,12 +20,12 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kReady = 0.05;    // [s] start of the hand's motion, after the guard has ramped up
-constexpr double kHeld = 2000.0;   // [N/m] the hand's stiffness until then, and always across the slot
-constexpr double kStart = 0.012;   // [m] the lever's first depth, past the slot's mouth
-constexpr double kStraight = 1.0;  // [m] yoke radius of the nearly straight lever
+constexpr double kReady = 0.05;    // [s] time at which the hand begins to move, after the guard has ramped up
+constexpr double kHeld = 2000.0;   // [N/m] stiffness of the hand before it moves, and always across the slot
+constexpr double kStart = 0.012;   // [m] depth of the lever at the start, past the slot's mouth
+constexpr double kStraight = 1.0;  // [m] yoke radius of a lever that moves almost in a straight line
 
-// The feel of the hatchback's gate, from its layout file and the README of haptics/gate.
+// Forces and depths of the hatchback's gate, taken from its layout file and from the README of haptics/gate.
 RingSlot ring_slot(const Slot& slot) {
   RingSlot ring;
   ring.mouth = 0.010;
@@ -42,7 +43,7 @@ RingSlot ring_slot(const Slot& slot) {
   return ring;
 }
 
-// SlotHand as a HandDriver for the product. Its target is computed once per period, for the middle of the period.
+// Makes a SlotHand usable as a HandDriver. Its target is computed once per period, for the middle of the period.
 class InSlot final : public HandDriver {
  public:
   InSlot(const SlotHand& hand, double direction, double across, double period)
@@ -71,10 +72,10 @@ class InSlot final : public HandDriver {
 struct Shift {
   std::string name;
   int from, to;
-  double shaft;  // [rad/s] shaft speed at the start, in gear `from`
+  double shaft;  // [rad/s] shaft speed in gear `from`, at the start
   SlotHand hand;
   bool clutch_closed = false;
-  double road = 0.0;  // [m/s] used if `from` is neutral
+  double road = 0.0;  // [m/s] road speed at the start, if `from` is neutral
 };
 
 SlotHand pushing(double real) {
@@ -100,12 +101,12 @@ LeverArc arc_of(bool straight, double across) {
 struct ProductResult {
   ConeLeverStart start;
   ConeLeverOutcome out;
-  std::vector<double> push;  // [N] one per cycle
-  double imbalance = 0.0;    // [1] energy balance error divided by the energy turned over
+  std::vector<double> push;  // [N] one value per cycle
+  double imbalance = 0.0;    // [1] error of the energy balance / (initial energy + converted energy)
   bool ground = false, locked = true;
 };
 
-// The shipped lever or, if `straight`, one with a nearly straight path and a force sensor of infinite resolution.
+// The shipped lever. If `straight`, the lever's path is almost straight, and its force sensor has infinite resolution.
 SimulatedLeverConfig lever_of(bool straight) {
   SimulatedLeverConfig lever;
   lever.hand = kGripHand;
@@ -195,11 +196,11 @@ ConeLeverCase case_of(const CarSpec& car, const Shift& shift, bool straight) {
   reference_case.gear = shift.to;
   reference_case.force_scale = kPaperForce / 60.0;
   reference_case.clutch_closed = shift.clutch_closed;
-  reference_case.step = 1e-5;  // converged, as the last test shows
+  reference_case.step = 1e-5;  // [s] small enough, as the test "the reference has converged ..." shows
   return reference_case;
 }
 
-// [N] The mean push during the second half of the contact with the ring.
+// [N] The mean push during the second half of the time for which lever and ring touch.
 double plateau(const std::vector<double>& push, double rate, const ConeLeverOutcome& out) {
   const double middle = 0.5 * (out.touch + out.open);
   double total = 0.0, count = 0.0;
@@ -216,7 +217,7 @@ std::vector<double> push_of(const ConeLeverOutcome& out) {
   return push;
 }
 
-// [rad/s] The largest difference between the two shaft speeds.
+// [rad/s] The largest difference between the shaft speeds of the two results.
 double shaft_off(const ConeLeverOutcome& measured, const ConeLeverOutcome& truth) {
   double max = 0.0;
   for (std::size_t i = 0; i < std::min(measured.samples.size(), truth.samples.size()); ++i)
@@ -231,7 +232,7 @@ double steepest(const ConeLeverOutcome& truth) {
   return max;
 }
 
-// Tolerances: `fraction` of the compared value, and `force` for the steps of the force sensor.
+// `fraction` is relative to the compared value; `force` covers the resolution of the force sensor.
 struct Tolerance {
   double fraction, force;  // [1], [N]
 };
@@ -262,9 +263,10 @@ void compare(const CarSpec& car, const Shift& shift, bool straight, const Tolera
 
 }  // namespace
 
-// The product may be late by up to three periods: the ring uses speeds that are one period old; the cone uses a push
-// that is one period old and then rises linearly over one period; and events are seen only at whole periods. The
-// relative tolerance covers the encoder's resolution, which affects the damping of walls and aisles.
+// The shipped code may be late by up to three periods: the ring uses speeds that are one period old, the cone uses a
+// push that is one period old and applies it as a linear rise over one period, and events are detected only at whole
+// periods. The relative tolerance of 0.002 covers the encoder's resolution, which affects the damping of walls and
+// aisles.
 TEST_CASE("cone and lever match the reference: when the ring opens, shaft speed, heat, the hand's force") {
   const CarSpec car = shipped_car("hatchback");
   for (const Shift& shift : shifts()) {
@@ -273,8 +275,8 @@ TEST_CASE("cone and lever match the reference: when the ring opens, shaft speed,
   }
 }
 
-// The sensor's resolution is 44 gram-force. Half of it is 1.4 % of a push of 16 N, and the cone's torque is
-// proportional to the push.
+// The force sensor's resolution is 44 gram-force. Half of that is 1.4 % of a push of 15.85 N. So the cone's torque,
+// which is proportional to the push, can also differ by 1.4 %.
 TEST_CASE("with the shipped yoke and force sensor they match within half the sensor's resolution") {
   const CarSpec car = shipped_car("hatchback");
   const double half_step = 0.5 * 44.0 * kNewtonPerGramWeight;
@@ -300,7 +302,9 @@ TEST_CASE(
   CHECK(coarse.touch == doctest::Approx(fine.touch).epsilon(1e-7));
   CHECK(coarse.heat == doctest::Approx(fine.heat).epsilon(1e-7));
 
-  // t = J dw / (T + drag), with T = n F mu R / sin(a), times the lever ratio, divided by the gear ratio.
+  // The time to synchronise is J dw / (T + drag). J is the shaft's inertia, dw the speed difference, and `drag` the
+  // shaft's drag torque. T is the cone's torque at the shaft: the force on the ring times the cone's friction and
+  // radius, divided by sin(cone angle) and by the gear ratio.
   const double inertia = car.clutch.disc_inertia, drag = car.gearbox.drag, ratio = ratio_of(car, 2);
   const double torque = 30.0 * 9.0 * 0.8 * 0.10 * 0.030 / std::sin(6.5 * std::numbers::pi / 180.0) / ratio;
   const ConeLeverSample& still = fine.samples[160];
@@ -309,12 +313,12 @@ TEST_CASE(
   CHECK(fine.open - 0.160 ==
         doctest::Approx(inertia * (slip - car.synchro.dog_speed * ratio) / (torque + drag)).epsilon(0.01));
 
-  // The energy that the shaft lost, minus its drag losses, entered the cone: part became heat, the rest accelerated the
-  // car.
+  // The energy that the shaft lost went into its drag and into the cone. In the cone, one part became heat, and the
+  // rest accelerated the car.
   double dragged = 0.0, pushed = 0.0;
   for (std::size_t i = 1; i < fine.samples.size(); ++i) {
     const ConeLeverSample &a = fine.samples[i - 1], &b = fine.samples[i];
-    const double passed = inertia * (a.shaft - b.shaft) - 0.001 * drag;  // [N m s] impulse through the cone
+    const double passed = inertia * (a.shaft - b.shaft) - 0.001 * drag;  // [N m s] angular impulse through the cone
     dragged += 0.001 * drag * 0.5 * (a.shaft + b.shaft);
     pushed += passed * shaft_per_road(car, 2) * 0.5 * (a.road + b.road);
   }

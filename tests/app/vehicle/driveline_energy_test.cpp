@@ -1,4 +1,4 @@
-// The energy ledger balances to rounding for any use of the pedals.
+// The energy ledger of the driveline balances, up to rounding, for any use of the pedals.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -23,7 +23,7 @@ double turnover(const EnergyLedger& e) {
   return std::abs(e.engine) + e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.teeth + e.mesh;
 }
 
-// Every loss must be non-decreasing. The slope's energy is no loss and may decrease.
+// A loss must never decrease. The energy spent on the slope is not a loss, so it may decrease.
 bool losses_only_grow(const EnergyLedger& a, const EnergyLedger& b, double rounding) {
   const double EnergyLedger::*losses[] = {&EnergyLedger::friction, &EnergyLedger::clutch, &EnergyLedger::cone,
                                           &EnergyLedger::rolling,  &EnergyLedger::brakes, &EnergyLedger::shaft_drag,
@@ -32,7 +32,7 @@ bool losses_only_grow(const EnergyLedger& a, const EnergyLedger& b, double round
                      [&](const double EnergyLedger::*part) { return b.*part >= a.*part - rounding; });
 }
 
-// A driver with random pedals and gears, who sometimes switches the ignition off or uses a cone.
+// A driver with random pedals and gears, who sometimes switches the ignition off or presses a synchroniser cone.
 class RandomDriver {
  public:
   explicit RandomDriver(unsigned seed) : random_(seed) {}
@@ -112,7 +112,7 @@ TEST_CASE("with the engine off the car only loses energy") {
   CHECK(line.energy().engine == 0.0);
 }
 
-// With an efficiency of 0.9, a long pull loses a tenth of the transmitted energy in the teeth.
+// With an efficiency of 0.9, the gear teeth turn a tenth of the transmitted energy into heat.
 TEST_CASE("gear teeth dissipate (1 - efficiency) of the transmitted energy") {
   CarSpec car = bare_car(0.1, 0.6, 300.0, 100.0);
   car.gearbox.efficiency = 0.9;

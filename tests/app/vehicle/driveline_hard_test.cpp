@@ -1,4 +1,4 @@
-// Hard cases for drivelines: standing, holding, stalling, chattering, late steps, and non-finite inputs.
+// Hard cases for the driveline: standing, holding, stalling, chattering, late steps, and non-finite inputs.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -40,8 +40,8 @@ bool same_bits(const VehicleState& a, const VehicleState& b) {
 
 }  // namespace
 
-// On a slope of 20 %, a slipping clutch holds the car while its torque T, times shaft_per_road(), differs from
-// m g sin(slope) by no more than the rolling resistance.
+// On a slope of 20 %, a slipping clutch holds the car if its pull at the wheels (torque times shaft_per_road()) differs
+// from the downhill force m g sin(slope) by no more than the rolling resistance.
 TEST_CASE("on a hill a slipping clutch holds the car only while the rolling resistance covers the remaining force") {
   CarSpec car = hatchback();
   car.gearbox.drag = car.gearbox.drag_slope = 0.0;
@@ -99,8 +99,8 @@ TEST_CASE("a car released on a hill rolls back, and stops when braked") {
   CHECK(line.state().road_speed == 0.0);
 }
 
-// The engine cannot turn backwards. So on an uphill slope in first gear a stopped engine holds the car with all that
-// the clutch can transmit; on a downhill slope it holds the car only with its friction.
+// The engine cannot turn backwards. In first gear on an uphill slope, a stopped engine therefore holds the car with all
+// the torque that the clutch can transmit. On a downhill slope, it holds the car only with its friction.
 TEST_CASE("a stopped engine in gear holds the car on a hill") {
   const CarSpec car = hatchback();
   DrivelineInput in = pedals(1, 0.0, 0.0);
@@ -141,7 +141,7 @@ TEST_CASE("a dumped clutch stalls the engine; the starter restarts it, also repe
     in.ignition = false;
     drive(line, in, 3.0);
     CHECK_FALSE(line.state().running);
-    CHECK_FALSE(line.state().stalled);  // switching off is not reported as a stall
+    CHECK_FALSE(line.state().stalled);  // switching the engine off is not a stall
   }
 }
 
@@ -153,7 +153,7 @@ TEST_CASE("only an engine that ran by itself can stall, not one that never start
   DrivelineInput cranks = on, off = on;
   cranks.starter = true;
   off.ignition = false;
-  // Releases the starter as soon as the engine fires, before it can run by itself, so that it dies again.
+  // Releases the starter as soon as the engine fires. The engine cannot run by itself yet, so it dies again.
   const auto start_badly = [&] {
     for (int i = 0; i < 5000 && !line.state().running; ++i) line.step(cranks, 0.001);
     REQUIRE(line.state().engine_speed < car.engine.stall);
@@ -178,7 +178,7 @@ TEST_CASE("only an engine that ran by itself can stall, not one that never start
   drive(line, on, 1.0);
   CHECK_FALSE(line.state().stalled);
   drive(line, cranks, 2.0);
-  drive(line, off, 0.01);  // the running engine is switched off
+  drive(line, off, 0.01);  // the engine was running, and is switched off
   CHECK_FALSE(line.state().running);
   drive(line, on, 3.0);
   CHECK_FALSE(line.state().stalled);
@@ -186,7 +186,7 @@ TEST_CASE("only an engine that ran by itself can stall, not one that never start
 
 TEST_CASE("with the clutch up the starter drives the car in gear while the engine does not fire") {
   CarSpec car = hatchback();
-  car.engine.starter_torque = 10.0;  // [N m] more than the engine's friction of 8 and not enough to move the car
+  car.engine.starter_torque = 10.0;  // [N m] exceeds the engine's friction of 8, but cannot move the car
   Driveline line(car);
   line.place(0.0, 0.0, 0.0, false);
   DrivelineInput in = pedals(1, 0.0, 0.0);
@@ -258,7 +258,8 @@ TEST_CASE(
   CHECK(begin + e.engine - e.friction == Approx(line.kinetic_energy()).epsilon(1e-9));
 }
 
-// One long step replaces the steps of the gap. It takes the pedals to move linearly, as they do in this test.
+// One long step replaces the missing steps. The driveline assumes that the pedals moved linearly during that step, as
+// they do in this test.
 TEST_CASE("a late step of 33, 100 or 500 ms gives the same result as steps of 1 ms") {
   const auto foot = [](double t) { return pedals(1, ramp(t, 0.0, 0.5, 0.0, 0.25), ramp(t, 0.25, 1.75, 1.0, 0.0)); };
   for (const int late : {33, 100, 500}) {
@@ -299,7 +300,8 @@ TEST_CASE("a step of zero length applies the pedals and updates the outputs") {
   CHECK(line.state().road_speed == 0.0);
 }
 
-// The car stops, and within the same millisecond its shaft would become slower than the engine.
+// In the only step (1 ms), the car stops, and with it the gearbox shaft. So the shaft is first faster and then slower
+// than the engine.
 TEST_CASE("with the clutch down the car's stopping does not affect the engine") {
   const CarSpec car = hatchback();
   Driveline line(car);
@@ -344,7 +346,7 @@ TEST_CASE("a locked clutch stays exactly locked under drive and overrun, for any
   CHECK(locked);
 }
 
-// The shaft's motion is J w' = -(d + s w), until it stops.
+// Until the shaft stops, its speed w follows J w' = -(d + s w), with the inertia J, the drag d and the drag's slope s.
 TEST_CASE(
     "in neutral the shaft turns with the engine while the clutch is up, and its drag stops it with the clutch down") {
   const CarSpec car = hatchback();

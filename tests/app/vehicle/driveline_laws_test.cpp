@@ -1,4 +1,4 @@
-// The driveline compared with closed forms: each law is tested with the others switched off.
+// The driveline compared with closed forms. Each law is tested with the other laws switched off.
 #include <algorithm>
 #include <cmath>
 
@@ -32,8 +32,9 @@ DrivelineInput engine_off(int gear, double clutch) {
 
 }  // namespace
 
-// t = Jr dw / T and, for any torque, E = Jr dw^2 / 2, with 1 / Jr = 1 / J1 + 1 / J2. The common speed follows from the
-// total momentum.
+// A clutch with the torque T locks two inertias J1 and J2 after t = Jr dw / T. Here dw is their speed difference, and
+// Jr = J1 J2 / (J1 + J2) is their reduced inertia. The clutch heat is Jr dw^2 / 2 for any torque. The common speed
+// follows from the total momentum.
 TEST_CASE("two free inertias lock after Jr dw / T, at the speed of their common momentum, and lose Jr dw^2 / 2") {
   for (const double step : {0.001, 0.0042, 0.011, 0.033}) {
     CAPTURE(step);
@@ -60,7 +61,9 @@ TEST_CASE("inertias with ratios of 1 to 100 and 100 to 1 lock by the same law") 
   }
 }
 
-// t = dw / (T / Jr - T1 / J1 - T2 / J2), E = T dw t / 2, with the loads T1 and T2.
+// The clutch torque T and the load torques T1 and T2 act on the inertias J1 and J2, whose reduced inertia is Jr. If the
+// initial speed difference is dw, the clutch locks after t = dw / (T / Jr - T1 / J1 - T2 / J2),
+// and its heat is T dw t / 2.
 TEST_CASE("with loads on both sides the clutch locks later, and loses T dw t / 2") {
   CarSpec car = bare_car(0.15, 0.569, 200.0, 60.0);
   car.body.resistance = 40.0 * kPerRoad;
@@ -69,7 +72,7 @@ TEST_CASE("with loads on both sides the clutch locks later, and loses T dw t / 2
   const double rate = 200.0 * (1.0 / 0.15 + 1.0 / 0.569) - 60.0 / 0.15 - 40.0 / 0.569;
   const double time = time_until(line, pedals(1, 1.0, 0.0), 0.001, is_locked);
   CHECK(relative_error(time, 270.0 / rate) < 1e-9);
-  // For the rest of the last step the clutch was locked, which adds no heat.
+  // The clutch locked within the last step. For the rest of that step it adds no heat.
   CHECK(relative_error(line.energy().clutch, 200.0 * 270.0 * 270.0 / rate / 2.0) < 1e-9);
 }
 
@@ -85,8 +88,9 @@ TEST_CASE("a clutch whose capacity is too small for the loads never locks, and i
   CHECK(relative_error(slip(line), 270.0 - rate * 2.0) < 1e-9);
 }
 
-// The pedal goes from the bite point to the closed point in T, so the capacity is C x^2 with x = t / T. It follows that
-// Jr dw = C t^3 / (3 T^2).
+// The pedal goes from the bite point to the closed point in the time T (here 1 s). So the clutch's capacity is
+// C (t / T)^2, where C is the capacity of the closed clutch. The clutch locks when its angular impulse C t^3 / (3 T^2)
+// equals Jr dw, with the reduced inertia Jr and the initial speed difference dw.
 TEST_CASE("with a pedal released at constant speed the clutch locks after the cube root of 3 Jr dw T^2 / C") {
   const CarSpec car = bare_car(0.15, 0.569, 240.0);
   Driveline line(car);
@@ -100,7 +104,8 @@ TEST_CASE("with a pedal released at constant speed the clutch locks after the cu
   CHECK(relative_error(line.energy().clutch, 0.5 * reduced * 200.0 * 200.0) < 1e-9);
 }
 
-// t = sqrt(2 Jr dw / k), E = Jr dw^2 / 2.
+// With the reduced inertia Jr and the speed difference dw, the clutch locks at t = sqrt(2 Jr dw / k).
+// Its heat is Jr dw^2 / 2.
 TEST_CASE("with a capacity that grows as k t the clutch locks after sqrt(2 Jr dw / k)") {
   const CarSpec car = bare_car(0.15, 0.569, 240.0);
   const double reduced = 0.15 * 0.569 / 0.719, k = 400.0;
@@ -127,7 +132,8 @@ TEST_CASE("a locked clutch transmits (T1 J2 + T2 J1) / (J1 + J2)") {
   CHECK(line.energy().clutch == 0.0);
 }
 
-// The throttle opens within one second, so T1 = 200 t. The clutch slips when T1 J2 / (J1 + J2) reaches its capacity.
+// The throttle opens within one second, so the engine's torque is T1 = 200 t. With the inertias J1 of the engine and J2
+// of the car, the clutch must transmit T1 J2 / (J1 + J2). It slips when this torque reaches its capacity.
 TEST_CASE("a locked clutch slips when it would have to transmit more than its capacity, and not before") {
   Driveline line(bare_car(0.15, 0.569, 100.0, 200.0));
   line.place(50.0, 50.0, 5.0, true);
@@ -137,7 +143,7 @@ TEST_CASE("a locked clutch slips when it would have to transmit more than its ca
   CHECK(line.state().clutch_torque == 100.0);
 }
 
-// With rounding errors, such a clutch could alternate between slipping and locking.
+// Rounding errors could make this clutch alternate between slipping and locking.
 TEST_CASE("a clutch that must transmit exactly its capacity stays locked") {
   for (int i = 0; i < 50; ++i) {
     const double torque = 60.0 + 1.7 * i, other = 0.4 + 0.013 * i;
@@ -152,7 +158,9 @@ TEST_CASE("a clutch that must transmit exactly its capacity stays locked") {
   }
 }
 
-// m v' = -(a + c v^2) gives t = m / sqrt(a c) atan(v0 sqrt(c / a)) and d = m / (2 c) ln(1 + c v0^2 / a).
+// The car's speed v follows m v' = -(a + c v^2), with the mass m and the resistance coefficients a and c.
+// From the speed v0, the car stops after the time t = (m / sqrt(a c)) * atan(v0 * sqrt(c / a))
+// and the distance d = (m / (2 c)) * ln(1 + c v0^2 / a).
 TEST_CASE(
     "the car coasts to rest after the time and distance that its resistance gives, forwards and backwards alike") {
   CarSpec car;
@@ -177,8 +185,9 @@ TEST_CASE(
   }
 }
 
-// m v' = -(a + b v + c v^2) with 4 a c > b^2 and D = sqrt(4 a c - b^2) gives t = 2 m / D (atan((2 c v0 + b) / D) -
-// atan(b / D)).
+// The car's speed v follows m v' = -(a + b v + c v^2), with the mass m and the resistance coefficients a, b and c.
+// If 4 a c > b^2, then with D = sqrt(4 a c - b^2) the car stops from the speed v0 after
+// t = (2 m / D) * (atan((2 c v0 + b) / D) - atan(b / D)).
 TEST_CASE("with a linear resistance term too, the car stops at the time from the Riccati equation") {
   CarSpec car;
   car.body.mass = 1412.8 - car.body.rotating;
@@ -191,7 +200,9 @@ TEST_CASE("with a linear resistance term too, the car stops at the time from the
   CHECK(relative_error(time, expected) < 1e-8);
 }
 
-// If 4 a c < b^2, then with D = sqrt(b^2 - 4 a c), t = m / D ln((2 c v0 + b - D)(b + D) / ((2 c v0 + b + D)(b - D))).
+// The car has the mass m and the resistance coefficients a, b and c. If 4 a c < b^2, then with D = sqrt(b^2 - 4 a c)
+// the car stops from the speed v0 after
+// t = (m / D) * ln(((2 c v0 + b - D) * (b + D)) / ((2 c v0 + b + D) * (b - D))).
 TEST_CASE("the Riccati equation also gives the time if the linear term dominates") {
   CarSpec car;
   car.body.mass = 1000.0 - car.body.rotating;
@@ -205,7 +216,7 @@ TEST_CASE("the Riccati equation also gives the time if the linear term dominates
   CHECK(relative_error(time, 1000.0 / d * std::log((end - d) * (b + d) / ((end + d) * (b - d)))) < 1e-8);
 }
 
-// The engine's motion is J w' = -(a + c w^2).
+// The engine's speed w follows J w' = -(a + c w^2), with the inertia J and the friction coefficients a and c.
 TEST_CASE("an engine that is switched off slows down by its friction and stops completely") {
   CarSpec car = bare_car(0.15, 0.5, 0.0);
   car.engine.friction = 9.0;
@@ -219,7 +230,8 @@ TEST_CASE("an engine that is switched off slows down by its friction and stops c
   CHECK(line.state().engine_speed == 0.0);
 }
 
-// The engine's torque is k (idle - w) F, where F is full torque plus friction, so idle - w falls as exp(-k F t / J).
+// The engine's torque is k (idle - w) F, with the idle gain k, the speed w, and the sum F of full torque and friction.
+// So (idle - w) falls as exp(-k F t / J), where J is the engine's inertia.
 TEST_CASE("from below, the engine returns to idle speed as exp(-k F t / J)") {
   CarSpec car = bare_car(0.15, 0.5, 0.0, 91.0);
   car.engine.friction = 9.0;
@@ -233,13 +245,14 @@ TEST_CASE("from below, the engine returns to idle speed as exp(-k F t / J)") {
   CHECK(line.state().engine_speed == Approx(84.0).epsilon(1e-12));
 }
 
-// The car is so heavy that its speed stays constant, so t = J dw / (T +- drag), with the torque T at the shaft.
+// The car is so heavy that its speed stays constant. So the shaft reaches its gear's speed after
+// t = J dw / (T +- drag), with its inertia J, the speed difference dw, and the cone's torque T at the shaft.
 TEST_CASE("a cone brings the shaft to its gear's speed in J dw / (T +- drag), with the drag for or against it") {
   CarSpec car = bare_car(0.15, 1.0, 240.0);
   car.gearbox.ratio = {2.0};
   car.body.mass = 1e12;
   car.gearbox.drag = 0.8;
-  const double target = 20.0 * 5.0;  // [rad/s] shaft speed at 5 m/s
+  const double target = 20.0 * 5.0;  // [rad/s] speed that the shaft must have at 5 m/s
   for (const double begin : {250.0, 30.0}) {
     Driveline line(car);
     line.place(0.0, begin, 5.0, false);
@@ -252,7 +265,8 @@ TEST_CASE("a cone brings the shaft to its gear's speed in J dw / (T +- drag), wi
     CHECK(relative_error(time, 0.006 * std::abs(begin - target) / torque) < 1e-9);
     CHECK(relative_error(line.energy().cone, 11.4 / 2.0 * std::abs(begin - target) * time / 2.0) < 1e-9);
     drive(line, in, 1.0);
-    CHECK(line.state().shaft_speed == 20.0 * line.state().road_speed);  // the speeds stay exactly equal
+    // Once the cone has matched the speeds of shaft and gear, they stay exactly equal.
+    CHECK(line.state().shaft_speed == 20.0 * line.state().road_speed);
   }
 }
 
@@ -283,7 +297,7 @@ TEST_CASE("a cone weaker than the engine's torque never brings the speeds togeth
   CHECK(line.state().shaft_speed > 500.0);
 }
 
-// The clutch transmits a limited torque and so no impulse, so only shaft and car take part in the impact.
+// The clutch's torque is limited, so the clutch transmits no impulse. Only shaft and car take part in the impact.
 TEST_CASE("dogs that engage conserve the momentum of shaft and car, and lose Jr dw^2 / 2") {
   for (const double clutch : {1.0, 0.0}) {
     Driveline line(bare_car(0.15, 0.306, 200.0));

@@ -1,4 +1,5 @@
-// The driveline compared with fourth-order Runge-Kutta at 10 us, in which each mode of motion was written out by hand.
+// The driveline compared with fourth-order Runge-Kutta at steps of 10 us. In the reference, each mode of motion was
+// written out by hand.
 #include <algorithm>
 #include <cmath>
 
@@ -14,9 +15,9 @@ using namespace gearshift::test;
 namespace {
 
 struct DriveDeviation {
-  double engine = 0.0, shaft = 0.0, road = 0.0;  // [rad/s], [rad/s], [m/s] largest error of any sample
+  double engine = 0.0, shaft = 0.0, road = 0.0;  // [rad/s], [rad/s] and [m/s]: largest error of all samples
   double end = 0.0;                              // [rad/s] error of the engine speed at the end
-  double clutch = 0.0, cone = 0.0;               // [1] relative error of the heat
+  double clutch = 0.0, cone = 0.0;               // [1] relative error of the heat in clutch and cone
 };
 
 DriveDeviation deviation(const Drive& drive, const DriveOutcome& actual, const DriveOutcome& expected, double step) {
@@ -40,7 +41,7 @@ DriveDeviation deviation(const Drive& drive, const DriveOutcome& actual, const D
 TEST_CASE(
     "every hard drive matches the reference: at 1 ms to 0.01 rad/s and 0.005 % of the heat, at 4 ms to 0.06 rad/s") {
   std::vector<Drive> drives = all_drives();
-  drives.push_back(launch_of(shipped_car("hatchback")));  // these cars lose energy in the gear teeth
+  drives.push_back(launch_of(shipped_car("hatchback")));  // the shipped cars also lose energy in the gear teeth
   drives.push_back(launch_of(shipped_car("diesel")));
   for (const Drive& drive : drives) {
     CAPTURE(drive.name);
@@ -60,7 +61,8 @@ TEST_CASE(
   }
 }
 
-// The impulse method shares no event logic with the reference, so their agreement shows that both are right.
+// The reference locates every event, such as a clutch that locks, and the impulse method locates none. So the two agree
+// only if both are right.
 TEST_CASE("impulses without events converge to the reference as the step shrinks") {
   int counted = 0;
   for (const Drive& drive : all_drives()) {
@@ -80,7 +82,7 @@ TEST_CASE("each drive does what its name says") {
     const DriveOutcome runs = reference_of(drive);
     CHECK(runs.running);
     CHECK(runs.samples.back().road > 1.0);
-    CHECK(runs.samples.back().engine == runs.samples.back().shaft);  // the clutch has locked
+    CHECK(runs.samples.back().engine == runs.samples.back().shaft);  // the clutch has locked at the end
   }
   Drive hard = launch_of(shipped_car("hatchback"));
   hard.input = launch().input;
@@ -99,7 +101,8 @@ TEST_CASE("each drive does what its name says") {
   CHECK(reference_of(first_backwards()).samples.back().road > 1.0);
 }
 
-// A separate program's Runge-Kutta gave 2.02 kJ of clutch heat, and a clutch that locks after 1.303 s.
+// The separate program also uses Runge-Kutta. In its result, the clutch heat is 2.02 kJ, and the clutch locks after
+// 1.303 s.
 TEST_CASE("the launch matches a separate program's result") {
   const DriveOutcome runs = reference_of(launch());
   CHECK(runs.slip_energy == doctest::Approx(2020.0).epsilon(0.003));
@@ -108,7 +111,7 @@ TEST_CASE("the launch matches a separate program's result") {
   CHECK(static_cast<double>(locks - runs.samples.begin()) == doctest::Approx(1303.0).epsilon(0.001));
 }
 
-// Negative control: a clutch with tanh friction, the usual model, has larger errors than these tests tolerate.
+// Negative control: a clutch with tanh friction, the usual model, has larger errors than the tests above allow.
 TEST_CASE("a tanh clutch exceeds these tolerances") {
   const Drive drive = launch();
   const DriveDeviation worst = deviation(drive, drive_by(DriveMethod::tanh, drive, 0.001), reference_of(drive), 0.001);

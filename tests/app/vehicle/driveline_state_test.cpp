@@ -1,4 +1,4 @@
-// The state that the driveline reports for sound and instruments: fuel cut, clutch points, starting and stalling.
+// Tests of the states that the driveline reports to sound and instruments: fuel cut, clutch points, starting, stalling.
 #include <algorithm>
 #include <cmath>
 
@@ -36,7 +36,7 @@ TEST_CASE("the clutch begins to transmit at the reported bite point, and transmi
     CAPTURE(name);
     const CarSpec car = shipped_car(name);
     Driveline line(car);
-    const VehicleState initial = line.state();  // the points are reported before the first step
+    const VehicleState initial = line.state();  // the clutch points are reported before the first step
     CHECK(initial.clutch_bite > initial.clutch_closed);
     const auto carries = [&](double pedal) {
       line.step(pedals(kNeutralGear, 0.0, pedal), 1e-3);
@@ -67,7 +67,7 @@ TEST_CASE("cranking is reported while the starter turns the engine, and not once
   drive(line, in, 5.0);
   in.starter = true;
   line.step(in, 1e-3);
-  CHECK_FALSE(line.state().cranking);  // the ignition is off
+  CHECK_FALSE(line.state().cranking);  // the ignition is off, so the starter does not crank
 }
 
 TEST_CASE("starting takes two engine turns and at least half a second; released earlier, the engine stays off") {

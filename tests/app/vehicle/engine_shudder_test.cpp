@@ -1,4 +1,4 @@
-// A lugging or dying engine shakes the car, and the lever with it.
+// An engine that lugs or dies shakes the car, and the lever with the car.
 #include "app/vehicle/engine_shudder.h"
 
 #include <algorithm>
@@ -17,8 +17,9 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// The shudder [1] of the hatchback's engine. It idles at 800 rpm and stalls at 350 rpm, so shuddering begins at 800 -
-// 450 / 4 = 687.5 rpm. At idle its friction is 8.586 N m.
+// [1] The shudder of the hatchback's engine. The engine idles at 800 rpm and stalls 450 rpm lower, at 350 rpm. It
+// shudders once it has lost more than a quarter (kSmoothDip) of these 450 rpm, so below 687.5 rpm. At idle its friction
+// is 8.586 N m.
 double shudder_at(double rpm, double clutch_torque, bool running = true) {
   static const EngineSpec engine = shipped_car("hatchback").engine;
   VehicleState car;
@@ -33,7 +34,8 @@ struct ShudderOutcome {
   bool stalled = false;
 };
 
-// Starts in first gear at idle; `feet` gives clutch and throttle at a time [s], `brake` is constant.
+// Moves off in first gear from idle. `feet` returns the clutch and throttle positions at a time [s]; `brake` is
+// constant.
 template <typename Pedals>
 ShudderOutcome drive_off(const Pedals& feet, double seconds, double brake) {
   Driveline line(shipped_car("hatchback"));
@@ -73,9 +75,9 @@ TEST_CASE("computed by hand: no shudder from 687.5 rpm up, half at 518.75, all a
   for (const double rpm : {6000.0, 800.0, 687.5}) CHECK(shudder_at(rpm, 50.0) == 0.0);
   CHECK(shudder_at(518.75, 50.0) == doctest::Approx(0.5));
   CHECK(shudder_at(350.0, 50.0) == doctest::Approx(1.0));
-  CHECK(shudder_at(350.0, 4.293) == doctest::Approx(0.5).epsilon(1e-3));  // [N m] half of the engine's friction at idle
-  CHECK(shudder_at(500.0, 0.0) == 0.0);                                   // with the clutch down
-  CHECK(shudder_at(500.0, -50.0) == 0.0);                                 // while the car drives the engine
+  CHECK(shudder_at(350.0, 4.293) == doctest::Approx(0.5).epsilon(1e-3));  // 4.293 N m is half of the friction at idle
+  CHECK(shudder_at(500.0, 0.0) == 0.0);                                   // the clutch is down
+  CHECK(shudder_at(500.0, -50.0) == 0.0);                                 // the car drives the engine
   CHECK(shudder_at(350.0, 0.0, false) == doctest::Approx(1.0));
   CHECK(shudder_at(175.0, 0.0, false) == doctest::Approx(0.5));
   CHECK(shudder_at(0.0, 0.0, false) == 0.0);
@@ -127,7 +129,7 @@ TEST_CASE("the lever vibrates at the firing frequency, 20 Hz at 600 rpm, with ze
   CHECK(max <= 1.5);
   CHECK(max > 1.49);
   CHECK(shake.step(0.0, 600.0 * kRpm, 1e-3) == 0.0);
-  CHECK(shake.step(1.0, 600.0 * kRpm, 1e-3) == 0.0);  // the sine starts from zero again
+  CHECK(shake.step(1.0, 600.0 * kRpm, 1e-3) == 0.0);  // after a pause, the sine starts from zero again
 }
 
 TEST_CASE("without shudder a drive is bit-identical to one with a shudder force of 0: shifts, throttle, grinding") {

@@ -1,5 +1,5 @@
-// Hands faster and stronger than any human hand: with sound rings none of them can grind a forward gear; with worn
-// rings every shift grinds.
+// Hands that are faster and stronger than any human hand. With sound rings, no such hand can grind a forward gear. With
+// worn rings, every shift grinds.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -16,19 +16,19 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kHandReady = 0.05;  // [s] start of the hand's motion, after the guard has ramped up
+constexpr double kHandReady = 0.05;  // [s] time at which the hand begins to move, after the guard has ramped up
 
 struct Rush {
-  double speed, push, rate;  // [m/s] hand speed; [N] its largest push; [Hz] loop rate
+  double speed, push, rate;  // [m/s] the hand's speed; [N] its largest push; [Hz] loop rate
 };
 
 struct Shifted {
   bool in = false;
-  double ground = 0.0;      // [J] dissipated by grinding
+  double ground = 0.0;      // [J] energy dissipated by grinding
   double difference = 0.0;  // [rad/s] largest speed difference at which the ring let the sleeve pass
 };
 
-// A hand that follows a target into the slot and pushes with up to `rush.push` [N].
+// A hand that follows a target into the slot, and pushes with at most `rush.push` [N].
 PushingHand rushing_hand(const Slot& slot, double across, const Rush& rush) {
   const double direction = static_cast<double>(static_cast<int>(slot.side)), end = slot.end + 0.01;
   return PushingHand([=](double time, dvec2 lever) {
@@ -38,7 +38,7 @@ PushingHand rushing_hand(const Slot& slot, double across, const Rush& rush) {
   });
 }
 
-// Shifts from neutral into `to` with the clutch down. Shaft and car have the speeds that they had in gear `from`.
+// Shifts from neutral into `to` with the clutch down. Shaft and car start at the speeds of gear `from` at 2500 rpm.
 Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush& rush, double brake) {
   const Slot& slot = slot_of(gate, slot_of_gear(gate, to));
   SimulatedRunConfig config = gripped(gate, kNeutralGear);
@@ -57,7 +57,7 @@ Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush
   Shifted shifted;
   bool was_through = false;
   while (run.time() < 2.5 && !shifted.in) {
-    const VehicleState before = load.state();  // the ring decides by this state
+    const VehicleState before = load.state();  // the ring uses the state before the step
     const double difference = std::abs(before.shaft_speed - shaft_per_road(car, to) * before.road_speed);
     shifted.in = run.step().gear == to;
     const VehicleState& now = load.state();
@@ -75,8 +75,7 @@ bool fits(const CarSpec& car, const Gate& gate) {
                      [&](const Slot& slot) { return shaft_per_road(car, slot.gear) != 0.0; });
 }
 
-// Calls f(gate, from, to) for every shift between forward gears that does not over-rev the engine, in every shipped
-// gate.
+// Calls f(gate, from, to) for all shifts between forward gears that do not over-rev the engine, in all shipped gates.
 template <class F>
 void each_shift(const CarSpec& car, F f) {
   for (const std::string& name : shipped_names()) {

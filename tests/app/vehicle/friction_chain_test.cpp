@@ -1,5 +1,4 @@
-// The motion of the friction chain, compared with the minimum principle that it must satisfy. The minimum is searched
-// for independently.
+// The friction chain's motion satisfies a minimum principle. The test searches for the minimum independently.
 #include "app/vehicle/friction_chain.h"
 
 #include <cmath>
@@ -12,7 +11,7 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// The sum of Gauss' constraint and the rate of friction dissipation, when nothing slips yet at any contact. It is
+// The sum of Gauss' constraint and the rate of friction dissipation, for the case that no contact slips yet. The sum is
 // strictly convex in `rate`.
 double cost(const FrictionChain& chain, const ChainLoads& loads, const PerBody& rate) {
   double sum = 0.0;
@@ -62,11 +61,11 @@ TEST_CASE("bodies at rest start to move so that Gauss' constraint plus friction 
       for (int n = 0; n < 20; ++n) {
         PerBody other = s.motion.rate;
         for (double& r : other) r += size * normal(random);
-        // Also samples the line on which each contact sticks, because the cost has its kinks there.
+        // Also samples rates at which a contact sticks, because the cost has its kinks there.
         if (n % 4 == 0) other[0] = other[1];
         if (n % 4 == 1) other[1] = d.chain.per_road * other[2];
         if (d.chain.link == GearLink::dogs) other[1] = d.chain.per_road * other[2];
-        if (other[0] < 0.0) continue;  // the engine does not turn backwards
+        if (other[0] < 0.0) continue;  // the engine cannot turn backwards
         CHECK(cost(d.chain, d.loads, other) >= min_cost - 1e-9);
       }
     }
@@ -104,8 +103,8 @@ TEST_CASE("an initial guess does not change the solution") {
   }
 }
 
-// When the engine drives, the wheels get 0.9 of its torque; when the wheels drive the engine, they supply 1 / 0.9 of
-// the torque that it takes.
+// If the engine drives, the wheels get 0.9 of its torque. If the wheels drive the engine, they must supply 1 / 0.9 of
+// the torque that the engine takes.
 TEST_CASE("gear losses depend on the direction of the power") {
   FrictionChain chain{{0.2, 0.01, 1000.0}, GearLink::dogs, 10.0, 0.9};
   ChainLoads loads;

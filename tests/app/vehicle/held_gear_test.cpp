@@ -1,6 +1,6 @@
-// An engaged gear stays engaged, and a lever in a slot stays in its middle: in every slot, under every load, for 20 s,
-// and without the guard mistaking it for a chattering wall. Users of other simulators complain about gears that jump
-// out and levers that drift.
+// For 20 s, in every slot and under every load, an engaged gear must stay engaged, and a lever in a slot must stay in
+// the slot's middle. The guard must not mistake the lever for a chattering wall. Users of other simulators complain
+// about gears that jump out and levers that drift.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,7 +22,7 @@ using glm::dvec2;
 namespace {
 
 constexpr double kLong = 20.0;      // [s]
-constexpr double kMaxShake = 1e-3;  // [m] largest movement that a dying engine causes at a released lever
+constexpr double kMaxShake = 1e-3;  // [m] a dying engine moves a released lever by at most this much
 
 DriverControls pedals_at(double clutch, double throttle, double brake = 0.0) {
   DriverControls feet;
@@ -37,8 +37,9 @@ bool every_other(double time, double seconds) {
   return std::fmod(time, 2.0 * seconds) < seconds;
 }
 
-// Every 5 s: clutch down, and the starter except the first time; after 1 s the clutch comes up to `clutch` without
-// throttle, and the engine dies.
+// Pedals in a pattern that repeats every 5 s. In the first second of each period, the clutch is down and the starter
+// runs for 0.8 s (not in the first period). Then the clutch pedal comes up to `clutch` without throttle, and the engine
+// dies.
 DriverControls dying(double time, double clutch, double brake) {
   const double since = std::fmod(time, 5.0);
   DriverControls feet = pedals_at(since < 1.0 ? 1.0 : clutch, 0.0, brake);
@@ -48,13 +49,13 @@ DriverControls dying(double time, double clutch, double brake) {
 
 struct Driving {
   const char* name;
-  bool rolls;  // the car rolls at the start
+  bool rolls;  // whether the car rolls at the start
   DriverControls (*feet)(double time);
 };
 
-// The loads on the gear. The engine pulls, coasts, runs into the limiter (which cuts it many times per second) or
-// alternates; the clutch slips at half its travel, trembles about its bite point, or opens; and the engine dies while
-// the car creeps or stands still.
+// The loads on the gear. The engine runs into the limiter (which cuts its torque many times per second), coasts, or
+// pulls and coasts in turn. The clutch pedal rests at half its travel, trembles about the bite point, goes down and up
+// in turn, or stays down. In the last two loads, the engine dies while the car creeps or is held by the brake.
 const Driving kDriving[] = {
     {"pulls into the limiter", true, [](double) { return pedals_at(0.0, 1.0); }},
     {"coasts", true, [](double) { return pedals_at(0.0, 0.0); }},
@@ -73,7 +74,7 @@ double direction_of(const Slot& slot) {
   return static_cast<double>(static_cast<int>(slot.side));
 }
 
-// A lever that no hand holds. A force pushes it, as a function of time and position.
+// A lever that no hand holds. It is pushed by a force that depends on time and position.
 struct PushedLever {
   template <typename Push>
   PushedLever(const CarSpec& car, const CarStart& start, dvec2 place, Push push)
@@ -107,7 +108,7 @@ CarStart in_gear(const CarSpec& car, const Slot& slot, const Driving& driving) {
   return rolling_in(car, slot.gear, driving.rolls ? speed : 0.0);
 }
 
-// A lever in the slot's gear, pulled out of it by a force that rises to `pull` [N] within half a second.
+// A lever in the slot's gear. A force pulls the lever out of the slot and rises to `pull` [N] within half a second.
 PushedLever pulled(const CarSpec& car, const Slot& slot, const Driving& driving, double pull) {
   const double direction = direction_of(slot);
   return {car, in_gear(car, slot, driving), rest_position(gate_of(car), slot.gear), [=](double time, dvec2) {
@@ -115,8 +116,8 @@ PushedLever pulled(const CarSpec& car, const Slot& slot, const Driving& driving,
           }};
 }
 
-// Calls `attempt` for every combination of car, slot and driving. The short run takes every third of them, which still
-// covers each car, each slot and each driving.
+// Calls `attempt` for every combination of car, slot and driving. The short run takes every third combination, which
+// still covers each car, each slot and each driving.
 template <typename Try>
 void for_each_case(Try attempt) {
   int counted = 0;
@@ -134,7 +135,7 @@ void for_each_case(Try attempt) {
   }
 }
 
-// A lever's mean position during a quarter of a second, and whether it rested in a slot all that time.
+// The mean position of a lever during a quarter of a second, and whether the lever rested in a slot all that time.
 struct RestState {
   bool is_at_rest = true;
   double depth = 0.0, across = 0.0;  // [m]
@@ -151,11 +152,11 @@ RestState rest_state(PushedLever& lever, const Driving& driving) {
     min = std::min(min, depth);
     max = std::max(max, depth);
   }
-  out.is_at_rest = out.is_at_rest && max - min < 0.002;  // a rattle moves it less than 2 mm
+  out.is_at_rest = out.is_at_rest && max - min < 0.002;  // [m] a rattle of less than 2 mm counts as rest
   return out;
 }
 
-// [m] The distance from the rest position at which the gear's detent balances the force `pull` [N].
+// [m] The distance from the rest position at which the force of the gear's detent equals `pull` [N].
 double detent_balance(const Slot& slot, double pull) {
   double distance = 0.0;
   while (feel_force(slot.feel, slot.rest - distance) < pull) distance += 1e-5;
@@ -180,7 +181,7 @@ TEST_CASE("a released lever stays in its gear for 20 s: every slot, with each lo
     CHECK(farthest < (lever.shaken > 0.0 ? 0.0005 + kMaxShake : 0.0005));
     CHECK(lever.is_guarded());
   });
-  CHECK(shaken == doctest::Approx(1.0).epsilon(0.05));  // at least one case made an engine die
+  CHECK(shaken == doctest::Approx(1.0).epsilon(0.05));  // full shudder: the engine died in at least one case
 }
 
 TEST_CASE("a pull of half the detent's force moves a lever to where the detent balances it, and no further in 20 s") {
@@ -192,7 +193,7 @@ TEST_CASE("a pull of half the detent's force moves a lever to where the detent b
       REQUIRE((lever.run.time() < 0.1 || now.gear == slot.gear));
       farthest = std::max(farthest, slot.rest - std::abs(now.lever.y));
     }
-    const double spring = 15.7 * slot.rest;  // [N] return spring of the bare lever
+    const double spring = 15.7 * slot.rest;  // [N] force of the bare lever's return spring
     CHECK(farthest < detent_balance(slot, 6.0 + spring) + 0.0005 + (lever.shaken > 0.0 ? kMaxShake : 0.0));
     CHECK(lever.is_guarded());
   });
@@ -209,7 +210,7 @@ TEST_CASE("a lever in a slot does not drift sideways in 20 s: blocked, clashing 
       PushedLever lever(car, start, {across, 0.0}, [=](double time, dvec2 at) {
         return dvec2{2000.0 * (across - at.x), time < 0.2 ? 0.0 : 20.0 * direction};
       });
-      // For each depth, in steps of 0.5 mm, the first position across the slot [m] at which the lever rested.
+      // For each depth (in steps of 0.5 mm): the first position across the slot at which the lever rested [m].
       std::map<long, double> place;
       double farthest = 0.0;
       while (lever.run.time() < kLong) {

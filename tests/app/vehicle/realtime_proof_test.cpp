@@ -1,4 +1,4 @@
-// The car keeps the guarantees of the haptic cycle: no allocation, no lock, no system call.
+// The car keeps the guarantees of the haptic cycle: no allocation, no lock and no system call.
 #include "tests/support/realtime_proof.h"
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace gearshift::test {
 
 TEST_CASE("the car's load is real-time safe: shifts, grinding, stall, restart, hill, late cycles") {
   vehicle::CarSpec car = shipped_car("hatchback");
-  car.synchro.friction = 0.06;  // a worn ring, so that the dogs grind
+  car.synchro.friction = 0.06;  // a worn synchroniser ring, so that the dogs grind
   const haptics::Gate gate = gate_of(car);
   haptics::ScriptedHand hand = shifting_hand(gate, 1, {2, 1, haptics::kReverseGear, 2, 3});
   vehicle::CarLoad load(car, gate, kPaperForce, rolling_in(car, 1, 300.0));
@@ -31,7 +31,7 @@ TEST_CASE("the car's load is real-time safe: shifts, grinding, stall, restart, h
     }
     load.step({}, 0.5);
   };
-  const RealtimeProof proof = prove_realtime(drive);  // in a separate process
+  const RealtimeProof proof = prove_realtime(drive);  // calls drive() in another process, hence the call below
   INFO(proof.verdict());
   CHECK(proof.clean());
   drive();

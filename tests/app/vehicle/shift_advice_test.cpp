@@ -1,4 +1,4 @@
-// The shift light at various road speeds of the hatchback.
+// The shift light of the hatchback at various road speeds.
 #include "app/vehicle/shift_advice.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// [km/h] per 1000 rpm, computed by hand: 3.6 * 104.72 * 0.3032 / (4.08 * ratio).
+// [km/h] Speed per 1000 rpm in each gear, computed by hand: 3.6 * 104.72 rad/s * 0.3032 m / (4.08 * gear ratio).
 constexpr double kKmhPerKrpm[] = {8.120, 14.441, 21.718, 28.882, 36.862};
 
 VehicleState in_gear(int gear, double kmh, double throttle) {
@@ -33,8 +33,8 @@ int advice(const VehicleState& car, int before = 0) {
   return shift_advice(hatchback, car, before);
 }
 
-// The number of changes of the light while the engine speed oscillates about `rpm` with the relative amplitude
-// `trembles`. Without `remembers`, the light has no hysteresis.
+// Counts the changes of the light while the engine speed oscillates about `rpm` with the relative amplitude `trembles`.
+// If `remembers` is false, the light has no hysteresis.
 int changes(int gear, double rpm, double throttle, double trembles, bool remembers) {
   int count = 0, lit = 0, last = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -79,13 +79,13 @@ TEST_CASE(
 
 TEST_CASE("no advice to shift down if the lower gear would exceed its red line") {
   CarSpec car = shipped_car("hatchback");
-  car.engine.red_line = 1600.0 * kRpm;  // 1100 rpm in third are 1654 rpm in second
+  car.engine.red_line = 1600.0 * kRpm;  // second gear would need 1654 rpm
   CHECK(shift_advice(car, in_gear(3, 23.9, 0.5), 0) == 0);
   CHECK(shift_advice(car, in_gear(3, 22.0, 0.5), 0) == -1);
 }
 
 TEST_CASE("no advice with the clutch open or slipping, coasting, in neutral or reverse, or with the engine off") {
-  for (const double kmh : {12.0, 45.0}) {  // in second: lugging, and far above 2500 rpm
+  for (const double kmh : {12.0, 45.0}) {  // [km/h] in second gear, 12 is lugging, and 45 is above 2500 rpm
     const VehicleState lit = in_gear(2, kmh, 0.5);
     REQUIRE(advice(lit) == (kmh > 20.0 ? 1 : -1));
     VehicleState car = lit;
@@ -110,9 +110,9 @@ TEST_CASE("a speed that fluctuates within the hysteresis changes the light once;
   CHECK(changes(2, 2500.0, 0.3, 0.02, false) > 50);
   CHECK(changes(3, 1200.0, 0.5, 0.02, true) <= 1);
   CHECK(changes(3, 1200.0, 0.5, 0.02, false) > 50);
-  CHECK(advice(in_gear(2, 34.4, 0.03), 1) == 1);    // 2382 rpm, switches off below 2375 rpm
+  CHECK(advice(in_gear(2, 34.4, 0.03), 1) == 1);    // 2382 rpm; the light goes off below 2375 rpm
   CHECK(advice(in_gear(2, 34.2, 0.03), 1) == 0);    // 2368 rpm
-  CHECK(advice(in_gear(3, 27.2, 0.35), -1) == -1);  // 1252 rpm, switches off above 1260 rpm
+  CHECK(advice(in_gear(3, 27.2, 0.35), -1) == -1);  // 1252 rpm; the light goes off above 1260 rpm
   CHECK(advice(in_gear(3, 27.5, 0.35), -1) == 0);   // 1266 rpm
 }
 

@@ -1,4 +1,4 @@
-// The synchroniser compared with closed forms for the cone, the ring and two inertias.
+// The synchroniser, compared with closed forms for the cone, the ring and two inertias.
 #include "app/vehicle/synchroniser.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Bench {
         driveline(spec),
         force_scale(scale) {}
 
-  // Enters the slot of gear `wanted` with these speeds of shaft [rad/s] and car [m/s].
+  // Enters the slot of gear `wanted` while the shaft turns at `shaft` [rad/s] and the car moves at `road` [m/s].
   void enter(int wanted, double shaft, double road) {
     gear = wanted;
     input.slot = slot_of_gear(gate, gear);
@@ -38,7 +38,7 @@ struct Bench {
     input.depth = at.block;
   }
 
-  // One cycle with `push` [N] by a hand at the real knob.
+  // Runs one cycle in which a hand pushes the knob of the real car with `push` [N].
   void step(double push) {
     const VehicleState& now = driveline.state();
     input.push = force_scale * push;
@@ -64,7 +64,7 @@ struct Bench {
   double force_scale;
   bool clutch_down = true;
   double throttle = 0.0;
-  bool moves = false;  // whether the sleeve moves inwards where it can, at 0.3 m/s
+  bool moves = false;  // whether the sleeve moves inwards at 0.3 m/s while nothing blocks it
   int gear = kNeutralGear;
   SleeveStations at;
   SleeveInput input;
@@ -74,13 +74,15 @@ struct Bench {
 
 struct TimedShift {
   int from, to;
-  double push, time;  // [N]; [s] computed by a separate program
+  double push, time;  // [N] push; [s] time, computed by a separate program
 };
 const TimedShift kShifts[] = {{1, 2, 60.0, 0.109}, {2, 3, 60.0, 0.057}, {3, 4, 60.0, 0.032}, {4, 5, 60.0, 0.022},
                               {1, 2, 30.0, 0.205}, {2, 3, 30.0, 0.109}, {3, 4, 30.0, 0.062}, {4, 5, 30.0, 0.043},
                               {2, 1, 60.0, 0.42},  {3, 2, 60.0, 0.14}};
 
-// At the shaft, J w' = -+T_c/i - T_drag; the reaction on the car is m v' = +-G T_c/i. The drag helps an upshift.
+// The time until the speeds of shaft and car match. With the cone's torque T_c, the drag torque T_drag and the gear
+// ratio i, the shaft (inertia J, speed w) follows J w' = -+T_c / i - T_drag, and the car (mass m, speed v) follows
+// m v' = +-G T_c / i, where G is shaft_per_road(). The drag helps an upshift.
 double closed_form(const CarSpec& car, const TimedShift& shift, double difference) {
   const double ratio = ratio_of(car, shift.to), per_road = shaft_per_road(car, shift.to);
   const double cone = shift.push * car.synchro.lever_ratio * car.synchro.efficiency * cone_gain(car.synchro) / ratio;
@@ -89,7 +91,7 @@ double closed_form(const CarSpec& car, const TimedShift& shift, double differenc
   return ratio * difference / (cone * (1.0 / shaft + per_road * per_road / mass) + drag / shaft);
 }
 
-// The hatchback without rolling and air resistance, so that it does not slow down during the shift.
+// The hatchback without rolling and air resistance, so that the car does not slow down during the shift.
 CarSpec rolling_hatchback() {
   CarSpec car = shipped_car("hatchback");
   car.body.resistance = car.body.resistance_slope = car.body.resistance_square = 0.0;
@@ -131,7 +133,8 @@ TEST_CASE("synchronising takes J dw i^2 / (T_c +- T_drag i): up and down, 60 N a
     bench.enter(shift.to, 2500.0 * kRpm, road);
     const double took = synchronising_time(bench, shift.push);
     const double wanted = closed_form(car, shift, difference - car.synchro.dog_speed);
-    // The cone acts only in half of the first cycle, and the last cycle uses the previous push.
+    // The tolerance is 2.5 cycles, because the cone acts only in half of the first cycle, in the last cycle it uses the
+    // push of the cycle before, and the time is measured in whole cycles.
     CHECK(std::abs(took - wanted) < 2.5 * kT);
   }
 }
@@ -176,7 +179,7 @@ TEST_CASE("a lever that crosses the ring within one cycle is still held there: o
   const Gate gate = gate_of(car);
   for (const bool worn : {false, true}) {
     if (worn) car.synchro.friction = 0.9 * critical_friction(car.synchro);
-    // [rad/s] speed difference in the cycle before the ring
+    // [rad/s] The speed difference in the cycle before the lever reaches the ring.
     for (const double before : {50.0, 0.9 * car.synchro.dog_speed}) {
       Synchroniser sleeve(car.synchro, gate, kScale, kNeutralGear, 1);
       SleeveInput in;
@@ -212,7 +215,7 @@ TEST_CASE("with the clutch up the cone would have to accelerate the engine: 60 N
     Bench bench(car);
     bench.clutch_down = false;
     bench.throttle = throttle;
-    bench.enter(1, throttle > 0.0 ? 300.0 : car.engine.idle, 5.0);  // first gear needs 235 rad/s at 5 m/s
+    bench.enter(1, throttle > 0.0 ? 300.0 : car.engine.idle, 5.0);  // first gear needs 232 rad/s at 5 m/s
     for (int i = 0; i < 2500; ++i) {
       bench.step(60.0);
       REQUIRE(bench.out.depth_max == bench.at.block);
@@ -279,7 +282,7 @@ TEST_CASE("reverse has no cone: only drag slows the shaft down, and only then th
   Bench bench(car);
   const double start = car.engine.idle;
   bench.enter(kReverseGear, start, 0.0);
-  bench.input.depth = bench.at.block;  // nothing grinds at the ring, before the dogs
+  bench.input.depth = bench.at.block;  // at the ring's depth, before the dogs, nothing grinds
   const double near = car.synchro.dog_speed * ratio_of(car, kReverseGear);
   const double run_down = car.clutch.disc_inertia * (start - near) / car.gearbox.drag;
   while (std::abs(bench.driveline.state().shaft_speed) > near) bench.step(20.0);
@@ -322,7 +325,7 @@ TEST_CASE("the second bump is at most a third of the push, random, and equal for
     REQUIRE(bench.out.phase == SyncPhase::meshed);
     return max_push;
   };
-  const double effort = 15.0;  // [N] push at the real knob, small enough for the device to render the whole bump
+  const double effort = 15.0;  // [N] push on the real knob; small enough for the device to render the whole bump
   std::vector<double> peaks;
   for (std::uint64_t seed = 0; seed < 200; ++seed) peaks.push_back(peak(seed, effort));
   std::sort(peaks.begin(), peaks.end());
@@ -368,10 +371,12 @@ TEST_CASE("under load the gear cannot be pulled out; coasting needs a light pull
   const Gate gate = gate_of(car);
   const int slot = slot_of_gear(gate, 3);
   const double rest = slot_of(gate, slot).rest;
-  // T = F i eta R / (mu + taper): the load torque at which a hand of 60 N can just pull the gear out.
+  // [N m] The load torque at which a hand with the force F = 60 N can just pull the gear out: F i eta R / (mu + taper),
+  // with the lever ratio i, its efficiency eta, the radius R and friction mu of the blocking teeth, and the taper of
+  // the dogs (0.07).
   const double max_torque = kMaxHandForce * 9.0 * 0.8 * car.synchro.index_radius / (car.synchro.index_friction + 0.07);
   CHECK(max_torque > 80.0);
-  CHECK(max_torque < 120.0);  // [N m] at third gear; 60 to 90 N m at the engine
+  CHECK(max_torque < 120.0);  // [N m] at the gear; with its ratio of 1.29, 62 to 93 N m at the engine
   const auto draws_out = [&](double load, double pull, bool clutch_open) {
     Synchroniser sleeve(car.synchro, gate, kScale, 3, 1);
     SleeveInput in;
@@ -475,7 +480,7 @@ TEST_CASE("on any path in and out of a slot, the bump does no positive work on t
       max_work = std::max(max_work, work);
       REQUIRE(bench.out.phase != SyncPhase::clashing);
     }
-    CHECK(max_work < 2e-5);  // [J] error of the trapezoidal rule
+    CHECK(max_work < 2e-5);  // [J] allows for the error of the trapezoidal rule
     CHECK(work < 0.0);
   }
 }

@@ -1,4 +1,4 @@
-// A render target with depth, drawn into by tests and read back.
+// A render target with depth. Tests draw into it and read it back.
 #pragma once
 
 #include <functional>

@@ -102,7 +102,8 @@ TEST_CASE("a triangle covers the pixels whose centres lie inside it and no other
     canvas.draw(commands, {}, [&] { brush.stroke(commands, vertices, 50.0f / 255.0f, 1.0f); });
   });
   const Image image = read_back(gpu, canvas.colour);
-  // Signed distance of a pixel's centre to each edge, in pixels. The rasterizer snaps vertices to 1/256 pixel.
+  // Converts a vertex to pixels. Pixels whose centre is less than 0.01 pixel from an edge are not checked, because the
+  // rasterizer snaps vertices to 1/256 pixel.
   const auto pixel = [](Point p) { return std::array{(p.x + 1) * side / 2.0, (p.y + 1) * side / 2.0}; };
   int inside = 0, undecided = 0;
   for (int y = 0; y < side; ++y) {
@@ -142,7 +143,8 @@ TEST_CASE("reverse-Z: the greater depth is nearer, in any drawing order; without
   CHECK(drawn([&](auto c) { green.stroke(c, far, 0, 1), red.stroke(c, near, 0, 1); }) == red_wins);
   CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), without_depth_test.stroke(c, far, 1, 1); }) ==
         std::array{0, 0, 255, 255});
-  // Testing without writing leaves the depth unchanged, so a triangle behind the tested one is still visible.
+  // A depth test without depth writes leaves the depth unchanged. A triangle behind the tested one is then still
+  // visible.
   CHECK(drawn([&](auto c) { test_only.stroke(c, near, 0, 1), green.stroke(c, far, 0, 1); }) ==
         std::array{0, 255, 0, 255});
   CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), test_only.stroke(c, far, 0, 1); }) == red_wins);

@@ -1,4 +1,4 @@
-// Shaders written inside the test that uses them.
+// Compiles shaders whose source text is in the test.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace gearshift::test {
 
-// Compiles GLSL to SPIR-V with glslangValidator, which the build requires anyway. stage: "vert", "frag"
+// Compiles GLSL to SPIR-V with glslangValidator, which the build requires anyway. `stage`: "vert" or "frag".
 inline std::vector<std::uint32_t> compile_glsl(const std::string& stage, const std::string& source) {
   const TempFolder folder;
   const std::string in = (folder / ("shader." + stage)).string();

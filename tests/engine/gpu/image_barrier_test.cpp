@@ -112,8 +112,8 @@ TEST_CASE("a moved image keeps its state, and the source is empty") {
   CHECK(gpu.allocated() < before);
 }
 
-// Random operations in frames in flight, on images that are copied, cleared, drawn to and discarded. If validation
-// reports nothing, the barriers are sufficient; if the bytes are correct, they order the right accesses.
+// Random operations in frames in flight, on images that are copied, cleared, drawn to and discarded. Validation reports
+// missing barriers. The bytes are checked too, because a barrier that orders the wrong accesses may change them.
 TEST_CASE("any sequence of uses keeps validation silent and the content correct") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();

@@ -18,7 +18,7 @@ TEST_CASE("ranges of a block never overlap, are aligned and first-fit, and can a
   constexpr VkDeviceSize size = 4096;
   std::mt19937 random(3);
   FreeRanges ranges(size);
-  std::array<bool, size> used{};  // reference: one flag per byte
+  std::array<bool, size> used{};  // reference for the comparison: one flag per byte
   std::vector<std::pair<VkDeviceSize, VkDeviceSize>> allocated;
   const auto first_fit = [&](VkDeviceSize wanted, VkDeviceSize alignment) -> std::optional<VkDeviceSize> {
     for (VkDeviceSize start = 0; start + wanted <= size; start += alignment) {

@@ -51,7 +51,7 @@ double to_srgb(double l) {
   return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1.0 / 2.4) - 0.055;
 }
 
-// [0, 255] Mean of the four texels in the next larger level; the colours of an sRGB format are averaged in linear
+// Mean (0 to 255) of the four texels in the next larger level; the colours of an sRGB format are averaged in linear
 // light.
 double box(const std::vector<std::uint8_t>& above, std::size_t width, std::size_t x, std::size_t y, std::size_t channel,
            bool srgb) {
@@ -87,7 +87,7 @@ TEST_CASE("each mip level, down to one texel, is the box average of the next lar
     GpuImage texture = make_texture(gpu, noise(64, 32), srgb, true);
     REQUIRE(texture.desc().levels == 7);
     double worst = 0.0;
-    for (std::uint32_t level = 1; level < 6; ++level) {  // in smaller levels, one side has only one texel
+    for (std::uint32_t level = 1; level < 6; ++level) {  // not level 6, whose only texel is the mean of two
       const auto above = level_bytes(gpu, texture, level - 1, 0, 4), current = level_bytes(gpu, texture, level, 0, 4);
       const std::size_t width = 64u >> level, height = 32u >> level;
       for (std::size_t i = 0; i < width * height * 4; ++i) {
@@ -95,7 +95,7 @@ TEST_CASE("each mip level, down to one texel, is the box average of the next lar
         worst = std::max(worst, std::abs(current[i] - box(above, 2 * width, x, y, i % 4, srgb)));
       }
     }
-    CHECK(worst < 1.01);  // one step of 255, because the driver truncates
+    CHECK(worst < 1.01);  // allows an error of one, because the driver rounds down
     CHECK(level_bytes(gpu, texture, 6, 0, 4).size() == 4);
   }
 }

@@ -1,4 +1,4 @@
-// Checks FLIP against its own properties and against its authors' program.
+// Checks the picture metric FLIP against its own properties, and against its authors' program.
 #include "engine/image/flip.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Image scene(int shift, int tint) {
   return image;
 }
 
-// Error between two uniform pictures, where filters and features have no effect.
+// Error between two uniform pictures, to which FLIP's filters and feature detection contribute nothing.
 double plain_error(const Image& a, const Image& b) {
   const FlipError error = flip(a, b);
   for (const double e : error.map) CHECK(e == Approx(error.mean).epsilon(1e-9));
@@ -56,10 +56,10 @@ TEST_CASE(
   const Image black = plain(40, 30, 0, 0, 0), white = plain(40, 30, 255, 255, 255);
   const Image green = plain(40, 30, 0, 255, 0), blue = plain(40, 30, 0, 0, 255);
   CHECK(plain_error(green, blue) == Approx(1.0).epsilon(1e-6));
-  // The HyAB distance between black and white is 100; between Hunt-adjusted green (87.735, -75.61, 72.97) and blue
-  // (32.297, 25.58, -34.84) it is 203.23. The expected error is calculated by hand: exponent 0.7; the lowest 0.4 of the
-  // range is mapped to [0, 0.95], the rest to [0.95, 1].
-  const double max_distance = std::pow(203.23, 0.7), error = std::pow(100.0, 0.7);
+  // The HyAB distance is 100 between black and white, and 203.3 between Hunt-adjusted green (87.735, -75.61, 72.97) and
+  // blue (32.297, 25.58, -34.84). The paper raises distances to the power 0.7, and then maps the lowest 0.4 of the range
+  // to [0, 0.95] and the rest to [0.95, 1].
+  const double max_distance = std::pow(203.30, 0.7), error = std::pow(100.0, 0.7);
   const double expected = 0.95 + 0.05 * (error - 0.4 * max_distance) / (0.6 * max_distance);
   CHECK(plain_error(black, white) == Approx(expected).epsilon(1e-4));
 }
@@ -76,7 +76,7 @@ TEST_CASE("a larger difference gives a larger error, and a greater viewing dista
   const Image image = scene(0, 0);
   CHECK(flip(image, scene(0, 10)).mean < flip(image, scene(0, 40)).mean);
   CHECK(flip(image, scene(1, 0)).mean < flip(image, scene(4, 0)).mean);
-  // A chequerboard of single pixels against its mean: from far away it is grey.
+  // A chequerboard of single pixels looks from far away like uniform grey.
   Image chequer = plain(64, 64, 255, 255, 255);
   for (int y = 0; y < 64; ++y) {
     for (int x = y % 2; x < 64; x += 2) std::fill_n(chequer.pixel(x, y), 3, std::uint8_t{0});
@@ -86,8 +86,8 @@ TEST_CASE("a larger difference gives a larger error, and a greater viewing dista
 }
 
 TEST_CASE("the authors' program gives the same means") {
-  // The expected values are from FLIP.h 1.6 (github.com/NVlabs/flip, LDR) on these pictures. It uses single precision;
-  // per pixel, it differs from ours by less than 1e-4.
+  // The expected values are from FLIP.h 1.6 (github.com/NVlabs/flip, LDR), computed for these pictures. FLIP.h uses
+  // single precision; its error differs from ours by less than 1e-4 in each pixel.
   CHECK(flip(scene(0, 0), scene(1, 0)).mean == Approx(0.082336).epsilon(1e-4));
   CHECK(flip(scene(0, 0), scene(0, 25)).mean == Approx(0.318675).epsilon(1e-4));
   CHECK(flip(scene(0, 0), scene(3, 60)).mean == Approx(0.645464).epsilon(1e-4));

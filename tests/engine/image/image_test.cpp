@@ -1,4 +1,4 @@
-// Images: written, read, cropped, joined, compared; and files that are not images.
+// Writes, reads, crops, joins and compares images, and reads files that are not images.
 #include "engine/image/image.h"
 
 #include <fcntl.h>
@@ -57,7 +57,7 @@ std::uint32_t big_endian(const std::vector<std::uint8_t>& bytes, std::size_t at)
          bytes[at + 3];
 }
 
-// The one-sentence message that `act` throws.
+// Returns the message (one sentence) of the exception that `act` throws.
 template <typename Act>
 std::string rejection(Act act) {
   try {
@@ -162,7 +162,7 @@ TEST_CASE("the size of an encoded picture is known without its pixels") {
   TempFolder folder;
   write_png(folder / "good.png", noise(9, 4, 3));
   std::vector<std::uint8_t> bytes = file_bytes(folder / "good.png");
-  bytes.resize(45);  // header and the start of the data
+  bytes.resize(45);  // keeps only the header and the start of the data
   CHECK(encoded_size(bytes).width == 9);
   CHECK(encoded_size(bytes).height == 4);
   CHECK_THROWS_AS(decode_image(bytes), std::runtime_error);

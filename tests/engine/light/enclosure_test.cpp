@@ -1,4 +1,4 @@
-// Rooms with a known solution.
+// Tests the light in rooms for which the solution is known.
 #include "engine/light/enclosure.h"
 
 #include <cmath>
@@ -25,7 +25,8 @@ Radiance constant(vec3 radiance) {
   return [=](vec3) { return radiance; };
 }
 
-// A room whose window is a spherical cap around +Z of height 2 f, which is a fraction f of all directions.
+// A spherical room of radius 1. The window is a cap around +Z with height 2 f, which covers a fraction f of all
+// directions.
 Enclosure cap(float fraction, vec3 albedo) {
   return {[=](vec3 d) { return d.z > 1.0f - 2.0f * fraction; }, [=](vec3) { return albedo; }};
 }
@@ -59,8 +60,9 @@ TEST_CASE("with windows all around, the open sky and its harmonics are unchanged
 }
 
 TEST_CASE("the lining's radiance is the geometric series of what comes in: albedo L f / (1 - albedo (1 - f))") {
-  // A constant sky L is seen through a fraction f of the sphere. Its direct light gives E / pi = L f; of the light that
-  // the lining received, a fraction albedo (1 - f) arrives again, and so on.
+  // A sky of constant radiance L is visible through a fraction f of the sphere, so its direct irradiance E gives E / pi
+  // = L f. Of the light that reaches the room's lining, a fraction albedo * (1 - f) reaches the lining again, and so
+  // on.
   const vec3 sky(0.7f, 1.0f, 1.4f), albedo(0.3f, 0.5f, 0.8f);
   std::mt19937 random(2);
   for (const float fraction : {0.1f, 0.25f, 0.6f}) {
@@ -91,9 +93,10 @@ TEST_CASE("black lining is black, lit or not") {
 }
 
 TEST_CASE("the sun adds S cos / pi where its ray enters, and interreflected light everywhere") {
-  // A window that covers a fraction f of all directions around the sun, without sky. The sun lights the opposite cap of
-  // the sphere. That flux, divided by the area of the sphere, is the integral of S cos over a cap of height h = 2 f,
-  // divided by 4 pi: S (1 - (1 - h)^2) / 4.
+  // Light comes only from a sun of irradiance S, through a window that covers a fraction f of all directions and is
+  // centred on the sun. The sun lights the opposite cap of the unit sphere, which has the height h = 2 f. The mean
+  // irradiance of the sphere is the integral of S cos(angle of incidence) over that cap, divided by 4 pi: S (1 - (1 -
+  // h)^2) / 4.
   const float fraction = 0.1f, albedo = 0.4f, sun = 3.0f, height = 2.0f * fraction;
   const Enclosure room = cap(fraction, vec3(albedo));
   const Radiance light = indoor_radiance(room, constant(kDark), {0, 0, 1}, vec3(sun));

@@ -1,4 +1,4 @@
-// Compares the split-sum table with the usual sum, in which half vectors follow the normal distribution.
+// Compares the split-sum BRDF table with the published sum over Hammersley points (see hammersley_brdf.h).
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -53,7 +53,7 @@ TEST_CASE("the baked table, as a GPU filters it, is within .0010 RMS of the 16,3
   const Error error = error_of([&](double v, double r) { return table.sample(float(v), float(r)); });
   MESSAGE("table " << table.side << "^2: rms " << error.rms << ", worst " << error.worst);
   CHECK(error.rms < 0.0010);
-  // The table is interpolated between texel centres: test random points.
+  // Random points also test the interpolation between the table's texel centres.
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0.02, 1.0);
   double squares = 0.0;

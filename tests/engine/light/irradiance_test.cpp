@@ -1,4 +1,4 @@
-// Compares irradiance from nine coefficients with known integrals.
+// Compares irradiance from nine spherical-harmonic coefficients with known integrals.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -19,7 +19,7 @@ vec3 any_direction(std::mt19937& random) {
   return glm::normalize(vec3(normal(random), normal(random), normal(random)));
 }
 
-// Irradiance / pi summed over a Fibonacci sphere: a different method with different directions.
+// Irradiance / pi, summed over a Fibonacci sphere. Method and directions are independent of the code under test.
 vec3 summed(const Radiance& radiance, vec3 n, int count = 40000) {
   vec3 sum(0.0f);
   for (int i = 0; i < count; ++i) {
@@ -59,8 +59,9 @@ TEST_CASE("radiance of degree 1 comes back by 2/3, of degree 2 by 1/4: exact for
 }
 
 TEST_CASE("under a clamped cosine sky, degree 2 is off by less than 1 % of the peak, as the series predicts") {
-  // A surface lit by max(d.a, 0): E / pi at n.a = 1 is 2/3. The terms of degree 4 and up are neglected; the largest is
-  // c_4 A_4 / pi P_4 = (-3/32)(-1/24) = 1/256.
+  // The radiance is max(d.a, 0) in direction d, with a = +Y. A surface with normal a has the largest irradiance E, with
+  // E / pi = 2/3. The projection neglects the terms of degree 4 and higher. For this surface they contribute 1/192 =
+  // 0.0052, which is below the tolerance of 1 % of 2/3 = 0.0067.
   const Irradiance irradiance = project_irradiance([](vec3 d) { return vec3(std::max(d.y, 0.0f)); }, 128);
   CHECK(std::abs(irradiance(vec3(0, 1, 0)).x - 2.0f / 3.0f) < 0.0067f);
   float worst = 0.0f;
@@ -70,7 +71,7 @@ TEST_CASE("under a clamped cosine sky, degree 2 is off by less than 1 % of the p
     worst = std::max(worst, std::abs(irradiance(n).x - summed([](vec3 d) { return vec3(std::max(d.y, 0.0f)); }, n).x));
   }
   CHECK(worst < 0.0067f);
-  CHECK(worst > 0.001f);  // degree 2 is not exact here, so the comparison can detect errors
+  CHECK(worst > 0.001f);  // the error of the neglected terms is visible to this comparison
 }
 
 TEST_CASE("the day sky's irradiance differs from the summed one by less than 4 % of the peak") {
@@ -100,7 +101,7 @@ TEST_CASE("the day sky is finite and positive everywhere, brighter above than be
     CHECK(glm::dot(l, vec3(1.0f)) <= towards_sun);
   }
   CHECK(glm::dot(sky({0, 1, 0}), vec3(1.0f)) > 2.0f * glm::dot(sky({0, -1, 0}), vec3(1.0f)));
-  // The sky has no step at the horizon.
+  // The sky's radiance does not jump at the horizon.
   const vec3 just_above = sky(glm::normalize(vec3(1, 1e-4f, 1))), just_below = sky(glm::normalize(vec3(1, -1e-4f, 1)));
   CHECK(glm::length(just_above - just_below) < 0.01f);
 }

@@ -1,4 +1,4 @@
-// Prefiltered reflections of skies whose blur is known.
+// Tests prefiltered reflections of skies for which the filtered result is known.
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +31,7 @@ TEST_CASE("faces are oriented as in Vulkan: middle texels look along their axis,
   CHECK(glm::length(cube_point(0, 1, 0) - cube_point(5, -1, 0)) == 0.0f);  // right edge of +X = left edge of -Z
   CHECK(glm::length(cube_point(4, 0, -1) - cube_point(2, 0, 1)) == 0.0f);  // top edge of +Z = bottom edge of +Y
   CHECK(glm::length(cube_point(4, 0, 1) - cube_point(3, 0, -1)) == 0.0f);  // bottom edge of +Z = top edge of -Y
-  CHECK(cube_point(4, 0, -1).y == 1.0f);                                   // rows run from the top
+  CHECK(cube_point(4, 0, -1).y == 1.0f);                                   // t = -1 is the top edge
 }
 
 TEST_CASE("level 0 is the radiance itself, as half floats") {
@@ -51,8 +51,9 @@ TEST_CASE("a constant sky stays the same at every roughness") {
 }
 
 TEST_CASE("the last level of a linear sky is its n.l weighted GGX lobe at roughness 1") {
-  // At alpha = 1, half vectors are distributed uniformly in cos^2, and l = reflect(n, h): cos_l = 2 cos_h^2 - 1 is
-  // uniform in (-1, 1). Weighted by n.l over (0, 1), the mean of cos_l is (1/3) / (1/2) = 2/3.
+  // At GGX alpha = 1, cos^2 of the half vector h is uniformly distributed. The light direction mirrors the normal n at
+  // h, so its cosine cos_l = 2 cos_h^2 - 1 is uniform in (-1, 1). Weighted by cos_l itself over (0, 1), the mean of
+  // cos_l is (1/3) / (1/2) = 2/3.
   const PrefilteredCube cube = prefilter([](vec3 d) { return vec3(2.0f + d.y); }, 8, 4, 1024);
   CHECK(texel(cube, 3, 2, 0, 0).x == doctest::Approx(2.0 + 2.0 / 3.0).epsilon(2e-3));
   CHECK(texel(cube, 3, 3, 0, 0).x == doctest::Approx(2.0 - 2.0 / 3.0).epsilon(2e-3));

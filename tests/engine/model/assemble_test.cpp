@@ -20,15 +20,15 @@ using glm::vec4;
 
 namespace {
 
-// A corner in world space: position, normal, tangent, bitangent, UV, colour; in thousandths. The random models below
-// use a grid of eighths and quarter turns, so no value is close to a rounding boundary.
+// A corner in world space: position, normal, tangent, bitangent, UV and colour, rounded to thousandths. The random
+// models below use multiples of 1/8 and of a quarter turn, so no value is close to a rounding boundary.
 using Corner = std::array<long, 15>;
 using Triangle = std::pair<int, std::array<Corner, 3>>;  // material and corners
 
 Corner world_corner(const Vertex& v, const glm::mat4& world) {
   const glm::mat3 linear(world);
   const vec3 bitangent = glm::cross(v.normal, vec3(v.tangent)) * v.tangent.w;
-  // Axes map to axes in these models, so each vector may be transformed on its own.
+  // The transforms of these models map axes to axes, so normals need no inverse transpose.
   const vec3 vectors[] = {vec3(world * vec4(v.position, 1.0f)), glm::normalize(linear * v.normal),
                           glm::normalize(linear * vec3(v.tangent)), glm::normalize(linear * bitangent)};
   Corner corner{};
@@ -43,7 +43,7 @@ Corner world_corner(const Vertex& v, const glm::mat4& world) {
 }
 
 // All triangles in world space, sorted. A triangle may start at any corner, but its winding matters; a mirroring
-// transform reverses it.
+// transform reverses the winding.
 std::vector<Triangle> sorted_triangles(const Model& model) {
   std::vector<Triangle> triangles;
   const std::vector<glm::mat4> world = rest_pose(model);
@@ -166,7 +166,7 @@ TEST_CASE("merging static meshes keeps every world-space triangle, with fewer dr
     CHECK(draw_count(merged) ==
           moving_draws + static_cast<int>(merged.meshes[static_cast<std::size_t>(root.mesh)].primitives.size()));
     CHECK(draw_count(merged) <=
-          moving_draws + static_cast<int>(model.materials.size()) + 1);  // 1: the default material
+          moving_draws + static_cast<int>(model.materials.size()) + 1);  // + 1 for the default material
     CHECK(draw_count(merged) < draw_count(model));
   }
 }
@@ -203,7 +203,7 @@ TEST_CASE("a merged normal stays perpendicular to its triangle, for any scale, s
     }
     model.meshes.push_back(mesh);
     Node node;
-    node.parent = i % 3 == 0 ? kNone : i - 1;  // two scales with a rotation in between produce shear
+    node.parent = i % 3 == 0 ? kNone : i - 1;  // chains of three nodes: scale, rotation and another scale make shear
     node.rotation = glm::normalize(glm::quat(number(random), vector()));
     node.scale = vec3(1.2f) + vector();
     if (i % 2 == 0) node.scale.x = -node.scale.x;
@@ -269,7 +269,8 @@ TEST_CASE("an appended model is drawn as before, with its own materials, texture
   CHECK(both.textures.size() == 4);
   CHECK(both.materials[7].normal_map.texture == 2 + part.materials[2].normal_map.texture);
   CHECK(draw_count(both) == draw_count(base) + draw_count(part));
-  // The part's triangles, with material indices offset by the number of materials of the base.
+  // Expected: the triangles of the base, and those of the part with material indices offset by the number of materials
+  // of the base.
   std::vector<Triangle> expected = sorted_triangles(base);
   for (Triangle t : sorted_triangles(part)) {
     if (t.first != kNone) t.first += static_cast<int>(base.materials.size());

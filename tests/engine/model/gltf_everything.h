@@ -1,4 +1,4 @@
-// One small file that uses every supported feature: the base of the hostile files.
+// One small file that uses every supported feature. Tests derive corrupt files from it.
 #pragma once
 
 #include "tests/engine/model/gltf_maker.h"

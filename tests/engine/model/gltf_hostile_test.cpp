@@ -44,7 +44,7 @@ struct Hostile {
   std::function<void(GltfMaker&)> corrupt;
 };
 
-// Sets the value at a JSON pointer.
+// Sets the value to which a JSON pointer refers.
 Hostile set(const char* pointer, const json& value) {
   return {pointer, [=](GltfMaker& maker) { maker.root[json::json_pointer(pointer)] = value; }};
 }
@@ -54,11 +54,11 @@ Hostile drop(const char* pointer, const char* key) {
 }
 
 constexpr std::uint64_t kHuge = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kWraps = (1ull << 32) + 1;  // 1 if truncated to 32 bits
+constexpr std::uint64_t kWraps = (1ull << 32) + 1;  // becomes 1 if truncated to 32 bits
 
 const std::vector<Hostile>& hostile_files() {
   static const std::vector<Hostile> files{
-      // The asset and its top-level lists.
+      // Faults in the asset and the top-level lists.
       drop("", "asset"),
       set("/asset/version", "1.0"),
       set("/asset/version", 2),
@@ -205,7 +205,7 @@ TEST_CASE("every hostile file is rejected with one sentence that names it") {
     CAPTURE(text);
     if (!maker.root.contains("buffers")) CHECK(is_rejected(maker.gltf()));
     if (!maker.root.contains("buffers")) CHECK(is_rejected(maker.glb()));
-    CHECK(is_rejected(text));  // the buffer is missing or corrupt
+    CHECK(is_rejected(text));  // the JSON alone, whose buffer is missing or corrupt
   }
 }
 
@@ -222,15 +222,15 @@ TEST_CASE("numbers in the buffer are checked like those in the text") {
   CHECK(rejected_with(0, 4, nan));  // a position
   CHECK(rejected_with(0, 4, inf));
   CHECK(rejected_with(1, 0, nan));               // a normal
-  CHECK(rejected_with(4, 1, std::uint8_t{2}));   // a joint beyond the skin
+  CHECK(rejected_with(4, 1, std::uint8_t{2}));   // a joint that the skin does not have
   CHECK(rejected_with(5, 0, -1.0f));             // a weight
-  CHECK(rejected_with(6, 2, std::uint16_t{3}));  // an index beyond the vertices
+  CHECK(rejected_with(6, 2, std::uint16_t{3}));  // an index of a vertex that does not exist
   CHECK(rejected_with(6, 2, std::uint16_t{0xffff}));
   CHECK(rejected_with(7, 0, nan));         // a bind matrix
   CHECK_FALSE(rejected_with(1, 8, 0.0f));  // a normal of zero length is repaired
 }
 
-// glTF 2.0, 3.7.2.1: all attribute accessors of a primitive have the same count.
+// glTF 2.0 section 3.7.2.1: all attribute accessors of a primitive have the same count.
 TEST_CASE("any attribute whose length differs from the positions rejects the file") {
   struct Attribute {
     const char* name;
@@ -240,7 +240,7 @@ TEST_CASE("any attribute whose length differs from the positions rejects the fil
   const auto sentence = [](const Attribute& a, std::size_t vertices) {
     GltfMaker maker = triangle();  // three positions
     json& attributes = maker.root["meshes"][0]["primitives"][0]["attributes"];
-    // All values are 1: apart from the lengths, each attribute is valid.
+    // All values are 1, so each attribute is valid except for its length.
     attributes[a.name] = maker.accessor(std::vector<float>(a.components * vertices, 1.0f), a.type, f32);
     try {
       read_back(maker);
@@ -257,7 +257,7 @@ TEST_CASE("any attribute whose length differs from the positions rejects the fil
     for (const std::size_t vertices : {1u, 2u, 4u, 300u})
       CHECK(sentence(a, vertices).find("has attributes of different lengths") != std::string::npos);
   }
-  for (const std::size_t vertices : {2u, 4u}) {  // joints, with weights of matching length
+  for (const std::size_t vertices : {2u, 4u}) {  // wrong number of joints, correct number of weights
     GltfMaker maker = everything();
     json& attributes = maker.root["meshes"][0]["primitives"][0]["attributes"];
     attributes["JOINTS_0"] = maker.accessor(std::vector<std::uint8_t>(4 * vertices), "VEC4", u8);
@@ -296,7 +296,7 @@ TEST_CASE("images with a false size, and files that are not images, reject the f
   CHECK(with_picture(resized(0x7f, 0xff, 0xff, 0xff)));
   CHECK(with_picture(resized(0xff, 0xff, 0xff, 0xff)));
   CHECK(with_picture(resized(0, 0, 0x20, 0x01)));  // 8193
-  CHECK(with_picture(resized(0, 0, 0x20, 0)));     // 8192, but the file does not contain that many pixels
+  CHECK(with_picture(resized(0, 0, 0x20, 0)));     // 8192 x 8192 px, but the file contains fewer pixels
   CHECK(with_picture(resized(0, 0, 0, 0)));
   CHECK(with_picture({good.begin(), good.begin() + 30}));
   CHECK(with_picture({'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0, 0}));
@@ -412,7 +412,7 @@ TEST_CASE("a file with any values exchanged is rejected or gives a valid model")
     GltfMaker bad = good;
     for (std::uint64_t k = 0; k <= random() % 3; ++k) {
       const json::json_pointer pointer(pointers[random() % pointers.size()]);
-      // The value itself, or the list or object that contains it.
+      // Replaces the value itself, or sometimes the list or object that contains it.
       const json::json_pointer target = random() % 4 == 0 ? pointer.parent_pointer() : pointer;
       if (bad.root.contains(target) && !target.empty()) bad.root[target] = values[random() % std::size(values)];
     }

@@ -58,7 +58,7 @@ struct GltfMaker {
   template <typename T>
   int view(const std::vector<T>& values) {
     const std::size_t offset = bytes.size(), size = values.size() * sizeof(T);
-    bytes.resize(offset + (size + 3) / 4 * 4);  // each view starts at a multiple of 4
+    bytes.resize(offset + (size + 3) / 4 * 4);  // each buffer view starts at a multiple of 4
     std::memcpy(bytes.data() + offset, values.data(), size);
     return append("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
   }

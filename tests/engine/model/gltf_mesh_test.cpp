@@ -1,4 +1,4 @@
-// Vertices and triangles from every layout that glTF allows.
+// Reads vertices and triangles in every layout that glTF allows.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ vec3 corner(const Model& model, std::size_t i) {
   return model.vertices[model.indices[i]].position;
 }
 
-// The content of the normal map does not matter.
+// Adds a material with a normal map, whose content does not matter.
 int add_normal_mapped_material(GltfMaker& maker) {
   Image dot{1, 1, {128, 128, 255, 255}};
   TempFolder folder;
@@ -96,7 +96,8 @@ TEST_CASE("indices of one, two and four bytes, and none, give the same triangles
 }
 
 TEST_CASE("a strip and a fan become the triangles of the specification, all facing one way") {
-  // The strip 0 1 2 3 becomes 0 1 2 and 1 3 2 (p_i = v_i, v_(i+1+i%2), v_(i+2-i%2)); the fan becomes 1 2 0 and 2 3 0.
+  // By glTF 2.0 section 3.7.2.1, the strip 0 1 2 3 becomes the triangles 0 1 2 and 1 3 2, and the fan 0 1 2 3 becomes
+  // the triangles 1 2 0 and 2 3 0.
   const std::vector<float> strip{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
   GltfMaker maker;
   maker.add_primitive({{"POSITION", maker.accessor(strip, "VEC3", f32)}}, {{"mode", 5}});
@@ -254,8 +255,7 @@ TEST_CASE("tangents point along u, and bitangents up the picture") {
 TEST_CASE("tangents follow the transform of the normal map") {
   GltfMaker maker;
   const int material = add_normal_mapped_material(maker);
-  // Rotated by 90 degrees: the texture's u runs along the original v, in the direction of decreasing v, so up the
-  // square.
+  // After a rotation by -90 degrees, u grows where the original v decreases, which is upwards on the square.
   maker.root["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"]["rotation"] = -std::acos(0.0);
   maker.add_primitive({{"POSITION", maker.accessor(square_corners, "VEC3", f32)},
                        {"NORMAL", maker.accessor(square_normals, "VEC3", f32)},
@@ -299,7 +299,7 @@ TEST_CASE("tangents in the file are kept, as unit vectors perpendicular to the n
   const Model model = read_back(maker);
   CHECK(model.vertices[0].tangent == vec4(0, 1, 0, -1));
   CHECK(model.vertices[1].tangent == vec4(0, 1, 0, 1));
-  CHECK(glm::length(vec3(model.vertices[2].tangent)) == Approx(1.0));  // its tangent had zero length
+  CHECK(glm::length(vec3(model.vertices[2].tangent)) == Approx(1.0));  // the tangent in the file had zero length
   CHECK(model.vertices[2].tangent.z == 0.0f);
 }
 

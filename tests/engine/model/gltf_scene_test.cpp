@@ -46,7 +46,7 @@ std::vector<std::uint8_t> png_bytes(const Image& image) {
   return read_bytes(folder / "image.png");
 }
 
-// The triangle with one material.
+// The test triangle, with one material.
 GltfMaker with_material(json material) {
   GltfMaker maker = triangle();
   maker.append("materials", std::move(material));
@@ -66,7 +66,7 @@ TEST_CASE("children listed before their parents come after them in the model, at
   for (std::size_t i = 0; i < 3; ++i) CHECK(model.nodes[i].parent < static_cast<int>(i));
   CHECK(model.nodes[static_cast<std::size_t>(model.node("node"))].mesh == 0);
   CHECK(model.nodes[static_cast<std::size_t>(model.node("hand"))].parent == model.node("arm"));
-  // A step of 1 along y, then a quarter turn about z, then a scale of 2: (-2, 0, 0).
+  // The node's origin, moved by 1 along y, rotated by 90 degrees about z and scaled by 2, is at (-2, 0, 0).
   const vec4 position = rest_pose(model)[static_cast<std::size_t>(model.node("node"))][3];
   CHECK(glm::distance(position, vec4(-2, 0, 0, 1)) < 1e-6f);
   CHECK(model.node("nobody") == kNone);
@@ -100,7 +100,7 @@ TEST_CASE("only the default scene is read, and skipped scenes are reported") {
   GltfMaker maker = triangle();
   maker.append("nodes", {{"name", "attic"}, {"mesh", 0}});
   maker.root["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
-  CHECK(read_back(maker).nodes.at(0).name == "node");  // the first scene if none is the default
+  CHECK(read_back(maker).nodes.at(0).name == "node");  // the first scene, because no scene is the default
   maker.root["scene"] = 1;
   const Model model = read_back(maker);
   REQUIRE(model.nodes.size() == 1);
@@ -160,7 +160,7 @@ TEST_CASE("a material has every number that the file gives, and glTF's defaults 
   CHECK(glm::distance(m.base_colour, vec4(0.1f, 0.2f, 0.3f, 0.4f)) < 1e-6f);
   CHECK(m.metallic == 0.5f);
   CHECK(m.roughness == 0.6f);
-  CHECK(m.emissive == vec3(2, 4, 8));  // the factor clamped to 1, times the strength
+  CHECK(m.emissive == vec3(2, 4, 8));  // the emissive factor, clamped to 1, times the emissive strength
   CHECK(m.alpha_mode == AlphaMode::mask);
   CHECK(m.alpha_cutoff == 0.75f);
   CHECK(m.double_sided);
@@ -194,7 +194,7 @@ TEST_CASE("every map of a material has its picture, its UV set and its colour sp
   CHECK(texture(m.metal_rough_map).wrap_u == Wrap::repeat);
   CHECK(texture(m.metal_rough_map).linear);
   CHECK(m.metal_rough_map.uv_set == 1);
-  CHECK(m.occlusion_map.texture == m.metal_rough_map.texture);  // one image, used twice
+  CHECK(m.occlusion_map.texture == m.metal_rough_map.texture);  // an image that is used twice becomes one texture
   CHECK(m.occlusion_strength == 0.25f);
   CHECK(m.normal_scale == 0.5f);
   // An image used as data and as colour becomes two textures.
@@ -208,7 +208,7 @@ TEST_CASE("a texture transform is translation * rotation * scale and takes the e
   GltfMaker maker = with_material({{"emissiveTexture", {{"index", 0}, {"texCoord", 0}}}});
   maker.append("images", {{"uri", data_uri(png_bytes(dot(1)), "image/png")}});
   maker.append("textures", {{"source", 0}});
-  // The example in KHR_texture_transform: the lower left quadrant, rotated by 90 degrees.
+  // The first example in KHR_texture_transform: the lower left quadrant, rotated by 90 degrees.
   maker.root["materials"][0]["emissiveTexture"]["extensions"]["KHR_texture_transform"] = {
       {"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}, {"texCoord", 1}};
   const TextureUse use = read_back(maker).materials[0].emissive_map;
@@ -218,15 +218,15 @@ TEST_CASE("a texture transform is translation * rotation * scale and takes the e
   for (const vec2 uv : {moved(0, 0), moved(1, 0), moved(0, 1), moved(1, 1), moved(0.3f, 0.6f)}) {
     CHECK(uv.x >= -1e-6f);  // left half: u from 0 to 0.5
     CHECK(uv.x <= 0.5f + 1e-6f);
-    CHECK(uv.y >= 0.5f - 1e-6f);  // lower half: v from 0.5 to 1, counted from the top
+    CHECK(uv.y >= 0.5f - 1e-6f);  // lower half: v from 0.5 to 1, because v points down
     CHECK(uv.y <= 1.0f + 1e-6f);
   }
-  // The other example in the extension: the t axis inverted.
+  // The second example in KHR_texture_transform: the texture is flipped vertically.
   maker.root["materials"][0]["emissiveTexture"]["extensions"]["KHR_texture_transform"] = {{"offset", {0, 1}},
                                                                                           {"scale", {1, -1}}};
   const TextureUse inverted = read_back(maker).materials[0].emissive_map;
   CHECK(vec2(inverted.matrix() * vec3(0.25f, 0.25f, 1)) == vec2(0.25f, 0.75f));
-  // Scale is applied first, offset last.
+  // Scale is applied first, then rotation, then offset.
   const TextureUse all{0, 0, {0.1f, 0.2f}, {2.0f, 3.0f}, 0.4f};
   const double c = std::cos(0.4), s = std::sin(0.4), u = 2.0 * 0.5, v = 3.0 * 0.25;
   const vec2 uv = vec2(all.matrix() * vec3(0.5f, 0.25f, 1));
@@ -312,9 +312,9 @@ TEST_CASE("a skin keeps its joints, bind matrices and weights, and the weights a
   REQUIRE(model.vertex_joints.size() == model.vertices.size());
   CHECK(model.vertex_joints[0].weight[0] == 0.25f);
   CHECK(model.vertex_joints[0].weight[1] == 0.75f);
-  CHECK(model.vertex_joints[0].joint[2] == 0);  // joint 9 had no weight
+  CHECK(model.vertex_joints[0].joint[2] == 0);  // the file has joint 9 here, but its weight is 0
   CHECK(model.vertex_joints[1].joint[0] == 1);
-  CHECK(model.vertex_joints[2].weight[0] == 1.0f);  // the vertex had no weights
+  CHECK(model.vertex_joints[2].weight[0] == 1.0f);  // this vertex has no weights in the file
 
   maker.root["skins"][0].erase("inverseBindMatrices");
   CHECK(read_back(maker).skins[0].inverse_bind[1] == mat4(1));

@@ -1,4 +1,4 @@
-// Poses of a model, and skinned vertices.
+// Node poses of a model, and skinned vertices.
 #include "engine/model/model.h"
 
 #include <cmath>
@@ -40,7 +40,7 @@ TEST_CASE("a node's matrix scales, then rotates, then translates") {
   node.translation = {1, 2, 3};
   node.rotation = glm::angleAxis(std::acos(0.0f), vec3(0, 0, 1));
   node.scale = {2, 3, 4};
-  const vec4 moved = node.local() * vec4(1, 1, 1, 1);  // scaled to (2, 3, 4), rotated to (-3, 2, 4)
+  const vec4 moved = node.local() * vec4(1, 1, 1, 1);  // scaled: (2, 3, 4); rotated: (-3, 2, 4); moved: (-2, 4, 7)
   CHECK(glm::distance(moved, vec4(-2, 4, 7, 1)) < 1e-5f);
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("two joints bend an arm as calculated by hand: the far half turns, the
   model.nodes.resize(3);
   model.nodes[0].mesh = 0;
   model.nodes[0].skin = 0;
-  model.nodes[0].translation = {7, 7, 7};  // no effect: joints place a skinned mesh
+  model.nodes[0].translation = {7, 7, 7};  // has no effect, because joints place a skinned mesh
   model.nodes[2].parent = 1;
   model.nodes[2].translation = {1, 0, 0};
   model.nodes[2].rotation = glm::angleAxis(std::acos(0.0f), vec3(0, 0, 1));
@@ -113,7 +113,7 @@ TEST_CASE("two joints bend an arm as calculated by hand: the far half turns, the
   CHECK(glm::distance(out[5].normal, vec3(-diagonal, diagonal, 0)) < 1e-6f);
   CHECK(out[4].uv0 == model.vertices[5].uv0);
 
-  // In its bind pose and moved as a whole: all vertices move by the same amount.
+  // The model is in its bind pose and moved as a whole, so all vertices move by the same amount.
   model.nodes[2].rotation = glm::quat(1, 0, 0, 0);
   model.nodes[1].translation = {0, 0, 4};
   skin_vertices(model, 0, rest_pose(model), out);

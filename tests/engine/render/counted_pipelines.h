@@ -3,6 +3,6 @@
 
 namespace gearshift::test {
 
-extern int compiled_pipelines;  // so far
+extern int compiled_pipelines;  // number of pipelines compiled so far
 
 }  // namespace gearshift::test

@@ -22,7 +22,7 @@ Model street() {
   Model model;
   add_floor(model, "Floor", 20.0f, add_material(model, paint({0.5f, 0.5f, 0.4f})), -0.2f);
   const int box = add_material(model, paint({0.7f, 0.2f, 0.1f}, 0.4f));
-  add_cube(model, "Near", 0.15f, box, {0.2f, 0.0f, -0.25f});  // intersects the near plane
+  add_cube(model, "Near", 0.15f, box, {0.2f, 0.0f, -0.25f});  // begins 0.10 m ahead; the near plane is at 0.05 m
   add_cube(model, "Far", 0.5f, box, {-1.0f, 0.3f, -4.0f});
   Material pane = paint({0.2f, 0.4f, 0.9f}, 0.1f);
   pane.base_colour.a = 0.4f;
@@ -65,8 +65,8 @@ TEST_CASE("the corners of a cube are drawn within 0.5 px of a pinhole camera's p
     for (int eye = 0; eye < 2; ++eye) {
       const dvec3 from_head = glm::conjugate(head.orientation) * (at - head.position);
       const double z = -from_head.z, x = from_head.x - (eye == 0 ? -0.5 : 0.5) * kIpd;
-      // Parallel eyes with frusta that coincide on the screen: there, the picture's centre is offset by half the eye
-      // distance.
+      // The eyes look in parallel, and their frusta coincide at the distance kScreen. There, the centre of each eye's
+      // picture is offset by half the eye distance.
       const dvec2 pinhole{160.0 + focal * (x / z + (eye == 0 ? -0.5 : 0.5) * kIpd / kScreen),
                           120.0 - focal * from_head.y / z};
       worst = std::max(worst, glm::length(centroid(renderer.read_eye(eye), 0) - pinhole));
@@ -122,7 +122,7 @@ TEST_CASE("objects out of sight are not drawn, and objects in sight are") {
   renderer.set_model(model);
   const View view = view_at(renderer.config(), look_at({0, 0, 0}, {0, 0, -1}));
   renderer.draw(scene_at_rest(model), {&view, 1});
-  CHECK(renderer.draws() == 2);  // the cube ahead, and the cube that just reaches into the picture
+  CHECK(renderer.draws() == 2);  // the cube straight ahead, and the cube that just reaches into the picture
   FrameScene hidden = scene_at_rest(model);
   hidden.nodes[0].visible = false;
   renderer.draw(hidden, {&view, 1});

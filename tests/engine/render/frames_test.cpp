@@ -1,4 +1,4 @@
-// Sequences of frames: in flight, with changed models, with rejected input.
+// Tests sequences of frames: several frames in flight, changed models, and rejected input.
 #include <cstring>
 
 #include "engine/gpu/gpu_buffer.h"
@@ -47,7 +47,7 @@ Model patch() {
   return model;
 }
 
-// The patch, moved by changing its vertices.
+// The patch, shifted by changing its vertices.
 DeformedMesh shifted_patch(float x) {
   DeformedMesh mesh{0, rectangle(0.3f, 0.3f)};
   for (Vertex& vertex : mesh.vertices) vertex.position.x += x;
@@ -65,14 +65,15 @@ TEST_CASE("each frame in flight shows its own deformed mesh, even far away from 
   renderer.set_model(model);
   FrameScene scene = scene_at_rest(model);
   scene.nodes[0].world =
-      glm::translate(glm::mat4(1.0f), vec3(-4.0f, 0.0f, 0.0f));  // outside the view; its deformed vertices are inside
+      glm::translate(glm::mat4(1.0f), vec3(-4.0f, 0.0f, 0.0f));  // the node is outside the view; its vertices are not
   const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
   std::vector<PictureCopy> copies;
   for (int i = 0; i < 7; ++i) copies.emplace_back(fixture.gpu(), config.width, config.height);
   std::uint64_t last = 0;
   for (int i = 0; i < 7; ++i) {
     scene.deformed = {shifted_patch(4.0f + 0.25f * static_cast<float>(i - 3))};
-    last = renderer.draw(scene, {&view, 1}, {}, copies[static_cast<std::size_t>(i)]);  // no wait in between
+    // draw() does not wait for earlier frames.
+    last = renderer.draw(scene, {&view, 1}, {}, copies[static_cast<std::size_t>(i)]);
   }
   fixture.gpu().wait(last);
   for (int i = 0; i < 7; ++i) {
@@ -199,7 +200,7 @@ TEST_CASE("a frame of a million triangles is drawn to the last of them") {
   const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
   renderer.draw(scene_at_rest(model), {&view, 1});
   const Image picture = renderer.read_eye(0);
-  CHECK(picture.pixel(16, 12)[1] > picture.pixel(16, 12)[0] + 100);  // green is in front of white
+  CHECK(picture.pixel(16, 12)[1] > picture.pixel(16, 12)[0] + 100);  // the green square is in front of the white patch
 }
 
 TEST_CASE("the times of the passes add up to the time of the frame") {

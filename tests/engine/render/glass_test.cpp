@@ -1,4 +1,4 @@
-// Transparency and the order of blending.
+// Tests transparency and the order of blending.
 #include "tests/engine/render/render_bench.h"
 
 using namespace gearshift::engine;
@@ -36,7 +36,7 @@ TEST_CASE("glass is drawn back to front, whatever its order in the file, seen fr
   add_rectangle(other, "Red", {1, 1}, add_material(other, red), {0, 0, 0.5f});
   const Image front = picture_from(renderer, one, scene_at_rest(one), {0, 0, 2});
   CHECK(difference(front, picture_from(renderer, other, scene_at_rest(other), {0, 0, 2})).worst == 0);
-  CHECK(front.pixel(80, 60)[0] > front.pixel(80, 60)[2]);  // the nearer one is red
+  CHECK(front.pixel(80, 60)[0] > front.pixel(80, 60)[2]);  // the nearer pane is red
   const Image back = picture_from(renderer, one, scene_at_rest(one), {0, 0, -2});
   CHECK(back.pixel(80, 60)[2] > back.pixel(80, 60)[0]);
 }
@@ -52,8 +52,8 @@ TEST_CASE("solid objects hide the glass behind them, and are visible through the
   FrameScene no_pane = scene_at_rest(model);
   no_pane.nodes[0].visible = false;
   const Image without_pane = picture_from(renderer, model, no_pane, {0, 0, 2});
-  // Linear display values. The pane reflects 4 % at n.v = 1 and transmits three quarters of the rest; what it reflects
-  // here is black.
+  // `linear` converts a pixel value to linear light. Viewed along its normal, the pane reflects 4 % of the light and
+  // transmits three quarters of the rest. The reflected environment is black here.
   const auto linear = [](int code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
   CHECK(linear(picture.pixel(80, 60)[1]) / linear(without_pane.pixel(80, 60)[1]) ==
         doctest::Approx(0.75 * 0.96).epsilon(0.03));

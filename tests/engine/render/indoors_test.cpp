@@ -1,4 +1,4 @@
-// Two environments: indoor nodes are lit by the indoor one, all others by the sky.
+// With two environments, indoor nodes are lit by the indoor environment, and all other nodes by the sky.
 #include "tests/engine/render/render_bench.h"
 
 using namespace gearshift::engine;
@@ -64,8 +64,8 @@ TEST_CASE("the indoor light changes an indoor node, and not a bit of an outdoor 
   const int left = 50, right = 110;  // [px]
   for (int y = 30; y < 90; ++y) {
     CHECK(same.pixel(left, y)[1] > dark.pixel(left, y)[1] + 30);
-    for (int x = 80; x < 160; ++x)  // the right half: wall and sky
+    for (int x = 80; x < 160; ++x)  // the right half of the picture: wall and sky
       for (int c = 0; c < 3; ++c) REQUIRE(same.pixel(x, y)[c] == dark.pixel(x, y)[c]);
   }
-  CHECK(same.pixel(left, 60)[1] == same.pixel(right, 60)[1]);  // without an indoor environment: same as outdoors
+  CHECK(same.pixel(left, 60)[1] == same.pixel(right, 60)[1]);  // no indoor environment: both sides look the same
 }

@@ -1,13 +1,13 @@
 // The minimal case of a wrong-code bug in g++ 12.2 -O2 (Debian 12): stores are lost when a function that returns a
-// matrix is inlined into a loop like that of set_views(), and every frame is black. The code is correct at -O1 and -O3,
-// with -fno-ivopts, and with clang. The engine and its tests are compiled with -fno-ivopts; without it, this test and
-// 30 others of the renderer fail.
+// matrix is inlined into a loop like the one in set_views(), and every frame is black. The code is correct at -O1 and
+// -O3, with -fno-ivopts, and with clang. The engine and its tests are compiled with -fno-ivopts; without it, this test
+// and 30 others of the renderer fail.
 #include <cstddef>
 
 #include <doctest/doctest.h>
 
-// The namespace has a name: in an unnamed one, functions with a single caller would all be inlined at once, and the
-// code would be correct.
+// The namespace needs a name: in an unnamed namespace, g++ inlines all functions with a single caller at once, and the
+// bug does not appear.
 namespace ivopts_case {
 
 struct Vec3 {

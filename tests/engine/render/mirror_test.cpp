@@ -83,7 +83,7 @@ TEST_CASE("objects behind the mirror are not visible in it, and without a pictur
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) redder += picture.pixel(x, y)[0] > picture.pixel(x, y)[1] ? 1 : 0;
   CHECK(redder == 0);
-  rig.world(rig.red)[3] = glm::vec4(0.1f, 0.0f, -1.0f, 1.0f);  // moved in front of the mirror, the red lamp is visible
+  rig.world(rig.red)[3] = glm::vec4(0.1f, 0.0f, -1.0f, 1.0f);  // in front of the mirror, the red lamp is visible
   renderer.draw(rig.scene, {&view, 1});
   CHECK(centroid(renderer.read_eye(0), 0, 150).x > 0.0);
 
@@ -119,7 +119,7 @@ TEST_CASE("the window's corners are the picture's corners, for a mirror of any p
     const dvec3 projected = project(*view, vec3(point), {1.0, 1.0});
     CHECK(projected.x == doctest::Approx(corner.x < 0.0f ? 1.0 : 0.0).epsilon(1e-3));
     CHECK(projected.y == doctest::Approx(corner.y < 0.0f ? 1.0 : 0.0).epsilon(1e-3));
-    CHECK(std::abs(projected.z) < 1e-4);  // on the near plane
+    CHECK(std::abs(projected.z) < 1e-4);  // the mirror is in the near plane
     CHECK(glm::dot(window.u_row(), point) == doctest::Approx(projected.x).epsilon(1e-3));
     CHECK(glm::dot(window.v_row(), point) == doctest::Approx(projected.y).epsilon(1e-3));
   }

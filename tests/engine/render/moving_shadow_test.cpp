@@ -1,4 +1,4 @@
-// The cached shadow of static casters, and casters moving over it.
+// Tests the cached shadow of static casters, with other casters moving over it.
 #include "tests/engine/render/render_bench.h"
 
 using namespace gearshift::engine;
@@ -7,7 +7,7 @@ using glm::vec3;
 
 namespace {
 
-// A floor with a static cube, a moving cube and a slanting sun.
+// A floor with a static cube and a moving cube, under a slanting sun.
 struct MovingYard {
   Model model;
   int mover = kNone;
@@ -53,7 +53,7 @@ TEST_CASE("a moving caster leaves no shadow behind: on any path, the picture equ
     vec3 at;
     bool visible = true;
   };
-  // Moves the caster across the static cube's shadow, out of the map and back, and hides and shows it.
+  // The steps move the caster across the static cube's shadow, out of the map and back, and hide and show the caster.
   for (const Step step : {Step{{-0.8f, 0.2f, 0.0f}}, Step{{-0.8f, 0.2f, 0.1f}}, Step{{0.1f, 0.3f, 0.3f}},
                           Step{{40.0f, 0.2f, 0.0f}}, Step{{0.9f, 0.2f, 0.8f}}, Step{{0.9f, 0.2f, 0.8f}, false},
                           Step{{0.9f, 0.2f, 0.8f}, false}, Step{{-2.7f, 0.0f, -2.7f}}, Step{{0.2f, 0.5f, 0.2f}}}) {

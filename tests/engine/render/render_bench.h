@@ -162,7 +162,8 @@ inline void check_displayed(const engine::Image& picture, int x, int y, glm::dve
   }
 }
 
-// Centroid [px] of the light in a channel, weighted by how far it exceeds the threshold; x < 0 if there is none.
+// Centroid [px] of the pixels that are brighter than the threshold in a channel, weighted by their excess over the
+// threshold; x < 0 if there are none.
 inline glm::dvec2 centroid(const engine::Image& picture, int channel, int threshold = 40) {
   glm::dvec2 sum(0.0);
   double weight = 0.0;

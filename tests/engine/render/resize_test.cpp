@@ -1,5 +1,5 @@
-// A resized renderer draws the same picture as a new one with that configuration, and a change of size compiles
-// nothing.
+// A resized renderer draws the same picture as a new renderer of the new size, and a change of size compiles no
+// pipeline.
 #include "tests/engine/render/counted_pipelines.h"
 #include "tests/engine/render/render_bench.h"
 

@@ -35,8 +35,8 @@ struct Yard {
   FrameScene scene;
 };
 
-// Fraction of the floor's points that are lit although the ray is blocked, or dark although it is not. Points hidden by
-// the blocker are skipped.
+// Fraction of the floor's points that are lit although their ray to the sun is blocked, or dark although it is free.
+// Points hidden by the blocker are skipped.
 double fraction_misjudged(Renderer& renderer, const FrameScene& scene, dvec3 blocker) {
   const View view = view_at(renderer.config(), look_at({0, 3.0, 1.8}, {0, 0, 0}));
   renderer.draw(scene, {&view, 1});
@@ -82,7 +82,7 @@ TEST_CASE("a blocker's shadow on a floor is where rays say: 1 % misjudged at 102
   Renderer renderer(fixture.gpu(), none);
   renderer.set_environment(constant_sky(vec3(0.02f)));
   renderer.set_model(yard.model);
-  // Without shadows, the shadowed points are misjudged: the comparison can detect errors.
+  // Without shadows, the shadowed points are misjudged, so the comparison can detect errors.
   CHECK(fraction_misjudged(renderer, yard.scene, at) > 0.03);
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("a shadow follows its caster from frame to frame, and disappears with 
   CHECK(fraction_misjudged(renderer, yard.scene, {50.0, kHeight, 0.0}) < 0.001);
   yard.scene.nodes[1].visible = true;
   CHECK(fraction_misjudged(renderer, yard.scene, {0.0, kHeight, -0.2}) < 0.02);
-  yard.scene.nodes[1].opacity = 0.5f;  // a ghost casts no shadow
+  yard.scene.nodes[1].opacity = 0.5f;  // a translucent object casts no shadow
   const View view = view_at(renderer.config(), look_at({0, 3.0, 1.8}, {0, 0, 0}));
   renderer.draw(yard.scene, {&view, 1});
   const Image ghost = renderer.read_eye(0);
@@ -148,7 +148,7 @@ TEST_CASE("light falls through a mask's holes") {
   const View view = view_at(renderer.config(), look_at({0, 3.0, 1.8}, {0, 0, 0}));
   renderer.draw(scene, {&view, 1});
   const Image picture = renderer.read_eye(0);
-  const auto light = [&](double x) {  // light on the floor where the sun's ray passes the blocker at x
+  const auto light = [&](double x) {  // light at the floor point whose ray to the sun crosses the blocker's plane at x
     const dvec3 at = project(view, {x - 0.6 * 0.5, 0.0, -0.25 - 0.6 * 0.3}, {400, 300});
     return picture.pixel(int(at.x), int(at.y))[1];
   };
@@ -252,8 +252,8 @@ TEST_CASE("the visible part of a box lies within its visible corners, for an eye
     const View view = view_from(look_at(eye, {0.3, -0.1, -1.0}), symmetric_fov(0.6, 1.5), 0.05);
     const glm::mat4 clip = view.clip_from_view * view.view_from_world;
     const std::vector<vec3> visible = visible_corners(box, {&clip, 1});
-    // Compares extents along many axes: every visible point is within those of the corners, and some points come close
-    // to them.
+    // Along each of 20 random axes, no visible point of the box lies beyond the farthest of the visible corners, and
+    // some point comes close to it.
     for (int k = 0; k < 20; ++k) {
       const vec3 axis = glm::normalize(vec3(throws(dice), throws(dice), throws(dice)) - 0.5f);
       float high = -1e9f, reached = -1e9f;
@@ -283,8 +283,8 @@ TEST_CASE("the shadow of a straight edge is straight: within a fifth of a texel 
   Renderer renderer(fixture.gpu(), config);
   renderer.set_environment(constant_sky(vec3(0.02f)));
   renderer.set_model(yard.model);
-  // The blocker's right edge, x = 0.3 at height 0.6, casts its shadow at x = 0.3 - 0.6 * 0.5 = 0. The camera looks
-  // straight down from below the blocker.
+  // The sun's rays slope by 0.5 in x, so the blocker's right edge (x = 0.3 at height 0.6) casts its shadow at
+  // x = 0.3 - 0.6 * 0.5 = 0. The camera looks straight down from below the blocker.
   const View view = view_at(config, look_at({0.001, 0.5, -0.18}, {0, 0, -0.18}, {0, 0, -1}));
   renderer.draw(yard.scene, {&view, 1});
   const Image picture = renderer.read_eye(0);

@@ -9,7 +9,7 @@ using glm::vec3;
 
 namespace {
 
-constexpr int kX = 80, kY = 60;  // the centre, where the view direction is the normal
+constexpr int kX = 80, kY = 60;  // [px] the picture's centre, where the view direction equals the normal
 
 // A wall that fills the picture, viewed along its normal.
 struct Wall {
@@ -63,8 +63,8 @@ TEST_CASE("a wall under the sun alone shows Lambert and GGX, within 1/255") {
     const Wall wall(paint(vec3(colour), float(roughness)));
     FrameScene scene = scene_at_rest(wall.model);
     scene.sun = {vec3(5.0 * sun), vec3(irradiance)};
-    // glTF 2.0, appendix B: GGX's D and V, Schlick's F. The diffuse part is reduced by the fraction of sky light that
-    // the surface reflects.
+    // Terms of glTF 2.0, appendix B: GGX's D and V, Schlick's F. The diffuse part is reduced by the fraction of sky
+    // light that the surface reflects.
     const double a2 = std::pow(roughness, 4.0), nl = sun.z, nv = 1.0, nh = half.z, vh = glm::dot(view, half);
     const double d = a2 / (glm::pi<double>() * std::pow(nh * nh * (a2 - 1.0) + 1.0, 2.0));
     const double v = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
@@ -104,10 +104,10 @@ TEST_CASE("a face seen from behind is hidden, or lit on that side if double-side
   material.double_sided = true;
   const Wall both(material);
   const Image front = studio.photograph(single.model, scene_at_rest(single.model));
-  // Seen from behind: only the sky on that side is visible.
+  // From behind, a single-sided wall is invisible, so only the sky is visible.
   check_displayed(studio.photograph(single.model, scene_at_rest(single.model), {0, 0, -2}), kX, kY, dvec3(1.0), 2.0);
   const Image back = studio.photograph(both.model, scene_at_rest(both.model), {0, 0, -2});
-  CHECK(back.pixel(kX, kY)[0] < front.pixel(kX, kY)[0] / 2);  // lit by the darker sky on that side
+  CHECK(back.pixel(kX, kY)[0] < front.pixel(kX, kY)[0] / 2);  // the back is lit by the darker sky
   FrameScene mirrored = scene_at_rest(single.model);
   mirrored.nodes[0].world = glm::scale(glm::mat4(1.0f), vec3(-1.0f, 1.0f, 1.0f));
   CHECK(difference(studio.photograph(single.model, mirrored), front).worst <= 1);
@@ -125,7 +125,7 @@ TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, ver
   const int on_uv1 = add_material(model, material);
   material.emissive_map = {.texture = 0, .offset = {0.5f, 0.0f}};
   const int shifted = add_material(model, material);
-  // A quarter turn counter-clockwise, as seen with v pointing down: (u, v) -> (v, -u).
+  // A rotation by 90 degrees, counter-clockwise as seen with v pointing down: (u, v) -> (v, -u).
   material.emissive_map = {.texture = 0, .rotation = glm::half_pi<float>()};
   const int turned = add_material(model, material);
   for (const int use : {on_uv1, shifted, turned})
@@ -140,7 +140,7 @@ TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, ver
   add_rectangle(model, "", {0.5f, 0.5f}, add_material(model, holes), {0, -1.2f, 0});
 
   FrameScene scene = scene_at_rest(model);
-  scene.nodes[0].uv_shift = {0.5f, 0.0f};  // shifts only the first UV set
+  scene.nodes[0].uv_shift = {0.5f, 0.0f};  // no effect: shifts only UV set 0, and this node uses UV set 1
   const View view = view_at(studio.config, look_at({0, 0, 4}, {0, 0, 0}));
   const auto colour_at = [&](const Image& picture, vec3 point) {
     const dvec3 at = project(view, point, {160, 120});
@@ -152,9 +152,10 @@ TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, ver
   const Image picture = studio.photograph(model, scene, {0, 0, 4});
   CHECK(colour_at(picture, {-1.45f, 0.25f, 0}) == red);
   CHECK(colour_at(picture, {-0.95f, 0.25f, 0}) == green);
-  CHECK(colour_at(picture, {-0.25f, 0.25f, 0}) == green);  // shifted by half a picture
+  CHECK(colour_at(picture, {-0.25f, 0.25f, 0}) == green);  // shifted by half the texture's width, green is left of red
   CHECK(colour_at(picture, {0.25f, 0.25f, 0}) == red);
-  // (.25, .25) -> (.25, -.25): lower left, blue. (.75, .25) -> (.25, -.75): upper left, red.
+  // UV (0.25, 0.25) becomes (0.25, -0.25), which wraps to (0.25, 0.75): the lower left texel, blue. UV (0.75, 0.25)
+  // becomes (0.25, -0.75), which wraps to (0.25, 0.25): the upper left texel, red.
   CHECK(colour_at(picture, {0.95f, 0.25f, 0}) == blue);
   CHECK(colour_at(picture, {1.45f, 0.25f, 0}) == red);
   CHECK(colour_at(picture, {-0.25f, -0.95f, 0}) == lit);
@@ -184,7 +185,7 @@ TEST_CASE("baked occlusion darkens the sky's light by its strength") {
   const double open = 1.0 + 0.5 * (0.2 - 1.0);
   const glm::dvec2 ab = environment_brdf(1.0, 1.0, 4096);
   const double reflectance = 0.04 * ab.x + ab.y;
-  // Lagarde & de Rousiers 2014, listing 26, at n.v = 1 and roughness 1.
+  // Specular occlusion by Lagarde & de Rousiers 2014, listing 26, at n.v = 1 and roughness 1.
   const double specular = std::min(1.0, std::pow(1.0 + open, std::exp2(-17.0)) - 1.0 + open);
   check_displayed(studio.photograph(model, scene_at_rest(model)), kX, kY,
                   dvec3(0.5 * (1.0 - reflectance) * open + reflectance * specular));
@@ -212,8 +213,8 @@ TEST_CASE("a normal map changes the shading; without it the picture differs") {
   CHECK(difference(bumpy, without.photograph(model, scene)).fraction_beyond > 0.5);
 }
 
-// A normal map is about directions, so the same wall is lit identically when modelled small and scaled up, or large and
-// scaled down.
+// A normal map only states directions, so the same wall is lit identically when modelled small and scaled up, or large
+// and scaled down.
 TEST_CASE("a normal map has the same strength on a node of any scale") {
   const auto wall = [](float scale) {
     Model model;
@@ -240,8 +241,8 @@ TEST_CASE("a normal map has the same strength on a node of any scale") {
   }
 }
 
-// Masked holes are holes in every pass: where vertex alpha is below the cutoff, the background is visible with one
-// sample (depth prepass) as well as with four, and the sun shines through.
+// Tests every pass: in a hole (vertex alpha below the cutoff), the background is visible with one sample (depth
+// prepass) and with four samples, and the sun shines through.
 TEST_CASE("holes masked by vertex alpha are holes with one sample, with four samples, and for the sun") {
   Model model;
   std::vector<Vertex> fading = rectangle(1.0f, 1.0f);  // alpha 1 at the left edge, 0 at the right edge
@@ -267,6 +268,6 @@ TEST_CASE("holes masked by vertex alpha are holes with one sample, with four sam
       return int(picture.pixel(int(at.x), int(at.y))[1]);
     };
     CHECK(light(-0.5) < 40);  // the black mask
-    CHECK(light(0.5) > 120);  // the sunlit wall behind it
+    CHECK(light(0.5) > 120);  // the sunlit wall, seen through the hole
   }
 }

@@ -1,4 +1,4 @@
-// Compares views with pinhole geometry without matrices.
+// Compares views with pinhole geometry that is computed without matrices.
 #include "engine/scene/view.h"
 
 #include <cmath>
@@ -17,7 +17,8 @@ namespace {
 constexpr double kNear = 0.05;
 const dvec2 kSize{1280.0, 720.0};
 
-// [px] A pinhole camera: where the ray from the eye to the point crosses the picture.
+// Returns the pixel [px] at which a pinhole camera shows the point: where the ray from the eye to the point crosses the
+// picture.
 dvec2 pinhole(const EyePose& eye, const Fov& fov, dvec3 point) {
   const dvec3 to = point - eye.position;
   const double ahead = glm::dot(to, eye.orientation * dvec3(0.0, 0.0, -1.0));

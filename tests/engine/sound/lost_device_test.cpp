@@ -1,5 +1,5 @@
-// A device that can be disconnected: OpenAL's memory device, except for its reported connection state. Also real runs
-// of this program without a sound card, and with OpenAL's null device.
+// Simulates a device that can be disconnected: OpenAL's memory device with an overridden connection state. Two tests
+// start this program again as a child process, one without a sound card and one with OpenAL's null device.
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -26,7 +26,7 @@ class PluggedDevice : public SoundDevice {
  public:
   PluggedDevice(SoundOutput output, const Socket& socket)
       : SoundDevice(output), socket_(socket), number_(socket.opened) {}
-  // A disconnected device stays lost: only a new one can play.
+  // A device that was disconnected stays lost. Only a device opened later can play.
   bool connected() const override {
     return SoundDevice::connected() && socket_.is_plugged && socket_.opened == number_;
   }
@@ -82,7 +82,7 @@ void use_everything(SoundWorld& world) {
   }
   std::vector<float> stereo(960, 1.0f);
   world.render(stereo);
-  CHECK(peak(doubles(stereo)) == 0.0);  // a world on a card renders silence to memory
+  CHECK(peak(doubles(stereo)) == 0.0);  // render() writes sound only with SoundOutput::memory
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ TEST_CASE("a reopened device has all clips and loops in their latest state") {
   CHECK(world.output() == SoundOutput::none);
   CHECK(world.silence_reason() == "the sound device was lost");
   CHECK(peak(channel(listen(world, 0.1), Ear::left)) == 0.0);
-  // All calls are still safe, and their effects are remembered.
+  // While the device is lost, all calls are safe. set() and loop() take effect on the next device.
   world.set(voice, {kInFront, 0.5f, 2.0f});
   const VoiceId late = world.loop(world.add_clip(hum(300.0)), {kInFront, 0.25f});
   world.play(0, {kInFront});
@@ -113,7 +113,7 @@ TEST_CASE("a reopened device has all clips and loops in their latest state") {
   const std::vector<double> left = channel(listen(world, 0.5), Ear::left);
   CHECK(amplitude_at(left, 880.0) == doctest::Approx(0.5 * before).epsilon(0.02));
   CHECK(amplitude_at(left, 300.0) == doctest::Approx(0.25 * before).epsilon(0.02));
-  CHECK(amplitude_at(left, 440.0) < 0.01 * before);  // past requests are not replayed, and the one-shot has ended
+  CHECK(amplitude_at(left, 440.0) < 0.01 * before);  // play() while the device is lost has no later effect
   world.set(late, {kInFront, 0.0f});
   listen(world, 0.1);
   CHECK(amplitude_at(channel(listen(world, 0.5), Ear::left), 300.0) < 1e-3 * before);
@@ -128,7 +128,7 @@ TEST_CASE("reopening a lost device is tried at once, then at most once per secon
   CHECK(socket.open_calls >= 1 + 10);
   CHECK(socket.open_calls <= 1 + 11);
   const int so_far = socket.open_calls;
-  world.update(5.0);  // the clock was set back: this costs one second at most
+  world.update(5.0);  // the clock goes back by 105 s, but the next attempt is at most 1 s later
   world.update(6.1);
   CHECK(socket.open_calls == so_far + 1);
   socket.is_plugged = true;

@@ -101,7 +101,7 @@ inline double strongest_line(std::span<const double> x) {
   return (static_cast<double>(top) + 0.5 * (a - c) / (a - 2.0 * b + c)) * hertz;
 }
 
-// Sum of the power between two frequencies [Hz].
+// Sum of the power spectrum between two frequencies [Hz].
 inline double band_power(const Spectrum& s, double low, double high) {
   double sum = 0.0;
   for (std::size_t n = 0; n < s.power.size(); ++n) {
@@ -122,8 +122,8 @@ inline double amplitude_at(std::span<const double> x, double frequency) {
   return 2.0 * std::abs(sum) / static_cast<double>(count);
 }
 
-// Roughness at the joint of a loop: the second difference there, relative to the largest one inside. It reveals kinks
-// and steps; a smooth loop has a value of at most 1.
+// Roughness of a loop at the joint of its end and its start: the second difference at the joint, divided by the largest
+// second difference inside the loop. A kink or step gives a large value. A smooth loop gives at most 1.
 inline double joint_roughness(std::span<const float> loop) {
   const std::size_t size = loop.size();
   const auto bend = [&](std::size_t n) {

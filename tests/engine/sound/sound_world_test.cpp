@@ -1,4 +1,4 @@
-// Sound rendered to memory and measured.
+// Tests of sound that is rendered to memory and measured.
 #include "engine/sound/sound_world.h"
 
 #include <limits>
@@ -14,7 +14,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// A sine. Half a second of it has a whole number of periods if the frequency is even, and then loops without a step.
+// A sine. If `frequency` is even, 0.5 s contains a whole number of periods, so that the clip loops without a step.
 std::vector<float> sine(double frequency, double amplitude, double seconds = 0.5) {
   std::vector<float> out(static_cast<std::size_t>(std::lround(seconds * kSoundRate)));
   for (std::size_t n = 0; n < out.size(); ++n) {
@@ -27,7 +27,7 @@ std::vector<float> sine(double frequency, double amplitude, double seconds = 0.5
 constexpr glm::vec3 kAhead{0.0f, 0.0f, -0.5f};
 constexpr glm::vec3 kRight{0.5f, 0.0f, 0.0f};
 
-// Renders a 1 kHz loop of amplitude 0.5 with the given voice, after it has settled.
+// Renders a 1 kHz loop of amplitude 0.5 with the given voice, and leaves out the first 0.1 s.
 std::vector<float> render_voice(const Voice& voice, float volume = 1.0f) {
   SoundWorld world(SoundOutput::memory);
   world.set_volume(volume);
@@ -76,7 +76,8 @@ TEST_CASE("amplitude is proportional to the voice's gain and to the overall volu
 }
 
 TEST_CASE("gain falls as reference / distance, and is constant within the reference distance") {
-  // The voices are so quiet that no gain reaches 1.
+  // The voices have a gain of 0.1, so that the product of gain and distance factor stays below 1, the largest gain in
+  // OpenAL.
   const double near = left_amplitude({{0.0f, 0.0f, -kSoundReferenceDistance}, 0.1f});
   for (const float distance : {0.1f, 0.3f, 0.5f, 0.7f, 1.0f, 2.0f, 5.0f, 20.0f}) {
     CAPTURE(distance);
@@ -86,7 +87,7 @@ TEST_CASE("gain falls as reference / distance, and is constant within the refere
 }
 
 TEST_CASE("a source on the right is louder in the right ear, mirrored on the left; turning the listener changes that") {
-  const auto balance = [](glm::vec3 source, glm::vec3 forward) {  // [dB] right relative to left
+  const auto balance = [](glm::vec3 source, glm::vec3 forward) {  // [dB] right level relative to left level
     SoundWorld world(SoundOutput::memory);
     world.set_listener(glm::vec3(0.0f), forward, {0.0f, 1.0f, 0.0f});
     world.loop(world.add_clip(sine(1000.0, 0.5)), {source});
@@ -105,8 +106,8 @@ TEST_CASE("a source on the right is louder in the right ear, mirrored on the lef
     last = balance(source, north);
   }
   CHECK(balance(kRight, north) > last);
-  CHECK(std::abs(balance(kRight, east)) < 0.01);  // now straight ahead
-  CHECK(balance(kAhead, east) < -6.0);            // now to the left
+  CHECK(std::abs(balance(kRight, east)) < 0.01);  // kRight is now straight ahead
+  CHECK(balance(kAhead, east) < -6.0);            // kAhead is now to the left
 }
 
 TEST_CASE("moving the listener equals moving everything else the other way") {
@@ -125,7 +126,7 @@ TEST_CASE("moving the listener equals moving everything else the other way") {
     CHECK(left_there == doctest::Approx(left).epsilon(1e-3));
     CHECK(right_there == doctest::Approx(right).epsilon(1e-3));
   }
-  // A source at the origin, heard from 1 m and from 4 m: a factor of 4, 12.04 dB.
+  // A source at the origin is heard from 1 m and from 4 m: an amplitude ratio of 4, which is 12.04 dB.
   const double near = amplitudes_at({0.0f, 0.0f, 1.0f}, {}).first, far = amplitudes_at({0.0f, 0.0f, 4.0f}, {}).first;
   CHECK(decibels(near / far) == doctest::Approx(12.041).epsilon(1e-3));
 }
@@ -140,7 +141,7 @@ TEST_CASE("a point source at the listener's side is heard in one ear, a source a
 TEST_CASE("a loop continues across its joint without a step") {
   const std::vector<double> left = channel(render_voice({kAhead}), Ear::left);
   const double amplitude = amplitude_at(left, 1000.0);
-  // Deviation from a 1 kHz sine, by the sampled form of x'' = -w^2 x.
+  // Deviation from a 1 kHz sine. For a sine with angle w per sample, x[n] - 2 cos(w) x[n - 1] + x[n - 2] = 0.
   double residue = 0.0;
   const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 1000.0 / kSoundRate);
   for (std::size_t n = 2; n < left.size(); ++n) {
@@ -148,7 +149,7 @@ TEST_CASE("a loop continues across its joint without a step") {
   }
   CHECK(residue < 1e-4 * amplitude);
 
-  SoundWorld world(SoundOutput::memory);  // the residue detects a joint that is off by a quarter of a period
+  SoundWorld world(SoundOutput::memory);  // negative control: a loop of 500.25 periods has a jump at its end
   world.loop(world.add_clip(sine(1000.5, 0.5)), {kAhead});
   const std::vector<double> broken = channel(listen(world, 1.0), Ear::left);
   residue = 0.0;
@@ -175,7 +176,7 @@ TEST_CASE("loops of equal pitch stay in phase: two in opposition are silent duri
 }
 
 TEST_CASE("restart begins a loop at its first sample") {
-  std::vector<float> ramp(4800);  // 0 to 1: the level reveals the position
+  std::vector<float> ramp(4800);  // rises from 0 to 1, so the level reveals the position
   for (std::size_t n = 0; n < ramp.size(); ++n) ramp[n] = static_cast<float>(n) / 4800.0f;
   SoundWorld world(SoundOutput::memory);
   const VoiceId voice = world.loop(world.add_clip(ramp), {kAhead});
@@ -186,7 +187,8 @@ TEST_CASE("restart begins a loop at its first sample") {
   world.restart(voice);
   stereo.resize(960);
   world.render(stereo);
-  CHECK(stereo[stereo.size() - 2] == doctest::Approx(0.2 * half_way).epsilon(0.02));  // 480 frames, not 2400 as before
+  // 480 frames after the restart, the level must be 480/2400 = 0.2 times `half_way`, the level at frame 2400.
+  CHECK(stereo[stereo.size() - 2] == doctest::Approx(0.2 * half_way).epsilon(0.02));
 }
 
 TEST_CASE("a one-shot is heard once; beyond 24 at a time, the oldest is stopped") {

@@ -1,4 +1,4 @@
-// WAVE files read back according to the format's definition.
+// Reads WAVE files back according to the format's definition.
 #include "engine/sound/wav.h"
 
 #include <unistd.h>

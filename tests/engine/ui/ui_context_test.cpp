@@ -59,7 +59,7 @@ TEST_CASE("a click presses a button once, and only where the button is") {
   CHECK(form.presses == 1);
   form.click({600, 500});
   CHECK(form.presses == 1);
-  form.events.has_mouse = false;  // the lever has captured the mouse and gets its buttons
+  form.events.has_mouse = false;  // the mouse moves the lever, so the UI gets no mouse input
   form.events.mouse_down[0] = true;
   form.frame();
   form.events.mouse_down[0] = false;
@@ -118,14 +118,15 @@ TEST_CASE("a key that goes down and up between two frames counts as pressed, as 
   constexpr int kControl = 341, kEnter = 257, kB = 66, kC = 67;
   Form form;
   form.frame();
-  form.click(form.button);  // presses the button, and starts the keyboard navigation there
+  form.click(form.button);  // presses the button, where keyboard navigation then starts
   form.events.keys = {{kKeyDown, true}, {kKeyDown, false}, {kKeyUp, true}, {kKeyUp, false}};
   for (int i = 0; i < 5; ++i) form.frame();
   form.events.keys = {{kKeySpace, true}, {kKeySpace, false}};
   for (int i = 0; i < 3; ++i) form.frame();
   CHECK(form.presses == 2);
   form.click(form.field);
-  // In one poll of a slow frame: types "Bb", selects all, types "Ccc" over it, and deletes one letter.
+  // All input arrives in one poll, as in a slow frame: types "Bb", selects all, types "Ccc" over it, and deletes one
+  // letter.
   constexpr int kBackspace = 259;
   form.events.text = U"BbCcc";
   form.events.keys = {{kB, true},       {kB, false},   {kB, true},         {kB, false},

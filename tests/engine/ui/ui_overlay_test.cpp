@@ -1,4 +1,4 @@
-// Compares our drawing of a Dear ImGui frame with the definition of its draw data.
+// Compares our drawing of a Dear ImGui frame with a CPU reference (ui_raster.h).
 #include <array>
 #include <functional>
 #include <string>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<int, 3> kBackground{40, 80, 120};
 
-// A picture with the UNORM view on which the overlay is drawn, as in the renderer.
+// A picture whose UNORM view receives the overlay, as in the renderer.
 struct Screen {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
@@ -139,7 +139,7 @@ TEST_CASE("text, curves and transparency match the definition to within two step
   MESSAGE("psnr " << error.psnr << " dB, worst " << error.worst << "/255");
   CHECK(error.worst <= 2);
   CHECK(pixels_unlike(image, kBackground) > 3000);
-  // Shifted by a pixel, the picture differs, so the comparison can fail.
+  // A picture shifted by one pixel differs, so the comparison can fail.
   CHECK(difference(crop(image, 1, 0, 318, 200), crop(expected, 0, 0, 318, 200), 2).fraction_beyond > 0.02);
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("the buffers of a slot grow with the frame, also beyond 65536 vertices
       CHECK(pixels_unlike(screen.draw(slot), kBackground) == count);
     }
   }
-  tiles(40000);  // 160,000 vertices; 16,000 tiles fill the screen, the others overlap them
+  tiles(40000);  // 160,000 vertices; 16,000 tiles fill the screen, the other tiles overlap these
   CHECK(ImGui::GetDrawData()->TotalVtxCount > 65536);
   CHECK(pixels_unlike(screen.draw(0), kBackground) == 16000);
 }
@@ -178,7 +178,7 @@ TEST_CASE("a changed scale rebuilds the font, and drawing continues") {
 
 TEST_CASE("an empty frame draws nothing, and an unknown texture throws") {
   Screen screen;
-  CHECK(pixels_unlike(screen.draw(), kBackground) == 0);  // before the first frame
+  CHECK(pixels_unlike(screen.draw(), kBackground) == 0);  // nothing is drawn before the first frame
   screen.build([](ImDrawList&) {});
   CHECK(pixels_unlike(screen.draw(), kBackground) == 0);
   int foreign = 77;

@@ -1,4 +1,4 @@
-// Draws a Dear ImGui frame by definition, triangle by triangle on the CPU: the reference for our pipelines.
+// Draws a Dear ImGui frame on the CPU, triangle by triangle: the reference for our pipelines.
 #pragma once
 
 #include <imgui.h>

@@ -8,8 +8,8 @@
 
 namespace gearshift::test {
 
-// Results of the next calls; VK_SUCCESS: the driver's own result. A present with an injected result is still executed;
-// the other calls are not executed if they are to fail.
+// Results to inject into the next calls; VK_SUCCESS: keep the driver's own result. A present call with an injected
+// result is still executed. The other calls are not executed if the injected result is an error.
 struct InjectedFaults {
   VkResult next_acquire = VK_SUCCESS;
   VkResult next_present = VK_SUCCESS;

@@ -54,7 +54,7 @@ GpuConfig for_window() {
   return config;
 }
 
-// A window that presents a picture with two layers, one with four coloured quarters and one plain grey.
+// A window that presents a picture with two layers: one with four coloured quarters, the other plain grey.
 class PictureWindow {
  public:
   explicit PictureWindow(bool vsync = true) : fixture_(for_window()), swapchain_(gpu(), window, vsync), ring_(gpu()) {
@@ -89,7 +89,7 @@ class PictureWindow {
     return false;
   }
 
-  // Presents frames until the screen satisfies the predicate; false after ten seconds.
+  // Presents frames until the screen satisfies the predicate; returns false after ten seconds.
   template <class Predicate>
   bool eventually_shows(const Predicate& predicate) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
@@ -283,7 +283,7 @@ TEST_CASE("a surface lost while its images are recreated is recreated with them"
   for (VkResult InjectedFaults::*call : {&InjectedFaults::next_capabilities, &InjectedFaults::next_create}) {
     PictureWindow shown;
     REQUIRE(shown.frame_within(10));
-    injected_faults.next_present = VK_ERROR_OUT_OF_DATE_KHR;  // so that the next frame rebuilds the swapchain
+    injected_faults.next_present = VK_ERROR_OUT_OF_DATE_KHR;  // makes the next frame rebuild the swapchain
     REQUIRE(shown.frame());
     injected_faults.*call = VK_ERROR_SURFACE_LOST_KHR;
     CHECK_FALSE(shown.frame());
@@ -304,8 +304,9 @@ TEST_CASE("a surface without extent is polled, and used again once it has one") 
   CHECK(shown.swapchain().rebuild_count() == before + 1);
 }
 
-// VUID-vkAcquireNextImageKHR-semaphore-01779: the semaphore of an acquisition must not have a pending wait. If the
-// acquisition failed, its semaphore has no pending wait; those of earlier acquisitions may have one.
+// VUID-vkAcquireNextImageKHR-semaphore-01779: the semaphore of an acquisition must not have a pending wait. The
+// semaphore of a failed acquisition has none, so it can be used again. The semaphores of earlier acquisitions may have
+// one.
 TEST_CASE("an acquisition that failed is tried again with the same semaphore") {
   PictureWindow shown;
   REQUIRE(shown.frame_within(10));

@@ -25,8 +25,8 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Polls until the condition holds, because changes made by another client arrive through the server. False after ten
-// seconds.
+// Polls until the condition holds, because changes made by another X client arrive through the server, with a delay.
+// Returns false after ten seconds.
 bool becomes_true(gearshift::engine::Window& window, const std::function<bool(const WindowInput&)>& condition) {
   for (int i = 0; i < 1000; ++i) {
     if (condition(window.poll())) return true;
@@ -85,7 +85,7 @@ TEST_CASE("poll() does not wait; minimised in either way, the framebuffer is emp
   window.poll();
   const ::Window id = server.find("minimised");
   REQUIRE(id != 0);
-  const auto ten_polls = [&] {  // [s] best of three, because other processes may cause waits
+  const auto ten_polls = [&] {  // [s] the shortest of three runs, because other processes may delay a run
     double best = 1e9;
     for (int attempt = 0; attempt < 3; ++attempt) {
       best = std::min(best, seconds_of([&] {
@@ -197,7 +197,7 @@ TEST_CASE("a captured mouse moves past the edge of the screen, and is released w
     moved += in.mouse_moved;
     return moved.x >= 3000.0;
   });
-  CHECK(moved == glm::dvec2(3000, 0));  // far beyond the screen, which is 1280 px wide
+  CHECK(moved == glm::dvec2(3000, 0));  // all of 20 x 150 px, although the screen is only 1280 px wide
   CHECK(window.poll().mouse == glm::dvec2(200, 150));
   window.capture_mouse(false);
   moved = glm::dvec2(0.0);
@@ -206,7 +206,7 @@ TEST_CASE("a captured mouse moves past the edge of the screen, and is released w
     moved += in.mouse_moved;
     return in.mouse == glm::dvec2(210, 150);
   }));
-  CHECK(moved == glm::dvec2(10, 0));  // the jump of the pointer back is not a mouse movement
+  CHECK(moved == glm::dvec2(10, 0));  // only the move from 200 to 210; the release adds nothing
 }
 
 TEST_CASE("full screen covers the monitor; afterwards the window is as it was before") {

@@ -100,7 +100,7 @@ class XServer {
   Display* display_;
 };
 
-// Mouse and keyboard input as from a user: xdotool through XTEST.
+// Runs xdotool, which injects mouse and keyboard input through XTEST as if it came from a user.
 inline void xdotool(const std::string& arguments) {
   REQUIRE_MESSAGE(std::system(("xdotool " + arguments).c_str()) == 0, "xdotool " << arguments);
 }

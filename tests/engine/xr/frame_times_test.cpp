@@ -17,7 +17,7 @@ HeadsetFrame frame_at(double display_ms, double woken_ms) {
 
 TEST_CASE("a frame's CPU and GPU time, its spare time, and its delay") {
   FrameTimes times;
-  times.add(frame_at(130.0, 100.0), 104'000'000, 6.0);  // [ms] ready at 110, displayed at 130
+  times.add(frame_at(130.0, 100.0), 104'000'000, 6.0);  // [ms] the frame is ready at 110 and displayed at 130
   CHECK(times.timing().cpu_ms == doctest::Approx(4.0));
   CHECK(times.timing().spare_ms == doctest::Approx(20.0));
   CHECK(times.timing().late_ms == 0.0);
@@ -32,9 +32,9 @@ TEST_CASE("a frame's CPU and GPU time, its spare time, and its delay") {
 TEST_CASE("display periods without a frame count as dropped, except during a pause") {
   FrameTimes times;
   times.add(frame_at(100.0, 80.0), 85'000'000, 1.0);
-  times.add(frame_at(110.1, 90.0), 95'000'000, 1.0);  // display times of a runtime jitter
+  times.add(frame_at(110.1, 90.0), 95'000'000, 1.0);  // predicted display times may jitter
   CHECK(times.timing().dropped == 0);
-  times.add(frame_at(140.0, 120.0), 125'000'000, 1.0);  // [ms] no frames at 120 and 130
+  times.add(frame_at(140.0, 120.0), 125'000'000, 1.0);  // [ms] no frame is displayed at 120 and 130
   CHECK(times.timing().dropped == 2);
   times.pause();
   times.add(frame_at(900.0, 880.0), 885'000'000, 1.0);

@@ -49,7 +49,7 @@ TEST_CASE("inputs reach the actions that are bound to them") {
   CHECK(stick.currentState.y == 0.125f);
 
   program.run(3);
-  CHECK(controls.read_float(controls.pull, 0).currentState == 0.25f);  // the old value, until the next sync
+  CHECK(controls.read_float(controls.pull, 0).currentState == 0.25f);  // the old value remains until the next sync()
   REQUIRE(controls.sync() == XR_SUCCESS);
   const XrActionStateFloat pulled = controls.read_float(controls.pull, 0);
   CHECK(pulled.currentState == 0.75f);

@@ -1,5 +1,5 @@
-// A program that uses OpenXR correctly, through the real loader. The tests of the test runtime make it deviate from the
-// rules at chosen points. It draws by clearing images. Vulkan's validation also checks the runtime's own commands.
+// A program that uses OpenXR correctly, through the real loader. Tests of the test runtime make this program break the
+// rules at chosen points. It draws only by clearing images. Vulkan's validation also checks the runtime's own commands.
 #pragma once
 
 #include <time.h>
@@ -32,7 +32,7 @@ Function xr_function(XrInstance instance, const char* name) {
   return reinterpret_cast<Function>(function);
 }
 
-// Instance and device without a session.
+// An OpenXR instance and a Vulkan device, without a session.
 class Machine {
  public:
   explicit Machine(std::vector<const char*> extensions = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
@@ -101,8 +101,8 @@ class Machine {
     return {XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR, nullptr, vulkan, physical, device, 0, 0};
   }
 
-  // Clears a whole image to one colour, or to the depth value[0]. Before and after, the image has the layout that
-  // OpenXR prescribes. Waits for the GPU.
+  // Clears a whole image to one colour, or to the depth `value[0]`. Before and after the call, the image has the layout
+  // that OpenXR prescribes. Waits for the GPU.
   void clear(VkImage image, bool depth, std::array<float, 4> value) const;
 
   XrInstance instance = XR_NULL_HANDLE;
@@ -332,7 +332,7 @@ class Client : public Machine {
     return xrEndFrame(session, &info);
   }
 
-  // Runs one frame, and draws it if the runtime asks for that.
+  // Runs one frame; draws only if the runtime requests it.
   void run_frame() {
     REQUIRE(wait() == XR_SUCCESS);
     REQUIRE(begin_frame() == XR_SUCCESS);

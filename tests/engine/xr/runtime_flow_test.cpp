@@ -1,4 +1,4 @@
-// The OpenXR test runtime in a separate program: the script and the results are files.
+// Runs the OpenXR test runtime in a separate program. The script and the results are passed in files.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -40,7 +40,7 @@ result = "XR_ERROR_SESSION_LOST"
 nth = 3
 )";
 
-// Run by the test case below, with the script in its environment.
+// The test case below runs this one in a separate process, with an environment variable that names the script.
 TEST_CASE("a flow's program" * doctest::skip()) {
   Client program;
   program.poll();

@@ -1,4 +1,4 @@
-// The OpenXR test runtime: the life of a session, and a correct run that violates no rule.
+// Tests of the OpenXR test runtime: the life of a session, and a correct run that violates no rule.
 #include "tests/engine/xr/runtime_client.h"
 
 namespace gearshift::xr_test {
@@ -53,7 +53,7 @@ TEST_CASE("a correct program violates no rule and leaves no objects") {
   CHECK(quad.pose.position.z == -1.0);
   REQUIRE(!quad.picture.rgba.empty());
   const std::uint8_t* const green = quad.picture.pixel(0, 0);
-  CHECK(std::vector<int>(green, green + 4) == std::vector{0, 255, 0, 128});  // stored as BGRA in the image
+  CHECK(std::vector<int>(green, green + 4) == std::vector{0, 255, 0, 128});  // RGBA, although the image stores BGRA
   CHECK(xr.record.frames[2].projection()->views[0].picture.rgba.empty());
 }
 

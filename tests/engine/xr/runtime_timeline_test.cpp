@@ -1,4 +1,4 @@
-// The OpenXR test runtime executes its script: poses, states, spaces, losses, planted failures, pacing.
+// Checks that the OpenXR test runtime executes its script: poses, states, spaces, losses, planted failures, pacing.
 #include <algorithm>
 #include <chrono>
 
@@ -46,7 +46,7 @@ TEST_CASE("the head follows the script, and the first location of a frame may be
     const XrViewStateFlags flags = program.view_state.viewStateFlags;
     CHECK((flags & XR_VIEW_STATE_POSITION_VALID_BIT) == (i == 11 ? 0u : XR_VIEW_STATE_POSITION_VALID_BIT));
     CHECK((flags & XR_VIEW_STATE_POSITION_TRACKED_BIT) == (i > 10 ? 0u : XR_VIEW_STATE_POSITION_TRACKED_BIT));
-    // The head is turned left by a quarter turn: the right eye is towards -z.
+    // The head is turned left by 90 degrees, so the right eye is on the -z side.
     CHECK(program.views[1].pose.position.x == doctest::Approx(i * kPeriod));
     CHECK(program.views[1].pose.position.z == doctest::Approx(-0.0315));
     CHECK(early - program.views[0].pose.position.x == doctest::Approx(0.25));
@@ -241,7 +241,7 @@ TEST_CASE("with real pacing a frame waits for its period, and a late one drops s
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < 10; ++i) program.run_frame();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  CHECK(took.count() > 8 * 0.02);  // ten frames span nine periods, the first of which is already partly over
+  CHECK(took.count() > 8 * 0.02);  // nine periods, minus the part of the first one that had already passed
   const std::uint64_t before = xr.record.dropped;
   const timespec nap{.tv_sec = 0, .tv_nsec = 100'000'000};
   nanosleep(&nap, nullptr);

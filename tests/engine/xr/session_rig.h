@@ -1,4 +1,4 @@
-// Our session on the test runtime, run frame by frame; a frame draws one colour per eye.
+// Our headset session on the OpenXR test runtime, run frame by frame. A frame draws one colour per eye.
 #pragma once
 
 #include <array>
@@ -91,7 +91,7 @@ struct SessionRig {
     ring->end();
   }
 
-  // One iteration of a program's loop. Empty while the session is not running.
+  // One iteration of a program's loop. Returns an empty value while the session is not running.
   std::optional<engine::HeadsetFrame> run_frame() {
     session->poll();
     if (!session->is_running()) return std::nullopt;
@@ -123,7 +123,7 @@ struct SessionRig {
   engine::HeadsetEyes eyes;
 };
 
-// Checks that the runtime found no violation, and that no object is left.
+// Checks that the runtime found no violation, and that no OpenXR object is left.
 inline void check_no_violations() {
   const xr_test::Record& record = xr_test::control().record;
   for (const xr_test::Violation& broken : record.violations)

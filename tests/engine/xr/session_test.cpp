@@ -87,7 +87,7 @@ TEST_CASE("frames are submitted with the newest pose predicted for their display
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.head = moving_head;
-  xr.script.early_error = 0.04;  // poses requested early are off by 4 cm
+  xr.script.early_error = 0.04;  // [m] error of the poses from each frame's first xrLocateViews
   {
     SessionRig rig;
     REQUIRE(rig.reaches(HeadsetState::focused));
@@ -101,7 +101,8 @@ TEST_CASE("frames are submitted with the newest pose predicted for their display
     CHECK(frame.locates == 2);
     for (std::size_t eye = 0; eye < 2; ++eye) {
       const xr_test::Pose head = moving_head(frame.time);
-      const xr_test::Pose& reported = frame.projection()->views[eye].pose;  // in STAGE, whose origin is 1.2 m lower
+      // This pose is in STAGE space, whose origin is 1.2 m below the origin of the initial LOCAL space.
+      const xr_test::Pose& reported = frame.projection()->views[eye].pose;
       const dvec3 position = head.position + head.orientation * dvec3(eye == 0 ? -0.0315 : 0.0315, 0.0, 0.0);
       CHECK(glm::distance(reported.position, position + dvec3(0.0, 1.2, 0.0)) < 1e-6);
       CHECK(turn_between(reported.orientation, head.orientation) < 1e-6);
@@ -126,8 +127,8 @@ TEST_CASE("menu, another program, headset off and on, hidden: states are reporte
     }
   }
   check_no_violations();
-  // Some states may come and go between two iterations: the observed ones must be in order, and no lasting state may be
-  // missing.
+  // Some states may come and go between two iterations. So the observed states must be in order, and no lasting state
+  // may be missing.
   std::string order;
   for (const HeadsetState state : states) order += std::string(to_string(state)) + " ";
   CAPTURE(order);
@@ -138,7 +139,7 @@ TEST_CASE("menu, another program, headset off and on, hidden: states are reporte
     REQUIRE(position != std::string::npos);
     ++position;
   }
-  CHECK(empty_frames > 2);  // while the headset is off, no frames are waited for
+  CHECK(empty_frames > 2);  // run_frame() returned an empty value while the headset was off
   int hidden = 0;
   for (const FrameRecord& frame : xr.record.frames) {
     CHECK((frame.projection() != nullptr) == frame.should_render);
@@ -152,7 +153,7 @@ TEST_CASE("while tracking is lost, the lost part of the pose keeps its last valu
   xr.start();
   xr.script.stage = false;
   bool placed = false, turned = false;
-  double about = 0.0;  // [rad] yaw of the head, which later looks behind itself
+  double about = 0.0;  // [rad] yaw of the head; the head later looks backwards
   xr.script.head = [&](double seconds) {
     xr_test::Pose pose = moving_head(seconds);
     pose.orientation = glm::angleAxis(about, dvec3(0, 1, 0)) * pose.orientation;
@@ -162,7 +163,7 @@ TEST_CASE("while tracking is lost, the lost part of the pose keeps its last valu
   };
   {
     SessionRig rig;
-    REQUIRE(rig.reaches(HeadsetState::focused));  // although the head was never tracked
+    REQUIRE(rig.reaches(HeadsetState::focused));  // the session is focused although the head was never tracked
     CHECK_FALSE(rig.eyes.is_known);
     CHECK(glm::length(rig.eyes.pose[1].orientation) == doctest::Approx(1.0));
     CHECK(rig.eyes.pose[1].position.x - rig.eyes.pose[0].position.x == doctest::Approx(0.063));
@@ -179,7 +180,7 @@ TEST_CASE("while tracking is lost, the lost part of the pose keeps its last valu
     CHECK(rig.eyes.is_known);
     const auto middle = [](const HeadsetEyes& eyes) { return 0.5 * (eyes.pose[0].position + eyes.pose[1].position); };
     CHECK(glm::distance(middle(rig.eyes), middle(last)) < 1e-9);
-    // The right eye is still on the right side of the head, whichever way it has turned.
+    // The right eye is still on the right side of the head after the head has turned.
     const dvec3 aside = rig.eyes.pose[1].position - rig.eyes.pose[0].position;
     CHECK(glm::distance(aside, rig.eyes.pose[0].orientation * dvec3(0.063, 0.0, 0.0)) < 1e-6);
     CHECK(turn_between(rig.eyes.pose[0].orientation, last.pose[0].orientation) > 0.01);
@@ -209,7 +210,7 @@ TEST_CASE("a moved origin is reported at its time, with the correct transform") 
       const auto change = rig.session->take_due_space_change(*frame);
       const bool jumped = glm::distance(old.pose[0].position, rig.eyes.pose[0].position) > 1e-3;
       CAPTURE(i);
-      if (!stage) CHECK(jumped == change.has_value());  // reported in the same frame in which the eyes jump
+      if (!stage) CHECK(jumped == change.has_value());  // the change is reported in the frame in which the eyes jump
       if (change && change->is_session_space) {
         stage = change;
         REQUIRE(change->new_from_old);
@@ -234,8 +235,9 @@ TEST_CASE("a lost session or runtime throws HeadsetLost, and leaves nothing") {
       const std::string reported = thrown<HeadsetLost>([&] {
         for (int i = 0; i < 100; ++i) (void)rig.run_frame();
       });
-      // The loss is reported by its event or by the first failing call, whichever comes first.
-      const bool by_event = reported == (instance ? "the OpenXR runtime is shutting down" : "the headset was lost");
+      // The loss is reported by its event or by the first failing call, whichever comes first. The two messages differ.
+      const bool by_event =
+          reported == (instance ? "the OpenXR runtime is shutting down" : "the connection to the headset was lost");
       const bool by_call =
           reported.find(instance ? "XR_ERROR_INSTANCE_LOST" : "XR_ERROR_SESSION_LOST") != std::string::npos;
       CAPTURE(reported);
@@ -245,8 +247,8 @@ TEST_CASE("a lost session or runtime throws HeadsetLost, and leaves nothing") {
   }
 }
 
-// Makes the first calls of each function fail, one by one, also in the middle of a frame: the error is reported with
-// its kind, acquired images are released correctly, and everything can be recreated.
+// Each run makes one of the first calls of a function fail, in some runs in the middle of a frame. Checks that the
+// error is reported with its kind, that acquired images are released correctly, and that everything can be recreated.
 TEST_CASE("an error from any call is reported, and the next session works normally") {
   constexpr const char* kCalls[] = {"xrCreateSession",
                                     "xrCreateReferenceSpace",
@@ -267,8 +269,8 @@ TEST_CASE("an error from any call is reported, and the next session works normal
     for (int plan = 0; plan < 9; ++plan) {
       constexpr std::array kResults{XR_ERROR_RUNTIME_FAILURE, XR_ERROR_SESSION_LOST, XR_ERROR_OUT_OF_MEMORY};
       const XrResult result = kResults[static_cast<std::size_t>(plan % 3)];
-      // Fails the 1st, 3rd or 5th call. Swapchains are used in the order eyes, depth, panel, so for a call made once per
-      // swapchain these are: eyes; panel; depth in a later frame.
+      // Fails the 1st, 3rd or 5th call. For a call made once per swapchain (in the order eyes, depth, panel), these are
+      // the call for the eyes, the call for the panel, and the call for depth in a later frame.
       const int nth = 1 + plan / 3 * 2;
       CAPTURE(nth);
       CAPTURE(call);
@@ -283,7 +285,8 @@ TEST_CASE("an error from any call is reported, and the next session works normal
       };
       const bool lost = result != XR_ERROR_OUT_OF_MEMORY;
       const std::string reported = lost ? thrown<HeadsetLost>(run) : thrown<HeadsetError>(run);
-      // Some functions are called only once. Depth images (the third and fourth query) are optional.
+      // Some functions are called only once, so a later call cannot fail. Depth images (the third and fourth query) are
+      // optional, so their failure is reported only if the session or the runtime is lost.
       const bool of_depth = call == std::string("xrEnumerateSwapchainImages") && nth == 3 && !lost;
       const bool happens = xr.record.calls[call] >= nth && !of_depth;
       CHECK((reported.find(call) != std::string::npos) == happens);
@@ -326,7 +329,7 @@ TEST_CASE("a frame held back by the runtime is waited for in the background, and
     }
     CHECK(held >= 15);
     CHECK(longest < 0.3);  // a blocking wait would take 0.67 s
-    // The wait is still pending when the session is destroyed.
+    // Leaves a wait pending when the session is destroyed.
     CHECK_FALSE(rig.session->wait(std::chrono::milliseconds(0)));
   }
   check_no_violations();
@@ -345,7 +348,7 @@ TEST_CASE("no runtime, no headset, no Vulkan: one clear sentence each") {
   xr.script.vulkan_enable2 = false;
   CHECK(thrown<HeadsetError>([] { HeadsetRuntime runtime; }).find("XR_KHR_vulkan_enable2") != std::string::npos);
   check_no_violations();
-  // The loader remembers a runtime's extensions until an instance of it is destroyed.
+  // The loader remembers a runtime's extensions until an instance of this runtime is destroyed.
   XrInstanceCreateInfo plain{XR_TYPE_INSTANCE_CREATE_INFO};
   std::strcpy(plain.applicationInfo.applicationName, "plain");
   plain.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
@@ -462,7 +465,7 @@ std::size_t resident() {
 TEST_CASE("restarting a session again and again leaks nothing") {
   const char* asked = std::getenv("GEARSHIFT_XR_RESTARTS");
   const int restarts = asked != nullptr ? std::atoi(asked) : 20;
-  SessionRig rig(false);  // runtime and device stay, so their memory does not count
+  SessionRig rig(false);  // created once, so the test does not measure its runtime and GPU device
   xr_test::control().start();
   const auto again = [&] {
     rig.session.reset();
@@ -470,7 +473,7 @@ TEST_CASE("restarting a session again and again leaks nothing") {
     CHECK(rig.reaches(HeadsetState::focused));
     CHECK(rig.run_frame());
   };
-  for (int i = 0; i < 5; ++i) again();  // these make the one-time allocations
+  for (int i = 0; i < 5; ++i) again();  // the first restarts make allocations that later restarts reuse
   const std::size_t files = open_files(), memory = resident();
   const VkDeviceSize device = rig.gpu().allocated();
   const int handles = xr_test::control().record.live_handles();
@@ -483,8 +486,8 @@ TEST_CASE("restarting a session again and again leaks nothing") {
   CHECK(open_files() == files);
   CHECK(rig.gpu().allocated() == device);
   CHECK(xr_test::control().record.live_handles() == handles);
-#if !defined(GEARSHIFT_TEST_SANITIZED)  // a sanitizer keeps freed memory, and detects leaks itself
-  CHECK(resident() < memory + 1024);    // [KiB] limit for any number of restarts
+#if !defined(GEARSHIFT_TEST_SANITIZED)  // a sanitizer keeps freed memory; it detects leaks itself
+  CHECK(resident() < memory + 1024);    // [KiB] limit that does not depend on the number of restarts
 #endif
   CHECK(xr_test::control().record.violations.empty());
 }

@@ -1,4 +1,5 @@
-// The paper's section 2.4 on simulated levers and on a different kind of device: the identification recovers the plant.
+// The experiment of section 2.4 of the paper, on simulated levers and on a device of a different kind: the
+// identification recovers mass, damping and stiffness.
 #include "haptics/analysis/identification.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace {
 
 constexpr double kTau = 2.0 * std::numbers::pi;
 
-// Encoder and sensor as in the paper, plus sensor noise, which the paper does not specify.
+// The encoder and force sensor of the paper, with added sensor noise, which the paper does not specify.
 SimulatedLeverConfig noisy_lever(std::uint64_t seed = 1) {
   SimulatedLeverConfig config;
   config.force_sensor.noise_gw = 20.0;
@@ -89,7 +90,7 @@ void check_good(const AxisFit& fit, const AxisModel& truth) {
   CHECK(fit.points == 24);
 }
 
-// Over- and under-damped axes that the paper's motors can drive.
+// A random over- or under-damped axis that the motors of the paper's joystick can drive.
 AxisModel random_plant(std::mt19937_64& engine) {
   const auto between = [&](double low, double high) {
     return low * std::pow(high / low, static_cast<double>(engine() >> 11) / 9007199254740992.0);
@@ -98,8 +99,8 @@ AxisModel random_plant(std::mt19937_64& engine) {
   return {mass, 2.0 * between(0.15, 2.2) * std::sqrt(mass * stiffness), stiffness};
 }
 
-// A different device: no yoke, no force sensor, two sleds in a plane. It can produce every fault that a sweep must
-// handle.
+// A device of a different kind: two sleds in a plane, without yoke and force sensor. The sleds can produce every fault
+// that a sweep must handle.
 class Sleds final : public HapticDevice {
  public:
   Sleds() {
@@ -141,7 +142,7 @@ class Sleds final : public HapticDevice {
   std::array<AxisState, 2> at_{};
   double max_position_ = 0.0, max_force_ = 0.0;
   double max_change_ = 0.0;     // [N/cycle]
-  double initial_force_ = 0.0;  // [N] while the guard's ramp rises for half a second
+  double initial_force_ = 0.0;  // [N] largest force in the first half second, before the guard's ramp has ended
   bool released_ = false;
   glm::dvec2 force_{0.0};
   DeviceSpec spec_;
@@ -151,7 +152,7 @@ class Sleds final : public HapticDevice {
   std::uint64_t cycles_ = 0;
 };
 
-// The response that a perfect experiment without a hold would measure.
+// The response that a perfect experiment with a continuous force would measure.
 FrequencyResponse ideal_response(const AxisModel& axis) {
   FrequencyResponse response;
   response.period = 1e-3;
@@ -211,7 +212,7 @@ TEST_CASE("without noise the hold causes no error, not even at 100 Hz, where the
   for (const double rate : {100.0, 1000.0}) {
     const FrequencyResponse response = sweep_lever(exact_lever(), LeverAxis::x, rate);
     CHECK(within(fit_axis(response), kPaperAxisX, 2e-5));
-    FrequencyResponse unaware = response;  // the response, interpreted as that of a continuous force
+    FrequencyResponse unaware = response;  // the fit then treats the force as continuous, not as held for each period
     for (FrequencyPoint& point : unaware.points) point.held = 0.0;
     if (rate < 1000.0) CHECK_FALSE(within(fit_axis(unaware), kPaperAxisX, 2e-5));
   }
@@ -249,7 +250,7 @@ TEST_CASE("a device without yoke and force sensor, with an arbitrary clock origi
 }
 
 TEST_CASE("negative controls: an unreported delay, and points with a wrong gain") {
-  class Late final : public HapticDevice {  // a delay of two samples that spec() does not report
+  class Late final : public HapticDevice {  // delays forces by two samples, but spec() reports no such delay
    public:
     const DeviceSpec& spec() const noexcept override { return sleds_.spec(); }
     LeverReading read(std::int64_t now_ns) noexcept override { return sleds_.read(now_ns); }
@@ -334,7 +335,7 @@ TEST_CASE("an unpredicted resonance: the amplitude is reduced before the lever r
   Sleds sleds;
   sleds.spec_.max_force.x = 2.4;
   SweepConfig config;
-  config.highest = config.lowest = 2.757;  // at the sled's resonance, sqrt(k / m): 14 times the static response
+  config.highest = config.lowest = 2.757;  // [Hz] resonance of the sled, at which the gain is 3.5 times the static gain
   config.points = 1;
   std::int64_t now = 0;
   const FrequencyResponse response = sweep_frequencies(config, sleds, LeverAxis::x, 1e-3, now);
@@ -359,7 +360,7 @@ TEST_CASE("readings that stop, are not finite or are near the stop: motors off, 
   frozen.freeze_at_ = 5000;
   blind.nan_at_ = 5000;
   shoved.shove_at_ = 5000;
-  broken.break_at_ = 5000;  // on the other axis, where only the guard checks
+  broken.break_at_ = 5000;  // a jump on the other axis, y, which only the guard checks
   CHECK(problem(frozen) == "no fresh reading for 20 ms");
   CHECK(problem(blind) == "a reading is not a number");
   CHECK(problem(shoved) == "the lever came too close to its stop");
@@ -380,7 +381,7 @@ TEST_CASE("the guard limits every force: none until it runs, and no change faste
   CHECK(sleds.max_change_ == doctest::Approx(25.0));
   REQUIRE(response.points.size() == 2);
   for (const FrequencyPoint& point : response.points) {
-    CHECK(point.amplitude < 0.99 * 80.0);  // the force is limited; the response is relative to the force actually sent
+    CHECK(point.amplitude < 0.99 * 80.0);  // less than the requested 80 N, because the guard limits the slew
     const std::complex<double> truth = compliance(Sleds::kX, point.frequency);
     CHECK(std::abs(point.response / truth - 1.0) < 2e-3);
   }
@@ -476,7 +477,7 @@ TEST_CASE("bandwidth, damping and poles of (11) and (12): 0.92 and 1.02 Hz, not 
     const double gain = std::abs(compliance(axis, bandwidth(axis)));
     CHECK(gain * axis.stiffness == doctest::Approx(std::sqrt(0.5)).epsilon(1e-12));
   }
-  // Frequencies at which one newton moves the paper's lever by one encoder count, and by 3 dB less.
+  // Frequencies at which one newton moves the paper's lever by one encoder count, and by 1/sqrt 2 of a count (-3 dB).
   const double count = 75.4e-6;
   CHECK(frequency_at_gain(kPaperAxisX, count) == doctest::Approx(59.0).epsilon(0.01));
   CHECK(frequency_at_gain(kPaperAxisX, count / std::numbers::sqrt2) == doctest::Approx(71.0).epsilon(0.01));

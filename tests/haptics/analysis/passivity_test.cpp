@@ -1,5 +1,5 @@
-// The paper's conditions against their closed forms, (13) searched over many frequencies, and the theorem itself: a
-// passive environment is stable in every passive hand.
+// Compares the paper's passivity conditions with their closed forms, and eq (13) with a search over many frequencies.
+// Checks the theorem itself: a passive environment is stable with every passive hand.
 #include "haptics/analysis/passivity.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ double between(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// The paper's (13) as printed, evaluated at 100,000 frequencies.
+// Eq (13) exactly as printed in the paper, evaluated at 100,000 frequencies.
 double demand_by_search(const Environment& environment, double period) {
   constexpr int kAngles = 100000;
   double largest = -1e300;
@@ -33,7 +33,9 @@ double demand_by_search(const Environment& environment, double period) {
   return largest;
 }
 
-// Spring and damper one sample late: with c = cos w T, the paper's (13) is K T/2 (1 + 2 c) - B (2 c^2 - 1).
+// Damping demanded by a spring and damper that are delayed by one sample. With stiffness K, damping B, period T,
+// angular frequency w and c = cos(w T), eq (13) of the paper becomes K T/2 (1 + 2 c) - B (2 c^2 - 1). The
+// function returns the maximum of this expression over c.
 double demand_one_late(double stiffness, double damping, double period) {
   const double kt = stiffness * period;
   if (kt >= 4.0 * damping) return 1.5 * kt - damping;
@@ -130,7 +132,8 @@ TEST_CASE("the half-sample hold is a spring and a damper of K (T/2 + d T), all o
   }
 }
 
-// Colgate & Schenkel's theorem, checked with sampled_loop.h, which shares only the control law with passivity.h.
+// The theorem of Colgate and Schenkel, checked with sampled_loop.h. That code and passivity.h have only the control law
+// in common.
 TEST_CASE("a passive environment is stable in every passive hand") {
   std::mt19937_64 random(3);
   for (int i = 0; i < 300; ++i) {

@@ -1,4 +1,5 @@
-// The exact boundary against closed forms, the frequency response, and runs of the shipped loop.
+// Compares the exact stability limit with closed forms, with the frequency response, and with runs of the real loop
+// components.
 #include "haptics/analysis/sampled_loop.h"
 
 #include <algorithm>
@@ -39,7 +40,8 @@ struct Case {
   double period = 0.001;
 };
 
-// Random device, rate, delay, hand, hold, window and damping; the damping is limited to what the rate allows.
+// A random case with random device, rate, delay, hand, hold, window and damping. The damping is limited to what the
+// rate allows.
 Case random_case(std::mt19937_64& random, int i) {
   Case c;
   c.handle = {any_between(random, 0.05, 0.5), any_between(random, 0.5, 8.0), any_between(random, 0.0, 50.0)};
@@ -60,8 +62,8 @@ double limit_of(const Case& c) {
   return stiffness_limit(c.handle, c.hand, c.law, c.period);
 }
 
-// Zero-order-hold transfer of 1 / (m s^2 + b s + k) from its poles p, q:
-// (1/k) - sum of the residues' (z - 1) / (z - exp(p T)). b^2 != 4 m k.
+// Zero-order-hold transfer function of 1 / (m s^2 + b s + k), computed from its two poles: 1/k plus, for each pole p,
+// (residue at p) (z - 1) / (z - exp(p T)). Requires b^2 != 4 m k.
 Complex held_plant(const AxisModel& lever, double period, Complex z) {
   const Complex root = std::sqrt(Complex(lever.damping * lever.damping - 4.0 * lever.mass * lever.stiffness));
   const Complex p = (-lever.damping + root) / (2.0 * lever.mass), q = (-lever.damping - root) / (2.0 * lever.mass);
@@ -70,7 +72,8 @@ Complex held_plant(const AxisModel& lever, double period, Complex z) {
          at_q * (z - 1.0) / (z - std::exp(q * period));
 }
 
-// Smallest |1 + E G| over all frequencies: 0 if an eigenvalue lies on the unit circle.
+// Smallest |1 + E G| over all frequencies, for wall E and plant G. It is 0 if an eigenvalue of the loop lies on the
+// unit circle.
 double distance_to_unit_circle(const Case& c) {
   const AxisModel lever{c.handle.mass + c.hand.mass, c.handle.damping + c.hand.damping,
                         c.handle.stiffness + c.hand.stiffness};
@@ -102,8 +105,9 @@ Coupling coupling_of(const ContactLaw& law, double stiffness, double period) {
   return coupling;
 }
 
-// A wall under a constant push, rendered by the shipped estimator, proxy and coupling on one exactly stepped axis. The
-// lever starts slightly off its rest position; the ratio of late to early amplitude is growth or decay.
+// A wall under a constant push, rendered by the real estimator, proxy and coupling on one exactly stepped axis. The
+// lever starts slightly off its rest position. The ratio of late to early amplitude shows whether the motion grows or
+// decays.
 class PushedWall {
  public:
   PushedWall(const Case& c, double stiffness)
@@ -160,14 +164,14 @@ class PushedWall {
   std::uint64_t cycle_ = 0;
 };
 
-// Number of cycles in which a motion with this spectral radius grows or decays by about e^5, enough for a clear result.
+// Number of cycles in which the motion grows or decays by a factor of about e^5, enough for a clear result.
 int decisive_cycles(Case c, double stiffness) {
   c.law.stiffness = stiffness;
   const double rate = std::abs(std::log(spectral_radius(c.handle, c.hand, c.law, c.period)));
   return static_cast<int>(std::clamp(5.0 / rate, 1000.0, 3e6));
 }
 
-// Factor by which the motion grew within decisive_cycles().
+// Factor by which the amplitude of the motion grows within decisive_cycles().
 double growth(const Case& c, double stiffness) {
   PushedWall wall(c, stiffness);
   const double early = wall.max_distance(500);
@@ -175,8 +179,8 @@ double growth(const Case& c, double stiffness) {
   return wall.max_distance(500) / early;
 }
 
-// Pushes the simulated lever into the upper wall from the time when the wall's first force takes effect, so that the
-// lever starts at rest.
+// Pushes the simulated lever into the upper wall. The push starts when the wall's first force takes effect, so that
+// push and wall force balance and the lever starts at rest.
 class PushingHand final : public HandDriver {
  public:
   PushingHand(glm::dvec2 rest, double push, int delay) : push_(push), wait_(delay) { target_.position = rest; }
@@ -191,10 +195,11 @@ class PushingHand final : public HandDriver {
   int wait_;     // [cycles]
 };
 
-// The complete simulated lever at the wall of `c`, along y, without quantisation.
+// The complete simulated lever at the wall of a test case, along y, without encoder quantisation.
 class SimulatedWall {
  public:
-  // Starts on a soft wall that slowly stiffens to 0.98 of the limit, so that the lever is not thrown off the wall.
+  // Starts with a soft wall and stiffens it slowly to 0.98 of the limit. A sudden stiff wall would throw the lever out
+  // of the wall.
   SimulatedWall(const Case& c, double limit)
       : case_(c),
         stiffness_(0.3 * limit),
@@ -212,7 +217,8 @@ class SimulatedWall {
     max_speed(3000);
   }
 
-  // Factor by which the motion grows after a change to the given stiffness; the change itself excites the motion.
+  // Factor by which the motion grows after the stiffness is changed to `stiffness`. The change itself excites the
+  // motion.
   double growth(double stiffness) {
     stiffness_ = stiffness;
     max_speed(50);
@@ -222,7 +228,7 @@ class SimulatedWall {
   }
 
  private:
-  static constexpr double kWall = 0.001, kDepth = 0.001;  // [m] near the centre, where positions in arc and plane agree
+  static constexpr double kWall = 0.001, kDepth = 0.001;  // [m] near the centre, where arc and plane positions agree
   static constexpr glm::dvec2 kRest{0.0, kWall + kDepth};
 
   static SimulatedLeverConfig config_of(const Case& c) {
@@ -269,12 +275,14 @@ class SimulatedWall {
   LeverEstimator estimator_;
   LeverObserver observer_;
   Proxy proxy_;
-  glm::dvec2 damping_{0.0}, command_{0.0};  // [N] free damping, total command
+  glm::dvec2 damping_{0.0}, command_{0.0};  // [N] force of the free damping, total commanded force
 };
 
 }  // namespace
 
-// z^3 + (q/2 - 2) z^2 + (1 + k/2) z - h/2, k = K T^2 / m, h = B T / m, q = k + h: Jury's conditions.
+// The limit follows from Jury's conditions for the loop's characteristic polynomial
+//   z^3 + (q/2 - 2) z^2 + (1 + k/2) z - h/2
+// with k = K T^2 / m, h = B T / m, q = k + h (stiffness K, damping B, mass m, period T).
 TEST_CASE("a free mass: K T^2 / m < 2 h (2 - h) / (2 + h), h = B T / m, at most 0.686 at 0.83, 0 from 2 on") {
   for (const double period : {0.01, 0.001, 0.0001}) {
     const double mass = 0.3;
@@ -293,7 +301,8 @@ TEST_CASE("a free mass: K T^2 / m < 2 h (2 - h) / (2 + h), h = B T / m, at most 
   }
 }
 
-// The polynomial of the previous case with B + K T / 2 for B: k^2 + 3 h k + 2 h^2 - 4 h < 0.
+// The half-sample hold replaces B by B + K T / 2 in the polynomial of the test case above. With k and h as there, this
+// gives the condition k^2 + 3 h k + 2 h^2 - 4 h < 0.
 TEST_CASE("a free mass under the half-sample hold: K T^2 / m < (sqrt(h^2 + 16 h) - 3 h) / 2") {
   const double mass = 0.3, period = 0.001;
   ContactLaw law;
@@ -398,15 +407,16 @@ TEST_CASE("the simulated lever does the same, with every hold and hand, within 1
         Case c{kPaperAxisY, named.hand, {}};
         c.law.hold = hold;
         c.law.delay = delay;
-        c.law.damping =
-            hold == ContactHold::observer && delay == 3 ? 80.0 : 12.0;  // for an observer 12 is raised to 50
+        // [N s/m] The observer hold raises a damping of 12 to its minimum, kMinObserverDamping = 50. A damping of 80
+        // exceeds this minimum.
+        c.law.damping = hold == ContactHold::observer && delay == 3 ? 80.0 : 12.0;
         c.law.window = delay == 3 ? 2 : 1;
         c.law.free_damping = delay == 1 ? 5.0 : 0.0;
         const double limit = limit_of(c);
         CAPTURE(named.name);
         CAPTURE(delay);
         CAPTURE(limit);
-        if (std::isinf(limit)) continue;  // an observer with an exact model is stable with any wall
+        if (std::isinf(limit)) continue;  // with an exact model, the observer hold is stable on any wall
         ++checked_cases;
         SimulatedWall wall(c, limit);
         CHECK(wall.growth(0.99 * limit) < 0.5);

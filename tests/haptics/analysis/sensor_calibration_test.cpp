@@ -1,4 +1,4 @@
-// The paper's section 2.3: its (7) from weights in eight directions.
+// Tests the calibration of the paper's section 2.3: weights that pull in eight directions recover eq (7).
 #include "haptics/analysis/sensor_calibration.h"
 
 #include <cmath>
@@ -36,7 +36,9 @@ TEST_CASE("offset 19.04 and gain 0.1551 come out within their uncertainty, throu
 
 TEST_CASE("a sensor without noise: errors of at most half a step of its resolution") {
   const SensorCalibration found = calibrate_sensor(weigh({}, {}, 1, 1));
-  CHECK(std::abs(found.x.offset - 19.04) < 1e-9);  // rounding and directions are symmetric about zero
+  // The offset is exact: the weights pull equally in opposite directions and rounding is symmetric, so rounding errors
+  // cancel.
+  CHECK(std::abs(found.x.offset - 19.04) < 1e-9);
   CHECK(std::abs(found.x.gain - 0.1551) < 3.0 * found.x.gain_deviation);
   CHECK(found.x.nonlinearity < 25.0);
   ForceSensorModel fine;

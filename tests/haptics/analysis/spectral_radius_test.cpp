@@ -1,4 +1,4 @@
-// Matrices with known eigenvalues.
+// Tests with matrices whose eigenvalues are known.
 #include "haptics/analysis/spectral_radius.h"
 
 #include <array>
@@ -22,7 +22,7 @@ TEST_CASE("the companion of z^n = 2 has the nth root of 2, up to the largest ord
   for (const int n : {1, 2, 5, 17, kMaxStates}) {
     const auto order = static_cast<std::size_t>(n);
     std::vector<double> companion(order * order, 0.0);
-    for (std::size_t i = 0; i + 1 < order; ++i) companion[i * order + i + 1] = 1.0;  // maps column i to row i + 1
+    for (std::size_t i = 0; i + 1 < order; ++i) companion[i * order + i + 1] = 1.0;
     companion[(order - 1) * order] = 2.0;
     CHECK(largest_eigenvalue(companion, n) == doctest::Approx(std::pow(2.0, 1.0 / n)).epsilon(1e-12));
   }

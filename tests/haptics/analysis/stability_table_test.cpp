@@ -1,4 +1,4 @@
-// The exact limits against values from an independent, earlier program.
+// Compares the exact stiffness limits with values from an earlier, independent program.
 #include <cmath>
 #include <limits>
 
@@ -29,7 +29,7 @@ constexpr double kNotPrinted = -1.0;
 struct Row {
   double period;          // [s]
   double printed[5];      // [N/m] for kDampings
-  double best_b, best_k;  // damping with the highest limit [N s/m], and that limit [N/m]
+  double best_b, best_k;  // damping [N s/m] with the highest limit, and that limit [N/m]
 };
 
 void check_table(const Row& row, int delay) {
@@ -40,14 +40,15 @@ void check_table(const Row& row, int delay) {
     CHECK(std::abs(limit(kDampings[i], delay, row.period) - row.printed[i]) <= 0.51);
   }
   if (row.best_b == kNotPrinted) return;
-  // The maximum is flat, so the rounding of B does not matter.
+  // The limit as a function of damping has a flat maximum, so the rounding of `best_b` does not matter.
   const double best = limit(row.best_b, delay, row.period);
   CHECK(best == doctest::Approx(row.best_k).epsilon(0.005));
   CHECK(best > limit(0.9 * row.best_b, delay, row.period));
   CHECK(best > limit(1.1 * row.best_b, delay, row.period));
 }
 
-// The range of B, from first to last, in which K = 5000 N/m is stable. Both are printed with the stated resolution.
+// The range of damping, from `first` to `last` [N s/m], in which a wall of 5000 N/m is stable. `first_digit` and
+// `last_digit`: the value of one unit in the last printed digit of `first` and `last`.
 struct Band {
   double period;
   int delay;
@@ -61,7 +62,8 @@ bool is_stable_at_5000(const Band& band, double damping) {
   return spectral_radius(kPaperAxisX, band.hand, law, band.period) < 1.0;
 }
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();  // the range extends beyond the search
+// The value of `Band::last` if the range has no upper end up to 200 N s/m, the largest damping that is tested.
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

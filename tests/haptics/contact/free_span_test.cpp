@@ -1,4 +1,4 @@
-// free_span() against a walk in small steps, on random gates.
+// Compares free_span() with a walk in small steps, on random gates.
 #include "haptics/contact/free_span.h"
 
 #include <cmath>
@@ -19,10 +19,11 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kStep = 20e-6;      // [m] step of the walk
+constexpr double kStep = 20e-6;      // [m] step length of the walk
 constexpr double kSpanSlack = 1e-9;  // [m]
 
-// Independent check of free space: in_free_space() for the fixed walls, the passage's definition for the movable ones.
+// Independent check whether a point is in free space: in_free_space() checks the fixed walls, and the fields of
+// `passage` are checked for the movable walls.
 bool is_free(const Gate& gate, const Passage& passage, dvec2 p) {
   if (!in_free_space(gate, p, kSpanSlack)) return false;
   const double mouth = gate.half_aisle + gate.chamfer;
@@ -39,7 +40,7 @@ bool is_free(const Gate& gate, const Passage& passage, dvec2 p) {
   return across >= min_depth - kSpanSlack && across <= passage.depth_max + kSpanSlack;
 }
 
-// Distance from the point in steps of kStep until the next step would leave free space. [m]
+// Distance [m] that can be walked from the point in steps of kStep until the next step would leave free space.
 double walk(const Gate& gate, const Passage& passage, dvec2 point, dvec2 step) {
   int steps = 0;
   while (is_free(gate, passage, point + static_cast<double>(steps + 1) * step)) ++steps;
@@ -61,7 +62,8 @@ void check_against_walk(const Gate& gate, const Passage& passage, dvec2 p) {
   }
 }
 
-// Limits the depth as the loop does: the point always stays inside the limits.
+// If the point is in a slot, limits the depth there in a third of the calls. As in the loop, the point is between the
+// limits.
 void limit_depth(const Gate& gate, dvec2 p, std::mt19937_64& random, Passage& passage) {
   const int slot = slot_at(gate, p);
   if (slot == kNoSlot || random() % 3 != 0) return;

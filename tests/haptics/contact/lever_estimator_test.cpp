@@ -1,4 +1,4 @@
-// Estimated motion, and rejected readings.
+// Checks the estimated motion and the rejection of bad readings.
 #include "haptics/contact/lever_estimator.h"
 
 #include <algorithm>
@@ -43,7 +43,8 @@ TEST_CASE("constant speed is measured exactly; the smooth one follows 1 - exp(-t
   }
 }
 
-// If the estimator restarted earlier, the guard would never react, because a restart counts as a fresh reading.
+// A restart counts as a fresh reading. If the estimator restarted before the guard's stale time had passed, the guard
+// would never react to the faulty sensor.
 TEST_CASE("with a faulty sensor the estimator restarts 30 ms after the guard's stale time, 50 ms at the earliest") {
   for (const double stale_time : {0.0, 0.02, 0.06, 1.0}) {
     LeverEstimator estimator({}, kCycle, 0.0, stale_time);
@@ -53,16 +54,17 @@ TEST_CASE("with a faulty sensor the estimator restarts 30 ms after the guard's s
         silent < 2000 &&
         !estimator.update(reading(static_cast<std::uint64_t>(silent) + 2, {silent % 2 == 0 ? 1.0 : -1.0, 0.0})).fresh)
       ++silent;
-    const double late = silent * kCycle - std::max(0.05, stale_time + 0.03);  // [s] at most one cycle, due to rounding
+    // [s] delay of the restart after the expected time: at most one cycle, because cycles are counted as a whole
+    const double late = silent * kCycle - std::max(0.05, stale_time + 0.03);
     CHECK(late > -1e-9);
     CHECK(late < kCycle + 1e-9);
   }
 }
 
-// A lever at rest on the edge between two counts flips between them, which is not a motion (campaign seed 1, case
-// 3394).
+// When a lever rests on the edge between two encoder counts, the reading flips between them. This is not a motion
+// (found by campaign seed 1, case 3394).
 TEST_CASE("a jump by one count is accepted at any rate, one by two counts above the speed limit is not") {
-  constexpr double kCount = 1e-4, kFastCycle = 2.5e-4;  // [m], [s]: a count per sample is 0.4 m/s
+  constexpr double kCount = 1e-4, kFastCycle = 2.5e-4;  // [m], [s]: one count per cycle is 0.4 m/s
   EstimatorConfig config;
   config.speed_limit = 0.1;
   for (const dvec2 edge : {dvec2{kCount, 0.0}, dvec2{0.0, -kCount}, dvec2{kCount, kCount}}) {
@@ -84,7 +86,7 @@ TEST_CASE("a device with its own clock: with faster, slower or late samples the 
     r.position = {0.3e-9 * static_cast<double>(time_ns), 0.0};
     return r;
   };
-  LeverEstimator fast_loop({}, kCycle / 4.0);  // 1 kHz device, 4 kHz loop: three of four readings repeat the last one
+  LeverEstimator fast_loop({}, kCycle / 4.0);  // 1 kHz device, 4 kHz loop: three of four readings are repeats
   for (int cycle = 0; cycle < 100; ++cycle) {
     const LeverMotion m = fast_loop.update(sample(static_cast<std::uint64_t>(cycle / 4) + 1, (cycle / 4) * kCycleNs));
     if (m.fresh && cycle > 4) CHECK(m.velocity.x == doctest::Approx(0.3));
@@ -94,7 +96,7 @@ TEST_CASE("a device with its own clock: with faster, slower or late samples the 
     const LeverMotion m = slow_loop.update(sample(2 * static_cast<std::uint64_t>(cycle) + 1, cycle * kCycleNs));
     if (cycle > 1) CHECK(m.velocity.x == doctest::Approx(0.3));
   }
-  LeverEstimator late({}, kCycle);  // one sample a millisecond late
+  LeverEstimator late({}, kCycle);  // one sample is late by a millisecond
   late.update(sample(1, 0));
   late.update(sample(2, kCycleNs));
   CHECK(late.update(sample(3, 3 * kCycleNs)).velocity.x == doctest::Approx(0.3));
@@ -127,7 +129,7 @@ TEST_CASE("after 50 ms without samples it restarts at the next: a replugged devi
     const LeverMotion m = estimator.update(reading(restarted, {0.012, 0.0}));
     CHECK(m.fresh);
     CHECK(m.position == dvec2{0.012, 0.0});
-    CHECK(m.velocity == dvec2{0.0, 0.0});  // a travel of 9 mm in an unknown time defines no speed
+    CHECK(m.velocity == dvec2{0.0, 0.0});  // the move of 9 mm took an unknown time, so the speed is unknown
   }
 }
 
@@ -149,13 +151,13 @@ TEST_CASE("a longer window: the difference over it, over fewer samples at first,
   EstimatorConfig config;
   config.window = 5;
   LeverEstimator estimator(config, kCycle);
-  const auto at = [](int n) { return 1e-6 * n * n; };  // [m] not linear: every window has a different speed
+  const auto at = [](int n) { return 1e-6 * n * n; };  // [m] not linear, so every window has a different speed
   for (int n = 1; n <= 30; ++n) {
     const LeverMotion m = estimator.update(reading(static_cast<std::uint64_t>(n), {at(n), 0.0}));
     const int back = std::min(5, n - 1);
     if (back > 0) CHECK(m.velocity.x == doctest::Approx((at(n) - at(n - back)) / (back * kCycle)));
   }
-  for (int n = 0; n < 60; ++n) estimator.update(reading(30, {at(30), 0.0}));  // after a gap, at a different place
+  for (int n = 0; n < 60; ++n) estimator.update(reading(30, {at(30), 0.0}));  // no new samples for 60 ms: a restart
   CHECK(estimator.update(reading(91, {0.03, 0.0})).velocity.x == 0.0);
   CHECK(estimator.update(reading(92, {0.0301, 0.0})).velocity.x == doctest::Approx(0.1));
 }

@@ -1,4 +1,4 @@
-// The observer against the plant it models, and the hold based on it against conservation of energy.
+// Checks that the observer tracks the plant it models, and that the hold based on the observer conserves energy.
 #include "haptics/contact/lever_observer.h"
 
 #include <algorithm>
@@ -59,7 +59,8 @@ TEST_CASE("with an exact model it predicts the lever at the moment when the next
       const ObservedMotion predicted = observer.update(motion, command(n - 1));
       at.push_back(motion.position);
       predicted_begin.push_back(predicted.position);
-      // True end of the hold that starts at n + delay. predicted.end excludes the motors, so their effect is added.
+      // Predicted position at the end of the hold that starts at cycle n + delay. `predicted.end` excludes the motors,
+      // so their effect is added.
       predicted_end.push_back(predicted.end + predicted.compliance * command(n));
       const glm::dvec2 force = command(n - delay) + hand;
       select = x.step(select, force.x);
@@ -77,8 +78,8 @@ TEST_CASE("with an exact model it predicts the lever at the moment when the next
 
 namespace {
 
-// Free impact of a handle of known state on a wall with the solved hold: ratio of the energy supplied by the wall to
-// the impact energy.
+// A handle of known state hits a wall that uses the solved hold. Returns the energy supplied by the wall, as a fraction
+// of the impact energy.
 double wall_energy_fraction(const AxisModel& axis, const Coupling& wall, double speed, double phase) {
   const AxisStepper plant(axis, wall.period);
   const double compliance = plant.step({}, 1.0).position;
@@ -98,8 +99,8 @@ double wall_energy_fraction(const AxisModel& axis, const Coupling& wall, double 
 
 }  // namespace
 
-// The observer assumes a constant push: 20 N of a hand against a wall would move the model of an unplugged stick by
-// metres.
+// The observer assumes that the hand's push stays constant. If the stick is unplugged while a hand pushes with 20 N
+// against a wall, the unopposed push would move the model by metres, so the model must stop.
 TEST_CASE("without samples it stays at the last one, and restarts at the next") {
   constexpr double kPeriod = 0.001;
   DeviceSpec spec;
@@ -108,7 +109,7 @@ TEST_CASE("without samples it stays at the last one, and restarts at the next") 
   LeverMotion motion;
   motion.position = {0.02, 0.01};
   motion.fresh = true;
-  for (int n = 0; n < 300; ++n) observer.update(motion, {-20.0, 0.0});  // at rest: the hand balances the motors
+  for (int n = 0; n < 300; ++n) observer.update(motion, {-20.0, 0.0});  // at rest, because the hand balances the motors
   motion.fresh = false;
   ObservedMotion predicted;
   for (int n = 0; n < 1000; ++n) predicted = observer.update(motion, {0.0, 0.0});
@@ -131,7 +132,8 @@ TEST_CASE("solved hold, exact model, no damping: the wall returns what it absorb
       }
     }
   }
-  // With damping the wall absorbs energy. For comparison, a zero-order spring adds 33 % at 1 ms (energy_control_test).
+  // With damping, the wall absorbs more than 30 % of the impact energy. For comparison: a zero-order spring supplies
+  // 33 % extra energy at 1 ms (energy_control_test).
   CHECK(wall_energy_fraction(kPaperAxisX, {5000.0, 50.0, 0.001}, 0.3, 0.5) < -0.3);
 }
 

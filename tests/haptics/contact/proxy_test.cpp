@@ -1,4 +1,4 @@
-// The proxy never leaves free space, never jumps a wall and never generates energy.
+// The proxy never leaves free space, never jumps across a wall and never generates energy.
 #include "haptics/contact/proxy.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using glm::dvec2;
 namespace {
 
 constexpr double kSlack = 1e-9;       // [m]
-constexpr double kHandOver = 0.5e-3;  // [m] per cycle at 1 kHz
+constexpr double kHandOver = 0.5e-3;  // [m] `hand_over` of move_proxy(): extra travel of the proxy per cycle, at 1 kHz
 constexpr double kStiffness = 5000.0;
 
 dvec2 random_point(std::mt19937_64& random) {
@@ -31,7 +31,7 @@ dvec2 random_point(std::mt19937_64& random) {
   return {x(random), y(random)};
 }
 
-// Mostly small steps, sometimes a throw across the whole gate in one sample.
+// The next lever position: usually a small step away, sometimes a jump across the whole gate.
 dvec2 wander(dvec2 lever, std::mt19937_64& random) {
   std::normal_distribution<double> step(0.0, 0.002);
   if (random() % 200 == 0) return random_point(random);
@@ -39,7 +39,7 @@ dvec2 wander(dvec2 lever, std::mt19937_64& random) {
   return {std::clamp(next.x, -0.09, 0.09), std::clamp(next.y, -0.08, 0.08)};
 }
 
-// A smooth closed curve through the gate and beyond it: harmonics with random amplitudes.
+// A smooth closed path through the gate and beyond its walls: a sum of harmonics with random amplitudes.
 class ClosedPath {
  public:
   explicit ClosedPath(std::mt19937_64& random) {
@@ -105,7 +105,7 @@ TEST_CASE("a throw from one slot to another in one sample leaves the proxy in it
   for (const int from : {1, 2, 3, 4, 5, kReverseGear}) {
     for (const int to : {1, 2, 3, 4, 5, kReverseGear}) {
       const dvec2 a = rest_position(gate, from), b = rest_position(gate, to);
-      if (a.x == b.x) continue;  // both points are in one column: no wall between them
+      if (a.x == b.x) continue;  // the same column: no wall lies between the points
       const Proxy proxy = move_proxy(gate, open_passage(gate), {a, a}, b, kHandOver);
       CAPTURE(from);
       CAPTURE(to);
@@ -162,11 +162,12 @@ TEST_CASE("when the governing wall changes the force changes by at most K (2 |st
     REQUIRE(change <= kStiffness * (2.0 * step + kHandOver) + 1e-9);
     if (step < 2e-4) max_change = std::max(max_change, change);
   }
-  CHECK(max_change > 1.0);  // checks that the test reached large changes
+  CHECK(max_change > 1.0);  // the run must include large changes of force
 }
 
-// Work along a path is measured from the forces only (trapezoid rule, 0.2 um steps). Energy still stored in the
-// coupling spring and the gate's potential is accounted for, so the law must hold at every point of the path.
+// The work along a path is computed from the forces only (trapezoid rule, 0.2 um steps). The energy that is still
+// stored in the coupling spring and in the gate's potential is added, so the limit of 1e-9 J must hold at every point
+// of the path.
 TEST_CASE("kinematic closed paths give back at most 1e-9 J of position-only work") {
   for (const std::string& name : {std::string("paper"), std::string("dog_leg_five")}) {
     const Gate gate = shipped_gate(name);

@@ -1,4 +1,4 @@
-// The proxy's laws on random gates with movable walls that open and close at random.
+// The rules that the proxy must keep, tested on random gates with movable walls that open and close at random.
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>

@@ -1,4 +1,4 @@
-// The limiter distinguishes a lever that chatters on a wall from one moved by a hand or vibrated by the load.
+// The limiter softens a wall if the lever chatters on it, but not if a hand moves the lever or the load vibrates it.
 #include "haptics/contact/reversal_limiter.h"
 
 #include <cmath>
@@ -19,8 +19,8 @@ DeviceSpec paper_spec() {
   return spec;
 }
 
-// Number of times the limiter softens the wall during `seconds` of an oscillation. frequency [Hz], span [m]
-// peak-to-peak
+// Number of times the limiter softens the wall while the lever oscillates for `seconds`. `frequency` [Hz]. `span`:
+// peak-to-peak motion [m].
 int count_softenings(ReversalLimiter& limiter, double frequency, double span, double seconds, bool in_contact = true,
                      double wanted = 5000.0) {
   int count = 0;
@@ -31,8 +31,8 @@ int count_softenings(ReversalLimiter& limiter, double frequency, double span, do
   return count;
 }
 
-// An oscillation at a wall of 5000 N/m while the load vibrates the lever with a sine. frequency [Hz], amplitude [N],
-// lag of the lever [periods of the vibration]
+// A sinusoidal force with which the load vibrates a lever that oscillates at a wall of 5000 N/m. `frequency` [Hz];
+// `amplitude` [N]; `lag` of the lever behind the force [periods of the vibration].
 struct Vibration {
   double frequency = 20.0, amplitude = 1.0, lag = 0.2;
 };
@@ -48,7 +48,8 @@ int count_softenings_vibrated(ReversalLimiter& limiter, const Vibration& vibrati
   return count;
 }
 
-// Largest peak-to-peak motion of the paper's lever under a force of amplitude 1 N, at resonance: 2 / (b w). [m]
+// Peak-to-peak motion [m] of the paper's lever at resonance, under a force of amplitude 1 N: 2 / (damping * angular
+// frequency).
 double resonant_span(double frequency) {
   return 2.0 / (kPaperAxisY.damping * 2.0 * std::numbers::pi * frequency);
 }
@@ -70,13 +71,13 @@ TEST_CASE("a fast rattle in a wall lowers it by a quarter, within a quarter of a
 TEST_CASE("a hand's tremor, encoder quantisation and motion in free space do not soften the wall") {
   ReversalLimiter limiter(paper_spec(), kLimiterPeriod);
   CHECK(count_softenings(limiter, 8.0, 0.02, 5.0) == 0);            // 16 reversals/s, the fastest deliberate motion
-  CHECK(count_softenings(limiter, 12.0, 0.0007, 5.0) == 0);         // the fastest tremor (Elble 2003)
-  CHECK(count_softenings(limiter, 100.0, 3.0 * kCount, 5.0) == 0);  // less than 4 encoder counts
+  CHECK(count_softenings(limiter, 12.0, 0.0007, 5.0) == 0);         // the fastest tremor of a hand (Elble 2003)
+  CHECK(count_softenings(limiter, 100.0, 3.0 * kCount, 5.0) == 0);  // less than four encoder counts
   CHECK(limiter.stiffness_fraction() == 1.0);
   ReversalLimiter free(paper_spec(), kLimiterPeriod);
   CHECK(count_softenings(free, 40.0, 0.002, 5.0, false) == 0);  // no wall
   ReversalLimiter wide(paper_spec(), kLimiterPeriod);
-  CHECK(count_softenings(wide, 10.5, 0.001, 5.0) > 0);  // too wide for a tremor
+  CHECK(count_softenings(wide, 10.5, 0.001, 5.0) > 0);  // 10.5 Hz as in a tremor, but too wide for a tremor
   ReversalLimiter fast(paper_spec(), kLimiterPeriod);
   CHECK(count_softenings(fast, 13.0, 0.0007, 5.0) > 0);
 }
@@ -84,7 +85,7 @@ TEST_CASE("a hand's tremor, encoder quantisation and motion in free space do not
 TEST_CASE(
     "down to 0.3 m / tau^2 by quarters; if it still chatters, by halves, and below 1/64 it reports that it failed") {
   DeviceSpec spec = paper_spec();
-  spec.delay = 3;  // tau = 4 ms: 0.3 * 0.086 / 16e-6 = 1612.5 N/m
+  spec.delay = 3;  // tau = delay + 1 ms = 4 ms, so the floor is 0.3 * 0.086 kg / tau^2 = 1612.5 N/m
   for (const double frequency : {11.0, 40.0}) {
     CAPTURE(frequency);
     ReversalLimiter limiter(spec, kLimiterPeriod);
@@ -105,7 +106,7 @@ TEST_CASE(
 }
 
 TEST_CASE("at the floor a bounce that decays does not soften the wall, however often it occurs") {
-  DeviceSpec spec = paper_spec();  // no delay: 0.3 m / T^2 is 25800 N/m, more than the wanted stiffness
+  DeviceSpec spec = paper_spec();  // no delay: the floor, 0.3 mass / period^2 = 25800 N/m, exceeds the wanted 5000 N/m
   ReversalLimiter limiter(spec, kLimiterPeriod);
   for (int i = 0; i < 100; ++i) {
     count_softenings(limiter, 40.0, 0.002, 0.2);  // sixteen reversals

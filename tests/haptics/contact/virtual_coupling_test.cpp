@@ -1,4 +1,4 @@
-// The half-sample hold against the integral that it approximates.
+// Compares the half-sample hold with the exact integral that it approximates.
 #include "haptics/contact/virtual_coupling.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 constexpr double kCouplingPeriod = 0.001;
 constexpr double kProxyStep = 0.5e-3;
 
-// Force at the neutral aisle's upper wall, midway between two columns: one flat wall.
+// Wall force at the upper wall of the neutral aisle, midway between two columns, where the wall is flat.
 double wall_force(const Gate& gate, const Coupling& coupling, double depth, double speed) {
   const double x = 0.5 * (gate.column[0].center + gate.column[1].center);
   const Proxy proxy{{x, std::min(gate.half_aisle, gate.half_aisle + depth)}, {x, gate.half_aisle + depth}};
@@ -29,7 +29,7 @@ double wall_force(const Gate& gate, const Coupling& coupling, double depth, doub
   return -contact_force(coupling, gate, open_passage(gate), proxy, motion).force.y;
 }
 
-// Mean spring force over the coming period by quadrature: the reference for the hold.
+// Mean spring force over the next period, integrated numerically as the reference for the half-sample hold.
 double mean_spring_force(double stiffness, double depth, double speed, double horizon) {
   const int n = 200000;
   double sum = 0.0;

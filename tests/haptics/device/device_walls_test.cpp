@@ -1,4 +1,4 @@
-// Device walls of the simulated lever.
+// Tests of device walls, which the simulated lever renders itself.
 #include <cmath>
 #include <limits>
 
@@ -50,8 +50,8 @@ HandTarget pushing(dvec2 force) {
 
 }  // namespace
 
-// Inside the wall m x'' + b x' + k x = -K (x - edge): a spring of k + K with its rest at K edge / (k + K), solved in
-// closed form.
+// Inside a wall of stiffness K, a lever of mass m, damping b and stiffness k obeys m x'' + b x' + k x = -K (x - edge).
+// This is a mass on a spring of stiffness k + K, which is solved in closed form.
 TEST_CASE("a lever that flies into a device wall moves as a mass on that spring, and returns no faster") {
   for (const double stiffness : {400.0, 1000.0, 3000.0}) {
     CAPTURE(stiffness);
@@ -100,7 +100,7 @@ TEST_CASE("walls take effect with the delay of any command, and are rendered wit
   bench.lever.set_device_walls(kRoundMiddle);
   for (int i = 0; i < 5; ++i) CHECK(bench.run(1).actuator_force.x == 0.0);
   CHECK(bench.run(1).actuator_force.x < -1.0);
-  // Once the delay has passed, it bounces like the lever without delay.
+  // Once the delay has passed, the wall forces equal those of a lever without delay.
   bench.lever.place({0.001, 0.0}, {0.3, 0.0});
   prompt.lever.set_device_walls(kRoundMiddle);
   prompt.lever.place({0.001, 0.0}, {0.3, 0.0});
@@ -113,7 +113,7 @@ TEST_CASE("walls and command share the motors: together they are limited to the 
   WallBench bench(config, pushing({7.0, 0.0}));
   bench.lever.write({-5.0, 0.0});
   bench.lever.set_device_walls(kRoundMiddle);
-  CHECK(bench.run(2000).actuator_force.x == doctest::Approx(-7.0).epsilon(0.01));  // 5 N commanded, 2 N from the wall
+  CHECK(bench.run(2000).actuator_force.x == doctest::Approx(-7.0).epsilon(0.01));  // -5 N commanded, -2 N from the wall
   WallBench beyond(config, pushing({20.0, 0.0}));
   beyond.lever.set_device_walls(kRoundMiddle);
   CHECK(beyond.run(12).actuator_force.x == doctest::Approx(-8.0).epsilon(0.01));

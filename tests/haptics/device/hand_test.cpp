@@ -35,7 +35,7 @@ TEST_CASE("a minimum-jerk stroke is half way at half time with 15/8 of its mean 
   CHECK(minimum_jerk(a, b, 9.0, 0.4).position == b);
   CHECK(minimum_jerk(a, b, 9.0, 0.4).velocity == glm::dvec2(0.0));
 
-  // The stroke starts without acceleration: to leading order its position is 10 (b - a) (t/T)^3.
+  // A stroke of duration T from a to b starts without acceleration: for small t it has moved by 10 (b - a) (t/T)^3.
   CHECK(minimum_jerk(a, b, 4e-5, 0.4).position.x - a.x == doctest::Approx(10.0 * 0.04 * 1e-12).epsilon(1e-3));
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("aims scatter with the stated deviation, once per stroke, and the seed
 
 TEST_CASE("effort grows as gain x lag x time up to its limit, and fades within 50 ms of arrival") {
   ScriptedHandConfig config;
-  config.start = {0.0, 0.010};  // the lever stays 10 mm behind the hand's target
+  config.start = {0.0, 0.010};  // [m] the hand's target; the test keeps the lever at 0, which is 10 mm behind
   config.effort_gain = 2000.0;
   config.effort_limit = 12.0;
   ScriptedHand hand(config, {}, 1e-3);
@@ -101,7 +101,7 @@ TEST_CASE("a soft hand that lags 30 mm at most pulls through 12 N with effort, a
     script.effort_limit = 15.0;
     ScriptedHand hand(script, {stroke_to({0.0, 0.030}, 0.3, 1.2)}, 1e-3);
     SimulatedLeverConfig config;
-    config.hand = kLightHand;  // 200 N/m: 6 N at 30 mm
+    config.hand = kLightHand;  // 200 N/m, so 6 N at a lag of 30 mm
     SimulatedLever lever(config, 1'000'000, hand);
     for (std::int64_t ms = 0; ms < 1500; ++ms) {
       const double y = lever.read(ms * 1'000'000).position.y;

@@ -1,4 +1,4 @@
-// The simulated lever's deviations from its model: period jitter and parameter errors.
+// Tests of the simulated lever's deviations from its model: period jitter and parameter errors.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -30,7 +30,7 @@ glm::dvec2 arc_of(const SimulatedLever& lever) {
   return arc_position(kLeverYoke, joint_angles_from_plane(kLeverYoke, lever.true_position()));
 }
 
-// Records the time of the last query.
+// A hand driver that only records the time of its last call.
 class Clock final : public HandDriver {
  public:
   HandTarget next(double time, glm::dvec2) noexcept override {
@@ -40,8 +40,9 @@ class Clock final : public HandDriver {
   double asked_time = 0.0;
 };
 
-// k is measured from the rest position under a force, m from the first step under it, b from the return: between two
-// states of rest the impulses of spring and damper cancel, b x0 = k times the integral of x (Simpson's rule).
+// Parameters measured on the lever. Stiffness k: from the rest position x0 under a constant force. Mass m: from the
+// first time step under this force. Damping b: from the return after the force is released, by b x0 = k (integral of
+// x), because the total impulse of spring and damper is zero.
 struct Measured {
   double mass, damping, stiffness;
 };
@@ -74,14 +75,15 @@ Measured measure(const SimulatedLeverConfig& config) {
   }
   const double stiffness = held / rest, t = 1e-9 * kStep;
   const double damping = stiffness * integral / rest;
-  double mass = 0.1;  // x = f t^2 / (2 m) (1 - b t / (3 m) ...) soon after the start
+  // Soon after a force f is applied, x = f t^2 / (2 m) (1 - b t / (3 m)), with mass m and damping b.
+  double mass = 0.1;
   for (int i = 0; i < 5; ++i) mass = force[kAxis] * t * t / (2.0 * first) * (1.0 - damping * t / (3.0 * mass));
   return {mass, damping, stiffness};
 }
 
 void check_off(double measured, double nominal) {
   CHECK(std::abs(measured / nominal - 1.0) < 0.2);
-  CHECK(std::abs(measured / nominal - 1.0) > 1e-3);  // false failures: 1 in 200 per draw
+  CHECK(std::abs(measured / nominal - 1.0) > 1e-3);  // a random error is below 1e-3 in 1 of 200 draws
 }
 
 }  // namespace

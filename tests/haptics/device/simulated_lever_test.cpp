@@ -24,12 +24,13 @@ constexpr YokeGeometry kYoke;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// tau . dq = f . d(rho theta, -rho phi)
+// Joint torques of a force along the arcs of the tip. The arc lengths are rho theta and -rho phi, with radius rho =
+// 0.120 m.
 JointTorques torques_along(glm::dvec2 arc_force) {
   return {0.120 * arc_force.x, -0.120 * arc_force.y};
 }
 
-// No encoder and no sensor resolution: physics only.
+// A lever whose encoder and force sensor are exact, without resolution steps.
 SimulatedLeverConfig exact(const HandImpedance& hand = kBareHand) {
   SimulatedLeverConfig config;
   config.encoder_counts = 0.0;
@@ -55,7 +56,8 @@ struct Bench {
   LeverReading reading;
 };
 
-// Position under m x'' + b x' + k x = k_h target from rest at 0, from the two poles.
+// Position of a lever that a hand with stiffness k_h leads from rest at 0 towards `target`. Solves m x'' + b x' + k x =
+// k_h target, where mass m, damping b and stiffness k are the sums of lever and hand.
 double position_led_to(const AxisModel& axis, const HandImpedance& hand, double target, double time) {
   using Complex = std::complex<double>;
   const Complex m = axis.mass + hand.mass, b = axis.damping + hand.damping, k = axis.stiffness + hand.stiffness;
@@ -185,7 +187,7 @@ TEST_CASE("motors saturate at 31.7 N, and at 10.83 N once they are hot") {
   bench.run(1);
   CHECK(bench.reading.actuator_force.x == doctest::Approx(-31.7).epsilon(1e-12));
   bench.lever.place({0.0, 0.0});
-  bench.run(5010);  // overload_time = 5 s
+  bench.run(5010);  // 5.01 s, longer than overload_time (5 s)
   const JointAngles q = joint_angles_from_plane(kYoke, bench.lever.true_position());
   const glm::dvec2 hot = plane_force(kYoke, q, torques_along({-10.83, 0.0}));
   CHECK(bench.reading.actuator_force.x == doctest::Approx(hot.x).epsilon(1e-9));
@@ -215,7 +217,7 @@ TEST_CASE("dry friction holds the lever against smaller forces") {
   CHECK(bench.lever.true_position() == glm::dvec2(0.0));
   bench.lever.write({0.6, 0.0});
   bench.run(20'000);
-  CHECK(bench.arc().x == doctest::Approx(0.1 / 14.8).epsilon(1e-3));  // k x = f cos(theta) - friction
+  CHECK(bench.arc().x == doctest::Approx(0.1 / 14.8).epsilon(1e-3));  // spring force = 0.6 N push - 0.5 N friction
 }
 
 TEST_CASE("time advances in whole periods: n periods are n sequence numbers; no advance, or backward, is stale") {

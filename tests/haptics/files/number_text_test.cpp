@@ -16,7 +16,7 @@ TEST_CASE("numbers are formatted as a person would write them") {
   CHECK(number_text(1.23456789, 3) == "1.235");
   CHECK(number_text(1e300) == "1e+300");
   CHECK(number_text(1e-9) == "1e-09");
-  CHECK(number_text(-1e-9) == "-1e-09");  // otherwise an error would read "= 0: must be between 0 and ..."
+  CHECK(number_text(-1e-9) == "-1e-09");  // not "0": an error would read "= 0: must be between 0 and ..."
   CHECK(number_text(-4e-7) == "-4e-07");
   CHECK(number_text(std::numeric_limits<double>::quiet_NaN()) == "nan");
   CHECK(number_text(-std::numeric_limits<double>::infinity()) == "-inf");

@@ -54,7 +54,7 @@ TEST_CASE("anything that is not a readable file is rejected in one sentence") {
   CHECK(refusal(scratch.path()) == scratch.path().string() + ": this is a folder, not a file");
   CHECK(refusal("/dev/zero") == "/dev/zero: this is not a regular file");
 
-  const fs::path loop = scratch / "loop";  // a link to itself, which not even root can resolve
+  const fs::path loop = scratch / "loop";  // a symbolic link to itself; not even root can open it
   fs::create_symlink(loop, loop);
   CHECK(refusal(loop) == loop.string() + ": cannot be read (Too many levels of symbolic links)");
 

@@ -1,4 +1,5 @@
-// Compiling a layout to a gate: positions, curves, lockouts and walls; then random valid layouts.
+// Compiles layouts to gates and checks positions, curves, lockouts and walls; then does the same for random valid
+// layouts.
 #include "haptics/gate/gate_compiler.h"
 
 #include <algorithm>
@@ -35,15 +36,15 @@ const Slot& slot_for(const Gate& gate, int gear) {
   return slot_of(gate, slot);
 }
 
-const Slot& slot_for(const Gate&&, int) = delete;  // a slot of a temporary gate would dangle
+const Slot& slot_for(const Gate&&, int) = delete;  // prevents a dangling reference to a slot of a temporary gate
 
 int count_role(const GateDescription& list, WallRole role) {
   return static_cast<int>(
       std::count_if(list.walls.begin(), list.walls.end(), [&](const WallInfo& w) { return w.role == role; }));
 }
 
-// True if a point-like lever reaches every gear from neutral, by flood fill on a 0.5 mm grid, independent of the
-// aisles.
+// True if a point-like lever can reach every gear from neutral. Uses a flood fill on a 0.5 mm grid, which is
+// independent of the compiler's aisles.
 bool reaches_every_gear(const Gate& gate) {
   constexpr double step = 0.5e-3;
   constexpr int reach = 160;
@@ -82,8 +83,8 @@ bool separates(const Gate& gate, const WallInfo& wall) {
   return in_free_space(gate, middle + across) != in_free_space(gate, middle - across);
 }
 
-// Checks that the force nowhere rises faster than 4000 N/m and that its slope does not jump: cubic pieces of at most 40
-// N over at least 0.7 mm have a curvature of at most 6 F / l^2, which any kink would exceed.
+// Checks that the force's slope is at most 4000 N/m everywhere and does not jump. A cubic piece of at most 40 N over a
+// length of at least 0.7 mm has a curvature of at most 6 * 40 N / (0.7 mm)^2; a kink would exceed this.
 void check_smooth(const FeelCurve& curve, double from, double to) {
   constexpr double step = 1e-6;
   const double bend = 6.0 * 40.0 / (0.7e-3 * 0.7e-3);
@@ -97,8 +98,8 @@ void check_smooth(const FeelCurve& curve, double from, double to) {
   }
 }
 
-// Checks that a slot has a single rest position away from its walls, and that a gear is engaged wherever the slot pulls
-// the lever in.
+// Checks that a slot has a single rest position away from its walls, and that the gear engages only where the slot
+// pulls the lever in.
 void check_lock(const Gate& gate, const Slot& slot) {
   CHECK(slot.release_depth < slot.engage_depth);
   CHECK(slot.engage_depth < slot.rest);
@@ -163,7 +164,8 @@ void check_description(const Gate& gate) {
   CHECK(std::all_of(walls_of.begin(), walls_of.end(), [](int count) { return count == 2; }));
 }
 
-// A small layout for variations: two columns, 1/2 and neutral on the left, 3/R on the right.
+// A small layout that the tests modify. It has two columns: gears 1 and 2 on the left, where neutral is, and gears 3
+// and R on the right.
 GateLayout small_layout() {
   GateLayout layout;
   layout.file = "small.toml";
@@ -221,20 +223,21 @@ TEST_CASE("the paper's gate has the positions given in its file") {
 
   REQUIRE(gate.buffer_count == 2);
   CHECK(gate.buffer[0].wall == Approx(-0.035));
-  CHECK(gate.buffer[0].inner == Approx(-0.027));  // 0.8 of the slot's width of 10 mm
+  CHECK(gate.buffer[0].inner == Approx(-0.027));  // width of the buffer: 0.8 of the slot width of 10 mm
   CHECK(gate.buffer[1].wall == Approx(0.035));
   CHECK(gate.buffer[1].inner == Approx(0.027));
   CHECK((gate.buffer[1].back_open && gate.buffer[1].forward_open));
 }
 
-// The slot proper extends from 10 to 40 mm; stations at fractions .14 .28 .42 .66 .86 of 30 mm; forces from the file.
-// Between two flat peaks a cubic passes their mean half-way, and is 27/32 of the way up after three quarters.
+// The part of the slot behind the mouth extends from 10 to 40 mm. The knots of the curve are at the fractions 0.14,
+// 0.28, 0.42, 0.66 and 0.86 of these 30 mm, with the forces of the layout file. Between two knots with zero slope, a
+// cubic reaches the mean of both forces half-way, and 27/32 of the rise after three quarters of the way.
 TEST_CASE("the feel along the paper's slots has the file's forces at the positions given in the README") {
   const Gate gate = paper_gate();
   const Slot& slot = slot_for(gate, 3);
   const auto force = [&](double millimetres) { return feel_force(slot.feel, millimetres * 1e-3); };
   CHECK(force(0.0) == Approx(0.0));
-  CHECK(force(1.5) == Approx(-11.0 / 16.0));  // (3 u - u^3) / 2 at u = 1/2
+  CHECK(force(1.5) == Approx(-11.0 / 16.0));  // up to 3 mm: -(3 u - u^3) / 2 with u = y / 3 mm, here 1/2
   CHECK(force(3.0) == Approx(-1.0));
   CHECK(force(10.0) == Approx(-1.0));
   CHECK(force(14.2) == Approx(-4.0));
@@ -267,16 +270,16 @@ TEST_CASE("a lockout is lateral only if all gears of its column have the same ki
   layout.lockouts = {guard(kReverseGear, LockoutKind::push_down)};
   CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
 
-  layout.columns[1].forward.gear = kNeutralGear;  // R is the only gear in its column
+  layout.columns[1].forward.gear = kNeutralGear;  // now R is the only gear in its column
   const Gate reverse_only = compile_gate(layout, kPaperWorkspace);
   CHECK(reverse_only.lockout[0].lateral);
   CHECK(reverse_only.lockout[0].barrier == Approx(0.015));
   CHECK(reverse_only.lockout[0].beyond == +1);
 
-  layout.columns[1].forward.gear = 3;  // both gears of the column have the same kind of lockout
+  layout.columns[1].forward.gear = 3;  // now both gears of the column have the same kind of lockout
   layout.lockouts.push_back(guard(3, LockoutKind::push_down));
   CHECK(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
-  layout.lockouts[1].kind = LockoutKind::lift;  // different kinds: each closes its own slot
+  layout.lockouts[1].kind = LockoutKind::lift;  // now the kinds differ, so each lockout closes its own slot
   CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
   CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[1].lateral);
 }
@@ -359,7 +362,8 @@ TEST_CASE("far columns or long slots are within reach, both together are not") {
                        FileError);
   CHECK_NOTHROW(compile_gate(with(0.058, 0.060), kPaperWorkspace, std::numeric_limits<double>::infinity()));
 
-  // The number in the message is the bound: a wall there compiles, but not one 0.2 mm further out.
+  // The message's limit of 20.4 mm is exact. The wall is 5 mm further out than the column's centre, so a column at
+  // 15.4 mm compiles, and a column at 15.6 mm does not.
   CHECK_NOTHROW(compile_gate(with(0.0154, 0.060), kPaperWorkspace));
   CHECK_THROWS_AS(compile_gate(with(0.0156, 0.060), kPaperWorkspace), FileError);
 }
@@ -395,7 +399,8 @@ TEST_CASE("any valid layout compiles to a gate that satisfies the laws") {
   }
 }
 
-// Allowed ranges of sizes and forces: 4 to 40, 4 to 30 and up to 10 mm; 1 to 25, up to 20 and up to 15 N.
+// The reader allows aisle widths of 4 to 40 mm, slot widths of 4 to 30 mm and chamfers of up to 10 mm. It allows lock
+// forces of 1 to 25 N, detent forces of up to 20 N and mouth forces of up to 15 N.
 TEST_CASE("wide random layouts cover the ranges that the reader allows") {
   double aisle = 0.0, slot = 0.0, chamfer = 0.0, lock = 0.0, detent = 0.0, mouth = 0.0, narrowest = 1.0,
          min_lock = 99.0;
@@ -430,7 +435,7 @@ TEST_CASE("random layouts are reproducible and differ from each other") {
     with_buffers += gate.buffer_count > 0;
     with_reverse += slot_of_gear(gate, kReverseGear) != kNoSlot;
   }
-  // Checks that the generator produces every feature often enough to test it.
+  // The generator must produce every feature often enough to test it.
   CHECK(with_lockouts > kRandomLayouts / 4);
   CHECK(with_buffers > kRandomLayouts / 4);
   CHECK(with_reverse > kRandomLayouts / 4);

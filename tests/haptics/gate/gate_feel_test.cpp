@@ -1,4 +1,4 @@
-// The mechanism's forces: they have a potential, are continuous, and match the paper and real gearboxes.
+// Tests that the forces of the mechanism have a potential, are continuous, and match the paper and real gearboxes.
 #include "haptics/gate/gate_feel.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ dvec2 random_free_point(const Gate& gate, std::mt19937_64& random) {
   }
 }
 
-// The force computed independently, from central differences of the energy.
+// Independent computation of the force, by central differences of the energy.
 dvec2 minus_gradient(const Gate& gate, dvec2 p) {
   constexpr double h = 1e-7;
   return {(gate_energy(gate, {p.x - h, p.y}) - gate_energy(gate, {p.x + h, p.y})) / (2.0 * h),
@@ -41,7 +41,8 @@ TEST_CASE("feel is the negative gradient of one energy, everywhere in every gate
     const Gate gate = shipped_gate(name);
     for (int i = 0; i < 20000; ++i) {
       const dvec2 p = random_free_point(gate, random);
-      if (std::abs(std::abs(p.y) - gate.half_aisle) < 1e-6) continue;  // the central difference would straddle a seam
+      // Skips the aisle's edge, because two curves meet there and a central difference would mix them.
+      if (std::abs(std::abs(p.y) - gate.half_aisle) < 1e-6) continue;
       REQUIRE(glm::distance(gate_feel(gate, p), minus_gradient(gate, p)) < 1e-4);
     }
   }
@@ -112,7 +113,7 @@ TEST_CASE("paper, Fig. 7 (c): in the buffer of junctions I and III a vertical fo
     const double inside = buffer.wall + 0.1 * (buffer.inner - buffer.wall);
     CHECK(gate_feel(gate, {inside, half}).y > 0.5);
     CHECK(gate_feel(gate, {inside, -half}).y < -0.5);
-    // Outside the buffer there is no force.
+    // Outside the buffer nothing pushes the lever away from the centre line of the aisle.
     const double outside = buffer.inner + 0.001 * (buffer.inner > buffer.wall ? 1.0 : -1.0);
     CHECK(gate_feel(gate, {outside, half}).y <= 0.0);
   }

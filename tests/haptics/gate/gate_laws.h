@@ -1,4 +1,4 @@
-// Laws that every gate must satisfy, shipped or random; shared by the tests in this folder.
+// Laws that every gate must satisfy, whether shipped or random. Shared by the tests in this folder.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,9 @@
 
 namespace gearshift::test {
 
-// True if the paper's yoke reaches this point of the gate plane with both angles inside their stops. The paper's (2),
-// corrected: px = rho tan(theta) / s, py = -rho tan(phi) / s, pz = rho / s with s = sqrt(1 + tan^2 theta + tan^2 phi).
+// True if the paper's yoke reaches this point of the gate plane with both angles inside their stops. Uses eq (2) of the
+// paper, corrected: px = rho tan(theta) / s, py = -rho tan(phi) / s, pz = rho / s with s = sqrt(1 + tan^2 theta + tan^2
+// phi).
 inline bool yoke_reaches(glm::dvec2 point) {
   constexpr double kRho = 0.120;
   const double height_squared = kRho * kRho - point.x * point.x - point.y * point.y;
@@ -22,8 +23,8 @@ inline bool yoke_reaches(glm::dvec2 point) {
   return theta < 40.0 && phi < 35.0;
 }
 
-// On the chamfers neither force may depend on the position along its own axis; otherwise moving round the corner would
-// supply energy.
+// On the chamfers, the force along x must not depend on x and the force along y must not depend on y. Otherwise a lever
+// could gain energy by moving round the corner.
 inline void check_constant_at_mouths(const haptics::Gate& gate) {
   constexpr int kSteps = 20;
   const double at_wall = haptics::feel_force(gate.aisle_feel, gate.half_aisle);

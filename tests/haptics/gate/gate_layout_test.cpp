@@ -1,4 +1,4 @@
-// Reading layouts and rejecting bad ones with file, line and reason in one sentence.
+// Tests that layouts are read, and that bad layouts are rejected in one sentence with file, line and reason.
 #include "haptics/gate/gate_layout.h"
 
 #include <filesystem>
@@ -20,18 +20,18 @@ namespace {
 
 struct Hostile {
   const char* file;
-  const char* sentence;  // text that follows the file's name in the message
+  const char* sentence;  // error message after the file name
 };
 
-// Lines and reasons for the files in tests/data/hostile_layouts.
+// Line and reason of the error expected for each file in tests/data/hostile_layouts.
 constexpr Hostile kHostile[] = {
     {"after_gear_elsewhere", ":29: a lockout of gear R after gear 4 needs both gears in the same column"},
-    {"after_itself", ":29: gear R could not be reached, because its lockout would wait for this same gear"},
+    {"after_itself", ":29: gear R could never be engaged, because its lockout would open only after the same gear"},
     {"after_nothing", ":29: after is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"aisle_too_narrow", ":4: aisle_width_mm = 3.5: must be between 4 and 40"},
     {"barely_negative", ":7: chamfer_mm = -1e-09: must be between 0 and 10"},
     {"buffer_holds_the_lever",
-     ":9: buffer_force_n = 4 would hold the lever at a closed junction; it pulls the lever there with "
+     ":9: buffer_force_n = 4 would hold the lever at a closed junction; there the buffer pulls the lever with "
      "2.62 N, but center_force_n is only 2"},
     {"byte_order_of_utf16", ":1: not valid TOML: "},
     {"center_force_too_weak", ":5: center_force_n = 1: must be at least 1.6, or the lever would not return"},

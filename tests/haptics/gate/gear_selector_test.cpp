@@ -1,5 +1,5 @@
-// The engaged gear. The tests cover known bugs of similar software: flicker, a gear that stays engaged in neutral,
-// double engagement.
+// Tests of gear selection. They cover known bugs of similar software: flicker, a gear that stays engaged in neutral,
+// two gears engaged at once.
 #include "haptics/gate/gear_selector.h"
 
 #include <algorithm>

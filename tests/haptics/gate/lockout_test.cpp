@@ -1,4 +1,4 @@
-// Movable walls: each kind closes and opens as specified, and never closes while the lever is beyond it.
+// Tests of movable walls: each kind closes and opens as specified, and never closes while the lever is beyond it.
 #include "haptics/gate/lockout.h"
 
 #include <limits>
@@ -134,14 +134,16 @@ TEST_CASE("two lockouts of one gear have separate states: the gear is open only 
   Lockouts state;
   LockoutInputs in;
   in.gear = 5;
-  in.road_speed = 17.0 * kKmh;  // between the thresholds it stays open
+  // 17 km/h is between `open_below` and `close_above`, so the speed lockout stays open. The after-gear lockout is
+  // closed until the lever has left the mouth of fifth gear.
+  in.road_speed = 17.0 * kKmh;
   CHECK(reverse_closed(gate, state.update(gate, in, rest_position(gate, 5))));
   in.gear = kNeutralGear;
   CHECK(reverse_closed(gate, state.update(gate, in, {x, 0.0})));
   CHECK_FALSE(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
   in.road_speed = 25.0 * kKmh;
   CHECK(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
-  in.road_speed = std::numeric_limits<double>::quiet_NaN();  // NaN as speed leaves the state unchanged
+  in.road_speed = std::numeric_limits<double>::quiet_NaN();  // a speed of NaN leaves the state unchanged
   CHECK(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
 }
 

@@ -1,4 +1,4 @@
-// The gates shipped with the program: their gears, and that they fit the paper's joystick.
+// Tests that the gates shipped with the program have the right gears and fit the paper's joystick.
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -15,13 +15,13 @@ using doctest::Approx;
 
 namespace {
 
-// A gate as engraved on a knob: the forward row and the back row; '-' means no gear.
+// A gate as engraved on the shift knob: its forward row and its back row of gears, with '-' for no gear.
 struct ShippedGate {
   const char* name;
   const char* forward;
   const char* back;
-  int lateral;  // lockouts across the neutral aisle
-  int mouth;    // lockouts in the mouth of a slot
+  int lateral;  // number of lockouts across the neutral aisle
+  int mouth;    // number of lockouts in the mouth of a slot
 };
 
 constexpr ShippedGate kShippedGates[] = {

@@ -6,8 +6,8 @@
 
 namespace gearshift::test {
 
-// Forward is away from the user, where a stick's counts decrease. A positive constant force pushes left and forward
-// (PID 1.0 section 4.2), unless the stick's polarity is inverted.
+// Forward means away from the user; a stick's counts decrease in this direction. A positive constant force pushes left
+// and forward (PID 1.0 section 4.2), unless the stick's polarity is inverted.
 inline haptics::DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
   struct Range {
     double low, high;

@@ -1,5 +1,5 @@
-// Tests of the calibration: it measures an emulated stick as it was configured, in virtual time, and refuses invalid
-// input.
+// Tests of the calibrator, in virtual time: it must measure the configured values of an emulated stick and refuse
+// invalid input.
 #include "haptics/hardware/calibrator.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using glm::dvec2;
 
 namespace {
 
-// A stick, its user, and the calibrator, which is called at the bench's ticks.
+// A stick, its user and the calibrator. While the calibrator measures, it advances the virtual clock tick by tick.
 struct CalibrationBench : StickBench {
   explicit CalibrationBench(const EmulatedStickConfig& config, const DeviceCalibration& known = {})
       : StickBench(config, person),
@@ -38,7 +38,7 @@ struct CalibrationBench : StickBench {
     stick.logs = false;
   }
 
-  void move_along(const std::function<dvec2(double)>& path) {  // [m] position as a function of the time from now [s]
+  void move_along(const std::function<dvec2(double)>& path) {  // `path`: position [m] at a time [s] since this call
     person.target_position = [this, path, begin = time()] { return path(time() - begin); };
   }
   void hands_off() { person.target_position = nullptr; }
@@ -71,7 +71,7 @@ EmulatedStickConfig config_of(StickFamily family) {
   return config;
 }
 
-// A perfect calibration without timing and handle.
+// A perfect calibration in which timing, polarity, springs and handle are not measured yet.
 DeviceCalibration unmeasured_calibration(const EmulatedStickConfig& config) {
   DeviceCalibration known = calibration_of(config);
   known.timing = {};
@@ -93,8 +93,9 @@ std::string refusal(const std::function<void()>& step) {
   return "";
 }
 
-// Damping that a sampled damper D adds to a mass if its force is held for a period T: in each period the speed decays
-// by phi - D (1 - phi) / b, with phi = exp(-b T / m). [N s/m]
+// Damping [N s/m] that a damper D, sampled with period T, adds to a lever of mass m and damping b. The damper's force
+// is constant within each period, so the speed changes per period by the factor phi - D (1 - phi) / b, with phi =
+// exp(-b T / m).
 double sampled_damper(const AxisModel& handle, double damper) {
   constexpr double kPeriod = 0.001;  // [s]
   const double phi = std::exp(-handle.damping * kPeriod / handle.mass);
@@ -133,7 +134,9 @@ TEST_CASE(
       calibrator.measure_handle();
       calibrator.measure_springs();
 
-      const double fine = family == StickFamily::sidewinder ? 0.10 : 0.04;  // encoder counts of 137 or at most 4 um
+      // Relative tolerance of the damper's strength. It is larger for the SideWinder, whose position count is 137 um.
+      // On the other sticks a count is at most 4 um.
+      const double fine = family == StickFamily::sidewinder ? 0.10 : 0.04;
       const DeviceCalibration& found = calibrator.calibration();
       CHECK(missing_steps(found, true).empty());
       CHECK(found.select.constant_sign == truth.select.constant_sign);
@@ -160,7 +163,7 @@ TEST_CASE(
       CHECK(found.timing.output_interval == doctest::Approx(0.001).epsilon(0.02));
       CHECK(std::abs(found.timing.delay - 0.002) < 3e-4);
 
-      // The loop with this calibration renders a wall: a hand presses into the neutral aisle's wall.
+      // With this calibration, the loop renders the neutral aisle's wall while a hand presses into it.
       EmulatedStickConfig gripped = config;
       gripped.lever.hand = kGripHand;
       StillHand hand;
@@ -178,7 +181,7 @@ TEST_CASE(
         low = glm::min(low, run.stick.position());
         high = glm::max(high, run.stick.position());
       }
-      CHECK(glm::length(high - low) < 3e-4);  // two encoder counts of the SideWinder
+      CHECK(glm::length(high - low) < 3e-4);  // [m] just over two position counts of the SideWinder, 137 um each
     }
   }
 }
@@ -228,7 +231,8 @@ TEST_CASE("missing steps are listed in order, and finished steps are not listed"
   CHECK(missing_steps(known, true) == std::vector{polarity, timing, handle, springs});
 }
 
-// A hand adds twice the mass and thirty times the stiffness; walls tuned with the hand would vibrate without it.
+// The hand adds 1.6 times the handle's mass and over thirty times its stiffness. Walls tuned for handle and hand
+// together would vibrate when the hand lets go.
 TEST_CASE("the handle is not measured while a hand holds the lever") {
   EmulatedStickConfig config = config_of(StickFamily::openffboard);
   DeviceCalibration known = calibration_of(config);
@@ -240,8 +244,9 @@ TEST_CASE("the handle is not measured while a hand holds the lever") {
   CHECK_FALSE(bench.calibrator.calibration().has_handle());
 }
 
-// The nudge is a spring of 400 N/m towards a point 8 mm off, for 50 ms, at times within a pulse. With a single fit to
-// all four pulses, three of these times gave 1.68, 1.36 and 1.76 times the true damping; the others were refused.
+// The nudge: for 50 ms during a pulse, a hand pulls with 400 N/m towards a point 8 mm away. A single fit to all four
+// pulses would give 1.68, 1.36 and 1.76 times the true damping for three of the nudge times below, and would be refused
+// for the other times.
 TEST_CASE("a nudge during one of the pulses is outvoted by the other pulses") {
   const EmulatedStickConfig config = config_of(StickFamily::openffboard);
   const DeviceCalibration truth = calibration_of(config);
@@ -313,7 +318,7 @@ TEST_CASE("invalid input while a person moves the lever is refused and changes n
   bench.move_along([](double t) { return dvec2(0.06 * std::sin(3.0 * t)); });
   lets_go_after(4.0);
   CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("the two axes moved together") == 0);
-  // The user lets the lever lean to the right.
+  // After 3 s the user holds the lever on the right, so it does not return to its rest position.
   bench.move_along(
       [](double t) { return t < 3.0 ? 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)) : dvec2(0.055, 0.0); });
   bench.every_tick = nullptr;
@@ -336,13 +341,15 @@ TEST_CASE("a range is measured despite readings that jump") {
   CalibrationBench bench(config_of(StickFamily::vjoy));
   bench.find_axes();
   bench.stick.faults.jump = true;
-  bench.move_along([](double t) { return 0.050 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });  // short of the stops
+  // The user moves the lever in a circle that does not reach the stops.
+  bench.move_along([](double t) { return 0.050 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
   bench.every_tick = [&, begin = bench.time()] {
     if (bench.time() - begin > 4.0) bench.hands_off();
     if (bench.time() - begin > 3.9) bench.stick.faults.jump = false;
   };
   bench.calibrator.measure_range(5.0);
-  // The circle spans about 48 of 70 mm; a jump adds 42 mm.
+  // The hand's circle has a radius of 50 mm. The lever's spring pulls inwards, so the lever's circle has about 48 mm.
+  // The stop is at 70 mm; a jump would add 42 mm.
   CHECK(counts_of(bench.calibrator.calibration().select) == doctest::Approx(32767.0 * 0.048 / 0.07).epsilon(0.03));
 }
 
@@ -354,7 +361,7 @@ TEST_CASE(
         "the lever's stops are not known yet. Measure the range first");
 
   EmulatedStickConfig stiff = config;
-  stiff.lever.coulomb_friction = 3.0;  // friction above 10 % of the 20 N
+  stiff.lever.coulomb_friction = 3.0;  // [N] more than 10 % of the full force of 20 N
   CalibrationBench stuck(stiff, unmeasured_calibration(stiff));
   CHECK(refusal([&] {
           stuck.calibrator.measure_polarity();
@@ -368,7 +375,7 @@ TEST_CASE(
   CHECK(refusal([&] { held.calibrator.measure_polarity(); }).find("select does not move") == 0);
 
   CalibrationBench pushed(config, unmeasured_calibration(config));
-  pushed.every_tick = [&] {  // a hand that pushes to one side all the time
+  pushed.every_tick = [&] {  // a hand pushes to the right whenever the motors push
     if (glm::length(pushed.stick.force()) > 0.1)
       pushed.person.target_position = [] { return dvec2(0.03, 0.0); };
     else
@@ -385,7 +392,7 @@ TEST_CASE(
     CHECK_FALSE(bench->calibrator.calibration().has_polarity());
     bench->tick();
     bench->tick();
-    CHECK(bench->stick.force() == dvec2(0.0));  // no force remains on
+    CHECK(bench->stick.force() == dvec2(0.0));
   }
 }
 
@@ -405,7 +412,7 @@ TEST_CASE("a wrong axis, a wrong polarity, or a disconnected stick is refused") 
 
   CalibrationBench disconnected(config, unmeasured_calibration(config));
   disconnected.every_tick = [&] {
-    if (disconnected.now_ns == 700'000'000) disconnected.prepare();  // unplugged and back
+    if (disconnected.now_ns == 700'000'000) disconnected.prepare();  // unplugged and reconnected
   };
   CHECK(refusal([&] { disconnected.calibrator.measure_polarity(); }) ==
         "the stick was disconnected during the measurement");

@@ -1,4 +1,4 @@
-// Tests of the calibration file, exact to the bit, and of the DeviceSpec made from a calibration.
+// Tests of the calibration file, which must preserve every bit, and of the DeviceSpec made from a calibration.
 #include "haptics/hardware/device_calibration.h"
 
 #include <algorithm>
@@ -87,7 +87,7 @@ bool same(const DeviceCalibration& a, const DeviceCalibration& b) {
          a.press_button == b.press_button && a.lift_button == b.lift_button && a.stop_button == b.stop_button;
 }
 
-// The paper's joystick as a stick with 140 mm travel, 20 N and the given timing.
+// Calibration of the paper's joystick as a stick with 140 mm travel, 20 N of force and the given timing.
 DeviceCalibration measured(const DeviceTiming& timing) {
   DeviceCalibration known;
   known.select = {0x30, 0.0, 500.0, 1000.0, 0.14, 20.0, 1, 1, 400.0, kPaperAxisX};
@@ -108,7 +108,7 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-// The text of a calibration with one line replaced.
+// The text of a calibration in which `line` replaces the line of `key`.
 std::string changed(const std::string& key, const std::string& line) {
   std::istringstream text(calibration_text(measured({0.001, 0.001, 0.002, 0.0})));
   std::string out, old;
@@ -175,13 +175,13 @@ TEST_CASE("a calibration that could not be read back is not written, and the old
 }
 
 TEST_CASE("cycles of delay: (1 + delay) T is at least the time from a reading to its answer") {
-  // Derived by hand: input interval + jitter + output interval + delay.
+  // The comments give the sum of input interval, jitter, output interval and delay.
   CHECK(delay_cycles({0.001, 0.001, 0.0, 0.0}, 0.001) == 1);        // 2.0 ms
-  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.001) == 3);      // 4.0 ms, which includes one period
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.001) == 3);      // 4.0 ms: one period of 1 ms plus 3 cycles
   CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0001}, 0.001) == 4);   // 4.1 ms
-  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.002) == 1);      // 4.0 ms at 500 Hz
-  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.00025) == 15);   // at 4 kHz
-  CHECK(delay_cycles({0.000125, 0.000125, 0.0, 0.0}, 0.001) == 0);  // a fast bus
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.002) == 1);      // 4.0 ms: one period of 2 ms plus 1 cycle
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.00025) == 15);   // 4.0 ms
+  CHECK(delay_cycles({0.000125, 0.000125, 0.0, 0.0}, 0.001) == 0);  // 0.25 ms
   CHECK_THROWS_WITH_AS(
       delay_cycles({0.008, 0.008, 0.004, 0.0}, 0.001),
       "the stick responds after 20 ms, but at 1000 Hz the loop compensates at most 16 ms; a rate of 800 Hz would work",
@@ -201,7 +201,7 @@ TEST_CASE("the device specification from a calibration") {
   CHECK(spec.position_step == doctest::Approx(0.07 / 400.0));  // 400 counts from the centre to the nearer stop
   CHECK(spec.delay == 3);
   CHECK(spec.axis_x.mass == kPaperAxisX.mass);
-  CHECK(spec.device_wall_stiffness == glm::dvec2(300.0));  // the smaller force of both axes
+  CHECK(spec.device_wall_stiffness == glm::dvec2(300.0));  // the smaller stiffness of the two axes
   CHECK_FALSE(spec.measures_hand_force);
   CHECK_FALSE(spec.simulated);
 
@@ -209,9 +209,9 @@ TEST_CASE("the device specification from a calibration") {
   unknown.shift.constant_sign = 0;
   unknown.select.handle = {};
   const DeviceSpec careful = spec_of(unknown, 0.001);
-  CHECK(careful.max_force == glm::dvec2(0.0));  // without the polarity of one axis
+  CHECK(careful.max_force == glm::dvec2(0.0));  // no force is allowed: one axis has no measured polarity
   CHECK(careful.device_wall_stiffness == glm::dvec2(0.0));
-  CHECK(careful.delay == 7);  // assumes 8 ms
+  CHECK(careful.delay == 7);  // unmeasured timing counts as 8 ms: one period of 1 ms plus 7 cycles
   CHECK(careful.axis_x.mass == kUnmeasuredHandle.mass);
 
   DeviceCalibration weak = measured({});
@@ -239,8 +239,8 @@ TEST_CASE("the builder's guide shows a calibration exactly as the program writes
   CHECK(known->lift_button == 2);
 }
 
-// At 1 kHz with three samples of delay the exact limit is 873 N/m (X axis, B = 0), and 2078 N/m with the half-sample
-// hold.
+// At 1 kHz with three samples of delay and no wall damping, the exact limit of the wall stiffness is 873 N/m (X axis).
+// With the half-sample hold the limit is 2078 N/m.
 TEST_CASE("a 3 ms device gets parameters that are stable at 3 ms, and reports the limit") {
   DeviceCalibration known = measured({0.001, 0.001, 0.002, 0.0});
   known.select.spring_sign = known.shift.spring_sign = 0;
@@ -260,7 +260,8 @@ TEST_CASE("a 3 ms device gets parameters that are stable at 3 ms, and reports th
   config = {};
   config.contact.hold = ContactHold::half_sample;
   const AdmittedTuning held = admit_tuning(config, spec, gate);
-  CHECK(held.tuning.wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 16e-6));  // 1881: from the lighter axis
+  // The limit is 1881 N/m, the limit of the lighter axis.
+  CHECK(held.tuning.wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 16e-6));
   const auto is_wall = [](const TuningLimit& one) {
     return one.parameter == TuningParameter::wall_stiffness && one.wanted == 5000.0;
   };

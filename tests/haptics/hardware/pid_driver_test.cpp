@@ -34,7 +34,7 @@ bool wakes(int fd) {
   return read(fd, &count, sizeof count) == sizeof count;
 }
 
-std::vector<std::uint8_t> without_pid() {  // only X and Y of a joystick
+std::vector<std::uint8_t> without_pid() {  // a joystick with X and Y, but without force feedback (PID)
   return {0x05, 0x01, 0x09, 0x04, 0xa1, 0x01, 0x09, 0x30, 0x09, 0x31, 0x15,
           0x00, 0x26, 0xff, 0x03, 0x75, 0x10, 0x95, 0x02, 0x81, 0x02, 0xc0};
 }
@@ -64,7 +64,8 @@ TEST_CASE("commanded forces act on the lever of every family, and the state show
     CHECK(still.session == 1);
     CHECK(still.time_ns == bench.now_ns);
     CHECK_FALSE(still.actuators);
-    // PID 1.0 section 4.2: a force from 90 degrees pushes left; one from 180 degrees, the user's side, pushes away.
+    // PID 1.0 section 4.2: a force with direction 90 degrees pushes left. A force with direction 180 degrees comes from
+    // the user's side and pushes away.
     bench.tick_for(0.01, pushing(0.5, 0.25));
     const StickState pushed = bench.driver.state();
     CHECK(pushed.actuators);
@@ -132,14 +133,14 @@ TEST_CASE("after an unplug, commands of the old session drive nothing, even if t
     bench.stick.unplug();
     bench.driver.command(pushing(0.8, 0.8));  // streaming
     bench.prepare();
-    bench.driver.command(pushing(0.8, 0.8));  // a command computed from a state before the reconnect
+    bench.driver.command(pushing(0.8, 0.8));  // computed from a state that was read before the reconnect
     for (int i = 0; i < 50; ++i) {
       bench.tick();
       bench.driver.command(pushing(0.8, 0.8));
       CHECK(bench.stick.force() == glm::dvec2(0.0));
       CHECK_FALSE(bench.stick.actuators_on());
     }
-    bench.tick_for(0.02, pushing(0.1, 0.0));  // the haptic side has read the new session
+    bench.tick_for(0.02, pushing(0.1, 0.0));  // tick_for() reads the new session's state before it commands
     CHECK(bench.stick.force().x == doctest::Approx(-2.0).epsilon(0.02));
   }
 }
@@ -156,7 +157,7 @@ TEST_CASE("if the haptic side stops sending commands, the motors are off after 1
     CHECK(bench.stick.force() == glm::dvec2(0.0));
     CHECK(bench.problems() ==
           Lines{"no force was commanded for 100 ms; the motors are off until you turn them on again"});
-    bench.driver.command(pushing(0.8, 0.0));  // commands without reading the state first
+    bench.driver.command(pushing(0.8, 0.0));  // sent without first reading the new session's state
     for (int i = 0; i < 50; ++i) bench.tick();
     CHECK(bench.stick.force() == glm::dvec2(0.0));
     CHECK(bench.driver.state().session == 2);
@@ -171,7 +172,7 @@ TEST_CASE("if the program dies, the device's forces end by themselves within 300
     bench.prepare();
     StickCommand command = pushing(0.5, 0.0);
     command.spring[0] = {0.0, 0.1, 1.0, 1.0};
-    for (int phase = 0; phase < 5; ++phase) {  // for different intervals of renewal
+    for (int phase = 0; phase < 5; ++phase) {  // the program dies at different times after a renewal of the effects
       bench.tick_for(0.5 + 0.021 * phase, command);
       REQUIRE(glm::length(bench.stick.force()) > 5.0);
       const std::int64_t died = bench.now_ns;
@@ -185,8 +186,8 @@ TEST_CASE("if the program dies, the device's forces end by themselves within 300
 
 namespace {
 
-// One second with the given fault under a varying force: the reported problems, and the largest force beyond the
-// command.
+// Result of a run in which a faulty stick renders a varying force: the reported problems, and the largest excess over
+// the commanded maximum.
 struct FaultResult {
   Lines problems;
   double beyond = 0.0;  // [N]
@@ -258,10 +259,11 @@ TEST_CASE("a lever at rest under an almost constant force is not reported as stu
   StickBench bench(held(StickFamily::sidewinder), hand);
   bench.prepare();
   bench.stick.faults.stuck = true;
-  double late = 0.0;  // [N] largest force in the last second
+  double late = 0.0;  // [N] largest force during the last second
   const std::uint64_t session = bench.driver.state().session;
   for (int i = 0; i < 6000; ++i) {
-    bench.driver.command(pushing(0.14 * std::sin(0.02 * i), 0.0));  // commands without reading the state
+    // After the fault these commands still belong to the old session, so the driver ignores them.
+    bench.driver.command(pushing(0.14 * std::sin(0.02 * i), 0.0));
     bench.tick();
     if (i >= 5000) late = std::max(late, glm::length(bench.stick.force()));
   }
@@ -283,7 +285,8 @@ TEST_CASE("a stuck sensor under a constant force: the force fades out, and the f
     bench.tick_for(1.99, pushing(0.5, -0.1));
     CHECK(std::abs(bench.stick.force().x) == doctest::Approx(10.0).epsilon(0.01));
     bench.tick_for(0.5, pushing(0.5, -0.1));
-    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(5.0).epsilon(0.05));  // half the force after half the fade
+    // Halfway through the fade, half of the 10 N remains.
+    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(5.0).epsilon(0.05));
     bench.tick_for(0.6, pushing(0.5, -0.1));
     CHECK(bench.stick.force() == glm::dvec2(0.0));
     CHECK(bench.problems() ==
@@ -291,13 +294,14 @@ TEST_CASE("a stuck sensor under a constant force: the force fades out, and the f
                 "until the position changes"});
     CHECK(bench.time() - 1e-9 * static_cast<double>(bench.driver.state().time_ns) > 0.3);  // readings are dropped
 
-    bench.stick.faults.stuck = false;  // the sensor moves for the first time
+    bench.stick.faults.stuck = false;  // the sensor works from now on
     bench.tick_for(0.2, pushing(0.5, -0.1));
     CHECK(std::abs(bench.stick.force().x) == doctest::Approx(10.0).epsilon(0.01));
   }
 }
 
-// The working axis moves all the time. A lever that was at rest for long before the first force is not frozen.
+// First case: one axis moves all the time, and the sensor of the other axis is dead. Second case: the lever was at rest
+// for a long time before the first force, and must not be reported as frozen too soon.
 TEST_CASE("one dead sensor of two; and a sensor that was only at rest") {
   StillHand hand;
   StickBench bench(held(StickFamily::openffboard), hand);
@@ -322,7 +326,8 @@ TEST_CASE("one dead sensor of two; and a sensor that was only at rest") {
   }
 }
 
-// While the program was stopped nothing was read, and reports that waited on the bus are older than their time stamps.
+// A stopped program reads nothing. The reports that wait on the bus meanwhile get time stamps that are later than their
+// measurements.
 TEST_CASE("a pause of the program is not a dead sensor, and the lever's motion during it is not a jump") {
   StillHand hand;
   StickBench bench(held(StickFamily::openffboard), hand);
@@ -333,7 +338,7 @@ TEST_CASE("a pause of the program is not a dead sensor, and the lever's motion d
   const auto report_at = [&](std::int64_t ms) { watch.update(counts, {0.5, 0.5}, {}, 1'000'000 * ms); };
   for (std::int64_t ms = 0; ms < 500; ++ms) report_at(ms);
   report_at(3500);
-  report_at(3500);  // two reports that had waited
+  report_at(3500);  // the second of two reports that waited on the bus
   CHECK(watch.force_fraction(0) == 1.0);
   counts.axis[0] = far;
   report_at(3501);
@@ -341,7 +346,7 @@ TEST_CASE("a pause of the program is not a dead sensor, and the lever's motion d
   for (std::int64_t ms = 3502; ms < 4000; ++ms) report_at(ms);
   counts.axis[0] = -far;
   report_at(4000);
-  CHECK(watch.jump() == doctest::Approx(0.7).epsilon(0.01));  // [1] fraction of the range, between consecutive reports
+  CHECK(watch.jump() == doctest::Approx(0.7).epsilon(0.01));  // largest step as a fraction of the axis's range
 }
 
 TEST_CASE("a device wall fades out under a dead sensor as well, however strong its springs are") {
@@ -349,7 +354,7 @@ TEST_CASE("a device wall fades out under a dead sensor as well, however strong i
   StickBench bench(held(StickFamily::vjoy), hand);
   bench.prepare();
   StickCommand command = pushing(0.0, 0.0);
-  command.spring[0] = {0.5, 0.1, 1.0, 1.0};  // the lever is at 0, outside the dead band
+  command.spring[0] = {0.5, 0.1, 1.0, 1.0};  // the lever, at 0, is outside the dead band around 0.5
   bench.tick_for(0.1, command);
   bench.stick.faults.stuck = true;
   CHECK(glm::length(bench.stick.force()) > 5.0);
@@ -358,7 +363,7 @@ TEST_CASE("a device wall fades out under a dead sensor as well, however strong i
   CHECK(bench.problems().size() == 1);
 }
 
-// The delay is averaged over half a second, because a single late output proves nothing.
+// The driver averages the delay over half a second, because a single late output proves nothing.
 TEST_CASE("a stick that is slower than its calibration is no longer driven") {
   StillHand hand;
   StickBench bench(held(StickFamily::vjoy), hand);
@@ -373,10 +378,10 @@ TEST_CASE("a stick that is slower than its calibration is no longer driven") {
     }
     return bench.driver.state().session;
   };
-  const std::uint64_t session = drive(50);  // no answer time is expected yet
+  const std::uint64_t session = drive(50);  // 50 ms per output is accepted, because no answer time is set yet
   bench.driver.expect_answer(0.004);
   CHECK(drive(8) == session);
-  bench.now_ns += 1'000'000'000;  // no output for a while, then one late output
+  bench.now_ns += 1'000'000'000;  // one second without outputs, then one late output
   CHECK(drive(900) == session);
   CHECK(drive(8) == session);
   CHECK(drive(50) == session + 1);
@@ -434,11 +439,12 @@ TEST_CASE("motors that switch themselves off stay off until a new session comman
     StickBench bench(held(family), hand);
     bench.prepare();
     bench.tick_for(0.2, pushing(0.5, 0.0));
-    // As if another program had sent the command: off is number 2 on one device, bit 1 on the other.
+    // Switches the motors off, as another program could. The value 2 has this meaning on both devices: command number 2
+    // on the SideWinder, bit 1 on the OpenFFBoard.
     bench.stick.output(std::vector<std::uint8_t>{0x0c, 0x02});
     CHECK(bench.stick.force() == glm::dvec2(0.0));
     const std::uint64_t session = bench.driver.state().session;
-    for (int ms = 0; ms < 100; ++ms) {  // the old command stays valid, without reading the state
+    for (int ms = 0; ms < 100; ++ms) {  // the state is not read, so the commands belong to the old session
       bench.driver.command(pushing(0.5, 0.0));
       bench.tick();
       CHECK(bench.stick.force() == glm::dvec2(0.0));
@@ -472,7 +478,7 @@ TEST_CASE("a stick that reports only changes is not dead while it stands still")
     bench.prepare();
     const std::uint64_t before = bench.driver.state().sequence;
     bench.tick_for(1.0, {});
-    CHECK(bench.driver.state().sequence - before > 100);  // the state is requested every 8 ms
+    CHECK(bench.driver.state().sequence - before > 100);  // the driver requests the position every 8 ms
     CHECK(bench.now_ns - bench.driver.state().time_ns < 10'000'000);
   }
 }

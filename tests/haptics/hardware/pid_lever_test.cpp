@@ -1,4 +1,5 @@
-// Tests of PidLever: metres and newtons computed from the calibration, for any counts, signs and buttons.
+// Tests of PidLever: position in metres and force in newtons from the calibration, for any counts and signs, and the
+// buttons.
 #include "haptics/hardware/pid_lever.h"
 
 #include <cmath>
@@ -25,7 +26,7 @@ EmulatedStickConfig held_fast(StickFamily family) {
   return config;
 }
 
-// A stick, its driver and its lever. A cycle is read, write and one tick.
+// A stick, its driver and its lever. cycle() reads the lever, writes a force and advances one period.
 struct LeverBench : StickBench {
   LeverBench(const EmulatedStickConfig& config, const DeviceCalibration& known, HandDriver& hand)
       : StickBench(config, hand), lever((prepare(), known), driver, 0.001) {}
@@ -46,7 +47,8 @@ struct LeverBench : StickBench {
 }  // namespace
 
 TEST_CASE("counts to metres: linear on either side of the centre, and beyond the stops") {
-  // 0 to 1000 counts, rest at 400, travel 100 mm: the lower 50 mm are 400 counts, the upper 50 mm are 600 counts.
+  // The axis has 0 to 1000 counts, rests at 400 and travels 100 mm: the lower 50 mm have 400 counts, the upper 50 mm
+  // have 600.
   const LeverAxisCalibration up{0x30, 0.0, 400.0, 1000.0, 0.1, 0.0, 0, 0, 0.0, {}};
   const LeverAxisCalibration down{0x30, 1000.0, 400.0, 0.0, 0.1, 0.0, 0, 0, 0.0, {}};
   const BitField field{0, 16, 0, 1000, 0};
@@ -63,7 +65,7 @@ TEST_CASE("counts to metres: linear on either side of the centre, and beyond the
     CHECK(rising.counts(rising.metres(counts)) == doctest::Approx(counts));
     CHECK(falling.counts(falling.metres(counts)) == doctest::Approx(counts));
   }
-  CHECK(rising.deflection(0.0) == doctest::Approx(-0.2));  // rest position: count 400 of 0 to 1000
+  CHECK(rising.deflection(0.0) == doctest::Approx(-0.2));  // count 400 of 0 to 1000, on a scale from -1 to 1
   CHECK(falling.deflection(0.05) == doctest::Approx(-1.0));
 }
 
@@ -99,8 +101,8 @@ TEST_CASE("position and force are right for every family and every polarity") {
       CHECK(glm::distance(reading.actuator_force, {6.0, -11.0}) < 1e-9);
       CHECK(reading.sequence == 699);
       CHECK_FALSE(reading.stop);
-      bench.cycle({400.0, -400.0}, 20);                                  // beyond the limit, so full force is applied
-      CHECK(glm::distance(bench.stick.force(), {20.0, -20.0}) < 0.003);  // vJoy rounds directions of 90 and 180 degrees
+      bench.cycle({400.0, -400.0}, 20);                                  // limited to the full force of 20 N
+      CHECK(glm::distance(bench.stick.force(), {20.0, -20.0}) < 0.003);  // tolerance: vJoy rounds the force's direction
       bench.lever.release();
       bench.cycle(dvec2(0.0), 1);
       CHECK(bench.stick.force() == dvec2(0.0));
@@ -173,8 +175,8 @@ TEST_CASE("the motors are off before a force is commanded, and after a release u
   CHECK(bench.stick.force().y == doctest::Approx(3.0).epsilon(0.03));
 }
 
-// A PID condition (USB PID 1.0, 5.3) makes two walls: centre in the middle of the aisle, dead band of half its width,
-// coefficient K, saturation.
+// One PID spring condition (USB PID 1.0 section 5.3) makes the two walls of an aisle: its centre is the middle of the
+// aisle, its dead band is half the aisle's width, and its coefficient is the wall stiffness.
 TEST_CASE(
     "walls that the device keeps: nothing between them, a spring of share x stiffness beyond, whichever way it "
     "counts") {
@@ -207,7 +209,8 @@ TEST_CASE(
   }
 }
 
-// A damper condition acts everywhere, so it is switched on only on the axis of a wall while the lever is in it.
+// A PID damper acts at every position, so the driver enables it only on the axis of a wall, and only while the lever is
+// inside this wall.
 TEST_CASE("a device damper brakes in a wall, with either polarity, and nowhere else") {
   for (const int sign : {1, -1}) {
     CAPTURE(sign);
@@ -221,12 +224,12 @@ TEST_CASE("a device damper brakes in a wall, with either polarity, and nowhere e
     bench.cycle(dvec2(1e-3, 0.0), 200);
     double worst = 0.0, strongest = 0.0;
     for (int ms = 0; ms < 1000; ++ms) {
-      hand.target = hand_at({0.020 * std::sin(4e-3 * std::numbers::pi * ms), 0.0});  // motion at 2 Hz, up to 0.25 m/s
+      hand.target = hand_at({0.020 * std::sin(4e-3 * std::numbers::pi * ms), 0.0});  // a motion at 2 Hz, up to 0.25 m/s
       const dvec2 before = bench.stick.position();
       bench.cycle(dvec2(1e-3, 0.0));
       const dvec2 now = bench.stick.position();
       const double expected = before.x > 0.0052 ? -0.5 * 20.0 * (now.x - before.x) / 0.001 : 0.0;
-      if (std::abs(now.x - 0.005) < 0.002) continue;  // near the point where the damper is switched
+      if (std::abs(now.x - 0.005) < 0.002) continue;  // skips positions near the wall's edge, where damping switches
       worst = std::max(worst, std::abs(bench.stick.force().x - expected));
       strongest = std::max(strongest, std::abs(expected));
       CHECK(std::abs(bench.stick.force().y) < 1e-9);
@@ -273,7 +276,7 @@ TEST_CASE("after a reconnect one reading has stop set, and the loop's command of
   for (int i = 0; i < 50; ++i) {
     const LeverReading reading = bench.lever.read(bench.now_ns);
     stops += reading.stop ? 1 : 0;
-    bench.lever.write(reading.stop ? dvec2{5.0, 5.0} : dvec2(0.0));  // as from a loop that reacts one cycle late
+    bench.lever.write(reading.stop ? dvec2{5.0, 5.0} : dvec2(0.0));  // like a loop that reacts to the stop a cycle late
     bench.tick();
     CHECK_FALSE(bench.stick.actuators_on());
   }

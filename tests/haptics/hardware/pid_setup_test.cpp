@@ -1,7 +1,7 @@
-// Tests of the reports before and after streaming, byte by byte, and of the deviations that are tolerated. The lines
-// were derived by hand from the devices' report descriptors (tests/data/hid; its README.md names the sources): set =
-// SET_REPORT feature, get = GET_REPORT feature, out = an output report; the ID comes first, and numbers are
-// little-endian.
+// Tests, byte by byte, the reports that are sent before and after streaming. Also checks that known deviations of real
+// sticks from the PID specification are tolerated. The expected lines were derived by hand from the devices' report
+// descriptors (tests/data/hid; its README.md names the sources). In a line, `set` means SET_REPORT(feature), `get`
+// means GET_REPORT(feature) and `out` means an output report. The report ID comes first; numbers are little-endian.
 #include "haptics/hardware/pid_setup.h"
 
 #include <deque>
@@ -23,7 +23,7 @@ using Lines = std::vector<std::string>;
 struct SetupResult {
   PidAbility ability;
   Lines before, after;
-  std::string error;  // error thrown by prepare_stick(); empty: none
+  std::string error;  // message of the exception from PidDriver::prepare(); empty: none
 };
 
 SetupResult prepared(const EmulatedStickConfig& config, const EmulatedFaults& faults = {}) {
@@ -53,20 +53,21 @@ EmulatedStickConfig stick_of(StickFamily family) {
 
 }  // namespace
 
-// Set Effect: block, type (constant 1, spring 8, damper 9), 300 ms = 012C, trigger repeat, sample period, gain FF,
-// trigger button, axes (X 1, Y 2, direction 4), one byte of direction: 90 degrees = 40, 180 = 80. Block 1 is the
-// device's own spring.
+// The bytes of Set Effect (report 0x01) after its ID: block, type (constant 1, spring 8, damper 9), duration of 300 ms
+// (0x012C), trigger repeat, sample period, gain 0xFF, trigger button, axes (X 1, Y 2, direction 4), direction (0x40 is
+// 90 degrees, 0x80 is 180 degrees). Conditions (report 0x03) start with coefficients 0, full saturation and no dead
+// band. Created blocks are numbered from 2, because block 1 is the device's own spring.
 TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
   const SetupResult result = prepared(stick_of(StickFamily::sidewinder));
-  CHECK(result.before == Lines{"get 03 e0 04 27 01",  // pool: 1248 bytes, 39 effects
-                               "out 0c 03",
-                               "out 0c 04",
-                               "out 0c 02",  // stop all, reset, actuators off
-                               "out 0d 00",  // gain
+  CHECK(result.before == Lines{"get 03 e0 04 27 01",  // memory pool: 1248 bytes, 39 effects
+                               "out 0c 03",           // stop all
+                               "out 0c 04",           // reset
+                               "out 0c 02",           // actuators off
+                               "out 0d 00",           // gain
                                "set 01 01 00 00",
                                "get 02 02 01 c0 04",                                   // constant: block 2
                                "out 01 02 01 2c 01 00 00 00 00 ff 00 05 40 00 00 00",  // X, 90 degrees
-                               "get 02 02 01 c0 04",                                   // accepts the duration: no error
+                               "get 02 02 01 c0 04",                                   // no error: duration accepted
                                "out 05 02 00 00",                                      // magnitude 0
                                "set 01 01 00 00",
                                "get 02 03 01 a0 04",                                   // constant: block 3
@@ -75,18 +76,18 @@ TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
                                "set 01 08 00 00",
                                "get 02 04 01 80 04",                                   // spring: block 4
                                "out 01 04 08 2c 01 00 00 00 00 ff 00 03 00 00 00 00",  // X and Y
-                               "out 03 04 00 00 00 00 ff ff 00",                       // X: coefficients 0, full
-                               "out 03 04 01 00 00 00 ff ff 00",                       // saturation, no dead band; Y
+                               "out 03 04 00 00 00 00 ff ff 00",                       // X: coefficients 0
+                               "out 03 04 01 00 00 00 ff ff 00",                       // Y: coefficients 0
                                "set 01 09 00 00",
                                "get 02 05 01 60 04",                                   // damper: block 5
                                "out 01 05 09 2c 01 00 00 00 00 ff 00 03 00 00 00 00",  //
                                "out 03 05 00 00 00 00 ff ff 00",                       //
                                "out 03 05 01 00 00 00 ff ff 00",                       //
-                               "out 0c 02",
-                               "out 0d ff"});                                      // actuators off, full gain
-  CHECK(result.after == Lines{"out 0c 03", "out 0c 02",                            // stop all, actuators off
-                              "out 0b 02", "out 0b 03", "out 0b 04", "out 0b 05",  // free the blocks
-                              "out 0c 04", "out 0c 02"});                          // reset, actuators off again
+                               "out 0c 02",                                            // actuators off
+                               "out 0d ff"});                                          // full gain
+  CHECK(result.after == Lines{"out 0c 03", "out 0c 02",                                // stop all, actuators off
+                              "out 0b 02", "out 0b 03", "out 0b 04", "out 0b 05",      // free the blocks
+                              "out 0c 04", "out 0c 02"});                              // reset, actuators off again
   CHECK(result.ability.spring);
   CHECK(result.ability.damper);
   CHECK(result.ability.finite);
@@ -94,9 +95,9 @@ TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
   CHECK(result.ability.notes.empty());
 }
 
-// Device Control has one bit per command: off 02, stop all 04, reset 08. Set Effect has the start delay before the
-// gain, 2-byte directions of 0 to 36000 (9000 = 0x2328, 18000 = 0x4650) and two type-specific offsets at its end; the
-// maximum saturation is 7FFF.
+// On the OpenFFBoard, Device Control (report 0x0C) has one bit per command: off 0x02, stop all 0x04, reset 0x08. Set
+// Effect (report 0x01) has the start delay before the gain, 2-byte directions of 0 to 36000 (9000 = 0x2328, 18000 =
+// 0x4650), and two type-specific offsets at its end. The maximum saturation is 0x7FFF.
 TEST_CASE("OpenFFBoard: the same sequence, with bits and other fields") {
   const SetupResult result = prepared(stick_of(StickFamily::openffboard));
   CHECK(result.before == Lines{"get 13 00 05 28 01",  //
@@ -123,14 +124,14 @@ TEST_CASE("OpenFFBoard: the same sequence, with bits and other fields") {
                                "out 01 04 09 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
                                "out 03 04 00 00 00 00 00 00 00 ff 7f ff 7f 00 00",
                                "out 03 04 01 00 00 00 00 00 00 ff 7f ff 7f 00 00",
-                               "out 0c 02",
-                               "out 0d ff"});  // off last, because Set Effect switched it on
+                               "out 0c 02",  // off again, because Set Effect switched the actuators on
+                               "out 0d ff"});
   CHECK(result.after ==
         Lines{"out 0c 04", "out 0c 02", "out 0b 01", "out 0b 02", "out 0b 03", "out 0b 04", "out 0c 08", "out 0c 02"});
 }
 
-// IDs start at 11 and Device Control is a number again; a full turn is 7FFF, so 90 degrees are 2000 and 180 are 4000;
-// the maximum saturation is 10000 = 2710.
+// vJoy's report IDs start at 0x11, and its Device Control is a command number. A full turn is 0x7FFF, so 90 degrees are
+// 0x2000 and 180 degrees are 0x4000. The maximum saturation is 10000 (0x2710).
 TEST_CASE("vJoy: the same sequence, with other IDs") {
   const SetupResult result = prepared(stick_of(StickFamily::vjoy));
   CHECK(result.before == Lines{"get 13 80 0c 64 01",
@@ -186,13 +187,14 @@ TEST_CASE("effects that do not fit into the pool are left out, except constant f
     CHECK_FALSE(three.ability.damper);
     CHECK(three.ability.blocks == 3);
     CHECK(three.ability.notes ==
-          Lines{"the stick is used without a damper; the stick refuses a damper, because its memory "
+          Lines{"the stick is used without a damper; a damper cannot be created, because the stick's memory "
                 "for effects is full; unplug it and plug it in again"});
     config.blocks = 2;
     CHECK(prepared(config).ability.notes.size() == 2);
     config.blocks = 1;
     CHECK(prepared(config).error ==
-          "the stick refuses a constant force, because its memory for effects is full; unplug it and plug it in again");
+          "a constant force cannot be created, because the stick's memory for effects is full; unplug it and plug it "
+          "in again");
   }
 }
 
@@ -201,11 +203,12 @@ TEST_CASE("a device that refuses every effect is refused in one sentence, and si
     EmulatedFaults faults;
     faults.refuses_effects = true;
     CHECK(prepared(stick_of(family), faults).error ==
-          "the stick refuses a constant force, because it reports an error");
+          "a constant force cannot be created, because the stick reports an error");
     faults = {};
     faults.pool_full = true;
     CHECK(prepared(stick_of(family), faults).error ==
-          "the stick refuses a constant force, because its memory for effects is full; unplug it and plug it in again");
+          "a constant force cannot be created, because the stick's memory for effects is full; unplug it and plug it "
+          "in again");
     faults = {};
     faults.stalls_outputs = true;
     CHECK_FALSE(prepared(stick_of(family), faults).error.empty());
@@ -222,7 +225,7 @@ TEST_CASE("a slow device is waited for") {
 
 namespace {
 
-// Gives scripted answers and records the requests.
+// A port that returns scripted answers and records the requests.
 class ScriptedPort final : public HidPort {
  public:
   const HidIdentity& identity() const noexcept override { return identity_; }
@@ -243,7 +246,7 @@ class ScriptedPort final : public HidPort {
   }
   void stream(const StreamConfig&, HidStream&) override {}
 
-  // Sets the answers for each feature report; the last answer is repeated.
+  // Appends an answer to the script of get_feature(). The last answer is repeated.
   void answer(int block, int status) {
     loads_.push_back({static_cast<std::uint8_t>(block), static_cast<std::uint8_t>(status)});
   }
@@ -269,24 +272,24 @@ TEST_CASE("block load is polled until it has an answer, up to 60 times") {
   pid.pool = {};
   ScriptedPort patient;
   for (int i = 0; i < 7; ++i) patient.answer(0, 0);                  // no status yet
-  for (const int block : {1, 1, 2, 3, 4}) patient.answer(block, 1);  // block 1 given twice: no error
+  for (const int block : {1, 1, 2, 3, 4}) patient.answer(block, 1);  // block 1 is reported twice, which is no error
   CHECK(prepare_stick(patient, pid).blocks == StickBlocks{1, 2, 3, 4});
   CHECK(patient.gets == 12);
 
   ScriptedPort silent;
   silent.answer(0, 0);
   CHECK_THROWS_WITH_AS(prepare_stick(silent, pid),
-                       "the stick refuses a constant force, because it does not confirm the effect", HidError);
+                       "a constant force cannot be created, because the stick does not confirm the effect", HidError);
   CHECK(silent.gets == 60);
 
   ScriptedPort faulty;
-  faulty.answer(7, 1);  // returns the same block for every effect
+  faulty.answer(7, 1);  // assigns block 7 to every effect
   CHECK_THROWS_WITH_AS(prepare_stick(faulty, pid), "the stick assigned effect block 7 twice; this stick cannot be used",
                        HidError);
   ScriptedPort blockless;
   blockless.answer(0, 1);
   CHECK_THROWS_WITH_AS(prepare_stick(blockless, pid),
-                       "the stick refuses a constant force, because it assigns no effect block", HidError);
+                       "a constant force cannot be created, because the stick assigns no effect block", HidError);
 }
 
 TEST_CASE("reports that a device lacks are left out") {
@@ -316,7 +319,8 @@ TEST_CASE("reports that a device lacks are left out") {
   pid.device_control = {};
   port.sent.clear();
   CHECK(prepared_with(pid, port).ability.notes.size() == 4);
-  CHECK(port.sent == std::vector<int>{0x11, 0x11, 0x15, 0x11, 0x11, 0x15});  // create, set, magnitude; twice
+  // For each of the two axes: create the effect, set the effect, set the magnitude.
+  CHECK(port.sent == std::vector<int>{0x11, 0x11, 0x15, 0x11, 0x11, 0x15});
 }
 
 TEST_CASE("unplugged at any moment of the setup: HidDisconnected, and nothing more is sent") {
@@ -333,8 +337,9 @@ TEST_CASE("unplugged at any moment of the setup: HidDisconnected, and nothing mo
       CHECK(port.disconnect_after == -1);
     }
   }
-  CHECK(outputs ==
-        17);  // 4 to clear, 2 + 2 + 3 + 3 for the effects, 2 at the end: each of the 16 fails once, then none
+  // The setup has 16 outputs: 4 clear the stick, 2 + 2 + 3 + 3 create the four effects, 2 finish. Each output fails in
+  // one round; the 17th round has no failure.
+  CHECK(outputs == 17);
   ScriptedPort disconnected;
   disconnected.disconnect_after = 0;
   silence_stick(disconnected, pid, {1, 2, 3, 4});

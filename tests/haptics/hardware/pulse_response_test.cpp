@@ -12,16 +12,17 @@ using namespace gearshift::haptics;
 
 namespace {
 
-// Responses to a unit step of acceleration from rest: three solutions of x'' + b x' + k x = 1, derived by hand.
-double sliding(double b, double t) {  // k = 0: x = (t - (1 - e^-bt) / b) / b
+// Responses to a unit step of acceleration from rest. They solve x'' + b x' + k x = 1, with damping b and stiffness k
+// per mass, and were derived by hand.
+double sliding(double b, double t) {  // no stiffness (k = 0)
   return t <= 0.0 ? 0.0 : (t - (1.0 - std::exp(-b * t)) / b) / b;
 }
-double swinging(double b, double k, double t) {  // b^2 < 4 k
+double swinging(double b, double k, double t) {  // underdamped: b^2 < 4 k
   if (t <= 0.0) return 0.0;
   const double a = 0.5 * b, w = std::sqrt(k - a * a);
   return (1.0 - std::exp(-a * t) * (std::cos(w * t) + a / w * std::sin(w * t))) / k;
 }
-double creeping(double b, double k, double t) {  // b^2 > 4 k
+double creeping(double b, double k, double t) {  // overdamped: b^2 > 4 k
   if (t <= 0.0) return 0.0;
   const double root = std::sqrt(0.25 * b * b - k), fast = 0.5 * b + root, slow = 0.5 * b - root;
   return (1.0 - (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (fast - slow)) / k;
@@ -59,7 +60,8 @@ TEST_CASE("the exact response gives the exact parameters: without spring, underd
     CHECK(swings.damping == doctest::Approx(8.0).epsilon(1e-3));
     CHECK(swings.stiffness == doctest::Approx(4000.0).epsilon(1e-3));
     CHECK(std::abs(swings.delay - delay) < 2e-6);
-    // The paper's X axis: m 0.095, b 3, k 14.8, so b / m 31.6, k / m 155.8.
+    // The paper's X axis has 0.095 kg, 3 N s/m and 14.8 N/m, so per mass its damping is 31.58 1/s and its stiffness
+    // 155.8 1/s^2.
     const PulseFit paper = fit_pulses(pulses_of([](double t) { return creeping(31.58, 155.8, t); }, gain, delay, 0.0));
     CHECK(paper.gain == doctest::Approx(gain).epsilon(1e-4));
     CHECK(paper.damping == doctest::Approx(31.58).epsilon(1e-3));

@@ -30,7 +30,7 @@ TEST_CASE("reading, writing, walls and release allocate nothing, take no lock, a
   const RealtimeProof proof = prove_realtime(cycles, bench.stream.wake_fd);
   INFO(proof.verdict());
   CHECK(proof.clean());
-  CHECK_FALSE(prove_realtime(cycles).clean());  // shows that the filter detects the write
+  CHECK_FALSE(prove_realtime(cycles).clean());  // negative control: the wake-up's write is detected
   CHECK_FALSE(prove_realtime(cycles, bench.stream.wake_fd + 1).clean());
 }
 

@@ -1,4 +1,4 @@
-// Tests of ReportScheduler: laws that hold for every family of sticks, checked with a small model of a device.
+// Tests of ReportScheduler: rules that hold for every family of sticks, checked with a small model of a device.
 #include "haptics/hardware/report_scheduler.h"
 
 #include <algorithm>
@@ -28,7 +28,8 @@ PidLayout layout_of(StickFamily family) {
   return PidDriver(EmulatedStick(config, hand).report_descriptor()).layout();
 }
 
-// Calls next() every millisecond and delivers every report; counts the reports by ID.
+// A connection without losses: tick() advances 1 ms and delivers the next report; count() counts the reports of one
+// kind.
 struct Wire {
   explicit Wire(StickFamily family, bool finite = true) : pid(layout_of(family)), stream(pid) {
     stream.begin(kBlocks, finite);
@@ -67,11 +68,11 @@ TEST_CASE("on: actuators, then each effect's values before its start, then only 
   Wire wire(StickFamily::vjoy);
   std::vector<int> ids;
   for (int i = 0; i < 5; ++i) ids.push_back(wire.tick(pushing(0.5, 0.0)).id());
-  // Device Control; magnitude X, start X; start Y, whose magnitude is already 0; then nothing.
+  // IDs in order: Device Control, magnitude of X, start of X, start of Y (whose magnitude is already 0), no report.
   CHECK(ids == std::vector<int>{0x1c, 0x15, 0x1a, 0x1a, 0});
   CHECK(wire.stream.force()[0] == 0.5);
   const int renewed = wire.count(pushing(0.5, 0.0), 1000, wire.pid.operate);
-  CHECK(renewed == 20);  // two effects, ten renewals per second each
+  CHECK(renewed == 20);  // two effects, each renewed ten times per second
   CHECK(wire.count(pushing(0.5, 0.0), 1000, wire.pid.set_constant) == 0);
 }
 
@@ -132,8 +133,8 @@ TEST_CASE("under full load every effect is renewed long before it ends, and its 
     for (int block = 1; block <= 4; ++block)
       oldest = std::max(oldest, wire.now_ns - started[static_cast<std::size_t>(block)]);
   }
-  CHECK(oldest <= 104 * kMs);  // 100 ms, plus the three reports sent before it
-  CHECK(values >= 4700);       // of 5000 reports, with 40 renewals per second
+  CHECK(oldest <= 104 * kMs);  // 100 ms until renewal is due, 3 ms for other renewals, 1 ms of margin
+  CHECK(values >= 4700);       // of 5000 reports, 200 renew effects (40 per second); 100 are margin
 }
 
 TEST_CASE("a release comes before anything else, and nothing drives until the old forces are gone") {
@@ -147,7 +148,7 @@ TEST_CASE("a release comes before anything else, and nothing drives until the ol
     CHECK_FALSE(wire.stream.drives());
     for (int i = 0; i < 40; ++i) {
       wire.tick(again);
-      CHECK(wire.stream.force()[0] == 0.0);  // never starts with the old 0.9
+      CHECK(wire.stream.force()[0] == 0.0);  // the effect does not start with its old force of 0.9
       const bool expected = wire.stream.force()[1] == 0.0 || wire.stream.force()[1] == 0.25;
       CHECK(expected);
     }
@@ -192,7 +193,7 @@ TEST_CASE("a report that does not arrive is sent again") {
 TEST_CASE("an effect that has run out starts again with its new force, not with its old one") {
   Wire wire(StickFamily::vjoy);
   for (int i = 0; i < 10; ++i) wire.tick(pushing(0.9, 0.0));
-  wire.now_ns += 400 * kMs;  // no calls for longer than an effect lasts
+  wire.now_ns += 400 * kMs;  // longer than an effect lasts (300 ms)
   CHECK(wire.tick(pushing(0.1, 0.0)) == encode_constant(wire.pid, 1, 0.1));
   CHECK(wire.tick(pushing(0.1, 0.0)) == encode_operation(wire.pid, 1, PidOperation::start, 1));
 }
@@ -207,7 +208,7 @@ TEST_CASE("a device that reports its motors off, or an effect stopped, is correc
   status.playing = false;
   CHECK(wire.stream.on_report(status, wire.now_ns) == StickFault::effect_stopped);
   CHECK(wire.tick(pushing(0.5, 0.5)) == encode_operation(wire.pid, 1, PidOperation::start, 1));
-  CHECK(wire.stream.on_report(status, wire.now_ns) == StickFault::none);  // this state may be older than the command
+  CHECK(wire.stream.on_report(status, wire.now_ns) == StickFault::none);  // this report may predate the start command
   status = {};
   CHECK(wire.stream.on_report(status, wire.now_ns) == StickFault::switched_off);
   CHECK_FALSE(wire.stream.drives());
@@ -234,9 +235,9 @@ TEST_CASE("an effect that ran out without renewal was not stopped by the device"
   CHECK(wire.stream.on_report(status, wire.now_ns + 400 * kMs) == StickFault::none);
 }
 
-// Random commands, losses and gaps against an emulated firmware.
+// Sends random commands, with lost reports and pauses, to an emulated firmware.
 TEST_CASE("after any losses and 20 ms without further ones, the device does what is commanded") {
-  constexpr double kHalfStep = 0.5 * 20.0 / 255.0 + 1e-9;  // [N] coarsest step of a magnitude, on the SideWinder
+  constexpr double kHalfStep = 0.5 * 20.0 / 255.0 + 1e-9;  // [N] half of the coarsest force step, the SideWinder's
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     EmulatedStickConfig config;

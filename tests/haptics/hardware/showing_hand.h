@@ -1,4 +1,4 @@
-// The user of an emulated stick, who moves the lever as the calibrator asks or does not touch it.
+// Simulated user of an emulated stick, who moves the lever to a target or does not touch it.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@ class ShowingHand final : public haptics::HandDriver {
     return target;
   }
 
-  std::function<glm::dvec2()> target_position;  // [m] target of the hand; empty: the lever is not touched
+  std::function<glm::dvec2()> target_position;  // [m] target of the hand; if empty, the hand does not touch the lever
 
  private:
   glm::dvec2 lever_{0.0};

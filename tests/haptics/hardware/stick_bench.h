@@ -32,7 +32,7 @@ class StickBench {
     stick.log.clear();
   }
 
-  // Runs one period (one millisecond by default) and repeats the command, as a loop does.
+  // Runs one period, 1 ms by default.
   void tick() {
     now_ns += period_ns;
     tick_stick(stick, stream, driver, now_ns);

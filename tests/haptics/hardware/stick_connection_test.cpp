@@ -1,5 +1,5 @@
-// Tests of StickConnection on its own thread and the real clock: it reconnects after any interruption, and never
-// switches forces on by itself. Run it under the thread sanitizer.
+// Tests of StickConnection with its own thread and the real clock: it reconnects after any interruption, and never
+// switches forces on by itself. Run these tests under the thread sanitizer.
 #include "haptics/hardware/stick_connection.h"
 
 #include <sched.h>
@@ -83,7 +83,7 @@ struct ConnectedStick {
   std::unique_ptr<StickConnection> connection;
 };
 
-// True if the condition holds within five seconds; nothing here should take that long.
+// Returns true as soon as the condition holds, or false after five seconds.
 bool becomes_true(const std::function<bool()>& what) {
   for (int ms = 0; ms < 5000; ++ms) {
     if (what()) return true;
@@ -99,7 +99,7 @@ TEST_CASE("unplugged and plugged in again 20 times while driving: reconnects eac
   rig.connect();
   PidLever lever(calibration_of(gripped()), rig.driver, 0.001);
   bool armed = false;
-  const auto cycle = [&] {  // a command as from a loop that follows the stop flag
+  const auto cycle = [&] {  // one cycle of a loop that disarms when the lever reports a stop
     if (lever.read(0).stop) armed = false;
     lever.write(armed ? dvec2{5.0, 0.0} : dvec2(0.0));
   };
@@ -146,7 +146,7 @@ TEST_CASE("destroying the connection switches the motors off, at any moment") {
     }
     rig.connection.reset();
     CHECK(rig.is_off());
-    rig.connect();  // checks that the driver streams again
+    rig.connect();  // the driver must be able to connect again
     CHECK(becomes_true([&] { return rig.connection->connected(); }));
   }
 }
@@ -181,7 +181,7 @@ TEST_CASE("a stick that first refuses its effects or outputs is retried until it
       return !messages.empty() && messages.back().find(part) != std::string::npos;
     });
   };
-  CHECK(was_reported("the stick refuses a constant force, because it reports an error"));
+  CHECK(was_reported("a constant force cannot be created, because the stick reports an error"));
   CHECK_FALSE(rig.connection->ability().has_value());
   {
     const std::lock_guard lock(rig.mutex);
@@ -209,7 +209,8 @@ TEST_CASE("a stick that first refuses its effects or outputs is retried until it
   for (const std::string& sentence : messages) CHECK(std::count(messages.begin(), messages.end(), sentence) == 1);
 }
 
-// A blocked pipe takes 250 ms per report, so a slow failure must not count as time in which the stick worked.
+// A report to a blocked pipe fails only after 250 ms (180 ms in this test). The time until the failure must not count
+// as time in which the stick worked.
 TEST_CASE("a slow failure is also reported only once") {
   class Deaf final : public StickPort {
    public:
@@ -232,7 +233,7 @@ TEST_CASE("a slow failure is also reported only once") {
   CHECK(rig.messages() == Lines{"the stick did not answer"});
 }
 
-// Searching for an absent stick takes milliseconds; a real-time thread would take them from the loop.
+// Searching for an absent stick takes milliseconds. A real-time thread would take this time from the haptic loop.
 TEST_CASE("the thread is real-time while it streams, if permitted, and not while it looks for the stick") {
   bool allowed = false;
   std::thread([&] { allowed = schedule_fifo(70).empty(); }).join();

@@ -1,4 +1,4 @@
-// Faults while the user holds the lever: how soon the motors are off, and what switches them on again.
+// Tests of faults while the user holds the lever: how soon the motors are off, and what switches them on again.
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kSilent = 0.1;  // [N] at the knob: too small to feel
+constexpr double kSilent = 0.1;  // [N] force at the knob that is too small to feel
 
 EmulatedStickConfig gripped(StickFamily family) {
   EmulatedStickConfig config;
@@ -30,7 +30,7 @@ EmulatedStickConfig gripped(StickFamily family) {
   return config;
 }
 
-// The user presses the lever into a wall; then the fault happens, and time continues.
+// A fault that is injected while the user presses the lever into a wall, and how time passes after the injection.
 struct Fault {
   const char* name;
   std::function<void(StickLoop&)> inject;
@@ -77,7 +77,7 @@ double time_to_silence(StickFamily family, const Fault& fault, double before) {
   StickLoop run(config, hand);
   run.loop.arm();
   run.cycle_for(0.8);
-  hand.target = hand_at({0.012, 0.020});  // into the neutral aisle's wall
+  hand.target = hand_at({0.012, 0.020});  // a point inside the neutral aisle's wall
   run.cycle_for(before);
   REQUIRE(glm::length(run.stick.force()) > 3.0);
   const std::int64_t begin = run.now_ns;
@@ -85,14 +85,14 @@ double time_to_silence(StickFamily family, const Fault& fault, double before) {
   fault.inject(run);
   for (int ms = 0; ms < 1000 * fault.max_time + 300; ++ms) {
     if (glm::length(run.stick.force()) > kSilent) loud = run.now_ns + 1'000'000;
-    if (ms > 240 && run.stick.faults.silent) break;  // then the port also fails
+    if (ms > 240 && run.stick.faults.silent) break;  // after this time the port itself reports the silence
     fault.run_millisecond(run);
   }
-  if (fault.max_time < 0.2) CHECK_FALSE(run.stick.actuators_on());  // a stick that still responds has been switched off
+  if (fault.max_time < 0.2) CHECK_FALSE(run.stick.actuators_on());  // these faults also disable the motors
   return 1e-9 * static_cast<double>(loud - begin);
 }
 
-// The whole process is stopped for a while; then one of its threads resumes first.
+// A pause of the whole process for `ms`. Afterwards the loop's thread or the USB thread runs first.
 struct Stall {
   std::int64_t ms = 0;
   bool loop_first = false;
@@ -108,7 +108,7 @@ void resume_process(StickLoop& run, const Stall& stall) {
   run.loop.cycle(run.now_ns, stall.ms);
 }
 
-// Calls `work` for each family, with the process stopped and resumed.
+// Calls `work` for each stick family, each length of the pause and each order in which the threads resume.
 template <class Work>
 void on_each_stall(std::initializer_list<std::int64_t> lengths, const Work& work) {
   for (const StickFamily family : kStickFamilies) {
@@ -154,7 +154,7 @@ TEST_CASE("the process is stopped and resumed, whichever thread wakes first: no 
     run.cycle_for(0.5);
     REQUIRE(glm::length(run.stick.force()) > 3.0);
     stop_process(run, stall);
-    const bool has_ended = stall.ms > 300;  // longer than an effect lasts
+    const bool has_ended = stall.ms > 300;  // the device's effects last 300 ms
     if (has_ended) CHECK(glm::length(run.stick.force()) < kSilent);
     resume_process(run, stall);
     for (int i = 0; i < 1000; ++i) {
@@ -196,7 +196,7 @@ TEST_CASE("unplugged at any moment of a tour: silent until a person arms it agai
       CHECK(run.loop.snapshot().guard == GuardState::running);
       run.stick.unplug();
       CHECK(run.stick.force() == dvec2(0.0));
-      for (int ms = 0; ms < 300; ++ms) {  // a disconnected stick; the loop continues
+      for (int ms = 0; ms < 300; ++ms) {  // the loop continues without the stick
         run.stick.advance(run.now_ns += 1'000'000);
         run.loop.cycle(run.now_ns, 0);
       }
@@ -256,15 +256,15 @@ TEST_CASE("a faulty stick in a hand: jumps do not move it, and useless readings 
       run.cycle_for(0.8);
       hand.target = hand_at({0.012, 0.020});
       run.cycle_for(0.5);
-      const auto strongest =
-          [&run] {  // [N] per fifth of a second: one count of a coarse stick causes a kick of wall damping
-            double force = 0.0;
-            for (int ms = 0; ms < 200; ++ms) {
-              run.cycle();
-              force = std::max(force, glm::length(run.stick.force()));
-            }
-            return force;
-          };
+      // Largest force within 0.2 s [N]. A single sample would miss the kicks from wall damping and coarse counts.
+      const auto strongest = [&run] {
+        double force = 0.0;
+        for (int ms = 0; ms < 200; ++ms) {
+          run.cycle();
+          force = std::max(force, glm::length(run.stick.force()));
+        }
+        return force;
+      };
       const double before = strongest();
       run.stick.faults.jump = jumps;
       run.stick.faults.wrong_length = !jumps;
@@ -276,8 +276,8 @@ TEST_CASE("a faulty stick in a hand: jumps do not move it, and useless readings 
   }
 }
 
-// A hand without tremor is the hardest case, with counts of 137 um on one of the sticks. It leans on a wall, whose
-// force fades until the next count.
+// A hand without tremor is the hardest case. While it leans on a wall, the position may stay at the same count for
+// seconds (one count is 137 um on one stick). Until the count changes, the driver fades the wall's force.
 TEST_CASE("leaning on a wall for half a minute is not mistaken for a dead sensor, and the fading is hardly felt") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
@@ -285,7 +285,7 @@ TEST_CASE("leaning on a wall for half a minute is not mistaken for a dead sensor
     StickLoop run(gripped(family), hand);
     run.loop.arm();
     run.cycle_for(0.7);
-    hand.target = hand_at({0.012, 0.020});  // into the neutral aisle's wall
+    hand.target = hand_at({0.012, 0.020});  // a point inside the neutral aisle's wall
     run.cycle_for(1.5);
     double min_force = 1e9, sum = 0.0;
     for (int ms = 0; ms < 30'000; ++ms) {
@@ -300,7 +300,7 @@ TEST_CASE("leaning on a wall for half a minute is not mistaken for a dead sensor
   }
 }
 
-// A wall that is stable on a fast device is not stable on a late one, so its delay must be known.
+// A wall that is stable on a fast device can vibrate on a slow one, so the device's delay must be known.
 TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration, not with that of a faster stick") {
   const auto shaking = [](double claimed) {
     EmulatedStickConfig config = gripped(StickFamily::openffboard);
@@ -314,7 +314,7 @@ TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration
     StickLoop run(config, known, HapticConfig{}, stick_gate("six_speed_r_left_up", config), hand);
     run.loop.arm();
     run.cycle_for(0.7);
-    hand.target = hand_pushing({0.0, 6.0});  // into the end of the slot ahead
+    hand.target = hand_pushing({0.0, 6.0});  // pushes forward into the end of the slot
     run.cycle_for(0.4);
     double low = 1.0, high = -1.0;
     for (int ms = 0; ms < 100; ++ms) {

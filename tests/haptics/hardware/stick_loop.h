@@ -1,4 +1,4 @@
-// The complete chain on a virtual clock: hand, emulated stick, driver and haptic loop.
+// Test bench with the complete chain on a virtual clock: hand, emulated stick, driver and haptic loop.
 #pragma once
 
 #include <string>

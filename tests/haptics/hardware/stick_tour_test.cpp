@@ -1,4 +1,4 @@
-// The whole loop with HID reports: a hand drives a stick through a gate, and the stick renders the walls.
+// Tests of an emulated stick that shifts through a gate: hand, stick, HID reports, driver and loop together.
 #include <algorithm>
 #include <vector>
 
@@ -35,7 +35,7 @@ Tour drive(const EmulatedStickConfig& config, const DeviceCalibration& known, co
   const Gate gate = stick_gate("six_speed_r_left_up", config);
   const dvec2 start = rest_position(gate, kNeutralGear);
   ScriptedHandConfig script = touring_hand(start);
-  script.effort_limit = 8.0;  // [N] of a gentle hand, for a stick of 20 N
+  script.effort_limit = 8.0;  // [N] a gentle hand, because the stick has only 20 N
   ScriptedHand hand(script, shift_strokes(gate, start, tour_order(gate)), config.plant_period);
   StickLoop run(config, known, haptics, gate, hand);
   run.stick.logs = false;
@@ -93,12 +93,12 @@ TEST_CASE("the tour with weak springs, with every polarity inverted, at 500 Hz, 
   }
 }
 
-// A device damper improves a late stick with coarse counts: if one count of 137 um changes within a millisecond, the
-// loop's damping computes a speed of 0.14 m/s, which causes a kick.
+// If the position changes by one count of 137 um within a millisecond, the loop computes a speed of 0.14 m/s, and its
+// wall damping makes the force jump. A device damper avoids these kicks, above all on a stick with delay.
 TEST_CASE("a device damper on a late stick: softer kicks from coarse counts, less rebound") {
   struct Felt {
-    double damping = 0.0;  // [N s/m] of the wall
-    double kicks = 0.0;    // [N] RMS change of the force per millisecond, with a hand that leans to and fro
+    double damping = 0.0;  // [N s/m] wall damping after the stability limits
+    double kicks = 0.0;    // [N] RMS change of the force per millisecond while a hand moves along the wall
     double rebound = 0.0;  // [m] rebound of a hand that hits the wall
   };
   const auto felt = [](double delay, bool damps) {
@@ -143,7 +143,7 @@ TEST_CASE("a device damper on a late stick: softer kicks from coarse counts, les
 // At rest in the middle of the paper's gate there is no force. The effects are started anyway, so that the first force
 // needs one report instead of three or four.
 TEST_CASE("armed means motors on even without a force; not armed means off") {
-  EmulatedStickConfig config = touring_stick(StickFamily::openffboard);  // a stick whose rest position is a whole count
+  EmulatedStickConfig config = touring_stick(StickFamily::openffboard);  // rests at a whole count, so there is no force
   StillHand hand;
   StickLoop run(config, calibration_of(config), HapticConfig{}, stick_gate("paper", config), hand);
   run.cycle_for(0.1);

@@ -1,4 +1,4 @@
-// Report descriptors for tests: from devices (files in tests/data/hid) and written out in hex.
+// Report descriptors for tests: those of real devices (files in tests/data/hid), and conversions from and to hex text.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline constexpr const char* kPidDevices[] = {"microsoft-sidewinder-ff2", "openf
 inline constexpr const char* kOtherDevices[] = {"sony-dualshock4-v2-usb", "logitech-g29-ps4",
                                                 "fanatec-clubsport-handbrake"};
 
-// Converts "05 01 ..." to bytes.
+// Converts hex text such as "05 01" to bytes.
 inline std::vector<std::uint8_t> hex_bytes(const std::string& text) {
   std::istringstream input(text);
   std::vector<std::uint8_t> bytes;
@@ -45,7 +45,7 @@ inline std::vector<std::uint8_t> device_descriptor(const std::string& device) {
   return hex_bytes({std::istreambuf_iterator<char>(file), {}});
 }
 
-// Replaces the first occurrence of `old_bytes`.
+// Returns the descriptor with the first occurrence of `old_bytes` replaced by `new_bytes`. Throws if there is none.
 inline std::vector<std::uint8_t> with(std::vector<std::uint8_t> descriptor, const std::string& old_bytes,
                                       const std::string& new_bytes) {
   const std::vector<std::uint8_t> out = hex_bytes(old_bytes), in = hex_bytes(new_bytes);

@@ -16,7 +16,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// The bytes of the page's code block, without its comments.
+// Returns the hex bytes of the page's code block, without the comments in the block.
 std::string documented_hex() {
   std::ifstream file(GEARSHIFT_TEST_DATA "/../../haptics/hardware/BUILDING.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
@@ -61,7 +61,7 @@ TEST_CASE("the builder's guide: its 257 bytes describe a lever of 16 bits with 8
   for (const std::size_t control : {0u, 1u, 2u, 3u}) CHECK(pid->device_control.control.supports(control));
   CHECK_FALSE(pid->create.exists());
 
-  // Derived by hand: ID 3, block 2, half of 32767 = 16384 (rounded) = 4000h.
+  // Derived by hand: report ID 3, block 2, and half of 32767, rounded to 16384 = 0x4000.
   const HidBytes half = encode_constant(*pid, 2, 0.5);
   CHECK(hex(half.view()) == "03 02 00 40");
 }

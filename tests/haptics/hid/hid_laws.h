@@ -1,4 +1,5 @@
-// Checks laws that must hold for any bytes given as a report descriptor. Returns the violated law, or an empty string.
+// Checks laws that must hold for any bytes given as a report descriptor. broken_by() returns the name of the first
+// violated law, or an empty string.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace gearshift::test {
 
 class HidLaws {
  public:
-  // Test reports are filled with repetitions of the salt.
+  // The test fills its reports by repeating the bytes of `salt`.
   explicit HidLaws(std::span<const std::uint8_t> salt) : salt_(salt) {}
 
   std::string broken_by(std::span<const std::uint8_t> bytes) {
@@ -115,7 +116,7 @@ class HidLaws {
     expect(!haptics::decode_lever(lever, report), "a report of another length is not read");
   }
 
-  // layout.size: size of the report, from the descriptor.
+  // `layout.size` is the size of the report according to the descriptor.
   void check_bytes(const haptics::HidBytes& bytes, const haptics::PidReport& layout) {
     if (bytes.size == 0) return;
     expect(bytes.size == layout.size && bytes.id() == layout.id, "an encoded report is as long as the device's");

@@ -1,4 +1,4 @@
-// Decodes lever positions from report bytes, written by hand from the devices' documents.
+// Tests of decoding lever positions. The report bytes were written by hand from the devices' documents.
 #include "haptics/hid/lever_report.h"
 
 #include <string>
@@ -49,7 +49,8 @@ TEST_CASE("SideWinder FF2: ten-bit X and Y, six-bit twist, seven-bit slider, eig
   CHECK(lever.buttons.size() == 8);
   CHECK(lever.axes[0].field.min == -512);
   CHECK(lever.axes[0].field.max == 511);
-  // X -512 is 200h in ten bits, Y 511 is 1FFh, Rz -1 is 3Fh in six, slider 127, hat 8, buttons 1 and 8.
+  // In the report's bits, X -512 is 200h and Y 511 is 1FFh (10 bits each), and Rz -1 is 3Fh (6 bits). The slider is at
+  // 127, the hat at 8; buttons 1 and 8 are pressed.
   const LeverCounts counts = decoded(lever, "01 00 02 FF 01 3F 7F 08 81 00 00 00 00");
   CHECK(axis(lever, counts, kX) == -512);
   CHECK(axis(lever, counts, kY) == 511);
@@ -65,7 +66,8 @@ TEST_CASE("OpenFFBoard: 64 buttons, eight axes of 16 bits") {
   CHECK(lever.size == 25);
   CHECK(lever.axes.size() == 8);
   CHECK(lever.buttons.size() == 64);
-  // ffb_defs.h, HID_GamepadReport: id, uint64 buttons, X, Y, Z, RX, RY, RZ, Dial, Slider.
+  // The report's fields are, as in HID_GamepadReport in ffb_defs.h: id, uint64 buttons, X, Y, Z, RX, RY, RZ, Dial,
+  // Slider.
   const LeverCounts counts =
       decoded(lever, "01 01 00 00 00 00 00 00 80 01 80 FF 7F 00 00 00 00 00 00 FF FF 00 00 34 12");
   CHECK(axis(lever, counts, kX) == -32767);
@@ -80,7 +82,7 @@ TEST_CASE("vJoy: has more axes than the maximum; X and Y are always kept") {
   CHECK(lever.size == 97);
   CHECK(lever.axes.size() == kMaxAxes);
   std::string report = "01 FF 7F 00 00 00 40 00 00";
-  for (int i = 0; i < 18; ++i) report += " 00 00 00 00";  // 14 axes, 4 hats
+  for (int i = 0; i < 18; ++i) report += " 00 00 00 00";  // 14 more axes and 4 hats
   report += " 02";
   for (int i = 0; i < 15; ++i) report += " 00";
   const LeverCounts counts = decoded(lever, report);
@@ -88,7 +90,7 @@ TEST_CASE("vJoy: has more axes than the maximum; X and Y are always kept") {
   CHECK(axis(lever, counts, kY) == 0x4000);
   CHECK(counts.buttons == 2);
 
-  // Eight other axes come first: the seven of page 1 from Z to wheel; the rest are on the simulation page.
+  // X and Y follow nine other axes: seven of usage page 1 (Z to wheel) and two of the simulation page.
   const LeverReport late = lever_of(hex_bytes(
       "05 01 09 04 A1 01 15 00 26 FF 00 75 08 95 09 09 32 09 33 09 34 09 35 09 36 09 37 09 38 05 02 09 BA 09 BB "
       "81 02 05 01 09 30 09 31 95 02 81 02 C0"));
@@ -101,10 +103,10 @@ TEST_CASE("vJoy: has more axes than the maximum; X and Y are always kept") {
 TEST_CASE("pads and wheels without force feedback also have a lever report") {
   const LeverReport saitek = lever_of(device_descriptor("saitek-gamepad-ff0d"));
   CHECK(saitek.size == 7);
-  CHECK(saitek.axes.size() == 4);  // X, Y, rudder, throttle
+  CHECK(saitek.axes.size() == 4);  // the axes are X, Y, rudder and throttle
   CHECK(saitek.axes[2].usage == HidUsage{2, 0xba});
   CHECK(saitek.buttons.size() == 12);
-  CHECK(decoded(saitek, "01 80 FF 00 7F 01 08").buttons == 0x801);  // twelve bits from byte 5
+  CHECK(decoded(saitek, "01 80 FF 00 7F 01 08").buttons == 0x801);  // the button bits begin in byte 5
   CHECK(lever_of(device_descriptor("sony-dualshock4-v2-usb")).size == 64);
   CHECK(lever_of(device_descriptor("logitech-g29-ps4")).axes.size() == 6);
   CHECK_FALSE(find_lever_report(parse_report_descriptor(device_descriptor("fanatec-clubsport-handbrake"))));
@@ -113,14 +115,14 @@ TEST_CASE("pads and wheels without force feedback also have a lever report") {
 TEST_CASE("no lever: a mouse, a stick of one axis, axes of a keyboard, axes that are padding") {
   const std::string axes = "09 30 09 31 15 81 25 7F 75 08 95 02 ";
   CHECK(has_lever("05 01 09 04 A1 01 " + axes + "81 02 C0"));
-  CHECK(has_lever("05 01 09 08 A1 01 A1 02 A1 02 " + axes + "81 02 C0 C0 C0"));  // a multi-axis controller, nested
+  CHECK(has_lever("05 01 09 08 A1 01 A1 02 A1 02 " + axes + "81 02 C0 C0 C0"));  // X and Y in nested collections
   CHECK_FALSE(has_lever("05 01 09 02 A1 01 " + axes + "81 06 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "81 06 C0"));  // relative
   CHECK_FALSE(has_lever("05 01 09 06 A1 01 " + axes + "81 02 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "81 03 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "91 02 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 09 30 75 08 95 01 81 02 85 02 09 31 81 02 C0"));  // X and Y in two reports
-  // A report with the same axes, but longer than 256 bytes: 255 vendor bytes come first.
+  // The same axes are rejected in a report of more than 256 bytes; here 255 vendor bytes precede the axes.
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 75 08 96 FF 00 81 01 " + axes + "81 02 C0"));
 }
 
@@ -155,14 +157,14 @@ TEST_CASE("bits: any offset, any width, with and without sign; nothing beyond th
     std::vector<std::uint8_t> blank(bytes.size());
     write_bits(blank, field, one.value);
     CHECK(hex(blank) == one.report);
-    // Neighbouring bits are unchanged.
+    // Writing a field must not change the neighbouring bits.
     std::vector<std::uint8_t> full(bytes.size(), 0xff);
     write_bits(full, field, 0);
     CHECK(read_bits(full, field) == 0);
     write_bits(full, field, -1);
     write_bits(full, field, field.min < 0 ? -1 : field.max);
     CHECK(hex(full) == "FF FF FF FF FF FF");
-    // The report is one byte too short.
+    // If the report is one byte too short for the field, reading returns 0 and writing changes nothing.
     const std::size_t needed = static_cast<std::size_t>(8 + field.offset + field.bits + 7) / 8;
     bytes.resize(needed - 1);
     CHECK(read_bits(bytes, field) == 0);
@@ -187,10 +189,10 @@ TEST_CASE("a field's range is limited to what its bits can hold; its zero is whe
   CHECK(usual.min == -128);
   CHECK(usual.max == 127);
   CHECK(usual.zero == 0);
-  CHECK(field("15 00 26 FF 7F").max == 255);                     // 32767 does not fit into the field
-  CHECK(field("16 F0 D8 26 10 27").min == -128);                 // -10000 does not fit either
-  CHECK(field("15 00 25 00").max == 255);                        // empty range: full range of the bits
-  CHECK(field("15 05 25 01").min == 0);                          // inverted range: also the full range of the bits
+  CHECK(field("15 00 26 FF 7F").max == 255);                     // 32767 does not fit into 8 bits
+  CHECK(field("16 F0 D8 26 10 27").min == -128);                 // -10000 does not fit into 8 bits
+  CHECK(field("15 00 25 00").max == 255);                        // an empty range counts as 0 to 255
+  CHECK(field("15 05 25 01").min == 0);                          // an inverted range counts as 0 to 255
   CHECK(field("15 00 26 FF 00 36 F0 D8 46 10 27").zero == 128);  // 127.5, the middle of 0 to 255
   CHECK(field("15 00 26 FF 00 35 00 46 10 27").zero == 0);
   CHECK(field("15 01 25 64 35 01 45 64").zero == 1);

@@ -1,4 +1,4 @@
-// Device descriptors with a few wrong bytes are refused with one sentence, or read consistently.
+// Device descriptors with a few wrong bytes must be refused in one sentence or read consistently. The fuzzer
 // tests/fuzz/hid_descriptor_fuzz.cpp checks the same laws for longer and searches for new code paths.
 #include <random>
 #include <string>
@@ -57,7 +57,7 @@ TEST_CASE("descriptors with a few wrong bytes break no law") {
       }
     }
   }
-  // Checks that many descriptors are accepted, so that the laws are tested.
+  // Most laws apply only to accepted descriptors, so many descriptors must be accepted.
   CHECK(levers > 500);
   CHECK(pid_devices > 300);
   MESSAGE(levers << " levers, " << pid_devices << " PID devices of 3500");

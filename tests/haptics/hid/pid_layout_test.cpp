@@ -1,5 +1,6 @@
-// Finds the PID reports and their fields. Offsets were counted by hand along the descriptors; for the SideWinder they
-// are also in adapt-ffb-joy's wiki (SidewinderFFPDetails.md) and ffb.h, for OpenFFBoard in ffb_defs.h.
+// Tests that the PID reports and their fields are found. The expected offsets were counted by hand in the descriptors.
+// Those of the SideWinder are also in adapt-ffb-joy's wiki (SidewinderFFPDetails.md) and ffb.h, the OpenFFBoard's in
+// ffb_defs.h.
 #include "haptics/hid/pid_layout.h"
 
 #include <string>
@@ -23,7 +24,7 @@ PidLayout pid_of(const std::string& device) {
   return *pid;
 }
 
-// "offset:bits", or "-" for a missing field.
+// Returns the field's "offset:bits", or "-" if the field is missing.
 std::string place(const BitField& field) {
   return field.exists() ? std::to_string(field.offset) + ":" + std::to_string(field.bits) : "-";
 }
@@ -49,8 +50,8 @@ std::string numbers(const PidChoice<N>& choice) {
 
 constexpr const char* kAllEffects = "1 2 3 4 5 6 7 8 9 10 11";
 
-// A minimal stick: Set Effect, Set Constant Force and Effect Operation. `set_effect` is added to Set Effect, `more` at
-// the end.
+// The descriptor of a minimal stick with Set Effect, Set Constant Force and Effect Operation. `set_effect` is appended
+// to the Set Effect report, `more` to the whole descriptor.
 std::vector<std::uint8_t> minimal_stick(const std::string& set_effect, const std::string& more = "") {
   return hex_bytes(
       "05 01 09 04 A1 01 05 0F 15 01 25 28 75 08 95 01 "
@@ -84,7 +85,7 @@ TEST_CASE("SideWinder FF2") {
   CHECK(place(effect.direction[1]) == "96:8");
   CHECK(place(effect.start_delay) == "104:16");
   CHECK(effect.duration_unit == doctest::Approx(1e-3));
-  CHECK(effect.full_turn == doctest::Approx(255.0));  // 0 to 36000 hundredths of a degree
+  CHECK(effect.full_turn == doctest::Approx(255.0));  // 255 counts stand for 36000 hundredths of a degree
 
   const PidSetCondition& condition = pid.set_condition;
   CHECK(id_size(condition) == "3:9");
@@ -127,7 +128,7 @@ TEST_CASE(
     "OpenFFBoard: directions of 16 bits, a bit for each device control, no override switch, no block in the state") {
   const PidLayout pid = pid_of("openffboard-2axis");
   const PidSetEffect& effect = pid.set_effect;
-  CHECK(id_size(effect) == "1:22");  // FFB_SetEffect_t plus two 16-bit offsets
+  CHECK(id_size(effect) == "1:22");  // ID and size: FFB_SetEffect_t plus two 16-bit offsets
   CHECK(place(effect.start_delay) == "64:16");
   CHECK(place(effect.gain) == "80:8");
   CHECK(place(effect.axis_enable[1]) == "97:1");
@@ -175,7 +176,7 @@ TEST_CASE("vJoy: its own IDs, blocks to 100, a turn of 32767, a state in a colle
   CHECK(place(pid.state.playing) == "0:1");
   CHECK(place(pid.state.actuators_enabled) == "2:1");
   CHECK(place(pid.state.actuator_power) == "5:1");
-  CHECK_FALSE(pid.state.block.exists());  // the field is in a feature report with the same ID
+  CHECK_FALSE(pid.state.block.exists());  // only a feature report with the same ID has a block field
 }
 
 TEST_CASE("Saitek: no type, direction, axes nor conditions; choices in an order of its own") {
@@ -185,7 +186,7 @@ TEST_CASE("Saitek: no type, direction, axes nor conditions; choices in an order 
   CHECK(place(pid.set_effect.trigger_button) == "8:8");
   CHECK(place(pid.set_effect.duration) == "16:16");
   CHECK(range(pid.set_effect.duration) == "0..65534");
-  CHECK(pid.set_effect.duration_unit == doctest::Approx(1e-3));  // SI seconds, exponent -3
+  CHECK(pid.set_effect.duration_unit == doctest::Approx(1e-3));  // the field's unit is SI seconds with exponent -3
   CHECK(place(pid.set_effect.start_delay) == "48:16");
   CHECK_FALSE(pid.set_effect.gain.exists());
   CHECK_FALSE(pid.set_effect.direction[0].exists());
@@ -221,7 +222,7 @@ TEST_CASE("a device that uses the PID page only for rumble is not a PID device, 
     CAPTURE(device);
     CHECK_FALSE(pid_in(device_descriptor(device)));
   }
-  // The rumble report of Xbox One pads over Bluetooth: a Set Effect report with magnitudes but no block.
+  // The rumble report of Xbox One pads over Bluetooth has magnitudes but no effect block, so it is not a PID report.
   CHECK_FALSE(pid_in(hex_bytes(
       "05 01 09 05 A1 01 05 0F 09 21 85 03 A1 02 09 97 15 00 25 01 75 04 95 01 91 02 15 00 25 00 75 04 95 01 91 03 "
       "09 70 15 00 25 64 75 08 95 04 91 02 09 50 66 01 10 55 0E 15 00 26 FF 00 75 08 95 01 91 02 "
@@ -265,7 +266,7 @@ TEST_CASE("device control: an array, bits, or an array that is flagged as a vari
   CHECK(control("09 96 A1 02 85 0C 09 98 09 97 25 02 91 00 C0") == "2 1 - - - -");
   // A field of 255 bits cannot hold a number, not even 0 (found by fuzzing).
   CHECK(control("09 96 A1 02 85 0C " + six + "15 00 25 05 75 FF 95 01 91 00 C0") == "- - - - - -");
-  // A control field outside the Device Control collection, in another report.
+  // A control field outside the Device Control collection is not used.
   CHECK(control("09 21 A1 02 85 0C " + six + "15 01 25 06 75 08 95 01 91 00 C0") == "- - - - - -");
 }
 
@@ -279,11 +280,11 @@ TEST_CASE("axes and directions: by axis or ordinal, one polar direction, 36000 h
   CHECK(place(polar.direction[0]) == "8:8");
   CHECK_FALSE(polar.direction[1].exists());
   CHECK(polar.full_turn == doctest::Approx(179.0));
-  // 0 to 35999 hundredths of a degree in 0 to 35999 counts with exponent -2, so a full turn is one count more.
+  // The range of 0 to 35999 counts is 0 to 35999 hundredths of a degree, so a full turn is one count more: 36000.
   const PidSetEffect nearly =
       effect("09 57 A1 02 0B 01 00 0A 00 55 FE 15 00 27 9F 8C 00 00 35 00 47 9F 8C 00 00 75 10 95 01 91 02 55 00 C0");
   CHECK(nearly.full_turn == doctest::Approx(36000.0));
-  // adapt-ffb-joy: 0 to 180 counts for 36000 hundredths of a degree.
+  // On adapt-ffb-joy, 0 to 180 counts are 0 to 36000 hundredths of a degree.
   CHECK(effect("09 57 A1 02 0B 01 00 0A 00 55 FE 15 00 26 B4 00 35 00 47 A0 8C 00 00 75 08 95 01 91 02 C0").full_turn ==
         doctest::Approx(180.0));
 }
@@ -295,16 +296,16 @@ TEST_CASE("the unit of durations: the field's unit, or milliseconds if it has no
   CHECK(unit("75 10 95 01 91 02") == doctest::Approx(1e-3));
   CHECK(unit("15 00 26 FF 7F 35 00 46 FF 7F 66 03 10 55 FD 75 10 91 02") == doctest::Approx(1e-3));
   CHECK(unit("15 00 26 FF 7F 35 00 45 00 66 01 10 55 0C 75 10 91 02") == doctest::Approx(1e-4));
-  // 0 to 255 counts for 0 to 2550 hundredths of a second: 0.1 s per count.
+  // 0 to 255 counts are 0 to 2550 hundredths of a second, so one count is 0.1 s.
   CHECK(unit("15 00 26 FF 00 35 00 46 F6 09 66 01 10 55 0E 75 08 91 02") == doctest::Approx(0.1));
-  CHECK(unit("15 00 26 FF 7F 65 14 55 FE 75 10 91 02") == doctest::Approx(1e-3));  // unit is degrees
+  CHECK(unit("15 00 26 FF 7F 65 14 55 FE 75 10 91 02") == doctest::Approx(1e-3));  // degrees: ignored, so 1 ms
 }
 
 TEST_CASE("reports that are too long are not used") {
   CHECK(pid_in(minimal_stick("75 08 95 FE 91 01"))->set_effect.size == 256);
   CHECK_FALSE(pid_in(minimal_stick("75 08 96 FF 00 91 01")));
-  // An optional report that is too long is ignored with all its fields (found by mutation): SideWinder's block load
-  // with 236 x 16 bits.
+  // An optional report that is too long is ignored with all its fields (found by mutation). Here it is the SideWinder's
+  // block load report with 236 fields of 16 bits.
   const auto pid =
       pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "75 10 95 01 B1 00", "75 10 95 EC B1 00"));
   REQUIRE(pid);

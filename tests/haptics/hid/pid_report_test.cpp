@@ -1,7 +1,7 @@
-// Encoding of PID reports, byte by byte. Every line of bytes was derived by hand from the device's descriptor and
-// document, with the arithmetic beside it. Documents: adapt-ffb-joy's ffb.h and wiki for the SideWinder, OpenFFBoard's
-// ffb_defs.h and HidFFB.cpp. Direction 0 is from the far side and turns clockwise, so X is a quarter turn and Y half a
-// turn.
+// Tests the encoding of PID reports, byte by byte. The expected bytes were derived by hand from each device's
+// descriptor and documentation; the comments give the arithmetic. Documentation: adapt-ffb-joy's ffb.h and wiki for the
+// SideWinder; ffb_defs.h and HidFFB.cpp for the OpenFFBoard. A direction says where a force comes from: 0 is the far
+// side, and angles increase clockwise. A force on X is therefore encoded as a quarter turn, a force on Y as half a turn.
 #include "haptics/hid/pid_report.h"
 
 #include <limits>
@@ -50,19 +50,19 @@ std::string control(const PidLayout& pid, PidControl wanted) {
 
 TEST_CASE("SideWinder FF2: Set Effect, 16 bytes") {
   const PidLayout pid = pid_of("microsoft-sidewinder-ff2");
-  // ID, block, type 1 of 12, 300 ms = 012Ch, trigger repeat, sample period, gain 255, no button, X 1 + direction 4,
-  // 255/4 = 63.75 -> 64 = 40h, second direction, delay
+  // Bytes: ID, block, type 1 of 12, 300 ms = 012Ch, trigger repeat, sample period, gain 255, no button, axis X (1) +
+  // direction enabled (4), direction 255/4 = 63.75 -> 64 = 40h, second direction, delay.
   CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
         "01 01 01 2C 01 00 00 00 00 FF 00 05 40 00 00 00");
-  // Y 2 + direction 4, 255/2 = 127.5 -> 128 = 80h
+  // Axis Y (2) + direction enabled (4) = 6; direction 255/2 = 127.5 -> 128 = 80h.
   CHECK(hex_of(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
         "01 02 01 2C 01 00 00 00 00 FF 00 06 80 00 00 00");
-  // Spring is type 8, damper type 9; both axes (1 + 2), no direction.
+  // The type of a spring is 8, of a damper 9. Both axes are enabled (1 + 2), without a direction.
   CHECK(hex_of(encode_set_effect(pid, settings(3, PidEffect::spring, -1))) ==
         "01 03 08 2C 01 00 00 00 00 FF 00 03 00 00 00 00");
   CHECK(hex_of(encode_set_effect(pid, settings(40, PidEffect::damper, -1))) ==
         "01 28 09 2C 01 00 00 00 00 FF 00 03 00 00 00 00");
-  // kForever is all ones (USB_DURATION_INFINITE); 32767 ms is the longest finite duration, 1 ms the shortest.
+  // kForever is encoded as all ones (USB_DURATION_INFINITE). Finite durations are limited to 1 to 32767 ms.
   CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0, kForever))).substr(9, 5) == "FF FF");
   CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0, 1000.0))).substr(9, 5) == "FF 7F");
   CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0, 0.0))).substr(9, 5) == "01 00");
@@ -83,8 +83,8 @@ TEST_CASE("SideWinder FF2: constant force -255 to 255, conditions of a byte each
   CHECK(hex_of(encode_constant(pid, 2, 0.0)) == "05 02 00 00");
   CHECK(hex_of(encode_constant(pid, 2, 7.0)) == "05 02 FF 00");
   CHECK(hex_of(encode_constant(pid, 2, kNaN)) == "05 02 00 00");
-  // centre -0.25 x 128 = -32 = E0h; coefficient 0.5 x 127 = 63.5 -> 64 = 40h; saturation 0.8 x 255 = 204 = CCh; dead
-  // band 0.2 x 255 = 51 = 33h
+  // Centre: -0.25 x 128 = -32 = E0h. Coefficient: 0.5 x 127 = 63.5 -> 64 = 40h. Saturation: 0.8 x 255 = 204 = CCh. Dead
+  // band: 0.2 x 255 = 51 = 33h.
   CHECK(hex_of(encode_condition(pid, 3, 0, kSpring)) == "03 03 00 E0 40 40 CC CC 33");
   CHECK(hex_of(encode_condition(pid, 3, 1, kSpring)) == "03 03 01 E0 40 40 CC CC 33");
 }
@@ -119,7 +119,7 @@ TEST_CASE("SideWinder FF2: block load, pool and state") {
   CHECK_FALSE(decode_block_load(pid, hex_bytes("02 03 01 D0")));
   CHECK_FALSE(decode_block_load(pid, hex_bytes("03 03 01 D0 07")));
   CHECK_FALSE(decode_block_load(pid, {}));
-  // 1024 bytes, 10 simultaneous effects, managed by the device
+  // The pool report says: 1024 bytes, 10 simultaneous effects, managed by the device.
   const auto pool = decode_pool(pid, hex_bytes("03 00 04 0A 01"));
   REQUIRE(pool);
   CHECK(pool->ram == 1024);
@@ -127,7 +127,7 @@ TEST_CASE("SideWinder FF2: block load, pool and state") {
   CHECK(pool->device_managed);
   CHECK_FALSE(decode_pool(pid, hex_bytes("03 00 04 0A 02"))->device_managed);
   CHECK_FALSE(decode_pool(pid, hex_bytes("03 00 04 0A 01 00")));
-  // actuators 2 + safety 4 + override 8 + power 16; playing 1, block 3 x 2
+  // 1Eh = actuators 2 + safety switch 4 + override switch 8 + power 16. 07h = playing 1 + 2 x block 3.
   const auto state = decode_state(pid, hex_bytes("02 1E 07"));
   REQUIRE(state);
   CHECK(state->actuators_enabled);
@@ -143,11 +143,12 @@ TEST_CASE("SideWinder FF2: block load, pool and state") {
 
 TEST_CASE("OpenFFBoard: Set Effect, 22 bytes") {
   const PidLayout pid = pid_of("openffboard-2axis");
-  // ID, block, type, 300 ms, trigger repeat, sample period, delay, gain, button, axes, 36000/4 = 9000 = 2328h, second
-  // direction, two offsets. HidFFB.cpp: the axes get sin(90) = 1 and -cos(90) = 0.
+  // Bytes: ID, block, type, 300 ms, trigger repeat, sample period, delay, gain, button, axes, direction 36000/4 = 9000
+  // = 2328h, second direction, two offsets. From this direction, HidFFB.cpp computes the force sin(90 degrees) = 1 on X
+  // and -cos(90 degrees) = 0 on Y.
   CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
         "01 01 01 2C 01 00 00 00 00 00 00 FF 00 05 28 23 00 00 00 00 00 00");
-  // 18000 = 4650h: sin(180) = 0 and -cos(180) = 1.
+  // Direction 18000 = 4650h: the force is sin(180 degrees) = 0 on X and -cos(180 degrees) = 1 on Y.
   CHECK(hex_of(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
         "01 02 01 2C 01 00 00 00 00 00 00 FF 00 06 50 46 00 00 00 00 00 00");
   CHECK(hex_of(encode_set_effect(pid, settings(3, PidEffect::spring, -1))) ==
@@ -161,12 +162,13 @@ TEST_CASE("OpenFFBoard: 16-bit magnitudes and conditions, a bit for each control
   const PidLayout pid = pid_of("openffboard-2axis");
   CHECK(hex_of(encode_constant(pid, 1, 1.0)) == "05 01 FF 7F");
   CHECK(hex_of(encode_constant(pid, 1, -1.0)) == "05 01 01 80");  // -32767 = 8001h
-  CHECK(hex_of(encode_constant(pid, 1, 0.2)) == "05 01 99 19");   // 6553.4 -> 6553 = 1999h
-  // centre -0.25 x 32768 = -8192 = E000h; 0.5 x 32767 = 16383.5 -> 4000h; 0.8 x 32767 = 26213.6 -> 6666h; 0.2 -> 1999h
+  CHECK(hex_of(encode_constant(pid, 1, 0.2)) == "05 01 99 19");   // 0.2 x 32767 = 6553.4 -> 1999h
+  // Centre: -0.25 x 32768 = -8192 = E000h. Coefficient: 0.5 x 32767 = 16383.5 -> 4000h. Saturation: 0.8 x 32767 =
+  // 26213.6 -> 6666h. Dead band: 0.2 x 32767 -> 1999h.
   CHECK(hex_of(encode_condition(pid, 2, 1, kSpring)) == "03 02 01 00 E0 00 40 00 40 66 66 66 66 99 19");
   CHECK(hex_of(encode_condition(pid, 2, 0, {0.0, 0.0, -1.0, 1.0})) == "03 02 00 00 00 00 80 00 80 FF 7F FF 7F 00 00");
   CHECK(hex_of(encode_operation(pid, 40, PidOperation::start, 1)) == "0A 28 01 01");
-  // HidFFB.cpp: 1 enable, 2 disable, 4 stop all, 8 reset, 16 pause, 32 continue
+  // Bits in HidFFB.cpp: 1 enable, 2 disable, 4 stop all, 8 reset, 16 pause, 32 continue.
   CHECK(control(pid, PidControl::enable_actuators) == "0C 01");
   CHECK(control(pid, PidControl::disable_actuators) == "0C 02");
   CHECK(control(pid, PidControl::stop_all) == "0C 04");
@@ -181,7 +183,7 @@ TEST_CASE("OpenFFBoard: 16-bit magnitudes and conditions, a bit for each control
   CHECK(load->block == 2);
   CHECK(load->status == BlockLoad::Status::success);
   CHECK(decode_pool(pid, hex_bytes("13 28 00 28 01"))->simultaneous == 40);
-  // ffb_defs.h: actuators 2 + power 8 + playing 16; the safety switch is reported as open.
+  // 1Ah in ffb_defs.h: actuators 2 + power 8 + playing 16. The safety switch is reported as open.
   const auto state = decode_state(pid, hex_bytes("02 1A"));
   REQUIRE(state);
   CHECK(state->actuators_enabled);
@@ -193,7 +195,7 @@ TEST_CASE("OpenFFBoard: 16-bit magnitudes and conditions, a bit for each control
 
 TEST_CASE("vJoy: IDs from 11h, ranges of 10000, a turn of 32767") {
   const PidLayout pid = pid_of("vjoy-2axis-ffb-tlid1");
-  // 32767/4 = 8191.75 -> 2000h, 32767/2 = 16383.5 -> 4000h
+  // Directions: 32767/4 = 8191.75 -> 2000h, 32767/2 = 16383.5 -> 4000h.
   CHECK(hex_of(encode_set_effect(pid, settings(100, PidEffect::constant, 0))) ==
         "11 64 01 2C 01 00 00 00 00 00 00 FF 00 05 00 20 00 00 00 00 00 00");
   CHECK(hex_of(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
@@ -201,7 +203,7 @@ TEST_CASE("vJoy: IDs from 11h, ranges of 10000, a turn of 32767") {
   CHECK(hex_of(encode_constant(pid, 1, 1.0)) == "15 01 10 27");
   CHECK(hex_of(encode_constant(pid, 1, -1.0)) == "15 01 F0 D8");
   CHECK(hex_of(encode_constant(pid, 1, 0.0123)) == "15 01 7B 00");
-  // -2500 = F63Ch, 5000 = 1388h, 8000 = 1F40h, 2000 = 07D0h
+  // Centre -2500 = F63Ch, coefficient 5000 = 1388h, saturation 8000 = 1F40h, dead band 2000 = 07D0h.
   CHECK(hex_of(encode_condition(pid, 3, 1, kSpring)) == "13 03 01 3C F6 88 13 88 13 40 1F 40 1F D0 07");
   CHECK(hex_of(encode_operation(pid, 3, PidOperation::stop, 0)) == "1A 03 03 00");
   CHECK(control(pid, PidControl::stop_all) == "1C 03");
@@ -209,7 +211,8 @@ TEST_CASE("vJoy: IDs from 11h, ranges of 10000, a turn of 32767") {
   CHECK(hex_of(encode_block_free(pid, 100)) == "1B 64");
   CHECK(hex_of(encode_create(pid, PidEffect::friction)) == "11 0B 00 00");
   CHECK(decode_block_load(pid, hex_bytes("12 64 01 00 00"))->block == 100);
-  // playing 1, paused 2, actuators 4, safety 8, override 16, power 32
+  // Bits of the state: playing 1, paused 2, actuators 4, safety switch 8, override switch 16, power 32. 25h has 1, 4
+  // and 32.
   const auto state = decode_state(pid, hex_bytes("14 25"));
   REQUIRE(state);
   CHECK(state->playing);
@@ -220,14 +223,15 @@ TEST_CASE("vJoy: IDs from 11h, ranges of 10000, a turn of 32767") {
 
 TEST_CASE("Saitek: values without a field are left out") {
   const PidLayout pid = pid_of("saitek-gamepad-ff0d");
-  // ID, block, button, 300 ms, trigger repeat, delay
+  // Bytes: ID, block, button, 300 ms, trigger repeat, delay.
   CHECK(hex_of(encode_set_effect(pid, settings(5, PidEffect::constant, 0))) == "0B 05 00 2C 01 00 00 00 00");
   CHECK(hex_of(encode_set_effect(pid, settings(5, PidEffect::constant, 1, kForever))) == "0B 05 00 FF FF 00 00 00 00");
   CHECK(hex_of(encode_constant(pid, 5, 1.0)) == "0D 05 7F");
   CHECK(hex_of(encode_constant(pid, 5, -1.0)) == "0D 05 81");  // -127
   CHECK(hex_of(encode_condition(pid, 5, 0, kSpring)).empty());
-  // In order: stop, start, start solo; reset, stop all, enable, disable, pause, continue.
-  CHECK(hex_of(encode_operation(pid, 5, PidOperation::start, 300)) == "51 05 02 FE");  // at most 254 loops
+  // Operations and controls are numbered from 1. Operations: stop, start, start solo. Controls: reset, stop all,
+  // enable, disable, pause, continue.
+  CHECK(hex_of(encode_operation(pid, 5, PidOperation::start, 300)) == "51 05 02 FE");  // at most 254 (FEh) loops
   CHECK(hex_of(encode_operation(pid, 5, PidOperation::stop, 0)) == "51 05 01 00");
   CHECK(control(pid, PidControl::enable_actuators) == "52 03");
   CHECK(control(pid, PidControl::disable_actuators) == "52 04");
@@ -243,20 +247,22 @@ TEST_CASE("Saitek: values without a field are left out") {
   REQUIRE(load);
   CHECK(load->block == 5);
   CHECK(load->status == BlockLoad::Status::full);
-  // 15 bits with 512 bytes, bit 16: managed by the device; 8 simultaneous
+  // 8200h: the low 15 bits are the pool's size, 200h = 512 bytes; the top bit says that the device manages the pool. 8
+  // effects can play at once.
   const auto pool = decode_pool(pid, hex_bytes("0B 00 82 08"));
   REQUIRE(pool);
   CHECK(pool->ram == 512);
   CHECK(pool->device_managed);
   CHECK(pool->simultaneous == 8);
-  // actuators, then paused; seven bits of block, then playing
+  // After the report ID 02: bits of the first byte are actuators 1 (set) and paused 2 (not set); the second byte is
+  // 85h = block 5 (low 7 bits) + playing 80h (top bit).
   const auto state = decode_state(pid, hex_bytes("02 01 85"));
   REQUIRE(state);
   CHECK(state->actuators_enabled);
   CHECK_FALSE(state->paused);
   CHECK(state->playing);
   CHECK(state->block == 5);
-  CHECK(state->actuator_power);  // the state does not report the actuators: assumed on
+  CHECK(state->actuator_power);  // assumed on: this device does not report its motor power
 }
 
 TEST_CASE("a block index outside the field's range is not encoded, because it would address another block") {
@@ -278,7 +284,7 @@ TEST_CASE("a block index outside the field's range is not encoded, because it wo
 }
 
 TEST_CASE("MOZA: six controls in one field that is flagged as a variable are still one number") {
-  // SideWinder's device control, with item 91 02 instead of 91 00
+  // The SideWinder's device control field, but flagged as a variable: item 91 02 instead of 91 00.
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 9C 15 01 25 06 75 08 95 01 91 00",
                          "09 9C 15 01 25 06 75 08 95 01 91 02"));
@@ -288,7 +294,8 @@ TEST_CASE("MOZA: six controls in one field that is flagged as a variable are sti
 
 TEST_CASE("adapt-ffb-joy: conditions with only centre and one coefficient, no start delay, a turn of 180") {
   std::vector<std::uint8_t> bytes = device_descriptor("microsoft-sidewinder-ff2");
-  // Conditions end after the positive coefficient (Descriptors.c), Set Effect after the direction.
+  // On adapt-ffb-joy, the condition report ends after the positive coefficient (Descriptors.c), and Set Effect ends
+  // after the direction.
   bytes = with(
       bytes,
       "09 61 09 62 95 02 91 02 15 00 26 FF 00 35 00 46 10 27 09 63 09 64 75 08 95 02 91 02 09 65 46 10 27 95 01 91 02",
@@ -297,7 +304,7 @@ TEST_CASE("adapt-ffb-joy: conditions with only centre and one coefficient, no st
   bytes = with(bytes, "55 FE 15 00 26 FF 00 35 00 47", "55 FE 15 00 26 B4 00 35 00 47");
   const PidLayout pid = needed_pid_in(bytes);
   CHECK(hex_of(encode_condition(pid, 3, 1, kSpring)) == "03 03 01 E0 40");
-  // 180/4 = 45 = 2Dh, 180/2 = 90 = 5Ah
+  // Directions: 180/4 = 45 = 2Dh, 180/2 = 90 = 5Ah.
   CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
         "01 01 01 2C 01 00 00 00 00 FF 00 05 2D 00");
   CHECK(hex_of(encode_set_effect(pid, settings(1, PidEffect::constant, 1))) ==
@@ -315,7 +322,7 @@ TEST_CASE("an unsigned magnitude with a signed physical range has its zero in th
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 70 16 01 FF 26 FF 00 36 F0 D8 46 10 27",
                          "09 70 15 00 26 FE 00 36 F0 D8 46 10 27"));
-  // 0 to 254 for -10000 to 10000: 127 is zero, 0.5 is 190.5 -> 191 = BFh
+  // 0 to 254 counts stand for -10000 to 10000, so force 0 is count 127, and force 0.5 is 190.5 -> 191 = BFh.
   CHECK(hex_of(encode_constant(pid, 1, 0.0)) == "05 01 7F 00");
   CHECK(hex_of(encode_constant(pid, 1, 1.0)) == "05 01 FE 00");
   CHECK(hex_of(encode_constant(pid, 1, -1.0)) == "05 01 00 00");

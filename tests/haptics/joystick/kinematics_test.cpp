@@ -24,7 +24,7 @@ void everywhere(Check check) {
   }
 }
 
-// Numeric derivative by a five-point difference: error of order step^4.
+// Numeric derivative by a five-point difference with step h; its error is of order h^4.
 template <class Map>
 auto derivative(Map map, JointAngles q, double dtheta, double dphi) {
   const double h = 1e-3;
@@ -120,7 +120,7 @@ TEST_CASE("between arcs and plane velocities go with the Jacobian, forces with t
   everywhere([](JointAngles q) {
     const PlanePose pose = plane_pose(std::tan(q.theta), std::tan(q.phi));
     CHECK(glm::length(plane_position(pose, 0.120) - plane_position(kYoke, q)) < 1e-15);
-    const glm::dvec2 arc{0.3, -0.2};  // d(rho theta), d(-rho phi)
+    const glm::dvec2 arc{0.3, -0.2};  // [m/s] speeds along the two arcs
     const glm::dvec2 plane = d_plane(q, arc.x / 0.120, -arc.y / 0.120);
     CHECK(glm::length(plane_velocity(pose, arc) - plane) < 1e-9);
     CHECK(glm::length(arc_velocity(pose, plane_velocity(pose, arc)) - arc) < 1e-14);

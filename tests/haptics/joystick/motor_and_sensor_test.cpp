@@ -30,7 +30,8 @@ TEST_CASE("a force F lasts overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2), then Fc, 
     CHECK(std::abs(time - 5.0 * (900.0 - 100.0) / (force * force - 100.0)) < 2.5e-3);
     CHECK(motor.deliver(force, 1e-3) == 10.0);
 
-    // Without load, the overload decreases by Fc^2 per second: half of 4000 N^2 s takes 20 s.
+    // The overload integral has a limit of 5 s * (30^2 - 10^2) N^2 = 4000 N^2 s. Without load it falls by the square of
+    // the continuous force, (10 N)^2, per second. So it reaches half the limit after 20 s.
     double rest = 0.0;
     while (motor.is_overloaded()) {
       motor.deliver(0.0, 1e-2);

@@ -13,8 +13,8 @@ namespace {
 
 using Complex = std::complex<long double>;
 
-// The textbook solution x = f/k + A exp(p1 t) + B exp(p2 t), with p1, p2 the roots of m p^2 + b p + k, in extended
-// precision.
+// The textbook solution in extended precision: x = f/k + A exp(p1 t) + B exp(p2 t), where p1 and p2 are the roots of m
+// p^2 + b p + k, with mass m, damping b and stiffness k.
 AxisState by_poles(const AxisModel& axis, AxisState start, double force, double time) {
   const Complex m = axis.mass, b = axis.damping, k = axis.stiffness, t = time;
   const Complex root = std::sqrt(b * b - 4.0L * m * k);
@@ -26,7 +26,8 @@ AxisState by_poles(const AxisModel& axis, AxisState start, double force, double 
   return {static_cast<double>((rest + e1 + e2).real()), static_cast<double>((p1 * e1 + p2 * e2).real())};
 }
 
-// Compares relative to the size of the motion: 1e-12 of |x0| + |v0| / w + |f| / k.
+// Compares advance() with by_poles(). The tolerance is 1e-12 of the motion's size, |x0| + |v0| / w + |f| / k, with
+// natural frequency w and stiffness k.
 void check_same(const AxisModel& axis, AxisState start, double force, double time) {
   CAPTURE(axis.mass);
   CAPTURE(axis.damping);
@@ -67,7 +68,7 @@ TEST_CASE("the plant is its textbook sum of two exponentials to 1e-12, over- and
 TEST_CASE("a critically damped plant is x = (A + B t) exp(-a t), and it stays accurate close to that") {
   for (double nudge : {0.0, 1e-15, -1e-15, 1e-9, -1e-9}) {
     for (double time : {1e-3, 0.05, 0.11, 1.0}) {
-      const double a = 20.0, m = 0.1;  // b = 2 m a, k = m a^2
+      const double a = 20.0, m = 0.1;  // critically damped: damping 2 m a, stiffness m a^2
       const AxisState actual = advance({m, 2.0 * m * a * (1.0 + nudge), m * a * a}, kThrown, 0.0, time);
       const double slope = kThrown.velocity + a * kThrown.position, decay = std::exp(-a * time);
       const double tolerance = 1e-14 + 0.1 * std::abs(nudge);
@@ -147,11 +148,11 @@ TEST_CASE("a hard stop takes the whole velocity; it resists a push but not a pul
   CHECK(hit.velocity == 0.0);
   CHECK(inertial_force(mass, stops, hit, 3.0) == 0.0);
 
-  // Pulled away again from rest at the stop: x changes by a t^2 / 2, a = f/m.
+  // A force f pulls the lever away from rest at the stop. The lever moves by (f / m) t^2 / 2.
   const AxisState off = advance_limited(mass, stops, hit, -1.0, 0.05);
   CHECK(off.position == doctest::Approx(0.05 - 0.5 * 10.0 * 0.05 * 0.05).epsilon(1e-13));
 
-  // On a spring: the lever is thrown at the stop and comes to rest there, then swings as x0 cos(w t).
+  // With a spring: the lever hits the stop at 0.05 m, is at rest there, and then swings back as 0.05 cos(w t).
   const AxisModel spring{0.1, 0.0, 100.0};
   const double w = std::sqrt(1000.0), x0 = 0.04, v0 = 3.0, amplitude = std::hypot(x0, v0 / w);
   const double impact = (std::acos(x0 / amplitude) - std::acos(0.05 / amplitude)) / w;

@@ -1,4 +1,5 @@
-// The contact goals of the design table, each on a sample of the cases of `gearshift bench`. No timing is tested.
+// Tests every contact goal of the design table (app/lab/bench/rows/design.h) with a sample of the cases of `gearshift
+// bench`. Timing is not tested.
 #include <algorithm>
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
-// Device walls in addition to the loop's: they are sent to the right places, never obstruct a free lever, and do not
-// throw a hand when they change while the device still has the old ones.
+// Tests of device walls, which the device renders in addition to the loop's walls. They are in the right places, never
+// obstruct a free lever, and do not throw the hand when they change while the device still has the old walls.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -28,7 +28,7 @@ using glm::dvec2;
 
 namespace {
 
-// A simulated lever with device walls, which records what was sent to it.
+// A simulated lever with device walls, which records the walls that the loop sends.
 class RecordingLever final : public HapticDevice {
  public:
   RecordingLever(const SimulatedLeverConfig& config, HandDriver& hand) : lever(config, kPeriodNs, hand) {}
@@ -81,8 +81,8 @@ SimulatedLeverConfig lever_of(double own, int delay, const HandImpedance& hand =
   return config;
 }
 
-// A hand that moves from point to point with every lockout open, if necessary through walls, and pushes in changing
-// directions on the way.
+// A hand that moves to random points, through walls if necessary, with every lockout open and an additional push in
+// changing directions.
 class WanderingHand final : public HandDriver {
  public:
   explicit WanderingHand(std::uint64_t seed) : random_(seed) {}
@@ -129,7 +129,7 @@ TEST_CASE("the device gets its walls, and again when they change; their fraction
   CHECK(rig.device.times == 250);
   rig.run(300);
   CHECK(rig.device.sent_walls.stiffness_fraction == 1.0);
-  CHECK(rig.device.times == 500);  // a lever at rest: nothing changes
+  CHECK(rig.device.times == 500);  // sent once per cycle of the 0.5 s ramp, but not afterwards at rest
   const Column& column = rig.gate.column[static_cast<std::size_t>(rig.gate.neutral_column)];
   CHECK(rig.device.sent_walls.high == dvec2{rig.gate.select_max, column.forward});
   CHECK(rig.device.sent_walls.low == dvec2{rig.gate.select_min, column.back});
@@ -146,7 +146,7 @@ TEST_CASE("the device gets its part of the wall damping, following the guard's r
     CHECK(rig.device.sent_walls.damping_fraction == doctest::Approx(0.5 * fraction));
     rig.run(300);
     CHECK(rig.device.sent_walls.damping_fraction == fraction);
-    CHECK(rig.device.sent_walls.stiffness_fraction == 0.0);  // a device without springs
+    CHECK(rig.device.sent_walls.stiffness_fraction == 0.0);  // the device has no springs
     rig.loop.change_tuning({.wall_damping = 0.0});
     rig.run(2);
     CHECK(rig.device.sent_walls.damping_fraction == 0.0);
@@ -204,7 +204,7 @@ TEST_CASE("20 N into a wall with 3 samples of delay: the device's part is added 
     }
     const double by_wall = 20.0 - kPaperAxisY.stiffness * (rig.gate.half_aisle + depth);
     CHECK(by_wall / depth == doctest::Approx(rig.out().wall_stiffness).epsilon(0.03));
-    CHECK(rig.out().wall_stiffness <= own + 0.35 * 0.086 / 16e-6);  // quiet law for the loop's part, tau = 4 ms
+    CHECK(rig.out().wall_stiffness <= own + 0.35 * 0.086 / 16e-6);  // device's part + loop's limit 0.35 mass / (4 ms)^2
     CHECK(rig.out().wall_stiffness >= own + 1000.0);
     CHECK(rig.out().f_a.y == doctest::Approx(by_wall).epsilon(0.03));
   }
@@ -223,11 +223,12 @@ TEST_CASE("a wall softer than the device's is rendered partly by the device and 
   CHECK((5.0 - kPaperAxisY.stiffness * (rig.gate.half_aisle + depth)) / depth == doctest::Approx(600.0).epsilon(0.03));
 }
 
-// The lever's future position is predicted from its smoothed speed. The remaining error comes from the acceleration a
-// until the walls act: a (tau^2 / 2 + smoothing tau), with tau = (delay + 1) T.
+// The walls are sent for the lever's future position, predicted from its smoothed speed. Until the walls act, the
+// prediction is wrong by at most a (tau^2 / 2 + s tau), with acceleration a, smoothing time s = 4 ms and tau = (delay +
+// 1) periods. A free lever can be that far inside a wall of 1000 N/m.
 TEST_CASE("the free span always contains the proxy, and a free lever hardly feels walls that reach the device late") {
   for (const int delay : {0, 3, 8}) {
-    double strongest = 0.0;     // [N] force of the device walls on a lever that touches none
+    double strongest = 0.0;     // [N] force of the device walls on a lever outside all walls
     double acceleration = 0.0;  // [m/s^2] maximum
     for (std::uint64_t seed = 1; seed <= (is_full_campaign() ? 20u : 5u); ++seed) {
       CAPTURE(delay);

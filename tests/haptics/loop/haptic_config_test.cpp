@@ -1,4 +1,4 @@
-// Valid ranges of the haptic parameters, and how a device limits them.
+// Tests of the valid ranges of the haptic parameters, and of how a device limits them.
 #include "haptics/loop/haptic_config.h"
 
 #include <algorithm>
@@ -44,13 +44,13 @@ TEST_CASE("a config out of range is refused with parameter, value and range") {
   config.tuning.wall_stiffness = std::numeric_limits<double>::quiet_NaN();
   CHECK(refusal(config).find("wall_stiffness_n_per_m") != std::string::npos);
   config = {};
-  config.guard.slew = 1.9;  // a wall force that rises so slowly makes the lever swing
+  config.guard.slew = 1.9;  // [N/cycle] below 2, the wall force rises so slowly that the lever swings
   CHECK(refusal(config).find("slew_n_per_cycle = 1.9: must be between 2 and 100") != std::string::npos);
   config = {};
   config.guard.fade_time = 0.0;
   CHECK(refusal(config).find("fade_time_s") != std::string::npos);
   config = {};
-  config.over_push.clear_below = 61.0;  // the clamp is above the warning, so there would be no hysteresis
+  config.over_push.clear_below = 61.0;  // [N] above `warn_above` (60 N), so there would be no hysteresis
   CHECK(refusal(config).find("clear_below_n") != std::string::npos);
 }
 
@@ -80,7 +80,8 @@ TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau, tau = 
         const double tau = (delay + 1) / rate, factor = hold == ContactHold::observer ? 0.58 : 0.35;
         const HapticTuning used = admitted(wanted, rate, delay, hold).tuning;
         CHECK(used.wall_stiffness <= std::min(20000.0, factor * 0.086 / (tau * tau)) * (1.0 + 1e-12));
-        // An observer hold needs at least 50 N s/m of damping; slow ones are not admitted at all.
+        // The observer hold has a wall damping of at least 50 N s/m. With a long delay this hold is
+        // not admitted, so the damping limit of the half-sample hold applies.
         const bool observed = used.wall_damping >= 50.0 && hold == ContactHold::observer;
         if (!observed) CHECK(used.wall_damping == doctest::Approx(std::min(100.0, 0.35 * 0.086 / tau)));
         CHECK(used.aisle_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
@@ -179,8 +180,9 @@ TEST_CASE("a textbook spring is limited below the exact boundary, and the limiti
   spring.wall_damping = 0.0;
   spring.aisle_damping = 0.0;
   const AdmittedTuning used = admitted(spring, 1000.0, 0, ContactHold::zero_order);
-  // The exact limit for the bare X axis is 6032 N/m (stability_table_test), which is 2 b / T = 6000 plus 32. For Y it
-  // is 5800 plus the same 32.
+  // The exact limit of the bare handle is 2 b / T + 32 N/m, with damping b and period T: 6032 N/m on the X axis
+  // (stability_table_test.cpp) and 5832 N/m on the Y axis. The lower one, divided by the gain margin of 1.1, is the
+  // limit.
   CHECK(used.tuning.wall_stiffness == doctest::Approx(5832.0 / 1.1).epsilon(0.001));
   REQUIRE(used.limits.size() >= 1);
   CHECK(used.limits[0].hand == "bare");
@@ -242,11 +244,11 @@ const TuningLimit* limit_of_wall(const AdmittedTuning& admitted) {
   return limit_of(TuningParameter::wall_stiffness, admitted);
 }
 
-// A device with the given delay and device damper.
+// A device with the given delay and a damper of `own` [N s/m].
 DeviceSpec damping_itself(double own, int delay) {
   DeviceSpec spec;
   spec.delay = delay;
-  spec.device_wall_damping = {own, own + 1.0};  // the smaller damper of both axes counts
+  spec.device_wall_damping = {own, own + 1.0};  // the weaker of the two axes decides
   return spec;
 }
 AdmittedTuning admitted_with(const DeviceSpec& spec, double damping, ContactHold hold) {
@@ -262,12 +264,12 @@ TEST_CASE("the loop does not render the device's part of a wall: wanted minus de
   DeviceSpec spec;
   spec.device_wall_stiffness = {400.0, 500.0};
   const HapticTuning wanted{.wall_stiffness = 1000.0};
-  CHECK(loop_stiffness(wanted, spec) == 600.0);  // the smaller stiffness of both axes counts
+  CHECK(loop_stiffness(wanted, spec) == 600.0);  // the device's axis with the smaller stiffness decides
   CHECK(loop_stiffness({.wall_stiffness = 300.0}, spec) == 0.0);
   spec.device_wall_stiffness.x = 0.0;
   CHECK(loop_stiffness(wanted, spec) == 1000.0);
 
-  // Without delay everything is admitted, and the total wall is the wanted one.
+  // Without delay the full stiffness is admitted, as the sum of the loop's and the device's parts.
   const AdmittedTuning prompt = admitted_with_device_walls(1000.0, 5000.0, 0);
   CHECK(prompt.tuning.wall_stiffness == 5000.0);
   CHECK(limit_of_wall(prompt) == nullptr);
@@ -275,7 +277,7 @@ TEST_CASE("the loop does not render the device's part of a wall: wanted minus de
 
 TEST_CASE(
     "where the loop cannot render the rest, the wall is the loop's part plus the device's, and the limit is reported") {
-  const double quiet = 0.35 * 0.086 / 16e-6;  // (4 ms)^2: 3 samples of delay plus one period
+  const double quiet = 0.35 * 0.086 / 16e-6;  // 16e-6 = (4 ms)^2: 3 samples of delay plus one period
   const AdmittedTuning used = admitted_with_device_walls(400.0, 5000.0, 3, ContactHold::half_sample);
   CHECK(used.tuning.wall_stiffness == doctest::Approx(quiet + 400.0));
   const TuningLimit* wall = limit_of_wall(used);
@@ -286,7 +288,8 @@ TEST_CASE(
   CHECK(wall->law ==
         "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T; the device itself "
         "renders another 400 N/m");
-  // If device wall and loop together reach the wanted wall, nothing was limited, and the simpler hold is enough.
+  // If loop and device together reach the wanted wall stiffness, nothing is limited, and the half-sample hold is
+  // sufficient.
   const AdmittedTuning both = admitted_with_device_walls(1000.0, quiet + 900.0, 3);
   CHECK(both.tuning.wall_stiffness == quiet + 900.0);
   CHECK(limit_of_wall(both) == nullptr);
@@ -294,7 +297,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the loop renders the rest of a wall's damping; with the device's part it exceeds the loop's own limit") {
-  const double quiet = 0.35 * 0.086 / 0.006;  // [N s/m] 5.0 for 5 samples of delay at 1 kHz
+  const double quiet = 0.35 * 0.086 / 0.006;  // [N s/m] 5.0, for 5 samples of delay plus one period at 1 kHz
   const DeviceSpec weak = damping_itself(3.0, 5), strong = damping_itself(20.0, 5), none = damping_itself(0.0, 5);
   const AdmittedTuning loop_only = admitted_with(none, 10.0, ContactHold::half_sample);
   CHECK(loop_only.tuning.wall_damping == doctest::Approx(quiet));
@@ -364,7 +367,7 @@ TEST_CASE("every tuning admitted with device walls is stable with all, half and 
         for (const double fraction : {0.0, 0.5, 1.0}) {
           for (const double free : {t.aisle_damping, t.aisle_damping + t.limit_damping}) {
             for (NamedHand named : kNamedHands) {
-              named.hand.stiffness += fraction * device_part;  // to the loop this is like a stiffer hand
+              named.hand.stiffness += fraction * device_part;  // for the loop, a device wall acts like a stiffer hand
               for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY}) {
                 const ContactLaw in_wall{used.hold, loop_part, t.wall_damping, 1, free, 0.004, delay};
                 CHECK(spectral_radius(axis, named.hand, in_wall, 0.001) < 1.0);

@@ -1,4 +1,4 @@
-// The gate's behaviour as felt by a hand, measured on the simulated lever through the whole cycle.
+// Tests of the gate as a hand feels it, on the simulated lever with complete haptic cycles.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -60,7 +60,7 @@ TEST_CASE("row 11: a free lever away from the gears returns to the neutral posit
       CAPTURE(start.y);
       SimulatedRun run(resting_at(gate, start), idle_hand);
       const HapticSnapshot end = run_for(run, 3.0);
-      CHECK(glm::distance(end.lever, neutral) < 0.001);  // the handle's spring pulls the lever to its centre
+      CHECK(glm::distance(end.lever, neutral) < 0.001);  // not 0, because the handle's spring moves the lever slightly
       CHECK(end.gear == kNeutralGear);
     }
   }
@@ -99,7 +99,8 @@ TEST_CASE("row 10 at every rate and delay: a bare lever comes to rest in gear, w
           high = std::max(high, run.lever().true_position().y);
         }
         CHECK(high - low < 0.00016);
-        // If the rate admits less than a tenth of the feel, the handle's spring is stronger than the lock.
+        // At rates that admit less than a tenth of the gate's feel forces, the handle's spring can pull the lever out
+        // of gear.
         if (run.loop().admitted().tuning.feel_scale >= 0.1) CHECK(run.loop().snapshot().gear == gear);
       }
     }
@@ -113,14 +114,14 @@ TEST_CASE("row 10: the pull that disengages a gear is the lock's force plus the 
     const double away = rest_position(gate, gear).y > 0.0 ? -1.0 : 1.0;
     double pull = 0.0;
     PushingHand hand([&](double time, dvec2) {
-      pull = 2.0 * std::max(0.0, time - 0.2);  // 2 N/s, slow compared with every mode of the lever
+      pull = 2.0 * std::max(0.0, time - 0.2);  // 2 N/s, so slow that the lever stays in balance
       return dvec2{0.0, away * pull};
     });
     SimulatedRun run(resting_at(gate, rest_position(gate, gear)), hand);
     run_for(run, 0.1);
     REQUIRE(run.loop().snapshot().gear == gear);
     while (run.time() < 20.0 && run.step().gear == gear) continue;
-    // The handle's spring (the paper's (12)) helps the pull with 15.7 N/m at about 30 mm, where the lock is strongest.
+    // The handle's spring of 15.7 N/m (the paper's equation (12)) helps the pull. The lock is strongest at about 30 mm.
     const Slot& slot = slot_of(gate, slot_of_gear(gate, gear));
     double strongest_at = slot.rest;
     for (int i = 0; i <= 1000; ++i) {
@@ -133,13 +134,13 @@ TEST_CASE("row 10: the pull that disengages a gear is the lock's force plus the 
 }
 
 TEST_CASE("row 12: a steady push along the aisle ends at the speed where damping balances it, within 3 %") {
-  // A minimal layout with one long aisle and no feel, so that only damping is measured.
+  // Without feel forces along the neutral aisle, only damping acts on the lever there.
   Gate gate = paper_gate();
   gate.select_feel = {};
   gate.buffer_count = 0;
   SimulatedRunConfig config = resting_at(gate, {-0.034, 0.0});
   config.lever.axis_x.stiffness = 0.0;
-  config.lever.axis_x.mass = 0.005;  // light, so that it reaches its final speed within the aisle
+  config.lever.axis_x.mass = 0.005;  // so light that it reaches its final speed within the aisle
   config.haptics.tuning.limit_damping = 1.0;
   config.haptics.tuning.aisle_damping = 0.5;
   for (const double push : {2.0, 4.0}) {
@@ -189,8 +190,9 @@ TEST_CASE("eq (4): f_j = f_h - f_a is what moves the joystick: m a + b v + k x (
     const dvec2 a1 = (v2 - v0) / (2.0 * run.period());
     const dvec2 expected{kPaperAxisX.mass * a1.x + kPaperAxisX.damping * v1.x + kPaperAxisX.stiffness * x1.x,
                          kPaperAxisY.mass * a1.y + kPaperAxisY.damping * v1.y + kPaperAxisY.stiffness * x1.y};
-    // Force and acceleration are constant within a period and step between periods. Checked at small angles only (0.7 %
-    // error at 20 mm).
+    // Force and acceleration change only between periods. `expected` neglects that the lever's tip moves on an arc, so
+    // only positions within 20 mm of the centre are compared. At 20 mm the neglect causes an error of about 3 % of the
+    // force.
     if (i > 10 && glm::length(x1) < 0.02) {
       squares += glm::dot(f1 - expected, f1 - expected);
       ++samples;
@@ -201,7 +203,7 @@ TEST_CASE("eq (4): f_j = f_h - f_a is what moves the joystick: m a + b v + k x (
     f1 = s.f_j;
   }
   REQUIRE(samples > 500);
-  CHECK(std::sqrt(squares / samples) < 0.25);  // [N] of up to 10 N; a wrong sign of f_a would give several
+  CHECK(std::sqrt(squares / samples) < 0.25);  // [N] forces reach 10 N; a wrong sign of `f_a` would cause several N
 }
 
 TEST_CASE("eq (4) in a long push against a wall: f_h is the push, and f_a is the push minus the handle's spring") {
@@ -223,7 +225,7 @@ TEST_CASE("eq (4) in a long push against a wall: f_h is the push, and f_a is the
 
 TEST_CASE("row 13: a push above 60 N warns once, clears below 50 N, and saturation is reported") {
   const Gate gate = paper_gate();
-  const double wall = -1.0;  // the neutral aisle's lower wall, between two columns
+  const double wall = -1.0;  // direction in y of the neutral aisle's lower wall
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
   PushingHand hand([&](double time, dvec2) {
     const double tremble = 4.0 * std::sin(60.0 * time);
@@ -255,7 +257,7 @@ TEST_CASE(
     "row 14: the drawn lever stays inside while the hand is far outside, and past 20 mm the ghost is asked "
     "for") {
   Gate gate = paper_gate();
-  gate.select_feel = {};  // straight into the wall
+  gate.select_feel = {};  // no sideways forces, so the lever moves straight into the wall
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
   PushingHand hand([](double time, dvec2) { return dvec2{0.0, time < 0.02 ? 0.0 : 60.0}; });
   SimulatedRun run(resting_at(gate, start), hand);
@@ -270,7 +272,8 @@ TEST_CASE(
     deepest = std::max(deepest, depth);
   }
   CHECK(ghost);
-  // The paper's collapse: the motors give 31.7 N, so a bare lever runs to its stop at rho sin(35 deg).
+  // As in the paper, the wall collapses: the motors give at most 31.7 N against the hand's 60 N, so the bare lever runs
+  // to its stop at 35 degrees.
   CHECK(deepest == doctest::Approx(0.12 * std::sin(35.0 * 3.14159265 / 180.0) - gate.half_aisle).epsilon(0.01));
   CHECK(events_of(run, EventKind::wall_contact).size() >= 1);
 }
@@ -319,7 +322,7 @@ TEST_CASE(
 TEST_CASE("saturation is reported when the motors overheat: commanded but not delivered") {
   const Gate gate = paper_gate();
   for (const int delay : {0, 2}) {
-    PushingHand hand([](double, dvec2) { return dvec2{0.0, 13.0}; });  // between continuous and peak force
+    PushingHand hand([](double, dvec2) { return dvec2{0.0, 13.0}; });  // above the continuous force of 10.83 N
     SimulatedRunConfig config = resting_at(gate, {0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
     config.lever.actuator.overload_time = 0.02;
     config.lever.delay = delay;
@@ -341,5 +344,5 @@ TEST_CASE("a wall contact event has the impact speed") {
   }
   const std::vector<HapticEvent> contacts = events_of(run, EventKind::wall_contact);
   REQUIRE(contacts.size() == 1);
-  CHECK(contacts[0].value == doctest::Approx(before).epsilon(0.25));  // smoothed over 4 ms
+  CHECK(contacts[0].value == doctest::Approx(before).epsilon(0.25));  // tolerance: the speed is smoothed over 4 ms
 }

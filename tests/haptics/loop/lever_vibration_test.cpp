@@ -1,5 +1,5 @@
-// A load that vibrates the lever, and one that makes it chatter: the loop distinguishes them and softens only for
-// chatter.
+// The loop must distinguish a load that vibrates the lever from a load that makes the lever chatter. It softens walls
+// only for chatter.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,7 @@ using glm::dvec2;
 
 namespace {
 
-// A sine along the shift axis, declared as vibration or not.
+// A load with a sinusoidal force along the shift axis, declared as vibration if `declares_vibration`.
 class VibratingLoad final : public LeverLoad {
  public:
   VibratingLoad(double frequency, double amplitude, bool declares_vibration)
@@ -38,7 +38,7 @@ class VibratingLoad final : public LeverLoad {
   double time_ = 0.0;
 };
 
-// Friction as the sign of the speed: a textbook cause of chatter.
+// A load with a constant friction force against the motion, a textbook cause of chatter.
 class RoughLoad final : public LeverLoad {
  public:
   LeverOutput step(const LeverInput& in, double) noexcept override {
@@ -51,10 +51,10 @@ class RoughLoad final : public LeverLoad {
 
 struct VibrationResult {
   int lowered = 0;
-  double moved = 0.0;  // [m] between turning points, at the end of the run
+  double moved = 0.0;  // [m] range of the lever's motion in the last half second
 };
 
-// Runs a lever in `gear` held by `grip`. push: sideways and along the shift axis [N].
+// Runs a lever in `gear`, held by a hand `grip` that pushes with `push` [N]: x sideways, y along the shift axis.
 VibrationResult run_vibrated(LeverLoad& load, const HandImpedance& grip, int gear, dvec2 push, double seconds = 4.0,
                              double rate = 1000.0) {
   SimulatedRunConfig config;
@@ -126,7 +126,8 @@ TEST_CASE("a load force that reacts to the lever does not count as vibration: fr
 
 namespace {
 
-// Number of softenings of a lever whose commands take effect later than its spec says, leaned into a wall.
+// Presses a lever into a wall. The lever has more delay than its spec states. Returns how often the loop softens the
+// wall.
 int lowered_of_a_late_lever(LeverLoad& load) {
   const Gate gate = paper_gate();
   PushingHand hand([](double time, dvec2) { return dvec2{0.0, 9.0 * std::min(1.0, time)}; });

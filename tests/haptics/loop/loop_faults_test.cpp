@@ -1,4 +1,5 @@
-// The whole cycle on a failing device: its output stays finite and small, and decays within the guaranteed time.
+// Tests of the complete cycle with a failing device: the force stays finite and small, and decays within the guaranteed
+// time.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -25,7 +26,7 @@ using glm::dvec2;
 
 namespace {
 
-// A simulated lever without a hand; it re-arms itself.
+// A loop on a simulated lever without a hand. On a simulated device, the loop arms itself again after a fault.
 struct IdleRig {
   IdleRig() : lever({}, kPeriodNs, idle_hand), loop(HapticConfig{}, paper_gate(), lever, load, channels) { loop.arm(); }
   void run(int cycles, std::int64_t skipped) {
@@ -50,7 +51,7 @@ TEST_CASE("the rig itself: the wall's force equals the push within 3 %") {
     rig.run(1);
     mean -= rig.lever.written.y / 50.0;
   }
-  // 15 N minus the force of the handle's spring: 15.7 N/m at about 9 mm
+  // The wall's force is the push of 15 N minus the handle's spring force, 15.7 N/m at about 9 mm.
   CHECK(mean == doctest::Approx(15.0 - kPaperAxisY.stiffness * rig.loop.snapshot().lever.y).epsilon(0.03));
 }
 
@@ -65,7 +66,7 @@ TEST_CASE("fault to zero force: frozen, not finite, jumping, lost and backward r
     CHECK(rig.strongest <= 31.7 * std::sqrt(2.0));
     CHECK(rig.lever.written == dvec2{0.0, 0.0});
     CHECK(in_free_space(rig.gate, rig.loop.snapshot().proxy, 1e-9));
-    // on a real device, fresh readings do not restore the force without arming
+    // On a real device, valid readings do not restore the force until the loop is armed again.
     rig.lever.sabotage = nullptr;
     rig.run(1000);
     CHECK(rig.loop.snapshot().guard != GuardState::running);
@@ -89,7 +90,7 @@ TEST_CASE("single lost, repeated and implausible readings are tolerated: still r
         break;
       case 2:
         r.position.x += 0.03;
-        break;  // position jumps by 30 mm for one sample
+        break;  // the position jumps by 30 mm for one sample
       case 3:
         r.time_ns -= 5 * kPeriodNs;
         break;
@@ -102,7 +103,7 @@ TEST_CASE("single lost, repeated and implausible readings are tolerated: still r
   rig.run(5000);
   CHECK(rig.loop.snapshot().guard == GuardState::running);
   CHECK(rig.finite);
-  CHECK(rig.strongest < 25.0);  // 15 N steady force, plus the effect of a repeated reading
+  CHECK(rig.strongest < 25.0);  // [N] 15 N of steady force, plus the effect of repeated readings
 }
 
 TEST_CASE("late cycles: single ones are tolerated, eight in a row lead to damped") {
@@ -224,7 +225,7 @@ TEST_CASE("armed and stopped in one cycle means stopped; a button held from the 
   rig.run(1);
   CHECK(rig.loop.snapshot().guard == GuardState::released);
 
-  // A simulated lever re-arms itself after other faults, but not after this one.
+  // A loop on a simulated lever arms itself again after other faults, but not after the stop button.
   class Pressed final : public HapticDevice {
    public:
     const DeviceSpec& spec() const noexcept override { return lever_.spec(); }
@@ -298,7 +299,7 @@ TEST_CASE("arming places the proxy at the lever: no pull towards its old positio
   rig.channels.commands.push(LoopCommand::disarm);
   rig.run(1);
   CHECK(rig.lever.releases >= 1);
-  // While the loop is disarmed, the lever is placed beyond a wall, 20 mm from its old proxy.
+  // While the loop is disarmed, the lever is placed in the slot of first gear, more than 20 mm from its old proxy.
   rig.lever.sabotage = [](LeverReading& r) { r.position = {-0.030, 0.030}; };
   rig.run(200);
   rig.channels.commands.push(LoopCommand::arm);
@@ -346,7 +347,7 @@ TEST_CASE(
     loop.cycle(now += kPeriodNs, 0);
   }
   const double held = loop.snapshot().proxy.x;
-  REQUIRE(held > reverse + 0.003);  // the wall that lifting the ring opens is between them
+  REQUIRE(held > reverse + 0.003);  // the lockout's wall is between proxy and reverse
   const double force = loop.snapshot().wall_force.x;
   REQUIRE(force > 5.0);
   for (int i = 0; i < 100; ++i) {
@@ -387,7 +388,7 @@ TEST_CASE("with d samples of delay the coupling looks (1 + 2 d) half periods ahe
     NoLoad load;
     LoopChannels channels;
     HapticConfig config;
-    config.tuning.wall_stiffness = 1000.0;  // a stiffness admitted with all of these delays
+    config.tuning.wall_stiffness = 1000.0;  // [N/m] low enough to be admitted with each delay
     config.tuning.wall_damping = 2.0;
     HapticLoop loop(config, gate, mover, load, channels);
     for (int i = 0; i < 400; ++i) loop.cycle(i * kPeriodNs, 0);
@@ -423,6 +424,7 @@ TEST_CASE("a load that returns invalid values releases the motors") {
     CHECK(loop.snapshot().guard == GuardState::released);
     CHECK(loop.snapshot().fault == GuardFault::not_finite);
     CHECK(rig.lever.written == dvec2{0.0, 0.0});
-    CHECK(is_finite(loop.snapshot().wall_force));  // the force of an observed wall includes the load's force
+    // With the observer hold, the wall force contains the load's force, which is invalid here.
+    CHECK(is_finite(loop.snapshot().wall_force));
   }
 }

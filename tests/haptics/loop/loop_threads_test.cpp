@@ -1,5 +1,5 @@
-// The loop on its real-time thread, while a window frame, a recorder and a user's commands use its channels. Run it
-// under the thread sanitizer.
+// Tests the loop on its real-time thread, while a window's frames, a recorder and a user's commands use its channels.
+// Run it under the thread sanitizer.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -43,7 +43,7 @@ TEST_CASE("on its own thread: the loop is tuned and recorded while a user leads 
   header.armed = true;
   const TempFolder folder;
   const std::filesystem::path file = folder / "threads.trace";
-  TraceRecorder recorder(file, header, channels, TracePump::own_thread);
+  TraceRecorder recorder(file, header, channels, TracePump::by_recorder);
 
   std::atomic<std::uint64_t> cycles{0};
   RealtimeThread thread;
@@ -54,7 +54,7 @@ TEST_CASE("on its own thread: the loop is tuned and recorded while a user leads 
     cycles.fetch_add(1, std::memory_order_relaxed);
   });
 
-  // The frame runs at full speed until enough cycles have passed.
+  // Simulates a window's frames, as fast as possible, until the loop has run 400 cycles.
   std::uint64_t newest = 0, frames = 0;
   HapticTuning tuning = config.tuning;
   DriverControls controls;

@@ -1,4 +1,5 @@
-// Tests of presets: the shipped ones, every key reaches its struct, and refusals name line and key.
+// Tests of presets: the shipped presets can be read, every key sets its struct member, and error messages name line and
+// key.
 #include "haptics/loop/preset.h"
 
 #include <fstream>
@@ -19,7 +20,7 @@ namespace {
 
 const std::string presets = GEARSHIFT_ASSETS "/presets/";
 
-// Reads a preset from this text after a name line, so that the text begins in line 2.
+// Reads a preset whose first line is its name; `text` begins in line 2.
 Preset preset_of(const std::string& text) {
   const TempFolder folder;
   const std::string file = (folder / "my.toml").string();
@@ -37,7 +38,7 @@ std::string refusal(const std::string& text) {
   return "accepted";
 }
 
-// Compares every leaf field by name, with the trace's field lists.
+// Compares all members of two structs and their nested structs, using the trace's field lists.
 template <class T>
 void check_equal(const T& a, const T& b, const std::string& name) {
   CAPTURE(name);
@@ -54,7 +55,7 @@ void check_equal(const T& a, const T& b, const std::string& name) {
   }
 }
 
-// Uses structured bindings, so that it no longer compiles when a struct gains a member.
+// The structured bindings stop compiling when a struct gains a member, so no member can be forgotten here.
 void check_equal(const SimulatedLeverConfig& a, const SimulatedLeverConfig& b) {
   const auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = a;
   const auto& [radius, theta, phi] = yoke;

@@ -1,4 +1,4 @@
-// A written preset is read back with every key and every bit.
+// Tests that a written preset is read back with every key and every bit.
 #include "haptics/loop/preset_writer.h"
 
 #include <bit>
@@ -57,7 +57,7 @@ class RandomPreset {
     ghost = between(0.0, 1.0);
   }
 
-  // Computes angles from degrees, as reading a file does.
+  // Computes the angles from degrees as the reader does, so that every bit agrees.
   void fill(SimulatedLeverConfig& lever) {
     auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = lever;
     const double degree = std::numbers::pi / 180.0;
@@ -88,7 +88,7 @@ std::vector<std::byte> bytes_of(const HapticConfig& config) {
   return bytes;
 }
 
-// Uses structured bindings, so that it no longer compiles when a struct gains a member.
+// The structured bindings stop compiling when a struct gains a member, so no member can be forgotten here.
 std::vector<double> numbers_of(const SimulatedLeverConfig& lever) {
   const auto& [yoke, x, y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = lever;
   const auto& [radius, theta, phi] = yoke;

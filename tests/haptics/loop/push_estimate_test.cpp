@@ -1,4 +1,4 @@
-// The estimated push on a device without a force sensor, compared with the simulated lever's sensor.
+// Tests of the push that is estimated on a device without a force sensor, against the simulated lever's true force.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kWall = 0.01;  // [m] half width of the aisle whose wall the lever is pressed against
 
-// A lever that has no force sensor as far as the loop can see; only the test reads the simulated sensor.
+// A lever that hides its force sensor from the loop; only the test reads the sensor.
 class SensorlessLever final : public HapticDevice {
  public:
   SensorlessLever(const SimulatedLeverConfig& config, HandDriver& hand)
@@ -103,8 +103,9 @@ void print(const std::string& what, const Means& means) {
 
 }  // namespace
 
-// The estimate neglects the handle's inertia, and damping because the smoothed velocity lags: (m + b tau) a. An encoder
-// count makes the smoothed velocity jump by a fraction of one count per period.
+// At an acceleration a, the estimate's error is (m + b tau) a: the estimate neglects the handle's mass m and multiplies
+// the damping b by a velocity that lags by tau, at most 5 ms (4 ms of smoothing plus one period). In addition, each
+// encoder count makes the smoothed velocity jump.
 TEST_CASE("in free space the estimate's error is the neglected inertia") {
   const std::vector<HandStroke> strokes{{{0.04, 0.005}, 0.3, 0.2}, {{-0.04, -0.005}, 0.4, 0.2}, {{0.0, 0.0}, 0.2, 0.2}};
   ScriptedHand hand({}, strokes, 0.001);
@@ -117,7 +118,7 @@ TEST_CASE("in free space the estimate's error is the neglected inertia") {
     worst = std::max(worst, std::abs(rig.error().x));
     largest = std::max(largest, std::abs(rig.device.truth.x));
   }
-  const double count = 0.221 * 75e-6 / 0.001;  // [m/s] fraction 1 - exp(-T / 4 ms) of one count per period
+  const double count = 0.221 * 75e-6 / 0.001;  // [m/s] velocity jump due to one count; 0.221 = 1 - exp(-1 ms / 4 ms)
   MESSAGE("free, up to " << largest << " N at " << acceleration << " m/s^2: worst error of a sample " << worst << " N");
   CHECK(worst < (0.095 + 3.0 * 0.005) * acceleration + 3.0 * count);
   CHECK(rig.estimated);
@@ -140,9 +141,9 @@ TEST_CASE("pressed into a wall without saturation: within 3 %, whichever part re
   }
 }
 
-// Hands that aim at the end of the lever's travel, 64 mm behind a wall whose motors give 31.7 N. The lever rests where
-// the hand's spring has decayed to that force. The estimate is the force that the wall would need at that depth: more
-// than the push, so the warning comes early.
+// The hands aim at a point 64 mm behind the wall. The motors can resist with at most 31.7 N, so the lever rests where
+// the hand's spring force has fallen to this value. The estimate is the force that the wall would exert at this depth
+// with stronger motors. It exceeds the push, so the warning comes early.
 TEST_CASE("with saturated motors: never estimated below the push, and the warning of an estimated push comes") {
   for (const double stiffness : {600.0, 700.0, 1400.0}) {
     ScriptedHand hand({}, {{{0.0, 0.0737}, 1.0, 5.0}}, 0.001);

@@ -1,4 +1,4 @@
-// A hand drives randomly generated gates.
+// Tests in which a hand shifts through randomly generated gates.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -25,7 +25,7 @@ TEST_CASE("100 random gates, at various rates and delays: every gear, in order, 
     config.gate = compile_gate(random_layout(seed), kPaperWorkspace);
     config.haptics.rate = kRates[seed % 5];
     config.lever.delay = static_cast<int>(seed / 5 % 3);
-    config.lever.hand = kGripHand;  // kArmHand would ring (damping ratio 0.12) and might miss a narrow slot
+    config.lever.hand = kGripHand;  // kArmHand would oscillate (its own damping ratio: 0.13) and might miss a slot
     config.start = rest_position(config.gate, kNeutralGear);
     const std::vector<int> wanted = tour_order(config.gate);
     ScriptedHand driver(touring_hand(config.start), shift_strokes(config.gate, config.start, wanted),
@@ -46,7 +46,8 @@ TEST_CASE("100 random gates, at various rates and delays: every gear, in order, 
   }
 }
 
-// If columns are close together, the half-way point that an after-gear lockout requires is nearly in front of the slot.
+// An after-gear lockout makes the hand pass a point half-way between two columns. If the columns are close together,
+// this point is nearly in front of the slot, but the hand must not yet shift there.
 TEST_CASE("a hand is in front of a slot before it shifts into it: 500 random gates, every gear after every other") {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     CAPTURE(seed);

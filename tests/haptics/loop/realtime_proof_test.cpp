@@ -15,7 +15,7 @@ namespace gearshift::test {
 TEST_CASE("the cycle allocates nothing, takes no lock and makes no system call, whatever happens to it") {
   auto drive = std::make_unique<RecordedDrive>();
   drive->channels().recording.store(true);
-  // Longer than the trace and event queues hold, so that full queues are covered.
+  // Runs more cycles than the trace and event queues can hold, so that full queues are tested, too.
   const RealtimeProof proof = prove_realtime([&] {
     for (int i = 0; i < 10'000; ++i) drive->step();
   });
@@ -33,7 +33,7 @@ TEST_CASE("every kind of contact allocates nothing, takes no lock and makes no s
       haptics::SimulatedRunConfig config;
       config.haptics.contact = {hold, control, true, true};
       config.haptics.estimator.window = 8;
-      config.lever.delay = 3;  // late enough that some levers chatter and the limiter acts
+      config.lever.delay = 3;  // [periods] so long that some levers chatter and the loop softens walls
       config.lever.model_error = 0.1;
       config.lever.period_jitter = 0.1;
       config.gate = gate;

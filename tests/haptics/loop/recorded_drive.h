@@ -1,5 +1,5 @@
 // A drive with every kind of event that a loop can meet: shifts, walls, a frozen sensor, invalid readings, the stop
-// button, late cycles, changes of tuning and controls, and commands. The device renders walls itself.
+// button, late cycles, changes of tuning and controls, and commands. The device also renders walls.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class FailingSensor final : public haptics::HapticDevice {
     if (cycle >= 1500 && cycle < 1540) return frozen_;  // longer than stale_time
     if (cycle == 1700) reading.position.x = std::numeric_limits<double>::quiet_NaN();
     if (cycle == 1710) reading.hand_force.y = std::numeric_limits<double>::infinity();
-    if (cycle == 1720) reading.position.y += 0.5;  // faster than any hand moves
+    if (cycle == 1720) reading.position.y += 0.5;  // a jump that is faster than any hand
     reading.stop = cycle >= 3300 && cycle < 3320;
     return frozen_ = reading;
   }
@@ -80,13 +80,13 @@ class RecordedDrive {
     if (cycle == 3310 || cycle == 3350)
       (void)channels_.commands.push(haptics::LoopCommand::arm);  // button held; released
     if (cycle == 3800) (void)channels_.commands.push(haptics::LoopCommand::stop);
-    // For a while every second deadline is missed: more overruns in a row than the guard tolerates.
+    // Each of these 12 cycles runs one period late and so skips a deadline: more overruns in a row than the guard
+    // tolerates.
     const std::int64_t skipped = cycle >= 2000 && cycle < 2012 ? 1 : 0;
     now_ns_ += 1'000'000 * (1 + skipped);
     loop_.cycle(now_ns_, skipped);
   }
 
-  // Records the whole drive to `file`.
   haptics::RecordingResult record(const std::filesystem::path& file) {
     haptics::TraceRecorder recorder(file, header(), channels_, haptics::TracePump::by_caller);
     for (std::uint64_t i = 0; i < kCycles; ++i) {
@@ -99,8 +99,8 @@ class RecordedDrive {
  private:
   static haptics::HapticConfig config() {
     haptics::HapticConfig config;
-    config.estimator.smoothing = 0.0005;  // [s] short, so that 1 - exp(-T / s) depends on its last bit
-    config.tuning.speed_limit = 0.15;     // [m/s] low, so that strokes exceed it
+    config.estimator.smoothing = 0.0005;  // [s] so short that a flipped last bit changes 1 - exp(-period / smoothing)
+    config.tuning.speed_limit = 0.15;     // [m/s] low, so that the hand's strokes exceed it
     config.guard.slew = 2.0;              // [N/cycle] low, so that impacts exceed it
     config.guard.ramp_time = 0.2;
     return config;
@@ -140,7 +140,7 @@ class RecordedDrive {
   haptics::LoopChannels channels_;
   haptics::HapticLoop loop_;
   std::string load_parameters_;
-  std::int64_t now_ns_ = 5'000'000;  // [ns] neither a whole period nor zero
+  std::int64_t now_ns_ = 5'000'000;  // [ns] the clock does not start at zero
 };
 
 }  // namespace gearshift::test

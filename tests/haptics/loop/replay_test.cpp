@@ -28,7 +28,7 @@ void flip_lowest_bit(double& value) {
   value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1u);
 }
 
-// Calls visit(full name, double&) for every double in a struct.
+// Calls visit(full name, double&) for every double in a struct and its nested structs.
 template <class T, class Visit>
 void each_double(T& value, const std::string& prefix, const Visit& visit) {
   haptics::each_field(value, [&](const char* name, auto& member) {
@@ -66,7 +66,7 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
-// A load with memory: a spring whose rest position creeps after the lever.
+// A load with memory: a spring whose rest position slowly follows the lever.
 class CreepingSpring final : public haptics::LeverLoad {
  public:
   haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override {
@@ -114,7 +114,7 @@ TEST_CASE("replay: a recorded drive replays bit for bit from its inputs alone") 
   CHECK_FALSE(result.first.has_value());
   CHECK(result.cycles == RecordedDrive::kCycles);
   CHECK(result.replayed_hash == recorded_trace().hash);
-  CHECK(result.seconds == doctest::Approx(4.012).epsilon(1e-12));  // 4000 periods, plus 12 missed deadlines
+  CHECK(result.seconds == doctest::Approx(4.012).epsilon(1e-12));  // 4000 periods of 1 ms, plus 12 missed deadlines
 }
 
 TEST_CASE("replay: running the same drive twice gives the same hash") {
@@ -151,8 +151,8 @@ TEST_CASE("replay: a changed parameter that affects no output still breaks the r
   CHECK_FALSE(result.bit_for_bit());
 }
 
-// Parameters that are only compared, or rounded to whole nanoseconds or cycles: their last bit changes no output unless
-// both sides are exactly equal. The hash covers them anyway (see the test case above).
+// These parameters are only compared with other values, or rounded to whole nanoseconds or cycles, so their last bit
+// almost never changes an output. The hash covers them anyway (see the test case above).
 const std::set<std::string> only_compared = {
     "rate",
     "estimator.speed_limit",
@@ -171,7 +171,8 @@ TEST_CASE("replay: the lowest bit of every parameter that makes a force changes 
     haptics::Trace trace = recorded_trace();
     const haptics::HapticConfig before = trace.header.config;
     flip(trace.header.config, name);
-    // The tuning is also recorded with every cycle, so it is changed there too; then only the outputs can differ.
+    // Every recorded cycle also contains the tuning. The bit is flipped there, too, because otherwise the tuning itself
+    // could be the first field that differs, instead of an output.
     for (haptics::TraceSample& sample : trace.samples) {
       haptics::HapticConfig as_sampled = before;
       as_sampled.tuning = sample.tuning;
@@ -248,14 +249,14 @@ TEST_CASE("replay: a load with memory replays, and only that load") {
     return name == load->replay_parameters() ? std::move(load) : nullptr;
   };
   CHECK(haptics::replay(trace, make_spring).bit_for_bit());
-  CHECK(contains(refusal(trace), "its lever load \"creeping spring 20 N/m\" is not known to this program"));
+  CHECK(contains(refusal(trace), "the lever load \"creeping spring 20 N/m\" is not known to this program"));
 }
 
 TEST_CASE("replay: a trace that cannot be replayed is refused in one sentence") {
   haptics::Trace trace = recorded_trace();
   SUBCASE("began in the middle") {
     trace.samples.erase(trace.samples.begin(), trace.samples.begin() + 500);
-    CHECK(contains(refusal(trace), "it was begun in the middle of a run, at cycle 500"));
+    CHECK(contains(refusal(trace), "recording began in the middle of a run, at cycle 500"));
   }
   SUBCASE("a rate that is no number") {
     trace.header.config.rate = std::numeric_limits<double>::quiet_NaN();
@@ -300,14 +301,14 @@ TEST_CASE(
   header.armed = false;
   haptics::HapticLoop loop(header.config, gate, lever, load, channels);
 
-  haptics::TraceRecorder recorder(folder / "live.trace", header, channels, haptics::TracePump::own_thread);
+  haptics::TraceRecorder recorder(folder / "live.trace", header, channels, haptics::TracePump::by_recorder);
   haptics::RealtimeThread thread;
   std::promise<void> enough;
   thread.start({}, [&](const haptics::CycleCall& call) {
     loop.cycle(call.deadline_ns, call.skipped);
     if (loop.snapshot().cycle == kEnough) enough.set_value();
   });
-  REQUIRE(channels.commands.push(haptics::LoopCommand::arm));  // as a user does while the loop runs
+  REQUIRE(channels.commands.push(haptics::LoopCommand::arm));  // arms the loop while it runs, as a user does
   enough.get_future().wait();
   thread.stop();
   const haptics::RecordingResult recorded = recorder.finish();

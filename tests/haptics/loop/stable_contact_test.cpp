@@ -1,4 +1,4 @@
-// How the loop keeps contacts stable: softening, energy bounding, reports and replay.
+// Tests how the loop keeps contacts stable: softening, energy bounding, reports and replay.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -24,12 +24,12 @@ using glm::dvec2;
 
 namespace {
 
-// One wall ahead and one behind, without feel that would guide the lever along them.
+// A gate with one wall ahead and one behind, without feel forces that guide the lever.
 Gate walled_gate() {
   return plain_aisle(0.060, 0.006);
 }
 
-// A bare handle pushed into the upper wall of the neutral aisle, between two columns.
+// A run with a bare handle that starts in the middle of the neutral aisle, between two columns.
 SimulatedRunConfig pushed(const Gate& gate, double rate, int delay) {
   SimulatedRunConfig config;
   config.haptics.rate = rate;
@@ -99,7 +99,7 @@ TEST_CASE("a wall that is unstable on its device is softened until it is at rest
   run.step();
   run.channels().commands.push(LoopCommand::arm);
   run.step();
-  CHECK(run.loop().snapshot().wall_stiffness == 5000.0);  // after a new start the limiter's state is reset
+  CHECK(run.loop().snapshot().wall_stiffness == 5000.0);  // arming resets the limiter to the full stiffness
 
   config.haptics.contact.reversal_limiter = false;  // negative control
   PushingHand same = push_of(15.0);
@@ -139,8 +139,9 @@ class FaultyLever final : public HapticDevice {
 struct FaultyRig {
   FaultyRig(const Gate& gate, int real_delay, int claimed_delay, const HandImpedance& grip, bool limiter)
       : hand([](double time, dvec2) {
+          // The motors can sustain 9 N indefinitely.
           return dvec2{0.0, 9.0 * std::min(1.0, time)};
-        }),  // a force that the motors sustain indefinitely
+        }),
         lever(lever_config(real_delay, grip), 1'000'000, hand),
         faulty(lever, claimed_delay),
         loop(config(limiter), gate, faulty, load, channels) {
@@ -159,7 +160,7 @@ struct FaultyRig {
     config.contact.reversal_limiter = limiter;
     return config;
   }
-  // Minimum and maximum depth of the true lever during `seconds`, from the aisle's wall. [m]
+  // Returns the minimum and maximum true depth of the lever beyond `wall` during `seconds` [m].
   std::pair<double, double> run(double seconds, double wall) {
     double low = 1.0, high = -1.0;
     for (int n = 0; n < static_cast<int>(1000.0 * seconds); ++n) {
@@ -199,7 +200,7 @@ TEST_CASE("a device with more delay than specified: softened until the lever res
     CHECK(rig.lowered >= 1);
     CHECK(high - low < 0.0005);
     CHECK(low > 0.0);
-    CHECK(high < 0.060);  // the lever's stop is 63 mm behind the wall
+    CHECK(high < 0.060);  // not on the lever's stop, 63 mm behind the wall
     CHECK(-rig.loop.snapshot().f_a.y == doctest::Approx(-9.0).epsilon(0.2));
 
     FaultyRig control(gate, lie.real, lie.claimed, lie.hand, false);
@@ -304,17 +305,18 @@ TEST_CASE("energy control that a configuration selects is active from the first 
     run_events(run, 2.0);
     return run.loop().snapshot().lever.y - config.gate.half_aisle;
   };
-  CHECK(depth(EnergyControl::none) < 0.0020);             // 9 N / 5000 N/m
-  CHECK(depth(EnergyControl::energy_bounding) > 0.0028);  // 9 N / (b / T), 3000 N/m in X and 2900 in Y
+  CHECK(depth(EnergyControl::none) < 0.0020);             // 9 N / 5000 N/m = 1.8 mm
+  CHECK(depth(EnergyControl::energy_bounding) > 0.0028);  // 9 N / 2900 N/m = 3.1 mm; stiffness limit: damping / period
 }
 
 TEST_CASE("a change of tuning keeps the hold in use, and its values are checked") {
   IdleHand idle_hand;
   SimulatedRunConfig config = pushed(walled_gate(), 1000.0, 2);
-  config.haptics.tuning.wall_stiffness = 2000.0;  // here the half-sample hold is enough
+  config.haptics.tuning.wall_stiffness = 2000.0;  // so low that the loop chooses the half-sample hold
   SimulatedRun run(config, idle_hand);
   REQUIRE(run.loop().admitted().hold == ContactHold::half_sample);
-  const AdmittedTuning changed = run.loop().change_tuning({});  // if started with 5000 N/m, the observer would be used
+  // The default of 5000 N/m would need the observer hold, but the hold is chosen only at the start.
+  const AdmittedTuning changed = run.loop().change_tuning({});
   CHECK(changed.hold == ContactHold::half_sample);
   CHECK(changed.tuning.wall_stiffness == doctest::Approx(0.35 * 0.086 / 9e-6));
   for (const double bad : {20001.0, std::nan("")}) {
@@ -328,7 +330,7 @@ TEST_CASE("vibration in free space does not soften the walls") {
   IdleHand idle_hand;
   SimulatedLever lever({}, 1'000'000, idle_hand);
   FaultyLever faulty(lever, 0);
-  faulty.jitters = true;  // 2 mm deep, in an aisle of 12 mm
+  faulty.jitters = true;  // the position jitters by 2 mm, in an aisle of 12 mm
   NoLoad load;
   LoopChannels channels;
   const Gate gate = walled_gate();
@@ -340,9 +342,9 @@ TEST_CASE("vibration in free space does not soften the walls") {
   CHECK(loop.snapshot().guard == GuardState::running);
 }
 
-// Forces of feel and load are not penetration. An observed wall that counted them would start with a step of K T^2 / (4
-// m) + B T / (2 m) times these forces, late by the delay, and would feed the swing of a heavy hand at the end of a
-// slot, next to the lock's spring.
+// Feel and load forces must not count as penetration of the wall. If the observer counted them, the wall force would
+// jump by K T^2 / (4 m) + B T / (2 m) times these forces, after the delay (stiffness K and damping B of the wall, mass
+// m, period T). This jump would excite a heavy hand at the end of a slot, where the lock's spring also acts.
 TEST_CASE("at rest a wall makes K x, whatever feel and load forces act beside it") {
   const Gate aisle = walled_gate(), gate = paper_gate();
   for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
@@ -359,7 +361,7 @@ TEST_CASE("at rest a wall makes K x, whatever feel and load forces act beside it
         PullingLoad load(pull);
         SimulatedRun run(config, hand, &load);
         run_events(run, 2.0);
-        double depth = 0.0, force = 0.0;  // [m], [N] means, because the force hums with the encoder's counts
+        double depth = 0.0, force = 0.0;  // [m], [N] means, because encoder counts make the force fluctuate
         for (int i = 0; i < 500; ++i) {
           const HapticSnapshot& now = run.step();
           depth += (now.lever.y - now.proxy.y) / 500.0;

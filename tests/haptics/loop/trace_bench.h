@@ -25,7 +25,7 @@ inline Bytes file_bytes(const std::filesystem::path& file) {
 }
 
 inline void put_file(const std::filesystem::path& file, const Bytes& bytes) {
-  // Some file systems wait for the disk when a file is truncated and rewritten, so delete it first.
+  // Some file systems wait for the disk when a file is truncated and rewritten, so the old file is deleted first.
   std::filesystem::remove(file);
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -43,7 +43,7 @@ inline glm::dvec2 any_vector(std::mt19937_64& random) {
   return {any_double(random), any_double(random)};
 }
 
-// Every field gets different bits, so that swapped fields are noticed.
+// Every field gets different bits, so that a test notices swapped fields.
 inline haptics::TraceSample any_sample(std::mt19937_64& random, std::uint64_t cycle) {
   haptics::TraceSample s;
   s.deadline_ns = static_cast<std::int64_t>(random());

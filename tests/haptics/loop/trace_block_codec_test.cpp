@@ -1,4 +1,5 @@
-// A coded block restores every bit whatever it contains, and compresses real drives. Decoding validates every byte.
+// Tests of the block codec: any block is restored bit for bit, real drives are compressed, and decoding validates every
+// byte.
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -60,7 +61,7 @@ TEST_CASE("block codec: any bits are restored, in blocks of any size") {
   for (const std::size_t count : {1u, 2u, 3u, 17u, 255u, 256u}) {
     check_comes_back(encoded(any_samples(count, count)));
     std::mt19937_64 random(count);
-    check_comes_back(any_bytes(count * kSample, random));  // arbitrary bytes, not valid samples
+    check_comes_back(any_bytes(count * kSample, random));  // random bytes, not valid samples
     check_comes_back(Block(count * kSample));
     check_comes_back(Block(count * kSample, std::byte{0xFF}));
   }
@@ -76,13 +77,16 @@ TEST_CASE("block codec: data with the worst pattern of zero bytes hardly grows")
   }
 }
 
-// Derived by hand from the format's description. reading.sequence starts at byte 16, f_a at byte 330. f_a is predicted
-// as the negated actuator force, so if both are +0 the sign bits remain, in bytes 337 and 345.
+// The expected bytes were derived by hand from the format's description. `reading.sequence` starts at byte 16 and `f_a`
+// at byte 330. The codec predicts `f_a` as the negated actuator force. If both forces are +0, the prediction is -0, so
+// `f_a` differs from it only in the sign bits of x and y (bytes 337 and 345).
 TEST_CASE("block codec: the bytes of small blocks") {
-  // 337 = 2 x 128 + 81 zeros, one byte; 7 zeros, one byte; 46 zeros, none.
+  // Three runs of zeros: 337 (2 x 128 + 81) and 7, each followed by one other byte, and 46, followed by none.
   CHECK(coded(Block(kSample)) == text({128 + 81, 2, 1, 0x80, 7, 1, 0x80, 46, 0}));
 
-  Block samples(2 * kSample);  // planes of two bytes; both sequences are equal
+  // Two samples, so each of the codec's planes has two bytes. Both have the same `reading.sequence`, whose highest byte
+  // (offset 23) is 0x40.
+  Block samples(2 * kSample);
   samples[23] = samples[kSample + 23] = std::byte{0x40};
   const int between = 2 * 337 - (2 * 23 + 1);
   CHECK(coded(samples) ==
@@ -102,8 +106,8 @@ TEST_CASE("block codec: a lever at rest costs less than three bytes per cycle") 
   CHECK(coded(encoded(rest)).size() < 3 * 256);
 }
 
-// Noise in all independent fields; all others are as the codec predicts, so only the noise costs bytes. Every
-// prediction rule saves some bytes per cycle, so a missing rule is noticed.
+// Independent fields are random. All other fields follow the codec's predictions, so only the random fields cost bytes.
+// Every prediction rule saves some bytes per cycle, so this test notices a missing rule.
 TEST_CASE("block codec: fields that follow from others cost nothing") {
   std::vector<haptics::TraceSample> samples = any_samples(256);
   std::mt19937_64 random(3);
@@ -125,9 +129,9 @@ TEST_CASE("block codec: fields that follow from others cost nothing") {
     out.f_a = -now.reading.actuator_force;
     out.f_j = out.f_h - out.f_a;
   }
-  constexpr std::size_t kFollow = 5 * 8 + 6 * 16;  // times, numbers; vectors
-  constexpr std::size_t kZero = 8 + 4 + 8;         // slope, guided gear, guidance
-  constexpr std::size_t kFewValues = 7;            // bool, enumerations
+  constexpr std::size_t kFollow = 5 * 8 + 6 * 16;  // [bytes] predicted fields: 5 scalars and 6 vectors
+  constexpr std::size_t kZero = 8 + 4 + 8;         // [bytes] fields that are 0: slope, guided gear, guidance
+  constexpr std::size_t kFewValues = 7;            // [bytes] one-byte fields: booleans, enumerations
   CHECK(coded(encoded(samples)).size() < samples.size() * (kSample - kFollow - kZero - kFewValues));
 }
 
@@ -172,7 +176,7 @@ TEST_CASE("block codec: random bytes and corrupted blocks are either decoded to 
     if (!codec.decode(bytes, count, back)) continue;
     ++accepted;
     REQUIRE(back.size() == count * kSample);
-    check_comes_back(back);  // other bytes may decode to the same samples, but accepted samples can be encoded
+    check_comes_back(back);  // compares samples, because the encoder may choose other bytes for them
   }
   CHECK(accepted > 10);
 }

@@ -52,7 +52,7 @@ haptics::TraceSample known_sample() {
   return sample;
 }
 
-// A locale that writes 1.234,5. The CSV must not use it.
+// A locale that writes numbers as 1.234,5. The CSV must not use this locale.
 struct GermanNumbers : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }
@@ -106,7 +106,7 @@ TEST_CASE("csv: the same in any locale") {
   CHECK(line == haptics::trace_csv_header());
   std::getline(stream, line);
   CHECK(by_name(line)["lever_x_mm"] == "-12.5");
-  CHECK(by_name(line)["time_s"] == "0");  // time is measured from the file's first sample
+  CHECK(by_name(line)["time_s"] == "0");  // time starts at the file's first sample
   std::getline(stream, line);
   CHECK(by_name(line)["cycle"] == "1234567");
   CHECK_FALSE(std::getline(stream, line));

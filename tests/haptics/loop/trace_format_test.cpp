@@ -26,7 +26,7 @@ bool same_bits(glm::dvec2 a, glm::dvec2 b) {
   return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y);
 }
 
-// Compares each field by hand, so that it does not use the field lists from which the file is made.
+// Compares every member explicitly, without the field lists that define the file format.
 bool same_sample(const haptics::TraceSample& a, const haptics::TraceSample& b) {
   const haptics::LeverReading &r = a.reading, &q = b.reading;
   const haptics::DriverControls &c = a.controls, &d = b.controls;
@@ -52,7 +52,7 @@ bool same_sample(const haptics::TraceSample& a, const haptics::TraceSample& b) {
 }  // namespace
 
 TEST_CASE("checksum: CRC-32 gives the published check value, in one piece and in two") {
-  CHECK(haptics::crc32(bytes_of("123456789")) == 0xCBF43926);  // check value from the CRC's standard
+  CHECK(haptics::crc32(bytes_of("123456789")) == 0xCBF43926);  // the published check value of CRC-32
   CHECK(haptics::crc32(bytes_of("")) == 0);
   CHECK(haptics::crc32(bytes_of("The quick brown fox jumps over the lazy dog")) == 0x414FA339);
   const std::string_view fox = "The quick brown fox jumps over the lazy dog";
@@ -74,7 +74,7 @@ TEST_CASE("checksum: flipping any one bit, or any two top bits, changes the run 
     CHECK(seen.insert(hash()).second);
     flip(bit);
   }
-  // Flips two sign bits: classic FNV, applied word by word, misses all of these.
+  // Flips every pair of sign bits. The classic FNV hash, applied word by word, would miss all of these changes.
   for (std::size_t one = 63; one < 8 * bytes.size(); one += 64)
     for (std::size_t two = one + 64; two < 8 * bytes.size(); two += 64) {
       flip(one), flip(two);
@@ -160,7 +160,7 @@ TEST_CASE("trace: the hash of a run changes with every output and every paramete
   changed.device.position_step = 1e-9;
   CHECK(hash_of(changed, sample) != plain);
   changed = header;
-  changed.program = "9.9";  // a different program that computes the same is accepted
+  changed.program = "9.9";  // the version of the program is not hashed
   CHECK(hash_of(changed, sample) == plain);
 }
 

@@ -1,4 +1,4 @@
-// Invalid trace files: each is refused in one sentence.
+// Tests that every kind of invalid trace file is refused in one sentence.
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -17,11 +17,11 @@
 namespace gearshift::test {
 namespace {
 
-constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] from the documentation, not from the code
+constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] sizes as documented, not taken from the code
 constexpr std::size_t kSampleBytes = 392;           // [bytes] per cycle
-constexpr std::size_t kCycles = 600;                // two full blocks and a partial one
+constexpr std::size_t kCycles = 600;                // two full blocks of 256 cycles and a partial block
 
-// CRC computed bit by bit from its definition.
+// The CRC-32, computed bit by bit from its definition.
 std::uint32_t slow_crc(const unsigned char* bytes, std::size_t size) {
   std::uint32_t crc = 0xFFFFFFFF;
   for (std::size_t i = 0; i < size; ++i) {
@@ -40,7 +40,7 @@ void put(Bytes& file, std::size_t at, std::uint32_t value) {
   std::memcpy(file.data() + at, &value, 4);
 }
 
-// Offsets of the frames (header, data, data, data, end) and of the end of the file.
+// Returns the offsets of the frames (header, three data blocks, end block) and of the end of the file.
 std::vector<std::size_t> borders(const Bytes& file) {
   std::vector<std::size_t> at{kPreamble};
   while (at.back() < file.size()) at.push_back(at.back() + kFrame + get(file, at.back() + 4));
@@ -91,7 +91,7 @@ void forge(Bytes& file, std::size_t at, const std::function<void(std::byte* samp
   put_payload(file, at, again, get(file, at + 8));
 }
 
-// The error message when reading the whole file; empty if there is none.
+// Returns the error message of reading the whole file; empty if there is none.
 std::string refusal(const std::filesystem::path& file) {
   try {
     haptics::read_trace(file);
@@ -118,10 +118,10 @@ const std::vector<Hostile> hostile_traces = {
     {"line ends rewritten", [](B& f, At&) { f.erase(f.begin() + 6); }, "is not a gearshift trace"},
     {"cut inside the magic", [](B& f, At&) { f.resize(5); }, "is not a gearshift trace"},
     {"a newer format", [](B& f, At&) { put(f, 8, 8); },
-     "recorded by a newer gearshift (format 8), but this one reads only format 7"},
+     "recorded by a newer gearshift (format 8), but this version reads only format 7"},
     {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "recorded by a newer gearshift"},
     {"an older format", [](B& f, At&) { put(f, 8, 5); },
-     "recorded by an older gearshift (format 5), but this one reads only format 7"},
+     "recorded by an older gearshift (format 5), but this version reads only format 7"},
     {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is incomplete; it ends inside its header"},
     {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); },
      "is incomplete; it ends inside its header"},
@@ -138,29 +138,29 @@ const std::vector<Hostile> hostile_traces = {
     {"header frame flipped", [](B& f, At& at) { f[at[0] + 4] ^= 1; }, "is damaged; its header cannot be found"},
     {"data byte flipped", [](B& f, At& at) { f[at[2] + kFrame + 999] ^= 128; },
      "is damaged; the checksum of the block"},
-    {"data frame flipped", [](B& f, At& at) { f[at[2] + 5] ^= 1; }, "is damaged; there is no block at byte"},
+    {"data frame flipped", [](B& f, At& at) { f[at[2] + 5] ^= 1; }, "is damaged; a block is missing at byte"},
     {"end byte flipped", [](B& f, At& at) { f[at[4] + kFrame] ^= 1; }, "is damaged; its end block is not valid"},
-    {"end frame flipped", [](B& f, At& at) { f[at[4] + 13] ^= 1; }, "is damaged; there is no block at byte"},
+    {"end frame flipped", [](B& f, At& at) { f[at[4] + 13] ^= 1; }, "is damaged; a block is missing at byte"},
     {"a block that claims 4 GB", [](B& f, At& at) { put(f, at[1] + 4, 0xFFFFFFF0), seal_frame(f, at[1]); },
-     "is damaged; there is no block at byte"},
+     "is damaged; a block is missing at byte"},
     {"a header that claims 4 GB", [](B& f, At& at) { put(f, at[0] + 4, 0xFFFFFFFF), seal_frame(f, at[0]); },
      "is damaged; its header cannot be found"},
     {"a text that claims 4 GB", [](B& f, At& at) { put(f, at[0] + kFrame, 0xFFFFFFFF), seal_payload(f, at[0]); },
      "is damaged; its header is not valid"},
     {"a block of no known kind", [](B& f, At& at) { put(f, at[2], 0x21212121), seal_frame(f, at[2]); },
-     "is damaged; there is no block at byte"},
+     "is damaged; a block is missing at byte"},
     {"a block without samples", [](B& f, At& at) { put(f, at[3] + 8, 0), seal_frame(f, at[3]); },
-     "is damaged; there is no block at byte"},
+     "is damaged; a block is missing at byte"},
     {"a block of more samples than any has", [](B& f, At& at) { put(f, at[1] + 8, 257), seal_frame(f, at[1]); },
-     "is damaged; there is no block at byte"},
+     "is damaged; a block is missing at byte"},
     {"a block that claims four thousand million samples",
      [](B& f, At& at) { put(f, at[1] + 8, 0xFFFFFFFF), seal_frame(f, at[1]); },
-     "is damaged; there is no block at byte"},
+     "is damaged; a block is missing at byte"},
     {"an end with samples", [](B& f, At& at) { put(f, at[4] + 8, 1), seal_frame(f, at[4]); },
-     "is damaged; there is no block at byte"},
+     "is damaged; a block is missing at byte"},
     {"a block larger than any can be",
      [](B& f, At& at) { put(f, at[1] + 4, 256 * kSampleBytes + 17), seal_frame(f, at[1]); },
-     "is damaged; there is no block at byte"},
+     "is damaged; a block is missing at byte"},
     {"a block of fewer samples than it claims, and a matching end block",
      [](B& f, At& at) {
        put(f, at[3] + 8, 89), seal_frame(f, at[3]);
@@ -204,7 +204,7 @@ const std::vector<Hostile> hostile_traces = {
        append(twice, slice(f, at[0], f.size()));
        f = twice;
      },
-     "is damaged; there is no block at byte"},
+     "is damaged; a block is missing at byte"},
     {"no header",
      [](B& f, At& at) {
        Bytes none = slice(f, 0, at[0]);

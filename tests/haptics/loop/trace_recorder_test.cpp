@@ -16,7 +16,7 @@
 namespace gearshift::test {
 namespace {
 
-// A lever at rest without a hand; counts its readings from 0.
+// A lever at rest, which numbers its readings from 0.
 class CountingLever final : public haptics::HapticDevice {
  public:
   const haptics::DeviceSpec& spec() const noexcept override { return spec_; }
@@ -64,7 +64,7 @@ std::size_t salvage(const std::filesystem::path& file) {
   return cycles;
 }
 
-// Limits the file size during its lifetime to simulate a full disk.
+// Simulates a full disk: limits the size of all files while the object exists.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -111,7 +111,7 @@ TEST_CASE("recorder: every cycle that the loop pushed is in the file, in order")
 TEST_CASE("recorder: on its own thread beside the loop no cycle is lost") {
   const TempFolder folder;
   auto channels = std::make_unique<haptics::LoopChannels>();
-  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, haptics::TracePump::own_thread);
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, haptics::TracePump::by_recorder);
   std::thread loop([&] {
     for (std::uint64_t cycle = 0; cycle < 50'000; ++cycle)
       while (!channels->trace.push(numbered(cycle))) std::this_thread::yield();
@@ -134,7 +134,7 @@ TEST_CASE("recorder: a queue that overflows tears the trace, which keeps every c
   rig.run(static_cast<int>(room) + 7);
   REQUIRE(rig.channels.trace_lost.load() == 7);
   recorder.pump();
-  CHECK_FALSE(rig.channels.recording.load());  // the recording is closed: cycles after a gap are useless
+  CHECK_FALSE(rig.channels.recording.load());  // recording stops, because a trace cannot be replayed beyond a gap
 
   const std::optional<std::string> problem = recorder.take_problem();
   REQUIRE(problem.has_value());
@@ -212,7 +212,7 @@ TEST_CASE("recorder: samples that an earlier recording left in the queue are not
   LoopRig rig;
   rig.channels.recording.store(true);
   rig.run(10);
-  rig.channels.trace_lost.store(3);  // left over from an earlier, interrupted recording
+  rig.channels.trace_lost.store(3);  // a count left by an earlier, interrupted recording
   haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
   rig.run(2);
   const haptics::RecordingResult result = recorder.finish();
@@ -230,7 +230,7 @@ TEST_CASE("recorder: a killed program leaves its cycles in a file that is recogn
   }  // finish() is not called, as if the program was killed here
   CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
                        doctest::Contains("is incomplete, because it has no end block"), haptics::FileError);
-  CHECK(salvage(folder / "t.trace") == 768);  // only complete blocks of 256 samples
+  CHECK(salvage(folder / "t.trace") == 768);  // three complete blocks of 256 samples
 }
 
 }  // namespace gearshift::test

@@ -11,7 +11,7 @@
 namespace gearshift::test {
 namespace {
 
-// Smallest sample that at least the fraction q of all samples does not exceed.
+// The smallest sample such that at least the fraction q of all samples is not larger.
 std::int64_t exact_quantile(std::vector<std::int64_t> samples, double q) {
   std::sort(samples.begin(), samples.end());
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(samples.size())));
@@ -60,7 +60,7 @@ TEST_CASE("histogram: any single duration is reported at most 2 % above its valu
   for (std::int64_t ns = 0; ns < 10'000'000'000; ns += 1 + ns / 37) {
     haptics::DurationHistogram histogram;
     histogram.add(ns);
-    histogram.add(20'000'000'000);  // so that the maximum does not hide the bin's edge
+    histogram.add(20'000'000'000);  // without this sample, quantile() would return the maximum, i.e. `ns`
     const std::int64_t quantile = histogram.quantile(0.5);
     REQUIRE(quantile >= ns);
     REQUIRE(static_cast<double>(quantile) <= 1.02 * static_cast<double>(ns));
@@ -74,7 +74,7 @@ TEST_CASE("histogram: empty is zero, negative counts as zero, the longest is exa
   histogram.add(-5);
   CHECK(histogram.count() == 1);
   CHECK(histogram.quantile(1.0) == 0);
-  histogram.add(123'456'789'012);  // beyond the last bin
+  histogram.add(123'456'789'012);  // longer than the last bin's limit
   CHECK(histogram.max() == 123'456'789'012);
   CHECK(histogram.quantile(0.99) == 123'456'789'012);
 }

@@ -10,7 +10,7 @@
 namespace gearshift::test {
 namespace {
 
-// Larger than any atomic and than a cache line, so that a torn value shows as parts that differ.
+// Larger than any atomic type and than a cache line, so a torn read shows as parts that differ.
 using Wide = std::array<std::uint64_t, 40>;
 
 Wide filled(std::uint64_t number) {
@@ -57,7 +57,7 @@ TEST_CASE("latest value: no torn value and none older than the last, whatever th
     }
     const Wide& value = channel.value();
     if (!is_consistent(value)) ++torn;
-    if (value[0] <= last) ++backward;  // every changed value must be newer
+    if (value[0] <= last) ++backward;  // an updated value must be newer than the previous one
     last = value[0];
   }
   writer.join();

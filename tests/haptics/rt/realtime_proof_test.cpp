@@ -1,4 +1,5 @@
-// Tests of the real-time proof itself: it must catch violations, and accept the channels.
+// Tests of the real-time proof itself: it must detect allocations, locks and system calls, and accept the lock-free
+// channels.
 #include "tests/support/realtime_proof.h"
 
 #include <malloc.h>
@@ -22,7 +23,7 @@
 namespace gearshift::test {
 namespace {
 
-int* volatile allocated = nullptr;  // so that the compiler does not remove the allocation
+int* volatile allocated = nullptr;  // a global pointer, so that the compiler does not remove the allocation
 
 long resident_bytes() {
   long pages = 0, resident = 0;
@@ -30,7 +31,7 @@ long resident_bytes() {
   return resident * sysconf(_SC_PAGESIZE);
 }
 
-// [bytes] that stay resident after a block below another one is freed.
+// Returns the number of bytes that stay resident after a block is freed while a newer block lies above it.
 long retained_after_free(std::size_t bytes) {
   const long before = resident_bytes();
   void* const block = std::malloc(bytes);
@@ -50,7 +51,7 @@ struct Big {
 
 TEST_CASE("a large block is returned to the system when it is freed while a real-time thread exists") {
   constexpr long kBlock = 20 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);              // the value to which malloc's threshold grows over time
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);              // makes malloc keep the freed block, as malloc may do by itself
   CHECK(retained_after_free(kBlock) > kBlock / 2);  // negative control
   haptics::RealtimeThread thread;
   thread.start({}, [](const haptics::CycleCall&) {});
@@ -65,11 +66,11 @@ TEST_CASE("real-time proof: arithmetic is clean") {
   });
   INFO(proof.verdict());
   CHECK(proof.clean());
-  CHECK(sum == 0.0);  // so the proof ran in a copy of the process
+  CHECK(sum == 0.0);  // unchanged, because the proof ran in a copy of the process
 }
 
 TEST_CASE("real-time proof: one allocation is caught") {
-  delete new int;  // warms up the allocator, so that it needs no system call
+  delete new int;  // prepares the allocator, so that the next allocation needs no system call
   const RealtimeProof by_new = prove_realtime([] { allocated = new int(1); });
   CHECK(by_new.allocations == 1);
   CHECK_FALSE(by_new.clean());

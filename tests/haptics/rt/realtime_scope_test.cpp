@@ -20,7 +20,7 @@ int priority() {
   return now.sched_priority;
 }
 
-// Runs `work` on a new thread, so that the caller's scheduling need not be restored.
+// Runs `work` on a new thread, so that the calling thread's scheduling stays unchanged.
 template <class Work>
 void run_on_new_thread(const Work& work) {
   std::thread(work).join();

@@ -1,4 +1,4 @@
-// These tests do not assert any speed, only what must hold on the slowest and noisiest machine.
+// These tests assert no speed, only properties that hold on the slowest and busiest machine.
 #include "haptics/rt/realtime_thread.h"
 
 #include <linux/capability.h>
@@ -32,7 +32,7 @@ struct RecordedCycle {
   std::int64_t began, ended;  // [ns]
 };
 
-// Runs `cycles` cycles, each with `work`, and returns the recorded statistics.
+// Runs `work` in `cycles` cycles and returns the record of each cycle.
 template <class Work>
 std::vector<RecordedCycle> run_cycles(haptics::RealtimeThread& thread, std::size_t cycles, Work work,
                                       haptics::RealtimeConfig config = {}) {
@@ -58,14 +58,14 @@ void busy_until(std::int64_t until_ns) {
 // Runs `work` on a thread that may neither use real-time scheduling nor lock memory, even if the tests run as root.
 template <class Work>
 void without_privileges(Work work) {
-  munlockall();  // an earlier thread of this program may have locked all future memory
+  munlockall();  // an earlier test may have locked all future memory of the process
   rlimit priority{}, memory{};
   getrlimit(RLIMIT_RTPRIO, &priority);
   getrlimit(RLIMIT_MEMLOCK, &memory);
   const rlimit no_priority{0, priority.rlim_max}, little_memory{65536, memory.rlim_max};
   setrlimit(RLIMIT_RTPRIO, &no_priority);
   setrlimit(RLIMIT_MEMLOCK, &little_memory);
-  std::thread([&] {  // capabilities belong to a thread and its children
+  std::thread([&] {  // a new thread, because capabilities belong to a thread
     __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
     __user_cap_data_struct none[_LINUX_CAPABILITY_U32S_3]{};
     syscall(SYS_capset, &header, none);
@@ -114,7 +114,7 @@ TEST_CASE("real-time thread: a cycle that overruns skips the deadlines that it m
   CHECK(cycles_run[6].call.deadline_ns >= cycles_run[5].call.deadline_ns + 3 * kPeriod);
   std::int64_t skipped = cycles_run[0].call.skipped;
   for (std::size_t i = 1; i < cycles_run.size(); ++i) {
-    CHECK(cycles_run[i].call.deadline_ns >= cycles_run[i - 1].ended);  // deadlines that have passed are skipped
+    CHECK(cycles_run[i].call.deadline_ns >= cycles_run[i - 1].ended);  // the deadlines during a long cycle are skipped
     skipped += cycles_run[i].call.skipped;
   }
   CHECK(thread.statistics().overruns >= 1);
@@ -141,7 +141,7 @@ TEST_CASE("real-time thread: after stop() no cycle runs, and it may be called tw
     std::promise<void> ran;
     bool has_run = false;
     thread.start({}, [&](const haptics::CycleCall&) {
-      if (stopped) ++after_stop;  // a write after the join would also be a data race for the sanitizer
+      if (stopped) ++after_stop;  // a cycle after stop() is also a data race, which ThreadSanitizer reports
       if (!has_run) ran.set_value();
       has_run = true;
     });

@@ -68,7 +68,7 @@ TEST_CASE("queue: behaves like a bounded deque under any order of pushes and pop
 }
 
 TEST_CASE("queue: between two threads nothing is torn, lost, doubled or out of order") {
-  haptics::SpscQueue<Message> queue(64);  // small, so that the queue is often full and often empty
+  haptics::SpscQueue<Message> queue(64);  // small, so that it is often full and often empty
   std::thread writer([&] {
     for (std::uint64_t number = 0; number < kMany; ++number)
       while (!queue.push(message(number))) std::this_thread::yield();
@@ -94,7 +94,8 @@ TEST_CASE("queue: a writer that never waits knows exactly what it lost") {
   });
   std::uint64_t popped = 0, wrong = 0, next = 0;
   while (true) {
-    const bool was_done = done.load();  // read before the pops, so that they find everything pushed by then
+    // `done` is read before the pop: if the writer was already done and the queue is empty, every message was popped.
+    const bool was_done = done.load();
     Message m;
     if (!queue.pop(m)) {
       if (was_done) break;

@@ -1,4 +1,4 @@
-// Energy bounding and passivity control against the energy of an exactly stepped lever.
+// Tests of energy bounding and passivity control. The reference is the energy of a lever that is simulated exactly.
 #include "haptics/safety/energy_control.h"
 
 #include <algorithm>
@@ -14,7 +14,8 @@ using namespace gearshift::haptics;
 
 namespace {
 
-// Integral of b v^2 over one period under a held force, by Simpson's rule on 8 exact sub-steps. [J]
+// Energy [J] that the damping b dissipates in one period under a constant force: the integral of b v^2, by Simpson's
+// rule on 8 exact sub-steps.
 double damped_energy(const AxisModel& axis, AxisState state, double force, double period) {
   constexpr int kParts = 8;
   double sum = 0.0;
@@ -25,8 +26,8 @@ double damped_energy(const AxisModel& axis, AxisState state, double force, doubl
   return axis.damping * sum * period / (3.0 * kParts);
 }
 
-// Drives a lever with any wanted force through the bounder. Returns the largest excess, over time, of the energy
-// supplied by the motors over the energy dissipated by the damping. [J]
+// Drives a lever with the force `wanted`, limited by energy bounding. Returns the maximum over time [J] of the energy
+// supplied by the motors minus the energy dissipated by the damping.
 double worst_surplus(const AxisModel& axis, const AxisModel& assumed, double period,
                      const std::function<double(AxisState)>& wanted) {
   const EnergyBounder bounder(assumed, 0, period);
@@ -51,7 +52,7 @@ TEST_CASE("energy bounding: never supplies more than the handle's damping dissip
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> force(-100.0, 100.0);
   const std::function<double(AxisState)> laws[] = {
-      [](AxisState s) { return s.velocity > 0.0 ? 100.0 : -100.0; },               // a push along the motion
+      [](AxisState s) { return s.velocity > 0.0 ? 100.0 : -100.0; },               // a force in the direction of motion
       [](AxisState s) { return s.position > 0.0 ? -50000.0 * s.position : 0.0; },  // a wall that is far too stiff
       [&](AxisState) { return force(random); },
   };
@@ -61,7 +62,7 @@ TEST_CASE("energy bounding: never supplies more than the handle's damping dissip
       CHECK(worst_surplus(kPaperAxisY, kPaperAxisY, period, law) <= 1e-12);
     }
   }
-  // Negative control: a bounder that assumes eight times the damping lets energy through.
+  // Negative control: a bounder that assumes eight times the real damping supplies too much energy.
   AxisModel assumed = kPaperAxisX;
   assumed.damping *= 8.0;
   CHECK(worst_surplus(kPaperAxisX, assumed, 0.01, laws[0]) > 1e-4);
@@ -70,14 +71,17 @@ TEST_CASE("energy bounding: never supplies more than the handle's damping dissip
 TEST_CASE("energy bounding displays half the passive stiffness 2 b / T of (14)") {
   const EnergyBounder bounder(kPaperAxisX, 0, 0.001);
   double last = 0.0;
-  for (int n = 0; n < 100; ++n) last = bounder.bound(-1e9, last, 1e-5);  // 1 mm into a wall of any stiffness
+  // The lever moves 1 mm, in 100 steps of 10 um, into a wall that asks for an unlimited force. The displayed stiffness
+  // is the damping divided by the period, 3000 N/m.
+  for (int n = 0; n < 100; ++n) last = bounder.bound(-1e9, last, 1e-5);
   CHECK(last == doctest::Approx(-3000.0 * 1e-3));
 }
 
 namespace {
 
-// Free impact on a textbook spring of 5000 N/m: ratio of the energy supplied by the wall to the impact energy, averaged
-// over sampling phases. [%]
+// A free lever hits a wall that is a sampled spring of 5000 N/m. Returns the energy that the wall supplies, in % of the
+// kinetic energy before the impact. The impact falls at different times within a sampling period; the result is the
+// mean over 200 of them.
 double impact_energy(double period, bool controlled) {
   double sum = 0.0;
   constexpr int kPhases = 200;
@@ -136,21 +140,22 @@ TEST_CASE("the guard bounds the command, and arming resets the travel since the 
   ForceGuard guard(config, spec, 0.001, EnergyControl::energy_bounding);
   guard.arm();
   guard.guard(still_at(0.0, 0.0));
-  // 1 mm in steps of 10 um into a wall that asks for 30 N: at most b / T = 3000 N/m is displayed.
+  // The lever moves 1 mm, in steps of 10 um, into a wall that asks for 30 N. The displayed stiffness is at most the
+  // damping divided by the period, 3000 N/m.
   double force = 0.0;
   for (int n = 1; n <= 100; ++n) force = guard.guard(still_at(1e-5 * n, -30.0)).force.x;
   CHECK(force == doctest::Approx(-3.0));
-  for (int n = 0; n < 30; ++n) {  // the sensor fails, so the guard only damps
+  for (int n = 0; n < 30; ++n) {  // without fresh readings, the guard goes to the state `damped`
     GuardInput dead = still_at(1e-3, -30.0);
     dead.fresh = false;
     guard.guard(dead);
   }
   REQUIRE(guard.state() == GuardState::damped);
-  for (int n = 0; n < 100; ++n) guard.guard(still_at(0.030, -30.0));  // the lever moved 29 mm away while damped
+  for (int n = 0; n < 100; ++n) guard.guard(still_at(0.030, -30.0));  // meanwhile the lever moves 29 mm deeper
   guard.arm();
   CHECK(guard.guard(still_at(0.030, -30.0)).force.x == 0.0);
   CHECK(guard.guard(still_at(0.030, -30.0)).force.x == 0.0);
-  // Negative control: without energy bounding the full force is commanded.
+  // Negative control: without energy bounding, the guard commands the full force.
   ForceGuard open(config, spec, 0.001);
   open.arm();
   open.guard(still_at(0.0, -30.0));
@@ -187,7 +192,7 @@ TEST_CASE("energy bounding uses each axis's own model, and with delay half of (1
       in.force = {-30.0, -30.0};
       force = guard.guard(in).force;
     }
-    const double passive = 1.0 / (0.001 * (0.5 + delay));  // the paper's (13), per unit of damping
+    const double passive = 1.0 / (0.001 * (0.5 + delay));  // [1/s] passive stiffness divided by damping, equation (13)
     CHECK(force.x == doctest::Approx(-0.5 * 3.0 * passive * 1e-3));
     CHECK(force.y == doctest::Approx(-0.5 * 5.0 * passive * 1e-3));
   }
@@ -201,10 +206,10 @@ TEST_CASE("energy bounding is not limited by the slew: a force that must drop dr
   guard.arm();
   double position = 0.0;
   guard.guard(still_at(position, 0.0));
-  for (int n = 0; n < 100; ++n) guard.guard(still_at(position -= 1e-4, 20.0));  // c dx = 0.3 N per period
+  for (int n = 0; n < 100; ++n) guard.guard(still_at(position -= 1e-4, 20.0));  // the force grows by 0.3 N per period
   double last = guard.guard(still_at(position, 20.0)).force.x;
   REQUIRE(last > 10.0);
-  for (int n = 0; n < 4; ++n) {  // the lever is thrown out at 1 m/s
+  for (int n = 0; n < 4; ++n) {  // the lever returns at 1 m/s
     const double now = guard.guard(still_at(position += 1e-3, 20.0)).force.x;
     CHECK(std::abs(now) <= std::abs(last - 3000.0 * 1e-3) + 1e-9);
     last = now;
@@ -216,9 +221,10 @@ TEST_CASE("passivity control: no damping out of contact, and every contact start
   controller.control(-1.0, 10.0, 1e-3, true);  // 10 mJ supplied
   CHECK(controller.absorbed_energy() == doctest::Approx(-0.010));
   CHECK(controller.control(-1.0, 0.0, -1e-4, true) > -1.0 + 1.0);  // it damps
-  CHECK(controller.control(-1.0, 0.0, -1e-4, false) == -1.0);      // no damping in free space, where the lever is now
+  CHECK(controller.control(-1.0, 0.0, -1e-4, false) == -1.0);      // no damping outside the contact
   CHECK(controller.absorbed_energy() == 0.0);
-  // At most 0.5 m / T: a stronger sampled damper would ring.
+  // The damping is at most half the mass divided by the period, because stronger sampled damping would oscillate. The
+  // lever moves at -1 m/s (1 mm per period).
   controller.control(0.0, 100.0, 1e-2, true);
   CHECK(controller.control(0.0, 0.0, -1e-3, true) == doctest::Approx(0.5 * 0.095 / 0.001 * 1.0));
 }

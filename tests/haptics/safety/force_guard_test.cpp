@@ -1,4 +1,5 @@
-// The guard: its output is finite, within slew and device limits, and zero soon after any fault.
+// Tests of the force guard: its output is finite, stays within the slew limit and the limits of the device, and is zero
+// soon after any fault.
 #include "haptics/safety/force_guard.h"
 
 #include <cmath>
@@ -94,7 +95,7 @@ TEST_CASE("frozen reading: damped after 20 ms, force zero within 20 ms more") {
   ForceGuard guard = running_guard({10.0, -8.0});
   GuardInput frozen = wanting({10.0, -8.0});
   frozen.fresh = false;
-  frozen.velocity = {1.0, 1.0};  // a stale reading must not cause damping
+  frozen.velocity = {1.0, 1.0};  // the velocity of a stale reading must not cause damping
   for (int ms = 1; ms <= 20; ++ms) guard.guard(frozen);
   CHECK(guard.state() == GuardState::running);
   double last = 10.0;
@@ -193,7 +194,9 @@ TEST_CASE("a reading's age counts elapsed time, not executed cycles") {
   GuardInput stale = wanting({5.0, 0.0});
   stale.fresh = false;
   stale.skipped = 10;
-  guard.guard(stale);  // the thread that reads the stick may have been stopped, too
+  // Cycles that were skipped before the first stale reading do not count towards its age. The thread that reads the
+  // stick may have been stopped, too.
+  guard.guard(stale);
   guard.guard(stale);  // 12 ms
   CHECK(guard.state() == GuardState::running);
   guard.guard(stale);  // 23 ms
@@ -243,7 +246,7 @@ TEST_CASE("entering damped never raises the force, at any ramp and slew, and it 
       for (int i = 0; i < ramped; ++i) last = guard.guard(wanting({30.0, 0.0})).force.x;
       GuardInput frozen = wanting({30.0, 0.0});
       frozen.fresh = false;
-      for (int i = 0; i < 20; ++i) last = guard.guard(frozen).force.x;  // not stale yet: ramp, slew continue
+      for (int i = 0; i < 20; ++i) last = guard.guard(frozen).force.x;  // for 20 ms, ramp and slew continue
       for (int i = 0; i < 21; ++i) {
         const double now = guard.guard(frozen).force.x;
         CHECK(now <= last + 1e-12);
@@ -264,7 +267,7 @@ TEST_CASE("armed: no force while it waits for the first reading, and damped if n
   ForceGuard late = guard;
   guard.guard(wanting({5.0, 0.0}));
   CHECK(guard.state() == GuardState::ramping);
-  late.guard(no_reading);  // a force that arrives long after the arm request must not start unexpectedly
+  late.guard(no_reading);  // the 201st cycle without a reading
   CHECK(late.state() == GuardState::damped);
   CHECK(late.guard(wanting({5.0, 0.0})).force == dvec2{0.0, 0.0});
 }

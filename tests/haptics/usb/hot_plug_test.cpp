@@ -54,7 +54,7 @@ TEST_CASE("fifty unplugs at random moments: each is noticed, and no file and no 
   {
     UsbRig rig;
     for (int i = 0; i < 52; ++i) {
-      if (i == 2) {  // by now umockdev and libusb have opened their own files
+      if (i == 2) {  // after two rounds umockdev and libusb have opened their own files
         files = open_files();
         tasks = threads();
       }

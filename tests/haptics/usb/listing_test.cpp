@@ -11,7 +11,7 @@
 namespace gearshift::test {
 namespace {
 
-// Makes this thread an unprivileged user for the file system, even when the tests run as root.
+// Makes this thread access files as an unprivileged user, so that the tests also work as root.
 class UnprivilegedThread {
  public:
   UnprivilegedThread() : before_(setfsuid(65534)) {}
@@ -79,8 +79,7 @@ TEST_CASE("a missing permission is one sentence that names the udev rule; the de
   }
   const std::string expected =
       "Plain joystick (1209:0001) may not be used by this user; install the udev rule assets/udev/70-gearshift.rules "
-      "as "
-      "its first lines explain, and plug the device in again";
+      "as described in its first lines, and plug the device in again";
   CHECK(refused == expected);
   REQUIRE(devices.size() == 1);
   CHECK(devices[0].problem == expected);

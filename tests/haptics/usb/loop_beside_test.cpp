@@ -1,6 +1,6 @@
-// Wake-up lateness of a 1 kHz loop with no stick, an absent stick, and a stick whose transfers take 50 ms. The driver's
-// side of a cycle never blocks (realtime_proof_test.cpp), so the three should differ only by the machine's noise; they
-// are printed, not checked.
+// Measures the wake-up lateness of a 1 kHz loop without a stick, with an absent stick, and with a stick whose transfers
+// take 50 ms. The driver's calls in a cycle never block (realtime_proof_test.cpp), so the three results should differ
+// only by noise of the machine. The results are printed, not checked.
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -23,7 +23,7 @@ struct Lateness {
   std::uint64_t skipped, cycles;
 };
 
-// Runs cycles for one second; like a lever's, each reads the state and sends a new command.
+// Runs cycles for one second. Each cycle reads the state and sends a new command, as a lever's cycle does.
 Lateness loop_with(PidDriver& driver) {
   RealtimeThread thread;
   int count = 0;

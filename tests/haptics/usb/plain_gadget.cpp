@@ -61,7 +61,7 @@ Bytes PlainGadget::configuration_descriptor() const {
   return bytes;
 }
 
-// X and Y of 16 bits in report 1; four bytes in feature report 2; seven bytes in output report 5.
+// Report 1 (input) has X and Y of 16 bits, report 2 (feature) has four bytes, report 5 (output) has seven bytes.
 Bytes PlainGadget::report_descriptor() const {
   Bytes bytes{0x05, 0x01, 0x09, 0x04, 0xa1, 0x01};
   if (numbered) append(bytes, {0x85, 1});

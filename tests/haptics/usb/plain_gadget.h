@@ -1,5 +1,5 @@
-// A small joystick for tests of the transport: it sends counts, records what it receives, and can be configured to
-// misbehave.
+// A small joystick for tests of the transport: it sends numbered input reports, records what it receives, and can be
+// configured to misbehave.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +21,20 @@ class PlainGadget final : public UsbGadget {
 
   bool numbered = true;                // uses report IDs
   bool has_in = true, has_out = true;  // its interrupt endpoints
-  double report_every = 0.001;         // [s] between input reports; 0: sends none on its own
-  bool answers_get_report = true;      // false: stalls
+  double report_every = 0.001;         // [s] between input reports; 0: none unless requested
+  bool answers_get_report = true;      // false: responds to GET_REPORT with STALL
   double delay = 0.0;                  // [s] duration of control transfers
   std::string serial = "A1", name = "Plain joystick";
   std::uint16_t product = 0x0001;
   std::uint8_t interface_class = 3;
-  int declared_length = -1;  // [bytes] declared length of the report descriptor; -1: the true length
+  int declared_length = -1;  // [bytes] declared size of the report descriptor; -1: the true size
 
   std::vector<ReceivedReport> outputs;   // received on the interrupt pipe, or as SET_REPORT(output)
   std::vector<ReceivedReport> features;  // SET_REPORT(feature)
-  Bytes feature{2, 10, 20, 30, 40};      // answer to GET_REPORT(feature), ID first
-  int reports = 0;                       // number of input reports sent on its own
-  int asked = 0;                         // GET_REPORT(input)
-  int idles = 0;                         // SET_IDLE
+  Bytes feature{2, 10, 20, 30, 40};      // answer to GET_REPORT(feature); the first byte is the report ID
+  int reports = 0;                       // number of unrequested input reports sent
+  int asked = 0;                         // number of GET_REPORT(input) requests
+  int idles = 0;                         // number of SET_IDLE requests
   int unplugs = 0;
 
   Bytes device_descriptor() const override;

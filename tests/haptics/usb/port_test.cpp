@@ -32,7 +32,7 @@ TEST_CASE("the kernel driver is detached while a port is open, and attached agai
   CHECK(counts.misuses == 0);
 }
 
-// HID 1.11 sections 7.2.1, 7.2.2 and 8: the ID comes first on the wire, but only if the device uses report IDs.
+// HID 1.11 sections 7.2.1, 7.2.2 and 8: on the bus a report begins with its ID, but only if the device uses report IDs.
 TEST_CASE("reports carry their ID first; without report IDs it is 0 and not sent") {
   for (const bool numbered : {true, false}) {
     CAPTURE(numbered);

@@ -51,7 +51,7 @@ class RecordingStream final : public haptics::HidStream {
     const std::lock_guard<std::mutex> lock(mutex_);
     return poll_times_;
   }
-  std::vector<std::int64_t> output_times() const {  // times of the non-empty outputs
+  std::vector<std::int64_t> output_times() const {  // times at which non-empty outputs were returned
     const std::lock_guard<std::mutex> lock(mutex_);
     return output_times_;
   }

@@ -22,7 +22,7 @@ EmulatedStickConfig of_family(StickFamily family) {
   return config;
 }
 
-// All messages from the driver to a stick from beginning to end, one per line.
+// Runs a session from prepare() to finish(). Returns all messages between driver and stick, one per line.
 std::string messages_through(haptics::HidPort& port, const EmulatedStick& stick) {
   haptics::PidDriver driver(port.report_descriptor());
   driver.prepare(port);

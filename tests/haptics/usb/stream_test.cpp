@@ -42,7 +42,7 @@ TEST_CASE("every input report comes through, whole, in order and with its time")
                                        static_cast<std::uint8_t>((i + 1) >> 8), 0x34, 0x12});
       if (i > 0) REQUIRE(inputs[i].time_ns >= inputs[i - 1].time_ns);
     }
-    CHECK(rig.gadget.idles == 1);  // SET_IDLE at the start
+    CHECK(rig.gadget.idles == 1);  // SET_IDLE was sent once, at the start
     CHECK(has_nothing_pending(rig));
   }
 }
@@ -113,7 +113,8 @@ TEST_CASE("a silent lever is requested every silence_ns") {
   streaming.end();
   const std::vector<RecordingStream::Input> inputs = stream.inputs();
   CHECK(inputs[0].bytes == Bytes{1, 0, 0, 0x34, 0x12});
-  // Transfer time delays the answers, but requests never come early: the mean interval is at least silence_ns.
+  // The stream never requests a report early, so the mean interval is at least silence_ns. A late first answer can
+  // shorten the mean, so the check allows 10 %.
   const std::int64_t mean =
       (inputs.back().time_ns - inputs.front().time_ns) / static_cast<std::int64_t>(inputs.size() - 1);
   CHECK(mean >= stream.config().silence_ns * 9 / 10);
@@ -205,7 +206,7 @@ TEST_CASE("an output that stalls is sent once more") {
     CHECK(streaming.error() ==
           "Plain joystick (1209:0001) has stopped accepting data. Unplug it and plug it in again.");
     rig.usb.set_faults(rig.gadget, {});
-    CHECK_NOTHROW(port->send(numbered_output(9)));  // the output that must be sent before the device is closed
+    CHECK_NOTHROW(port->send(numbered_output(9)));  // the device must still accept an output before it is closed
     CHECK(has_nothing_pending(rig));
   }
 }
@@ -276,7 +277,6 @@ TEST_CASE("short reports are passed on unchanged, too long ones are not") {
   }
 }
 
-// A slow control pipe must not slow down reports.
 TEST_CASE("a slow control pipe delays neither input nor output") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
@@ -284,7 +284,7 @@ TEST_CASE("a slow control pipe delays neither input nor output") {
   rig.query([](PlainGadget& gadget) { return gadget.delay = 0.2; });
   RecordingStream stream;
   haptics::StreamConfig config = stream.config();
-  config.lever_report = 9;  // the report never arrives, so it is requested all the time
+  config.lever_report = 9;  // report 9 never arrives, so the stream keeps requesting it
   Streaming streaming(*port, config, stream);
   CHECK(becomes_true([&] { return stream.input_count() >= 1; }));
   const std::size_t before = stream.input_count();

@@ -43,7 +43,7 @@ inline haptics::HidBytes report_of(std::initializer_list<std::uint8_t> bytes) {
   return report;
 }
 
-// The message of the thrown exception; empty if nothing was thrown.
+// Returns the message of the exception that `action` throws; empty if it throws none.
 template <class Error, class Action>
 std::string sentence_of(Action action) {
   try {
@@ -58,7 +58,7 @@ struct UsbRig {
   PlainGadget gadget;
   MockUsb usb;
 
-  // Evaluates `query_gadget` on the gadget while the bus is not calling it.
+  // Calls `query_gadget` with the gadget, while the bus is locked.
   template <class Query>
   auto query(Query query_gadget) {
     const std::lock_guard<std::mutex> lock(usb.mutex());
@@ -67,7 +67,7 @@ struct UsbRig {
   std::unique_ptr<haptics::HidPort> open() { return haptics::open_usb_hid(plain_identity()); }
 };
 
-// A stream on its own thread.
+// Runs a stream on its own thread until the stream ends.
 class Streaming {
  public:
   Streaming(haptics::HidPort& port, const haptics::StreamConfig& config, RecordingStream& stream)
@@ -86,7 +86,7 @@ class Streaming {
     end();
   }
   bool has_ended() const { return ended_; }
-  // Only valid after the stream has ended.
+  // Valid only after the stream has ended.
   bool was_disconnected() const { return disconnected_; }
   const std::string& error() const { return error_; }
 

@@ -37,7 +37,7 @@ struct DeviceEffect {
   double magnitude = 0.0;
   std::array<AxisCondition, 2> condition{};
   bool playing = false;
-  std::int64_t start_ns = 0, end_ns = 0;  // when the force begins and ends; end 0: never
+  std::int64_t start_ns = 0, end_ns = 0;  // times at which the force begins and ends; end_ns 0: no end
 };
 
 struct EffectForces {
@@ -61,12 +61,12 @@ class DeviceEffects {
   const DeviceEffect* find(int block) const noexcept;
   int free_blocks() const noexcept;
 
-  // loops = 255: endless. An effect that is already playing starts again.
+  // With `loops` = 255, the effect is endless. An effect that is already playing starts again.
   void start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept;
   void stop_all() noexcept;
-  // Ends the effects whose time is over and returns their blocks.
+  // Ends the effects whose time is over and returns the numbers of their blocks.
   std::vector<int> expire(std::int64_t now_ns);
-  // Delays the start and end of all playing effects, as during a pause.
+  // Delays the start and the end of all playing effects by `by_ns`, the duration of a pause.
   void postpone(std::int64_t by_ns) noexcept;
   int playing() const noexcept;
 
@@ -76,7 +76,7 @@ class DeviceEffects {
   std::vector<DeviceEffect> effects_;  // indexed by block - 1
 };
 
-// Force towards the centre, proportional to the deflection beyond the dead band. slope: force with coefficient 1 at
+// Force towards the centre, proportional to the deflection beyond the dead band. `slope`: force with coefficient 1 at
 // deflection 1.
 double condition_force(const AxisCondition& condition, double deflection, double slope) noexcept;
 

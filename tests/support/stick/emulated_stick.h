@@ -1,5 +1,6 @@
-// A force-feedback stick as seen from its USB port, with a simulated lever and a hand behind it. It was written from
-// the devices' documents, byte by byte, and does not use our HID parser, so that stick and parser check each other.
+// A force-feedback stick as seen from its USB port, with a simulated lever and a hand behind it. The stick was written
+// from the devices' documents, byte by byte, and does not use our HID parser, so that stick and parser check each
+// other.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +22,18 @@ const char* to_string(StickFamily family) noexcept;  // "sidewinder", ...
 
 struct EmulatedStickConfig {
   StickFamily family = StickFamily::sidewinder;
-  // The mechanism. The stick replaces its encoder, stops and motors by its own, and its delay by 0.
+  // The lever and the hand. The stick uses its own encoder, stops and motors instead of the configured ones, and no
+  // delay.
   haptics::SimulatedLeverConfig lever;
   double half_travel = 0.070;       // [m] full deflection: knob travel from rest to a stop
   double full_force = 20.0;         // [N] knob force of an effect with full magnitude; limits the sum of all effects
   double spring_stiffness = 400.0;  // [N/m] spring stiffness at the knob with the maximum coefficient
-  double plant_period = 0.001;      // [s] time step of the plant and the effects
+  double plant_period = 0.001;      // [s] time step of the simulated lever and the effects
   double input_interval = 0.001;    // [s] between two lever reports
   double delay = 0.0;               // [s] from the arrival of an output report to its force
-  // Signs of the forces on each axis (select, shift). +1: as in PID 1.0, where the direction is that from which the
-  // force comes: a positive constant force at 90 degrees pushes left, at 180 degrees away from the user; springs pull
-  // to their centre, and dampers brake. -1: inverted.
+  // Signs of the forces on each axis (select, shift): +1 as in PID 1.0, -1 inverted. In PID 1.0, a direction states
+  // where a force comes from, so a positive constant force at 90 degrees pushes left, and at 180 degrees away from the
+  // user. Springs pull to their centre, and dampers brake.
   glm::ivec2 constant_sign{1, 1};
   glm::ivec2 spring_sign{1, 1};
   glm::ivec2 damper_sign{1, 1};
@@ -44,14 +46,14 @@ struct EmulatedStickConfig {
   bool own_power = false;
 };
 
-// Faults of the stick. A fault is active while its value is set.
+// Faults of the stick. Each fault is active while its value is set.
 struct EmulatedFaults {
   bool jump = false;             // every 50th report is off by 60 % of the full deflection
   bool wrong_length = false;     // lever reports lack their last byte
-  bool stuck = false;            // repeats the same lever report forever
+  bool stuck = false;            // sends one lever report again and again
   bool silent = false;           // sends no lever reports, not even with GET_REPORT
-  bool refuses_effects = false;  // creating an effect fails, block load status: error
-  bool pool_full = false;        // creating an effect fails, block load status: full
+  bool refuses_effects = false;  // creating an effect fails with the block load status "error"
+  bool pool_full = false;        // creating an effect fails with the block load status "full"
   bool stalls_outputs = false;   // output reports are no longer accepted
   double slow = 0.0;             // [s] extra duration of each control transfer, during which the caller waits
 };
@@ -68,7 +70,7 @@ struct StickMessage {
   std::int64_t time_ns = 0;
   std::vector<std::uint8_t> bytes;
 };
-std::string message_line(const StickMessage& message);  // "out 05 01 10 27"
+std::string message_line(const StickMessage& message);  // for example "out 05 01 10 27"
 
 class EmulatedStick {
  public:
@@ -83,16 +85,16 @@ class EmulatedStick {
   std::vector<std::uint8_t> string_descriptor(int index) const;
   std::optional<std::vector<std::uint8_t>> control(const UsbSetup& setup,
                                                    std::span<const std::uint8_t> data);  // empty: stall
-  // Interrupt OUT transfer. Returns false for a stall. A report that is unknown or has the wrong length stalls. On a
-  // device without this endpoint every report stalls (vJoy receives its outputs by SET_REPORT).
+  // Interrupt OUT transfer. Returns false if the transfer stalls. It stalls if the report is unknown or has the wrong
+  // length, or if the device has no OUT endpoint (vJoy, which receives its outputs by SET_REPORT).
   bool output(std::span<const std::uint8_t> report);
-  std::optional<std::vector<std::uint8_t>> input();  // interrupt IN transfer: the due report, once; empty: NAK
+  std::optional<std::vector<std::uint8_t>> input();  // interrupt IN transfer; returns each due report once; empty: NAK
 
-  // Advances plant and effects to now_ns, in whole periods. now_ns: any clock of the caller [ns]; the first call only
-  // sets the start time.
+  // Advances the simulated lever and the effects to now_ns, in whole periods. `now_ns`: time [ns] on any clock of the
+  // caller. The first call only sets the start time.
   void advance(std::int64_t now_ns);
-  // Turns the bus power off: effects and motors stop. If the motors have their own supply, they stop at the next bus
-  // reset.
+  // Turns the bus power off: effects and motors stop. Motors with their own power supply run until their effects end,
+  // but at most until the next bus reset.
   void unplug();
 
   // True state.
@@ -105,9 +107,9 @@ class EmulatedStick {
   int playing() const;              // number of effects
   std::int64_t fetched_ns() const;  // when the last report of the lever was fetched, by input() or GET_REPORT
 
-  std::uint64_t held_buttons = 0;  // besides the hand's buttons: 1 (bit 0) lever pushed down, 2 (bit 1) lever lifted
+  std::uint64_t held_buttons = 0;  // bit mask, added to the hand's buttons (bit 0: pushed down, bit 1: lifted)
   EmulatedFaults faults;
-  std::vector<StickMessage> log;  // all messages except GET_REPORT for inputs
+  std::vector<StickMessage> log;  // all messages except GET_REPORT requests for input reports
   bool logs = true;
 
  private:

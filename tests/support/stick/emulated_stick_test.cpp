@@ -46,7 +46,7 @@ struct Rig {
   explicit Rig(const EmulatedStickConfig& config) : family(config.family), stick(config, hand) { stick.advance(0); }
   explicit Rig(StickFamily a_family) : Rig(plain(a_family)) {}
 
-  // Picks the text for this rig's family.
+  // Picks the text for the stick family of this rig.
   const char* pick(const char* sidewinder, const char* openffboard, const char* vjoy) const {
     return family == StickFamily::sidewinder ? sidewinder : family == StickFamily::openffboard ? openffboard : vjoy;
   }
@@ -66,7 +66,7 @@ struct Rig {
   std::optional<Bytes> get(int kind_and_id, std::uint16_t size = 64) {
     return stick.control({0xA1, 1, static_cast<std::uint16_t>(kind_and_id), 0, size}, {});
   }
-  // Creates an effect of this type and returns the block load report, which contains the effect's block.
+  // Creates an effect of the given type and returns the block load report, which contains the effect's block.
   Bytes load(int type) {
     const char* types[] = {"00", "01", "08", "09", "0C", "0D"};
     for (const char* name : types) {
@@ -92,21 +92,23 @@ struct Rig {
 std::string constant_to_the_right(Rig& rig) {
   const int block = rig.load(1)[1];
   REQUIRE(block == (rig.family == StickFamily::sidewinder ? 2 : 1));
-  // 300 ms are 0x012C. 270 degrees are 0xC0 of 256, 27000 = 0x6978 of 36000, and 24575 = 0x5FFF of 32767.
+  // 300 ms are 0x012C. 270 degrees are 192 (0xC0) of 256 counts on the SideWinder, 27000 (0x6978) of 36000 on
+  // OpenFFBoard, and 24575 (0x5FFF) of 32767 on vJoy.
   rig.out(rig.pick("01 02 01 2C 01 00 00 00 00 FF 00 04 C0 00 00 00",
                    "01 01 01 2C 01 00 00 00 00 00 00 FF 00 04 78 69 00 00 00 00 00 00",
                    "11 01 01 2C 01 00 00 00 00 00 00 FF 00 04 FF 5F 00 00 00 00 00 00"));
   return rig.pick("02", "01", "01");
 }
 
-// Sets a fifth of the full magnitude: 51 of 255, 6553 of 32767, 2000 of 10000. (A half would be 127.5 of 255.)
+// Sets a fifth of the full magnitude: 51 (0x33) of 255 on the SideWinder, 6553 (0x1999) of 32767 on OpenFFBoard, and
+// 2000 (0x07D0) of 10000 on vJoy.
 void fifth_of_full(Rig& rig) {
   rig.out(rig.pick("05 02 33 00", "05 01 99 19", "15 01 D0 07"));
 }
 
-// Creates a spring (or a condition of the given type) on X and Y and returns its block. Bytes: block, parameter block,
-// centre, two coefficients, two saturations, dead band. Coefficients and saturations are at their maximum, centre and
-// dead band 0.
+// Creates a spring (or a condition of the given type) on X and Y and returns its block. Each condition report contains:
+// report ID, block, parameter block, centre, two coefficients, two saturations, dead band. Coefficients and saturations
+// are at their maximum; centre and dead band are 0.
 std::string full_spring(Rig& rig, const char* type_and_load = "08") {
   const int type = std::stoi(type_and_load, nullptr, 16);
   rig.load(type);
@@ -140,9 +142,9 @@ TEST_CASE("a steady push comes to rest where the spring holds it: x = F / K") {
 }
 
 TEST_CASE("dead band, centre, coefficients on either side and saturation of a condition") {
-  // The condition on X: centre at 0.25 of 70 mm, dead band 0.1, half of the full stiffness to the right, a quarter to
-  // the left, at most 0.3 of 20 N. On vJoy 1 is 10000 counts, so these fractions are exact: 0x09C4, 0x03E8, 0x1388,
-  // 0x09C4, 0x0BB8.
+  // The condition on X: centre at 0.25 of 70 mm, half of the full stiffness to the right, a quarter to the left, at
+  // most 0.3 of 20 N in either direction, dead band 0.1 of 70 mm. On vJoy, the fraction 1 is 10000 counts, so the
+  // values are exact: 0x09C4, 0x1388, 0x09C4, 0x0BB8 (twice) and 0x03E8. The low byte comes first.
   Rig rig(StickFamily::vjoy);
   rig.enable();
   const std::string block = full_spring(rig);
@@ -177,8 +179,9 @@ TEST_CASE("under a damper, a push F moves the lever at F / (b + D), where D is t
 }
 
 TEST_CASE("a force pushes from its direction, which counts clockwise from the far side (PID 1.0 section 4.2)") {
-  // A force from 0 degrees pushes towards the user, from 90 left, from 180 away, from 270 right. 90 degrees are 64 of
-  // 256, 9000 of 36000, and 8192 of 32767.
+  // A force from 0 degrees pushes towards the user, from 90 degrees left, from 180 degrees away from the user, and from
+  // 270 degrees right. 90 degrees are 64 (0x40) of 256 counts on the SideWinder, 9000 (0x2328) of 36000 on OpenFFBoard,
+  // and 8192 (0x2000) of 32767 on vJoy.
   const char* sidewinder[] = {"00", "40", "80", "C0"};
   const char* openffboard[] = {"00 00", "28 23", "50 46", "78 69"};
   const char* vjoy[] = {"00 00", "00 20", "00 40", "FF 5F"};
@@ -296,21 +299,21 @@ TEST_CASE("gains of effect and device multiply; all forces together are at most 
 TEST_CASE("the pool: lowest block first, full, freed, used again; unknown types") {
   EmulatedStickConfig config = plain(StickFamily::sidewinder);
   config.blocks = 3;
-  Rig rig(config);  // block 1 is the SideWinder's centring spring; Linux's hid-pidff expects to create block 2 first
-  CHECK(rig.load(1) == hex("02 02 01 40 00"));  // block 2, success, 64 bytes left
+  Rig rig(config);  // block 1 is the SideWinder's own centring spring, so the host creates block 2 first
+  CHECK(rig.load(1) == hex("02 02 01 40 00"));  // report 2: block 2, success, 0x40 = 64 bytes left
   CHECK(rig.load(8) == hex("02 03 01 20 00"));
   CHECK(rig.load(9) == hex("02 04 01 00 00"));
   CHECK(rig.load(1) == hex("02 00 02 00 00"));  // full
   rig.out("0B 03");
-  rig.out("0B 01");  // block 1 must not be freed by the host
+  rig.out("0B 01");  // has no effect: the host cannot free block 1
   CHECK(rig.load(1) == hex("02 03 01 00 00"));
   rig.out("0B 02");
   CHECK(rig.load(13) == hex("02 00 03 20 00"));     // error
-  CHECK(*rig.get(0x303) == hex("03 60 00 03 01"));  // pool: 96 bytes, 3 simultaneous effects, managed by the device
+  CHECK(*rig.get(0x303) == hex("03 60 00 03 01"));  // 0x60 = 96 bytes, 3 effects at once, pool managed by the device
 
   CHECK((*Rig(StickFamily::openffboard).get(0x313))[3] == 40);
   CHECK((*Rig(StickFamily::vjoy).get(0x313))[3] == 100);
-  CHECK(Rig(StickFamily::openffboard).load(12)[2] == 3);  // OpenFFBoard has no custom force
+  CHECK(Rig(StickFamily::openffboard).load(12)[2] == 3);  // status 3 (error): no effect type 12 (custom force)
 }
 
 TEST_CASE("faults of the pool, and finite effects refused") {
@@ -376,7 +379,7 @@ TEST_CASE("OpenFFBoard's one switch: pause, stop all and reset turn it off, sett
   CHECK(rig.stick.actuators_on());
   fifth_of_full(rig);
   rig.start(block);
-  for (const char* off : {"02", "04", "10"}) {  // bits: disable, stop all, pause
+  for (const char* off : {"02", "04", "10"}) {  // the bits of disable, stop all and pause
     rig.out(std::string("0C ") + off);
     CHECK(rig.stick.force().x == 0.0);
     CHECK(rig.stick.playing() == 1);
@@ -386,7 +389,7 @@ TEST_CASE("OpenFFBoard's one switch: pause, stop all and reset turn it off, sett
   rig.out("0C 08");
   CHECK_FALSE(rig.stick.actuators_on());
   CHECK(rig.stick.playing() == 0);
-  rig.out("0C 00");  // Linux 6.1's hid-pidff sends this as a reset
+  rig.out("0C 00");  // Linux 6.1's hid-pidff sends this as a reset, so it must not turn the actuators on
   CHECK_FALSE(rig.stick.actuators_on());
 }
 
@@ -412,8 +415,8 @@ TEST_CASE("the lever's report: rest, right, forward, buttons, in the bits that t
     const char *rest, *right, *forward;  // the bytes from X up to and including Y
     std::size_t size, from;
   };
-  // The SideWinder's axes have 10 bits in two bytes, -512 to 511, and the middle is between -1 and 0. The bytes of the
-  // other sticks were derived in the same way.
+  // The SideWinder's axes have 10 bits in two bytes, -512 (0x0200) to 511 (0x01FF). The middle, -0.5, is rounded to 0.
+  // The bytes of the other sticks were derived in the same way.
   const Case cases[] = {
       {StickFamily::sidewinder, "00 00 00 00", "FF 01 00 00", "00 00 00 02", 13, 1},
       {StickFamily::openffboard, "00 00 00 00", "FF 7F 00 00", "00 00 01 80", 25, 9},
@@ -473,9 +476,9 @@ TEST_CASE("reports come at every interval or only after a change, each once") {
 TEST_CASE("state reports after changes: SideWinder's with the block, OpenFFBoard's without, none on vJoy") {
   Rig rig(StickFamily::sidewinder);
   rig.enable();
-  CHECK(*rig.stick.input() == hex("02 16 00"));  // bits: actuators, safety switch, power; block 0
+  CHECK(*rig.stick.input() == hex("02 16 00"));  // 0x16: actuators, safety switch, power; 0x00: no block
   const std::string block = constant_to_the_right(rig);
-  CHECK(*rig.stick.input() == hex("02 16 04"));  // block 2 is set
+  CHECK(*rig.stick.input() == hex("02 16 04"));  // 0x04: 2 * 2 for block 2, plus 0 because it does not play
   rig.start(block);
   CHECK(*rig.stick.input() == hex("02 16 05"));  // block 2 plays
   rig.run(299);
@@ -592,7 +595,7 @@ TEST_CASE("messages are logged; an unplug resets everything") {
   REQUIRE(rig.stick.log.size() == 6);
   CHECK(message_line(rig.stick.log[0]) == "out 0c 01");
   CHECK(message_line(rig.stick.log[1]) == "set 01 01 00 00");
-  CHECK(message_line(rig.stick.log[2]) == "get 02 02 01 c0 04");  // 38 blocks of 32 bytes left
+  CHECK(message_line(rig.stick.log[2]) == "get 02 02 01 c0 04");  // 0x04C0 bytes left: 38 blocks of 32 bytes
   CHECK(message_line(rig.stick.log[5]) == "out 05 02 33 00");
   CHECK(rig.stick.force().x > 3.9);
   rig.stick.unplug();

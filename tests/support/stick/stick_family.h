@@ -16,13 +16,13 @@ using StickReport = std::vector<std::uint8_t>;  // the ID is the first byte
 // A number in a report, little-endian.
 struct StickNumber {
   std::size_t at = 0;  // [bytes] offset from the report's ID
-  int bytes = 0;       // 0: no such number
+  int bytes = 0;       // 0: the report has no such number
   bool is_signed = false;
 };
 std::int64_t read_number(std::span<const std::uint8_t> report, StickNumber number) noexcept;
 void write_number(std::span<std::uint8_t> report, StickNumber number, std::int64_t value) noexcept;
 
-// A number in a report, read as a fraction: divided by `max` if positive, by -`min` if negative.
+// A number in a report, read as a fraction: divided by `max` if positive, by `-min` if negative.
 struct StickFraction {
   StickNumber number;
   double max = 1.0, min = 0.0;
@@ -37,13 +37,13 @@ struct ReportShape {
 struct LeverBytes : ReportShape {
   StickNumber x, y;
   double low = 0.0, high = 0.0;  // [counts] range of the axes
-  int bits = 16;                 // per axis; higher bits are padding
+  int bits = 16;                 // bits per axis; higher bits are padding
   std::size_t buttons_at = 0;    // button 1 is the lowest bit of this byte
   std::size_t hat_at = 0;        // byte of the hat, which reports 8 (not pressed); 0: no hat
 };
 struct SetEffectBytes : ReportShape {
   StickNumber duration, start_delay;     // [ms]
-  std::size_t gain_at = 0, axes_at = 0;  // gain: 0 to 255; axes: bit 0 X, 1 Y, 2 direction
+  std::size_t gain_at = 0, axes_at = 0;  // gain byte: 0 to 255; axes byte: bit 0 X, bit 1 Y, bit 2 direction
   StickNumber direction_x, direction_y;
   double full_turn = 0.0;  // [counts] per full turn of a direction
 };
@@ -67,16 +67,16 @@ struct StickFamilyTable {
   const char* name;
   std::uint16_t vendor, product, usb_version, device_version;
   const char *maker, *product_name, *serial;  // serial "": none
-  std::uint8_t endpoint_in, endpoint_out;     // endpoint_out 0: outputs use the control pipe
+  std::uint8_t endpoint_in, endpoint_out;     // if `endpoint_out` is 0, outputs use the control pipe
   LeverBytes lever;
-  ReportShape state;  // state report: 3 bytes with the effect's block, 2 bytes without; 0: not sent
+  ReportShape state;  // size: 3 with the effect's block, 2 without; 0: no state report
   SetEffectBytes set_effect;
   ConditionBytes condition;
   ConstantBytes constant;
   ReportShape operation, block_free, control, gain;
   std::vector<ReportShape> other_outputs;  // accepted, but ignored
   ReportShape create, block_load, pool;    // features
-  ReportShape block_state;                 // feature, only on vJoy
+  ReportShape block_state;                 // feature report, only on vJoy
   std::uint8_t last_type;                  // highest effect type; 1 is constant, 8 spring, 9 damper
   StickQuirks quirks;
 };

@@ -19,10 +19,11 @@ constexpr int kConstantType = 1, kSpringType = 8, kDamperType = 9;
 enum Control { enable_actuators = 1, disable_actuators, stop_all, reset_all, pause_all, continue_all };
 enum Operation { start_effect = 1, start_solo, stop_effect };
 
-// Direction in which a constant force pushes, on the device's axes. The encoded direction is where the force comes
+// Direction in which a constant force pushes, on the device's axes. The encoded direction states where the force comes
 // from, clockwise from the far side (PID 1.0 section 4.2): a force from the right (90 degrees) pushes left, a force
-// from the far side (0) pushes towards the user (Y +). Without the direction bit the two values are components, and 180
-// degrees is zero.
+// from the far side (0 degrees) pushes towards the user (positive Y). If the direction bit is not set, the two values
+// are the components of the force. The count for 180 degrees then means zero; X values below it push right, Y values
+// above it push towards the user.
 glm::dvec2 push_direction(const SetEffectBytes& bytes, std::span<const std::uint8_t> report) noexcept {
   const std::uint8_t axes = report[bytes.axes_at];
   const auto x = static_cast<double>(read_number(report, bytes.direction_x));
@@ -229,7 +230,7 @@ std::optional<StickReport> StickFirmware::feature(std::uint8_t id) const {
   }
   if (id == family_.pool.id) {
     const int ram = blocks_ * kBytesPerBlock;
-    return StickReport{id, low(ram), high(ram), low(blocks_), 0x01};  // managed by the device
+    return StickReport{id, low(ram), high(ram), low(blocks_), 0x01};  // bit 0: the device manages the pool
   }
   if (family_.block_state.size > 0 && id == family_.block_state.id) return StickReport{id, low(state_block_)};
   return std::nullopt;
@@ -239,7 +240,7 @@ StickReport StickFirmware::state() const {
   const auto bit = [](bool value, int position) { return static_cast<std::uint8_t>(value ? 1 << position : 0); };
   const auto flags =
       static_cast<std::uint8_t>(bit(paused_, 0) | bit(actuators_, 1) | bit(true, 2));  // the safety switch is on
-  // The motors always have power: bit 3 of the short report, bit 4 of the long one.
+  // The motors always have power. This is bit 3 in the report of 2 bytes, and bit 4 in the report of 3 bytes.
   if (family_.state.size == 2) {
     return {family_.state.id, static_cast<std::uint8_t>(flags | bit(true, 3) | bit(playing() > 0, 4))};
   }

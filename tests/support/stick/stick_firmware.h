@@ -16,19 +16,20 @@ class StickFirmware {
  public:
   enum class BlockStatus : std::uint8_t { success = 1, full = 2, error = 3 };
 
-  // blocks: number of blocks in the pool; 0: as usual for the family.
+  // `blocks`: number of blocks in the pool; 0: as usual for the family.
   StickFirmware(const StickFamilyTable& family, int blocks, bool finite_refused);
 
   void power_off() noexcept;
 
-  // Reports start with their ID. These return false or empty if a report is unknown or has the wrong length.
+  // Reports start with their ID. The functions below return false or an empty value if a report is unknown or has the
+  // wrong length.
   bool accepts_output(std::span<const std::uint8_t> report) const noexcept;
   void output(std::span<const std::uint8_t> report, std::int64_t now_ns);
   bool set_feature(std::span<const std::uint8_t> report);
   std::optional<StickReport> feature(std::uint8_t id) const;
 
   StickReport state() const;                // the state as an input report; empty: the family has none
-  std::optional<StickReport> take_state();  // the next queued state report
+  std::optional<StickReport> take_state();  // the next queued state report; empty: none
 
   void set_clock(std::int64_t now_ns) noexcept;  // sets the time, but no time passes for the effects
   void advance(std::int64_t now_ns);             // ends effects whose time is over

@@ -55,7 +55,7 @@ std::vector<std::uint8_t> make_configuration_descriptor(const StickFamilyTable& 
                                                         double input_interval) {
   const auto interval = static_cast<std::uint8_t>(std::clamp(std::ceil(input_interval * 1e3 - 1e-6), 1.0, 255.0));
   const std::uint8_t endpoints = family.endpoint_out != 0 ? 2 : 1;
-  std::vector<std::uint8_t> bytes{9, 2, 0, 0, 1, 1, 0, 0x80, 50};  // one interface, bus-powered, 100 mA
+  std::vector<std::uint8_t> bytes{9, 2, 0, 0, 1, 1, 0, 0x80, 50};  // one interface, bus-powered, 50 x 2 mA
   append(bytes, {9, 4, 0, 0, endpoints, 3, 0, 0, 0});
   append(bytes, {9, 0x21, 0x11, 0x01, 0, 1, 0x22, low(report_descriptor), high(report_descriptor)});
   append(bytes, interrupt_endpoint(family.endpoint_in, interval));

@@ -72,7 +72,7 @@ bool send_next_output(EmulatedStick& stick, haptics::HidStream& stream, std::int
   return true;
 }
 
-// Waits until the event descriptor is written to, but at most `ns` nanoseconds.
+// Waits until the eventfd `fd` is written to, but at most `ns` nanoseconds. If `fd` is -1, waits for the whole time.
 void wait_for(int fd, std::int64_t ns) {
   pollfd poll_request{fd, POLLIN, 0};
   const timespec time{0, static_cast<long>(std::clamp<std::int64_t>(ns, 0, 999'999'999))};

@@ -17,8 +17,8 @@ void tick_stick(EmulatedStick& stick, const haptics::StreamConfig& config, hapti
 
 class StickPort : public haptics::HidPort {
  public:
-  // plugged: while false, every call throws HidDisconnected. All arguments must outlive the port; the mutex guards the
-  // stick while stream() runs on another thread.
+  // While `plugged` is false, get_feature(), set_feature(), send() and stream() throw HidDisconnected. All arguments
+  // must outlive the port. `mutex` guards the stick while stream() runs on another thread.
   StickPort(EmulatedStick& stick, std::mutex& mutex, const std::atomic<bool>& plugged);
 
   const haptics::HidIdentity& identity() const noexcept override;

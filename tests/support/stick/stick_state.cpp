@@ -13,9 +13,9 @@ namespace {
 constexpr double kDamperSpeed = 1.0;        // [m/s] speed at which the maximum damper coefficient makes the full force
 constexpr std::uint64_t kJumpEvery = 50;    // reports
 constexpr double kJump = 0.6;               // [1] fraction of the full deflection
-constexpr std::uint8_t kHatCentred = 0x08;  // outside the hat's range of 0 to 7
+constexpr std::uint8_t kHatCentred = 0x08;  // not pressed: outside the hat's range of 0 to 7
 
-// Forward on the gate is away from the user, where a stick's Y decreases.
+// Away from the user, Y increases on the gate but decreases on a stick.
 glm::dvec2 flip_y(glm::dvec2 v) {
   return {v.x, -v.y};
 }
@@ -79,7 +79,8 @@ void EmulatedStick::State::apply_all_outputs() {
   apply_force();
 }
 
-// Without a delay, outputs act at the caller's time; otherwise when the plant has reached their due time.
+// Without a delay, output reports act at the caller's time. With a delay, they act when the simulated lever has reached
+// their due time.
 void EmulatedStick::State::apply_due_outputs() {
   const std::int64_t at_ns = delay_ns == 0 ? now_ns : plant_ns;
   while (!outputs_.empty() && outputs_.front().due_ns <= at_ns) {
@@ -133,7 +134,7 @@ DeviceMotion EmulatedStick::State::motion() const {
           config.spring_stiffness * config.half_travel / config.full_force};
 }
 
-// Applies the force of the effects to the plant.
+// Applies the force of the effects to the simulated lever.
 void EmulatedStick::State::apply_force() {
   const EffectForces effect_forces = firmware.forces(motion(), plant_ns);
   const glm::dvec2 constant = glm::dvec2(config.constant_sign) * effect_forces.constant;
@@ -166,7 +167,7 @@ StickReport EmulatedStick::State::lever_report(double error) const {
   write_number(report, bytes.y, counts(deflection.y));
   if (bytes.hat_at != 0) report[bytes.hat_at] = kHatCentred;
   const std::uint64_t hand = (reading_.pressed_down ? 1U : 0U) | (reading_.lifted ? 2U : 0U);
-  report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // every family has at least eight buttons
+  report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // buttons 1 to 8, which all families have
   return report;
 }
 

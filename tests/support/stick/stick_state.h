@@ -16,7 +16,7 @@ struct EmulatedStick::State {
   State(const EmulatedStickConfig& wanted, haptics::HandDriver& hand, const EmulatedFaults& wrong,
         const std::uint64_t& held);
 
-  // Output reports act in order when they are due. apply_all_outputs() applies the waiting ones at once, before a
+  // Output reports act in order, each when it is due. apply_all_outputs() applies the waiting reports at once, before a
   // request that depends on them.
   bool accept_output(std::span<const std::uint8_t> report);  // false if the report is unknown
   void apply_all_outputs();
@@ -36,9 +36,9 @@ struct EmulatedStick::State {
   haptics::SimulatedLever lever;
   StickFirmware firmware;
 
-  glm::dvec2 force{0.0};      // [N] force of the motors on the knob
+  glm::dvec2 force{0.0};      // [N] motor force on the knob
   std::int64_t now_ns = 0;    // time on the caller's clock
-  std::int64_t plant_ns = 0;  // time of the plant, less than a period before now_ns
+  std::int64_t plant_ns = 0;  // time of the simulated lever, less than a period before now_ns
   std::int64_t fetched_ns = 0;
   std::optional<StickReport> pending_report;  // newest lever report, not fetched yet
   StickReport sent;                           // last fetched report

@@ -14,7 +14,8 @@ class GoToHand final : public haptics::HandDriver {
 
   void go(glm::dvec2 to) noexcept { to_ = to; }  // [m]
 
-  // The handle's spring pulls the lever back, so the push grows until the lever has reached the target.
+  // Moves the target towards the point set by go(). The handle's spring pulls the lever back, so the push grows until
+  // the lever has reached the target.
   haptics::HandTarget next(double, glm::dvec2 lever) noexcept override {
     const glm::dvec2 distance = to_ - target_.position;
     const double step = kSpeed * period_, left = glm::length(distance);

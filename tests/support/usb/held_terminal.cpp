@@ -12,8 +12,8 @@
 namespace gearshift::test {
 
 HeldTerminal::HeldTerminal() {
-  // If a session leader without a terminal opens this one, as libusb does without O_NOCTTY, it becomes the controlling
-  // terminal, and its hang-up would end the process.
+  // libusb opens this pseudo-terminal without O_NOCTTY. If the process is a session leader without a terminal, this one
+  // becomes its controlling terminal, and hang_up() would end the process by SIGHUP.
   std::signal(SIGHUP, SIG_IGN);
   master_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) throw std::runtime_error("no pseudo-terminal");

@@ -1,6 +1,6 @@
 // A file whose poll() events can be controlled: a pseudo-terminal whose output is stopped. usbfs signals a completed
-// transfer with POLLOUT and a disconnect with POLLERR; a plain file would always report POLLOUT, and libusb would never
-// sleep.
+// transfer with POLLOUT and a disconnect with POLLERR. A plain file is not suitable: it would always report POLLOUT, so
+// libusb would never sleep.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@ namespace gearshift::test {
 
 class HeldTerminal {
  public:
-  HeldTerminal();  // starts as not writable; throws std::runtime_error
+  HeldTerminal();  // not writable at first; throws std::runtime_error if there is no pseudo-terminal
   ~HeldTerminal();
   HeldTerminal(const HeldTerminal&) = delete;
   HeldTerminal& operator=(const HeldTerminal&) = delete;
 
   const std::string& path() const noexcept { return path_; }
   void set_writable(bool writable) noexcept;
-  void hang_up() noexcept;  // then poll() reports POLLERR to everyone who has the terminal open
+  void hang_up() noexcept;  // poll() then reports POLLERR to every process that has the terminal open
 
  private:
   std::string path_;

@@ -24,7 +24,7 @@ namespace gearshift::test {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::int64_t kFrame = 1'000'000;  // [ns] frame of a full-speed bus
+constexpr std::int64_t kFrame = 1'000'000;  // [ns] period of the frames on a full-speed bus
 
 std::string hex(std::span<const std::uint8_t> bytes) {
   std::string text;
@@ -42,7 +42,7 @@ std::string padded(const char* format, unsigned number) {
   return text.data();
 }
 
-// A device that is plugged in, or was.
+// A device that is or was plugged in.
 struct Plugged {
   Plugged(UsbGadget& gadget, const UsbPlug& a_plug, unsigned its_number, std::shared_ptr<std::mutex> lock)
       : mutex(std::move(lock)),
@@ -86,7 +86,7 @@ gboolean handle_ioctl(UMockdevIoctlBase* self, UMockdevIoctlClient* client) {
   return TRUE;
 }
 
-// umockdev keeps its client object until the file is closed, and then calls this.
+// umockdev keeps its client object until the file is closed, and then calls this function.
 void client_closed(gpointer data, GObject* client) {
   const std::unique_ptr<PluggedPtr> plugged(static_cast<PluggedPtr*>(data));
   const std::lock_guard<std::mutex> lock(*(*plugged)->mutex);
@@ -108,7 +108,7 @@ void node_handler_init(NodeHandler*) {}
 
 using GObjectPtr = std::unique_ptr<void, Unref>;
 
-// If a client dies while it is being answered, umockdev logs a critical message, which is harmless.
+// Drops the critical message that umockdev logs if a client dies while umockdev answers it. The message is harmless.
 void filter_log(const gchar* domain, GLogLevelFlags level, const gchar* message, gpointer data) {
   if (std::string_view(message).find("IoctlClient with open stream") == std::string_view::npos) {
     g_log_default_handler(domain, level, message, data);
@@ -128,7 +128,7 @@ struct MockUsb::State {
   GObjectPtr testbed;
   std::string root;
   std::shared_ptr<std::mutex> mutex = std::make_shared<std::mutex>();
-  std::vector<PluggedPtr> all;  // including the unplugged ones
+  std::vector<PluggedPtr> all;  // including the unplugged devices
   unsigned next_number = 2;
   std::atomic<bool> end{false};
   std::thread frames;
@@ -167,7 +167,7 @@ void MockUsb::State::run() {
   }
 }
 
-// The node in /dev is a link to the terminal that emulates it.
+// Makes the device's node in the test bed's /dev: a symbolic link to the terminal of its UsbfsNode.
 void MockUsb::State::make_node(const Plugged& plugged) {
   const fs::path link = root + plugged.device_node();
   fs::create_directories(link.parent_path());
@@ -211,7 +211,7 @@ std::string MockUsb::State::device_text(Plugged& plugged) const {
   return text + "H: descriptors=" + hex(device) + hex(gadget.configuration_descriptor()) + "\n\n";
 }
 
-// Describes the state after the kernel's HID driver has read the report descriptor.
+// Describes the HID device and the interface in sysfs, as after the kernel's HID driver has read the report descriptor.
 std::string MockUsb::State::driver_text(Plugged& plugged) const {
   UsbGadget& gadget = plugged.node.gadget();
   const std::string hid = plugged.driver_path().substr(4), interface = plugged.interface_path().substr(4);
@@ -233,7 +233,7 @@ MockUsb::MockUsb() : state_(std::make_unique<State>()) {
   gchar* root = umockdev_testbed_get_root_dir(state_->bed());
   state_->root = root;
   g_free(root);
-  chmod(state_->root.c_str(), 0777);  // for tests that run as a user without access to the device
+  chmod(state_->root.c_str(), 0777);  // lets tests run as a user without access to the device
   state_->frames = std::thread([this] { state_->run(); });
 }
 

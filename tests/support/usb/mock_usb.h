@@ -16,7 +16,7 @@ namespace gearshift::test {
 class MockUsb {
  public:
   MockUsb();   // throws std::runtime_error if umockdev is not preloaded
-  ~MockUsb();  // close every port first. NOLINT(bugprone-exception-escape): an exception ends the test
+  ~MockUsb();  // close every HidPort of the bus first. NOLINT(bugprone-exception-escape): an exception ends the test
   MockUsb(const MockUsb&) = delete;
   MockUsb& operator=(const MockUsb&) = delete;
 
@@ -25,7 +25,7 @@ class MockUsb {
   void plug(UsbGadget& gadget, const UsbPlug& plug = {});
   void unplug(UsbGadget& gadget);
 
-  // These refer to the gadget's latest connection.
+  // These functions refer to the gadget's latest connection.
   UsbNodeCounts counts(UsbGadget& gadget) const;
   bool driver_bound(UsbGadget& gadget) const;
   void set_faults(UsbGadget& gadget, const UsbWireFaults& faults);

@@ -2,7 +2,7 @@
 //
 //   umockdev-wrapper stick_emulator --family sidewinder [options] -- PROGRAM ARGUMENTS
 //
-// Event times are seconds since the program's start, or with --tour since the motors were first on. An event at 0
+// Event times are seconds since the program's start or, with --tour, since the motors were first on. An event at 0
 // happens before the program looks for devices. The exit status is the program's. After the program's end, stderr lists
 // for how long the emulated motors still pushed after each event: the start, each fault, unplug, stop and continue, and
 // the end.
@@ -47,8 +47,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kFreeOfForce = 1e-9;  // [N]
-constexpr double kQuietTime = 0.5;     // [s] without force, after which the observation ends
-constexpr double kMaxWatchTime = 5.0;  // [s] longest observation after the program's end
+constexpr double kQuietTime = 0.5;     // [s] watch_after_end() returns after this time without force
+constexpr double kMaxWatchTime = 5.0;  // [s] maximum duration of watch_after_end()
 
 struct Options {
   std::string family = "sidewinder", tour;
@@ -84,9 +84,9 @@ haptics::Gate gate_of(const std::string& name, const haptics::SimulatedLeverConf
                                lever.yoke.radius);
 }
 
-// An event of the test, and when the motors last pushed after it.
+// An event of the test, and the last time at which the motors pushed before the next event.
 struct Event {
-  double at = 0.0;  // [s] planned time; once the event has happened, its time on now()
+  double at = 0.0;  // [s] planned time; after the event, its actual time on the clock now()
   std::string name;
   std::function<void()> action;
   double last_force = -1.0;  // [s]
@@ -109,12 +109,12 @@ class Emulation {
   void read_orders(double time);
   void run_order(const std::string& order, double time);
   void start();
-  void watch();      // one step of the observation
+  void watch();      // every millisecond: reads orders, triggers due events, logs the stick
   bool has_ended();  // true if the program has ended
   void watch_after_end();
   void print_summary() const;
   double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  double event_time();  // [s] since the start, or since the motors were first on
+  double event_time();  // [s] since the start or, with --tour, since the motors were first on
 
   const Options& options_;
   EmulatedStickConfig config_;
@@ -131,14 +131,14 @@ class Emulation {
   std::size_t events_done_ = 0;
   Clock::time_point start_;
   double motors_on_ = -1.0;  // [s] when the motors were first on; negative: not yet
-  bool is_plugged_ = false;  // plugged in
+  bool is_plugged_ = false;
   pid_t child_ = -1;
   int status_ = 0;
 };
 
 Emulation::Emulation(const Options& options) : options_(options) {
   config_.family = family_of(options.family);
-  // Without a tour or orders, no hand holds the lever.
+  // Without a tour (scripted gear changes) and without an orders file, no hand holds the lever.
   if (!options.tour.empty() || !options.orders.empty()) config_.lever.hand = haptics::kGripHand;
   config_.own_power = options.own_power;
   if (!options.tour.empty()) {
@@ -167,7 +167,7 @@ Emulation::Emulation(const Options& options) : options_(options) {
 void Emulation::plug(bool in) {
   if (in) {
     const std::lock_guard<std::mutex> lock(usb_->mutex());
-    stick_->control({0x80, 0, 0, 0, 2}, {});  // any request resets the stick, as the host's enumeration would
+    stick_->control({0x80, 0, 0, 0, 2}, {});  // the first request after a replug resets the stick, as enumeration would
   }
   in ? usb_->plug(*gadget_) : usb_->unplug(*gadget_);
   is_plugged_ = in;
@@ -198,7 +198,7 @@ void Emulation::plan_fault(const std::string& text) {
                      }});
 }
 
-// Runs the complete lines that were written so far.
+// Executes the complete lines that were written to the orders file so far.
 void Emulation::read_orders(double time) {
   char text[256];
   for (ssize_t count; orders_file_ >= 0 && (count = read(orders_file_, text, sizeof text)) > 0;) {
@@ -240,7 +240,7 @@ void Emulation::start() {
   }
   start_ = Clock::now();
   std::signal(SIGTERM, request_end);
-  std::signal(SIGINT, SIG_IGN);  // the terminal sends SIGINT to the program directly
+  std::signal(SIGINT, SIG_IGN);  // ignored, because Ctrl-C also sends SIGINT to the program itself
 }
 
 double Emulation::event_time() {
@@ -258,7 +258,7 @@ void Emulation::watch() {
     if (events_[events_done_].action) events_[events_done_].action();
   }
   const std::lock_guard<std::mutex> lock(usb_->mutex());
-  // While unplugged, the bus does not advance the stick.
+  // While the stick is unplugged, the bus does not advance the stick, so it is advanced here.
   if (!is_plugged_) stick_->advance(std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
   // The hand shifts only while the motors are on.
   if (touring_hand_) touring_hand_->work(is_plugged_ && stick_->actuators_on());
@@ -317,7 +317,7 @@ int run(int count, char** arguments) {
   CLI::App cli("Runs a program with an emulated force-feedback stick beneath its libusb");
   cli.add_option("--family", options.family, "sidewinder, openffboard or vjoy");
   cli.add_option("--tour", options.tour, "gate whose gears a hand shifts through while the motors are on");
-  // Each option takes one value per use: otherwise "--" would not end the list of values.
+  // Each use of an option takes one value; otherwise "--" would not end a list of values.
   const auto each = [](CLI::Option* option) { option->allow_extra_args(false); };
   each(cli.add_option("--unplug-at", options.unplug_at, "[s] may be repeated"));
   each(cli.add_option("--replug-at", options.replug_at, "[s]"));

@@ -1,5 +1,5 @@
-// A scripted hand that shifts gears while the motors are on and holds still while they are off. So a tour waits until
-// the program turns the forces on, and continues after a fault once they are on again.
+// A scripted hand that shifts through all gears (a tour) while the motors are on, and holds still while they are off.
+// So a tour waits until the program turns the forces on, and after a fault continues when the forces are on again.
 #pragma once
 
 #include "haptics/device/scripted_hand.h"
@@ -9,7 +9,7 @@ namespace gearshift::test {
 
 class TouringHand final : public haptics::HandDriver {
  public:
-  // Shifts through every gear of the gate. period [s]: interval between calls of next().
+  // Shifts through every gear of the gate. `period` [s]: interval between calls of next().
   TouringHand(const haptics::Gate& gate, double period);
 
   void work(bool works) noexcept { works_ = works; }
@@ -19,7 +19,7 @@ class TouringHand final : public haptics::HandDriver {
  private:
   haptics::ScriptedHand script_;
   double period_;       // [s]
-  double time_ = -1.0;  // [s] in the script; negative while the forces ramp up
+  double time_ = -1.0;  // [s] time in the script; negative while the forces ramp up
   bool works_ = false;
   haptics::HandTarget target_;
 };

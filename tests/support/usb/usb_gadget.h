@@ -18,7 +18,7 @@ class UsbGadget {
   virtual Bytes device_descriptor() const = 0;
   virtual Bytes configuration_descriptor() const = 0;  // including the interface, HID and endpoint descriptors
   virtual Bytes report_descriptor() const = 0;
-  virtual std::string string_descriptor(int index) const = 0;  // 1 maker, 2 product, 3 serial number; empty: none
+  virtual std::string string_descriptor(int index) const = 0;  // 1: maker, 2: product, 3: serial number; empty: none
   virtual std::optional<Bytes> control(const UsbSetup& setup,
                                        std::span<const std::uint8_t> data) = 0;  // empty: stall
   virtual bool output(std::span<const std::uint8_t> report) = 0;                 // interrupt OUT; false: stall

@@ -25,9 +25,10 @@ struct UsbWireFaults {
 struct UsbNodeCounts {
   int opened = 0, closed = 0;       // calls of open and close
   int claims = 0, releases = 0;     // claims and releases of interfaces
-  int detached = 0, attached = 0;   // detaching and attaching the kernel driver
+  int detached = 0, attached = 0;   // detachments and attachments of the kernel driver
   int submitted = 0, returned = 0;  // transfers submitted and returned
-  // Transfers to an interface that is not claimed, and endpoints that were cleared while transfers waited in them.
+  // Number of transfers to an interface that is not claimed, plus number of times that an endpoint was cleared while a
+  // transfer waited in it.
   int misuses = 0;
   bool operator==(const UsbNodeCounts&) const = default;
 };

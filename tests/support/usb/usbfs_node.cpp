@@ -2,7 +2,7 @@
 
 // usbdevice_fs.h uses macros of ioctl.h, so ioctl.h must come first.
 #include <sys/ioctl.h>
-// clang-format keeps this order
+// This comment stops clang-format from sorting the two includes.
 #include <linux/usbdevice_fs.h>
 #include <time.h>
 
@@ -17,7 +17,7 @@
 namespace gearshift::test {
 namespace {
 
-constexpr std::size_t kSetup = 8;      // [bytes] setup packet before the data of a control transfer
+constexpr std::size_t kSetup = 8;      // [bytes] size of the setup packet before the data of a control transfer
 constexpr unsigned kHidInterface = 0;  // the interface that the kernel's HID driver or a different program uses
 
 std::int64_t clock_ns() noexcept {
@@ -54,8 +54,8 @@ UsbSetup setup_of(std::span<const std::uint8_t> bytes) {
 UsbfsNode::UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool in_use)
     : gadget_(gadget), bus_(bus), driver_bound_(driver_bound && !in_use), in_use_(in_use) {}
 
-// The client closed its file: its transfers are cancelled and its claims released. The kernel driver does not come
-// back.
+// The client has closed its file: its transfers are cancelled and its claims released. The kernel driver is not
+// attached again.
 void UsbfsNode::closed(UMockdevIoctlClient* client) {
   ++counts_.closed;
   const auto belongs_to_client = [client](const Urb& urb) { return urb.client == client; };
@@ -95,8 +95,8 @@ void UsbfsNode::disconnect() {
 
 // ----------------------------------------------------------------------------------------------------------- ioctls
 
-// Reads the client's memory, for which the client must answer. Does not hold the bus lock, because a stopped process
-// does not answer, and the bus must continue.
+// Reads the request's data from the client's memory. The client has to answer for this, but a stopped client does not,
+// so the bus lock is not held meanwhile.
 UsbfsNode::RequestData UsbfsNode::read(UMockdevIoctlClient* client, unsigned long request,
                                        UMockdevIoctlData* argument) {
   if (request == USBDEVFS_DISCARDURB) return {};  // needs only the address of the URB
@@ -220,7 +220,7 @@ std::deque<UsbfsNode::Urb>::iterator UsbfsNode::find_completed(UMockdevIoctlClie
 UsbfsNode::Result UsbfsNode::reap(UMockdevIoctlClient* client, UMockdevIoctlData* destination) {
   const auto found = find_completed(client);
   if (found == completed_.end()) return {-1, disconnected_ ? ENODEV : EAGAIN};
-  if (destination == nullptr) return {-1, EAGAIN};  // the URB completed after read(), or the client has died
+  if (destination == nullptr) return {-1, EAGAIN};  // the URB completed only after read(), or the client died
   umockdev_ioctl_data_set_ptr(destination, 0, found->urb.get());
   completed_.erase(found);
   ++counts_.returned;
@@ -241,7 +241,7 @@ bool UsbfsNode::has_claim(UMockdevIoctlClient* client, const Urb& urb) {
 // --------------------------------------------------------------------------------------------------------- transfers
 
 void UsbfsNode::process_pending() {
-  // In each endpoint, transfers are processed one after the other.
+  // In each endpoint, transfers are processed one after the other: this set lists the endpoints that are busy.
   std::set<std::uint8_t> waiting;
   for (auto urb = pending_.begin(); urb != pending_.end();) {
     if (waiting.contains(urb->endpoint) || !process(*urb)) {

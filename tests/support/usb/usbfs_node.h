@@ -28,7 +28,7 @@ using IoctlData = std::unique_ptr<UMockdevIoctlData, Unref>;
 // Not thread-safe: callers must hold the bus lock. Only ioctl() takes the lock itself.
 class UsbfsNode {
  public:
-  // Gadget and bus lock must outlive the node. driver_bound: the kernel's HID driver is bound. in_use: a different
+  // Gadget and bus lock must outlive the node. `driver_bound`: the kernel's HID driver is bound. `in_use`: a different
   // program uses the device.
   UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool in_use);
 
@@ -40,7 +40,7 @@ class UsbfsNode {
   void opened() noexcept { ++counts_.opened; }
   void closed(UMockdevIoctlClient* client);
   void ioctl(UMockdevIoctlClient* client);  // answers the request
-  void advance(std::int64_t now_ns);        // advances the gadget and processes everything that is due
+  void advance(std::int64_t now_ns);        // advances the gadget and processes the transfers that are due
   void disconnect();
 
   UsbWireFaults faults;

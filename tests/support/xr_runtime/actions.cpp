@@ -32,7 +32,7 @@ void check_binding(const InstanceObject& instance, const std::string& profile,
 
 void drop_action_set(State& s, XrActionSet handle) {
   for (const XrAction action : s.actions.find_all([&](const ActionObject& one) { return one.set == handle; })) {
-    s.actions.erase(action);  // no leak: an action is destroyed with its set
+    s.actions.erase(action);  // no leak: destroying a set also destroys its actions
   }
   s.action_sets.erase(handle);
 }
@@ -97,7 +97,7 @@ XrResult XRAPI_CALL SuggestInteractionProfileBindings(XrInstance instance,
     InstanceObject& object = live(instance);
     require_structure(info, XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
     const std::string& profile = path_string(object, info->interactionProfile);
-    if (!knows_profile(profile)) return XR_ERROR_PATH_UNSUPPORTED;  // a runtime need not support every controller
+    if (!knows_profile(profile)) return XR_ERROR_PATH_UNSUPPORTED;  // OpenXR allows runtimes without this controller
     std::vector<XrActionSuggestedBinding> bindings;
     for (std::uint32_t i = 0; i < info->countSuggestedBindings; ++i) {
       check_binding(object, profile, info->suggestedBindings[i]);

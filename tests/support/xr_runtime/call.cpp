@@ -37,7 +37,7 @@ struct Header {
 
 State& state() {
   static State* const one = [] {
-    auto* const created = new State;  // never deleted, because it must outlive the loader's destructors
+    auto* const created = new State;  // never deleted, because it must outlive the destructors of the loader
     created->control.rules = rules();
     created->control.restart = restart;
     created->control.read_script = [](const char* file) { return read_script(file); };

@@ -1,4 +1,4 @@
-// Reads the pixels that a frame submitted. Uses the program's Vulkan queue, as xrEndFrame is allowed to.
+// Reads the pixels of a submitted frame through the program's Vulkan queue, which xrEndFrame may use.
 #include <algorithm>
 #include <cstring>
 
@@ -12,7 +12,7 @@ bool should_capture(const Capture& capture, std::uint64_t frame) {
   return every || std::find(capture.only.begin(), capture.only.end(), frame) != capture.only.end();
 }
 
-// Returns no bytes for a multisampled image, which cannot be copied.
+// Reads the pixels that the program submitted. Returns no bytes for a multisampled image, which cannot be copied.
 std::vector<std::uint8_t> read_submitted(const SessionObject& session, const XrSwapchainSubImage& sub) {
   const SwapchainObject& swapchain = live(sub.swapchain);
   if (swapchain.info.sampleCount != 1) return {};

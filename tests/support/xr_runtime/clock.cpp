@@ -46,7 +46,8 @@ XrTime now(const State& s) {
 std::int64_t next_display_period(State& s, XrTime last) {
   if (s.control.script.pacing == Pacing::real) {
     const std::int64_t free = elapsed_periods(s, monotonic_now()) + 1;
-    // A frame begins one period before its display time.
+    // A frame must begin one period before its display time. Periods for which this is already too late count as
+    // dropped.
     if (last != 0 && free > s.next_step) s.control.record.dropped += static_cast<std::uint64_t>(free - s.next_step);
     s.next_step = std::max(free, s.next_step);
     sleep_until(display_time(s, s.next_step - 1));

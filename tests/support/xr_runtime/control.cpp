@@ -11,7 +11,7 @@ namespace gearshift::xr_test {
 Control& control() {
   static Control* const loaded = [] {
     setenv("XR_RUNTIME_JSON", GEARSHIFT_XR_TEST_MANIFEST, 1);
-    // The OpenXR loader will open the same library, so that test and program share one runtime.
+    // The OpenXR loader will open the same library. So the test and the tested program share one runtime.
     void* const library = dlopen(GEARSHIFT_XR_TEST_RUNTIME, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());
     using Get = Control* (*)();

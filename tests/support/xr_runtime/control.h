@@ -1,5 +1,5 @@
-// An OpenXR runtime for tests, as seen by the test: what it should simulate (Script) and what it received (Record). The
-// loader finds it through XR_RUNTIME_JSON; it needs no headset and no display. See README.md.
+// Controls the OpenXR test runtime. `Script` is what the runtime simulates, `Record` what it has received. The OpenXR
+// loader finds the runtime through XR_RUNTIME_JSON. No headset and no display are needed. See README.md.
 #pragma once
 
 #include <openxr/openxr.h>
@@ -37,17 +37,17 @@ inline Pose inverse(const Pose& a) {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 
-struct Fov {  // [rad], with the signs of XrFovf
+struct Fov {  // [rad], signs as in XrFovf
   double left = 0.0, right = 0.0, up = 0.0, down = 0.0;
 };
 
 enum class Space { view, local, stage, action };
 enum class Pacing {
-  stepped,  // each xrWaitFrame advances one display period, without sleeping: the same on every machine
+  stepped,  // each xrWaitFrame advances one display period, without sleeping, so results are reproducible
   real,     // sleeps like a compositor; a late frame gets the next free period, and skipped periods count as dropped
 };
 
-// Something that the script makes happen at a given time. The functions below create events.
+// Something that happens at a given time of the script. The functions below create events.
 struct Event {
   enum class Kind {
     focused,       // the program is visible and receives input
@@ -65,9 +65,9 @@ struct Event {
   };
   double at = 0.0;  // [s] on Script's clock; -1: before the first xrBeginSession
   Kind kind = Kind::focused;
-  Space space = Space::local;  // for space_change: local or stage
-  Pose pose{};                 // for space_change: the new origin in the previous space
-  int frames_ahead = 3;        // for space_change: display periods between the event and the change
+  Space space = Space::local;  // for `space_change`: `local` or `stage`
+  Pose pose{};                 // for `space_change`: the new origin in the previous space
+  int frames_ahead = 3;        // for `space_change`: display periods from the event to the change
   std::string profile{};
   double span = 0.0;  // [s] for hidden
   int periods = 0;    // for stall
@@ -112,7 +112,7 @@ inline Event stall(double at, int periods) {
 struct Failure {
   std::string function{};  // "xrEndFrame"
   XrResult result = XR_ERROR_RUNTIME_FAILURE;
-  int nth = 1;  // the nth call of the function from now on fails
+  int nth = 1;  // counted from now, only the nth call fails; 1: the next call
 };
 
 struct Hand {
@@ -125,14 +125,14 @@ struct Gap {                       // An interruption of head tracking.
   bool valid = false;              // true: estimated poses; false: no poses
 };
 
-struct Capture {                      // Selects the frames with recorded pixels; other data is always recorded.
+struct Capture {                      // Selects the frames whose pixels are recorded; other data is always recorded.
   int every = 0;                      // every n-th frame; 0: none
   std::vector<std::uint64_t> only{};  // also these frames, by FrameRecord::index
   bool depth = true;
 };
 
-// All times are seconds of display time since the first xrBeginSession after start(); the clock continues across
-// sessions.
+// All times in a script are display times, in seconds since the first xrBeginSession after start(). The clock continues
+// across sessions.
 struct Script {
   bool headset = true;  // false: xrGetSystem returns XR_ERROR_FORM_FACTOR_UNAVAILABLE
   bool vulkan_enable2 = true, composition_layer_depth = true, convert_timespec_time = true;  // offered extensions
@@ -150,9 +150,9 @@ struct Script {
   double period = 1.0 / 90.0;   // [s] display period
   Pacing pacing = Pacing::stepped;
   int polls_before_ready = 0;  // xrPollEvent calls without an event between IDLE and READY
-  std::function<Pose(double)> head = [](double) { return Pose{}; };  // in the initial LOCAL space
+  std::function<Pose(double)> head = [](double) { return Pose{}; };  // pose of the head in the initial LOCAL space
   std::vector<Gap> tracking_gaps{};
-  double early_error = 0.0;     // [m] error in x, only in the first xrLocateViews of each frame
+  double early_error = 0.0;     // [m] error of the head's x in the first xrLocateViews of each frame
   std::array<Hand, 2> hands{};  // left, right
   std::string profile = "/interaction_profiles/oculus/touch_controller";
   std::map<std::string, std::function<double(double)>> inputs{};  // ["/user/hand/right/input/trigger/value"]
@@ -173,7 +173,7 @@ struct DepthRecord {
 };
 
 struct ViewRecord {
-  Pose pose{};  // as submitted, in the layer's space
+  Pose pose{};  // as submitted, in the space of the layer
   Fov fov{};
   Rect rect{};
   std::uint32_t layer = 0;  // index in the swapchain's array
@@ -185,8 +185,8 @@ struct LayerRecord {
   XrStructureType type = XR_TYPE_UNKNOWN;
   XrCompositionLayerFlags flags = 0;
   Space space = Space::local;
-  std::vector<ViewRecord> views{};    // projection: left, right; quad: one entry with only pose and picture
-  float width = 0.0f, height = 0.0f;  // [m] size of a quad
+  std::vector<ViewRecord> views{};    // projection layer: left, right; quad layer: one entry, only pose and picture
+  float width = 0.0f, height = 0.0f;  // [m] size of a quad layer
   XrEyeVisibility eyes = XR_EYE_VISIBILITY_BOTH;
 };
 
@@ -215,7 +215,7 @@ struct FrameRecord {
 struct Rule {
   const char* id;
   XrResult result;      // result of a call that violates the rule; XR_SUCCESS: the call continues
-  const char* section;  // heading in the OpenXR 1.0 specification
+  const char* section;  // heading of a section in the OpenXR 1.0 specification
   const char* law;
 };
 
@@ -225,19 +225,19 @@ struct Violation {
 
 struct Pulse {  // A call of xrApplyHapticFeedback.
   int hand = 0;
-  double seconds = 0.0;  // 0: the minimum duration
+  double seconds = 0.0;  // [s] 0: the shortest pulse of the controller
   float frequency = 0.0f, amplitude = 0.0f;
 };
 
 struct Record {
   std::vector<FrameRecord> frames{};
   std::vector<Violation> violations{};
-  std::vector<std::string> leaks{};  // handles destroyed only with their parent, e.g. "space of session"
+  std::vector<std::string> leaks{};  // handles destroyed with their parent, not by a call, e.g. "space of session"
   std::vector<std::string> log{};    // one line per frame, event, state change, violation
   // Number of live handles by kind: instance, session, swapchain, space, action set, action.
   std::map<std::string, int> live{};
   std::map<std::string, int> calls{};
-  std::uint64_t dropped = 0;  // display periods without a new frame
+  std::uint64_t dropped = 0;  // number of display periods without a new frame
   std::vector<Pulse> pulses{};
   XrSessionState state = XR_SESSION_STATE_UNKNOWN;
 
@@ -249,7 +249,7 @@ struct Record {
 };
 
 struct Control {
-  Script script;  // these may change during a session: poses, inputs, timeline, failures, capture, headset, profile
+  Script script;  // may be changed in a session: poses, inputs, timeline, failures, capture, headset, profile
   Record record;
   std::span<const Rule> rules{};
   void (*restart)(Control&) = nullptr;
@@ -262,8 +262,8 @@ struct Control {
   }
 };
 
-// Sets XR_RUNTIME_JSON and loads the runtime; returns the same object at each call. Throws std::runtime_error. Linked
-// from the library xr_test_control.
+// Sets XR_RUNTIME_JSON and loads the runtime. Each call returns the same object. Throws std::runtime_error. Defined in
+// the library xr_test_control.
 Control& control();
 
 }  // namespace gearshift::xr_test

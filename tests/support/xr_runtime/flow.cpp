@@ -1,4 +1,4 @@
-// For flow tests, which test the whole program: reads the script from a file and writes the results to a folder.
+// For flow tests, which run the whole program. Reads the script from a file, and writes log and pictures to a folder.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -32,13 +32,13 @@ void read_flow_script(Control& control) {
     control.script = read_script(file);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", file, error.what());
-    std::abort();  // a test with a partial script would prove nothing
+    std::abort();  // a test with an incomplete script would prove nothing
   }
 }
 
 void write_log(const std::string& line) {
   if (out_folder() == nullptr) return;
-  // Closed after each line, so that nothing is lost if the program crashes.
+  // The file is closed after each line, so that no line is lost if the program crashes.
   std::ofstream(std::filesystem::path(out_folder()) / "log.txt", std::ios::app) << line << "\n";
 }
 

@@ -40,7 +40,7 @@ XrResult XRAPI_CALL WaitFrame(XrSession session, const XrFrameWaitInfo* info, Xr
     require_structure(state, XR_TYPE_FRAME_STATE);
     require(object.running, "session_running");
     require(!object.waited, "wait_twice");
-    // Handle the events that are due before choosing the display time, because a stall among them shifts that time.
+    // Handle the events that are due before choosing the display time, because an event `stall` delays it.
     const bool steps = s.control.script.pacing == Pacing::stepped;
     play_timeline(s, steps ? seconds(s, display_time(s, s.next_step)) : seconds(s, now(s)));
     live(session);  // rejects the call if an event lost the session

@@ -5,7 +5,7 @@
 
 #include "tests/support/xr_runtime/vulkan.h"
 
-// Names of the functions without "xr": of the core, and of each extension.
+// Function names without the prefix "xr", for the core and for each extension.
 // clang-format off
 #define GEARSHIFT_XR_CORE(_)                                                                                           \
   _(EnumerateInstanceExtensionProperties) _(CreateInstance) _(DestroyInstance) _(GetInstanceProperties) _(PollEvent)   \
@@ -28,9 +28,8 @@
 
 namespace gearshift::xr_test::xr {
 
-// Declares each function with the type that OpenXR gives it: XrResult WaitFrame(XrSession, const XrFrameWaitInfo*,
-// XrFrameState*);
-// NOLINTBEGIN(bugprone-macro-parentheses): a declared name cannot have parentheses
+// Declares each function with its OpenXR type, for example XrResult WaitFrame(XrSession, const XrFrameWaitInfo*,
+// XrFrameState*); NOLINTBEGIN(bugprone-macro-parentheses): a declared name cannot have parentheses
 #define GEARSHIFT_XR_DECLARE(name) std::remove_pointer_t<PFN_xr##name> name;
 GEARSHIFT_XR_CORE(GEARSHIFT_XR_DECLARE)
 GEARSHIFT_XR_VULKAN_ENABLE2(GEARSHIFT_XR_DECLARE)

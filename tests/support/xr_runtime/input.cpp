@@ -9,7 +9,8 @@
 namespace gearshift::xr_test {
 namespace {
 
-// The paths that an action is bound to on the session's controllers, for one subaction path or (XR_NULL_PATH) for all.
+// Returns the input paths to which an action is bound on the session's controllers. `subaction`: only those below this
+// path; XR_NULL_PATH: all.
 std::vector<std::string> sources(const SessionObject& session, XrAction action, XrPath subaction) {
   const InstanceObject& instance = live(session.instance);
   const auto suggested = instance.suggestions.find(session.profile);
@@ -36,7 +37,7 @@ ActionValue read_source(const Script& script, XrActionType type, const std::stri
   return value;
 }
 
-// If several inputs are bound to the action, the one that is farthest from rest determines its value.
+// If several inputs are bound to the action, its value is that of the input farthest from rest.
 void sync_value(State& s, const SessionObject& session, XrAction handle, ActionObject& action, XrPath subaction) {
   ActionValue next;
   for (const std::string& path : sources(session, handle, subaction)) {
@@ -55,7 +56,7 @@ void sync_action(State& s, const SessionObject& session, XrAction handle) {
   for (const XrPath subaction : action.subactions) sync_value(s, session, handle, action, subaction);
 }
 
-// Clears the values of action sets that are not active.
+// Marks the actions of all sets that are not in `active` as inactive and unchanged.
 void clear_values(State& s, const SessionObject& session, const std::vector<XrActionSet>& active) {
   for (const XrActionSet set : session.attached) {
     if (std::find(active.begin(), active.end(), set) != active.end()) continue;
@@ -65,7 +66,9 @@ void clear_values(State& s, const SessionObject& session, const std::vector<XrAc
   }
 }
 
-// The current profile changes only in xrSyncActions, and only to one for which the program suggested bindings.
+// Called by xrSyncActions. Selects the script's profile if the program suggested bindings for it. Otherwise selects the
+// simple controller's profile if the program suggested bindings for that. Otherwise, or if the script has no profile,
+// selects none. Reports a change by an event.
 void choose_profile(State& s, XrSession handle, SessionObject& session) {
   const auto& suggestions = live(session.instance).suggestions;
   const std::string& current = s.control.script.profile;

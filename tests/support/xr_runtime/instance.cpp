@@ -36,7 +36,8 @@ void copy_text(char (&to)[size], const std::string& from) {
   std::snprintf(to, size, "%s", from.c_str());
 }
 
-// While no frames are running, the stepped clock advances with each xrPollEvent that returns no event.
+// Called by each xrPollEvent that returns no event. Advances the stepped clock while no session is running, and counts
+// down the calls until a session becomes READY.
 void tick(State& s) {
   const bool frames_running = !s.sessions.find_all([](const SessionObject& one) { return one.running; }).empty();
   if (s.begin != 0 && !frames_running && s.control.script.pacing == Pacing::stepped) ++s.next_step;
@@ -74,7 +75,7 @@ XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char* layer, std:
 
 XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo* info, XrInstance* instance) {
   return call("xrCreateInstance", [&](State& s) {
-    // The loader appends its debug messenger's structure to the chain.
+    // The OpenXR loader adds the structure of its debug messenger to the chain.
     require_structure(info, XR_TYPE_INSTANCE_CREATE_INFO, {{XR_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT}});
     require_pointer(instance, "instance");
     if (s.instances.size() != 0) return XR_ERROR_LIMIT_REACHED;

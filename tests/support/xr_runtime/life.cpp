@@ -117,9 +117,9 @@ void set_state(State& s, XrSession handle, SessionObject& session, XrSessionStat
 
 void play_timeline(State& s, double until) {
   if (s.begin == 0 && s.sessions.size() == 0) return;
-  if (s.begin == 0) until = -1.0;  // events due before the first xrBeginSession
+  if (s.begin == 0) until = -1.0;  // before the first xrBeginSession, only events with the time -1 are due
   std::vector<Event>& timeline = s.control.script.timeline;
-  constexpr double kNanosecond = 1e-9;  // [s] display times are rounded to nanoseconds
+  constexpr double kNanosecond = 1e-9;  // [s] tolerance; display times are rounded to nanoseconds
   while (true) {
     const auto next =
         std::min_element(timeline.begin(), timeline.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
@@ -136,7 +136,8 @@ void advance_state(State& s, XrSession handle, SessionObject& session) {
     if (session.state != XR_SESSION_STATE_STOPPING) set_state(s, handle, session, XR_SESSION_STATE_STOPPING);
     return;
   }
-  // SYNCHRONIZED needs a first xrWaitFrame. From then on each frame advances the state by one, up to the target state.
+  // The session becomes SYNCHRONIZED only after a first xrWaitFrame. From then on, each frame moves the state one step
+  // towards the target state.
   if (session.waits < 1 || session.state >= XR_SESSION_STATE_STOPPING) return;
   if (session.state < session.target_state) {
     set_state(s, handle, session, static_cast<XrSessionState>(session.state + 1));

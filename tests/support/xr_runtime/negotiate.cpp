@@ -1,5 +1,5 @@
-// Tells the OpenXR loader the runtime's functions. Debian has no header for these structures; they follow the loader's
-// document "Loader/Runtime Interface Negotiation".
+// Passes the runtime's functions to the OpenXR loader. Debian has no header with the structures for this, so they are
+// defined here, as in the loader's document "Loader/Runtime Interface Negotiation".
 #include <string_view>
 
 #include "tests/support/xr_runtime/functions.h"

@@ -1,4 +1,4 @@
-// An XrPath is the number of a path string of its instance.
+// An XrPath is the number of a path string in its instance.
 #include <algorithm>
 #include <cstring>
 #include <string_view>

@@ -5,7 +5,7 @@ namespace {
 
 struct Component {
   const char* profile;
-  const char* hands;  // "l", "r" or "lr"
+  const char* hands;  // controllers that have the path: "l", "r" or "lr"
   const char* path;
 };
 constexpr const char* kSimple = "/interaction_profiles/khr/simple_controller";

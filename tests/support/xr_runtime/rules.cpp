@@ -1,4 +1,4 @@
-// The rules that the runtime checks. tests/engine/xr/runtime_rules_test.cpp violates each of them.
+// The rules that the runtime checks. Tests in tests/engine/xr/runtime_rules_test.cpp violate each rule.
 #include "tests/support/xr_runtime/rules.h"
 
 #include <stdexcept>

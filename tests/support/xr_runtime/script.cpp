@@ -18,15 +18,15 @@ namespace {
   throw std::runtime_error(what);
 }
 
-// Accepts an integer for a floating-point number, but does no other conversion.
+// Returns the value of the node; empty if it has another type. An integer is accepted as a floating-point number.
 template <class T>
 std::optional<T> exact_value(const toml::node& node) {
   if constexpr (std::is_floating_point_v<T>) return node.is_number() ? node.value<T>() : std::nullopt;
   return node.value_exact<T>();
 }
 
-// Reads one table of the script. A key that was not read is an error, because a test with a partial script would prove
-// nothing.
+// Reads one table of the script. A key that the reader does not know is an error, because a test whose script is
+// partly ignored would prove nothing.
 class TableReader {
  public:
   explicit TableReader(const toml::table& table) : table_(table) {}
@@ -108,7 +108,7 @@ struct PoseKey {
   Pose pose;
 };
 
-// Interpolates linearly between the keys; constant before the first key and after the last.
+// Interpolates linearly between the keys. The pose is constant before the first key and after the last key.
 Pose interpolate(const std::vector<PoseKey>& keys, double t) {
   const auto next = std::find_if(keys.begin(), keys.end(), [&](const PoseKey& key) { return key.at > t; });
   if (next == keys.begin()) return keys.front().pose;
@@ -137,7 +137,7 @@ void read_hand(TableReader& table, const char* key, Hand& hand) {
   });
 }
 
-// Each value holds until the next time; before the first time the input is zero.
+// Each value of an input applies until the time of the next value; before the first time the input is zero.
 void read_input(TableReader& table, Script& script) {
   std::string path;
   std::vector<double> at, value;

@@ -1,4 +1,4 @@
-// Reads script files: TOML, with the keys that script.cpp reads.
+// Reads script files, which are TOML. The allowed keys are those that script.cpp reads.
 #pragma once
 
 #include <filesystem>

@@ -38,7 +38,9 @@ void velocity(const State& s, const SpaceObject& space, const SpaceObject& base,
   const double interval = 2e-9 * static_cast<double>(kVelocityInterval);
   const glm::dvec3 linear = (next.position - previous.position) / interval;
   const glm::dquat turn = next.orientation * glm::conjugate(previous.orientation);
-  const double half = turn.w < 0.0 ? -2.0 : 2.0;  // the sign selects the shorter rotation; the angle is small
+  // A small rotation by the vector r [rad] has the quaternion (1, r / 2). The sign of `half` selects the shorter of the
+  // two equal rotations.
+  const double half = turn.w < 0.0 ? -2.0 : 2.0;
   out.velocityFlags = previous.position_valid && next.position_valid ? XR_SPACE_VELOCITY_LINEAR_VALID_BIT : 0;
   if (previous.orientation_valid && next.orientation_valid) out.velocityFlags |= XR_SPACE_VELOCITY_ANGULAR_VALID_BIT;
   const auto xr_vector = [](const glm::dvec3& v) {
@@ -83,7 +85,7 @@ XrPosef to_xr(const Pose& pose) {
 void require_unit_pose(const XrPosef& pose, const char* what) {
   const Pose value = from_xr(pose);
   const double norm = glm::dot(value.orientation, value.orientation);
-  constexpr double kMaxNormError = 0.02;  // tolerance of the squared norm, for a norm "within 1%" of 1
+  constexpr double kMaxNormError = 0.02;  // tolerance of the squared norm: the norm must be within 1 % of 1
   const bool finite =
       std::isfinite(value.position.x) && std::isfinite(value.position.y) && std::isfinite(value.position.z);
   require(finite && std::abs(norm - 1.0) <= kMaxNormError, "pose_unit", what);

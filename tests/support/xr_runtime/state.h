@@ -1,4 +1,4 @@
-// The whole state of the runtime. There is one per process, and it survives when the loader closes the library.
+// The whole state of the runtime. There is one per process. It survives when the OpenXR loader closes the library.
 #pragma once
 
 #include <bit>
@@ -20,7 +20,7 @@ namespace gearshift::xr_test {
 struct InstanceObject {
   static constexpr const char* kKind = "instance";
   std::set<std::string> extensions{};
-  std::vector<std::string> paths{};                                            // XrPath is the index plus one
+  std::vector<std::string> paths{};                                            // XrPath: index in this list, plus one
   std::map<std::string, std::vector<XrActionSuggestedBinding>> suggestions{};  // by interaction profile
   bool requirements_queried = false;
   bool lost = false;
@@ -40,7 +40,7 @@ struct SessionObject {
   int polls_before_ready = 0;
   bool running = false, lost = false;
   bool exit_requested = false, stop_requested = false, ready_requested = false;
-  int waits = 0;                       // xrWaitFrame calls since xrBeginSession
+  int waits = 0;                       // number of xrWaitFrame calls since xrBeginSession
   std::optional<FrameState> waited{};  // frame that was waited for, but not begun yet
   std::optional<FrameState> begun{};   // frame that was begun, but not ended yet
   XrTime last_display = 0;
@@ -63,10 +63,10 @@ struct SwapchainObject {
   XrSession session = XR_NULL_HANDLE;
   XrSwapchainCreateInfo info{};
   std::vector<SwapchainImage> images{};
-  std::deque<std::uint32_t> acquired{};  // indices of acquired images, oldest first; `waited` refers to the oldest
+  std::deque<std::uint32_t> acquired{};  // indices of acquired images, oldest first
   bool waited = false;
   std::uint32_t next = 0;
-  std::optional<std::uint32_t> released{};  // the image that was released last
+  std::optional<std::uint32_t> released{};  // index of the image that was released last
 };
 
 struct ActionSetObject {
@@ -76,7 +76,7 @@ struct ActionSetObject {
   bool attached = false;
 };
 
-struct ActionValue {  // as of the last xrSyncActions
+struct ActionValue {  // value at the last xrSyncActions
   float x = 0.0f, y = 0.0f;
   bool active = false, changed = false;
   XrTime change_time = 0;
@@ -97,7 +97,7 @@ class Table {
  public:
   Handle add(Object object) {
     static std::uint64_t count = 0;
-    // The count is scrambled, so that the numbers next to a handle are not valid handles.
+    // Scrambles the count, so that a number next to a handle is not a valid handle.
     const auto id = (++count * 0x9e3779b97f4a7c15u) | 1u;
     const auto handle = std::bit_cast<Handle>(id);
     objects_.emplace(handle, std::make_unique<Object>(std::move(object)));
@@ -140,7 +140,7 @@ struct State {
   std::deque<XrEventDataBuffer> events{};
   // The script's clock.
   XrTime begin = 0;            // time of the first xrBeginSession; 0: not yet begun
-  std::int64_t next_step = 0;  // the next display period
+  std::int64_t next_step = 0;  // number of the next display period
   double hidden_until = -1.0;  // [s]
   std::map<Space, std::vector<OriginChange>> origins{};
   // Vulkan objects created through the runtime.
@@ -182,7 +182,7 @@ XrResult call(const char* function, Body&& body) {
   }
 }
 
-// These return the live object, and reject the call if its instance or session is lost.
+// Return the object of a handle; reject the call if the handle is not live, or if its instance or session is lost.
 InstanceObject& live(XrInstance handle);
 SessionObject& live(XrSession handle);
 SpaceObject& live(XrSpace handle);
@@ -237,7 +237,7 @@ void push_event(State& s, const T& event) {
   s.events.push_back(buffer);
 }
 void set_state(State& s, XrSession handle, SessionObject& session, XrSessionState next);
-void play_timeline(State& s, double until);  // handles the events that are due
+void play_timeline(State& s, double until);  // handles the events until this time [s]
 // Makes one legal step towards the target state.
 void advance_state(State& s, XrSession handle, SessionObject& session);
 
@@ -247,7 +247,7 @@ Pose from_xr(const XrPosef& pose);
 XrPosef to_xr(const Pose& pose);
 void require_unit_pose(const XrPosef& pose, const char* what);
 Pose head_at(const State& s, double t);
-Pose world_pose(const State& s, const SpaceObject& space, XrTime time);  // in the initial LOCAL space
+Pose world_pose(const State& s, const SpaceObject& space, XrTime time);  // pose in the initial LOCAL space
 
 // ---- paths, actions (paths.cpp, actions.cpp, input.cpp)
 

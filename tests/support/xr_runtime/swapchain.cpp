@@ -32,7 +32,7 @@ void check_create_info(const Script& script, const XrSwapchainCreateInfo& info) 
   require((info.usageFlags & foreign) == 0, "swapchain_usage");
   constexpr XrSwapchainUsageFlags kKnown = 0x7f;
   require((info.usageFlags & ~kKnown) == 0, "swapchain_usage", "an unknown bit");
-  // OpenXR features that a runtime need not support.
+  // Rejects features that an OpenXR runtime need not support.
   if (info.faceCount != 1 || info.arraySize > 2 || (info.sampleCount & (info.sampleCount - 1)) != 0 ||
       info.createFlags != 0) {
     reject_call(XR_ERROR_FEATURE_UNSUPPORTED);

@@ -28,7 +28,7 @@ VkDeviceMemory allocate(const Graphics& graphics, const VkMemoryRequirements& ne
 }
 
 VkImageUsageFlags usage(const XrSwapchainCreateInfo& info) {
-  // The images are always attachments, because the OpenXR extension promises an attachment layout, and are readable.
+  // All images can be attachments, because XR_KHR_vulkan_enable2 promises an attachment layout. They can also be read.
   VkImageUsageFlags flags =
       VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
       (is_depth(info.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);

@@ -1,4 +1,4 @@
-// How the runtime uses the program's Vulkan device: creates images and reads them back.
+// Creates images on the program's Vulkan device and reads their pixels.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ namespace gearshift::xr_test {
 struct SwapchainImage {
   VkImage image = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  bool has_layout = false;  // already in the layout that the OpenXR extension promises
+  bool has_layout = false;  // already in the layout that XR_KHR_vulkan_enable2 promises
 };
 
 struct Graphics {
@@ -54,8 +54,8 @@ std::vector<SwapchainImage> make_images(const Graphics& graphics, const XrSwapch
 void free_images(const Graphics& graphics, std::vector<SwapchainImage>& images);
 void set_initial_layout(const Graphics& graphics, SwapchainImage& image, const XrSwapchainCreateInfo& info);
 
-// The region for read_pixels(), which reads four bytes per pixel, rows from the top. The image must be in the layout
-// that the OpenXR extension promises, with a colour format of four bytes or a 32-bit depth format.
+// The region that read_pixels() reads: four bytes per pixel, rows from the top. The image must be in the layout that
+// XR_KHR_vulkan_enable2 promises. Its format must be a colour format of four bytes or a 32-bit depth format.
 struct ReadRegion {
   int x = 0, y = 0;
   std::uint32_t width = 0, height = 0, layer = 0;

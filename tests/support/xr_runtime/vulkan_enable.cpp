@@ -1,5 +1,5 @@
-// XR_KHR_vulkan_enable2, which creates Vulkan objects for the program (here without adding anything to its create
-// infos), and XR_KHR_convert_timespec_time.
+// XR_KHR_vulkan_enable2, which creates Vulkan objects for the program (this runtime adds nothing to the create infos),
+// and XR_KHR_convert_timespec_time.
 #include "tests/support/xr_runtime/functions.h"
 #include "tests/support/xr_runtime/state.h"
 

@@ -1,5 +1,4 @@
-// Compares integration methods for the driveline with steps of 1 and 4 ms: cost per step, and error against the
-// reference.
+// Compares integration methods for the driveline at steps of 1 and 4 ms: cost per step, and error against a reference.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,8 +14,8 @@ namespace {
 
 constexpr DriveMethod kMethods[] = {DriveMethod::events, DriveMethod::impulses, DriveMethod::tanh};
 
-// Cost per step of each method, including the same overhead for pedals and samples [ns]. The methods alternate, so that
-// a busy machine slows them equally.
+// Cost per step of each method [ns], including the overhead for pedals and samples, which is the same for all methods.
+// The methods run alternately, so that a busy machine slows all of them equally.
 std::vector<Timed> costs(const Drive& drive, double step, int rounds) {
   std::vector<std::vector<double>> durations(std::size(kMethods));
   for (int i = 0; i < rounds; ++i) {
@@ -32,21 +31,21 @@ std::vector<Timed> costs(const Drive& drive, double step, int rounds) {
   return all;
 }
 
-// The simple methods do not model gear losses.
+// True if `impulses` and `tanh` can simulate the car. They do not model gear losses.
 bool supports_plain_methods(const Drive& drive) {
   return drive.car.gearbox.efficiency == 1.0;
 }
 
-// The cost is given per simulated second, so that both step lengths can be compared.
+// Gives the cost per simulated second, so that methods with different step lengths can be compared.
 Trade trade_of(const BenchRow& row, const Drive& drive, DriveMethod method, double step, const Timed& ns) {
-  const double us = 1e-3 / step;  // [ns] per step becomes [us] per simulated second
+  const double us = 1e-3 / step;  // converts [ns] per step to [us] per simulated second
   std::optional<Quartiles> spread;
   if (ns.spread) spread = Quartiles{us * ns.spread->low, us * ns.spread->high};
   const std::string name = to_string(method) + (", " + std::to_string(std::lround(1e3 * step)) + " ms");
   return {drive.name,
           name,
           {"cost", us * ns.median, "us per simulated second", spread},
-          {"error of the slip energy", row.value, "%"},
+          {"error in slip energy", row.value, "%"},
           method == DriveMethod::events && step < 0.002};
 }
 
@@ -56,27 +55,27 @@ BenchRow row_of(const Drive& drive, DriveMethod method, double step, const Drive
   double worst = 0.0;
   for (std::size_t i = 0; i < outcome.samples.size(); ++i)
     worst = std::max(worst, std::abs(outcome.samples[i].engine - reference.samples[i * stride].engine));
-  BenchRow row{
-      "driveline",
-      drive.name + ", " + std::to_string(std::lround(1e3 * step)) + " ms: " + to_string(method),
-      100.0 * std::abs(outcome.slip_energy / reference.slip_energy - 1.0),
-      "% of the slip energy",
-      {},
-      false,
-      outcome.running == reference.running ? ""
-      : outcome.running                    ? "does not stall, but should"
-                                           : "stalls, but should not",
-      true,
-      {{"largest error of the engine speed", worst, "rad/s"},
-       {"error at the end", std::abs(outcome.samples.back().engine - reference.samples.back().engine), "rad/s"},
-       {"cost", ns.median, "ns per step", ns.spread}}};
+  BenchRow row{"driveline",
+               drive.name + ", " + std::to_string(std::lround(1e3 * step)) + " ms: " + to_string(method),
+               100.0 * std::abs(outcome.slip_energy / reference.slip_energy - 1.0),
+               "% of the slip energy",
+               {},
+               false,
+               outcome.running == reference.running ? ""
+               : outcome.running                    ? "does not stall but should"
+                                                    : "stalls but should not",
+               true,
+               {{"largest error in engine speed", worst, "rad/s"},
+                {"error in engine speed at the end",
+                 std::abs(outcome.samples.back().engine - reference.samples.back().engine), "rad/s"},
+                {"cost", ns.median, "ns per step", ns.spread}}};
   if (supports_plain_methods(drive)) row.trade = trade_of(row, drive, method, step, ns);
   if (method != DriveMethod::events || step > 0.002) return row;
   row.goal = 0.01;
   return answers_design(Design::driveline, std::move(row));
 }
 
-// Times only the steps of complete drives; the inputs are prepared before.
+// Times the steps of complete drives. The inputs are computed in advance, so that only the steps are timed.
 BenchRow headless_step(const std::vector<Drive>& drives, int rounds) {
   std::vector<double> step_times;
   for (int i = 0; i < rounds; ++i) {
@@ -94,7 +93,7 @@ BenchRow headless_step(const std::vector<Drive>& drives, int rounds) {
   const Timed ns = timed(step_times);
   return with_spread(ns.spread,
                      {"driveline",
-                      "a step of 1 ms, headless",
+                      "one step of 1 ms without display",
                       ns.median,
                       "ns",
                       {},

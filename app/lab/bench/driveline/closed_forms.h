@@ -1,4 +1,4 @@
-// Compares the driveline with closed forms: lock-up time and slip energy of two inertias, and conservation laws.
+// Compares the driveline with closed forms (lock-up time and slip energy of two inertias) and conservation laws.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Cars with all but one law switched off, and ways to drive them.
+// Simplified cars that isolate one law of the driveline, and functions that drive them.
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,9 @@ namespace gearshift::lab {
 
 inline constexpr double kPerRoad = 10.0;  // [rad/m] shaft rotation per distance travelled in first gear
 
-// Inertias at the clutch [kg m^2]: `one` is the engine's, `other` that of car and clutch disc. At full throttle the
-// engine gives `torque` at every speed. The clutch is the only friction.
+// A car in which only the clutch has friction. `one`: inertia of the engine [kg m^2]. `other`: inertia of car and
+// clutch disc, converted to the clutch shaft [kg m^2]. `capacity`: largest torque of the clutch [N m]. `torque`: torque
+// of the engine at full throttle, the same at every speed [N m].
 inline vehicle::CarSpec bare_car(double one, double other, double capacity, double torque = 0.0) {
   vehicle::CarSpec car;
   car.engine.full_load[0] = {0.0, torque};
@@ -46,8 +47,8 @@ inline void drive(vehicle::Driveline& line, const vehicle::DrivelineInput& in, d
   for (int i = 0; i < std::lround(seconds / step); ++i) line.step(in, step);
 }
 
-// The time when `done` first holds, found by shortening the last step; negative if it does not within 1000 s. The input
-// is constant, or a function of the time at the end of a step.
+// Returns the time at which `done` first becomes true, or a negative value if `done` stays false for 1000 s. Shortens
+// the last step to find that time. `input`: a constant, or a function of the time at the end of a step.
 template <typename Input, typename Done>
 double time_until(vehicle::Driveline& line, const Input& input, double step, const Done& done) {
   const auto at = [&](double t) {

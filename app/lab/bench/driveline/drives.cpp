@@ -48,26 +48,26 @@ Drive launch() {
 }
 
 Drive launch_of(const vehicle::CarSpec& car) {
-  Drive drive = drive_of("launch, the shipped car", car.engine.idle, 0.0, 1, 2.5);
+  Drive drive = drive_of("launch of the shipped car", car.engine.idle, 0.0, 1, 2.5);
   drive.car = car;
   drive.input = [](double t) { return pedals(1, ramp(t, 0.0, 0.5, 0.0, 0.35), ramp(t, 0.3, 1.8, 1.0, 0.0)); };
   return drive;
 }
 
 Drive dump_at_idle() {
-  Drive drive = drive_of("dump at idle", 84.0, 0.0, 1, 1.0);
+  Drive drive = drive_of("clutch dump at idle", 84.0, 0.0, 1, 1.0);
   drive.input = [](double t) { return pedals(1, 0.0, ramp(t, 0.1, 0.13, 1.0, 0.0)); };
   return drive;
 }
 
 Drive dump_at_4000() {
-  Drive drive = drive_of("dump at 4000 rpm", 4000.0 * kPerRpm, 0.0, 1, 2.0);
+  Drive drive = drive_of("clutch dump at 4000 rpm", 4000.0 * kPerRpm, 0.0, 1, 2.0);
   drive.input = [](double t) { return pedals(1, 0.8, ramp(t, 0.02, 0.05, 1.0, 0.0)); };
   return drive;
 }
 
 Drive money_shift() {
-  Drive drive = drive_of("money shift to 2nd at 30 m/s", 300.0, 30.0, 2, 1.5);
+  Drive drive = drive_of("money shift into second at 30 m/s", 300.0, 30.0, 2, 1.5);
   drive.input = [](double t) { return pedals(2, 0.0, ramp(t, 0.1, 0.3, 1.0, 0.0)); };
   return drive;
 }
@@ -84,19 +84,19 @@ Drive rollback() {
 }
 
 Drive reverse_ahead() {
-  Drive drive = drive_of("reverse at 5 m/s ahead", 200.0, 5.0, haptics::kReverseGear, 3.0);
+  Drive drive = drive_of("reverse engaged at 5 m/s forwards", 200.0, 5.0, haptics::kReverseGear, 3.0);
   drive.input = [](double t) { return pedals(haptics::kReverseGear, 0.6, ramp(t, 0.1, 1.1, 1.0, 0.3)); };
   return drive;
 }
 
 Drive first_backwards() {
-  Drive drive = drive_of("first at 4 m/s backwards", 300.0, -4.0, 1, 3.0);
+  Drive drive = drive_of("first engaged at 4 m/s backwards", 300.0, -4.0, 1, 3.0);
   drive.input = [](double t) { return pedals(1, 0.7, ramp(t, 0.1, 0.9, 1.0, 0.2)); };
   return drive;
 }
 
 Drive cone_only() {
-  Drive drive = drive_of("cone, clutch down", 84.0, 15.0, 0, 1.0);
+  Drive drive = drive_of("synchroniser cone, clutch down", 84.0, 15.0, 0, 1.0);
   drive.shaft = 400.0;
   drive.input = [](double t) {
     vehicle::DrivelineInput in = pedals(0, 0.0, 1.0);

@@ -1,4 +1,4 @@
-// Drives that are difficult for a driveline: car, initial state, and pedals as a function of time.
+// Drives that are difficult to simulate. Each has a car, an initial state, and pedals as a function of time.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@ namespace gearshift::lab {
 
 inline constexpr double kDriveGravity = 9.81;  // [m/s^2]
 
-// A 1.6 l petrol hatchback with parameters taken from an independent simulation, which also gives the result for
-// launch().
+// A petrol hatchback with a 1.6 l engine. Its parameters come from an independent simulation, which also gives the
+// expected result of launch().
 vehicle::CarSpec hatchback();
 
 struct Drive {
@@ -23,20 +23,21 @@ struct Drive {
   std::function<vehicle::DrivelineInput(double seconds)> input;
 };
 
-Drive launch();  // clutch released within 1.5 s, some throttle; the independent simulation: 2.02 kJ, lock-up at 1.303 s
-// launch() with a little more throttle, because the shipped hatchback stalls with launch()'s throttle.
+// Clutch released within 1.5 s. The independent simulation gives 2.02 kJ of slip energy and lock-up at 1.303 s.
+Drive launch();
+// Like launch(), but with more throttle, because the shipped hatchback stalls with the throttle of launch().
 Drive launch_of(const vehicle::CarSpec& car);
-Drive dump_at_idle();     // clutch released within 30 ms at idle: stalls
+Drive dump_at_idle();     // clutch released within 30 ms at idle; the engine stalls
 Drive dump_at_4000();     // clutch released within 30 ms at 4000 rpm
 Drive money_shift();      // shift into second at 30 m/s
-Drive rollback();         // on a hill: rolls back, is stopped by the clutch and drives uphill
-Drive reverse_ahead();    // reverse engaged at +5 m/s
-Drive first_backwards();  // first engaged at -4 m/s
-Drive cone_only();        // the synchroniser matches speeds with the clutch down and the car rolling
-Drive cone_and_engine();  // synchroniser, clutch up
+Drive rollback();         // the car rolls back on a hill until the clutch stops it, then drives uphill
+Drive reverse_ahead();    // reverse is engaged at a road speed of +5 m/s
+Drive first_backwards();  // first gear is engaged at a road speed of -4 m/s
+Drive cone_only();        // the synchroniser matches the speeds while the clutch is disengaged and the car rolls
+Drive cone_and_engine();  // the synchroniser matches the speeds while the clutch is engaged
 std::vector<Drive> all_drives();
 
-// Linear ramp from one value to another between two times.
+// Linear ramp from the value `from` at time `start` to the value `to` at time `end`.
 double ramp(double seconds, double start, double end, double from, double to);
 
 }  // namespace gearshift::lab

@@ -9,7 +9,7 @@
 namespace gearshift::lab {
 namespace {
 
-// Base of `impulses` and `tanh`: speeds, loads and heat. Uses the pedals at the middle of the step.
+// Common part of the methods `impulses` and `tanh`. Uses the pedals at the middle of the step.
 class PlainStepper {
  public:
   explicit PlainStepper(const Drive& drive) : drive_(drive), car_(drive.car), engine_(drive.car.engine) {
@@ -33,7 +33,7 @@ class PlainStepper {
   }
 
   void tanh(double time, double h) {
-    constexpr double kSoft = 10.0, kSoftRoad = 0.3;  // [rad/s], [m/s] about 10 rad/s at the wheel
+    constexpr double kSoft = 10.0, kSoftRoad = 0.3;  // [rad/s], [m/s] (about 10 rad/s at the wheel)
     const vehicle::ChainLoads loads = loads_at(time + 0.5 * h);
     const double clutch = loads.clutch * std::tanh((speed_[0] - speed_[1]) / kSoft);
     const double cone = loads.cone * std::tanh(vehicle::cone_slip(chain_, speed_) / kSoft);

@@ -1,4 +1,4 @@
-// Alternative integration methods for the driveline.
+// Integration methods for the driveline, to be compared with each other.
 #pragma once
 
 #include "app/lab/bench/driveline/reference.h"
@@ -6,14 +6,14 @@
 namespace gearshift::lab {
 
 enum class DriveMethod {
-  events,    // Driveline: modes, located events, midpoint rule
-  impulses,  // all friction contacts as limited impulses, solved together once per step; no events
-  tanh       // explicit Euler, friction T tanh(slip / eps) with eps = 10 rad/s: no solver, no modes
+  events,    // the shipped Driveline: friction modes, located events, midpoint rule
+  impulses,  // friction as limited impulses, solved for all contacts together once per step; no events
+  tanh       // explicit Euler; friction T tanh(slip / eps) with torque limit T and eps = 10 rad/s; no solver, no modes
 };
 
 const char* to_string(DriveMethod method);
 
-// Like reference_of(), but with a sample every `step` [s] instead of every millisecond.
+// Like reference_of(), but uses the given method and takes a sample every `step` [s].
 DriveOutcome drive_by(DriveMethod method, const Drive& drive, double step);
 
 }  // namespace gearshift::lab

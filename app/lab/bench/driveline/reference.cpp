@@ -12,7 +12,7 @@ int side(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
 }
 
-// State: speeds, and the heat of clutch and cone.
+// State of the simulation: speeds, and heat of clutch and synchroniser cone.
 struct Y {
   double engine = 0.0, shaft = 0.0, road = 0.0, clutch_heat = 0.0, cone_heat = 0.0;
 };
@@ -53,7 +53,7 @@ class Reference {
 
  private:
   struct Forces {
-    double spark, friction, capacity, cone, shaft, air, hold;  // hold: rolling and brakes
+    double spark, friction, capacity, cone, shaft, air, hold;  // hold: rolling resistance and brakes
   };
 
   Forces forces(const Y& y, double t) const {
@@ -75,8 +75,8 @@ class Reference {
     return f;
   }
 
-  // Acceleration of the car with a rotating `inertia` at the shaft driven by `torque`; the gear teeth dissipate a
-  // fraction of the transmitted power in either direction. [m/s^2]
+  // Acceleration of the car [m/s^2]. `force` acts on the car, `torque` on the shaft, and `inertia` rotates with the
+  // shaft. The gear teeth dissipate a fraction of the power that they transmit, in either direction.
   double through_teeth(double force, double torque, double inertia) const {
     const double m = car_.body.mass + car_.body.rotating;
     const auto solved = [&](double passed) {
@@ -88,7 +88,7 @@ class Reference {
   }
   double teeth_efficiency() const { return dogs_ ? car_.gearbox.efficiency : 1.0; }
 
-  // Stores the torques of clutch and gear in carried_.
+  // Time derivative of the state. Also stores the torques of clutch and gear in carried_clutch_ and carried_gear_.
   Y slope(const Y& y, double t) {
     const Forces f = forces(y, t);
     const double je = car_.engine.inertia, js = car_.clutch.disc_inertia, m = car_.body.mass + car_.body.rotating;
@@ -172,11 +172,11 @@ class Reference {
     return Event::none;
   }
 
-  // Force that pulls on the stationary car. [N]
+  // Force that tries to move the stationary car. [N]
   double pull(const Forces& f) const {
     return f.air + G_ * (geared_ ? teeth_efficiency() * clutch_ * f.capacity : cone_ * f.cone);
   }
-  // Largest force that holds the stationary car. [N]
+  // Largest force that can hold the stationary car. [N]
   double grip(const Forces& f) const {
     return f.hold + (geared_ ? teeth_efficiency() * std::abs(G_) * car_.gearbox.drag : 0.0);
   }
@@ -253,8 +253,8 @@ class Reference {
   const vehicle::CarSpec& car_;
   Y y_;
   double G_ = 0.0, cone_ratio_ = 1.0;
-  bool dogs_ = false;                     // the gear is engaged
-  bool locked_ = false, geared_ = false;  // the clutch does not slip; shaft and gear turn together
+  bool dogs_ = false;                     // the dog teeth of the gear are engaged
+  bool locked_ = false, geared_ = false;  // locked_: the clutch does not slip; geared_: shaft and gear turn together
   bool car_rests_ = false, shaft_rests_ = false, engine_rests_ = false;
   int clutch_ = 0, cone_ = 0, road_ = 0, shaft_ = 0;  // directions
   bool running_ = true, cut_ = false;

@@ -1,5 +1,6 @@
 // Reference solution for the driveline: fourth-order Runge-Kutta with steps of 10 us, a separate implementation of each
-// mode, and events located to 1e-13 s. Slow, and shares no code with the driveline except the car's curves.
+// friction mode, and events located to 1e-13 s. The reference is slow. It shares no code with the driveline except the
+// car's curves.
 #pragma once
 
 #include <vector>
@@ -13,7 +14,7 @@ struct ReferenceSample {
 };
 
 struct DriveOutcome {
-  std::vector<ReferenceSample> samples;  // every millisecond, including time 0
+  std::vector<ReferenceSample> samples;  // one per millisecond, including time 0
   double slip_energy = 0.0;              // [J] dissipated in the clutch
   double cone_energy = 0.0;              // [J]
   double engine_peak = 0.0;              // [rad/s]

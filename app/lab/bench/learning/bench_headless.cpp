@@ -1,5 +1,4 @@
-// Speed of headless simulation on one core (simulated time per elapsed time): the lever, the lever with a car, and a
-// whole lesson.
+// Measures the speed of headless simulation on one core: the lever, the lever with a car, and a complete lesson.
 #include <chrono>
 #include <ctime>
 #include <functional>
@@ -22,10 +21,10 @@ constexpr double kPaperForce = 31.7;  // [N] motor force limit of the paper's le
 constexpr const char* kLesson = "down_through_the_gears";
 
 struct Speed {
-  std::vector<double> real, processor;  // simulated seconds per elapsed second, and per second of CPU time
+  std::vector<double> real, processor;  // simulated time per elapsed time, and per CPU time
 };
 
-// drive: returns the simulated time [s].
+// Runs the simulation `drive`, which returns the simulated time [s], and adds its speed to `speed`.
 void add_run(Speed& speed, const std::function<double()>& drive) {
   const auto start = std::chrono::steady_clock::now();
   const std::clock_t cpu_start = std::clock();
@@ -58,13 +57,13 @@ BenchRow row(const char* name, Speed& speed, double goal, const std::string& wha
                true,
                {{"p10", quantile(speed.real, 0.1), ""},
                 {"p90", quantile(speed.real, 0.9), ""},
-                {"median by processor time", quantile(speed.processor, 0.5), ""}}};
+                {"median, based on CPU time", quantile(speed.processor, 0.5), ""}}};
   return answers_design(Design::headless, with_spread(real.spread, std::move(row)));
 }
 
 }  // namespace
 
-// Runs the three in turn, so that a busy machine slows all equally.
+// Runs the three simulations alternately, so that a busy machine slows all of them equally.
 std::vector<BenchRow> bench_headless(const BenchOptions& options) {
   const lessons::LessonDriveConfig lesson = shipped_drive(fs::path(options.gate_folder).parent_path(), kLesson);
   const haptics::Gate paper = bench_gate(options.gate_folder, "paper"),
@@ -80,8 +79,9 @@ std::vector<BenchRow> bench_headless(const BenchOptions& options) {
     });
     add_run(full_lesson, [&] { return lessons::drive_lesson(lesson).duration; });
   }
-  return {row("simulation at 1 kHz", unguided, 1000.0, "a tour: lever, hand, gate, guard"),
-          row("simulation at 1 kHz with the driveline", with_car, 400.0, "a tour of the hatchback's gate, clutch down"),
+  return {row("simulation at 1 kHz", unguided, 1000.0, "tour with lever, hand, gate and guard"),
+          row("simulation at 1 kHz with the driveline", with_car, 400.0,
+              "tour of the hatchback's gate with the clutch down"),
           row("a whole lesson", full_lesson, 400.0, fmt::format("{}, with simulated driver and coach", kLesson))};
 }
 

@@ -1,5 +1,5 @@
-// Quality of the trainer's assessment, measured with simulated drivers: does the grade separate skilled from unskilled
-// drivers, are driving errors detected, and how does the guidance policy affect learning?
+// Quality of the trainer's assessment, measured with simulated drivers. Does the grade separate skilled from unskilled
+// drivers? Are driving errors detected? How does the guidance policy affect learning?
 #include <filesystem>
 #include <string>
 
@@ -16,12 +16,12 @@ namespace fs = std::filesystem;
 BenchRow separation_row(const lessons::LessonDriveConfig& drive, int each) {
   lessons::Separation s = lessons::separate(drive, each, 1);
   return {"learning",
-          drive.lesson.key + ": grade tells skilled from unskilled",
+          drive.lesson.key + ": grade separates skilled from unskilled",
           s.auc,
           "AUC",
           {},
           true,
-          std::to_string(each) + " drives of each kind",
+          std::to_string(each) + " skilled and as many unskilled drives",
           true,
           {{"median grade, skilled", quantile(s.skilled, 0.5), ""},
            {"median grade, unskilled", quantile(s.unskilled, 0.5), ""},
@@ -41,14 +41,14 @@ BenchRow fault_row(const lessons::LessonDriveConfig& drive, lessons::ErrorKind k
               " detected, false alarms: " + std::to_string(s.false_alarms)};
 }
 
-// Tests each kind of error in the first lesson that checks for it.
+// Tests the detection of each kind of error, in the first lesson that assesses it.
 std::vector<BenchRow> fault_rows(const std::vector<lessons::LessonDriveConfig>& drives, int each) {
   std::vector<BenchRow> rows;
   for (int k = 0; k < lessons::kErrorKindCount; ++k) {
     const auto kind = static_cast<lessons::ErrorKind>(k);
     for (const lessons::LessonDriveConfig& drive : drives) {
       const bool reverse = drive.lesson.key == "reverse";
-      if (kind == lessons::ErrorKind::grind && !reverse) continue;  // with an intact gearbox, forward gears never grind
+      if (kind == lessons::ErrorKind::grind && !reverse) continue;  // forward gears have synchronisers, so never grind
       if (!lessons::assesses(drive.lesson, kind)) continue;
       rows.push_back(fault_row(drive, kind, each));
       break;
@@ -67,19 +67,19 @@ std::vector<BenchRow> practice_rows(const lessons::LessonDriveConfig& drive, boo
                                          std::pair{lessons::Practice::guided_always, "always guided"},
                                          std::pair{lessons::Practice::faded, "guided by the policy"}}) {
       const lessons::PracticeOutcome outcome = lessons::practise(drive, practice, model, learners, trials, 1);
-      const std::string what = failed_loss > 0.0 ? "" : ", failures teach as much as successes";
-      rows.push_back(
-          {"learning",
-           drive.lesson.key + ", " + name + what,
-           outcome.error.back(),
-           "remaining skill error, initially " + std::to_string(outcome.error.front()).substr(0, 4),
-           {},
-           false,
-           std::to_string(learners) + " simulated learners, " + std::to_string(trials) + " trials each, assumed model",
-           true,
-           {{"retention grade", outcome.retention_grade, ""},
-            {"guided", 100.0 * outcome.guided_fraction, "%"},
-            {"guided in the first half", 100.0 * outcome.guided_early, "%"}}});
+      const std::string what = failed_loss > 0.0 ? "" : ", learning as much from failures";
+      rows.push_back({"learning",
+                      drive.lesson.key + ", " + name + what,
+                      outcome.error.back(),
+                      "remaining skill error, initially " + std::to_string(outcome.error.front()).substr(0, 4),
+                      {},
+                      false,
+                      std::to_string(learners) + " simulated learners, " + std::to_string(trials) +
+                          " trials each, assumed learning model",
+                      true,
+                      {{"retention grade", outcome.retention_grade, ""},
+                       {"guided", 100.0 * outcome.guided_fraction, "%"},
+                       {"guided trials in the first half", 100.0 * outcome.guided_early, "%"}}});
     }
   }
   return rows;

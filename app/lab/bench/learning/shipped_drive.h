@@ -1,4 +1,4 @@
-// A shipped lesson with its car and gate.
+// Loads a shipped lesson with its car and gate.
 #pragma once
 
 #include <filesystem>

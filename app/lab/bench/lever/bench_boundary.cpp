@@ -1,4 +1,4 @@
-// Compares the predicted exact stability boundary with the stiffness at which the simulated lever starts to diverge.
+// Compares the predicted stability limit with the stiffness at which the simulated lever starts to diverge.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -50,7 +50,7 @@ std::vector<BenchRow> bench_boundary(const BenchOptions& options) {
     const Drawn d = draw(random);
     ++drawn;
     const double predicted = haptics::stiffness_limit(d.handle, d.hand, d.law, d.period);
-    if (predicted < 20.0 || predicted > 15000.0) continue;  // outside the range that a tuning may have
+    if (predicted < 20.0 || predicted > 15000.0) continue;  // outside the valid range of a wall stiffness [N/m]
     const double simulated = simulated_limit(d.handle, d.hand, d.law, d.period, predicted);
     error.push_back(100.0 * std::abs(simulated / predicted - 1.0));
     if (error.back() > worst) {

@@ -1,4 +1,4 @@
-// Measures the cost of the whole haptic cycle and of its stages.
+// Measures the cost of the complete haptic cycle and of its stages.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -40,8 +40,8 @@ constexpr const char* kStageNames[kStages] = {"read (tape)", "estimate", "move p
                                               "gate forces", "load",     "guard",      "write (tape)"};
 
 struct CycleTimes {
-  std::vector<double> cycle;                        // [ns] every cycle
-  std::array<std::vector<double>, kStages> stages;  // [ns] every 64th
+  std::vector<double> cycle;                        // [ns] duration of each cycle
+  std::array<std::vector<double>, kStages> stages;  // [ns] durations in every 64th cycle
 };
 
 void run_tape(const haptics::Gate& gate, TapeDevice& device, std::size_t cycles, CycleTimes& times) {
@@ -66,7 +66,7 @@ void run_tape(const haptics::Gate& gate, TapeDevice& device, std::size_t cycles,
 }
 
 struct Medians {
-  std::vector<double> p50, p99;  // [ns] quantiles of a cycle, one value per tour
+  std::vector<double> p50, p99;  // [ns] quantiles of the cycle's duration, one value per tour
   CycleTimes last;
 };
 
@@ -79,7 +79,7 @@ void run_tour(const haptics::Gate& gate, const Tape& tape, Medians& medians) {
   medians.p99.push_back(quantile(medians.last.cycle, 0.99));
 }
 
-// Runs all tapes in turn, one tour each, so that a busy machine slows them equally.
+// Runs one tour of each tape in turn, so that a busy machine slows all of them equally.
 std::vector<Medians> run_tours(const haptics::Gate& gate, std::span<const Tape> tapes, int runs,
                                const BenchOptions& options) {
   std::vector<Medians> medians(tapes.size());
@@ -90,7 +90,7 @@ std::vector<Medians> run_tours(const haptics::Gate& gate, std::span<const Tape> 
   return medians;
 }
 
-// Median and quartiles of the ratios of measurements made in the same turn.
+// Median and quartiles of above[i] / below[i].
 Timed ratio_of(const std::vector<double>& above, const std::vector<double>& below) {
   std::vector<double> ratios;
   for (std::size_t i = 0; i < above.size(); ++i) ratios.push_back(above[i] / below[i]);
@@ -101,13 +101,13 @@ BenchRow timed_row(const std::string& name, const Timed& ns, std::optional<doubl
   return with_spread(ns.spread, {"cycle", name, ns.median, "ns", goal, false, note});
 }
 
-// A device with device walls: the cycle also sends it their positions.
+// A device that renders walls itself, so that each cycle also sends wall positions to it.
 Tape with_device_walls(Tape tape) {
   tape.spec.device_wall_stiffness = {1000.0, 1000.0};
   return tape;
 }
 
-// An unplugged device: repeats the first reading.
+// An unplugged device, which repeats the first reading.
 Tape silent(Tape tape) {
   std::fill(tape.readings.begin(), tape.readings.end(), tape.readings.front());
   return tape;
@@ -133,7 +133,7 @@ std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
   rows.push_back(
       with_spread(unplugged_ratio.spread,
                   {"cycle", "cycle without fresh readings, relative to whole cycle p50", unplugged_ratio.median,
-                   "ratio", 1.0, false, "must not take longer than with fresh readings"}));
+                   "ratio", 1.0, false, "must not take longer than a cycle with fresh readings"}));
   for (std::size_t s = 0; s < kStages; ++s) {
     const std::string stage = std::string("stage ") + kStageNames[s];
     rows.push_back(timed_row(stage, timed(medians.last.stages[s]), {}, "includes one clock read of about 25 ns"));

@@ -9,10 +9,10 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kWallAt = 0.005;  // [m] from the centre, where the handle's spring is relaxed, to the rig's wall
+constexpr double kWallAt = 0.005;  // [m] position of the wall; at 0 the handle's spring is relaxed
 
-// Force of an ideal spring of the wanted stiffness in balance with the push, the handle's spring and the hand's spring;
-// computed, not measured. [N]
+// Computed force of an ideal spring of the wanted stiffness, in balance with the push, the handle's spring and the
+// hand's spring. [N]
 double balance_force(const ContactCase& contact) {
   const double wall = contact.haptics.tuning.wall_stiffness, spring = contact.lever.axis_x.stiffness;
   return wall * (contact.push - spring * kWallAt) / (wall + spring + contact.lever.hand.stiffness);
@@ -37,24 +37,24 @@ std::vector<BenchRow> bench_delivered(const BenchOptions& options) {
       ripple = std::max(ripple, one.force_ripple);
     }
   }
-  return {answers_design(Design::delivered,
-                         {"delivered",
-                          "tip force against a steady push of 6 to 31 N, mean over 50 ms",
-                          100.0 * worst,
-                          "%",
-                          3.0,
-                          false,
-                          "relative to a spring of 5000 N/m in balance with push, handle and hand, worst of all hands; "
-                          "the just noticeable difference for gear forces is 3.2 %",
-                          true,
-                          {{"worst at a push of", worst_push, "N"}}}),
-          {"delivered",
-           "ripple of the tip force, peak-to-peak",
-           ripple,
-           "N",
-           {},
-           false,
-           "mostly B times one encoder count per period"}};
+  return {
+      answers_design(Design::delivered, {"delivered",
+                                         "tip force against a steady push of 6 to 31 N, mean over 50 ms",
+                                         100.0 * worst,
+                                         "%",
+                                         3.0,
+                                         false,
+                                         "deviation from a 5000 N/m spring in equilibrium with push, handle and hand; "
+                                         "worst of all hands; the just noticeable difference of gear forces is 3.2 %",
+                                         true,
+                                         {{"worst at a push of", worst_push, "N"}}}),
+      {"delivered",
+       "ripple of the tip force, peak-to-peak",
+       ripple,
+       "N",
+       {},
+       false,
+       "mostly the wall damping times one encoder count per period"}};
 }
 
 }  // namespace gearshift::lab

@@ -9,9 +9,9 @@
 namespace gearshift::lab {
 namespace {
 
-// A textbook spring of 5000 N/m, with or without energy bounding: energy that the motors supply beyond what the handle
-// dissipates. Without bounding this is the negative control: the energy must be positive where the spring is not
-// passive.
+// Impacts on a simple spring of 5000 N/m, with or without energy bounding. The row reports the energy that the motors
+// supply beyond what the handle dissipates. The row without bounding is a negative control: its energy must be positive
+// wherever the spring is not passive.
 BenchRow spring_row(const std::string& timing, ContactCase contact, haptics::EnergyControl control, int phases) {
   contact.haptics.contact = {haptics::ContactHold::zero_order, control, false, true};
   contact.haptics.tuning.wall_damping = 0.0;
@@ -20,7 +20,7 @@ BenchRow spring_row(const std::string& timing, ContactCase contact, haptics::Ene
   const bool bounded = control == haptics::EnergyControl::energy_bounding;
   const std::string what = bounded ? "textbook spring of 5000 N/m with energy bounding" : "textbook spring of 5000 N/m";
   BenchRow row{"energy",
-               what + ", energy added beyond the damping, " + timing,
+               what + ", energy added in excess of the damping, " + timing,
                1e3 * energy.surplus,
                "mJ",
                bounded ? std::optional(0.0) : std::nullopt,
@@ -58,7 +58,7 @@ std::vector<BenchRow> bench_energy(const BenchOptions& options) {
     rows.push_back(spring_row(timing, contact, haptics::EnergyControl::none, phases));
     rows.push_back(spring_row(timing, contact, haptics::EnergyControl::energy_bounding, phases));
   }
-  // With delays and slow rates less is possible, so these rows have no goal.
+  // With a delay or a low rate, the wall may add energy, so these rows have no goal.
   for (const auto& [rate, delay] :
        {std::pair{1000.0, 1}, {1000.0, 2}, {1000.0, 3}, {500.0, 1}, {200.0, 0}, {100.0, 0}}) {
     if (options.progress) options.progress("energy", static_cast<double>(rows.size()) / 15.0);
@@ -73,7 +73,7 @@ std::vector<BenchRow> bench_energy(const BenchOptions& options) {
                     "mJ",
                     {},
                     false,
-                    "with the stiffness as limited",
+                    "with the stiffness that the stability check allows",
                     true,
                     {{"worst fraction of the impact energy", 100.0 * energy.worst_fraction, "%"},
                      {"mean fraction of the impact energy", 100.0 * energy.mean_fraction, "%"}}});

@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kPressed = 10.0;  // [N] minimum wall force before the fault; the hand pushes with 15 N
 
-// before: force before the fault [N]. If it was too small, the time to zero force means nothing.
+// `before`: force before the fault [N]. If this force was too small, the row counts as not measured.
 BenchRow row(const std::string& fault, double before, int cycles, double goal, const std::string& what) {
   BenchRow to_zero{"faults", fault + ": time to zero force", static_cast<double>(cycles), "ms", goal, false, what};
   to_zero.related = {{"force before", before, "N"}};
   to_zero.measured = before >= kPressed;
-  if (!to_zero.measured) to_zero.note = "not measured, because there was no force to lose";
+  if (!to_zero.measured) to_zero.note = "not measured, because the motors gave too little force before the fault";
   return to_zero;
 }
 
@@ -28,7 +28,7 @@ std::string state_of(const PressedRig& rig) {
   return std::string("guard: ") + haptics::to_string(now.guard) + ", fault: " + haptics::to_string(now.fault);
 }
 
-// A load whose force becomes NaN when returns_nan is set.
+// A load whose force becomes NaN when `returns_nan` is set.
 class NanLoad final : public haptics::LeverLoad {
  public:
   haptics::LeverOutput step(const haptics::LeverInput&, double) noexcept override {
@@ -86,12 +86,12 @@ std::vector<BenchRow> bench_faults(const BenchOptions& options) {
     rows.push_back(row("the device's panic button", before, cycles, 1.0, state_of(rig)));
   }
   {
-    PressedRig rig(gate);  // every cycle is two periods late; only damping remains, and decays with the motion
+    PressedRig rig(gate);  // below, every cycle is two periods late, so the guard fades the force out
     const double before = force_of(rig);
     int cycles = 0;
     for (; cycles < 1000 && glm::length(rig.lever.written) > 0.05; ++cycles) rig.run(1, 2);
-    rows.push_back(
-        row("overruns in a row of two periods each, until below 0.05 N", before, 3 * cycles, 1000.0, state_of(rig)));
+    rows.push_back(row("consecutive overruns of two periods each, until the force is below 0.05 N", before, 3 * cycles,
+                       1000.0, state_of(rig)));
   }
   rows.push_back(bad_force(gate));
   return rows;

@@ -1,4 +1,4 @@
-// Compares the commanded force along a slot with the layout's values.
+// Compares the commanded force along a slot with the force curve of the gate layout.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +10,8 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr int kWarmUp = 600;      // [cycles] at rest in neutral while the guard ramps the force up
-constexpr double kSpeed = 0.005;  // [m/s] slow, so that the damping force is small
+constexpr int kWarmUp = 600;      // [cycles] the lever rests in neutral while the guard ramps the force up
+constexpr double kSpeed = 0.005;  // [m/s] slow, to keep the damping force small
 
 // Readings of a lever that moves at constant speed from neutral to the rest position of a gear.
 std::vector<haptics::LeverReading> glide(const haptics::Gate& gate, int gear) {
@@ -28,8 +28,8 @@ std::vector<haptics::LeverReading> glide(const haptics::Gate& gate, int gear) {
   return tape;
 }
 
-// Largest error of the commanded force as a fraction of the slot's largest force. The reference is the compiled feel
-// curve at the lever's depth plus damping, so the error is what estimator, proxy, coupling and guard add.
+// Largest error of the commanded force, as a fraction of the slot's largest force. The reference is the slot's force
+// curve plus damping, so the error comes from estimator, proxy, coupling and guard.
 double worst_error(const haptics::Gate& gate, const haptics::Slot& slot) {
   haptics::HapticConfig config;
   haptics::DeviceSpec spec;
@@ -45,7 +45,7 @@ double worst_error(const haptics::Gate& gate, const haptics::Slot& slot) {
   for (int i = 0; i < cycles; ++i) {
     loop.cycle(i * 1'000'000LL, 0);
     const double depth = side * loop.snapshot().lever.y;
-    if (depth < gate.half_aisle) continue;  // in the aisle, buffers contribute, too
+    if (depth < gate.half_aisle) continue;  // skips the aisle, where buffers also contribute
     const double wanted = haptics::feel_force(slot.feel, depth) - config.tuning.aisle_damping * kSpeed;
     strongest = std::max(strongest, std::abs(wanted));
     worst = std::max(worst, std::abs(side * device.written().y - wanted));

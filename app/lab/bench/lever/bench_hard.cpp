@@ -17,8 +17,8 @@ std::string timing_label(double rate, int delay) {
   return std::to_string(static_cast<int>(rate)) + " Hz, delay " + std::to_string(delay);
 }
 
-// The shipped default at one rate and delay, with every listed hand: impacts at 0.1 to 1 m/s and pushes of 5, 20 and 60
-// N.
+// Measures the shipped default configuration at one rate and delay with all named hands: impacts at 0.1 to 1 m/s,
+// followed by pushes of 5, 20 and 60 N.
 void add_default(std::vector<BenchRow>& rows, double rate, int delay, bool quick) {
   double ripple = 0.0, ripple60 = 0.0, stiffness = 1e9;
   std::string hand = "bare";
@@ -39,18 +39,18 @@ void add_default(std::vector<BenchRow>& rows, double rate, int delay, bool quick
       if (push < 60.0 && worst.ripple_p95 > ripple) ripple = worst.ripple_p95, hand = worst.hand;
     }
   }
-  rows.push_back(
-      {"hard",
-       "default, " + timing_label(rate, delay) + ": final peak-to-peak motion",
-       1e3 * ripple,
-       "mm",
-       0.3,
-       false,
-       (quick ? "0.3 and 1 m/s, 20 N, every hand; worst hand: "
-              : "0.1 to 1 m/s, 5 and 20 N, every hand; worst hand: ") +
-           hand,
-       true,
-       {{"K in use", stiffness, "N/m"}, {"motion under 60 N, more than the motors can give", 1e3 * ripple60, "mm"}}});
+  rows.push_back({"hard",
+                  "default, " + timing_label(rate, delay) + ": final peak-to-peak motion",
+                  1e3 * ripple,
+                  "mm",
+                  0.3,
+                  false,
+                  (quick ? "impacts at 0.3 and 1 m/s, push of 20 N, every hand; worst hand: "
+                         : "impacts at 0.1 to 1 m/s, pushes of 5 and 20 N, every hand; worst hand: ") +
+                      hand,
+                  true,
+                  {{"K in use", stiffness, "N/m"},
+                   {"motion under a push of 60 N, which exceeds the motors' force", 1e3 * ripple60, "mm"}}});
 }
 
 void add_uncertain(std::vector<BenchRow>& rows, const std::string& what, double counts, double jitter, double error,
@@ -68,13 +68,13 @@ void add_uncertain(std::vector<BenchRow>& rows, const std::string& what, double 
                   "mm",
                   {},
                   false,
-                  "20 N; worst hand: " + worst.hand,
+                  "push of 20 N; worst hand: " + worst.hand,
                   true,
                   {{"K in use", worst.softest, "N/m"}, {"stopped by the guard", 1.0 * worst.stopped, "runs"}}});
 }
 
-// Walls below, at and above the exact limit. Above the limit the check must lower the wall; if forced anyway, a
-// disturbance must grow as predicted.
+// Tests walls near the stability limit. admit_tuning() must reduce a wall above the limit. If such a wall is rendered
+// anyway, a disturbance must grow at the predicted rate; below the limit it must decay at the predicted rate.
 void add_limit(std::vector<BenchRow>& rows, haptics::ContactHold hold, const std::string& name, double rate, int delay,
                const haptics::NamedHand& named = haptics::kNamedHands[0]) {
   const double period = 1.0 / rate;
@@ -90,9 +90,9 @@ void add_limit(std::vector<BenchRow>& rows, haptics::ContactHold hold, const std
   spec.delay = delay;
   spec.axis_y = spec.axis_x;
   const double admitted = haptics::admit_tuning(config, spec, haptics::plain_aisle(0.05, 0.05)).tuning.wall_stiffness;
-  double worst = admitted < limit ? 0.0 : 1.0;  // value 1: the check admitted a wall above the limit
+  double worst = admitted < limit ? 0.0 : 1.0;  // 1 if the check admitted a wall above the limit, which fails the row
   std::vector<RelatedFigure> related{{"exact limit", limit, "N/m"},
-                                     {"accepted if 1.02 times the limit is requested", admitted, "N/m"}};
+                                     {"accepted when 1.02 times the limit is requested", admitted, "N/m"}};
   for (const double fraction : {0.5, 0.98, 1.02}) {
     law.stiffness = fraction * limit;
     const double predicted = haptics::spectral_radius(haptics::kPaperAxisX, named.hand, law, period);
@@ -103,7 +103,7 @@ void add_limit(std::vector<BenchRow>& rows, haptics::ContactHold hold, const std
     if (fraction > 0.9) worst = std::max(worst, std::abs(simulated - predicted));
     if ((simulated < 1.0) != (fraction < 1.0)) worst = 1.0;
   }
-  rows.push_back({"hard", name + ", " + timing_label(rate, delay) + ": error of the growth near the limit", worst,
+  rows.push_back({"hard", name + ", " + timing_label(rate, delay) + ": error in growth rate near the limit", worst,
                   "per cycle", 0.002, false, "converges below the limit and diverges above it, as predicted", true,
                   related});
 }
@@ -119,10 +119,10 @@ std::vector<BenchRow> bench_hard(const BenchOptions& options) {
     }
   }
   add_uncertain(rows, "no quantisation", 0.0, 0.1, 0.05, options.quick);
-  add_uncertain(rows, "counts of 298 um", 2250.0 / 80.0 / 4.0, 0.1, 0.05, options.quick);
+  add_uncertain(rows, "encoder counts of 298 um", 2250.0 / 80.0 / 4.0, 0.1, 0.05, options.quick);
   add_uncertain(rows, "jitter 30 %", 2250.0 / 80.0, 0.3, 0.05, options.quick);
   add_uncertain(rows, "jitter 50 %", 2250.0 / 80.0, 0.5, 0.05, options.quick);
-  add_uncertain(rows, "plant error 20 %", 2250.0 / 80.0, 0.1, 0.2, options.quick);
+  add_uncertain(rows, "plant model error 20 %", 2250.0 / 80.0, 0.1, 0.2, options.quick);
   for (const auto& [rate, delay] : {std::pair{1000.0, 0}, {1000.0, 1}, {200.0, 0}, {100.0, 0}}) {
     add_limit(rows, haptics::ContactHold::zero_order, "textbook wall", rate, delay);
     add_limit(rows, haptics::ContactHold::half_sample, "half-sample hold", rate, delay);

@@ -12,7 +12,7 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kAimNoise = 0.003;  // [m] standard deviation of every aim, per axis
+constexpr double kAimNoise = 0.003;  // [m] standard deviation of each aim, per axis
 
 struct Aim {
   int from, to;
@@ -31,7 +31,7 @@ Aim random_aim(const haptics::Gate& gate, std::mt19937_64& random) {
   return aim;
 }
 
-// A style that aims exactly at the gear's rest position, so that only noise causes misses.
+// A shift style that aims exactly at the gear's rest position, so that only noise causes misses.
 haptics::ShiftStyle aimed_style() {
   haptics::ShiftStyle style;
   style.leans = false;
@@ -49,7 +49,7 @@ int reached(const haptics::Gate& gate, const Aim& aim) {
   const int gears[] = {aim.from, aim.to};
   const std::span<const int> route = aim.from == haptics::kNeutralGear ? std::span(gears).subspan(1) : std::span(gears);
   std::vector<haptics::HandStroke> strokes = haptics::shift_strokes(gate, config.start, route, aimed_style());
-  if (aim.from != haptics::kNeutralGear) strokes.erase(strokes.begin());  // the lever starts in that gear
+  if (aim.from != haptics::kNeutralGear) strokes.erase(strokes.begin());  // the lever is already in the gear aim.from
   haptics::ScriptedHand driver(hand, std::move(strokes), 0.001);
   haptics::SimulatedRun run(config, driver);
   while (run.time() < driver.duration()) run.step();
@@ -65,7 +65,7 @@ std::vector<std::string> gates_in(const std::string& folder) {
   return names;
 }
 
-constexpr int kMaxListedMisses = 12;  // missed gears are listed in the row's note
+constexpr int kMaxListedMisses = 12;  // the row's note lists the missed gears
 
 BenchRow intent_row(const haptics::Gate& gate, const std::string& name, int aims) {
   std::mt19937_64 random(1);

@@ -1,5 +1,4 @@
-// Wake-up lateness of the loop's thread compared with cyclictest, on an idle machine and with threads that stream
-// memory.
+// Compares the wake-up lateness of the loop's thread with cyclictest, on an idle machine and under memory load.
 #include <atomic>
 #include <thread>
 
@@ -8,7 +7,7 @@
 namespace gearshift::lab {
 namespace {
 
-// One busy thread per core that streams through memory, as a software renderer does.
+// One thread per core that streams through memory, as a software renderer does.
 class StreamingThreads {
  public:
   StreamingThreads() {
@@ -36,7 +35,7 @@ class StreamingThreads {
 
 std::vector<BenchRow> bench_jitter(const BenchOptions& options) {
   const JitterLoad none{", alone", [] { return std::shared_ptr<void>(); }};
-  const JitterLoad busy{", beside one busy thread per core", [] { return std::make_shared<StreamingThreads>(); }};
+  const JitterLoad busy{", with one busy thread per core", [] { return std::make_shared<StreamingThreads>(); }};
   std::vector<BenchRow> rows = jitter_rows(options, "jitter", none, 0.0, 0.5);
   for (BenchRow& row : jitter_rows(options, "jitter", busy, 0.5, 1.0)) rows.push_back(std::move(row));
   return rows;

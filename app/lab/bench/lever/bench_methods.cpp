@@ -21,13 +21,15 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kWanted = 5000.0;     // [N/m]
-constexpr double kDisplayedOf = 0.97;  // [1] least displayed fraction of a method to be compared, from the design table
+constexpr double kWanted = 5000.0;  // [N/m]
+// [1] The fraction of its stiffness that a wall must display according to the design goals (app/lab/bench/README.md).
+// Methods that display less are not plotted.
+constexpr double kDisplayedOf = 0.97;
 
 struct Method {
   std::string name;
   haptics::ContactHold hold;
-  double damping;  // [N s/m]; negative: K T / 2, Minsky's 0.5 of the paper's (22)
+  double damping;  // [N s/m] negative: use (stiffness * period) / 2, the minimum by Lin and Young's eq. (22)
   haptics::EnergyControl control = haptics::EnergyControl::none;
 };
 
@@ -79,7 +81,7 @@ double cost_once(const Method& method, const LoopTiming& at) {
                                 : std::numeric_limits<double>::quiet_NaN();  // keeps the loop from being optimised away
 }
 
-// Costs of the methods. They alternate, so that a busy machine slows them equally. [ns]
+// Cost per cycle of each method [ns]. The methods run alternately, so that a busy machine slows all of them equally.
 std::vector<Timed> costs(std::span<const Method> methods, const LoopTiming& at) {
   std::vector<std::vector<double>> durations(methods.size());
   for (int round = 0; round < 21; ++round) {
@@ -90,7 +92,7 @@ std::vector<Timed> costs(std::span<const Method> methods, const LoopTiming& at) 
   return ns;
 }
 
-// Exact stability limit for the worst hand and axis. [N/m]
+// Exact stability limit for the worst combination of hand and axis. [N/m]
 double stability_limit(const Method& method, const LoopTiming& at) {
   haptics::ContactLaw law;
   law.hold = method.hold;
@@ -114,7 +116,7 @@ ContactCase contact_of(const Method& method, const LoopTiming& at) {
   return contact;
 }
 
-// True if the shipped default uses this method at this timing and admits a wall of 5000 N/m unchanged.
+// True if the shipped default configuration uses this method at this timing and admits a wall of 5000 N/m unchanged.
 bool is_default(const Method& method, const LoopTiming& at) {
   haptics::HapticConfig config;
   config.rate = at.rate;
@@ -144,10 +146,10 @@ BenchRow row_of(const Method& method, const LoopTiming& at, const Timed& ns, con
                "mm",
                {},
                false,
-               "p95 of the final peak-to-peak motion, 20 N, worst hand: " + worst.hand,
+               "p95 of the final peak-to-peak motion, push of 20 N, worst hand: " + worst.hand,
                true,
-               {{"error of the displayed stiffness", 100.0 * (1.0 - displayed), "%"},
-                {"mean energy per contact", 100.0 * energy.mean_fraction, "% of the impact"},
+               {{"error in displayed stiffness", 100.0 * (1.0 - displayed), "%"},
+                {"mean energy per contact", 100.0 * energy.mean_fraction, "% of the impact energy"},
                 {"worst energy per contact", 100.0 * energy.worst_fraction, "%"},
                 cycle}};
   if (displayed >= kDisplayedOf) {
@@ -162,11 +164,11 @@ BenchRow row_of(const Method& method, const LoopTiming& at, const Timed& ns, con
   return row;
 }
 
-// A longer window gives a smoother but later velocity. Cost: the damping force caused by one encoder count. Error: the
-// lost stiffness.
+// Cost and error of a velocity window. A longer window gives a smoother but later velocity. The cost is the damping
+// force caused by one encoder count. The error is the reciprocal of the largest stable stiffness.
 Trade window_trade(int window, double damping, double limit) {
   const haptics::SimulatedLeverConfig lever;
-  const double count = lever.yoke.radius * std::numbers::pi / 180.0 / lever.encoder_counts;  // [m] at the tip
+  const double count = lever.yoke.radius * std::numbers::pi / 180.0 / lever.encoder_counts;  // [m] at the lever's tip
   const double tremble = damping * count / (0.001 * window);
   return {"velocity window at 1 kHz, B = " + std::to_string(static_cast<int>(damping)) + " N s/m",
           "window of " + std::to_string(window) + " ms",
@@ -175,7 +177,7 @@ Trade window_trade(int window, double damping, double limit) {
           window == haptics::EstimatorConfig{}.window};
 }
 
-// The default velocity window of CHAI3D is 15 ms, that of Force Dimension's DHD 20 ms.
+// Adds rows for velocity windows of several lengths. CHAI3D uses 15 ms by default, Force Dimension's DHD library 20 ms.
 void add_windows(std::vector<BenchRow>& rows, const BenchOptions& options) {
   for (const int window : {1, 4, 8, 15, 20}) {
     BenchRow row{"methods",
@@ -202,17 +204,17 @@ void add_windows(std::vector<BenchRow>& rows, const BenchOptions& options) {
     ContactCase contact = contact_of({"", haptics::ContactHold::zero_order, damping}, {1000.0, 0});
     contact.haptics.estimator.window = window;
     contact.haptics.tuning.aisle_damping = 0.0;
-    contact.lever.encoder_counts = 0.0;  // shows only the stability boundary, without encoder noise
+    contact.lever.encoder_counts = 0.0;  // without encoder noise, only instability causes motion
     contact.duration = options.quick ? 1.2 : 3.0;
     const ContactResult one = run_contact(contact);
     rows.push_back({"methods",
-                    "5000 N/m, velocity over " + std::to_string(window) +
+                    "5000 N/m wall, velocity over " + std::to_string(window) +
                         " ms, B = " + std::to_string(static_cast<int>(damping)) + ": final peak-to-peak motion",
                     1e3 * one.ripple,
                     "mm",
                     {},
                     false,
-                    "X axis without a hand, 20 N, no quantisation",
+                    "X axis without a hand, push of 20 N, no quantisation",
                     true,
                     {}});
   }
@@ -222,7 +224,7 @@ void add_windows(std::vector<BenchRow>& rows, const BenchOptions& options) {
 
 std::vector<BenchRow> bench_methods(const BenchOptions& options) {
   const Method methods[] = {{"zero-order hold, B = 0 (textbook)", haptics::ContactHold::zero_order, 0.0},
-                            {"zero-order hold, B = K T / 2 (22)", haptics::ContactHold::zero_order, -1.0},
+                            {"zero-order hold, B = K T / 2, eq. (22)", haptics::ContactHold::zero_order, -1.0},
                             {"half-sample hold, B = 0", haptics::ContactHold::half_sample, 0.0},
                             {"half-sample hold, B = 10", haptics::ContactHold::half_sample, 10.0},
                             {"observer", haptics::ContactHold::observer, haptics::kMinObserverDamping},

@@ -1,4 +1,4 @@
-// Compares integrators of the plant: the exact step, Runge-Kutta 4 and symplectic Euler.
+// Compares integrators for the simulated lever: the exact step, fourth-order Runge-Kutta and symplectic Euler.
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,11 +11,12 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kForce = 10.0;  // [N] constant
-constexpr double kStart = 0.01;  // [m] at rest
+constexpr double kForce = 10.0;  // [N] constant force on the lever
+constexpr double kStart = 0.01;  // [m] start position, at rest
 constexpr double kTime = 0.5;    // [s]
 
-// Position of an over-damped axis under a constant force: sum of two exponentials, the roots of m s^2 + b s + k = 0.
+// Position of an over-damped axis under a constant force. The rates of the two exponentials are the roots of m s^2 + b
+// s + k = 0, with mass m, damping b and stiffness k.
 long double closed_form(const haptics::AxisModel& axis, long double t) {
   const long double m = axis.mass, b = axis.damping, k = axis.stiffness;
   const long double root = std::sqrt(b * b - 4.0L * m * k);
@@ -47,7 +48,7 @@ haptics::AxisState runge_kutta4(const haptics::AxisModel& axis, haptics::AxisSta
 
 struct Result {
   double error = 0.0;      // [1] relative
-  std::vector<double> ns;  // [ns] per step, one value per round
+  std::vector<double> ns;  // [ns] time per step, one value per round
 };
 
 template <class Step>
@@ -81,7 +82,8 @@ BenchRow plant_row(const std::string& method, const std::string& at, Result resu
   return row;
 }
 
-// Marks the row of the method that the simulated lever uses.
+// Marks the row as the method that the simulated lever uses. Sets the row's goal and the design requirement to which it
+// belongs.
 BenchRow shipped(BenchRow row) {
   row.goal = 1e-12;
   row.trade->chosen = true;
@@ -90,9 +92,9 @@ BenchRow shipped(BenchRow row) {
 
 }  // namespace
 
-// The methods alternate, so that a busy machine slows them equally.
+// The methods run alternately, so that a busy machine slows all of them equally.
 std::vector<BenchRow> bench_plant(const BenchOptions&) {
-  constexpr int kRounds = 21;  // rounds whose median is the cost
+  constexpr int kRounds = 21;  // the cost is the median of these rounds
   std::vector<BenchRow> rows;
   const haptics::AxisModel axis = haptics::kPaperAxisX;
   for (const double period : {0.001, 0.01}) {

@@ -1,5 +1,5 @@
 // Compares methods of finding the proxy while the lever moves straight from gear to gear through all walls: cost, and
-// distance from the proxy found in steps of 20 um.
+// distance from a reference proxy that moves in steps of 20 um.
 #include <cmath>
 #include <functional>
 #include <random>
@@ -21,7 +21,7 @@ using Path = std::vector<glm::dvec2>;
 constexpr double kPeriod = 0.001;    // [s]
 constexpr double kThrow = 1.0;       // [m/s]
 constexpr double kFineStep = 20e-6;  // [m]
-constexpr double kFarError = 1e-3;   // [m] from this error on, the proxy is in a different part of the gate
+constexpr double kFarError = 1e-3;   // [m] a proxy with a larger error is in a different part of the gate
 
 Path thrown_lever(const haptics::Gate& gate, int throws) {
   std::mt19937_64 random(3);
@@ -35,7 +35,7 @@ Path thrown_lever(const haptics::Gate& gate, int throws) {
   return path;
 }
 
-// Walks the proxy to each sample in steps of at most `step`.
+// Moves the proxy after the lever in steps of at most `step` [m].
 Path walked(const haptics::Gate& gate, const Path& lever, double step) {
   const haptics::Passage passage = haptics::open_passage(gate);
   haptics::Proxy proxy = haptics::place_proxy(gate, lever.front());
@@ -52,7 +52,7 @@ Path walked(const haptics::Gate& gate, const Path& lever, double step) {
   return proxies;
 }
 
-// Without memory: the nearest point of free space.
+// Finds the proxy without its previous position: the point of free space nearest to the lever.
 Path nearest(const haptics::Gate& gate, const Path& lever) {
   Path proxies;
   for (const glm::dvec2 at : lever) proxies.push_back(haptics::place_proxy(gate, at).position);
@@ -78,14 +78,14 @@ BenchRow row_of(ProxyMethod& method, const Path& truth) {
   const Timed ns = timed(method.ns);
   const RelatedFigure cost{"cost", ns.median, "ns", ns.spread};
   BenchRow row{"proxy",
-               method.name + ": mean distance from a reference walk in steps of 20 um",
+               method.name + ": mean distance from a reference walk (20 um steps)",
                1e3 * sum / samples,
                "mm",
                {},
                false,
                "a lever thrown from gear to gear at 1 m/s, paper's gate, 1 kHz",
                true,
-               {cost, {"farther away than 1 mm", 100.0 * far_off / samples, "%"}}};
+               {cost, {"more than 1 mm from the reference", 100.0 * far_off / samples, "%"}}};
   row.trade =
       Trade{"a lever thrown through the walls", method.name, cost, {"mean distance", row.value, "mm"}, method.chosen};
   return row;
@@ -97,10 +97,10 @@ std::vector<BenchRow> bench_proxy(const BenchOptions& options) {
   const haptics::Gate gate = bench_gate(options.gate_folder, "paper");
   const Path lever = thrown_lever(gate, options.quick ? 20 : 200), truth = walked(gate, lever, kFineStep);
   std::vector<ProxyMethod> methods{{"nearest point of free space", [&] { return nearest(gate, lever); }},
-                                   {"walk, once per cycle", [&] { return walked(gate, lever, 1.0); }, true},
-                                   {"walk, steps of 0.2 mm", [&] { return walked(gate, lever, 0.2e-3); }},
-                                   {"walk, steps of 0.05 mm", [&] { return walked(gate, lever, 0.05e-3); }}};
-  for (int round = 0; round < 11; ++round) {  // the methods alternate, so that a busy machine slows them equally
+                                   {"proxy walk, one step per cycle", [&] { return walked(gate, lever, 1.0); }, true},
+                                   {"proxy walk, steps of 0.2 mm", [&] { return walked(gate, lever, 0.2e-3); }},
+                                   {"proxy walk, steps of 0.05 mm", [&] { return walked(gate, lever, 0.05e-3); }}};
+  for (int round = 0; round < 11; ++round) {  // methods run alternately, so that a busy machine slows all equally
     for (ProxyMethod& method : methods) {
       const std::uint64_t before = ticks();
       method.found = method.find();

@@ -1,4 +1,5 @@
-// Runs many random contacts of one configuration with every hand, plant errors and jitter, and reports the worst.
+// Runs many random contacts of one configuration with all named hands, plant errors and jitter, and reports the worst
+// results.
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 namespace gearshift::lab {
 
 struct Campaign {
-  ContactCase contact;         // speed, phase, hand and seed are drawn
+  ContactCase contact;         // base case; speed, phase, hand and seed are replaced by random values
   double slowest = 0.1;        // [m/s] slowest impact
   double fastest = 1.0;        // [m/s]
   double model_error = 0.05;   // [1]
@@ -20,21 +21,21 @@ struct Campaign {
 
 struct HandOutcome {
   std::string hand;
-  double ripple_p95 = 0.0;    // [m] peak-to-peak of the last 200 ms, 95th percentile
+  double ripple_p95 = 0.0;    // [m] 95th percentile of the peak-to-peak motion in the last 200 ms
   double ripple_max = 0.0;    // [m]
-  double displayed = 0.0;     // [1] smallest ratio of displayed stiffness to stiffness in use
-  double peak = 0.0;          // [m] deepest penetration of all runs
-  double force_step = 0.0;    // [N] largest change of the command in one cycle
+  double displayed = 0.0;     // [1] smallest ratio of displayed stiffness to commanded stiffness
+  double peak = 0.0;          // [m] deepest penetration in all runs
+  double force_step = 0.0;    // [N] largest change of the commanded force in one cycle
   double force_ripple = 0.0;  // [N] p95
-  double softest = 0.0;       // [N/m] lowest stiffness in use at the end of a run
-  int lowered = 0;            // largest number of softenings in one run
-  int stopped = 0;            // runs in which the guard switched the force off
+  double softest = 0.0;       // [N/m] lowest wall stiffness at the end of a run
+  int lowered = 0;            // largest number of stiffness reductions in one run
+  int stopped = 0;            // number of runs in which the guard switched the force off
 };
 
-// One outcome per listed hand.
+// Returns one outcome per named hand (kNamedHands).
 std::vector<HandOutcome> run_campaign(const Campaign& campaign);
 
-// The outcome of the hand with the largest ripple.
+// Returns the outcome of the hand with the largest ripple.
 const HandOutcome& worst_ripple(const std::vector<HandOutcome>& outcomes);
 double deepest(const std::vector<HandOutcome>& outcomes);        // [m]
 double min_displayed(const std::vector<HandOutcome>& outcomes);  // [1]
@@ -47,8 +48,8 @@ struct ImpactEnergy {
   double surplus = -1e9;         // [J] largest energy supplied beyond what the handle dissipated
 };
 
-// Free impacts of the bare, nominal handle on the wall, which is the only force: `phases` impacts at each of 0.1, 0.3,
-// 0.5 and 1 m/s.
+// Impacts of the handle on the wall without a hand, plant errors or other forces. `phases`: number of impacts at each
+// of the speeds 0.1, 0.3, 0.5 and 1 m/s.
 ImpactEnergy run_impacts(ContactCase contact, int phases);
 
 }  // namespace gearshift::lab

@@ -12,11 +12,11 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kWall = 0.005;      // [m] near the centre, where positions in plane and arc agree within 0.1 %
-constexpr double kApproach = 0.015;  // [s] moving at a steady speed before the contact
-constexpr double kStill = 0.100;     // [s] at rest before moving, while the loop arms and its filters settle
+constexpr double kWall = 0.005;      // [m] the wall; this near the centre, plane and arc positions agree within 0.1 %
+constexpr double kApproach = 0.015;  // [s] duration of steady motion before the contact
+constexpr double kStill = 0.100;     // [s] rest before the motion, during which the loop arms and its filters settle
 
-// Moves the lever to the wall at a steady speed, then rests there and pushes.
+// Moves the lever to the wall at a steady speed, then stops there and pushes.
 class CarryingHand final : public haptics::HandDriver {
  public:
   CarryingHand(const ContactCase& contact) : contact_(contact) {}
@@ -56,7 +56,7 @@ haptics::SimulatedRunConfig rig(const ContactCase& contact, double start) {
   return config;
 }
 
-// Accumulates energies during the lever's first contact with the wall.
+// Adds up energies during the lever's first contact with the wall.
 class FirstContact {
  public:
   explicit FirstContact(const ContactCase& contact) : contact_(contact) {}

@@ -24,16 +24,16 @@ namespace gearshift::lab {
 namespace {
 
 constexpr int kPriority = 80;
-constexpr int kBlocks = 5;  // per contestant, alternating
+constexpr int kBlocks = 5;  // blocks per program; the programs alternate
 constexpr std::array<double, 2> kQuantiles{0.99, 0.999};
 
 struct Lateness {
-  std::array<double, 2> us{};  // at kQuantiles
-  double cycle_us = 0.0;       // [us] duration of a cycle at the last quantile; only for our loop
-  double overruns = 0.0;       // only ours
+  std::array<double, 2> us{};  // [us] lateness at kQuantiles
+  double cycle_us = 0.0;       // [us] duration of a cycle at the last of kQuantiles; only measured for our loop
+  double overruns = 0.0;       // only counted for our loop
 };
 
-// Called several times per second. May throw, so that the bench can be interrupted within a block.
+// Called several times per second. May throw to interrupt the bench.
 using Pulse = std::function<void()>;
 constexpr std::chrono::milliseconds kPulse{250};
 
@@ -66,7 +66,7 @@ Lateness run_loop(const haptics::Gate& gate, double seconds, std::int64_t spin_n
   return result;
 }
 
-// A running cyclictest. The kernel terminates it if this process dies.
+// A running cyclictest process. The kernel terminates cyclictest if this process dies.
 class Cyclictest {
  public:
   Cyclictest(double seconds, int core) {
@@ -115,7 +115,8 @@ std::vector<std::uint64_t> read_histogram(std::FILE* pipe, const Pulse& pulse) {
   return histogram;
 }
 
-// At its end, cyclictest prints a histogram of lateness in whole microseconds.
+// Runs cyclictest and computes the quantiles from the histogram that it prints at its end (lateness in whole
+// microseconds).
 Lateness run_cyclictest(double seconds, int core, const Pulse& pulse) {
   const Cyclictest cyclictest(seconds, core);
   std::vector<std::uint64_t> histogram;
@@ -128,22 +129,22 @@ Lateness run_cyclictest(double seconds, int core, const Pulse& pulse) {
     for (std::size_t us = 0; us < histogram.size(); ++us) {
       counted += static_cast<double>(histogram[us]);
       if (counted < kQuantiles[i] * static_cast<double>(total)) continue;
-      result.us[i] = static_cast<double>(us) + 1.0;  // upper edge
+      result.us[i] = static_cast<double>(us) + 1.0;  // upper edge of the microsecond
       break;
     }
   }
   return result;
 }
 
-// Rounds like cyclictest: the upper edge of the whole microsecond.
+// Rounds up to the end of the microsecond, as run_cyclictest() does.
 double upper_edge(double us) {
   return std::floor(us) + 1.0;
 }
 
 struct Contest {
   std::array<std::vector<double>, 2> theirs, sleeping, spinning, sleeping_ratio, spinning_ratio;
-  std::vector<double> cycle_us;  // with spinning, as shipped
-  double overruns = 0.0;         // in all blocks
+  std::vector<double> cycle_us;  // [us] durations of cycles, measured with spinning (the shipped setting)
+  double overruns = 0.0;         // sum over all blocks
 };
 
 Contest compete(const haptics::Gate& gate, const BenchOptions& options, const std::function<void(double)>& progress) {
@@ -165,7 +166,7 @@ Contest compete(const haptics::Gate& gate, const BenchOptions& options, const st
       contest.spinning_ratio[i].push_back(upper_edge(spinning.us[i]) / theirs.us[i]);
     }
   }
-  progress(1.0);  // throws if the last block was interrupted, so that the family does not count as complete
+  progress(1.0);  // throws if the last block was interrupted, so that its results do not count as complete
   return contest;
 }
 
@@ -175,12 +176,13 @@ BenchRow block_row(const std::string& family, const std::string& what, std::vect
   return with_spread(blocks.spread, {family, what, blocks.median, unit, {}, false, note});
 }
 
-// True if the blocks are as many and as long as the design requires. Fewer or shorter ones get no verdict.
+// True if the number and length of the blocks are as the design requires. Otherwise the rows are not compared with
+// their goals.
 bool is_judged(const BenchOptions& options) {
   return !options.quick && options.jitter_block >= kDesignBlock;
 }
 
-// Adds our lateness and the median of its ratio to cyclictest's, both in whole microseconds. The goal is for the ratio.
+// Adds a row with our lateness, and a row with the ratio of our lateness to cyclictest's, which has the goal.
 void add_loop_rows(std::vector<BenchRow>& rows, const std::string& family, const std::string& what,
                    std::vector<double>& us, std::vector<double>& ratio, const std::string& note, bool judged) {
   rows.push_back(block_row(family, "ours, " + what, us, "us", note));
@@ -195,7 +197,7 @@ std::vector<BenchRow> rows_of(Contest& contest, const BenchOptions& options, con
   const std::string each = std::to_string(static_cast<int>(options.jitter_block)) + " s";
   const std::string note = (blocks == 1 ? "one block of " + each
                                         : "median of " + std::to_string(blocks) + " alternating blocks of " + each) +
-                           (judged ? "" : "; too few or too short for a verdict");
+                           (judged ? "" : "; too few or too short blocks for a verdict");
   std::vector<BenchRow> rows;
   for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
     std::string at = i == 0 ? "p99" : "p99.9";
@@ -204,7 +206,7 @@ std::vector<BenchRow> rows_of(Contest& contest, const BenchOptions& options, con
     add_loop_rows(rows, family, "sleep only, " + at, contest.sleeping[i], contest.sleeping_ratio[i], note, judged);
     add_loop_rows(rows, family, "spin 50 us, " + at, contest.spinning[i], contest.spinning_ratio[i], note, judged);
   }
-  rows.push_back(block_row(family, "ours, work of a cycle, p99.9" + where, contest.cycle_us, "us", note));
+  rows.push_back(block_row(family, "ours, work per cycle, p99.9" + where, contest.cycle_us, "us", note));
   rows.back().related.push_back({"overruns in all blocks", contest.overruns, ""});
   return rows;
 }
@@ -229,7 +231,8 @@ std::vector<BenchRow> jitter_rows(const BenchOptions& options, const std::string
     const haptics::Gate gate = bench_gate(options.gate_folder, "paper");
     const std::shared_ptr<void> running = load.start();
     Contest contest = compete(gate, options, progress);
-    if (quantile(contest.theirs[0], 0.5) == 0.0) return {not_measurable(family, "cyclictest has no real-time rights")};
+    if (quantile(contest.theirs[0], 0.5) == 0.0)
+      return {not_measurable(family, "cyclictest may not use real-time priority")};
     return rows_of(contest, options, family, load.where);
   } catch (const std::runtime_error& error) {
     return {not_measurable(family, error.what())};

@@ -20,7 +20,8 @@ inline constexpr std::int64_t kPeriodNs = 1'000'000;
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// The simulated lever with a function (`sabotage`) that falsifies its readings; it does not re-arm itself.
+// A simulated lever whose readings are falsified by the function `sabotage`. Its spec is that of a real device, so the
+// loop does not re-arm it automatically.
 class SabotagedLever final : public haptics::HapticDevice {
  public:
   SabotagedLever(haptics::HandDriver& hand, glm::dvec2 start) : lever_({}, kPeriodNs, hand), spec_(lever_.spec()) {
@@ -51,7 +52,7 @@ class SabotagedLever final : public haptics::HapticDevice {
   haptics::DeviceSpec spec_;
 };
 
-// A lever pressed against the upper wall of the neutral aisle with 15 N.
+// A hand presses the lever against the upper wall of the neutral aisle with 15 N.
 struct PressedRig {
   explicit PressedRig(const haptics::Gate& at)
       : gate(at),
@@ -71,7 +72,7 @@ struct PressedRig {
       strongest = std::max(strongest, glm::length(lever.written));
     }
   }
-  // Runs cycles until the command is zero; at most 1000.
+  // Runs cycles until the commanded force is zero, at most 1000. Returns the number of cycles.
   int cycles_to_zero() {
     for (int i = 1; i <= 1000; ++i) {
       run(1);
@@ -91,11 +92,11 @@ struct PressedRig {
   double strongest = 0.0;
 };
 
-// A fault of the readings, from the time when its sabotage function is installed.
+// A fault of the device's readings.
 struct Fault {
   const char* name;
-  std::function<std::function<void(haptics::LeverReading&)>()> sabotage;  // creates a new sabotage function each time
-  // [cycles of 1 ms] guaranteed upper limit of the time to zero force
+  std::function<std::function<void(haptics::LeverReading&)>()> sabotage;  // creates a new SabotagedLever::sabotage
+  // [cycles of 1 ms] guaranteed maximum time to zero force
   int within;
 };
 

@@ -1,4 +1,4 @@
-// A device that plays back recorded readings, to measure the cost of a cycle without a device.
+// A device that plays back recorded readings, so that only the cost of the cycle is measured.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A gripping hand shifts through the six gears of the paper's gate while the haptic cycle is measured.
+// A gripping hand that shifts through the six gears of the paper's gate while the haptic cycle is measured.
 #pragma once
 
 #include <string>

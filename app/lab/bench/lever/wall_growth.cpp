@@ -14,11 +14,13 @@ namespace {
 using glm::dvec2;
 
 constexpr double kGrownWall = 0.002;  // [m]
-constexpr double kDepth = 0.002;      // [m] at rest
-constexpr double kFar = 0.05;         // [1] fraction of the depth that a disturbance must reach; still linear there
-constexpr int kSettle = 12000;        // [cycles] to settle on a softer, stable wall
-constexpr int kRamp = 3000;           // [cycles] from the softer wall to the wall under test, at constant depth
-constexpr int kCycles = 6000;         // [cycles] longest run on the wall under test
+constexpr double kDepth = 0.002;      // [m] depth of the lever at rest
+// [1] A run ends when the disturbance exceeds this fraction of the lever's depth in the wall. Up to this fraction, the
+// cycle is linear.
+constexpr double kFar = 0.05;
+constexpr int kSettle = 12000;  // [cycles] time to settle in a softer, stable wall
+constexpr int kRamp = 3000;     // [cycles] ramp from the softer wall to the wall under test, at constant depth
+constexpr int kCycles = 6000;   // [cycles] maximum time in the wall under test
 
 // Presses the lever into the wall and holds it there with the hand's spring.
 class PressingHand final : public haptics::HandDriver {
@@ -65,12 +67,12 @@ double span(const std::vector<double>& x, std::size_t from, std::size_t to) {
   return *high - *low;
 }
 
-// Growth of the motion's span per cycle, from the second to the last third of the record.
+// Growth of the peak-to-peak motion per cycle, from the middle third of the record to the last third. [1]
 double growth(const std::vector<double>& x) {
   const std::size_t third = x.size() / 3;
-  if (third < 10) return HUGE_VAL;  // diverged immediately
+  if (third < 10) return HUGE_VAL;  // the lever diverged immediately
   const double early = span(x, third, 2 * third), late = span(x, 2 * third, 3 * third);
-  if (early < 1e-12) return 0.0;  // [m] smaller motion consists of rounding errors
+  if (early < 1e-12) return 0.0;  // [m] smaller motion is rounding error
   return std::pow(late / early, 1.0 / static_cast<double>(third));
 }
 
@@ -82,7 +84,7 @@ double simulated_growth(const haptics::AxisModel& handle, const haptics::HandImp
   haptics::SimulatedRunConfig config = rig(handle, hand, law, period);
   config.haptics.tuning.wall_stiffness = settle;
   haptics::SimulatedRun run(config, driver);
-  const auto press = [&](int n) {  // sets the push that balances the wall force of cycle n when that force takes effect
+  const auto press = [&](int n) {  // balances the wall force in effect in cycle n, computed in cycle n - delay
     const double fraction = std::clamp(static_cast<double>(n - law.delay) / kRamp, 0.0, 1.0);
     const double stiffness = settle + fraction * (law.stiffness - settle);
     driver.push = stiffness * kDepth + handle.stiffness * (kGrownWall + kDepth);

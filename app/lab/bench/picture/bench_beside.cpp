@@ -1,4 +1,4 @@
-// Wake-up lateness of the haptic thread while the renderer draws the cabin without pauses.
+// Measures how late the haptic thread wakes up while the renderer draws the cabin without pauses.
 #include <atomic>
 #include <thread>
 
@@ -14,7 +14,7 @@ class BusyRenderer {
       : cabin_(paper_cabin(options)), stage_(cabin_, options.model_folder), renderer_(gpu_, {}), frames_(frames) {
     renderer_.set_model(stage_.model());
     stage_.place(in_first_gear(cabin_.gate));
-    draw();  // the first frame is special, so it is not part of the load
+    draw();  // the first frame takes longer than later ones, so draw it before measuring
     thread_ = std::thread([this] {
       while (!stop_) draw();
     });
@@ -46,7 +46,7 @@ class BusyRenderer {
 
 std::vector<BenchRow> bench_beside(const BenchOptions& options) {
   std::atomic<int> frames{0};
-  const JitterLoad drawing{", beside the cabin drawn at full speed",
+  const JitterLoad drawing{", while the cabin is drawn at full speed",
                            [&] { return std::make_shared<BusyRenderer>(options, frames); }};
   std::vector<BenchRow> rows = jitter_rows(options, "beside", drawing, 0.0, 1.0);
   rows.back().related.push_back({"frames drawn meanwhile", static_cast<double>(frames), ""});

@@ -1,4 +1,4 @@
-// Lights baked at the start: time and error.
+// Measures time and error of the light tables that the renderer computes (bakes) at the start.
 #include <cmath>
 #include <random>
 
@@ -32,7 +32,7 @@ struct Error {
   double rms() const { return std::sqrt(square / count); }
 };
 
-constexpr int kGrid = 20;  // grid cells per axis; the table is compared at its inner points
+constexpr int kGrid = 20;  // grid cells per axis; errors are computed at the inner grid points
 
 const std::vector<glm::dvec2>& brdf_truth() {
   static const std::vector<glm::dvec2> truth = [] {
@@ -59,15 +59,15 @@ Error brdf_error(const Method& method) {
   return error;
 }
 
-// One of several settings, baked repeatedly: its times and the last result.
+// Settings under test, the times for baking with them, and the last result.
 template <class Settings, class BakedResult>
 struct Baked {
   Settings settings;
   BakedResult result = {};
-  std::vector<double> times = {};  // [ms] of each bake
+  std::vector<double> times = {};  // [ms] duration of each bake
 };
 
-// Bakes each of the settings in turn, so that a busy machine slows all equally.
+// Bakes with each of the settings in turn, so that a busy machine slows all of them equally.
 template <class Settings, class BakedResult, class Make>
 void bake_in_turn(const BenchOptions& options, std::vector<Baked<Settings, BakedResult>>& methods, const Make& make) {
   for (int round = 0; round < (options.quick ? 1 : 9); ++round) {
@@ -81,11 +81,12 @@ void bake_in_turn(const BenchOptions& options, std::vector<Baked<Settings, Baked
 
 struct BrdfSettings {
   int side, samples;
-  // True if these are the function's default arguments.
+  // True if the renderer uses these settings by default.
   bool is_default() const { return side == engine::kBrdfSide && samples == engine::kBrdfSamples; }
 };
 
-// The goal comes from an independent program: RMS 0.0010, worst 0.0055 for a table from 1024 samples.
+// Goal for the default settings: 0.0010, the RMS error of a table that an independent program computed from 1024
+// samples (the table's largest error is 0.0055).
 BenchRow brdf_row(Baked<BrdfSettings, engine::BrdfTable>& baked) {
   const auto [side, samples] = baked.settings;
   const Timed ms = timed(baked.times);
@@ -110,14 +111,14 @@ BenchRow brdf_row(Baked<BrdfSettings, engine::BrdfTable>& baked) {
   return row;
 }
 
-// Brian Karis. Physically Based Shading on Mobile. 2014. An analytic fit without a table.
+// An analytic fit without a table. Brian Karis. Physically Based Shading on Mobile. 2014.
 glm::dvec2 mobile_fit(double n_dot_v, double roughness) {
   const glm::dvec4 r = roughness * glm::dvec4(-1.0, -0.0275, -0.572, 0.022) + glm::dvec4(1.0, 0.0425, 1.04, -0.04);
   const double a = std::min(r.x * r.x, std::exp2(-9.28 * n_dot_v)) * r.x + r.y;
   return {-1.04 * a + r.z, 1.04 * a + r.w};
 }
 
-// Not compared with the tables, because it needs no baking but costs instructions in each pixel.
+// The row has no goal and is not compared with the tables. The fit needs no baking, but costs time per pixel.
 BenchRow brdf_fit_row() {
   const Error error = brdf_error(mobile_fit);
   return {"light",
@@ -126,18 +127,18 @@ BenchRow brdf_fit_row() {
           "",
           {},
           false,
-          "needs no table, but costs time in each pixel; shown beside the tables, not compared with them",
+          "needs no table but costs time per pixel; shown for information, not compared with the tables",
           true,
           {{"worst", error.worst, ""}}};
 }
 
-// Irradiance / pi by midpoint quadrature over the hemisphere around n, independent of any basis functions.
+// Irradiance / pi by midpoint quadrature over the hemisphere around the normal n. Uses no basis functions.
 glm::dvec3 irradiance_by_quadrature(const engine::Radiance& radiance, glm::vec3 n, int rings) {
   const glm::vec3 side = glm::normalize(glm::cross(n, std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
   const glm::vec3 other = glm::cross(n, side);
   glm::dvec3 sum(0.0);
   for (int i = 0; i < rings; ++i) {
-    const double sin2 = (i + 0.5) / rings;  // uniform in sin^2, which includes the cosine weight
+    const double sin2 = (i + 0.5) / rings;  // uniform steps of sin^2 of the polar angle include the cosine weight
     for (int j = 0; j < 4 * rings; ++j) {
       const double phi = 2.0 * kPi * (j + 0.5) / (4 * rings);
       const auto r = static_cast<float>(std::sqrt(sin2)), up = static_cast<float>(std::sqrt(1.0 - sin2));
@@ -166,16 +167,17 @@ BenchRow irradiance_row(Baked<int, engine::Irradiance>& baked) {
     relative.add(glm::length(glm::dvec3(fast(n)) - truth) / glm::length(truth));
   }
   const RelatedFigure cost{"projection", ms.median, "ms", ms.spread};
-  BenchRow row{"light",
-               fmt::format("irradiance by harmonics of degree 2, {0}x{0} samples per face: RMS error", samples),
-               100.0 * relative.rms(),
-               "%",
-               {},
-               false,
-               "degree 3 gives the same, because a cosine lobe has no third band",
-               true,
-               {{"worst", 100.0 * relative.worst, "%"}, cost}};
-  row.trade = Trade{"irradiance by harmonics",
+  BenchRow row{
+      "light",
+      fmt::format("irradiance from spherical harmonics of degree 2, {0}x{0} samples per face: RMS error", samples),
+      100.0 * relative.rms(),
+      "%",
+      {},
+      false,
+      "degree 3 gives the same result, because a cosine lobe has no third band",
+      true,
+      {{"worst", 100.0 * relative.worst, "%"}, cost}};
+  row.trade = Trade{"irradiance from spherical harmonics",
                     fmt::format("{0}x{0} samples per face", samples),
                     cost,
                     {"RMS error", row.value, "%"},
@@ -183,7 +185,8 @@ BenchRow irradiance_row(Baked<int, engine::Irradiance>& baked) {
   return row;
 }
 
-// RMS error of all rough levels against many more samples. Level 0 is a mirror, for which one sample is exact.
+// RMS error of all rough mip levels, relative to the reference `truth`, which is computed from many more samples. Skips
+// level 0: it is a mirror, for which one sample is exact.
 double prefilter_error(const engine::PrefilteredCube& cube, const engine::PrefilteredCube& truth) {
   double off = 0.0, all = 0.0;
   for (std::size_t level = 1; level < cube.levels.size(); ++level) {

@@ -1,4 +1,5 @@
-// Cost of a picture: the cabin per render pass, many untextured triangles, and the time to the first frame.
+// Measures the render time of the cabin per pass, the render time of many untextured triangles, and the time to the
+// first frame.
 #include <array>
 #include <cmath>
 #include <utility>
@@ -15,19 +16,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The goal was measured with a different renderer, pbrbasic, on this kind of machine: 221,000 untextured GGX triangles
-// take 74 to 104 ms.
+// Goal: the longest render time of pbrbasic, a different renderer. On a comparable machine it draws 221,000 untextured
+// GGX triangles in 74 to 104 ms.
 constexpr double kPbrBasic = 104.0;  // [ms]
 constexpr int kSpheres = 20;
-constexpr int kRings = 75, kSegments = 75;  // 20 x 75 x 74 x 2 = 222,000 triangles
+constexpr int kRings = 75, kSegments = 75;  // 20 spheres x 75 x 74 x 2 = 222,000 triangles
 
-// View from the driver's seat, slightly downwards: road, steering wheel, dashboard and interior mirror are visible.
+// View from the driver's seat, slightly downwards. Road, steering wheel, dashboard and interior mirror are visible.
 engine::EyePose mirror_view(const cabin::Stage& stage) {
   const glm::dvec3 eye = stage.driver_eye().position;
   return engine::look_at(eye, eye + glm::dvec3(0.05, -0.10, -1.0));
 }
 
-// Times of one start: total and parts. [ms]
+// Total duration of one start, and durations of its parts. [ms]
 struct Start {
   double all = 0.0, models = 0.0, device = 0.0, lights = 0.0, upload = 0.0, frame = 0.0;
   std::string gpu;
@@ -52,7 +53,7 @@ Start start_once(const BenchOptions& options) {
   return {all, models, device - models, lights - device, upload - lights, all - upload, gpu.traits().name};
 }
 
-// Reports the parts of the last start.
+// The row's related figures are the durations of the last start's parts.
 BenchRow first_frame(const BenchOptions& options) {
   std::vector<double> starts;
   Start last;
@@ -128,7 +129,7 @@ std::vector<BenchRow> cabin_rows(const BenchOptions& options) {
         CabinCase{"cabin 1280x720, 1x, as the driver sees it", plain, 60.0, stage.driver_eye(),
                   glm::radians(cabin::camera_field("driver"))},
         CabinCase{"cabin 1280x720, 4x", smooth, {}, mirror_eye},
-        CabinCase{"cabin 2 x 640x720, 1x, both eyes in one pass if the device can", stereo, {}, mirror_eye}})
+        CabinCase{"cabin 2 x 640x720, 1x, both eyes in one pass if supported", stereo, {}, mirror_eye}})
     rows.push_back(cabin_row(options, gpu, renderer, stage, cabin_case));
   rows[0].related.push_back({"triangles", static_cast<double>(stage.model().triangle_count()), ""});
   return rows;
@@ -191,7 +192,7 @@ BenchRow many_triangles(const BenchOptions& options) {
                "ms",
                kPbrBasic,
                false,
-               "goal: the longest time measured with pbrbasic",
+               "goal: the longest time measured with the pbrbasic sample",
                true,
                {{"GPU", cost.gpu.all, "ms"}}};
   return answers_design(Design::cabin, with_spread(cost.host.spread, std::move(row)));

@@ -1,4 +1,4 @@
-// Speed and error of the picture: anti-aliasing, shadow map, mirror, projected points.
+// Measures speed and error of rendering: anti-aliasing, shadow map, mirror, projected points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 360;  // [px]
 
-// One renderer for all pictures; only its configuration changes.
+// Draws all pictures with one renderer, whose configuration changes.
 struct PaperCabin {
   explicit PaperCabin(const BenchOptions& options)
       : stage(config(options), options.model_folder), renderer(gpu, engine::RenderConfig{}) {
@@ -68,7 +68,7 @@ std::uint8_t srgb(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(s, 0.0, 1.0)));
 }
 
-// Averages each block of scale x scale pixels in linear light.
+// Averages each block of `scale` x `scale` pixels in linear light.
 engine::Image shrunk(const engine::Image& picture, int scale) {
   engine::Image out;
   out.width = picture.width / scale;
@@ -89,16 +89,16 @@ engine::Image shrunk(const engine::Image& picture, int scale) {
 
 struct RenderMethod {
   engine::RenderConfig config;
-  int reduction_factor = 1;  // factor by which the CPU reduces the picture; the reduction counts as cost
+  int reduction_factor = 1;  // factor by which the CPU shrinks the picture; the shrinking is part of the cost
 };
 
 struct TimedCapture {
   engine::Image picture;
-  Timed ms, reduction;  // a frame including its reduction; only the reduction
+  Timed ms, reduction;  // ms: frame including shrinking; reduction: shrinking only
   RelatedFigure frame() const { return {"frame", ms.median, "ms", ms.spread}; }
 };
 
-// Draws one frame with each method in turn, so that a busy machine slows all equally.
+// Draws one frame with each method in turn, so that a busy machine slows all of them equally.
 std::vector<TimedCapture> capture_in_turn(PaperCabin& cabin, const std::vector<RenderMethod>& methods,
                                           const engine::View& view, int frames) {
   std::vector<TimedCapture> captures(methods.size());
@@ -129,7 +129,7 @@ engine::Image picture_of(PaperCabin& cabin, const RenderMethod& method, const en
 std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, PaperCabin& cabin) {
   const engine::View view = symmetric_view(cabin.stage.driver_eye(), sized(1, 1));
   const int frames = options.quick ? 2 : 9;
-  const int fine = options.quick ? 4 : 8;  // samples per pixel along each side
+  const int fine = options.quick ? 4 : 8;  // number of samples per pixel in each direction
   const engine::Image reference = picture_of(cabin, {sized(fine, 1), fine}, view);
   std::vector<BenchRow> rows;
   const auto add = [&](const char* name, int samples, const TimedCapture& capture) {
@@ -155,7 +155,7 @@ std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, PaperCabin
       capture_in_turn(cabin, {{sized(1, 1)}, {sized(2, 1), 2}, {sized(1, 4)}}, view, frames);
   add("1x", 1, captures[0]);
   add("2x2 supersampling", 0, captures[1]);
-  rows.back().related.push_back({"time to reduce the picture", captures[1].reduction.median, "ms"});
+  rows.back().related.push_back({"time to downsample the picture", captures[1].reduction.median, "ms"});
   add("4x", 4, captures[2]);
   return rows;
 }
@@ -194,7 +194,8 @@ std::vector<Triangle> triangles_of(const cabin::Stage& stage) {
   return triangles;
 }
 
-// Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997. Distance along the ray, or infinity.
+// Returns the distance along the ray, or infinity. Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection.
+// 1997.
 double hit(const Triangle& t, glm::dvec3 origin, glm::dvec3 direction) {
   constexpr double kMiss = std::numeric_limits<double>::infinity();
   const glm::dvec3 p = glm::cross(direction, t.ac);
@@ -215,7 +216,8 @@ struct LitPixel {
   bool lit = false;
 };
 
-// For the points shown by some pixels, tests with rays against every triangle whether the sun reaches them.
+// Picks `count` random pixels. Tests whether the sun reaches the points visible there, with rays that are tested
+// against every triangle.
 std::vector<LitPixel> cast(const cabin::Stage& stage, const engine::View& view, int count) {
   const std::vector<Triangle> triangles = triangles_of(stage);
   const glm::dvec3 sun = glm::normalize(glm::dvec3(stage.scene().sun.towards));
@@ -229,7 +231,7 @@ std::vector<LitPixel> cast(const cabin::Stage& stage, const engine::View& view, 
     const glm::dvec4 near = world_from_clip * glm::dvec4(2.0 * (pixel.x + 0.5) / kWidth - 1.0,
                                                          2.0 * (pixel.y + 0.5) / kHeight - 1.0, 1.0, 1.0);
     const glm::dvec3 direction = glm::normalize(glm::dvec3(near) / near.w - eye);
-    double nearest = 30.0;  // [m] farther points are outside the cabin
+    double nearest = 30.0;  // [m] points beyond this distance are outside the cabin
     const Triangle* nearest_triangle = nullptr;
     for (const Triangle& t : triangles) {
       if (const double s = hit(t, eye, direction); s < nearest && s > 0.05) nearest = s, nearest_triangle = &t;
@@ -237,7 +239,7 @@ std::vector<LitPixel> cast(const cabin::Stage& stage, const engine::View& view, 
     if (!nearest_triangle) continue;
     glm::dvec3 normal = glm::normalize(glm::cross(nearest_triangle->ab, nearest_triangle->ac));
     if (glm::dot(normal, direction) > 0.0) normal = -normal;
-    if (glm::dot(normal, sun) < 0.15) continue;  // faces away from the sun, so it cannot be in shadow
+    if (glm::dot(normal, sun) < 0.15) continue;  // skips surfaces that face away from the sun or are only grazed by it
     const glm::dvec3 point = eye + nearest * direction + 1e-4 * normal;
     for (const Triangle& t : triangles) {
       if (hit(t, point, sun) == std::numeric_limits<double>::infinity()) continue;
@@ -278,7 +280,7 @@ std::vector<BenchRow> shadow_rows(const BenchOptions& options, PaperCabin& cabin
     int wrong = 0, judged = 0;
     for (const LitPixel& pixel : truth) {
       const double full = luminance(unshadowed, pixel), none = luminance(sunless, pixel);
-      if (full - none < 0.004) continue;  // the sun has no visible effect
+      if (full - none < 0.004) continue;  // the sun has no visible effect on this pixel
       const bool lit = luminance(capture.picture, pixel) > 0.5 * (full + none);
       wrong += lit != pixel.lit ? 1 : 0;
       ++judged;
@@ -320,7 +322,7 @@ std::vector<BenchRow> mirror_rows(const BenchOptions& options, PaperCabin& cabin
     const TimedCapture& capture = all[i];
     const double flip_error = engine::flip(reference, capture.picture).mean;
     rows.push_back({"quality",
-                    fmt::format("mirror of {} lines, seen close: FLIP against 384 lines", height),
+                    fmt::format("mirror of {} lines, seen from close up: FLIP against 384 lines", height),
                     flip_error,
                     "",
                     {},
@@ -328,7 +330,7 @@ std::vector<BenchRow> mirror_rows(const BenchOptions& options, PaperCabin& cabin
                     "",
                     true,
                     {capture.frame()}});
-    rows.back().trade = Trade{"mirror, seen close",
+    rows.back().trade = Trade{"mirror, seen from close up",
                               fmt::format("{} lines", height),
                               capture.frame(),
                               {"FLIP against 384 lines", flip_error, ""},
@@ -340,8 +342,8 @@ std::vector<BenchRow> mirror_rows(const BenchOptions& options, PaperCabin& cabin
 constexpr int kMarks = 9;
 constexpr float kMarkRadius = 0.03f;  // [m]
 
-// A model of bright discs facing the eyes at several depths.
-engine::Model marks() {
+// A model of bright discs that face the eyes, at several depths.
+engine::Model marker_model() {
   engine::Model model;
   model.materials.emplace_back();
   model.materials[0].base_colour = {0.0f, 0.0f, 0.0f, 1.0f};
@@ -373,7 +375,7 @@ engine::Model marks() {
   return model;
 }
 
-// Centroid of the light that one mark adds to the picture.
+// Centroid of the light that one disc adds to the picture. `with` and `without` are pictures with and without the disc.
 glm::dvec2 centre_of(const engine::Image& with, const engine::Image& without) {
   glm::dvec2 sum(0.0);
   double weight = 0.0;
@@ -388,14 +390,15 @@ glm::dvec2 centre_of(const engine::Image& with, const engine::Image& without) {
   return sum / weight;
 }
 
-// Closed form: f (x - eye) / z from the picture's centre, minus f times the shift of the screen for an off-axis eye.
+// Compares rendered points with the closed form: a point at x and at the depth z is f ((x - e) / z + e / s) to the
+// right of the picture's centre, with the focal length f, the eye's offset e and the screen's distance s.
 BenchRow projected_points() {
   engine::Gpu gpu({});
   engine::RenderConfig config = sized(1, 4);
   config.eyes = 2;
   config.shadow_side = 0;
   engine::Renderer renderer(gpu, config);
-  const engine::Model model = marks();
+  const engine::Model model = marker_model();
   renderer.set_model(model);
   constexpr double kIpd = 0.063, kScreen = 2.0, kVertical = 1.0;
   const engine::StereoEyes eyes = engine::stereo_eyes(
@@ -406,7 +409,7 @@ BenchRow projected_points() {
   engine::FrameScene scene = rest_scene(model);
   double worst = 0.0, sum = 0.0;
   for (int mark = 0; mark < kMarks; ++mark) {
-    std::array<std::array<engine::Image, 2>, 2> pictures;  // without, with; left, right
+    std::array<std::array<engine::Image, 2>, 2> pictures;  // first index: without, with mark; second: left, right eye
     for (int on = 0; on < 2; ++on) {
       for (int i = 0; i < kMarks; ++i)
         scene.nodes[static_cast<std::size_t>(i)].emissive = on && i == mark ? 1.0f : 0.0f;
@@ -427,7 +430,7 @@ BenchRow projected_points() {
   return answers_design(
       Design::projected,
       {"quality",
-       fmt::format("projected points, {} marks, both eyes, off axis: worst distance from the closed form", kMarks),
+       fmt::format("projection of {} marks, both eyes, off axis: worst distance from the closed form", kMarks),
        worst,
        "px",
        0.1,

@@ -1,4 +1,4 @@
-// The split-sum integral computed with the usual sum, as a reference for ours.
+// Computes the split-sum BRDF integral with the published algorithm, as a reference for the renderer's table.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,8 @@
 
 namespace gearshift::lab {
 
-// Karis 2013's IntegrateBRDF on Hammersley points, in double, with height-correlated visibility (Heitz 2014, eq. 99).
+// IntegrateBRDF (Karis 2013) on Hammersley points in double precision, with height-correlated visibility (Heitz 2014,
+// eq. 99).
 inline glm::dvec2 hammersley_sum(double n_dot_v, double roughness, int samples) {
   const double a2 = std::pow(roughness, 4.0);
   using glm::dvec2, glm::dvec3;

@@ -1,4 +1,4 @@
-// Shared by the bench's pictures: a device, a renderer and a static model.
+// Helpers for benchmarks that render pictures: views, scenes and frame times.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@ inline double ms_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// A scene in which every node has the model's own transform.
+// A scene in which every node has its original transform from the model.
 inline engine::FrameScene rest_scene(const engine::Model& model) {
   engine::FrameScene scene;
   for (const glm::mat4& world : engine::rest_pose(model)) {
@@ -34,13 +34,13 @@ inline engine::View symmetric_view(const engine::EyePose& eye, const engine::Ren
                            0.05);
 }
 
-cabin::StageConfig paper_cabin(const BenchOptions& options);  // the paper's gate in the cabin
-cabin::StageInput in_first_gear(const haptics::Gate& gate);   // lever in first gear, engine running
+cabin::StageConfig paper_cabin(const BenchOptions& options);  // a cabin with the paper's gate
+cabin::StageInput in_first_gear(const haptics::Gate& gate);   // the lever is in first gear, and the engine runs
 
-// Draws `frames` frames after `warm_up` frames, waiting for each.
+// Durations of frames, measured by time_frames().
 struct FrameCost {
-  Timed host;             // [ms] of host time
-  engine::PassTimes gpu;  // median time of each pass, over the frames near the median
+  Timed host;             // [ms] CPU time from the draw call until the GPU has finished
+  engine::PassTimes gpu;  // median of each render pass over all frames
 };
 FrameCost time_frames(engine::Gpu& gpu, engine::Renderer& renderer, const engine::FrameScene& scene,
                       std::span<const engine::View> views, int frames, int warm_up = 3);

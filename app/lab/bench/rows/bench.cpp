@@ -18,7 +18,7 @@ double quantile(std::vector<double>& sample, double q) {
   std::sort(sample.begin(), sample.end());
   const double rank = q * static_cast<double>(sample.size() - 1), below = std::floor(rank);
   const auto at = static_cast<std::size_t>(below);
-  if (rank == below) return sample[at];  // a value may be infinite
+  if (rank == below) return sample[at];  // no interpolation, because a value may be infinite
   return sample[at] + (rank - below) * (sample[at + 1] - sample[at]);
 }
 
@@ -45,7 +45,7 @@ std::vector<BenchRow> run_family(const NamedFamily& family, const BenchOptions& 
   answered.erase(Design::none);
   if (answered != claimed)
     throw std::logic_error("bench family " + std::string(family.name) +
-                           " answers other rows of the design than it claims");
+                           " does not answer exactly the design rows that it claims");
   return rows;
 }
 

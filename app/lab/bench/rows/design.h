@@ -1,4 +1,4 @@
-// The design table of required performance. Bench rows name the table row that they answer by its key.
+// The design's requirements for performance. Each bench row names the requirement that it answers.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 namespace gearshift::lab {
 
 enum class Design {
-  none,  // for bench rows that answer no row of the table
+  none,  // the bench row answers no requirement
   cycle,
   headless,
   jitter,
@@ -25,7 +25,7 @@ enum class Design {
 
 struct DesignRow {
   Design key = Design::none;
-  std::string_view name;    // name of the row's key in files
+  std::string_view name;    // name of `key` in files
   std::string_view what;    // the required quantity
   std::string_view figure;  // its required value
 };
@@ -35,25 +35,24 @@ inline constexpr std::array<DesignRow, 13> kDesignRows{{
      "p50 at most 200 ns, p99 at most 500 ns"},
     {Design::headless, "headless", "headless simulation at 1 kHz, one core",
      "1000 x real time; 400 x with the driveline"},
-    {Design::jitter, "jitter", "lateness of the loop thread's wake-ups, alone and beside a load",
+    {Design::jitter, "jitter", "wake-up lateness of the loop thread, alone and under load",
      "p99 and p99.9 at most 1.2 x cyclictest's"},
     {Design::wall, "wall", "5000 N/m wall under 20 N, every hand: final peak-to-peak motion",
-     "p95/maximum 0.02/0.04 mm at 2 kHz, 0.04/0.08 at 1 kHz, 0.10/0.11 at 500 Hz and with a sample of delay, 97 % of "
-     "it "
-     "displayed; p95 0.12 mm beyond"},
+     "p95 and maximum at most 0.02 and 0.04 mm at 2 kHz, 0.04 and 0.08 mm at 1 kHz, 0.10 and 0.11 mm at 500 Hz or with "
+     "one sample of delay, with 97 % of the stiffness displayed; otherwise p95 at most 0.12 mm"},
     {Design::energy, "energy", "energy that the wall adds to an impact, worst case",
-     "none from 500 Hz to 2 kHz; with energy bounding never more than the damping took"},
+     "none from 500 Hz to 2 kHz; with energy bounding, never more than the damping dissipated"},
     {Design::delivered, "delivered", "tip force against a steady push; force along a slot", "within 3 %"},
     {Design::boundary, "boundary", "predicted stability boundary against simulated divergence, 100 random levers",
      "within 2 %"},
-    {Design::intent, "intent", "the gear reached is the intended one, 10,000 noisy aims, every gate", "at least 99 %"},
+    {Design::intent, "intent", "the intended gear is reached, 10,000 noisy aims, every gate", "at least 99 %"},
     {Design::plant, "plant", "simulated plant compared with the closed form", "1e-12 relative"},
     {Design::first_frame, "first_frame", "start to first frame, cabin loaded", "below 1 s"},
-    {Design::cabin, "cabin", "cabin, 1280x720, one sample; 222,000 untextured triangles",
-     "at most 60 ms; at most 104 ms"},
-    {Design::projected, "projected", "projected points, each eye", "within 0.1 px of the closed form"},
+    {Design::cabin, "cabin", "time per frame at 1280x720, one sample",
+     "cabin at most 60 ms; 222,000 untextured triangles at most 104 ms"},
+    {Design::projected, "projected", "projected points of each eye", "within 0.1 px of the closed form"},
     {Design::driveline, "driveline", "momentum and energy balance; lock-up time and slip energy at 1 ms",
-     "to rounding; within 0.01 % of the closed form"},
+     "exact to rounding; within 0.01 % of the closed form"},
 }};
 
 }  // namespace gearshift::lab

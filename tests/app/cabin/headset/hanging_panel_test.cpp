@@ -1,4 +1,5 @@
-// The panel that hangs in the cabin: its distance, its legibility, and pointing at it.
+// Tests of the panel that hangs in the cabin, seen in a headset: its place, the legibility of its text, and a hand that
+// points at it.
 #include "app/cabin/headset/hanging_panel.h"
 
 #include <cmath>
@@ -16,7 +17,7 @@ namespace {
 constexpr dvec3 kEye{0.0, 0.635, 0.05};
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A hand at `hand` that points at `at` in the panel's picture.
+// The pose of a hand at `hand` that points at `at`, a position in the panel's picture (0 to 1 in each direction).
 EyePose pointing(const HangingPanel& panel, dvec3 hand, glm::dvec2 at) {
   const dvec3 target = panel.pose * dvec3((at.x - 0.5) * panel.size.x, (0.5 - at.y) * panel.size.y, 0.0);
   return look_at(hand, target);
@@ -38,9 +39,10 @@ TEST_CASE("the panel is 1 to 3 m away, faces the driver, and hangs upright on th
   }
 }
 
-// ISO 9241-303: letters are comfortable to read if they are 20 to 22 minutes of arc high, and legible from 16. DejaVu
-// Sans has capitals of 0.729 em and lines of 1.164 em. At scale 1 the panel's small font has lines of 13 px, its body
-// font of 15 px (engine/ui/ui_style.cpp). In a headset the scale is the picture's width divided by 1280 (UiScale).
+// ISO 9241-303: letters are legible if they are at least 16 minutes of arc high, and comfortable to read if they are 20
+// to 22 minutes of arc high. The font is DejaVu Sans, whose capitals are 0.729 em and whose lines are 1.164 em high. At
+// scale 1, lines are 13 px high in the panel's small font and 15 px in its body font (engine/ui/ui_style.cpp). In a
+// headset, the scale is the width of the panel's picture divided by 1280 (UiScale).
 TEST_CASE("capitals of the panel's fonts are at least 20 minutes of arc high") {
   const HangingPanel panel = hang_panel(kEye, DriveSide::left, {1280, 720});
   const double px = panel.size.x / 1280.0, distance = glm::distance(panel.pose.position, kEye);
@@ -75,14 +77,15 @@ TEST_CASE("a learner's card hangs next to the view ahead, with pixels as large a
   for (const DriveSide side : {DriveSide::left, DriveSide::right}) {
     const dvec3 eye = on_side(side, kEye);
     const HangingPanel panel = hang_panel(eye, side, {1280, 720}), card = hang_card(eye, side, {1280, 720}, low, high);
-    // The card is 0.5 of the picture wide and 0.9 high, with pixels as large as the panel's.
+    // The card covers half of the picture's width and 0.9 of its height, and its pixels are as large as the panel's.
     CHECK(card.size.x == doctest::Approx(0.5 * panel.size.x));
     CHECK(card.size.y == doctest::Approx(0.9 * panel.size.y));
-    const HangingPanel without_panel =
-        hang_card(eye, side, {1280, 720}, {0.0, 0.0}, {1.0, 1.0});  // with the panel hidden
+    // Without the panel, the card fills the picture.
+    const HangingPanel without_panel = hang_card(eye, side, {1280, 720}, {0.0, 0.0}, {1.0, 1.0});
     CHECK(without_panel.size.x == doctest::Approx(card.size.x));
     CHECK(glm::distance(card.pose.position, eye) == doctest::Approx(glm::distance(panel.pose.position, eye)));
-    // The card's inner edge is at least 5 degrees to the side of straight ahead, and its lower edge below the horizon.
+    // Seen from the eye, the card's inner edge is more than 5 degrees to the side, and its lower edge is about 6.5
+    // degrees below the horizon.
     const double inner = side == DriveSide::left ? -0.5 : 0.5;
     const dvec3 edge = card.pose * dvec3(inner * card.size.x, 0.0, 0.0) - eye;
     CHECK(std::abs(std::atan2(edge.x, -edge.z)) > 5.0 * kDegree);

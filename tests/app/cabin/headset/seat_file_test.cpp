@@ -1,4 +1,4 @@
-// The file with the saved seat calibration.
+// Tests of the file that stores the seat calibration.
 #include "app/cabin/headset/seat_file.h"
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// The transform between room and cabin: properties of a rigid motion, and fits with a known answer.
+// The transform between room and cabin is a rigid motion. A fit to touched points finds the known transform.
 #include "app/cabin/headset/seat.h"
 
 #include <cmath>
@@ -37,7 +37,8 @@ void check_level(const EyePose& seat) {
 
 TEST_CASE("the user's head is placed at the driver's eyes, facing ahead, even when looking up, down or aside") {
   for (const double left : {0.0, 0.7, -2.9, 3.1}) {
-    for (const double up : {0.0, -0.6, 0.5, -1.5, 1.5}) {  // [rad] the gaze, from the feet to the roof
+    // [rad] pitch of the gaze; +-1.5 is almost straight up or down.
+    for (const double up : {0.0, -0.6, 0.5, -1.5, 1.5}) {
       const EyePose head{{1.3, 1.6, -2.2}, turned(left, up, 0.0)};
       const EyePose seat = seat_at_eyes(head, kPlaces, 0.04);
       CAPTURE(left);
@@ -63,10 +64,12 @@ TEST_CASE("a knob with measured distances is drawn at its true place, at its tru
 TEST_CASE("the lever is on the car's centre side: right of a driver on the left, left of a driver on the right") {
   CHECK_NOTHROW(check_knob({0.3, 0.5, 0.3}, DriveSide::left));
   CHECK_NOTHROW(check_knob({-0.3, 0.5, 0.3}, DriveSide::right));
-  CHECK_THROWS_WITH(check_knob({0.3, 0.5, 0.3}, DriveSide::right),
-                    "with the driver on the right, the knob must be on the left, but 0.3 m to the right was given");
-  CHECK_THROWS_WITH(check_knob({-0.3, 0.5, 0.3}, DriveSide::left),
-                    "with the driver on the left, the knob must be on the right, but -0.3 m to the right was given");
+  CHECK_THROWS_WITH(
+      check_knob({0.3, 0.5, 0.3}, DriveSide::right),
+      "when the driver sits on the right, the knob must be on the left; 0.3 m to the right is on the wrong side");
+  CHECK_THROWS_WITH(
+      check_knob({-0.3, 0.5, 0.3}, DriveSide::left),
+      "when the driver sits on the left, the knob must be on the right; -0.3 m to the right is on the wrong side");
 }
 
 TEST_CASE("touches in six gears give any room's rotation and shift, exactly if the touches are exact") {
@@ -114,7 +117,8 @@ TEST_CASE("noisy touches are fitted by least squares: no nearby fit is better, a
   const double smallest = squares(fit->cabin_from_room);
   dvec3 middle(0.0);
   for (const auto& [room, knob] : pairs) middle += room / 12.0;
-  for (const double turn : {-0.01, 0.01}) {  // [rad] rotation about the centre of the touched points
+  // [rad] error of the room's rotation about the centre of the touched points.
+  for (const double turn : {-0.01, 0.01}) {
     EyePose other = fit->cabin_from_room;
     other.orientation = glm::angleAxis(turn, kUp) * other.orientation;
     other.position += fit->cabin_from_room * middle - other * middle;
@@ -131,8 +135,9 @@ TEST_CASE("noisy touches are fitted by least squares: no nearby fit is better, a
         0.05);
 }
 
-// The independent answer: shifts the tip in many directions and fits the room again. The fit is linear, so the smallest
-// misfit must not be below the reported fraction, and must be close to it.
+// Measures the reported fraction independently: shifts the controller's tip by 0.1 mm in many directions, repeats the
+// fit, and divides the misfit by 0.1 mm. The smallest quotient must be close to the reported fraction, and not below
+// it.
 TEST_CASE("the reported tip error fraction is a lower bound, and zero if the tip was turned about one axis only") {
   std::mt19937_64 dice(5);
   std::normal_distribution<double> any;
@@ -179,7 +184,7 @@ TEST_CASE("a single touched point shifts the room and keeps its direction") {
   const EyePose now{{0.1, 0.2, 0.3}, glm::angleAxis(-0.4, kUp)};
   touches.add({{2.0, 1.0, 0.5}, kHeld}, kPlaces.knob);
   touches.add({{2.0, 1.0, 0.508}, kHeld},
-              kPlaces.knob + dvec3(0.008, 0, 0));  // 8 mm, as by a trembling hand: too close for a direction
+              kPlaces.knob + dvec3(0.008, 0, 0));  // only 8 mm from the first touch: too close to give a direction
   const auto fit = touches.fit(now);
   REQUIRE(fit);
   CHECK_FALSE(fit->turned);

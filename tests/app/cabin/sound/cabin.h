@@ -1,4 +1,4 @@
-// The cabin's sounds and their listener, rendered to memory.
+// The cabin's sounds, rendered to memory as the driver hears them.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace gearshift::test {
 inline constexpr glm::vec3 kKnob{0.37f, 0.35f, -0.25f};
 inline constexpr double kFrame = 1.0 / 60.0;
 
-inline vehicle::VehicleState running(double speed, double load) {  // speed in [rpm], load in [1]
+inline vehicle::VehicleState running(double speed, double load) {  // `speed` in [rpm], `load` in [1]
   vehicle::VehicleState car;
   car.engine_speed = speed * std::numbers::pi / 30.0;
   car.engine_load = load;

@@ -18,7 +18,7 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// `seconds` [s] of the engine's sound at `speed` [rpm] and `load` [1].
+// The engine's sound at `speed` [rpm] and `load` [1], `seconds` [s] long.
 std::vector<float> engine_sound(Cabin& cabin, double speed, double load, double seconds = 1.0) {
   cabin.car = running(speed, load);
   cabin.run(0.1);
@@ -35,7 +35,7 @@ struct OctaveBand {
 };
 constexpr std::array<OctaveBand, 4> kOctaves = {{{354.0, 707.0}, {707.0, 1414.0}, {1414.0, 2828.0}, {2828.0, 5657.0}}};
 
-// [dB] The signal-to-noise ratio in the best octave band, at the ear where that is worse.
+// [dB] The signal-to-noise ratio in the best octave band, at the ear with the lower ratio.
 double best_octave(std::span<const float> signal, std::span<const float> noise) {
   double worse_ear = 1e9;
   for (const Ear ear : {Ear::left, Ear::right}) {
@@ -74,7 +74,8 @@ TEST_CASE("the engine's strongest line is its firing frequency, n / 60 * cylinde
   double worst = 0.0;
   Cabin four;
   for (const double load : {0.0, 0.4, 1.0}) {
-    for (double speed = 800.0; speed <= 6500.0; speed *= 1.17) {  // speeds near kEngineBands and between them
+    // [rpm] near the speeds of kEngineBands and between them.
+    for (double speed = 800.0; speed <= 6500.0; speed *= 1.17) {
       const double firing = speed / 60.0 * 4.0 / 2.0;
       const double hertz = strongest_line(left(engine_sound(four, speed, load, 2.0)));
       CAPTURE(speed);
@@ -187,7 +188,7 @@ TEST_CASE("engaging a gear sounds within 20 ms, once, and louder than disengagin
     cabin.run(kFrame);
     cabin.on_event(kind, 3.0);
     std::vector<float> first = cabin.run(0.2);
-    CHECK(peak(doubles(std::span(first).first(2 * kSoundRate / 50))) > 0.05);  // in its first 20 ms
+    CHECK(peak(doubles(std::span(first).first(2 * kSoundRate / 50))) > 0.05);  // the click is audible within 20 ms
     CHECK(peak(doubles(cabin.run(0.3))) == 0.0);
     return first;
   };
@@ -196,7 +197,7 @@ TEST_CASE("engaging a gear sounds within 20 ms, once, and louder than disengagin
 }
 
 TEST_CASE("knock and warnings come from the lever's side, the engine from the front, relative to the driver's head") {
-  const auto balance = [](std::span<const float> stereo) {  // [dB] right ear relative to the left
+  const auto balance = [](std::span<const float> stereo) {  // [dB] level at the right ear minus level at the left
     return decibels(rms(channel(stereo, Ear::right)) / rms(channel(stereo, Ear::left)));
   };
   const auto knock = [&](Cabin& cabin) {
@@ -224,8 +225,8 @@ TEST_CASE("detent clicks and grind come from the lever's direction and distance"
     double balance() const { return decibels(right / left); }
     double both() const { return std::hypot(left, right); }
   };
-  // The levels with the lever at `lever`, and ears at the origin that face ahead. The low volume keeps the nearest
-  // source below full scale.
+  // The levels at both ears of a sound that comes from `lever`. The ears are at the origin and face ahead. The low
+  // volume keeps the sound below full scale.
   const auto levels_of = [](int sound, glm::vec3 lever) {
     Cabin cabin({.volume = 0.1f, .engine = false});
     cabin.knob = lever;
@@ -236,7 +237,7 @@ TEST_CASE("detent clicks and grind come from the lever's direction and distance"
     const std::vector<float> stereo = cabin.run(0.5);
     return EarLevels{rms(channel(stereo, Ear::left)), rms(channel(stereo, Ear::right))};
   };
-  for (const int sound : {0, 1, 2}) {  // gear engaged, gear disengaged, grind
+  for (const int sound : {0, 1, 2}) {  // 0: gear engaged, 1: gear disengaged, 2: grind
     CAPTURE(sound);
     const EarLevels ahead = levels_of(sound, {0.0f, 0.0f, -1.0f});
     CHECK(ahead.balance() == doctest::Approx(0.0).epsilon(1e-3));
@@ -277,7 +278,7 @@ TEST_CASE("over-push sounds within a frame of its event, while the flag is set, 
   cabin.run(2.0 * kFrame);
   CHECK(peak(doubles(cabin.run(0.5))) == 0.0);
 
-  cabin.on_event(EventKind::over_push_begin, 60.0);  // event and end between two frames
+  cabin.on_event(EventKind::over_push_begin, 60.0);  // the over-push begins and ends between two frames
   cabin.on_event(EventKind::over_push_end);
   const std::vector<float> brief = cabin.run(0.3);
   CHECK(level(std::span(brief).last(2 * kSoundRate / 20)) > 0.05);
@@ -299,13 +300,13 @@ TEST_CASE("a warning always begins with its first tone") {
 TEST_CASE("saturation that flickers faster than the hold is one warning; two warnings at once are both audible") {
   Cabin cabin;
   std::vector<float> stereo;
-  for (int n = 0; n < 10; ++n) {  // one saturated frame every 200 ms
+  for (int n = 0; n < 10; ++n) {  // the force saturates once every 200 ms
     cabin.on_event(EventKind::saturation_begin, 40.0);
     cabin.on_event(EventKind::saturation_end);
     const std::vector<float> some = cabin.run(0.2);
     stereo.insert(stereo.end(), some.begin(), some.end());
   }
-  int begins = 0;  // three beeps per half second, although the cause repeats faster
+  int begins = 0;  // number of beeps: three per half second, so 12 in 2 s, however often the force saturates
   bool was = false;
   for (std::size_t n = 0; n + 960 <= stereo.size(); n += 960) {  // 10 ms
     const bool is = level(std::span(stereo).subspan(n, 960)) > 0.05;

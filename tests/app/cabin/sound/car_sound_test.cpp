@@ -45,8 +45,7 @@ std::vector<double> left_ear(Cabin& cabin, const VehicleState& car, double secon
   return left(cabin.run(seconds));
 }
 
-// The line at `frequency` [Hz] in the spectrum of the signal's power, divided by the stronger of two neighbouring
-// lines.
+// The line at `frequency` [Hz] in the spectrum of the signal's power, divided by the stronger of its two neighbours.
 double line_prominence(std::vector<double> x, double frequency) {
   for (double& v : x) v = v * v;
   return amplitude_at(x, frequency) / std::max(amplitude_at(x, 0.77 * frequency), amplitude_at(x, 1.27 * frequency));
@@ -54,7 +53,7 @@ double line_prominence(std::vector<double> x, double frequency) {
 
 bool silent(Cabin& cabin, const VehicleState& car) {
   cabin.car = car;
-  cabin.run(0.5);  // until the previous sound has ended
+  cabin.run(0.5);  // long enough for the previous sound to end
   return peak(doubles(cabin.run(0.3))) == 0.0;
 }
 
@@ -99,7 +98,7 @@ TEST_CASE("a running engine judders only while it shudders") {
   const std::vector<double> idle = left_ear(one, car);
   car.shudder = 0.5;
   const std::vector<double> shaken = left_ear(other, car);
-  // The judder of 60 Hz at 400 rpm is played at 60 Hz * 800 / 400.
+  // The judder was synthesised as 60 Hz at 400 rpm. At 800 rpm it is played twice as fast: 120 Hz.
   CHECK(amplitude_at(shaken, 120.0) > 3.0 * amplitude_at(idle, 120.0));
 }
 
@@ -110,7 +109,7 @@ TEST_CASE("the limiter stutters 12 times per second while the fuel is cut and re
   CHECK(line_prominence(calm, kLimiterRate) < 3.0);
   cabin.run(0.1);
   std::vector<float> stereo;
-  for (int frame = 0; frame < 180; ++frame) {  // 33 ms cut, 67 ms not, as by the hatchback's limiter
+  for (int frame = 0; frame < 180; ++frame) {  // the fuel is cut for 33 ms of every 100 ms
     cabin.car.fuel_cut = frame % 6 < 2;
     const std::vector<float> some = cabin.run(kFrame);
     stereo.insert(stereo.end(), some.begin(), some.end());
@@ -166,7 +165,7 @@ TEST_CASE("a stall with the ignition on is announced by one chime; a start or a 
   CHECK_FALSE(chimes(running(800.0, 0.1)));
   CHECK(chimes(stalled));
   cabin.run(1.2);
-  CHECK(silent(cabin, stalled));  // the chime sounds only once
+  CHECK(silent(cabin, stalled));  // the chime is not repeated
   VehicleState cranks_again = cranked(200.0);
   cranks_again.stalled = true;
   CHECK_FALSE(chimes(cranks_again));
@@ -176,7 +175,7 @@ TEST_CASE("a stall with the ignition on is announced by one chime; a start or a 
   CHECK(silent(cabin, dead(0.0)));
   Cabin late({.engine = false});
   late.car = stalled;
-  CHECK(peak(doubles(late.run(0.3))) == 0.0);  // the engine stalled before the sound began
+  CHECK(peak(doubles(late.run(0.3))) == 0.0);  // no chime, because the stall happened before this sound output began
 }
 
 TEST_CASE("dogs rattle |difference| * teeth / (2 pi) times per second, louder with the power") {

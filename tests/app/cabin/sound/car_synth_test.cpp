@@ -22,7 +22,8 @@ std::vector<double> rounds(const std::vector<float>& loop, int count) {
   return out;
 }
 
-// [1] The modulation depth of the signal's power at `frequency` [Hz]: the line in its spectrum, divided by the mean.
+// [1] The modulation depth at `frequency` [Hz]: the line in the spectrum of the signal's power, divided by the mean
+// power.
 double modulation(std::vector<double> x, double frequency) {
   for (double& v : x) v = v * v;
   double mean = 0.0;
@@ -45,7 +46,7 @@ TEST_CASE("no driveline loop clicks at its joint") {
   for (const auto make : {grind_loop, starter_loop, judder_loop, limiter_loop, over_rev_loop})
     CHECK(joint_roughness(make()) <= 1.0);
   std::vector<float> cut = judder_loop();
-  cut.resize(cut.size() - 1000);  // shorter by 1.25 periods of its tone
+  cut.resize(cut.size() - 1000);  // removes 1.25 periods of the tone
   CHECK(joint_roughness(cut) > 1.5);
 }
 
@@ -55,7 +56,7 @@ TEST_CASE("each loop is modulated at the rate of its law, and not at others") {
     double rate;  // [Hz]
   };
   for (const Beats& beats : {Beats{grind_loop, 150.0},                 // teeth
-                             Beats{starter_loop, 240.0 / 60.0 * 2.0},  // compressions of four cylinders
+                             Beats{starter_loop, 240.0 / 60.0 * 2.0},  // four cylinders: two compressions per turn
                              Beats{judder_loop, 400.0 / 60.0 * 2.0},   // firings
                              Beats{limiter_loop, 12.0}, Beats{over_rev_loop, 4.0}}) {
     const std::vector<double> x = rounds(beats.make(), 8);
@@ -100,10 +101,11 @@ TEST_CASE("the chime is a bell followed by a lower bell, and ends at 0") {
 
 TEST_CASE(
     "tooth_pass_rate() is |difference| z / (2 pi); a grind is always audible and grows with the root of its power") {
-  CHECK(tooth_pass_rate(2.0 * 3.14159265358979, 36.0) == doctest::Approx(36.0));  // one revolution per second, 36 teeth
+  // A gear with 36 teeth at one revolution per second.
+  CHECK(tooth_pass_rate(2.0 * 3.14159265358979, 36.0) == doctest::Approx(36.0));
   CHECK(tooth_pass_rate(-20.0, 40.0) == doctest::Approx(127.32).epsilon(1e-4));
   CHECK(grind_gain(0.0) == 0.32);
-  CHECK(grind_gain(25.0) == doctest::Approx(0.41));  // at 25 of 100 W, half of the gain's range
+  CHECK(grind_gain(25.0) == doctest::Approx(0.41));  // a quarter of 100 W gives half of the gain's range
   CHECK(grind_gain(100.0) == doctest::Approx(0.5));
   CHECK(grind_gain(1e9) == doctest::Approx(0.5));
 }

@@ -16,7 +16,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// [1] The RMS level of every 10 ms.
+// [1] The RMS level in each interval of 10 ms.
 std::vector<double> envelope(const std::vector<float>& samples) {
   constexpr std::size_t kWindow = kSoundRate / 100;
   const std::vector<double> x = doubles(samples);
@@ -71,7 +71,7 @@ TEST_CASE("no loop clicks at its joint, and the measure would detect a click") {
         CAPTURE(cylinders);
         CHECK(joint_roughness(loop) <= 1.0);
         if (cylinders != 4) continue;
-        loop.resize(loop.size() - 1000);  // shorter by 0.42 of a cycle
+        loop.resize(loop.size() - 1000);  // removes 0.42 of an engine cycle
         CHECK(joint_roughness(loop) > 1.5);
       }
     }
@@ -86,12 +86,12 @@ TEST_CASE("an engine loop is a whole number of cycles, each of two crankshaft tu
 
 TEST_CASE("half orders are present, and at least 12 dB weaker than the firing frequency") {
   const std::vector<double> x = doubles(engine_loop(4, 2, EngineLoad::full));
-  const double firing = amplitude_at(x, 80.0);  // [Hz] 2400 / 60 * 4 / 2
+  const double firing = amplitude_at(x, 80.0);  // [Hz] 2400 rpm / 60 * 4 cylinders / 2
   for (const double half : {20.0, 40.0, 60.0, 100.0}) {
     CHECK(decibels(amplitude_at(x, half) / firing) < -12.0);
     CHECK(decibels(amplitude_at(x, half) / firing) > -45.0);
   }
-  // Between the orders there is only noise.
+  // The orders are multiples of 20 Hz. Between them there is only noise.
   for (const double between : {50.0, 70.0, 90.0}) CHECK(decibels(amplitude_at(x, between) / firing) < -30.0);
 }
 
@@ -173,9 +173,10 @@ TEST_CASE("noise is uniform with zero mean, and a filtered noise loop has no aud
   double mean = 0.0;
   for (const float v : x) mean += v / 48000.0;
   CHECK(std::abs(mean) < 0.01);
-  CHECK(rms(doubles(x)) == doctest::Approx(1.0 / std::sqrt(3.0)).epsilon(0.01));  // uniform from -1 to 1
+  // The RMS of a uniform distribution from -1 to 1.
+  CHECK(rms(doubles(x)) == doctest::Approx(1.0 / std::sqrt(3.0)).epsilon(0.01));
   CHECK(x != looping_noise(48000, 6));
-  // If a loop is rotated and then filtered, the result is the filtered loop, rotated by the same number of samples.
+  // Rotating a loop and then filtering it gives the same samples as filtering it and then rotating it.
   std::vector<float> turned = x;
   std::rotate(turned.begin(), turned.begin() + 12345, turned.end());
   loop_low_pass(x, 500.0);

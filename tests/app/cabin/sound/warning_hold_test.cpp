@@ -1,4 +1,4 @@
-// WarningHold: how long a warning sounds after its cause.
+// WarningHold: how long a warning sounds after its cause has ended.
 #include "app/cabin/sound/warning_hold.h"
 
 #include <doctest/doctest.h>
@@ -9,8 +9,7 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60.0;
 
-// A warning in the first 3 s, whose cause lasts while `lasts` returns true: how long it sounds [s] and how often it
-// starts.
+// How long a warning sounds [s] during 3 s, and how often it starts.
 struct WarningSound {
   double seconds = 0.0;
   int starts = 0;
@@ -47,7 +46,7 @@ TEST_CASE("a cause of one frame, or between two frames, sounds for the whole hol
 }
 
 TEST_CASE("a cause that flickers faster than the hold is one warning; without a hold it would be many") {
-  // The cause lasts 0.1 s in every 0.4 s.
+  // The cause lasts 0.1 s in every 0.4 s, five times. The fifth time ends at 1.7 s.
   const auto flickers = [](double t) { return t < 2.0 && static_cast<int>(t / 0.1) % 4 == 0; };
   const WarningSound held = sound_of(WarningHold(0.3, 0.35), flickers);
   CHECK(held.starts == 1);

@@ -37,7 +37,7 @@ const BootMesh& boot_mesh() {
   return loaded;
 }
 
-// Lever positions in all shipped gates: the slots' ends, in the middle and at both walls, and the aisles' ends.
+// Lever positions in all shipped gates: the end of each slot (in its middle and at both walls) and the aisles' ends.
 std::vector<glm::dvec2> places() {
   std::vector<glm::dvec2> all{{0.0, 0.0}};
   for (const std::string& name : shipped_names()) {
@@ -64,7 +64,8 @@ glm::dvec3 with_lever(glm::dvec3 p, glm::dvec2 plane) {
   const double off = glm::length(plane);
   if (off == 0.0) return p;
   const glm::dvec3 pivot{0.0, -0.030, 0.0};
-  const glm::dvec3 axis = glm::dvec3(-plane.y, 0.0, -plane.x) / off;  // the axis (0, 1, 0) x (x, 0, -y), normalised
+  // The normalised cross product of (0, 1, 0) and (plane.x, 0, -plane.y).
+  const glm::dvec3 axis = glm::dvec3(-plane.y, 0.0, -plane.x) / off;
   return pivot + rotated(p - pivot, axis, std::asin(off / 0.12));
 }
 
@@ -105,7 +106,8 @@ TEST_CASE("between foot and collar the boot follows the formula in the cabin mod
   CHECK(worst < 1e-6);
 }
 
-// Where a fold is flattened, a face may be oblique to the mean of its normals. This may affect two faces in a thousand.
+// Where the deformation flattens a fold, a face can tilt so far that its vertex normals point to its inner side. The
+// test tolerates this for at most two faces in a thousand.
 TEST_CASE("the boot's faces keep their outer side in all gears of all gates") {
   std::vector<engine::Vertex> bent;
   for (const glm::dvec2 plane : places()) {
@@ -118,8 +120,8 @@ TEST_CASE("the boot's faces keep their outer side in all gears of all gates") {
         n[k] = bent[boot_mesh().indices[i + k]].normal;
         if (!(std::abs(glm::length(n[k]) - 1.0f) < 1e-4f)) ++nan;
       }
-      // The normals are computed from the derivative of the deformation, so they stay on their face's outer side as
-      // long as the boot does not fold through itself.
+      // deform_boot() computes the normals from the derivative of the deformation. If the boot folded through itself,
+      // the normals would be on the inner side of many faces.
       const glm::vec3 face = glm::cross(p[1] - p[0], p[2] - p[0]);
       if (glm::length(face) > 1e-9f && glm::dot(glm::normalize(face), n[0] + n[1] + n[2]) < 0.0f) ++against;
     }
@@ -131,7 +133,7 @@ TEST_CASE("the boot's faces keep their outer side in all gears of all gates") {
 }
 
 TEST_CASE("the deformation keeps its orientation up to the corners of the yoke's workspace") {
-  // The derivative is J = 1 + w (R - 1) + w' (R - 1)(p - P) e_y^T. Its determinant is computed from finite differences.
+  // The determinant of the deformation's derivative, computed from finite differences, must stay positive.
   const double step = 1e-6;
   double min_ratio = 1.0;
   for (int i = -3; i <= 3; ++i) {

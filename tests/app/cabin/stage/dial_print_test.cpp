@@ -40,7 +40,7 @@ Pictures print_of(const cabin::Stage& stage) {
   return {};
 }
 
-// The print for this red line [rad/s], in a stage that showed a different car before.
+// The tachometer print for this red line [rad/s], in a stage that showed a different car before.
 Pictures dial_of(double red_line) {
   static cabin::Stage stage(cabin(), GEARSHIFT_ASSETS "/models");
   cabin::StageInput input;
@@ -51,7 +51,7 @@ Pictures dial_of(double red_line) {
   return print_of(stage);
 }
 
-// The pixel below the needle at `rpm`, at a fraction of the dial's radius.
+// The pixel below the needle at `rpm`; `fraction` is its distance from the dial's centre divided by the dial's radius.
 const std::uint8_t* under_needle(const engine::Image& dial, double rpm, double fraction) {
   vehicle::VehicleState car;
   car.engine_speed = rpm * kRpm;
@@ -68,7 +68,7 @@ bool is_light(const std::uint8_t* p) {
   return p[0] > 100;
 }
 
-// The pixels of a printed number: how many are lit, and how many of these are red.
+// The pixels of a printed number: how many are lit, and how many of the lit ones are red.
 struct Sign {
   int lit = 0, red = 0;
 };
@@ -95,7 +95,7 @@ TEST_CASE("in every car the red part of the scale begins at the car's red line a
     const Pictures dial = dial_of(red_line);
     for (const engine::Image& picture : {dial.reflects, dial.glows}) {
       for (double rpm = 20.0; rpm < 7990.0; rpm += 10.0) {
-        if (std::abs(rpm - red_line / kRpm) < 25.0) continue;  // half a pixel and the antialiased edge
+        if (std::abs(rpm - red_line / kRpm) < 25.0) continue;  // skips the antialiased edge
         CAPTURE(rpm);
         CHECK(is_red(under_needle(picture, rpm, 0.912)) == (rpm > red_line / kRpm));
       }
@@ -134,7 +134,7 @@ TEST_CASE("a red line beyond the scale leaves nothing red; printing the file's o
     if (between_ticks) REQUIRE_FALSE(is_light(under_needle(beyond.glows, rpm, 0.912)));
   }
   const Pictures filed = print_of(cabin::Stage(cabin(), GEARSHIFT_ASSETS "/models"));
-  CHECK(is_red(under_needle(filed.reflects, 6600.0, 0.912)));  // the file's dial is red from 6500 rpm
+  CHECK(is_red(under_needle(filed.reflects, 6600.0, 0.912)));  // in the model file, the dial is red from 6500 rpm
   CHECK_FALSE(is_red(under_needle(filed.reflects, 6400.0, 0.912)));
   const Pictures same = dial_of(6500.0 * kRpm), diesel = dial_of(4750.0 * kRpm);
   const auto dial = [](const engine::Image& picture) { return engine::crop(picture, 0, 0, 672, 672); };
@@ -143,7 +143,7 @@ TEST_CASE("a red line beyond the scale leaves nothing red; printing the file's o
     MESSAGE("printed as before: " << psnr << " dB");
     CHECK(psnr > 35.0);
   }
-  // The part of the atlas outside the tachometer is unchanged.
+  // The part of the atlas to the right of the tachometer is unchanged.
   const auto others = [](const engine::Image& picture) { return engine::crop(picture, 672, 0, 1376, 1024); };
   CHECK(engine::difference(others(filed.reflects), others(diesel.reflects), 0).worst == 0);
   CHECK(engine::difference(others(filed.glows), others(diesel.glows), 0).worst == 0);

@@ -17,12 +17,13 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// `at`: a point of the glass. `on`: the direction into which the driver's line of sight is reflected there.
+// `at` is a point of the mirror's glass; `on` is the direction into which the driver's line of sight is reflected
+// there.
 struct Glance {
   glm::dvec3 at, on;
 };
 
-// The lines of sight in one mirror. side: -1 left, +1 right.
+// The driver's lines of sight in one mirror. `side` is -1 for the left mirror and +1 for the right one.
 std::vector<Glance> glances(double side) {
   cabin::StageConfig config;
   config.gate = shipped_gate("paper");

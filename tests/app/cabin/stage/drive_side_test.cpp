@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* kFolder = GEARSHIFT_ASSETS "/models";
 constexpr std::array kSides{cabin::DriveSide::left, cabin::DriveSide::right};
-// [m] x of a point plus x of its mirror image; the mirror plane is at x = 0.33, the lever.
+// [m] x of a point plus x of its mirror image. The mirror plane is at the lever, x = 0.33 m.
 constexpr float kTwice = 0.66f;
 
 cabin::StageConfig cabin_of(cabin::DriveSide side, bool open_gate = false) {
@@ -103,7 +103,7 @@ engine::Vertex moved_by(engine::Vertex vertex, float x) {
   return vertex;
 }
 
-// [m] The nodes that change sides by a translation along x together with their children, and its distance.
+// The nodes that are shifted along x with their children, and not mirrored. Each value is the shift [m].
 const std::map<std::string_view, float> kMoved = {
     {"Cluster", 0.66f},       {"SteeringColumn", 0.66f}, {"PedalClutch", 0.66f},
     {"PedalBrake", 0.66f},    {"PedalThrottle", 0.66f},  {"RadioScreen", -0.01f},
@@ -134,8 +134,8 @@ int inside_out(const engine::Model& model, std::span<const engine::Vertex> verti
   return wrong;
 }
 
-// The number of triangles in a model whose normals point to their back. Leaves are omitted, because their normals point
-// away from the crown's centre.
+// The number of a model's triangles with vertex normals that point to the triangle's back. The hand's skin is omitted,
+// and so are the RoadBlock nodes, because the normals of their leaves point away from the tree crown's centre.
 int inside_out(const engine::Model& model) {
   int wrong = 0;
   for (const engine::Node& node : model.nodes) {
@@ -153,7 +153,8 @@ const std::vector<engine::Vertex>& skin_in(const cabin::Stage& stage) {
       ->vertices;
 }
 
-// [m^3] The hand's volume by the divergence theorem. The knob is the origin, because the sleeve is open at the elbow.
+// [m^3] The hand's volume by the divergence theorem. The sleeve is open at the elbow, so the result depends on the
+// origin. The knob is the origin in both cabins.
 double hand_volume(const cabin::Stage& stage) {
   const engine::Model& model = stage.model();
   const engine::Mesh& mesh = model.meshes[static_cast<std::size_t>(
@@ -187,7 +188,8 @@ TEST_CASE("the right-hand-drive body is the file's, mirrored at the lever; lever
   int body = 0, upright = 0;
   for (std::size_t i = 0; i < cabin.nodes.size(); ++i) {
     const std::string& name = cabin.nodes[i].name;
-    if (name.starts_with("DoorMirror") && name.ends_with("Surface")) continue;  // the stage bends the mirrors' glass
+    // Skip the door mirrors, because the stage curves their flat glass.
+    if (name.starts_with("DoorMirror") && name.ends_with("Surface")) continue;
     const float* shift = displacement_of(cabin, static_cast<int>(i));
     int missing = 0;
     for (const cabin::MeshPart& part : cabin::transformed_parts(cabin, static_cast<int>(i), world[i])) {
@@ -379,7 +381,7 @@ TEST_CASE("the road sign is on the driver's side of the road and is not mirrored
   for (const cabin::DriveSide side : kSides) {
     const cabin::Stage stage = stage_of(side);
     const engine::Model& model = stage.model();
-    const float middle = side == cabin::DriveSide::left ? 3.2f : -3.2f;  // [m] x of the sign
+    const float middle = side == cabin::DriveSide::left ? 3.2f : -3.2f;  // [m] x of the road sign's centre
     double reads = 0.0;
     for (const cabin::MeshPart& part : cabin::parts_of(model, cabin::required_node(model, "RoadBlock0"))) {
       for (std::size_t i = 0; i < part.mesh_data.indices.size(); i += 3) {
@@ -391,7 +393,7 @@ TEST_CASE("the road sign is on the driver's side of the road and is not mirrored
         });
         if (!is_front) continue;
         const glm::vec2 u = v[1].uv0 - v[0].uv0, w = v[2].uv0 - v[0].uv0;
-        // v points down, so the triangles of a face that is not mirrored run clockwise in uv.
+        // v points down, so in uv the triangles of a face that is not mirrored run clockwise.
         reads -= u.x * w.y - u.y * w.x;
       }
     }

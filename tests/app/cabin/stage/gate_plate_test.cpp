@@ -40,8 +40,8 @@ struct Flat {
   glm::dvec2 a, b, c;
 };
 
-// The metal as seen from the pivot, about which the rod turns: all triangles of the plate, projected from the pivot
-// onto the plate's face.
+// The plate's metal as seen from the pivot about which the rod turns: all triangles, projected from the pivot onto the
+// plate's face.
 std::vector<Flat> metal_from_pivot(const cabin::MeshData& metal) {
   std::vector<Flat> flats;
   const auto projected = [&](std::uint32_t index) {
@@ -78,15 +78,15 @@ double distance_to_metal(const std::vector<Flat>& metal, glm::dvec2 p) {
 }
 
 // The point where the straight line from the yoke's centre to the knob above gate point `p` crosses the plate. Computed
-// from angles: tan(theta) = px / pz, with pz = rho times the cosine of the lever's lean.
+// from the lever's lean and azimuth angles.
 glm::dvec2 crossing(glm::dvec2 p) {
   const double lean = std::asin(glm::length(p) / kYoke.radius);
   const double azimuth = std::atan2(p.y, p.x);
   return cabin::kPlateHeight * std::tan(lean) * glm::dvec2(std::cos(azimuth), std::sin(azimuth));
 }
 
-// Whether the rod can pass the wall point `p` only because its round section rounds off a convex corner of the wall. At
-// a right angle, its centre passes up to (sqrt 2 - 1) times its radius behind the corner.
+// True if the rod can pass the wall point `p` only because the round rod rounds off a convex corner of the wall. At a
+// right angle, the rod's centre passes at most (sqrt 2 - 1) times the rod's radius behind the corner.
 bool is_behind_a_corner(const haptics::Gate& gate, const cabin::SlotOpening& opening, glm::dvec2 p) {
   const double deepest = (std::sqrt(2.0) - 1.0) * opening.widened * kYoke.radius / cabin::kPlateHeight;
   if (!haptics::in_free_space(gate, p, deepest + 0.0002)) return false;
@@ -110,7 +110,8 @@ glm::dvec2 random_point(const haptics::Gate& gate, std::mt19937_64& dice) {
 }  // namespace
 
 TEST_CASE("the lever's rod meets the plate's metal exactly where the gate has a wall, except for rounded corners") {
-  // 0.2 mm at the knob are at least 0.1 mm on the plate, which is more than a grid cell can cut off a corner.
+  // [m] Points closer to a wall than this, measured at the knob, are skipped. On the plate this margin is at least
+  // 0.1 mm, which is more than the grid of the opening cuts off a corner.
   constexpr double kMargin = 0.0002;
   const int thinning = is_full_campaign() ? 1 : 4;
   int checked = 0, free = 0, rounded = 0;
@@ -154,7 +155,7 @@ TEST_CASE("a leaning round rod fits everywhere: its section in the plate's plane
       max_ratio = std::max(max_ratio, plate.opening.rod_radius / std::cos(lean) / plate.opening.widened);
     }
   }
-  CHECK(max_ratio > 0.9);  // the opening is no wider than necessary
+  CHECK(max_ratio > 0.9);  // the opening is hardly wider than necessary
 }
 
 TEST_CASE("every layout gives a plate without holes or slivers: closed except for its foot and its opening") {
@@ -178,12 +179,13 @@ TEST_CASE("every layout gives a plate without holes or slivers: closed except fo
     }
     CHECK(bad == 0);
     CHECK(turned == 0);
-    // The area of the face is its outline minus its hole, so no triangle is missing and none overlaps another.
+    // The face's area must be its outline minus its hole and the bevel; otherwise a triangle is missing or overlaps
+    // another.
     const double outline = cabin::signed_area(cabin::rounded_rectangle(plate.half - 0.0004, 0.0096, 6));
     const double hole = cabin::signed_area(plate.opening.loop);
     CHECK(hole > 0.0);
     CHECK(area < outline - hole);
-    CHECK(area > outline - hole - 0.0005 * 0.8);  // the bevel: 0.4 mm along at most 0.8 m of edge
+    CHECK(area > outline - hole - 0.0005 * 0.8);  // the bevel takes at most 0.5 mm along 0.8 m of edge
     CHECK(plate.opening.rod_radius > 0.0002);
   }
 }

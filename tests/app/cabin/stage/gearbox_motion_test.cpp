@@ -1,4 +1,4 @@
-// The directions in which the parts of the cut-away gearbox move.
+// The directions in which the parts of the cut-away gearbox model move.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -86,8 +86,8 @@ TEST_CASE("the sleeve presses only its own gear's ring onto the cone, by half a 
   }
 }
 
-// A gear that drives the car turns as fast as the hub. So a free gear turns in the direction in which it would drive
-// the hub; with the reverse gear the car moves backwards.
+// A gear that is not engaged turns freely, in the direction in which it would turn the hub if it were engaged: forwards
+// for the forward gears, backwards for reverse.
 TEST_CASE("a free gear turns as the hub would if it drove the car, so reverse turns opposite to all others") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
@@ -109,7 +109,7 @@ TEST_CASE("a free gear turns as the hub would if it drove the car, so reverse tu
       const int slot = haptics::slot_of_gear(box.gate, gear);
       if (slot == haptics::kNoSlot) continue;
       const double angle = turned("Gear" + end_of(haptics::slot_of(box.gate, slot)));
-      CHECK(angle > last);  // forwards, and faster the higher the gear
+      CHECK(angle > last);  // all forward gears turn forwards, higher gears faster
       last = angle;
     }
     const double reverse =

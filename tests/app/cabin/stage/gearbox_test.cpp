@@ -30,7 +30,7 @@ struct BoxRig {
     REQUIRE(index != engine::kNone);
     return pose[static_cast<std::size_t>(index)];
   }
-  double moved(const std::string& name) const {  // [m] forward is positive
+  double moved(const std::string& name) const {  // [m] displacement; forward is positive
     return -static_cast<double>(
         (node(name).translation - model.nodes[static_cast<std::size_t>(model.node(name))].translation).z);
   }
@@ -72,7 +72,7 @@ TEST_CASE("every moving part of the gearbox is drawn by one call and keeps the m
     CAPTURE(name);
     CHECK(mesh_of(rig.model, name).primitives.size() == 1);
   }
-  // The forward ring's triangles have the colour, metalness and roughness of the file's material, within 1/255.
+  // The forward ring's triangles have the colour, metalness and roughness of the file's material, rounded to 8 bits.
   const engine::Primitive& original = mesh_of(file, "RingForward").primitives.front();
   const engine::Primitive& drawn = mesh_of(rig.model, "RingForward0").primitives.front();
   const engine::Material& brass = file.materials[static_cast<std::size_t>(original.material)];

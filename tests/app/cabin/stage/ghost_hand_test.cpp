@@ -12,7 +12,7 @@
 namespace gearshift::test {
 namespace {
 
-constexpr glm::dvec3 kLeverPivot{0.330, 0.007, -0.270};  // [m] the value in the cabin model's README
+constexpr glm::dvec3 kLeverPivot{0.330, 0.007, -0.270};  // [m] from the cabin model's README
 
 // The knob's position: straight above gate point `p`, on the sphere of radius 0.12 m about the pivot.
 glm::dvec3 knob_over(glm::dvec2 p) {
@@ -55,7 +55,7 @@ TEST_CASE("the hand holds the drawn knob and its ghost the ghost's knob, as far 
     stage.place(input);
     const std::vector<glm::dvec3> hand = drawn_skin(stage, "HandMesh"), ghost = drawn_skin(stage, "GhostHand");
     const glm::dvec3 knob = knob_over(proxy), ghost_knob = knob_over(lever);
-    // The skin touches the knob, whose radius is 24 mm.
+    // The skin's nearest point is close to the knob's surface, 24 mm from the knob's centre.
     CHECK(nearest(hand, knob) > 0.015);
     CHECK(nearest(hand, knob) < 0.030);
     CHECK(nearest(ghost, ghost_knob) == doctest::Approx(nearest(hand, knob)).epsilon(1e-3));

@@ -58,7 +58,7 @@ TEST_CASE("the palm keeps its grip on the knob at any lever position") {
     double nearest = 1.0;
     for (const engine::Vertex& vertex : rig.skin)
       nearest = std::min(nearest, glm::distance(knob, glm::dvec3(vertex.position)));
-    CHECK(nearest > 0.015);  // the skin touches the knob, whose radius is 24 mm
+    CHECK(nearest > 0.015);  // the knob's radius is 24 mm, so the skin is close to its surface
     CHECK(nearest < 0.030);
   }
 }
@@ -80,9 +80,9 @@ TEST_CASE("the forearm points from the wrist to a fixed elbow, and keeps its len
   rig.hold(hand, {0.0, 0.0});
   const std::vector<engine::Vertex> rest = rig.skin;
   const glm::dmat4 forearm = glm::dmat4(rig.world_of("Forearm"));
-  // The elbow in the joint's frame.
+  // The elbow in the frame of the forearm's joint.
   const glm::dvec3 along = glm::dvec3(glm::inverse(forearm) * glm::dvec4(kElbow, 1.0));
-  // The vertices that only the forearm moves.
+  // The vertices that move only with the forearm.
   const int joint_node = rig.model.node("Forearm");
   const engine::Skin& skin = rig.model.skins.front();
   const auto joint = std::find(skin.joints.begin(), skin.joints.end(), joint_node) - skin.joints.begin();

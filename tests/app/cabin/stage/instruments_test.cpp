@@ -61,7 +61,7 @@ TEST_CASE("the engine's lamps are on while it is stopped with the ignition on, a
 }
 
 TEST_CASE("the engine lamp warns above the car's own red line") {
-  for (const double rpm : {4800.0, 7200.0}) {  // above a diesel's and a petrol engine's red line
+  for (const double rpm : {4800.0, 7200.0}) {  // above the red line of a diesel and of a petrol engine
     vehicle::VehicleState car = running(rpm);
     CHECK(light(cabin::Lamp::engine, car) == 0.0f);
     car.over_revved = true;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr haptics::YokeGeometry kPaperYoke;
 
-// The direction to the knob, from the gate point and the sphere about the pivot, without any angle.
+// The direction to the knob, computed without angles from the gate point and the sphere about the pivot.
 glm::dvec3 knob_on_sphere(glm::dvec2 p, double radius) {
   return glm::dvec3(p.x, std::sqrt(radius * radius - p.x * p.x - p.y * p.y), -p.y) / radius;
 }

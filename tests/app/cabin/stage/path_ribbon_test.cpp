@@ -15,11 +15,11 @@ namespace gearshift::test {
 namespace {
 
 constexpr glm::dvec3 kWayPivot{0.330, 0.007, -0.270};  // [m] the lever's pivot, from the cabin model's README
-// [m] radius of the knob's sphere, plus the height of the paths above it.
+// [m] The radius of the knob's sphere plus the height at which the paths are drawn above it.
 constexpr double kSphere = 0.120 + 0.026;
 
-// The point of the paths' sphere above gate point `p`: the point of the knob's sphere straight above `p`, scaled.
-// Computed without joint angles.
+// The point straight above gate point `p` on the knob's sphere, scaled to the sphere of the drawn paths. Computed
+// without joint angles.
 glm::dvec3 above_knob(glm::dvec2 p) {
   const glm::dvec3 knob{p.x, std::sqrt(0.12 * 0.12 - p.x * p.x - p.y * p.y), -p.y};
   return kSphere / 0.12 * knob;
@@ -53,7 +53,7 @@ cabin::Stage stage_of_paper() {
 }  // namespace
 
 TEST_CASE("from second to third (106 mm), ring i is above the path's point at i / 319 of its length") {
-  // The path is 40 + 26 + 40 mm long.
+  // The path is 40 + 26 + 40 = 106 mm long.
   const std::vector<glm::dvec2> path{{-0.01, -0.04}, {-0.01, 0.0}, {0.016, 0.0}, {0.016, 0.04}};
   std::vector<engine::Vertex> tube;
   REQUIRE(cabin::shape_path(path, haptics::YokeGeometry{}, cabin::kDrivenStyle, tube));
@@ -113,7 +113,7 @@ TEST_CASE("nothing is drawn for paths without length: no point, one point, a rep
   CHECK(tube.empty());
   REQUIRE(cabin::shape_path(std::vector<glm::dvec2>{{0.0, 0.0}, {nan, 0.0}, {0.0, 0.03}, {0.0, 0.0}, {5.0, 5.0}},
                             haptics::YokeGeometry{}, cabin::kDrivenStyle,
-                            tube));  // this path turns back, and leaves the yoke's reach
+                            tube));  // this path contains NaN, turns back and leaves the yoke's reach
   for (const engine::Vertex& vertex : tube) {
     REQUIRE(std::isfinite(vertex.position.x + vertex.position.y + vertex.position.z));
     REQUIRE(glm::length(vertex.normal) == doctest::Approx(1.0).epsilon(1e-4));

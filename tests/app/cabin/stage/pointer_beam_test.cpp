@@ -38,8 +38,8 @@ struct PointingCabin {
   }
 };
 
-// [m] Along the beam, the smallest and largest coordinate of a node's drawn vertices, measured from the beam's begin;
-// and their largest distance from the beam's axis.
+// [m] The extent of a node's drawn vertices along the beam, measured from the beam's start, and their largest distance
+// from the beam's axis.
 struct Extent {
   double before = 1e9, beyond = -1e9, aside = 0.0;
 };
@@ -96,7 +96,7 @@ TEST_CASE("without a pointer there is no beam; a beam of length zero has only it
   cabin.point(cabin::Beam{{0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}});
   CHECK_FALSE(cabin.state_of(cabin::kBeamNode).visible);
   CHECK(cabin.state_of(cabin::kBeamEndNode).visible);
-  CHECK(cabin.state_of(cabin::kBeamNode).opacity < 1.0f);  // the renderer gives blended nodes no shadow
+  CHECK(cabin.state_of(cabin::kBeamNode).opacity < 1.0f);  // blended, so the renderer draws no shadow for it
   CHECK(cabin.state_of(cabin::kBeamEndNode).opacity < 1.0f);
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("after a thousand kilometres, a millimetre of road is still a millimet
   const auto before = static_cast<float>(cabin::tile_shift(kFar + 5.0));
   const auto after = static_cast<float>(cabin::tile_shift(kFar + 5.0 + kStep));
   CHECK(std::abs(static_cast<double>(after - before) - kStep) < 1e-5);
-  // As a float, the distance itself would not change at all.
+  // The distance itself, stored as a float, would not change at all.
   CHECK(static_cast<float>(kFar + 5.0 + kStep) == static_cast<float>(kFar + 5.0));
 }
 

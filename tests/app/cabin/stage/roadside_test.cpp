@@ -84,7 +84,7 @@ TEST_CASE("the road moves towards a driving car, at the car's speed, also after 
     road.place(start + 0.25, 0.0, pose);
     CHECK(z_of(pose, "RoadStrip") - strip == doctest::Approx(0.25).epsilon(1e-4));
     CHECK(z_of(pose, block_name(2)) - block == doctest::Approx(0.25).epsilon(1e-3));
-    road.place(start, 0.0, pose);  // reverses to the start
+    road.place(start, 0.0, pose);  // the car reverses to the start
     CHECK(z_of(pose, "RoadStrip") == strip);
   }
 }
@@ -93,7 +93,7 @@ TEST_CASE("uphill by 10 % the road rises 10 m in 100 m ahead of the car and fall
   const cabin::Roadside road(road_model());
   std::vector<engine::Node> level = road_model().nodes, hill = level;
   const double slope = std::atan(0.10);
-  // Where a point of the node, at place `at` of the level road, is moved to by the slope.
+  // A point of a node is at `at` on the level road. Returns the place of this point on the slope.
   const auto moved = [&](const char* name, glm::vec3 at) {
     const engine::Node& from = level[static_cast<std::size_t>(road_model().node(name))];
     const engine::Node& to = hill[static_cast<std::size_t>(road_model().node(name))];

@@ -62,7 +62,7 @@ TEST_CASE("the arrows face the driver above the gear display, between the indica
       CHECK(corner.x > glm::vec3(state_of("LampTurnLeft").world[3]).x + 0.01f);
       CHECK(corner.x < glm::vec3(state_of("LampTurnRight").world[3]).x - 0.01f);
     }
-    // The corner at the tip is on the centre line of the arrow, and the corner at the opposite end is not.
+    // Only the corner at the arrow's tip lies on the arrow's centre line; the corner at the opposite end does not.
     const auto lower = [](glm::vec3 a, glm::vec3 b) { return a.y < b.y; };
     const glm::vec3 highest = *std::max_element(at.begin(), at.end(), lower);
     const glm::vec3 lowest = *std::min_element(at.begin(), at.end(), lower);

@@ -135,9 +135,9 @@ TEST_CASE("wheel, pedals and handbrake turn in the right direction") {
   input.car.steering = 0.5;
   input.car.clutch = input.car.hand_brake = 1.0;
   stage.place(input);
-  CHECK((world_of(stage, "SteeringWheel") * top).x < wheel.x - 0.04f);  // the top moves left
-  CHECK((world_of(stage, "PedalClutch") * pad).z < clutch.z - 0.03f);   // the pad moves forward
-  CHECK((world_of(stage, "Handbrake") * grip).y > brake.y + 0.05f);     // the grip moves up
+  CHECK((world_of(stage, "SteeringWheel") * top).x < wheel.x - 0.04f);  // the wheel's top moves left
+  CHECK((world_of(stage, "PedalClutch") * pad).z < clutch.z - 0.03f);   // the pedal's pad moves forward
+  CHECK((world_of(stage, "Handbrake") * grip).y > brake.y + 0.05f);     // the handbrake's grip moves up
 }
 
 TEST_CASE("the display moves by one field of its atlas per gear") {
@@ -251,7 +251,7 @@ TEST_CASE(
     const double fov = cabin::camera_field(name) * std::numbers::pi / 180.0;
     const engine::View view = engine::view_from(cabin::camera(name), engine::symmetric_fov(fov, 16.0 / 9.0), 0.05);
     const glm::dvec3 at = engine::project(view, point, {1280.0, 720.0});
-    // the area that the panel leaves free in a window of 1280 x 720
+    // The area that the panel leaves free in a window of 1280 x 720 px.
     return at.z > 0.0 && at.x > 320.0 && at.x < 960.0 && at.y > 0.0 && at.y < 652.0;
   };
   const glm::dvec3 horizon = cabin::camera("driver").position + glm::dvec3(0.0, 0.0, -1e4);
@@ -261,7 +261,7 @@ TEST_CASE(
     CHECK(in_middle("driver", point));
   for (const glm::dvec3 point : {horizon, tach, speed, position_of(paper_stage(), "InteriorMirrorSurface")})
     CHECK(in_middle("ahead", point));
-  // The mirror is outside this view, which is why there is a second camera.
+  // In the driver camera's view the interior mirror is outside the free area, so a second camera ("ahead") shows it.
   CHECK_FALSE(in_middle("driver", position_of(paper_stage(), "InteriorMirrorSurface")));
 }
 

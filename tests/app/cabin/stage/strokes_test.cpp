@@ -26,7 +26,7 @@ double area_of(const std::vector<glm::dvec2>& corners) {
 
 TEST_CASE("a straight stroke covers its length times its width, plus two half discs as wide as the stroke") {
   const cabin::Stroke stroke{{{0.1, 0.2}, {0.4, 0.6}}, 0.06, glm::vec3(1.0f)};
-  // Together, the two half discs are a polygon with 12 sides.
+  // The two half discs together are a polygon with 12 sides.
   const double polygon = 12.0 / 2.0 * 0.03 * 0.03 * std::sin(2.0 * 3.14159265358979 / 12.0);
   CHECK(area_of(cabin::stroke_triangles(stroke)) == doctest::Approx(0.5 * 0.06 + polygon));
 }

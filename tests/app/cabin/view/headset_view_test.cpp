@@ -41,7 +41,7 @@ constexpr double kNear = 0.05;          // [m]
 constexpr glm::ivec2 kPanel{400, 300};  // [px]
 const EyePose kRoomInCabin{{0.3, -0.5, 0.2}, glm::angleAxis(0.4, dvec3(0, 1, 0))};
 
-// A head that turns at up to 100 deg/s. During a display period of 11 ms its view moves by at least 4 of 256 px.
+// A head whose yaw changes by up to 100 deg/s, which is 1.1 degrees per display period of 11 ms.
 xr_test::Pose turning_head(double seconds) {
   return {dvec3(0.05 * std::sin(4.0 * seconds), 1.0 + 0.03 * std::cos(3.0 * seconds), 0.1 * std::sin(2.0 * seconds)),
           glm::angleAxis(0.25 * std::sin(7.0 * seconds), dvec3(0, 1, 0)) *
@@ -59,7 +59,7 @@ struct HeadsetRig {
     xr.script.recommended_width = 256;
     xr.script.recommended_height = 192;
     xr.script.capture.every = 1;
-    if (!worn) xr.script.polls_before_ready = 1000000;  // the session stays idle
+    if (!worn) xr.script.polls_before_ready = 1000000;  // keeps the OpenXR session idle
     HeadsetViewConfig config;
     config.samples = samples;
     config.near_plane = kNear;
@@ -107,8 +107,8 @@ std::vector<const xr_test::FrameRecord*> shown_frames() {
   return shown;
 }
 
-// The pose of an eye in the cabin at `seconds` of the script, computed by hand: the head's pose, half the
-// interpupillary distance to the side, then the room's pose.
+// The pose of an eye in the cabin at `seconds` of the script, computed by hand from the head's pose, half the
+// interpupillary distance to the side, and the room's pose.
 EyePose eye_at(double seconds, int eye) {
   const xr_test::Pose head = turning_head(seconds);
   const dvec3 at = head.position + head.orientation * dvec3(eye == 0 ? -0.0315 : 0.0315, 0.0, 0.0);
@@ -120,7 +120,7 @@ Fov fov_of_script(int eye) {
   return {fov.left, fov.right, fov.down, fov.up};
 }
 
-// [px] An asymmetric pinhole projection without matrices.
+// [px] The projection of `point` by an asymmetric pinhole camera, computed without matrices.
 dvec2 pinhole(const EyePose& eye, const Fov& fov, dvec3 point, dvec2 size) {
   const dvec3 in_eye = glm::conjugate(eye.orientation) * (point - eye.position);
   const double x = in_eye.x / -in_eye.z, y = in_eye.y / -in_eye.z;
@@ -146,7 +146,7 @@ double linear(std::uint8_t stored) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-// [px] The centroid of everything brighter than the background, weighted by how much of each pixel it covers.
+// [px] The centroid of everything brighter than the background, weighted by pixel coverage.
 dvec2 centroid_of(const Image& picture) {
   dvec2 sum(0.0);
   double weight = 0.0;
@@ -167,7 +167,7 @@ dvec2 centroid_of(const Image& picture) {
 TEST_CASE("with a scripted head, each eye is drawn from its pose at the frame's display time, within 0.1 px") {
   HeadsetRig rig(4);
   xr_test::control().script.head = turning_head;
-  xr_test::control().script.early_error = 0.03;  // [m] error of the early prediction
+  xr_test::control().script.early_error = 0.03;  // [m] position error of the early prediction
   Model model;
   Material black = paint(vec3(0.0f));
   const vec3 ahead(kRoomInCabin.orientation * dvec3(0.0, 0.0, -1.0));
@@ -203,7 +203,7 @@ TEST_CASE("with a scripted head, each eye is drawn from its pose at the frame's 
   }
   MESSAGE("worst " << worst << " px; one period earlier " << other_time << " px");
   CHECK(worst < 0.1);
-  CHECK(other_time > 1.0);  // [px] so the test would detect the pose of the previous period
+  CHECK(other_time > 1.0);  // [px] proves that the check above would notice a view drawn for the previous period
 }
 
 TEST_CASE("pictures and depths submitted for both eyes equal those of a renderer for a single eye") {
@@ -212,11 +212,12 @@ TEST_CASE("pictures and depths submitted for both eyes equal those of a renderer
   cabin.gate = gate;
   Stage stage(cabin, GEARSHIFT_ASSETS "/models");
   FrameScene scene = stage.scene();
-  // The bounds are inside both eyes' views, so that both use the same shadow map.
+  // The shadow bounds are inside the view of each eye, so both eyes use the same shadow map.
   scene.shadow_bounds = {{0.22f, 0.0f, -0.40f}, {0.44f, 0.25f, -0.20f}};
   HeadsetRig rig;
   const EyePose seat = camera("driver");
-  // The head is at the driver's eyes and looks at the lever. It moves between the early and the late prediction.
+  // The head is at the driver's eyes and looks at the lever. The head moves between the early and the late pose
+  // prediction.
   const EyePose in_room = inverse(kRoomInCabin) * seat;
   const auto head = [&](double seconds) {
     return xr_test::Pose{in_room.position + dvec3(0.0, 0.1 * seconds, 0.0),
@@ -285,7 +286,8 @@ TEST_CASE("the panel hangs in its place and shows all of its picture or the requ
     return std::array<int, 4>{p[0], p[1], p[2], p[3]};
   };
   CHECK(pixel(all.picture, 20, 15) == std::array{255, 0, 0, 255});
-  CHECK(pixel(all.picture, 60, 15) == std::array{0, 0, 0, 0});  // transparent, so the cabin is visible there
+  // The panel is transparent here, so the cabin is visible.
+  CHECK(pixel(all.picture, 60, 15) == std::array{0, 0, 0, 0});
   CHECK(pixel(all.picture, 200, 200) == std::array{0, 0, 0, 0});
   const xr_test::ViewRecord& part = frames.back()->quad()->views[0];
   CHECK(part.rect.x == 20);
@@ -307,10 +309,11 @@ TEST_CASE("the instructor sees the left eye's picture in the area that the panel
     picture = server.picture(id);
     if (picture.pixel(250, 150)[1] > 200) break;
   }
-  // An area of 300 x 300 px out of 400 x 300 is free. There, the eye's picture of 256 x 192 px is scaled to 300 x 225.
+  // The panel leaves 300 x 300 of 400 x 300 px free. In that area, the eye's picture of 256 x 192 px is scaled to 300 x
+  // 225.
   CHECK(picture.pixel(250, 150)[1] > 200);
   CHECK(picture.pixel(110, 150)[1] > 200);
-  CHECK(picture.pixel(90, 150)[1] == 0);   // left of the picture
+  CHECK(picture.pixel(90, 150)[1] == 0);   // left of the eye's picture
   CHECK(picture.pixel(250, 20)[1] == 0);   // above the picture
   CHECK(picture.pixel(20, 15)[0] == 255);  // the panel's red square
 }
@@ -322,7 +325,7 @@ TEST_CASE(
     CAPTURE(runs);
     HeadsetRig rig(1, runs);
     xr_test::control().script.timeline = {xr_test::hidden(0.0, 1e6)};
-    xr_test::control().script.head = [](double) {  // the headset lies on a table and faces backwards
+    xr_test::control().script.head = [](double) {  // the headset lies on a table, facing backwards
       return xr_test::Pose{dvec3(2.0, -0.5, 1.0), glm::angleAxis(std::numbers::pi, dvec3(0, 1, 0))};
     };
     const FrameScene scene = green_wall(rig);
@@ -347,7 +350,8 @@ TEST_CASE(
   for (int i = 0; i < 5; ++i) rig.frame(scene, &panel);
   const ::Window id = server.find("mirror");
   const int swapchains = xr_test::control().record.calls["xrCreateSwapchain"];
-  // In the second window, the panel's 400 x 300 px become 200 x 150, with 30 px of black to the left.
+  // In the second window, the panel's picture of 400 x 300 px becomes 200 x 150 px, with a black margin of 30 px on its
+  // left.
   for (const glm::ivec2 size : {glm::ivec2(480, 300), glm::ivec2(260, 150)}) {
     CAPTURE(size.x);
     server.resize(id, size.x, size.y);
@@ -418,7 +422,7 @@ std::size_t entries(const char* folder) {
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
-// [MiB] The process's anonymous memory in use.
+// [MiB] The anonymous memory that the process uses.
 double resident() {
   malloc_trim(0);
   std::ifstream status("/proc/self/status");
@@ -429,12 +433,12 @@ double resident() {
 
 }  // namespace
 
-// Creates everything that the program creates again after a loss: OpenXR runtime, device, renderer, session and the
-// instructor's window; 20 times, or GEARSHIFT_XR_RESTARTS times. The software driver leaks a little memory per device,
-// less and less.
+// Creates everything that the program creates again after it lost the headset: OpenXR runtime, device, renderer,
+// session and the instructor's window. Repeats this 20 times, or GEARSHIFT_XR_RESTARTS times. The software driver leaks
+// a little memory per device, less with each repetition, so only the memory of the second half is checked.
 TEST_CASE("a headset view that is created repeatedly leaks no file, no thread, and little memory") {
   choose_software_driver();
-  unsetenv("GEARSHIFT_VALIDATION");  // the validation layer keeps data of every object
+  unsetenv("GEARSHIFT_VALIDATION");  // the validation layer keeps data about every object, which would look like a leak
   const char* asked = std::getenv("GEARSHIFT_XR_RESTARTS");
   const int restarts = asked != nullptr ? std::atoi(asked) : 20;
   gearshift::engine::Window window(200, 150, "again");

@@ -13,7 +13,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// RFC 4180, but with LF.
+// Parses CSV as in RFC 4180, but lines end with LF.
 std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
   std::vector<std::vector<std::string>> lines(1, {""});
   bool quoted = false;
@@ -150,7 +150,6 @@ TEST_CASE("a goal is met at exactly its value, from either side") {
   CHECK(format_goal(row) == ">= 1");
 }
 
-// DESIGN.md requires verdicts by the median.
 TEST_CASE("the median decides; a goal between the quartiles is also marked open, at a quartile it is not") {
   BenchRow row = plain_row("walk", "a", 1.0);
   row.goal = 1.1;

@@ -18,7 +18,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// True if every opened tag is closed in order, and attributes are quoted.
+// True if every tag is closed in the right order and all attributes are quoted.
 bool is_well_formed(std::string_view page) {
   std::vector<std::string> open;
   for (std::size_t at = 0; (at = page.find('<', at)) != std::string_view::npos;) {
@@ -122,7 +122,7 @@ TEST_CASE("changes since the last run have a section if there was one") {
 TEST_CASE("a plot: methods on the front are dark, others light; the default is ringed and named") {
   const std::string svg = trade_svg("walk", three_walks());
   CHECK(is_well_formed(svg));
-  CHECK(occurrences(svg, "<circle") == 4);  // three dots, and the ring of the default
+  CHECK(occurrences(svg, "<circle") == 4);  // three dots, and a ring around the default method
   CHECK(occurrences(svg, "fill=\"none\" stroke=\"" + std::string(kGearColour)) == 1);
   CHECK(svg.find("quick (the default)") != std::string::npos);
   CHECK(svg.find("slow (the default)") == std::string::npos);
@@ -148,7 +148,7 @@ TEST_CASE("a front of two is a line with two steps: from the top, down at each, 
   for (std::size_t i = 1; i < line.size(); ++i) {
     CHECK((line[i].x == line[i - 1].x || line[i].y == line[i - 1].y));
     CHECK(line[i].x >= line[i - 1].x);
-    CHECK(line[i].y >= line[i - 1].y);  // a larger y is further down the page and means a smaller error
+    CHECK(line[i].y >= line[i - 1].y);  // y grows down the page, towards smaller errors
   }
 }
 

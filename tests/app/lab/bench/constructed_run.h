@@ -1,4 +1,4 @@
-// A bench run made by hand; nothing is measured.
+// Constructs bench runs without measuring anything.
 #pragma once
 
 #include "app/lab/bench/bench_run.h"

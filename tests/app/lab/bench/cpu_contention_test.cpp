@@ -1,4 +1,4 @@
-// CPU time used by others, from the kernel's counters: the line "cpu" of /proc/stat, see proc(5).
+// CPU time used by other programs and by the host, computed from the line "cpu" of /proc/stat (see proc(5)).
 #include "app/lab/bench/cpu_contention.h"
 
 #include <ctime>
@@ -18,13 +18,14 @@ std::optional<ProcessorTime> at(const char* stat, double own) {
 }  // namespace
 
 TEST_CASE("of a hundred seconds the host took twelve, and other programs the time that is neither idle nor ours") {
-  // columns: user nice system idle  iowait irq softirq steal guest guest_nice
+  // columns:                user nice system idle  iowait irq softirq steal guest guest_nice
   const auto begin = at("cpu  1000  500    300  9000    100  10      20   700    40          4\ncpu0 1 2 3\n", 5.0);
   const auto end = at("cpu  4000 1500   1200 11900    200  60      70  1900   940          4\ncpu0 1 2 3\n", 40.0);
   const auto contention = cpu_contention(begin, end);
   REQUIRE(contention);
-  // Ticks: 3000 + 1000 + 900 + 50 + 50 used, 2900 + 100 idle and 1200 stolen are 92 s. A guest's time is part of the
-  // user time.
+  // Differences in ticks of 0.01 s: 3000 + 1000 + 900 + 50 + 50 = 5000 used, 2900 + 100 = 3000 idle, and 1200 stolen by
+  // the host. In seconds: 50 + 30 + 12 = 92. This program used 40 s - 5 s = 35 s of the 50 s. The column "guest" is not
+  // added, because the kernel already includes it in "user".
   CHECK(contention->by_host == doctest::Approx(12.0 / 92.0));
   CHECK(contention->by_programs == doctest::Approx((50.0 - 35.0) / 92.0));
   CHECK(format_contention(*contention) == "13 % by the host, 16 % by other programs");

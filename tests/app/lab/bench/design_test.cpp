@@ -1,4 +1,4 @@
-// Every row of the design table has bench rows that answer it: tested here, and enforced in every run.
+// Tests the check that the rows of a bench run cover every requirement of the design. Every bench run makes this check.
 #include "app/lab/bench/rows/design.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ TEST_CASE("each row of the design is claimed by a family, and no family claims a
   for (const DesignRow& row : kDesignRows) asked.insert(row.key);
   for (const NamedFamily& family : bench_families()) claimed.insert(family.answers.begin(), family.answers.end());
   CHECK(asked.size() == kDesignRows.size());
-  CHECK(asked.size() == static_cast<std::size_t>(Design::driveline));  // the last one
+  CHECK(asked.size() == static_cast<std::size_t>(Design::driveline));  // the last requirement
   CHECK(claimed == asked);
 }
 

@@ -1,4 +1,4 @@
-// Positions of numbers on a logarithmic axis.
+// Tests of the positions of numbers on a logarithmic axis.
 #include "app/lab/bench/log_axis.h"
 
 #include <algorithm>

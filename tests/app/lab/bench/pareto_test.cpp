@@ -1,4 +1,4 @@
-// Pareto fronts that are obvious at a glance.
+// Tests with small sets of points whose Pareto front is obvious.
 #include "app/lab/bench/pareto.h"
 
 #include <limits>
@@ -16,7 +16,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 TEST_CASE("the front of a known set, cheapest first") {
-  // index: 0       1       2       3       4       5
+  // index:                          0       1       2       3       4       5
   const std::vector<glm::dvec2> set{{9, 1}, {1, 9}, {4, 4}, {5, 5}, {4, 8}, {2, 9.5}};
   CHECK(pareto_front(set) == Front{1, 2, 0});
 }

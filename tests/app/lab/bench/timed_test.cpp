@@ -1,11 +1,10 @@
-// Median and quartiles of timings.
 #include <doctest/doctest.h>
 
 #include "app/lab/bench/rows/bench.h"
 
 using namespace gearshift::lab;
 
-// Hyndman and Fan (1996), definition 7, R's default: linear interpolation between samples.
+// Quantiles follow definition 7 of Hyndman and Fan (1996), the default in R: linear interpolation between samples.
 TEST_CASE("quantiles of few samples are interpolated, not rounded to a sample") {
   std::vector<double> two{3.0, 1.0}, four{4.0, 1.0, 3.0, 2.0}, one{5.0};
   CHECK(timed(two).median == doctest::Approx(2.0));

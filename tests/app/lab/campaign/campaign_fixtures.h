@@ -1,4 +1,4 @@
-// Shared by the campaign's tests: the shipped gates, a fixed case, and checks of its outcome.
+// Shared by the campaign's tests: the shipped gates, a case with fixed parameters, and checks of its outcome.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ inline lab::CampaignCase plain_case(std::uint64_t number) {
   drawn.number = number;
   drawn.seed = lab::case_seed(7, number);
   drawn.lever.hand = haptics::kGripHand;
-  drawn.lever.actuator.overload_time = 1e4;  // the motors never overheat; otherwise the quiet law would not be checked
+  drawn.lever.actuator.overload_time = 1e4;  // [s] long, because overheating would disable the law `quiet`
   drawn.shifts = 4;
   return drawn;
 }

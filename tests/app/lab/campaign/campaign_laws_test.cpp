@@ -1,4 +1,4 @@
-// Each law of the campaign detects a planted violation, and accepts a correct case.
+// Each law of the campaign detects a violation that is planted on purpose, and accepts a correct case.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -32,7 +32,7 @@ struct TwoCycles {
   CyclePair pair() const { return {now, before, false, false}; }
 };
 
-// Moves the drawn lever through the first lockout of one of these kinds.
+// Moves the displayed lever (proxy) through the gate's first lockout whose kind is in `kinds`.
 TwoCycles through_lockout(const Gate& gate, std::initializer_list<LockoutKind> kinds) {
   const auto all = lockouts(gate);
   const auto lockout = std::find_if(all.begin(), all.end(), [&](const Lockout& one) {
@@ -93,7 +93,8 @@ TEST_CASE("a law broken by NaN stays broken") {
   record.note(CampaignLaw::slew, 0.5, 1.0, 0.2);
   CHECK(record.result(CampaignLaw::slew).broken());
   CHECK(record.result(CampaignLaw::slew).time == 0.1);
-  record.note(CampaignLaw::quiet, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.1);  // the same with NaN as bound
+  // A bound that is NaN also breaks the law.
+  record.note(CampaignLaw::quiet, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.1);
   record.note(CampaignLaw::quiet, 0.5, 1.0, 0.2);
   CHECK(record.result(CampaignLaw::quiet).broken());
 }
@@ -129,7 +130,7 @@ TEST_CASE("a swing decays in every case: at half the rate of handle and hand, or
   CampaignCase drawn = plain_case(1);
   drawn.lever.hand = {2.19, 12.2, 1468.0};
   const LawLimits limits = law_limits(drawn.haptics, drawn.lever, DeviceSpec{});
-  const double decay = (12.2 + 2.9) / (2.0 * (2.19 + 0.086));  // [1/s] decay rate b / (2 m) of the slower axis
+  const double decay = (12.2 + 2.9) / (2.0 * (2.19 + 0.086));  // [1/s] decay rate damping / (2 mass) of the slower axis
   CHECK(limits.remaining_swing == doctest::Approx(std::exp(-0.5 * decay)));
   const auto is_broken = [&](double before, double after) {
     LawRecord record;
@@ -167,7 +168,7 @@ TEST_CASE("planted: a lever that still chatters after the last softening is stop
   CampaignCase drawn = plain_case(1);
   drawn.haptics.rate = 250.0;
   drawn.haptics.contact = {ContactHold::zero_order, EnergyControl::none, true, true};
-  drawn.haptics.tuning.aisle_damping = 50.0;  // unstable with any wall stiffness
+  drawn.haptics.tuning.aisle_damping = 50.0;  // unstable whatever the wall's stiffness
   drawn.haptics.tuning.limit_damping = 50.0;
   drawn.lever.delay = 3;
   CHECK(broken(run_case(drawn, layouts()), CampaignLaw::guard));
@@ -205,7 +206,7 @@ TEST_CASE("planted: a proxy in a wall, a proxy that moves through a wall, and Na
   free_space_law(inside_wall.pair(), gate, record);
   CHECK(record.result(CampaignLaw::free_space).broken());
 
-  // From one slot to the next in a single step of the lever: both ends are in free space, with a wall between them.
+  // The lever jumps from one slot to the next in one cycle. Both positions are in free space, with a wall between them.
   TwoCycles through;
   const double deep = gate.half_aisle + 0.02;
   through.before.proxy = through.before.lever = {gate.column[0].center, deep};
@@ -215,7 +216,8 @@ TEST_CASE("planted: a proxy in a wall, a proxy that moves through a wall, and Na
   no_wall_law(through.pair(), gate, limits, record);
   CHECK(record.result(CampaignLaw::no_wall).broken());
 
-  // From deep in a slot to the aisle in front of the next slot, and back: a corner of the wall is between them.
+  // The lever jumps between a point deep in a slot and the aisle in front of the next slot, in both directions. A
+  // corner of the wall is between the points.
   for (const bool is_back : {false, true}) {
     LawRecord round;
     TwoCycles corner = through;
@@ -224,7 +226,8 @@ TEST_CASE("planted: a proxy in a wall, a proxy that moves through a wall, and Na
     CHECK(round.result(CampaignLaw::no_wall).broken());
   }
 
-  // Along the mouth's chamfer to exactly the edge of the slot (case 6661 of seed 1): not a detour.
+  // A path from just inside the slot's mouth to the line between slot and aisle (to within rounding) is allowed, and so
+  // is the reverse path. Such a path occurs in case 6661 of the campaign with seed 1.
   for (const bool is_back : {false, true}) {
     LawRecord along;
     TwoCycles mouth;
@@ -254,11 +257,12 @@ TEST_CASE("planted: through a closed lockout; passing one that the hand opens is
   CHECK(record.result(CampaignLaw::lockout).broken());
 }
 
-// The gate's file has 20 and 15 km/h as closing and opening speed.
+// In dog_leg_five.toml, the lockout closes above 20 km/h and opens below 15 km/h.
 TEST_CASE("planted: through a lockout that the road speed closed and has not opened yet") {
   const Gate gate = shipped_gate("dog_leg_five");
   TwoCycles through = through_lockout(gate, {LockoutKind::speed});
-  const auto is_broken = [&](std::initializer_list<double> speeds) {  // [km/h] the last value applies while passing
+  // speeds: [km/h], the lever passes the lockout at the last speed.
+  const auto is_broken = [&](std::initializer_list<double> speeds) {
     LawRecord record;
     LockoutLaw law;
     TwoCycles stays = through;
@@ -291,7 +295,7 @@ TEST_CASE("planted: a gear that toggles while nothing moves") {
   std::swap(flicker.now, flicker.before);
   law.update(flicker.pair(), gate, false, record);
   std::swap(flicker.now, flicker.before);
-  law.update(flicker.pair(), gate, false, record);  // engages again without having left the slot
+  law.update(flicker.pair(), gate, false, record);  // the gear engages again although the lever has not left the slot
   CHECK(record.result(CampaignLaw::gear_holds).broken());
 }
 

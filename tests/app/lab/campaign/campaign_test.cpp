@@ -1,4 +1,5 @@
-// A sample of the campaign; its result does not depend on interruptions and number of threads; the drawn cases.
+// Tests a sample of the campaign, its resumption after interruptions, its independence of the number of threads, and
+// the random draw of cases.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -62,7 +63,7 @@ TEST_CASE("10,000 shifts of every kind of hand, a hundredth of the campaign: no 
   CHECK(summary.shifts >= 10000);
   CHECK(summary.refused > 0);
   for (const LawSummary& law : summary.laws) CHECK(law.checks > 0);
-  std::vector<double> ripple;  // [m] of each case for which quiet is promised; the goal for the p95 is 0.3 mm
+  std::vector<double> ripple;  // [m] ripple of each case in which the law `quiet` was checked
   for (const CaseOutcome& outcome : outcomes)
     if (outcome.laws.result(CampaignLaw::quiet).checks > 0) ripple.push_back(outcome.ripple);
   REQUIRE(ripple.size() > 50);
@@ -82,7 +83,8 @@ TEST_CASE("the result does not depend on the number of threads, nor on where it 
   std::vector<std::string> more = sorted_lines(twice / "cases.csv");  // three threads may start two extra cases
   CHECK(std::includes(more.begin(), more.end(), all.begin(), all.end()));
 
-  // Simulates that the program was killed while it wrote the fourth case's line.
+  // Simulates that the program was killed while it wrote the fourth case's line. This is lines[5], because the file
+  // begins with two header lines.
   const std::vector<std::string> lines = lines_of(once / "cases.csv");
   std::ofstream cut(twice / "cases.csv", std::ios::trunc);
   for (std::size_t i = 0; i < 5; ++i) cut << lines[i] << "\n";
@@ -110,7 +112,7 @@ TEST_CASE("asked to stop, a campaign starts no more cases, and resumes from ther
   const TempFolder folder;
   plan.folder = folder.path();
   const std::vector<CaseOutcome> first = drive_campaign(plan, layouts(), [](const CampaignStatus&) { return false; });
-  CHECK(first.size() < 1000);  // 30,000 cases contain a million shifts
+  CHECK(first.size() < 1000);  // the plan's million shifts would take 30,000 cases
   plan.shifts = 300;
   const std::size_t resumed = drive_campaign(plan, layouts(), {}).size();
   plan.folder.clear();
@@ -120,14 +122,14 @@ TEST_CASE("asked to stop, a campaign starts no more cases, and resumes from ther
 TEST_CASE("a case beyond its limit of processor time is reported by its number, and others are not") {
   CampaignPlan plan;
   plan.shifts = 2000;
-  std::vector<std::uint64_t> overdue;  // in the order of reports; a single thread runs one case after the other
+  std::vector<std::uint64_t> overdue;  // numbers of reported cases; ascending, because a single thread runs the plan
   const auto record_overdue = [&](const CampaignStatus& status) {
     if (status.overdue) overdue.push_back(*status.overdue);
     return true;
   };
   drive_campaign(plan, layouts(), record_overdue);
   CHECK(overdue.empty());
-  plan.case_time_limit = -1.0;  // with this limit every running case is overdue
+  plan.case_time_limit = -1.0;  // every running case is beyond this limit
   const std::size_t cases = drive_campaign(plan, layouts(), record_overdue).size();
   REQUIRE(overdue.size() > 3);
   CHECK(std::is_sorted(overdue.begin(), overdue.end()));
@@ -151,7 +153,7 @@ TEST_CASE("a line cut off by a full disk stays the last one, whatever other thre
     REQUIRE(setrlimit(RLIMIT_FSIZE, &tight) == 0);
     outcome.number = 1;
     CHECK_THROWS_WITH_AS(file.add(outcome), doctest::Contains("cannot be written"), std::runtime_error);
-    setrlimit(RLIMIT_FSIZE, &before);  // space is available again
+    setrlimit(RLIMIT_FSIZE, &before);  // the file may grow again, but nothing may follow the incomplete line
     outcome.number = 2;
     CHECK_THROWS_WITH_AS(file.add(outcome), doctest::Contains("cannot be written"), std::runtime_error);
   }
@@ -185,7 +187,8 @@ TEST_CASE("an edited file of cases is rejected with line, column, value and rang
   for (std::size_t i = 0; i < kCampaignLaws; ++i) laws += ",1,0,0,0";
   CHECK(refused("0,,-5" + rest + laws) == "3: shifts is \"-5\", not a number from 0 to 40");
   CHECK(refused("0,,41" + rest + laws) == "3: shifts is \"41\", not a number from 0 to 40");
-  // A case number that cannot have been handed out yet, after no line or after one.
+  // Cases start in order on at most 256 threads. So with no earlier line, case 256 cannot have started yet; with one
+  // earlier line, case 257 cannot.
   CHECK(refused("256,,1" + rest + laws) == "3: case is \"256\", not a number from 0 to 255");
   CHECK(refused("255,,1" + rest + laws + "\n257,,1" + rest + laws) == "4: case is \"257\", not a number from 0 to 256");
   CHECK(refused("18446744073709551615,,1" + rest + laws).starts_with("3: case is \"18446744073709551615\", not"));
@@ -193,8 +196,8 @@ TEST_CASE("an edited file of cases is rejected with line, column, value and rang
   CHECK(refused("0,,1,0,0,1,1.0,2000,0,7,0,0,0,1.0" + laws) == "3: promised is \"7\", not a number from 0 to 1");
   CHECK(refused("0,\x1b[31m,0" + rest + laws).find("text without control characters") != std::string::npos);
   CHECK(refused("0,,1,0,0,1,nan,2000,0,1,0,0,0,1.0" + laws).starts_with("3: seconds is \"nan\", not a number"));
-  CHECK(refused("0,,1" + rest + laws + "\n0,,1" + rest + laws) == "4: case 0 occurs twice");
-  // Infinite values of a lever that diverged are accepted, so that the campaign can resume.
+  CHECK(refused("0,,1" + rest + laws + "\n0,,1" + rest + laws) == "4: case 0 appears twice");
+  // A diverged lever's infinite values are accepted, so that the campaign can be resumed.
   std::ofstream(file, std::ios::trunc) << lines[0] << "\n"
                                        << lines[1] << "\n0,,1,0,0,1,1,2000,0,1,0,inf,0,inf" << laws << "\n";
   CHECK(drive_campaign(plan, layouts(), {}).front().fastest == std::numeric_limits<double>::infinity());
@@ -236,9 +239,9 @@ TEST_CASE("a case that broke a law is run again, and its trace replays") {
   CHECK(replays(folder / fmt::format("failures/{:016x}.trace", seed)));
   const std::vector<std::string> lines = lines_of(folder / fmt::format("failures/{:016x}.txt", seed));
   REQUIRE(lines.size() == 4);
-  CHECK(lines[0].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 breaks quiet (", seed, number)));
+  CHECK(lines[0].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 violates quiet (", seed, number)));
   CHECK(lines[1] == fmt::format("gearshift train --replay {:016x}.trace --from 0.0", seed));
-  CHECK(lines[2].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 breaks slew (", seed, number)));
+  CHECK(lines[2].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 violates slew (", seed, number)));
   CHECK(record_failures(plan, {}, layouts(), {}) == 0);
 }
 
@@ -248,7 +251,7 @@ TEST_CASE("a trace's broken laws are reported only for that trace, with a comman
   BrokenLaw one{3, 4, CampaignLaw::fades, {1, 0.002, 0.001, 42.57}};
   write_broken_laws(trace, 1, std::vector{one});
   const std::string message = broken_laws_text(trace);
-  CHECK(message.starts_with("it's one.trace: case 3 of seed 1 breaks fades ("));
+  CHECK(message.starts_with("it's one.trace: case 3 of seed 1 violates fades ("));
   CHECK(message.find("): 0.002 m, bound 0.001, at 42.570 s\ngearshift train --replay '") != std::string::npos);
   CHECK(message.ends_with("/it'\\''s one.trace' --from 40.5\n"));
   std::filesystem::rename(text, folder / "other.txt");
@@ -281,14 +284,14 @@ TEST_CASE("every seventh case is wide, half of them with a car; no other is") {
     longest_delay = std::max(longest_delay, drawn.lever.delay);
   }
   CHECK(wide == kCases / 7);
-  CHECK(std::abs(cars - wide / 2) < 80);  // five standard deviations of a thousand coins
+  CHECK(std::abs(cars - wide / 2) < 80);  // 80: five standard deviations in `wide` = 1000 coin tosses
   CHECK(slowest < 101.0);
   CHECK(longest_ramp > 59.0);
   CHECK(widest_margin > 0.99);
   CHECK(longest_delay == 8);
 }
 
-// The car reader checks all ranges; here it reads 500 random cars.
+// Constructing a car checks all its ranges; this is done for 500 random cars.
 TEST_CASE("random cars are valid, of every size, and reproducible") {
   double lightest = 1e9, heaviest = 0.0, max_torque = 0.0;
   for (std::uint64_t seed = 0; seed < 500; ++seed) {

@@ -1,5 +1,5 @@
-// Drives that cheat: they skip a lesson's task, or do it differently from its goal, and must not pass. An earlier
-// version passed each of them.
+// In each drive in this file, the driver skips a lesson's task or does something else instead. No such drive may pass.
+// Each of these drives passed an earlier version of the assessment.
 #include <algorithm>
 #include <initializer_list>
 #include <string>
@@ -22,7 +22,7 @@ void into_first(ScriptedDrive& d) {
   d.press(d.feet.hand_brake, 0.0, 0.3);
 }
 
-// Lifts the clutch pedal a little, so that it does not transmit torque yet, and presses it again.
+// Raises the clutch pedal so little that the clutch does not transmit torque yet, and presses the pedal again.
 void twitch_of_the_clutch(ScriptedDrive& d) {
   d.press(d.feet.clutch, 0.78, 0.1);
   d.wait(0.3);
@@ -280,7 +280,7 @@ void coasted_in_neutral(ScriptedDrive& d) {
   a.accelerate_to(70.5, 0.6);
 }
 
-// Shifts down only when the lower gear needs no more than idle speed, so that there are no revs to match.
+// Shifts down only when the car is so slow that idle speed suffices for the lower gear, so there are no revs to match.
 void no_blip_at_idle(ScriptedDrive& d) {
   for (const int gear : {3, 2}) {
     d.clutch_down();
@@ -380,7 +380,7 @@ void howled_up_the_hill(ScriptedDrive& d) {
 struct Cheat {
   const char* lesson;
   void (*drive)(ScriptedDrive&);
-  LessonEnd end;  // how the run ends; `left`: a step could not be completed
+  LessonEnd end;  // how the run ends; `left` if a step could not be completed
   const char* name;
 };
 

@@ -1,14 +1,16 @@
-// A shift from 2 to 3 in the paper's gate, built from straight lines, so that every number in its record can be
-// computed by hand.
+// A shift from second to third gear in the paper's gate, built from straight lines, so that every number in its
+// ShiftRecord can be computed by hand.
 //
-// Time t = 0 is when the clutch pedal begins to go down; the samples cover t from -1.0 s to 2.0 s:
-//   at all times       road speed 12 m/s; road speed and engine speed constant except where stated
-//   -0.2               throttle steps from 0.3 to 0
-//   0.0 to 0.1         pedal 0 to 1: passes the bite point, 0.75, at 0.075
-//   0.2 to 0.3         lever from 2's rest position to the aisle, at constant speed
-//   0.3 to 0.4         along the aisle
-//   0.4 to 0.5         to 3's rest position
-//   0.6 to 0.8         pedal 1 to 0: passes the bite point at 0.65; the clutch is locked from 0.75 on
+// The clutch pedal begins to go down at 0 s. The samples cover the time from -1.0 s to 2.0 s:
+//   always         The road speed is 12 m/s.
+//   -0.2 s         The throttle steps from 0.3 to 0.
+//   0.0 to 0.1 s   The clutch pedal goes from 0 to 1 and passes the bite point (0.75) at 0.075 s.
+//   0.1 to 0.6 s   The engine speed changes linearly from the speed that second needs to the speed that third needs.
+//   0.2 to 0.3 s   The lever moves at constant speed from the rest position of second to the aisle.
+//   0.3 to 0.4 s   The lever moves along the aisle.
+//   0.4 to 0.5 s   The lever moves to the rest position of third.
+//   0.6 to 0.8 s   The clutch pedal goes from 1 to 0 and passes the bite point at 0.65 s.
+//   0.75 s         The clutch locks.
 #pragma once
 
 #include <cmath>
@@ -34,7 +36,7 @@ inline vehicle::CarSpec test_car() {
   return car;
 }
 
-// Shared, so that its file is read only once.
+// One gate for all tests, so that its file is read only once.
 inline const haptics::Gate& known_gate() {
   static const haptics::Gate gate = paper_gate();
   return gate;
@@ -50,7 +52,7 @@ struct ConstructedShift {
   static constexpr double kSpeed = 12.0;  // [m/s]
   double engine(int gear) const { return vehicle::shaft_per_road(car, gear) * kSpeed; }
 
-  // Linear from a to b between the times t0 and t1, and constant outside.
+  // Linear from `a` at time `t0` to `b` at time `t1`, and constant before and after.
   static double line(double t, double t0, double a, double t1, double b) {
     if (t <= t0) return a;
     return t >= t1 ? b : a + (b - a) * (t - t0) / (t1 - t0);
@@ -61,7 +63,7 @@ struct ConstructedShift {
     s.lever.slot = haptics::slot_at(gate, lever);
   }
 
-  // The gear disengages at the release depth and engages at the engage depth.
+  // A gear disengages at the slot's release depth and engages at its engage depth.
   void mesh(vehicle::DriveSample& s, int before) const {
     const double depth = std::abs(s.lever.proxy.y);
     const bool in_slot = s.lever.slot != haptics::kNoSlot;

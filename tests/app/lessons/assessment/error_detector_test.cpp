@@ -1,4 +1,5 @@
-// Each driving error is reported once, with its value, for a drive that contains it, and never for a clean drive.
+// Tests that each driving error is reported once, with its value, in a drive that contains the error, and never in a
+// clean drive.
 #include "app/lessons/assessment/error_detector.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ std::vector<DrivingError> detected_errors(const ConstructedShift& shift, const D
   for (const DriveSample& s : shift.samples()) {
     const auto record = meter.add(s);
     watch.add(s, watched.wanted, meter.is_open());
-    if (record) watch.judge(*record);
+    if (record) watch.check_shift(*record);
   }
   watch.finish();
   return watch.drain_errors();
@@ -50,8 +51,8 @@ std::vector<DrivingError> in_shift(Modification modify, const DetectorSetup& wat
   return detected_errors(shift, watched);
 }
 
-// The errors detected in a drive in second gear at 12 m/s without a shift, ten seconds long, after `modify` was applied
-// to its samples.
+// The errors detected in ten seconds of driving in second gear at 12 m/s without a shift, after `modify` was applied to
+// the samples.
 std::vector<DrivingError> in_second(Modification modify, double to = 10.0) {
   ConstructedShift shift;
   shift.to = to;
@@ -70,7 +71,7 @@ bool within(double t, double a, double b) {
   return t >= a - 1e-9 && t <= b + 1e-9;
 }
 
-// Checks that exactly one error was reported, and that it is of this kind.
+// Checks that exactly one error was reported, and that its kind is `kind`.
 DrivingError only(const std::vector<DrivingError>& errors, ErrorKind kind) {
   std::string raised;
   for (const DrivingError& error : errors) raised += std::string(to_string(error.kind)) + " ";
@@ -105,7 +106,7 @@ TEST_CASE("stall: the engine dies with the ignition on; the value is the speed b
   CHECK(stall.value == doctest::Approx(90.0));
   CHECK(stall.severity == Severity::severe);
   CHECK(stall.time == doctest::Approx(104.118).epsilon(1e-4));
-  // An engine that is switched off does not stall, and neither does an engine that was never started.
+  // Switching an engine off is not a stall, and an engine that was never started cannot stall.
   CHECK(in_second([&](DriveSample& s, double t) { dies(s, t), s.car.ignition = t < 4.0; }).empty());
   CHECK(in_second([](DriveSample& s, double) { s.car.running = false, s.car.stalled = true; }).empty());
 }
@@ -122,7 +123,8 @@ TEST_CASE(
       if (t > 6.0 && t < 6.1) s.car.engine_speed = 30.0, s.car.running = true;
     });
   };
-  // 33 < 37 rad/s, the stall speed.
+  // With a peak of 33 rad/s at 1 s, below the stall speed of 37 rad/s, the engine has not started. So its only stall is
+  // at 5 s (recorded as 105 s). With a peak of 60 rad/s the engine has started, so it stalls twice.
   CHECK(only(cranks(33.0), ErrorKind::stall).time == doctest::Approx(105.0).epsilon(1e-4));
   CHECK(cranks(60.0).size() == 2);
 }
@@ -171,8 +173,8 @@ TEST_CASE(
   CHECK(launch(0.1, 8e3).empty());
 }
 
-// This car weighs 1238.8 kg (1251.2 kg with rotating parts), and in first gear its engine turns 45.5 rad per metre. So
-// at shift_high, 262 rad/s, its speed is 5.76 m/s.
+// This car weighs 1238.8 kg (1251.2 kg with the inertia of rotating parts). In first gear its engine turns 45.5 rad per
+// metre, so at `shift_high` (262 rad/s) its speed is 5.76 m/s.
 TEST_CASE(
     "clutch burn: more heat than a launch at shift_high makes, however distributed; not in addition to dump or stall") {
   const auto launch = [](double power, double seconds, bool stalls = false) {
@@ -193,7 +195,7 @@ TEST_CASE(
   const double limit = burn_limit(test_car(), 1);
   CHECK(launch(0.95 * limit / 2.0, 2.0).empty());
   const DrivingError burn = only(launch(1.05 * limit / 2.0, 2.0), ErrorKind::clutch_burn);
-  // During the first hundredths of its travel, the pedal does not count as released yet.
+  // Heat counts only after the pedal has come up by a few hundredths of its travel, so the value is slightly lower.
   CHECK(burn.value == doctest::Approx(1.05 * limit).epsilon(0.04));
   CHECK(burn.severity == Severity::minor);
   only(launch(1.05 * limit, 1.0), ErrorKind::clutch_burn);
@@ -220,9 +222,11 @@ TEST_CASE("jerk: from the engaging clutch, not from the brake, nor in addition t
   only(jerks(0.0, 0.0, true), ErrorKind::stall);
 }
 
-// A step of a m/s^2 has a jerk of w exp(-pi/4) a = 42.97 a. This car weighs 1238.8 kg and its clutch transmits 240 N m.
-// In first gear its engine turns 3.45 * 4 / 0.303 = 45.5 rad per metre, so a clutch that engages at once gives 240 *
-// 45.5 / (1238.8 + 0.006 * 45.5^2) = 8.73 m/s^2. In fourth gear it gives about a quarter of that.
+// If the acceleration steps by a, the filter's jerk has a peak of w exp(-pi/4) a = 42.97 a, where w is the filter's
+// cut-off angular frequency. This car weighs 1238.8 kg and its clutch transmits 240 N m. In first gear its engine turns
+// 3.45 * 4 / 0.303 = 45.5 rad per metre, so a clutch that engages at once gives 240 * 45.5 / (1238.8 + 0.006 * 45.5^2)
+// = 8.73 m/s^2. In fourth gear it gives about a quarter of that acceleration. Half of the jerk in fourth gear is about
+// 50 m/s^3, so the minimum of 110 m/s^3 applies.
 TEST_CASE("jerk limit: half of the jerk of a clutch that engages at once in that gear, and at least 110 m/s^3") {
   const auto hold = [](int gear, double step) {
     return in_second([=](DriveSample& s, double t) {
@@ -275,7 +279,7 @@ TEST_CASE("no clutch: accepted if the revs match, otherwise reported without err
         },
         {}, 4.0);
   };
-  CHECK(shift(60.0, true).empty() == false);  // the order of the steps is an error
+  CHECK(shift(60.0, true).empty() == false);  // `no_clutch` is not reported, but the wrong order of the steps is
   only(shift(60.0, true), ErrorKind::step_order);
   const DrivingError error = only(shift(400.0, true), ErrorKind::no_clutch);
   CHECK(error.value == doctest::Approx(rpm(400.0)).epsilon(1e-6));
@@ -297,7 +301,8 @@ TEST_CASE("riding the clutch: a foot that rests on it in gear, but not briefly, 
 }
 
 TEST_CASE("coasting: rolling in neutral or with the clutch down, but not during a shift or on the way to a stop") {
-  // The car rolls from 2 s on. In second gear, 12 m/s are 2950 rpm and 4.5 m/s are 1106 rpm; lug_below is 1146 rpm.
+  // The car rolls from 2 s on. In second gear, a speed of 12 m/s needs 2950 rpm and 4.5 m/s needs 1106 rpm; `lug_below`
+  // is 1146 rpm.
   struct Roll {
     double seconds = 5.0, speed = 12.0, brake = 0.0;
     bool neutral = false, running = true;
@@ -322,20 +327,20 @@ TEST_CASE("coasting: rolling in neutral or with the clutch down, but not during 
   CHECK(down.time == doctest::Approx(102.0).epsilon(1e-4));
   CHECK(rolls({2.9}).empty());
   CHECK(rolls({5.0, 3.9}).empty());
-  CHECK(rolls({5.0, 4.5, 0.1}).empty());   // brakes, too slow for second gear
-  CHECK(rolls({5.0, 12.0, 0.6}).empty());  // brakes hard: on the way to a stop
+  CHECK(rolls({5.0, 4.5, 0.1}).empty());   // brakes, and is too slow for second gear
+  CHECK(rolls({5.0, 12.0, 0.6}).empty());  // brakes hard, so the car is about to stop
   CHECK(only(rolls({5.0, 4.5}), ErrorKind::coasting).severity == Severity::minor);
   CHECK(only(rolls({5.0, 12.0, 0.1}), ErrorKind::coasting).value == doctest::Approx(5.0).epsilon(0.01));
-  CHECK(rolls({5.0, 12.0, 0.0, false, false}).empty());  // the engine is off: reported as a stall
-  // In neutral with the clutch up, the shift counts as abandoned after 2 s, and the coasting begins. It is reported 6 s
-  // later, although it continues.
+  CHECK(rolls({5.0, 12.0, 0.0, false, false}).empty());  // not coasting, because the engine is off
+  // In neutral with the clutch up, the shift counts as abandoned after 2 s. The car coasts from then on, and after 6 s
+  // of coasting the error is reported.
   const auto errors = rolls({14.0, 12.0, 0.0, true});
   const auto coasting =
       std::find_if(errors.begin(), errors.end(), [](const DrivingError& f) { return f.kind == ErrorKind::coasting; });
   REQUIRE(coasting != errors.end());
   CHECK(coasting->value == doctest::Approx(6.0).epsilon(0.01));
   CHECK(coasting->time == doctest::Approx(104.28).epsilon(1e-3));
-  // A shift that takes long is reported as too slow and not as coasting.
+  // A long shift is reported as too slow and not as coasting.
   only(in_shift(
            [](DriveSample& s, double t) {
              s.car.clutch = within(t, 0.05, 5.0) ? 1.0 : 0.0;
@@ -347,8 +352,8 @@ TEST_CASE("coasting: rolling in neutral or with the clutch down, but not during 
 
 TEST_CASE(
     "early downshift: judged by the engine speed that the lower gear needs, against the lesson's or the car's band") {
-  // A rev-matched shift from 3 to 2, which is the constructed shift in reverse. Second gear needs the engine speed
-  // `asks` [rad/s].
+  // A rev-matched shift from third to second gear: the constructed shift, played backwards. `asks` [rad/s] is the
+  // engine speed that second gear needs.
   const auto lowers = [](double asks, ShiftBand band = {}) {
     ConstructedShift down;
     down.modify = [=](DriveSample& s, double t) {
@@ -368,7 +373,7 @@ TEST_CASE(
   CHECK(early.value == doctest::Approx(1.01 * max_speed));
   CHECK(early.shift == 0);
   CHECK(early.severity == Severity::minor);
-  CHECK(error_sentence(early) == "You shifted down too early: at that speed, the lower gear needs 3032 rpm.");
+  CHECK(error_sentence(early) == "You shifted down too early: the lower gear needs 3032 rpm at that speed.");
   CHECK(lowers(0.99 * max_speed).empty());
   CHECK(only(lowers(1.55 * max_speed), ErrorKind::early_downshift).severity == Severity::severe);
   CHECK(lowers(1.01 * max_speed, {0.0, 1.1 * max_speed}).empty());
@@ -395,7 +400,7 @@ TEST_CASE("throttle in a shift: a flare; a blip that the lower gear needs is no 
   CHECK(only(flares(60.0), ErrorKind::throttle_in_shift).value == doctest::Approx(60.0));
   CHECK(flares(30.0).empty());
 
-  ConstructedShift down;  // from 3 to 2: the constructed shift in reverse
+  ConstructedShift down;  // the constructed shift, played backwards: from third to second gear
   down.modify = [](DriveSample& s, double t) {
     const ConstructedShift plain;
     DriveSample mirrored = plain.at(0.7 - t, s.car.gear == 0 ? 3 : s.car.gear);
@@ -406,8 +411,8 @@ TEST_CASE("throttle in a shift: a flare; a blip that the lower gear needs is no 
   };
   CHECK(detected_errors(down).empty());
 
-  // A blip that overshoots is only a rev-matching error. If the throttle was never released, that is a throttle error
-  // in addition.
+  // A blip that overshoots is a rev-matching error. If the driver never released the throttle before the blip, a
+  // throttle error is reported too.
   const auto overshoots = [&](bool lifted) {
     ConstructedShift blip = down;
     blip.modify = [=, modify = down.modify](DriveSample& s, double t) {
@@ -488,7 +493,7 @@ TEST_CASE("missed shift: the value is the gear to which the lever was pushed; an
   CHECK(gives_up(0.0).empty());
 }
 
-// As in a real gearbox, the old gear disengages before the lever reaches the release depth.
+// The old gear disengages before the lever reaches the release depth, as in a real gearbox.
 TEST_CASE("missed shift: the value is never the old gear or a gear that was engaged") {
   const auto goes = [](const std::function<void(DriveSample&, double, const ConstructedShift&)>& on_the_way,
                        int wanted) {
@@ -515,10 +520,11 @@ TEST_CASE("missed shift: the value is never the old gear or a gear that was enga
     };
   };
   const double rest = rest_position(known_gate(), 3).y;
-  CHECK(goes(nothing, kNeutralGear).empty());                                       // out of second and into it again
-  CHECK(only(goes(nothing, 4), ErrorKind::missed_shift).value == 4.0);              // the requested gear
-  CHECK(only(goes(third(0.025, false), 4), ErrorKind::missed_shift).value == 3.0);  // the gear that the lever tried
-  // Third was engaged, so the lever was neither in a wrong slot nor missed a gear.
+  CHECK(goes(nothing, kNeutralGear).empty());                           // no gear was requested; second engages again
+  CHECK(only(goes(nothing, 4), ErrorKind::missed_shift).value == 4.0);  // the requested gear
+  // The value is 3, because the lever entered the slot of third gear.
+  CHECK(only(goes(third(0.025, false), 4), ErrorKind::missed_shift).value == 3.0);
+  // Third was engaged, so the lever neither missed a gear nor entered a wrong slot.
   CHECK(goes(third(rest, true), kNeutralGear).empty());
 }
 
@@ -557,7 +563,8 @@ TEST_CASE("step order: the throttle is released long after the clutch is down") 
       only(in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.29 ? 0.3 : 0.0; }), ErrorKind::step_order);
   CHECK(late.value == 2.0);
   CHECK(error_sentence(late) == "You released the throttle only after the clutch was down.");
-  // Both feet move at once.
+  // The clutch passes the bite point at 0.075 s, and the throttle is released at 0.17 s. Pedals that move within 0.2 s
+  // count as simultaneous, so the order is correct.
   CHECK(in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.17 ? 0.3 : 0.0; }).empty());
 }
 
@@ -577,10 +584,12 @@ TEST_CASE("the sentence for a single wrong slot is in the singular") {
   CHECK(error_sentence({ErrorKind::wrong_column, Severity::minor, 0.0, 2.0}) == "The lever entered 2 wrong slots.");
 }
 
-// A shift from 2 to 3 at 12 m/s (43.2 km/h), which does not change during the shift.
-TEST_CASE("a gear engaged at a speed that differs by more than a tenth from the step's is early or late") {
+// A shift from second to third gear at a constant speed of 12 m/s. The shift is early if the step's speed is above 12.9
+// m/s (12 m/s is more than 7 % lower). It is late if the step's speed is below 8.7 m/s (12 m/s is more than 12 km/h =
+// 3.3 m/s higher).
+TEST_CASE("a gear is early if it engages at a speed 7 % below the step's, and late if 12 km/h above") {
   struct At {
-    double at;  // [m/s] speed that the step states
+    double at;  // [m/s] shift speed that the lesson's step states
     std::optional<ErrorKind> kind;
   };
   for (const At& meant :
@@ -591,7 +600,7 @@ TEST_CASE("a gear engaged at a speed that differs by more than a tenth from the 
     for (const DriveSample& s : shift.samples()) {
       const auto record = meter.add(s);
       watch.add(s, 3, meter.is_open(), meant.at);
-      if (record) watch.judge(*record);
+      if (record) watch.check_shift(*record);
     }
     watch.finish();
     const std::vector<DrivingError> errors = watch.drain_errors();
@@ -646,7 +655,7 @@ TEST_CASE("the time for reading prompts within a shift does not count as part of
     for (const DriveSample& s : shift.samples()) {
       const auto record = meter.add(s);
       watch.add(s, kNeutralGear, meter.is_open());
-      if (record) watch.judge(*record);
+      if (record) watch.check_shift(*record);
       for (const DrivingError& error : watch.drain_errors()) slow += error.kind == ErrorKind::too_slow ? 1 : 0;
     }
     return slow;
@@ -733,7 +742,7 @@ TEST_CASE("too slow: a shift that takes longer than 2.5 s") {
   CHECK(held(2.0).empty());
 }
 
-// The road speed falls from 12 m/s to zero. The clutch is down from 0.05 s on, and the lever moves from 2 to 3 until
+// The road speed falls from 12 m/s to zero. The clutch is down from 0.05 s on, and the lever reaches third at the time
 // `in` [s].
 TEST_CASE("too slow: while the car is braked to a stop with the clutch down, only the lever's own time counts") {
   const auto stops = [](double in, double brake) {
@@ -747,7 +756,7 @@ TEST_CASE("too slow: while the car is braked to a stop with the clutch down, onl
       s.car.clutch = within(t, 0.05, 7.9) ? 1.0 : 0.0;
       s.car.clutch_locked = t < 0.05 || t > 7.95;
       s.car.brake = t > 0.0 ? brake : 0.0;
-      s.car.road_speed = std::max(0.0, 12.0 - 2.2 * std::max(0.0, t));  // [m/s], 4 m/s at 3.6 s
+      s.car.road_speed = std::max(0.0, 12.0 - 2.2 * std::max(0.0, t));  // [m/s] slower than 4 m/s from about 3.6 s on
       s.car.engine_speed = 90.0;
     };
     std::vector<DrivingError> errors = detected_errors(shift);
@@ -756,7 +765,7 @@ TEST_CASE("too slow: while the car is braked to a stop with the clutch down, onl
   };
   CHECK(stops(0.5, 0.2).empty());
   CHECK(only(stops(3.4, 0.2), ErrorKind::too_slow).value == doctest::Approx(3.4 - 0.24).epsilon(0.01));
-  // Without braking, the whole time with the clutch down counts, until the car is slower than 4 m/s.
+  // Without braking, the error's value is the time with the clutch down until the car is slower than 4 m/s.
   CHECK(only(stops(0.5, 0.0), ErrorKind::too_slow).value == doctest::Approx(3.6 - 0.05).epsilon(0.02));
 }
 
@@ -794,7 +803,7 @@ TEST_CASE("every kind of error has a row in the table, a sentence, and its own a
     CHECK(advice.ends_with("."));
     CHECK(advice.find('{') == std::string::npos);
     CHECK(advice.size() < 90);
-    CHECK(sentences.insert(advice).second);  // no other kind has this advice
+    CHECK(sentences.insert(advice).second);  // each kind has its own advice
   }
   CHECK_FALSE(error_kind_of("tyre_blown").has_value());
   CHECK(error_severity(ErrorKind::rollback, 0.2) == Severity::minor);

@@ -1,4 +1,4 @@
-// The shortest path through a gate, compared with lengths computed by hand, a grid search and a visibility graph.
+// Tests the shortest path through a gate against lengths computed by hand, a grid search and a visibility graph.
 #include "app/lessons/assessment/gate_path.h"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ using glm::dvec2;
 
 namespace {
 
-// [m] Path length by Dijkstra's algorithm on a 1 mm grid, with moves of up to five cells in x and y. It is at most 2 %
-// longer than the true path.
+// [m] The length of the shortest path by Dijkstra's algorithm on a 1 mm grid, with moves of up to five cells in x and
+// y. The result is at most 2 % longer than the true path.
 double grid_path_length(const Gate& gate, dvec2 from, dvec2 to) {
   constexpr double kCell = 1e-3;
   constexpr int kReach = 5, kHalfWide = 80, kHalfHigh = 60;
@@ -64,8 +64,8 @@ double grid_path_length(const Gate& gate, dvec2 from, dvec2 to) {
   return 1e9;
 }
 
-// A visibility graph: all corners at which a taut string could bend, and the free straight legs between them. Each leg
-// is sampled every 0.1 mm.
+// A visibility graph: all corners at which a taut string could bend, and the straight lines between them that do not
+// cross a wall. Each line is checked every 0.1 mm.
 class VisibilityGraph {
  public:
   explicit VisibilityGraph(const Gate& gate) : gate_(gate) {
@@ -84,7 +84,7 @@ class VisibilityGraph {
     }
   }
 
-  // Bellman-Ford with six rounds, more than any path has bends.
+  // The Bellman-Ford algorithm. Six rounds suffice, because no shortest path has more than six bends.
   double path_length(dvec2 from, dvec2 to) const {
     std::vector<double> best;
     double shortest = leg(from, to);
@@ -136,7 +136,7 @@ TEST_CASE("within a column the path is straight; around a wall it touches the wa
   const Gate gate = paper_gate();  // [mm] half aisle 6, chamfer 4, half slot 5, columns at -30, 0, 30
   CHECK(shortest_path_length(gate, {0.0, 0.030}, {0.0, -0.030}) == doctest::Approx(0.060));
   CHECK(shortest_path_length(gate, {-0.03, 0.0}, {0.03, 0.0}) == doctest::Approx(0.060));
-  // [mm] from (-30, 30) to (0, 30), through (-25, 10), (-21, 6), (-9, 6) and (-5, 10)
+  // [mm] The path from (-30, 30) to (0, 30) bends at (-25, 10), (-21, 6), (-9, 6) and (-5, 10).
   const double up = std::hypot(0.005, 0.020), round = std::hypot(0.004, 0.004);
   CHECK(shortest_path_length(gate, {-0.03, 0.03}, {0.0, 0.03}) ==
         doctest::Approx(2 * up + 2 * round + 0.012).epsilon(1e-9));
@@ -172,7 +172,7 @@ TEST_CASE("between any two points the path is as short as the shortest path in t
       CAPTURE(to.y);
       const double length = shortest_path_length(gate, from, to), expected = graph.path_length(from, to);
       CHECK(length <= expected + 1e-6);
-      CHECK(length >= expected - 1e-4);  // the graph's legs may graze a wall
+      CHECK(length >= expected - 1e-4);  // shortest_path() may pass up to 0.1 mm inside a wall
       CHECK(length >= glm::distance(from, to) - 1e-12);
       CHECK(length == doctest::Approx(shortest_path_length(gate, to, from)).epsilon(1e-9));
     }
@@ -209,6 +209,6 @@ TEST_CASE("a path of zero length is one point; around a wall its points are the 
                                    {-0.009, 0.006}, {-0.005, 0.01}, {0.0, 0.03}};
   REQUIRE(path.size() == corners.size());
   for (std::size_t i = 0; i < path.size(); ++i) CHECK(glm::distance(path[i], corners[i]) < 1e-12);
-  // This path starts outside the gate.
+  // A path that starts outside the gate is straight.
   CHECK(shortest_path(gate, {0.5, 0.5}, {0.0, 0.0}) == std::vector<dvec2>{{0.5, 0.5}, {0.0, 0.0}});
 }

@@ -1,4 +1,4 @@
-// The arithmetic of grades: every deducted point belongs to a driving error.
+// Tests how a grade is computed. Each deducted point belongs to a driving error.
 #include "app/lessons/assessment/grade.h"
 
 #include <utility>
@@ -126,7 +126,7 @@ TEST_CASE("only a finished lesson can be passed") {
   CHECK(graded(result).why == "Not finished within 90 s.");
   result.end = LessonEnd::left;
   CHECK(graded(result).why == "You left the lesson.");
-  LessonResult stalled = result;  // a learner who leaves gets this message despite other errors
+  LessonResult stalled = result;  // leaving the lesson is named as the reason, even after a stall
   stalled.errors.push_back({ErrorKind::stall, Severity::very_severe, 3.0, 62.0, -1});
   CHECK(graded(stalled, lesson_that_catches({ErrorKind::stall})).why == "You left the lesson.");
   result.end = LessonEnd::running;

@@ -1,4 +1,4 @@
-// The guidance policy, compared with its own recursion, and its invariants.
+// Compares the guidance policy with its equations, which the test computes separately, and checks its invariants.
 #include "app/lessons/assessment/guidance.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ TEST_CASE("the gain follows g <- clamp(f g + k error), with f falling as skill g
 
 TEST_CASE("without errors guidance fades: the gain is the product of all f") {
   GuidanceConfig config;
-  config.skill_memory = 1.0;  // the learner stays unskilled, so f is constant
+  config.skill_memory = 1.0;  // the skill stays 0, so the fade factor f is constant
   GuidancePolicy policy(1, config);
   for (int n = 0; n < 20; ++n) policy.learn(0.0);
   CHECK(policy.gain() == doctest::Approx(std::pow(config.forgetting, 20)).epsilon(1e-12));
@@ -68,7 +68,8 @@ TEST_CASE("two of every four trials are unguided, in an order that depends on th
     GuidancePolicy policy(seed);
     for (int& count : first) count += policy.next().guidance > 0.0 ? 1 : 0;
   }
-  for (const int count : first) CHECK(count == doctest::Approx(2000).epsilon(0.06));  // 6 % are 4 standard deviations
+  // Half of the 4000 policies should guide each trial; the tolerance of 6 % is about 4 standard deviations.
+  for (const int count : first) CHECK(count == doctest::Approx(2000).epsilon(0.06));
 }
 
 TEST_CASE("with one lost point per trial, half of the trials stay guided for long; without lost points guidance ends") {

@@ -1,5 +1,5 @@
-// The guidance force: the gradient of a bounded potential, which leads to the gear in every gate, and zero when
-// guidance is off.
+// Tests that the guidance force is the gradient of a bounded potential, leads to the gear in every gate, and is zero
+// when guidance is off.
 #include "app/vehicle/guided_load.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ std::vector<dvec2> free_points(const Gate& gate, int count, unsigned seed) {
   return points;
 }
 
-// A load with signed zeros and rounded numbers in its output, so that any change of it shows in the bits.
+// A load whose output contains signed zeros and rounded numbers, so that any change of the output shows in its bits.
 class OddLoad final : public LeverLoad {
  public:
   LeverOutput step(const LeverInput& in, double) noexcept override {
@@ -90,7 +90,7 @@ TEST_CASE("the force is the negative gradient of the potential") {
 
 TEST_CASE("no closed path through the gate yields energy, not even around corners and along walls") {
   for_each_goal([](const Gate& gate, int gear) {
-    // The lever moves to random points, and the proxy follows it, sliding along the walls.
+    // The lever moves to random points; the proxy follows the lever and slides along the walls.
     std::mt19937 random(static_cast<unsigned>(gear + 5));
     std::uniform_real_distribution<double> x(-0.08, 0.08), y(-0.06, 0.06);
     const dvec2 start = rest_position(gate, kNeutralGear);
@@ -102,7 +102,7 @@ TEST_CASE("no closed path through the gate yields energy, not even around corner
         const dvec2 before = proxy.position;
         proxy = move_proxy(gate, open_passage(gate), proxy, from + (to - from) * (i / 400.0), 1e-3);
         const dvec2 step = proxy.position - before;
-        // Integrates along each straight leg by Simpson's rule, in parts of at most 50 um.
+        // Integrates the work along each straight part of the path by Simpson's rule, in steps of at most 50 um.
         const int parts = 1 + static_cast<int>(glm::length(step) / 5e-5);
         for (int k = 0; k < parts; ++k) {
           const auto force = [&](double u) { return guidance_force(gate, gear, before + step * ((k + u) / parts)); };
@@ -114,7 +114,7 @@ TEST_CASE("no closed path through the gate yields energy, not even around corner
     for (int n = 0; n < 30; ++n) go({x(random), y(random)});
     for (int n = 0; n < 4; ++n) go(start);
     CHECK(glm::distance(proxy.position, start) < 1e-9);
-    CHECK(max_work > 0.01);  // [J] the force did work on the way
+    CHECK(max_work > 0.01);  // [J] the guidance force did work during the motion
     CHECK(std::abs(work) < 2e-5);
   });
 }

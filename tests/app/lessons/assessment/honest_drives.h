@@ -31,7 +31,7 @@ inline void start_and_stop(ScriptedDrive& d) {
   d.feet.ignition = false;
 }
 
-// Drives at no more than idle speed, stops in neutral, and applies the handbrake last.
+// Drives at idle speed or below, stops in neutral, and finally applies the handbrake.
 inline void start_and_stop_gently(ScriptedDrive& d) {
   d.clutch_down();
   Able{d}.start_engine();
@@ -94,7 +94,7 @@ inline void down_through_the_gears(ScriptedDrive& d) {
   a.stop();
 }
 
-// Releases the clutch slowly, and shifts into each gear a little before its stated speed.
+// Releases the clutch slowly, and shifts into each gear a little before the car reaches that gear's stated speed.
 inline void down_without_a_blip(ScriptedDrive& d) {
   Able a{d};
   for (const auto& [gear, speed] : std::vector<std::pair<int, double>>{{4, 57.0}, {3, 41.5}, {2, 26.0}}) {
@@ -130,7 +130,7 @@ inline void reverse(ScriptedDrive& d) {
   a.accelerate_to(11.0);
 }
 
-// Releases the clutch until it transmits enough torque, and then the handbrake.
+// Releases the clutch until it transmits enough torque, and only then releases the handbrake.
 inline void hill_start(ScriptedDrive& d) {
   Able a{d};
   d.clutch_down();
@@ -160,7 +160,7 @@ inline double hill_torque(const ScriptedDrive& d) {
   return weight / vehicle::shaft_per_road(d.car, 1);
 }
 
-// Uses the foot brake in place of the handbrake, so the foot must be quick.
+// Holds the car with the foot brake instead of the handbrake, so the foot must move to the throttle quickly.
 inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
   Able a{d};
   d.clutch_down();
@@ -179,7 +179,8 @@ inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
   a.accelerate_to(11.0, 0.6);
 }
 
-// Brakes one second after the signal, the usual rule of thumb, and takes 0.2 s to press the pedal.
+// Releases the throttle 0.9 s after the signal and brakes after 1.0 s, the reaction time that driving schools assume.
+// Presses the brake pedal within 0.2 s. `d.pause` delays both.
 inline void emergency_stop(ScriptedDrive& d) {
   Able{d}.accelerate_to(50.05);
   d.wait(0.9 + d.pause);
@@ -255,7 +256,7 @@ inline void six_speed(ScriptedDrive& d) {
 
 // The drives below are correct but differ from the prompts. They must pass too.
 
-// Shifts earlier than stated, and does not press the clutch pedal to the floor.
+// Shifts up at lower speeds than the prompts state, and does not press the clutch pedal to the floor.
 inline void up_in_another_way(ScriptedDrive& d) {
   Able a{d};
   for (int gear = 2; gear <= 5; ++gear) {
@@ -267,7 +268,7 @@ inline void up_in_another_way(ScriptedDrive& d) {
   }
 }
 
-// Releases the handbrake first, and presses the clutch again after its first bite.
+// Releases the handbrake first, lets the clutch bite, and presses it again before moving off.
 inline void moving_off_at_the_second_try(ScriptedDrive& d) {
   d.press(d.feet.hand_brake, 0.0, 0.3);
   d.press(d.feet.clutch, 0.79, 0.2);
@@ -285,7 +286,7 @@ inline void moving_off_at_the_second_try(ScriptedDrive& d) {
   }
 }
 
-// Stops three times in neutral with the clutch up.
+// Stops three times, each time in neutral with the clutch up.
 inline void bite_point_and_neutral(ScriptedDrive& d) {
   into_first(d);
   for (int i = 0; i < 3; ++i) {
@@ -306,7 +307,7 @@ inline void bite_point_and_neutral(ScriptedDrive& d) {
   }
 }
 
-// Moves throttle and clutch at the same time, to these positions, within `seconds` seconds.
+// Moves both pedals at the same time, within `seconds` seconds, to the positions `throttle` and `clutch`.
 inline void both_feet(ScriptedDrive& d, double throttle, double clutch, double seconds) {
   const double from = d.time(), old_throttle = d.feet.throttle, old_clutch = d.feet.clutch;
   d.until([&] {
@@ -339,7 +340,8 @@ inline void eco_with_both_feet(ScriptedDrive& d) {
   Able{d}.accelerate_to(70.5, 0.5);
 }
 
-// Shifts by the light, at a third of the throttle as the hint says, with a human reaction time (Green 2000).
+// Shifts up when the shift light asks for it, after a human reaction time of 1.05 s (Green 2000), and uses a third of
+// the throttle, as the lesson's hint says.
 inline void eco_with_a_persons_reaction(ScriptedDrive& d) {
   for (int gear = 2; gear <= 5; ++gear) {
     Able{d}.accelerate([&] { return d.now().shift_advice > 0; }, 1.0 / 3.0);

@@ -1,5 +1,5 @@
-// A learner who does what the goal asks for passes with the best grade, in the real car, on the lesson's slope,
-// prompted or not.
+// A learner who does what the goal asks for passes with the best grade, with or without prompts. The car, the lesson
+// and its slope are the real ones.
 #include "tests/app/lessons/assessment/honest_drives.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ TEST_CASE("a correct drive that differs from the prompts also gets the best grad
 
 namespace {
 
-// The forward gear that a prompt names.
+// The number of the forward gear that a prompt names.
 int gear_in(std::string_view prompt) {
   constexpr std::array<std::string_view, 6> kNames{"first", "second", "third", "fourth", "fifth", "sixth"};
   const auto found = std::find_if(kNames.begin(), kNames.end(),
@@ -63,7 +63,8 @@ int gear_in(std::string_view prompt) {
   return 1 + static_cast<int>(found - kNames.begin());
 }
 
-// Follows the prompts: reads each new one for `reading` seconds without moving the feet, then does what it says.
+// Follows the prompts: reads each new prompt for `reading` seconds without moving the feet, then does what the prompt
+// says.
 void follow_prompts(ScriptedDrive& d, double reading) {
   Able a{d};
   const auto says = [&](std::string_view part) { return d.run.view().prompt.find(part) != std::string::npos; };
@@ -105,7 +106,7 @@ void follow_prompts(ScriptedDrive& d, double reading) {
 
 }  // namespace
 
-// Green 2000: the reaction to an expected signal takes 0.75 s, and reading adds 0.3 s.
+// By Green (2000), the reaction to an expected signal takes 0.75 s. Reading the prompt adds 0.3 s, which gives 1.05 s.
 TEST_CASE("a driver who follows each prompt after reading it passes with the best grade") {
   for (const char* key : {"up_through_the_gears", "down_through_the_gears", "skip_shifts", "rev_matching"}) {
     for (const double reading : {0.3, 0.75, 1.05}) {
@@ -185,13 +186,14 @@ TEST_CASE("on the slope the prompt to release the handbrake comes once the clutc
     CAPTURE(std::string(car));
     REQUIRE(d.run.view().step == 3);
     CHECK(d.now().clutch_torque > honest::hill_torque(d));
-    CHECK(d.now().clutch_torque < 2.0 * honest::hill_torque(d));  // the engine does not strain against the brake
+    CHECK(d.now().clutch_torque < 2.0 * honest::hill_torque(d));  // more would strain against the handbrake
     CHECK(d.rpm() > 1000.0);
   }
 }
 
-// Green 2000: the reaction takes 0.70 to 0.75 s for an expected signal, 1.25 s for an unexpected common one. Driving
-// schools assume 1 s and, from 50 km/h, 25 m of ordinary braking: 1 s + 2 * 25 m / 13.9 m/s = 4.6 s.
+// By Green (2000), a reaction takes 0.70 to 0.75 s to an expected signal, and 1.25 s to an unexpected common signal.
+// Driving schools assume a reaction of 1 s and, from 50 km/h, 25 m of ordinary braking. Together that takes 1 s + 2 *
+// 25 m / 13.9 m/s = 4.6 s.
 TEST_CASE("an emergency stop is judged by its time from the call: enough for human reactions, too short for coasting") {
   struct Stop {
     double reaction, brake;
@@ -202,7 +204,7 @@ TEST_CASE("an emergency stop is judged by its time from the call: enough for hum
                            {1.25, 1.0, true, true},
                            {1.0, 0.8, true, true},
                            {1.0, 0.7, false, true},
-                           {1.0, 0.6, false, false},  // 4.7 s, an ordinary stop
+                           {1.0, 0.6, false, false},  // takes 4.7 s; the lesson fails after 4.6 s
                            {1.7, 1.0, false, true},
                            {1.5, 0.6, false, false},
                            {0.7, 0.4, false, false}}) {

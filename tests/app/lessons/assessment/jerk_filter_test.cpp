@@ -1,4 +1,4 @@
-// The low-pass filter of the jerk, compared with its closed form.
+// Compares the low-pass filter that computes the jerk with its closed form.
 #include "app/lessons/assessment/jerk_filter.h"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ double peak_of_step(double height, double period) {
 
 }  // namespace
 
-// A step of a0 gives the jerk a0 sqrt(2) w exp(-s t) sin(s t), with s = w / sqrt(2). Its maximum, at s t = pi / 4, is
-// a0 w exp(-pi/4).
+// If the acceleration steps by a0, the filter gives the jerk a0 sqrt(2) w exp(-s t) sin(s t), where w is the cut-off
+// angular frequency and s = w / sqrt(2). Its maximum, at s t = pi / 4, is a0 w exp(-pi/4).
 TEST_CASE("a step of acceleration gives the jerk of a second-order Butterworth low-pass") {
   const double expected = kOmega * std::exp(-0.25 * 3.14159265358979);
   CHECK(expected == doctest::Approx(42.97).epsilon(0.001));
@@ -68,7 +68,7 @@ TEST_CASE("after the settling time less than 0.3 % of a step's response is left"
 TEST_CASE("an invalid acceleration or period is skipped and has no later effect") {
   for (const double none : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     JerkFilter clean, poisoned;
-    poisoned.update(none, 0.0);  // must not initialise the filter
+    poisoned.update(none, 0.0);  // an invalid sample must not initialise the filter
     for (int i = 0; i < 100; ++i) {
       const double a = i < 50 ? 0.0 : 3.0;
       clean.update(a, 1e-3);

@@ -21,13 +21,14 @@ std::vector<double> drawn(double level, double gain, double trials, int count, d
 }
 
 constexpr LevelBounds kScale{0.0, 10.0};
-constexpr double kLevelStep = 0.02, kTrialsRatio = 1.01;  // grid: step of the level, ratio of trial numbers
+constexpr double kLevelStep = 0.02, kTrialsRatio = 1.01;  // grid: step between levels, ratio between numbers of trials
 
 struct Point {
   double level = 0.0, gain = 0.0, trials = 0.0, square = HUGE_VAL;
 };
 
-// The sum of squares for this level and number of trials, with the gain that minimises it, by plain summation.
+// The grid point for this level and number of trials, with the gain that minimises the sum of squares. Computed by
+// plain summation.
 Point point_at(const std::vector<double>& grades, double level, double trials) {
   double cross = 0.0, square_sum = 0.0;
   for (std::size_t n = 0; n < grades.size(); ++n) {
@@ -43,7 +44,7 @@ Point point_at(const std::vector<double>& grades, double level, double trials) {
   return point;
 }
 
-// The best point of the grid: every level of the scale, with every number of trials.
+// The grid point with the smallest sum of squares, over all levels of the scale and all numbers of trials.
 Point best_of_grid(const std::vector<double>& grades) {
   Point best;
   for (double trials = 0.3; trials <= 10.0 * static_cast<double>(grades.size()); trials *= kTrialsRatio) {
@@ -76,8 +77,9 @@ TEST_CASE("a fit to grades that follow the law finds its three parameters") {
   }
 }
 
-// A 95 % interval contains the truth in 95 % of all draws. By the binomial distribution, that is 475 +- 5 of 500 draws;
-// the fit is nonlinear, so it deviates a little.
+// A 95 % interval contains the true value in 95 % of all draws. In 500 draws that is 475 times, with a standard
+// deviation of 5 (binomial distribution). The fit is nonlinear, so its fraction deviates a little. The test allows 92 %
+// to 98 %.
 TEST_CASE("the stated deviations contain the truth in the stated fraction of fits") {
   int held[3] = {0, 0, 0}, fits = 0;
   constexpr int kDraws = 500;
@@ -115,7 +117,7 @@ TEST_CASE("a level inside its bounds is fitted as without bounds") {
   CHECK(bounded->trials.value == free->trials.value);
 }
 
-// The grades still rise or fall at the end.
+// The simulated grades are still rising or falling at the last trial.
 TEST_CASE("the bounded fit is at least as good as the best grid point on the scale") {
   int at_bound = 0, inside = 0, beyond = 0;
   for (const bool rises : {true, false}) {
@@ -143,12 +145,13 @@ TEST_CASE("the bounded fit is at least as good as the best grid point on the sca
       (curve->at_bound ? at_bound : inside) += 1;
     }
   }
-  CHECK(at_bound >= 8);  // fits at a bound and inside both occurred
+  CHECK(at_bound >= 8);  // the seeds produced both cases: fits at a bound, and fits inside
   CHECK(inside >= 3);
-  CHECK(beyond >= at_bound / 2);  // the bound was needed
+  CHECK(beyond >= at_bound / 2);  // without bounds, many fits leave the scale, so the bounds are needed
 }
 
-// The independent answer: finite differences of the curve, and a 2 x 2 matrix inverted by hand.
+// The expected deviations are computed independently, from finite differences of the curve and a 2 x 2 matrix that is
+// inverted by hand.
 TEST_CASE("at a bound the level has no deviation, and those of gain and trials are computed with the level fixed") {
   std::optional<LearningCurve> curve;
   for (unsigned seed = 0; !curve || !curve->at_bound; ++seed) {

@@ -1,4 +1,5 @@
-// The state machine of a lesson: prompts, steps, hints, aborts, time limits, feedback, guidance, and repeatability.
+// Tests the state machine of a lesson: prompts, steps, hints, aborts, time limits, feedback, guidance, and
+// repeatability.
 #include "app/lessons/assessment/lesson_run.h"
 
 #include <cmath>
@@ -34,7 +35,7 @@ DriveCondition clutch_above(double value) {
   return c;
 }
 
-// A lesson whose steps match the constructed shift: clutch down, third gear, clutch up.
+// A lesson whose three steps match the constructed shift: clutch down, third gear, clutch up.
 Lesson shift_lesson() {
   Lesson lesson;
   lesson.key = lesson.task = "shift";
@@ -51,7 +52,7 @@ Lesson shift_lesson() {
   return lesson;
 }
 
-// A run's last display, its result and its shifts.
+// The last view of a run, its result and its shifts.
 class Outcome {
  public:
   explicit Outcome(LessonRun& run) : view_(run.view()), result_(run.result()), shifts_(run.drain_shifts()) {
@@ -101,7 +102,7 @@ TEST_CASE("steps are prompted in order if the mode asks for it, and the lesson e
   CHECK(prompts[2].first == "Clutch up.");
   CHECK(prompts[3].first == "Shift to third.");
   CHECK(prompts[3].second == doctest::Approx(0.761).epsilon(0.01));
-  CHECK(done == doctest::Approx(0.85).epsilon(0.01));  // when the shift's record is complete
+  CHECK(done == doctest::Approx(0.85).epsilon(0.01));  // the shift's record is complete
   CHECK(run.result().end == LessonEnd::done);
   CHECK(run.result().passed);
   CHECK(run.result().grade == 10.0);
@@ -147,7 +148,7 @@ TEST_CASE("a driver who continues in the wrong gear gets a hint, with or without
   driven.lesson.steps[2].until.gear = 4;
   driven.config = {LessonMode::by_yourself, 0.0, HintStyle::summary};
   driven.shift.to = 6.0;
-  driven.each = [](LessonRun& run, double t) {  // third is engaged from 0.49 s on
+  driven.each = [](LessonRun& run, double t) {  // third, the wrong gear, engages at 0.49 s; the hint comes 3 s later
     if (t < 3.48) CHECK(run.view().hint.empty());
     if (t > 3.50) CHECK(run.view().hint == "Shift into fourth to continue.");
   };
@@ -169,7 +170,9 @@ TEST_CASE("a lever step without its own hint describes the lever's path in this 
 TEST_CASE("errors are reported as they happen, or with summary hints at the end; unchecked kinds are silent notes") {
   const auto modify = [](DriveSample& s, double t) {
     if (t > 0.3 && t < 0.35) s.lever.f_h = {70.0, 0.0};
-    s.car.throttle = t < 0.29 ? 0.3 : 0.0;  // a wrong step order, which this lesson does not check
+    // The throttle is released after the clutch is down. The lesson does not check the order of the steps, so the error
+    // is only a note.
+    s.car.throttle = t < 0.29 ? 0.3 : 0.0;
   };
   Driven driven;
   driven.shift.modify = modify;
@@ -178,7 +181,7 @@ TEST_CASE("errors are reported as they happen, or with summary hints at the end;
     if (report_time == 0.0 && !run.view().feedback.empty()) report_time = t;
   };
   const Outcome run = driven.run();
-  // The end of the push, plus the pause after which it counts as ended.
+  // The push ends at 0.35 s. It counts as ended after a pause of 0.3 s, so it is reported at 0.65 s.
   CHECK(report_time == doctest::Approx(0.65).epsilon(0.02));
   CHECK(run.view().feedback == std::vector<std::string>{"You pushed the lever too hard (70 N)."});
   REQUIRE(run.result().errors.size() == 2);
@@ -229,7 +232,7 @@ TEST_CASE("a step that may be skipped is done when a later step's condition beco
   CHECK(driven.run().view().step == 0);
   driven.lesson.steps[0].may_be_skipped = true;
   CHECK(driven.run().result().end == LessonEnd::done);
-  Driven two;  // skips two steps in a row, if both may be skipped
+  Driven two;  // two steps in a row are skipped if both may be skipped
   two.lesson.steps[0].until = driven.lesson.steps[0].until;
   two.lesson.steps[1].until = driven.lesson.steps[0].until;
   two.lesson.steps[0].may_be_skipped = true;
@@ -241,7 +244,8 @@ TEST_CASE("a step that may be skipped is done when a later step's condition beco
   stays.lesson.steps[0].until.clutch_above = {};
   stays.lesson.steps[0].until.throttle_above = 0.9;
   stays.lesson.steps[1].until = DriveCondition();
-  stays.lesson.steps[1].until.speed_above = 1.0;  // true from the start
+  // This condition is true from the start, so no step is skipped: only a condition that becomes true skips steps.
+  stays.lesson.steps[1].until.speed_above = 1.0;
   CHECK(stays.run().view().step == 0);
 }
 
@@ -269,7 +273,7 @@ TEST_CASE("distance is measured from the lesson's start, rolling back from the s
   Driven driven;
   driven.lesson.steps.resize(1);
   driven.lesson.steps[0].until = DriveCondition();
-  driven.lesson.steps[0].until.distance_above = 12.0;  // [m] reached after one second at 12 m/s
+  driven.lesson.steps[0].until.distance_above = 12.0;  // [m] reached at 0 s: 12 m/s from -1 s on
   double at = 0.0;
   driven.each = [&](LessonRun& run, double t) {
     if (at == 0.0 && run.view().step == 1) at = t;
@@ -330,11 +334,11 @@ TEST_CASE("a step that took too long is an error with its own sentence; the valu
   CHECK(error.severity == Severity::minor);
   CHECK(error.value == doctest::Approx(0.41).epsilon(0.01));
   CHECK(error.time == doctest::Approx(100.491).epsilon(1e-5));
-  CHECK(error.shift == 0);  // the shift in which it happened
+  CHECK(error.shift == 0);  // the error belongs to the first shift
   CHECK(error_sentence(error) == "You took 0.41 s for this step (limit 0.40 s): \"Lever to 3.\"");
   CHECK(slow.result().grade == 9.5);
   REQUIRE(slow.view().feedback.size() == 1);
-  CHECK(within(0.20).result().errors[0].severity == Severity::severe);  // more than twice the limit
+  CHECK(within(0.20).result().errors[0].severity == Severity::severe);  // 0.41 s is more than twice this limit
   CHECK(within(1.0, 0).result().errors[0].value == doctest::Approx(1.081).epsilon(0.01));
 }
 
@@ -342,7 +346,7 @@ TEST_CASE("a step that took far too long fails a lesson that fails on slow steps
   for (const double fails_after : {0.42, 0.40}) {
     Driven driven;
     driven.lesson.fails_on.push_back(ErrorKind::slow_step);
-    driven.lesson.steps[1].within = 0.3;  // this step takes 0.41 s
+    driven.lesson.steps[1].within = 0.3;  // [s] too short: this step takes 0.41 s
     driven.lesson.steps[1].fails_after = fails_after;
     const LessonResult result = driven.run().result();
     CHECK(result.grade == 9.5);
@@ -385,7 +389,7 @@ TEST_CASE("a run that ends during an overdue step has that error, but not during
   for (const double left_at : {0.2, 0.4}) {
     Driven driven;
     driven.lesson.counted.push_back(ErrorKind::slow_step);
-    driven.lesson.steps[1].within = 0.2;  // the step begins at 0.081 s
+    driven.lesson.steps[1].within = 0.2;  // [s] the step begins at 0.081 s and is overdue from 0.281 s on
     driven.each = [=](LessonRun& r, double t) {
       if (t >= left_at) r.leave();
     };
@@ -444,7 +448,7 @@ TEST_CASE("engine work and clutch heat are those during the lesson") {
 
 TEST_CASE("a shift that is in progress at the last step may finish within three seconds") {
   Driven driven;
-  driven.lesson.steps.resize(2);  // the lesson's steps are done once third is engaged
+  driven.lesson.steps.resize(2);  // without its last step, the lesson is done when third is engaged
   CHECK(driven.run().result().shifts.size() == 1);
   Driven never;
   never.lesson.steps.resize(2);
@@ -453,7 +457,7 @@ TEST_CASE("a shift that is in progress at the last step may finish within three 
   const Outcome run = never.run();
   CHECK(run.result().end == LessonEnd::done);
   CHECK(run.result().duration == doctest::Approx(1.0 + 0.491 + 3.0).epsilon(0.01));
-  REQUIRE(run.result().shifts.size() == 1);  // the shift that did not finish
+  REQUIRE(run.result().shifts.size() == 1);  // the unfinished shift is recorded
   CHECK(run.result().shifts[0].to == 3);
   CHECK(run.result().shifts[0].clutch_time > 3.0);
 }

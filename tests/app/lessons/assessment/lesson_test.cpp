@@ -1,4 +1,4 @@
-// Lesson files are read, and invalid ones are rejected in one sentence with file, line and reason.
+// Tests that lesson files are read, and that invalid files are rejected in one sentence with file, line and reason.
 #include "app/lessons/assessment/lesson.h"
 
 #include <cmath>
@@ -19,17 +19,18 @@ namespace {
 
 struct Hostile {
   const char* file;
-  const char* sentence;  // the expected message after the file name
+  const char* sentence;  // the expected message, without the file name
 };
 
 constexpr Hostile kHostile[] = {
-    {"abort_at_once", ":16: this condition is empty, so it would be met at once"},
+    {"abort_at_once", ":16: the condition is empty and would be met at once"},
     {"abort_without_words", ":14: says is missing: it must be text in quotes"},
     {"early_without_a_band", ":1: shift_from_rpm is missing, but this lesson checks early_shift"},
     {"empty", ":1: title is missing: it must be text in quotes"},
     {"empty_faults", ":18: [faults] must name at least one error, or the lesson's grade would mean nothing"},
     {"empty_goal", ":2: goal = \"\": must not be empty"},
-    {"engine_never", ":12: engine_above_rpm = 3000: can never be met: it must be smaller than engine_below_rpm"},
+    {"engine_never",
+     ":12: engine_above_rpm = 3000: could never be met; the value must be smaller than engine_below_rpm"},
     {"fault_forgiven", ":19: stall = \"forgiven\": must be one of counts, fails"},
     {"fails_before_it_is_slow", ":13: fails_after_s = 4: must be at least within_s, which this step must also set"},
     {"fails_without_a_time", ":12: fails_after_s = 4: must be at least within_s, which this step must also set"},
@@ -39,7 +40,7 @@ constexpr Hostile kHostile[] = {
     {"guided_astray", ":12: guide_to = \"3\": leads away from gear 2, which this step waits for"},
     {"late_without_a_band", ":1: shift_to_rpm is missing, but this lesson checks late_shift"},
     {"no_faults", ":1: faults is missing: it must be a table, [faults]"},
-    {"no_steps", ":1: step is missing: write one [[step]] for each thing to do"},
+    {"no_steps", ":1: step is missing: write one [[step]] for each action"},
     {"no_task", ":1: task is missing: it must be text in quotes"},
     {"no_title", ":1: title is missing: it must be text in quotes"},
     {"not_toml", ":2: not valid TOML: "},
@@ -55,11 +56,12 @@ constexpr Hostile kHostile[] = {
     {"shift_to_neutral", ":11: shift_to = \"N\": must be a gear; to shift into N, write a step that waits for N"},
     {"shift_to_with_a_prompt", ":12: prompt is not a known key; known keys: shift_to"},
     {"slope_of_a_wall", ":7: slope_percent = 100: must be between -30 and 30"},
-    {"speed_never", ":12: speed_above_km_per_h = 30: can never be met: it must be smaller than speed_below_km_per_h"},
+    {"speed_never",
+     ":12: speed_above_km_per_h = 30: could never be met; the value must be smaller than speed_below_km_per_h"},
     {"speed_without_unit", ":12: speed_above is not a known key; known keys: gear"},
     {"start_is_text", ":6: start = \"1\": must be a table: write [start]"},
     {"step_is_a_table", ":10: step = (a table): must be a list of tables: write each as [[step]]"},
-    {"step_that_holds_at_once", ":12: this condition is empty, so it would be met at once"},
+    {"step_that_holds_at_once", ":12: the condition is empty and would be met at once"},
     {"step_without_prompt", ":10: prompt is missing: it must be text in quotes"},
     {"step_without_until", ":10: until is missing: it must be a table, [until]"},
     {"time_limit_nan", ":4: time_limit_s = nan: must be between 10 and 1800"},
@@ -72,11 +74,12 @@ constexpr Hostile kHostile[] = {
     {"unknown_fault", ":19: tyre_blown is not a known key; known keys: stall"},
     {"unknown_key", ":4: difficulty is not a known key; known keys: title"},
     {"unknown_table", ":18: music is not a known key; known keys: title"},
-    {"slow_step_of_none", ":19: slow_step = \"counts\": no step sets within_s, so none could be slow"},
-    {"within_its_own_hold", ":12: within_s = 2: can never be met: it must be longer than the step's held_s"},
+    {"slow_step_of_none", ":19: slow_step = \"counts\": no step sets within_s, so no step could be slow"},
+    {"within_its_own_hold",
+     ":12: within_s = 2: must be longer than held_s of the same step, or no attempt could be in time"},
     {"within_no_time", ":12: within_s = 0: must be between 0.1 and 120"},
     {"within_that_nobody_judges", ":19: slow_step is missing, but a step sets within_s"},
-    {"wrong_gear_of_none", ":19: wrong_gear = \"counts\": no step asks for a gear, so none could be wrong"},
+    {"wrong_gear_of_none", ":19: wrong_gear = \"counts\": no step asks for a gear, so no gear could be wrong"},
 };
 
 constexpr const char* kFolder = GEARSHIFT_TEST_DATA "/hostile_lessons";
@@ -188,7 +191,7 @@ TEST_CASE("every key is read and converted to SI units") {
   CHECK(lesson.steps[0].call);
   CHECK_FALSE(lesson.steps[1].call);
   CHECK(lesson.steps[0].gear == 4);
-  CHECK(lesson.steps[1].gear == kReverseGear);  // a step that waits for a gear is also guided to it
+  CHECK(lesson.steps[1].gear == kReverseGear);  // a step that waits for a gear also guides the lever to that gear
   CHECK(lesson.steps[1].patience == 8.0);
   REQUIRE(lesson.aborts.size() == 1);
   CHECK(lesson.aborts[0].message == "Too far.");

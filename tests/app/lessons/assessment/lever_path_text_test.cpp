@@ -1,4 +1,4 @@
-// The description of the lever's path, for the shipped gates as their files define them.
+// Tests the description in words of the lever's path between two gears, for the shipped gates.
 #include "app/lessons/assessment/lever_path_text.h"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ TEST_CASE("the path is described: straight, across the aisle with or against the
   CHECK(describe_lever_path(five, kNeutralGear, 1) == "To the left against the spring, then forward.");
   CHECK(describe_lever_path(five, kNeutralGear, 4) == "Back.");
   CHECK(describe_lever_path(five, 5, kNeutralGear) == "Pull the lever into neutral and let go.");
-  const Gate dog_leg = shipped_gate("dog_leg_five");  // here second is where third usually is
+  const Gate dog_leg = shipped_gate("dog_leg_five");  // in this gate, second is where third usually is
   CHECK(describe_lever_path(dog_leg, 1, 2) == "Into neutral, let the spring pull the lever across, then forward.");
   CHECK(describe_lever_path(dog_leg, 2, 3) == "Straight back.");
   CHECK(describe_lever_path(dog_leg, kNeutralGear, 1).find("then back.") != std::string::npos);

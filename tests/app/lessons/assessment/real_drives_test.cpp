@@ -1,4 +1,5 @@
-// The driving errors that are reported in the real car, driven by scripts that do not know the detector.
+// Tests which driving errors are reported in the real car. The car is driven by scripts that do not use the error
+// detector.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,7 +18,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// The number of errors of this kind, including notes, so that it does not depend on the kinds that the lesson grades.
+// The number of errors of this kind. Notes are counted too, so the number does not depend on which kinds the lesson
+// grades.
 int count_errors(const LessonResult& result, ErrorKind kind) {
   return static_cast<int>(std::count_if(result.errors.begin(), result.errors.end(),
                                         [kind](const DrivingError& error) { return error.kind == kind; }));
@@ -40,7 +42,7 @@ void blip(ScriptedDrive& d, double rpm) {
   d.feet.throttle = 0.0;
 }
 
-// Shifts from 4 into 3 at 55 km/h, with the engine at `factor` times the speed that third needs.
+// Shifts from fourth into third at 55 km/h, with the engine at `factor` times the speed that third needs.
 LessonResult down_with_blip(double factor) {
   ScriptedDrive d("rev_matching");
   d.clutch_down();
@@ -51,8 +53,8 @@ LessonResult down_with_blip(double factor) {
   return d.leave();
 }
 
-// Moves off in first with a fifth of the throttle: waits `lead` seconds, then moves the clutch from the bite point to
-// closed within `zone` seconds.
+// Moves off in first gear with a fifth of the throttle. Waits `lead` seconds at that throttle, then moves the clutch
+// from the bite point to closed within `zone` seconds.
 LessonResult launch(const std::string& car, double lead, double zone) {
   ScriptedDrive d("moving_off", LessonMode::follow_me, car);
   d.clutch_down();
@@ -82,7 +84,7 @@ TEST_CASE(
     d.wait(2.0);
     CHECK(d.now().running == (d.now().engine_speed > 0.5 * d.car.engine.idle));
     if (!d.now().running) CHECK(d.now().engine_speed == 0.0);
-    // If the engine starts, it also starts with a longer use of the starter.
+    // If the engine starts after some time of cranking, it must also start after any longer time.
     CHECK_FALSE(std::exchange(ran, d.now().running) > d.now().running);
     CHECK(count_errors(d.leave(), ErrorKind::stall) == 0);
   }
@@ -140,7 +142,8 @@ TEST_CASE("with the lever left in a mouth and the clutch up, the shift ends afte
   out_of_gear(d);
   d.start_towards(3);
   d.until([&] { return !d.in_aisle(); });
-  d.wait((d.gate.half_aisle + d.gate.chamfer) / d.speed);  // until 1 mm past the mouth
+  // in_aisle() becomes false 1 mm from the centre line, so after this wait the lever is 1 mm past the mouth.
+  d.wait((d.gate.half_aisle + d.gate.chamfer) / d.speed);
   d.speed = 0.0;
   d.press(d.feet.clutch, 0.0, 0.3);
   d.wait(8.0);
@@ -171,7 +174,7 @@ TEST_CASE(
   const LessonResult early = down(0.0), fit = down(1.0);
   CAPTURE(all_errors(early));
   CAPTURE(all_errors(fit));
-  CHECK(count_errors(early, ErrorKind::early_downshift) == 3);  // once per shift, judged by the speeds in the lesson
+  CHECK(count_errors(early, ErrorKind::early_downshift) == 3);  // one error for each of the three shifts
   CHECK(count_errors(fit, ErrorKind::early_downshift) == 0);
   CHECK(count_errors(fit, ErrorKind::coasting) == 0);
 }
@@ -221,7 +224,8 @@ TEST_CASE("an ordinary launch does not jerk, a launch in 0.3 s does: a fifth of 
   }
 }
 
-// With the engine at a constant speed, half of its work becomes heat in the clutch and half kinetic energy of the car.
+// If the engine's speed is constant, half of its work becomes heat in the clutch, and half becomes kinetic energy of
+// the car. The heat therefore grows with the square of the engine's speed. At `shift_high` the heat is burn_limit().
 TEST_CASE("a launch in the real car makes the heat of the closed form, and is clutch burn above shift_high") {
   const auto held = [](double rpm) {
     ScriptedDrive d("moving_off");
@@ -251,9 +255,10 @@ TEST_CASE("a launch in the real car makes the heat of the closed form, and is cl
   }
 }
 
-// On a slope a slipping clutch transmits an additional torque of m g sin(a) / i. Its heat is that torque times the
-// slip: on average half of shift_high during a launch of 3 s, and all of shift_high during 1.05 s on the handbrake.
-// That makes 2.55 s at shift_high.
+// On a slope a slipping clutch transmits an additional torque against the car's weight. The additional heat is that
+// torque times the slip, integrated over time. The limit allows for 3 s of launch, in which the slip is half of
+// `shift_high` on average, and for 1.05 s on the handbrake at `shift_high`. That equals 1.5 s + 1.05 s = 2.55 s at
+// `shift_high`.
 TEST_CASE("uphill a launch may make additional heat for the slope; downhill and in reverse it may not") {
   for (const char* name : {"hatchback", "diesel"}) {
     const CarSpec car = ScriptedDrive("hill_start", LessonMode::follow_me, name).car;

@@ -25,13 +25,13 @@ struct ScriptedDrive {
   vehicle::CarLoad load;
   lessons::LessonRun run;
   haptics::DriverControls feet;
-  double push = 25.0;   // [N] the hand's force against a synchroniser ring
+  double push = 25.0;   // [N] the hand's force against a blocking synchroniser ring
   double speed = 0.35;  // [m/s] speed of the hand
-  double pause = 0.0;   // [s] before the clutch comes up again, or the foot moves to the brake
+  double pause = 0.0;   // [s] how long the driver waits before the clutch comes up, or before braking
   std::function<void(vehicle::DriveSample&)> modify = [](vehicle::DriveSample&) {
-  };  // changes the samples that the lesson receives
+  };  // changes each sample before the lesson receives it
 
-  // Uses the car and the gate that the lesson names; if it names none, `other_car` and the gate of the car.
+  // Uses the car and the gate that the lesson names. If the lesson names none, uses `other_car` and that car's gate.
   explicit ScriptedDrive(const std::string& key, lessons::LessonMode mode = lessons::LessonMode::follow_me,
                          const std::string& other_car = "hatchback")
       : lesson(lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + key + ".toml")),
@@ -62,7 +62,7 @@ struct ScriptedDrive {
   void wait(double seconds) {
     for (double t = 0.0; t < seconds && !run.is_over(); t += kPeriod) tick();
   }
-  // Continues until `holds` returns true, the lesson ends, or `max_seconds` have passed.
+  // Advances the drive until `holds` returns true, the lesson ends, or `max_seconds` have passed.
   void until(const std::function<bool()>& holds, double max_seconds = 30.0) {
     for (double t = 0.0; t < max_seconds && !run.is_over() && !holds(); t += kPeriod) tick();
   }
@@ -77,14 +77,14 @@ struct ScriptedDrive {
     until([&] { return now().gear == gear && glm::distance(at_, haptics::rest_position(gate, gear)) < 1e-3; },
           max_seconds);
   }
-  void start_towards(int gear) { goal_ = gear; }  // returns at once; the hand moves on during later calls
+  void start_towards(int gear) { goal_ = gear; }  // returns at once; the hand moves during later calls
   bool in_aisle() const { return std::abs(at_.y) < 1e-3; }
 
   const lessons::LessonResult& leave() {
     run.leave();
     return run.result();
   }
-  // Waits for the feedback that is still to come, and leaves the lesson.
+  // Waits for feedback that the lesson has yet to report, and leaves the lesson.
   const lessons::LessonResult& finish() {
     wait(6.0);
     run.leave();
@@ -95,7 +95,7 @@ struct ScriptedDrive {
   static constexpr double kPeriod = 1e-3;       // [s]
   static constexpr double kMaxForce = 31.7;     // [N]
   static constexpr double kRpm = 0.1047197551;  // [rad/s]
-  static constexpr double kFreeForce = 3.0;     // [N] the hand's force where nothing blocks the lever
+  static constexpr double kFreeForce = 3.0;     // [N] the hand's force while nothing blocks the lever
 
   void tick() {
     const glm::dvec2 to_aim = aim() - at_;
@@ -107,7 +107,7 @@ struct ScriptedDrive {
     step(force);
   }
 
-  // The next point on the way out of the slot, along the aisle, and into the slot of goal_.
+  // The next point on the lever's way: out of the old slot, along the aisle, and into the slot of gear `goal_`.
   glm::dvec2 aim() const {
     const glm::dvec2 rest = haptics::rest_position(gate, goal_);
     const bool other_column = std::abs(at_.x - rest.x) > 1e-4;
@@ -159,13 +159,13 @@ struct ScriptedDrive {
   std::uint64_t cycle_ = 0;
 };
 
-// Drives competently. Where nothing else is stated, it does what driving schools teach.
+// A competent driver. Where no comment says otherwise, the driver does what driving schools teach.
 struct Able {
   ScriptedDrive& d;
 
   void hold_revs(double rpm) { d.feet.throttle = std::clamp(0.12 + 0.0012 * (rpm - d.rpm()), 0.0, 0.8); }
 
-  // Moves off from a standstill, in gear and with the clutch down, until the clutch is up.
+  // Moves off from a standstill, in gear and with the clutch down. Returns when the clutch is up.
   void launch(double rpm = 1500.0) {
     d.feet.brake = 0.0;
     d.press(d.feet.clutch, d.car.clutch.bite + 0.02, 0.4);

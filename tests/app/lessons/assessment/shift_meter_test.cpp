@@ -1,4 +1,4 @@
-// Every number of a shift record, for a shift whose numbers are computed by hand.
+// Tests every number of a shift record, in a shift whose numbers are computed by hand.
 #include "app/lessons/assessment/shift_meter.h"
 
 #include <cmath>
@@ -74,21 +74,22 @@ TEST_CASE("the record is returned once, one filter settling time after the shift
 }
 
 TEST_CASE("lost drive torque counts as torque gap, relative to the torque before the throttle was released") {
-  // The drive torque is 400 N m until -0.2 s, 15 N m (3.75 %) from 0.2 s to 0.6 s, and 30 N m (7.5 %) otherwise.
+  // The drive torque is 400 N m until -0.2 s, 15 N m (3.75 %) from 0.2 s to 0.6 s, and 30 N m (7.5 %) otherwise. The
+  // torque gap is the time below 5 %.
   const ShiftRecord record = modified_shift([](DriveSample& s, double t) {
     s.car.drive_torque = t < -0.2 ? 400.0 : lies_within(t, 0.2, 0.6) ? 15.0 : 30.0;
   });
   CHECK(record.torque_gap == doctest::Approx(0.4).epsilon(0.01));
-  // If the engine drives the car before the shift and brakes it afterwards, that is a torque gap too. Without drive
-  // torque before the shift there is no gap.
+  // If the engine drives the car before the shift and brakes the car afterwards, the torque gap lasts for the whole
+  // shift, from 0.075 s to 0.75 s. Without drive torque before the shift there is no gap.
   CHECK(modified_shift([](DriveSample& s, double t) { s.car.drive_torque = t < -0.2 ? 400.0 : -100.0; }).torque_gap ==
         doctest::Approx(0.675).epsilon(0.01));
   CHECK(modified_shift([](DriveSample& s, double) { s.car.drive_torque = 0.0; }).torque_gap == 0.0);
 }
 
 TEST_CASE("clutch heat, rev error and flare are measured") {
-  // The clutch power is a triangle with a peak of 3 kW between 0.65 s and 0.75 s: 150 J. The engine is 12 rad/s faster
-  // than the shaft when the clutch engages, and it flares by 20 rad/s at 0.3 s.
+  // The clutch's heat power is a triangle from 0.65 s to 0.75 s with a peak of 3 kW, which is 150 J. The engine turns
+  // 12 rad/s faster than the shaft when the clutch engages, and flares by 20 rad/s at 0.3 s.
   ConstructedShift shift;
   shift.modify = [&](DriveSample& s, double t) {
     const double u = std::clamp((t - 0.65) / 0.1, 0.0, 1.0);
@@ -110,8 +111,8 @@ TEST_CASE("comfort: the jerk of a step, and the fourth-power vibration dose of a
   const ShiftRecord steady = modified_shift([](DriveSample& s, double) { s.car.acceleration = 2.0; });
   CHECK(steady.jerk_peak == doctest::Approx(0.0));
   CHECK(steady.vibration_dose == doctest::Approx(2.0 * std::pow(lasts, 0.25)).epsilon(1e-3));
-  // [m/s^3] 1.5 m/s^2 w exp(-pi/4), w = 2 pi 15 Hz. In the second case the step comes at the shift's end, and its jerk
-  // after that.
+  // [m/s^3] The jerk of a step of 1.5 m/s^2: 1.5 w exp(-pi/4), with the cut-off angular frequency w = 2 pi 15 Hz. The
+  // first step comes during the shift. The second comes at the shift's end, so that its jerk peaks afterwards.
   const double peak = 1.5 * 6.283185307179586 * 15.0 * std::exp(-0.785398163397448);
   CHECK(modified_shift([](DriveSample& s, double t) { s.car.acceleration = t > 0.3 ? 1.5 : 0.0; }).jerk_peak ==
         doctest::Approx(peak).epsilon(0.002));
@@ -123,14 +124,14 @@ TEST_CASE("comfort: the jerk of a step, and the fourth-power vibration dose of a
 TEST_CASE("the hand's force is recorded by its peak and impulse") {
   const ShiftRecord record = modified_shift([](DriveSample& s, double t) {
     if (lies_within(t, 0.2, 0.5)) s.lever.f_h = {6.0, 8.0};
-    if (lies_within(t, 1.5, 1.6)) s.lever.f_h = {90.0, 0.0};  // after the shift has ended
+    if (lies_within(t, 1.5, 1.6)) s.lever.f_h = {90.0, 0.0};  // the shift has already ended
   });
   CHECK(record.force_peak == doctest::Approx(10.0));
-  CHECK(record.impulse == doctest::Approx(10.0 * 0.301).epsilon(1e-6));  // 301 samples of 1 ms
+  CHECK(record.impulse == doctest::Approx(10.0 * 0.301).epsilon(1e-6));  // 301 samples at 1 ms
 }
 
 TEST_CASE("work into a wall counts only on the way in, and the overshoot is the deepest point behind the wall") {
-  // The lever goes twice 1 mm into a wall of 5000 N/m: K d^2 / 2 = 2.5 mJ each time.
+  // The lever enters a wall of 5000 N/m twice, 1 mm deep. Each time the work is 5000 N/m * (1 mm)^2 / 2 = 2.5 mJ.
   const ShiftRecord record = modified_shift([](DriveSample& s, double t) {
     const double u = std::fmod(t + 10.0, 0.1) / 0.1;
     const double depth = lies_within(t, 0.3, 0.4999) ? 1e-3 * (1.0 - std::abs(2.0 * u - 1.0)) : 0.0;
@@ -151,7 +152,7 @@ TEST_CASE("the length of the lever's path, and its ratio to the shortest path") 
   CHECK(record.path_efficiency ==
         doctest::Approx(length / shortest_path_length(shift.gate, two, {0.0, slot.engage_depth})).epsilon(0.005));
   CHECK(record.path_efficiency > 1.0);
-  // Noise of one encoder count (75 um) does not make the path longer.
+  // With noise of one encoder count (75 um), the measured path length is still correct within 1 %.
   const ShiftRecord noisy = modified_shift([](DriveSample& s, double t) {
     if (std::lround(1e3 * t) % 2 == 0) s.lever.lever += glm::dvec2{75e-6, 75e-6};
   });
@@ -190,7 +191,7 @@ TEST_CASE("a clutch that comes up while the ring blocks is early, even if presse
     shift.modify = [&](DriveSample& s, double t) {
       if (lies_within(t, 0.42, 0.47)) s.car.sync = phase;
       if (lies_within(t, 0.43, 0.45))
-        s.car.clutch = ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // passes the bite point at 0.435 s
+        s.car.clutch = ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // the pedal passes the bite point at 0.435 s
     };
     const ShiftRecord record = only_record(shift);
     const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
@@ -204,19 +205,19 @@ TEST_CASE("steps are recorded as they happen and compared with the taught order"
   CHECK(only_record(ConstructedShift()).steps == std::vector<ShiftStep>{ShiftStep::throttle_off, ShiftStep::clutch_down,
                                                                         ShiftStep::neutral, ShiftStep::gear,
                                                                         ShiftStep::clutch_up});
-  // The throttle is released after the clutch is down, so two steps are swapped.
+  // The throttle is released only after the clutch is down, so two steps are out of place.
   const ShiftRecord late = modified_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.29 ? 0.3 : 0.0; });
   CHECK(late.steps.front() == ShiftStep::clutch_down);
   CHECK(late.steps_out_of_place == 2);
-  // A blip between clutch and gear adds two steps that are wrong for a shift into a higher gear. For a lower gear they
-  // are correct, see step_order_test.cpp.
+  // A blip between clutch and gear adds two steps, which are wrong for a shift into a higher gear. For a shift into a
+  // lower gear they are correct (see step_order_test.cpp).
   CHECK(modified_shift([](DriveSample& s, double t) {
           s.car.throttle = lies_within(t, 0.3, 0.35) ? 0.5 : 0.0;
         }).steps_out_of_place == 2);
 }
 
-// The pedal passes the bite point at 0.075 s on the way down. On the way up, it passes it at 0.8 s if the pedal is
-// slow.
+// The clutch pedal passes the bite point at 0.075 s on the way down. Released slowly, from 0.6 s to 1.4 s, it passes
+// the bite point again at 0.8 s.
 TEST_CASE("pedal movements that are simultaneous within 0.2 s are in order") {
   const auto lifted_at = [](double t0) {
     return modified_shift([t0](DriveSample& s, double t) { s.car.throttle = t < t0 ? 0.3 : 0.0; }).steps_out_of_place;
@@ -236,7 +237,8 @@ TEST_CASE("pedal movements that are simultaneous within 0.2 s are in order") {
 }
 
 TEST_CASE("entering a mouth that is off the path counts as a wrong column") {
-  // From the middle of the aisle, the lever enters 4's mouth, opposite that of 3, and returns.
+  // From the middle of the aisle, the lever enters the mouth of fourth gear, which is opposite the mouth of third, and
+  // returns.
   ConstructedShift shift;
   shift.to = 3.0;
   const double depth = shift.gate.half_aisle + shift.gate.chamfer + 0.002;
@@ -245,7 +247,7 @@ TEST_CASE("entering a mouth that is off the path counts as a wrong column") {
   };
   CHECK(only_record(shift).wrong_columns == 1);
   CHECK(only_record(ConstructedShift()).wrong_columns == 0);
-  // If 4 had engaged on the way, it would count as a gear and not as a wrong column.
+  // If fourth gear engages on the way, the visit counts as a gear and not as a wrong column.
   shift.modify = [&](DriveSample& s, double t) {
     const double rest = rest_position(shift.gate, 4).y;
     if (lies_within(t, 0.35, 0.4)) shift.place(s, {0.0, lies_within(t, 0.36, 0.39) ? rest : 0.0});
@@ -255,8 +257,8 @@ TEST_CASE("entering a mouth that is off the path counts as a wrong column") {
 }
 
 TEST_CASE("leaving the lever in a mouth ends the shift, once, and moving on begins the next shift") {
-  // From 0.45 s on the lever is out of 2 and 1 mm past 3's mouth; the clutch has been up since 0.65 s. At 6 s the
-  // clutch is pressed again, and 3 engages.
+  // From 0.45 s on the lever is out of second gear and 1 mm past the mouth of third. The clutch comes up at 0.65 s. At
+  // 6 s the clutch is pressed again, and third engages.
   ConstructedShift shift;
   shift.to = 8.0;
   const double mouth = shift.gate.half_aisle + shift.gate.chamfer + 0.001;
@@ -272,7 +274,7 @@ TEST_CASE("leaving the lever in a mouth ends the shift, once, and moving on begi
   REQUIRE(records.size() == 2);
   CHECK(records[0].from == 2);
   CHECK(records[0].to == kNeutralGear);
-  CHECK_FALSE(records[0].missed);  // being in a mouth is no attempt to engage
+  CHECK_FALSE(records[0].missed);  // a lever in the mouth has not tried to engage the gear
   CHECK(records[0].end == doctest::Approx(100.66 + 2.0).epsilon(1e-4));
   CHECK(records[1].from == kNeutralGear);
   CHECK(records[1].to == 3);
@@ -323,20 +325,20 @@ TEST_CASE(
     CHECK_FALSE(meter.finish().has_value());
     return record;
   };
-  CHECK_FALSE(cut(0.15).has_value());  // only the pedal has moved
-  const auto out = cut(0.35);          // the lever is in the aisle
+  CHECK_FALSE(cut(0.15).has_value());  // the drive ends before the lever moves
+  const auto out = cut(0.35);          // the drive ends with the lever in the aisle
   REQUIRE(out.has_value());
   CHECK(out->from == 2);
   CHECK(out->to == kNeutralGear);
   CHECK_FALSE(out->missed);
   CHECK(out->clutch_time == doctest::Approx(0.35 - 0.075).epsilon(0.01));
-  const auto in = cut(0.55);  // 3 is engaged, the clutch is still down
+  const auto in = cut(0.55);  // third is engaged, but the clutch is still down
   REQUIRE(in.has_value());
   CHECK(in->to == 3);
   CHECK(in->end == doctest::Approx(100.55));
-  CHECK(in->clutch_lag > 0.0);  // still down, so it did not come up early
+  CHECK(in->clutch_lag > 0.0);  // the clutch is still down, so it did not come up early
   CHECK(in->steps_out_of_place == 0);
-  const auto settles = cut(0.80);  // the shift is over, but its jerk has not settled
+  const auto settles = cut(0.80);  // the shift is over, but the jerk filter has not settled
   REQUIRE(settles.has_value());
   CHECK(settles->end == doctest::Approx(100.75).epsilon(1e-4));
 }
@@ -405,7 +407,7 @@ TEST_CASE("without the clutch the rev error is that just before the dogs engaged
   CHECK(record.clutch_lead == 0.0);
   CHECK(record.clutch_lag == 0.0);
   CHECK(record.rev_error == doctest::Approx(5.0).epsilon(1e-9));
-  CHECK(record.steps_out_of_place == 2);  // the steps for clutch down and clutch up are missing
+  CHECK(record.steps_out_of_place == 2);  // clutch down and clutch up are missing
 }
 
 TEST_CASE("guidance at any time during a shift makes it a guided shift") {
@@ -413,7 +415,8 @@ TEST_CASE("guidance at any time during a shift makes it a guided shift") {
   CHECK(modified_shift([](DriveSample& s, double t) {
           s.controls.guidance = lies_within(t, 0.3, 0.301) ? 0.2 : 0.0;
         }).guided);
-  // After the request ends, the guidance force fades for half a second. The shift begins at 0.075 s.
+  // After guidance is switched off, its force fades for half a second. The shift begins at 0.075 s, so it is guided if
+  // guidance was on after -0.425 s.
   CHECK(modified_shift([](DriveSample& s, double t) { s.controls.guidance = t < -0.4 ? 0.2 : 0.0; }).guided);
   CHECK_FALSE(modified_shift([](DriveSample& s, double t) { s.controls.guidance = t < -0.45 ? 0.2 : 0.0; }).guided);
 }
@@ -452,7 +455,7 @@ TEST_CASE("non-finite samples affect only the values that depend on them") {
   const ShiftRecord record = only_record(shift);
   CHECK(record.to == 3);
   CHECK(std::isfinite(record.lever_time));
-  // Invalid samples before the shift must not affect it, because the filters skip them.
+  // The filters skip invalid samples, so an invalid sample before the shift must not affect its record.
   const auto drives = [](double none) {
     return modified_shift([none](DriveSample& s, double t) {
       s.car.acceleration = t > 0.3 ? 1.5 : 0.0;

@@ -35,7 +35,7 @@ bool has(const LessonResult& result, ErrorKind kind) {
                      [&](const DrivingError& f) { return f.kind == kind && f.severity != Severity::note; });
 }
 
-// Applies `change` for `seconds` seconds, from the first time at which `when` returns true.
+// Applies `change` for `seconds` seconds, starting when `when` first returns true.
 SampleChange for_a_while(double seconds, const std::function<bool(const DriveSample&)>& when,
                          const std::function<void(DriveSample&, double)>& change) {
   return [=, since = -1.0](DriveSample& s) mutable {
@@ -56,8 +56,7 @@ bool always(const DriveSample&) {
   return true;
 }
 
-// A change of the samples that makes them look like a drive with this error; empty if the error cannot be made that
-// way.
+// A change of the samples that makes a correct drive look like a drive with this error. Empty if no such change exists.
 SampleChange modification_for(ErrorKind kind, const Gate& gate, const CarSpec& car, const Lesson& lesson) {
   const double bite = car.clutch.bite;
   const double red = car.engine.red_line;
@@ -124,7 +123,7 @@ SampleChange modification_for(ErrorKind kind, const Gate& gate, const CarSpec& c
       };
     case ErrorKind::throttle_in_shift:
       return [=](DriveSample& s) {
-        if (s.car.clutch > 0.0) s.car.throttle = 0.3;  // still pressed while the clutch goes down
+        if (s.car.clutch > 0.0) s.car.throttle = 0.3;  // the throttle is pressed as long as the clutch is
         if (s.car.clutch >= bite && s.car.gear == kNeutralGear) s.car.engine_speed += 200.0;
       };
     case ErrorKind::early_shift:  // too slow by both rev counter and speedometer
@@ -221,7 +220,7 @@ TEST_CASE("each shipped lesson detects every error that it checks, and is failed
       drive.modify = modification_for(kind, drive.gate, drive.car, lesson);
       if (!drive.modify) continue;
       if (checked++ % 3 != 0 && !is_full_campaign()) continue;
-      // [s] longer than reading a prompt takes.
+      // [s] longer than it takes to read a prompt
       drive.pause = kind == ErrorKind::too_slow ? 5.0 : waits(kind) ? 3.0 : 0.0;
       each.drive(drive);
       const LessonResult& result = drive.finish();

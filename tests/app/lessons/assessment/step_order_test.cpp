@@ -1,4 +1,5 @@
-// The order of pedals and lever in a shift: the number of misplaced steps, and the name of the first mistake.
+// Tests the order of pedal and lever movements in a shift: the number of misplaced steps, and the name of the first
+// mistake.
 #include "app/lessons/assessment/step_order.h"
 
 #include <cstddef>
@@ -38,7 +39,7 @@ TEST_CASE("a blip is accepted anywhere in a shift into a lower gear, and not int
     steps.push_back(S::throttle_on);
     CHECK(steps_out_of_place(steps, 3, 2) == 0);
   }
-  // A second blip is not accepted.
+  // A second blip in one shift is out of place.
   std::vector<S> two = blips[0];
   two.insert(two.end() - 1, {S::throttle_on, S::throttle_off});
   CHECK(steps_out_of_place(two, 3, 2) == 2);
@@ -48,11 +49,11 @@ TEST_CASE("a blip into a lower gear may last until the clutch is up or longer; t
   const std::vector<S> held{S::throttle_off, S::clutch_down, S::neutral, S::gear, S::throttle_on, S::clutch_up};
   std::vector<S> ended = held, early = held;
   ended.push_back(S::throttle_off);
-  std::swap(early[2], early[4]);  // throttle on before the old gear is out
+  std::swap(early[2], early[4]);  // the throttle is pressed before the old gear is out
   std::swap(early[3], early[4]);
   for (std::vector<S> steps : {held, ended, early}) {
     CHECK(steps_out_of_place(steps, 3, 2) == 0);
-    CHECK(steps_out_of_place(steps, 2, 3) > 0);  // for a higher gear, the throttle comes too soon
+    CHECK(steps_out_of_place(steps, 2, 3) > 0);  // for a shift to a higher gear, the throttle is pressed too early
   }
   CHECK(steps_out_of_place(std::span(held).first(5), 3, 2) == 1);
   ended.push_back(S::throttle_on);

@@ -1,4 +1,5 @@
-// The suggested next lesson: one whose results got worse, otherwise a new one, otherwise the weakest.
+// Tests which lesson is suggested next: a lesson whose results got worse, else a new lesson, else the lesson with the
+// lowest grades.
 #include "app/lessons/assessment/suggest.h"
 
 #include <doctest/doctest.h>
@@ -39,7 +40,7 @@ TEST_CASE("a beginner starts with the first lesson, and continues with the first
 TEST_CASE("lessons with worse results come before new ones, the worst first") {
   const std::vector<PastResult> past{result("start", 8.0), result("bite", 9.0), result("bite", 2.0),
                                      result("bite", 3.0),  result("bite", 4.0), result("start", 3.0)};
-  CHECK(next(past) == "bite");  // average grade 3.0; start: 5.5
+  CHECK(next(past) == "bite");  // average of the last three grades: "bite" 3.0, "start" 5.5 (only two grades)
   const auto suggestion = suggest_lesson(three_lessons(), past);
   CHECK(suggestion->why == "Bite point needs practice: 3 of the last 3 attempts failed (average grade 3.0).");
 }
@@ -51,7 +52,7 @@ TEST_CASE("worse means recently failed, at any grade: one error can fail a lesso
   past.push_back(failed);
   CHECK(next(past) == "away");
   past.push_back(passed);
-  CHECK(next(past) == "bite");  // one failed run of the last three does not count
+  CHECK(next(past) == "bite");  // "away" failed in only one of its last three runs, which is tolerated
   past.push_back(failed);
   CHECK(next(past) == "away");
 }

@@ -1,4 +1,5 @@
-// Cycles may be assessed one by one. The result equals that of batches; it is shown and saved at the next add().
+// Coach::assess() assesses a single cycle, add() assesses many cycles at once. For the same drive both give the same
+// result. A result of assess() is shown and saved at the next add().
 #include <stdexcept>
 
 #include <doctest/doctest.h>
@@ -14,7 +15,7 @@ TEST_CASE(
     "a drive assessed cycle by cycle gives the same result as with add(), and is shown only from the next add() on") {
   const CoachBench bench;
   Coach judged(bench.config), added(bench.config);
-  CHECK_THROWS_AS((void)judged.judge({}), std::logic_error);
+  CHECK_THROWS_AS((void)judged.assess({}), std::logic_error);
   for (Coach* coach : {&judged, &added}) {
     coach->offer(bench.config.lessons[0]);
     bench.begin(*coach);
@@ -24,7 +25,7 @@ TEST_CASE(
   std::size_t cycles = 0;
   bool over = false;
   for (; cycles < drive.size() && !over; ++cycles) {
-    over = judged.judge(drive[cycles]).is_over();
+    over = judged.assess(drive[cycles]).is_over();
     if (cycles == 1600) {
       CHECK(judged.view().now.step == 0);
       judged.add({});

@@ -1,4 +1,4 @@
-// A coach's configuration for tests: two short lessons, a learner, and a clock that the test sets.
+// A coach for tests: its configuration with two short lessons, a learner, and a clock that the test sets.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace gearshift::test {
 
 inline constexpr std::int64_t kSomeDay = 1'800'000'000;  // [s] since 1970
 
-// A lesson from second gear to third, whose steps match the constructed shift.
+// A lesson from second gear to third. Its steps match the shift that ConstructedShift makes.
 inline lessons::Lesson bench_lesson(const std::string& key) {
   lessons::Lesson lesson;
   lesson.key = lesson.task = key;
@@ -34,9 +34,9 @@ inline lessons::Lesson bench_lesson(const std::string& key) {
   return lesson;
 }
 
-enum class Drive { good, pushed };  // pushed: contains an over-push, which is a driving error
+enum class Drive { good, pushed };  // `pushed` contains an over-push, which is a driving error
 
-// The samples of one drive. Cycles are numbered from `from` on, without gaps, as a haptic loop numbers them.
+// The samples of one drive. Their cycle numbers start at `from` and have no gaps, as in a haptic loop.
 inline std::vector<vehicle::DriveSample> bench_drive(Drive how, double guidance = 0.0, std::uint64_t from = 17) {
   ConstructedShift shift;
   if (how == Drive::pushed) {
@@ -72,7 +72,7 @@ struct CoachBench {
     coach.begin(test_car(), known_gate(), settings, recording);
   }
 
-  // Drives the lesson once as a session does, guided if the coach says so.
+  // Drives the lesson once as a session does. The trial is guided if the coach decides so.
   lessons::LessonResult trial(lessons::Coach& coach, const std::string& lesson, Drive how = Drive::good) const {
     coach.offer(*std::find_if(config.lessons.begin(), config.lessons.end(),
                               [&](const lessons::Lesson& each) { return each.key == lesson; }));

@@ -1,4 +1,4 @@
-// A lesson through the coach: phases, the same assessment as without it, gaps in a drive, mode, standing, next lesson.
+// Lessons run through the coach: phases, assessment, gaps in a drive, mode, standing and next lesson.
 #include "app/lessons/coach/coach.h"
 
 #include <random>
@@ -46,7 +46,7 @@ TEST_CASE("a lesson goes through the phases offered, driving and over; cycles co
   CHECK(coach.view().phase == LessonPhase::driving);
   CHECK(coach.view().now.prompt == "Clutch down.");
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
-  coach.add(std::span(drive).first(1500));  // until third gear is engaged
+  coach.add(std::span(drive).first(1500));  // third gear is engaged after 1500 samples
   CHECK(coach.view().now.prompt == "Clutch up.");
   CHECK(coach.guided_gear() == 3);
   coach.add(std::span(drive).subspan(1500));
@@ -60,7 +60,7 @@ TEST_CASE("a lesson goes through the phases offered, driving and over; cycles co
   CHECK(coach.lesson() == nullptr);
 }
 
-// The independent answer: a LessonRun with the same samples, without a coach.
+// The expected result comes from a LessonRun that gets the same samples without a coach.
 TEST_CASE("a drive in batches of any size is assessed exactly as without a coach") {
   const CoachBench bench;
   std::mt19937 chance(3);
@@ -133,7 +133,7 @@ TEST_CASE(
     for (std::size_t i = 700; i < other.size(); ++i) other[i].lever.cycle = i - 700 + again;
     CHECK(torn(other));
   }
-  // An invalid cycle after the lesson's end makes no difference.
+  // A repeated cycle is invalid input. After the lesson's end, it does not change the result.
   std::vector<DriveSample> longer = bench_drive(Drive::good);
   longer.push_back(longer.back());
   CHECK(driven(longer).is_complete);
@@ -150,7 +150,7 @@ TEST_CASE("a trial without forces for 1 s during shifts or 3 s in total gets no 
     coach.offer(slower);
     bench.begin(coach);
     std::vector<DriveSample> drive = bench_drive(Drive::good);
-    for (DriveSample& sample : drive) sample.lever.time_ns *= 2;  // at half the speed
+    for (DriveSample& sample : drive) sample.lever.time_ns *= 2;  // the drive takes twice as long
     const DriveSample last = drive.back();
     for (int i = 1; i < 8000; ++i) {  // the car continues to roll in gear
       drive.push_back(last);
@@ -192,7 +192,9 @@ TEST_CASE(
   CHECK(coach.view().mode == LessonMode::by_yourself);
   coach.set_mode(LessonMode::follow_me);
   CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);
-  CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);  // the user's choice applies only to this lesson
+  // The user's choice of `follow_me` lasts until a different lesson is offered. Lesson "two" uses `follow_me` anyway,
+  // because it was not passed yet.
+  CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);
   CHECK(bench.trial(coach, "two").mode == LessonMode::follow_me);
   CHECK(bench.trial(coach, "one").mode == LessonMode::by_yourself);
 
@@ -251,7 +253,7 @@ TEST_CASE("after a restart the interrupted trial counts as left, and a new trial
   CHECK(coach.view().runs[0].result.end == LessonEnd::left);
   coach.offer(*coach.lesson());
   CHECK(coach.view().lesson == "one");
-  CHECK(coach.view().runs.size() == 1);  // the second trial had no cycle, so it is not a run
+  CHECK(coach.view().runs.size() == 1);  // the second trial had no cycle, so it does not count as a run
 }
 
 TEST_CASE("a missing history is reported once, and lessons run without it") {

@@ -1,4 +1,5 @@
-// After a learner was deleted, a program that is still running writes nothing about her until a user selects her again.
+// After a learner was deleted, a program that is still running writes nothing about that learner until a user selects
+// her again.
 #include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,7 +39,7 @@ std::vector<std::string> names_in(const std::filesystem::path& file) {
 
 using Names = std::vector<std::string>;
 
-// A program in which Ada is selected; the history contains one run of hers.
+// A program with Ada as the selected learner. The history contains one run of hers.
 struct Deleting {
   TempFolder folder;
   CoachBench bench{folder / "history.db"};
@@ -80,7 +81,7 @@ TEST_CASE("a learner deleted during a lesson: one message, the lesson continues,
   here.coach.add(std::span(drive).subspan(500));
   CHECK(here.coach.view().result.passed);
   CHECK(here.coach.view().run == 0);
-  // Only the run that has just ended is shown; it belongs to no learner.
+  // Only the run that has just ended is shown. It belongs to no learner.
   CHECK(here.coach.view().runs.size() == 1);
   CHECK(here.coach.take_unreferenced_recordings() == std::vector<std::string>{"/a/drive.trace"});
   here.check_forgotten();
@@ -140,7 +141,7 @@ TEST_CASE("deleting a learner who is not selected is not reported; when selected
   CHECK_FALSE(here.coach.take_problem().has_value());
   CHECK(names_in(here.file) == Names{"Bob"});
   here.coach.set_learner("Ada");
-  CHECK(names_in(here.file) == Names{"Bob"});  // her first run will add her again
+  CHECK(names_in(here.file) == Names{"Bob"});  // without Ada, who is added again only with her next run
   CHECK(here.coach.view().runs.empty());
   here.bench.trial(here.coach, "one");
   CHECK(names_in(here.file) == Names{"Ada", "Bob"});
@@ -176,7 +177,7 @@ TEST_CASE("a learner deleted at a random time while she drives is never created 
           coach.set_next(trial % 2 == 0 ? "two" : "");
         }
         char c = 0;
-        (void)!read(go_on[0], &c, 1);  // until the parent process has deleted the learner
+        (void)!read(go_on[0], &c, 1);  // returns when the parent process has deleted the learner
         bench.trial(coach, "one");
         coach.set_next("two");
         (void)coach.flush();

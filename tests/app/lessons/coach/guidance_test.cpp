@@ -1,4 +1,4 @@
-// How strongly the coach guides trials: from trial to trial, from program to program, and from day to day.
+// How strongly the coach guides trials, from trial to trial, across restarts of the program, and from day to day.
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -12,8 +12,8 @@ using namespace gearshift::test;
 
 namespace {
 
-// The policy's equations, written by hand: g <- clamp(f g + k e, 0, 1), e = min(1, error / 0.4), f = 0.9 - 0.3 skill, k
-// = 0.2, skill <- 0.7 skill + 0.3 (1 - e).
+// The policy's equations, implemented independently, for the gain g, the scaled error e, the fade factor f and the
+// skill s: e = min(1, error / 0.4), f = 0.9 - 0.3 s, g <- clamp(f g + 0.2 e, 0, 1), s <- 0.7 s + 0.3 (1 - e).
 struct ByHand {
   double gain = 1.0, skill = 0.0;
   void learn(double error) {
@@ -23,7 +23,7 @@ struct ByHand {
   }
 };
 
-// [1] The points lost by errors divided by 10; 1 for a lesson that was not finished.
+// [1] The points that errors cost, divided by 10; 1 for a lesson that was not finished.
 double error_of(const LessonResult& result) {
   double points = 0.0;
   for (const DrivingError& error : result.errors) {
@@ -90,7 +90,7 @@ TEST_CASE("each learner has a separate order of guided trials for each lesson") 
     for (int trial = 0; trial < 40; ++trial) {
       orders[i].push_back(
           plan_trial(learner_and_lesson[i].first, learner_and_lesson[i].second, runs, kSomeDay).plan.guidance > 0.0);
-      RunRow run;  // aborted: its error of 1 keeps the gain high
+      RunRow run;  // an aborted run has an error of 1, which keeps the gain high
       run.result.lesson = learner_and_lesson[i].second;
       run.result.end = LessonEnd::aborted;
       run.begun_at = format_utc(kSomeDay);
@@ -131,13 +131,13 @@ TEST_CASE("the first trial after 20 hours is a test without guidance and hints; 
   CHECK_FALSE(coach.view().retention);
   bench.now += 1;
   coach.offer(bench.config.lessons[1]);
-  CHECK_FALSE(coach.view().retention);  // this lesson was never driven
+  CHECK_FALSE(coach.view().retention);  // this lesson was never driven, so there is nothing to retain
   coach.offer(bench.config.lessons[0]);
   CHECK(coach.view().retention);
   CHECK(coach.view().guidance == 0.0);
   CHECK(coach.view().hints == HintStyle::summary);
 
-  Coach other(bench.config);  // a second program, with the same history
+  Coach other(bench.config);  // a second program that uses the same history
   bench.begin(coach);
   CHECK(coach.view().retention);
   coach.add(bench_drive(Drive::pushed));
@@ -146,7 +146,7 @@ TEST_CASE("the first trial after 20 hours is a test without guidance and hints; 
   CHECK_FALSE(other.view().retention);
   bench.begin(coach);
   CHECK_FALSE(coach.view().retention);
-  bench.now -= 360'000;  // a clock that was set back makes no break
+  bench.now -= 360'000;  // setting the clock back does not create a break
   coach.offer(bench.config.lessons[0]);
   CHECK_FALSE(coach.view().retention);
 }

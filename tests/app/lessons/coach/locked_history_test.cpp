@@ -1,4 +1,5 @@
-// A history that a different program has locked, or that is slow to open: no frame waits for it, and nothing is lost.
+// Another program has locked the history, or the history is slow to open. No frame waits long for it, and no run is
+// lost.
 #include <sqlite3.h>
 
 #include <chrono>
@@ -21,10 +22,10 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Limit for one frame: the lock timeout of 50 ms, and 350 ms for a busy machine.
+// Time limit for one frame: 50 ms for the lock timeout and 350 ms for delays on a busy machine.
 constexpr milliseconds kFrame{400};
 
-// Acts as a second program that is in the middle of a write transaction.
+// Acts as a second program that holds the history's write lock.
 class LockHolder {
  public:
   explicit LockHolder(const std::filesystem::path& file) {
@@ -53,7 +54,7 @@ void in_a_frame(const Work& work) {
   CHECK(steady_clock::now() - begin < kFrame);
 }
 
-// Runs frames without new cycles, for long enough that the coach retries.
+// Runs frames without new cycles for `time`, which is long enough for the coach to retry.
 void frames(Coach& coach, milliseconds time = milliseconds(1000)) {
   for (const auto end = steady_clock::now() + time; steady_clock::now() < end;) {
     in_a_frame([&] { coach.add({}); });
@@ -92,7 +93,7 @@ TEST_CASE("while the history is locked no frame waits for it, and afterwards eve
       CHECK(coach.view().run == 0);
       const std::optional<std::string> problem = coach.take_problem();
       REQUIRE(problem.has_value());
-      CHECK(problem->find("another program has locked it") != std::string::npos);
+      CHECK(problem->find("another program has locked the file") != std::string::npos);
       CHECK(problem->find('\n') == std::string::npos);
 
       bench.now += 100;
@@ -109,7 +110,7 @@ TEST_CASE("while the history is locked no frame waits for it, and afterwards eve
       CHECK(coach.view().next == "one");
       frames(coach);
       CHECK_FALSE(coach.take_problem().has_value());  // reported only once
-      CHECK(coach.view().is_saving);                  // results are pending, not lost
+      CHECK(coach.view().is_saving);                  // the results are pending, not lost
     }
     frames(coach);
     CHECK(coach.view().run > first);
@@ -130,7 +131,7 @@ TEST_CASE("while the history is locked no frame waits for it, and afterwards eve
   CHECK(runs[1].recording == "/a/second.trace");
   CHECK(runs[1].session == runs[0].session);
   CHECK(runs[0].begun_at == format_utc(kSomeDay));
-  CHECK(runs[1].begun_at == format_utc(kSomeDay + 200));  // the date of the drive, not of the saving
+  CHECK(runs[1].begun_at == format_utc(kSomeDay + 200));  // the date of the drive, not the date of saving
   History history(bench.config.history);
   CHECK(history.settings(runs[0].session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
   for (const RunRow& run : runs) {
@@ -219,7 +220,8 @@ TEST_CASE("comments that were edited or deleted while the history was locked are
   CHECK(comments[2].text == "Four.");
 }
 
-// Invariant: a flush takes at most 3 s in total, however much is pending.
+// Invariant: a flush waits at most 3 s in total, however much data is pending. The test allows 1 s more for delays on a
+// busy machine.
 TEST_CASE("a failed flush reports the losses once, after a bounded time, and the destructor does not wait again") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
@@ -238,12 +240,12 @@ TEST_CASE("a failed flush reports the losses once, after a bounded time, and the
   const auto begin = steady_clock::now();
   const std::string message = coach->flush();
   const auto waited = steady_clock::now() - begin;
-  CHECK(coach->view().phase == LessonPhase::over);  // the running lesson counts as left
+  CHECK(coach->view().phase == LessonPhase::over);  // flush() ended the running lesson, which counts as left
   CHECK(waited > milliseconds(2000));
   CHECK(waited < milliseconds(4000));
   CHECK(message ==
         bench.config.history.string() +
-            ": the history cannot be used because another program has locked it; not saved: 2 runs, 1 comment");
+            ": the history cannot be used because another program has locked the file; not saved: 2 runs, 1 comment");
   CHECK(coach->take_problem() == message);
   const auto again = steady_clock::now();
   coach.reset();
@@ -283,7 +285,7 @@ TEST_CASE("recordings of runs that are missing from the history are listed once"
     CHECK(coach.take_unreferenced_recordings().empty());
   }
   const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
-  REQUIRE(runs.size() == 2);  // the lock ended before the coach, which then saved both
+  REQUIRE(runs.size() == 2);  // the lock was released first, so the coach's destructor saved both runs
   CHECK(runs[0].recording == "/a/known.trace");
   CHECK(runs[1].recording.empty());
 }

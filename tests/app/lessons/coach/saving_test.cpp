@@ -1,4 +1,4 @@
-// The coach writes runs into the history, and lessons continue even without a history.
+// The coach writes runs into the history. Without a history, lessons continue.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -36,7 +36,7 @@ bool is_one_sentence(const std::optional<std::string>& problem) {
   return problem && !problem->empty() && problem->find('\n') == std::string::npos;
 }
 
-// The bytes of a history with one run, closed completely.
+// The bytes of a history file that contains one run and was closed cleanly.
 std::string good_history(const std::filesystem::path& file) {
   const CoachBench bench(file);
   {
@@ -46,7 +46,7 @@ std::string good_history(const std::filesystem::path& file) {
   return bytes_of(file);
 }
 
-// Drives two trials and checks their results; the second is passed.
+// Drives two trials and checks their results. The second trial is passed.
 void check_lesson_continues(CoachBench& bench, Coach& coach) {
   CHECK(bench.trial(coach, "one").end == LessonEnd::done);
   coach.set_help(false);
@@ -124,7 +124,7 @@ TEST_CASE(
   bench.begin(coach);
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
   coach.add(std::span(drive).first(500));
-  coach.set_learner("Ada");  // this learner is already selected
+  coach.set_learner("Ada");  // Ada is already selected
   CHECK(coach.view().phase == LessonPhase::driving);
   coach.set_learner("Bob");
   CHECK(coach.view().phase == LessonPhase::offered);
@@ -144,7 +144,7 @@ TEST_CASE(
   CHECK(ada.size() == 2);
   REQUIRE(bob.size() == 1);
   CHECK(bob[0].session != ada[0].session);
-  CHECK(History(bench.config.history).learners().size() == 2);  // the empty name added no learner
+  CHECK(History(bench.config.history).learners().size() == 2);  // an empty name adds no learner
 }
 
 TEST_CASE("the lesson set by the instructor takes precedence over the suggestion until a run of it was graded") {
@@ -160,17 +160,17 @@ TEST_CASE("the lesson set by the instructor takes precedence over the suggestion
 
   coach.set_help(false);
   bench.trial(coach, "one");
-  CHECK(wanted() == "two");  // the trial was in lesson one
+  CHECK(wanted() == "two");  // only a graded run of "two" removes this choice, but the run was of "one"
   coach.offer(bench.config.lessons[1]);
   bench.begin(coach);
   coach.add(bench_drive(Drive::good, 0.5));
   CHECK(coach.view().result.guided);
-  CHECK(wanted() == "two");  // a guided run has no grade
+  CHECK(wanted() == "two");  // a guided run is not graded, so it does not remove the choice
   bench.begin(coach);
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
   coach.add(std::span(drive).first(500));
   coach.leave();
-  CHECK(wanted() == "two");  // the run was left unfinished
+  CHECK(wanted() == "two");  // an unfinished run does not remove the choice
   bench.trial(coach, "two", Drive::pushed);
   CHECK(wanted().empty());
   CHECK_FALSE(coach.view().next_by_instructor);
@@ -178,7 +178,7 @@ TEST_CASE("the lesson set by the instructor takes precedence over the suggestion
   coach.set_next("two");
   coach.offer(bench.config.lessons[1]);
   bench.begin(coach);
-  instructor.set_next("one");  // during a run of "two"
+  instructor.set_next("one");  // a run of "two" is in progress
   coach.add(bench_drive(Drive::good));
   CHECK(wanted() == "one");
   CHECK(coach.view().next == "one");
@@ -251,7 +251,7 @@ TEST_CASE("damaged, foreign, newer or unreachable history: one message, the less
   const std::string intact = good_history(folder / "good.db");
   REQUIRE(intact.size() > 20000);
   std::string newer = intact, foreign = intact, torn = intact;
-  newer[63] = kSchemaVersion + 1;  // the version, see sqlite.org/fileformat2.html, 1.3
+  newer[63] = kSchemaVersion + 1;  // last byte of the schema version (sqlite.org/fileformat2.html, section 1.3)
   foreign[71] ^= 1;
   std::fill(torn.begin() + 8192, torn.begin() + 12288, 'x');
   const std::string damaged = intact.substr(0, intact.size() / 2);
@@ -278,7 +278,7 @@ TEST_CASE("damaged, foreign, newer or unreachable history: one message, the less
   CHECK_FALSE(coach.take_problem().has_value());
 }
 
-// Runs in a process without root's rights, because root can always write.
+// The test runs in a process without root's rights, because root can always write.
 TEST_CASE("a read-only history is reported once and stays unchanged") {
   const TempFolder folder;
   const auto file = folder / "history.db";
@@ -329,9 +329,9 @@ TEST_CASE("a full disk is reported once; the lesson counts, and is saved when th
   CHECK_FALSE(coach->take_problem().has_value());
   CHECK(coach->view().lessons[0].trials == 3);
 
-  CHECK(coach->view().runs[0].id < 0);  // a temporary number: this run is not in the history
+  CHECK(coach->view().runs[0].id < 0);  // a temporary number, because this run is not in the history
 
-  // Here the disk is full when the shift ends, and has room again when the lesson ends.
+  // The disk is full when the shift ends, and has room again before the lesson ends.
   disk_is_full = false;
   Lesson longer = bench.config.lessons[0];
   longer.steps.push_back(longer.steps.back());
@@ -345,7 +345,7 @@ TEST_CASE("a full disk is reported once; the lesson counts, and is saved when th
   coach->add(std::span(drive.begin() + 500, cut));
   REQUIRE(coach->view().result.shifts.size() == 1);
   CHECK(coach->view().phase == LessonPhase::driving);
-  CHECK(is_one_sentence(coach->take_problem()));  // reported again, because saving had worked in between
+  CHECK(is_one_sentence(coach->take_problem()));  // the problem is reported again, because saving had worked in between
   CHECK(coach->view().run == 0);
   disk_is_full = false;
   coach->add(std::span(cut, drive.end()));
@@ -365,8 +365,8 @@ TEST_CASE("a full disk is reported once; the lesson counts, and is saved when th
   }
 }
 
-// Invariant: a loss is reported even after a message that promised a retry, and is withdrawn if the data was saved
-// later.
+// Invariant: lost data is reported even after a message that promised a retry. If the data is saved later, the report
+// is withdrawn.
 TEST_CASE("a flush fails on a full disk, then there is room again: the loss is reported, then withdrawn") {
   const TempFolder folder;
   CoachBench bench(folder / "history.db");
@@ -388,7 +388,7 @@ TEST_CASE("a flush fails on a full disk, then there is room again: the loss is r
   disk_is_full = true;
   bench.trial(coach, "one");
   disk_is_full = false;
-  CHECK(coach.flush().empty());  // this also saves data whose problem was not reported yet
+  CHECK(coach.flush().empty());  // flush() also saves data whose problem was not reported yet
   CHECK(runs_in(bench.config.history).size() == 3);
 }
 
@@ -442,7 +442,7 @@ TEST_CASE("a history file that is removed while lessons are driven is reported, 
   bench.trial(coach, "one");
   std::filesystem::remove(bench.config.history);
   bench.trial(coach, "one");
-  CHECK(coach.take_problem().value_or("").find("it was removed") != std::string::npos);
+  CHECK(coach.take_problem().value_or("").find("the file was removed") != std::string::npos);
   CHECK_FALSE(coach.view().is_saving);
   CHECK(coach.flush().find("not saved: 1 run") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(bench.config.history));

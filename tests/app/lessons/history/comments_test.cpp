@@ -33,7 +33,7 @@ TEST_CASE("an edited comment keeps its position, date and author, and has its la
   CommentRig rig;
   const std::int64_t first = rig.history->add_comment(rig.run, "Bo", "Calmer.");
   rig.history->add_comment(rig.run, "Di", "Fine.");
-  rig.now = 1'000'000'000;  // in Unix time; 2001-09-09 in UTC
+  rig.now = 1'000'000'000;  // Unix time; this is 2001-09-09 in UTC
   CHECK(rig.history->edit_comment(first, "Much calmer."));
   CHECK(rig.history->edit_comment(first, "Very calm."));
   History other(rig.file);

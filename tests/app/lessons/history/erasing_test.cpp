@@ -1,5 +1,5 @@
-// Erasing a learner removes every byte of her data from the file. If that fails (readers, full disk, killed program),
-// it is reported and can be repeated later.
+// Erasing a learner removes every byte of her data from the file. If erasing fails (readers, full disk, killed
+// program), the failure is reported and the user can finish it later.
 #include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -72,7 +72,7 @@ TEST_CASE("while a second program reads, erased data stays in the log: this is r
     CHECK(is_one_sentence(left));
     CHECK(left.find("another program") != std::string::npos);
     CHECK(removed == std::vector<std::string>{"a.trace"});
-    CHECK(erasing.holds_secret());  // her data is still in the log
+    CHECK(erasing.holds_secret());  // Zebediah's data is still in the write-ahead log
     CHECK_FALSE(history.find_learner("Zebediah").has_value());
     CHECK(history.erasure_is_pending());
     CHECK(is_one_sentence(history.finish_erasure()));
@@ -95,13 +95,12 @@ TEST_CASE("on a full disk either nothing is erased, or erased data stays in the 
     CHECK_THROWS_WITH_AS((void)history.erase_learner(erasing.zeb, [](const auto&) {}),
                          doctest::Contains("the disk is full, so only the recordings were deleted"), HistoryFull);
     disk_is_full = false;
-    REQUIRE(history.find_learner("Zebediah").has_value());  // must remain, to be erased later
+    REQUIRE(history.find_learner("Zebediah").has_value());  // the learner must remain, so that she can be erased later
     // Adds 4 MB of data for a different learner.
     const std::int64_t session = history.begin_session(history.find_or_add_learner("Bob"), "1.0");
     for (int i = 0; i < 4; ++i) history.add_settings(session, std::string(1'000'000, 'x'));
   }
-  // With a file size limit of 2 MB there is room for the transaction, but not for the new copy of the file that VACUUM
-  // makes.
+  // The file size limit of 2 MB leaves room for the transaction, but not for the copy of the file that VACUUM makes.
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);

@@ -1,4 +1,4 @@
-// Invalid numbers (NaN, infinity, out of range), which a bug or a different program may write into the file.
+// Invalid numbers in the history (NaN, infinity, out of range), which a bug or a different program may have written.
 #include <sqlite3.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ void write_by_hand(const std::filesystem::path& file, const std::string& text) {
 
 void check_can_be(double value) {
   CHECK(std::isfinite(value));
-  CHECK(std::abs(value) <= 1e9);  // small enough to fit into an int
+  CHECK(std::abs(value) <= 1e9);  // so that it fits into an int
 }
 
 void check_can_be(const LessonResult& result) {

@@ -1,4 +1,4 @@
-// Data is read back unchanged through a second connection, and a file that must not be used is left untouched.
+// A second connection reads back exactly what was written. A file that is not a usable history is left unchanged.
 #include "app/lessons/history/history.h"
 
 #include <sys/stat.h>
@@ -156,8 +156,7 @@ TEST_CASE("a run that never ended is listed as running, with the shifts so far")
   CHECK(runs[0].result.shifts.size() == 3);
 }
 
-// Invariant: once add_shift() has returned, the shift stays in the file, even if the process is killed at any time
-// later.
+// Invariant: once add_shift() has returned, the shift stays in the file, even if the process is killed afterwards.
 TEST_CASE("killed at a random time, a program loses no reported shift, and the file stays intact: 50 times") {
   const TempFolder folder;
   const auto file = folder / "history.db";
@@ -185,7 +184,7 @@ TEST_CASE("killed at a random time, a program loses no reported shift, and the f
     for (char c = 0; reported < enough && read(shift_pipe[0], &c, 1) == 1;) ++reported;
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    // One byte per shift that the child reported before it was killed.
+    // The child has written one byte per reported shift. This counts the bytes that were still unread.
     for (char c = 0; read(shift_pipe[0], &c, 1) == 1;) ++reported;
     close(shift_pipe[0]);
 
@@ -240,12 +239,12 @@ TEST_CASE("a damaged, foreign or newer file is rejected in one sentence and not 
     const bool is = is_refused(file, with);
     return is && bytes_of(file) == bytes;
   };
-  CHECK_FALSE(refused(intact, ""));  // control: the undamaged file is accepted
-  CHECK(refused("learner,grade\nAda,7\n" + std::string(4096, ' '), "the file is unchanged"));
+  CHECK_FALSE(refused(intact, ""));  // the undamaged file is accepted
+  CHECK(refused("learner,grade\nAda,7\n" + std::string(4096, ' '), "nothing was changed"));
   std::string foreign = intact, newer = intact;
-  foreign[71] ^= 1;  // application ID at offset 68, version at 60: sqlite.org/fileformat2.html, 1.3
+  foreign[71] ^= 1;  // bytes 68 to 71: application ID; 60 to 63: version (sqlite.org/fileformat2.html, section 1.3)
   newer[63] = kSchemaVersion + 1;
-  CHECK(refused(foreign, "not a history of this program"));
+  CHECK(refused(foreign, "not a gearshift history"));
   CHECK(refused(newer, "newer version of gearshift"));
   CHECK(refused(intact.substr(0, intact.size() / 2), "damaged"));
   std::string torn = intact;
@@ -278,14 +277,14 @@ TEST_CASE("a file with random bytes changed is rejected or readable, and never c
 TEST_CASE("a folder in place of the file, or an impossible path, is rejected in one sentence") {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "history.db");
-  CHECK(is_refused(folder / "history.db", "it is a folder"));
+  CHECK(is_refused(folder / "history.db", "this is a folder"));
   write_bytes(folder / "plain", "");
   CHECK(is_refused(folder / "plain/history.db", "folder"));
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
-  CHECK(is_refused(folder / "pipe", "it is not a regular file"));
+  CHECK(is_refused(folder / "pipe", "this is not a regular file"));
 }
 
-// Runs in a process without root's rights, because root can always write.
+// The test runs in a process without root's rights, because root can always write.
 TEST_CASE("a read-only file is rejected in one sentence") {
   const TempFolder folder;
   const auto file = folder / "history.db";
@@ -300,7 +299,8 @@ TEST_CASE("a read-only file is rejected in one sentence") {
       history.find_or_add_learner("Bob");
       _exit(3);
     } catch (const HistoryError& problem) {
-      _exit(std::string(problem.what()).find("you have no permission to write to it") != std::string::npos ? 0 : 4);
+      _exit(std::string(problem.what()).find("you have no permission to write to the file") != std::string::npos ? 0
+                                                                                                                 : 4);
     }
   }
   int status = -1;

@@ -1,5 +1,5 @@
-// Opening the history at bad times: while many processes create it at once, with files left by a killed program, and
-// with files of impossible content.
+// Opening the history in difficult cases: many processes create it at once, a killed program left files behind, or the
+// files have invalid content.
 #include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,8 +28,7 @@ std::string all_bytes(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Runs `work` in a child process, which then exits without closing anything. The exit status is 0 if nothing was
-// thrown.
+// Runs `work` in a child process that exits without closing anything. Its exit status is 0 if `work` threw nothing.
 template <class Work>
 pid_t in_another_program(const Work& work) {
   const pid_t child = fork();
@@ -62,7 +61,7 @@ TEST_CASE("many programs create one file at the same time, and all of them can u
       programs.push_back(in_another_program([&] {
         close(start[1]);
         char c = 0;
-        (void)!read(start[0], &c, 1);  // until the parent closes the pipe
+        (void)!read(start[0], &c, 1);  // returns when the parent closes the pipe
         History history(folder / "history.db");
         history.find_or_add_learner(std::to_string(i));
       }));
@@ -82,7 +81,7 @@ TEST_CASE("a file of a newer version, left with its log by a killed program, is 
   REQUIRE(exits_cleanly(in_another_program([&] {
     auto* left_open = new History(file);
     left_open->find_or_add_learner("Ada");
-    _exit(0);  // leaves the database open
+    _exit(0);  // exits with the database still open
   })));
   sqlite3* newer = nullptr;
   REQUIRE(sqlite3_open(file.c_str(), &newer) == SQLITE_OK);
@@ -92,7 +91,7 @@ TEST_CASE("a file of a newer version, left with its log by a killed program, is 
   sqlite3_close(newer);
   const std::string before = all_bytes(file), logged = all_bytes(log);
   REQUIRE(!logged.empty());
-  CHECK_THROWS_WITH_AS(History{file}, doctest::Contains("it was written by a newer version of gearshift"),
+  CHECK_THROWS_WITH_AS(History{file}, doctest::Contains("the file was written by a newer version of gearshift"),
                        HistoryError);
   CHECK(all_bytes(file) == before);
   CHECK(all_bytes(log) == logged);
@@ -134,11 +133,11 @@ TEST_CASE("a version 1 file is upgraded with all its data") {
             .erase_learner(ada->id,
                            [](const auto& recordings) { CHECK(recordings == std::vector<std::string>{"a.trace"}); })
             .empty());
-  CHECK(history.comments(7).empty());  // deleting a row also deletes its dependent rows
+  CHECK(history.comments(7).empty());  // the comments were deleted together with the learner
   CHECK(history.find_or_add_learner("Ada") == 4);
 }
 
-// Invariant: data is written only to the file that was opened, and only while it has the version that it had then.
+// Invariant: data is written only to the file that was opened, and only while the file's version is unchanged.
 TEST_CASE(
     "a file upgraded by a newer program, or removed, while it is open: rejected in one sentence, and not written") {
   const TempFolder folder;
@@ -154,17 +153,17 @@ TEST_CASE(
   };
   set_version(kSchemaVersion + 1);
   CHECK_THROWS_WITH_AS(history.find_or_add_learner("Bob"),
-                       doctest::Contains("a newer version of gearshift has upgraded it"), HistoryError);
+                       doctest::Contains("a newer version of gearshift has upgraded the file"), HistoryError);
   CHECK_THROWS_AS(history.begin_session(ada, "1.0"), HistoryError);
   set_version(kSchemaVersion);
   history.find_or_add_learner("Bob");
   CHECK(history.learners().size() == 2);
 
   std::filesystem::rename(file, folder / "elsewhere.db");
-  CHECK_THROWS_WITH_AS(history.find_or_add_learner("Cy"), doctest::Contains("it was removed"), HistoryError);
+  CHECK_THROWS_WITH_AS(history.find_or_add_learner("Cy"), doctest::Contains("the file was removed"), HistoryError);
   CHECK_FALSE(std::filesystem::exists(file));
   std::ofstream(file) << "another one";
-  CHECK_THROWS_WITH_AS(history.find_or_add_learner("Cy"), doctest::Contains("it was removed or replaced"),
+  CHECK_THROWS_WITH_AS(history.find_or_add_learner("Cy"), doctest::Contains("the file was removed or replaced"),
                        HistoryError);
   std::filesystem::rename(folder / "elsewhere.db", file);
   history.find_or_add_learner("Cy");
@@ -176,7 +175,7 @@ TEST_CASE("dates come from the given clock") {
   std::int64_t now = 0;
   History history(folder / "history.db", [&] { return now; });
   const std::int64_t ada = history.find_or_add_learner("Ada");
-  now = 1'000'000'000;  // in Unix time; 2001-09-09 01:46:40 UTC
+  now = 1'000'000'000;  // Unix time of 2001-09-09 01:46:40 UTC
   history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
   CHECK(history.learners().at(0).made_at == "1970-01-01T00:00:00Z");
   CHECK(history.runs(ada).at(0).begun_at == "2001-09-09T01:46:40Z");
@@ -214,8 +213,8 @@ TEST_CASE("data of a learner who was erased in the meantime is rejected, and is 
   CHECK(instructor.runs(bob)[0].result.end == LessonEnd::running);
 }
 
-// Invariant: only a file made by this program, with a version that it knows, is used as a history. Any other file stays
-// unchanged, byte for byte.
+// Invariant: only a file that this program made, with a version that it knows, is used as a history. Any other file
+// stays unchanged, byte for byte.
 TEST_CASE("a file of an unknown version or of a different program, empty or not, is rejected and not changed") {
   const TempFolder folder;
   const auto good = folder / "good.db", file = folder / "history.db";
@@ -229,12 +228,12 @@ TEST_CASE("a file of an unknown version or of a different program, empty or not,
     } catch (const HistoryError& problem) {
       const std::string message = problem.what();
       CAPTURE(message);
-      CHECK(message.find("the file is unchanged") != std::string::npos);
+      CHECK(message.find("nothing was changed") != std::string::npos);
       CHECK(message.find('\n') == std::string::npos);
       return all_bytes(file) == bytes;
     }
   };
-  // The version is at offset 60: sqlite.org/fileformat2.html, 1.3.
+  // Bytes 60 to 63 hold the schema version, which SQLite calls user version (sqlite.org/fileformat2.html, section 1.3).
   const auto with_version = [](std::string bytes, std::int32_t version) {
     for (std::size_t i = 0; i < 4; ++i)
       bytes[60 + i] = static_cast<char>(static_cast<std::uint32_t>(version) >> (24 - 8 * i));

@@ -1,4 +1,5 @@
-// Reading a history needs no write access: read-only files and folders, logs of other programs, older versions.
+// Reading a history needs no write access. Tested with read-only files and folders, write-ahead logs of other programs,
+// and files of older schema versions.
 #include <sqlite3.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -34,7 +35,7 @@ History read_only(const fs::path& file) {
   return History(file, system_seconds, kHistoryLockTimeout, HistoryUse::read);
 }
 
-// A read-only folder that contains a history. The destructor makes it writable, so that it can be removed.
+// A read-only folder that contains a history. The destructor makes the folder writable, so that it can be removed.
 struct ReadOnlyFolder {
   TempFolder folder;
   fs::path place = folder / "sealed", file = place / "history.db";
@@ -68,8 +69,8 @@ void write_one(const fs::path& file) {
   history.add_comment(run, "Bo", "Calmer.");
 }
 
-// Runs `work` in a child process without root's rights, because root can always write. Returns its message, or the text
-// of a HistoryError.
+// Runs `work` in a child process without root's rights, because root can always write. Returns the message that `work`
+// returned, or the text of the HistoryError that it threw.
 std::string without_permission(const std::function<std::string()>& work) {
   int message_pipe[2];
   REQUIRE(pipe(message_pipe) == 0);
@@ -110,12 +111,12 @@ TEST_CASE("a read-only history in a read-only folder is read completely and stay
   const auto before = sealed.bytes();
   REQUIRE(before.size() == 1);
   CHECK(without_permission([&] { return check_readable(read_only(sealed.file)); }) == "");
-  // A history opened for reading is not written, even if that is permitted.
+  // A history that was opened for reading is not written, even if the file permits writing.
   CHECK(check_readable(read_only(sealed.file)) == "");
   CHECK(sealed.bytes() == before);
 }
 
-// Invariant: opening a read-only history creates no log next to it. Such a log would be read-only for other programs
+// Invariant: opening a read-only history creates no log file, because that file would be read-only for other programs
 // too.
 TEST_CASE("a read-only history in a writable folder can be read, and written again later") {
   const TempFolder folder;
@@ -130,18 +131,19 @@ TEST_CASE("a read-only history in a writable folder can be read, and written aga
     return std::string();
   };
   const std::string message = without_permission(write);
-  CHECK(message == file.string() + ": the history cannot be used because you have no permission to write to it");
+  CHECK(message == file.string() + ": the history cannot be used because you have no permission to write to the file");
   CHECK(without_permission([&] { return check_readable(read_only(file)); }) == "");
   CHECK(std::distance(fs::directory_iterator(place), {}) == 1);
   fs::permissions(file, fs::perms(0666));
   CHECK(without_permission(write) == "");
 
-  // An older program may have left this file. The error message names it.
+  // An older program may have left this read-only file behind. The error message must name the file.
   std::ofstream(place / "history.db-shm") << "";
   fs::permissions(place / "history.db-shm", fs::perms(0444));
-  CHECK(without_permission(write) ==
-        file.string() +
-            ": the history cannot be used because you have no permission to write to history.db-shm beside it");
+  CHECK(
+      without_permission(write) ==
+      file.string() +
+          ": the history cannot be used because you have no permission to write to history.db-shm in the same folder");
 }
 
 TEST_CASE("a file name with a special meaning in a URI is used as an ordinary name") {
@@ -159,7 +161,7 @@ TEST_CASE("a file name with a special meaning in a URI is used as an ordinary na
   }
 }
 
-// Data that a killed program wrote but did not checkpoint is only in the log.
+// If a program was killed before a checkpoint, its last data is only in the write-ahead log.
 TEST_CASE("a log with its index is read; a log without its index is reported") {
   const auto killed = [](const fs::path& file) {
     const pid_t child = fork();
@@ -184,7 +186,8 @@ TEST_CASE("a log with its index is read; a log without its index is reported") {
     fs::remove(file.string() + "-shm");
   });
   const std::string message = without_permission([&] { return check_readable(read_only(without.file)); });
-  CHECK(message.find(without.file.string() + ": the history cannot be used because it has a write-ahead log") == 0);
+  CHECK(message.find(without.file.string() + ": the history cannot be used because the file has a write-ahead log") ==
+        0);
   CHECK(is_printable(message));
 }
 
@@ -214,9 +217,9 @@ TEST_CASE("a history opened for reading rejects writes and locks out no other pr
   const auto file = folder / "history.db";
   write_one(file);
   History copy = read_only(file), writer(file);
-  CHECK_THROWS_WITH_AS(copy.find_or_add_learner("Bob"), doctest::Contains("it is read-only"), HistoryError);
+  CHECK_THROWS_WITH_AS(copy.find_or_add_learner("Bob"), doctest::Contains("the file is read-only"), HistoryError);
   CHECK(writer.erase_learner(writer.find_learner("Ada")->id, [](const auto&) {}).empty());
-  CHECK(check_readable(std::move(copy)) == "");  // the reader still sees the old state
+  CHECK(check_readable(std::move(copy)) == "");  // the reader still gets the state before the deletion
   CHECK(read_only(file).learners().empty());
 }
 
@@ -226,7 +229,7 @@ TEST_CASE("a history can be read on a full disk") {
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit none{0, 0};  // [bytes] no file can grow
+    const rlimit none{0, 0};  // [bytes] limit of the file size; no file can grow
     setrlimit(RLIMIT_FSIZE, &none);
     std::string message;
     try {
@@ -251,7 +254,7 @@ TEST_CASE("an unreadable file is rejected in one sentence, and no file is create
   };
   CHECK(refused(folder / "none.db"));
   CHECK(refused(folder.path()));
-  CHECK_THROWS_WITH_AS((void)read_only(folder.path()), doctest::Contains("it is a folder"), HistoryError);
+  CHECK_THROWS_WITH_AS((void)read_only(folder.path()), doctest::Contains("this is a folder"), HistoryError);
   std::ofstream(folder / "letter.db") << "Dear Ada" << std::string(4096, ' ');
   CHECK(refused(folder / "letter.db"));
   write_one(folder / "secret.db");

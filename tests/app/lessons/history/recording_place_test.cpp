@@ -1,4 +1,4 @@
-// A recording's path is relative to the history's folder, so that both can be moved or copied together.
+// A recording's path is relative to the history's folder, so the user can move or copy history and recordings together.
 #include <sqlite3.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The check of text that a user typed. Ambiguous or invisible text is rejected with a reason in one sentence.
+// The check of text that a user typed. Ambiguous or invisible text is rejected, with the reason in one sentence.
 #include "app/lessons/history/user_text.h"
 
 #include <stdexcept>
@@ -25,7 +25,7 @@ std::string comment_problem(const std::string& text) {
   return user_text_problem(UserText::comment, "a comment", text);
 }
 
-// UTF-8 encoder, written from table 3-6 of the Unicode standard.
+// A UTF-8 encoder written from table 3-6 of the Unicode standard.
 std::string utf8(unsigned point) {
   const auto tail = [&](unsigned shift) { return static_cast<char>(0x80 | ((point >> shift) & 0x3f)); };
   if (point < 0x80) return {static_cast<char>(point)};

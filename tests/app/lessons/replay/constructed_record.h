@@ -7,8 +7,8 @@
 
 namespace gearshift::test {
 
-// A good shift from 2 to 3 that begins at `at` [s]. The clutch is down 0.10 s before the lever moves, the gear is in
-// 0.25 s later, and the clutch is up another 0.15 s later.
+// A good shift from 2 to 3 that begins at `at` [s]. The clutch is down 0.10 s before the lever moves, the gear engages
+// 0.25 s later, and the clutch is up after another 0.15 s.
 inline lessons::ShiftRecord good_shift(std::int64_t number, double at) {
   lessons::ShiftRecord shift;
   shift.number = number;

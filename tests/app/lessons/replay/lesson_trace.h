@@ -1,5 +1,5 @@
-// A lesson driven by a simulated driver. It was recorded and also observed live, so that tests can compare a replay
-// with it.
+// A lesson driven by a simulated driver. The drive was recorded and also observed live, so that tests can compare the
+// replay with the live samples.
 #pragma once
 
 #include <filesystem>
@@ -25,11 +25,11 @@ struct LessonTrace {
 
   TempFolder folder;
   std::filesystem::path file;
-  std::vector<vehicle::DriveSample> live;  // every cycle, as observed live
+  std::vector<vehicle::DriveSample> live;  // every cycle of the live drive
   lessons::LessonResult result;
 };
 
-// One trace that is shared by all tests that only read it.
+// One trace, shared by all tests that only read it.
 inline const LessonTrace& upshifts() {
   static const LessonTrace trace("up_through_the_gears");
   return trace;

@@ -1,4 +1,5 @@
-// Playing a recorded drive: time, pace and ends, and that every sample is passed exactly once.
+// Playing a recorded drive: time, pace, and where playback starts and stops. Playing forwards returns every sample
+// exactly once; samples skipped by a jump are not returned.
 #include "app/lessons/replay/player.h"
 
 #include <algorithm>
@@ -20,8 +21,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// Plays in frames of random length to the end, and checks that each sample is passed once, in order, from the shown one
-// on.
+// Plays to the end in frames of random length. Checks that playback returns each sample once and in order, beginning
+// with the sample that is shown now.
 void check_passes_all(Player& player, std::mt19937& random) {
   std::uniform_real_distribution<double> frame(1e-4, 0.2);
   const DriveSample* next = &player.now();
@@ -70,7 +71,7 @@ TEST_CASE("a replay begins where requested, and never outside the drive") {
     CHECK(player.is_playing());
   }
   for (const double beyond : {-0.001, length + 0.001, kNan})
-    CHECK_THROWS_WITH_AS(player.start_at(beyond), doctest::Contains("is not within the drive"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(player.start_at(beyond), doctest::Contains("is outside the drive"), std::invalid_argument);
   CHECK(player.time() == begin + 0.5 * length);
 }
 

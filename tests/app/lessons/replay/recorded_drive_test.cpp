@@ -1,4 +1,4 @@
-// A replay equals the drive: lever and pedals come from the file, the car equals the live car, and the shifts equal
+// A replay equals the drive: lever and pedals are read from the file, the car equals the live car, and the shifts equal
 // those that the lesson recorded.
 #include "app/lessons/replay/recorded_drive.h"
 
@@ -69,8 +69,8 @@ const DriveSample& live_at(const LessonTrace& trace, double time) {
   return after == trace.live.begin() ? trace.live.front() : *(after - 1);
 }
 
-// Writes a drive of `count` cycles without a car. The lever rests, the gear changes in the middle, and the clutch
-// alternates from cycle to cycle.
+// Writes a drive of `count` cycles without a car. The lever rests, the gear changes after half of the cycles, and the
+// clutch alternates from cycle to cycle.
 void write_carless(const std::filesystem::path& file, std::size_t count, const std::string& load = "none",
                    std::uint64_t first_cycle = 0) {
   TraceHeader header;
@@ -144,7 +144,8 @@ TEST_CASE("a shift's path leads from the old gear to the new one, and is at leas
       CHECK(glm::distance(shift.driven[i - 1], shift.driven[i]) >= LeverPath::kChord);
     CHECK(shift.ideal == shortest_path(drive.gate(), shift.driven.front(), shift.driven.back()));
     CHECK(length_of(shift.driven) > 0.99 * length_of(shift.ideal));
-    // The record measures the path of the hand, from a little earlier on, so the lengths agree only roughly.
+    // `path_length` is measured along the hand's path and starts a little earlier than `driven`, which is the displayed
+    // lever's path. So the two lengths agree only roughly.
     CHECK(length_of(shift.driven) == doctest::Approx(record.path_length).epsilon(0.25));
   }
 }
@@ -272,7 +273,8 @@ TEST_CASE("an unusable file is rejected in one sentence that names it") {
   CHECK(refusal(folder / "car.trace").find("bad.toml") != std::string::npos);
 }
 
-// Values from the loop and the user's controls are always finite. A device reading may be NaN.
+// The loop writes only finite outputs and controls, so a non-finite one means that the file is damaged. Readings from a
+// device may be NaN even in an intact file.
 TEST_CASE("a non-finite output or pedal is reported as damage with its cycle; a non-finite reading is accepted") {
   const LessonTrace& lesson = upshifts();
   const TempFolder folder;

@@ -1,4 +1,4 @@
-// The shifts that the report shows in detail.
+// Tests which shifts the report shows in detail.
 #include "app/lessons/report/chosen_shifts.h"
 
 #include <functional>
@@ -28,7 +28,7 @@ TEST_CASE("at most three worst (by points) and three best (by time) shifts, from
   spoil(4, 9.0);
   history.runs[4].row.result.guided = true;
   history.runs[5].row.result.shifts[1].end -= 0.1;
-  history.runs[0].row.result.shifts[1].from = kNeutralGear;  // the quickest shift, but out of neutral
+  history.runs[0].row.result.shifts[1].from = kNeutralGear;  // the quickest shift, but it starts in neutral
   history.runs[0].row.result.shifts[1].end -= 0.3;
   history.runs[5].row.result.shifts[0].missed = true;
   const ChosenShifts chosen = choose_shifts(history);
@@ -36,7 +36,7 @@ TEST_CASE("at most three worst (by points) and three best (by time) shifts, from
   CHECK(chosen.worst[0].run == 2);
   CHECK(chosen.worst[0].points == 4.0);
   CHECK(chosen.worst[0].errors.size() == 1);
-  CHECK(chosen.worst[1].run == 4);  // of two shifts with equal points, the later comes first
+  CHECK(chosen.worst[1].run == 4);  // of two shifts that cost equal points, the later comes first
   CHECK(chosen.worst[2].run == 3);
   REQUIRE(chosen.best.size() == 3);
   CHECK(chosen.best[0].run == 6);
@@ -66,7 +66,7 @@ TEST_CASE("the best shifts are the quickest without an error, even in a run that
     history.runs = {run_with(1, 1, 10.0), run_with(2, 1, 10.0)};
     LessonResult& quick = history.runs[1].row.result;
     quick.shifts[0].end -= 0.2;
-    quick.shifts[0].block_time = 0.3;  // synchronising normally is no block
+    quick.shifts[0].block_time = 0.3;  // normal synchronising time is not a block
     REQUIRE(choose_shifts(history).best.size() == 2);
     CHECK(choose_shifts(history).best[0].run == 2);
     each.second(quick);

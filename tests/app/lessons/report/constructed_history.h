@@ -13,7 +13,8 @@ inline std::string two_digits(std::int64_t number) {
   return (number < 10 ? "0" : "") + std::to_string(number);
 }
 
-// A graded run of the lesson "drill" for the task "upshift". Each run is on its own day, given by `id`.
+// A graded run of the lesson "drill" for the task "upshift". Its number `id` also sets its day, so each run has its own
+// day.
 inline lessons::ReportedRun run_with(std::int64_t id, int shifts, double grade) {
   lessons::ReportedRun run;
   run.row.id = id;

@@ -1,5 +1,5 @@
-// Deleting a learner removes rows, recordings and every byte of the name. Other learners' data stays, and so do files
-// that are not recordings.
+// Tests that deleting a learner removes the learner's rows, recordings and every byte of the name. Data of other
+// learners stays, as do files that are not recordings.
 #include "app/lessons/report/delete_learner.h"
 
 #include <sqlite3.h>
@@ -93,7 +93,7 @@ TEST_CASE(
   const DeletionReport report = delete_learner(history, *history.find_learner("Zebediah"));
   CHECK(report.recordings.size() == 1);
   CHECK_FALSE(std::filesystem::exists(folder / "own.trace"));
-  CHECK(report.remaining_data.find("another program is reading it") != std::string::npos);
+  CHECK(report.remaining_data.find("another program is reading the file") != std::string::npos);
   sqlite3_close(reader);
   CHECK(history.finish_erasure().empty());
 }

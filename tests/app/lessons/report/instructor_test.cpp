@@ -1,4 +1,4 @@
-// The instructor's comments, addressed by number, and the report, which shows their last text.
+// Tests that the instructor addresses comments by their numbers, and that the report shows each comment's latest text.
 #include "app/lessons/report/instructor.h"
 
 #include <stdexcept>
@@ -36,14 +36,14 @@ TEST_CASE(
   CHECK(comment_cell().find("Zymurgic.") == std::string::npos);
 
   CHECK_THROWS_WITH_AS(comment_on_run(history, ada, run[1], "Bo", "No."),
-                       "run 2 does not belong to Ada; runs that do: 1", std::runtime_error);
+                       "run 2 does not belong to Ada, who has these runs: 1", std::runtime_error);
   CHECK_THROWS_WITH_AS(edit_comment(history, bob, comment, "No."),
-                       "comment 1 does not belong to Bob; comments that do: none", std::runtime_error);
+                       "comment 1 does not belong to Bob, who has these comments: none", std::runtime_error);
   CHECK_THROWS_AS(delete_comment(history, bob, comment), std::runtime_error);
   CHECK_THROWS_AS(edit_comment(history, ada, comment, "No. "), std::invalid_argument);
   CHECK(comment_cell().find("Quincunx.") != std::string::npos);
   delete_comment(history, ada, comment);
   CHECK(comment_cell().find("Quincunx.") == std::string::npos);
   CHECK_THROWS_WITH_AS(delete_comment(history, ada, comment),
-                       "comment 1 does not belong to Ada; comments that do: none", std::runtime_error);
+                       "comment 1 does not belong to Ada, who has these comments: none", std::runtime_error);
 }

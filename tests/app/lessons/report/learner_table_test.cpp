@@ -23,7 +23,7 @@ TEST_CASE("the table has one line per learner: sessions, runs, last day and next
         "learner      sessions  runs  last day    next lesson\n"
         "Ada                 2     3  2026-01-04  reverse\n"
         "Bo ?[31mred         0     0  -           reverse (chosen by the instructor)\n");
-  learners[1].learner.next_lesson = "lessons/reverse.toml";  // not a lesson that the coach offers
+  learners[1].learner.next_lesson = "lessons/reverse.toml";  // ignored: the coach does not offer this lesson
   CHECK(learner_table(learners, lessons).find("instructor") == std::string::npos);
   CHECK(run_table(learners[0]).find("    3  2026-01-04  drill                     do it yourself    9.0  passed\n") !=
         std::string::npos);

@@ -1,4 +1,4 @@
-// Reads parts of a report page: table cells, and text without markup. It supports only the HTML that these pages use.
+// Reads parts of a report page: table cells, and text without markup. Supports only the HTML that report pages contain.
 #pragma once
 
 #include <string>
@@ -30,8 +30,8 @@ inline std::string without_markup(std::string_view html) {
   return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
 }
 
-// The text between the first `begin` at or after position `from` and the next `end`. Moves `from` behind that `end`; it
-// is npos if there is none.
+// The text between the first `begin` at or after position `from` and the next `end`. Sets `from` to the position behind
+// that `end`, or to npos if nothing was found.
 inline std::string_view between(std::string_view page, std::string_view begin, std::string_view end,
                                 std::size_t& from) {
   const std::size_t a = page.find(begin, from);
@@ -54,7 +54,7 @@ inline std::string text_of_id(std::string_view page, const std::string& id) {
   return without_markup(element.substr(element.find('>') + 1));
 }
 
-// The texts of the cells in each body row of the first table with this class.
+// The texts of the cells in each body row of the first table with the class `name`.
 inline std::vector<std::vector<std::string>> table_of(std::string_view page, const std::string& name) {
   const std::string_view body =
       between(between(page, "<table class=\"" + name + "\">", "</table>"), "<tbody>", "</tbody>");
@@ -71,7 +71,7 @@ inline std::vector<std::vector<std::string>> table_of(std::string_view page, con
   }
 }
 
-// The tags in the order in which they are opened, which shows the markup independently of the text.
+// The opening tags in order. They show the markup without the text.
 inline std::vector<std::string> tags_of(std::string_view page) {
   std::vector<std::string> tags;
   for (std::size_t at = 0; (at = page.find('<', at)) != std::string_view::npos; ++at) {

@@ -1,4 +1,4 @@
-// The tables, parsed by an independent reader, contain the data that was written.
+// Tests that an independent parser finds the written data in the tables.
 #include "app/lessons/report/report_csv.h"
 
 #include <cmath>
@@ -19,8 +19,8 @@ using namespace gearshift::test;
 
 namespace {
 
-// A strict parser of RFC 4180, section 2: records end with CRLF, all records have the same number of fields, and quotes
-// are only in quoted fields.
+// A strict parser of RFC 4180, section 2: records end with CRLF and have equally many fields, and quotes are only in
+// quoted fields.
 std::vector<std::vector<std::string>> parse(const std::string& text) {
   std::vector<std::vector<std::string>> records(1);
   std::size_t at = 0;
@@ -57,7 +57,7 @@ std::vector<std::vector<std::string>> parse(const std::string& text) {
   return records;
 }
 
-// Record `i` as a map from column names to fields.
+// Record number `i` as a map from column names to fields.
 std::map<std::string, std::string> row(const std::vector<std::vector<std::string>>& records, std::size_t i) {
   std::map<std::string, std::string> fields;
   for (std::size_t c = 0; c < records[0].size(); ++c) fields[records[0][c]] = records[i + 1][c];
@@ -79,7 +79,7 @@ LearnerHistory history_with_everything() {
   return history;
 }
 
-// Whether `field` equals `value` within half of its twelfth digit.
+// Whether `field` equals `value` within half a unit of the twelfth significant digit.
 bool is_read_back(const std::string& field, double value) {
   return std::abs(std::stod(field) - value) <= 5e-12 * std::abs(value);
 }
@@ -111,7 +111,7 @@ TEST_CASE("runs are read back from the table") {
   CHECK(fields["faults"] == "4");
   CHECK(fields["recording"] == "a \"trace\".trace");
   CHECK(fields["comments"] == "Bo, 2026-01-03T00:00:00Z: " + kNasty + "\nDi, 2026-01-04T00:00:00Z: Fine.");
-  CHECK(row(records, 1)["grade"].empty());  // an empty grade, not zero, because the run was guided
+  CHECK(row(records, 1)["grade"].empty());  // the run was guided, so its grade is empty and not zero
 }
 
 TEST_CASE("rounding errors in a time's last bit are not printed, and a small time keeps its digits") {

@@ -1,4 +1,4 @@
-// Writing the page and the tables to a disk that fills up.
+// Tests writing the page and the tables to a disk that fills up.
 #include "app/lessons/report/report_files.h"
 
 #include <sys/resource.h>
@@ -27,7 +27,7 @@ TEST_CASE("without room for the third file, two are complete, and the message na
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{2000, 2000};  // [bytes] maximum size of any file
+    const rlimit small{2000, 2000};  // [bytes] size limit for any file
     setrlimit(RLIMIT_FSIZE, &small);
     int files_written = 0;
     try {

@@ -1,4 +1,5 @@
-// The tables and drawings of the page, parsed, show the data from which it was made. Text from users is shown as text.
+// Parses the page's tables and drawings. They must show the data from which the page was made, and users' text must
+// appear as text, not as markup.
 #include "app/lessons/report/report_page.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ std::string page_of(const LearnerHistory& history) {
 LearnerHistory learner(int runs) {
   LearnerHistory history;
   history.learner.name = "Ada";
-  // The grades are 8 - 5 exp(-n / 4) with an alternating scatter of +- 0.1.
+  // The grade of run i is 8 - 5 exp(-i / 4), with an alternating scatter of +- 0.1.
   for (int i = 0; i < runs; ++i)
     history.runs.push_back(run_with(i + 1, 4, 8.0 - 5.0 * std::exp(-i / 4.0) + (i % 2 == 0 ? 0.1 : -0.1)));
   return history;
@@ -62,7 +63,7 @@ std::vector<std::pair<double, double>> dots_of(std::string_view svg) {
 
 TEST_CASE("the totals of days, sessions, runs, shifts and minutes equal those of the rows") {
   LearnerHistory history = learner(5);
-  history.runs[1].row.begun_at = "2026-01-02T19:00:00Z";  // the day of the first run
+  history.runs[1].row.begun_at = "2026-01-02T19:00:00Z";  // the same day as the first run
   history.runs[0].row.begun_at = "2026-01-02T09:00:00Z";
   history.runs[1].row.session = history.runs[0].row.session;
   history.runs[4].row.result.duration = 90.0;
@@ -83,8 +84,8 @@ TEST_CASE("the next lesson is the instructor's, otherwise the suggested one, wit
   history.learner.next_lesson = "drill";
   const std::string page = page_of(history);
   CHECK(has(page, "Next lesson: <strong>The drill</strong>, chosen by the instructor."));
-  CHECK(has(page, "Going by the grades, the next lesson would be Reverse. You haven't passed Reverse yet."));
-  history.learner.next_lesson = "lessons/reverse.toml";  // not a lesson that the coach offers
+  CHECK(has(page, "Based on the grades, the next lesson would be Reverse. You haven't passed Reverse yet."));
+  history.learner.next_lesson = "lessons/reverse.toml";  // ignored, because the coach does not offer this lesson
   CHECK(has(page_of(history), "Next lesson: <strong>Reverse</strong>. You haven't passed Reverse yet."));
 }
 
@@ -165,7 +166,7 @@ TEST_CASE("a guided, damaged or unfinished run has no grade on the page, neither
   REQUIRE(rows.size() == 11);
   for (std::size_t i = 0; i < 3; ++i) CHECK(rows[i][4] == "–");
   CHECK_FALSE(has(page, "<strong>9.9"));
-  // Control: a graded run does change this section.
+  // Control: a graded run changes this section.
   add([](LessonResult&) {});
   CHECK(section_of(page_of(history), "learning") != before);
 }
@@ -252,7 +253,7 @@ TEST_CASE("tasks with fewer than three graded runs are listed in one row and hav
     return count;
   };
   CHECK(charts(learning) == 1);
-  CHECK(table_of(learning, "tasks").size() == 3);  // all tasks have figures
+  CHECK(table_of(learning, "tasks").size() == 3);  // all three tasks are in the table
   const auto few = table_of(learning, "few");
   REQUIRE(few.size() == 1);
   REQUIRE(few[0].size() == 1);
@@ -260,11 +261,11 @@ TEST_CASE("tasks with fewer than three graded runs are listed in one row and hav
   CHECK(has(few[0][0], "Hill start: 4.5 ( Run 5 )"));
   CHECK_FALSE(has(few[0][0], "Upshift"));
   CHECK(has(learning, "Fewer than 3 graded runs"));
-  add("reverse", 9.0);  // now "reverse" has three graded runs
+  add("reverse", 9.0);  // "reverse" now has three graded runs
   const std::string later = page_of(history);
   CHECK(charts(section_of(later, "learning")) == 2);
   CHECK_FALSE(has(table_of(later, "few")[0][0], "Reverse"));
-  // If every task has too few runs, there is no chart, and no text on how to read one.
+  // If every task has too few runs, the page has no chart, and no text that explains charts.
   const std::string first = page_of(learner(1));
   CHECK(charts(first) == 0);
   CHECK_FALSE(has(first, "A dot is a graded run"));
@@ -284,7 +285,7 @@ TEST_CASE("a step that took too long is named in the lists of runs and weaknesse
   const auto weak = table_of(page, "weaknesses");
   REQUIRE(weak.size() == 1);
   CHECK(has(weak[0][0], "Slow step"));
-  // The newest of these errors.
+  // The table shows the newest error of each kind.
   CHECK(has(weak[0][0], "You took 1.78 s for this step (limit 0.80 s): \"Brake <hard>.\""));
 }
 
@@ -324,7 +325,8 @@ TEST_CASE("the advice for a kind of error appears once, with the run, if the kin
   CHECK_FALSE(has(cell, error_advice(ErrorKind::jerk)));
 }
 
-// How a browser renders these rules was checked by eye. This test only ensures that they stay in the style.
+// A developer has checked in a browser how these rules are rendered. This test only ensures that the rules stay in the
+// style sheet.
 TEST_CASE("the style breaks long words, and does not break a printed shift") {
   const std::string page = page_of(learner(1));
   const std::string_view style = between(page, "<style>", "</style>");
@@ -336,7 +338,7 @@ TEST_CASE("the style breaks long words, and does not break a printed shift") {
 }
 
 TEST_CASE("the counts, points and rates of weaknesses match the rows") {
-  LearnerHistory history = learner(4);  // 4 runs of 4 shifts each: 16 shifts
+  LearnerHistory history = learner(4);  // 4 runs with 4 shifts each: 16 shifts
   LessonResult& result = history.runs[0].row.result;
   result.errors = {{ErrorKind::grind, Severity::minor, 1.0, 1.0, 0}, {ErrorKind::grind, Severity::severe, 1.0, 1.0, 1}};
   result.deductions = {{0, 0.5}, {1, 2.0}};
@@ -344,8 +346,8 @@ TEST_CASE("the counts, points and rates of weaknesses match the rows") {
   REQUIRE(rows.size() == 1);
   CHECK(std::vector<std::string>(rows[0].begin(), rows[0].begin() + 7) ==
         std::vector<std::string>{"Grind  " + std::string(error_advice(ErrorKind::grind)), "", "1", "1", "", "2.5",
-                                 "1.2"});              // per ten shifts: 20 / 16 = 1.25
-  CHECK(rows[0][7].find("5.0") != std::string::npos);  // per ten runs: one of two
+                                 "1.2"});              // two errors in 16 shifts: 1.25 per ten shifts, shown as 1.2
+  CHECK(rows[0][7].find("5.0") != std::string::npos);  // earlier half: one of 2 runs, 5.0 per ten runs
   CHECK(rows[0][8] == "no clear change");
 }
 
@@ -427,7 +429,7 @@ TEST_CASE("names, comments and reasons that contain markup are shown as text: th
   const std::string page = page_of(hostile);
   CHECK(tags_of(page) == tags_of(page_of(plain)));
   const auto rows = table_of(page, "runs");
-  CHECK(has(rows[1][6], attack));  // all of the text is shown
+  CHECK(has(rows[1][6], attack));  // the page shows the markup in `attack` as text
   CHECK(has(rows[1][5], attack));
 }
 

@@ -1,4 +1,4 @@
-// The runs that show retention, found only by the times of the runs.
+// Tests which runs show how much a learner retained. They are selected only by their times.
 #include "app/lessons/report/retention.h"
 
 #include <utility>

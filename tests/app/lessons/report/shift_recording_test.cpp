@@ -1,4 +1,4 @@
-// A shift found in a trace, and its drawing: force and path equal the recorded ones.
+// Tests that a shift is found in a recording and drawn, with the recorded force and path.
 #include "app/lessons/report/shift_recording.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-// Writes a trace of 10 s that starts at 100 s. The hand pushes with a sawtooth of 1 N/s, and with 44 N in one cycle;
-// the lever moves forward at 1 mm/s.
+// Writes a recording of 10 s that starts at 100 s. The hand's force is a sawtooth that rises by 1 N/s, except for one
+// cycle with 44 N; the lever moves forward at 1 mm/s.
 void write_sawtooth(const std::filesystem::path& file) {
   TraceHeader header;
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
@@ -107,8 +107,8 @@ TEST_CASE("engine, shaft and gear equal the drive's in every cycle; the ideal pa
   }
 }
 
-// Invariant: the durations of the clutch presses in the recording add up to the clutch time that the meter measured
-// during the lesson.
+// Invariant: the total duration of the clutch presses found in the recording equals the clutch time that the meter
+// measured in the lesson.
 TEST_CASE("the clutch presses match the shift's record in number and total length") {
   const LessonTrace& trace = upshifts();
   for (const ShiftRecord& record : trace.result.shifts) {
@@ -121,7 +121,7 @@ TEST_CASE("the clutch presses match the shift's record in number and total lengt
   }
   const TempFolder folder;
   write_sawtooth(folder / "a.trace");
-  // Without a car there is no bite point, so presses are unknown.
+  // Without a car there is no bite point, so clutch presses are unknown.
   CHECK(read_shift(folder / "a.trace", shift_at(104.1)).presses.empty());
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("the drawing keeps the single cycle with the hardest push") {
     return top;
   };
   const double with = highest();
-  // On a scale up to 50 N, 44 N are 12 % of the box's height below its top.
+  // The scale ends at 50 N, so a force of 44 N is drawn 12 % of the box's height below its top.
   CHECK(with == doctest::Approx(28.0 + 150.0 * 6.0 / 50.0).epsilon(1e-3));
   for (RecordedCycle& cycle : shift.cycles) cycle.force = std::min(cycle.force, 1.0);
   CHECK(highest() > with + 50.0);

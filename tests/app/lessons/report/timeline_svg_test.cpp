@@ -1,4 +1,4 @@
-// The lengths and positions of the bars match the shift's times.
+// Tests that the timeline's bars have the lengths and positions that the shift's times require.
 #include "app/lessons/report/timeline_svg.h"
 
 #include <doctest/doctest.h>
@@ -80,7 +80,7 @@ TEST_CASE("a minute with the clutch down does not compress the other bars: the a
   CHECK(clutch[0].width / clutch[1].width == doctest::Approx(8.0 / 0.5).epsilon(1e-3));
 }
 
-// The lever moves for 0.35 s from 0.10 s on. The pedal is down from 0 to 0.2 s and from 0.3 to 0.4 s.
+// The lever moves from 0.10 s to 0.45 s. The pedal is down from 0 to 0.2 s and from 0.3 to 0.4 s.
 TEST_CASE(
     "a clutch pressed twice is drawn as recorded, with red between the presses; without a recording nothing is red") {
   ShiftRecord twice = good_shift(0, 40.0);
@@ -111,7 +111,8 @@ TEST_CASE(
   CHECK(red[0].width / second == doctest::Approx(0.1).epsilon(1e-3));
   CHECK((red[1].x - begin) / second == doctest::Approx(0.4).epsilon(1e-3));
   CHECK(red[1].width / second == doctest::Approx(0.05).epsilon(1e-3));
-  // The tick is where the clutch came up, 0.25 s before the gear was in, and not at the shift's end.
+  // The error's tick must be at 0.2 s, where the clutch came up (0.25 s before the gear was in), and not at the shift's
+  // end.
   std::vector<double> ticks;
   for (std::size_t at = 0;;) {
     const std::string_view line = between(known, "<line ", "/>", at);
@@ -119,7 +120,7 @@ TEST_CASE(
     if (line.find(kRed) != std::string_view::npos)
       ticks.push_back(std::stod(std::string(between(line, "x1=\"", "\""))));
   }
-  REQUIRE(ticks.size() == 2);  // the first tick is the legend's
+  REQUIRE(ticks.size() == 2);  // the first tick is in the legend
   CHECK((ticks[1] - begin) / second == doctest::Approx(0.2).epsilon(1e-3));
   CHECK(known.find("driving error") != std::string::npos);
 }

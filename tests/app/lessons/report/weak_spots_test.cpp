@@ -1,4 +1,4 @@
-// How often an error happens, and whether it becomes rarer, compared with counts by hand.
+// Tests how often an error happens and whether it becomes rarer, against counts made by hand.
 #include "app/lessons/report/weak_spots.h"
 
 #include <cmath>
@@ -21,27 +21,28 @@ Trend trend(std::vector<LessonHalves> lessons) {
 }  // namespace
 
 TEST_CASE("a trend is reported if it would occur by chance with a probability below one in twenty") {
-  // n of 2n runs have the error, all in the same half. The probability of that by chance is 1/C(2n, n), with C = 6, 20,
-  // 70 for n = 2, 3, 4.
+  // Of 2n runs, n have the error, all in one half. The probability that chance puts all n into this half is 1/C(2n, n),
+  // where C(2n, n) = 6, 20, 70 for n = 2, 3, 4.
   CHECK(trend({{3, 3, 0}}) == Trend::unclear);  // 1/20 is not below one in twenty
   CHECK(trend({{4, 4, 0}}) == Trend::falling);
   CHECK(trend({{4, 0, 4}}) == Trend::rising);
-  // k of 40 runs have the error, all in the same half. The probability is 20/40 19/39 ... (k factors): 0.0530 for k =
-  // 4, and 0.0236 for k = 5.
+  // Of 40 runs, k have the error, all in one half. The probability that chance puts all k into this half is the product
+  // of the k factors 20/40, 19/39, ...: 0.0530 for k = 4, and 0.0236 for k = 5.
   CHECK(trend({{20, 4, 0}}) == Trend::unclear);
   CHECK(trend({{20, 5, 0}}) == Trend::falling);
   CHECK(trend({{20, 0, 5}}) == Trend::rising);
-  // The trends of two such lessons are not significant separately; together they are, with a probability of (1/6)^2.
+  // If one lesson has 4 runs, and 2 in the same half have the error, the probability is 1/C(4, 2) = 1/6, which is not
+  // significant. For two such lessons together it is (1/6)^2, which is significant.
   CHECK(trend({{2, 2, 0}}) == Trend::unclear);
   CHECK(trend({{2, 2, 0}, {2, 2, 0}}) == Trend::falling);
   CHECK(trend({{2, 2, 0}, {2, 0, 2}}) == Trend::unclear);
-  // There is no trend if all runs have the error, or none.
+  // There is no trend if all runs have the error, or if no run has it.
   CHECK(trend({{9, 9, 9}, {9, 0, 0}}) == Trend::unclear);
   CHECK(trend({}) == Trend::unknown);
   CHECK(trend({{1000, 700, 500}, {1000, 500, 500}}) == Trend::falling);  // large counts do not overflow
 }
 
-// Invariant: the order in which lessons were driven must not look like a change of the learner.
+// Invariant: the order in which lessons were driven must not look like a change in the learner's skill.
 TEST_CASE("a lesson with an error in each run, followed by a lesson without that error, is no change") {
   LearnerHistory history;
   for (int i = 0; i < 24; ++i) {
@@ -55,7 +56,7 @@ TEST_CASE("a lesson with an error in each run, followed by a lesson without that
     CHECK(spot.earlier == 5.0);
     CHECK(spot.recent == 5.0);
   }
-  // Control: stalls that stop during the lesson's runs are a change. Notes are not counted.
+  // Control: if stalls stop in the middle of the lesson's runs, that is a change. Notes do not count as stalls.
   for (std::size_t i = 6; i < 12; ++i) history.runs[i].row.result.errors[0].severity = Severity::note;
   const Weaknesses found = weaknesses(history);
   REQUIRE(found.spots.size() == 2);
@@ -76,7 +77,7 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   error(0, ErrorKind::grind, Severity::minor, 0.5);
   error(1, ErrorKind::grind, Severity::note, 0.0);
   error(3, ErrorKind::grind, Severity::very_severe, 4.0);
-  history.runs.push_back(run_with(5, 7, 0.0));  // guided: neither its shifts nor its errors count
+  history.runs.push_back(run_with(5, 7, 0.0));  // a guided run: neither its shifts nor its errors count
   history.runs.back().row.result.guided = true;
   error(4, ErrorKind::stall, Severity::severe, 0.0);
 
@@ -88,8 +89,8 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   CHECK(grind.by_severity == std::array<std::size_t, 4>{1, 1, 0, 1});
   CHECK(grind.count == 3);
   CHECK(grind.points == 4.5);
-  CHECK(grind.per_ten == 1.0);  // per ten shifts; the note does not count
-  CHECK(grind.earlier == 5.0);  // per ten runs: in one of two runs
+  CHECK(grind.per_ten == 1.0);  // two errors in 20 shifts; the note does not count
+  CHECK(grind.earlier == 5.0);  // one of the two earlier runs had the error; the rate is per ten runs
   CHECK(grind.recent == 5.0);
   const WeakSpot& stall = found.spots[1];
   CHECK(stall.count == 1);
@@ -104,7 +105,8 @@ TEST_CASE("errors of runs in neither half are not compared: they must not be sho
   REQUIRE(weaknesses(history).spots.size() == 1);
   CHECK(weaknesses(history).spots[0].trend == Trend::unknown);
   CHECK(weakness_section(history).find("0.0<br>") == std::string::npos);
-  // Control: an error in the last run is compared.
+  // Control: of three runs only the middle one is in neither half. So if the last run has the error, the halves are
+  // compared.
   history.runs[2].row.result.errors = history.runs[1].row.result.errors;
   CHECK(weaknesses(history).spots[0].trend == Trend::unclear);
   CHECK(weakness_section(history).find("0.0<br>") != std::string::npos);

@@ -1,4 +1,4 @@
-// A simulated driver in place of the learner: it drives lessons by itself, repeatedly, and in every shipped gate.
+// A simulated driver replaces the learner. It drives lessons by itself, repeatedly, and in every shipped gate.
 #include "app/lessons/simulated_driver/auto_driver.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ class Rig final : public HandDriver {
   }
   AutoDriver& driver() { return driver_; }
   double time() const { return run_.time(); }
-  double fastest_foot() const { return fastest_foot_; }  // [1] largest pedal movement in one cycle
+  double fastest_foot() const { return fastest_foot_; }  // [1] the largest pedal movement within one cycle
 
  private:
   static CarStart car_start(const LessonStart& start) {
@@ -94,7 +94,7 @@ CarSpec car_for(const Gate& gate) {
   return read_car(GEARSHIFT_ASSETS "/cars/" + std::string(six ? "diesel" : "hatchback") + ".toml");
 }
 
-// The gears that a tour engages, in order, without the neutral between them.
+// The gears that a tour through the gate engages, in order, without the neutral between two gears.
 std::vector<int> gears_of_tour(const Gate& gate) {
   std::vector<int> up;
   for (int gear = 1; slot_of_gear(gate, gear) != kNoSlot; ++gear) up.push_back(gear);
@@ -176,7 +176,7 @@ TEST_CASE("however a lesson ends, the next lap begins in the start state and end
       REQUIRE(rig.time() < waited + 120.0);
       LessonRun judge(drive.lesson, drive.car, config.gate, {LessonMode::by_yourself, 0.0, HintStyle::summary});
       while (!judge.is_over()) judge.add(rig.step());
-      // This allows for foot movement and tremor. The foot must not jump between one lap and the next.
+      // The limit allows for normal foot movement and tremor, but not for a jump between two laps.
       CHECK(rig.fastest_foot() < 0.06);
       CAPTURE(lap);
       CAPTURE(error_list(judge.result()));

@@ -50,14 +50,14 @@ TEST_CASE("a hand waits at a blocked lever, pushes harder up to its maximum, and
   hand.start({{{0.0, 0.0}, 0.2, 0.0, {}, false, false}, {{0.03, 0.0}, 0.2, 0.0, {}, false, false}}, lever, 0.0);
   double push = 0.0, before = 0.0;
   for (int i = 0; i < 2000; ++i) {
-    push = hand.next(0.001 * i, lever).push.y;  // the lever is blocked
+    push = hand.next(0.001 * i, lever).push.y;  // the lever stays blocked
     CHECK(push <= before + 1e-12);
     before = push;
   }
   CHECK(push == doctest::Approx(-28.0));
   CHECK_FALSE(hand.in_last_stroke());
   CHECK(hand.time_waiting(1.2) == doctest::Approx(1.0));
-  hand.next(2.0, {0.0, 0.001});  // the lever has now arrived
+  hand.next(2.0, {0.0, 0.001});  // the lever has now reached the end of the first stroke
   CHECK(hand.in_last_stroke());
 }
 

@@ -1,4 +1,4 @@
-// The guards react only to a broken lever: no lesson trips them, however it is driven.
+// The guards react only to a broken lever. No lesson trips them, whether it is driven well or badly.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -17,15 +17,15 @@ using namespace gearshift::vehicle;
 
 namespace {
 
-constexpr double kReleaseTime = 0.3;  // [s] with less force than kNoPull: the lever counts as released
+constexpr double kReleaseTime = 0.3;  // [s] after this time with less force than kNoPull, the lever counts as released
 constexpr double kNoPull = 2.0;       // [N]
 
 struct Watched {
-  int lowered = 0;      // number of times that a wall was softened
-  int unguarded = 0;    // [cycles] number in which the guard was not in its normal state
-  double creep = 0.0;   // [m] largest distance from the gear's rest position while the lever was released
-  double shaken = 0.0;  // [1] largest vibration from the engine
-  double ground = 0.0;  // [s] with gears grinding
+  int lowered = 0;      // number of times a wall was softened
+  int unguarded = 0;    // [cycles] number of cycles in which the guard was not running
+  double creep = 0.0;   // [m] largest distance of a released lever from the gear's rest position
+  double shaken = 0.0;  // [1] largest vibration that the engine caused
+  double ground = 0.0;  // [s] time with grinding gears
   LessonResult result;
 };
 
@@ -36,7 +36,8 @@ Watched drive(LessonDriveConfig config) {
   config.on_event = [&](const HapticEvent& event) { out.lowered += event.kind == EventKind::stiffness_lowered; };
   config.on_cycle = [&](const DriveSample& now) {
     const HapticSnapshot& lever = now.lever;
-    if (lever.cycle > 20) out.unguarded += lever.guard != GuardState::running;  // without the guard's ramp at the start
+    // The first 20 cycles, in which the guard ramps up, do not count.
+    if (lever.cycle > 20) out.unguarded += lever.guard != GuardState::running;
     out.shaken = std::max(out.shaken, now.car.shudder);
     out.ground += now.car.grinding ? 1.0 / config.rate : 0.0;
     unloaded_time = std::abs(lever.f_h.y) < kNoPull ? unloaded_time + 1.0 / config.rate : 0.0;
@@ -56,7 +57,8 @@ TEST_CASE(
   std::size_t counted = 0;
   for (const std::string_view key : kTeachingOrder) {
     for (const double error : {0.0, 0.6, 0.8, 1.0}) {
-      if (!is_full_campaign() && counted++ % 3 != 0) continue;  // every third combination, which covers each error
+      // The short run tests every third combination of lesson and `error`. It still covers each value of `error`.
+      if (!is_full_campaign() && counted++ % 3 != 0) continue;
       for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         LessonDriveConfig config = shipped_drive(key, seed);
         config.skill = skill_of(error);
@@ -72,7 +74,7 @@ TEST_CASE(
       }
     }
   }
-  CHECK(shaken == doctest::Approx(1.0).epsilon(0.05));  // some drive had the strongest possible vibration
+  CHECK(shaken == doctest::Approx(1.0).epsilon(0.05));  // in some drive the engine vibrated as strongly as possible
 }
 
 TEST_CASE("no deliberate error softens a wall or trips the guard, in a sound gearbox and in a worn one that grinds") {

@@ -1,4 +1,5 @@
-// Populations of simulated drivers: how well grades separate skilled from unskilled drivers, and the learning model.
+// Populations of simulated drivers: how well grades separate skilled from unskilled drivers, and how the learning model
+// behaves.
 #include "app/lessons/simulated_driver/learning_experiment.h"
 
 #include <cmath>
@@ -13,7 +14,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// The area under the ROC curve: lowers the threshold step by step and adds trapezoids.
+// The area under the ROC curve, computed by lowering the grade threshold step by step and adding trapezoids.
 double area_by_threshold(const std::vector<double>& good, const std::vector<double>& bad) {
   std::vector<double> thresholds(good);
   thresholds.insert(thresholds.end(), bad.begin(), bad.end());
@@ -30,7 +31,7 @@ double area_by_threshold(const std::vector<double>& good, const std::vector<doub
   return area;
 }
 
-// A lesson that requires nothing and ends at once, so that errors and learning come only from the model.
+// A lesson that requires nothing and ends at once, so that all errors and all learning come from the model.
 LessonDriveConfig nothing_to_do() {
   LessonDriveConfig drive = shipped_drive("moving_off");
   drive.lesson.steps.resize(1);
@@ -60,7 +61,7 @@ TEST_CASE("the grade separates skilled from unskilled drivers, and does not sepa
 
 TEST_CASE("a lesson that was given up has grade zero, even if the driven part was good") {
   LessonDriveConfig drive = shipped_drive("moving_off");
-  drive.lesson.steps[3].until.speed_above = 60.0;  // [m/s] 216 km/h, impossible in first
+  drive.lesson.steps[3].until.speed_above = 60.0;  // [m/s] 216 km/h, which is impossible in first gear
   drive.lesson.time_limit = 600.0;
   const Separation none = separate(drive, 1, 5);
   CHECK(none.skilled == std::vector<double>{0.0});

@@ -1,4 +1,5 @@
-// A lesson on the virtual clock: repeated bit-identically, recorded and replayed, guided, and abandoned.
+// Lessons driven in simulated time. Repeating a lesson gives a bit-identical result. Lessons are also recorded,
+// replayed, guided and abandoned.
 #include <filesystem>
 
 #include <doctest/doctest.h>
@@ -106,7 +107,7 @@ TEST_CASE("guidance shortens a beginner's path through the gate") {
 
 TEST_CASE("a simulated driver that is stuck leaves the lesson, and this is reported at once") {
   LessonDriveConfig config = shipped_drive("moving_off");
-  config.lesson.steps[3].until.speed_above = 60.0;  // [m/s] 216 km/h, impossible in first
+  config.lesson.steps[3].until.speed_above = 60.0;  // [m/s] 216 km/h, which is impossible in first gear
   config.lesson.time_limit = 600.0;
   const LessonResult result = drive_lesson(config);
   CHECK(result.end == LessonEnd::left);
@@ -122,7 +123,7 @@ TEST_CASE("a lesson for a gear that the gate lacks is rejected with a message") 
                        std::invalid_argument);
 }
 
-// Loeb et al. 2015: in the same emergency, novices decelerated half as strongly as experienced drivers.
+// Loeb et al. 2015: in the same emergency, novices braked with half of the deceleration of experienced drivers.
 TEST_CASE("in an emergency stop, a beginner brakes half as hard as a practised driver") {
   const auto hardest = [](double error) {
     const std::uint64_t seeds = is_full_campaign() ? 20 : 8;

@@ -1,4 +1,4 @@
-// The driver's task is derived from the condition of a lesson step.
+// A lesson step's condition determines what the simulated driver does.
 #include "app/lessons/simulated_driver/lesson_intent.h"
 
 #include <doctest/doctest.h>

@@ -9,7 +9,7 @@
 
 namespace gearshift::test {
 
-// Uses the car and the gate that the lesson names; if it names none, the hatchback and the gate of the car.
+// Uses the car and the gate that the lesson names. If the lesson names none, uses the hatchback and its gate.
 inline lessons::LessonDriveConfig shipped_drive(std::string_view key, std::uint64_t seed = 1) {
   lessons::LessonDriveConfig config;
   config.lesson = lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + std::string(key) + ".toml");
@@ -21,7 +21,7 @@ inline lessons::LessonDriveConfig shipped_drive(std::string_view key, std::uint6
   return config;
 }
 
-// Whether the result contains an error of this kind that is more severe than a note.
+// Whether the result contains an error of this kind that is worse than a note.
 inline bool names(const lessons::LessonResult& result, lessons::ErrorKind kind) {
   return std::any_of(result.errors.begin(), result.errors.end(), [&](const lessons::DrivingError& error) {
     return error.kind == kind && error.severity != lessons::Severity::note;

@@ -1,4 +1,4 @@
-// Each shipped lesson, driven by a simulated driver once correctly and once with each error that the lesson checks.
+// A simulated driver drives each shipped lesson once correctly, and once with each error that the lesson checks.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -25,13 +25,14 @@ bool asks_for_reverse(const Lesson& lesson) {
                      [](const LessonStep& step) { return step.gear == kReverseGear; });
 }
 
-// Makes the gearbox worn, so that forward gears can grind. In a sound gearbox the synchroniser rings prevent that,
+// Makes the gearbox worn, so that forward gears can grind. In a sound gearbox the synchroniser rings prevent grinding,
 // however hard the driver pushes.
 void wear_out(CarSpec& car) {
   car.synchro.friction = 0.07;
 }
 
-// The errors on which each lesson fails, in alphabetical order. If one is removed from a lesson file, this test fails.
+// The errors on which each lesson fails, in alphabetical order. The test fails if an error is removed from a lesson
+// file.
 struct Claims {
   std::string_view lesson, kinds;
 };
@@ -62,7 +63,7 @@ std::string claims_of(const Lesson& lesson) {
   return list;
 }
 
-// Whether the lesson failed because of an error of this kind, or was aborted with the message for this kind.
+// Whether the lesson failed because of an error of this kind, or was aborted with this kind's message.
 bool is_reason(const LessonResult& result, ErrorKind kind) {
   if (result.end == LessonEnd::aborted) {
     const std::string_view word = kind == ErrorKind::rollback ? "rolled back" : "rolling back";
@@ -74,7 +75,7 @@ bool is_reason(const LessonResult& result, ErrorKind kind) {
   });
 }
 
-// A competent driver with one deliberate error of amount 1, which is too obvious to overlook (see DeliberateErrors).
+// A competent driver makes one deliberate error with amount 1, which is too obvious to overlook (see DeliberateErrors).
 LessonResult drive_with(std::string_view key, ErrorKind kind, std::uint64_t seed) {
   LessonDriveConfig config = shipped_drive(key, seed);
   config.errors = deliberate_error(kind);
@@ -100,7 +101,7 @@ TEST_CASE("each shipped lesson is failed by every error on which it fails, and n
         CHECK_FALSE(result.passed);
         CHECK(is_graded(result));
         CHECK(is_reason(result, kind));
-        // A sound gearbox does not grind in forward gears, so no such lesson may fail on grinding.
+        // A sound gearbox grinds only in reverse, so only a lesson with reverse may fail on grinding.
         CHECK_FALSE((kind == ErrorKind::grind && !asks_for_reverse(lesson)));
       }
     }
@@ -184,7 +185,8 @@ TEST_CASE(
     double error;
     std::uint64_t seed;
   };
-  std::vector<Drive> drives{{"skip_shifts", 0.071, 16457714044703236328u},  // these three drives failed once
+  // These three drives failed in an earlier version.
+  std::vector<Drive> drives{{"skip_shifts", 0.071, 16457714044703236328u},
                             {"rev_matching", 0.137, 17042378558995876589u},
                             {"another_gate", 0.131, 14678223327695899131u}};
   const std::uint64_t seeds = is_full_campaign() ? 20 : 8;
@@ -245,8 +247,8 @@ TEST_CASE("a deliberate error is measured with its amount") {
     double longest = 0.0;
     for (const ShiftRecord& shift : slow.shifts) longest = std::max(longest, shift.clutch_time);
     CAPTURE(longest);
-    CHECK(longest > 4.0 * amount);        // [s] the deliberate pause
-    CHECK(longest < 4.0 * amount + 1.5);  // [s] the pause and a normal shift
+    CHECK(longest > 4.0 * amount);        // [s] the shift takes at least the deliberate pause
+    CHECK(longest < 4.0 * amount + 1.5);  // [s] the shift takes at most the pause plus a normal shift
     CHECK(names(slow, ErrorKind::too_slow) == (longest >= 2.5));
   }
 }

@@ -1,5 +1,5 @@
-// Complete calibrations of an emulated stick by a simulated user on a virtual clock: measurements and answers are
-// saved, invalid answers are asked for again, and an interrupted calibration continues where it stopped.
+// A simulated user calibrates an emulated stick on a virtual clock. Measurements and answers are saved, invalid answers
+// are asked for again, and an interrupted calibration continues where it stopped.
 #include "app/runtime/devices/calibration_dialog.h"
 
 #include <atomic>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 
-// A hand that pushes with a constant force and follows no target position.
+// A hand that pushes with a constant force and does not hold the lever at a position.
 class Pusher final : public HandDriver {
  public:
   HandTarget next(double, glm::dvec2 lever) noexcept override {
@@ -40,7 +40,7 @@ EmulatedStickConfig bare_stick() {
   return config;
 }
 
-// An emulated stick, its simulated user, and the dialog between that user and the program.
+// An emulated stick, its simulated user, and the dialog between the user and the program.
 struct Rig {
   Pusher hand;
   EmulatedStick stick{bare_stick(), hand};
@@ -53,7 +53,7 @@ struct Rig {
   std::string question;
   std::vector<std::string> asked, printed;
   std::vector<DeviceCalibration> saved;
-  std::deque<std::string> lines;  // if not empty, typed in place of the default answers
+  std::deque<std::string> lines;  // if not empty, the user types these lines
   std::function<void(double)> action;
 
   std::int64_t tick() {
@@ -65,7 +65,7 @@ struct Rig {
 
   bool is_about(const char* words) const { return question.find(words) != std::string::npos; }
 
-  // Performs the user's next action and returns what the user types.
+  // Performs the user's next action and returns the line that the user types.
   std::string answer(const std::string& next) {
     asked.push_back(question = next);
     asked_ns = now_ns;
@@ -118,12 +118,12 @@ TEST_CASE("the calibration matches the user's actions and answers; every step is
   CHECK(missing_steps(found, true).empty());
   CHECK(found.select.usage == 0x30);
   CHECK(found.shift.usage == 0x31);
-  CHECK(found.select.travel == doctest::Approx(0.14));  // the user's answer was 140 mm
+  CHECK(found.select.travel == doctest::Approx(0.14));  // the user typed 140 mm
   CHECK(found.shift.full_force == 20.0);
-  CHECK(found.press_button == 3);  // button 3 is bit 2, which the user held
+  CHECK(found.press_button == 3);  // the user pressed the button of bit 2, which is number 3
   CHECK(found.lift_button == 0);
   CHECK(found.stop_button == 0);
-  CHECK(rig.saved.size() == 6);  // the steps: range, numbers, polarity, timing, handle, springs
+  CHECK(rig.saved.size() == 6);  // saved once per step: range, numbers, polarity, timing, handle, springs
   CHECK(rig.saved.front().has_stops());
   CHECK_FALSE(rig.saved.front().has_travel());
 }
@@ -151,7 +151,7 @@ TEST_CASE("no motor moves before the user was told to let go of the stick") {
 
 TEST_CASE("invalid input is reported and asked again: a stick that was not pushed, numbers out of range, words") {
   Rig rig;
-  rig.lines = {"yes", ""};  // an invalid answer to the first question, then only Enter
+  rig.lines = {"yes", ""};  // first an invalid answer, then only Enter
   bool slept = false;
   CalibrationDialog dialog;
   dialog.print = [&](const std::string& line) { rig.printed.push_back(line); };
@@ -194,7 +194,7 @@ TEST_CASE("an interrupted calibration continues with the first missing step and 
   Rig second;
   const DeviceCalibration found = second.run(first.saved.back());
   CHECK(missing_steps(found, true).empty());
-  CHECK(second.asked.size() == 3);  // about the missing steps: timing, handle, springs
+  CHECK(second.asked.size() == 3);  // the questions are about timing, handle and springs
   CHECK(second.asked.front().find("how fast the stick responds") != std::string::npos);
   CHECK(found.press_button == 3);
 }

@@ -1,4 +1,4 @@
-// Connected devices as the USB bus lists them, with the report descriptors of real devices.
+// USB devices with the report descriptors of real products, as the bus lists them.
 #pragma once
 
 #include <cstdint>

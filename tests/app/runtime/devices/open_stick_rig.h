@@ -1,4 +1,4 @@
-// An opened, emulated stick on the real clock, and the hand of its user.
+// An emulated stick that is opened on the real clock, and the hand of its user.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 
 namespace gearshift::test {
 
-// A hand whose target position another thread may set.
+// A hand whose target position can be set by another thread.
 class PersonsHand final : public haptics::HandDriver {
  public:
   haptics::HandTarget next(double, glm::dvec2) noexcept override {
@@ -27,8 +27,8 @@ class PersonsHand final : public haptics::HandDriver {
   std::atomic<double> x_{0.0}, y_{0.0};  // [m]
 };
 
-// The calibration of a default EmulatedStick (SideWinder family). The shift axis counts down toward the front, and a
-// positive constant force comes from the right on one axis and from the user on the other (PID 1.0).
+// The calibration of a default EmulatedStick (SideWinder family). The shift axis counts down toward the front. A
+// positive constant force comes from the right on the select axis and from the user on the shift axis (PID 1.0).
 inline haptics::DeviceCalibration sidewinder_calibration() {
   haptics::DeviceCalibration known;
   known.vendor = 0x045e;

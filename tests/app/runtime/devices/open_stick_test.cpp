@@ -1,4 +1,4 @@
-// Finding the stick that the user named: the result is one stick, or an error that lists the connected ones.
+// Tests finding the stick that the user named. The result is that stick, or an error that lists the connected sticks.
 #include "app/runtime/devices/open_stick.h"
 
 #include <doctest/doctest.h>
@@ -77,9 +77,9 @@ TEST_CASE("several matches, no match or no stick at all: one printable sentence 
   CHECK(says(refusal("sidewinder", twins), {"several", "at 1-1", "at 1-2"}));
   CHECK_FALSE(says(refusal("sidewinder", twins), {"FFBoard"}));
   CHECK(says(refusal("rhino", twins),
-             {"no stick \"rhino\" is plugged in", "FFBoard (1209:ffb0, serial 2A0030, at 1-3)"}));
-  CHECK(says(refusal("rhino", {}), {"no stick \"rhino\" is plugged in"}));
-  CHECK(says(refusal("", twins), {"no stick \"\""}));
+             {"no stick that matches \"rhino\" is plugged in", "FFBoard (1209:ffb0, serial 2A0030, at 1-3)"}));
+  CHECK(says(refusal("rhino", {}), {"no stick that matches \"rhino\" is plugged in"}));
+  CHECK(says(refusal("", twins), {"no stick that matches \"\""}));
   CHECK_FALSE(says(refusal("a\x1b[2Jb", {}), {"\x1b"}));
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("a calibrated stick that is not plugged in is waited for if its name i
   const ResolvedStick absent = resolve_stick("ffboard", {}, folder.path());
   CHECK(absent.identity.serial == "2A0030");
   CHECK(absent.known.report_descriptor == openffboard().report_descriptor);
-  CHECK(says(refusal("sidewinder", {}, folder.path()), {"no stick \"sidewinder\""}));
+  CHECK(says(refusal("sidewinder", {}, folder.path()), {"no stick that matches \"sidewinder\""}));
   UsbHidDevice second = openffboard();
   second.identity.serial = "2A0031";
   save_known_stick(calibrated(second), folder.path());

@@ -15,7 +15,7 @@ using namespace gearshift::test;
 
 namespace {
 
-// A keyboard's descriptor: usage page 1, usage 6, one array of six keys.
+// A keyboard's report descriptor: usage page 0x01, usage 0x06, one array of six keys.
 const std::vector<std::uint8_t> kKeyboard{0x05, 0x01, 0x09, 0x06, 0xA1, 0x01, 0x05, 0x07, 0x19, 0x00, 0x29, 0x65,
                                           0x15, 0x00, 0x25, 0x65, 0x75, 0x08, 0x95, 0x06, 0x81, 0x00, 0xC0};
 
@@ -37,15 +37,15 @@ TEST_CASE(
   CHECK(describe_calibration(sticks[0]) == "no");
   CHECK(sticks[1].force == StickForce::force_feedback);
   CHECK(sticks[1].missing ==
-        "range, travel and force, delay, force direction");  // listed even if the stick was never calibrated
+        "range, travel and force, delay, force direction");  // the missing items of a stick that was never calibrated
   CHECK(describe_forces(sticks[2]) == "no force feedback");
-  CHECK(sticks[2].buttons == 14);  // the DualShock 4 has 14 buttons
+  CHECK(sticks[2].buttons == 14);
   CHECK(describe_calibration(sticks[2]) == "-");
 }
 
 TEST_CASE("a device that uses the force page only for rumble is distinguished from one with force feedback") {
-  // A pad with X and Y and, like an Xbox pad, only one output on the force page (15): a magnitude (usage 70) inside a
-  // collection of usage 21, without an effect block.
+  // A pad with the axes X and Y. Like an Xbox pad, it has only one output on the force page (0x0F): a magnitude (usage
+  // 0x70) inside a collection of usage 0x21. It has no effect block.
   UsbHidDevice pad = usb_device("", 0x045e, 0x0b13, "Pad", "1-1");
   pad.report_descriptor = {0x05, 0x01, 0x09, 0x05, 0xA1, 0x01, 0x09, 0x30, 0x09, 0x31, 0x15, 0x00, 0x26, 0xFF,
                            0x00, 0x75, 0x08, 0x95, 0x02, 0x81, 0x02, 0x05, 0x0F, 0x09, 0x21, 0xA1, 0x02, 0x09,
@@ -106,16 +106,16 @@ TEST_CASE("how an unfinished, a complete and a damaged calibration are described
   CHECK(listed().problem.find(file.string()) != std::string::npos);
   CHECK(listed().missing == "range, travel and force, delay, force direction");
   const std::vector<ListedStick> plugged{listed()}, none;
-  CHECK(absent_problems(plugged, folder.path()).empty());  // list_sticks() reports this already
+  CHECK(absent_problems(plugged, folder.path()).empty());  // list_sticks() already reports this file's problem
   CHECK(absent_problems(none, folder.path()) == std::vector{listed().problem});
-  known.calibration.product = 0x001c;  // another product's calibration, stored under this stick's file name
+  known.calibration.product = 0x001c;  // a different product's calibration, stored under this stick's file name
   std::filesystem::copy_file(save_known_stick(known, folder.path()), file,
                              std::filesystem::copy_options::overwrite_existing);
   CHECK(describe_calibration(listed()) == "no");
-  CHECK(listed().problem ==
-        file.string() +
-            ": this is the calibration of 045e:001c, not of 045e:001b; delete this file and calibrate the stick again");
-  UsbHidDevice forbidden = device;  // missing access rights are reported first: they must be fixed first
+  CHECK(listed().problem == file.string() +
+                                ": this file is the calibration of 045e:001c, not of 045e:001b; delete the file and "
+                                "calibrate the stick again");
+  UsbHidDevice forbidden = device;  // missing access rights are reported before other problems
   forbidden.problem = "it may not be used";
   CHECK(list_sticks({&forbidden, 1}, folder.path()).at(0).problem == "it may not be used");
 }

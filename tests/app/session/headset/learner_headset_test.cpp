@@ -1,5 +1,5 @@
-// A headset used at the lever: the user's seat in the cabin, the controllers in the cabin, and how the program handles
-// a lost headset that comes back.
+// A headset in use at the lever: the user's seat in the cabin, the controllers, and how the program handles a headset
+// that is lost and comes back.
 #include "app/session/learner_headset.h"
 
 #include <chrono>
@@ -26,18 +26,18 @@ using glm::dvec3;
 
 namespace {
 
-constexpr double kBound = 0.020;  // [m] the largest offset that the clamp allows
+constexpr double kBound = 0.020;  // [m] largest allowed offset between the felt and the drawn lever
 constexpr dvec3 kUp{0.0, 1.0, 0.0};
-constexpr auto kPause = std::chrono::milliseconds(2050);  // just over the 2 s between searches
+constexpr auto kPause = std::chrono::milliseconds(2050);  // a little longer than the 2 s between two searches
 
-// The true pose of the room in the cabin: with it, the drawn lever is where the real lever is.
+// The true pose of the room in the cabin. With this pose, the lever is drawn where the real lever is.
 const EyePose kTruth{{-0.7, -0.6, 0.9}, glm::angleAxis(0.8, kUp)};
 
 xr_test::Pose pose_of(const EyePose& pose) {
   return {pose.position, pose.orientation};
 }
 
-// The stage is shared by all tests, to load it only once. It is never drawn.
+// All tests share one stage, so that it is loaded only once. It is never drawn.
 Stage& cabin() {
   static const auto stage = [] {
     StageConfig config;
@@ -79,11 +79,11 @@ struct Worn {
     REQUIRE(headset->is_found());
     REQUIRE(headset->open());
     (void)headset->take_message();        // drops the message that names the headset
-    for (int i = 0; i < 6; ++i) frame();  // until the OpenXR session is focused
+    for (int i = 0; i < 6; ++i) frame();  // until the OpenXR session has the focus
   }
 
   void frame() {
-    // On a busy machine the headset may skip a frame; then take turns until it shows one.
+    // Calls turn() until a frame is shown. On a busy machine, one call may show none.
     const xr_test::Record& record = xr_test::control().record;
     const std::size_t frames = record.frames.size();
     do turn();
@@ -105,8 +105,7 @@ struct Worn {
     stage->place(input);
   }
 
-  // Moves the controller's tip to the top of the knob, at its true place in the room plus `error` [m], and pulls the
-  // trigger once.
+  // Moves the controller's tip to the top of the real knob plus `error` [m], and pulls the trigger once.
   void touch(glm::dvec2 plane, dvec3 error = dvec3(0.0)) {
     hold_lever(plane);
     hand = EyePose{inverse(kTruth) * stage->knob_top() + error, held()};
@@ -135,7 +134,7 @@ struct Worn {
   UiContext ui;
   HeadsetSetup setup;
   Stage* stage = &cabin();
-  // About 13 cm from the driver's eyes: users do not sit exactly there.
+  // The head is about 13 cm from the driver's eyes, because no user sits exactly there.
   EyePose head{inverse(kTruth) * (camera("driver").position + dvec3(0.1, 0.05, -0.06)),
                glm::angleAxis(-1.1, kUp) * glm::angleAxis(-0.3, dvec3(1, 0, 0))};
   EyePose hand;
@@ -148,7 +147,7 @@ struct Worn {
   }
   bool trigger = false, menu = false;
   bool placed = true;        // whether the headset tracks the head's position
-  bool hand_tracked = true;  // false: the controller's position is a guess
+  bool hand_tracked = true;  // if false, the controller's position is only an estimate
   std::unique_ptr<LearnerHeadset> headset;
 };
 
@@ -156,7 +155,7 @@ dvec3 driver_eye(DriveSide side = DriveSide::left) {
   return camera("driver", side).position;
 }
 
-// Checks that the head is at `eye` in the cabin, and that the cabin is turned so that the user looks along the road.
+// Checks that the head is at `eye` in the cabin and that the user looks along the road.
 void check_sits(const Worn& worn, dvec3 eye) {
   CHECK(glm::distance(worn.headset->head().position, eye) < 1e-6);
   const dvec3 look = worn.headset->head().orientation * dvec3(0, 0, -1);
@@ -200,13 +199,13 @@ TEST_CASE("a knob touched at three lever positions is drawn where it really is, 
   CHECK(worn.headset->report().touching);
   for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
   CHECK(worn.headset->report().touches == 3);
-  // The file is written only when the touches are saved.
+  // The seat file is written only when the touches are saved.
   CHECK(read_seat(setup.seat_file).touched.has_value() == false);
   CHECK(worn.headset->report().worst_touch < 1e-4);
   worn.ask(&HeadsetRequests::save_touches);
   worn.frame();
   CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
-  worn.headset->recentre();  // must not move the touched lever
+  worn.headset->recentre();  // recentring must not move the touched lever
   worn.frame();
   CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
 
@@ -230,16 +229,17 @@ TEST_CASE("touches that do not fit the lever are rejected with error and limit, 
   Worn worn(setup);
   worn.ask(&HeadsetRequests::start_touching);
   worn.touch({0.0, 0.0});
-  worn.ask(&HeadsetRequests::save_touches);  // one touch determines neither the direction nor the tip's error
+  worn.ask(&HeadsetRequests::save_touches);  // one touch determines neither the room's direction nor the tip's error
   CHECK(worn.headset->take_message().find("at least three positions") != std::string::npos);
   worn.touch({-0.036, 0.04}, {0.0, 0.06, 0.0});  // the tip is 6 cm too high
   worn.touch({0.036, -0.04});
   worn.ask(&HeadsetRequests::save_touches);
   const std::string news = worn.headset->take_message();
   int error = 0;
-  REQUIRE(std::sscanf(news.c_str(), "the lever may be up to %d mm from where it is drawn; at most 20 mm is allowed",
+  REQUIRE(std::sscanf(news.c_str(),
+                      "the drawn lever could be as much as %d mm away from the real one, but only 20 mm is allowed",
                       &error) == 1);
-  CHECK(error >= 40);  // [mm] the fit leaves two thirds of the 60 mm as error
+  CHECK(error >= 40);  // [mm] two thirds of the tip's error of 60 mm remain after the fit
   worn.frame();
   check_sits(worn, driver_eye());
   CHECK_FALSE(read_seat(setup.seat_file).touched);
@@ -268,7 +268,7 @@ TEST_CASE("a lever touched in a different room is not used and stays saved: the 
   Worn worn(setup);
   check_sits(worn, driver_eye());
   CHECK_FALSE(worn.headset->report().is_touched);
-  // Moves the head to where that lever is in reach.
+  // Moves the head to where the saved lever is within reach.
   worn.head.position -= glm::conjugate(kTruth.orientation) * dvec3(9.0, 0.0, 3.0);
   worn.headset->recentre();
   worn.frame();
@@ -292,7 +292,7 @@ TEST_CASE("a failed opening is retried after a pause, which doubles with each fa
   CHECK_FALSE(worn.headset->open());
   CHECK(worn.headset->take_message().empty());  // an unchanged message is not reported again
   std::this_thread::sleep_for(kPause);
-  // The pause has doubled, because each attempt interrupts the desktop's picture.
+  // After two failures the pause is 4 s instead of 2 s, because each attempt interrupts the picture on the desktop.
   CHECK_FALSE(worn.headset->is_found());
   std::this_thread::sleep_for(kPause);
   REQUIRE(worn.headset->is_found());
@@ -328,11 +328,11 @@ TEST_CASE(
   setup.seat.touched = EyePose{{1.0, 0.0, 0.0}, glm::dquat(1, 0, 0, 0)};
   setup.is_new = true;
   Worn worn(setup, false);
-  check_sits(worn, driver_eye());  // not at the saved lever, which was touched in a different room
+  check_sits(worn, driver_eye());  // the seat does not use the saved lever, which belongs to a different room
   CHECK_FALSE(worn.headset->report().is_touched);
   worn.touch_all();
   CHECK(worn.headset->report().is_touched);
-  CHECK(worn.headset->take_message().find("only for this session") != std::string::npos);
+  CHECK(worn.headset->take_message().find("to this session only") != std::string::npos);
   worn.ask(&HeadsetRequests::recentre);
   HeadsetRequests raise;
   raise.height = 0.02;
@@ -399,7 +399,7 @@ TEST_CASE(
       CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-6);
     else
       check_sits(worn, eye);
-    worn.placed = false;  // a short loss of position tracking must not move the view
+    worn.placed = false;  // losing the position for a short time must not move the view
     const dvec3 before = worn.headset->head().position;
     worn.frame();
     CHECK(glm::distance(worn.headset->head().position, before) < 1e-6);
@@ -427,7 +427,7 @@ TEST_CASE("the controller points at the learner's card, and its menu button open
   worn.frame();
   const DriveSide side = DriveSide::left;
   const HangingPanel card = hang_card(driver_eye(), side, {320.0, 200.0}, {0.25, 0.0}, {0.75, 0.8});
-  // The cabin was placed by the head's first pose: eyes at the driver's eyes, looking ahead.
+  // The head's first pose has placed the cabin: the head is at the driver's eyes and looks ahead.
   const EyePose cabin_from_room = seat_at_eyes(worn.head, {driver_eye(), {}}, 0.0);
   const dvec3 from{0.3, 0.2, -0.1};
   const dvec3 target = card.pose * dvec3(0.05, -0.1, 0.0);
@@ -455,12 +455,13 @@ TEST_CASE("the controller points at the learner's card, and its menu button open
   CHECK(worn.headset->pointer()->hit.at.x == doctest::Approx(0.5).epsilon(1e-4));
   const auto& quad = *xr_test::control().record.frames.back().quad();
   CHECK(quad.width == doctest::Approx(1.5));
-  worn.hand.orientation = glm::angleAxis(3.0, kUp) * worn.hand.orientation;  // points away from the panel
+  // The controller points away from the panel.
+  worn.hand.orientation = glm::angleAxis(3.0, kUp) * worn.hand.orientation;
   worn.frame();
   CHECK_FALSE(worn.headset->pointer());
 }
 
-// The main thread, which handles STOP and the keys, must not wait for the OpenXR runtime.
+// The main thread handles STOP and the keys, so it must not wait for the OpenXR runtime.
 TEST_CASE(
     "a GPU lost while the OpenXR runtime holds a frame back blocks nothing, and the headset reopens after that frame") {
   Worn worn;
@@ -469,7 +470,7 @@ TEST_CASE(
   worn.frame();
   const int frames = xr.record.calls["xrBeginFrame"];
   using Clock = std::chrono::steady_clock;
-  // OpenXR holds frames back for 450 display periods (5 s).
+  // The OpenXR runtime holds frames back for 450 display periods (5 s).
   xr.script.timeline = {xr_test::stall(xr.record.frames.back().time + 0.05, 450)};
   while (xr.record.calls["xrWaitFrame"] <= frames + 30 && !worn.headset->is_held()) worn.turn();
   REQUIRE(worn.headset->is_held());
@@ -483,7 +484,7 @@ TEST_CASE(
   CHECK_FALSE(worn.headset->is_open());
   CHECK(longest < 1.0);  // [s] waiting for the frame would take about 5 s
   std::this_thread::sleep_for(kPause);
-  CHECK_FALSE(worn.headset->is_found());  // OpenXR allows one instance at a time, and the old one is still open
+  CHECK_FALSE(worn.headset->is_found());  // OpenXR allows only one instance, and the lost instance is still open
   for (int i = 0; i < 100 && !worn.headset->is_found(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   CHECK(worn.headset->open());
@@ -507,7 +508,7 @@ TEST_CASE("a lost headset is reported once, searched for, and reopened when it i
       for (const bool first : {true, false}) {
         std::this_thread::sleep_for(kPause);
         CHECK_FALSE(worn.headset->is_found());
-        // A message that has not changed is not reported again.
+        // An unchanged message is reported only once.
         CHECK((worn.headset->take_message().find("no headset is connected") != std::string::npos) == first);
       }
     }

@@ -1,4 +1,4 @@
-// A user moves one of several controls. Tests which axis is learnt from that, and which movements are rejected.
+// A user moves one of several controls. The tests check which axis the detector learns, and which movements it rejects.
 #include "app/ui/input/axis_detector.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using Control = AxisDetector::Control;
 
-// Two sticks with three axes each. Every axis has some noise.
+// Two sticks with three axes each. Every axis is noisy.
 struct Desk {
   std::vector<PadState> sticks{{"Stick", {0.1f, 0.0f, 0.0f}, {}, "0a"}, {"Pedals", {0.0f, 0.9f, 0.0f}, {}, "0b"}};
   double noise = 0.004;
@@ -28,7 +28,7 @@ struct Desk {
         axis += static_cast<float>(noise * (static_cast<double>(random() % 2001) / 1000.0 - 1.0));
     return now;
   }
-  // Moves an axis linearly to the raw value `to` within 30 frames.
+  // Moves the axis linearly to the raw value `to` in 30 frames.
   void move(AxisDetector& detector, std::size_t stick, std::size_t axis, double to) {
     const float from = sticks[stick].axes[axis];
     for (int i = 1; i <= 30; ++i) {
@@ -64,14 +64,14 @@ TEST_CASE("a pedal is learnt from one press: its axis, both ends (also reversed)
   CHECK(pedal.axis == 1);
   CHECK(pedal.from == doctest::Approx(0.9).epsilon(0.005));
   CHECK(pedal.to == doctest::Approx(-0.7).epsilon(0.01));
-  CHECK(pedal.dead_zone == 0.02);  // the minimum: 1.5 x 0.004 / 1.6 is less
+  CHECK(pedal.dead_zone == 0.02);  // the minimum, because 1.5 x noise / travel = 1.5 x 0.004 / 1.6 is smaller
   CHECK(pedal_value(pedal, 0.9 - 0.004) == 0.0);
   CHECK(pedal_value(pedal, -0.7 + 0.004) == 1.0);
 }
 
 TEST_CASE("if the pad reports an axis only after it moves, its rest is the value to which it returns") {
   Desk desk;
-  desk.sticks[1].axes[2] = 0.0f;  // not reported yet, so 0; the pedal really rests at -1
+  desk.sticks[1].axes[2] = 0.0f;  // a pedal that rests at -1; until the pedal moves, the pad reports 0
   AxisDetector detector(Control::pedal);
   detector.record_move(desk.shown());
   desk.sticks[1].axes[2] = -0.98f;
@@ -89,7 +89,7 @@ TEST_CASE("a lever is learnt: the first end reached is left or back, and its res
     detector.record_move(desk.shown());
     desk.move(detector, 0, 0, first);
     desk.move(detector, 0, 0, first < 0.0 ? 0.8 : -0.9);
-    desk.move(detector, 0, 0, 0.06);  // close to its first rest position, 0.1
+    desk.move(detector, 0, 0, 0.06);  // close to the first rest position, 0.1
     desk.rest(detector);
     const AxisBinding lever = detector.result();
     CHECK(lever.stick == "Stick");
@@ -98,8 +98,8 @@ TEST_CASE("a lever is learnt: the first end reached is left or back, and its res
     CHECK(lever.to == doctest::Approx(first < 0.0 ? 0.8 : -0.9).epsilon(0.01));
     REQUIRE(lever.centre);
     CHECK(*lever.centre == doctest::Approx(0.06).epsilon(0.02));
-    CHECK(lever_value(lever, 0.1) == 0.0);   // the first rest position is in the dead zone
-    CHECK(lever_value(lever, 0.02) == 0.0);  // a value on the other side of the centre, too
+    CHECK(lever_value(lever, 0.1) == 0.0);   // the first rest position is inside the dead zone
+    CHECK(lever_value(lever, 0.02) == 0.0);  // so is 0.02, equally far on the other side of the centre, 0.06
     CHECK(std::abs(lever_value(lever, 0.3)) > 0.1);
   }
 }
@@ -149,7 +149,7 @@ TEST_CASE("invalid movements are rejected in one sentence with the remedy") {
           desk.move(detector, 1, 1, -0.7);
           desk.move(detector, 1, 1, 0.9);
           desk.rest(detector, 5);
-        }) == "Axis 1 of Pedals was not recorded at rest. Release the control and don't touch it for a second.");
+        }) == "Axis 1 of Pedals was not at rest long enough. Release the control and don't touch it for a second.");
   CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
           desk.move(detector, 1, 1, -0.7);
           desk.move(detector, 1, 1, 0.9);

@@ -1,4 +1,5 @@
-// The dialog that learns pedals and a lever without force feedback. A simulated user moves them one after the other.
+// The dialog that learns the axes of pedals and of a lever without force feedback. A simulated user moves them one
+// after the other.
 #include "app/ui/input/axis_dialog.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ using namespace gearshift::ui;
 
 namespace {
 
-// One device with pedals on its three axes (1 released, -1 pressed), and a second device with a lever on its two axes.
-// When asked, the user moves the axis in question.
+// A user with two devices. The first has pedals on its three axes (1 released, -1 pressed), the second has a lever on
+// its two axes. When asked for a control, the user moves that control.
 struct Person {
   std::vector<PadState> sticks{{"Pedals", {1.0f, 1.0f, 1.0f}, {}, "guid-p"}, {"Shifter", {0.0f, 0.0f}, {}, "guid-s"}};
   int asked = 0, frames = 0;
@@ -89,7 +90,7 @@ TEST_CASE(
   const Bindings after = learn_axes({}, person.dialog([&](const std::string& question) -> std::string {
     CHECK_FALSE(is_question_for(question, "stay in place"));
     if (is_question_for(question, "CLUTCH")) return clutch++ == 0 ? "what" : "";
-    // The user first presses nothing, and then skips the pedal.
+    // At the first question the user presses no pedal. At the second question the user skips the throttle.
     if (is_question_for(question, "THROTTLE")) return throttle++ == 0 ? "" : "-";
     return "-";
   }));
@@ -108,7 +109,7 @@ TEST_CASE(
 TEST_CASE("starting over begins without the user's axes, and does not change the saved ones") {
   const TempFolder folder;
   const std::filesystem::path own = folder / "own.toml", defaults = GEARSHIFT_ASSETS "/bindings/default.toml";
-  CHECK_FALSE(starting_bindings(own, defaults, false).clutch.has_value());  // the user has no file yet
+  CHECK_FALSE(starting_bindings(own, defaults, false).clutch.has_value());  // the user has no bindings file yet
   Bindings saved = read_bindings(defaults);
   saved.clutch = AxisBinding{};
   saved.clutch->stick = "Pedals";

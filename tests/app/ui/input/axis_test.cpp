@@ -1,4 +1,4 @@
-// The values of bound axes: linear between the points that the binding names.
+// The value of a bound axis is linear between the two points that the binding names.
 #include "app/ui/input/axis.h"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ TEST_CASE("a pedal is 0 at `from` and 1 at `to`, in either direction, and clampe
   CHECK(pedal_value(pedal, -1.0) == 0.0);
   CHECK(pedal_value(pedal, 0.5) == doctest::Approx(0.75));
   CHECK(pedal_value(pedal, 1.0) == 1.0);
-  pedal.from = 0.9;  // reversed, and with ends short of the axis limits
+  pedal.from = 0.9;  // a reversed pedal that does not reach the axis limits
   pedal.to = -0.7;
   CHECK(pedal_value(pedal, 1.0) == 0.0);
   CHECK(pedal_value(pedal, 0.5) == doctest::Approx(0.25));

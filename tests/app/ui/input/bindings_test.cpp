@@ -1,4 +1,4 @@
-// Bindings: the shipped ones, the names of keys, and errors that give file, line and key.
+// Bindings: the shipped ones, the names of keys, and error messages with file, line and key.
 #include "app/ui/input/bindings.h"
 
 #include <algorithm>
@@ -105,7 +105,7 @@ TEST_CASE("every GLFW key has a unique name, from which the key is found again")
     CHECK(names.insert(key_name(key)).second);
     CHECK(key_of(key_name(key)) == key);
   }
-  CHECK(known == 120);  // the number of GLFW_KEY_ constants in glfw3.h except UNKNOWN and LAST
+  CHECK(known == 120);  // glfw3.h has 120 GLFW_KEY_ constants apart from UNKNOWN and LAST
 }
 
 TEST_CASE("several keys for one action, buttons and axes are read as written") {
@@ -185,13 +185,13 @@ TEST_CASE("stick names, a lever's rest, both dead zones and the lever mode are r
   CHECK(bindings.lever_mode == LeverMode::places);
   CHECK(bindings.stick_speed == 0.5);
   CHECK(bindings_of(stop).lever_mode == LeverMode::moves);
-  CHECK(help_text(bindings).find("T.16000M axis 0\tlever sideways\n") != std::string::npos);
+  CHECK(help_text(bindings).find("T.16000M axis 0\tmove the lever sideways\n") != std::string::npos);
   CHECK(help_text(bindings).find("Wheel button 3\tturn forces on") != std::string::npos);
   const std::string axis = stop + "[pad_axes.lever_select]\naxis = 0\n";
   CHECK(begins(refusal(axis + "centre = 0.95\n"),
-               "my.toml:5: centre = 0.95: must be well inside the range between from (-1) and to (1)"));
+               "my.toml:5: centre = 0.95: must lie well between \"from\" (-1) and \"to\" (1)"));
   CHECK(begins(refusal(axis + "dead_zone = 0.5\nend_zone = 0.6\n"),
-               "my.toml:6: end_zone = 0.6: must not exceed 0.95 together with dead_zone (0.5)"));
+               "my.toml:6: end_zone = 0.6: the sum of end_zone and dead_zone (0.5) must not exceed 0.95"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = 0\ncentre = 0\n"), "my.toml:5: centre is not a known key"));
   CHECK(begins(refusal(stop + "[lever]\nmode = \"jumps\"\n"), "my.toml:4: mode = \"jumps\": must be"));
   CHECK(begins(refusal(stop + "[lever]\nfull_speed_m_per_s = 3\n"), "my.toml:4: full_speed_m_per_s = 3: must be"));
@@ -239,23 +239,23 @@ TEST_CASE(
   write_bindings(read_bindings(shipped), file);
   Bindings broken = read_bindings(shipped);
   broken.keys.erase(Action::stop);
-  CHECK_THROWS_WITH_AS(write_bindings(broken, file), doctest::Contains("it could not be read back: [keys] has no stop"),
-                       FileError);
+  CHECK_THROWS_WITH_AS(write_bindings(broken, file),
+                       doctest::Contains("it could not be read back: [keys] has no key for stop"), FileError);
   CHECK(read_bindings(file).keys.contains(Action::stop));
   for (const char* name : {"", ".hidden", "../up", "a/b"})
     CHECK_THROWS_AS((void)user_bindings_file(folder / "config", name), std::invalid_argument);
 }
 
 TEST_CASE("bindings without a key for STOP are rejected") {
-  CHECK(refusal("") == "my.toml:1: [keys] has no stop; set a key for it, so that you can always turn forces off");
+  CHECK(refusal("") == "my.toml:1: [keys] has no key for stop; set one, so that you can always turn forces off");
   CHECK(refusal(stop) == "accepted");
 }
 
 TEST_CASE("the help lists every bound key with its action") {
   const Bindings bindings = read_bindings(shipped);
   const std::string help = help_text(bindings);
-  CHECK(help.find("F11\tfull screen or window\n") != std::string::npos);
-  CHECK(help.find("Space, F12\tstop: turn forces off\n") != std::string::npos);
+  CHECK(help.find("F11\tswitch between full screen and window\n") != std::string::npos);
+  CHECK(help.find("Space, F12\tstop (turn forces off)\n") != std::string::npos);
   CHECK(help.find("Pad RT\tthrottle\n") != std::string::npos);
   CHECK(help_text({}).find("F1\t") == std::string::npos);
   CHECK(std::count(help.begin(), help.end(), '\t') == std::count(help.begin(), help.end(), '\n'));

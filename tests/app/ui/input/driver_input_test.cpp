@@ -88,11 +88,11 @@ TEST_CASE("a click on the panel does not grab the mouse; the grab key grabs and 
   Driver d;
   d.input.mouse_down[0] = true;
   d.frame(kFrame, true);
-  d.frame();  // the button is still pressed outside the panel, which is no click
+  d.frame();  // the mouse leaves the panel with the button pressed; this is no click on the cabin
   CHECK_FALSE(d.driver.mouse_moves_lever());
   d.key(GLFW_KEY_ESCAPE, true);
   d.frame(kFrame, false, true);
-  CHECK_FALSE(d.driver.mouse_moves_lever());  // the panel has the keyboard, so it got the key
+  CHECK_FALSE(d.driver.mouse_moves_lever());  // the panel has the keyboard focus, so the key went to the panel
   d.key(GLFW_KEY_ESCAPE, false);
   d.key(GLFW_KEY_ESCAPE, true);
   d.frame();
@@ -126,8 +126,8 @@ TEST_CASE("lever keys move the hand at their speed, independent of the frame rat
   CHECK(near(slow.at(), {0.025, 0.025}));
   CHECK(near(fast.at(), {0.025, 0.025}));
   slow.key(GLFW_KEY_RIGHT, false);
-  slow.key(GLFW_KEY_DOWN, true);  // up is still pressed; both cancel out
-  slow.frame(0.001);              // a key still counts in the frame of its release
+  slow.key(GLFW_KEY_DOWN, true);  // the up key is still pressed, so both keys cancel out
+  slow.frame(0.001);              // the right key was just released and still counts in this frame
   const glm::dvec2 stays = slow.at();
   slow.driver.feel(stays);
   slow.frame(0.5);
@@ -157,7 +157,7 @@ TEST_CASE("the hand stays within reach for any input") {
 TEST_CASE("a mouse beyond the reach pushes, up to 75 N at 50 mm, and stops pushing when it returns") {
   Driver d;
   d.click();
-  d.input.mouse_moved = {0.0, -(0.05 + 0.025) / 0.12e-3};  // 25 mm beyond the reach, half of 50 mm
+  d.input.mouse_moved = {0.0, -(0.05 + 0.025) / 0.12e-3};  // 25 mm beyond the reach of 50 mm: half of the full push
   d.frame();
   CHECK(near(d.at(), {0.0, 0.05}));
   CHECK(d.driver.hand().push.y == doctest::Approx(37.5));
@@ -169,7 +169,7 @@ TEST_CASE("a mouse beyond the reach pushes, up to 75 N at 50 mm, and stops pushi
   d.frame();
   CHECK(d.driver.hand().push.y == doctest::Approx(0.0).scale(1.0));
   CHECK(d.at().y == doctest::Approx(0.05));
-  // Keys never push: even if held for long, they only move the hand to the limit of its reach.
+  // Keys never push: a key that is held for long only moves the hand to the limit of its reach.
   d.key(GLFW_KEY_UP, true);
   d.frame(10.0);
   CHECK(d.driver.hand().push.y == doctest::Approx(0.0).scale(1.0));
@@ -233,7 +233,7 @@ TEST_CASE("one-shot actions are listed in order, once per press; held actions ar
   d.input.pads = {{"pad", {}, {0, 0, 0, 0, 0, 1}, ""}};
   d.frame();
   CHECK(d.driver.pressed() == std::vector{Action::full_screen, Action::stop, Action::arm});
-  d.key(GLFW_KEY_F11, true);  // a repeated key event of the system
+  d.key(GLFW_KEY_F11, true);  // the operating system repeats the held key
   d.frame();
   CHECK(d.driver.pressed().empty());
 }
@@ -253,7 +253,7 @@ TEST_CASE("a pressed or released pedal key moves the pedal over its full travel 
 }
 
 TEST_CASE("a released keyboard clutch moves slowly around the bite point, for the configured time, at any frame rate") {
-  for (const int parts : {1, 7}) {  // updates into which 10 ms are divided
+  for (const int parts : {1, 7}) {  // number of updates into which 10 ms are divided
     Driver d;
     d.feet.set_timing({.clutch_closed = 0.2, .clutch_bite = 0.8});
     const auto hold = [&d, parts](int key, double seconds) {
@@ -325,7 +325,7 @@ TEST_CASE("the ignition is on at the start; ignition and handbrake toggle with e
 
 TEST_CASE("a pedal's axis is used from its first movement on, because a pad reports 0 for an untouched trigger") {
   Driver d;
-  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};  // as a movement, 0 would be half throttle
+  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};  // if this pad were used, axis 2 at 0 would be half throttle
   d.frame();
   CHECK(d.driver.controls().throttle == 0.0);
   d.input.pads[0].axes[2] = -1.0f;
@@ -383,7 +383,7 @@ TEST_CASE("a hand moved to a lever beyond its reach stops at the limit and does 
     const glm::dvec2 back = -0.01 * lever / glm::length(lever);  // [m] 10 mm towards the middle
     d.input.mouse_moved = glm::dvec2{back.x, -back.y} / 0.12e-3;
     d.frame();
-    CHECK(near(d.at(), before + back));  // the hand follows at once
+    CHECK(near(d.at(), before + back));  // the hand moves in the same frame
   }
 }
 
@@ -396,12 +396,12 @@ TEST_CASE("a deflected stick sets the hand's position, and a released stick retu
   CHECK(near(d.at(), {0.06, 0.05}));
   d.input.pads[0].axes = {-0.6f, 0.1f, 0.0f};
   d.frame();
-  CHECK(d.at().x == doctest::Approx(-0.5 * 0.06));  // (0.6 - 0.2) / 0.8 of the reach
+  CHECK(d.at().x == doctest::Approx(-0.5 * 0.06));  // (0.6 - dead zone 0.2) / 0.8 is half of the reach
   CHECK(d.at().y == 0.0);                           // inside the dead zone
   d.input.pads[0].axes = {0.0f, 0.0f, 0.0f};
   d.frame();
   CHECK(near(d.at(), {0.0, 0.0}));
-  // A stick at rest does not move the hand, so keys can.
+  // A stick at rest does not move the hand, so keys can move it.
   d.key(GLFW_KEY_RIGHT, true);
   d.frame(0.1);
   CHECK(near(d.at(), {0.025, 0.0}));
@@ -419,7 +419,7 @@ TEST_CASE("in mode `moves` the hand's speed is quadratic in the deflection beyon
       for (int i = 0; i < parts; ++i) driver.update(input, seconds / parts, false, false);
     };
     frames(0.1);
-    input.pads[0].axes = {1.0f, -0.6f, 0.0f};  // fully right; forward, half of the range beyond the dead zone
+    input.pads[0].axes = {1.0f, -0.6f, 0.0f};  // fully right; forward by half of the range beyond the dead zone
     frames(0.1);
     CHECK(driver.hand().position.x == doctest::Approx(0.3 * 0.1));
     CHECK(driver.hand().position.y == doctest::Approx(0.3 * 0.1 / 4.0));
@@ -430,7 +430,7 @@ TEST_CASE("in mode `moves` the hand's speed is quadratic in the deflection beyon
     CHECK(near(driver.hand().position, stays));
     input.pads[0].axes = {-1.0f, 0.0f, 0.0f};
     frames(100.0);
-    CHECK(driver.hand().position.x == doctest::Approx(0.03 - 0.05));  // at most 50 mm from a blocked lever
+    CHECK(driver.hand().position.x == doctest::Approx(0.03 - 0.05));  // the hand stays within 50 mm of a blocked lever
     CHECK(driver.hand().push == glm::dvec2(0.0));
   }
 }
@@ -456,7 +456,7 @@ TEST_CASE("axes and buttons bound by a stick's name follow that stick to any por
   Bindings custom = bindings();
   custom.throttle = AxisBinding{0, 0, 0.0, 1.0, 0.0};
   custom.throttle->stick = "pedals";
-  custom.clutch = AxisBinding{1, 0, 0.0, 1.0, 0.0};  // pad 1: the second stick whose name matches
+  custom.clutch = AxisBinding{1, 0, 0.0, 1.0, 0.0};  // pad 1: the second stick with a matching name
   custom.clutch->stick = "pedals";
   custom.lever_select.reset();
   custom.lever_shift.reset();
@@ -476,11 +476,12 @@ TEST_CASE("axes and buttons bound by a stick's name follow that stick to any por
   };
   CHECK(drive({0, 1, 2}).throttle == doctest::Approx(0.375));
   CHECK(drive({0, 1, 2}).clutch == doctest::Approx(0.875));
-  CHECK(drive({1, 0, 2}).throttle == doctest::Approx(0.375));  // the order of different sticks does not matter
+  // The order in which different sticks are connected does not matter.
+  CHECK(drive({1, 0, 2}).throttle == doctest::Approx(0.375));
   CHECK(drive({1, 2}).throttle == doctest::Approx(0.875));
-  CHECK(drive({1, 2}).clutch == 0.0);  // only one stick matches
+  CHECK(drive({1, 2}).clutch == 0.0);  // only one connected stick has a matching name
   CHECK(drive({1}).throttle == 0.0);
-  CHECK_FALSE(drive({0, 1, 2}).starter);  // the pressed button is on the pedals and not on the wheel
+  CHECK_FALSE(drive({0, 1, 2}).starter);  // the pressed button is on the pedals, not on the wheel
 }
 
 TEST_CASE("panel input does not reach the driver, except keys that type no text; held keys are released") {
@@ -555,10 +556,10 @@ TEST_CASE("keys move the hand at most 50 mm past a blocked lever; once released,
   CHECK(d.at().x == doctest::Approx(held.x - 0.05));
   d.key(GLFW_KEY_LEFT, false);
   for (int i = 0; i < 20; ++i) d.frame();
-  CHECK(d.at().x == doctest::Approx(held.x - 0.05));  // the hand waits, because the lever may still arrive
+  CHECK(d.at().x == doctest::Approx(held.x - 0.05));  // the hand first waits, because the lever may still follow
   for (int i = 0; i < 40; ++i) d.frame();
   CHECK(d.at().x == doctest::Approx(held.x - 0.005));
-  d.driver.feel({0.0, 0.0});  // the lever springs back and must not pull the hand along
+  d.driver.feel({0.0, 0.0});  // a lever that springs back must not pull the hand along
   for (int i = 0; i < 40; ++i) d.frame();
   CHECK(d.at().x == doctest::Approx(held.x - 0.005));
 }
@@ -592,5 +593,5 @@ TEST_CASE(
   d.frame();
   d.key(GLFW_KEY_A, false);
   d.frame();
-  CHECK_FALSE(d.driver.pedal_keys().clutch);  // a longer press is not extended by a frame
+  CHECK_FALSE(d.driver.pedal_keys().clutch);  // a press that lasts a frame ends with the release
 }

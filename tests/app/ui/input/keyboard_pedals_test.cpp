@@ -1,4 +1,4 @@
-// Keyboard pedals compared with their closed form, for any time step and at low frame rates.
+// Keyboard pedals, compared with their closed form for any time step and at low frame rates.
 #include "app/ui/input/keyboard_pedals.h"
 
 #include <algorithm>
@@ -15,16 +15,16 @@ namespace {
 
 constexpr PedalTiming kPace{.pedal_time = 0.25, .slip_time = 1.2, .clutch_closed = 0.2, .clutch_bite = 0.8};
 
-// [1] The position of a clutch that was released from the floor `time` seconds ago. It moves to 0.8 at 4 per second,
-// then by 0.6 in 1.2 s, then again at 4 per second.
+// [1] The position of a clutch pedal `time` seconds after its release from the floor (1). The pedal moves to 0.8 at 4
+// per second, to 0.2 in 1.2 s, and then to 0 at 4 per second.
 double let_up_for(double time) {
   if (time < 0.05) return 1.0 - 4.0 * time;
   if (time < 1.25) return 0.8 - 0.5 * (time - 0.05);
   return std::max(0.0, 0.2 - 4.0 * (time - 1.25));
 }
 
-// The clutch position after every cycle of `cycle` seconds. Its key is held from 0 s to 0.51 s and polled once per
-// frame.
+// The clutch position after each cycle of `cycle` seconds. The clutch key is held from 0 s to 0.51 s, and is polled
+// once per frame.
 std::vector<double> clutch_path(double frames_per_second, double cycle) {
   KeyboardPedals feet;
   feet.set_timing(kPace);
@@ -61,11 +61,11 @@ TEST_CASE("at 10, 30 and 144 frames per second the pedal follows the same path, 
   for (const double rate : {10.0, 30.0, 144.0}) {
     CAPTURE(rate);
     const std::vector<double> path = clutch_path(rate, kCycle);
-    const double release = std::ceil(0.51 * rate - 1e-9) / rate;  // [s] first frame after the release
+    const double release = std::ceil(0.51 * rate - 1e-9) / rate;  // [s] time of the first frame after the release
     for (std::size_t i = 0; i < path.size(); ++i) {
       const double time = static_cast<double>(i + 1) * kCycle;
       const double at = time <= release ? std::min(1.0, 4.0 * time) : let_up_for(time - release);
-      REQUIRE(std::abs(path[i] - at) <= 4.0 * kCycle * 2.0);  // rounding of one or two cycles
+      REQUIRE(std::abs(path[i] - at) <= 4.0 * kCycle * 2.0);  // tolerance: movement in two cycles at 4 per second
       if (i > 0) REQUIRE(std::abs(path[i] - path[i - 1]) <= 4.0 * kCycle + 1e-12);
     }
   }
@@ -94,7 +94,7 @@ TEST_CASE("invalid time steps do not move the pedals") {
 
 TEST_CASE("when two levers ask for the pedals, only the active one moves them, and the other gets the same position") {
   KeyboardPedals feet;
-  feet.set_keys({.brake = true});  // the brake moves at 4 per second
+  feet.set_keys({.brake = true});  // moves the brake at its default speed, 4 per second
   double now = 0.0;
   for (int cycle = 1; cycle <= 100; ++cycle) {
     now = feet.move(0.001, 0.0, false, 0).brake;

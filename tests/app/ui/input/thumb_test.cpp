@@ -1,5 +1,5 @@
-// A simulated thumb drives through a gate with a pad's stick, which has only a deflection and springs back to its
-// centre.
+// A simulated thumb shifts through the gates with a gamepad's stick. The stick has only a deflection, and springs back
+// to its centre.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -25,10 +25,10 @@ namespace {
 
 constexpr int kCyclesPerFrame = 16;
 constexpr double kThumbFrame = 1e-3 * kCyclesPerFrame;  // [s]
-constexpr int kReactionFrames = 9;                      // delay of the user's reaction to the picture, about 0.15 s
+constexpr int kReactionFrames = 9;                      // frames in the user's reaction time of about 0.15 s
 
-// The shipped bindings of a pad, a thumb on its stick, and a simulated lever in a gripping hand. The thumb sees the
-// lever delayed by the reaction time.
+// The shipped bindings of a gamepad, a thumb on the pad's stick, and a simulated lever in a gripping hand. The thumb
+// sees the lever with a delay, the reaction time.
 class ThumbDesk {
  public:
   ThumbDesk(const Gate& gate, LeverMode mode)
@@ -45,7 +45,8 @@ class ThumbDesk {
   }
 
   // Shifts into `gear` by watching the lever's picture. In mode `moves` the deflection sets the hand's speed and grows
-  // with the distance; in mode `places` it sets the hand's position. False if the shift took more than 8 s.
+  // with the distance to the target. In mode `places` the deflection sets the hand's position. Returns false if the
+  // shift takes more than 8 s.
   bool shift(int gear) {
     free_reverse(gear == kReverseGear);
     lean_ = {0.0, 0.0};
@@ -90,8 +91,9 @@ class ThumbDesk {
   bool at_rest_of(int gear) const { return std::abs(visible_lever().y - rest_position(gate_, gear).y) < 0.006; }
   dvec2 visible_lever() const { return picture_.empty() ? dvec2{0.0, 0.0} : picture_.front(); }
 
-  // The next target on the way out of the old slot, along the aisle and into the new slot. In the slot it remains in
-  // the middle of the column, so that the thumb pushes against the centring.
+  // The next target on the way out of the old slot, along the aisle and into the new slot. Once the lever is in the new
+  // slot's column, the target is the gear's rest position. This is in the middle of the column, so the thumb keeps
+  // pushing against the force that centres the lever.
   dvec2 waypoint(int gear) const {
     const dvec2 to = rest_position(gate_, gear), at = visible_lever();
     const bool in_column = std::abs(at.x - to.x) < 0.004;
@@ -100,7 +102,8 @@ class ThumbDesk {
     return {in_aisle ? to.x : at.x, 0.0};
   }
 
-  // The deflection at which the hand reaches `aim` in 0.3 s. A thumb cannot hold a deflection of less than a fifth.
+  // The deflection at which the hand would reach `aim` in 0.3 s; the hand's speed grows with the square of the
+  // deflection. A thumb cannot hold a deflection below a fifth.
   dvec2 towards(dvec2 aim) const {
     dvec2 deflection{0.0, 0.0};
     for (int i = 0; i < 2; ++i) {
@@ -111,17 +114,17 @@ class ThumbDesk {
     return deflection;
   }
 
-  // The deflection that holds the lever at `aim`. The longer the lever lags, the further the hand's target moves beyond
-  // it, up to 25 mm, which pulls the lever over detents and against the centring.
+  // The deflection that holds the lever at `aim`. The longer the lever stays away from `aim`, the further the hand's
+  // target moves past `aim`, up to 25 mm. This pulls the lever over detents and against the centring.
   dvec2 hold_deflection(dvec2 aim) {
     lean_ = glm::clamp(lean_ + 4.0 * kThumbFrame * (aim - visible_lever()), -0.025, 0.025);
     return glm::clamp((aim + lean_) / hand_reach(gate_, lever_.spec()), -1.0, 1.0);
   }
 
-  // Sets the deflection that the thumb wants. frame() moves the thumb there, from end to end in a fifth of a second,
-  // and adds a tremor.
+  // Sets the deflection that the thumb wants. frame() moves the thumb there, at most from end to end in a fifth of a
+  // second, and adds a tremor.
   void thumb(dvec2 wanted) { wanted_ = wanted; }
-  void free_reverse(bool down) {  // releases the lockout by knob and ring
+  void free_reverse(bool down) {  // pushes the knob and lifts the ring, as the lockout requires
     for (const Action action : {Action::push_down, Action::lift})
       for (const int button : bindings_.pad_buttons.at(action))
         input_.pads[0].buttons[static_cast<std::size_t>(button)] = down ? 1 : 0;

@@ -24,7 +24,7 @@ TEST_CASE("fraction and peak cover all samples of the last ten seconds") {
     samples.push_back(s);
     record.push(s.time, s.wanted, s.clipped);
     if (i % 1111 != 0) continue;
-    // The span ends at the end of the tenth of a second in which the newest sample lies.
+    // The recorded span ends with the tenth of a second that contains the newest sample.
     const double end = (std::floor(s.time * 10.0 + 1e-9) + 1.0) / 10.0;
     double all = 0.0, clipped = 0.0, peak = 0.0;
     for (const Sample& old : samples) {
@@ -47,7 +47,7 @@ TEST_CASE("nothing counts as clipped before the first sample, or ten seconds aft
   record.push(30.0, 1.0, false);
   CHECK(record.fraction() == 0.0);
   CHECK(record.peak() == 1.0);
-  record.push(2.0, -3.0, true);  // an earlier time begins a new run
+  record.push(2.0, -3.0, true);  // a time before the previous one begins a new run
   CHECK(record.fraction() == 1.0);
   CHECK(record.peak() == 3.0);
 }

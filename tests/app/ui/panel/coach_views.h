@@ -1,4 +1,5 @@
-// Hand-made coach views for each stage of a lesson, with the shipped lessons and a learner who has passed some of them.
+// Hand-written values of CoachView for each phase of a lesson. They contain the shipped lessons and a learner who has
+// passed some of them.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,8 @@ inline lessons::Lesson shipped_lesson(std::string_view key) {
   return lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + std::string(key) + ".toml");
 }
 
-// A named learner who has passed four lessons and tried a fifth; hill_start is next. No lesson is offered.
+// A named learner who has passed four lessons and tried a fifth. The suggested lesson is `hill_start`. No lesson is
+// offered.
 inline lessons::CoachView half_way() {
   lessons::CoachView coach;
   coach.learner = "Ada Example";
@@ -49,7 +51,7 @@ inline lessons::CoachView offered(std::string_view key = "hill_start") {
   return coach;
 }
 
-// A lesson in its third step, with two errors reported.
+// A lesson in its third step, with two errors so far.
 inline lessons::CoachView driven(std::string_view key = "hill_start") {
   lessons::CoachView coach = offered(key);
   const lessons::Lesson lesson = shipped_lesson(key);
@@ -74,7 +76,7 @@ inline lessons::ShiftRecord shift_of(std::int64_t number, int from, int to, doub
   return shift;
 }
 
-// A result with these errors, graded as at the end of a lesson run.
+// The result of a lesson run with these errors, graded as at the end of a run.
 inline lessons::LessonResult result_of(std::string_view key, std::vector<lessons::DrivingError> errors,
                                        bool guided = false) {
   lessons::LessonResult result;
@@ -117,8 +119,8 @@ inline lessons::CoachView over(const lessons::LessonResult& result) {
   return coach;
 }
 
-// A learner with six runs, newest first: passed and recorded, failed, guided, left, interrupted, partly lost. The first
-// has a comment.
+// A learner with six runs, newest first: passed, failed, guided, left, interrupted, incomplete. The newest run has a
+// comment.
 inline lessons::CoachView with_history() {
   lessons::CoachView coach = half_way();
   const auto add = [&](std::int64_t id, const char* at, lessons::LessonResult result, const char* recording) {

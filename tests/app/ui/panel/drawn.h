@@ -1,5 +1,5 @@
-// Reads Dear ImGui's last frame: the corners of everything drawn in a colour, and the texts, recovered from their
-// glyphs' positions in the font atlas.
+// Reads what Dear ImGui drew in its last frame: the corners of all shapes of one colour, and the texts, which are
+// recovered from the positions of their glyphs in the font atlas.
 #pragma once
 
 #include <imgui.h>
@@ -23,8 +23,8 @@ inline glm::dvec2 pixel_of(const ImDrawVert& vertex) {
   return {static_cast<double>(vertex.pos.x), static_cast<double>(vertex.pos.y)};
 }
 
-// [px] The corners of everything drawn in exactly this colour, without the antialiased edges. The origin is the upper
-// left corner, and y points down.
+// [px] The corners of all shapes drawn in exactly this colour. Antialiased edges are therefore excluded. The origin is
+// the upper left corner, and y points down.
 inline std::vector<glm::dvec2> drawn_in(ImU32 colour) {
   std::vector<glm::dvec2> corners;
   const ImDrawData& data = *ImGui::GetDrawData();
@@ -47,7 +47,7 @@ inline PixelBox box_of(const std::vector<glm::dvec2>& corners) {
   return box;
 }
 
-// One line of text in one colour. Blanks are missing, because they are not drawn.
+// One line of text in one colour, without its blanks, because blanks are not drawn.
 struct DrawnText {
   std::string text;
   ImU32 colour = 0;
@@ -62,7 +62,7 @@ inline std::string utf8(unsigned letter) {
 }
 
 inline std::vector<DrawnText> drawn_texts() {
-  std::map<std::pair<float, float>, std::string> letters;  // key: the glyph's upper left corner in the atlas
+  std::map<std::pair<float, float>, std::string> letters;  // the key is the glyph's upper left corner in the atlas
   for (const ImFont* font : ImGui::GetIO().Fonts->Fonts) {
     for (const ImFontGlyph& glyph : font->Glyphs)
       if (glyph.Visible) letters.emplace(std::pair(glyph.U0, glyph.V0), utf8(glyph.Codepoint));
@@ -121,7 +121,7 @@ inline std::vector<std::string> right_of(const std::string& label) {
   return line;
 }
 
-// Draws one frame that contains only a window of this size, whose content `body` draws.
+// Draws one frame with a single window of this size. `body` draws the window's content.
 template <class Body>
 void draw_in_window(engine::UiContext& ui, ImVec2 size, const Body& body) {
   ui.begin({size.x, size.y});

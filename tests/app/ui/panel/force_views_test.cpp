@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kWidth = 1000.0, kHeight = 600.0;  // [px]
 
-// Plots after seven seconds of constant values, so that every curve is complete and level.
+// The plots after seven seconds of constant values, so that every curve is level over its whole width.
 struct Plots {
   UiContext ui;
   Gate gate = paper_gate();
@@ -56,7 +56,7 @@ struct Plots {
   }
 };
 
-// [px] The y of a level curve over time, read near the right edge, where no legend is.
+// [px] The height y of a level curve, read near the right edge, where no legend is.
 double level_of(ImU32 colour) {
   std::vector<glm::dvec2> corners = drawn_in(colour);
   std::erase_if(corners, [](glm::dvec2 corner) { return corner.x < 0.8 * kWidth; });
@@ -108,7 +108,7 @@ TEST_CASE("each force has its own colour and height, on one scale, for either ax
     if (axis == 0) rig.choose_select();
     const double h = level_of(ui::ink::kHand), a = level_of(ui::ink::kActuator), j = level_of(ui::ink::kJoystick);
     const double px_per_n = (a - h) / (s.f_h[axis] - s.f_a[axis]);
-    CHECK(px_per_n > 0.5);  // a larger force is drawn higher
+    CHECK(px_per_n > 0.5);  // a larger force is drawn higher up
     CHECK(std::abs((j - h) - px_per_n * (s.f_h[axis] - s.f_j[axis])) < 1.5);
     const double lever = level_of(ui::ink::kLever), proxy = level_of(ui::ink::kProxy);
     CHECK((lever - proxy) * (s.proxy[axis] - s.lever[axis]) > 0.0);
@@ -133,7 +133,7 @@ TEST_CASE("in the plot of force against position, the dot moves right with the l
     s.commanded = commanded;
     Plots rig(s);
     std::vector<glm::dvec2> corners = drawn_in(ui::ink::kActuator);
-    const double lowest = box_of(corners).max.y;  // [px] the dot is in the lowest plot
+    const double lowest = box_of(corners).max.y;  // [px] lower edge of the dot, the lowest shape in this colour
     std::erase_if(corners, [&](glm::dvec2 c) { return c.y < lowest - static_cast<double>(ui_em()); });
     return box_of(corners).middle();
   };

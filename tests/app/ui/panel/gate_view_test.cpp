@@ -1,4 +1,4 @@
-// Positions in the gate view, read from the triangles that it draws.
+// Positions in the view of the gate, read from the triangles that it draws.
 #include "app/ui/panel/gate_view.h"
 
 #include <algorithm>
@@ -22,9 +22,10 @@ using namespace gearshift::ui;
 
 namespace {
 
-constexpr double kMaxForce = 75.0;                                            // [N]
-constexpr glm::dvec2 kUp{1.0, -1.0};                                          // maps (right, forward) to (right, down)
-constexpr glm::dvec2 kForces[] = {{0.0, 30.0}, {-30.0, 0.0}, {18.0, -24.0}};  // [N] each of magnitude 30
+constexpr double kMaxForce = 75.0;  // [N]
+// Factors that convert a vector (right, forward) in the gate to (right, down) on the screen.
+constexpr glm::dvec2 kUp{1.0, -1.0};
+constexpr glm::dvec2 kForces[] = {{0.0, 30.0}, {-30.0, 0.0}, {18.0, -24.0}};  // [N] each has the magnitude 30 N
 
 struct View {
   UiContext ui;
@@ -48,7 +49,7 @@ double distance_from(glm::dvec2 point, glm::dvec2 wanted) {
   return glm::distance(point, wanted);
 }
 
-// [px] The vector from `from` to the tip of the arrow that starts there, which is its farthest corner.
+// [px] The vector from `from` to the tip of the arrow that starts there. The tip is the arrow's farthest corner.
 glm::dvec2 tip_of(ImU32 colour, glm::dvec2 from) {
   glm::dvec2 tip = from;
   for (const glm::dvec2 corner : drawn_in(colour))
@@ -116,7 +117,7 @@ TEST_CASE("the filled disc is the proxy, the ring the true lever, and a red line
   CHECK(red_near(drawn));
   CHECK(red_near(true_one));
   CHECK_FALSE(red_near(2.0 * true_one - drawn));
-  view.now.flags = kFlagGhost;  // proxy and lever too far apart: the ring turns red
+  view.now.flags = kFlagGhost;  // proxy and lever are too far apart, so the ring turns red
   view.draw();
   CHECK(drawn_in(ui::ink::kLever).empty());
   CHECK(red_near(true_one + glm::dvec2(0.0, 0.56 * static_cast<double>(ui_em()))));
@@ -140,7 +141,8 @@ TEST_CASE("arrows from the lever show f_h (hand) and the commanded force (actuat
       view.now.*shown = 2.0 * force;
       view.draw();
       const glm::dvec2 twice = tip_of(colour, lever);
-      // Both arrows have the same tip and soft edge, so their lengths differ by exactly 30 N.
+      // The arrows for 30 N (`once`) and 60 N (`twice`) have equal tips and soft edges, so the difference of their
+      // lengths is the length of exactly 30 N.
       const double px_per_n = glm::distance(twice, once) / 30.0;
       CHECK(std::abs(glm::length(once) - 30.0 * px_per_n) < 4.0);
       CHECK(75.0 * px_per_n > 100.0);  // the device's maximum force must be clearly visible

@@ -1,4 +1,4 @@
-// The panel's headset tab: its texts and its requests.
+// The panel's tab for the headset: its texts and its requests.
 #include <string>
 
 #include <doctest/doctest.h>
@@ -31,7 +31,7 @@ struct HeadsetTabRig : PanelRig {
     frame();
     frame();
   }
-  // Drags the slider of a length to the right.
+  // Drags the slider of the length `name` to the right.
   HeadsetRequests drag_length(const std::string& name) {
     HeadsetRequests requested;
     for (int step = 0; step <= 10; ++step) {
@@ -80,7 +80,7 @@ TEST_CASE("the seat is set by a recentre, by height, by distances, or by touchin
   REQUIRE(asked_knob);
   rig.input.headset->seat.knob = asked_knob;
   rig.show();
-  // The distances to the knob determine the seat height.
+  // Entered distances to the knob determine the seat height, so the slider for the height is hidden.
   CHECK_FALSE(rig.panel.control_rect("headset_height").has_value());
   const HeadsetRequests moved = rig.drag_length("headset_knob_down");
   REQUIRE(moved.knob);
@@ -92,7 +92,7 @@ TEST_CASE("the seat is set by a recentre, by height, by distances, or by touchin
   rig.input.headset->touches = 3;
   rig.input.headset->worst_touch = 0.0042;
   rig.show();
-  CHECK(is_drawn("3 points touched, at most 4 mm apart."));
+  CHECK(is_drawn("3 points touched, up to 4 mm off."));
   CHECK(rig.click("headset_touched").headset.save_touches);
   rig.input.headset->touching = false;
   rig.input.stick = StickView{};

@@ -1,4 +1,4 @@
-// The lesson card over the cabin: its texts, and the requests that clicks on it make.
+// The lesson card over the cabin: its texts, and the requests that it makes when clicked.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -46,7 +46,7 @@ bool has_no_request(const LessonRequests& asked) {
          !asked.next && !asked.learner && !asked.comment;
 }
 
-// Whether the words are drawn, as a whole line or as part of one.
+// Whether `words` are drawn, as a line or as part of a line.
 bool says(const std::string& words) {
   const std::vector<DrawnText> texts = drawn_texts();
   return std::any_of(texts.begin(), texts.end(),
@@ -67,7 +67,7 @@ TEST_CASE(
   CHECK(has_no_request(rig.frame().lesson));
   CHECK(rig.click("lesson_begin").lesson.begin);
   CHECK_FALSE(rig.frame().lesson.begin);
-  CHECK(rig.click("lesson_put_away").lesson.dismiss_lesson);
+  CHECK(rig.click("lesson_dismiss").lesson.dismiss_lesson);
   CHECK(rig.click("mode").lesson.mode == LessonMode::by_yourself);
   CHECK(rig.click("help").lesson.help == false);
   CoachView other = offered();
@@ -117,11 +117,11 @@ TEST_CASE("the card is at the bottom centre and keeps its size in every phase") 
     CHECK_FALSE(rig.panel.covers({0.5 * (all.min.x + all.max.x), middle.max.y - 2.0}));
     for (const CoachView& coach : {driven(), over(result_of("hill_start", some_errors())), offered()}) {
       rig.input.coach = coach;
-      rig.frame();  // the size must be right in the phase's first frame
+      rig.frame();  // only one frame: the card must have its size at once
       CHECK(rig.panel.cabin_area().max.y <= middle.max.y);
       rig.show(coach);
     }
-    const double settled = rig.panel.cabin_area().max.y;  // the card has grown to the height of its largest phase
+    const double settled = rig.panel.cabin_area().max.y;  // the card has grown to fit its largest phase
     CHECK(settled > 0.55 * all.max.y);
     for (const CoachView& coach : {driven(), over(result_of("hill_start", some_errors())), offered()}) {
       rig.input.coach = coach;
@@ -197,7 +197,7 @@ TEST_CASE("the remaining time is shown, and in the warning colour for the last t
   CoachView coach = driven();
   coach.result.duration = 30.4;
   CardRig rig(coach);
-  CHECK_FALSE(says("left"));  // the time limit is unknown
+  CHECK_FALSE(says("left"));  // a lesson without a time limit shows no remaining time
   coach.time_limit = 90.0;
   rig.show(coach);
   CHECK(the_text(drawn_texts(), "1:00 left").colour == ui::ink::kSoft);
@@ -255,7 +255,7 @@ TEST_CASE("the keys are listed under goal and prompt, with the starter's key aft
     CHECK(says("The mouse controls the lever (Esc releases the mouse)"));
     CHECK_FALSE(says("Click"));
     rig.input.mouse_moves_lever = false;
-    rig.input.is_automatic_hand = true;  // neither keys nor mouse move this hand
+    rig.input.is_automatic_hand = true;  // keys and mouse do not move an automatic hand
     rig.show(coach);
     CHECK_FALSE(says("Click"));
     CHECK_FALSE(is_drawn("a little throttle"));
@@ -318,7 +318,7 @@ TEST_CASE("prompt, hint and step are the coach's, and the progress bar has a par
   CardRig rig(coach);
   CHECK(says(coach.now.prompt));
   CHECK(says("step 3 of 7"));
-  const auto parts = [](ImU32 colour) {  // [px] left edge of the last part in this colour
+  const auto parts = [](ImU32 colour) {  // [px] right edge of the progress bar's last part in this colour
     std::vector<double> edges;
     for (const glm::dvec2 at : drawn_in(colour)) edges.push_back(at.x);
     return edges.empty() ? 0.0 : *std::max_element(edges.begin(), edges.end());
@@ -361,18 +361,18 @@ TEST_CASE(
       rig.input.keys = some_keys();
       rig.input.coach = coach;
       rig.frame();
-      rig.frame();  // ImGui does not draw a new window in its first frame
+      rig.frame();  // ImGui draws a new window only in its second frame
       const bool is_over = coach.phase == LessonPhase::over;
       const ControlRect button = rig.rect(is_over ? "lesson_again" : "lesson_begin");
       const double foot = panel_shown ? rig.rect("stop").min.y : 720.0;
       CHECK(button.max.y < foot);
       CHECK(says(is_over ? "retry" : "(Enter)"));
     }
-    CardRig rig(driven(), panel_shown);  // here the card is open already
+    CardRig rig(driven(), panel_shown);  // the card is already open while the lesson is driven
     rig.input.coach = over(result_of("hill_start", failing_errors()));
     rig.frame();
     CHECK(rig.panel.control_rect("lesson_again").has_value());
-    CHECK(rig.panel.control_rect("lesson_put_away").has_value());
+    CHECK(rig.panel.control_rect("lesson_dismiss").has_value());
     CHECK(says("retry"));
     CHECK(says("Close"));
     CHECK(says("Repeat"));
@@ -423,19 +423,19 @@ TEST_CASE("deductions and grade add up to ten, and each deduction names its erro
     CHECK(text.box.max.y - text.box.min.y <= grade.box.max.y - grade.box.min.y);
   CHECK(right_of("7.9 s") == std::vector<std::string>{without_blanks("The gears ground (12.4 J)."), "-2.0"});
   CHECK(says("Passed"));
-  CHECK_FALSE(says("wrong slot"));  // a note costs no points and is not listed
+  CHECK_FALSE(says("wrong slot"));  // this error costs no points, so it is not listed
 }
 
 TEST_CASE("after a lesson one click restarts it or offers the next lesson; a guided lesson has no grade") {
   CardRig rig(over(result_of("hill_start", some_errors())));
   CHECK(rig.click("lesson_again").lesson.begin);
   CHECK(rig.click("lesson_next").lesson.offer == "emergency_stop");
-  CHECK(rig.click("lesson_put_away").lesson.dismiss_lesson);
+  CHECK(rig.click("lesson_dismiss").lesson.dismiss_lesson);
   CHECK(says("Emergency stop"));
   rig.show(over(result_of("hill_start", failing_errors())));
   CHECK(says("Not passed"));
   CHECK(says("The engine stalled at 592 rpm."));
-  CHECK_FALSE(rig.panel.control_rect("lesson_next").has_value());  // the next lesson is the same lesson
+  CHECK_FALSE(rig.panel.control_rect("lesson_next").has_value());  // no button: the next lesson is this one
   rig.show(over(result_of("hill_start", some_errors(), true)));
   CHECK(says("graded"));
   CHECK_FALSE(says("Passed"));

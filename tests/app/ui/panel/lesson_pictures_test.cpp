@@ -1,4 +1,4 @@
-// The views for learner and instructor on every screen size and in one eye of a headset, with and without the panel.
+// The learner's and the instructor's view on every screen size and in one eye of a headset, with and without the panel.
 #include <algorithm>
 #include <functional>
 #include <string>
@@ -25,7 +25,7 @@ std::vector<Screen> all_screens() {
   return screens;
 }
 
-double text_width(const char* text) {  // [px] in the small font
+double text_width(const char* text) {  // [px] width in the small font
   const ImFont* font = ui_font(UiFont::small);
   return static_cast<double>(font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text).x);
 }
@@ -44,7 +44,7 @@ void check_inside(const PanelRig& rig, const ControlRect& room, const std::vecto
 struct Moment {
   const char* name;
   CoachView coach;
-  std::vector<std::string> controls;  // controls that must be visible
+  std::vector<std::string> controls;  // names of controls that must be visible
 };
 
 std::vector<Moment> moments() {
@@ -61,8 +61,8 @@ std::vector<Moment> moments() {
   test.retention = true;
   test.now.hint.clear();
   test.now.feedback.clear();
-  const std::vector<std::string> offer{"lesson_begin", "mode", "help", "lesson_put_away"};
-  const std::vector<std::string> end{"lesson_again", "lesson_put_away"};
+  const std::vector<std::string> offer{"lesson_begin", "mode", "help", "lesson_dismiss"};
+  const std::vector<std::string> end{"lesson_again", "lesson_dismiss"};
   return {{"offered", offered(), offer},
           {"offered_alone", by_yourself, offer},
           {"driving", driven(), {"lesson_leave"}},
@@ -120,7 +120,7 @@ TEST_CASE("lessons and history fit on every screen, with complete tab names") {
                   "next: start_and_stop", "tab_presets"});
     for (const LessonStanding& lesson : rig.input.coach.lessons) {
       CAPTURE(lesson.title);
-      // For hill_start, the first match is the suggestion above the list.
+      // The title of `hill_start` is drawn twice. The first one drawn is the suggestion above the list.
       const PixelBox box = the_text(drawn_texts(), lesson.title).box;
       CHECK(box.min.x >= rig.panel.cabin_area().max.x);
       CHECK(box.max.x <= rig.rect("next: " + lesson.key).min.x);

@@ -49,12 +49,12 @@ TEST_CASE("the lessons tab is open at the start, in teaching order, with a disc 
   }
   const std::vector<std::string> best_and_last{"9.0", "6.5"};
   CHECK(right_of("Up through the gears") == best_and_last);
-  CHECK(right_of("Reverse").empty());  // this lesson was never tried
+  CHECK(right_of("Reverse").empty());  // a lesson that was never tried has no grades
   std::vector<glm::dvec2> discs = drawn_in(ui::ink::kGood);
   std::erase_if(discs, [&](glm::dvec2 at) { return at.x < rig.panel.cabin_area().max.x; });  // plots, pedals
   const PixelBox green = box_of(discs);
   CHECK(green.min.y >= rig.rect("lesson: start_and_stop").min.y - 2.0);
-  // The last lesson passed is the fourth.
+  // Only the first four lessons of the list were passed. `up_through_the_gears` is the fourth.
   CHECK(green.max.y <= rig.rect("lesson: up_through_the_gears").max.y + 2.0);
 }
 
@@ -84,14 +84,14 @@ TEST_CASE("a learner's name is typed and confirmed with Enter, chosen from the l
   LessonsRig rig(half_way());
   rig.click("learner");
   CHECK(rig.panel.has_keyboard());
-  CHECK_FALSE(rig.write(U"Dora").lesson.learner.has_value());  // a typed name selects nobody before Enter
+  CHECK_FALSE(rig.write(U"Dora").lesson.learner.has_value());  // before Enter, a typed name selects nobody
   CHECK(rig.press(kEnter).lesson.learner == "Dora");
   rig.input.coach.learner = "Dora";
   rig.frame();
   rig.frame();
   CHECK_FALSE(rig.panel.has_keyboard());
   rig.click("learner");
-  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());  // the name has not changed
+  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());  // the name has not changed, so nothing is requested
   rig.click("learner_known");
   CHECK(rig.click("learner: Bert").lesson.learner == "Bert");
   rig.click("learner_known");
@@ -155,7 +155,7 @@ TEST_CASE("a note explains why nothing is saved") {
   rig.input.coach.learner.clear();
   rig.frame();
   CHECK(is_drawn("Enter a name to save your progress."));
-  rig.input.is_automatic_hand = true;  // then a note about the automatic hand replaces the note about the name
+  rig.input.is_automatic_hand = true;  // a note on the automatic hand replaces the note on the name
   rig.frame();
   CHECK_FALSE(is_drawn("Enter a name to save your progress."));
   const std::vector<DrawnText> texts = drawn_texts();
@@ -183,7 +183,7 @@ TEST_CASE("a name with characters that the font lacks is accepted, with a note o
   rig.input.coach.learner = "李娜";
   rig.frame();
   rig.frame();
-  CHECK(is_explained());  // the note remains while this learner is selected
+  CHECK(is_explained());  // the note stays while this learner is selected
 }
 
 TEST_CASE("a click opens a past run; its shifts can be replayed if they were recorded") {
@@ -209,7 +209,7 @@ TEST_CASE("each run shows its grade, or why it has none") {
   LessonsRig rig(with_history(), "tab_history");
   const std::vector<DrawnText> texts = drawn_texts();
   for (const char* words : {"7.5", "0.0", "guided", "left early", "cut off", "data lost"}) CHECK(is_drawn(words));
-  // Run 16, which is newer, is above run 15.
+  // Newer runs are above older ones: run 16 (7.5) above run 15 (0.0), and run 14 (guided) above run 13 (left early).
   CHECK(the_text(texts, "7.5").box.min.y < the_text(texts, "0.0").box.min.y);
   CHECK(the_text(texts, "guided").box.min.y < the_text(texts, "left early").box.min.y);
 }
@@ -219,7 +219,7 @@ TEST_CASE("an error costs points in a graded run, and none in a run that was lef
   LessonResult left = result_of("hill_start", some_errors());
   left.end = LessonEnd::left;
   grade_result(shipped_lesson("hill_start"), left);
-  coach.runs[3].result = left;  // the run with ID 13
+  coach.runs[3].result = left;  // index 3 is the run with ID 13
   LessonsRig rig(coach, "tab_history");
   rig.click("run: 13");
   rig.frame();
@@ -236,11 +236,11 @@ TEST_CASE("a comment needs an author and a text, and is requested once") {
   rig.click("run: 16");
   rig.click("comment");
   rig.write(U"Well done");
-  CHECK_FALSE(rig.press(kEnter).lesson.comment.has_value());  // the author is still missing
+  CHECK_FALSE(rig.press(kEnter).lesson.comment.has_value());  // no author has been entered yet
   rig.click("comment_author");
   CHECK(rig.panel.has_keyboard());
   rig.write(U"Ms Torque");
-  rig.press(kEscape + 1);  // Enter: leaves the field
+  rig.press(kEscape + 1);  // GLFW's code of the Enter key; Enter leaves the field
   const PanelRequests asked = rig.click("comment_add");
   REQUIRE(asked.lesson.comment.has_value());
   CHECK(asked.lesson.comment->run == 16);
@@ -296,7 +296,8 @@ TEST_CASE("a learner deleted by another program is marked, and can be selected a
   std::string note;
   for (const DrawnText& text : drawn_texts())
     if (text.colour == ui::ink::kWarn) note += text.text;
-  CHECK(note.find(without_blanks("Enter in this field")) != std::string::npos);  // elsewhere, Enter starts a lesson
+  // The note must name the field, because Enter starts a lesson if the field is not active.
+  CHECK(note.find(without_blanks("Enter in this field")) != std::string::npos);
   rig.click("learner");
   CHECK(rig.press(kEnter).lesson.learner == "Ada Example");
   rig.input.coach.learner_deleted = false;

@@ -1,4 +1,4 @@
-// A message that does not fit into the status bar is shown over the cabin, once, for some seconds.
+// A message that is too long for the status bar is shown over the cabin once, for some seconds.
 #include <string>
 
 #include <doctest/doctest.h>

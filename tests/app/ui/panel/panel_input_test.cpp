@@ -1,4 +1,4 @@
-// The panel's input in each frame: snapshots and the mouse.
+// The panel's input in each frame: snapshots of the lever, and the mouse.
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +32,7 @@ TEST_CASE("a snapshot newer than its frame's history does not affect plots and t
   std::size_t before = 0;
   for (int frame = 0; frame < 120; ++frame) {
     for (int cycle = 0; cycle < 16; ++cycle) rig.input.history.push_back(at(time += 1e-3));
-    rig.input.now = at(time + 1e-3 * (frame % 3));  // up to two cycles newer than the history
+    rig.input.now = at(time + 1e-3 * (frame % 3));  // `now` is up to two cycles newer than the history
     rig.frame();
     REQUIRE(2 * corners() > before);
     before = std::max(before, corners());
@@ -76,7 +76,7 @@ TEST_CASE("values that need allow_unstable are not requested without it, and req
   CHECK(asked.restart->contact.allow_unstable);
   CHECK_FALSE(asked.restart->contact.reversal_limiter);
   CHECK_NOTHROW(admit_tuning(*asked.restart, rig.device, rig.gate));
-  rig.input.haptics = *asked.restart;  // the program has applied the request
+  rig.input.haptics = *asked.restart;  // as if the program had applied the request
   rig.frame();
   CHECK_FALSE(rig.click("restart").restart.has_value());
   rig.drag("window_samples", 0.02, 0.5);

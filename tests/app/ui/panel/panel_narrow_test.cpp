@@ -1,4 +1,4 @@
-// The panel in windows, and in one eye of a headset, that are narrower than its layout needs.
+// The panel in windows and in a headset's eye that are narrower than the panel's layout needs.
 #include <cmath>
 
 #include <doctest/doctest.h>

@@ -16,7 +16,8 @@ using namespace gearshift::ui;
 
 namespace {
 
-// Sets input of a lever pushed through a wall while the loop is late, so that the panel shows all its warnings at once.
+// Sets the input of a lever that is pushed through a wall while the loop is late, so that the panel shows all its
+// warnings at once.
 void make_busy(PanelRig& rig) {
   rig.input.history = toured(rig.gate, 6.0);
   rig.input.now = rig.input.history.back();
@@ -47,7 +48,7 @@ void make_busy(PanelRig& rig) {
   rig.input.frame_ms = 16.7;
 }
 
-// Whether nothing is drawn between the columns, above the status bar.
+// Whether nothing is drawn between the panel's two columns, above the status bar.
 bool middle_is_free(const Screen& screen) {
   const ImDrawData& data = *ImGui::GetDrawData();
   const float low = 0.27f * static_cast<float>(screen.width), high = 0.73f * static_cast<float>(screen.width);
@@ -68,7 +69,7 @@ TEST_CASE("on every screen all texts fit, the middle is free and the controls ar
     show_on(rig, screen);
     make_busy(rig);
     rig.frame();
-    rig.wait(10.0);  // until the long message over the cabin disappears
+    rig.wait(10.0);  // waits until the long message over the cabin has disappeared
     rig.click("tab_tuning");
     show(rig, name_of(screen, "tuning"));
     CHECK(rig.panel.shortened_texts() == 0);
@@ -117,8 +118,8 @@ TEST_CASE("an unsafe value is marked red on its slider") {
 }
 
 TEST_CASE("the help for the shipped bindings has two columns: keys and actions") {
-  // Counts pixels in the middle of the screen, where the second column is. A single column of keys does not reach
-  // there.
+  // Counts bright pixels to the right of the screen's centre, where only the help's second column (the actions) has
+  // text.
   const auto bright_pixels = [](const std::string& help, const std::string& name) {
     PanelRig rig;
     rig.panel.show_help(true, help);

@@ -1,4 +1,4 @@
-// The panel on common screen sizes, as pictures that a developer can look at.
+// Pictures of the panel on common screen sizes, for developers to look at.
 #pragma once
 
 #include <cstdlib>
@@ -17,7 +17,7 @@ struct Screen {
   float scale;
 };
 inline constexpr Screen kScreens[] = {{1280, 720, 1.0f}, {1920, 1080, 1.0f}, {3840, 2160, 2.0f}, {3840, 2160, 3.0f}};
-inline constexpr Screen kEye = {640, 720, 1.0f};  // one eye of a stereo picture
+inline constexpr Screen kEye = {640, 720, 1.0f};  // the picture for one eye of a headset
 
 inline void show_on(PanelRig& rig, const Screen& screen) {
   rig.screen.width = static_cast<float>(screen.width);
@@ -27,7 +27,7 @@ inline void show_on(PanelRig& rig, const Screen& screen) {
 }
 
 inline void settle(PanelRig& rig) {
-  for (int i = 0; i < 6; ++i) rig.frame();  // tables and windows need a few frames to find their size
+  for (int i = 0; i < 6; ++i) rig.frame();  // tables and windows need a few frames to settle their size
 }
 
 inline engine::Image picture_of(PanelRig& rig) {
@@ -35,7 +35,7 @@ inline engine::Image picture_of(PanelRig& rig) {
   return UiRaster(*ImGui::GetDrawData(), {92, 110, 124}).draw();
 }
 
-// Writes the picture into the folder that the environment variable GEARSHIFT_PICTURES names, if it is set.
+// If the environment variable GEARSHIFT_PICTURES names a folder, writes the picture into that folder.
 inline void show(PanelRig& rig, const std::string& name) {
   settle(rig);
   if (const char* folder = std::getenv("GEARSHIFT_PICTURES"))

@@ -1,5 +1,5 @@
-// A panel with realistic input. A simulated hand drives through the paper's gate; a scripted mouse and keyboard operate
-// the panel.
+// A panel with realistic input: a simulated hand moves the lever through the paper's gate, and a scripted mouse and
+// keyboard operate the panel.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace gearshift::test {
 
 inline constexpr int kEscape = 256;  // GLFW's key code
 
-// Snapshots of a tour through the gears that lasts `seconds` seconds, one for every `step` cycles.
+// Snapshots of a lever that is moved through the gears for `seconds` seconds: one snapshot per `step` cycles.
 inline std::vector<haptics::HapticSnapshot> toured(const haptics::Gate& gate, double seconds, int step = 4) {
   haptics::SimulatedRunConfig config;
   config.gate = gate;
@@ -46,7 +46,7 @@ struct PanelRig {
   engine::UiEvents events;
   ui::Panel panel;
   ui::PanelInput input;
-  ui::PanelRequests asked;  // the requests of the last frame
+  ui::PanelRequests asked;  // the requests that the panel made in the newest frame
 
   explicit PanelRig(int delay = 0) {
     device.simulated = true;
@@ -67,10 +67,10 @@ struct PanelRig {
     input.health.rate = 1000.0;
     input.message = "Ready.";
     frame();
-    frame();  // controls have positions from the second frame on
+    frame();  // a control has a position after two frames
   }
 
-  // One frame of panel and program. A requested tuning is applied as the session does it.
+  // Draws one frame of the panel, and applies a requested tuning as the session does.
   const ui::PanelRequests& frame() {
     ui.feed(events);
     events.keys.clear();
@@ -108,7 +108,7 @@ struct PanelRig {
     events.mouse = {r.min.x + fraction * (r.max.x - r.min.x), 0.5 * (r.min.y + r.max.y)};
   }
 
-  // Clicks a control, and returns all requests made meanwhile.
+  // Clicks a control, and returns all requests made in the frames of the click.
   ui::PanelRequests click(const std::string& name) {
     point(name);
     frame();
@@ -119,7 +119,8 @@ struct PanelRig {
     merge(all, frame());
     return all;
   }
-  // Drags a slider from one fraction of its width to another, and returns every tuning requested meanwhile.
+  // Drags a slider from `from` to `to`, as fractions of its width. Returns every tuning that was requested during the
+  // drag.
   std::vector<haptics::HapticTuning> drag(const std::string& name, double from, double to, int steps = 10) {
     std::vector<haptics::HapticTuning> tunings;
     const auto look = [&] {

@@ -1,4 +1,4 @@
-// The panel treats a new lever, a replay and a jump within a replay as a new run: its plots and statistics start again.
+// A new lever, a replay, and a jump within a replay are new runs for the panel: its plots and statistics start again.
 #include <algorithm>
 #include <vector>
 
@@ -15,7 +15,7 @@ using namespace gearshift::ui;
 
 namespace {
 
-// [px] The width of the force curves, which extend across the left column.
+// [px] The width of the force curves in the left column.
 double width_of_force_curve() {
   const std::vector<glm::dvec2> corners = drawn_in(ui::ink::kJoystick);
   double low = 1e9, high = -1e9;
@@ -48,7 +48,7 @@ TEST_CASE("a run that begins later than the previous one is not joined to it in 
   CHECK(width_of_force_curve() > 20.0);
   CHECK(is_drawn("clipped 100.0 %"));
   ++rig.input.run;
-  for (const double time : {12.0, 12.5, 13.0}) {  // [s] forward jumps in a paused replay
+  for (const double time : {12.0, 12.5, 13.0}) {  // [s] times to which a paused replay jumps
     ++rig.input.run;
     rig.input.now = pushed(time, false);
     rig.frame();

@@ -1,4 +1,4 @@
-// The panel, operated by a scripted mouse and keyboard, without a GPU.
+// The panel, operated with a scripted mouse and keyboard, without a GPU.
 #include <string>
 
 #include <doctest/doctest.h>
@@ -59,14 +59,14 @@ TEST_CASE("a dragged slider requests tunings within its range, and the running l
 }
 
 TEST_CASE("a slider dragged over its full width never requests a wall beyond the stability limit") {
-  TuningRig rig(1);  // with one cycle of delay the limit is 7525 N/m
+  TuningRig rig(1);  // with one cycle of delay, the stability limit is 7525 N/m
   const std::vector<HapticTuning> tunings = rig.drag(kStiffness, 0.25, 1.0, 60);
   REQUIRE_FALSE(tunings.empty());
   double max = 0.0;
   for (const HapticTuning& tuning : tunings) max = std::max(max, tuning.wall_stiffness);
   CHECK(max <= 0.35 * kPaperAxisY.mass / (0.002 * 0.002));
   CHECK(max > 6800.0);
-  CHECK(rig.input.admitted.tuning.wall_stiffness == max);  // the last stable value stays active
+  CHECK(rig.input.admitted.tuning.wall_stiffness == max);  // the last stable value remains in use
   REQUIRE(rig.panel.control_rect("use_stable").has_value());
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("undo restores the tuning before the drag, redo the one after it, rese
   CHECK(rig.input.admitted.tuning == start);
   rig.click("redo");
   CHECK(rig.input.admitted.tuning == dragged);
-  rig.panel.undo();  // as the program does on its undo key
+  rig.panel.undo();  // the program calls undo() when the undo key is pressed
   rig.frame();
   CHECK(rig.input.admitted.tuning == start);
   rig.panel.redo();
@@ -148,7 +148,7 @@ TEST_CASE("after a tuning is changed elsewhere, the history starts again from it
   loaded.wall_stiffness = 3333.0;
   rig.input.haptics.tuning = rig.input.admitted.tuning = loaded;
   rig.frame();
-  rig.panel.undo();  // must not change the tuning
+  rig.panel.undo();  // there is nothing to undo
   rig.frame();
   CHECK(rig.input.admitted.tuning == loaded);
 }
@@ -173,7 +173,7 @@ TEST_CASE("the panel also works if the program applies a tuning some frames late
   rig.frame();
   const PanelRequests undone = rig.click("undo");
   REQUIRE(undone.tuning.has_value());
-  CHECK(*undone.tuning == HapticTuning());  // undo reverts the whole drag
+  CHECK(*undone.tuning == HapticTuning());  // one undo reverts the whole drag
 }
 
 TEST_CASE("gate, preset and hand are chosen from their lists") {
@@ -204,13 +204,13 @@ TEST_CASE("a preset is saved only under a typed name") {
 TEST_CASE("settings that are fixed while the loop runs are collected, checked, and applied by a restart") {
   PanelRig rig;
   rig.click("tab_setup");
-  CHECK_FALSE(rig.click("restart").restart.has_value());  // no setting has changed
+  CHECK_FALSE(rig.click("restart").restart.has_value());  // no setting has changed, so there is nothing to request
   rig.drag("slew_n_per_cycle", 0.25, 0.75);
   const PanelRequests asked = rig.click("restart");
   REQUIRE(asked.restart.has_value());
   CHECK(asked.restart->guard.slew == doctest::Approx(75.0).epsilon(0.05));
   CHECK_NOTHROW(check_config(*asked.restart));
-  rig.drag("clear_below_n", 0.1, 0.9);  // rejected, because it exceeds warn_above
+  rig.drag("clear_below_n", 0.1, 0.9);  // invalid, because `clear_below` now exceeds `warn_above`
   CHECK_FALSE(rig.click("restart").restart.has_value());
   rig.click("setup_back");
   CHECK_FALSE(rig.click("restart").restart.has_value());
@@ -219,7 +219,7 @@ TEST_CASE("settings that are fixed while the loop runs are collected, checked, a
 TEST_CASE("by keys only: Tab enters the panel, arrows move to STOP, Space presses it, Escape leaves the panel") {
   PanelRig rig;
   CHECK_FALSE(rig.ui.wants_keys());
-  rig.press(kRight);  // moves the car's lever only
+  rig.press(kRight);  // before Tab, an arrow key moves only the lever
   CHECK_FALSE(rig.ui.wants_keys());
   rig.press(kTab);
   CHECK(rig.ui.wants_keys());
@@ -240,14 +240,14 @@ TEST_CASE("Ctrl+Tab moves to the lists for car and gate; from there the arrows r
   PanelRig rig;
   rig.press(kTab);
   rig.press(kTab, true);
-  for (int i = 0; i < 4; ++i) rig.press(kDown);                     // past car, gate, preset and hand to the tabs
-  for (int i = 0; i < 5 && !rig.panel.control_rect("undo"); ++i) {  // to the tab with the tuning
+  for (int i = 0; i < 4; ++i) rig.press(kDown);  // moves the focus past car, gate, preset and hand to the tabs
+  for (int i = 0; i < 5 && !rig.panel.control_rect("undo"); ++i) {  // moves the focus right to the tuning tab
     rig.press(kSpace);
     if (!rig.panel.control_rect("undo")) rig.press(kRight);
   }
   REQUIRE(rig.panel.control_rect("undo").has_value());
   double stiffness = 0.0;
-  for (int i = 0; i < 4 && stiffness == 0.0; ++i) {  // past the row of undo buttons to the first slider
+  for (int i = 0; i < 4 && stiffness == 0.0; ++i) {  // moves the focus past the undo buttons to the first slider
     rig.press(kDown);
     rig.press(kSpace);
     const PanelRequests asked = rig.press(kRight);
@@ -269,7 +269,7 @@ TEST_CASE("a hidden panel draws nothing, ignores the mouse and keeps collecting 
   PanelRig rig;
   const ControlRect stop = rig.rect("stop");
   rig.panel.set_visible(false);
-  rig.wait(10.0);  // until the message over the cabin disappears
+  rig.wait(10.0);  // waits until the message over the cabin has disappeared
   CHECK_FALSE(rig.panel.control_rect("stop").has_value());
   CHECK(ImGui::GetDrawData()->TotalVtxCount == 0);
   rig.events.mouse = 0.5 * (stop.min + stop.max);

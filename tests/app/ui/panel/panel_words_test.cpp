@@ -23,7 +23,7 @@ void run_and_draw(PanelRig& rig) {
   for (int i = 0; i < 4; ++i) rig.frame();
 }
 
-// The names of the warning lamps that are lit with these flags.
+// The names of the warning lamps that are lit if these flags are set.
 std::set<std::string> lit(PanelRig& rig, std::uint32_t flags) {
   rig.input.now.flags = flags;
   run_and_draw(rig);
@@ -147,7 +147,7 @@ TEST_CASE("the forces sent and wanted are shown correctly, and no zero has a min
 
 TEST_CASE("the frame time is shown only if frames are counted") {
   PanelRig rig;
-  rig.screen.width = 2600.0f;  // wide enough for the whole line
+  rig.screen.width = 2600.0f;  // [px] wide enough for the whole status line
   const auto shows_frame_time = [&] {
     run_and_draw(rig);
     const std::vector<DrawnText> texts = drawn_texts();
@@ -227,7 +227,7 @@ TEST_CASE("the loop's figures are next to their names") {
 }
 
 TEST_CASE("a preset is compared with the active values, not with the requested ones") {
-  PanelRig rig(1);  // one cycle of delay makes the requested value exceed its limit
+  PanelRig rig(1);  // one cycle of delay limits the wall stiffness to less than the 20000 N/m requested here
   rig.input.haptics.tuning.wall_stiffness = 20000.0;
   rig.input.admitted = admit_tuning(rig.input.haptics, rig.device, rig.gate);
   const HapticTuning runs = rig.input.admitted.tuning;

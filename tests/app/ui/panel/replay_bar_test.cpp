@@ -1,4 +1,5 @@
-// A recorded drive in the panel: the requests of clicks on the replay bar, and the places where paths are drawn.
+// A recorded drive in the panel: the requests that clicks on the replay bar make, and the positions at which paths are
+// drawn.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -42,7 +43,7 @@ TEST_CASE("one click each plays, pauses, slows, closes a replay, and shows one s
   for (const bool panel_shown : {true, false}) {
     CAPTURE(panel_shown);
     ReplayRig rig(panel_shown);
-    CHECK(rig.click("replay_play").playback.play == false);  // the replay is playing
+    CHECK(rig.click("replay_play").playback.play == false);  // a click on the running replay asks for a pause
     rig.player.play(false);
     rig.frame();
     CHECK(rig.click("replay_play").playback.play == true);
@@ -112,7 +113,7 @@ TEST_CASE("a replay names its recording's car and gate, and for a known run its 
   CHECK(says("lesson.trace"));
   CHECK(says("Hatchback"));
   CHECK(says("5-speed, R bottom right"));
-  CHECK(says("not the recording's"));  // a note at the lists for car and gate
+  CHECK(says("not the recording's"));  // a note beside the lists of cars and gates
   rig.input.coach = half_way();
   rig.input.coach.runs.push_back({4, 1, "no date", rig.player.file().string(), result_of("hill_start", {})});
   rig.settle();
@@ -136,7 +137,7 @@ TEST_CASE("no number next to the curves touches another number or the unit, and 
       const bool is_number = text.text.find_first_not_of("0123456789") == std::string::npos;
       return !is_number || text.box.min.x > bar.min.x + 60.0 || text.box.max.y > bar.min.y;
     });
-    CHECK(numbers.size() >= 6);  // two numbers per lane
+    CHECK(numbers.size() >= 6);  // each of the three plots, one above the other, has at least two numbers
     for (std::size_t i = 0; i < numbers.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         CAPTURE(numbers[i].text);
@@ -193,7 +194,7 @@ TEST_CASE("a clutch that is pressed in a shift is drawn as a curve that rises at
   ReplayRig rig;
   rig.player.select_shift(1);
   rig.settle();
-  // The clutch's curve has the accent colour, and is highest where the samples have the pedal down.
+  // The clutch's curve has the accent colour. It is highest while the clutch pedal is down in the samples.
   double down_from = 1e9, down_to = 0.0;
   for (const DriveSample& sample : rig.player.drive().between(rig.player.from(), rig.player.to())) {
     if (sample.car.clutch < 0.93) continue;
@@ -213,7 +214,7 @@ TEST_CASE("a clutch that is pressed in a shift is drawn as a curve that rises at
   const double top = box_of(curve).min.y;
   double first = 1e9, last = 0.0;
   for (const glm::dvec2 at : curve) {
-    if (at.y > top + 2.0) continue;  // 2 px are 7 % of the lane's height
+    if (at.y > top + 2.0) continue;  // 2 px are about 7 % of the pedal travel, which matches the limit 0.93 above
     first = std::min(first, at.x);
     last = std::max(last, at.x);
   }
@@ -244,7 +245,7 @@ TEST_CASE("in the gate the driven path is a solid line, and the ideal path is da
     return box_of(drawn_in(ui::ink::kProxy)).middle();
   };
   const glm::dvec2 zero = disc_at({0.0, 0.0});
-  const double scale = disc_at({0.01, 0.0}).x - zero.x;  // [px] length of 10 mm
+  const double scale = disc_at({0.01, 0.0}).x - zero.x;  // [px] 10 mm in the gate view
   const auto pixel = [&](glm::dvec2 p) { return zero + 100.0 * scale * glm::dvec2(p.x, -p.y); };
   const auto distance_to = [&](const std::vector<glm::dvec2>& path, glm::dvec2 at) {
     double min = 1e9;
@@ -261,7 +262,7 @@ TEST_CASE("in the gate the driven path is a solid line, and the ideal path is da
     const std::vector<glm::dvec2> line = drawn_in(ui::ink::kDriven);
     CHECK(std::any_of(line.begin(), line.end(), [&](glm::dvec2 at) { return glm::distance(at, pixel(corner)) < 3.0; }));
   }
-  // Each dash has four corners. The distance of the two farthest, minus the thickness, is its length.
+  // Each dash is a rectangle with four corners. Its length is that of its longer side.
   const std::vector<glm::dvec2> dashes = drawn_in(ui::ink::kIdeal);
   REQUIRE(dashes.size() % 4 == 0);
   double drawn = 0.0, length = 0.0;

@@ -1,4 +1,5 @@
-// A stick in the user's hand: the panel shows its state and instructions, and says that the push is only estimated.
+// A stick in the user's hand: the panel shows the stick's state and instructions, and says that the push is only
+// estimated.
 #include <string>
 
 #include <doctest/doctest.h>
@@ -62,7 +63,7 @@ TEST_CASE("an instruction stays over the cabin until it is followed, also while 
       CHECK_FALSE(is_drawn(kOff));
       CHECK_FALSE(is_drawn(kUnplugged));
     }
-    rig.input.stick.reset();  // now the lever is simulated
+    rig.input.stick.reset();  // from now on the lever is simulated
     rig.input.now.guard = GuardState::idle;
     rig.show();
     CHECK_FALSE(is_drawn(kOff));

@@ -1,4 +1,4 @@
-// A plot's columns, compared with brute force using all samples.
+// The columns of a plot, compared with columns computed from all samples.
 #include "app/ui/panel/strip.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Sample {
   double time, value;
 };
 
-// Samples at irregular times, with gaps of many columns and peaks of a single sample.
+// Samples at irregular times, with gaps of many columns, and with peaks that last one sample.
 std::vector<Sample> uneven(std::uint32_t seed, int count) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> step(0.0, 0.004), value(-1.0, 1.0);
@@ -32,8 +32,8 @@ std::vector<Sample> uneven(std::uint32_t seed, int count) {
   return samples;
 }
 
-// Checks the definition: column i holds the samples with times in its part of the span. The columns' limits are fixed
-// in absolute time.
+// Checks that every column contains exactly the samples in its part of the time span. The columns' limits are multiples
+// of the column width in absolute time.
 void check_against_all(const Strip& strip, const std::vector<Sample>& samples, double newest_time) {
   const auto newest = static_cast<std::int64_t>(std::floor(newest_time / strip.span() * strip.columns()));
   for (int i = 0; i < strip.columns(); ++i) {
@@ -76,7 +76,7 @@ TEST_CASE("a different number of columns shows the same samples") {
   for (const Sample& s : samples) strip.push(s.time, s.value);
   for (const int columns : {1, 7, 300, 2000}) {
     strip.set_columns(columns);
-    std::vector<Sample> recent;  // without the samples older than the span, which the strip drops
+    std::vector<Sample> recent;  // only samples within the span, because the strip drops older ones
     for (const Sample& s : samples)
       if (s.time >= samples.back().time - strip.span()) recent.push_back(s);
     check_against_all(strip, recent, samples.back().time);
@@ -90,7 +90,7 @@ TEST_CASE("a single-sample peak is visible at any width, and the extent covers a
   strip.set_columns(3);
   CHECK(strip.extent().max == 99.0);
   for (int i = 5000; i < 12000; ++i) strip.push(1e-3 * i, 0.0);
-  CHECK(strip.extent().max == 0.0);  // the peak is older than the span
+  CHECK(strip.extent().max == 0.0);  // the peak is now older than the span
 }
 
 TEST_CASE("a time before the last one begins a new run; non-finite values are ignored") {
@@ -112,7 +112,7 @@ TEST_CASE("the cost per sample hardly grows with their number: ten times as many
     CHECK(strip.extent().count > 0);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
-  const auto seconds = [&](int samples) {  // best of five, because other programs also use the CPU
+  const auto seconds = [&](int samples) {  // [s] the shortest of five runs, because other programs also use the CPU
     double best = once(samples);
     for (int i = 0; i < 4; ++i) best = std::min(best, once(samples));
     return best;

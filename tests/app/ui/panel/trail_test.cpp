@@ -22,7 +22,7 @@ HapticSnapshot at(double time, glm::dvec2 lever) {  // [s], [m]
   return snapshot;
 }
 
-// Pushes one second of a lever that moves 1 mm every hundredth of a second, to the right or left (side +1 or -1).
+// Pushes one second of a lever that moves by 1 mm per 0.01 s, to the right if `side` is +1 and to the left if it is -1.
 void drive(Trail& trail, double from, double side) {
   for (int i = 0; i < 100; ++i) trail.push(at(from + 0.01 * i, {side * 1e-3 * i, 0.0}));
 }
@@ -33,7 +33,7 @@ TEST_CASE("a time before the last one begins a new run, and drops the points of 
   Trail trail;
   drive(trail, 2.0, 1.0);
   CHECK(trail.points().size() == 100);
-  drive(trail, 1.5, -1.0);  // begins within the three seconds that a run keeps
+  drive(trail, 1.5, -1.0);  // 1.5 s is before the newest time, 2.99 s, so this is a new run
   CHECK(trail.points().size() == 100);
   for (const TrailPoint& point : trail.points()) CHECK(point.lever.x <= 0.0);
 }
@@ -48,10 +48,11 @@ TEST_CASE("a run keeps its last three seconds, with each point's age") {
                        [](const TrailPoint& a, const TrailPoint& b) { return a.time < b.time; }));
 }
 
-// On the real clock, time continues when the lever is replaced, so the time does not show that a new run began.
+// On the real clock, time does not step back when the lever is replaced, so the time alone does not show that a new run
+// has begun. The panel clears the trail when `PanelInput::run` changes.
 TEST_CASE("the panel draws no line from the previous lever to the new one") {
   PanelRig rig;
-  // Counts corners in the left column, where otherwise only the gears' depths have this colour.
+  // Counts blue corners in the left column. Apart from the trail, only the gears' depths have this colour there.
   const auto blue_corners = [&] {
     constexpr ImU32 kInk = ~(0xffu << IM_COL32_A_SHIFT);
     const ImDrawData& data = *ImGui::GetDrawData();

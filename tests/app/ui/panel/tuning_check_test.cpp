@@ -1,5 +1,5 @@
-// The panel's feedback on a tuning, compared with the closed forms of the laws and with admit_tuning(), which the loop
-// uses.
+// The panel's feedback on a tuning, compared with the closed forms of the stability laws, and with admit_tuning(),
+// which the loop uses.
 #include "app/ui/panel/tuning_check.h"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ TEST_CASE("every bound is exact: a value just inside is accepted, one just outsi
   for (const int delay : {0, 1, 2}) {
     for (const double rate : {1000.0, 500.0}) {
       TuningQuestion question = ask_at(rate, delay);
-      const auto start = nearest_stable(question);  // the tuning with which the loop would start
+      const auto start = nearest_stable(question);  // the loop would start with this tuning
       REQUIRE(start.has_value());
       question.config.tuning = *start;
       REQUIRE(answer(question).admissible);

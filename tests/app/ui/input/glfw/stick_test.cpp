@@ -1,5 +1,5 @@
-// Pedals of a kernel input device (evdev), through the real GLFW and a window to the driver's pedals. Runs under
-// umockdev-run with tests/data/glfw_stick, which answers every query about the device; this file sends the events.
+// Pedals of an emulated kernel input device (evdev), read through the real GLFW and a window. Runs under umockdev-run,
+// whose recording tests/data/glfw_stick answers every query about the device. This file sends the events.
 #include <fcntl.h>
 #include <linux/input.h>
 #include <sys/stat.h>
@@ -22,8 +22,8 @@ using namespace gearshift::ui;
 
 namespace {
 
-// Sends events to the file from which GLFW reads them. Sends no SYN_REPORT, because GLFW would then query all axes
-// again and get their initial values.
+// Sends events to the file from which GLFW reads the device. SYN_REPORT is not sent, because GLFW would then query all
+// axes again and get their initial values.
 class AcmePedals {
  public:
   AcmePedals() {
@@ -69,7 +69,8 @@ TEST_CASE("a kernel input device is listed; its pedal moves the throttle, its bu
   const std::vector<PadState> sticks = glfw_sticks();
   REQUIRE(sticks.size() == 1);
   CHECK(sticks[0].name == "Acme Pedals");
-  // SDL's format: bus, vendor, product and version, each little-endian.
+  // SDL's GUID contains bus 3 (USB), vendor 0x1234, product 0x5678 and version 0x0100, each in four little-endian
+  // bytes.
   CHECK(sticks[0].guid == "03000000341200007856000000010000");
   CHECK(sticks[0].axes == std::vector<float>{65536.0f / 65535.0f - 1.0f, 65536.0f / 65535.0f - 1.0f, -1.0f});
   CHECK(sticks[0].buttons == std::vector<unsigned char>(6, 0));
