@@ -14,7 +14,7 @@
 #include "app/session/plot_samples.h"
 #include "app/session/preset_store.h"
 #include "haptics/loop/haptic_config.h"
-#include "haptics/loop/preset_writer.h"
+#include "haptics/loop/preset.h"
 #include "haptics/rt/monotonic_clock.h"
 
 namespace gearshift::session {

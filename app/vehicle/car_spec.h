@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate.h"
 
 namespace gearshift::vehicle {
@@ -60,11 +61,11 @@ struct SynchroSpec {
   double friction = 0.10;        // [1] cone friction; below critical_friction() the synchroniser counts as worn
   double radius = 0.030;         // [m] mean radius of the cone
   double cone_angle = 0.11;      // [rad] half-angle
-  double cones = 1.0;            // [1] number of friction surfaces
+  int cones = 1;                 // [1] number of friction surfaces
   double index_radius = 0.035;   // [m] radius of the blocking teeth
   double pointing_angle = 0.92;  // [rad] half-angle of the blocking teeth's points
   double index_friction = 0.09;  // [1]
-  double teeth = 36.0;           // [1] number of dog teeth
+  int teeth = 36;                // [1] number of dog teeth
   double dog_speed = 1.0;        // [rad/s] largest speed difference at which the dogs engage
   double lever_ratio = 9.0;      // [1] knob travel divided by sleeve travel
   double efficiency = 0.8;       // [1] efficiency of the linkage
@@ -109,3 +110,112 @@ double friction_torque(const EngineSpec& engine, double speed) noexcept;
 double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept;
 
 }  // namespace gearshift::vehicle
+
+// The keys of car files. full_load and the forward ratios are lists, which car_spec.cpp reads.
+namespace gearshift::haptics {
+
+template <>
+inline constexpr Parameter<vehicle::EngineSpec> kParameters<vehicle::EngineSpec>[] = {
+    {&vehicle::EngineSpec::friction, "friction", "friction_nm", FileRange{0.0, 5000.0},
+     "Motoring torque at standstill, throttle closed."},
+    {&vehicle::EngineSpec::friction_slope, "friction_slope", "friction_nm_per_krpm",
+     FileRange{0.0, 5000.0, file_unit::kPerKrpm}, "Increase of the motoring torque per 1000 rpm."},
+    {&vehicle::EngineSpec::friction_square, "friction_square", "friction_nm_per_krpm2",
+     FileRange{0.0, 5000.0, file_unit::kPerKrpmSquared}, "Increase of the motoring torque per (1000 rpm)^2."},
+    {&vehicle::EngineSpec::inertia, "inertia", "inertia_kgm2", FileRange{0.01, 10.0},
+     "Moment of inertia, flywheel included."},
+    {&vehicle::EngineSpec::idle, "idle", "idle_rpm", FileRange{50.0, 20000.0, file_unit::kRpm}, "Idle speed."},
+    {&vehicle::EngineSpec::idle_gain, "idle_gain", "idle_throttle_per_krpm", FileRange{0.1, 100.0, file_unit::kPerKrpm},
+     "Extra throttle per 1000 rpm below idle speed."},
+    {&vehicle::EngineSpec::stall, "stall", "stall_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
+     "Below this speed the engine stops firing."},
+    {&vehicle::EngineSpec::red_line, "red_line", "red_line_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
+     "Above this speed the over-rev warning comes on."},
+    {&vehicle::EngineSpec::limiter, "limiter", "limiter_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
+     "Above this speed the fuel is cut."},
+    {&vehicle::EngineSpec::limiter_band, "limiter_band", "limiter_band_rpm", FileRange{1.0, 1000.0, file_unit::kRpm},
+     "The fuel returns this far below limiter_rpm."},
+    {&vehicle::EngineSpec::starter_torque, "starter_torque", "starter_nm", FileRange{1.0, 1000.0},
+     "Starter's torque at standstill."},
+    {&vehicle::EngineSpec::starter_speed, "starter_speed", "starter_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
+     "At this speed the starter's torque has fallen to zero."},
+    {&vehicle::EngineSpec::shift_low, "shift_low", "shift_from_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
+     "Lower end of the band for economical upshifts."},
+    {&vehicle::EngineSpec::shift_high, "shift_high", "shift_to_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
+     "Upper end of the band for economical upshifts."},
+    {&vehicle::EngineSpec::lug_below, "lug_below", "lug_below_rpm", FileRange{50.0, 20000.0, file_unit::kRpm},
+     "Below this speed, full load harms the engine."},
+    {&vehicle::EngineSpec::shudder, "shudder", "shudder_n", FileRange{0.0, 10.0},
+     "Amplitude of the vibration at the knob while the engine dies."},
+};
+
+template <>
+inline constexpr Parameter<vehicle::ClutchSpec> kParameters<vehicle::ClutchSpec>[] = {
+    {&vehicle::ClutchSpec::capacity, "capacity", "capacity_nm", FileRange{1.0, 10000.0}, "Largest torque, pedal up."},
+    {&vehicle::ClutchSpec::bite, "bite", "bite_pedal", FileRange{0.0, 1.0},
+     "Pedal position (0 up, 1 down) below which the clutch transmits torque."},
+    {&vehicle::ClutchSpec::closed, "closed", "closed_pedal", FileRange{0.0, 1.0},
+     "Pedal position below which the capacity is full; it grows with the square from bite_pedal on."},
+    {&vehicle::ClutchSpec::disc_inertia, "disc_inertia", "disc_inertia_kgm2", FileRange{0.0005, 1.0},
+     "Moment of inertia of disc and input shaft."},
+};
+static_assert(DescribesAll<vehicle::ClutchSpec>);
+
+template <>
+inline constexpr Parameter<vehicle::GearboxSpec> kParameters<vehicle::GearboxSpec>[] = {
+    {&vehicle::GearboxSpec::reverse, "reverse", "ratio_r", FileRange{0.1, 20.0}, "Ratio of reverse."},
+    {&vehicle::GearboxSpec::final_drive, "final_drive", "final_drive", FileRange{0.1, 20.0},
+     "Ratio of the final drive."},
+    {&vehicle::GearboxSpec::drag, "drag", "drag_nm", FileRange{0.0, 20.0}, "Coulomb friction on the input shaft."},
+    {&vehicle::GearboxSpec::drag_slope, "drag_slope", "drag_nm_per_krpm", FileRange{0.0, 20.0, file_unit::kPerKrpm},
+     "Increase of this friction per 1000 rpm."},
+    {&vehicle::GearboxSpec::efficiency, "efficiency", "efficiency", FileRange{0.5, 1.0},
+     "Efficiency of the meshing teeth under load; 1: lossless."},
+};
+
+template <>
+inline constexpr Parameter<vehicle::SynchroSpec> kParameters<vehicle::SynchroSpec>[] = {
+    {&vehicle::SynchroSpec::friction, "friction", "friction", FileRange{0.01, 0.5},
+     "Coefficient of friction of the cone; a worn ring has less."},
+    {&vehicle::SynchroSpec::radius, "radius", "radius_mm", FileRange{5.0, 200.0, file_unit::kMillimetres},
+     "Mean radius of the cone."},
+    {&vehicle::SynchroSpec::cone_angle, "cone_angle", "cone_half_angle_deg", FileRange{3.0, 20.0, file_unit::kDegrees},
+     "Half-angle of the cone."},
+    {&vehicle::SynchroSpec::cones, "cones", "cones", FileRange{1.0, 4.0}, "Number of friction surfaces."},
+    {&vehicle::SynchroSpec::index_radius, "index_radius", "index_radius_mm",
+     FileRange{5.0, 200.0, file_unit::kMillimetres}, "Radius of the blocking teeth."},
+    {&vehicle::SynchroSpec::pointing_angle, "pointing_angle", "pointing_half_angle_deg",
+     FileRange{30.0, 70.0, file_unit::kDegrees}, "Half-angle of the blocking teeth's points."},
+    {&vehicle::SynchroSpec::index_friction, "index_friction", "index_friction", FileRange{0.01, 0.5},
+     "Coefficient of friction of the blocking teeth."},
+    {&vehicle::SynchroSpec::teeth, "teeth", "teeth", FileRange{6.0, 120.0}, "Number of dogs."},
+    {&vehicle::SynchroSpec::dog_speed, "dog_speed", "dog_rpm", FileRange{0.5, 100.0, file_unit::kRpm},
+     "Largest speed difference at which the dogs engage."},
+    {&vehicle::SynchroSpec::lever_ratio, "lever_ratio", "lever_ratio", FileRange{1.0, 30.0},
+     "Knob travel divided by sleeve travel."},
+    {&vehicle::SynchroSpec::efficiency, "efficiency", "efficiency", FileRange{0.5, 1.0},
+     "Efficiency of the linkage from knob to sleeve."},
+};
+static_assert(DescribesAll<vehicle::SynchroSpec>);
+
+template <>
+inline constexpr Parameter<vehicle::BodySpec> kParameters<vehicle::BodySpec>[] = {
+    {&vehicle::BodySpec::mass, "mass", "mass_kg", FileRange{100.0, 60000.0}, "Mass with driver."},
+    {&vehicle::BodySpec::rotating, "rotating", "rotating_kg", FileRange{0.0, 5000.0},
+     "Inertia of the wheels, as a mass at the rim."},
+    {&vehicle::BodySpec::wheel_radius, "wheel_radius", "wheel_radius_mm",
+     FileRange{100.0, 1000.0, file_unit::kMillimetres}, "Rolling radius of the driven wheels."},
+    {&vehicle::BodySpec::resistance, "resistance", "resistance_n", FileRange{0.0, 20000.0},
+     "Rolling resistance at standstill."},
+    {&vehicle::BodySpec::resistance_slope, "resistance_slope", "resistance_n_per_mps", FileRange{0.0, 100.0},
+     "Increase of the rolling resistance per m/s."},
+    {&vehicle::BodySpec::resistance_square, "resistance_square", "resistance_n_per_mps2", FileRange{0.0, 20.0},
+     "Air drag per (m/s)^2."},
+    {&vehicle::BodySpec::brake_force, "brake_force", "brake_n", FileRange{0.0, 1e6},
+     "Brake force at the rim, pedal fully down."},
+    {&vehicle::BodySpec::hand_brake_force, "hand_brake_force", "hand_brake_n", FileRange{0.0, 1e6},
+     "Brake force at the rim, handbrake fully up."},
+};
+static_assert(DescribesAll<vehicle::BodySpec>);
+
+}  // namespace gearshift::haptics

@@ -67,11 +67,11 @@ constexpr std::array kHolds = {haptics::ContactHold::zero_order, haptics::Contac
 // `name` must be the key of a hold in kHolds. The validator of the command-line option guarantees this.
 haptics::ContactHold hold_of(const std::string& name) {
   return *std::find_if(kHolds.begin(), kHolds.end(),
-                       [&](haptics::ContactHold hold) { return name == haptics::hold_key(hold); });
+                       [&](haptics::ContactHold hold) { return name == haptics::file_key(hold); });
 }
 
 std::vector<std::string> hold_names() {
-  return {haptics::hold_key(kHolds[0]), haptics::hold_key(kHolds[1]), haptics::hold_key(kHolds[2])};
+  return {haptics::file_key(kHolds[0]), haptics::file_key(kHolds[1]), haptics::file_key(kHolds[2])};
 }
 
 haptics::ContactLaw wall_of(const StabilityArguments& arguments) {

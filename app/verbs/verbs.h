@@ -32,6 +32,7 @@ void add_stability_verb(CLI::App& app, VerbAction& action);
 void add_reproduce_verb(CLI::App& app, VerbAction& action);
 void add_replay_verb(CLI::App& app, VerbAction& action);
 void add_report_verb(CLI::App& app, VerbAction& action);
+void add_parameters_verb(CLI::App& app, VerbAction& action);
 void add_devices_verb(CLI::App& app, VerbAction& action);
 void add_campaign_verb(CLI::App& app, VerbAction& action);
 void add_bench_verb(CLI::App& app, VerbAction& action);

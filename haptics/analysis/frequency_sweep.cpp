@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 #include "haptics/joystick/finite.h"
 #include "haptics/joystick/plane_pose.h"
 

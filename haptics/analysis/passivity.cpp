@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 
 namespace gearshift::haptics {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "haptics/analysis/spectral_radius.h"
 #include "haptics/device/haptic_device.h"
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 
 namespace gearshift::haptics {
 namespace {

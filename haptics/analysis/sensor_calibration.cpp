@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "haptics/device/gaussian_noise.h"
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 
 namespace gearshift::haptics {
 namespace {

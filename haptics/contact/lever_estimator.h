@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "haptics/device/haptic_device.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::haptics {
 
@@ -24,7 +25,22 @@ struct EstimatorConfig {
   double smoothing = 0.004;   // [s] 1e-5 to 1, time constant of smooth_velocity
   double speed_limit = 10.0;  // [m/s] 0.1 to 1000; a sample that implies a faster motion is rejected
   int window = 1;             // [samples] 1 to 64, time span of the velocity estimate; more than 1 needs allow_unstable
+  bool operator==(const EstimatorConfig&) const = default;
 };
+
+template <>
+inline constexpr Parameter<EstimatorConfig> kParameters<EstimatorConfig>[] = {
+    {&EstimatorConfig::smoothing, "smoothing", "smoothing_s", FileRange{1e-5, 1.0},
+     "Time constant of the velocity that damps the lever in free space.", "Velocity filter", "aisle damping hums",
+     "it lags", Display{"ms", 2, 1e3, true}},
+    {&EstimatorConfig::speed_limit, "speed_limit", "speed_limit_m_per_s", FileRange{0.1, 1000.0},
+     "A reading that implies a faster motion is rejected.", "Max plausible speed", "fast motions are rejected",
+     "sensor jumps are accepted", Display{"m/s", 1, 1.0, true}},
+    {&EstimatorConfig::window, "window", "window_samples", FileRange{1.0, kMaxWindow},
+     "Number of samples over which the velocity at the wall is computed; above 1 needs study.", "Velocity window", "",
+     "late damping destabilises the wall", Display{"samples"}},
+};
+static_assert(DescribesAll<EstimatorConfig>);
 
 class LeverEstimator {
  public:

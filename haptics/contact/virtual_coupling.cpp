@@ -88,7 +88,7 @@ ContactForce contact_force(const Coupling& coupling, const Gate& gate, const Pas
   return out;
 }
 
-const char* hold_key(ContactHold hold) noexcept {
+const char* file_key(ContactHold hold) noexcept {
   static constexpr const char* kNames[] = {"automatic", "zero_order", "half_sample", "observer"};
   return kNames[static_cast<int>(hold)];
 }

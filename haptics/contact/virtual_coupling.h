@@ -29,7 +29,10 @@ enum class ContactHold : std::uint8_t {
   observer      // force from the mean depth in the coming period, predicted by lever_observer.h
 };
 const char* to_string(ContactHold hold) noexcept;  // "half-sample hold"
-const char* hold_key(ContactHold hold) noexcept;   // "half_sample", the name in files and on the command line
+const char* file_key(ContactHold hold) noexcept;   // "half_sample", the name in files and on the command line
+constexpr ContactHold last_value(ContactHold) {
+  return ContactHold::observer;
+}
 
 struct Coupling {
   double stiffness = 5000.0;  // [N/m]

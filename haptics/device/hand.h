@@ -11,13 +11,25 @@
 
 #include <glm/vec2.hpp>
 
+#include "haptics/files/parameter.h"
+
 namespace gearshift::haptics {
 
 struct HandImpedance {
   double mass = 0.0;       // [kg] mass of the hand, which moves with the lever
   double damping = 0.0;    // [N s/m] force per velocity relative to the target
   double stiffness = 0.0;  // [N/m] force per distance from the target
+  bool operator==(const HandImpedance&) const = default;
 };
+
+template <>
+inline constexpr Parameter<HandImpedance> kParameters<HandImpedance>[] = {
+    {&HandImpedance::mass, "mass", "mass_kg", FileRange{0.0, 1e3}, "Mass that moves with the lever."},
+    {&HandImpedance::damping, "damping", "damping_n_s_per_m", FileRange{0.0, 1e4},
+     "Damping towards the target's velocity."},
+    {&HandImpedance::stiffness, "stiffness", "stiffness_n_per_m", FileRange{0.0, 1e6}, "Stiffness towards the target."},
+};
+static_assert(DescribesAll<HandImpedance>);
 
 inline constexpr HandImpedance kBareHand{0.0, 0.0, 0.0};
 inline constexpr HandImpedance kLightHand{0.1, 5.0, 200.0};

@@ -31,6 +31,7 @@ struct DeviceSpec {
   glm::dvec2 device_wall_damping{0.0};
   bool measures_hand_force = false;  // a force sensor at the handle measures the hand force
   bool simulated = false;            // a simulated device may arm itself and run unstable tunings
+  bool operator==(const DeviceSpec&) const = default;
 };
 
 // One sample of the lever. A reading is fresh if its sequence number differs from that of the previous reading. This

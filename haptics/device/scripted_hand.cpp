@@ -5,7 +5,7 @@
 #include <string>
 
 #include "haptics/device/gaussian_noise.h"
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 
 namespace gearshift::haptics {
 namespace {

@@ -9,7 +9,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "haptics/device/range_check.h"
+#include "haptics/files/parameter_file.h"
+#include "haptics/files/range_check.h"
 #include "haptics/joystick/finite.h"
 
 namespace gearshift::haptics {
@@ -21,59 +22,12 @@ constexpr double kMaxSpeed = 1e2;  // [m/s]
 
 constexpr std::uint64_t kRandomSeedMask = 0x9e3779b97f4a7c15;  // makes random_() differ from the sensor noise
 
-void check(const std::string& name, const AxisModel& axis) {
-  require_between(name + ".mass", axis.mass, 1e-3, 1e3, "kg");
-  require_between(name + ".damping", axis.damping, 0.0, 1e4, "N s/m");
-  require_between(name + ".stiffness", axis.stiffness, 0.0, 1e6, "N/m");
-}
-
-void check(const YokeGeometry& yoke) {
-  constexpr double kMaxAngle = 80.0 * std::numbers::pi / 180.0;
-  require_between("SimulatedLever: yoke.radius", yoke.radius, 0.01, 10.0, "m");
-  require_between("SimulatedLever: yoke.theta_limit", yoke.theta_limit, 0.01, kMaxAngle, "rad");
-  require_between("SimulatedLever: yoke.phi_limit", yoke.phi_limit, 0.01, kMaxAngle, "rad");
-}
-
-void check(const ActuatorLimits& actuator) {
-  const double peak = actuator.peak_force;
-  require_between("SimulatedLever: actuator.peak_force", peak, 0.0, 1e4, "N");
-  require_between("SimulatedLever: actuator.continuous_force", actuator.continuous_force, 0.0, peak, "N");
-  require_between("SimulatedLever: actuator.overload_time", actuator.overload_time, 0.0, 1e4, "s");
-}
-
-void check(const ForceSensorModel& sensor) {
-  require_between("SimulatedLever: force_sensor.offset", sensor.offset, -1e9, 1e9);
-  require_between("SimulatedLever: force_sensor.gain", sensor.gain, 1e-9, 1e9, "per gw");
-  require_between("SimulatedLever: force_sensor.resolution_gw", sensor.resolution_gw, 0.0, 1e6, "gw");
-  require_between("SimulatedLever: force_sensor.range_gw", sensor.range_gw, 1e-3, 1e9, "gw");
-  require_between("SimulatedLever: force_sensor.noise_gw", sensor.noise_gw, 0.0, 1e6, "gw");
-}
-
-void check(const HandImpedance& hand) {
-  require_between("SimulatedLever: hand.mass", hand.mass, 0.0, 1e3, "kg");
-  require_between("SimulatedLever: hand.damping", hand.damping, 0.0, 1e4, "N s/m");
-  require_between("SimulatedLever: hand.stiffness", hand.stiffness, 0.0, 1e6, "N/m");
-}
-
-void check_counts(double counts) {
-  if (counts == 0.0) return;
-  require_between("SimulatedLever: encoder_counts other than 0", counts, 1.0, 1e6, "counts/deg");
-}
-
 const SimulatedLeverConfig& validated(const SimulatedLeverConfig& config, std::int64_t period_ns) {
-  check(config.yoke);
-  check("SimulatedLever: axis_x", config.axis_x);
-  check("SimulatedLever: axis_y", config.axis_y);
-  require_between("SimulatedLever: coulomb_friction", config.coulomb_friction, 0.0, 1e3, "N");
-  check_counts(config.encoder_counts);
-  check(config.actuator);
-  check(config.force_sensor);
-  require_between("SimulatedLever: delay", config.delay, 0, kMaxSimulatedDelay, "cycles");
-  require_between("SimulatedLever: device_wall_stiffness", config.device_wall_stiffness, 0.0, 1e5, "N/m");
-  check(config.hand);
-  require_between("SimulatedLever: model_error", config.model_error, 0.0, 0.5);
-  require_between("SimulatedLever: period_jitter", config.period_jitter, 0.0, 0.5);
-  require_between("SimulatedLever: period_ns", static_cast<double>(period_ns), 1.0, 1e9, "ns");
+  each_section(config, [](std::string_view section, const auto& part) { check_parameters(part, section); });
+  check_parameters(config.hand, "lever.hand");
+  if (config.encoder_counts != 0.0)
+    require_between("lever.encoder_counts_per_deg other than 0", config.encoder_counts, 1.0, 1e6);
+  require_between("period_ns", static_cast<double>(period_ns), 1.0, 1e9);
   return config;
 }
 

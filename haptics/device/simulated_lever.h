@@ -10,12 +10,15 @@
 #include "haptics/device/hand.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/device/joint_encoder.h"
+#include "haptics/files/parameter.h"
 #include "haptics/joystick/actuator.h"
 #include "haptics/joystick/force_sensor.h"
 #include "haptics/joystick/kinematics.h"
 #include "haptics/joystick/plane_pose.h"
 
 namespace gearshift::haptics {
+
+inline constexpr int kMaxSimulatedDelay = 8;  // [cycles]
 
 struct SimulatedLeverConfig {
   YokeGeometry yoke;
@@ -35,9 +38,39 @@ struct SimulatedLeverConfig {
   double model_error = 0.0;    // [1] 0 to 0.5, largest relative error of each axis's mass, damping and stiffness
   double period_jitter = 0.0;  // [1] 0 to 0.5, largest relative error of each period
   std::uint64_t seed = 1;      // seed of sensor noise, model error and jitter
+  bool operator==(const SimulatedLeverConfig&) const = default;
+};
+// The hand and the parts that are structs have tables or keys of their own.
+template <>
+inline constexpr Parameter<SimulatedLeverConfig> kParameters<SimulatedLeverConfig>[] = {
+    {&SimulatedLeverConfig::encoder_counts, "encoder_counts", "encoder_counts_per_deg", FileRange{0.0, 1e6},
+     "Table 2: 2250 counts over 80 deg, 74.5 um at the tip; 0: no quantisation."},
+    {&SimulatedLeverConfig::coulomb_friction, "coulomb_friction", "coulomb_friction_n", FileRange{0.0, 1e3},
+     "Dry friction on each axis; the paper gives none."},
+    {&SimulatedLeverConfig::delay, "delay", "delay_cycles", FileRange{0.0, kMaxSimulatedDelay},
+     "Delay from writing a force to its effect."},
+    {&SimulatedLeverConfig::device_wall_stiffness, "device_wall_stiffness", "own_wall_stiffness_n_per_m",
+     FileRange{0.0, 1e5}, "Stiffness of walls that the device renders itself, like a stick's springs."},
+    {&SimulatedLeverConfig::model_error, "model_error", "model_error", FileRange{0.0, 0.5},
+     "True mass, damping and stiffness differ by up to this fraction."},
+    {&SimulatedLeverConfig::period_jitter, "period_jitter", "period_jitter", FileRange{0.0, 0.5},
+     "True periods differ by up to this fraction."},
+    {&SimulatedLeverConfig::seed, "seed", "seed", FileRange{0.0, 9007199254740992.0},
+     "For sensor noise, model error and jitter."},
 };
 
-inline constexpr int kMaxSimulatedDelay = 8;  // [cycles]
+// Calls visit(section, part) for each section of a preset that describes the lever, and the struct that it sets.
+template <class Config>
+requires std::is_same_v<std::remove_const_t<Config>, SimulatedLeverConfig>
+constexpr void each_section(Config& lever, auto&& visit) {
+  visit("lever", lever);
+  visit("lever", lever.actuator);
+  visit("lever.yoke", lever.yoke);
+  visit("lever.axis_x", lever.axis_x);
+  visit("lever.axis_y", lever.axis_y);
+  visit("lever.force_sensor", lever.force_sensor);
+}
+
 inline constexpr int kMaxPeriodsPerRead = 1000;
 inline constexpr double kDeviceWallRate = 4000.0;  // [Hz] lowest sampling rate of the device walls
 

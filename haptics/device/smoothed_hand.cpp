@@ -2,7 +2,7 @@
 
 #include <glm/common.hpp>
 
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 #include "haptics/joystick/finite.h"
 
 namespace gearshift::haptics {

@@ -8,12 +8,9 @@
 #include <vector>
 
 #include "haptics/files/file_error.h"
+#include "haptics/files/parameter.h"
 
 namespace gearshift::haptics {
-
-struct Range {
-  double min, max;
-};
 
 // A table of the file. Keys carry their unit ("slot_width_mm"); values are returned in this unit, without conversion.
 class TomlTable {

@@ -4,31 +4,12 @@
 #include <array>
 #include <utility>
 
+#include "haptics/files/parameter_file.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
 namespace gearshift::haptics {
 namespace {
-
-constexpr double kMetresPerMillimetre = 1e-3;
-constexpr double kMillimetresPerMetre = 1e3;
-
-// Allowed ranges of the values in a layout file, in the units of the file.
-constexpr Range kPositionMm{-200.0, 200.0};
-constexpr Range kAisleWidthMm{kMinAisleWidth * kMillimetresPerMetre, 40.0};
-constexpr Range kSlotWidthMm{kMinAisleWidth * kMillimetresPerMetre, 30.0};
-constexpr Range kSlotLengthMm{kMinSlotProper * kMillimetresPerMetre, 120.0};
-constexpr Range kChamferMm{0.0, 10.0};
-constexpr Range kSpeedKmh{0.0, 400.0};
-
-// Allowed forces. The largest lock force is less than 31.7 N, the peak force of the paper's lever, because a lock must
-// leave part of this force for the walls.
-constexpr Range kCenterForceN{0.5, 10.0};
-constexpr Range kAisleForceN{0.0, 5.0};
-constexpr Range kMouthForceN{0.0, 15.0};
-constexpr Range kDetentForceN{0.0, 20.0};
-constexpr Range kLockForceN{1.0, 25.0};
-constexpr Range kBufferForceN{0.0, 10.0};
 
 // Gear names "R", "1", "2", ... Neutral has no slot and is not in the list.
 const std::vector<std::string>& gear_names() {
@@ -55,7 +36,7 @@ SlotLayout read_slot(const TomlTable& column, std::string_view key) {
 ColumnLayout read_column(const TomlTable& table) {
   ColumnLayout column;
   column.line = table.line();
-  column.position = table.number("position_mm", kPositionMm) * kMetresPerMillimetre;
+  read_parameters(table, column, Missing::error);
   column.forward = read_slot(table, "forward");
   column.back = read_slot(table, "back");
   if (table.has("junction")) {
@@ -88,26 +69,14 @@ void read_columns(const TomlTable& root, GateLayout& layout) {
 }
 
 void read_gate(const TomlTable& table, GateLayout& layout) {
-  const auto length = [&](std::string_view key, double fallback, Range range) {
-    return table.has(key) ? table.number(key, range) * kMetresPerMillimetre : fallback;
-  };
-  layout.aisle_width = length("aisle_width_mm", layout.aisle_width, kAisleWidthMm);
-  layout.slot_width = length("slot_width_mm", layout.slot_width, kSlotWidthMm);
-  layout.slot_length = length("slot_length_mm", layout.slot_length, kSlotLengthMm);
-  layout.chamfer = length("chamfer_mm", layout.chamfer, kChamferMm);
+  read_parameters(table, layout);
   layout.lines.gate = table.line();
   layout.lines.slot_length = table.line("slot_length_mm");
   table.reject_unknown_keys();
 }
 
 void read_feel(const TomlTable& table, GateLayout& layout) {
-  FeelLayout& feel = layout.feel;
-  feel.center_force = table.number_or("center_force_n", feel.center_force, kCenterForceN);
-  feel.aisle_force = table.number_or("aisle_force_n", feel.aisle_force, kAisleForceN);
-  feel.mouth_force = table.number_or("mouth_force_n", feel.mouth_force, kMouthForceN);
-  feel.detent_force = table.number_or("detent_force_n", feel.detent_force, kDetentForceN);
-  feel.lock_force = table.number_or("lock_force_n", feel.lock_force, kLockForceN);
-  feel.buffer_force = table.number_or("buffer_force_n", feel.buffer_force, kBufferForceN);
+  read_parameters(table, layout.feel);
   layout.lines.feel = table.line();
   table.reject_unknown_keys();
 }
@@ -130,13 +99,7 @@ LockoutLayout read_lockout(const TomlTable& table) {
   lockout.gear = read_gear(table, "gear");
   lockout.kind = read_kind(table);
   if (lockout.kind == LockoutKind::after_gear) lockout.after_gear = read_gear(table, "after");
-  if (lockout.kind == LockoutKind::speed) {
-    const auto speed = [&](std::string_view key, double fallback) {
-      return table.has(key) ? table.number(key, kSpeedKmh) / kKmhPerMps : fallback;
-    };
-    lockout.close_above = speed("close_above_kmh", lockout.close_above);
-    lockout.open_below = speed("open_below_kmh", lockout.open_below);
-  }
+  if (lockout.kind == LockoutKind::speed) read_parameters(table, lockout);
   table.reject_unknown_keys();
   return lockout;
 }

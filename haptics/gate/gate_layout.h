@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate.h"
 
 namespace gearshift::haptics {
@@ -68,6 +69,51 @@ struct GateLayout {
   FeelLayout feel;
   std::vector<LockoutLayout> lockouts;
   LayoutLines lines;
+};
+
+// Parameters of gate files that are numbers.
+template <>
+inline constexpr Parameter<GateLayout> kParameters<GateLayout>[] = {
+    {&GateLayout::aisle_width, "aisle_width", "aisle_width_mm",
+     FileRange{1e3 * kMinAisleWidth, 40.0, file_unit::kMillimetres}, "Width of the neutral aisle, wall to wall."},
+    {&GateLayout::slot_width, "slot_width", "slot_width_mm",
+     FileRange{1e3 * kMinAisleWidth, 30.0, file_unit::kMillimetres}, "Width of a slot, wall to wall."},
+    {&GateLayout::slot_length, "slot_length", "slot_length_mm",
+     FileRange{1e3 * kMinSlotProper, 120.0, file_unit::kMillimetres},
+     "Length of a slot from the aisle's centre line to the end stop."},
+    {&GateLayout::chamfer, "chamfer", "chamfer_mm", FileRange{0.0, 10.0, file_unit::kMillimetres},
+     "Leg of the 45 degree slot mouths."},
+};
+
+template <>
+inline constexpr Parameter<ColumnLayout> kParameters<ColumnLayout>[] = {
+    {&ColumnLayout::position, "position", "position_mm", FileRange{-200.0, 200.0, file_unit::kMillimetres},
+     "Sideways position of the column's centre line."},
+};
+
+// The paper's lever has a peak force of 31.7 N; a lock must leave some of it for the walls.
+template <>
+inline constexpr Parameter<FeelLayout> kParameters<FeelLayout>[] = {
+    {&FeelLayout::center_force, "center_force", "center_force_n", FileRange{0.5, 10.0},
+     "Select centring towards the neutral column."},
+    {&FeelLayout::aisle_force, "aisle_force", "aisle_force_n", FileRange{0.0, 5.0},
+     "Shift centring inside the neutral aisle."},
+    {&FeelLayout::mouth_force, "mouth_force", "mouth_force_n", FileRange{0.0, 15.0},
+     "Bump at the slot's mouth, towards neutral."},
+    {&FeelLayout::detent_force, "detent_force", "detent_force_n", FileRange{0.0, 20.0},
+     "Resistance before a gear engages."},
+    {&FeelLayout::lock_force, "lock_force", "lock_force_n", FileRange{1.0, 25.0}, "Pull-out force of an engaged gear."},
+    {&FeelLayout::buffer_force, "buffer_force", "buffer_force_n", FileRange{0.0, 10.0},
+     "Deflecting force in a closed junction's buffer."},
+};
+static_assert(DescribesAll<FeelLayout>);
+
+template <>
+inline constexpr Parameter<LockoutLayout> kParameters<LockoutLayout>[] = {
+    {&LockoutLayout::close_above, "close_above", "close_above_kmh", FileRange{0.0, 400.0, file_unit::kKmPerHour},
+     "Above this road speed the slot closes."},
+    {&LockoutLayout::open_below, "open_below", "open_below_kmh", FileRange{0.0, 400.0, file_unit::kKmPerHour},
+     "Below this road speed the slot opens again."},
 };
 
 // Throws FileError (haptics/files) with file, line, key, value and allowed range.

@@ -11,13 +11,27 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "haptics/files/parameter.h"
+
 namespace gearshift::haptics {
 
 struct YokeGeometry {
   double radius = 0.120;                                 // [m] rho: distance from the yoke's centre to the tip
   double theta_limit = 40.0 * std::numbers::pi / 180.0;  // [rad] stop of the select axis, the same on both sides
   double phi_limit = 35.0 * std::numbers::pi / 180.0;    // [rad] stop of the shift axis, the same on both sides
+  bool operator==(const YokeGeometry&) const = default;
 };
+
+template <>
+inline constexpr Parameter<YokeGeometry> kParameters<YokeGeometry>[] = {
+    {&YokeGeometry::radius, "radius", "radius_m", FileRange{0.01, 10.0},
+     "Distance from the yoke's centre to the tip. Section 2.2: \"about 120 mm\"."},
+    {&YokeGeometry::theta_limit, "theta_limit", "theta_limit_deg", FileRange{0.5, 80.0, file_unit::kDegrees},
+     "Stop of the select axis, both sides. Section 2.1."},
+    {&YokeGeometry::phi_limit, "phi_limit", "phi_limit_deg", FileRange{0.5, 80.0, file_unit::kDegrees},
+     "Stop of the shift axis, both sides. Section 2.1."},
+};
+static_assert(DescribesAll<YokeGeometry>);
 
 struct JointAngles {
   double theta = 0.0;  // [rad] rotation about Y; positive moves the tip along +select

@@ -8,13 +8,25 @@
 
 #include <limits>
 
+#include "haptics/files/parameter.h"
+
 namespace gearshift::haptics {
 
 struct AxisModel {
   double mass = 0.0;       // [kg]
   double damping = 0.0;    // [N s/m]
   double stiffness = 0.0;  // [N/m]
+  bool operator==(const AxisModel&) const = default;
 };
+
+template <>
+inline constexpr Parameter<AxisModel> kParameters<AxisModel>[] = {
+    {&AxisModel::mass, "mass", "mass_kg", FileRange{1e-3, 1e3}, "Mass at the tip."},
+    {&AxisModel::damping, "damping", "damping_n_s_per_m", FileRange{0.0, 1e4}, "Viscous damping at the tip."},
+    {&AxisModel::stiffness, "stiffness", "stiffness_n_per_m", FileRange{0.0, 1e6},
+     "Stiffness of the centring spring at the tip."},
+};
+static_assert(DescribesAll<AxisModel>);
 
 inline constexpr AxisModel kPaperAxisX{0.095, 3.0, 14.8};  // eq (11)
 inline constexpr AxisModel kPaperAxisY{0.086, 2.9, 15.7};  // eq (12)

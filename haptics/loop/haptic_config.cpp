@@ -9,8 +9,9 @@
 
 #include "haptics/analysis/sampled_loop.h"
 #include "haptics/device/hand.h"
-#include "haptics/device/range_check.h"
 #include "haptics/files/number_text.h"
+#include "haptics/files/parameter_file.h"
+#include "haptics/files/range_check.h"
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift::haptics {
@@ -22,9 +23,6 @@ constexpr double kQuiet = 0.35;          // [1] half-sample hold: limit of stiff
 constexpr double kQuietObserved = 0.58;  // [1] observer hold: limit of stiffness*lag^2/mass
 constexpr double kObservedTau = 0.0045;  // [s] longest lag at which the observer hold is preferred
 constexpr double kGainMargin = 1.1;      // [1] factor on the stiffness, a margin for plant error and jitter
-// [N/cycle] The smallest allowed slew limit. At 1 N/cycle the force rises too slowly for a wall: an arm moves the lever
-// 80 mm.
-constexpr double kMinSlew = 2.0;
 constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kObservedLaw = "the observer hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
@@ -264,31 +262,11 @@ double period_s(const HapticConfig& config) noexcept {
 }
 
 void check_tuning(const HapticTuning& tuning) {
-  require_between("wall_stiffness_n_per_m", tuning.wall_stiffness, 0.0, 20000.0);
-  require_between("wall_damping_n_s_per_m", tuning.wall_damping, 0.0, 100.0);
-  require_between("feel_scale", tuning.feel_scale, 0.0, 4.0);
-  require_between("aisle_damping_n_s_per_m", tuning.aisle_damping, 0.0, 50.0);
-  require_between("speed_limit_m_per_s", tuning.speed_limit, 0.05, 5.0);
-  require_between("limit_damping_n_s_per_m", tuning.limit_damping, 0.0, 50.0);
+  check_parameters(tuning, "tuning");
 }
 
 void check_config(const HapticConfig& config) {
-  require_between("rate_hz", config.rate, 100.0, 4000.0);
-  check_tuning(config.tuning);
-  require_between("smoothing_s", config.estimator.smoothing, 1e-5, 1.0);
-  require_between("window_samples", config.estimator.window, 1, kMaxWindow);
-  require_between("speed_limit_of_readings_m_per_s", config.estimator.speed_limit, 0.1, 1000.0);
-  require_between("slew_n_per_cycle", config.guard.slew, kMinSlew, 100.0);
-  require_between("ramp_time_s", config.guard.ramp_time, 0.001, 60.0);
-  require_between("stale_time_s", config.guard.stale_time, 0.001, 1.0);
-  require_between("fade_time_s", config.guard.fade_time, 0.001, 1.0);
-  require_between("overruns_in_row", config.guard.overruns_in_row, 1, 1000);
-  require_between("damped_damping_n_s_per_m", config.guard.damped_damping, 0.0, 50.0);
-  require_between("position_margin_m", config.guard.position_margin, 0.0, 1.0);
-  require_between("warn_above_n", config.over_push.warn_above, 1.0, 1000.0);
-  require_between("clear_below_n", config.over_push.clear_below, 0.0, config.over_push.warn_above);
-  require_between("gear_debounce_s", config.gear_debounce, 0.0, 0.5);
-  require_between("ghost_offset_m", config.ghost_offset, 0.0, 1.0);
+  each_section(config, [](std::string_view section, const auto& part) { check_parameters(part, section); });
 }
 
 void check_device(const DeviceSpec& spec) {
@@ -304,11 +282,8 @@ void check_device(const DeviceSpec& spec) {
   check_vector("wall_stiffness of the device", spec.device_wall_stiffness, 1e5, "N/m");
   check_vector("wall_damping of the device", spec.device_wall_damping, 1e3, "N s/m");
   require_between("delay of the device", spec.delay, 0, kMaxLoopDelay, "cycles");
-  for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) {
-    require_between("mass of the device", axis.mass, 1e-3, 1e3, "kg");
-    require_between("damping of the device", axis.damping, 0.0, 1e4, "N s/m");
-    require_between("stiffness of the device", axis.stiffness, 0.0, 1e6, "N/m");
-  }
+  check_parameters(spec.axis_x, "device.axis_x");
+  check_parameters(spec.axis_y, "device.axis_y");
 }
 
 double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept {
@@ -362,15 +337,13 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
 }
 
 const char* to_string(TuningParameter parameter) noexcept {
-  static constexpr const char* kKeys[] = {"wall_stiffness_n_per_m",  "wall_damping_n_s_per_m",  "feel_scale",
-                                          "aisle_damping_n_s_per_m", "limit_damping_n_s_per_m", "hold"};
-  return kKeys[static_cast<int>(parameter)];
+  return parameter == TuningParameter::hold ? "hold" : kParameters<HapticTuning>[static_cast<int>(parameter)].key;
 }
 
 std::string describe(const TuningLimit& limit) {
   const bool is_hold = limit.parameter == TuningParameter::hold;  // the values of `hold` are enumerators, not numbers
   const auto text = [&](double value) {
-    return is_hold ? hold_key(static_cast<ContactHold>(value)) : short_text(value);
+    return is_hold ? file_key(static_cast<ContactHold>(value)) : short_text(value);
   };
   std::string what = to_string(limit.parameter);
   if (limit.used == limit.wanted)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "haptics/analysis/sampled_loop.h"
@@ -26,10 +27,45 @@ struct HapticTuning {
   bool operator==(const HapticTuning&) const = default;
 };
 
+template <>
+inline constexpr Parameter<HapticTuning> kParameters<HapticTuning>[] = {
+    {&HapticTuning::wall_stiffness, "wall_stiffness", "wall_stiffness_n_per_m", FileRange{0.0, 20000.0},
+     "Force per metre of penetration into a wall.", "Wall stiffness", "walls are soft",
+     "it is limited, or with `study` the lever buzzes", Display{"N/m"}},
+    {&HapticTuning::wall_damping, "wall_damping", "wall_damping_n_s_per_m", FileRange{0.0, 100.0},
+     "Damping force per m/s of speed into a wall, only during contact.", "Wall damping", "the lever bounces",
+     "it hums at the encoder's resolution", Display{"N s/m", 1}},
+    {&HapticTuning::feel_scale, "feel_scale", "feel_scale", FileRange{0.0, 4.0},
+     "Scales the gate's own forces: centring, mouth bump, detent, lock, buffer.", "Feel", "no detents",
+     "walls must be stiffer", Display{"\u00d7", 2}},
+    {&HapticTuning::aisle_damping, "aisle_damping", "aisle_damping_n_s_per_m", FileRange{0.0, 50.0},
+     "Damping force per m/s of lever speed, everywhere in the gate.", "Aisle damping", "the lever overshoots neutral",
+     "it feels viscous", Display{"N s/m", 1}},
+    {&HapticTuning::speed_limit, "speed_limit", "speed_limit_m_per_s", FileRange{0.05, 5.0},
+     "Above this speed, extra damping (Limit damping) slows the lever.", "Speed limit", "every fast stroke is resisted",
+     "none is", Display{"m/s", 2}},
+    {&HapticTuning::limit_damping, "limit_damping", "limit_damping_n_s_per_m", FileRange{0.0, 50.0},
+     "Extra damping force per m/s above the speed limit.", "Limit damping", "no speed limit", "a kick above it",
+     Display{"N s/m", 1}},
+};
+static_assert(DescribesAll<HapticTuning>);
+
 struct OverPushConfig {
   double warn_above = 60.0;   // [N] 1 to 1000; the user is warned if the hand pushes harder than this
   double clear_below = 50.0;  // [N] 0 to warn_above; the warning ends below this push
+  bool operator==(const OverPushConfig&) const = default;
 };
+
+template <>
+inline constexpr Parameter<OverPushConfig> kParameters<OverPushConfig>[] = {
+    {&OverPushConfig::warn_above, "warn_above", "warn_above_n", FileRange{1.0, 1000.0},
+     "A push of the hand above this force is reported as an over-push.", "Over-push begins", "warnings are frequent",
+     "none come", Display{"N", 0, 1.0, true}},
+    {&OverPushConfig::clear_below, "clear_below", "clear_below_n", FileRange{0.0, 1000.0},
+     "The over-push ends when the push falls below this force.", "Over-push ends",
+     "the warning stays long after the push", "the warning flickers", Display{"N"}, &OverPushConfig::warn_above},
+};
+static_assert(DescribesAll<OverPushConfig>);
 
 // How wall contacts are rendered. Fixed while the loop runs.
 struct ContactConfig {
@@ -38,7 +74,22 @@ struct ContactConfig {
   EnergyControl energy_control = EnergyControl::none;
   bool reversal_limiter = true;  // false needs allow_unstable
   bool allow_unstable = false;   // does not limit parameters to the stable range; only for simulated devices
+  bool operator==(const ContactConfig&) const = default;
 };
+
+template <>
+inline constexpr Parameter<ContactConfig, ContactHold, EnergyControl> kParameters<ContactConfig>[] = {
+    {&ContactConfig::hold, "hold", "hold", FileRange{},
+     "How the wall force that is held for a cycle is computed from the sampled motion.", "Hold", ""},
+    {&ContactConfig::energy_control, "energy_control", "energy_control", FileRange{},
+     "Makes any force passive, in addition to the hold; costs stiffness.", "Energy control", "",
+     "bounding costs most of the stiffness"},
+    {&ContactConfig::reversal_limiter, "reversal_limiter", "reversal_limiter", FileRange{},
+     "Reduces the wall stiffness if the lever chatters.", "Reversal limiter"},
+    {&ContactConfig::allow_unstable, "study", "study", FileRange{},
+     "Uses unstable values as they are set. Simulated levers only.", "Allow unstable"},
+};
+static_assert(DescribesAll<ContactConfig>);
 
 struct HapticConfig {
   double rate = 1000.0;  // [Hz] 100 to 4000
@@ -49,17 +100,44 @@ struct HapticConfig {
   OverPushConfig over_push;
   double gear_debounce = 0.010;  // [s] 0 to 0.5
   double ghost_offset = 0.020;   // [m] 0 to 1; the true hand is drawn if lever and proxy are further apart than this
+  bool operator==(const HapticConfig&) const = default;
 };
 
-// Parameters that a check may lower, raise or replace.
+template <>
+inline constexpr Parameter<HapticConfig> kParameters<HapticConfig>[] = {
+    {&HapticConfig::rate, "rate", "rate_hz", FileRange{100.0, 4000.0}, "Cycles of the haptic loop per second.", "Rate",
+     "walls are soft", "cycles are late", Display{"Hz", 0, 1.0, true}},
+    {&HapticConfig::gear_debounce, "gear_debounce", "gear_debounce_s", FileRange{0.0, 0.5},
+     "A gear counts as engaged after this time in its slot.", "Gear debounce", "the gear flickers",
+     "it is reported late", Display{"ms", 0, 1e3}},
+    {&HapticConfig::ghost_offset, "ghost_offset", "ghost_offset_m", FileRange{0.0, 1.0},
+     "If lever and proxy are further apart, the picture shows the true position of the hand.", "Past wall beyond",
+     "a ghost hand at every wall", "picture and hand differ unnoticed", Display{"mm", 0, 1e3}},
+};
+
+// Calls visit(section, part) for each section of a configuration file and the struct that it sets.
+template <class Config>
+requires std::is_same_v<std::remove_const_t<Config>, HapticConfig>
+constexpr void each_section(Config& config, auto&& visit) {
+  visit("loop", config);
+  visit("tuning", config.tuning);
+  visit("contact", config.contact);
+  visit("estimator", config.estimator);
+  visit("guard", config.guard);
+  visit("over_push", config.over_push);
+}
+
+// Parameters that a check may lower, raise or replace: those of HapticTuning, in its order, and the hold.
 enum class TuningParameter : std::uint8_t {
   wall_stiffness,
   wall_damping,
   feel_scale,
   aisle_damping,
+  speed_limit,
   limit_damping,
   hold
 };
+static_assert(static_cast<int>(TuningParameter::hold) == std::size(kParameters<HapticTuning>));
 const char* to_string(TuningParameter parameter) noexcept;  // key in files, such as "wall_stiffness_n_per_m"
 
 // A parameter that was limited. With `allow_unstable`, the limit is reported but not applied.

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "haptics/contact/free_span.h"
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/joystick/finite.h"
 #include "haptics/rt/monotonic_clock.h"

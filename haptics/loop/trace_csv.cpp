@@ -104,8 +104,7 @@ void add_inputs(Row& row, const TraceSample& sample) {
   row.cell("slope_rad", sample.controls.slope);
   row.cell("guided_gear", sample.controls.guided_gear);
   row.cell("guidance", sample.controls.guidance);
-  row.cell("wall_stiffness_n_per_m", sample.tuning.wall_stiffness);
-  row.cell("wall_damping_n_s_per_m", sample.tuning.wall_damping);
+  each_parameter(sample.tuning, [&](const auto& parameter, double value) { row.cell(parameter.key, value); });
   row.cell("command", to_string(sample.command));
 }
 

@@ -22,16 +22,16 @@ concept FieldsOf = std::same_as<std::remove_const_t<T>, S>;
 template <class T>
 concept LeafField = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+// A struct whose members are all described in a table (haptics/files/parameter.h) has the fields of that table.
+template <class S>
+requires DescribesAll<std::remove_const_t<S>>
+constexpr void each_field(S& parameters, auto&& visit) {
+  each_parameter(parameters, [&](const auto& parameter, auto& value) { visit(parameter.name, value); });
+}
+
 constexpr void each_field(FieldsOf<glm::dvec2> auto& v, auto&& visit) {
   visit("x", v.x);
   visit("y", v.y);
-}
-
-constexpr void each_field(FieldsOf<AxisModel> auto& axis, auto&& visit) {
-  auto& [mass, damping, stiffness] = axis;
-  visit("mass", mass);
-  visit("damping", damping);
-  visit("stiffness", stiffness);
 }
 
 constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
@@ -49,48 +49,6 @@ constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
   visit("own_damping", device_wall_damping);
   visit("measures_hand_force", measures);
   visit("simulated", simulated);
-}
-
-constexpr void each_field(FieldsOf<HapticTuning> auto& tuning, auto&& visit) {
-  auto& [wall_stiffness, wall_damping, feel_scale, aisle_damping, speed_limit, limit_damping] = tuning;
-  visit("wall_stiffness", wall_stiffness);
-  visit("wall_damping", wall_damping);
-  visit("feel_scale", feel_scale);
-  visit("aisle_damping", aisle_damping);
-  visit("speed_limit", speed_limit);
-  visit("limit_damping", limit_damping);
-}
-
-constexpr void each_field(FieldsOf<EstimatorConfig> auto& estimator, auto&& visit) {
-  auto& [smoothing, speed_limit, window] = estimator;
-  visit("smoothing", smoothing);
-  visit("speed_limit", speed_limit);
-  visit("window", window);
-}
-
-constexpr void each_field(FieldsOf<GuardConfig> auto& guard, auto&& visit) {
-  auto& [slew, ramp_time, stale_time, fade_time, overruns_in_row, damped_damping, position_margin] = guard;
-  visit("slew", slew);
-  visit("ramp_time", ramp_time);
-  visit("stale_time", stale_time);
-  visit("fade_time", fade_time);
-  visit("overruns_in_row", overruns_in_row);
-  visit("damped_damping", damped_damping);
-  visit("position_margin", position_margin);
-}
-
-constexpr void each_field(FieldsOf<OverPushConfig> auto& over_push, auto&& visit) {
-  auto& [warn_above, clear_below] = over_push;
-  visit("warn_above", warn_above);
-  visit("clear_below", clear_below);
-}
-
-constexpr void each_field(FieldsOf<ContactConfig> auto& contact, auto&& visit) {
-  auto& [hold, energy_control, reversal_limiter, allow_unstable] = contact;
-  visit("hold", hold);
-  visit("energy_control", energy_control);
-  visit("reversal_limiter", reversal_limiter);
-  visit("study", allow_unstable);
 }
 
 constexpr void each_field(FieldsOf<HapticConfig> auto& config, auto&& visit) {
@@ -167,12 +125,6 @@ constexpr void each_field(FieldsOf<TraceSample> auto& sample, auto&& visit) {
 }
 
 // Largest valid value of each enumeration.
-constexpr ContactHold last_value(ContactHold) {
-  return ContactHold::observer;
-}
-constexpr EnergyControl last_value(EnergyControl) {
-  return EnergyControl::passivity_controller;
-}
 constexpr LoopCommand last_value(LoopCommand) {
   return LoopCommand::stop;
 }

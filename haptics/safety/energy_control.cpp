@@ -38,6 +38,11 @@ double PassivityController::control(double wanted, double last, double travel, b
   return wanted - damping * speed;
 }
 
+const char* file_key(EnergyControl control) noexcept {
+  static constexpr const char* kKeys[] = {"none", "energy_bounding", "passivity_controller"};
+  return kKeys[static_cast<int>(control)];
+}
+
 const char* to_string(EnergyControl control) noexcept {
   static constexpr const char* kTexts[] = {"none", "energy bounding", "passivity controller"};
   return kTexts[static_cast<int>(control)];

@@ -21,6 +21,10 @@ enum class EnergyControl : std::uint8_t {
   passivity_controller  // adds damping once the lever has received more energy than it returned
 };
 const char* to_string(EnergyControl control) noexcept;  // "energy bounding"
+const char* file_key(EnergyControl control) noexcept;   // "energy_bounding", as in files
+constexpr EnergyControl last_value(EnergyControl) {
+  return EnergyControl::passivity_controller;
+}
 
 // Limits the force F after the travel dx to |F_n| <= |F_(n-1) - c dx|. The slope c = b / (T (1 + 2 delay)), with the
 // device's damping b and the period T, is half the stiffness that Kim and Ryu's eq (13) allows, so that a lever

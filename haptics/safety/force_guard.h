@@ -15,6 +15,7 @@
 #include <glm/vec2.hpp>
 
 #include "haptics/device/haptic_device.h"
+#include "haptics/files/parameter.h"
 #include "haptics/safety/energy_control.h"
 
 namespace gearshift::haptics {
@@ -26,6 +27,9 @@ const char* describe(GuardState state) noexcept;  // text for the user, such as 
 enum class GuardFault : std::uint8_t { none, stale_reading, overruns, not_finite, limit_broken, stopped, chatter };
 const char* to_string(GuardFault fault) noexcept;
 
+// At a slew limit of 1 N the wall force rises so slowly that an arm moves by 80 mm.
+inline constexpr double kMinSlew = 2.0;  // [N/cycle]
+
 struct GuardConfig {
   double slew = 25.0;             // [N/cycle] 2 to 100, largest change per axis; an impact needs 16 at 1 kHz
   double ramp_time = 0.5;         // [s] 0.001 to 60, from armed to full force
@@ -34,7 +38,33 @@ struct GuardConfig {
   int overruns_in_row = 8;        // [cycles] 1 to 1000, consecutive overruns before state damped
   double damped_damping = 5.0;    // [N s/m] 0 to 50, applied in state damped while readings are fresh
   double position_margin = 0.02;  // [m] 0 to 1; a position further outside the workspace is a fault
+  bool operator==(const GuardConfig&) const = default;
 };
+
+template <>
+inline constexpr Parameter<GuardConfig> kParameters<GuardConfig>[] = {
+    {&GuardConfig::slew, "slew", "slew_n_per_cycle", FileRange{kMinSlew, 100.0},
+     "Largest change of the force on an axis from one cycle to the next.", "Slew limit", "walls are soft on impact",
+     "the lever kicks", Display{"N/cycle", 1}},
+    {&GuardConfig::ramp_time, "ramp_time", "ramp_time_s", FileRange{0.001, 60.0}, "Time from arming to the full force.",
+     "Ramp to full force", "a jolt on arming", "forces start late", Display{"s", 3, 1.0, true}},
+    {&GuardConfig::stale_time, "stale_time", "stale_time_s", FileRange{0.001, 1.0},
+     "Time without a new reading before the forces fade out.", "Stale after", "forces end on a busy machine",
+     "a dead sensor pushes longer", Display{"ms", 0, 1e3, true}},
+    {&GuardConfig::fade_time, "fade_time", "fade_time_s", FileRange{0.001, 1.0},
+     "Time in which the forces fade out after a fault.", "Fade-out", "a jolt when forces end", "they last longer",
+     Display{"ms", 0, 1e3, true}},
+    {&GuardConfig::overruns_in_row, "overruns_in_row", "overruns_in_row", FileRange{1.0, 1000.0},
+     "Late cycles in a row before the forces fade out.", "Overruns in a row", "forces end on a busy machine",
+     "a late loop pushes longer", Display{"cycles", 0, 1.0, true}},
+    {&GuardConfig::damped_damping, "damped_damping", "damped_damping_n_s_per_m", FileRange{0.0, 50.0},
+     "Damping that remains after the forces faded out.", "Fallback damping", "the damped lever swings",
+     "it feels viscous", Display{"N s/m", 1}},
+    {&GuardConfig::position_margin, "position_margin", "position_margin_m", FileRange{0.0, 1.0},
+     "The motors go off if the lever is this far outside its workspace.", "Travel margin",
+     "motors go off at the end of travel", "the lever runs away further", Display{"mm", 0, 1e3}},
+};
+static_assert(DescribesAll<GuardConfig>);
 
 struct GuardInput {
   glm::dvec2 force{0.0};     // [N] wanted

@@ -104,9 +104,9 @@ refuse 2 "--hand" tour --out t --hand 1,2
 refuse 2 "--hand" tour --out t --hand 1,2,3,4
 refuse 2 "--hand" tour --out t --hand -1,2,300
 refuse 2 "--hand" tour --out t --hand 0.1,inf,300
-refuse 2 "mass = 2000" tour --out t --hand 2000,1,300
-refuse 2 "damping = 20000" tour --out t --hand 1,20000,300
-refuse 2 "stiffness = 2000000" tour --out t --hand 1,1,2000000
+refuse 2 "mass_kg = 2000" tour --out t --hand 2000,1,300
+refuse 2 "damping_n_s_per_m = 20000" tour --out t --hand 1,20000,300
+refuse 2 "stiffness_n_per_m = 2000000" tour --out t --hand 1,1,2000000
 refuse 2 "--seed" tour --out t --seed -1
 refuse 2 "--seed" tour --out t --seed 1.5
 refuse 2 "--seed" lesson moving_off --seed -1

@@ -11,7 +11,7 @@
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/hardware/device_calibration.h"
-#include "haptics/loop/preset_writer.h"
+#include "haptics/loop/preset.h"
 #include "tests/fuzz/fuzz_checks.h"
 
 using namespace gearshift::cabin;

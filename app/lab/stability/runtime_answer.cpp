@@ -8,8 +8,8 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kMaxWallStiffness = 20000.0;  // [N/m] upper limit of check_tuning()
-constexpr double kMaxWallDamping = 100.0;      // [N s/m] upper limit of check_tuning()
+constexpr double kMaxWallStiffness = haptics::parameter_of(&haptics::HapticTuning::wall_stiffness).range.max;  // [N/m]
+constexpr double kMaxWallDamping = haptics::parameter_of(&haptics::HapticTuning::wall_damping).range.max;  // [N s/m]
 
 haptics::HapticConfig config_of(const StabilityQuestion& question) {
   haptics::HapticConfig config;

@@ -95,7 +95,7 @@ std::string format_runtime_answer(const haptics::ContactLaw& wall, const Runtime
 Json limited_json(const haptics::TuningLimit& limited) {
   const auto value = [&](double number) {
     return limited.parameter == haptics::TuningParameter::hold
-               ? Json(haptics::hold_key(static_cast<haptics::ContactHold>(number)))
+               ? Json(haptics::file_key(static_cast<haptics::ContactHold>(number)))
                : Json(number);
   };
   return {{"law", limited.law},
@@ -115,7 +115,7 @@ Json runtime_json(const RuntimeAnswer& runtime) {
           {"asked_wall_damping_n_s_per_m", known(runtime.damping)},
           {"admitted_wall_stiffness_n_per_m", known(tuning.wall_stiffness)},
           {"admitted_wall_damping_n_s_per_m", known(tuning.wall_damping)},
-          {"admitted_hold", known(haptics::hold_key(runtime.admitted.hold))},
+          {"admitted_hold", known(haptics::file_key(runtime.admitted.hold))},
           {"limited", known(limited)}};
 }
 
@@ -170,7 +170,7 @@ std::string stability_json(const StabilityQuestion& question, const StabilityAns
             {"period_s", question.period()},
             {"delay_samples", wall.delay},
             {"window_samples", wall.window},
-            {"hold", haptics::hold_key(wall.hold)},
+            {"hold", haptics::file_key(wall.hold)},
             {"wall_stiffness_n_per_m", wall.stiffness},
             {"wall_damping_n_s_per_m", wall.damping},
             {"may_use", answer.may_use},

@@ -32,11 +32,12 @@ bool holds(const DriveCondition& c, const vehicle::DriveSample& sample, const Dr
          is_between(c.rolled_back_above, {}, progress.rolled_back);
 }
 
-bool is_empty(const DriveCondition& c) noexcept {
-  return !c.gear && !c.ignition && !c.running && !c.clutch_locked && !c.shift_light && !c.braked && !c.clutch_above &&
-         !c.clutch_below && !c.clutch_torque_above && !c.throttle_above && !c.throttle_below && !c.brake_above &&
-         !c.brake_below && !c.hand_brake_above && !c.hand_brake_below && !c.engine_above && !c.engine_below &&
-         !c.speed_above && !c.speed_below && !c.distance_above && !c.rolled_back_above;
+bool is_empty(const DriveCondition& condition) noexcept {
+  bool empty = !condition.gear;
+  haptics::each_parameter(condition, [&](const auto&, const auto& term) {
+    if constexpr (requires { term.has_value(); }) empty = empty && !term.has_value();
+  });
+  return empty;
 }
 
 bool HeldCondition::update(const DriveCondition& condition, const vehicle::DriveSample& sample,

@@ -6,6 +6,7 @@
 
 #include "app/lessons/assessment/drive_condition.h"
 #include "app/lessons/assessment/lever_path_text.h"
+#include "haptics/files/parameter_file.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
@@ -15,20 +16,8 @@ namespace {
 constexpr double kRadPerSecond = 6.283185307179586 / 60.0;  // per rpm
 
 // Allowed ranges of the values in a lesson file, in the file's units.
-constexpr haptics::Range kPedal{0.0, 1.0};
 constexpr haptics::Range kEngineRpm{0.0, 10000.0};
-constexpr haptics::Range kSpeedKmPerH{-60.0, 250.0};
-constexpr haptics::Range kStartKmPerH{0.0, 150.0};
-constexpr haptics::Range kAtKmPerH{5.0, 150.0};
-constexpr haptics::Range kDistanceM{0.0, 5000.0};
-constexpr haptics::Range kRolledBackM{0.0, 50.0};
-constexpr haptics::Range kHeldS{0.0, 60.0};
-constexpr haptics::Range kPatienceS{1.0, 60.0};
-constexpr haptics::Range kWithinS{0.1, 120.0};
-constexpr haptics::Range kTorqueNm{0.0, 2000.0};
 constexpr haptics::Range kSlopePercent{-30.0, 30.0};
-constexpr haptics::Range kPassGrade{1.0, 10.0};
-constexpr haptics::Range kTimeLimitS{10.0, 1800.0};
 constexpr std::size_t kMaxSteps = 64;
 
 // Conditions of the steps that the key `shift_to` in a lesson file creates. Engineering values.
@@ -64,44 +53,21 @@ std::string text_or_none(const haptics::TomlTable& table, std::string_view key) 
   return table.has(key) ? table.text(key) : std::string();
 }
 
-void read_limit(const haptics::TomlTable& table, const std::string& key, haptics::Range range, double unit,
-                std::optional<double>& value) {
-  if (table.has(key)) value = table.number(key, range) * unit;
-}
-
-// Reads the keys NAME_above and NAME_below, each followed by the unit, for example "speed_above_km_per_h".
-void read_limits(const haptics::TomlTable& table, const std::string& name, const std::string& unit_name,
-                 haptics::Range range, double unit, std::optional<double>& above, std::optional<double>& below) {
-  read_limit(table, name + "_above" + unit_name, range, unit, above);
-  read_limit(table, name + "_below" + unit_name, range, unit, below);
-  if (above && below && *above >= *below) {
-    table.fail(name + "_above" + unit_name,
-               "could never be met; the value must be smaller than " + name + "_below" + unit_name);
-  }
-}
-
-void read_flag(const haptics::TomlTable& table, std::string_view key, std::optional<bool>& value) {
-  if (table.has(key)) value = table.flag_or(key, false);
+// Rejects a pair of limits that leaves no value between them. name: "clutch"; unit: "", "_rpm", ...
+void check_between(const haptics::TomlTable& table, const std::string& name, const std::string& unit) {
+  const std::string above = name + "_above" + unit, below = name + "_below" + unit;
+  constexpr haptics::Range kAny{-1e9, 1e9};
+  if (table.has(above) && table.has(below) && table.number(above, kAny) >= table.number(below, kAny))
+    table.fail(above, "could never be met; the value must be smaller than " + below);
 }
 
 DriveCondition read_condition(const haptics::TomlTable& table) {
   DriveCondition c;
   if (table.has("gear")) c.gear = read_gear(table, "gear");
-  read_flag(table, "ignition", c.ignition);
-  read_flag(table, "running", c.running);
-  read_flag(table, "clutch_locked", c.clutch_locked);
-  read_flag(table, "shift_light", c.shift_light);
-  read_flag(table, "braked", c.braked);
-  read_limits(table, "clutch", "", kPedal, 1.0, c.clutch_above, c.clutch_below);
-  read_limit(table, "clutch_torque_above_nm", kTorqueNm, 1.0, c.clutch_torque_above);
-  read_limits(table, "throttle", "", kPedal, 1.0, c.throttle_above, c.throttle_below);
-  read_limits(table, "brake", "", kPedal, 1.0, c.brake_above, c.brake_below);
-  read_limits(table, "hand_brake", "", kPedal, 1.0, c.hand_brake_above, c.hand_brake_below);
-  read_limits(table, "engine", "_rpm", kEngineRpm, kRadPerSecond, c.engine_above, c.engine_below);
-  read_limits(table, "speed", "_km_per_h", kSpeedKmPerH, 1.0 / haptics::kKmhPerMps, c.speed_above, c.speed_below);
-  read_limit(table, "distance_above_m", kDistanceM, 1.0, c.distance_above);
-  read_limit(table, "rolled_back_above_m", kRolledBackM, 1.0, c.rolled_back_above);
-  c.held = table.number_or("held_s", c.held, kHeldS);
+  haptics::read_parameters(table, c);
+  for (const char* pedal : {"clutch", "throttle", "brake", "hand_brake"}) check_between(table, pedal, "");
+  check_between(table, "engine", "_rpm");
+  check_between(table, "speed", "_km_per_h");
   table.reject_unknown_keys();
   if (is_empty(c)) table.fail({}, "the condition is empty and would be met at once");
   return c;
@@ -110,19 +76,15 @@ DriveCondition read_condition(const haptics::TomlTable& table) {
 LessonStart read_start(const haptics::TomlTable& table) {
   LessonStart start;
   if (table.has("gear")) start.gear = read_gear(table, "gear");
-  start.speed = table.number_or("speed_km_per_h", 0.0, kStartKmPerH) / haptics::kKmhPerMps;
+  haptics::read_parameters(table, start);
   start.slope = std::atan(table.number_or("slope_percent", 0.0, kSlopePercent) / 100.0);
-  start.hand_brake = table.number_or("hand_brake", 0.0, kPedal);
-  start.running = table.flag_or("running", start.running);
   table.reject_unknown_keys();
   if (start.gear == haptics::kReverseGear && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 in gear R");
   if (!start.running && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 if the engine is not running");
   return start;
 }
 
-// Reads the road speed (`at_km_per_h`) at which the gear of this step should be engaged.
-void read_at(const haptics::TomlTable& table, LessonStep& step) {
-  read_limit(table, "at_km_per_h", kAtKmPerH, 1.0 / haptics::kKmhPerMps, step.at);
+void check_at(const haptics::TomlTable& table, const LessonStep& step) {
   if (step.at && step.until.gear.value_or(haptics::kNeutralGear) < 1)
     table.fail("at_km_per_h", "is allowed only in a step that waits for a forward gear");
 }
@@ -133,11 +95,7 @@ LessonStep read_step(const haptics::TomlTable& table) {
   LessonStep step;
   step.prompt = table.text("prompt");
   step.hint = text_or_none(table, "hint");
-  step.patience = table.number_or("patience_s", step.patience, kPatienceS);
-  step.call = table.flag_or("call", false);
-  step.may_be_skipped = table.flag_or("may_be_skipped", false);
-  read_limit(table, "within_s", kWithinS, 1.0, step.within);
-  read_limit(table, "fails_after_s", kWithinS, 1.0, step.fails_after);
+  haptics::read_parameters(table, step);
   step.until = read_condition(table.table("until"));
   if (step.within && *step.within <= step.until.held) {
     table.fail("within_s", "must be longer than held_s of the same step, or no attempt could be in time");
@@ -151,7 +109,7 @@ LessonStep read_step(const haptics::TomlTable& table) {
     table.fail("guide_to", std::string("leads away from gear ") + haptics::gear_name(*step.until.gear) +
                                ", which this step waits for");
   }
-  read_at(table, step);
+  check_at(table, step);
   table.reject_unknown_keys();
   return step;
 }
@@ -178,7 +136,9 @@ void add_shift(const haptics::TomlTable& table, std::vector<LessonStep>& steps) 
   up.until.clutch_below = kClutchUp;
   up.until.clutch_locked = true;
   lever.gear = up.gear = gear;
-  read_at(table, lever);
+  constexpr auto& kAt = haptics::parameter_of(&LessonStep::at);
+  if (table.has(kAt.key)) lever.at = haptics::read_number(table, kAt, {kAt.range.min, kAt.range.max});
+  check_at(table, lever);
   table.reject_unknown_keys();
   steps.insert(steps.end(), {down, lever, up});
 }
@@ -320,8 +280,7 @@ Lesson parse_lesson(std::string_view text, const std::string& file_name) {
   lesson.task = root.text("task");
   lesson.car = text_or_none(root, "car");
   lesson.gate = text_or_none(root, "gate");
-  lesson.pass_grade = root.number_or("pass_grade", lesson.pass_grade, kPassGrade);
-  lesson.time_limit = root.number_or("time_limit_s", lesson.time_limit, kTimeLimitS);
+  haptics::read_parameters(root, lesson);
   if (root.has("start")) lesson.start = read_start(root.table("start"));
   read_steps(root, lesson);
   read_error_rules(root.table("faults"), lesson);

@@ -10,6 +10,7 @@
 #include "app/lessons/assessment/driving_error.h"
 #include "app/vehicle/car_load.h"
 #include "app/vehicle/car_spec.h"
+#include "haptics/files/parameter.h"
 #include "haptics/gate/gate.h"
 
 namespace gearshift::lessons {
@@ -99,3 +100,79 @@ std::string failing_errors_sentence(const Lesson& lesson);
 Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car);
 
 }  // namespace gearshift::lessons
+
+// Parameters of lesson files that are numbers or flags. Gears, texts and the slope are read by lesson.cpp.
+namespace gearshift::haptics {
+
+template <>
+inline constexpr Parameter<lessons::DriveCondition> kParameters<lessons::DriveCondition>[] = {
+    {&lessons::DriveCondition::ignition, "ignition", "ignition", FileRange{}, "The ignition is on."},
+    {&lessons::DriveCondition::running, "running", "running", FileRange{}, "The engine is running."},
+    {&lessons::DriveCondition::clutch_locked, "clutch_locked", "clutch_locked", FileRange{},
+     "The clutch does not slip."},
+    {&lessons::DriveCondition::shift_light, "shift_light", "shift_light", FileRange{},
+     "The shift light advises a higher gear."},
+    {&lessons::DriveCondition::braked, "braked", "braked", FileRange{}, "Foot brake or handbrake holds the car."},
+    {&lessons::DriveCondition::clutch_above, "clutch_above", "clutch_above", FileRange{0.0, 1.0},
+     "Clutch pedal, 0 up, 1 down."},
+    {&lessons::DriveCondition::clutch_below, "clutch_below", "clutch_below", FileRange{0.0, 1.0},
+     "Clutch pedal, 0 up, 1 down."},
+    {&lessons::DriveCondition::clutch_torque_above, "clutch_torque_above", "clutch_torque_above_nm",
+     FileRange{0.0, 2000.0}, "Torque that the clutch transmits into the gearbox."},
+    {&lessons::DriveCondition::throttle_above, "throttle_above", "throttle_above", FileRange{0.0, 1.0},
+     "Throttle pedal."},
+    {&lessons::DriveCondition::throttle_below, "throttle_below", "throttle_below", FileRange{0.0, 1.0},
+     "Throttle pedal."},
+    {&lessons::DriveCondition::brake_above, "brake_above", "brake_above", FileRange{0.0, 1.0}, "Brake pedal."},
+    {&lessons::DriveCondition::brake_below, "brake_below", "brake_below", FileRange{0.0, 1.0}, "Brake pedal."},
+    {&lessons::DriveCondition::hand_brake_above, "hand_brake_above", "hand_brake_above", FileRange{0.0, 1.0},
+     "Handbrake lever."},
+    {&lessons::DriveCondition::hand_brake_below, "hand_brake_below", "hand_brake_below", FileRange{0.0, 1.0},
+     "Handbrake lever."},
+    {&lessons::DriveCondition::engine_above, "engine_above", "engine_above_rpm",
+     FileRange{0.0, 10000.0, file_unit::kRpm}, "Engine speed."},
+    {&lessons::DriveCondition::engine_below, "engine_below", "engine_below_rpm",
+     FileRange{0.0, 10000.0, file_unit::kRpm}, "Engine speed."},
+    {&lessons::DriveCondition::speed_above, "speed_above", "speed_above_km_per_h",
+     FileRange{-60.0, 250.0, file_unit::kKmPerHour}, "Road speed."},
+    {&lessons::DriveCondition::speed_below, "speed_below", "speed_below_km_per_h",
+     FileRange{-60.0, 250.0, file_unit::kKmPerHour}, "Road speed."},
+    {&lessons::DriveCondition::distance_above, "distance_above", "distance_above_m", FileRange{0.0, 5000.0},
+     "Distance driven forward since the lesson began."},
+    {&lessons::DriveCondition::rolled_back_above, "rolled_back_above", "rolled_back_above_m", FileRange{0.0, 50.0},
+     "Distance rolled back since the step began."},
+    {&lessons::DriveCondition::held, "held", "held_s", FileRange{0.0, 60.0},
+     "Time for which all terms must hold without a break."},
+};
+
+template <>
+inline constexpr Parameter<lessons::LessonStep> kParameters<lessons::LessonStep>[] = {
+    {&lessons::LessonStep::patience, "patience", "patience_s", FileRange{1.0, 60.0}, "Time before the hint is shown."},
+    {&lessons::LessonStep::within, "within", "within_s", FileRange{0.1, 120.0},
+     "A slower step is the error slow_step."},
+    {&lessons::LessonStep::fails_after, "fails_after", "fails_after_s", FileRange{0.1, 120.0},
+     "A slower step fails the lesson, if the lesson fails on slow_step."},
+    {&lessons::LessonStep::call, "call", "call", FileRange{}, "The prompt is shown in both modes."},
+    {&lessons::LessonStep::may_be_skipped, "may_be_skipped", "may_be_skipped", FileRange{},
+     "Done when the next step is done."},
+    {&lessons::LessonStep::at, "at", "at_km_per_h", FileRange{5.0, 150.0, file_unit::kKmPerHour},
+     "Road speed at which the gear should be engaged."},
+};
+
+template <>
+inline constexpr Parameter<lessons::LessonStart> kParameters<lessons::LessonStart>[] = {
+    {&lessons::LessonStart::speed, "speed", "speed_km_per_h", FileRange{0.0, 150.0, file_unit::kKmPerHour},
+     "Road speed."},
+    {&lessons::LessonStart::hand_brake, "hand_brake", "hand_brake", FileRange{0.0, 1.0},
+     "Handbrake lever, 1 fully up."},
+    {&lessons::LessonStart::running, "running", "running", FileRange{}, "The engine is running."},
+};
+
+template <>
+inline constexpr Parameter<lessons::Lesson> kParameters<lessons::Lesson>[] = {
+    {&lessons::Lesson::pass_grade, "pass_grade", "pass_grade", FileRange{1.0, 10.0}, "Lowest grade that passes."},
+    {&lessons::Lesson::time_limit, "time_limit", "time_limit_s", FileRange{10.0, 1800.0},
+     "Time limit of the whole lesson."},
+};
+
+}  // namespace gearshift::haptics

@@ -4,8 +4,6 @@
 
 #include "app/ui/panel/format_value.h"
 #include "app/ui/panel/palette.h"
-#include "app/ui/panel/setup_fields.h"
-#include "app/ui/panel/tuning_fields.h"
 #include "haptics/contact/virtual_coupling.h"
 #include "haptics/safety/energy_control.h"
 
@@ -34,22 +32,25 @@ class Difference {
   int same_ = 0, different_ = 0;
 };
 
-const char* yes_or_no(bool yes) {
-  return yes ? "yes" : "no";
+// The part of the configuration that has this type.
+template <class Part>
+const Part& part_of(const haptics::HapticConfig& config) {
+  const Part* found = nullptr;
+  haptics::each_section(config, [&](std::string_view, const auto& part) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(part)>, Part>) found = &part;
+  });
+  return *found;
 }
 
 void draw_rows(Difference& rows, const haptics::HapticConfig& here, const haptics::HapticConfig& there) {
-  for (const TuningField& f : kTuningFields)
-    rows.row(f.label, format_value(here.tuning.*f.member, f), format_value(there.tuning.*f.member, f));
-  for (const SetupField& f : kSetupFields) {
-    rows.row(f.label, format_value(f.factor * f.get(here), f.unit, f.decimals),
-             format_value(f.factor * f.get(there), f.unit, f.decimals));
-  }
-  rows.row("Hold", haptics::to_string(here.contact.hold), haptics::to_string(there.contact.hold));
-  rows.row("Energy control", haptics::to_string(here.contact.energy_control),
-           haptics::to_string(there.contact.energy_control));
-  rows.row("Reversal limiter", yes_or_no(here.contact.reversal_limiter), yes_or_no(there.contact.reversal_limiter));
-  rows.row("Allow unstable", yes_or_no(here.contact.allow_unstable), yes_or_no(there.contact.allow_unstable));
+  haptics::each_section(here, [&](std::string_view, const auto& part) {
+    const auto& other = part_of<std::remove_cvref_t<decltype(part)>>(there);
+    haptics::each_parameter(part, [&](const auto& parameter, const auto& value) {
+      using Value = std::remove_cvref_t<decltype(value)>;
+      rows.row(parameter.label, format_value(parameter, value),
+               format_value(parameter, haptics::value_in<Value>(other, parameter)));
+    });
+  });
 }
 
 void draw_difference(const PanelInput& input) {

@@ -17,94 +17,81 @@
 namespace gearshift::ui {
 namespace {
 
-constexpr haptics::ContactHold kHolds[] = {haptics::ContactHold::automatic, haptics::ContactHold::zero_order,
-                                           haptics::ContactHold::half_sample, haptics::ContactHold::observer};
-constexpr haptics::EnergyControl kEnergyControls[] = {haptics::EnergyControl::none,
-                                                      haptics::EnergyControl::energy_bounding,
-                                                      haptics::EnergyControl::passivity_controller};
-
-template <class Kind>
-void choose(Controls& controls, const char* name, const char* label, Kind& value, std::span<const Kind> kinds,
-            const char* (*words)(Kind) noexcept, float label_width) {
-  std::vector<std::string> names;
-  for (const Kind kind : kinds) names.emplace_back(words(kind));
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(label);
-  ImGui::SameLine(label_width);
-  const auto chosen = controls.choice(name, words(value), names, ImGui::GetContentRegionAvail().x);
-  if (chosen) value = kinds[static_cast<std::size_t>(std::find(names.begin(), names.end(), *chosen) - names.begin())];
-}
-
 float label_width() {
   return 9.3f * engine::ui_em();
 }
 
-void draw_checkbox(Controls& controls, const char* name, const char* label, bool& on) {
+template <class Enum>
+void draw_choice(Controls& controls, const char* key, Enum& value) {
+  std::vector<std::string> names;
+  for (int i = 0; i <= static_cast<int>(last_value(Enum{})); ++i) names.emplace_back(to_string(static_cast<Enum>(i)));
+  const auto chosen = controls.choice(key, to_string(value), names, ImGui::GetContentRegionAvail().x);
+  if (chosen) value = static_cast<Enum>(std::find(names.begin(), names.end(), *chosen) - names.begin());
+}
+
+// The slider shows the value in the unit of the display.
+template <class Number>
+void draw_slider(Controls& controls, const char* key, haptics::FileRange range, const haptics::Display& display,
+                 Number& value) {
+  double shown = display.factor * static_cast<double>(value);
+  const double min = display.factor * range.min, max = display.factor * range.max;
+  const std::string format = fmt::format("%.{}f {}", display.decimals, display.unit);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  const int flags = ImGuiSliderFlags_AlwaysClamp | (display.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  if (ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &min, &max, format.c_str(), flags))
+    value = static_cast<Number>(std::clamp(shown / display.factor, range.min, range.max));
+  controls.mark(key);
+}
+
+void draw_parameter(Controls& controls, const auto& parameter, auto& value) {
+  using Value = std::remove_cvref_t<decltype(value)>;
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(label);
-  ImGui::SameLine();
-  ImGui::PushID(name);
-  ImGui::Checkbox("##on", &on);
+  ImGui::TextUnformatted(parameter.label);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", parameter.description);
+  ImGui::SameLine(label_width());
+  ImGui::PushID(parameter.key);
+  if constexpr (std::is_same_v<Value, bool>) {
+    ImGui::Checkbox("##on", &value);
+    controls.mark(parameter.key);
+  } else if constexpr (std::is_enum_v<Value>) {
+    draw_choice(controls, parameter.key, value);
+  } else {
+    draw_slider(controls, parameter.key, parameter.range, parameter.display, value);
+  }
   ImGui::PopID();
-  controls.mark(name);
 }
 
 }  // namespace
 
-SetupView::Values SetupView::values_of(const haptics::HapticConfig& config) {
-  Values values{};
-  for (std::size_t i = 0; i < kSetupFields.size(); ++i) values[i] = kSetupFields[i].get(config);
-  values[kSetupFields.size()] = static_cast<double>(config.contact.hold);
-  values[kSetupFields.size() + 1] = static_cast<double>(config.contact.energy_control);
-  values[kSetupFields.size() + 2] = config.contact.reversal_limiter ? 1.0 : 0.0;
-  values[kSetupFields.size() + 3] = config.contact.allow_unstable ? 1.0 : 0.0;
-  return values;
-}
-
 // Discards the edited values when the running configuration changes.
 void SetupView::follow(const haptics::HapticConfig& running) {
-  const Values values = values_of(running);
-  if (!has_values_ || values != running_) {
+  haptics::HapticConfig setup = running;
+  setup.tuning = {};
+  if (!running_ || setup != *running_) {
     staged_ = running;
-    running_ = values;
-    has_values_ = true;
+    running_ = setup;
   }
   staged_.tuning = running.tuning;
 }
 
-void SetupView::draw_fields(Controls& controls) {
-  for (const SetupField& field : kSetupFields) {
-    double shown = field.factor * field.get(staged_);
-    const double min = field.factor * field.min, max = field.factor * field.max;
-    const std::string format = fmt::format("%.{}f {}", field.decimals, field.unit);
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(field.label);
-    ImGui::SameLine(label_width());
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-    ImGui::PushID(field.key);
-    const int flags = ImGuiSliderFlags_AlwaysClamp | (field.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-    if (ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &min, &max, format.c_str(), flags))
-      field.set(staged_, std::clamp(shown / field.factor, field.min, field.max));
-    ImGui::PopID();
-    controls.mark(field.key);
-  }
+bool SetupView::is_changed() const {
+  haptics::HapticConfig setup = staged_;
+  setup.tuning = {};
+  return setup != running_;
 }
 
-void SetupView::draw_choices(Controls& controls) {
-  choose<haptics::ContactHold>(controls, "hold", "Hold", staged_.contact.hold, kHolds, haptics::to_string,
-                               label_width());
-  choose<haptics::EnergyControl>(controls, "energy_control", "Energy control", staged_.contact.energy_control,
-                                 kEnergyControls, haptics::to_string, label_width());
-  draw_checkbox(controls, "reversal_limiter", "Reversal limiter", staged_.contact.reversal_limiter);
-  ImGui::SameLine(0.0f, 1.2f * engine::ui_em());
-  draw_checkbox(controls, "study", "Allow unstable", staged_.contact.allow_unstable);
+void SetupView::draw_fields(Controls& controls) {
+  haptics::each_section(staged_, [&](std::string_view section, auto& part) {
+    if (section == "tuning") return;  // has its own tab
+    haptics::each_parameter(part,
+                            [&](const auto& parameter, auto& value) { draw_parameter(controls, parameter, value); });
+  });
 }
 
 // Checks the edited values only after a change, because a check can take milliseconds.
 void SetupView::judge(const PanelInput& input) {
-  const Values staged = values_of(staged_);
-  if (staged == judged_) return;
-  judged_ = staged;
+  if (staged_ == judged_) return;
+  judged_ = staged_;
   rejection_.clear();
   limits_text_.clear();
   try {
@@ -126,7 +113,6 @@ void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests&
     const engine::WithFont small(engine::UiFont::small);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0.15f * engine::ui_em()});
     ImGui::TextDisabled("Changes apply when the loop restarts.");
-    draw_choices(controls);
     draw_fields(controls);
     ImGui::PopStyleVar();
   }
@@ -136,14 +122,14 @@ void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests&
 
 // Draws the buttons and the result of the check below the scrolling fields, where both are always visible.
 void SetupView::draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out) {
-  const bool changed = values_of(staged_) != running_;
+  const bool changed = is_changed();
   if (changed) judge(input);
   ImGui::BeginDisabled(!changed || !rejection_.empty());
   if (controls.button("restart", "Restart loop")) out.restart = staged_;
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(!changed);
-  if (controls.button("setup_back", "Revert")) has_values_ = false;
+  if (controls.button("setup_back", "Revert")) running_.reset();
   ImGui::EndDisabled();
   const bool allow_unstable = staged_.contact.allow_unstable;
   if (!changed && !allow_unstable) return;

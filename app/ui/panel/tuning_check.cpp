@@ -20,7 +20,7 @@ haptics::HapticConfig with_running_hold(const TuningQuestion& question) {
 }
 
 TuningQuestion with_value(TuningQuestion question, const TuningField& field, double value) {
-  question.config.tuning.*field.member = value;
+  value_of(question.config.tuning, field) = value;
   return question;
 }
 
@@ -39,19 +39,13 @@ double last_admissible(const TuningQuestion& question, const TuningField& field,
 // tuning is admissible (`is_admissible`) but would not be with that value, returns the last admissible one towards it.
 double limited_extreme(const TuningQuestion& question, const TuningField& field, double extreme, bool is_admissible) {
   const TuningAnswer answered = answer(with_value(question, field, extreme));
-  const double reached = answered.refused.empty() ? answered.admitted.tuning.*field.member : extreme;
+  const double reached = answered.refused.empty() ? value_of(answered.admitted.tuning, field) : extreme;
   if (answered.admissible || !is_admissible) return reached;
   if (answer(with_value(question, field, reached)).admissible) return reached;
-  return last_admissible(question, field, question.config.tuning.*field.member, reached);
+  return last_admissible(question, field, value_of(question.config.tuning, field), reached);
 }
 
 }  // namespace
-
-std::size_t tuning_field(std::string_view key) noexcept {
-  const auto found =
-      std::find_if(kTuningFields.begin(), kTuningFields.end(), [&](const TuningField& f) { return f.key == key; });
-  return static_cast<std::size_t>(found - kTuningFields.begin());
-}
 
 TuningAnswer answer(const TuningQuestion& question) {
   TuningAnswer out;
@@ -74,17 +68,17 @@ StableRanges stable_ranges(const TuningQuestion& question) {
   safe.config.contact.allow_unstable = false;
   const bool is_admissible = answer(safe).admissible;
   StableRanges ranges;
-  for (std::size_t i = 0; i < kTuningFields.size(); ++i) {
+  for (std::size_t i = 0; i < std::size(kTuningFields); ++i) {
     const TuningField& field = kTuningFields[i];
-    ranges[i] = {limited_extreme(safe, field, field.min, is_admissible),
-                 limited_extreme(safe, field, field.max, is_admissible)};
+    ranges[i] = {limited_extreme(safe, field, field.range.min, is_admissible),
+                 limited_extreme(safe, field, field.range.max, is_admissible)};
   }
   // The gate's feel (centring, detents) is limited if the wall is softer than the feel. So the wall's stable range
   // begins at the stiffness of the feel.
-  const std::size_t wall = tuning_field("wall_stiffness_n_per_m");
+  constexpr std::size_t kWall = index_of(haptics::TuningParameter::wall_stiffness);
   const double feel = question.config.tuning.feel_scale * haptics::max_feel_stiffness(*question.gate);
-  if (feel > 0.99 * ranges[wall].min && answer(with_value(safe, kTuningFields[wall], feel)).admissible)
-    ranges[wall].min = feel;
+  if (feel > 0.99 * ranges[kWall].min && answer(with_value(safe, kTuningFields[kWall], feel)).admissible)
+    ranges[kWall].min = feel;
   return ranges;
 }
 
@@ -102,41 +96,17 @@ std::optional<haptics::HapticTuning> nearest_stable(const TuningQuestion& questi
 }
 
 std::string format_limit(const haptics::TuningLimit& limit) {
-  const std::size_t index = tuning_field(haptics::to_string(limit.parameter));
-  if (index == kTuningFields.size()) return fmt::format("{}: {}", haptics::to_string(limit.parameter), limit.law);
-  const TuningField& field = kTuningFields[index];
+  if (limit.parameter == haptics::TuningParameter::hold)
+    return fmt::format("{}: {}", haptics::to_string(limit.parameter), limit.law);
+  const TuningField& field = kTuningFields[index_of(limit.parameter)];
   return fmt::format("{} {} is {} the stable limit of {}. Rule: {}{}{}.", field.label,
                      format_value(limit.wanted, field), limit.wanted > limit.bound ? "above" : "below",
                      format_value(limit.bound, field), limit.law,
                      limit.hand.empty() ? "" : ". Deciding hand: ", limit.hand);
 }
 
-TuningJudge::Basis TuningJudge::basis_of(const TuningQuestion& q) {
-  const haptics::HapticConfig& c = q.config;
-  const haptics::HapticTuning& t = c.tuning;
-  const haptics::AxisModel &x = q.device.axis_x, &y = q.device.axis_y;
-  return {t.wall_stiffness,
-          t.wall_damping,
-          t.feel_scale,
-          t.aisle_damping,
-          t.speed_limit,
-          t.limit_damping,
-          c.rate,
-          static_cast<double>(c.contact.energy_control),
-          c.contact.reversal_limiter ? 1.0 : 0.0,
-          c.contact.allow_unstable ? 1.0 : 0.0,
-          c.estimator.smoothing,
-          static_cast<double>(c.estimator.window),
-          static_cast<double>(q.hold),
-          static_cast<double>(q.device.delay),
-          q.device.simulated ? 1.0 : 0.0,
-          x.mass,
-          x.damping,
-          x.stiffness,
-          y.mass,
-          y.damping,
-          y.stiffness,
-          haptics::max_feel_stiffness(*q.gate)};
+TuningJudge::Basis TuningJudge::basis_of(const TuningQuestion& question) {
+  return {question.config, question.device, question.hold, haptics::max_feel_stiffness(*question.gate)};
 }
 
 const TuningAnswer& TuningJudge::judge(const TuningQuestion& question) {

@@ -20,7 +20,7 @@ struct TuningAnswer {
 struct StableRange {
   double min = 0.0, max = 0.0;
 };
-using StableRanges = std::array<StableRange, kTuningFields.size()>;
+using StableRanges = std::array<StableRange, std::size(kTuningFields)>;
 
 struct TuningQuestion {
   haptics::HapticConfig config;  // contains the requested tuning
@@ -51,7 +51,14 @@ class TuningJudge {
   int evaluations() const noexcept { return evaluations_; }  // number of questions not answered from the cache
 
  private:
-  using Basis = std::array<double, 22>;  // all numbers on which an answer depends
+  // All inputs on which an answer depends.
+  struct Basis {
+    haptics::HapticConfig config;
+    haptics::DeviceSpec device;
+    haptics::ContactHold hold = haptics::ContactHold::half_sample;
+    double stiffest_feel = 0.0;  // [N/m] of the gate
+    bool operator==(const Basis&) const = default;
+  };
   static Basis basis_of(const TuningQuestion& question);
 
   std::optional<TuningAnswer> answer_;

@@ -14,11 +14,11 @@ namespace gearshift::ui {
 namespace {
 
 std::string format_stable_range(const TuningField& field, const StableRange& stable) {
-  const bool from_min = stable.min <= field.min, to_max = stable.max >= field.max;
+  const bool from_min = stable.min <= field.range.min, to_max = stable.max >= field.range.max;
   if (from_min && to_max) return "all stable";
   if (from_min) return "stable up to " + format_value(stable.max, field);
   if (to_max) return "stable from " + format_value(stable.min, field);
-  return fmt::format("stable {:.{}f} to {}", stable.min, field.decimals, format_value(stable.max, field));
+  return fmt::format("stable {:.{}f} to {}", stable.min, field.display.decimals, format_value(stable.max, field));
 }
 
 // Draws the stable range and the running value under the slider.
@@ -28,10 +28,11 @@ void draw_stable_bar(const TuningField& field, const StableRange& stable, double
   const float em = engine::ui_em(), top = high.y + 0.08f * em, bottom = top + 0.2f * em;
   const float half_grab = 0.5f * ImGui::GetStyle().GrabMinSize + 2.0f;
   const auto x = [&](double value) {
-    const auto fraction = static_cast<float>((value - field.min) / (field.max - field.min));
+    const auto fraction = static_cast<float>((value - field.range.min) / (field.range.max - field.range.min));
     return low.x + half_grab + std::clamp(fraction, 0.0f, 1.0f) * (high.x - low.x - 2.0f * half_grab);
   };
-  list.AddRectFilled({x(field.min), top}, {x(field.max), bottom}, engine::with_alpha(ink::kBad, 0.55f), 1.0f);
+  list.AddRectFilled({x(field.range.min), top}, {x(field.range.max), bottom}, engine::with_alpha(ink::kBad, 0.55f),
+                     1.0f);
   list.AddRectFilled({x(stable.min), top}, {x(stable.max), bottom}, engine::with_alpha(ink::kGood, 0.8f), 1.0f);
   const float at = x(running);
   list.AddTriangleFilled({at, high.y - 0.05f * em}, {at + 0.28f * em, bottom + 0.12f * em},
@@ -103,7 +104,7 @@ void TuningView::draw(Controls& controls, const PanelInput& input, PanelRequests
   draw_steps(controls, input, out);
   // All ranges stay unchanged while a slider is dragged, and are updated when it is released.
   ranges_ = judge_.ranges(question(input, edited_), ImGui::IsAnyItemActive());
-  for (std::size_t i = 0; i < kTuningFields.size(); ++i) draw_field(i, controls, input, out);
+  for (std::size_t i = 0; i < std::size(kTuningFields); ++i) draw_field(i, controls, input, out);
   draw_verdict(controls, input, out);
 }
 
@@ -133,20 +134,21 @@ void TuningView::draw_steps(Controls& controls, const PanelInput& input, PanelRe
 void TuningView::draw_field(std::size_t index, Controls& controls, const PanelInput& input, PanelRequests& out) {
   const TuningField& field = kTuningFields[index];
   const StableRange stable = ranges_[index];
-  const double running = running_.*field.member;
+  const double running = value_of(running_, field);
   haptics::HapticTuning wanted = edited_;
-  double& value = wanted.*field.member;
+  double& value = value_of(wanted, field);
   const bool bad = is_refused(input) && (value < stable.min || value > stable.max);
 
   ImGui::TextUnformatted(field.label);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", field.description);
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s\nToo low: %s.\nToo high: %s.", field.description, field.too_low, field.too_high);
   put_right(format_stable_range(field, stable), bad ? ink::kBad : ink::kSoft);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   if (bad) ImGui::PushStyleColor(ImGuiCol_Text, ink::kBad);
   if (bad) ImGui::PushStyleColor(ImGuiCol_SliderGrab, ink::kBad);
-  const std::string format = fmt::format("%.{}f {}", field.decimals, field.unit);
+  const std::string format = fmt::format("%.{}f {}", field.display.decimals, field.display.unit);
   const std::string id = "##" + std::string(field.key);
-  const bool changed = ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &field.min, &field.max,
+  const bool changed = ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &field.range.min, &field.range.max,
                                            format.c_str(), ImGuiSliderFlags_AlwaysClamp);
   if (bad) ImGui::PopStyleColor(2);
   controls.mark(field.key);

@@ -192,7 +192,7 @@ TEST_CASE("errors and jitter out of range are refused") {
     return "accepted";
   };
   CHECK(refusal(0.5, 0.5) == "accepted");
-  CHECK(refusal(0.6, 0.0) == "SimulatedLever: model_error = 0.6: must be between 0 and 0.5");
-  CHECK(refusal(0.0, -0.1) == "SimulatedLever: period_jitter = -0.1: must be between 0 and 0.5");
-  CHECK(refusal(std::nan(""), 0.0) == "SimulatedLever: model_error = nan: must be between 0 and 0.5");
+  CHECK(refusal(0.6, 0.0) == "lever.model_error = 0.6: must be between 0 and 0.5");
+  CHECK(refusal(0.0, -0.1) == "lever.period_jitter = -0.1: must be between 0 and 0.5");
+  CHECK(refusal(std::nan(""), 0.0) == "lever.model_error = nan: must be between 0 and 0.5");
 }

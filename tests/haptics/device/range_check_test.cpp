@@ -1,4 +1,4 @@
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 
 #include <cmath>
 #include <limits>

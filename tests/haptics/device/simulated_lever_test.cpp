@@ -297,26 +297,25 @@ TEST_CASE("the sensor's noise has the stated deviation, and the seed decides eve
 TEST_CASE("a bad value is refused in one sentence with parameter, value and allowed range") {
   SimulatedLeverConfig config;
   CHECK(refusal(config) == "accepted");
-  CHECK(refusal(config, 0) == "SimulatedLever: period_ns = 0: must be between 1 and 1000000000 ns");
+  CHECK(refusal(config, 0) == "period_ns = 0: must be between 1 and 1000000000");
   config.delay = 9;
-  CHECK(refusal(config) == "SimulatedLever: delay = 9: must be between 0 and 8 cycles");
+  CHECK(refusal(config) == "lever.delay_cycles = 9: must be between 0 and 8");
   config = {};
   config.device_wall_stiffness = -1.0;
-  CHECK(refusal(config) == "SimulatedLever: device_wall_stiffness = -1: must be between 0 and 100000 N/m");
+  CHECK(refusal(config) == "lever.own_wall_stiffness_n_per_m = -1: must be between 0 and 100000");
   config = {};
   config.axis_x.mass = 0.0;
-  CHECK(refusal(config) == "SimulatedLever: axis_x.mass = 0: must be between 0.001 and 1000 kg");
+  CHECK(refusal(config) == "lever.axis_x.mass_kg = 0: must be between 0.001 and 1000");
   config = {};
   config.axis_y.damping = kNan;
-  CHECK(refusal(config) == "SimulatedLever: axis_y.damping = nan: must be between 0 and 10000 N s/m");
+  CHECK(refusal(config) == "lever.axis_y.damping_n_s_per_m = nan: must be between 0 and 10000");
   config = {};
   config.hand.stiffness = -1.0;
-  CHECK(refusal(config) == "SimulatedLever: hand.stiffness = -1: must be between 0 and 1000000 N/m");
+  CHECK(refusal(config) == "lever.hand.stiffness_n_per_m = -1: must be between 0 and 1000000");
   config = {};
   config.encoder_counts = kInfinity;
-  CHECK(refusal(config) ==
-        "SimulatedLever: encoder_counts other than 0 = inf: must be between 1 and 1000000 counts/deg");
+  CHECK(refusal(config) == "lever.encoder_counts_per_deg = inf: must be between 0 and 1000000");
   config = {};
   config.actuator.continuous_force = 40.0;
-  CHECK(refusal(config) == "SimulatedLever: actuator.continuous_force = 40: must be between 0 and 31.7 N");
+  CHECK(refusal(config) == "lever.continuous_force_n = 40: must be between 0 and 31.7");
 }

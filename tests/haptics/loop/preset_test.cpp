@@ -2,6 +2,7 @@
 // key.
 #include "haptics/loop/preset.h"
 
+#include <cmath>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -10,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "haptics/files/file_error.h"
+#include "haptics/files/toml_text.h"
 #include "haptics/loop/trace_fields.h"
 #include "tests/support/temp_folder.h"
 
@@ -206,6 +208,66 @@ TEST_CASE("hold, energy control and hand accept all their names") {
   for (const NamedHand& named : kNamedHands) {
     const HandImpedance hand = preset_of("[lever]\nhand = \"" + std::string(named.name) + "\"").lever.hand;
     CHECK((hand.mass == named.hand.mass && hand.stiffness == named.hand.stiffness));
+  }
+}
+
+TEST_CASE("both ends of every range are accepted, and values beyond them are refused") {
+  struct Row {
+    const char *table, *key;
+    double min, max;
+  };
+  // From the tuning guide and the files of the first version; for warn_above_n above the default of clear_below_n.
+  constexpr Row kRows[] = {
+      {"tuning", "wall_stiffness_n_per_m", 0, 20000},
+      {"tuning", "wall_damping_n_s_per_m", 0, 100},
+      {"tuning", "feel_scale", 0, 4},
+      {"tuning", "aisle_damping_n_s_per_m", 0, 50},
+      {"tuning", "speed_limit_m_per_s", 0.05, 5},
+      {"tuning", "limit_damping_n_s_per_m", 0, 50},
+      {"loop", "rate_hz", 100, 4000},
+      {"loop", "gear_debounce_s", 0, 0.5},
+      {"loop", "ghost_offset_m", 0, 1},
+      {"estimator", "smoothing_s", 1e-5, 1},
+      {"estimator", "speed_limit_m_per_s", 0.1, 1000},
+      {"estimator", "window_samples", 1, 64},
+      {"guard", "slew_n_per_cycle", 2, 100},
+      {"guard", "ramp_time_s", 0.001, 60},
+      {"guard", "stale_time_s", 0.001, 1},
+      {"guard", "fade_time_s", 0.001, 1},
+      {"guard", "damped_damping_n_s_per_m", 0, 50},
+      {"guard", "position_margin_m", 0, 1},
+      {"guard", "overruns_in_row", 1, 1000},
+      {"over_push", "warn_above_n", 50, 1000},
+      {"over_push", "clear_below_n", 0, 60},
+      {"lever", "delay_cycles", 0, 8},
+      {"lever", "coulomb_friction_n", 0, 1000},
+      {"lever", "own_wall_stiffness_n_per_m", 0, 1e5},
+      {"lever", "model_error", 0, 0.5},
+      {"lever", "period_jitter", 0, 0.5},
+      {"lever", "overload_time_s", 0, 1e4},
+      {"lever.yoke", "radius_m", 0.01, 10},
+      {"lever.yoke", "theta_limit_deg", 0.5, 80},
+      {"lever.yoke", "phi_limit_deg", 0.5, 80},
+      {"lever.axis_x", "mass_kg", 1e-3, 1e3},
+      {"lever.axis_y", "damping_n_s_per_m", 0, 1e4},
+      {"lever.axis_y", "stiffness_n_per_m", 0, 1e6},
+      {"lever.force_sensor", "offset", -1e9, 1e9},
+      {"lever.force_sensor", "gain_per_gw", 1e-9, 1e9},
+      {"lever.force_sensor", "resolution_gw", 0, 1e6},
+      {"lever.force_sensor", "range_gw", 1e-3, 1e9},
+      {"lever.force_sensor", "noise_gw", 0, 1e6},
+  };
+  for (const Row& row : kRows) {
+    CAPTURE(row.key);
+    const auto sentence = [&](double value) {
+      return refusal("[" + std::string(row.table) + "]\n" + row.key + " = " + toml_number(value) + "\n");
+    };
+    CHECK(sentence(row.min) == "accepted");
+    CHECK(sentence(row.max) == "accepted");
+    CHECK(sentence(row.max * 1.5 + 1.0).find("must be between") != std::string::npos);
+    if (std::string_view(row.key) != "warn_above_n")
+      CHECK(sentence(row.min - 0.5 * std::abs(row.min) - (row.min == 0.0 ? 1.0 : 0.0)).find("must be between") !=
+            std::string::npos);
   }
 }
 

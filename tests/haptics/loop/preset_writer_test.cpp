@@ -1,6 +1,4 @@
 // Tests that a written preset is read back with every key and every bit.
-#include "haptics/loop/preset_writer.h"
-
 #include <bit>
 #include <cstdint>
 #include <fstream>
@@ -13,6 +11,7 @@
 
 #include "haptics/files/file_error.h"
 #include "haptics/loop/field_codec.h"
+#include "haptics/loop/preset.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/whole_campaign.h"
 
@@ -61,7 +60,7 @@ class RandomPreset {
   void fill(SimulatedLeverConfig& lever) {
     auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = lever;
     const double degree = std::numbers::pi / 180.0;
-    yoke = {between(0.01, 10.0), between(1.0, 80.0) * std::numbers::pi / 180.0, 35.0 * degree};
+    yoke = {between(0.01, 10.0), between(1.0, 80.0) * degree, 35.0 * degree};
     axis_x = {between(1e-3, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
     axis_y = {between(1e-3, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
     friction = between(0.0, 1e3);

@@ -260,13 +260,13 @@ TEST_CASE("replay: a trace that cannot be replayed is refused in one sentence") 
   }
   SUBCASE("a rate that is no number") {
     trace.header.config.rate = std::numeric_limits<double>::quiet_NaN();
-    CHECK(contains(refusal(trace), "cannot be replayed, because rate_hz"));
+    CHECK(contains(refusal(trace), "cannot be replayed, because loop.rate_hz"));
   }
   SUBCASE("a device that is no number") {
     trace.header.device.axis_x.mass = std::numeric_limits<double>::infinity();
-    CHECK(contains(refusal(trace), "mass of the device = inf"));
+    CHECK(contains(refusal(trace), "device.axis_x.mass_kg = inf"));
     trace.header.device.axis_x.mass = -std::numeric_limits<double>::quiet_NaN();
-    CHECK(contains(refusal(trace), "mass of the device = -nan"));
+    CHECK(contains(refusal(trace), "device.axis_x.mass_kg = -nan"));
   }
   SUBCASE("a device that acts before the command") {
     trace.header.device.delay = -1;

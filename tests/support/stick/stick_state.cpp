@@ -5,7 +5,7 @@
 
 #include <glm/common.hpp>
 
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 
 namespace gearshift::test {
 namespace {

@@ -9,7 +9,6 @@
 
 #include <doctest/doctest.h>
 
-#include "app/ui/panel/setup_fields.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift::haptics;
@@ -32,33 +31,21 @@ TuningQuestion ask_at(double rate, int delay) {
 
 }  // namespace
 
-TEST_CASE("the ranges in the table equal those of check_tuning(): the ends are accepted, values beyond are rejected") {
-  for (const TuningField& field : kTuningFields) {
-    CAPTURE(field.key);
-    for (const auto& [end, out] : {std::pair{field.min, -1e-3}, std::pair{field.max, 1e-3}}) {
-      HapticTuning tuning;
-      tuning.*field.member = end;
-      CHECK_NOTHROW(check_tuning(tuning));
-      tuning.*field.member = end + out * (1.0 + field.max);
-      CHECK_THROWS_AS(check_tuning(tuning), std::invalid_argument);
-    }
-  }
-}
-
-TEST_CASE("the ranges of the setup equal those of check_config(), and each field is separate") {
-  for (const SetupField& field : kSetupFields) {
-    CAPTURE(field.key);
-    HapticConfig config;
-    config.over_push.clear_below = 1.0;
-    for (const double end : {field.min, field.max}) {
-      if (std::string_view(field.key) == "clear_below_n") config.over_push.warn_above = 1000.0;
-      field.set(config, end);
-      CHECK(field.get(config) == end);
-      CHECK_NOTHROW(check_config(config));
-    }
-    field.set(config, field.max * 1.01 + 1.0);
-    CHECK_THROWS_AS(check_config(config), std::invalid_argument);
-  }
+TEST_CASE("an answer is not reused for a device whose own walls differ: it names another limit") {
+  TuningQuestion question = ask_at(1000.0, 1);
+  question.config.tuning.wall_stiffness = 20000.0;
+  TuningJudge judge;
+  const double bound = 0.35 * std::min(kPaperAxisX.mass, kPaperAxisY.mass) / (0.002 * 0.002);
+  CHECK(judge.judge(question).admitted.tuning.wall_stiffness == Approx(bound).epsilon(1e-9));
+  question.device.device_wall_stiffness = glm::dvec2(1000.0);  // added to what the loop may render
+  CHECK(judge.judge(question).admitted.tuning.wall_stiffness > bound + 500.0);
+  question.device.device_wall_stiffness = glm::dvec2(0.0);
+  const double damping = judge.judge(question).admitted.tuning.wall_damping;
+  question.config.tuning.wall_damping = 100.0;
+  const double loop_damping = judge.judge(question).admitted.tuning.wall_damping;
+  question.device.device_wall_damping = glm::dvec2(5.0);
+  CHECK(judge.judge(question).admitted.tuning.wall_damping > loop_damping + 2.0);
+  CHECK(damping <= loop_damping);
 }
 
 TEST_CASE(
@@ -67,7 +54,7 @@ TEST_CASE(
   const double bound = 0.35 * std::min(kPaperAxisX.mass, kPaperAxisY.mass) / (0.002 * 0.002);
   const TuningAnswer fine = answer(question);
   CHECK(fine.admissible);
-  CHECK(stable_ranges(question)[tuning_field("wall_stiffness_n_per_m")].max == Approx(bound).epsilon(1e-9));
+  CHECK(stable_ranges(question)[index_of(TuningParameter::wall_stiffness)].max == Approx(bound).epsilon(1e-9));
   question.config.tuning.wall_stiffness = 20000.0;
   const TuningAnswer refused = answer(question);
   CHECK_FALSE(refused.admissible);
@@ -88,20 +75,20 @@ TEST_CASE("every bound is exact: a value just inside is accepted, one just outsi
       question.config.tuning = *start;
       REQUIRE(answer(question).admissible);
       const StableRanges stable = stable_ranges(question);
-      for (std::size_t i = 0; i < kTuningFields.size(); ++i) {
+      for (std::size_t i = 0; i < std::size(kTuningFields); ++i) {
         const TuningField& field = kTuningFields[i];
-        const double step = 2e-3 * (field.max - field.min);
+        const double step = 2e-3 * (field.range.max - field.range.min);
         CAPTURE(field.key);
         CAPTURE(delay);
         const auto admits = [&](double value) {
           TuningQuestion trial = question;
-          trial.config.tuning.*field.member = value;
+          value_of(trial.config.tuning, field) = value;
           return answer(trial).admissible;
         };
         CHECK(admits(stable[i].max));
         CHECK(admits(stable[i].min));
-        if (stable[i].max < field.max) CHECK_FALSE(admits(stable[i].max + step));
-        if (stable[i].min > field.min) CHECK_FALSE(admits(stable[i].min - step));
+        if (stable[i].max < field.range.max) CHECK_FALSE(admits(stable[i].max + step));
+        if (stable[i].min > field.range.min) CHECK_FALSE(admits(stable[i].min - step));
       }
     }
   }
@@ -112,7 +99,8 @@ TEST_CASE("the value named as the stable maximum is accepted unchanged, from any
   for (int i = 0; i < 40; ++i) {
     TuningQuestion question = ask_at(i % 2 == 0 ? 1000.0 : 200.0, i % 4);
     for (const TuningField& field : kTuningFields)
-      question.config.tuning.*field.member = std::uniform_real_distribution<double>(field.min, field.max)(random);
+      value_of(question.config.tuning, field) =
+          std::uniform_real_distribution<double>(field.range.min, field.range.max)(random);
     const auto stable = nearest_stable(question);
     REQUIRE(stable.has_value());
     HapticConfig config = question.config;

@@ -1,4 +1,4 @@
-#include "haptics/device/range_check.h"
+#include "haptics/files/range_check.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,0 +1,117 @@
+// One description for each parameter of a struct. File reader and writer, range checks, sliders, traces and documents
+// derive from it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace gearshift::haptics {
+
+// Allowed values, both ends included.
+struct Range {
+  double min, max;
+};
+
+// Converts a file's value to the struct's: value in the struct = value in the file * multiply / divide.
+struct FileUnit {
+  double multiply = 1.0;
+  double divide = 1.0;
+};
+// The units of files that are not SI units.
+namespace file_unit {
+inline constexpr FileUnit kDegrees{std::numbers::pi / 180.0};
+inline constexpr FileUnit kMillimetres{1e-3};
+inline constexpr FileUnit kKmPerHour{1.0, 3.6};
+inline constexpr FileUnit kRpm{std::numbers::pi / 30.0};
+inline constexpr FileUnit kPerKrpm{1.0, 1000.0 * kRpm.multiply};
+inline constexpr FileUnit kPerKrpmSquared{1.0, kPerKrpm.divide* kPerKrpm.divide};
+}  // namespace file_unit
+
+// How a file writes a number: the allowed values, both ends included, and their unit.
+struct FileRange {
+  double min, max;
+  FileUnit unit{};
+};
+
+// How the screen shows a number: factor x the file's value, with this unit.
+struct Display {
+  const char* unit = "";
+  int decimals = 0;
+  double factor = 1.0;
+  bool logarithmic = false;  // slider
+};
+
+// A parameter of the struct S. Enums: its members of enumeration types. Each needs functions file_key(E), to_string(E)
+// and last_value(E).
+template <class S, class... Enums>
+struct Parameter {
+  std::variant<double S::*, int S::*, std::uint64_t S::*, bool S::*, std::optional<double> S::*,
+               std::optional<bool> S::*, Enums S::*...>
+      member;
+  const char* name;                 // in traces: "wall_stiffness"
+  const char* key;                  // in files, with the file's unit: "wall_stiffness_n_per_m"
+  FileRange range;                  // of numbers
+  const char* description;          // one sentence
+  const char* label = "";           // on the screen: "Wall stiffness"; empty: not shown
+  const char* too_low = "";         // effect of a value that is too low
+  const char* too_high = "";        // effect of a value that is too high
+  Display display{};                // of numbers
+  double S::*max_member = nullptr;  // if set, the value must not exceed this member either
+};
+
+// The parameters of the struct S, in the order of its members: an array of Parameter<S>, defined beside the struct.
+template <class S>
+inline constexpr int kParameters = 0;
+
+// Number of members of an aggregate: the largest number of initialisers that it accepts.
+struct AnyValue {
+  template <class T>
+  constexpr operator T() const;
+};
+template <class S, class... Values>
+constexpr std::size_t member_count() {
+  if constexpr (requires { S{Values{}..., AnyValue{}}; })
+    return member_count<S, Values..., AnyValue>();
+  else
+    return sizeof...(Values);
+}
+
+// Every member of S has a description.
+template <class S>
+concept DescribesAll = std::is_array_v<decltype(kParameters<S>)> && member_count<S>()
+== std::size(kParameters<S>);
+
+// The description of a member, such as &HapticTuning::wall_stiffness.
+template <class S, class Value>
+constexpr const auto& parameter_of(Value S::*member) {
+  for (const auto& parameter : kParameters<S>) {
+    const auto* described = std::get_if<Value S::*>(&parameter.member);
+    if (described != nullptr && *described == member) return parameter;
+  }
+  throw std::logic_error("the member has no description");
+}
+
+// The parameter's value in an object. Value must be the member's type.
+template <class Value, class S, class... Enums>
+constexpr const Value& value_in(const S& object, const Parameter<S, Enums...>& parameter) {
+  return object.*std::get<Value S::*>(parameter.member);
+}
+
+// Calls visit(parameter, value) for each parameter, with the struct's member as value.
+template <class S>
+constexpr void each_parameter(S& object, auto&& visit) {
+  constexpr const auto& table = kParameters<std::remove_const_t<S>>;
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (visit(table[i], object.*std::get<table[i].member.index()>(table[i].member)), ...);
+  }
+  (std::make_index_sequence<std::size(table)>());
+}
+
+}  // namespace gearshift::haptics
