@@ -77,7 +77,7 @@ not_driven() {
     grep -qx "the case was rejected, so nothing was recorded" out
 }
 check "a case rejected by the loop's checks has no trace" not_driven
-# Of a million cases, only this one breaks a law (app/lab/campaign/README.md). If it no longer does, use a different
+# The only case in a million that breaks a law (app/lab/campaign/README.md). If it no longer does, use a different
 # failing case.
 "$gearshift" campaign --seed 1 --case 26063 --out broken >out
 check "a case that breaks a law" [ $? -eq 1 ]

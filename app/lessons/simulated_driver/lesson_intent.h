@@ -1,4 +1,4 @@
-// What the simulated driver must do in a lesson step, derived only from the step's condition.
+// The simulated driver's task in a lesson step, derived only from the step's condition.
 #pragma once
 
 #include <cstddef>

@@ -12,6 +12,7 @@
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/tuning_check.h"
 #include "haptics/contact/virtual_coupling.h"
+#include "haptics/gate/gate_feel.h"
 #include "haptics/safety/energy_control.h"
 
 namespace gearshift::ui {
@@ -90,8 +91,9 @@ void SetupView::draw_fields(Controls& controls) {
 
 // Checks the edited values only after a change, because a check can take milliseconds.
 void SetupView::judge(const PanelInput& input) {
-  if (staged_ == judged_) return;
-  judged_ = staged_;
+  const Basis basis{staged_, *input.device, haptics::max_feel_stiffness(*input.gate)};
+  if (basis == judged_) return;
+  judged_ = basis;
   rejection_.clear();
   limits_text_.clear();
   try {

@@ -101,7 +101,7 @@ TEST_CASE("usages: of 32 bits, in ranges, fewer or more than elements, of severa
   // Each usage has the page that is current when the usage is declared. A single page after all usages applies to all.
   CHECK(field_of("05 01 09 30 05 02 09 BA 95 02 81 02").usages == Usages{{1, 0x30}, {2, 0xba}});
   CHECK(field_of("05 09 09 30 09 31 05 01 95 02 81 02").usages == Usages{{1, 0x30}, {1, 0x31}});
-  // Of several alternative usages between delimiters, only the first counts.
+  // Only the first of several alternative usages between delimiters counts.
   CHECK(field_of("05 01 A9 01 09 30 09 36 A9 00 09 31 95 02 81 02").usages == Usages{{1, 0x30}, {1, 0x31}});
   // Usages belong to the next main item only.
   CHECK(parsed("75 08 95 01 05 01 09 30 81 02 81 02").fields[1].usages.empty());

@@ -21,13 +21,13 @@ Trend trend(std::vector<LessonHalves> lessons) {
 }  // namespace
 
 TEST_CASE("a trend is reported if it would occur by chance with a probability below one in twenty") {
-  // Of 2n runs, n have the error, all in one half. The probability that chance puts all n into this half is 1/C(2n, n),
-  // where C(2n, n) = 6, 20, 70 for n = 2, 3, 4.
+  // The error occurs in n of 2n runs, all in one half. The probability that chance puts all n into this half is 1/C(2n,
+  // n), where C(2n, n) = 6, 20, 70 for n = 2, 3, 4.
   CHECK(trend({{3, 3, 0}}) == Trend::unclear);  // 1/20 is not below one in twenty
   CHECK(trend({{4, 4, 0}}) == Trend::falling);
   CHECK(trend({{4, 0, 4}}) == Trend::rising);
-  // Of 40 runs, k have the error, all in one half. The probability that chance puts all k into this half is the product
-  // of the k factors 20/40, 19/39, ...: 0.0530 for k = 4, and 0.0236 for k = 5.
+  // The error occurs in k of 40 runs, all in one half. The probability that chance puts all k into this half is the
+  // product of the k factors 20/40, 19/39, ...: 0.0530 for k = 4, and 0.0236 for k = 5.
   CHECK(trend({{20, 4, 0}}) == Trend::unclear);
   CHECK(trend({{20, 5, 0}}) == Trend::falling);
   CHECK(trend({{20, 0, 5}}) == Trend::rising);

@@ -216,6 +216,16 @@ TEST_CASE("settings that are fixed while the loop runs are collected, checked, a
   CHECK_FALSE(rig.click("restart").restart.has_value());
 }
 
+TEST_CASE("the check of new settings is repeated when the device changes, even if the settings do not") {
+  PanelRig rig;
+  rig.device.simulated = true;
+  rig.click("tab_setup");
+  rig.click("study");
+  REQUIRE(rig.click("restart").restart.has_value());
+  rig.device.simulated = false;  // unstable values are rejected on a real device
+  CHECK_FALSE(rig.click("restart").restart.has_value());
+}
+
 TEST_CASE("by keys only: Tab enters the panel, arrows move to STOP, Space presses it, Escape leaves the panel") {
   PanelRig rig;
   CHECK_FALSE(rig.ui.wants_keys());
