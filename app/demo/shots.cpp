@@ -41,7 +41,7 @@ std::string speeds(const FilmFrame& frame) {
 const FilmFrame* bite_frame(std::span<const FilmFrame> film) {
   const FilmFrame* best = nullptr;
   for (const FilmFrame& frame : film) {
-    const bool held = frame.car.hand_brake > kMinHandBrake && std::abs(frame.car.road_speed) < kStandstillSpeed;
+    const bool held = frame.car.pedals.hand_brake > kMinHandBrake && std::abs(frame.car.road_speed) < kStandstillSpeed;
     if (!held || frame.car.clutch_torque < kMinClutchTorque) continue;
     if (!best || frame.car.clutch_torque > best->car.clutch_torque) best = &frame;
   }

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "app/runtime/cycle_runner.h"
-#include "app/runtime/driver_thread.h"
 #include "app/runtime/exact_hand.h"
 #include "app/runtime/input_mixer.h"
 #include "app/runtime/runtime_loop.h"
+#include "app/runtime/stream_thread.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/device/smoothed_hand.h"
 #include "haptics/gate/gate_compiler.h"
@@ -22,11 +22,13 @@
 namespace gearshift::runtime {
 namespace {
 
-// [cycles] Interval at which the queues are drained on the virtual clock. Each queue holds about 8 times as many
-// cycles.
-constexpr std::uint64_t kDrainInterval = 1000;
+// [cycles] Interval at which the stream is read on the virtual clock. The stream holds about 8 times as many cycles.
+constexpr std::uint64_t kReadInterval = 1000;
+// Intervals at which the threads of driver and recorder poll the stream, which holds the cycles of two seconds or more.
+constexpr std::chrono::microseconds kDriverInterval{250}, kRecorderInterval{20'000};
 // Pause between checks whether the haptic thread has run a cycle. The thread's period is at least 250 us.
 constexpr std::chrono::microseconds kPollPeriod{100};
+constexpr std::size_t kStamps = 16;  // stamped cycles over which LoopHealth::stage_ns is averaged
 
 RuntimeConfig checked(RuntimeConfig config) {
   haptics::check_config(config.preset.haptics);
@@ -36,8 +38,6 @@ RuntimeConfig checked(RuntimeConfig config) {
   hand = haptics::leading_hand(hand);
   return config;
 }
-
-constexpr std::int64_t kMaxPausePeriods = 11;  // longest time, in periods, by which the pedals advance per cycle
 
 // The real lever; null if the simulated lever is used.
 std::unique_ptr<haptics::HapticDevice> make_lever(const RuntimeConfig& config) {
@@ -69,7 +69,8 @@ haptics::Gate check_runtime(const RuntimeConfig& wanted) {
   std::optional<haptics::SimulatedLever> simulated;
   if (!real_device) simulated.emplace(config.preset.lever, haptics::period_ns(config.preset.haptics), idle_hand);
   haptics::HapticDevice& lever = real_device ? *real_device : *simulated;
-  const LoopRun run(config.preset.haptics, gate, lever, make_car(config, gate, lever.spec(), config.start));
+  haptics::LoopInputs inputs;
+  const LoopRun run(config.preset.haptics, gate, lever, inputs, 1, make_car(config, gate, lever.spec(), config.start));
   return gate;
 }
 
@@ -83,78 +84,80 @@ struct Runtime::State {
   glm::dvec2 start_position() const { return haptics::rest_position(gate, config.start.gear); }
   haptics::HapticConfig running_config() const;
   haptics::TraceHeader header(const char* replay_parameters, bool armed) const;
-  bool requires_manual_arming() const;
+  bool requires_manual_arming(const haptics::HapticSnapshot& now) const;
   void switch_to(std::unique_ptr<LoopRun> next);
   void begin();
-  bool has_driver() const { return driver || feet; }
-  void act(const vehicle::DriveSample& cycle);
   void cycle_once();
-  void drain_queues();
-  void update_snapshot();
+  void record(const CycleRecord& record);
+  void update_newest();
   void read_records();
-  void drain_events();
+  void note_stages(const haptics::StageStamps& stamps);
   void send(haptics::LoopCommand command);
 
   bool is_virtual() const { return config.clock == RuntimeClock::virtual_time; }
-  std::int64_t now_ns() const { return is_virtual() ? virtual_ns : runner.now_ns(); }
 
   RuntimeConfig config;
   const DriverFunction driver;
-  const PedalSource feet;
   std::int64_t period_ns;
   std::unique_ptr<haptics::HapticDevice> real_device;  // null: the lever is simulated
   haptics::Gate gate;
+  CycleRunner runner;
   InputMixer input;
   std::unique_ptr<haptics::HandDriver> hand;  // the hand that holds the simulated lever
   std::unique_ptr<haptics::SimulatedLever> simulated;
   haptics::HapticDevice& lever;
   std::unique_ptr<LoopRun> run;
   haptics::AdmittedTuning admitted;
-  CycleRunner runner;
-  std::optional<std::int64_t> acted_ns;       // [ns] time of the last cycle passed to the pedals
-  std::optional<DriverThread> driver_thread;  // empty on the virtual clock
   std::unique_ptr<haptics::TraceRecorder> recorder;
+  std::uint64_t recorded_run = 0;  // number of the run that `recorder` records
   haptics::RealtimeThread thread;
+  // The stream's other readers; empty on the virtual clock.
+  std::optional<StreamThread> driver_thread, recorder_thread;
 
   // The members below are used only by the frame side, i.e. not by the haptic thread.
-  haptics::HapticSnapshot newest;
+  CycleStream::Reader reader;
+  CycleRecord newest;
   std::vector<vehicle::DriveSample> cycles;  // not yet returned by drain_cycles()
-  std::vector<haptics::HapticEvent> events;
+  haptics::EventDetector detector;
+  std::vector<haptics::HapticEvent> events;  // not yet returned by drain_events()
   haptics::DurationHistogram lateness;
-  std::uint64_t events_lost = 0;      // number of events lost in earlier loops
-  bool wants_forces = false;          // true if the last request was arm(), false after disarm() or stop()
-  std::int64_t start_ns = 0;          // [ns] one period before the first cycle, on the loop's clock
-  std::int64_t virtual_ns = 0;        // [ns] time of the last cycle on the virtual clock
-  double pending_time = 0.0;          // [s] time passed to advance() but not yet simulated, less than one period
-  std::uint64_t unserved_cycles = 0;  // number of cycles since the queues were last drained; virtual clock only
+  // [ns] durations of the stages in the latest stamped cycles
+  std::array<std::array<std::int64_t, 8>, kStamps> stages{};
+  std::size_t stamps_read = 0;
+  std::uint64_t stamped_cycle = 0;
+  bool wants_forces = false;        // true if the last request was arm(), false after disarm() or stop()
+  std::int64_t start_ns = 0;        // [ns] one period before the first cycle, on the loop's clock
+  std::int64_t virtual_ns = 0;      // [ns] time of the last cycle on the virtual clock
+  double pending_time = 0.0;        // [s] time passed to advance() but not yet simulated, less than one period
+  std::uint64_t unread_cycles = 0;  // number of cycles since the stream was last read; virtual clock only
 };
 
 Runtime::State::State(const RuntimeConfig& wanted)
     : config(checked(wanted)),
       driver(config.driver),
-      feet(config.driver ? PedalSource{} : config.feet),
       period_ns(haptics::period_ns(config.preset.haptics)),
       real_device(make_lever(config)),
       gate(gate_for(config, real_device.get())),
-      input(static_cast<bool>(config.driver), resting_action()),
+      runner(period_ns, config.driver ? std::nullopt : std::optional(config.keyboard)),
+      input(static_cast<bool>(config.driver), resting_action(), runner.controls),
       hand(real_device ? nullptr : make_hand()),
       simulated(real_device ? nullptr
                             : std::make_unique<haptics::SimulatedLever>(config.preset.lever, period_ns, *hand)),
       lever(real_device ? *real_device : *simulated),
-      run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever,
+      run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever, runner.inputs, 1,
                                     make_car(config, gate, lever.spec(), config.start))),
       admitted(run->loop.admitted()),
-      runner(period_ns) {
+      reader(runner.stream) {
   const glm::dvec2 start = start_position();
   if (simulated) simulated->place(start);
-  newest.lever = newest.proxy = start;
-  newest.wall_stiffness = admitted.tuning.wall_stiffness;
-  if (run->car() != nullptr) runner.car.write(run->car()->state());
-  if (feet) input.press(feet({}, 0.0));
-  input.connect(run->channels);
+  newest.cycle.out.lever = newest.cycle.out.proxy = start;
+  newest.cycle.out.wall_stiffness = admitted.tuning.wall_stiffness;
+  newest.keyboard = config.keyboard;
+  if (run->car() != nullptr) newest.car = run->car()->state();
   begin();
 }
 
+// The motors first: the other threads may take some time to end.
 Runtime::State::~State() {
   thread.stop();
   lever.release();
@@ -170,15 +173,16 @@ vehicle::DriverAction Runtime::State::resting_action() const {
   vehicle::DriverAction action;
   action.hand.position = start_position();
   action.controls.ignition = config.car && config.start.running;
-  action.controls.hand_brake = config.hand_brake;
+  action.controls.pedals.hand_brake = config.hand_brake;
   return action;
 }
 
 // Creates the next run, in which the car continues from its current state.
 std::unique_ptr<LoopRun> Runtime::State::make_run() {
-  runner.car.update();
-  const vehicle::CarStart from = vehicle::start_from(runner.car.value());
-  return std::make_unique<LoopRun>(running_config(), gate, lever, make_car(config, gate, lever.spec(), from));
+  update_newest();
+  const vehicle::CarStart from = vehicle::start_from(newest.car);
+  return std::make_unique<LoopRun>(running_config(), gate, lever, runner.inputs, run->number + 1,
+                                   make_car(config, gate, lever.spec(), from));
 }
 
 void Runtime::State::begin() {
@@ -187,16 +191,15 @@ void Runtime::State::begin() {
     start_ns = virtual_ns = -period_ns;
     return;
   }
-  if (has_driver()) {
-    runner.for_driver = std::make_unique<haptics::SpscQueue<vehicle::DriveSample>>(CycleRunner::kMaxForDriver);
-    driver_thread.emplace([this](const vehicle::DriveSample& cycle) { act(cycle); }, *runner.for_driver);
+  if (driver) {
+    driver_thread.emplace(runner.stream, kDriverInterval, StreamThread::AtEnd::stop,
+                          [this](const CycleRecord& record) { input.act(driver(record.sample())); });
   }
   haptics::RealtimeConfig realtime;
   realtime.period_ns = period_ns;
   thread.start(realtime, [this](const haptics::CycleCall& call) { runner.cycle(call, &thread.statistics()); });
-  while (!runner.has_run(*run)) std::this_thread::sleep_for(kPollPeriod);
-  update_snapshot();
-  start_ns = newest.time_ns - period_ns;
+  for (update_newest(); newest.run != run->number; update_newest()) std::this_thread::sleep_for(kPollPeriod);
+  start_ns = newest.cycle.deadline_ns - period_ns;
 }
 
 // The configuration with the tuning as last requested and the contact hold method in use. With the same method, the
@@ -213,77 +216,76 @@ haptics::TraceHeader Runtime::State::header(const char* replay_parameters, bool 
 }
 
 // True if a fault has ended the forces and only arm() may restore them. HapticLoop::watch_guard() has the same rule.
-bool Runtime::State::requires_manual_arming() const {
-  const bool may_rearm = lever.spec().simulated && newest.fault != haptics::GuardFault::chatter;
-  return newest.guard == haptics::GuardState::released || (newest.guard == haptics::GuardState::damped && !may_rearm);
+bool Runtime::State::requires_manual_arming(const haptics::HapticSnapshot& now) const {
+  const bool may_rearm = lever.spec().simulated && now.fault != haptics::GuardFault::chatter;
+  return now.guard == haptics::GuardState::released || (now.guard == haptics::GuardState::damped && !may_rearm);
 }
 
 // Replaces the running loop. Returns after the first cycle of the next loop, so that later commands reach that loop and
 // its recording misses no cycle. If the old loop had a fault after the next loop was created, the forces of the next
 // loop are ended too.
 void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
-  input.connect(next->channels);
+  CycleStream::Reader cycles_since(runner.stream);
+  update_newest();
+  CycleRecord last = newest;  // of the old loop
   runner.switch_to(*next);
   if (is_virtual()) {
     cycle_once();
     pending_time -= 1e-9 * static_cast<double>(period_ns);
   }
-  while (!runner.has_run(*next)) std::this_thread::sleep_for(kPollPeriod);
-  drain_events();
-  events_lost += run->channels.events_lost.load();
-  update_snapshot();
+  while (newest.run != next->number) {
+    if (cycles_since.pop(newest))
+      last = newest.run == run->number ? newest : last;
+    else
+      std::this_thread::sleep_for(kPollPeriod);
+  }
   run = std::move(next);
-  if (!wants_forces || !requires_manual_arming()) return;
+  if (!wants_forces || !requires_manual_arming(last.cycle.out)) return;
   wants_forces = false;
   send(haptics::LoopCommand::stop);
 }
 
-// Lets the driver or the pedals respond to the cycle. On the virtual clock the frame's thread calls this function,
-// otherwise the DriverThread.
-void Runtime::State::act(const vehicle::DriveSample& cycle) {
-  if (driver) return input.act(driver(cycle));
-  const std::int64_t before_ns = std::exchange(acted_ns, cycle.lever.time_ns).value_or(cycle.lever.time_ns);
-  const std::int64_t passed_ns = std::min(cycle.lever.time_ns - before_ns, kMaxPausePeriods * period_ns);
-  input.press(feet(cycle, 1e-9 * static_cast<double>(passed_ns)));
-}
-
+// Runs one cycle on the virtual clock, on which this thread does the work of the driver's and the recorder's threads.
 void Runtime::State::cycle_once() {
   virtual_ns += period_ns;
   runner.cycle({virtual_ns, 0}, nullptr);
-  if (has_driver()) act(runner.newest());
-  if (++unserved_cycles >= kDrainInterval) drain_queues();
+  record(runner.newest());
+  if (driver) input.act(driver(runner.newest().sample()));
+  if (++unread_cycles >= kReadInterval) read_records();
 }
 
-// Drains the queues on the virtual clock. On the real clock, the frame's thread and the recorder's thread do this.
-void Runtime::State::drain_queues() {
-  unserved_cycles = 0;
-  if (recorder) recorder->pump();
-  read_records();
-  drain_events();
+void Runtime::State::record(const CycleRecord& record) {
+  if (recorder && record.run == recorded_run) recorder->add(record.cycle);
 }
 
-void Runtime::State::update_snapshot() {
-  if (run->channels.snapshot.update()) newest = run->channels.snapshot.value();
+void Runtime::State::update_newest() {
+  if (const std::optional<CycleRecord> record = runner.stream.newest()) newest = *record;
 }
 
 void Runtime::State::read_records() {
-  for (CycleRecord record; runner.records.pop(record);) {
-    if (cycles.size() < CycleRunner::kMaxRecords) cycles.push_back(record.sample);
+  unread_cycles = 0;
+  for (CycleRecord record; reader.pop(record);) {
+    if (cycles.size() < CycleRunner::kMaxRecords) cycles.push_back(record.sample());
+    detector.update(record.cycle, events);
     lateness.add(record.late_ns);
+    note_stages(record.stamps);
   }
 }
 
-void Runtime::State::drain_events() {
-  for (haptics::HapticEvent event; run->channels.events.pop(event);) events.push_back(event);
+void Runtime::State::note_stages(const haptics::StageStamps& stamps) {
+  if (stamps_read > 0 && stamps.cycle == stamped_cycle) return;
+  stamped_cycle = stamps.cycle;
+  std::array<std::int64_t, 8>& latest = stages[stamps_read++ % kStamps];
+  for (std::size_t i = 0; i < latest.size(); ++i) latest[i] = stamps.ns[i + 1] - stamps.ns[i];
 }
 
 // Queues the command; the loop processes one command per cycle. If the queue is full on the virtual clock, which may be
 // stopped, drops the oldest command. If it is full on the real clock, waits until the loop has processed a command.
 void Runtime::State::send(haptics::LoopCommand command) {
-  while (!run->channels.commands.push(command)) {
+  while (!runner.inputs.commands.push(command)) {
     haptics::LoopCommand oldest;
     if (is_virtual())
-      (void)run->channels.commands.pop(oldest);
+      (void)runner.inputs.commands.pop(oldest);
     else
       std::this_thread::sleep_for(kPollPeriod);
   }
@@ -309,17 +311,22 @@ const haptics::AdmittedTuning& Runtime::admitted() const noexcept {
 }
 
 haptics::HapticSnapshot Runtime::snapshot() {
-  state_->update_snapshot();
-  return state_->newest;
+  state_->update_newest();
+  return state_->newest.cycle.out;
 }
 
 vehicle::VehicleState Runtime::car() {
-  state_->runner.car.update();
-  return state_->runner.car.value();
+  state_->update_newest();
+  return state_->newest.car;
+}
+
+haptics::Pedals Runtime::keyboard() {
+  state_->update_newest();
+  return state_->newest.keyboard;
 }
 
 std::vector<haptics::HapticEvent> Runtime::drain_events() {
-  state_->drain_events();
+  state_->read_records();
   return std::exchange(state_->events, {});
 }
 
@@ -334,6 +341,10 @@ void Runtime::set_hand(const haptics::HandTarget& target) {
 
 void Runtime::set_controls(const haptics::DriverControls& controls) {
   state_->input.set_controls(controls);
+}
+
+void Runtime::set_pedal_keys(const PedalKeyInput& input) {
+  if (!state_->driver) state_->runner.pedal_keys.write(input);
 }
 
 haptics::AdmittedTuning Runtime::change_tuning(const haptics::HapticTuning& wanted) {
@@ -360,19 +371,22 @@ void Runtime::stop() {
 LoopHealth Runtime::health() {
   State& s = *state_;
   s.read_records();
-  s.runner.figures.update();
-  const LoopFigures& figures = s.runner.figures.value();
+  s.update_newest();
   LoopHealth health;
   health.rate = s.config.preset.haptics.rate;
   health.late_p50 = 1e-9 * static_cast<double>(s.lateness.quantile(0.5));
   health.late_p99 = 1e-9 * static_cast<double>(s.lateness.quantile(0.99));
   health.late_worst = 1e-9 * static_cast<double>(s.lateness.max());
   s.lateness = {};
-  health.overruns = figures.overruns;
-  health.skipped = figures.skipped;
-  health.events_lost = s.events_lost + s.run->channels.events_lost.load();
-  health.stage_ns = figures.stage_ns;
-  health.cycle_ns = figures.cycle_ns;
+  health.overruns = s.newest.overruns;
+  health.skipped = s.newest.missed;
+  health.unseen = s.reader.lost();
+  const std::size_t stamped = std::min(s.stamps_read, kStamps);
+  for (std::size_t stage = 0; stage < health.stage_ns.size(); ++stage) {
+    for (std::size_t i = 0; i < stamped; ++i)
+      health.stage_ns[stage] += static_cast<double>(s.stages[i][stage]) / static_cast<double>(stamped);
+    health.cycle_ns += health.stage_ns[stage];
+  }
   health.realtime = s.thread.is_realtime();
   health.not_realtime_reason =
       s.is_virtual() ? "not real-time, because the virtual clock is used" : s.thread.not_realtime_reason();
@@ -382,14 +396,16 @@ LoopHealth Runtime::health() {
 void Runtime::start_recording(const std::filesystem::path& file) {
   State& s = *state_;
   if (s.recorder) throw std::logic_error("a recording is already running; stop it first");
-  s.update_snapshot();
   std::unique_ptr<LoopRun> next = s.make_run();
   // Forces that were requested count as on even if the loop has not processed the command yet.
-  const bool armed = s.wants_forces && !s.requires_manual_arming();
+  const bool armed = s.wants_forces && !s.requires_manual_arming(s.newest.cycle.out);
   if (armed) next->loop.arm();
-  const haptics::TracePump pump = s.is_virtual() ? haptics::TracePump::by_caller : haptics::TracePump::by_recorder;
-  s.recorder = std::make_unique<haptics::TraceRecorder>(file, s.header(next->load().replay_parameters(), armed),
-                                                        next->channels, pump);
+  s.recorder = std::make_unique<haptics::TraceRecorder>(file, s.header(next->load().replay_parameters(), armed));
+  s.recorded_run = next->number;
+  if (!s.is_virtual()) {
+    s.recorder_thread.emplace(s.runner.stream, kRecorderInterval, StreamThread::AtEnd::finish,
+                              [&s](const CycleRecord& record) { s.record(record); });
+  }
   s.wants_forces = armed;
   s.switch_to(std::move(next));
 }
@@ -400,6 +416,7 @@ std::optional<std::string> Runtime::poll_recording_problem() {
 
 std::optional<std::string> Runtime::stop_recording() {
   if (!state_->recorder) return std::nullopt;
+  state_->recorder_thread.reset();
   const haptics::RecordingResult result = state_->recorder->finish();
   state_->recorder.reset();
   return result.problem.empty() ? std::nullopt : std::optional(result.problem);
@@ -422,7 +439,9 @@ void Runtime::advance(double seconds) {
 }
 
 double Runtime::time() const noexcept {
-  return 1e-9 * static_cast<double>(std::max<std::int64_t>(0, state_->now_ns() - state_->start_ns));
+  state_->update_newest();
+  const std::int64_t now_ns = state_->is_virtual() ? state_->virtual_ns : state_->newest.cycle.deadline_ns;
+  return 1e-9 * static_cast<double>(std::max<std::int64_t>(0, now_ns - state_->start_ns));
 }
 
 }  // namespace gearshift::runtime

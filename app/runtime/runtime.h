@@ -15,12 +15,14 @@
 #include <string>
 #include <vector>
 
+#include "app/runtime/cycle_runner.h"
 #include "app/vehicle/car_load.h"
 #include "app/vehicle/drive_sample.h"
 #include "haptics/device/hand.h"
 #include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
 #include "haptics/loop/haptic_config.h"
+#include "haptics/loop/haptic_event.h"
 #include "haptics/loop/haptic_loop.h"
 #include "haptics/loop/preset.h"
 
@@ -35,12 +37,6 @@ enum class RuntimeClock { real_time, virtual_time };
 // are skipped.
 using DriverFunction = std::function<vehicle::DriverAction(const vehicle::DriveSample&)>;
 
-// The user's keyboard pedals. The function is called with the newest cycle and the seconds between the newest two
-// cycles. It returns throttle, brake and clutch for the next cycle; other fields are ignored. It is called in the same
-// way as a DriverFunction, so that pedals move on the car's clock even at a low frame rate. Also called once before the
-// first cycle, with 0 s.
-using PedalSource = std::function<haptics::DriverControls(const vehicle::DriveSample& cycle, double seconds)>;
-
 // Creates a real lever for a loop with this period [s], without moving the lever. Only one real lever may be in use at
 // a time. Throws std::invalid_argument with a one-sentence message.
 using LeverFactory = std::function<std::unique_ptr<haptics::HapticDevice>(double period)>;
@@ -51,9 +47,9 @@ struct RuntimeConfig {
   vehicle::CarStart start;              // the car's initial state; the lever starts in the car's gear
   double hand_brake = 0.0;              // [1] 0 to 1; initial value
   haptics::Preset preset;               // a hand too soft to move the lever is replaced, see leading_hand()
-  LeverFactory lever;     // if set: a real lever is used, set_hand() is ignored, and `driver` must be empty
-  DriverFunction driver;  // empty: set_hand() and set_controls() are used
-  PedalSource feet;       // keyboard pedals; optional; ignored if there is a driver; see set_controls()
+  LeverFactory lever;        // if set: a real lever is used, set_hand() is ignored, and `driver` must be empty
+  DriverFunction driver;     // empty: set_hand() and set_controls() are used
+  haptics::Pedals keyboard;  // initial positions of the keyboard's pedals
   RuntimeClock clock = RuntimeClock::real_time;
   std::uint64_t seed = 1;             // random seed of the car
   std::string program = "gearshift";  // program name and version, written to the trace
@@ -64,9 +60,9 @@ struct LoopHealth {
   double rate = 0.0;  // [Hz] as configured
   // [s] Time from deadline to wake-up since the last call of health(): median, 99th percentile and maximum.
   double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;
-  std::uint64_t overruns = 0;     // number of cycles since the start that took longer than a period
-  std::uint64_t skipped = 0;      // number of deadlines since the start that were missed, by overruns or late wake-ups
-  std::uint64_t events_lost = 0;  // number of events since the start that were lost because the queue was full
+  std::uint64_t overruns = 0;  // number of cycles since the start that took longer than a period
+  std::uint64_t skipped = 0;   // number of deadlines since the start that were missed, by overruns or late wake-ups
+  std::uint64_t unseen = 0;    // number of cycles since the start that were lost, because the caller paused for seconds
   // [ns] Mean durations of the eight stages of a cycle: read, estimate, proxy, couple, feel, load, guard and write;
   // over the latest cycles with time stamps.
   std::array<double, 8> stage_ns{};
@@ -99,15 +95,18 @@ class Runtime {
   haptics::HapticSnapshot snapshot();                // newest state of the lever
   vehicle::VehicleState car();                       // newest state of the car; default values without a car
   std::vector<haptics::HapticEvent> drain_events();  // events since the last call, in order
-  // Returns every cycle since the last call, in order, but at most 8192. If there were more cycles, the newest are
-  // missing; HapticSnapshot::cycle shows the gap.
+  // Returns every cycle since the last call, in order, but at most 8192. If there were more cycles, some are missing;
+  // HapticSnapshot::cycle shows the gap.
   std::vector<vehicle::DriveSample> drain_cycles();
   // Uses position and push of the target. Has no effect with a driver or a real lever.
   void set_hand(const haptics::HandTarget& target);
-  // Without a driver, each pedal is as far down as in `controls` or RuntimeConfig::feet, whichever is further down.
+  // Without a driver, each pedal is as far down as in `controls` or the keyboard's pedal, whichever is further down.
   // With a driver, only slope, guidance and guided gear of `controls` are used. They replace those of the driver.
   // Guidance needs a car.
   void set_controls(const haptics::DriverControls& controls);
+  // The keys held now. The keyboard's pedals move in the car's time, cycle by cycle. Has no effect with a driver.
+  void set_pedal_keys(const PedalKeyInput& input);
+  haptics::Pedals keyboard();  // newest positions of the keyboard's pedals
   haptics::AdmittedTuning change_tuning(const haptics::HapticTuning& wanted);  // see HapticLoop::change_tuning()
   // arm() allows forces, which ramp up from zero; disarm() ends them; stop() switches the motors off at once, like an
   // emergency stop button. The commands take effect in the next cycle; the resulting guard state is in the snapshot:

@@ -8,7 +8,7 @@
 
 #include "app/base/console.h"
 #include "app/runtime/runtime.h"
-#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/haptic_event.h"
 
 namespace gearshift::session {
 
@@ -28,8 +28,8 @@ inline void print_events(std::span<const haptics::HapticEvent> events, bool push
 // Prints how well the loop has met its deadlines since its first cycle.
 inline void print_health(const std::optional<runtime::LoopHealth>& health) {
   if (!health) return;
-  base::print_out("loop: {} deadlines missed, {} cycles too long, {} events lost, {}\n", health->skipped,
-                  health->overruns, health->events_lost, health->realtime ? "real-time" : "not real-time");
+  base::print_out("loop: {} deadlines missed, {} cycles too long, {} cycles unread, {}\n", health->skipped,
+                  health->overruns, health->unseen, health->realtime ? "real-time" : "not real-time");
   std::fflush(stdout);
 }
 

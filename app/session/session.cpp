@@ -45,10 +45,7 @@ vehicle::VehicleState standing_car(const haptics::DriverControls& controls, int 
   vehicle::VehicleState car;
   car.running = false;
   car.gear = gear;
-  car.throttle = controls.throttle;
-  car.brake = controls.brake;
-  car.clutch = controls.clutch;
-  car.hand_brake = controls.hand_brake;
+  car.pedals = controls.pedals;
   car.ignition = controls.ignition;
   return car;
 }
@@ -109,7 +106,7 @@ bool Session::should_arm() {
 void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* lesson, std::string_view reason) {
   const ResolvedCar chosen = resolve_car(choice);
   runtime::RuntimeConfig config = make_runtime_config(choice, chosen, lesson);
-  config.feet = pedal_source(pedal_owner_ + 1);
+  if (runtime_) config.keyboard = runtime_->keyboard();
   std::unique_ptr<runtime::Runtime> runtime;
   if (!choice.stick) runtime = std::make_unique<runtime::Runtime>(config);
   const haptics::Gate gate = runtime ? runtime->gate() : check_stick(config);
@@ -156,8 +153,8 @@ void Session::close_current(std::string_view reason) {
 }
 
 void Session::adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Lesson* lesson) {
-  pedals_->set_active_lever(++pedal_owner_);
   runtime_ = std::move(runtime);
+  runtime_->set_pedal_keys(pedals_);
   new_runtime_ = true;
   ++run_;
   if (runtime_->config().car) configure_sound(*runtime_->config().car);
@@ -167,23 +164,9 @@ void Session::adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Le
   if (lesson) switches_ = CarSwitches{lesson->start.running, lesson->start.hand_brake};
   if (switches_) {
     controls_.ignition = switches_->ignition;
-    controls_.hand_brake = switches_->hand_brake;
+    controls_.pedals.hand_brake = switches_->hand_brake;
   }
   runtime_->set_controls(effective_controls());
-}
-
-// Returns a pedal source for the runtime with the number `lever`. All runtimes share the keyboard pedals, so that the
-// pedals keep their positions when the runtime changes; adopt() decides which runtime moves them.
-runtime::PedalSource Session::pedal_source(int lever) const {
-  return [keyboard = pedals_, lever](const vehicle::DriveSample& cycle, double seconds) {
-    const bool coupled = cycle.car.gear != haptics::kNeutralGear && cycle.car.clutch_capacity > 0.0;
-    const ui::Pedals pedals = keyboard->move(seconds, cycle.car.engine_speed, coupled, lever);
-    haptics::DriverControls controls;
-    controls.throttle = pedals.throttle;
-    controls.brake = pedals.brake;
-    controls.clutch = pedals.clutch;
-    return controls;
-  };
 }
 
 void Session::rebuild_stage(const haptics::Gate& gate, const std::string& text, const haptics::YokeGeometry& yoke,
@@ -218,10 +201,11 @@ const haptics::Gate& Session::displayed_gate() const {
 }
 
 void Session::set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
-                         const ui::PedalKeys& keys) {
+                         const vehicle::PedalKeys& keys) {
   runtime_->set_hand(hand);
   controls_ = controls;
-  pedals_->set_keys(is_car_held_ ? ui::PedalKeys{} : keys);
+  pedals_.keys = is_car_held_ ? vehicle::PedalKeys{} : keys;
+  runtime_->set_pedal_keys(pedals_);
 }
 
 void Session::apply(const ui::PanelRequests& requests) {

@@ -21,7 +21,6 @@
 #include "app/runtime/runtime.h"
 #include "app/session/resolve_choice.h"
 #include "app/session/session_choice.h"
-#include "app/ui/input/keyboard_pedals.h"
 #include "app/ui/panel/panel.h"
 
 namespace gearshift::session {
@@ -43,12 +42,12 @@ class Session {
   // keyboard pedals on the car's clock. Each pedal is as far down as the keyboard pedal or the value in `controls`,
   // whichever is further down.
   void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
-                  const ui::PedalKeys& keys = {});
+                  const vehicle::PedalKeys& keys = {});
   void apply(const ui::PanelRequests& requests);
   void advance(double seconds);  // advances lesson, replay and a loop on the virtual clock; reads events
   void update_cabin();           // places the cabin's parts and updates the sound
 
-  void set_foot_pace(const ui::PedalTiming& pace) { pedals_->set_timing(pace); }
+  void set_foot_pace(const vehicle::PedalTiming& pace) { pedals_.timing = pace; }
 
   // Replays a recorded drive: the shift with the index `shift` or, if `shift` is empty, the whole drive. `from` [s]:
   // start time in the recording. Throws FileError, std::invalid_argument or std::runtime_error with a one-sentence
@@ -112,7 +111,6 @@ class Session {
   std::string describe_limit() const;
   void close_current(std::string_view reason);
   void adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Lesson* lesson);
-  runtime::PedalSource pedal_source(int lever) const;
   bool should_arm();
   void rebuild_stage(const haptics::Gate& gate, const std::string& text, const haptics::YokeGeometry& yoke,
                      cabin::Cabin cabin);
@@ -173,10 +171,8 @@ class Session {
   std::unique_ptr<lessons::DriveLoader> opening_;  // not null while a recording is being read
   std::optional<double> opening_near_;             // [s] time `near` of open_recording()
   std::optional<lessons::Player> player_;          // not empty during a replay
-  // The user's keyboard pedals, moved by the loop's thread.
-  std::shared_ptr<ui::KeyboardPedals> pedals_ = std::make_shared<ui::KeyboardPedals>();
-  int pedal_owner_ = 0;               // number of the runtime that moves the pedals
-  haptics::DriverControls controls_;  // the user's controls, without the keyboard pedals
+  runtime::PedalKeyInput pedals_;                  // the user's keys for the pedals
+  haptics::DriverControls controls_;               // the user's controls, without the keyboard pedals
   haptics::DriverControls newest_controls_;
   double slope_ = 0.0;  // [rad] slope of the lesson's road
   // True after a lesson while the instructor holds clutch and brake. Ends when the next lesson starts, the lesson is

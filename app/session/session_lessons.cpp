@@ -156,7 +156,8 @@ void Session::check_still_passable() {
 // Lets the instructor hold clutch and brake, see is_car_held_.
 void Session::hold_car() {
   is_car_held_ = true;
-  pedals_->set_keys({});
+  pedals_.keys = {};
+  runtime_->set_pedal_keys(pedals_);
 }
 
 // Saves results, then deletes unreferenced recordings. If results did not fit on the disk, tries again after this
@@ -188,9 +189,9 @@ bool Session::delete_unreferenced_recordings() {
 haptics::DriverControls Session::effective_controls() const {
   haptics::DriverControls controls = controls_;
   if (is_car_held_) {
-    controls.throttle = 0.0;
-    controls.clutch = 1.0;
-    controls.brake = std::max(controls.brake, 0.5);
+    controls.pedals.throttle = 0.0;
+    controls.pedals.clutch = 1.0;
+    controls.pedals.brake = std::max(controls.pedals.brake, 0.5);
   }
   controls.slope = slope_;
   controls.guidance = coach_.guidance();

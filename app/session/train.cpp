@@ -239,8 +239,8 @@ class WindowTrainer {
     session_.set_driver(input_.hand(), input_.controls(), input_.pedal_keys());
   }
 
-  ui::PedalTiming foot_pace() const {
-    ui::PedalTiming pace;
+  vehicle::PedalTiming foot_pace() const {
+    vehicle::PedalTiming pace;
     pace.pedal_time = setup_.bindings.pedal_time;
     pace.slip_time = setup_.bindings.clutch_slip_time;
     const std::optional<vehicle::CarSpec>& car = session_.car_spec();

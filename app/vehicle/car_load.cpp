@@ -99,10 +99,7 @@ haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period)
   const SleeveOutput sleeve = synchroniser_.step(lever, period);
   const haptics::DriverControls& driver = in.controls;
   DrivelineInput drive;
-  drive.throttle = driver.throttle;
-  drive.brake = driver.brake;
-  drive.clutch = driver.clutch;
-  drive.hand_brake = driver.hand_brake;
+  drive.pedals = driver.pedals;
   drive.ignition = driver.ignition;
   drive.starter = driver.starter;
   drive.slope = driver.slope;
@@ -131,7 +128,7 @@ haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period)
 SleeveInput CarLoad::sleeve_input(const haptics::LeverInput& in) const noexcept {
   SleeveInput lever;
   lever.slot = in.slot;
-  lever.clutch_open = clutch_capacity(car_.clutch, in.controls.clutch) <= 0.0;
+  lever.clutch_open = clutch_capacity(car_.clutch, in.controls.pedals.clutch) <= 0.0;
   if (in.slot == haptics::kNoSlot) return lever;
   const SlotGear& gear = gear_of_slot_[static_cast<std::size_t>(in.slot)];
   lever.depth = in.depth;

@@ -79,10 +79,10 @@ void Driveline::set_input(const DrivelineInput& in) noexcept {
   engine_.update(speed_[engine_body]);
   const bool same_cone = in.cone_gear == cone_gear_;
   mesh(in.meshed, in.cone_gear);
-  state_.throttle = pedal(in.throttle);
-  state_.brake = pedal(in.brake);
-  state_.clutch = pedal(in.clutch);
-  state_.hand_brake = pedal(in.hand_brake);
+  state_.pedals.throttle = pedal(in.pedals.throttle);
+  state_.pedals.brake = pedal(in.pedals.brake);
+  state_.pedals.clutch = pedal(in.pedals.clutch);
+  state_.pedals.hand_brake = pedal(in.pedals.hand_brake);
   state_.slope = finite(in.slope);
   state_.ignition = in.ignition;
   const BodySpec& body = car_.body;
@@ -90,9 +90,9 @@ void Driveline::set_input(const DrivelineInput& in) noexcept {
     ramp.from = jump || is_first_step_ || !(length_ > 0.0) ? to : ramp.to;
     ramp.to = to;
   };
-  go_to(throttle_, state_.throttle, false);
-  go_to(pedal_, state_.clutch, false);
-  go_to(brakes_, body.brake_force * state_.brake + body.hand_brake_force * state_.hand_brake, false);
+  go_to(throttle_, state_.pedals.throttle, false);
+  go_to(pedal_, state_.pedals.clutch, false);
+  go_to(brakes_, body.brake_force * state_.pedals.brake + body.hand_brake_force * state_.pedals.hand_brake, false);
   go_to(lift_, body.mass * kGravity * std::sin(state_.slope), false);
   const bool rubs = chain_.link == GearLink::cone;
   const double cone = rubs ? std::clamp(finite(in.cone_torque) / cone_ratio_, 0.0, kMaxTorque) : 0.0;
@@ -140,8 +140,8 @@ void Driveline::publish_state(double capacity) noexcept {
   // Changes -0 to 0: when the car stops the engine, the computed speed can be -0.
   const double engine = std::max(0.0, speed_[engine_body]);
   state_.engine_speed = engine;
-  state_.engine_load = engine_.load(engine, state_.throttle);
-  state_.engine_torque = engine_.torque(engine, state_.throttle) - friction_torque(car_.engine, engine);
+  state_.engine_load = engine_.load(engine, state_.pedals.throttle);
+  state_.engine_torque = engine_.torque(engine, state_.pedals.throttle) - friction_torque(car_.engine, engine);
   state_.running = engine_.running();
   state_.stalled = engine_.stalled();
   state_.over_revved = engine > car_.engine.red_line;

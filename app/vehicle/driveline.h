@@ -18,7 +18,7 @@
 namespace gearshift::vehicle {
 
 struct DrivelineInput {
-  double throttle = 0.0, brake = 0.0, clutch = 0.0, hand_brake = 0.0;  // [1] 0 to 1
+  haptics::Pedals pedals;
   bool ignition = true;
   bool starter = false;
   double slope = 0.0;        // [rad] uphill is positive

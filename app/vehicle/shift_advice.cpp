@@ -13,7 +13,7 @@ double engine_speed_in(const CarSpec& car, const VehicleState& now, int gear) no
 bool advises_up(const CarSpec& car, const VehicleState& now, bool lit) noexcept {
   const double band = lit ? 1.0 - kAdviceHysteresis : 1.0;
   return now.engine_speed > band * car.engine.shift_high &&
-         now.throttle > (lit ? kUpshiftThrottleOff : kUpshiftThrottle) &&
+         now.pedals.throttle > (lit ? kUpshiftThrottleOff : kUpshiftThrottle) &&
          engine_speed_in(car, now, now.gear + 1) >= band * car.engine.lug_below;
 }
 

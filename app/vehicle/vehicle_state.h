@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "haptics/loop/lever_load.h"
+
 namespace gearshift::vehicle {
 
 // Progress of the sleeve into a gear. Lovas, Savage, Magi: Dynamics of Gear Selector Mechanisms and Synchronisers,
@@ -55,10 +57,10 @@ struct VehicleState {
   double distance = 0.0;      // [m] distance driven; forward is positive
   double drive_torque = 0.0;  // [N m] torque of the gearbox at the wheels; forward is positive
   double slope = 0.0;         // [rad] slope of the road; uphill is positive
-  double throttle = 0.0, brake = 0.0, clutch = 0.0, hand_brake = 0.0;  // [1] 0 to 1, pedal and lever positions
-  double steering = 0.0;                                               // [rad] steering wheel angle; left is positive
-  bool ignition = true;                                                // lights the warning lamps if the engine is off
-  bool turn_left = false, turn_right = false;                          // indicators
+  haptics::Pedals pedals;
+  double steering = 0.0;                       // [rad] steering wheel angle; left is positive
+  bool ignition = true;                        // lights the warning lamps if the engine is off
+  bool turn_left = false, turn_right = false;  // indicators
 
   // Lever
   double force_scale = 1.0;  // [1] device force divided by real force, at most 1

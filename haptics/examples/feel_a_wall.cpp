@@ -39,8 +39,8 @@ int main() {
   const haptics::Gate gate = haptics::compile_gate(layout, lever.spec().workspace);
 
   haptics::NoLoad no_load;
-  haptics::LoopChannels channels;  // pass snapshots, events and recordings to other threads
-  haptics::HapticLoop loop(config, gate, lever, no_load, channels);
+  haptics::LoopInputs inputs;  // for other threads: tuning, controls and commands
+  haptics::HapticLoop loop(config, gate, lever, no_load, inputs);
   loop.arm();  // allowed only because the lever is simulated; a real lever must be armed by the user
 
   std::printf("time [s]  depth [mm]  wall force [N]\n");

@@ -21,7 +21,6 @@ namespace {
 using glm::dvec2;
 
 constexpr double kRearmAfter = 0.050;      // [s] duration of fresh readings before a simulated lever re-arms itself
-constexpr double kContactApart = 0.030;    // [s] a touch after this time away from the wall counts as a new impact
 constexpr double kSaturationHold = 0.050;  // [s] saturation ends after this time with the force below the limit
 constexpr double kShortfall = 1.0;  // [N] difference between commanded and delivered force that a hand would notice
 constexpr std::int64_t kMaxCatchUpCycles = 10;  // the load catches up at most this many cycles after an overrun
@@ -65,14 +64,14 @@ const char* to_string(LoopCommand command) noexcept {
 }
 
 HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverLoad& load,
-                       LoopChannels& channels)
+                       LoopInputs& inputs)
     : config_(validated(config, device.spec())),
       admitted_(admit_tuning(config, device.spec(), gate)),
       gate_(gate),
       device_(device),
       spec_(device.spec()),
       load_(load),
-      channels_(channels),
+      inputs_(inputs),
       period_(period_s(config)),
       hand_over_step_(kHandOverSpeed * period_),
       device_wall_stiffness_(usable_wall_stiffness(device.spec())),
@@ -96,13 +95,12 @@ AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
   if (admitted.hold != admitted_.hold) {
     throw std::invalid_argument("this tuning needs a different hold; restart the loop to use it");
   }
-  channels_.tuning.write(admitted.tuning);
+  inputs_.tuning.write(admitted.tuning);
   return admitted;
 }
 
 void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
-  StageClock clock(stamps_, out_.cycle);
-  out_.time_ns = deadline_ns;
+  StageClock clock(stamps_, cycle_);
   take_inputs();
   read_device(deadline_ns);
   clock.stamp();
@@ -111,9 +109,9 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   follow_lever();
   clock.stamp();
   const ContactForce contact = couple_lever(skipped);
-  out_.wall_force = contact.force;
+  wall_force_ = contact.force;
   clock.stamp();
-  out_.feel_force = mechanism_feel(contact.mean_proxy);
+  feel_force_ = mechanism_feel(contact.mean_proxy);
   clock.stamp();
   load_output_ = step_load(skipped);
   clock.stamp();
@@ -123,20 +121,20 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   clock.stamp();
 
   account_force_flow(command);
-  watch_gear();
+  (void)selector_.update(gate_, proxy_.position, period_);
   watch_push();
   watch_saturation(command);
-  watch_contact();
   watch_chatter();
   watch_guard(skipped);
-  publish(skipped);
+  publish(deadline_ns, skipped);
 }
 
 void HapticLoop::take_inputs() noexcept {
-  if (channels_.tuning.update() && channels_.tuning.value() != tuning_) retune(channels_.tuning.value());
-  if (channels_.controls.update()) controls_ = channels_.controls.value();
+  if (inputs_.tuning.update() && inputs_.tuning.value() != tuning_) retune(inputs_.tuning.value());
+  (void)inputs_.controls.update();
+  controls_ = inputs_.controls.value();
   command_ = LoopCommand::none;
-  if (channels_.commands.pop(command_)) apply_command(command_);
+  if (inputs_.commands.pop(command_)) apply_command(command_);
 }
 
 void HapticLoop::apply_command(LoopCommand command) noexcept {
@@ -200,15 +198,15 @@ void HapticLoop::limit_depth() noexcept {
 }
 
 ContactForce HapticLoop::couple_lever(std::int64_t skipped) noexcept {
-  out_.wall_stiffness = tuning_.wall_stiffness * limiter_.stiffness_fraction();
+  wall_stiffness_ = tuning_.wall_stiffness * limiter_.stiffness_fraction();
   const double stiffness = loop_stiffness(tuning_, spec_) * limiter_.stiffness_fraction();
   const double damping = tuning_.wall_damping - device_damping(tuning_, admitted_.hold, spec_);
   const Coupling coupling{stiffness, damping, period_, spec_.delay, admitted_.hold};
   if (admitted_.hold != ContactHold::observer) return contact_force(coupling, gate_, passage_, proxy_, motion_);
-  ObservedMotion observed = observer_.update(motion_, out_.commanded, skipped);
+  ObservedMotion observed = observer_.update(motion_, commanded_, skipped);
   // The prediction leaves out all motor forces, so this adds the motion that the previous cycle's feel and load forces
   // cause. Without it, the predicted depth would be wrong by this motion, and the force would jump at the wall's edge.
-  const dvec2 other_force = out_.feel_force + load_output_.force;
+  const dvec2 other_force = feel_force_ + load_output_.force;
   if (is_finite(other_force)) observed.end += observed.compliance * other_force;
   return contact_force(coupling, gate_, passage_, proxy_, observed);
 }
@@ -218,7 +216,7 @@ dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
   const double excess = std::max(0.0, speed - tuning_.speed_limit);
   const double damping = tuning_.aisle_damping + (excess > 0.0 ? tuning_.limit_damping * excess / speed : 0.0);
   // The feel must not be stiffer than the wall.
-  const double softened = std::min(tuning_.feel_scale * stiffest_feel_, out_.wall_stiffness);
+  const double softened = std::min(tuning_.feel_scale * stiffest_feel_, wall_stiffness_);
   const double scale = stiffest_feel_ > 0.0 ? softened / stiffest_feel_ : tuning_.feel_scale;
   return scale * gate_feel(gate_, mean_proxy) - damping * motion_.smooth_velocity;
 }
@@ -228,12 +226,12 @@ LeverOutput HapticLoop::step_load(std::int64_t skipped) noexcept {
   in.position = motion_.position;
   in.velocity = motion_.smooth_velocity;
   in.proxy = proxy_.position;
-  in.push = out_.f_h;
+  in.push = push_;
   in.slot = slot_at(gate_, proxy_.position);
   in.depth = in.slot == kNoSlot ? 0.0 : std::abs(proxy_.position.y);
   in.gear = selector_.gear();
   in.controls = controls_;
-  out_.slot = in.slot;
+  slot_ = in.slot;
   const double periods = static_cast<double>(1 + std::min(skipped, kMaxCatchUpCycles));
   const double elapsed = first_step_ ? 0.0 : period_ * periods;
   first_step_ = false;
@@ -291,20 +289,11 @@ bool HapticLoop::is_saturated(const GuardOutput& command) const noexcept {
   return command.saturated || all.x > max_force.x || all.y > max_force.y;
 }
 
-// Force balance of the lever, the paper's eq (4): joystick force f_j = hand force f_h - actuator force f_a.
 void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
-  const bool is_measured = spec_.measures_hand_force && is_finite(reading_.hand_force);
-  if (is_finite(reading_.actuator_force)) out_.f_a = -reading_.actuator_force;
-  out_.f_h = is_measured ? reading_.hand_force : estimated_push(command);
-  out_.f_j = out_.f_h - out_.f_a;
-  out_.lever = motion_.position;
-  out_.velocity = motion_.smooth_velocity;
-  out_.proxy = proxy_.position;
-  out_.load_force = load_output_.force;
-  out_.road_speed = load_output_.road_speed;
-  out_.commanded = command.force;
-  set_flag(kFlagPushEstimated, !is_measured);
-  set_flag(kFlagFresh, motion_.fresh);
+  is_push_measured_ = spec_.measures_hand_force && is_finite(reading_.hand_force);
+  if (is_finite(reading_.actuator_force)) actuator_force_ = -reading_.actuator_force;
+  push_ = is_push_measured_ ? reading_.hand_force : estimated_push(command);
+  commanded_ = command.force;
 }
 
 // Estimates the hand's push if there is no force sensor or its value is not finite. The estimate is the force that
@@ -317,64 +306,36 @@ dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
     if (in_wall) damping[i] += walls_.damping_fraction * spec_.device_wall_damping[i];
   }
   const dvec2 stiffness{spec_.axis_x.stiffness, spec_.axis_y.stiffness};
-  const dvec2 hold_force = is_saturated(command) ? -(wanted_force() + device_wall_force(walls_)) : out_.f_a;
+  const dvec2 hold_force = is_saturated(command) ? -(wanted_force() + device_wall_force(walls_)) : actuator_force_;
   return hold_force + damping * motion_.smooth_velocity + stiffness * motion_.position;
 }
 
-void HapticLoop::watch_gear() noexcept {
-  const int before = selector_.gear();
-  const int now = selector_.update(gate_, proxy_.position, period_);
-  out_.gear = now;
-  if (now == before) return;
-  if (before != kNeutralGear) emit_event(EventKind::gear_left, before);
-  if (now != kNeutralGear) emit_event(EventKind::gear_engaged, now);
-}
-
 void HapticLoop::watch_push() noexcept {
-  const double push = glm::length(out_.f_h);
-  const bool was_over = has_flag(kFlagOverPush);
-  const bool is_over = push > (was_over ? config_.over_push.clear_below : config_.over_push.warn_above);
-  set_flag(kFlagOverPush, is_over);
-  if (is_over != was_over) emit_event(is_over ? EventKind::over_push_begin : EventKind::over_push_end, push);
+  is_over_push_ = glm::length(push_) > (is_over_push_ ? config_.over_push.clear_below : config_.over_push.warn_above);
 }
 
-// Reports saturation: the wanted force exceeds the device's limit, or the motors delivered less than was commanded for
-// this cycle (overload).
+double HapticLoop::penetration() const noexcept {
+  return glm::length(motion_.position - proxy_.position);
+}
+
+// Saturation: the wanted force exceeds the device's limit, or the motors delivered less than was commanded for this
+// cycle (overload).
 void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
   const std::uint64_t age = 1 + static_cast<std::uint64_t>(spec_.delay);
-  const Sent due = out_.cycle >= age ? sent_[(out_.cycle - age) % sent_.size()] : Sent{};
+  const Sent due = cycle_ >= age ? sent_[(cycle_ - age) % sent_.size()] : Sent{};
   const dvec2 expected = due.force + device_wall_force(due.walls);
   // [N] change of the wall force within a period
   const double moves = device_wall_stiffness_ * period_ * glm::length(motion_.velocity);
-  const bool falls_short = motion_.fresh && glm::length(expected + out_.f_a) > kShortfall + moves;
-  sent_[out_.cycle % sent_.size()] = {command.force, walls_};
+  const bool falls_short = motion_.fresh && glm::length(expected + actuator_force_) > kShortfall + moves;
+  sent_[cycle_ % sent_.size()] = {command.force, walls_};
   unsaturated_time_ = is_saturated(command) || falls_short ? 0.0 : unsaturated_time_ + period_;
-  const bool was_flagged = has_flag(kFlagSaturated);
-  const bool is_flagged = unsaturated_time_ < kSaturationHold;
-  set_flag(kFlagSaturated, is_flagged);
-  if (is_flagged == was_flagged) return;
-  emit_event(is_flagged ? EventKind::saturation_begin : EventKind::saturation_end, glm::length(wanted_force()));
-}
-
-void HapticLoop::watch_contact() noexcept {
-  const dvec2 penetration = motion_.position - proxy_.position;
-  const double depth = glm::length(penetration);
-  const bool touches = depth > 0.0;
-  set_flag(kFlagContact, touches);
-  set_flag(kFlagGhost, depth > config_.ghost_offset);
-  if (touches && contact_free_time_ > kContactApart) {
-    emit_event(EventKind::wall_contact, std::abs(glm::dot(motion_.smooth_velocity, penetration / depth)));
-  }
-  contact_free_time_ = touches ? 0.0 : contact_free_time_ + period_;
 }
 
 // Lowers the stiffness if the lever chatters on a wall. If a lower stiffness does not help, the guard enters the state
 // `damped`.
 void HapticLoop::watch_chatter() noexcept {
   if (!config_.contact.reversal_limiter) return;
-  if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness, load_output_.vibration))
-    return;
-  emit_event(EventKind::stiffness_lowered, tuning_.wall_stiffness * limiter_.stiffness_fraction());
+  if (!limiter_.update(motion_.position, penetration() > 0.0, tuning_.wall_stiffness, load_output_.vibration)) return;
   if (limiter_.is_exhausted()) guard_.damp();
 }
 
@@ -382,40 +343,52 @@ void HapticLoop::watch_chatter() noexcept {
 // lever that chattered, waits for the user to arm it. The motors are released once each time the guard reaches a state
 // without force. They are also released if the loop starts in one, because an earlier loop may have left them on.
 void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
-  const bool has_changed = guard_.state() != out_.guard;
-  const bool is_new = has_changed || out_.cycle == 0;
+  const bool has_changed = guard_.state() != published_.out.guard;
+  const bool is_new = has_changed || cycle_ == 0;
   const bool is_off = guard_.state() == GuardState::idle || guard_.state() == GuardState::released;
-  const bool is_faded = guard_.state() == GuardState::damped && !spec_.simulated && out_.commanded == dvec2{0.0, 0.0} &&
+  const bool is_faded = guard_.state() == GuardState::damped && !spec_.simulated && commanded_ == dvec2{0.0, 0.0} &&
                         !std::exchange(motors_released_, true);
   if ((is_new && is_off) || is_faded) device_.release();
   const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
   healthy_time_ = is_healthy ? healthy_time_ + period_ : 0.0;
   const bool may_rearm = spec_.simulated && guard_.fault() != GuardFault::chatter;
   if (guard_.state() == GuardState::damped && may_rearm && healthy_time_ > kRearmAfter) arm();
-  if (guard_.state() != out_.guard) emit_event(EventKind::guard_changed, static_cast<double>(guard_.state()));
-  out_.guard = guard_.state();
-  out_.fault = guard_.fault();
 }
 
-void HapticLoop::publish(std::int64_t skipped) noexcept {
-  channels_.snapshot.write(out_);
-  if (channels_.recording.load(std::memory_order_relaxed)) record(skipped);
-  ++out_.cycle;
+void HapticLoop::publish(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
+  published_ = {deadline_ns, skipped, reading_, controls_, tuning_, command_, make_snapshot(deadline_ns)};
+  ++cycle_;
 }
 
-void HapticLoop::record(std::int64_t skipped) noexcept {
-  const TraceSample sample{out_.time_ns, skipped, reading_, controls_, tuning_, command_, out_};
-  if (!channels_.trace.push(sample)) channels_.trace_lost.fetch_add(1, std::memory_order_relaxed);
-}
-
-void HapticLoop::emit_event(EventKind kind, double value) noexcept {
-  if (!channels_.events.push({kind, out_.cycle, out_.time_ns, value})) {
-    channels_.events_lost.fetch_add(1, std::memory_order_relaxed);
-  }
-}
-
-void HapticLoop::set_flag(std::uint32_t flag, bool on) noexcept {
-  out_.flags = on ? out_.flags | flag : out_.flags & ~flag;
+HapticSnapshot HapticLoop::make_snapshot(std::int64_t deadline_ns) const noexcept {
+  HapticSnapshot out;
+  out.cycle = cycle_;
+  out.time_ns = deadline_ns;
+  out.lever = motion_.position;
+  out.velocity = motion_.smooth_velocity;
+  out.proxy = proxy_.position;
+  out.wall_force = wall_force_;
+  out.feel_force = feel_force_;
+  out.load_force = load_output_.force;
+  out.commanded = commanded_;
+  out.f_h = push_;
+  out.f_a = actuator_force_;
+  out.f_j = push_ - actuator_force_;
+  out.wall_stiffness = wall_stiffness_;
+  out.road_speed = load_output_.road_speed;
+  out.slot = slot_;
+  out.gear = selector_.gear();
+  out.guard = guard_.state();
+  out.fault = guard_.fault();
+  const double depth = penetration();
+  const auto raise = [&out](std::uint32_t flag, bool on) { out.flags |= on ? flag : 0u; };
+  raise(kFlagContact, depth > 0.0);
+  raise(kFlagSaturated, unsaturated_time_ < kSaturationHold);
+  raise(kFlagOverPush, is_over_push_);
+  raise(kFlagPushEstimated, !is_push_measured_);
+  raise(kFlagGhost, depth > config_.ghost_offset);
+  raise(kFlagFresh, motion_.fresh);
+  return out;
 }
 
 }  // namespace gearshift::haptics

@@ -30,7 +30,7 @@ namespace gearshift::haptics {
 enum class LoopCommand : std::uint8_t { none, arm, disarm, stop };
 const char* to_string(LoopCommand command) noexcept;
 
-// All inputs and outputs of one cycle: enough to replay it and compare.
+// All inputs and outputs of one cycle: enough to replay it, compare it, and find its events (haptic_event.h).
 struct TraceSample {
   std::int64_t deadline_ns = 0;  // [ns]
   std::int64_t skipped = 0;      // deadlines missed before this cycle, >= 0
@@ -41,18 +41,12 @@ struct TraceSample {
   HapticSnapshot out;
 };
 
-// Channels between the loop and the rest of the program.
-struct LoopChannels {
-  LatestValue<HapticSnapshot> snapshot;  // loop -> frame
-  LatestValue<HapticTuning>
-      tuning;  // frame -> loop; written only by HapticLoop::change_tuning, with the admitted values
-  LatestValue<DriverControls> controls;       // frame -> loop
-  SpscQueue<HapticEvent> events{4096};        // loop -> app
-  SpscQueue<TraceSample> trace{8192};         // loop -> recorder
-  SpscQueue<LoopCommand> commands{16};        // app -> loop
-  std::atomic<bool> recording{false};         // set by TraceRecorder
-  std::atomic<std::uint64_t> trace_lost{0};   // samples that did not fit into `trace`, which is then incomplete
-  std::atomic<std::uint64_t> events_lost{0};  // normally 0
+// Inputs that the rest of the program may change while the loop runs. Each channel has one writer; the loop reads them
+// at the start of a cycle and never waits. Two loops that run one after the other may share them.
+struct LoopInputs {
+  LatestValue<HapticTuning> tuning;  // written only by HapticLoop::change_tuning, with the admitted values
+  LatestValue<DriverControls> controls;
+  SpscQueue<LoopCommand> commands{16};
 };
 
 // Time stamps between the eight calls. They are taken only every 64th cycle, because nine clock reads take longer than
@@ -67,22 +61,23 @@ class HapticLoop {
  public:
   // Checks config and device (throws std::invalid_argument) and limits the tuning. All referenced objects must outlive
   // the loop.
-  HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverLoad& load,
-             LoopChannels& channels);
+  HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverLoad& load, LoopInputs& inputs);
 
   // One cycle. deadline_ns: its scheduled time; skipped: deadlines missed before it.
   // noexcept, no allocation, no lock, no system call of its own.
   void cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept;
 
-  const HapticSnapshot& snapshot() const noexcept { return out_; }       // call it on the loop's thread
-  const DriverControls& controls() const noexcept { return controls_; }  // call it after a cycle, on the loop's thread
+  // The newest cycle, or default values before the first. Call these on the loop's thread; pass the cycle to other
+  // threads by a Broadcast.
+  const TraceSample& published() const noexcept { return published_; }
+  const HapticSnapshot& snapshot() const noexcept { return published_.out; }
   const AdmittedTuning& admitted() const noexcept { return admitted_; }  // tuning and limits at the start
 
   // Allows forces and ramps them up from zero. Call it before the first cycle; while the loop runs, use
   // LoopCommand::arm. Has no effect while forces are on or while the device's panic button is held (fault `stopped`).
   void arm() noexcept;
 
-  // Changes the tuning while the loop runs; call it on the thread that writes to the channels. The tuning is checked
+  // Changes the tuning while the loop runs; call it on the thread that writes to the inputs. The tuning is checked
   // and limited as at the start and takes effect in the next cycle. Throws std::invalid_argument if a value is out of
   // range or needs a ContactHold other than the one in use.
   AdmittedTuning change_tuning(const HapticTuning& wanted);
@@ -101,24 +96,20 @@ class HapticLoop {
   glm::dvec2 mechanism_feel(glm::dvec2 mean_proxy) const noexcept;
   LeverOutput step_load(std::int64_t skipped) noexcept;
   GuardInput guard_input(std::int64_t skipped) const noexcept;
-  glm::dvec2 wanted_force() const noexcept { return out_.wall_force + out_.feel_force + load_output_.force; }
+  glm::dvec2 wanted_force() const noexcept { return wall_force_ + feel_force_ + load_output_.force; }
+  double penetration() const noexcept;  // [m]
   void drive(const GuardOutput& command) noexcept;
   void send_device_walls(double ramp) noexcept;
   glm::dvec2 device_wall_force(const LeverWalls& walls) const noexcept;
   bool is_saturated(const GuardOutput& command) const noexcept;
   glm::dvec2 estimated_push(const GuardOutput& command) const noexcept;
   void account_force_flow(const GuardOutput& command) noexcept;
-  void watch_gear() noexcept;
   void watch_push() noexcept;
   void watch_saturation(const GuardOutput& command) noexcept;
-  void watch_contact() noexcept;
   void watch_chatter() noexcept;
   void watch_guard(std::int64_t skipped) noexcept;
-  void publish(std::int64_t skipped) noexcept;
-  void record(std::int64_t skipped) noexcept;
-  void emit_event(EventKind kind, double value) noexcept;
-  void set_flag(std::uint32_t flag, bool on) noexcept;
-  bool has_flag(std::uint32_t flag) const noexcept { return (out_.flags & flag) != 0; }
+  void publish(std::int64_t deadline_ns, std::int64_t skipped) noexcept;
+  HapticSnapshot make_snapshot(std::int64_t deadline_ns) const noexcept;
 
   HapticConfig config_;
   AdmittedTuning admitted_;
@@ -126,7 +117,7 @@ class HapticLoop {
   HapticDevice& device_;
   const DeviceSpec& spec_;  // of device_
   LeverLoad& load_;
-  LoopChannels& channels_;
+  LoopInputs& inputs_;
   double period_;                                       // [s]
   double hand_over_step_;                               // [m] per cycle
   double device_wall_stiffness_, device_wall_damping_;  // [N/m], [N s/m]
@@ -145,7 +136,15 @@ class HapticLoop {
   LeverMotion motion_;
   Passage passage_;
   Proxy proxy_;
+  glm::dvec2 wall_force_{0.0}, feel_force_{0.0};  // [N] coupling; gate's feel and damping
   LeverOutput load_output_;
+  glm::dvec2 commanded_{0.0};       // [N] force after the guard
+  glm::dvec2 push_{0.0};            // [N] force of the hand, the paper's f_h
+  glm::dvec2 actuator_force_{0.0};  // [N] last finite one against the hand, the paper's f_a
+  double wall_stiffness_ = 0.0;     // [N/m] admitted stiffness, lowered by the reversal limiter
+  int slot_ = kNoSlot;
+  bool is_push_measured_ = false;
+  bool is_over_push_ = false;
   LeverWalls walls_;              // walls last sent to the device
   bool proxy_placed_ = false;     // the proxy has been placed at the lever since the start or the last arming
   bool first_step_ = true;        // the load's first step, which gets period 0
@@ -156,9 +155,9 @@ class HapticLoop {
     LeverWalls walls;
   };
   std::array<Sent, kMaxLoopDelay + 1> sent_{};  // commands of the most recent cycles
-  double contact_free_time_ = 1.0;              // [s] time since the lever last touched a wall
   double unsaturated_time_ = 1.0;               // [s] time since the wanted force last exceeded the device's limit
-  HapticSnapshot out_;
+  std::uint64_t cycle_ = 0;                     // number of this cycle
+  TraceSample published_;
   StageStamps stamps_;
 };
 

@@ -1,8 +1,7 @@
-// Output of the loop to the rest of the program: the newest state, and events that must not be missed.
+// Output of one cycle of the loop.
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include <glm/vec2.hpp>
 
@@ -40,28 +39,5 @@ struct HapticSnapshot {
   GuardFault fault = GuardFault::none;
   std::uint32_t flags = 0;  // kFlag...
 };
-
-enum class EventKind : std::uint8_t {
-  gear_engaged,     // value: gear
-  gear_left,        // value: gear left
-  wall_contact,     // value: impact speed [m/s]
-  over_push_begin,  // value: push [N]
-  over_push_end,
-  saturation_begin,  // value: wanted force [N]
-  saturation_end,
-  guard_changed,     // value: GuardState
-  stiffness_lowered  // value: new stiffness [N/m]; the lever chattered on a wall
-};
-
-struct HapticEvent {
-  EventKind kind = EventKind::gear_engaged;
-  std::uint64_t cycle = 0;
-  std::int64_t time_ns = 0;  // [ns]
-  double value = 0.0;
-};
-
-// For example "2 engaged" or "wall hit at 0.31 m/s". push_estimated: the device has no force sensor, so the push is
-// marked as estimated.
-std::string describe(const HapticEvent& event, bool push_estimated = false);
 
 }  // namespace gearshift::haptics

@@ -24,12 +24,17 @@
 
 namespace gearshift::haptics {
 
-// The driver's controls except the lever, and the settings of a lesson. The frame thread writes them as one value.
-struct DriverControls {
+// Positions of the pedals and the hand brake.
+struct Pedals {
   double throttle = 0.0;    // [1] 0 to 1
   double brake = 0.0;       // [1] 0 to 1
   double clutch = 0.0;      // [1] 0 = pedal up (closed), 1 = fully pressed (open)
   double hand_brake = 0.0;  // [1] 0 to 1
+};
+
+// The driver's controls except the lever, and the settings of a lesson. The frame thread writes them as one value.
+struct DriverControls {
+  Pedals pedals;
   bool ignition = false;
   bool starter = false;
   double slope = 0.0;              // [rad] slope of the road, uphill +

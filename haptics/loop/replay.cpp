@@ -113,31 +113,27 @@ struct Replayer::Rig {
         gate(compile_gate(parse_gate_layout(header.gate_text, header.gate_file), header.device.workspace,
                           header.device.yoke_radius > 0.0 ? header.device.yoke_radius : HUGE_VAL)),
         load(make_known_load(header.load, gate, make_load)),
-        loop(header.config, gate, device, *load, channels) {
+        loop(header.config, gate, device, *load, inputs) {
     if (header.armed) loop.arm();
-    channels.recording.store(true);
   }
 
   // Feeds the recorded inputs of one cycle to the loop.
   void feed(const TraceSample& recorded, bool new_tuning) noexcept {
     device.reading = recorded.reading;
-    channels.controls.write(recorded.controls);
-    if (new_tuning) channels.tuning.write(recorded.tuning);
-    if (recorded.command != LoopCommand::none) channels.commands.push(recorded.command);
+    inputs.controls.write(recorded.controls);
+    if (new_tuning) inputs.tuning.write(recorded.tuning);
+    if (recorded.command != LoopCommand::none) inputs.commands.push(recorded.command);
   }
 
-  TraceSample cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
+  const TraceSample& cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
     loop.cycle(deadline_ns, skipped);
-    for (HapticEvent event; channels.events.pop(event);) continue;
-    TraceSample replayed;
-    channels.trace.pop(replayed);
-    return replayed;
+    return loop.published();
   }
 
   RecordedDevice device;
   Gate gate;
   std::unique_ptr<LeverLoad> load;
-  LoopChannels channels;
+  LoopInputs inputs;
   HapticLoop loop;
 };
 
@@ -158,7 +154,7 @@ Replayer::~Replayer() = default;
 
 bool Replayer::step(const TraceSample& recorded) {
   const bool is_first = result_.cycles == 0;
-  if (is_first && recorded.out.cycle != rig_->loop.snapshot().cycle)
+  if (is_first && recorded.out.cycle != 0)
     throw FileError(file_, 0,
                     "the trace cannot be replayed, because recording began in the middle of a run, at cycle " +
                         std::to_string(recorded.out.cycle));
@@ -167,7 +163,7 @@ bool Replayer::step(const TraceSample& recorded) {
   // The loop derives the tuning of the first cycle from the trace header. Feeding the recorded tuning to it would hide
   // an error in the header.
   rig_->feed(recorded, !is_first && !has_same_bits(recorded.tuning, last_.tuning));
-  const TraceSample replayed = rig_->cycle(recorded.deadline_ns, recorded.skipped);
+  const TraceSample& replayed = rig_->cycle(recorded.deadline_ns, recorded.skipped);
   last_ = recorded;
   ++result_.cycles;
 

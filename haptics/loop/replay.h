@@ -48,7 +48,7 @@ class Replayer {
   ReplayResult finish(std::uint64_t recorded_hash) const;
 
  private:
-  struct Rig;  // device, load, gate, channels and loop of the replay
+  struct Rig;  // device, load, gate, inputs and loop of the replay
 
   std::string file_;
   double period_;  // [s]

@@ -14,7 +14,7 @@ SimulatedLever placed_lever(const SimulatedRunConfig& config, HandDriver& driver
 SimulatedRun::SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver, LeverLoad* load)
     : period_ns_(period_ns(config.haptics)),
       lever_(placed_lever(config, driver)),
-      loop_(config.haptics, config.gate, lever_, load ? *load : no_load_, channels_) {
+      loop_(config.haptics, config.gate, lever_, load ? *load : no_load_, inputs_) {
   loop_.arm();
 }
 

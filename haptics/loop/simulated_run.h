@@ -29,7 +29,7 @@ class SimulatedRun {
 
   double time() const noexcept { return 1e-9 * static_cast<double>(now_ns_); }       // [s] simulated
   double period() const noexcept { return 1e-9 * static_cast<double>(period_ns_); }  // [s]
-  LoopChannels& channels() noexcept { return channels_; }
+  LoopInputs& inputs() noexcept { return inputs_; }
   HapticLoop& loop() noexcept { return loop_; }
   SimulatedLever& lever() noexcept { return lever_; }
 
@@ -37,7 +37,7 @@ class SimulatedRun {
   std::int64_t period_ns_;
   std::int64_t now_ns_ = 0;
   NoLoad no_load_;
-  LoopChannels channels_;
+  LoopInputs inputs_;
   SimulatedLever lever_;
   HapticLoop loop_;
 };

@@ -95,10 +95,10 @@ void add_inputs(Row& row, const TraceSample& sample) {
   row.pair("actuator_force", "n", sample.reading.actuator_force, 1.0);
   row.cell("pressed_down", sample.reading.pressed_down);
   row.cell("lifted", sample.reading.lifted);
-  row.cell("throttle", sample.controls.throttle);
-  row.cell("brake", sample.controls.brake);
-  row.cell("clutch", sample.controls.clutch);
-  row.cell("hand_brake", sample.controls.hand_brake);
+  row.cell("throttle", sample.controls.pedals.throttle);
+  row.cell("brake", sample.controls.pedals.brake);
+  row.cell("clutch", sample.controls.pedals.clutch);
+  row.cell("hand_brake", sample.controls.pedals.hand_brake);
   row.cell("ignition", sample.controls.ignition);
   row.cell("starter", sample.controls.starter);
   row.cell("slope_rad", sample.controls.slope);

@@ -75,12 +75,18 @@ constexpr void each_field(FieldsOf<LeverReading> auto& reading, auto&& visit) {
   visit("stop", stop);
 }
 
-constexpr void each_field(FieldsOf<DriverControls> auto& controls, auto&& visit) {
-  auto& [throttle, brake, clutch, hand_brake, ignition, starter, slope, guided_gear, guidance] = controls;
+constexpr void each_field(FieldsOf<Pedals> auto& pedals, auto&& visit) {
+  auto& [throttle, brake, clutch, hand_brake] = pedals;
   visit("throttle", throttle);
   visit("brake", brake);
   visit("clutch", clutch);
   visit("hand_brake", hand_brake);
+}
+
+// Pedals have the names of columns that older tables have, without a prefix of their own.
+constexpr void each_field(FieldsOf<DriverControls> auto& controls, auto&& visit) {
+  auto& [pedals, ignition, starter, slope, guided_gear, guidance] = controls;
+  each_field(pedals, visit);
   visit("ignition", ignition);
   visit("starter", starter);
   visit("slope", slope);

@@ -179,7 +179,7 @@ taskset -acp "0-$(($(nproc) - 1))" "$pid" >/dev/null
 check "one core: saved" is_saved
 check "one core: forces to the end, switched on again if necessary" has_forces
 check "one core: missed deadlines are counted" \
-  printed "^loop: [0-9]* deadlines missed, [0-9]* cycles too long, 0 events lost"
+  printed "^loop: [0-9]* deadlines missed, [0-9]* cycles too long, 0 cycles unread"
 check "one core: nothing on stderr, got: $(cat hog.err)" [ ! -s hog.err ]
 
 # Tests a disk that is temporarily read-only, as after disk errors, and works again before the lesson's end.

@@ -56,8 +56,11 @@ Trace sample_trace(bool with_car) {
   SimulatedRun run(config, hand, &load);
   const TraceHeader header{
       "1.2.3", config.haptics, run.lever().spec(), "paper.toml", layout.text, load.replay_parameters(), true};
-  TraceRecorder recorder(the_trace().path(), header, run.channels(), TracePump::by_caller);
-  for (int i = 0; i < kCycles; ++i) run.step();
+  TraceRecorder recorder(the_trace().path(), header);
+  for (int i = 0; i < kCycles; ++i) {
+    run.step();
+    recorder.add(run.loop().published());
+  }
   recorder.finish();
   return read_trace(the_trace().path());
 }

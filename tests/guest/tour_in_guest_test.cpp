@@ -19,8 +19,10 @@
 #include "haptics/hardware/calibrator.h"
 #include "haptics/hardware/pid_lever.h"
 #include "haptics/hardware/stick_connection.h"
+#include "haptics/loop/haptic_event.h"
 #include "haptics/loop/haptic_loop.h"
 #include "haptics/loop/shift_script.h"
+#include "haptics/rt/broadcast.h"
 #include "haptics/rt/realtime_thread.h"
 #include "haptics/usb/usb_hid.h"
 #include "tests/guest/guest_bench.h"
@@ -154,11 +156,14 @@ class RunningLoop {
   RunningLoop(const DeviceCalibration& calibration, PidDriver& driver, const Gate& gate)
       : config_(config_at_500_hz()),
         lever_(calibration, driver, period_s(config_)),
-        loop_(config_, gate, lever_, load_, channels_) {
+        loop_(config_, gate, lever_, load_, inputs_) {
     RealtimeConfig thread;
     thread.period_ns = period_ns(config_);
     thread.spin_ns = 0;
-    thread_.start(thread, [this](const CycleCall& call) { loop_.cycle(call.deadline_ns, call.skipped); });
+    thread_.start(thread, [this](const CycleCall& call) {
+      loop_.cycle(call.deadline_ns, call.skipped);
+      cycles_.push(loop_.published());
+    });
   }
   ~RunningLoop() {
     thread_.stop();
@@ -167,29 +172,33 @@ class RunningLoop {
 
   int delay() const { return lever_.spec().delay; }
   double wall() const { return loop_.admitted().tuning.wall_stiffness; }
-  GuardState guard() {
-    channels_.snapshot.update();
-    return channels_.snapshot.value().guard;
+  GuardState guard() const {
+    const std::optional<TraceSample> newest = cycles_.newest();
+    return newest ? newest->out.guard : GuardState::idle;
   }
   bool arm() {
-    channels_.commands.push(LoopCommand::arm);
+    inputs_.commands.push(LoopCommand::arm);
     return becomes_true([&] { return guard() == GuardState::running; }, 5.0);
   }
   // Returns the gears engaged since the last call.
   std::vector<int> gears() {
     std::vector<int> engaged;
-    for (HapticEvent event; channels_.events.pop(event);) {
+    std::vector<HapticEvent> events;
+    for (TraceSample cycle; reader_.pop(cycle);) detector_.update(cycle, events);
+    for (const HapticEvent& event : events)
       if (event.kind == EventKind::gear_engaged) engaged.push_back(static_cast<int>(event.value));
-    }
     return engaged;
   }
 
  private:
   HapticConfig config_;
   NoLoad load_;
-  LoopChannels channels_;
+  LoopInputs inputs_;
   PidLever lever_;
   HapticLoop loop_;
+  Broadcast<TraceSample> cycles_{8192};
+  Broadcast<TraceSample>::Reader reader_{cycles_};
+  EventDetector detector_;
   RealtimeThread thread_;
 };
 

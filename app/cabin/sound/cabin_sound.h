@@ -11,7 +11,7 @@
 #include "app/vehicle/vehicle_state.h"
 #include "engine/scene/view.h"
 #include "engine/sound/sound_world.h"
-#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/haptic_event.h"
 
 namespace gearshift::cabin {
 

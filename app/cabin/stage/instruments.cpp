@@ -27,7 +27,7 @@ bool is_lit(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSn
     case Lamp::battery:
       return car.ignition && rpm < kIdleLimit;
     case Lamp::hand_brake:
-      return car.ignition && car.hand_brake > 0.05;
+      return car.ignition && car.pedals.hand_brake > 0.05;
     case Lamp::engine:
       return car.ignition && (car.over_revved || !car.running || rpm < kIdleLimit);
     case Lamp::stall:

@@ -173,10 +173,10 @@ struct Stage::State {
     scene.nodes[static_cast<std::size_t>(shift_up)].visible = car.shift_advice > 0;
     scene.nodes[static_cast<std::size_t>(shift_down)].visible = car.shift_advice < 0;
     turn(wheel, about(kZ, car.steering));
-    turn(clutch, about(kX, pedal_angle(car.clutch)));
-    turn(brake, about(kX, pedal_angle(car.brake)));
-    turn(throttle, about(kX, pedal_angle(car.throttle)));
-    turn(hand_brake, node(hand_brake).rotation * about(kX, hand_brake_angle(car.hand_brake)));
+    turn(clutch, about(kX, pedal_angle(car.pedals.clutch)));
+    turn(brake, about(kX, pedal_angle(car.pedals.brake)));
+    turn(throttle, about(kX, pedal_angle(car.pedals.throttle)));
+    turn(hand_brake, node(hand_brake).rotation * about(kX, hand_brake_angle(car.pedals.hand_brake)));
     scene.nodes[static_cast<std::size_t>(gear_panel)].uv_shift = gear_field(car.gear);
     for (int i = 0; i < kLampCount; ++i) {
       const auto at = static_cast<std::size_t>(lamp[static_cast<std::size_t>(i)]);

@@ -137,10 +137,10 @@ const haptics::DriverControls& CampaignPedals::at(double time) {
   if (time < next_) return controls_;
   next_ = time + chance_.decades(0.05, 3.0);
   const auto pedal = [&](double probability) { return chance_.happens(probability) ? chance_.between(0.0, 1.0) : 0.0; };
-  controls_.throttle = pedal(0.7);
-  controls_.brake = pedal(0.2);
-  controls_.hand_brake = pedal(0.1);
-  controls_.clutch = chance_.happens(0.5) ? 1.0 : pedal(0.5);
+  controls_.pedals.throttle = pedal(0.7);
+  controls_.pedals.brake = pedal(0.2);
+  controls_.pedals.hand_brake = pedal(0.1);
+  controls_.pedals.clutch = chance_.happens(0.5) ? 1.0 : pedal(0.5);
   controls_.ignition = chance_.happens(0.95);
   controls_.starter = chance_.happens(0.3);
   controls_.slope = chance_.happens(0.3) ? chance_.between(-0.4, 0.4) : 0.0;

@@ -43,7 +43,6 @@ constexpr std::array<LawText, kCampaignLaws> kLawTexts{{
     {"fades", "while the hand keeps still, any remaining oscillation of the lever decays within seconds", "m"},
     {"gear holds", "while the lever is held still, the gear changes at most once", "changes"},
     {"reached", "a gripping hand that aims cleanly at a gear engages it", "missed"},
-    {"told", "no event is lost", "events"},
 }};
 
 // Length of the shortest path from `in`, a point in the slot, to `b`, a point outside the slot, through the slot's

@@ -14,21 +14,20 @@
 namespace gearshift::lab {
 
 enum class CampaignLaw : std::size_t {
-  finite,         // all output values are finite
-  free_space,     // the displayed lever (the proxy) is in the gate's free space
-  no_wall,        // the displayed lever moves only through free space, and no further per cycle than a proxy may
-  lockout,        // the displayed lever never passes a closed lockout
-  force,          // the commanded force is within the device's maximum
-  slew,           // the commanded force changes no faster than the guard allows
-  energy,         // with energy bounding, the motors never generate more energy than the device's damping dissipated
-  guard,          // the guard detects no fault
-  quiet,          // while the hand keeps still, the lever does not move
-  fades,          // while the hand keeps still, an oscillation decays, even in cases without the law `quiet`
-  gear_holds,     // while the hand keeps still, the gear changes at most once; a gear re-engages only after its release
-  reached,        // the hand engages every gear at which it aims cleanly
-  no_lost_events  // no event is lost; called "told" in files
+  finite,      // all output values are finite
+  free_space,  // the displayed lever (the proxy) is in the gate's free space
+  no_wall,     // the displayed lever moves only through free space, and no further per cycle than a proxy may
+  lockout,     // the displayed lever never passes a closed lockout
+  force,       // the commanded force is within the device's maximum
+  slew,        // the commanded force changes no faster than the guard allows
+  energy,      // with energy bounding, the motors never generate more energy than the device's damping dissipated
+  guard,       // the guard detects no fault
+  quiet,       // while the hand keeps still, the lever does not move
+  fades,       // while the hand keeps still, an oscillation decays, even in cases without the law `quiet`
+  gear_holds,  // while the hand keeps still, the gear changes at most once; a gear re-engages only after its release
+  reached      // the hand engages every gear at which it aims cleanly
 };
-inline constexpr std::size_t kCampaignLaws = 13;
+inline constexpr std::size_t kCampaignLaws = 12;
 
 struct LawText {
   std::string_view name, requirement, unit;
@@ -70,7 +69,6 @@ struct LawLimits {
   double ripple = 0.0;            // [m] largest peak-to-peak motion allowed while the hand keeps still
   double small_swing = 0.0;       // [m] peak-to-peak motion that a tremor or the encoder's resolution may cause
   double remaining_swing = 1.0;   // [1] fraction of an oscillation above small_swing that may remain after kFading
-  double frame = 0.1;             // [s] time between polls of the events, as in a slow frame of the window
 };
 LawLimits law_limits(const haptics::HapticConfig& config, const haptics::SimulatedLeverConfig& lever,
                      const haptics::DeviceSpec& spec) noexcept;

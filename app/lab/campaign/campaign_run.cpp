@@ -13,15 +13,15 @@
 #include "app/lab/random_gates/random_layout.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
+#include "haptics/loop/haptic_event.h"
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_recorder.h"
 
 namespace gearshift::lab {
 namespace {
 
-constexpr double kQuietWindow = 0.5;        // [s] duration of the measurement at the end of a hold: one period of 2 Hz
-constexpr double kGearSettleTime = 1.0;     // [s] from this time into a hold, the gear must not change
-constexpr std::uint64_t kPumpEvery = 4096;  // [cycles]
+constexpr double kQuietWindow = 0.5;     // [s] duration of the measurement at the end of a hold: one period of 2 Hz
+constexpr double kGearSettleTime = 1.0;  // [s] from this time into a hold, the gear must not change
 
 haptics::GateLayout layout_of(const CampaignCase& drawn, std::span<const haptics::GateLayout> shipped) {
   if (drawn.shipped_gate >= 0) return shipped[static_cast<std::size_t>(drawn.shipped_gate)];
@@ -96,23 +96,20 @@ class CaseRun {
   void plant(const PlantedLimits& planted) { planted(limits_); }
 
   void drive(haptics::TraceRecorder* recorder) {
-    haptics::HapticSnapshot before = run_.step();
+    haptics::HapticSnapshot before = step(recorder);
     true_position_ = run_.lever().true_position();
     const double max_cycles =
         1.0 + 2.0 * hand_.duration() / run_.period();  // a period lasts at least half its nominal duration
     while (hand_.time() < hand_.duration()) {
-      if (drawn_.has_car) run_.channels().controls.write(feet_.at(run_.time()));
-      const haptics::HapticSnapshot& now = run_.step();
+      if (drawn_.has_car) run_.inputs().controls.write(feet_.at(run_.time()));
+      const haptics::HapticSnapshot& now = step(recorder);
       if (static_cast<double>(now.cycle) > max_cycles)
         throw std::runtime_error(fmt::format("case {} did not finish in time", out.number));
       check_cycle({now, before, hand_.last().pressed_down, hand_.last().lifted});
-      if (recorder && now.cycle % kPumpEvery == 0) recorder->pump();
       before = now;
     }
-    count_events();
-    out.cycles = before.cycle;
+    out.cycles = before.cycle + 1;
     out.seconds = run_.time();
-    out.laws.note(CampaignLaw::no_lost_events, static_cast<double>(run_.channels().events_lost), 0.0, out.seconds);
   }
 
   haptics::TraceHeader header() {
@@ -124,7 +121,6 @@ class CaseRun {
             load_->replay_parameters(),
             true};
   }
-  haptics::LoopChannels& channels() { return run_.channels(); }
 
   CaseOutcome out;
 
@@ -149,11 +145,8 @@ class CaseRun {
     if (!is_proxy_reset) gears_.update(cycle, gate, is_in_or_out, out.laws);
     check_hold(cycle.now);
     check_shift(cycle.now);
-    if (cycle.now.cycle % events_every() == 0) count_events();
     out.fastest = std::max(out.fastest, glm::length(run_.lever().true_velocity()));
   }
-
-  std::uint64_t events_every() const { return static_cast<std::uint64_t>(std::lround(limits_.frame / limits_.period)); }
 
   void check_guard(const CyclePair& cycle) {
     const bool fell = cycle.now.fault != haptics::GuardFault::none && cycle.before.fault == haptics::GuardFault::none;
@@ -207,9 +200,14 @@ class CaseRun {
     was_previous_reached_ = is_reached;
   }
 
-  void count_events() {
-    for (haptics::HapticEvent event; run_.channels().events.pop(event);)
+  const haptics::HapticSnapshot& step(haptics::TraceRecorder* recorder) {
+    const haptics::HapticSnapshot& now = run_.step();
+    if (recorder != nullptr) recorder->add(run_.loop().published());
+    events_.clear();
+    detector_.update(run_.loop().published(), events_);
+    for (const haptics::HapticEvent& event : events_)
       out.softened += event.kind == haptics::EventKind::stiffness_lowered;
+    return now;
   }
 
   const CampaignCase& drawn_;
@@ -220,6 +218,8 @@ class CaseRun {
   CampaignPedals feet_;
   std::unique_ptr<haptics::LeverLoad> load_;
   haptics::SimulatedRun run_;
+  haptics::EventDetector detector_;
+  std::vector<haptics::HapticEvent> events_;
   LawLimits limits_;
   LockoutLaw lockouts_;
   EnergyLaw energy_;
@@ -255,7 +255,7 @@ CaseOutcome run_case(const CampaignCase& drawn, std::span<const haptics::GateLay
     run->drive(nullptr);
     return run->out;
   }
-  haptics::TraceRecorder recorder(trace, run->header(), run->channels(), haptics::TracePump::by_caller);
+  haptics::TraceRecorder recorder(trace, run->header());
   run->drive(&recorder);
   const haptics::RecordingResult recorded = recorder.finish();
   if (!recorded.problem.empty()) throw std::runtime_error(trace.string() + ": " + recorded.problem);

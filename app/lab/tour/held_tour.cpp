@@ -9,7 +9,7 @@
 #include "app/base/stop_signals.h"
 #include "app/runtime/runtime.h"
 #include "haptics/files/file_error.h"
-#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/haptic_event.h"
 #include "haptics/loop/shift_script.h"
 
 namespace gearshift::lab {

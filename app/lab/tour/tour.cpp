@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -17,8 +18,8 @@
 namespace gearshift::lab {
 namespace {
 
-constexpr double kAimNoise = 0.002;  // [m] standard deviation of the hand's aims
-constexpr int kPumpEvery = 1000;     // [cycles] interval between writes of the trace queue to the file
+constexpr double kAimNoise = 0.002;   // [m] standard deviation of the hand's aims
+constexpr int kProgressEvery = 1000;  // [cycles]
 
 haptics::TraceHeader header_of(const TourSetup& setup, const haptics::DeviceSpec& spec) {
   haptics::TraceHeader header;
@@ -31,14 +32,11 @@ haptics::TraceHeader header_of(const TourSetup& setup, const haptics::DeviceSpec
   return header;
 }
 
-std::vector<haptics::HapticEvent> drain_events(haptics::LoopChannels& channels, TourResult& result) {
-  std::vector<haptics::HapticEvent> events;
-  for (haptics::HapticEvent event; channels.events.pop(event);) {
-    events.push_back(event);
+void note_engaged(std::span<const haptics::HapticEvent> events, TourResult& result) {
+  for (const haptics::HapticEvent& event : events) {
     if (event.kind != haptics::EventKind::gear_engaged) continue;
     result.engaged.push_back({static_cast<int>(event.value), 1e-9 * static_cast<double>(event.time_ns)});
   }
-  return events;
 }
 
 haptics::SimulatedRunConfig run_config(const TourSetup& setup) {
@@ -68,20 +66,23 @@ void drive(haptics::SimulatedRun& run, double duration, haptics::TraceRecorder& 
            const TourWatch& watch, TourResult& result) {
   double next_watch = 0.0;
   haptics::GuardFault fault = haptics::GuardFault::none;
+  haptics::EventDetector detector;
+  std::vector<haptics::HapticEvent> events;
   while (run.time() < duration) {
     const haptics::HapticSnapshot& now = run.step();
     measure(now, result);
+    recorder.add(run.loop().published());
+    detector.update(run.loop().published(), events);
     count_force_loss(now, std::exchange(fault, now.fault), run.time(), result.lost);
     if (run.time() >= next_watch) {
       next_watch += kWatchPeriod;
-      const std::vector<haptics::HapticEvent> events = drain_events(run.channels(), result);
-      if (watch) watch(run.loop().snapshot(), events);
+      note_engaged(events, result);
+      if (watch) watch(now, events);
+      events.clear();
     }
-    if (result.cycles % kPumpEvery != 0) continue;
-    recorder.pump();
-    progress("drive", run.time() / duration);
+    if (result.cycles % kProgressEvery == 0) progress("drive", run.time() / duration);
   }
-  drain_events(run.channels(), result);
+  note_engaged(events, result);
   result.duration = run.time();
 }
 
@@ -140,8 +141,7 @@ TourResult drive_tour(const TourSetup& setup, const TourProgress& progress, cons
   result.admitted = result.softest = run.loop().admitted().tuning.wall_stiffness;
 
   const std::filesystem::path trace = setup.folder / "tour.trace";
-  haptics::TraceRecorder recorder(trace, header_of(setup, run.lever().spec()), run.channels(),
-                                  haptics::TracePump::by_caller);
+  haptics::TraceRecorder recorder(trace, header_of(setup, run.lever().spec()));
   drive(run, hand.duration(), recorder, progress, watch, result);
   result.hash = finish(recorder, trace);
   (void)write_tour_table(setup.folder, progress);

@@ -12,7 +12,7 @@
 #include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
 #include "haptics/loop/haptic_config.h"
-#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/haptic_event.h"
 #include "haptics/loop/shift_script.h"
 
 namespace gearshift::lab {

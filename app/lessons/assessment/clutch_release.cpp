@@ -43,7 +43,7 @@ double burn_limit(const vehicle::CarSpec& car, int gear, double slope) noexcept 
 ClutchRelease::ClutchRelease(const vehicle::CarSpec& car) : car_(car), pedal_(car.clutch.bite) {}
 
 std::optional<DrivingError> ClutchRelease::add(const vehicle::DriveSample& sample, double dt) {
-  pedal_.update(sample.car.clutch, sample.time());
+  pedal_.update(sample.car.pedals.clutch, sample.time());
   const double jerk = std::abs(filter_.update(sample.car.acceleration, dt));
   if (!open_ && pedal_.went_up() && sample.car.gear != haptics::kNeutralGear) {
     open_ = true;
@@ -57,8 +57,8 @@ std::optional<DrivingError> ClutchRelease::add(const vehicle::DriveSample& sampl
   stalled_ = stalled_ || !sample.car.running;
   slip_peak_ = std::max(slip_peak_, sample.car.slip_power);
   heat_ += sample.car.slip_power * dt;
-  if (sample.car.brake < kMaxBrakeForJerk) jerk_peak_ = std::max(jerk_peak_, jerk);
-  if (closed_at_ == 0.0 && sample.car.clutch <= car_.clutch.closed) closed_at_ = sample.time();
+  if (sample.car.pedals.brake < kMaxBrakeForJerk) jerk_peak_ = std::max(jerk_peak_, jerk);
+  if (closed_at_ == 0.0 && sample.car.pedals.clutch <= car_.clutch.closed) closed_at_ = sample.time();
   if (!is_over(sample)) return std::nullopt;
   open_ = false;
   return judge();

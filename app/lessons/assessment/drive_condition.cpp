@@ -20,12 +20,12 @@ bool holds(const DriveCondition& c, const vehicle::DriveSample& sample, const Dr
   const vehicle::VehicleState& car = sample.car;
   return (!c.gear || *c.gear == car.gear) && matches(c.ignition, car.ignition) && matches(c.running, car.running) &&
          matches(c.clutch_locked, car.clutch_locked) && matches(c.shift_light, car.shift_advice > 0) &&
-         matches(c.braked, car.brake > kMinHoldingBrake || car.hand_brake > kMinHoldingHandBrake) &&
-         is_between(c.clutch_above, c.clutch_below, car.clutch) &&
+         matches(c.braked, car.pedals.brake > kMinHoldingBrake || car.pedals.hand_brake > kMinHoldingHandBrake) &&
+         is_between(c.clutch_above, c.clutch_below, car.pedals.clutch) &&
          is_between(c.clutch_torque_above, {}, car.clutch_torque) &&
-         is_between(c.throttle_above, c.throttle_below, car.throttle) &&
-         is_between(c.brake_above, c.brake_below, car.brake) &&
-         is_between(c.hand_brake_above, c.hand_brake_below, car.hand_brake) &&
+         is_between(c.throttle_above, c.throttle_below, car.pedals.throttle) &&
+         is_between(c.brake_above, c.brake_below, car.pedals.brake) &&
+         is_between(c.hand_brake_above, c.hand_brake_below, car.pedals.hand_brake) &&
          is_between(c.engine_above, c.engine_below, car.engine_speed) &&
          is_between(c.speed_above, c.speed_below, car.road_speed) &&
          is_between(c.distance_above, {}, progress.distance) &&

@@ -128,7 +128,7 @@ void ErrorDetector::update_rolling_time(const vehicle::DriveSample& now, bool mo
   if (is_moving(now.car.road_speed)) {
     rolling_.all += dt;
   } else {
-    const bool is_braked_to_stop = now.car.brake > kBraking && now.car.clutch >= car_.clutch.bite;
+    const bool is_braked_to_stop = now.car.pedals.brake > kBraking && now.car.pedals.clutch >= car_.clutch.bite;
     rolling_.is_braked_to_stop = rolling_.is_braked_to_stop || is_braked_to_stop;
   }
   if (moves && !shift_moved_) rolling_.left = rolling_.all;
@@ -161,8 +161,9 @@ void ErrorDetector::watch_feet(const vehicle::DriveSample& now, double dt) {
   const int slot = now.lever.slot;
   const bool at_rest = slot != haptics::kNoSlot && haptics::slot_of(gate_, slot).gear == now.car.gear &&
                        std::abs(now.lever.proxy.y) >= haptics::slot_of(gate_, slot).engage_depth;
-  const bool needs_none = at_rest && is_moving(now.car.road_speed) && now.car.brake < kBraking;
-  const bool rests = now.car.clutch > kMinRidingPedal && now.car.clutch < car_.clutch.bite && now.car.clutch_locked;
+  const bool needs_none = at_rest && is_moving(now.car.road_speed) && now.car.pedals.brake < kBraking;
+  const bool rests =
+      now.car.pedals.clutch > kMinRidingPedal && now.car.pedals.clutch < car_.clutch.bite && now.car.clutch_locked;
   const bool rides = rests && needs_none && !shift_moved_;
   update_episode(riding_clutch_, rides, 0.0, now.time(), dt);
 }
@@ -170,13 +171,13 @@ void ErrorDetector::watch_feet(const vehicle::DriveSample& now, double dt) {
 // True if the driver brakes hard, or brakes at a speed too low for the last gear driven (`driven_gear_`).
 bool ErrorDetector::is_stopping(const vehicle::DriveSample& now) const noexcept {
   const double turns = std::abs(vehicle::shaft_per_road(car_, driven_gear_) * now.car.road_speed);
-  return now.car.brake > kHardBraking || (now.car.brake > kBraking && turns < car_.engine.lug_below);
+  return now.car.pedals.brake > kHardBraking || (now.car.pedals.brake > kBraking && turns < car_.engine.lug_below);
 }
 
 // Detects coasting: engine and wheels are disconnected although the driver neither shifts nor stops.
 void ErrorDetector::watch_drive(const vehicle::DriveSample& now, double dt) {
   if (now.car.gear != haptics::kNeutralGear && now.car.clutch_locked) driven_gear_ = now.car.gear;
-  const bool open = now.car.gear == haptics::kNeutralGear || now.car.clutch >= car_.clutch.bite;
+  const bool open = now.car.gear == haptics::kNeutralGear || now.car.pedals.clutch >= car_.clutch.bite;
   const bool shifts = shift_moved_ && now.time() - shift_moved_at_ < kMaxShiftTime;
   const bool coasts = open && !shifts && now.car.running && is_moving(now.car.road_speed) && !is_stopping(now);
   if (coasting_.episode.update(coasts, 0.0, now.time(), dt)) report_coasting();
@@ -220,7 +221,7 @@ int ErrorDetector::gear_reached_for(const vehicle::DriveSample& now) const noexc
 // Detects grinding, and pushes against the synchroniser ring with the clutch down (`blocked`). With the clutch up, only
 // records the largest difference of speeds (`touch_error_`); judge_clutch() uses it for `no_clutch`.
 void ErrorDetector::watch_dogs(const vehicle::DriveSample& now, double dt) {
-  const bool open = now.car.clutch >= car_.clutch.bite;
+  const bool open = now.car.pedals.clutch >= car_.clutch.bite;
   const bool touching = vehicle::touches_dogs(now);
   const int gear = gear_reached_for(now);
   if (gear != haptics::kNeutralGear && gear != now.car.gear) move_to_back(tried_, gear);

@@ -55,8 +55,8 @@ std::optional<ShiftRecord> ShiftMeter::add(const vehicle::DriveSample& sample) {
   }
   first_ = false;
   const bool throttle_was_on = throttle_on_;
-  throttle_on_ = sample.car.throttle > (throttle_on_ ? kThrottleOff : kThrottleOn);
-  pedal_.update(sample.car.clutch, time);
+  throttle_on_ = sample.car.pedals.throttle > (throttle_on_ ? kThrottleOff : kThrottleOn);
+  pedal_.update(sample.car.pedals.clutch, time);
   filter_.update(sample.car.acceleration, dt);
 
   if (stage_ == Stage::settling) {

@@ -35,10 +35,10 @@ bool is_plausible(const T& value) noexcept {
 
 // Copies the part of the car's state that the recording contains.
 void apply_recorded(const haptics::TraceSample& sample, vehicle::VehicleState& car) noexcept {
-  car.throttle = sample.controls.throttle;
-  car.brake = sample.controls.brake;
-  car.clutch = sample.controls.clutch;
-  car.hand_brake = sample.controls.hand_brake;
+  car.pedals.throttle = sample.controls.pedals.throttle;
+  car.pedals.brake = sample.controls.pedals.brake;
+  car.pedals.clutch = sample.controls.pedals.clutch;
+  car.pedals.hand_brake = sample.controls.pedals.hand_brake;
   car.ignition = sample.controls.ignition;
   car.slope = sample.controls.slope;
   car.gear = sample.out.gear;

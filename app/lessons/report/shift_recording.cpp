@@ -17,8 +17,8 @@ namespace {
 RecordedCycle cycle_of(const vehicle::DriveSample& sample, double time) {
   return {time,
           glm::length(sample.lever.f_h),
-          sample.controls.clutch,
-          sample.controls.throttle,
+          sample.controls.pedals.clutch,
+          sample.controls.pedals.throttle,
           sample.car.engine_speed,
           std::abs(sample.car.shaft_speed),
           sample.car.gear,
@@ -34,7 +34,7 @@ class Presses {
 
   void add(const vehicle::DriveSample& sample, double time) {
     if (!has_car_) return;
-    pedal_.update(sample.car.clutch, time);
+    pedal_.update(sample.car.pedals.clutch, time);
     if (pedal_.went_down()) is_down_ = true, down_at_ = pedal_.down_at();
     if (pedal_.went_up()) end(pedal_.up_at());
   }

@@ -21,7 +21,7 @@ LessonStart start_of(const vehicle::DriveSample& sample, const LessonStart& less
   start.gear = sample.car.gear;
   start.speed = sample.car.road_speed;
   start.slope = lesson.slope;
-  start.hand_brake = sample.car.hand_brake;
+  start.hand_brake = sample.car.pedals.hand_brake;
   start.running = sample.car.running;
   return start;
 }

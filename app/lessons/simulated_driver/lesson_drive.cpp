@@ -17,7 +17,6 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr const char* kProgram = "lesson drive";
-constexpr std::uint64_t kPumpEvery = 4096;  // [cycles] half the capacity of the loop's queue
 
 // The hand on the simulated lever. Its target is the one that the driver chose after the previous cycle.
 class DecidedHand final : public haptics::HandDriver {
@@ -55,7 +54,7 @@ class Drive {
         driver_(config.lesson, config.car, gate_, config.skill, config.errors, config.seed, run_.period()) {
     hand_.target.position = setup_.start;
     sample_.controls.ignition = config.lesson.start.running;
-    sample_.controls.hand_brake = config.lesson.start.hand_brake;
+    sample_.controls.pedals.hand_brake = config.lesson.start.hand_brake;
     sample_.controls.slope = config.lesson.start.slope;
     if (config.trace.empty()) return;
     const haptics::TraceHeader header{kProgram,
@@ -65,7 +64,7 @@ class Drive {
                                       config.gate.text,
                                       config.guidance > 0.0 ? guided_.replay_parameters() : car_.replay_parameters(),
                                       true};
-    recorder_.emplace(config.trace, header, run_.channels(), haptics::TracePump::by_caller);
+    recorder_.emplace(config.trace, header);
   }
 
   void to_the_end() {
@@ -76,13 +75,12 @@ class Drive {
 
  private:
   void cycle() {
-    run_.channels().controls.write(sample_.controls);
+    run_.inputs().controls.write(sample_.controls);
     sample_.lever = run_.step();
     sample_.car = car_.state();
     progress_ = judge_(sample_);
-    for (haptics::HapticEvent event; run_.channels().events.pop(event);) {
-      if (config_.on_event) config_.on_event(event);
-    }
+    if (recorder_) recorder_->add(run_.loop().published());
+    if (config_.on_event) report_events();
     if (config_.on_cycle) config_.on_cycle(sample_);
     const vehicle::DriverAction action = driver_.act(sample_, progress_.step);
     hand_.target = action.hand;
@@ -91,7 +89,12 @@ class Drive {
       sample_.controls.guidance = config_.guidance;
       sample_.controls.guided_gear = progress_.guided_gear;
     }
-    if (recorder_ && sample_.lever.cycle % kPumpEvery == 0) recorder_->pump();
+  }
+
+  void report_events() {
+    events_.clear();
+    detector_.update(run_.loop().published(), events_);
+    for (const haptics::HapticEvent& event : events_) config_.on_event(event);
   }
 
   const LessonDriveConfig& config_;
@@ -107,6 +110,8 @@ class Drive {
   SimulatedDriver driver_;
   vehicle::DriveSample sample_;
   std::optional<haptics::TraceRecorder> recorder_;
+  haptics::EventDetector detector_;
+  std::vector<haptics::HapticEvent> events_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "app/vehicle/drive_sample.h"
 #include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
+#include "haptics/loop/haptic_event.h"
 
 namespace gearshift::lessons {
 

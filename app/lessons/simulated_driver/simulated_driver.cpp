@@ -36,10 +36,10 @@ SimulatedDriver::SimulatedDriver(const Lesson& lesson, const vehicle::CarSpec& c
 }
 
 void SimulatedDriver::take_over(const haptics::DriverControls& controls) noexcept {
-  feet_.throttle.place(controls.throttle);
-  feet_.brake.place(controls.brake);
-  feet_.clutch.place(controls.clutch);
-  feet_.hand_brake.place(controls.hand_brake);
+  feet_.throttle.place(controls.pedals.throttle);
+  feet_.brake.place(controls.pedals.brake);
+  feet_.clutch.place(controls.pedals.clutch);
+  feet_.hand_brake.place(controls.pedals.hand_brake);
   ignition_ = controls.ignition;
 }
 
@@ -51,7 +51,7 @@ vehicle::DriverAction SimulatedDriver::act(const vehicle::DriveSample& now, std:
     launch_speed_ = std::min(kLaunchSpeed, kLaunchSpeedAfterStall * launch_speed_);
   was_running_ = now.car.running;
   perceived_speed_ += (now.car.engine_speed - perceived_speed_) * std::min(1.0, period_ / skill_.hearing_delay);
-  const bool is_down = now.car.clutch >= car_.clutch.bite;
+  const bool is_down = now.car.pedals.clutch >= car_.clutch.bite;
   if (is_down && !clutch_is_down_) clutch_down_at_ = now.time();
   clutch_is_down_ = is_down;
   if (!handle_restart(now)) {
@@ -73,10 +73,10 @@ vehicle::DriverAction SimulatedDriver::act(const vehicle::DriveSample& now, std:
 
   vehicle::DriverAction action;
   action.hand = hand_.next(now.time(), now.lever.lever);
-  action.controls.throttle = feet_.throttle.step(period_);
-  action.controls.brake = is_foot_free(now.time()) ? feet_.brake.step(period_) : 0.0;
-  action.controls.clutch = feet_.clutch.step(period_);
-  action.controls.hand_brake = feet_.hand_brake.step(period_);
+  action.controls.pedals.throttle = feet_.throttle.step(period_);
+  action.controls.pedals.brake = is_foot_free(now.time()) ? feet_.brake.step(period_) : 0.0;
+  action.controls.pedals.clutch = feet_.clutch.step(period_);
+  action.controls.pedals.hand_brake = feet_.hand_brake.step(period_);
   action.controls.ignition = ignition_;
   action.controls.starter = starter_;
   action.controls.slope = lesson_.start.slope;

@@ -122,7 +122,7 @@ void DriverInput::press(Source source, bool ui_has_keys, bool chord) {
 void DriverInput::trigger(Action action) {
   pressed_.push_back(action);
   if (action == Action::grab_mouse) mouse_moves_lever_ = !mouse_moves_lever_;
-  if (action == Action::hand_brake) controls_.hand_brake = controls_.hand_brake > 0.5 ? 0.0 : 1.0;
+  if (action == Action::hand_brake) controls_.pedals.hand_brake = controls_.pedals.hand_brake > 0.5 ? 0.0 : 1.0;
   if (action == Action::ignition) controls_.ignition = !controls_.ignition;
 }
 
@@ -150,7 +150,7 @@ bool DriverInput::is_held_at_end(Action action) const {
   });
 }
 
-PedalKeys DriverInput::pedal_keys() const {
+vehicle::PedalKeys DriverInput::pedal_keys() const {
   return {is_held_at_end(Action::throttle), is_held_at_end(Action::throttle_light), is_held_at_end(Action::brake),
           is_held_at_end(Action::clutch), is_held_at_end(Action::clutch_hold)};
 }
@@ -232,7 +232,7 @@ void DriverInput::set_reach(glm::dvec2 reach) {
 
 void DriverInput::set_car(bool ignition, double hand_brake) {
   controls_.ignition = ignition;
-  controls_.hand_brake = hand_brake;
+  controls_.pedals.hand_brake = hand_brake;
 }
 
 // Returns the axis's raw value; empty until the axis has moved.
@@ -265,9 +265,9 @@ double DriverInput::pedal_axis(const engine::WindowInput& input, const std::opti
 
 void DriverInput::read_pedals(const engine::WindowInput& input) {
   const Bindings& bindings = config_.bindings;
-  controls_.throttle = pedal_axis(input, bindings.throttle, throttle_axis);
-  controls_.brake = pedal_axis(input, bindings.brake, brake_axis);
-  controls_.clutch = pedal_axis(input, bindings.clutch, clutch_axis);
+  controls_.pedals.throttle = pedal_axis(input, bindings.throttle, throttle_axis);
+  controls_.pedals.brake = pedal_axis(input, bindings.brake, brake_axis);
+  controls_.pedals.clutch = pedal_axis(input, bindings.clutch, clutch_axis);
   controls_.starter = is_held(Action::starter);
 }
 

@@ -48,10 +48,10 @@ double slope_percent(const vehicle::VehicleState& car) {
 
 void draw_car_strip(const vehicle::VehicleState& car, int gear) {
   const bool bites = !car.clutch_locked && std::abs(car.clutch_torque) > kBiteTorque;
-  pedal(bites ? "clutch biting" : "clutch", car.clutch, bites ? ink::kWarn : ink::kAccent, true,
+  pedal(bites ? "clutch biting" : "clutch", car.pedals.clutch, bites ? ink::kWarn : ink::kAccent, true,
         {car.clutch_closed, car.clutch_bite});
-  pedal("brake", car.brake, ink::kBad);
-  pedal("throttle", car.throttle, ink::kGood);
+  pedal("brake", car.pedals.brake, ink::kBad);
+  pedal("throttle", car.pedals.throttle, ink::kGood);
   if (car.stalled) {
     draw_word("stalled", ink::kBad);
   } else {
@@ -59,7 +59,7 @@ void draw_car_strip(const vehicle::VehicleState& car, int gear) {
   }
   draw_word(format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0), ink::kText);
   draw_word(std::string("gear ") + haptics::gear_name(gear), car.grinding ? ink::kBad : ink::kText);
-  if (car.hand_brake > kHandBrakeOn) draw_word("handbrake", ink::kBad);
+  if (car.pedals.hand_brake > kHandBrakeOn) draw_word("handbrake", ink::kBad);
   if (!car.ignition) draw_word("ignition off", ink::kWarn);
   if (const double slope = slope_percent(car); slope != 0.0)
     draw_word(fmt::format("{:.0f} % {}", std::abs(slope), slope > 0.0 ? "uphill" : "downhill"), ink::kText);

@@ -89,9 +89,9 @@ void draw_car(const BarCursor& parts, const PanelInput& input) {
   list.AddText({at, top + line}, ink::kText, format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0).c_str());
   float x = low.x + gear_width + text_width;
   const ImVec2 size(pedal_width, parts.height());
-  pedal("C", car.clutch, {x, low.y}, size, ink::kAccent, car.clutch_closed, car.clutch_bite);
-  pedal("B", car.brake, {x += pedal_width + 0.4f * em, low.y}, size, ink::kBad);
-  pedal("T", car.throttle, {x + pedal_width + 0.4f * em, low.y}, size, ink::kGood);
+  pedal("C", car.pedals.clutch, {x, low.y}, size, ink::kAccent, car.clutch_closed, car.clutch_bite);
+  pedal("B", car.pedals.brake, {x += pedal_width + 0.4f * em, low.y}, size, ink::kBad);
+  pedal("T", car.pedals.throttle, {x + pedal_width + 0.4f * em, low.y}, size, ink::kGood);
 }
 
 void lamp(ImVec2 at, const char* text, bool on, ImU32 colour) {
@@ -149,7 +149,7 @@ void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
       {{"Grinding", car.grinding, ink::kBad, "Lit while the gears grind: press the clutch."},
        {"Over-rev", car.over_revved, ink::kBad, "Lit while the engine is above its red line: ease off the throttle."},
        {"Softened", softened, ink::kWarn, "The walls were softened because the lever chattered against one."}},
-      {{"Handbrake", car.hand_brake > kHandBrakeOn, ink::kBad, "Lit while the handbrake is on."},
+      {{"Handbrake", car.pedals.hand_brake > kHandBrakeOn, ink::kBad, "Lit while the handbrake is on."},
        {"Ignition", car.ignition, ink::kGood, "Lit while the ignition is on."},
        slope_lamp(car)}};
   const float em = engine::ui_em(), line = parts.height() / 3.0f;

@@ -1,7 +1,7 @@
 #include "app/ui/panel/event_list.h"
 
 #include "app/ui/panel/palette.h"
-#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/haptic_event.h"
 
 namespace gearshift::ui {
 namespace {

@@ -4,7 +4,7 @@
 #include <deque>
 #include <span>
 
-#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/haptic_event.h"
 
 namespace gearshift::ui {
 

@@ -223,8 +223,8 @@ ReplayBar::Curves::Curves(double span)
 
 void ReplayBar::Curves::push(const vehicle::DriveSample& sample) {
   const double time = sample.time();
-  clutch.push(time, sample.car.clutch);
-  throttle.push(time, sample.car.throttle);
+  clutch.push(time, sample.car.pedals.clutch);
+  throttle.push(time, sample.car.pedals.throttle);
   engine.push(time, sample.car.engine_speed);
   shaft.push(time, std::abs(sample.car.shaft_speed));
   force.push(time, glm::length(sample.lever.f_h));
@@ -274,8 +274,8 @@ double ReplayBar::draw(Controls& controls, const PanelInput& input, const Contro
 
 void ReplayBar::draw_legend(Controls& controls, const lessons::Player& replay) {
   const vehicle::DriveSample& now = replay.now();
-  entry(controls, ink::kAccent, fmt::format("clutch {:.0f} %", 100.0 * now.car.clutch), "clutch 100 %", true);
-  entry(controls, ink::kGood, fmt::format("throttle {:.0f} %", 100.0 * now.car.throttle), "throttle 100 %");
+  entry(controls, ink::kAccent, fmt::format("clutch {:.0f} %", 100.0 * now.car.pedals.clutch), "clutch 100 %", true);
+  entry(controls, ink::kGood, fmt::format("throttle {:.0f} %", 100.0 * now.car.pedals.throttle), "throttle 100 %");
   entry(controls, ink::kEngine, "engine " + format_rpm(now.car.engine_speed), "engine 8888 rpm");
   entry(controls, ink::kShaft, "shaft " + format_rpm(std::abs(now.car.shaft_speed)), "shaft 8888 rpm");
   entry(controls, ink::kHand, fmt::format("hand {:.1f} N", glm::length(now.lever.f_h)), "hand 88.8 N");

@@ -16,8 +16,8 @@ TEST_CASE("skipped deadlines are counted, and separately the cycles that took to
   LatestValue<HandTarget> person{HandTarget{}};
   SmoothedHand hand(person, period_s(config));
   SimulatedLever lever(SimulatedLeverConfig{}, period_ns(config), hand);
-  LoopRun run(config, gate, lever);
   CycleRunner runner(period_ns(config));
+  LoopRun run(config, gate, lever, runner.inputs, 1);
   runner.switch_to(run);
   CycleStatistics statistics;
   std::int64_t deadline = 0;
@@ -31,11 +31,9 @@ TEST_CASE("skipped deadlines are counted, and separately the cycles that took to
     statistics.overruns = overruns;
     deadline += (1 + missed) * period_ns(config);
     runner.cycle({deadline, missed}, &statistics);
-    runner.figures.update();
-    CHECK(runner.figures.value().skipped == skipped);  // reported immediately, because there may be no further update
-    CHECK(runner.figures.value().overruns == overruns);
+    CHECK(runner.stream.newest()->missed == skipped);
+    CHECK(runner.stream.newest()->overruns == overruns);
   }
-  runner.figures.update();
-  CHECK(runner.figures.value().skipped == 12);
-  CHECK(runner.figures.value().overruns == 2);
+  CHECK(runner.newest().missed == 12);
+  CHECK(runner.newest().overruns == 2);
 }

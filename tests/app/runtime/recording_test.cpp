@@ -59,7 +59,7 @@ TEST_CASE(
   person.shift_to(1);
   runtime.change_tuning(softer(runtime));
   DriverControls controls;
-  controls.clutch = 0.7;
+  controls.pedals.clutch = 0.7;
   runtime.set_controls(controls);
   person.wait(10);
 
@@ -75,7 +75,7 @@ TEST_CASE(
   HapticTuning tuning = softer(runtime);
   tuning.aisle_damping = 5.0;
   runtime.change_tuning(tuning);
-  controls.throttle = 0.3;
+  controls.pedals.throttle = 0.3;
   runtime.set_controls(controls);
   person.shift_to(3);
   runtime.disarm();
@@ -91,7 +91,7 @@ TEST_CASE(
   const Trace trace = read_trace(folder / "drive.trace");
   CHECK(trace.header.armed);
   CHECK(trace.samples.front().out.cycle == 0);
-  CHECK(trace.samples.front().controls.clutch == 0.7);
+  CHECK(trace.samples.front().controls.pedals.clutch == 0.7);
   CHECK(trace.samples.size() > 3000);
   CHECK(replay(trace).bit_for_bit());
   // Without its armed state, the trace must replay differently. Without its first cycle, it must be rejected.

@@ -24,8 +24,8 @@ namespace {
 void feet(Runtime& runtime, double throttle, double clutch) {
   DriverControls controls;
   controls.ignition = true;
-  controls.throttle = throttle;
-  controls.clutch = clutch;
+  controls.pedals.throttle = throttle;
+  controls.pedals.clutch = clutch;
   runtime.set_controls(controls);
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("guidance on, off and to a different gear has an effect, and its recor
   const auto guide = [&](double strength, int gear) {
     DriverControls controls;
     controls.ignition = true;
-    controls.clutch = 1.0;
+    controls.pedals.clutch = 1.0;
     controls.guidance = strength;
     controls.guided_gear = gear;
     runtime.set_controls(controls);

@@ -46,7 +46,7 @@ TEST_CASE("moved at 60 frames per second through any shipped gate, the gears eng
       CHECK(runtime.snapshot().gear == gear);
     }
     CHECK(gears == wanted);
-    CHECK(runtime.health().events_lost == 0);
+    CHECK(runtime.health().unseen == 0);
     if (name == "paper") CHECK(gears == kPaperTour);
   }
 }
@@ -182,7 +182,7 @@ TEST_CASE("every cycle since the last call is returned once, in order") {
   const std::vector<DriveSample> first = runtime.drain_cycles();
   (void)runtime.health();  // health() must not consume cycles
   DriverControls controls;
-  controls.clutch = 0.25;
+  controls.pedals.clutch = 0.25;
   runtime.set_controls(controls);
   runtime.advance(3.0);
   (void)runtime.health();
@@ -193,7 +193,7 @@ TEST_CASE("every cycle since the last call is returned once, in order") {
   for (const auto* part : {&first, &second})
     for (const DriveSample& sample : *part) {
       CHECK(sample.lever.cycle == next++);
-      CHECK(sample.controls.clutch == (part == &first ? 0.0 : 0.25));
+      CHECK(sample.controls.pedals.clutch == (part == &first ? 0.0 : 0.25));
     }
   CHECK(second.back().lever.time_ns == runtime.snapshot().time_ns);
   CHECK(runtime.drain_cycles().empty());

@@ -32,8 +32,8 @@ DriverAction restless(const DriveSample& now) {
   action.hand.velocity = {0.3 * std::cos(9.0 * t), 0.0};
   action.hand.push = {0.0, 2.0 * std::sin(40.0 * t)};
   action.controls.ignition = true;
-  action.controls.throttle = 0.3 + 0.2 * std::sin(t) - 0.001 * now.car.engine_speed;
-  action.controls.clutch = std::fmod(t, 1.0);
+  action.controls.pedals.throttle = 0.3 + 0.2 * std::sin(t) - 0.001 * now.car.engine_speed;
+  action.controls.pedals.clutch = std::fmod(t, 1.0);
   action.controls.guidance = 1.0;  // ignored, because only the instructor sets guidance and slope
   action.controls.guided_gear = 5;
   action.controls.slope = 0.5;
@@ -43,9 +43,9 @@ DriverAction restless(const DriveSample& now) {
 bool same(const DriveSample& a, const DriveSample& b) {
   return a.lever.time_ns == b.lever.time_ns && a.lever.lever == b.lever.lever && a.lever.f_h == b.lever.f_h &&
          a.lever.commanded == b.lever.commanded && a.lever.gear == b.lever.gear &&
-         a.controls.throttle == b.controls.throttle && a.controls.hand_brake == b.controls.hand_brake &&
-         a.controls.slope == b.controls.slope && a.car.engine_speed == b.car.engine_speed &&
-         a.car.road_speed == b.car.road_speed;
+         a.controls.pedals.throttle == b.controls.pedals.throttle &&
+         a.controls.pedals.hand_brake == b.controls.pedals.hand_brake && a.controls.slope == b.controls.slope &&
+         a.car.engine_speed == b.car.engine_speed && a.car.road_speed == b.car.road_speed;
 }
 
 class DriverHand final : public HandDriver {
@@ -73,9 +73,9 @@ std::vector<DriveSample> driven_without_runtime(const RuntimeConfig& config, con
   DriveSample now;
   now.controls.ignition = true;
   now.controls.slope = 0.05;
-  now.controls.hand_brake = config.hand_brake;
+  now.controls.pedals.hand_brake = config.hand_brake;
   for (int i = 0; i < cycles; ++i) {
-    run.channels().controls.write(now.controls);
+    run.inputs().controls.write(now.controls);
     now.lever = run.step();
     now.lever.cycle = static_cast<std::uint64_t>(i);
     now.car = car.state();
@@ -125,8 +125,8 @@ TEST_CASE("the driver controls hand and pedals, the instructor road and guidance
   instructor.slope = 0.02;
   instructor.guidance = 0.4;
   instructor.guided_gear = 3;
-  instructor.throttle = 0.9;
-  instructor.clutch = 0.9;
+  instructor.pedals.throttle = 0.9;
+  instructor.pedals.clutch = 0.9;
   runtime.set_controls(instructor);
   HandTarget idle_hand;
   idle_hand.position = {0.03, 0.03};
@@ -139,8 +139,8 @@ TEST_CASE("the driver controls hand and pedals, the instructor road and guidance
     CHECK(now.controls.slope == 0.02);
     CHECK(now.controls.guidance == 0.4);
     CHECK(now.controls.guided_gear == 3);
-    CHECK(now.controls.throttle < 0.5);
-    CHECK(now.controls.clutch < 0.01);
+    CHECK(now.controls.pedals.throttle < 0.5);
+    CHECK(now.controls.pedals.clutch < 0.01);
     CHECK(now.controls.ignition);
   }
 }
@@ -179,7 +179,7 @@ TEST_CASE("recorded on the virtual clock, a scripted drive replays bit for bit a
   for (std::size_t i = 0; i < driven->size(); ++i) CHECK((*driven)[i] == (i < 700 ? i : i - 700));
   const Trace trace = read_trace(folder / "a.trace");
   CHECK(trace.samples.size() == 800);
-  CHECK(trace.samples[0].controls.throttle != 0.0);  // recording does not reset the throttle
+  CHECK(trace.samples[0].controls.pedals.throttle != 0.0);  // recording does not reset the throttle
   CHECK(replay(trace, make_lesson_load).bit_for_bit());
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("a sleeping driver blocks neither lever nor instructor, and the runtim
   bool is_combined = false;
   CHECK(becomes_true([&] {
     for (const DriveSample& now : runtime.drain_cycles())
-      is_combined = is_combined || (now.controls.guidance == 0.6 && now.controls.throttle != 0.0);
+      is_combined = is_combined || (now.controls.guidance == 0.6 && now.controls.pedals.throttle != 0.0);
     return is_combined;
   }));
   CHECK(becomes_true([&] { return runtime.snapshot().cycle > before + 50; }));

@@ -47,7 +47,7 @@ TEST_CASE("the session's sound depends on the position and direction of the list
   Session session(held_still());
   DriverControls controls;
   controls.ignition = true;
-  controls.clutch = 1.0;
+  controls.pedals.clutch = 1.0;
   session.set_driver({}, controls);
   const glm::dvec3 seat{0.0, 0.65, 0.05};
   const EarLevels ahead = engine_levels(session, look_at(seat, seat + glm::dvec3(0.0, 0.0, -1.0)));

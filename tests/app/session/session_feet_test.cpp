@@ -60,7 +60,7 @@ std::vector<double> clutch_driven(Session& session, double frames_per_second) {
   for (int i = 0; i * frame < 2.0; ++i) {
     session.set_driver({}, {}, {.clutch = i * frame < 0.5 - 1e-9});
     session.runtime().advance(frame);
-    for (const DriveSample& cycle : session.runtime().drain_cycles()) path.push_back(cycle.controls.clutch);
+    for (const DriveSample& cycle : session.runtime().drain_cycles()) path.push_back(cycle.controls.pedals.clutch);
   }
   return path;
 }
@@ -84,19 +84,19 @@ TEST_CASE("a pedal keeps its position when the lever is replaced, and a pad's pe
   Session session(rig.choice(RuntimeClock::virtual_time, "none"));
   session.set_driver({}, {}, {.clutch = true});
   session.advance(0.5);
-  CHECK(session.car().clutch == 1.0);
+  CHECK(session.car().pedals.clutch == 1.0);
   PanelRequests other;
   other.car = "diesel";
   session.apply(other);
   session.advance(2.0 * kCycle);
-  CHECK(session.car().clutch == 1.0);
+  CHECK(session.car().pedals.clutch == 1.0);
   DriverControls pad;
-  pad.brake = 0.7;
+  pad.pedals.brake = 0.7;
   session.set_driver({}, pad, {.brake = true});
   session.advance(0.1);
-  CHECK(session.car().brake == 0.7);
+  CHECK(session.car().pedals.brake == 0.7);
   session.advance(0.4);
-  CHECK(session.car().brake == 1.0);
+  CHECK(session.car().pedals.brake == 1.0);
 }
 
 TEST_CASE("on the real clock a pedal moves even while no frame is drawn") {
@@ -107,7 +107,7 @@ TEST_CASE("on the real clock a pedal moves even while no frame is drawn") {
   session.advance(0.0);
   std::set<double> brakes;
   std::this_thread::sleep_for(std::chrono::milliseconds(400));  // no frame is drawn in this time
-  for (const DriveSample& cycle : session.runtime().drain_cycles()) brakes.insert(cycle.controls.brake);
+  for (const DriveSample& cycle : session.runtime().drain_cycles()) brakes.insert(cycle.controls.pedals.brake);
   CHECK(brakes.size() > 20);  // if the pedal moved once per frame, there would be one or two positions
   CHECK(*brakes.rbegin() == 1.0);
 }
@@ -119,7 +119,7 @@ TEST_CASE("on the real clock a keyboard clutch keeps its pace through a change o
   session.set_foot_pace({.pedal_time = kPedal, .slip_time = kAllTheWay, .clutch_closed = 0.0, .clutch_bite = 1.0});
   session.set_driver({}, {}, {.clutch = true});
   session.advance(0.0);
-  while (session.car().clutch < 1.0) {
+  while (session.car().pedals.clutch < 1.0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     session.advance(0.0);
   }
@@ -129,12 +129,12 @@ TEST_CASE("on the real clock a keyboard clutch keeps its pace through a change o
   for (const char* gate : {"dog_leg_five", "five_speed_r_right_down", "dog_leg_five"}) {
     const Steady::time_point begin = Steady::now();
     session.advance(0.0);
-    const double before = session.car().clutch;
+    const double before = session.car().pedals.clutch;
     PanelRequests other;
     other.gate = gate;
     session.apply(other);
     session.advance(0.0);
-    went += before - session.car().clutch;
+    went += before - session.car().pedals.clutch;
     passed += std::chrono::duration<double>(Steady::now() - begin).count();
   }
   CHECK(went > 0.0);

@@ -58,7 +58,7 @@ struct LeftRig {
     free.ignition = true;
     session.set_driver({}, free);
     go(0.1);
-    return session.car().brake == 0.0 && session.car().clutch == 0.0;
+    return session.car().pedals.brake == 0.0 && session.car().pedals.clutch == 0.0;
   }
 };
 
@@ -156,7 +156,7 @@ TEST_CASE("the panel shows that a trial can no longer be passed, from the failin
   CHECK_FALSE(rig.session.panel_input().is_unpassable);
   DriverControls stalls;  // the engine will stall when the test releases the clutch
   stalls.ignition = true;
-  stalls.clutch = 1.0;
+  stalls.pedals.clutch = 1.0;
   HandTarget first;
   first.position = rest_position(rig.session.runtime().gate(), 1);
   const auto column = glm::dvec2(first.position.x, 0.0);
@@ -166,7 +166,7 @@ TEST_CASE("the panel shows that a trial can no longer be passed, from the failin
   rig.go(1.0);
   REQUIRE(rig.session.shown().gear == 1);
   CHECK_FALSE(rig.session.panel_input().is_unpassable);
-  stalls.clutch = 0.0;
+  stalls.pedals.clutch = 0.0;
   rig.session.set_driver(first, stalls);
   rig.go(1.5);
   REQUIRE(rig.session.coach().view().phase == LessonPhase::driving);

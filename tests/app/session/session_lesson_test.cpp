@@ -79,7 +79,7 @@ const CoachView& drive_as_person(Session& session) {
   AutoDriver driver(config);
   DriveSample sample;
   sample.controls.ignition = config.lesson.start.running;
-  sample.controls.hand_brake = config.lesson.start.hand_brake;
+  sample.controls.pedals.hand_brake = config.lesson.start.hand_brake;
   for (int i = 0; i < 120'000 && session.coach().view().phase == LessonPhase::driving; ++i) {
     session.advance(1e-3);
     sample.lever = session.shown();
@@ -143,7 +143,7 @@ TEST_CASE("a lesson begins with the gear, speed, engine and handbrake in its fil
   CHECK(switches->hand_brake == 1.0);
   go(session, 0.1);
   CHECK_FALSE(session.car().running);
-  CHECK(session.car().hand_brake == 1.0);
+  CHECK(session.car().pedals.hand_brake == 1.0);
 }
 
 TEST_CASE("during a lesson, a change of gate ends the lesson, and a replay is refused") {
@@ -195,7 +195,7 @@ TEST_CASE("any shift in the history can be replayed in the cabin as it was recor
     // The lever moves at most 0.5 m/s and the sample is at most 4 ms old, so the shown position differs from the sample
     // by at most 2 mm.
     CHECK(glm::length(session.shown().proxy - then->out.proxy) < 2e-3);
-    CHECK(session.car().clutch == doctest::Approx(then->controls.clutch).epsilon(0.05));
+    CHECK(session.car().pedals.clutch == doctest::Approx(then->controls.pedals.clutch).epsilon(0.05));
     CHECK(session.car().engine_speed > 50.0);
   }
 }
@@ -365,7 +365,7 @@ TEST_CASE(
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
   DriverControls rolls;
   rolls.ignition = true;
-  rolls.clutch = 1.0;
+  rolls.pedals.clutch = 1.0;
   session.set_driver({}, rolls);
   for (int i = 0; i < 20 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kLessonFrame);
   REQUIRE(session.coach().view().phase == LessonPhase::over);  // the car rolled back one metre, which ended the lesson

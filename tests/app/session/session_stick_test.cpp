@@ -208,7 +208,7 @@ TEST_CASE("a lesson that starts in a gear begins only when the stick is in that 
   CHECK(rig.session->coach().view().phase == LessonPhase::offered);
   DriverControls feet;
   feet.ignition = true;
-  feet.clutch = 1.0;  // with the clutch pedal up, the synchroniser would block the gear
+  feet.pedals.clutch = 1.0;  // with the clutch pedal up, the synchroniser would block the gear
   rig.session->set_driver({}, feet);
   const glm::dvec2 first = rest_position(rig.session->runtime().gate(), 1);
   rig.held.hand.go({first.x, 0.0});

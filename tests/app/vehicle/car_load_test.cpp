@@ -111,10 +111,10 @@ double blocked_time(const CarSpec& car, double rate, int delay, bool measures) {
   Lever lever(config, haptics, hand, measures);
   lever.place(start);
   CarLoad load(car, gate, kPaperForce, rolling_in(car, 2, 250.0));
-  LoopChannels channels;
-  HapticLoop loop(haptics, gate, lever, load, channels);
+  LoopInputs inputs;
+  HapticLoop loop(haptics, gate, lever, load, inputs);
   loop.arm();
-  channels.controls.write(clutch_down());
+  inputs.controls.write(clutch_down());
   double held = 0.0;
   for (std::int64_t now = 0; 1e-9 * static_cast<double>(now) < hand.duration(); now += period_ns(haptics)) {
     loop.cycle(now, 0);
@@ -167,7 +167,7 @@ TEST_CASE("pressing the clutch just past its bite point is enough for a shift") 
   ScriptedHand hand = shifting_hand(gate_of(car), 2, {3});
   CarRun run(car, rolling_in(car, 2, 250.0), hand, [&](double time) {
     DriverControls feet = clutch_down();
-    feet.clutch = time > 0.1 ? car.clutch.bite + 0.01 : 0.0;
+    feet.pedals.clutch = time > 0.1 ? car.clutch.bite + 0.01 : 0.0;
     return feet;
   });
   CarDrive drive;
@@ -190,7 +190,7 @@ TEST_CASE("without the clutch a hard wall blocks the gear, however long and hard
         start.gear = kNeutralGear;
         CarLoad load(car, gate, kPaperForce, start);
         SimulatedRun run(before_slot(gate, gear), hand, &load);
-        run.channels().controls.write(clutch_up());
+        run.inputs().controls.write(clutch_up());
         const double block = stations_of(gate, gear).block;
         while (run.time() < 2.0) {
           const HapticSnapshot& lever = run.step();
@@ -218,7 +218,7 @@ TEST_CASE("without the clutch a gear engages when the falling engine speed match
       start.engine_speed = start.shaft_speed = 240.0;
       CarLoad load(car, gate, kPaperForce, start);
       SimulatedRun run(before_slot(gate, gear), hand, &load);
-      run.channels().controls.write(clutch_up());
+      run.inputs().controls.write(clutch_up());
       while (run.time() < 3.0 && run.loop().snapshot().gear == kNeutralGear) {
         run.step();
         REQUIRE_FALSE(load.state().grinding);
@@ -246,7 +246,7 @@ TEST_CASE(
     start.shaft_speed = 400.0;
     CarLoad load(car, gate, kPaperForce, start);
     SimulatedRun run(before_slot(gate, 2), hand, &load);
-    run.channels().controls.write(clutch_down());
+    run.inputs().controls.write(clutch_down());
     const double dogs = stations_of(gate, 2).dogs;
     double power = 0.0, max_step = 0.0, ground = 0.0;
     dvec2 before{0.0};
@@ -279,7 +279,7 @@ TEST_CASE(
     SimulatedRunConfig config = gripped(gate, gear);
     config.lever.hand = kBareHand;
     SimulatedRun run(config, hand, &load);
-    run.channels().controls.write(feet);
+    run.inputs().controls.write(feet);
     while (run.time() < 1.5) {
       if (load.state().torque_locked && run.loop().snapshot().gear == gear)
         REQUIRE(std::abs(run.loop().snapshot().proxy.y) > stations_of(gate, gear).home);
@@ -294,7 +294,7 @@ TEST_CASE(
     CHECK_FALSE(pulled_out(gear, 60.0, clutch_up(1.0)));  // [N] more than the device's 31.7, yet the gear holds
     CHECK(pulled_out(gear, lock_feel + 2.0, clutch_down()));
     DriverControls full_throttle = clutch_down();
-    full_throttle.throttle = 1.0;
+    full_throttle.pedals.throttle = 1.0;
     CHECK(pulled_out(gear, lock_feel + 2.0, full_throttle));
   }
   CHECK_FALSE(pulled_out(3, lock_feel + 1.0, clutch_up()));
@@ -315,7 +315,7 @@ TEST_CASE(
         CarStart start = rolling_in(car, slot.gear, slot.gear == kReverseGear ? 150.0 : 250.0);
         CarRun run(car, start, hand, [&](double time) {
           DriverControls feet = time < 0.5 ? clutch_up(1.0) : clutch_down();
-          feet.brake = brakes && time >= 0.5 ? 1.0 : 0.0;
+          feet.pedals.brake = brakes && time >= 0.5 ? 1.0 : 0.0;
           return feet;
         });
         CarDrive drive;
@@ -358,7 +358,7 @@ TEST_CASE("a stall is reported after the clutch was dumped at idle") {
   start.gear = 1;
   CarRun run(car, start, idle_hand, [](double time) {
     DriverControls feet = time < 0.3 ? clutch_down() : clutch_up();
-    feet.brake = 1.0;
+    feet.pedals.brake = 1.0;
     return feet;
   });
   CarDrive drive;

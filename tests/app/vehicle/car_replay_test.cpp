@@ -23,9 +23,9 @@ DriverControls busy_feet(double time) {
   DriverControls feet = std::fmod(time, 1.1) < 0.9 ? clutch_down() : clutch_up(0.37);
   if (time > 5.0) feet = clutch_up();
   feet.slope = 0.031 * std::sin(time);
-  feet.brake = time > 6.0 ? 0.9 : 0.0;
+  feet.pedals.brake = time > 6.0 ? 0.9 : 0.0;
   feet.starter = time > 8.0;
-  if (time > 8.0) feet.clutch = 1.0;
+  if (time > 8.0) feet.pedals.clutch = 1.0;
   return feet;
 }
 
@@ -38,10 +38,10 @@ Trace recorded(const CarSpec& car, std::uint64_t seed = 5) {
   const SimulatedRunConfig config = gripped(gate, 2);
   const TraceHeader header{
       "test", config.haptics, run.run.lever().spec(), layout.file, layout.text, run.load.replay_parameters(), true};
-  TraceRecorder recorder(folder / "car.trace", header, run.run.channels(), TracePump::by_caller);
+  TraceRecorder recorder(folder / "car.trace", header);
   for (int i = 0; i < 9000; ++i) {
     run.step();
-    if (i % 1000 == 0) recorder.pump();
+    recorder.add(run.run.loop().published());
   }
   recorder.finish();
   return read_trace(folder / "car.trace");

@@ -19,13 +19,13 @@ using Feet = std::function<haptics::DriverControls(double time)>;
 inline haptics::DriverControls clutch_down() {
   haptics::DriverControls feet;
   feet.ignition = true;
-  feet.clutch = 1.0;
+  feet.pedals.clutch = 1.0;
   return feet;
 }
 inline haptics::DriverControls clutch_up(double throttle = 0.0) {
   haptics::DriverControls feet;
   feet.ignition = true;
-  feet.throttle = throttle;
+  feet.pedals.throttle = throttle;
   return feet;
 }
 
@@ -48,7 +48,7 @@ struct CarRun {
         feet_(std::move(feet)) {}
 
   const haptics::HapticSnapshot& step() {
-    run.channels().controls.write(feet_(run.time()));
+    run.inputs().controls.write(feet_(run.time()));
     return run.step();
   }
   const vehicle::VehicleState& state() const { return load.state(); }

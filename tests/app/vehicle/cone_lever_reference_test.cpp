@@ -145,7 +145,7 @@ ProductResult product(const CarSpec& car, const Shift& shift, double rate, bool 
   InSlot hand(shift.hand, direction, across, 1.0 / rate);
   CarLoad load(car, gate, kPaperForce, car_start(car, shift));
   SimulatedRun run(config, hand, &load);
-  run.channels().controls.write(shift.clutch_closed ? clutch_up() : clutch_down());
+  run.inputs().controls.write(shift.clutch_closed ? clutch_up() : clutch_down());
   ProductResult result;
   const double before = load.driveline().kinetic_energy();
   const auto sample_of = [&](const HapticSnapshot& lever) {

@@ -37,7 +37,7 @@ class RandomDriver {
  public:
   explicit RandomDriver(unsigned seed) : random_(seed) {}
   DrivelineInput next() {
-    for (double* pedal : {&in_.throttle, &in_.clutch, &in_.brake, &in_.hand_brake}) {
+    for (double* pedal : {&in_.pedals.throttle, &in_.pedals.clutch, &in_.pedals.brake, &in_.pedals.hand_brake}) {
       if (random_() % 200 == 0) *pedal = random_() % 2 == 0 ? number(0.0, 1.0) : random_() % 3 == 0 ? 1.0 : 0.0;
     }
     if (random_() % 50 == 0) in_.slope = number(-0.2, 0.2);
@@ -102,7 +102,7 @@ TEST_CASE("with the engine off the car only loses energy") {
   double last = 1e99;
   bool falls = true;
   for (int i = 0; i < 60000 && line.state().road_speed != 0.0; ++i) {
-    in.clutch = 0.5 + 0.5 * std::sin(0.01 * i);
+    in.pedals.clutch = 0.5 + 0.5 * std::sin(0.01 * i);
     line.step(in, 0.001);
     falls = falls && line.kinetic_energy() < last;
     last = line.kinetic_energy();

@@ -77,7 +77,8 @@ TEST_CASE("foot brake and handbrake hold the car on a hill for a minute with tre
     bool still = true;
     for (int i = 0; i < 60000; ++i) {
       DrivelineInput in = pedals(1, 0.0, 1.0);
-      (hand ? in.hand_brake : in.brake) = 0.7 + 0.05 * std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+      (hand ? in.pedals.hand_brake : in.pedals.brake) =
+          0.7 + 0.05 * std::uniform_real_distribution<double>(-1.0, 1.0)(random);
       in.slope = 0.2;
       line.step(in, 0.001);
       still = still && line.state().road_speed == 0.0 && line.state().shaft_speed == 0.0;
@@ -94,7 +95,7 @@ TEST_CASE("a car released on a hill rolls back, and stops when braked") {
   in.slope = 0.1;
   drive(line, in, 2.0);
   CHECK(line.state().road_speed < -1.0);
-  in.brake = 0.5;
+  in.pedals.brake = 0.5;
   drive(line, in, 2.0);
   CHECK(line.state().road_speed == 0.0);
 }
@@ -307,7 +308,7 @@ TEST_CASE("with the clutch down the car's stopping does not affect the engine") 
   Driveline line(car);
   line.place(0.15, 0.2, 0.2 / shaft_per_road(car, 1), false);
   DrivelineInput in = pedals(1, 0.0, 1.0);
-  in.brake = 1.0;
+  in.pedals.brake = 1.0;
   in.ignition = false;
   line.step(in, 0.001);
   CHECK(line.state().road_speed == 0.0);
@@ -391,7 +392,7 @@ TEST_CASE("non-finite input counts as zero and has no later effect") {
     line.place(200.0, 0.0, 5.0, true);
     other.place(200.0, 0.0, 5.0, true);
     DrivelineInput in;
-    in.throttle = in.brake = in.clutch = in.hand_brake = in.slope = in.cone_torque = bad;
+    in.pedals.throttle = in.pedals.brake = in.pedals.clutch = in.pedals.hand_brake = in.slope = in.cone_torque = bad;
     in.cone_gear = 2;
     for (int i = 0; i < 100; ++i) {
       line.step(in, 0.001);

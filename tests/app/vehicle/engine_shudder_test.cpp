@@ -43,7 +43,7 @@ ShudderOutcome drive_off(const Pedals& feet, double seconds, double brake) {
   for (int i = 0; i < std::lround(seconds / 1e-4); ++i) {
     DrivelineInput in = feet(1e-4 * i);
     in.meshed = 1;
-    in.brake = brake;
+    in.pedals.brake = brake;
     line.step(in, 1e-4);
     out.highest_step = std::max(out.highest_step, std::abs(line.state().shudder - out.last));
     out.last = line.state().shudder;
@@ -65,7 +65,7 @@ CarStart in_first() {
 
 DriverControls dump(double time) {
   DriverControls feet = time < 0.3 ? clutch_down() : clutch_up();
-  feet.brake = 1.0;
+  feet.pedals.brake = 1.0;
   return feet;
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("a stall vibrates the lever within the scaled amplitude, and leaves it
     double shaken = 0.0, moved = 0.0;
     glm::dvec2 rest{0.0};
     while (run.time() < 3.0) {
-      run.channels().controls.write(dump(run.time()));
+      run.inputs().controls.write(dump(run.time()));
       const HapticSnapshot& lever = run.step();
       if (run.time() < 0.29) rest = lever.lever;
       REQUIRE(std::abs(lever.load_force.y) <= max_force);

@@ -52,8 +52,8 @@ Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush
   CarLoad load(car, gate, kPaperForce, start);
   SimulatedRun run(config, hand, &load);
   DriverControls feet = clutch_down();
-  feet.brake = brake;
-  run.channels().controls.write(feet);
+  feet.pedals.brake = brake;
+  run.inputs().controls.write(feet);
   Shifted shifted;
   bool was_through = false;
   while (run.time() < 2.5 && !shifted.in) {

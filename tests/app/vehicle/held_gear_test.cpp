@@ -12,6 +12,7 @@
 #include "haptics/gate/feel_curve.h"
 #include "haptics/gate/gate_feel.h"
 #include "tests/app/vehicle/car_run.h"
+#include "tests/support/event_log.h"
 #include "tests/support/whole_campaign.h"
 
 using namespace gearshift::haptics;
@@ -27,9 +28,9 @@ constexpr double kMaxShake = 1e-3;  // [m] a dying engine moves a released lever
 DriverControls pedals_at(double clutch, double throttle, double brake = 0.0) {
   DriverControls feet;
   feet.ignition = true;
-  feet.clutch = clutch;
-  feet.throttle = throttle;
-  feet.brake = brake;
+  feet.pedals.clutch = clutch;
+  feet.pedals.throttle = throttle;
+  feet.pedals.brake = brake;
   return feet;
 }
 
@@ -87,19 +88,21 @@ struct PushedLever {
     return config;
   }
   const HapticSnapshot& step(const Driving& driving) {
-    run.channels().controls.write(driving.feet(run.time()));
+    run.inputs().controls.write(driving.feet(run.time()));
     const HapticSnapshot& lever = run.step();
-    for (HapticEvent event; run.channels().events.pop(event);) lowered += event.kind == EventKind::stiffness_lowered;
+    events.see(run.loop());
     shaken = std::max(shaken, load.state().shudder);
     return lever;
   }
-  bool is_guarded() { return lowered == 0 && run.loop().snapshot().guard == GuardState::running; }
+  bool is_guarded() {
+    return events.count(EventKind::stiffness_lowered) == 0 && run.loop().snapshot().guard == GuardState::running;
+  }
 
   Gate gate;
   PushingHand hand;
   CarLoad load;
   SimulatedRun run;
-  int lowered = 0;
+  EventLog events;
   double shaken = 0.0;
 };
 

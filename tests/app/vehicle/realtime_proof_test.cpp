@@ -16,15 +16,14 @@ TEST_CASE("the car's load is real-time safe: shifts, grinding, stall, restart, h
   haptics::ScriptedHand hand = shifting_hand(gate, 1, {2, 1, haptics::kReverseGear, 2, 3});
   vehicle::CarLoad load(car, gate, kPaperForce, rolling_in(car, 1, 300.0));
   auto run = std::make_unique<haptics::SimulatedRun>(gripped(gate, 1), hand, &load);
-  run->channels().recording.store(true);
   bool ground = false, stalled = false;
   const auto drive = [&] {
     for (int i = 0; i < 10'000; ++i) {
       haptics::DriverControls feet = i < 6000 || i > 9000 ? clutch_down() : clutch_up(i < 7000 ? 0.5 : 0.0);
-      feet.brake = i > 7000 ? 1.0 : 0.0;
+      feet.pedals.brake = i > 7000 ? 1.0 : 0.0;
       feet.starter = i > 9000;
       feet.slope = i > 5000 ? 0.2 : 0.0;
-      run->channels().controls.write(feet);
+      run->inputs().controls.write(feet);
       run->step();
       ground = ground || load.state().grinding;
       stalled = stalled || load.state().stalled;

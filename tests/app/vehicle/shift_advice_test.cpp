@@ -23,7 +23,7 @@ VehicleState in_gear(int gear, double kmh, double throttle) {
   car.gear = gear;
   car.road_speed = kmh / 3.6;
   car.engine_speed = 1000.0 * kmh / kKmhPerKrpm[gear - 1] * kRpm;
-  car.throttle = car.engine_load = throttle;
+  car.pedals.throttle = car.engine_load = throttle;
   car.clutch_locked = true;
   return car;
 }
@@ -92,7 +92,7 @@ TEST_CASE("no advice with the clutch open or slipping, coasting, in neutral or r
     car.clutch_locked = false;
     CHECK(advice(car) == 0);
     car = lit;
-    car.throttle = car.engine_load = 0.0;
+    car.pedals.throttle = car.engine_load = 0.0;
     CHECK(advice(car, kmh > 20.0 ? 1 : -1) == 0);
     for (const int gear : {kNeutralGear, kReverseGear, 6, 9}) {
       car = lit;

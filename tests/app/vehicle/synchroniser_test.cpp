@@ -47,8 +47,8 @@ struct Bench {
     input.load = now.drive_torque / car.gearbox.final_drive;
     out = sleeve.step(input, kT);
     DrivelineInput in;
-    in.clutch = clutch_down ? 1.0 : 0.0;
-    in.throttle = throttle;
+    in.pedals.clutch = clutch_down ? 1.0 : 0.0;
+    in.pedals.throttle = throttle;
     in.meshed = out.meshed;
     in.cone_gear = out.cone_gear;
     in.cone_torque = out.cone_torque;

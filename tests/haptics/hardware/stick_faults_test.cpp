@@ -46,7 +46,7 @@ void run_cycle(StickLoop& run) {
 const std::vector<Fault>& faults() {
   static const std::vector<Fault> all{
       {"stop button on the stick", [](StickLoop& run) { run.stick.held_buttons = 0b100; }, run_cycle, 0.005},
-      {"stop in the program", [](StickLoop& run) { run.channels.commands.push(LoopCommand::stop); }, run_cycle, 0.005},
+      {"stop in the program", [](StickLoop& run) { run.inputs.commands.push(LoopCommand::stop); }, run_cycle, 0.005},
       {"release()", [](StickLoop& run) { run.lever.release(); }, [](StickLoop& run) { run.tick(); }, 0.002},
       {"unplugged", [](StickLoop& run) { run.stick.unplug(); },
        [](StickLoop& run) { run.loop.cycle(run.now_ns += 1'000'000, 0); }, 0.0},

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "haptics/hardware/pid_lever.h"
+#include "haptics/loop/haptic_event.h"
 #include "haptics/loop/haptic_loop.h"
 #include "tests/haptics/hardware/calibrated.h"
 #include "tests/haptics/hardware/stick_bench.h"
@@ -22,7 +24,7 @@ struct StickLoop : StickBench {
             const haptics::HapticConfig& haptics, const haptics::Gate& gate, haptics::HandDriver& hand)
       : StickBench(config, hand),
         lever((prepare(), known), driver, haptics::period_s(haptics)),
-        loop(haptics, gate, lever, load, channels) {
+        loop(haptics, gate, lever, load, inputs) {
     period_ns = gearshift::haptics::period_ns(haptics);
     stream = driver.stream_config(period_ns);
   }
@@ -33,23 +35,27 @@ struct StickLoop : StickBench {
   const haptics::HapticSnapshot& cycle() {
     tick();
     loop.cycle(now_ns, 0);
+    detector.update(loop.published(), events);
     return loop.snapshot();
   }
   void cycle_for(double seconds) {
     for (const std::int64_t end = now_ns + static_cast<std::int64_t>(1e9 * seconds); now_ns < end;) cycle();
   }
+  // Returns the gears engaged since the last call.
   std::vector<int> gears() {
     std::vector<int> engaged;
-    for (haptics::HapticEvent event; channels.events.pop(event);) {
+    for (const haptics::HapticEvent& event : std::exchange(events, {})) {
       if (event.kind == haptics::EventKind::gear_engaged) engaged.push_back(static_cast<int>(event.value));
     }
     return engaged;
   }
 
   haptics::NoLoad load;
-  haptics::LoopChannels channels;
+  haptics::LoopInputs inputs;
   haptics::PidLever lever;
   haptics::HapticLoop loop;
+  haptics::EventDetector detector;
+  std::vector<haptics::HapticEvent> events;
 };
 
 }  // namespace gearshift::test

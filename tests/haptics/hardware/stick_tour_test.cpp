@@ -153,7 +153,7 @@ TEST_CASE("armed means motors on even without a force; not armed means off") {
   CHECK(glm::length(run.loop.snapshot().commanded) == 0.0);
   CHECK(run.stick.actuators_on());
   CHECK(run.stick.playing() >= 2);
-  run.channels.commands.push(LoopCommand::disarm);
+  run.inputs.commands.push(LoopCommand::disarm);
   run.cycle_for(0.01);
   CHECK_FALSE(run.stick.actuators_on());
 }

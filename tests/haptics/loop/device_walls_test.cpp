@@ -57,9 +57,7 @@ RecordingLever lever_claiming(const SimulatedLeverConfig& config, HandDriver& ha
 struct Rig {
   Rig(const SimulatedLeverConfig& lever, HandDriver& hand, const Gate& at = paper_gate(), HapticConfig config = {},
       double device_wall_damping = 0.0)
-      : gate(at),
-        device(lever_claiming(lever, hand, device_wall_damping)),
-        loop(config, gate, device, load, channels) {}
+      : gate(at), device(lever_claiming(lever, hand, device_wall_damping)), loop(config, gate, device, load, inputs) {}
   void run(int cycles, std::int64_t skipped = 0) {
     for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs * (1 + skipped), skipped);
   }
@@ -68,7 +66,7 @@ struct Rig {
   Gate gate;
   RecordingLever device;
   NoLoad load;
-  LoopChannels channels;
+  LoopInputs inputs;
   HapticLoop loop;
   std::int64_t now = 0;
 };
@@ -166,7 +164,7 @@ TEST_CASE("every way out of running removes the device walls in the same cycle")
   };
   const auto command = [](LoopCommand what) {
     return [what](Rig& rig) {
-      rig.channels.commands.push(what);
+      rig.inputs.commands.push(what);
       rig.run(1);
     };
   };

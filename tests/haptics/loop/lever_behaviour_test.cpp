@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -11,6 +12,7 @@
 #include "haptics/device/pushing_hand.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/loop/simulated_run.h"
+#include "tests/support/event_log.h"
 #include "tests/support/gates.h"
 #include "tests/support/whole_campaign.h"
 
@@ -28,17 +30,12 @@ SimulatedRunConfig resting_at(const Gate& gate, dvec2 start) {
   return config;
 }
 
-HapticSnapshot run_for(SimulatedRun& run, double seconds) {
-  for (const double end = run.time() + seconds; run.time() < end;) run.step();
-  return run.loop().snapshot();
-}
-
-std::vector<HapticEvent> events_of(SimulatedRun& run, EventKind kind) {
-  std::vector<HapticEvent> found;
-  for (HapticEvent event; run.channels().events.pop(event);) {
-    if (event.kind == kind) found.push_back(event);
+HapticSnapshot run_for(SimulatedRun& run, double seconds, EventLog* events = nullptr) {
+  for (const double end = run.time() + seconds; run.time() < end;) {
+    run.step();
+    if (events != nullptr) events->see(run.loop());
   }
-  return found;
+  return run.loop().snapshot();
 }
 
 }  // namespace
@@ -232,25 +229,21 @@ TEST_CASE("row 13: a push above 60 N warns once, clears below 50 N, and saturati
     return dvec2{0.0, wall * (time < 0.5 ? 20.0 : time < 1.0 ? 62.0 + tremble : time < 1.5 ? 57.0 + tremble : 20.0)};
   });
   SimulatedRun run(resting_at(gate, start), hand);
-  run_for(run, 0.45);
+  EventLog events;
+  run_for(run, 0.45, &events);
   CHECK((run.loop().snapshot().flags & (kFlagOverPush | kFlagSaturated)) == 0);
-  run_for(run, 0.5);
+  run_for(run, 0.5, &events);
   CHECK((run.loop().snapshot().flags & kFlagOverPush) != 0);
   CHECK((run.loop().snapshot().flags & kFlagSaturated) != 0);
-  run_for(run, 1.5);
+  run_for(run, 1.5, &events);
   CHECK((run.loop().snapshot().flags & (kFlagOverPush | kFlagSaturated)) == 0);
-  std::vector<HapticEvent> begins, ends, saturations;
-  for (HapticEvent event; run.channels().events.pop(event);) {
-    if (event.kind == EventKind::over_push_begin) begins.push_back(event);
-    if (event.kind == EventKind::over_push_end) ends.push_back(event);
-    if (event.kind == EventKind::saturation_begin) saturations.push_back(event);
-  }
+  const std::vector<HapticEvent> begins = events.of(EventKind::over_push_begin);
+  const std::vector<HapticEvent> ends = events.of(EventKind::over_push_end);
   REQUIRE(begins.size() == 1);
   REQUIRE(ends.size() == 1);
   CHECK(begins[0].value > 60.0);
   CHECK(ends[0].value < 50.0);
-  CHECK(saturations.size() >= 1);
-  CHECK(run.channels().events_lost == 0);
+  CHECK(events.count(EventKind::saturation_begin) >= 1);
 }
 
 TEST_CASE(
@@ -261,10 +254,12 @@ TEST_CASE(
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
   PushingHand hand([](double time, dvec2) { return dvec2{0.0, time < 0.02 ? 0.0 : 60.0}; });
   SimulatedRun run(resting_at(gate, start), hand);
+  EventLog events;
   double deepest = 0.0;
   bool ghost = false;
   while (run.time() < 1.0) {
     const HapticSnapshot& s = run.step();
+    events.see(run.loop());
     REQUIRE(in_free_space(gate, s.proxy, 1e-9));
     const double depth = glm::distance(s.lever, s.proxy);
     REQUIRE(((s.flags & kFlagGhost) != 0) == (depth > 0.020));
@@ -275,7 +270,7 @@ TEST_CASE(
   // As in the paper, the wall collapses: the motors give at most 31.7 N against the hand's 60 N, so the bare lever runs
   // to its stop at 35 degrees.
   CHECK(deepest == doctest::Approx(0.12 * std::sin(35.0 * 3.14159265 / 180.0) - gate.half_aisle).epsilon(0.01));
-  CHECK(events_of(run, EventKind::wall_contact).size() >= 1);
+  CHECK(events.count(EventKind::wall_contact) >= 1);
 }
 
 TEST_CASE(
@@ -306,16 +301,18 @@ TEST_CASE(
     lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
     Blind blind(lever);
     NoLoad load;
-    LoopChannels channels;
+    LoopInputs inputs;
     HapticConfig config;
     config.guard.ramp_time = 0.01;
-    HapticLoop loop(config, gate, blind, load, channels);
+    HapticLoop loop(config, gate, blind, load, inputs);
     loop.arm();
-    for (int i = 0; i < 1000; ++i) loop.cycle(i * std::int64_t{1'000'000}, 0);
+    EventLog events;
+    for (int i = 0; i < 1000; ++i) {
+      loop.cycle(i * std::int64_t{1'000'000}, 0);
+      events.see(loop);
+    }
     CHECK((loop.snapshot().flags & kFlagPushEstimated) != 0);
-    int warnings = 0;
-    for (HapticEvent event; channels.events.pop(event);) warnings += event.kind == EventKind::over_push_begin;
-    CHECK((warnings > 0) == (push > 60.0));
+    CHECK((events.count(EventKind::over_push_begin) > 0) == (push > 60.0));
   }
 }
 
@@ -327,8 +324,9 @@ TEST_CASE("saturation is reported when the motors overheat: commanded but not de
     config.lever.actuator.overload_time = 0.02;
     config.lever.delay = delay;
     SimulatedRun run(config, hand);
-    run_for(run, 8.0);
-    CHECK(events_of(run, EventKind::saturation_begin).size() >= 1);
+    EventLog events;
+    run_for(run, 8.0, &events);
+    CHECK(events.count(EventKind::saturation_begin) >= 1);
   }
 }
 
@@ -337,12 +335,14 @@ TEST_CASE("a wall contact event has the impact speed") {
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), -0.9 * gate.half_aisle};
   PushingHand hand([](double time, dvec2) { return dvec2{0.0, time < 0.1 ? 0.0 : 6.0}; });
   SimulatedRun run(resting_at(gate, start), hand);
+  EventLog events;
   double speed = 0.0, before = 0.0;
-  while (run.time() < 1.0 && (run.step().flags & kFlagContact) == 0) {
-    before = speed;
-    speed = run.lever().true_velocity().y;
+  while (run.time() < 1.0 && events.count(EventKind::wall_contact) == 0) {
+    run.step();
+    events.see(run.loop());
+    before = std::exchange(speed, run.lever().true_velocity().y);
   }
-  const std::vector<HapticEvent> contacts = events_of(run, EventKind::wall_contact);
+  const std::vector<HapticEvent> contacts = events.of(EventKind::wall_contact);
   REQUIRE(contacts.size() == 1);
   CHECK(contacts[0].value == doctest::Approx(before).epsilon(0.25));  // tolerance: the speed is smoothed over 4 ms
 }

@@ -61,8 +61,8 @@ TEST_CASE("the load's clock: first call 0, then one period, plus the skipped one
   IdleHand idle_hand;
   SimulatedLever lever({}, kLoadPeriodNs, idle_hand);
   ScriptedLoad load;
-  LoopChannels channels;
-  HapticLoop loop(HapticConfig{}, gate, lever, load, channels);
+  LoopInputs inputs;
+  HapticLoop loop(HapticConfig{}, gate, lever, load, inputs);
   loop.cycle(0, 0);
   loop.cycle(1 * kLoadPeriodNs, 0);
   loop.cycle(4 * kLoadPeriodNs, 2);
@@ -80,13 +80,13 @@ TEST_CASE("the load gets slot, depth and gear of the proxy, and the driver's con
   ScriptedLoad load;
   SimulatedRun run(starting_in(gate, 2), idle_hand, &load);
   DriverControls controls;
-  controls.clutch = 0.7;
-  run.channels().controls.write(controls);
+  controls.pedals.clutch = 0.7;
+  run.inputs().controls.write(controls);
   for (int i = 0; i < 200; ++i) run.step();
   CHECK(load.last.gear == 2);
   CHECK(load.last.slot == slot_of_gear(gate, 2));
   CHECK(load.last.depth == doctest::Approx(std::abs(rest_position(gate, 2).y)).epsilon(0.01));
-  CHECK(load.last.controls.clutch == 0.7);
+  CHECK(load.last.controls.pedals.clutch == 0.7);
 }
 
 TEST_CASE("the load's force reaches the lever: 2 N into the slot move it by 2 N / slope of the lock") {

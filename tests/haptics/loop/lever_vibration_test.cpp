@@ -9,6 +9,7 @@
 #include "haptics/device/pushing_hand.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/simulated_run.h"
+#include "tests/support/event_log.h"
 #include "tests/support/gates.h"
 #include "tests/support/whole_campaign.h"
 
@@ -66,16 +67,17 @@ VibrationResult run_vibrated(LeverLoad& load, const HandImpedance& grip, int gea
   PushingHand hand([push](double time, dvec2) { return std::min(1.0, 2.0 * time) * push; });
   SimulatedRun run(config, hand, &load);
   VibrationResult out;
+  EventLog events;
   double low = 1.0, high = -1.0;
   while (run.time() < seconds) {
     const double y = run.step().lever.y;
-    for (HapticEvent event; run.channels().events.pop(event);)
-      out.lowered += event.kind == EventKind::stiffness_lowered;
+    events.see(run.loop());
     if (run.time() < seconds - 0.5) continue;
     low = std::min(low, y);
     high = std::max(high, y);
   }
   out.moved = high - low;
+  out.lowered = events.count(EventKind::stiffness_lowered);
   return out;
 }
 
@@ -146,17 +148,17 @@ int lowered_of_a_late_lever(LeverLoad& load) {
     SimulatedLever& lever_;
     DeviceSpec spec_;
   } faulty(lever);
-  LoopChannels channels;
+  LoopInputs inputs;
   HapticConfig config;
-  HapticLoop loop(config, gate, faulty, load, channels);
+  HapticLoop loop(config, gate, faulty, load, inputs);
   lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
   loop.arm();
-  int lowered = 0;
+  EventLog events;
   for (int n = 1; n <= 4000; ++n) {
     loop.cycle(1'000'000 * static_cast<std::int64_t>(n), 0);
-    for (HapticEvent event; channels.events.pop(event);) lowered += event.kind == EventKind::stiffness_lowered;
+    events.see(loop);
   }
-  return lowered;
+  return events.count(EventKind::stiffness_lowered);
 }
 
 }  // namespace

@@ -1,8 +1,10 @@
-// Tests the loop on its real-time thread, while a window's frames, a recorder and a user's commands use its channels.
+// Tests the loop on its real-time thread, while a window's frames, a recorder and a user's commands use it.
 // Run it under the thread sanitizer.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -12,6 +14,7 @@
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
 #include "haptics/loop/trace_recorder.h"
+#include "haptics/rt/broadcast.h"
 #include "haptics/rt/realtime_thread.h"
 #include "tests/support/gates.h"
 #include "tests/support/temp_folder.h"
@@ -29,9 +32,9 @@ TEST_CASE("on its own thread: the loop is tuned and recorded while a user leads 
   lever_config.hand = kGripHand;
   SimulatedLever lever(lever_config, period, hand);
   NoLoad load;
-  LoopChannels channels;
+  LoopInputs inputs;
   HapticConfig config;
-  HapticLoop loop(config, gate, lever, load, channels);
+  HapticLoop loop(config, gate, lever, load, inputs);
   loop.arm();
 
   TraceHeader header;
@@ -43,7 +46,14 @@ TEST_CASE("on its own thread: the loop is tuned and recorded while a user leads 
   header.armed = true;
   const TempFolder folder;
   const std::filesystem::path file = folder / "threads.trace";
-  TraceRecorder recorder(file, header, channels, TracePump::by_recorder);
+  TraceRecorder recorder(file, header);
+  Broadcast<TraceSample> published(8192);
+  std::atomic<bool> is_over{false};
+  std::thread recording_thread([&, reader = Broadcast<TraceSample>::Reader(published)]() mutable {
+    for (TraceSample cycle; !is_over;)
+      while (reader.pop(cycle)) recorder.add(cycle);
+    for (TraceSample cycle; reader.pop(cycle);) recorder.add(cycle);
+  });
 
   std::atomic<std::uint64_t> cycles{0};
   RealtimeThread thread;
@@ -51,6 +61,7 @@ TEST_CASE("on its own thread: the loop is tuned and recorded while a user leads 
   realtime.period_ns = period;
   thread.start(realtime, [&](const CycleCall& call) {
     loop.cycle(call.deadline_ns, call.skipped);
+    published.push(loop.published());
     cycles.fetch_add(1, std::memory_order_relaxed);
   });
 
@@ -64,20 +75,20 @@ TEST_CASE("on its own thread: the loop is tuned and recorded while a user leads 
     if (cycles.load(std::memory_order_relaxed) > 50) {
       tuning.feel_scale = frames % 2 ? 0.5 : 1.0;
       CHECK(loop.change_tuning(tuning).limits.empty());
-      controls.throttle = static_cast<double>(frames % 100) / 100.0;
-      channels.controls.write(controls);
+      controls.pedals.throttle = static_cast<double>(frames % 100) / 100.0;
+      inputs.controls.write(controls);
     }
-    if (channels.snapshot.update()) {
-      CHECK(channels.snapshot.value().cycle >= newest);
-      newest = channels.snapshot.value().cycle;
+    if (const std::optional<TraceSample> cycle = published.newest()) {
+      CHECK(cycle->out.cycle >= newest);
+      newest = cycle->out.cycle;
     }
-    for (HapticEvent event; channels.events.pop(event);) continue;
   }
   thread.stop();
+  is_over = true;
+  recording_thread.join();
   const RecordingResult recording = recorder.finish();
   CHECK(recording.problem.empty());
   CHECK_FALSE(recording.torn);
   CHECK(recording.cycles >= 400);
-  CHECK(channels.events_lost == 0);
   CHECK(replay(read_trace(file)).bit_for_bit());
 }

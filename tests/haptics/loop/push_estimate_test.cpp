@@ -49,7 +49,7 @@ class SensorlessLever final : public HapticDevice {
 
 struct Sensorless {
   Sensorless(SimulatedLeverConfig config, HandDriver& hand)
-      : device(ideal(config), hand), loop(HapticConfig{}, plain_aisle(0.06, kWall), device, load, channels) {
+      : device(ideal(config), hand), loop(HapticConfig{}, plain_aisle(0.06, kWall), device, load, inputs) {
     loop.arm();
   }
   static SimulatedLeverConfig ideal(SimulatedLeverConfig config) {
@@ -67,7 +67,7 @@ struct Sensorless {
 
   SensorlessLever device;
   NoLoad load;
-  LoopChannels channels;
+  LoopInputs inputs;
   HapticLoop loop;
   std::int64_t now = 0;
   bool estimated = true;  // in every cycle

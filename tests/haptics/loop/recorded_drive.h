@@ -53,7 +53,7 @@ class RecordedDrive {
         hand_(haptics::touring_hand({0.0, 0.0}), strokes(gate_), 0.001),
         lever_(lever_config(), 1'000'000, hand_),
         sensor_(lever_),
-        loop_(config(), gate_, sensor_, load != nullptr ? *load : no_load_, channels_),
+        loop_(config(), gate_, sensor_, load != nullptr ? *load : no_load_, inputs_),
         load_parameters_(load != nullptr ? load->replay_parameters() : no_load_.replay_parameters()) {
     loop_.arm();
   }
@@ -66,20 +66,20 @@ class RecordedDrive {
     return header;
   }
 
-  haptics::LoopChannels& channels() { return channels_; }
+  haptics::LoopInputs& inputs() { return inputs_; }
   haptics::HapticLoop& loop() { return loop_; }
 
   // Runs one cycle with its scripted events.
   void step() noexcept {
-    const std::uint64_t cycle = loop_.snapshot().cycle;
-    if (cycle == 600) channels_.controls.write({0.3, 0.0, 1.0, 0.0, true, false});
-    if (cycle == 900) channels_.tuning.write(softer());
-    if (cycle == 1300) channels_.tuning.write(loop_.admitted().tuning);
-    if (cycle == 2600) (void)channels_.commands.push(haptics::LoopCommand::disarm);
-    if (cycle == 2650) (void)channels_.commands.push(haptics::LoopCommand::arm);
+    const std::uint64_t cycle = next_cycle_++;
+    if (cycle == 600) inputs_.controls.write({0.3, 0.0, 1.0, 0.0, true, false});
+    if (cycle == 900) inputs_.tuning.write(softer());
+    if (cycle == 1300) inputs_.tuning.write(loop_.admitted().tuning);
+    if (cycle == 2600) (void)inputs_.commands.push(haptics::LoopCommand::disarm);
+    if (cycle == 2650) (void)inputs_.commands.push(haptics::LoopCommand::arm);
     if (cycle == 3310 || cycle == 3350)
-      (void)channels_.commands.push(haptics::LoopCommand::arm);  // button held; released
-    if (cycle == 3800) (void)channels_.commands.push(haptics::LoopCommand::stop);
+      (void)inputs_.commands.push(haptics::LoopCommand::arm);  // button held; released
+    if (cycle == 3800) (void)inputs_.commands.push(haptics::LoopCommand::stop);
     // Each of these 12 cycles runs one period late and so skips a deadline: more overruns in a row than the guard
     // tolerates.
     const std::int64_t skipped = cycle >= 2000 && cycle < 2012 ? 1 : 0;
@@ -88,10 +88,10 @@ class RecordedDrive {
   }
 
   haptics::RecordingResult record(const std::filesystem::path& file) {
-    haptics::TraceRecorder recorder(file, header(), channels_, haptics::TracePump::by_caller);
+    haptics::TraceRecorder recorder(file, header());
     for (std::uint64_t i = 0; i < kCycles; ++i) {
       step();
-      if (i % 1000 == 0) recorder.pump();
+      recorder.add(loop_.published());
     }
     return recorder.finish();
   }
@@ -137,9 +137,10 @@ class RecordedDrive {
   haptics::SimulatedLever lever_;
   FailingSensor sensor_;
   haptics::NoLoad no_load_;
-  haptics::LoopChannels channels_;
+  haptics::LoopInputs inputs_;
   haptics::HapticLoop loop_;
   std::string load_parameters_;
+  std::uint64_t next_cycle_ = 0;
   std::int64_t now_ns_ = 5'000'000;  // [ns] the clock does not start at zero
 };
 

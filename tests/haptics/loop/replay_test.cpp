@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "haptics/files/file_error.h"
+#include "haptics/rt/broadcast.h"
 #include "haptics/rt/realtime_thread.h"
 #include "tests/haptics/loop/recorded_drive.h"
 
@@ -72,7 +73,7 @@ class CreepingSpring final : public haptics::LeverLoad {
   haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override {
     rest_ += period * (in.position - rest_);
     haptics::LeverOutput out;
-    out.force = 20.0 * (rest_ - in.position) * (1.0 + in.controls.throttle);
+    out.force = 20.0 * (rest_ - in.position) * (1.0 + in.controls.pedals.throttle);
     out.road_speed = 100.0 * rest_.x;
     return out;
   }
@@ -294,23 +295,27 @@ TEST_CASE(
   haptics::ScriptedHand hand(haptics::touring_hand({0.0, 0.0}), haptics::shift_strokes(gate, {0.0, 0.0}, gears), 0.001);
   haptics::SimulatedLever lever(lever_config, 1'000'000, hand);
   haptics::NoLoad load;
-  haptics::LoopChannels channels;
+  haptics::LoopInputs inputs;
   haptics::TraceHeader header = paper_header();
   header.config = haptics::HapticConfig{};
   header.device = lever.spec();
   header.armed = false;
-  haptics::HapticLoop loop(header.config, gate, lever, load, channels);
+  haptics::HapticLoop loop(header.config, gate, lever, load, inputs);
 
-  haptics::TraceRecorder recorder(folder / "live.trace", header, channels, haptics::TracePump::by_recorder);
+  haptics::TraceRecorder recorder(folder / "live.trace", header);
+  haptics::Broadcast<haptics::TraceSample> cycles(8192);
+  haptics::Broadcast<haptics::TraceSample>::Reader reader(cycles);
   haptics::RealtimeThread thread;
   std::promise<void> enough;
   thread.start({}, [&](const haptics::CycleCall& call) {
     loop.cycle(call.deadline_ns, call.skipped);
+    cycles.push(loop.published());
     if (loop.snapshot().cycle == kEnough) enough.set_value();
   });
-  REQUIRE(channels.commands.push(haptics::LoopCommand::arm));  // arms the loop while it runs, as a user does
+  REQUIRE(inputs.commands.push(haptics::LoopCommand::arm));  // arms the loop while it runs, as a user does
   enough.get_future().wait();
   thread.stop();
+  for (haptics::TraceSample cycle; reader.pop(cycle);) recorder.add(cycle);
   const haptics::RecordingResult recorded = recorder.finish();
   CHECK(recorded.problem.empty());
   CHECK(recorded.cycles >= kEnough);

@@ -16,6 +16,7 @@
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_recorder.h"
 #include "tests/haptics/loop/trace_bench.h"
+#include "tests/support/event_log.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift::haptics;
@@ -46,10 +47,11 @@ PushingHand push_of(double newton) {
 
 std::vector<HapticEvent> run_events(SimulatedRun& run, double seconds) {
   std::vector<HapticEvent> events;
+  EventDetector detector;
   const double end = run.time() + seconds;
   while (run.time() < end) {
     run.step();
-    for (HapticEvent event; run.channels().events.pop(event);) events.push_back(event);
+    detector.update(run.loop().published(), events);
   }
   return events;
 }
@@ -95,9 +97,9 @@ TEST_CASE("a wall that is unstable on its device is softened until it is at rest
   CHECK(count(events, EventKind::stiffness_lowered) >= 3);
   CHECK(run.loop().snapshot().wall_stiffness < 1500.0);
   CHECK(span_of(run, 0.5) < 0.0003);
-  run.channels().commands.push(LoopCommand::disarm);
+  run.inputs().commands.push(LoopCommand::disarm);
   run.step();
-  run.channels().commands.push(LoopCommand::arm);
+  run.inputs().commands.push(LoopCommand::arm);
   run.step();
   CHECK(run.loop().snapshot().wall_stiffness == 5000.0);  // arming resets the limiter to the full stiffness
 
@@ -144,7 +146,7 @@ struct FaultyRig {
         }),
         lever(lever_config(real_delay, grip), 1'000'000, hand),
         faulty(lever, claimed_delay),
-        loop(config(limiter), gate, faulty, load, channels) {
+        loop(config(limiter), gate, faulty, load, inputs) {
     lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
     loop.arm();
   }
@@ -167,8 +169,9 @@ struct FaultyRig {
       loop.cycle(now += 1'000'000, 0);
       low = std::min(low, lever.true_position().y - wall);
       high = std::max(high, lever.true_position().y - wall);
-      for (HapticEvent event; channels.events.pop(event);) lowered += event.kind == EventKind::stiffness_lowered;
+      events.see(loop);
     }
+    lowered = events.count(EventKind::stiffness_lowered);
     return {low, high};
   }
 
@@ -176,9 +179,10 @@ struct FaultyRig {
   SimulatedLever lever;
   FaultyLever faulty;
   NoLoad load;
-  LoopChannels channels;
+  LoopInputs inputs;
   HapticLoop loop;
   std::int64_t now = 0;
+  EventLog events;
   int lowered = 0;
 };
 
@@ -222,7 +226,7 @@ TEST_CASE("a lever that vibrates regardless of the wall is damped with a reason,
   rig.faulty.jitters = false;
   rig.run(3.0, gate.half_aisle);
   CHECK(rig.loop.snapshot().guard == GuardState::damped);
-  rig.channels.commands.push(LoopCommand::arm);
+  rig.inputs.commands.push(LoopCommand::arm);
   rig.run(3.0, gate.half_aisle);
   CHECK(rig.loop.snapshot().guard == GuardState::running);
   CHECK(rig.loop.snapshot().wall_stiffness == 5000.0);
@@ -284,10 +288,10 @@ TEST_CASE("every hold, energy control and the limiter replay bit for bit") {
     header.device = run.lever().spec();
     header.armed = true;
     const TempFolder folder;
-    TraceRecorder recorder(folder / "contact.trace", header, run.channels(), TracePump::by_caller);
+    TraceRecorder recorder(folder / "contact.trace", header);
     for (int n = 0; n < 3000; ++n) {
       run.step();
-      if (n % 500 == 0) recorder.pump();
+      recorder.add(run.loop().published());
     }
     CHECK(recorder.finish().problem.empty());
     const ReplayResult result = replay(read_trace(folder / "contact.trace"));
@@ -332,10 +336,10 @@ TEST_CASE("vibration in free space does not soften the walls") {
   FaultyLever faulty(lever, 0);
   faulty.jitters = true;  // the position jitters by 2 mm, in an aisle of 12 mm
   NoLoad load;
-  LoopChannels channels;
+  LoopInputs inputs;
   const Gate gate = walled_gate();
   lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
-  HapticLoop loop(HapticConfig{}, gate, faulty, load, channels);
+  HapticLoop loop(HapticConfig{}, gate, faulty, load, inputs);
   loop.arm();
   for (int n = 1; n < 5000; ++n) loop.cycle(n * std::int64_t{1'000'000}, 0);
   CHECK(loop.snapshot().wall_stiffness == 5000.0);

@@ -8,6 +8,7 @@
 
 #include "haptics/loop/shift_script.h"
 #include "haptics/loop/simulated_run.h"
+#include "tests/support/event_log.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift::haptics;
@@ -32,15 +33,15 @@ TourResult drive(const Gate& gate, const HandImpedance& hand, double rate) {
   ScriptedHand driver(touring_hand(start), shift_strokes(gate, start, tour_order(gate)), 1.0 / rate);
   SimulatedRun run(config, driver);
   TourResult result;
+  EventLog events;
   for (double end = driver.duration(); run.time() < end;) {
     const HapticSnapshot& now = run.step();
+    events.see(run.loop());
     result.inside = result.inside && in_free_space(gate, now.proxy, 1e-9);
     result.deepest = std::max(result.deepest, glm::distance(now.lever, now.proxy));
     result.fastest = std::max(result.fastest, glm::length(run.lever().true_velocity()));
   }
-  for (HapticEvent event; run.channels().events.pop(event);) {
-    if (event.kind == EventKind::gear_engaged) result.engaged.push_back(static_cast<int>(event.value));
-  }
+  result.engaged = events.engaged_gears();
   return result;
 }
 

@@ -52,8 +52,9 @@ inline haptics::TraceSample any_sample(std::mt19937_64& random, std::uint64_t cy
                any_vector(random), any_vector(random),
                any_vector(random), random() % 2 == 0,
                random() % 2 == 0,  random() % 2 == 0};
-  s.controls = {any_double(random), any_double(random), any_double(random),
-                any_double(random), random() % 2 == 0,  random() % 2 == 0};
+  s.controls = {{any_double(random), any_double(random), any_double(random), any_double(random)},
+                random() % 2 == 0,
+                random() % 2 == 0};
   s.tuning = {any_double(random), any_double(random), any_double(random),
               any_double(random), any_double(random), any_double(random)};
   s.command = static_cast<haptics::LoopCommand>(random() % 4);

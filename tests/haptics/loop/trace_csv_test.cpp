@@ -43,7 +43,7 @@ haptics::TraceSample known_sample() {
   sample.out.gear = haptics::kReverseGear;
   sample.out.guard = haptics::GuardState::running;
   sample.out.flags = haptics::kFlagContact | haptics::kFlagFresh;
-  sample.controls.clutch = 0.75;
+  sample.controls.pedals.clutch = 0.75;
   sample.controls.slope = -0.0625;
   sample.controls.guided_gear = 3;
   sample.controls.guidance = 0.5;

@@ -36,17 +36,17 @@ bool same_sample(const haptics::TraceSample& a, const haptics::TraceSample& b) {
          r.sequence == q.sequence && r.time_ns == q.time_ns && same_bits(r.position, q.position) &&
          same_bits(r.hand_force, q.hand_force) && same_bits(r.actuator_force, q.actuator_force) &&
          r.pressed_down == q.pressed_down && r.lifted == q.lifted && r.stop == q.stop &&
-         bits(c.throttle) == bits(d.throttle) && bits(c.brake) == bits(d.brake) && bits(c.clutch) == bits(d.clutch) &&
-         bits(c.hand_brake) == bits(d.hand_brake) && c.ignition == d.ignition && c.starter == d.starter &&
-         bits(t.wall_stiffness) == bits(u.wall_stiffness) && bits(t.wall_damping) == bits(u.wall_damping) &&
-         bits(t.feel_scale) == bits(u.feel_scale) && bits(t.aisle_damping) == bits(u.aisle_damping) &&
-         bits(t.speed_limit) == bits(u.speed_limit) && bits(t.limit_damping) == bits(u.limit_damping) &&
-         o.cycle == p.cycle && o.time_ns == p.time_ns && same_bits(o.lever, p.lever) &&
-         same_bits(o.velocity, p.velocity) && same_bits(o.proxy, p.proxy) && same_bits(o.wall_force, p.wall_force) &&
-         same_bits(o.feel_force, p.feel_force) && same_bits(o.load_force, p.load_force) &&
-         same_bits(o.commanded, p.commanded) && same_bits(o.f_h, p.f_h) && same_bits(o.f_a, p.f_a) &&
-         same_bits(o.f_j, p.f_j) && bits(o.road_speed) == bits(p.road_speed) && o.slot == p.slot && o.gear == p.gear &&
-         o.guard == p.guard && o.fault == p.fault && o.flags == p.flags;
+         bits(c.pedals.throttle) == bits(d.pedals.throttle) && bits(c.pedals.brake) == bits(d.pedals.brake) &&
+         bits(c.pedals.clutch) == bits(d.pedals.clutch) && bits(c.pedals.hand_brake) == bits(d.pedals.hand_brake) &&
+         c.ignition == d.ignition && c.starter == d.starter && bits(t.wall_stiffness) == bits(u.wall_stiffness) &&
+         bits(t.wall_damping) == bits(u.wall_damping) && bits(t.feel_scale) == bits(u.feel_scale) &&
+         bits(t.aisle_damping) == bits(u.aisle_damping) && bits(t.speed_limit) == bits(u.speed_limit) &&
+         bits(t.limit_damping) == bits(u.limit_damping) && o.cycle == p.cycle && o.time_ns == p.time_ns &&
+         same_bits(o.lever, p.lever) && same_bits(o.velocity, p.velocity) && same_bits(o.proxy, p.proxy) &&
+         same_bits(o.wall_force, p.wall_force) && same_bits(o.feel_force, p.feel_force) &&
+         same_bits(o.load_force, p.load_force) && same_bits(o.commanded, p.commanded) && same_bits(o.f_h, p.f_h) &&
+         same_bits(o.f_a, p.f_a) && same_bits(o.f_j, p.f_j) && bits(o.road_speed) == bits(p.road_speed) &&
+         o.slot == p.slot && o.gear == p.gear && o.guard == p.guard && o.fault == p.fault && o.flags == p.flags;
 }
 
 }  // namespace

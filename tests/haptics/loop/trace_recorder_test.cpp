@@ -3,9 +3,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 
-#include <memory>
 #include <string>
-#include <thread>
 
 #include <doctest/doctest.h>
 
@@ -34,20 +32,22 @@ class CountingLever final : public haptics::HapticDevice {
   std::uint64_t readings_ = 0;
 };
 
-// A real loop whose cycles are recorded, or lost when the queue is full.
+// A real loop whose cycles are recorded.
 class LoopRig {
  public:
-  haptics::LoopChannels channels;
-
-  void run(int cycles) {
-    for (int i = 0; i < cycles; ++i) loop_.cycle(now_ns_ += kPeriodNs, 0);
+  void run(int cycles, haptics::TraceRecorder& recorder) {
+    for (int i = 0; i < cycles; ++i) {
+      loop_.cycle(now_ns_ += kPeriodNs, 0);
+      recorder.add(loop_.published());
+    }
   }
 
  private:
   static constexpr std::int64_t kPeriodNs = 1'000'000;
   CountingLever lever_;
   haptics::NoLoad no_load_;
-  haptics::HapticLoop loop_{haptics::HapticConfig{}, paper_gate(), lever_, no_load_, channels};
+  haptics::LoopInputs inputs_;
+  haptics::HapticLoop loop_{haptics::HapticConfig{}, paper_gate(), lever_, no_load_, inputs_};
   std::int64_t now_ns_ = 0;
 };
 
@@ -87,17 +87,12 @@ class FullDisk {
 
 }  // namespace
 
-TEST_CASE("recorder: every cycle that the loop pushed is in the file, in order") {
+TEST_CASE("recorder: every cycle of the loop is in the file, in order") {
   const TempFolder folder;
   LoopRig rig;
-  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
-  CHECK(rig.channels.recording.load());
-  for (int thousand = 0; thousand < 20; ++thousand) {
-    rig.run(1000);
-    recorder.pump();
-  }
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header());
+  rig.run(20'000, recorder);
   const haptics::RecordingResult result = recorder.finish();
-  CHECK_FALSE(rig.channels.recording.load());
   CHECK(result.cycles == 20'000);
   CHECK_FALSE(result.torn);
   CHECK(result.problem.empty());
@@ -108,33 +103,12 @@ TEST_CASE("recorder: every cycle that the loop pushed is in the file, in order")
   CHECK(trace.hash == result.hash);
 }
 
-TEST_CASE("recorder: on its own thread beside the loop no cycle is lost") {
+TEST_CASE("recorder: a lost cycle tears the trace, which keeps every cycle before the loss") {
   const TempFolder folder;
-  auto channels = std::make_unique<haptics::LoopChannels>();
-  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, haptics::TracePump::by_recorder);
-  std::thread loop([&] {
-    for (std::uint64_t cycle = 0; cycle < 50'000; ++cycle)
-      while (!channels->trace.push(numbered(cycle))) std::this_thread::yield();
-  });
-  loop.join();
-  const haptics::RecordingResult result = recorder.finish();
-  CHECK(result.cycles == 50'000);
-  CHECK(result.problem.empty());
-  CHECK(haptics::read_trace(folder / "t.trace").samples.size() == 50'000);
-}
-
-TEST_CASE("recorder: a queue that overflows tears the trace, which keeps every cycle before the first loss") {
-  const TempFolder folder;
-  LoopRig rig;
-  const std::uint64_t room = rig.channels.trace.capacity();
-  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
-  rig.run(100);
-  recorder.pump();
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header());
+  for (std::uint64_t cycle = 0; cycle < 300; ++cycle) recorder.add(numbered(cycle));
   CHECK_FALSE(recorder.take_problem().has_value());
-  rig.run(static_cast<int>(room) + 7);
-  REQUIRE(rig.channels.trace_lost.load() == 7);
-  recorder.pump();
-  CHECK_FALSE(rig.channels.recording.load());  // recording stops, because a trace cannot be replayed beyond a gap
+  for (std::uint64_t cycle = 307; cycle < 400; ++cycle) recorder.add(numbered(cycle));
 
   const std::optional<std::string> problem = recorder.take_problem();
   REQUIRE(problem.has_value());
@@ -143,54 +117,40 @@ TEST_CASE("recorder: a queue that overflows tears the trace, which keeps every c
 
   const haptics::RecordingResult result = recorder.finish();
   CHECK(result.torn);
-  CHECK(result.cycles == 100 + room);
+  CHECK(result.cycles == 300);
   CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
                        doctest::Contains("is incomplete, because the recorder could not keep up"), haptics::FileError);
-  CHECK(salvage(folder / "t.trace") == 100 + room);
+  CHECK(salvage(folder / "t.trace") == 300);
 }
 
-TEST_CASE("recorder: a loss between two cycles that arrived is a gap, and the trace ends before it") {
+TEST_CASE("recorder: a recording that misses the first cycle is torn, because a replay needs every input") {
   const TempFolder folder;
-  LoopRig rig;
-  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
-  rig.run(50);
-  rig.channels.recording.store(false);
-  rig.run(1);
-  rig.channels.recording.store(true);
-  rig.run(39);
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header());
+  recorder.add(numbered(1));
   const haptics::RecordingResult result = recorder.finish();
   CHECK(result.torn);
-  CHECK(result.cycles == 50);
-  CHECK(salvage(folder / "t.trace") == 50);
+  CHECK(result.cycles == 0);
 }
 
 TEST_CASE("recorder: a file that cannot be created is refused before anything is recorded") {
   const TempFolder folder;
-  auto channels = std::make_unique<haptics::LoopChannels>();
-  const auto start = [&](const std::filesystem::path& file) {
-    haptics::TraceRecorder recorder(file, paper_header(), *channels, haptics::TracePump::by_caller);
-  };
+  const auto start = [&](const std::filesystem::path& file) { haptics::TraceRecorder recorder(file, paper_header()); };
   CHECK_THROWS_WITH_AS(start(folder / "no/such/folder.trace"), doctest::Contains("No such file or directory"),
                        haptics::FileError);
   CHECK_THROWS_WITH_AS(start(folder.path()), doctest::Contains("Is a directory"), haptics::FileError);
   CHECK_THROWS_WITH_AS(start("/dev/full"), doctest::Contains("No space left on device"), haptics::FileError);
-  CHECK_FALSE(channels->recording.load());
 }
 
 TEST_CASE("recorder: a full disk is reported once, in one sentence, and the loop continues") {
   const TempFolder folder;
-  LoopRig rig;
   haptics::RecordingResult result;
   {
-    haptics::TraceRecorder before(folder / "room.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
-    rig.run(600);
+    haptics::TraceRecorder before(folder / "room.trace", paper_header());
+    LoopRig().run(512, before);
     REQUIRE(before.finish().problem.empty());
     const FullDisk disk(std::filesystem::file_size(folder / "room.trace"));
-    haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
-    for (int hundred = 0; hundred < 50; ++hundred) {
-      rig.run(100);
-      recorder.pump();
-    }
+    haptics::TraceRecorder recorder(folder / "t.trace", paper_header());
+    LoopRig().run(5000, recorder);
     const std::optional<std::string> problem = recorder.take_problem();
     REQUIRE(problem.has_value());
     CHECK(problem->find("the recording failed after ") == 0);
@@ -205,21 +165,6 @@ TEST_CASE("recorder: a full disk is reported once, in one sentence, and the loop
   haptics::TraceReader reader(folder / "t.trace", haptics::TornTrace::salvage);
   for (haptics::TraceSample sample; reader.next(sample);) ++cycles;
   CHECK(cycles == 512);  // complete blocks
-}
-
-TEST_CASE("recorder: samples that an earlier recording left in the queue are not recorded") {
-  const TempFolder folder;
-  LoopRig rig;
-  rig.channels.recording.store(true);
-  rig.run(10);
-  rig.channels.trace_lost.store(3);  // a count left by an earlier, interrupted recording
-  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
-  rig.run(2);
-  const haptics::RecordingResult result = recorder.finish();
-  CHECK_FALSE(result.torn);
-  const haptics::Trace trace = haptics::read_trace(folder / "t.trace");
-  REQUIRE(trace.samples.size() == 2);
-  CHECK(trace.samples[0].out.cycle == 10);
 }
 
 TEST_CASE("recorder: a killed program leaves its cycles in a file that is recognised as torn") {

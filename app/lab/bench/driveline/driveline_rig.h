@@ -34,8 +34,8 @@ inline vehicle::CarSpec bare_car(double one, double other, double capacity, doub
 inline vehicle::DrivelineInput pedals(int gear, double throttle, double clutch) {
   vehicle::DrivelineInput in;
   in.meshed = gear;
-  in.throttle = throttle;
-  in.clutch = clutch;
+  in.pedals.throttle = throttle;
+  in.pedals.clutch = clutch;
   return in;
 }
 

@@ -77,7 +77,7 @@ Drive rollback() {
   drive.input = [](double t) {
     vehicle::DrivelineInput in = pedals(1, ramp(t, 0.3, 0.8, 0.0, 0.5), ramp(t, 0.6, 2.0, 1.0, 0.0));
     in.slope = 0.12;
-    in.brake = ramp(t, 0.1, 0.2, 0.5, 0.0);
+    in.pedals.brake = ramp(t, 0.1, 0.2, 0.5, 0.0);
     return in;
   };
   return drive;

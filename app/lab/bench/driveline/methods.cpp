@@ -65,12 +65,13 @@ class PlainStepper {
     const vehicle::DrivelineInput in = drive_.input(time);
     const vehicle::BodySpec& body = car_.body;
     vehicle::ChainLoads loads;
-    loads.push = {engine_.torque(speed_[0], in.throttle), -car_.gearbox.drag_slope * speed_[1],
+    loads.push = {engine_.torque(speed_[0], in.pedals.throttle), -car_.gearbox.drag_slope * speed_[1],
                   -(body.resistance_slope + body.resistance_square * std::abs(speed_[2])) * speed_[2] -
                       body.mass * kDriveGravity * std::sin(in.slope)};
-    loads.ground = {vehicle::friction_torque(car_.engine, speed_[0]), car_.gearbox.drag,
-                    body.resistance + body.brake_force * in.brake + body.hand_brake_force * in.hand_brake};
-    loads.clutch = vehicle::clutch_capacity(car_.clutch, in.clutch);
+    loads.ground = {
+        vehicle::friction_torque(car_.engine, speed_[0]), car_.gearbox.drag,
+        body.resistance + body.brake_force * in.pedals.brake + body.hand_brake_force * in.pedals.hand_brake};
+    loads.clutch = vehicle::clutch_capacity(car_.clutch, in.pedals.clutch);
     loads.cone = chain_.link == vehicle::GearLink::cone ? in.cone_torque / ratio_ : 0.0;
     return loads;
   }

@@ -64,14 +64,15 @@ class Reference {
     const double full_load = vehicle::full_torque(e, std::max(y.engine, e.full_load[0].speed)) + f.friction;
     const double th0 =
         vehicle::friction_torque(e, e.idle) / (vehicle::full_torque(e, e.idle) + vehicle::friction_torque(e, e.idle));
-    const double opening = std::max(in.throttle, std::clamp(th0 + e.idle_gain * (e.idle - y.engine), 0.0, 1.0));
+    const double opening = std::max(in.pedals.throttle, std::clamp(th0 + e.idle_gain * (e.idle - y.engine), 0.0, 1.0));
     f.spark = running_ && !cut_ ? opening * full_load : 0.0;
-    f.capacity = vehicle::clutch_capacity(car_.clutch, in.clutch);
+    f.capacity = vehicle::clutch_capacity(car_.clutch, in.pedals.clutch);
     f.cone = dogs_ || G_ == 0.0 ? 0.0 : in.cone_torque / cone_ratio_;
     f.shaft = -car_.gearbox.drag_slope * y.shaft;
     f.air = -car_.body.resistance_slope * y.road - car_.body.resistance_square * y.road * std::abs(y.road) -
             car_.body.mass * kDriveGravity * std::sin(in.slope);
-    f.hold = car_.body.resistance + car_.body.brake_force * in.brake + car_.body.hand_brake_force * in.hand_brake;
+    f.hold = car_.body.resistance + car_.body.brake_force * in.pedals.brake +
+             car_.body.hand_brake_force * in.pedals.hand_brake;
     return f;
   }
 

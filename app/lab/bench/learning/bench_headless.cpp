@@ -38,9 +38,9 @@ double tour(const haptics::Gate& gate, haptics::LeverLoad* load) {
   haptics::ScriptedHand hand = touring_driver(gate, 1.0 / kRate);
   haptics::SimulatedRun run(touring_config(gate), hand, load);
   haptics::DriverControls feet;
-  feet.clutch = 1.0;
+  feet.pedals.clutch = 1.0;
   feet.ignition = true;
-  run.channels().controls.write(feet);
+  run.inputs().controls.write(feet);
   while (run.time() < hand.duration()) run.step();
   return run.time();
 }

@@ -24,12 +24,10 @@ Tape record_tour(const haptics::Gate& gate) {
   haptics::SimulatedRun run(touring_config(gate), driver);
   Tape tape;
   tape.spec = run.lever().spec();
-  run.channels().recording = true;
-  haptics::TraceSample sample;
   double contacts = 0.0;
   while (run.time() < driver.duration()) {
     contacts += (run.step().flags & haptics::kFlagContact) != 0 ? 1.0 : 0.0;
-    while (run.channels().trace.pop(sample)) tape.readings.push_back(sample.reading);
+    tape.readings.push_back(run.loop().published().reading);
   }
   tape.contact_fraction = contacts / static_cast<double>(tape.readings.size());
   return tape;
@@ -46,18 +44,16 @@ struct CycleTimes {
 
 void run_tape(const haptics::Gate& gate, TapeDevice& device, std::size_t cycles, CycleTimes& times) {
   device.rewind();
-  haptics::LoopChannels channels;
+  haptics::LoopInputs inputs;
   haptics::NoLoad load;
   haptics::HapticConfig config;
-  haptics::HapticLoop loop(config, gate, device, load, channels);
+  haptics::HapticLoop loop(config, gate, device, load, inputs);
   loop.arm();
-  haptics::HapticEvent event;
   for (std::size_t i = 0; i < cycles; ++i) {
     const auto deadline = static_cast<std::int64_t>(i) * haptics::period_ns(config);
     const std::uint64_t before = ticks();
     loop.cycle(deadline, 0);
     times.cycle.push_back(static_cast<double>(ticks() - before));
-    while (channels.events.pop(event)) continue;
     if (i % haptics::StageStamps::kEvery != 0) continue;
     for (std::size_t s = 0; s < kStages; ++s) {
       times.stages[s].push_back(static_cast<double>(loop.stamps().ns[s + 1] - loop.stamps().ns[s]));

@@ -44,7 +44,7 @@ class NanLoad final : public haptics::LeverLoad {
 BenchRow bad_force(const haptics::Gate& gate) {
   PressedRig rig(gate);
   NanLoad load;
-  haptics::HapticLoop loop(haptics::HapticConfig{}, gate, rig.lever, load, rig.channels);
+  haptics::HapticLoop loop(haptics::HapticConfig{}, gate, rig.lever, load, rig.inputs);
   loop.arm();
   for (int i = 0; i < 1500; ++i) loop.cycle(rig.now += kPeriodNs, 0);
   const double before = force_of(rig);
@@ -74,7 +74,7 @@ std::vector<BenchRow> bench_faults(const BenchOptions& options) {
        {std::pair{haptics::LoopCommand::stop, "stop"}, {haptics::LoopCommand::disarm, "disarm"}}) {
     PressedRig rig(gate);
     const double before = force_of(rig);
-    rig.channels.commands.push(command);
+    rig.inputs.commands.push(command);
     const int cycles = rig.cycles_to_zero();
     rows.push_back(row(name, before, cycles, 1.0, state_of(rig)));
   }

@@ -36,8 +36,8 @@ double worst_error(const haptics::Gate& gate, const haptics::Slot& slot) {
   spec.workspace = haptics::workspace_half_extent(haptics::YokeGeometry{});
   TapeDevice device(spec, glide(gate, slot.gear));
   haptics::NoLoad load;
-  haptics::LoopChannels channels;
-  haptics::HapticLoop loop(config, gate, device, load, channels);
+  haptics::LoopInputs inputs;
+  haptics::HapticLoop loop(config, gate, device, load, inputs);
   loop.arm();
   double worst = 0.0, strongest = 0.0;
   const int side = static_cast<int>(slot.side);

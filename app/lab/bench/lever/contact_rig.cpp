@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "haptics/gate/plain_aisle.h"
+#include "haptics/loop/haptic_event.h"
 #include "haptics/loop/simulated_run.h"
 
 namespace gearshift::lab {
@@ -85,12 +86,6 @@ class FirstContact {
   double x_ = 0.0, v_ = 0.0, speed_ = 1.0;
 };
 
-void count_events(haptics::SimulatedRun& run, ContactResult& result) {
-  for (haptics::HapticEvent event; run.channels().events.pop(event);) {
-    result.lowered += event.kind == haptics::EventKind::stiffness_lowered;
-  }
-}
-
 double span(const std::vector<double>& sample, std::size_t last) {
   const auto from = sample.end() - static_cast<std::ptrdiff_t>(std::min(last, sample.size()));
   const auto [low, high] = std::minmax_element(from, sample.end());
@@ -116,6 +111,8 @@ ContactResult run_contact(const ContactCase& contact) {
 
   ContactResult result;
   FirstContact first(contact);
+  haptics::EventDetector detector;
+  std::vector<haptics::HapticEvent> events;
   std::vector<double> position, motor, command;
   const double end = run.time() + kApproach + contact.duration;
   while (run.time() < end) {
@@ -125,9 +122,12 @@ ContactResult run_contact(const ContactCase& contact) {
     position.push_back(run.lever().true_position().x);
     motor.push_back(now.f_a.x);
     command.push_back(now.commanded.x);
-    count_events(run, result);
+    detector.update(run.loop().published(), events);
     result.stiffness = now.wall_stiffness;
   }
+  result.lowered = static_cast<int>(std::count_if(events.begin(), events.end(), [](const haptics::HapticEvent& event) {
+    return event.kind == haptics::EventKind::stiffness_lowered;
+  }));
   const auto samples = [&](double seconds) { return static_cast<std::size_t>(std::lround(seconds / period)); };
   result.stopped = run.loop().snapshot().fault == haptics::GuardFault::chatter;
   result.peak = *std::max_element(position.begin(), position.end()) - kWall;

@@ -60,7 +60,7 @@ struct PressedRig {
           return glm::dvec2{0.0, 15.0};
         }),
         lever(hand, {0.5 * (gate.column[0].center + gate.column[1].center), 0.0}),
-        loop(haptics::HapticConfig{}, gate, lever, load, channels) {
+        loop(haptics::HapticConfig{}, gate, lever, load, inputs) {
     loop.arm();
     run(1500);
   }
@@ -85,7 +85,7 @@ struct PressedRig {
   haptics::PushingHand hand;
   SabotagedLever lever;
   haptics::NoLoad load;
-  haptics::LoopChannels channels;
+  haptics::LoopInputs inputs;
   haptics::HapticLoop loop;
   std::int64_t now = 0;
   bool finite = true;

@@ -93,7 +93,7 @@ double simulated_growth(const haptics::AxisModel& handle, const haptics::HandImp
     press(n - 1);
     const double fraction = std::clamp(static_cast<double>(n) / kRamp, 0.0, 1.0);
     config.haptics.tuning.wall_stiffness = settle + fraction * (law.stiffness - settle);
-    run.channels().tuning.write(config.haptics.tuning);
+    run.inputs().tuning.write(config.haptics.tuning);
     run.step();
   }
   press(kRamp + law.delay);

@@ -56,7 +56,7 @@ TEST_CASE("the engine's lamps are on while it is stopped with the ignition on, a
   car.stalled = true;
   CHECK(light(cabin::Lamp::stall, car) == 1.0f);
   CHECK(light(cabin::Lamp::hand_brake, car) == 0.0f);
-  car.hand_brake = 1.0;
+  car.pedals.hand_brake = 1.0;
   CHECK(light(cabin::Lamp::hand_brake, car) == 1.0f);
 }
 

@@ -133,7 +133,7 @@ TEST_CASE("wheel, pedals and handbrake turn in the right direction") {
   const glm::vec4 wheel = world_of(stage, "SteeringWheel") * top, clutch = world_of(stage, "PedalClutch") * pad;
   const glm::vec4 brake = world_of(stage, "Handbrake") * grip;
   input.car.steering = 0.5;
-  input.car.clutch = input.car.hand_brake = 1.0;
+  input.car.pedals.clutch = input.car.pedals.hand_brake = 1.0;
   stage.place(input);
   CHECK((world_of(stage, "SteeringWheel") * top).x < wheel.x - 0.04f);  // the wheel's top moves left
   CHECK((world_of(stage, "PedalClutch") * pad).z < clutch.z - 0.03f);   // the pedal's pad moves forward

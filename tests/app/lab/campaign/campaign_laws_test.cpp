@@ -61,14 +61,6 @@ TEST_CASE("planted: checks that reject an allowed configuration") {
   CHECK(run_case(drawn, layouts()).refused.find("slew") != std::string::npos);
 }
 
-TEST_CASE("planted: events are not polled, and some are lost") {
-  CampaignCase drawn = plain_case(5);
-  CHECK_FALSE(broken(run_case(drawn, layouts()), CampaignLaw::no_lost_events));
-  drawn.shifts = 1500;
-  const auto poll_rarely = [](LawLimits& limits) { limits.frame = 1e6; };
-  CHECK(broken(run_case(drawn, layouts(), {}, poll_rarely), CampaignLaw::no_lost_events));
-}
-
 TEST_CASE("planted: with energy bounding a force may drop to zero at once, but not beyond") {
   LawLimits limits;
   limits.max_force = dvec2(31.7);

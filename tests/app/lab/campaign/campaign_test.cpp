@@ -181,7 +181,7 @@ TEST_CASE("an edited file of cases is rejected with line, column, value and rang
     const std::size_t name = sentence.find("cases.csv:");
     return name == std::string::npos ? sentence : sentence.substr(name + 10);
   };
-  CHECK(refused("0,,-5") == "3: the line has 3 fields instead of 66");
+  CHECK(refused("0,,-5") == "3: the line has 3 fields instead of 62");
   const std::string rest = ",0,0,1,1.0,2000,0,1,0,0,0,1.0";
   std::string laws;
   for (std::size_t i = 0; i < kCampaignLaws; ++i) laws += ",1,0,0,0";
@@ -322,7 +322,7 @@ TEST_CASE("a case with a car: its pedals move, its lockouts depend on its speed,
   for (TraceSample sample; reader.next(sample);) {
     REQUIRE(replayer.step(sample));
     fastest = std::max(fastest, std::abs(sample.out.road_speed));
-    max_clutch = std::max(max_clutch, sample.controls.clutch);
+    max_clutch = std::max(max_clutch, sample.controls.pedals.clutch);
   }
   CHECK(replayer.finish(reader.hash()).bit_for_bit());
   CHECK(fastest > 0.1);

@@ -19,12 +19,12 @@ namespace {
 void into_first(ScriptedDrive& d) {
   d.clutch_down();
   d.lever(1);
-  d.press(d.feet.hand_brake, 0.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
 }
 
 // Raises the clutch pedal so little that the clutch does not transmit torque yet, and presses the pedal again.
 void twitch_of_the_clutch(ScriptedDrive& d) {
-  d.press(d.feet.clutch, 0.78, 0.1);
+  d.press(d.feet.pedals.clutch, 0.78, 0.1);
   d.wait(0.3);
   d.clutch_down();
   d.wait(0.5);
@@ -36,7 +36,7 @@ void started_and_never_moved(ScriptedDrive& d) {
   into_first(d);
   twitch_of_the_clutch(d);
   d.lever(kNeutralGear);
-  d.press(d.feet.hand_brake, 1.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
   d.feet.ignition = false;
 }
 
@@ -65,11 +65,11 @@ void first_creep_left_out(ScriptedDrive& d) {
   into_first(d);
   twitch_of_the_clutch(d);
   for (int i = 0; i < 2; ++i) {
-    d.feet.brake = 0.0;
+    d.feet.pedals.brake = 0.0;
     const double bite = d.car.clutch.bite;
-    d.press(d.feet.clutch, bite - 0.10, 1.5);
+    d.press(d.feet.pedals.clutch, bite - 0.10, 1.5);
     d.until([&] { return d.km_per_h() > 3.2; }, 8.0);
-    d.press(d.feet.clutch, bite - 0.07, 0.3);
+    d.press(d.feet.pedals.clutch, bite - 0.07, 0.3);
     d.wait(2.5);
     Able{d}.stop();
   }
@@ -79,7 +79,7 @@ void never_drove_backwards(ScriptedDrive& d) {
   d.clutch_down();
   d.wait(2.0);
   d.lever(kReverseGear);
-  d.press(d.feet.hand_brake, 0.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
   twitch_of_the_clutch(d);
   d.lever(1);
   Able{d}.launch();
@@ -90,10 +90,10 @@ void back_up(ScriptedDrive& d, double throttle) {
   d.clutch_down();
   d.wait(2.0);
   d.lever(kReverseGear);
-  d.press(d.feet.hand_brake, 0.0, 0.3);
-  d.press(d.feet.throttle, throttle, 0.3);
-  d.press(d.feet.clutch, d.car.clutch.bite, 0.3);
-  d.press(d.feet.clutch, 0.0, 2.5);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
+  d.press(d.feet.pedals.throttle, throttle, 0.3);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.3);
+  d.press(d.feet.pedals.clutch, 0.0, 2.5);
 }
 
 void backed_up_at_full_speed(ScriptedDrive& d) {
@@ -109,10 +109,10 @@ void first_while_rolling_back(ScriptedDrive& d) {
   back_up(d, 0.25);
   d.until([&] { return d.now().distance < -5.2; });
   d.clutch_down();
-  d.press(d.feet.throttle, 0.0, 0.1);
-  d.press(d.feet.brake, 0.2, 0.1);
+  d.press(d.feet.pedals.throttle, 0.0, 0.1);
+  d.press(d.feet.pedals.brake, 0.2, 0.1);
   d.until([&] { return d.km_per_h() > -3.4; });
-  d.press(d.feet.brake, 0.0, 0.05);
+  d.press(d.feet.pedals.brake, 0.0, 0.05);
   d.lever(1);
   Able{d}.stop();
   Able{d}.launch();
@@ -121,7 +121,7 @@ void first_while_rolling_back(ScriptedDrive& d) {
 
 // Shifts down as the car slows, without releasing the clutch between the gears.
 void down_with_one_press(ScriptedDrive& d) {
-  d.press(d.feet.brake, 0.2, 0.2);
+  d.press(d.feet.pedals.brake, 0.2, 0.2);
   d.until([&] { return d.km_per_h() < 54.0; });
   d.clutch_down();
   d.lever(4);
@@ -133,7 +133,7 @@ void down_with_one_press(ScriptedDrive& d) {
 }
 
 void down_through_neutral(ScriptedDrive& d) {
-  d.press(d.feet.brake, 0.3, 0.2);
+  d.press(d.feet.pedals.brake, 0.3, 0.2);
   d.clutch_down();
   d.start_towards(kNeutralGear);
   d.until([&] { return d.km_per_h() < 20.0; });
@@ -157,11 +157,11 @@ void up_with_one_press(ScriptedDrive& d) {
     d.until([&] { return d.rpm() < 2150.0; });
     d.lever(gear);
     if (gear == 5) break;
-    d.feet.throttle = 0.5;
+    d.feet.pedals.throttle = 0.5;
     d.until([&] { return d.rpm() > 2210.0; }, 3.0);
-    d.feet.throttle = 0.0;
+    d.feet.pedals.throttle = 0.0;
   }
-  d.press(d.feet.clutch, 0.0, 0.6);
+  d.press(d.feet.pedals.clutch, 0.0, 0.6);
 }
 
 void skipped_with_one_press(ScriptedDrive& d) {
@@ -169,19 +169,19 @@ void skipped_with_one_press(ScriptedDrive& d) {
   Able{d}.lift();
   d.clutch_down();
   d.lever(4);
-  d.press(d.feet.brake, 0.2, 0.2);
+  d.press(d.feet.pedals.brake, 0.2, 0.2);
   d.until([&] { return d.km_per_h() < 27.5; });
-  d.press(d.feet.brake, 0.0, 0.1);
+  d.press(d.feet.pedals.brake, 0.0, 0.1);
   d.lever(2);
-  d.press(d.feet.clutch, 0.0, 0.8);
+  d.press(d.feet.pedals.clutch, 0.0, 0.8);
 }
 
 void one_blip_for_two(ScriptedDrive& d) {
   d.clutch_down();
   d.lever(3);
-  d.press(d.feet.brake, 0.2, 0.2);
+  d.press(d.feet.pedals.brake, 0.2, 0.2);
   d.until([&] { return d.km_per_h() < 34.5; });
-  d.press(d.feet.brake, 0.0, 0.1);
+  d.press(d.feet.pedals.brake, 0.0, 0.1);
   Able{d}.shift_with_blip(2);
 }
 
@@ -190,10 +190,10 @@ void blips(ScriptedDrive& d, double rpm) {
     Able{d}.lift();
     d.clutch_down();
     d.lever(gear);
-    d.feet.throttle = 0.7;
+    d.feet.pedals.throttle = 0.7;
     d.until([&] { return d.rpm() > rpm; }, 3.0);
-    d.feet.throttle = 0.0;
-    d.press(d.feet.clutch, 0.0, 0.6);
+    d.feet.pedals.throttle = 0.0;
+    d.press(d.feet.pedals.clutch, 0.0, 0.6);
     d.wait(0.3);
     if (gear == 3) Able{d}.slow_to(34.0);
   }
@@ -210,28 +210,28 @@ void another_gate_down_with_one_press(ScriptedDrive& d) {
   }
   Able{d}.lift();
   d.clutch_down();
-  d.press(d.feet.brake, 0.2, 0.2);
+  d.press(d.feet.pedals.brake, 0.2, 0.2);
   d.until([&] { return d.km_per_h() < 39.0; });
   d.lever(3);
   d.until([&] { return d.km_per_h() < 24.0; });
-  d.press(d.feet.brake, 0.0, 0.1);
+  d.press(d.feet.pedals.brake, 0.0, 0.1);
   d.lever(2);
-  d.press(d.feet.clutch, 0.0, 0.8);
+  d.press(d.feet.pedals.clutch, 0.0, 0.8);
 }
 
 void stop_with(ScriptedDrive& d, double first, double then) {
   Able{d}.accelerate_to(50.1);
-  d.feet.throttle = 0.0;
+  d.feet.pedals.throttle = 0.0;
   d.wait(0.4);
-  d.feet.brake = first;
+  d.feet.pedals.brake = first;
   d.wait(0.02);
-  d.feet.brake = then;
+  d.feet.pedals.brake = then;
   d.until([&] { return d.km_per_h() < 12.0; });
   d.clutch_down();
   d.until([&] { return d.is_standing(); });
   d.wait(0.3);
   d.lever(kNeutralGear);
-  d.press(d.feet.hand_brake, 1.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
 }
 
 void tapped_the_brake(ScriptedDrive& d) {
@@ -250,9 +250,9 @@ void braked_by_half(ScriptedDrive& d) {
 void let_the_hill_have_it(ScriptedDrive& d) {
   d.clutch_down();
   d.lever(1);
-  d.press(d.feet.throttle, 0.1, 0.3);
-  d.press(d.feet.clutch, 0.8, 0.3);
-  d.press(d.feet.hand_brake, 0.0, 0.3);
+  d.press(d.feet.pedals.throttle, 0.1, 0.3);
+  d.press(d.feet.pedals.clutch, 0.8, 0.3);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
   Able{d}.launch();
   Able{d}.accelerate_to(11.0, 0.6);
 }
@@ -267,11 +267,11 @@ void coasted_in_neutral(ScriptedDrive& d) {
         d.clutch_down();
         d.start_towards(kNeutralGear);
         d.until([&] { return d.in_aisle(); }, 2.0);
-        d.press(d.feet.clutch, 0.0, 0.4);
+        d.press(d.feet.pedals.clutch, 0.0, 0.4);
         d.wait(6.5);
         d.clutch_down();
         d.lever(3);
-        d.press(d.feet.clutch, 0.0, 0.8);
+        d.press(d.feet.pedals.clutch, 0.0, 0.8);
         a.accelerate([&] { return d.now().shift_advice > 0; }, 0.6);
       }
     }
@@ -284,11 +284,11 @@ void coasted_in_neutral(ScriptedDrive& d) {
 void no_blip_at_idle(ScriptedDrive& d) {
   for (const int gear : {3, 2}) {
     d.clutch_down();
-    d.feet.brake = 0.3;
+    d.feet.pedals.brake = 0.3;
     d.until([&, low = gear] { return d.rpm_in(low) < 770.0; });
-    d.feet.brake = 0.0;
+    d.feet.pedals.brake = 0.0;
     d.lever(gear);
-    d.press(d.feet.clutch, 0.0, 0.8);
+    d.press(d.feet.pedals.clutch, 0.0, 0.8);
     Able{d}.accelerate_to_rpm(1400.0);
     Able{d}.lift();
     d.wait(0.5);
@@ -342,17 +342,17 @@ void up_at_3400_rpm(ScriptedDrive& d) {
 void crept_with_throttle(ScriptedDrive& d) {
   into_first(d);
   for (int i = 0; i < 3; ++i) {
-    d.feet.brake = 0.0;
-    d.press(d.feet.clutch, d.car.clutch.bite, 0.3);
+    d.feet.pedals.brake = 0.0;
+    d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.3);
     d.until(
         [&] {
           Able{d}.hold_revs(1650.0);
-          d.feet.clutch -= 0.2e-3;
+          d.feet.pedals.clutch -= 0.2e-3;
           return d.km_per_h() > 4.5;
         },
         8.0);
-    d.feet.throttle = 0.0;
-    d.feet.clutch = d.car.clutch.bite - 0.05;
+    d.feet.pedals.throttle = 0.0;
+    d.feet.pedals.clutch = d.car.clutch.bite - 0.05;
     d.wait(2.6);
     Able{d}.stop();
   }
@@ -363,17 +363,17 @@ void howled_up_the_hill(ScriptedDrive& d) {
   d.clutch_down();
   d.lever(1);
   d.until([&] { return hold(), d.rpm() > 4000.0; }, 5.0);
-  d.press(d.feet.clutch, d.car.clutch.bite, 0.3);
-  d.until([&] { return hold(), d.feet.clutch -= 0.15e-3, d.now().clutch_torque > 60.0; }, 5.0);
-  d.feet.hand_brake = 0.0;
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.3);
+  d.until([&] { return hold(), d.feet.pedals.clutch -= 0.15e-3, d.now().clutch_torque > 60.0; }, 5.0);
+  d.feet.pedals.hand_brake = 0.0;
   d.until(
       [&] {
         hold();
-        d.feet.clutch = std::max(0.0, d.feet.clutch - 0.05e-3);
-        return d.now().clutch_locked && d.feet.clutch < 0.2;
+        d.feet.pedals.clutch = std::max(0.0, d.feet.pedals.clutch - 0.05e-3);
+        return d.now().clutch_locked && d.feet.pedals.clutch < 0.2;
       },
       10.0);
-  d.press(d.feet.clutch, 0.0, 0.3);
+  d.press(d.feet.pedals.clutch, 0.0, 0.3);
   Able{d}.accelerate_to(12.0);
 }
 

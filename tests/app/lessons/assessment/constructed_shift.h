@@ -80,8 +80,9 @@ struct ConstructedShift {
     place(s, {line(t, 0.3, two.x, 0.4, three.x), y});
     mesh(s, gear_before);
     s.car.ignition = s.controls.ignition = true;
-    s.car.throttle = s.controls.throttle = t < -0.2 ? 0.3 : 0.0;
-    s.car.clutch = s.controls.clutch = t < 0.35 ? line(t, 0.0, 0.0, 0.1, 1.0) : line(t, 0.6, 1.0, 0.8, 0.0);
+    s.car.pedals.throttle = s.controls.pedals.throttle = t < -0.2 ? 0.3 : 0.0;
+    s.car.pedals.clutch = s.controls.pedals.clutch =
+        t < 0.35 ? line(t, 0.0, 0.0, 0.1, 1.0) : line(t, 0.6, 1.0, 0.8, 0.0);
     s.car.clutch_locked = t < 0.075 || t > 0.75;
     s.car.clutch_torque = s.car.clutch_locked || t > 0.65 ? 40.0 : 0.0;
     s.car.road_speed = kSpeed;

@@ -59,7 +59,7 @@ std::vector<DrivingError> in_second(Modification modify, double to = 10.0) {
   shift.modify = [&shift, &modify](DriveSample& s, double t) {
     shift.place(s, rest_position(shift.gate, 2));
     s.car.gear = 2;
-    s.car.throttle = s.car.clutch = 0.0;
+    s.car.pedals.throttle = s.car.pedals.clutch = 0.0;
     s.car.clutch_locked = true;
     s.car.engine_speed = shift.engine(2);
     modify(s, t);
@@ -160,7 +160,7 @@ TEST_CASE(
   const auto launch = [](double seconds, double power) {
     return in_second([=](DriveSample& s, double t) {
       s.car.road_speed = 0.0;
-      s.car.clutch = ConstructedShift::line(t, 1.0, 1.0, 1.0 + seconds, 0.0);
+      s.car.pedals.clutch = ConstructedShift::line(t, 1.0, 1.0, 1.0 + seconds, 0.0);
       s.car.clutch_locked = t > 1.0 + seconds + 0.1;
       s.car.slip_power = within(t, 1.0, 1.0 + seconds + 0.1) ? power : 0.0;
     });
@@ -184,7 +184,7 @@ TEST_CASE(
       s.car.gear = 1;
       s.car.road_speed = 1.0;
       s.car.engine_speed = 200.0;
-      s.car.clutch = t < 1.0 ? 1.0 : ConstructedShift::line(t, 1.0, 0.75, 1.0 + seconds, 0.0);
+      s.car.pedals.clutch = t < 1.0 ? 1.0 : ConstructedShift::line(t, 1.0, 0.75, 1.0 + seconds, 0.0);
       s.car.clutch_locked = t > 1.0 + seconds;
       s.car.slip_power = within(t, 1.0, 1.0 + seconds) ? power : 0.0;
       s.car.running = !stalls || t < 1.5;
@@ -208,8 +208,8 @@ TEST_CASE("jerk: from the engaging clutch, not from the brake, nor in addition t
   const auto jerks = [](double brake, double power, bool stalls = false) {
     return in_second([=](DriveSample& s, double t) {
       s.car.road_speed = 2.0;
-      s.car.brake = brake;
-      s.car.clutch = ConstructedShift::line(t, 1.0, 1.0, 1.1, 0.0);
+      s.car.pedals.brake = brake;
+      s.car.pedals.clutch = ConstructedShift::line(t, 1.0, 1.0, 1.1, 0.0);
       s.car.clutch_locked = t > 1.3;
       s.car.acceleration = t > 1.3 ? 3.0 : 0.0;
       s.car.running = !stalls || t < 1.25;
@@ -234,7 +234,7 @@ TEST_CASE("jerk limit: half of the jerk of a clutch that engages at once in that
       plain.place(s, rest_position(plain.gate, gear));
       s.car.gear = gear;
       s.car.road_speed = 2.0;
-      s.car.clutch = ConstructedShift::line(t, 1.0, 1.0, 2.0, 0.0);
+      s.car.pedals.clutch = ConstructedShift::line(t, 1.0, 1.0, 2.0, 0.0);
       s.car.clutch_locked = t > 1.6;
       s.car.acceleration = t > 1.6 ? step : 0.0;
     });
@@ -252,7 +252,7 @@ TEST_CASE("jerk limit: half of the jerk of a clutch that engages at once in that
 TEST_CASE("clutch early or late: the value is the time, and small times are no error") {
   const auto shift = [](double down, double up) {
     return in_shift([=](DriveSample& s, double t) {
-      s.car.clutch = within(t, down, up) ? 1.0 : 0.0;
+      s.car.pedals.clutch = within(t, down, up) ? 1.0 : 0.0;
       s.car.clutch_locked = t < down || t > up + 0.3;
     });
   };
@@ -270,7 +270,7 @@ TEST_CASE("no clutch: accepted if the revs match, otherwise reported without err
     return in_shift(
         [=](DriveSample& s, double t) {
           const ConstructedShift plain;
-          s.car.clutch = 0.0;
+          s.car.pedals.clutch = 0.0;
           s.car.clutch_locked = true;
           s.car.engine_speed = plain.engine(t < 0.3 ? 2 : 3) + (s.car.gear == 3 || t < 0.3 ? 0.0 : rpm(rpm_off));
           if (within(t, 0.44, 0.48)) s.car.sync = SyncPhase::synchronising;
@@ -290,8 +290,8 @@ TEST_CASE("riding the clutch: a foot that rests on it in gear, but not briefly, 
   const auto rides = [](double pedal, double seconds, double speed, double brake) {
     return in_second([=](DriveSample& s, double t) {
       s.car.road_speed = speed;
-      s.car.brake = brake;
-      s.car.clutch = within(t, 2.0, 2.0 + seconds) ? pedal : 0.0;
+      s.car.pedals.brake = brake;
+      s.car.pedals.clutch = within(t, 2.0, 2.0 + seconds) ? pedal : 0.0;
     });
   };
   CHECK(only(rides(0.2, 4.0, 12.0, 0.0), ErrorKind::riding_clutch).value == doctest::Approx(4.0).epsilon(0.01));
@@ -312,12 +312,12 @@ TEST_CASE("coasting: rolling in neutral or with the clutch down, but not during 
         [=](DriveSample& s, double t) {
           const bool on = within(t, 2.0, 2.0 + roll.seconds);
           s.car.road_speed = roll.speed;
-          s.car.brake = on ? roll.brake : 0.0;
+          s.car.pedals.brake = on ? roll.brake : 0.0;
           s.car.running = roll.running;
           s.car.engine_speed = 200.0;
           if (!on) return;
           s.car.clutch_locked = false;
-          s.car.clutch = roll.neutral && t > 2.3 ? 0.0 : 1.0;
+          s.car.pedals.clutch = roll.neutral && t > 2.3 ? 0.0 : 1.0;
           if (roll.neutral && t > 2.1) s.car.gear = kNeutralGear, ConstructedShift().place(s, {0.0, 0.0});
         },
         20.0);
@@ -343,7 +343,7 @@ TEST_CASE("coasting: rolling in neutral or with the clutch down, but not during 
   // A long shift is reported as too slow and not as coasting.
   only(in_shift(
            [](DriveSample& s, double t) {
-             s.car.clutch = within(t, 0.05, 5.0) ? 1.0 : 0.0;
+             s.car.pedals.clutch = within(t, 0.05, 5.0) ? 1.0 : 0.0;
              s.car.clutch_locked = t < 0.05 || t > 5.1;
            },
            {}, 7.0),
@@ -419,7 +419,7 @@ TEST_CASE("throttle in a shift: a flare; a blip that the lower gear needs is no 
       modify(s, t);
       const bool blips = within(t, 0.3, 0.67);
       if (blips) s.car.engine_speed += 180.0;
-      s.car.throttle = lifted ? (within(t, 0.3, 0.5) ? 0.7 : 0.0) : (t < 0.5 ? 0.7 : 0.0);
+      s.car.pedals.throttle = lifted ? (within(t, 0.3, 0.5) ? 0.7 : 0.0) : (t < 0.5 ? 0.7 : 0.0);
     };
     return detected_errors(blip);
   };
@@ -468,7 +468,7 @@ TEST_CASE("blocked: the lever pushes the ring for longer than synchronising need
           s.car.gear = t < 0.24 ? 2 : t < in ? kNeutralGear : 3;
           s.car.sync = within(t, 0.44, in) ? SyncPhase::synchronising : SyncPhase::free;
           s.lever.f_h = {0.0, within(t, 0.44, in) ? force : 0.0};
-          s.car.clutch = within(t, 0.05, in + 0.1) ? 1.0 : 0.0;
+          s.car.pedals.clutch = within(t, 0.05, in + 0.1) ? 1.0 : 0.0;
           s.car.clutch_locked = t < 0.05 || t > in + 0.2;
           s.car.engine_speed = plain.engine(s.car.gear == 2 ? 2 : 3);
         },
@@ -506,7 +506,7 @@ TEST_CASE("missed shift: the value is never the old gear or a gear that was enga
           on_the_way(s, t, plain);
           if (t > 0.6) plain.place(s, {two, ConstructedShift::line(t, 0.6, 0.0, 0.7, rest)});
           if (t > 0.698) s.car.gear = 2;
-          s.car.clutch = within(t, 0.1, 0.9) ? 1.0 : 0.0;
+          s.car.pedals.clutch = within(t, 0.1, 0.9) ? 1.0 : 0.0;
           s.car.clutch_locked = t < 0.1 || t > 1.0;
           s.car.engine_speed = plain.engine(2);
         },
@@ -559,13 +559,13 @@ TEST_CASE("over-push: above the paper's 60 N, once until the push is below 50 N,
 }
 
 TEST_CASE("step order: the throttle is released long after the clutch is down") {
-  const DrivingError late =
-      only(in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.29 ? 0.3 : 0.0; }), ErrorKind::step_order);
+  const DrivingError late = only(
+      in_shift([](DriveSample& s, double t) { s.car.pedals.throttle = t < 0.29 ? 0.3 : 0.0; }), ErrorKind::step_order);
   CHECK(late.value == 2.0);
   CHECK(error_sentence(late) == "You released the throttle only after the clutch was down.");
   // The clutch passes the bite point at 0.075 s, and the throttle is released at 0.17 s. Pedals that move within 0.2 s
   // count as simultaneous, so the order is correct.
-  CHECK(in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.17 ? 0.3 : 0.0; }).empty());
+  CHECK(in_shift([](DriveSample& s, double t) { s.car.pedals.throttle = t < 0.17 ? 0.3 : 0.0; }).empty());
 }
 
 TEST_CASE("known mistakes in the order of the steps are described in words, others by the number of misplaced steps") {
@@ -646,7 +646,7 @@ TEST_CASE("the time for reading prompts within a shift does not count as part of
     ConstructedShift shift;
     shift.to = until + 2.0;
     shift.modify = [until](DriveSample& s, double t) {
-      if (t > 0.35) s.car.clutch = t < until ? 1.0 : 0.0;
+      if (t > 0.35) s.car.pedals.clutch = t < until ? 1.0 : 0.0;
       s.car.clutch_locked = t < 0.075 || t > until;
     };
     ShiftMeter meter(shift.car, shift.gate);
@@ -670,9 +670,9 @@ TEST_CASE("holding the clutch down long before the lever moves is a slow shift, 
   shift.from = -6.0;
   shift.modify = [](DriveSample& s, double t) {
     if (t > -4.5 && t < 0.3)
-      s.car.clutch = 1.0, s.car.throttle = 0.0, s.car.clutch_locked = false, s.car.clutch_torque = 0.0;
-    if (t < -4.6) s.car.throttle = 0.3;
-    if (t > -4.6 && t < 0.0) s.car.throttle = 0.0;
+      s.car.pedals.clutch = 1.0, s.car.pedals.throttle = 0.0, s.car.clutch_locked = false, s.car.clutch_torque = 0.0;
+    if (t < -4.6) s.car.pedals.throttle = 0.3;
+    if (t > -4.6 && t < 0.0) s.car.pedals.throttle = 0.0;
   };
   std::string raised;
   for (const DrivingError& error : detected_errors(shift)) raised += std::string(to_string(error.kind)) + " ";
@@ -713,7 +713,7 @@ TEST_CASE("a clutch dumped just before the lesson ends is still reported") {
   const auto errors = in_second(
       [](DriveSample& s, double t) {
         s.car.road_speed = 0.0;
-        s.car.clutch = ConstructedShift::line(t, 1.0, 1.0, 1.1, 0.0);
+        s.car.pedals.clutch = ConstructedShift::line(t, 1.0, 1.0, 1.1, 0.0);
         s.car.clutch_locked = false;
         s.car.slip_power = t > 1.0 ? 20e3 : 0.0;
       },
@@ -733,7 +733,7 @@ TEST_CASE("too slow: a shift that takes longer than 2.5 s") {
   const auto held = [](double until) {
     return in_shift(
         [=](DriveSample& s, double t) {
-          s.car.clutch = within(t, 0.05, until) ? 1.0 : 0.0;
+          s.car.pedals.clutch = within(t, 0.05, until) ? 1.0 : 0.0;
           s.car.clutch_locked = t < 0.05 || t > until + 0.1;
         },
         {}, 5.0);
@@ -753,9 +753,9 @@ TEST_CASE("too slow: while the car is braked to a stop with the clutch down, onl
       const double late = std::max(0.0, t - in + 0.5);
       if (t > 0.4) plain.place(s, plain.at(t < in - 0.1 ? 0.4 : late, 0).lever.proxy);
       s.car.gear = t < 0.24 ? 2 : t < in ? kNeutralGear : 3;
-      s.car.clutch = within(t, 0.05, 7.9) ? 1.0 : 0.0;
+      s.car.pedals.clutch = within(t, 0.05, 7.9) ? 1.0 : 0.0;
       s.car.clutch_locked = t < 0.05 || t > 7.95;
-      s.car.brake = t > 0.0 ? brake : 0.0;
+      s.car.pedals.brake = t > 0.0 ? brake : 0.0;
       s.car.road_speed = std::max(0.0, 12.0 - 2.2 * std::max(0.0, t));  // [m/s] slower than 4 m/s from about 3.6 s on
       s.car.engine_speed = 90.0;
     };

@@ -13,7 +13,7 @@ namespace gearshift::test::honest {
 inline void into_first(ScriptedDrive& d) {
   d.clutch_down();
   d.lever(1);
-  d.press(d.feet.hand_brake, 0.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
 }
 
 inline void start_and_stop(ScriptedDrive& d) {
@@ -27,7 +27,7 @@ inline void start_and_stop(ScriptedDrive& d) {
   d.until([&] { return d.now().distance - from > 6.0; });
   a.stop();
   d.lever(haptics::kNeutralGear);
-  d.press(d.feet.hand_brake, 1.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
   d.feet.ignition = false;
 }
 
@@ -36,31 +36,31 @@ inline void start_and_stop_gently(ScriptedDrive& d) {
   d.clutch_down();
   Able{d}.start_engine();
   into_first(d);
-  d.press(d.feet.clutch, d.car.clutch.bite, 0.3);
-  d.press(d.feet.clutch, 0.55, 2.0);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.3);
+  d.press(d.feet.pedals.clutch, 0.55, 2.0);
   d.wait(2.0);
-  d.press(d.feet.clutch, 0.0, 2.5);
+  d.press(d.feet.pedals.clutch, 0.0, 2.5);
   d.wait(4.0);
   d.clutch_down();
   d.lever(haptics::kNeutralGear);
-  d.press(d.feet.clutch, 0.0, 0.4);
-  d.press(d.feet.brake, 0.3, 0.3);
+  d.press(d.feet.pedals.clutch, 0.0, 0.4);
+  d.press(d.feet.pedals.brake, 0.3, 0.3);
   d.until([&] { return d.is_standing(); });
   d.wait(0.3);
   d.feet.ignition = false;
   d.wait(0.3);
-  d.press(d.feet.hand_brake, 1.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
 }
 
 inline void bite_point(ScriptedDrive& d) {
   into_first(d);
   for (int i = 0; i < 3; ++i) {
-    d.feet.brake = 0.0;
+    d.feet.pedals.brake = 0.0;
     const double bite = d.car.clutch.bite;
-    d.press(d.feet.clutch, bite, 0.4);
-    d.press(d.feet.clutch, bite - 0.10, 1.5);
+    d.press(d.feet.pedals.clutch, bite, 0.4);
+    d.press(d.feet.pedals.clutch, bite - 0.10, 1.5);
     d.until([&] { return d.km_per_h() > 3.2; }, 8.0);
-    d.press(d.feet.clutch, bite - 0.07, 0.3);
+    d.press(d.feet.pedals.clutch, bite - 0.07, 0.3);
     d.wait(2.5);
     Able{d}.stop();
   }
@@ -108,15 +108,15 @@ inline void down_without_a_blip(ScriptedDrive& d) {
 inline void back_up(ScriptedDrive& d, double metres) {
   d.wait(2.0);
   d.lever(haptics::kReverseGear);
-  d.press(d.feet.hand_brake, 0.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
   const double from = d.now().distance;
-  d.feet.brake = 0.0;
+  d.feet.pedals.brake = 0.0;
   const double bite = d.car.clutch.bite;
-  d.press(d.feet.clutch, bite, 0.4);
-  d.press(d.feet.clutch, bite - 0.12, 1.5);
+  d.press(d.feet.pedals.clutch, bite, 0.4);
+  d.press(d.feet.pedals.clutch, bite - 0.12, 1.5);
   d.until([&] { return from - d.now().distance > metres; });
   d.clutch_down();
-  d.press(d.feet.brake, 0.3, 0.3);
+  d.press(d.feet.pedals.brake, 0.3, 0.3);
   d.until([&] { return d.is_standing(); });
   d.wait(0.3);
 }
@@ -135,20 +135,20 @@ inline void hill_start(ScriptedDrive& d) {
   Able a{d};
   d.clutch_down();
   d.lever(1);
-  d.press(d.feet.throttle, 0.1, 0.3);
-  d.press(d.feet.clutch, d.car.clutch.bite, 0.4);
+  d.press(d.feet.pedals.throttle, 0.1, 0.3);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
   d.until(
       [&] {
         a.hold_revs(1600.0);
-        d.feet.clutch -= 0.1e-3;
+        d.feet.pedals.clutch -= 0.1e-3;
         return d.now().clutch_torque > 45.5;
       },
       5.0);
   const double begun = d.time();
   d.until([&] {
     a.hold_revs(1600.0);
-    d.feet.hand_brake = std::max(0.0, 1.0 - (d.time() - begun) / 0.3);
-    return d.feet.hand_brake == 0.0;
+    d.feet.pedals.hand_brake = std::max(0.0, 1.0 - (d.time() - begun) / 0.3);
+    return d.feet.pedals.hand_brake == 0.0;
   });
   a.launch_from_bite();
   a.accelerate_to(11.0, 0.6);
@@ -165,16 +165,16 @@ inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
   Able a{d};
   d.clutch_down();
   d.lever(1);
-  d.press(d.feet.brake, 0.4, 0.2);
-  d.press(d.feet.hand_brake, 0.0, 0.3);
-  d.press(d.feet.clutch, d.car.clutch.bite, 0.4);
+  d.press(d.feet.pedals.brake, 0.4, 0.2);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.4);
   d.until(
       [&] {
-        d.feet.clutch -= 0.1e-3;
+        d.feet.pedals.clutch -= 0.1e-3;
         return d.now().clutch_torque > 1.05 * hill_torque(d);
       },
       5.0);
-  d.feet.brake = 0.0;
+  d.feet.pedals.brake = 0.0;
   a.launch_from_bite();
   a.accelerate_to(11.0, 0.6);
 }
@@ -184,15 +184,15 @@ inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
 inline void emergency_stop(ScriptedDrive& d) {
   Able{d}.accelerate_to(50.05);
   d.wait(0.9 + d.pause);
-  d.feet.throttle = 0.0;
+  d.feet.pedals.throttle = 0.0;
   d.wait(0.1);
-  d.press(d.feet.brake, 1.0, 0.2);
+  d.press(d.feet.pedals.brake, 1.0, 0.2);
   d.until([&] { return d.km_per_h() < 18.0; });
   d.clutch_down();
   d.until([&] { return d.is_standing(); });
   d.wait(0.5);
   d.lever(haptics::kNeutralGear);
-  d.press(d.feet.hand_brake, 1.0, 0.3);
+  d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
 }
 
 inline void skip_shifts(ScriptedDrive& d) {
@@ -262,21 +262,21 @@ inline void up_in_another_way(ScriptedDrive& d) {
   for (int gear = 2; gear <= 5; ++gear) {
     a.accelerate_to_rpm(1950.0);
     a.lift();
-    d.press(d.feet.clutch, 0.79, 0.2);
+    d.press(d.feet.pedals.clutch, 0.79, 0.2);
     d.lever(gear);
-    d.press(d.feet.clutch, 0.0, 0.8);
+    d.press(d.feet.pedals.clutch, 0.0, 0.8);
   }
 }
 
 // Releases the handbrake first, lets the clutch bite, and presses it again before moving off.
 inline void moving_off_at_the_second_try(ScriptedDrive& d) {
-  d.press(d.feet.hand_brake, 0.0, 0.3);
-  d.press(d.feet.clutch, 0.79, 0.2);
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.3);
+  d.press(d.feet.pedals.clutch, 0.79, 0.2);
   d.lever(1);
-  d.press(d.feet.clutch, d.car.clutch.bite - 0.05, 0.5);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite - 0.05, 0.5);
   d.wait(0.3);
   d.clutch_down();
-  d.feet.brake = 0.3;
+  d.feet.pedals.brake = 0.3;
   d.wait(1.0);
   Able a{d};
   for (int i = 0; i < 2; ++i) {
@@ -293,15 +293,15 @@ inline void bite_point_and_neutral(ScriptedDrive& d) {
     const double bite = d.car.clutch.bite;
     d.clutch_down();
     d.lever(1);
-    d.feet.brake = 0.0;
-    d.press(d.feet.clutch, bite - 0.10, 1.5);
+    d.feet.pedals.brake = 0.0;
+    d.press(d.feet.pedals.clutch, bite - 0.10, 1.5);
     d.until([&] { return d.km_per_h() > 3.2; }, 8.0);
-    d.press(d.feet.clutch, bite - 0.07, 0.3);
+    d.press(d.feet.pedals.clutch, bite - 0.07, 0.3);
     d.wait(2.5);
     d.clutch_down();
     d.lever(haptics::kNeutralGear);
-    d.press(d.feet.clutch, 0.0, 0.3);
-    d.press(d.feet.brake, 0.3, 0.3);
+    d.press(d.feet.pedals.clutch, 0.0, 0.3);
+    d.press(d.feet.pedals.brake, 0.3, 0.3);
     d.until([&] { return d.is_standing(); });
     d.wait(0.3);
   }
@@ -309,11 +309,11 @@ inline void bite_point_and_neutral(ScriptedDrive& d) {
 
 // Moves both pedals at the same time, within `seconds` seconds, to the positions `throttle` and `clutch`.
 inline void both_feet(ScriptedDrive& d, double throttle, double clutch, double seconds) {
-  const double from = d.time(), old_throttle = d.feet.throttle, old_clutch = d.feet.clutch;
+  const double from = d.time(), old_throttle = d.feet.pedals.throttle, old_clutch = d.feet.pedals.clutch;
   d.until([&] {
     const double fraction = std::min(1.0, (d.time() - from) / seconds);
-    d.feet.throttle = old_throttle + fraction * (throttle - old_throttle);
-    d.feet.clutch = old_clutch + fraction * (clutch - old_clutch);
+    d.feet.pedals.throttle = old_throttle + fraction * (throttle - old_throttle);
+    d.feet.pedals.clutch = old_clutch + fraction * (clutch - old_clutch);
     return fraction == 1.0;
   });
 }
@@ -355,14 +355,14 @@ inline void eco_with_a_persons_reaction(ScriptedDrive& d) {
 inline void emergency_stop_by_the_hand_brake(ScriptedDrive& d) {
   Able{d}.accelerate_to(50.05);
   d.wait(1.0);
-  d.feet.throttle = 0.0;
-  d.press(d.feet.brake, 1.0, 0.2);
+  d.feet.pedals.throttle = 0.0;
+  d.press(d.feet.pedals.brake, 1.0, 0.2);
   d.until([&] { return d.km_per_h() < 18.0; });
   d.clutch_down();
   d.until([&] { return d.is_standing(); });
   d.wait(0.3);
-  d.press(d.feet.hand_brake, 1.0, 0.3);
-  d.press(d.feet.brake, 0.0, 0.2);
+  d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
+  d.press(d.feet.pedals.brake, 0.0, 0.2);
   d.lever(haptics::kNeutralGear);
 }
 

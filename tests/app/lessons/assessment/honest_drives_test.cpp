@@ -74,32 +74,32 @@ void follow_prompts(ScriptedDrive& d, double reading) {
     const auto changed = [&] { return d.run.view().prompt != prompt; };
     if (changed()) continue;
     if (says("blip")) {
-      d.press(d.feet.brake, 0.0, 0.1);
+      d.press(d.feet.pedals.brake, 0.0, 0.1);
       a.lift();
       d.clutch_down();
       d.lever(gear_in(prompt));
-      d.feet.throttle = 0.5;
+      d.feet.pedals.throttle = 0.5;
       d.until([&] { return d.rpm() > std::stod(prompt.substr(prompt.find("blip to ") + 8)); }, 3.0);
-      d.feet.throttle = 0.0;
-      d.press(d.feet.clutch, 0.0, 0.4);
+      d.feet.pedals.throttle = 0.0;
+      d.press(d.feet.pedals.clutch, 0.0, 0.4);
       d.until(changed, 5.0);
     } else if (says("Accelerate")) {
-      d.press(d.feet.throttle, 0.33, 0.3);
+      d.press(d.feet.pedals.throttle, 0.33, 0.3);
       d.until(changed);
     } else if (says("Slow down")) {
       a.lift();
-      d.press(d.feet.brake, 0.2, 0.2);
+      d.press(d.feet.pedals.brake, 0.2, 0.2);
       d.until(changed);
     } else if (says("Brake")) {
       a.stop();
     } else if (says("clutch down")) {
-      d.press(d.feet.brake, 0.0, 0.1);
+      d.press(d.feet.pedals.brake, 0.0, 0.1);
       a.lift();
       d.clutch_down();
     } else if (says("Shift into ")) {
       d.lever(gear_in(prompt));
     } else {
-      d.press(d.feet.clutch, 0.0, 0.8);
+      d.press(d.feet.pedals.clutch, 0.0, 0.8);
     }
   }
 }
@@ -128,10 +128,10 @@ TEST_CASE("a stall, a restart and upshifts from first gear give only the stall a
     Able a{d};
     a.accelerate_to_rpm(2200.0);
     a.shift(2);
-    d.feet.brake = 0.5;
+    d.feet.pedals.brake = 0.5;
     d.until([&] { return !d.now().running; });
     d.clutch_down();
-    d.feet.brake = 0.0;
+    d.feet.pedals.brake = 0.0;
     d.feet.starter = true;
     d.until([&] { return d.now().running && d.rpm() > 700.0; }, 5.0);
     d.feet.starter = false;
@@ -177,10 +177,10 @@ TEST_CASE("on the slope the prompt to release the handbrake comes once the clutc
     Able a{d};
     d.clutch_down();
     d.lever(1);
-    d.press(d.feet.throttle, 0.1, 0.3);
+    d.press(d.feet.pedals.throttle, 0.1, 0.3);
     d.until([&] {
       a.hold_revs(1600.0);
-      d.feet.clutch = std::max(0.0, d.feet.clutch - 0.1e-3);
+      d.feet.pedals.clutch = std::max(0.0, d.feet.pedals.clutch - 0.1e-3);
       return d.run.view().step == 3;
     });
     CAPTURE(std::string(car));
@@ -211,14 +211,14 @@ TEST_CASE("an emergency stop is judged by its time from the call: enough for hum
     ScriptedDrive d("emergency_stop");
     Able{d}.accelerate_to(50.05);
     d.wait(stop.reaction);
-    d.feet.throttle = 0.0;
-    d.press(d.feet.brake, stop.brake, 0.2);
+    d.feet.pedals.throttle = 0.0;
+    d.press(d.feet.pedals.brake, stop.brake, 0.2);
     d.until([&] { return d.km_per_h() < 18.0; });
     d.clutch_down();
     d.until([&] { return d.is_standing(); });
     d.wait(0.5);
     d.lever(kNeutralGear);
-    d.press(d.feet.hand_brake, 1.0, 0.3);
+    d.press(d.feet.pedals.hand_brake, 1.0, 0.3);
     const LessonResult& result = d.finish();
     CAPTURE(stop.reaction);
     CAPTURE(stop.brake);

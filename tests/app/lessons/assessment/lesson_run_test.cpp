@@ -172,7 +172,7 @@ TEST_CASE("errors are reported as they happen, or with summary hints at the end;
     if (t > 0.3 && t < 0.35) s.lever.f_h = {70.0, 0.0};
     // The throttle is released after the clutch is down. The lesson does not check the order of the steps, so the error
     // is only a note.
-    s.car.throttle = t < 0.29 ? 0.3 : 0.0;
+    s.car.pedals.throttle = t < 0.29 ? 0.3 : 0.0;
   };
   Driven driven;
   driven.shift.modify = modify;
@@ -202,8 +202,8 @@ TEST_CASE("an error belongs to the shift in which it happened, even if it is det
   driven.lesson.counted = {ErrorKind::clutch_dump};
   driven.lesson.steps[2].until.held = 1.0;
   driven.shift.modify = [](DriveSample& s, double t) {
-    if (t > 0.6) s.car.clutch = ConstructedShift::line(t, 0.6, 1.0, 0.8, 0.0);
-    if (t > 0.74) s.car.clutch = 0.0;
+    if (t > 0.6) s.car.pedals.clutch = ConstructedShift::line(t, 0.6, 1.0, 0.8, 0.0);
+    if (t > 0.74) s.car.pedals.clutch = 0.0;
     s.car.clutch_locked = t < 0.075 || t > 0.68;
     s.car.slip_power = t > 0.65 && t < 0.68 ? 20e3 : 0.0;
   };
@@ -255,7 +255,7 @@ TEST_CASE("`held`: a condition must be true without interruption for that time")
     driven.lesson.steps.resize(1);
     driven.lesson.steps[0].until.held = held;
     driven.shift.modify = [gap](DriveSample& s, double t) {
-      if (t > 0.3 && t < 0.3 + gap) s.car.clutch = 0.79;
+      if (t > 0.3 && t < 0.3 + gap) s.car.pedals.clutch = 0.79;
     };
     double at = 0.0;
     driven.each = [&](LessonRun& run, double t) {
@@ -295,7 +295,7 @@ TEST_CASE("distance is measured from the lesson's start, rolling back from the s
 TEST_CASE("a run that is out of time, left or incomplete is not passed, and nothing counts after its end") {
   Driven slow;
   slow.lesson.time_limit = 1.5;
-  slow.shift.modify = [](DriveSample& s, double) { s.car.clutch = 0.0; };
+  slow.shift.modify = [](DriveSample& s, double) { s.car.pedals.clutch = 0.0; };
   const Outcome run = slow.run();
   CHECK(run.result().end == LessonEnd::out_of_time);
   CHECK(run.result().duration == doctest::Approx(1.5).epsilon(0.001));
@@ -453,7 +453,7 @@ TEST_CASE("a shift that is in progress at the last step may finish within three 
   Driven never;
   never.lesson.steps.resize(2);
   never.shift.to = 6.0;
-  never.shift.modify = [](DriveSample& s, double t) { s.car.clutch = t > 0.1 ? 1.0 : s.car.clutch; };
+  never.shift.modify = [](DriveSample& s, double t) { s.car.pedals.clutch = t > 0.1 ? 1.0 : s.car.pedals.clutch; };
   const Outcome run = never.run();
   CHECK(run.result().end == LessonEnd::done);
   CHECK(run.result().duration == doctest::Approx(1.0 + 0.491 + 3.0).epsilon(0.01));

@@ -37,9 +37,9 @@ void out_of_gear(ScriptedDrive& d) {
 }
 
 void blip(ScriptedDrive& d, double rpm) {
-  d.feet.throttle = 0.5;
+  d.feet.pedals.throttle = 0.5;
   d.until([&] { return d.rpm() > rpm; }, 2.0);
-  d.feet.throttle = 0.0;
+  d.feet.pedals.throttle = 0.0;
 }
 
 // Shifts from fourth into third at 55 km/h, with the engine at `factor` times the speed that third needs.
@@ -48,7 +48,7 @@ LessonResult down_with_blip(double factor) {
   d.clutch_down();
   d.lever(3);
   blip(d, factor * d.rpm_in(3));
-  d.press(d.feet.clutch, 0.0, 0.5);
+  d.press(d.feet.pedals.clutch, 0.0, 0.5);
   d.wait(0.5);
   return d.leave();
 }
@@ -59,12 +59,12 @@ LessonResult launch(const std::string& car, double lead, double zone) {
   ScriptedDrive d("moving_off", LessonMode::follow_me, car);
   d.clutch_down();
   d.lever(1);
-  d.press(d.feet.hand_brake, 0.0, 0.2);
-  d.feet.throttle = 0.2;
+  d.press(d.feet.pedals.hand_brake, 0.0, 0.2);
+  d.feet.pedals.throttle = 0.2;
   d.wait(lead);
-  d.press(d.feet.clutch, d.car.clutch.bite, 0.1);
-  d.press(d.feet.clutch, d.car.clutch.closed, zone);
-  d.press(d.feet.clutch, 0.0, 0.1);
+  d.press(d.feet.pedals.clutch, d.car.clutch.bite, 0.1);
+  d.press(d.feet.pedals.clutch, d.car.clutch.closed, zone);
+  d.press(d.feet.pedals.clutch, 0.0, 0.1);
   d.wait(1.0);
   return d.leave();
 }
@@ -108,11 +108,11 @@ TEST_CASE("double declutching with a blip is in order") {
   ScriptedDrive d("rev_matching");
   d.clutch_down();
   out_of_gear(d);
-  d.press(d.feet.clutch, 0.0, 0.15);
+  d.press(d.feet.pedals.clutch, 0.0, 0.15);
   blip(d, d.rpm_in(3));
   d.clutch_down();
   d.lever(3);
-  d.press(d.feet.clutch, 0.0, 0.5);
+  d.press(d.feet.pedals.clutch, 0.0, 0.5);
   d.wait(0.5);
   const LessonResult result = d.leave();
   CAPTURE(all_errors(result));
@@ -128,7 +128,7 @@ TEST_CASE("a gear that was left and engaged again is not named as a missed gear"
   out_of_gear(d);
   d.wait(0.1);
   d.lever(5);
-  d.press(d.feet.clutch, 0.0, 0.5);
+  d.press(d.feet.pedals.clutch, 0.0, 0.5);
   d.wait(0.5);
   const LessonResult result = d.leave();
   REQUIRE(result.shifts.size() == 1);
@@ -145,7 +145,7 @@ TEST_CASE("with the lever left in a mouth and the clutch up, the shift ends afte
   // in_aisle() becomes false 1 mm from the centre line, so after this wait the lever is 1 mm past the mouth.
   d.wait((d.gate.half_aisle + d.gate.chamfer) / d.speed);
   d.speed = 0.0;
-  d.press(d.feet.clutch, 0.0, 0.3);
+  d.press(d.feet.pedals.clutch, 0.0, 0.3);
   d.wait(8.0);
   const LessonResult result = d.leave();
   REQUIRE(result.shifts.size() == 1);
@@ -161,12 +161,12 @@ TEST_CASE(
     ScriptedDrive d("down_through_the_gears");
     for (const auto& [gear, km_per_h] : {std::pair{4, 55.0}, {3, 40.0}, {2, 25.0}}) {
       const double at = factor > 0.0 ? factor * km_per_h : 75.0;
-      d.feet.brake = 0.2;
+      d.feet.pedals.brake = 0.2;
       d.until([&] { return d.km_per_h() < at; });
-      d.feet.brake = 0.0;
+      d.feet.pedals.brake = 0.0;
       d.clutch_down();
       d.lever(gear);
-      d.press(d.feet.clutch, 0.0, 0.8);
+      d.press(d.feet.pedals.clutch, 0.0, 0.8);
       d.wait(0.3);
     }
     return d.leave();
@@ -182,7 +182,7 @@ TEST_CASE(
 TEST_CASE(
     "shifting down through the gears on one clutch press is a slow shift; preselecting a gear for the stop is not") {
   ScriptedDrive d("down_through_the_gears");
-  d.feet.brake = 0.2;
+  d.feet.pedals.brake = 0.2;
   d.until([&] { return d.km_per_h() < 54.0; });
   d.clutch_down();
   for (const auto& [gear, until_km_per_h] : {std::pair{4, 39.0}, {3, 24.0}, {2, 0.05}}) {
@@ -194,7 +194,7 @@ TEST_CASE(
   CHECK(count_errors(cheat, ErrorKind::too_slow) == 1);
 
   ScriptedDrive ready("down_through_the_gears");
-  ready.feet.brake = 0.3;
+  ready.feet.pedals.brake = 0.3;
   ready.until([&] { return ready.km_per_h() < 32.0; });
   ready.clutch_down();
   ready.lever(1);
@@ -231,16 +231,16 @@ TEST_CASE("a launch in the real car makes the heat of the closed form, and is cl
     ScriptedDrive d("moving_off");
     d.clutch_down();
     d.lever(1);
-    d.press(d.feet.hand_brake, 0.0, 0.2);
-    const auto hold = [&] { d.feet.throttle = std::clamp(0.1 + 0.01 * (rpm - d.rpm()), 0.0, 1.0); };
+    d.press(d.feet.pedals.hand_brake, 0.0, 0.2);
+    const auto hold = [&] { d.feet.pedals.throttle = std::clamp(0.1 + 0.01 * (rpm - d.rpm()), 0.0, 1.0); };
     d.until([&] { return hold(), d.rpm() > 0.97 * rpm; });
-    d.feet.clutch = d.car.clutch.bite;
+    d.feet.pedals.clutch = d.car.clutch.bite;
     d.until([&] {
       hold();
-      d.feet.clutch = std::max(0.0, d.feet.clutch - 0.15e-3);
+      d.feet.pedals.clutch = std::max(0.0, d.feet.pedals.clutch - 0.15e-3);
       return d.now().clutch_locked;
     });
-    d.press(d.feet.clutch, 0.0, 0.3);
+    d.press(d.feet.pedals.clutch, 0.0, 0.3);
     d.wait(0.5);
     return d.leave();
   };

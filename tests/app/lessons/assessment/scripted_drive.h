@@ -42,7 +42,7 @@ struct ScriptedDrive {
         at_(haptics::rest_position(gate, lesson.start.gear)),
         goal_(lesson.start.gear) {
     feet.ignition = lesson.start.running;
-    feet.hand_brake = lesson.start.hand_brake;
+    feet.pedals.hand_brake = lesson.start.hand_brake;
     feet.slope = lesson.start.slope;
     haptics::LeverInput in;
     in.position = in.proxy = at_;
@@ -71,7 +71,7 @@ struct ScriptedDrive {
     for (double t = 0.0; t < seconds && !run.is_over(); t += kPeriod) pedal += rate, tick();
     pedal = to;
   }
-  void clutch_down() { press(feet.clutch, 1.0, 0.2); }
+  void clutch_down() { press(feet.pedals.clutch, 1.0, 0.2); }
   void lever(int gear, double max_seconds = 5.0) {
     goal_ = gear;
     until([&] { return now().gear == gear && glm::distance(at_, haptics::rest_position(gate, gear)) < 1e-3; },
@@ -163,12 +163,12 @@ struct ScriptedDrive {
 struct Able {
   ScriptedDrive& d;
 
-  void hold_revs(double rpm) { d.feet.throttle = std::clamp(0.12 + 0.0012 * (rpm - d.rpm()), 0.0, 0.8); }
+  void hold_revs(double rpm) { d.feet.pedals.throttle = std::clamp(0.12 + 0.0012 * (rpm - d.rpm()), 0.0, 0.8); }
 
   // Moves off from a standstill, in gear and with the clutch down. Returns when the clutch is up.
   void launch(double rpm = 1500.0) {
-    d.feet.brake = 0.0;
-    d.press(d.feet.clutch, d.car.clutch.bite + 0.02, 0.4);
+    d.feet.pedals.brake = 0.0;
+    d.press(d.feet.pedals.clutch, d.car.clutch.bite + 0.02, 0.4);
     launch_from_bite(rpm);
   }
 
@@ -176,21 +176,22 @@ struct Able {
     d.until(
         [&] {
           hold_revs(rpm);
-          if (d.rpm() > 0.85 * rpm || d.now().clutch_locked) d.feet.clutch = std::max(0.0, d.feet.clutch - 0.25e-3);
-          return d.now().clutch_locked && d.feet.clutch < 0.25;
+          if (d.rpm() > 0.85 * rpm || d.now().clutch_locked)
+            d.feet.pedals.clutch = std::max(0.0, d.feet.pedals.clutch - 0.25e-3);
+          return d.now().clutch_locked && d.feet.pedals.clutch < 0.25;
         },
         10.0);
-    d.press(d.feet.clutch, 0.0, 0.3);
+    d.press(d.feet.pedals.clutch, 0.0, 0.3);
   }
 
-  void lift() { d.press(d.feet.throttle, 0.0, 0.15); }
+  void lift() { d.press(d.feet.pedals.throttle, 0.0, 0.15); }
 
   void shift(int gear, double up = 0.8) {
     lift();
     d.clutch_down();
     d.lever(gear);
     d.wait(d.pause);
-    d.press(d.feet.clutch, 0.0, up);
+    d.press(d.feet.pedals.clutch, 0.0, up);
   }
 
   // Shifts down with the blip that the lower gear needs.
@@ -203,17 +204,17 @@ struct Able {
     d.until(
         [&] {
           const double wanted = d.rpm_in(gear);
-          d.feet.throttle = std::clamp(0.06 + 0.002 * (wanted - d.rpm()), 0.0, 0.6);
+          d.feet.pedals.throttle = std::clamp(0.06 + 0.002 * (wanted - d.rpm()), 0.0, 0.6);
           if (std::abs(wanted - d.rpm()) > 80.0) fits_since = d.time();
           return d.time() - fits_since > 0.1;
         },
         2.0);
-    d.feet.throttle = 0.0;
-    d.press(d.feet.clutch, 0.0, 0.4);
+    d.feet.pedals.throttle = 0.0;
+    d.press(d.feet.pedals.clutch, 0.0, 0.4);
   }
 
   void accelerate(const std::function<bool()>& enough, double throttle = 0.35) {
-    d.press(d.feet.throttle, throttle, 0.3);
+    d.press(d.feet.pedals.throttle, throttle, 0.3);
     d.until(enough);
   }
   void accelerate_to_rpm(double rpm) {
@@ -225,14 +226,14 @@ struct Able {
 
   void slow_to(double km_per_h) {
     lift();
-    d.press(d.feet.brake, 0.2, 0.2);
+    d.press(d.feet.pedals.brake, 0.2, 0.2);
     d.until([&] { return d.km_per_h() < km_per_h; });
-    d.press(d.feet.brake, 0.0, 0.2);
+    d.press(d.feet.pedals.brake, 0.0, 0.2);
   }
 
   void stop(double brake = 0.3) {
     lift();
-    d.press(d.feet.brake, brake, 0.3);
+    d.press(d.feet.pedals.brake, brake, 0.3);
     d.until([&] { return d.rpm() < 1100.0 || !d.now().clutch_locked; });
     d.clutch_down();
     d.until([&] { return d.is_standing(); });

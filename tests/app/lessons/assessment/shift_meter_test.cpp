@@ -173,7 +173,7 @@ TEST_CASE("ring and dogs: the time blocked, and the time and energy of grinding"
 TEST_CASE("lag is negative if the clutch comes up before the gear is in, lead if it goes down after the lever moved") {
   ConstructedShift shift;
   shift.modify = [](DriveSample& s, double t) {
-    s.car.clutch = t < 0.3 ? ConstructedShift::line(t, 0.24, 0.0, 0.25, 1.0) : t > 0.4 ? 0.0 : 1.0;
+    s.car.pedals.clutch = t < 0.3 ? ConstructedShift::line(t, 0.24, 0.0, 0.25, 1.0) : t > 0.4 ? 0.0 : 1.0;
   };
   const ShiftRecord record = only_record(shift);
   const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
@@ -191,7 +191,8 @@ TEST_CASE("a clutch that comes up while the ring blocks is early, even if presse
     shift.modify = [&](DriveSample& s, double t) {
       if (lies_within(t, 0.42, 0.47)) s.car.sync = phase;
       if (lies_within(t, 0.43, 0.45))
-        s.car.clutch = ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // the pedal passes the bite point at 0.435 s
+        s.car.pedals.clutch =
+            ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // the pedal passes the bite point at 0.435 s
     };
     const ShiftRecord record = only_record(shift);
     const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
@@ -206,13 +207,14 @@ TEST_CASE("steps are recorded as they happen and compared with the taught order"
                                                                         ShiftStep::neutral, ShiftStep::gear,
                                                                         ShiftStep::clutch_up});
   // The throttle is released only after the clutch is down, so two steps are out of place.
-  const ShiftRecord late = modified_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.29 ? 0.3 : 0.0; });
+  const ShiftRecord late =
+      modified_shift([](DriveSample& s, double t) { s.car.pedals.throttle = t < 0.29 ? 0.3 : 0.0; });
   CHECK(late.steps.front() == ShiftStep::clutch_down);
   CHECK(late.steps_out_of_place == 2);
   // A blip between clutch and gear adds two steps, which are wrong for a shift into a higher gear. For a shift into a
   // lower gear they are correct (see step_order_test.cpp).
   CHECK(modified_shift([](DriveSample& s, double t) {
-          s.car.throttle = lies_within(t, 0.3, 0.35) ? 0.5 : 0.0;
+          s.car.pedals.throttle = lies_within(t, 0.3, 0.35) ? 0.5 : 0.0;
         }).steps_out_of_place == 2);
 }
 
@@ -220,15 +222,16 @@ TEST_CASE("steps are recorded as they happen and compared with the taught order"
 // the bite point again at 0.8 s.
 TEST_CASE("pedal movements that are simultaneous within 0.2 s are in order") {
   const auto lifted_at = [](double t0) {
-    return modified_shift([t0](DriveSample& s, double t) { s.car.throttle = t < t0 ? 0.3 : 0.0; }).steps_out_of_place;
+    return modified_shift([t0](DriveSample& s, double t) { s.car.pedals.throttle = t < t0 ? 0.3 : 0.0; })
+        .steps_out_of_place;
   };
   CHECK(lifted_at(0.17) == 0);
   CHECK(lifted_at(0.29) == 2);
   const auto throttle_at = [](double t0) {
     return modified_shift([t0](DriveSample& s, double t) {
-             if (t > 0.5) s.car.clutch = ConstructedShift::line(t, 0.6, 1.0, 1.4, 0.0);
+             if (t > 0.5) s.car.pedals.clutch = ConstructedShift::line(t, 0.6, 1.0, 1.4, 0.0);
              s.car.clutch_locked = t < 0.075 || t > 1.2;
-             if (t > t0) s.car.throttle = 0.3;
+             if (t > t0) s.car.pedals.throttle = 0.3;
            })
         .steps_out_of_place;
   };
@@ -267,7 +270,7 @@ TEST_CASE("leaving the lever in a mouth ends the shift, once, and moving on begi
     const double rest = rest_position(shift.gate, 3).y;
     shift.place(s, {0.0, ConstructedShift::line(t, 6.2, mouth, 6.4, rest)});
     s.car.gear = s.lever.proxy.y > 0.9 * rest ? 3 : kNeutralGear;
-    s.car.clutch = t < 6.0 ? s.car.clutch : t < 6.6 ? 1.0 : 0.0;
+    s.car.pedals.clutch = t < 6.0 ? s.car.pedals.clutch : t < 6.6 ? 1.0 : 0.0;
     s.car.clutch_locked = t > 6.7;
   };
   const std::vector<ShiftRecord> records = shift.records();
@@ -289,7 +292,7 @@ TEST_CASE("a lever that is off its rest position in an engaged gear leaves no sh
     const Slot& two = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
     shift.place(s, {rest_position(shift.gate, 2).x, 0.001 - two.engage_depth});
     s.car.gear = 2;
-    s.car.clutch = 0.0;
+    s.car.pedals.clutch = 0.0;
     s.car.clutch_locked = true;
   };
   ShiftMeter meter(shift.car, shift.gate);
@@ -356,7 +359,7 @@ TEST_CASE("neither a pedal pressed and released in gear, nor a lever that moves 
     const double back = lies_within(t, 0.2, 0.4) ? two.engage_depth - 0.001 : two.rest;
     lever.place(s, {rest_position(lever.gate, 2).x, -back});
     s.car.gear = 2;
-    s.car.clutch = 0.0;
+    s.car.pedals.clutch = 0.0;
     s.car.clutch_locked = true;
   };
   CHECK(lever.records().empty());
@@ -397,7 +400,7 @@ TEST_CASE("giving up, or returning to the old gear, is a missed shift; choosing 
 TEST_CASE("without the clutch the rev error is that just before the dogs engaged") {
   ConstructedShift shift;
   shift.modify = [&](DriveSample& s, double t) {
-    s.car.clutch = 0.0;
+    s.car.pedals.clutch = 0.0;
     s.car.clutch_locked = true;
     s.car.engine_speed = shift.engine(3) + (s.car.gear == 3 ? 0.0 : 5.0);
     if (t < 0.2) s.car.engine_speed = shift.engine(2);
@@ -425,7 +428,7 @@ TEST_CASE("a new shift before the clutch locks ends the previous one") {
   ConstructedShift shift;
   shift.modify = [](DriveSample& s, double t) {
     s.car.clutch_locked = t < 0.075;
-    if (t > 0.9) s.car.clutch = 1.0;
+    if (t > 0.9) s.car.pedals.clutch = 1.0;
   };
   ShiftMeter meter(shift.car, shift.gate);
   std::vector<ShiftRecord> records;
@@ -441,7 +444,9 @@ TEST_CASE("a new shift before the clutch locks ends the previous one") {
 TEST_CASE("shifts are numbered in order, and a noisy pedal gives one shift") {
   ConstructedShift shift;
   shift.to = 3.0;
-  shift.modify = [](DriveSample& s, double t) { s.car.clutch += 0.005 * (std::lround(1e3 * t) % 2 == 0 ? 1.0 : -1.0); };
+  shift.modify = [](DriveSample& s, double t) {
+    s.car.pedals.clutch += 0.005 * (std::lround(1e3 * t) % 2 == 0 ? 1.0 : -1.0);
+  };
   const ShiftRecord record = only_record(shift);
   CHECK(record.number == 0);
   CHECK(record.steps.size() == 5);

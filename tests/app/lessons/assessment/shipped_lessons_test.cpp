@@ -45,7 +45,7 @@ SampleChange for_a_while(double seconds, const std::function<bool(const DriveSam
 }
 
 bool drives(const DriveSample& s) {
-  return s.car.gear > 0 && s.car.clutch == 0.0 && s.car.road_speed > 1.0;
+  return s.car.gear > 0 && s.car.pedals.clutch == 0.0 && s.car.road_speed > 1.0;
 }
 
 bool moves(const DriveSample& s) {
@@ -73,17 +73,20 @@ SampleChange modification_for(ErrorKind kind, const Gate& gate, const CarSpec& c
       });
     case ErrorKind::clutch_dump:
       return [=](DriveSample& s) {
-        const bool up = s.car.gear != kNeutralGear && s.car.clutch < bite && s.car.clutch > 0.0;
+        const bool up = s.car.gear != kNeutralGear && s.car.pedals.clutch < bite && s.car.pedals.clutch > 0.0;
         if (up)
-          s.car.clutch = 0.0, s.car.clutch_locked = s.car.clutch_locked && s.car.clutch < 0.4, s.car.slip_power = 20e3;
+          s.car.pedals.clutch = 0.0, s.car.clutch_locked = s.car.clutch_locked && s.car.pedals.clutch < 0.4,
+          s.car.slip_power = 20e3;
       };
     case ErrorKind::clutch_burn:
       return [=](DriveSample& s) {
-        if (s.car.gear != kNeutralGear && s.car.clutch < bite && s.car.clutch > 0.0) s.car.slip_power = 40e3;
+        if (s.car.gear != kNeutralGear && s.car.pedals.clutch < bite && s.car.pedals.clutch > 0.0)
+          s.car.slip_power = 40e3;
       };
     case ErrorKind::jerk:
       return [=](DriveSample& s) {
-        if (s.car.gear != kNeutralGear && s.car.clutch < bite - 0.05 && s.car.brake == 0.0) s.car.acceleration += 12.0;
+        if (s.car.gear != kNeutralGear && s.car.pedals.clutch < bite - 0.05 && s.car.pedals.brake == 0.0)
+          s.car.acceleration += 12.0;
       };
     case ErrorKind::rollback:
       return for_a_while(1.0, always, [base = 0.0](DriveSample& s, double t) mutable {
@@ -103,7 +106,7 @@ SampleChange modification_for(ErrorKind kind, const Gate& gate, const CarSpec& c
     case ErrorKind::riding_clutch:
       return for_a_while(
           40.0, [](const DriveSample& s) { return drives(s) && s.car.road_speed > 4.5; },
-          [](DriveSample& s, double) { s.car.clutch = std::max(s.car.clutch, 0.3); });
+          [](DriveSample& s, double) { s.car.pedals.clutch = std::max(s.car.pedals.clutch, 0.3); });
     case ErrorKind::wrong_gear:
       return [from = kNeutralGear, before = kNeutralGear, at = -1.0](DriveSample& s) mutable {
         if (s.car.gear != before && s.car.gear != kNeutralGear && at < 0.0 && s.time() > 100.05) at = s.time();
@@ -119,47 +122,49 @@ SampleChange modification_for(ErrorKind kind, const Gate& gate, const CarSpec& c
       };
     case ErrorKind::rev_mismatch:
       return [=](DriveSample& s) {
-        if (s.car.clutch >= bite - 0.05) s.car.engine_speed -= 60.0;
+        if (s.car.pedals.clutch >= bite - 0.05) s.car.engine_speed -= 60.0;
       };
     case ErrorKind::throttle_in_shift:
       return [=](DriveSample& s) {
-        if (s.car.clutch > 0.0) s.car.throttle = 0.3;  // the throttle is pressed as long as the clutch is
-        if (s.car.clutch >= bite && s.car.gear == kNeutralGear) s.car.engine_speed += 200.0;
+        if (s.car.pedals.clutch > 0.0) s.car.pedals.throttle = 0.3;  // the throttle is pressed as long as the clutch is
+        if (s.car.pedals.clutch >= bite && s.car.gear == kNeutralGear) s.car.engine_speed += 200.0;
       };
     case ErrorKind::early_shift:  // too slow by both rev counter and speedometer
       return [=](DriveSample& s) {
-        if (s.car.clutch > bite - 0.05) s.car.engine_speed *= 0.5, s.car.road_speed *= 0.7;
+        if (s.car.pedals.clutch > bite - 0.05) s.car.engine_speed *= 0.5, s.car.road_speed *= 0.7;
       };
     case ErrorKind::late_shift:
       return [=, climbs = lesson.band_of_car || lesson.shift_to < 1e8](DriveSample& s) {
-        if (s.car.clutch > bite - 0.05) climbs ? s.car.engine_speed *= 2.5 : s.car.road_speed *= 0.4;
+        if (s.car.pedals.clutch > bite - 0.05) climbs ? s.car.engine_speed *= 2.5 : s.car.road_speed *= 0.4;
       };
     case ErrorKind::no_clutch:
       return [](DriveSample& s) {
-        s.car.clutch = 0.0, s.car.clutch_locked = true;
+        s.car.pedals.clutch = 0.0, s.car.clutch_locked = true;
         if (s.car.gear == kNeutralGear) s.car.engine_speed += 90.0;
       };
     case ErrorKind::clutch_late:
       return [out = 0.0](DriveSample& s) mutable {
-        if (s.car.gear != kNeutralGear && s.car.clutch == 0.0) out = 0.0;
+        if (s.car.gear != kNeutralGear && s.car.pedals.clutch == 0.0) out = 0.0;
         if (s.car.gear == kNeutralGear && out == 0.0) out = s.time();
-        if (s.time() - out < 0.1 || out == 0.0) s.car.clutch = 0.0;
+        if (s.time() - out < 0.1 || out == 0.0) s.car.pedals.clutch = 0.0;
       };
     case ErrorKind::clutch_early:
       return [&gate, up = false](DriveSample& s) mutable {
         const bool goes_in = s.car.gear == kNeutralGear && std::abs(s.lever.proxy.y) > gate.half_aisle + gate.chamfer;
-        if (s.car.clutch == 0.0) up = false;
-        up = up || (goes_in && s.time() > 100.05 && s.lever.slot != kNoSlot && s.car.clutch >= 0.99);
-        if (up) s.car.clutch = 0.0;
+        if (s.car.pedals.clutch == 0.0) up = false;
+        up = up || (goes_in && s.time() > 100.05 && s.lever.slot != kNoSlot && s.car.pedals.clutch >= 0.99);
+        if (up) s.car.pedals.clutch = 0.0;
       };
     case ErrorKind::step_order:
       return [](DriveSample& s) {
-        if (s.car.clutch > 0.0 && s.car.gear != kNeutralGear && s.lever.slot != kNoSlot) s.car.throttle = 0.3;
+        if (s.car.pedals.clutch > 0.0 && s.car.gear != kNeutralGear && s.lever.slot != kNoSlot)
+          s.car.pedals.throttle = 0.3;
       };
     case ErrorKind::wrong_column:
       return [&gate, at = -1.0, wrong = kNoSlot, gear = 0](DriveSample& s) mutable {
         if (s.car.gear != kNeutralGear) gear = s.car.gear;
-        const bool in_aisle = s.car.gear == kNeutralGear && std::abs(s.lever.proxy.y) < 1e-9 && s.car.clutch == 1.0;
+        const bool in_aisle =
+            s.car.gear == kNeutralGear && std::abs(s.lever.proxy.y) < 1e-9 && s.car.pedals.clutch == 1.0;
         if (at < 0.0 && in_aisle && s.time() > 100.05) at = s.time();
         if (at < 0.0 || s.time() - at > 0.02) return;
         wrong = slot_of_gear(gate, gear == 5 || gear == 4 ? 1 : 5);
@@ -170,7 +175,7 @@ SampleChange modification_for(ErrorKind kind, const Gate& gate, const CarSpec& c
       };
     case ErrorKind::blocked:
       return [](DriveSample& s) {
-        if (s.car.clutch == 1.0) s.car.sync = SyncPhase::synchronising, s.lever.f_h = {0.0, 10.0};
+        if (s.car.pedals.clutch == 1.0) s.car.sync = SyncPhase::synchronising, s.lever.f_h = {0.0, 10.0};
       };
     case ErrorKind::too_slow:
     case ErrorKind::slow_step:

@@ -32,8 +32,8 @@ void check_same(const DriveSample& a, const DriveSample& b) {
   CHECK(a.lever.time_ns == b.lever.time_ns);
   CHECK(a.lever.proxy == b.lever.proxy);
   CHECK(a.lever.f_h == b.lever.f_h);
-  CHECK(a.controls.clutch == b.controls.clutch);
-  CHECK(a.car.clutch == b.car.clutch);
+  CHECK(a.controls.pedals.clutch == b.controls.pedals.clutch);
+  CHECK(a.car.pedals.clutch == b.car.pedals.clutch);
   CHECK(a.car.engine_speed == b.car.engine_speed);
   CHECK(a.car.shaft_speed == b.car.shaft_speed);
   CHECK(a.car.clutch_torque == b.car.clutch_torque);
@@ -87,7 +87,7 @@ void write_carless(const std::filesystem::path& file, std::size_t count, const s
     sample.out.cycle = first_cycle + i;
     sample.out.gear = i < count / 2 ? 2 : 3;
     sample.out.road_speed = 1e-3 * static_cast<double>(i);
-    sample.controls.clutch = i % 2 == 0 ? 0.25 : 0.75;
+    sample.controls.pedals.clutch = i % 2 == 0 ? 0.25 : 0.75;
     sample.controls.slope = 0.1;
   }
   write_trace(file, header, samples);
@@ -200,7 +200,7 @@ TEST_CASE("without a car, pedals, gear and speed come from the recording, and th
   CHECK(drive.at(5.2).car.gear == 2);
   CHECK(drive.at(5.8).car.gear == 3);
   CHECK(drive.at(5.8).car.road_speed == doctest::Approx(0.8).epsilon(0.01));
-  CHECK(drive.at(5.8).car.clutch == 0.25);
+  CHECK(drive.at(5.8).car.pedals.clutch == 0.25);
   CHECK(drive.at(5.8).car.slope == 0.1);
   CHECK(drive.at(5.8).car.engine_speed == VehicleState{}.engine_speed);
 }
@@ -220,7 +220,7 @@ TEST_CASE("where the second computation differs, this is reported, and the recor
   for (std::size_t i = 0; i < drive.samples().size(); ++i) {
     const DriveSample& sample = drive.samples()[i];
     CHECK(sample.lever.proxy == complete.samples()[i].lever.proxy);
-    CHECK(sample.car.clutch == complete.samples()[i].controls.clutch);
+    CHECK(sample.car.pedals.clutch == complete.samples()[i].controls.pedals.clutch);
     if (sample.time() < when) check_same(sample, complete.samples()[i]);
     if (sample.time() >= when) CHECK(sample.car.road_speed == sample.lever.road_speed);
   }
@@ -286,13 +286,14 @@ TEST_CASE("a non-finite output or pedal is reported as damage with its cycle; a 
     write_trace(folder / "a.trace", trace.header, trace.samples);
     return refusal(folder / "a.trace");
   };
-  const std::vector<std::function<void(TraceSample&, double)>> outputs{[](TraceSample& s, double v) { s.out.proxy.x = v; },
-                                                                       [](TraceSample& s, double v) { s.out.lever.y = v; },
-                                                                       [](TraceSample& s, double v) { s.out.f_h.x = v; },
-                                                                       [](TraceSample& s, double v) { s.out.road_speed = v; },
-                                                                       [](TraceSample& s, double v) { s.controls.slope = v; },
-                                                                       [](TraceSample& s, double v) { s.controls.clutch = v; },
-                                                                       [](TraceSample& s, double v) { s.out.wall_stiffness = v; }};
+  const std::vector<std::function<void(TraceSample&, double)>> outputs{
+      [](TraceSample& s, double v) { s.out.proxy.x = v; },
+      [](TraceSample& s, double v) { s.out.lever.y = v; },
+      [](TraceSample& s, double v) { s.out.f_h.x = v; },
+      [](TraceSample& s, double v) { s.out.road_speed = v; },
+      [](TraceSample& s, double v) { s.controls.slope = v; },
+      [](TraceSample& s, double v) { s.controls.pedals.clutch = v; },
+      [](TraceSample& s, double v) { s.out.wall_stiffness = v; }};
   const double infinity = std::numeric_limits<double>::infinity();
   for (const auto& spoil : outputs) {
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e300}) {

@@ -43,7 +43,7 @@ void write_sawtooth(const std::filesystem::path& file) {
     s.out.f_h = {0.6 * std::fmod(t, 1.0), 0.8 * std::fmod(t, 1.0)};
     if (i == 4321) s.out.f_h = {0.0, -44.0};
     s.out.lever = s.out.proxy = {0.0, 1e-3 * t};
-    s.controls.clutch = t > 4.1 && t < 4.6 ? 1.0 : 0.0;
+    s.controls.pedals.clutch = t > 4.1 && t < 4.6 ? 1.0 : 0.0;
   }
   write_trace(file, header, samples);
 }
@@ -101,7 +101,7 @@ TEST_CASE("engine, shaft and gear equal the drive's in every cycle; the ideal pa
       CHECK(cycle.shaft_speed == std::abs(sample.car.shaft_speed));
       CHECK(cycle.gear == sample.car.gear);
       CHECK(cycle.lever == sample.lever.proxy);
-      CHECK(cycle.clutch == sample.controls.clutch);
+      CHECK(cycle.clutch == sample.controls.pedals.clutch);
     }
     CHECK(next == shift.cycles.size());
   }

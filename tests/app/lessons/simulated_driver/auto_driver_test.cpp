@@ -32,7 +32,7 @@ class Rig final : public HandDriver {
         run_(setup(config.gate, start), *this, &car_),
         driver_(config) {
     now_.controls.ignition = start.running;
-    now_.controls.hand_brake = start.hand_brake;
+    now_.controls.pedals.hand_brake = start.hand_brake;
     now_.controls.slope = start.slope;
     action_.hand.position = rest_position(config.gate, start.gear);
   }
@@ -40,13 +40,13 @@ class Rig final : public HandDriver {
   HandTarget next(double, glm::dvec2) noexcept override { return action_.hand; }
 
   const DriveSample& step() {
-    run_.channels().controls.write(now_.controls);
+    run_.inputs().controls.write(now_.controls);
     now_.lever = run_.step();
     now_.car = car_.state();
     shown_ = now_;
     action_ = driver_.act(now_);
-    fastest_foot_ = std::max({fastest_foot_, std::abs(action_.controls.clutch - now_.controls.clutch),
-                              std::abs(action_.controls.brake - now_.controls.brake)});
+    fastest_foot_ = std::max({fastest_foot_, std::abs(action_.controls.pedals.clutch - now_.controls.pedals.clutch),
+                              std::abs(action_.controls.pedals.brake - now_.controls.pedals.brake)});
     now_.controls = action_.controls;
     return shown_;
   }
@@ -168,8 +168,8 @@ TEST_CASE("however a lesson ends, the next lap begins in the start state and end
       const LessonStart& start = drive.lesson.start;
       const auto at_start = [&](const DriveSample& s) {
         return s.car.gear == start.gear && s.car.running == start.running &&
-               std::abs(s.car.hand_brake - start.hand_brake) < 0.1 && s.car.road_speed > 0.9 * start.speed - 0.05 &&
-               (start.speed > 0.0 || s.car.road_speed < 0.05);
+               std::abs(s.car.pedals.hand_brake - start.hand_brake) < 0.1 &&
+               s.car.road_speed > 0.9 * start.speed - 0.05 && (start.speed > 0.0 || s.car.road_speed < 0.05);
       };
       const double waited = rig.time();
       while (!at_start(rig.step()) && rig.time() < waited + 120.0) continue;

@@ -133,7 +133,7 @@ TEST_CASE("in an emergency stop, a beginner brakes half as hard as a practised d
       config.skill = skill_of(error);
       double peak = 0.0;
       config.on_cycle = [&](const DriveSample& now) {
-        if (now.car.road_speed > 1.0) peak = std::max(peak, now.car.brake);
+        if (now.car.road_speed > 1.0) peak = std::max(peak, now.car.pedals.brake);
       };
       drive_lesson(config);
       sum += peak / static_cast<double>(seeds);

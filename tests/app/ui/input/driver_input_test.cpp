@@ -43,15 +43,15 @@ Bindings bindings() {
 
 struct Driver {
   DriverInput driver{{bindings(), {0.06, 0.05}}};
-  KeyboardPedals feet;
-  Pedals pedals;
+  gearshift::vehicle::KeyboardPedals feet;
+  gearshift::vehicle::PedalTiming timing;
+  gearshift::haptics::Pedals pedals;
   WindowInput input;
 
   void key(int code, bool down) { input.keys.push_back({code, down, false, false, false}); }
   void frame(double seconds = kFrame, bool ui_has_mouse = false, bool ui_has_keys = false) {
     driver.update(input, seconds, ui_has_mouse, ui_has_keys);
-    feet.set_keys(driver.pedal_keys());
-    pedals = feet.move(seconds, 0.0, false);
+    pedals = feet.move(driver.pedal_keys(), timing, seconds, 0.0, false);
     input.keys.clear();
     input.mouse_moved = glm::dvec2(0.0);
   }
@@ -255,7 +255,7 @@ TEST_CASE("a pressed or released pedal key moves the pedal over its full travel 
 TEST_CASE("a released keyboard clutch moves slowly around the bite point, for the configured time, at any frame rate") {
   for (const int parts : {1, 7}) {  // number of updates into which 10 ms are divided
     Driver d;
-    d.feet.set_timing({.clutch_closed = 0.2, .clutch_bite = 0.8});
+    d.timing = {.clutch_closed = 0.2, .clutch_bite = 0.8};
     const auto hold = [&d, parts](int key, double seconds) {
       d.key(key, true);
       for (int i = 0; i < std::lround(100.0 * parts * seconds); ++i) d.frame(0.01 / parts);
@@ -269,7 +269,7 @@ TEST_CASE("a released keyboard clutch moves slowly around the bite point, for th
       const double pedal = d.pedals.clutch;
       if (pedal < 0.8 - 1e-9 && pedal > 0.2 + 1e-9) slips += 0.01 / parts;
     }
-    CHECK(slips == doctest::Approx(PedalTiming{}.slip_time).epsilon(0.02));
+    CHECK(slips == doctest::Approx(gearshift::vehicle::PedalTiming{}.slip_time).epsilon(0.02));
     CHECK(d.pedals.clutch == 0.0);
   }
 }
@@ -308,18 +308,18 @@ TEST_CASE("the ignition is on at the start; ignition and handbrake toggle with e
   Driver d;
   d.frame();
   CHECK(d.driver.controls().ignition);
-  CHECK(d.driver.controls().hand_brake == 0.0);
+  CHECK(d.driver.controls().pedals.hand_brake == 0.0);
   for (const int key : {GLFW_KEY_I, GLFW_KEY_H, GLFW_KEY_E}) d.key(key, true);
   d.frame();
   CHECK_FALSE(d.driver.controls().ignition);
-  CHECK(d.driver.controls().hand_brake == 1.0);
+  CHECK(d.driver.controls().pedals.hand_brake == 1.0);
   CHECK(d.driver.controls().starter);
   for (const int key : {GLFW_KEY_I, GLFW_KEY_H, GLFW_KEY_E}) d.key(key, false);
   for (const int key : {GLFW_KEY_I, GLFW_KEY_H}) d.key(key, true);
   d.frame();
   d.frame();
   CHECK(d.driver.controls().ignition);
-  CHECK(d.driver.controls().hand_brake == 0.0);
+  CHECK(d.driver.controls().pedals.hand_brake == 0.0);
   CHECK_FALSE(d.driver.controls().starter);
 }
 
@@ -327,16 +327,16 @@ TEST_CASE("a pedal's axis is used from its first movement on, because a pad repo
   Driver d;
   d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};  // if this pad were used, axis 2 at 0 would be half throttle
   d.frame();
-  CHECK(d.driver.controls().throttle == 0.0);
+  CHECK(d.driver.controls().pedals.throttle == 0.0);
   d.input.pads[0].axes[2] = -1.0f;
   d.frame();
-  CHECK(d.driver.controls().throttle == 0.0);
+  CHECK(d.driver.controls().pedals.throttle == 0.0);
   d.input.pads[0].axes[2] = 0.0f;
   d.frame();
-  CHECK(d.driver.controls().throttle == doctest::Approx(0.5));
+  CHECK(d.driver.controls().pedals.throttle == doctest::Approx(0.5));
   d.input.pads.clear();  // the pad is unplugged
   d.frame();
-  CHECK(d.driver.controls().throttle == 0.0);
+  CHECK(d.driver.controls().pedals.throttle == 0.0);
 }
 
 TEST_CASE("each pedal follows its own axis only") {
@@ -354,7 +354,8 @@ TEST_CASE("each pedal follows its own axis only") {
     driver.update(input, kFrame, false, false);
     input.pads[0].axes[axis] = 0.5f;  // three quarters of the pedal's travel
     driver.update(input, kFrame, false, false);
-    const double pedals[] = {driver.controls().throttle, driver.controls().brake, driver.controls().clutch};
+    const double pedals[] = {driver.controls().pedals.throttle, driver.controls().pedals.brake,
+                             driver.controls().pedals.clutch};
     for (const std::size_t pedal : {0u, 1u, 2u}) CHECK(pedals[pedal] == (pedal == axis ? 0.75 : 0.0));
   }
 }
@@ -474,13 +475,13 @@ TEST_CASE("axes and buttons bound by a stick's name follow that stick to any por
     }
     return driver.controls();
   };
-  CHECK(drive({0, 1, 2}).throttle == doctest::Approx(0.375));
-  CHECK(drive({0, 1, 2}).clutch == doctest::Approx(0.875));
+  CHECK(drive({0, 1, 2}).pedals.throttle == doctest::Approx(0.375));
+  CHECK(drive({0, 1, 2}).pedals.clutch == doctest::Approx(0.875));
   // The order in which different sticks are connected does not matter.
-  CHECK(drive({1, 0, 2}).throttle == doctest::Approx(0.375));
-  CHECK(drive({1, 2}).throttle == doctest::Approx(0.875));
-  CHECK(drive({1, 2}).clutch == 0.0);  // only one connected stick has a matching name
-  CHECK(drive({1}).throttle == 0.0);
+  CHECK(drive({1, 0, 2}).pedals.throttle == doctest::Approx(0.375));
+  CHECK(drive({1, 2}).pedals.throttle == doctest::Approx(0.875));
+  CHECK(drive({1, 2}).pedals.clutch == 0.0);  // only one connected stick has a matching name
+  CHECK(drive({1}).pedals.throttle == 0.0);
   CHECK_FALSE(drive({0, 1, 2}).starter);  // the pressed button is on the pedals, not on the wheel
 }
 
@@ -540,7 +541,7 @@ TEST_CASE("equal input gives exactly equal output") {
     }
   }
   CHECK(a.at() == b.at());
-  CHECK(a.driver.controls().throttle == b.driver.controls().throttle);
+  CHECK(a.driver.controls().pedals.throttle == b.driver.controls().pedals.throttle);
   CHECK(a.pedals.clutch == b.pedals.clutch);
   CHECK(a.driver.pressed() == b.driver.pressed());
 }

@@ -37,7 +37,7 @@ class ThumbDesk {
         driver_({bindings_}),
         hand_(target_, 0.001),
         lever_(gripped(), 1'000'000, hand_),
-        loop_({}, gate_, lever_, load_, channels_) {
+        loop_({}, gate_, lever_, load_, inputs_) {
     driver_.set_reach(hand_reach(gate_, lever_.spec()));
     loop_.arm();
     input_.pads = {{"A pad", std::vector<float>(6, 0.0f), std::vector<unsigned char>(12, 0), ""}};
@@ -161,7 +161,7 @@ class ThumbDesk {
   SmoothedHand hand_;
   SimulatedLever lever_;
   NoLoad load_;
-  LoopChannels channels_;
+  LoopInputs inputs_;
   HapticLoop loop_;
   WindowInput input_;
   std::deque<dvec2> picture_;

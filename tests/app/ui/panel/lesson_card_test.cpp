@@ -275,13 +275,13 @@ TEST_CASE("the keys are listed under goal and prompt, with the starter's key aft
 TEST_CASE("with the panel hidden the card shows pedals, engine, handbrake and slope; otherwise the status bar does") {
   CardRig rig(driven());
   rig.input.car.engine_speed = 240.0;
-  rig.input.car.hand_brake = 1.0;
+  rig.input.car.pedals.hand_brake = 1.0;
   rig.input.car.slope = std::atan(0.1);
   rig.show(driven());
   for (const char* words : {"clutch", "brake", "throttle", "2292 rpm", "handbrake", "10 % uphill"}) CHECK(says(words));
   const auto blue = [] { return drawn_in(ui::ink::kAccent).size(); };
   const std::size_t up = blue();
-  rig.input.car.clutch = 0.5;
+  rig.input.car.pedals.clutch = 0.5;
   rig.show(driven());
   CHECK(blue() > up);
   rig.input.car.stalled = true;

@@ -86,8 +86,8 @@ TEST_CASE("a lesson's card fits on every screen, below the cabin and without tou
     rig.input.keys = {{"clutch", "A"},  {"brake", "S"},      {"throttle", "D"},  {"a little throttle", "F"},
                       {"starter", "E"}, {"hand brake", "H"}, {"lever", "arrows"}};
     rig.input.car.slope = 0.0997;
-    rig.input.car.hand_brake = 1.0;
-    rig.input.car.clutch = 0.6;
+    rig.input.car.pedals.hand_brake = 1.0;
+    rig.input.car.pedals.clutch = 0.6;
     for (const Moment& moment : moments()) {
       CAPTURE(moment.name);
       rig.input.coach = moment.coach;

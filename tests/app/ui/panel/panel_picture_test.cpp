@@ -35,8 +35,8 @@ void make_busy(PanelRig& rig) {
   rig.input.health.cycle_ns = 240;
   rig.input.car.engine_speed = 230.0;
   rig.input.car.road_speed = 13.4;
-  rig.input.car.clutch = 0.7;
-  rig.input.car.throttle = 0.3;
+  rig.input.car.pedals.clutch = 0.7;
+  rig.input.car.pedals.throttle = 0.3;
   rig.input.car.shift_advice = 1;
   rig.input.car.grinding = true;
   rig.input.events = {{EventKind::gear_engaged, 1200, 1'200'000'000, 1.0},

@@ -120,7 +120,7 @@ TEST_CASE("handbrake and ignition have lamps, and a slope is shown in per cent")
   CHECK(colour("Handbrake") != ui::ink::kBad);
   for (const DrawnText& text : drawn_texts()) CHECK_FALSE(text.text.starts_with("Slope"));
   rig.input.car.ignition = false;
-  rig.input.car.hand_brake = 1.0;
+  rig.input.car.pedals.hand_brake = 1.0;
   rig.input.car.slope = -std::atan(0.08);
   run_and_draw(rig);
   CHECK(colour("Ignition") != ui::ink::kGood);

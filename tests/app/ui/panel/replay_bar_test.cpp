@@ -197,7 +197,7 @@ TEST_CASE("a clutch that is pressed in a shift is drawn as a curve that rises at
   // The clutch's curve has the accent colour. It is highest while the clutch pedal is down in the samples.
   double down_from = 1e9, down_to = 0.0;
   for (const DriveSample& sample : rig.player.drive().between(rig.player.from(), rig.player.to())) {
-    if (sample.car.clutch < 0.93) continue;
+    if (sample.car.pedals.clutch < 0.93) continue;
     down_from = std::min(down_from, sample.time());
     down_to = std::max(down_to, sample.time());
   }

@@ -87,7 +87,7 @@ TEST_CASE("a kernel input device is listed; its pedal moves the throttle, its bu
   for (const int value : {-100, -50, 0, 63, 127, 127, 63, -127}) {
     pedals.press_pedal(value);
     detector.record_move(frame());
-    CHECK(driver.controls().throttle == doctest::Approx((value + 127.0) / 254.0));
+    CHECK(driver.controls().pedals.throttle == doctest::Approx((value + 127.0) / 254.0));
   }
   pedals.press_button(true);
   frame();

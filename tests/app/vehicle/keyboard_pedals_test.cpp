@@ -1,5 +1,5 @@
 // Keyboard pedals, compared with their closed form for any time step and at low frame rates.
-#include "app/ui/input/keyboard_pedals.h"
+#include "app/vehicle/keyboard_pedals.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace gearshift::ui;
+using namespace gearshift::vehicle;
 
 namespace {
 
@@ -27,16 +27,16 @@ double let_up_for(double time) {
 // once per frame.
 std::vector<double> clutch_path(double frames_per_second, double cycle) {
   KeyboardPedals feet;
-  feet.set_timing(kPace);
+  PedalKeys keys;
   std::vector<double> path;
   double next_frame = 0.0;
   for (int i = 0; i < 2000; ++i) {
     const double time = i * cycle;
     if (time >= next_frame) {
-      feet.set_keys({.clutch = time < 0.51});
+      keys = {.clutch = time < 0.51};
       next_frame += 1.0 / frames_per_second;
     }
-    path.push_back(feet.move(cycle, 0.0, false).clutch);
+    path.push_back(feet.move(keys, kPace, cycle, 0.0, false).clutch);
   }
   return path;
 }
@@ -47,12 +47,9 @@ TEST_CASE("a released clutch follows its closed form, for any time steps") {
   for (const double part : {0.001, 0.0137, 0.1, 0.9}) {
     CAPTURE(part);
     KeyboardPedals feet;
-    feet.set_timing(kPace);
-    feet.set_keys({.clutch = true});
-    CHECK(feet.move(10.0, 0.0, false).clutch == 1.0);
-    feet.set_keys({});
+    CHECK(feet.move({.clutch = true}, kPace, 10.0, 0.0, false).clutch == 1.0);
     for (double time = part; time < 2.0; time += part)
-      REQUIRE(feet.move(part, 0.0, false).clutch == doctest::Approx(let_up_for(time)).epsilon(1e-9));
+      REQUIRE(feet.move({}, kPace, part, 0.0, false).clutch == doctest::Approx(let_up_for(time)).epsilon(1e-9));
   }
 }
 
@@ -73,9 +70,7 @@ TEST_CASE("at 10, 30 and 144 frames per second the pedal follows the same path, 
 
 TEST_CASE("light throttle takes a free engine to at most 1700 rpm; under load it is 0.2") {
   const auto throttle = [](double speed, bool coupled) {
-    KeyboardPedals feet;
-    feet.set_keys({.throttle_light = true});
-    return feet.move(1.0, speed, coupled).throttle;
+    return KeyboardPedals().move({.throttle_light = true}, kPace, 1.0, speed, coupled).throttle;
   };
   CHECK(throttle(84.0, false) == doctest::Approx(0.2));
   CHECK(throttle(155.0, false) == doctest::Approx(0.1));
@@ -85,23 +80,16 @@ TEST_CASE("light throttle takes a free engine to at most 1700 rpm; under load it
 
 TEST_CASE("invalid time steps do not move the pedals") {
   KeyboardPedals feet;
-  feet.set_keys({.throttle = true, .brake = true, .clutch = true});
+  const PedalKeys all{.throttle = true, .brake = true, .clutch = true};
   for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), -HUGE_VAL, HUGE_VAL}) {
-    const Pedals pedals = feet.move(seconds, 0.0, false);
+    const gearshift::haptics::Pedals pedals = feet.move(all, kPace, seconds, 0.0, false);
     CHECK(pedals.throttle + pedals.brake + pedals.clutch == 0.0);
   }
 }
 
-TEST_CASE("when two levers ask for the pedals, only the active one moves them, and the other gets the same position") {
-  KeyboardPedals feet;
-  feet.set_keys({.brake = true});  // moves the brake at its default speed, 4 per second
-  double now = 0.0;
-  for (int cycle = 1; cycle <= 100; ++cycle) {
-    now = feet.move(0.001, 0.0, false, 0).brake;
-    REQUIRE(feet.move(0.001, 0.0, false, 1).brake == now);
-  }
-  CHECK(now == doctest::Approx(0.4));
-  feet.set_active_lever(1);
-  CHECK(feet.move(0.001, 0.0, false, 0).brake == now);
-  CHECK(feet.move(0.050, 0.0, false, 1).brake == doctest::Approx(0.6));
+TEST_CASE("pedals that continue from other positions move on from there") {
+  KeyboardPedals feet({.brake = 0.4, .hand_brake = 0.7});
+  const gearshift::haptics::Pedals pedals = feet.move({.brake = true}, kPace, 0.050, 0.0, false);
+  CHECK(pedals.brake == doctest::Approx(0.6));  // the full travel in 0.25 s
+  CHECK(pedals.hand_brake == 0.7);
 }
