@@ -335,33 +335,47 @@ void Session::save_preset(const std::string& name) {
   message_ = fmt::format("preset saved as {}", file.string());
 }
 
-const ui::PanelInput& Session::panel_input() {
-  panel_.gate = &displayed_gate();
-  panel_.device = &runtime_->device();
-  panel_.haptics = runtime_->config().preset.haptics;
-  panel_.admitted = runtime_->admitted();
-  panel_.now = shown_;
-  panel_.run = run_;
-  panel_.history = history_;
-  panel_.events = player_ ? std::vector<haptics::HapticEvent>{} : events_;
+ui::PanelInput Session::panel_input() {
+  const lessons::CoachView& coach = coach_.view();
+  const bool is_automatic_hand = running_.hand == kAutomaticHand;
   panel_.health = runtime_->health();
-  panel_.car = car_;
-  panel_.coach = coach_.view();
-  panel_.replay = player_ ? &*player_ : nullptr;
   panel_.opening = opening_ ? opening_->file().filename().string() : std::string();
-  panel_.gate_name = running_.gate;
-  panel_.car_name = running_.car;
-  panel_.preset_name = running_.preset;
-  panel_.hand_name = running_.stick ? "your own" : running_.hand.empty() ? "from preset" : running_.hand;
-  if (running_.stick) panel_.stick = ui::StickView{is_stick_connected_, running_.stick->answer_time()};
-  panel_.recording = runtime_->is_recording();
-  panel_.is_automatic_hand = running_.hand == kAutomaticHand;
-  panel_.fail_conditions = coach_.lesson() ? lessons::failing_errors_sentence(*coach_.lesson()) : std::string();
-  panel_.instructor_holds_pedals = is_car_held_ && !panel_.is_automatic_hand;
-  panel_.is_unpassable = is_unpassable_ && coach_.view().phase == lessons::LessonPhase::driving;
-  panel_.message = message_;
-  panel_.frame_ms = frame_ms_;
-  return panel_;
+  return {.gate = displayed_gate(),
+          .device = runtime_->device(),
+          .haptics = runtime_->config().preset.haptics,
+          .admitted = runtime_->admitted(),
+          .now = shown_,
+          .run = run_,
+          .history = history_,
+          .events = player_ ? std::span<const haptics::HapticEvent>() : events_,
+          .health = panel_.health,
+          .car = car_,
+          .gate_name = running_.gate,
+          .preset_name = running_.preset,
+          .hand_name = running_.stick          ? "your own"
+                       : running_.hand.empty() ? "from preset"
+                                               : std::string_view(running_.hand),
+          .device_name = panel_.device_name,
+          .stick = running_.stick ? std::optional(ui::StickView{is_stick_connected_, running_.stick->answer_time()})
+                                  : std::nullopt,
+          .gates = panel_.gates,
+          .presets = panel_.presets,
+          .hands = panel_.hands,
+          .compared = panel_.compared ? &*panel_.compared : nullptr,
+          .recording = runtime_->is_recording(),
+          .message = message_,
+          .frame_ms = frame_ms_,
+          .car_name = running_.car,
+          .cars = panel_.cars,
+          .coach = coach,
+          .replay = player_ ? &*player_ : nullptr,
+          .opening = panel_.opening,
+          .keys = panel_.keys,
+          .mouse_moves_lever = panel_.mouse_moves_lever,
+          .is_automatic_hand = is_automatic_hand,
+          .instructor_holds_pedals = is_car_held_ && !is_automatic_hand,
+          .is_unpassable = is_unpassable_ && coach.phase == lessons::LessonPhase::driving,
+          .headset = panel_.headset ? &*panel_.headset : nullptr};
 }
 
 }  // namespace gearshift::session

@@ -60,7 +60,7 @@ class Session {
   bool take_new_model();                       // true once after the stage was rebuilt
   bool take_new_runtime();                     // true once after gate, car, hand or device have changed
   std::optional<CarSwitches> take_switches();  // not empty once after a lesson has begun
-  const ui::PanelInput& panel_input();
+  ui::PanelInput panel_input();                // valid until the next call of another function of this session
   runtime::Runtime& runtime() { return *runtime_; }
   const lessons::Coach& coach() const { return coach_; }
   const haptics::HapticSnapshot& shown() const { return shown_; }  // lever shown in the cabin, live or replayed
@@ -97,6 +97,17 @@ class Session {
   bool is_replaying_shift() const { return player_ && player_->shift(); }
 
  private:
+  // What the panel shows and no other member has.
+  struct PanelData {
+    std::vector<std::string> gates, presets, cars, hands;
+    std::string device_name, opening;
+    std::optional<haptics::Preset> compared;
+    std::optional<cabin::HeadsetReport> headset;
+    std::vector<ui::KeyHint> keys;
+    bool mouse_moves_lever = false;
+    runtime::LoopHealth health;
+  };
+
   // Functions for the real stick, defined in session_stick.cpp.
   bool arm();
   void poll_stick();
@@ -188,7 +199,7 @@ class Session {
   vehicle::VehicleState car_;                     // displayed state of the car
   std::vector<haptics::HapticSnapshot> history_;  // lever samples of this frame for the plots
   std::vector<haptics::HapticEvent> events_;
-  ui::PanelInput panel_;
+  PanelData panel_;
   std::filesystem::path last_recording_;
   std::set<std::string> lesson_recordings_;  // recordings made automatically for lessons
   std::string message_;

@@ -137,7 +137,7 @@ void Coach::dismiss_lesson() {
   state.chosen_mode.reset();
   CoachView& view = state.view;
   view.phase = LessonPhase::none;
-  view.lesson = view.title = view.goal = "";
+  view.lesson = view.title = view.goal = view.fail_conditions = "";
   view.time_limit = 0.0;
   view.now = {};
   view.result = {};
@@ -300,6 +300,7 @@ void Coach::State::offer() {
   view.lesson = lesson->key;
   view.title = lesson->title;
   view.goal = lesson->goal;
+  view.fail_conditions = failing_errors_sentence(*lesson);
   view.time_limit = lesson->time_limit;
   view.now = {};
   view.result = {};

@@ -44,6 +44,7 @@ struct CoachView {
   // Current trial
   LessonPhase phase = LessonPhase::none;
   std::string lesson, title, goal;  // the lesson's key, title and goal; empty in phase none
+  std::string fail_conditions;      // sentence that names the errors that fail the lesson; may be empty
   LessonMode mode = LessonMode::follow_me;
   bool help_wanted = true;  // chosen by the user; false: no trial is guided
   double guidance = 0.0;    // [1] guidance gain of this trial; 0: the trial is graded

@@ -198,7 +198,8 @@ bool draw_message(Controls& controls, const BarCursor& parts, float width, const
   ImGui::PopTextWrapPos();
   ImGui::PopClipRect();
   const bool is_cut = ImGui::GetItemRectSize().y > room.y;
-  if ((is_cut || message != input.message) && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.message.c_str());
+  if ((is_cut || message != input.message) && ImGui::IsItemHovered())
+    ImGui::SetTooltip("%.*s", static_cast<int>(input.message.size()), input.message.data());
   ImGui::SetCursorScreenPos({low.x, low.y + parts.height() - line});
   controls.line(loop_line(input, width), width, ink::kSoft);
   return !is_cut;

@@ -40,6 +40,11 @@ void Controls::mark(std::string_view name) {
   place->second = {{{low.x, low.y}, {high.x, high.y}}, frame_};
 }
 
+const char* Controls::join(std::string_view kind, std::string_view key) {
+  joined_.assign(kind).append(": ").append(key);
+  return joined_.c_str();
+}
+
 bool Controls::button(const char* name, const char* label, ImVec2 size) {
   ImGui::PushID(name);
   const bool pressed = ImGui::Button(label, size);
@@ -58,19 +63,20 @@ bool Controls::button(const char* name, const char* label, ImVec2 size, ImU32 co
   return pressed;
 }
 
-std::optional<std::string> Controls::choice(const char* name, const std::string& current,
+std::optional<std::string> Controls::choice(const char* name, std::string_view current,
                                             std::span<const std::string> options, float width,
-                                            std::string (*label)(const std::string&)) {
+                                            std::string (*label)(std::string_view)) {
   std::optional<std::string> chosen;
-  const auto text_of = [label](const std::string& option) { return label == nullptr ? option : label(option); };
+  const auto text_of = [label](std::string_view option) {
+    return label == nullptr ? std::string(option) : label(option);
+  };
   const std::string text = text_of(current);
   const float room = width - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
   const bool fits = width_of(text) <= room;
   if (!fits) ++shortened_;
-  const std::string shown = fits ? text : with_ellipsis(text, room);
   ImGui::PushID(name);
   ImGui::SetNextItemWidth(width);
-  const bool open = ImGui::BeginCombo("##choice", shown.c_str());
+  const bool open = ImGui::BeginCombo("##choice", fits ? text.c_str() : with_ellipsis(text, room).c_str());
   mark(name);
   if (!open && !fits && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
   if (open) {
@@ -78,7 +84,7 @@ std::optional<std::string> Controls::choice(const char* name, const std::string&
       ImGui::PushID(option.c_str());
       if (ImGui::Selectable(text_of(option).c_str(), option == current) && option != current) chosen = option;
       ImGui::PopID();
-      mark(std::string(name) + ": " + option);
+      mark(join(name, option));
     }
     ImGui::EndCombo();
   }

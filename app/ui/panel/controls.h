@@ -27,14 +27,15 @@ class Controls {
   std::optional<ControlRect> rect(std::string_view name) const;
   int shortened() const noexcept { return shortened_; }  // number of texts in this frame that did not fit
 
-  void mark(std::string_view name);  // records the last ImGui item under this name
+  void mark(std::string_view name);                               // records the last ImGui item under this name
+  const char* join(std::string_view kind, std::string_view key);  // "kind: key", valid until the next call
 
   bool button(const char* name, const char* label, ImVec2 size = {0.0f, 0.0f});
   bool button(const char* name, const char* label, ImVec2 size, ImU32 colour);
   // Draws a drop-down list, `width` [px] wide. Returns the chosen option if it differs from the current one. `label`:
   // converts an option to its displayed text; if null, options are displayed unchanged.
-  std::optional<std::string> choice(const char* name, const std::string& current, std::span<const std::string> options,
-                                    float width, std::string (*label)(const std::string&) = nullptr);
+  std::optional<std::string> choice(const char* name, std::string_view current, std::span<const std::string> options,
+                                    float width, std::string (*label)(std::string_view) = nullptr);
   // Draws a dash in the curve's colour, then the text in the small font, e.g. "f_h 12.3 N".
   void legend(ImU32 colour, std::string_view text);
   // Draws one line, at most `width` [px] wide: in the small font if necessary, with an ellipsis as a last resort.
@@ -48,6 +49,7 @@ class Controls {
   std::map<std::string, Place, std::less<>> places_;
   std::uint64_t frame_ = 0;
   int shortened_ = 0;
+  std::string joined_;
 };
 
 }  // namespace gearshift::ui

@@ -84,13 +84,23 @@ void HistoryView::draw(Controls& controls, const lessons::CoachView& coach, Pane
   }
   ImGui::Spacing();
   put(fmt::format("Times are local ({}).", format_time_zone(std::time(nullptr))), ink::kSoft, engine::UiFont::small);
-  for (std::size_t i = 0; i < coach.runs.size(); ++i) {
-    const lessons::RunRow& run = coach.runs[i];
-    draw_run(controls, coach, run);
-    if (run.id != opened_) continue;
-    static const std::vector<lessons::CommentRow> none;
-    draw_opened(controls, run, i < coach.comments.size() ? coach.comments[i] : none, out);
-  }
+  const std::span<const lessons::RunRow> runs = coach.runs;
+  const auto opened = std::find_if(runs.begin(), runs.end(), [&](const auto& run) { return run.id == opened_; });
+  if (opened == runs.end()) return draw_runs(controls, coach, runs);
+  const auto index = static_cast<std::size_t>(opened - runs.begin());
+  draw_runs(controls, coach, runs.first(index + 1));
+  draw_opened(controls, *opened, coach.comments[index], out);
+  draw_runs(controls, coach, runs.subspan(index + 1));
+}
+
+// Draws the lines of those runs that are not scrolled out of view.
+void HistoryView::draw_runs(Controls& controls, const lessons::CoachView& coach,
+                            std::span<const lessons::RunRow> runs) {
+  ImGuiListClipper visible;
+  visible.Begin(static_cast<int>(runs.size()));
+  while (visible.Step())
+    for (int i = visible.DisplayStart; i < visible.DisplayEnd; ++i)
+      draw_run(controls, coach, runs[static_cast<std::size_t>(i)]);
 }
 
 // Draws one line for a run: lesson, time and outcome. A click on it shows or hides the run's details.

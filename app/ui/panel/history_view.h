@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "app/ui/panel/comment_list.h"
 #include "app/ui/panel/panel.h"
@@ -13,6 +14,7 @@ class HistoryView {
   void draw(Controls& controls, const lessons::CoachView& coach, PanelRequests& out);
 
  private:
+  void draw_runs(Controls& controls, const lessons::CoachView& coach, std::span<const lessons::RunRow> runs);
   void draw_run(Controls& controls, const lessons::CoachView& coach, const lessons::RunRow& run);
   void draw_opened(Controls& controls, const lessons::RunRow& run, const std::vector<lessons::CommentRow>& comments,
                    PanelRequests& out);

@@ -26,7 +26,7 @@ void draw_cap(const std::string& key) {
 
 }  // namespace
 
-void draw_keys(const std::vector<KeyHint>& keys) {
+void draw_keys(std::span<const KeyHint> keys) {
   const float em = engine::ui_em();
   bool first = true;
   for (const KeyHint& hint : keys) {
@@ -42,7 +42,7 @@ void draw_keys(const std::vector<KeyHint>& keys) {
   }
 }
 
-void draw_restart_prompt(const std::vector<KeyHint>& keys) {
+void draw_restart_prompt(std::span<const KeyHint> keys) {
   const auto starter = std::find_if(
       keys.begin(), keys.end(), [](const KeyHint& hint) { return hint.action.find("starter") != std::string::npos; });
   const std::string words = starter == keys.end() ? std::string("Press the clutch, then the starter.")

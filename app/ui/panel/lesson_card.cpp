@@ -141,7 +141,7 @@ void draw_title(const lessons::CoachView& coach) {
 void draw_next(const lessons::CoachView& coach, bool has_next) {
   if (coach.next.empty()) return;
   put(has_next ? "Next" : "Repeat", ink::kSoft, engine::UiFont::small);
-  const std::string title = lesson_title(coach, coach.next);
+  const std::string_view title = lesson_title(coach, coach.next);
   same_line_if_fits(width_of(title, engine::UiFont::small));
   put(title, ink::kAccent, engine::UiFont::small);
   same_line_if_fits(width_of(coach.next_why, engine::UiFont::small));
@@ -227,7 +227,7 @@ void LessonCard::draw_offered(FrameContext& now) {
   if (small_button(now.controls, "lesson_dismiss", "Not now")) out.dismiss_lesson = true;
   const auto body = [&] {
     put_wrapped(coach.goal, ink::kText, engine::UiFont::prompt);
-    if (!now.input.fail_conditions.empty()) put_wrapped(now.input.fail_conditions, ink::kSoft);
+    if (!coach.fail_conditions.empty()) put_wrapped(coach.fail_conditions, ink::kSoft);
     put_wrapped(describe_attempt(coach), ink::kSoft);
     if (now.input.instructor_holds_pedals)
       put_wrapped("The instructor is holding the clutch and brake until you start. Press \"Not now\" to take over.",

@@ -18,7 +18,7 @@
 
 namespace gearshift::ui {
 
-std::string lesson_title(const lessons::CoachView& coach, const std::string& key) {
+std::string_view lesson_title(const lessons::CoachView& coach, std::string_view key) {
   const auto found = std::find_if(coach.lessons.begin(), coach.lessons.end(),
                                   [&](const lessons::LessonStanding& lesson) { return lesson.key == key; });
   return found == coach.lessons.end() ? key : found->title;
@@ -91,7 +91,7 @@ std::string format_time_zone(std::time_t now) {
   return fmt::format("UTC{}:{}", offset.substr(0, 3), offset.substr(3));
 }
 
-std::string readable_name(const std::string& key) {
+std::string readable_name(std::string_view key) {
   static constexpr std::pair<std::string_view, std::string_view> kShippedGates[] = {
       {"four_speed", "4-speed"},
       {"dog_leg_five", "Dog-leg 5-speed"},
@@ -102,7 +102,7 @@ std::string readable_name(const std::string& key) {
       {"six_speed_r_right_down", "6-speed, R bottom right"}};
   for (const auto& [gate, title] : kShippedGates)
     if (key == gate) return std::string(title);
-  std::string words = key;
+  std::string words(key);
   std::replace(words.begin(), words.end(), '_', ' ');
   if (!words.empty()) words[0] = haptics::ascii_upper(words[0]);
   return words;

@@ -5,12 +5,14 @@
 
 #include <ctime>
 #include <string>
+#include <string_view>
 
 #include "app/lessons/coach/coach_view.h"
 
 namespace gearshift::ui {
 
-std::string lesson_title(const lessons::CoachView& coach, const std::string& key);  // returns an unknown key unchanged
+// Returns an unknown key unchanged. The text belongs to the view or is the key.
+std::string_view lesson_title(const lessons::CoachView& coach, std::string_view key);
 
 bool is_grade_shown(const lessons::LessonResult& result);         // true if the run is graded and was not left early
 std::string format_verdict(const lessons::LessonResult& result);  // "7.5", or why ungraded: "guided", "data lost"
@@ -28,6 +30,6 @@ std::string format_local_time(const std::string& utc);
 std::string format_time_zone(std::time_t now);  // the local time zone: "UTC+01:00"
 
 // Converts a file name to display text: "my_own_gate" becomes "My own gate". The shipped gates have their own titles.
-std::string readable_name(const std::string& key);
+std::string readable_name(std::string_view key);
 
 }  // namespace gearshift::ui

@@ -45,7 +45,7 @@ void draw_known(Controls& controls, const lessons::CoachView& coach, float width
   if (!open) return;
   const auto entry = [&](const std::string& name, const char* label) {
     if (ImGui::Selectable(label, name == coach.learner) && name != coach.learner) out.learner = name;
-    controls.mark("learner: " + name);
+    controls.mark(controls.join("learner", name));
   };
   for (const std::string& name : coach.learners) entry(name, name.c_str());
   entry({}, kNoLearner);
@@ -130,9 +130,9 @@ void draw_next_choice(Controls& controls, const lessons::CoachView& coach, const
                       LessonRequests& out) {
   const float height = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
   const ImVec2 low = ImGui::GetCursorScreenPos();
-  const std::string name = "next: " + key;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, 0.0f});
-  if (controls.button(name.c_str(), "", {width, height}, engine::with_alpha(ink::kRaised, 0.0f))) out.next = key;
+  if (controls.button(controls.join("next", key), "", {width, height}, engine::with_alpha(ink::kRaised, 0.0f)))
+    out.next = key;
   ImGui::PopStyleVar();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Set as next lesson");
   const bool on = coach.next == key, hovered = ImGui::IsItemHovered();
@@ -166,7 +166,7 @@ void draw_lesson(Controls& controls, const lessons::CoachView& coach, const less
   const float room = ImGui::GetContentRegionAvail().x;
   ImGui::BeginDisabled(!can_offer);
   if (ImGui::Selectable("##lesson", is_here)) out.offer = lesson.key;
-  controls.mark("lesson: " + lesson.key);
+  controls.mark(controls.join("lesson", lesson.key));
   if (lesson.trials > 0 && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("%s", format_standing(lesson).c_str());
   ImGui::SetCursorPos(begin);

@@ -12,7 +12,7 @@ constexpr float kOpaque = 0.86f;
 
 }  // namespace
 
-void MessageNote::draw(const std::string& message, bool is_in_bar, const std::string& to_do, const ControlRect& room) {
+void MessageNote::draw(std::string_view message, bool is_in_bar, std::string_view to_do, const ControlRect& room) {
   if (message != message_) {
     message_ = message;
     arrived_at_ = ImGui::GetTime();

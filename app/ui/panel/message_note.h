@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "app/ui/panel/controls.h"
 
@@ -14,7 +15,7 @@ class MessageNote {
 
   // Call once per frame. Draws along the upper edge of `room` [px]. is_in_bar: the status bar shows the whole message.
   // to_do: what the user has to do; may be empty.
-  void draw(const std::string& message, bool is_in_bar, const std::string& to_do, const ControlRect& room);
+  void draw(std::string_view message, bool is_in_bar, std::string_view to_do, const ControlRect& room);
 
  private:
   std::string message_;

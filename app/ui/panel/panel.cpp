@@ -74,8 +74,8 @@ void draw_view_reset(Controls& controls, PanelRequests& out) {
 }
 
 // The command line calls the simulated driver's hand "by itself".
-std::string hand_label(const std::string& hand) {
-  return hand == "by itself" ? "simulated driver" : hand;
+std::string hand_label(std::string_view hand) {
+  return std::string(hand == "by itself" ? "simulated driver" : hand);
 }
 
 struct Tab {
@@ -121,7 +121,7 @@ class TabStyle {
 
 // Returns the gate of the replayed drive during a replay, otherwise the gate of the live lever.
 const haptics::Gate& viewed_gate(const PanelInput& input) {
-  return input.replay == nullptr ? *input.gate : input.replay->drive().gate();
+  return input.replay == nullptr ? input.gate : input.replay->drive().gate();
 }
 
 ShownPaths shown_paths(const PanelInput& input) {
@@ -196,11 +196,11 @@ void Panel::State::draw_left(const Layout& layout, const PanelInput& input, Pane
     const float spacing = ImGui::GetStyle().ItemSpacing.y;
     const float height = ImGui::GetContentRegionAvail().y - ClipMeter::height() - spacing;
     const float gate_height = 0.38f * height;
-    const double max = std::max(input.device->max_force.x, input.device->max_force.y);
+    const double max = std::max(input.device.max_force.x, input.device.max_force.y);
     const haptics::Gate& gate = viewed_gate(input);
     draw_gate_view({ImGui::GetContentRegionAvail().x, gate_height}, gate, input.now, trail, max, shown_paths(input));
     plots.draw(controls, height - gate_height - spacing, gate, input.now, trail);
-    clip.draw(controls, input.now, *input.device);
+    clip.draw(controls, input.now, input.device);
   }
   ImGui::End();
 }
@@ -208,9 +208,9 @@ void Panel::State::draw_left(const Layout& layout, const PanelInput& input, Pane
 void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
   const float label = 4.6f * engine::ui_em();
   if (input.replay != nullptr) put("Live settings, not the recording's:", ink::kWarn, engine::UiFont::small);
-  const auto row = [&](const char* name, const char* caption, const std::string& current,
-                       const std::vector<std::string>& options, std::optional<std::string>& asked,
-                       std::string (*text_of)(const std::string&) = nullptr) {
+  const auto row = [&](const char* name, const char* caption, std::string_view current,
+                       std::span<const std::string> options, std::optional<std::string>& asked,
+                       std::string (*text_of)(std::string_view) = nullptr) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s", caption);
     ImGui::SameLine(label);
@@ -219,7 +219,7 @@ void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
   if (!input.cars.empty()) row("car", "Car", input.car_name, input.cars, out.car, readable_name);
   row("gate", "Gate", input.gate_name, input.gates, out.gate, readable_name);
   row("preset", "Preset", input.preset_name, input.presets, out.preset);
-  const auto fixed_row = [&](const char* caption, const std::string& value, ImU32 colour) {
+  const auto fixed_row = [&](const char* caption, std::string_view value, ImU32 colour) {
     ImGui::TextDisabled("%s", caption);
     ImGui::SameLine(label);
     controls.line(value, ImGui::GetContentRegionAvail().x, colour);
@@ -256,7 +256,7 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
   tab(kTabs[1], [&] { runs.draw(controls, input.coach, out); });
   tab(kTabs[2], [&] {
     tuning.draw(controls, input, out);
-    events.draw(!input.device->measures_hand_force);
+    events.draw(!input.device.measures_hand_force);
   });
   tab(kTabs[3], [&] { setup.draw(controls, input, out); });
   tab(kTabs[4], [&] { draw_loop_view(input); });

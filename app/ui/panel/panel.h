@@ -4,9 +4,10 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <type_traits>
 
 #include "app/cabin/headset/headset_report.h"
 #include "app/lessons/coach/coach_view.h"
@@ -27,39 +28,42 @@ struct StickView {
   double delay = 0.0;  // [s] measured time from a reading to the effect of the force computed from it
 };
 
+// The state that the panel shows. It refers to everything that is larger than a few words, so that a frame copies
+// none of it: the caller changes nothing until draw() returns.
 struct PanelInput {
-  const haptics::Gate* gate = nullptr;          // never null in draw()
-  const haptics::DeviceSpec* device = nullptr;  // never null in draw()
-  haptics::HapticConfig haptics;                // configuration in use, but with the requested tuning
-  haptics::AdmittedTuning admitted;             // tuning in use
-  haptics::HapticSnapshot now;
+  const haptics::Gate& gate;
+  const haptics::DeviceSpec& device;
+  const haptics::HapticConfig& haptics;     // configuration in use, but with the requested tuning
+  const haptics::AdmittedTuning& admitted;  // tuning in use
+  const haptics::HapticSnapshot& now;
   // Changes if the lever is replaced, a replay starts or ends, or a replay jumps in time. The panel then clears
   // trajectory, plots and clipping display.
-  std::uint64_t run = 0;
-  std::vector<haptics::HapticSnapshot> history;  // snapshots since the last frame
-  std::vector<haptics::HapticEvent> events;      // events since the last frame; times [ns] since the program's start
-  runtime::LoopHealth health;
-  vehicle::VehicleState car;
-  std::string gate_name, preset_name, hand_name, device_name;
-  std::optional<StickView> stick;                  // physical stick; none: the lever is simulated
-  std::vector<std::string> gates, presets, hands;  // choices; `hands` is empty if a real hand moves the lever
-  std::optional<haptics::Preset> compared;         // preset named by PanelRequests::compare; none if unreadable
-  bool recording = false;
-  std::string message;  // the last message, one sentence
-  double frame_ms = 0.0;
-  std::string car_name;
-  std::vector<std::string> cars;  // available choices
-  lessons::CoachView coach;
-  const lessons::Player* replay = nullptr;      // not null during a replay; `now` and `car` then come from it
-  std::string opening;                          // file name of a recorded drive that is still loading; empty: none
-  std::vector<KeyHint> keys;                    // keys that drive the car, in the order of use; may be empty
-  bool mouse_moves_lever = false;               // the mouse is captured and moves the lever
-  bool is_automatic_hand = false;               // a simulated hand drives: keys and mouse do nothing, nothing is saved
-  bool instructor_holds_pedals = false;         // true after a lesson, until the next lesson or the Close button
-  bool is_unpassable = false;                   // the current run can no longer be passed
-  std::optional<cabin::HeadsetReport> headset;  // none: no headset in use
-  std::string fail_conditions;                  // sentence that names the errors that fail the lesson; may be empty
+  std::uint64_t run;
+  std::span<const haptics::HapticSnapshot> history;  // snapshots since the last frame
+  std::span<const haptics::HapticEvent> events;      // events since the last frame; [ns] since the program's start
+  const runtime::LoopHealth& health;
+  const vehicle::VehicleState& car;
+  std::string_view gate_name, preset_name, hand_name, device_name;
+  std::optional<StickView> stick;                      // physical stick; none: the lever is simulated
+  std::span<const std::string> gates, presets, hands;  // choices; `hands` is empty if a real hand moves the lever
+  const haptics::Preset*
+      compared;  // preset named by PanelRequests::compare; null if there is none, or it is unreadable
+  bool recording;
+  std::string_view message;  // the last message, one sentence
+  double frame_ms;
+  std::string_view car_name;
+  std::span<const std::string> cars;  // available choices
+  const lessons::CoachView& coach;
+  const lessons::Player* replay;        // not null during a replay; `now` and `car` then come from it
+  std::string_view opening;             // file name of a recorded drive that is still loading; empty: none
+  std::span<const KeyHint> keys;        // keys that drive the car, in the order of use; may be empty
+  bool mouse_moves_lever;               // the mouse is captured and moves the lever
+  bool is_automatic_hand;               // a simulated hand drives: keys and mouse do nothing, nothing is saved
+  bool instructor_holds_pedals;         // true after a lesson, until the next lesson or the Close button
+  bool is_unpassable;                   // the current run can no longer be passed
+  const cabin::HeadsetReport* headset;  // null: no headset in use
 };
+static_assert(std::is_trivially_copyable_v<PanelInput>);
 
 struct LessonRequests {
   std::optional<std::string> offer;  // a lesson's key

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -81,18 +82,23 @@ void PlotArea::draw_grid() {
 
 // Draws the lowest and the highest number first, then the numbers in between that do not overlap those already drawn.
 void PlotArea::draw_y_numbers() {
-  std::vector<double> all;
-  each_y([&](double y) { all.push_back(y); });
-  if (all.size() > 2) std::rotate(all.begin() + 1, all.end() - 1, all.end());
-  const float min = engine::ui_font(engine::UiFont::small)->FontSize + 1.0f;
-  std::vector<float> used_tops;
-  for (const double y : all) {
+  std::optional<double> lowest, highest;
+  each_y([&](double y) {
+    if (!lowest) lowest = y;
+    highest = y;
+  });
+  if (!lowest) return;
+  const float min = engine::ui_font(engine::UiFont::small)->FontSize + 1.0f, above = y_number_top(*highest);
+  float below = y_number_top(*lowest);
+  draw_y_number(*lowest);
+  if (below - above < min) return;
+  draw_y_number(*highest);
+  each_y([&](double y) {
     const float top = y_number_top(y);
-    if (std::any_of(used_tops.begin(), used_tops.end(), [&](float other) { return std::abs(other - top) < min; }))
-      continue;
-    used_tops.push_back(top);
+    if (below - top < min || top - above < min) return;
+    below = top;
     draw_y_number(y);
-  }
+  });
 }
 
 float PlotArea::y_number_top(double y) const {

@@ -45,20 +45,27 @@ float gutter() {
   return width_of("8888", engine::UiFont::small) + 0.6f * engine::ui_em();
 }
 
+// The drive's run in the history, found by its file name; null: the history does not have it.
+const lessons::RunRow* find_run(const lessons::CoachView& coach, std::string_view file) {
+  const auto is_recorded_in = [&](const lessons::RunRow& run) {
+    const std::string_view path = run.recording;
+    return path.substr(path.rfind('/') + 1) == file;  // npos + 1 is 0: a path without a folder
+  };
+  const auto run = std::find_if(coach.runs.begin(), coach.runs.end(), is_recorded_in);
+  return run == coach.runs.end() ? nullptr : &*run;
+}
+
 // Returns the bar's title. It begins with lesson, learner and time of the run, or with the file name if the history
 // does not have the run. Car and gate follow.
 std::string heading(const lessons::Player& replay, const lessons::CoachView& coach) {
-  const std::filesystem::path file = replay.file().filename();
-  const auto run = std::find_if(coach.runs.begin(), coach.runs.end(), [&](const lessons::RunRow& row) {
-    return std::filesystem::path(row.recording).filename() == file;
-  });
+  const std::string file = replay.file().filename().string();
   std::string words = "Replay: ";
-  if (run == coach.runs.end()) {
-    words += file.string();
-  } else {
+  if (const lessons::RunRow* run = find_run(coach, file)) {
     words += lesson_title(coach, run->result.lesson);
     if (!coach.learner.empty()) words += ", " + coach.learner;
     words += ", " + format_local_time(run->begun_at);
+  } else {
+    words += file;
   }
   const lessons::RecordedDrive& drive = replay.drive();
   if (drive.has_car()) words += " · " + readable_name(drive.car_name());
@@ -66,7 +73,7 @@ std::string heading(const lessons::Player& replay, const lessons::CoachView& coa
 }
 
 // "Opening drive-20260131.trace ..."
-void draw_opening(Controls& controls, const std::string& file, ReplayRequests& out) {
+void draw_opening(Controls& controls, std::string_view file, ReplayRequests& out) {
   const float close = button_width("Close") + ImGui::GetStyle().ItemSpacing.x;
   const std::string words = fmt::format("Opening {} \u2026", file);
   ImGui::AlignTextToFramePadding();

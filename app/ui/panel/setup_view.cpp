@@ -23,9 +23,15 @@ float label_width() {
 }
 
 template <class Enum>
-void draw_choice(Controls& controls, const char* key, Enum& value) {
+std::vector<std::string> names_of() {
   std::vector<std::string> names;
   for (int i = 0; i <= static_cast<int>(last_value(Enum{})); ++i) names.emplace_back(to_string(static_cast<Enum>(i)));
+  return names;
+}
+
+template <class Enum>
+void draw_choice(Controls& controls, const char* key, Enum& value) {
+  static const std::vector<std::string> names = names_of<Enum>();
   const auto chosen = controls.choice(key, to_string(value), names, ImGui::GetContentRegionAvail().x);
   if (chosen) value = static_cast<Enum>(std::find(names.begin(), names.end(), *chosen) - names.begin());
 }
@@ -91,14 +97,14 @@ void SetupView::draw_fields(Controls& controls) {
 
 // Checks the edited values only after a change, because a check can take milliseconds.
 void SetupView::judge(const PanelInput& input) {
-  const Basis basis{staged_, *input.device, haptics::max_feel_stiffness(*input.gate)};
+  const Basis basis{staged_, input.device, haptics::max_feel_stiffness(input.gate)};
   if (basis == judged_) return;
   judged_ = basis;
   rejection_.clear();
   limits_text_.clear();
   try {
     haptics::check_config(staged_);
-    for (const haptics::TuningLimit& limit : haptics::admit_tuning(staged_, *input.device, *input.gate).limits)
+    for (const haptics::TuningLimit& limit : haptics::admit_tuning(staged_, input.device, input.gate).limits)
       limits_text_ += (limits_text_.empty() ? "" : "\n") + format_limit(limit);
   } catch (const std::invalid_argument& refused) {
     rejection_ = refused.what();

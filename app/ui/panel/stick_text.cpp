@@ -9,7 +9,7 @@ std::string format_stick_state(const StickView& stick) {
   return stick.delay > 0.0 ? fmt::format("plugged in, responds after {:.1f} ms", 1e3 * stick.delay) : "plugged in";
 }
 
-std::string stick_request(const PanelInput& input) {
+std::string_view stick_request(const PanelInput& input) {
   if (!input.stick) return {};
   if (!input.stick->plugged_in) return "The stick is unplugged. Plug it in, then press Enter.";
   const haptics::GuardState guard = input.now.guard;

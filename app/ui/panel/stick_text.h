@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "app/ui/panel/panel.h"
 
@@ -11,6 +12,6 @@ namespace gearshift::ui {
 std::string format_stick_state(const StickView& stick);
 
 // Returns the next instruction for using the stick; empty if there is no stick or its forces are on.
-std::string stick_request(const PanelInput& input);
+std::string_view stick_request(const PanelInput& input);
 
 }  // namespace gearshift::ui

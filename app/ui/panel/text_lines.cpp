@@ -49,8 +49,8 @@ std::string without_middle(std::string_view text, float width) {
   std::size_t end = 0;
   while (end < text.size() && width_of(text.substr(0, end + 1)) <= kHead * room) ++end;
   std::size_t begin = end;
-  const auto left = [&] { return std::string(text.substr(0, end)) + std::string(text.substr(begin)); };
-  while (begin < text.size() && width_of(left()) > room) ++begin;
+  const float head = width_of(text.substr(0, end));
+  while (begin < text.size() && head + width_of(text.substr(begin)) > room) ++begin;
   while (begin < text.size() && is_continuation(text[begin])) ++begin;
   while (end > 0 && is_continuation(text[end])) --end;
   return std::string(text.substr(0, end)) + std::string(kEllipsis) + std::string(text.substr(begin));

@@ -58,7 +58,7 @@ void TuningView::follow(const PanelInput& input) {
 }
 
 TuningQuestion TuningView::question(const PanelInput& input, const haptics::HapticTuning& tuning) const {
-  TuningQuestion question{input.haptics, *input.device, input.gate, input.admitted.hold};
+  TuningQuestion question{input.haptics, input.device, &input.gate, input.admitted.hold};
   question.config.tuning = tuning;
   return question;
 }
@@ -147,9 +147,10 @@ void TuningView::draw_field(std::size_t index, Controls& controls, const PanelIn
   if (bad) ImGui::PushStyleColor(ImGuiCol_Text, ink::kBad);
   if (bad) ImGui::PushStyleColor(ImGuiCol_SliderGrab, ink::kBad);
   const std::string format = fmt::format("%.{}f {}", field.display.decimals, field.display.unit);
-  const std::string id = "##" + std::string(field.key);
-  const bool changed = ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &field.range.min, &field.range.max,
+  ImGui::PushID(field.key);
+  const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &field.range.min, &field.range.max,
                                            format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+  ImGui::PopID();
   if (bad) ImGui::PopStyleColor(2);
   controls.mark(field.key);
   if (ImGui::IsItemActivated()) same_drag_ = false;

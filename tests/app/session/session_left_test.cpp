@@ -120,10 +120,10 @@ TEST_CASE("after a lesson the instructor holds the car, and the panel shows it, 
 
 TEST_CASE("the errors that fail a lesson are listed with its goal; without a lesson there is no list") {
   LeftRig rig;
-  CHECK(rig.session.panel_input().fail_conditions == failing_errors_sentence(*rig.session.coach().lesson()));
-  CHECK_FALSE(rig.session.panel_input().fail_conditions.empty());
+  CHECK(rig.session.coach().view().fail_conditions == failing_errors_sentence(*rig.session.coach().lesson()));
+  CHECK_FALSE(rig.session.coach().view().fail_conditions.empty());
   rig.ask([](PanelRequests& requests) { requests.lesson.dismiss_lesson = true; });
-  CHECK(rig.session.panel_input().fail_conditions.empty());
+  CHECK(rig.session.coach().view().fail_conditions.empty());
 }
 
 TEST_CASE("a car chosen during a lesson is controlled by the learner") {

@@ -38,7 +38,7 @@ struct Desk {
   const PanelRequests& frame() {
     shared.update(window, 1.0 / 60.0, mouse ? *mouse : window.mouse, rig.panel, rig.ui);
     rig.ui.begin(rig.screen);
-    rig.asked = rig.panel.draw(rig.input);
+    rig.asked = rig.panel.draw(rig.input.view(rig.gate, rig.device));
     rig.ui.end();
     window.keys.clear();
     return rig.asked;

@@ -61,8 +61,9 @@ TEST_CASE(
   CHECK(says("Hill start"));
   CHECK(says("without rolling back"));
   CHECK_FALSE(says("You fail if you"));
-  rig.input.fail_conditions = "You fail if you stall.";
-  rig.show(offered());
+  CoachView failing = offered();
+  failing.fail_conditions = "You fail if you stall.";
+  rig.show(failing);
   CHECK(says("You fail if you stall."));
   CHECK(has_no_request(rig.frame().lesson));
   CHECK(rig.click("lesson_begin").lesson.begin);

@@ -214,6 +214,39 @@ TEST_CASE("each run shows its grade, or why it has none") {
   CHECK(the_text(texts, "guided").box.min.y < the_text(texts, "left early").box.min.y);
 }
 
+TEST_CASE("the runs that are scrolled out of view are reached by the mouse wheel, also below an opened run") {
+  CoachView coach = with_history();
+  while (coach.runs.size() < kMaxRunsShown) {
+    coach.runs.push_back(coach.runs.front());
+    coach.runs.back().id = 10 - static_cast<std::int64_t>(coach.runs.size());
+    coach.comments.emplace_back();
+  }
+  const std::string last = "run: " + std::to_string(coach.runs.back().id);
+  LessonsRig rig(coach, "tab_history");
+  rig.point("run: 15");
+  const double pitch = rig.rect("run: 15").min.y - rig.rect("run: 16").min.y;
+  CHECK_FALSE(rig.panel.control_rect(last).has_value());
+  const auto scroll = [&](double lines) {
+    for (int i = 0; i < 50; ++i) {
+      rig.events.scroll = {0.0, lines};
+      rig.frame();
+    }
+    rig.frame();
+  };
+  for (const bool is_opened : {false, true}) {
+    CAPTURE(is_opened);
+    if (is_opened) rig.click("run: 16");
+    scroll(-3.0);
+    const double bottom = rig.rect(last).max.y;
+    CHECK(bottom > rig.rect(last).min.y + 0.5 * pitch);
+    for (int above = 1; above < 5; ++above)
+      CHECK(bottom - rig.rect("run: " + std::to_string(coach.runs.back().id + above)).max.y == above * pitch);
+    scroll(3.0);
+    CHECK(rig.rect("run: 16").min.y < rig.events.mouse.y);
+  }
+  CHECK(rig.rect("look: 16 0").min.y > rig.rect("run: 16").max.y);
+}
+
 TEST_CASE("an error costs points in a graded run, and none in a run that was left") {
   CoachView coach = with_history();
   LessonResult left = result_of("hill_start", some_errors());

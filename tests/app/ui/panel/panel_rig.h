@@ -38,6 +38,69 @@ inline std::vector<haptics::HapticSnapshot> toured(const haptics::Gate& gate, do
   return snapshots;
 }
 
+// Owns what a PanelInput refers to.
+struct PanelState {
+  haptics::HapticConfig haptics;
+  haptics::AdmittedTuning admitted;
+  haptics::HapticSnapshot now;
+  std::uint64_t run = 0;
+  std::vector<haptics::HapticSnapshot> history;
+  std::vector<haptics::HapticEvent> events;
+  runtime::LoopHealth health;
+  vehicle::VehicleState car;
+  std::string gate_name, preset_name, hand_name, device_name;
+  std::optional<ui::StickView> stick;
+  std::vector<std::string> gates, presets, hands;
+  std::optional<haptics::Preset> compared;
+  bool recording = false;
+  std::string message;
+  double frame_ms = 0.0;
+  std::string car_name;
+  std::vector<std::string> cars;
+  lessons::CoachView coach;
+  const lessons::Player* replay = nullptr;
+  std::string opening;
+  std::vector<ui::KeyHint> keys;
+  bool mouse_moves_lever = false, is_automatic_hand = false, instructor_holds_pedals = false, is_unpassable = false;
+  std::optional<cabin::HeadsetReport> headset;
+
+  ui::PanelInput view(const haptics::Gate& gate, const haptics::DeviceSpec& device) const {
+    return {gate,
+            device,
+            haptics,
+            admitted,
+            now,
+            run,
+            history,
+            events,
+            health,
+            car,
+            gate_name,
+            preset_name,
+            hand_name,
+            device_name,
+            stick,
+            gates,
+            presets,
+            hands,
+            compared ? &*compared : nullptr,
+            recording,
+            message,
+            frame_ms,
+            car_name,
+            cars,
+            coach,
+            replay,
+            opening,
+            keys,
+            mouse_moves_lever,
+            is_automatic_hand,
+            instructor_holds_pedals,
+            is_unpassable,
+            headset ? &*headset : nullptr};
+  }
+};
+
 struct PanelRig {
   haptics::Gate gate = paper_gate();
   haptics::DeviceSpec device;
@@ -45,15 +108,13 @@ struct PanelRig {
   engine::UiInput screen;
   engine::UiEvents events;
   ui::Panel panel;
-  ui::PanelInput input;
+  PanelState input;
   ui::PanelRequests asked;  // the requests that the panel made in the newest frame
 
   explicit PanelRig(int delay = 0) {
     device.simulated = true;
     device.delay = delay;
     device.workspace = kPaperWorkspace;
-    input.gate = &gate;
-    input.device = &device;
     input.admitted = haptics::admit_tuning(input.haptics, device, gate);
     input.gate_name = "paper";
     input.gates = {"paper", "four_speed", "dog_leg_five"};
@@ -77,7 +138,7 @@ struct PanelRig {
     events.text.clear();
     events.scroll = {};
     ui.begin(screen);
-    asked = panel.draw(input);
+    asked = panel.draw(input.view(gate, device));
     ui.end();
     input.history.clear();
     input.events.clear();

@@ -163,7 +163,7 @@ TEST_CASE("the panel also works if the program applies a tuning some frames late
     rig.point(kStiffness, 0.25 + 0.03 * i);
     rig.ui.feed(rig.events);
     rig.ui.begin(rig.screen);
-    const PanelRequests asked = rig.panel.draw(rig.input);
+    const PanelRequests asked = rig.panel.draw(rig.input.view(rig.gate, rig.device));
     rig.ui.end();
     if (asked.tuning) late.push_back(*asked.tuning);
     if (late.size() > 3) rig.input.admitted.tuning = late[late.size() - 4];
