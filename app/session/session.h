@@ -97,7 +97,7 @@ class Session {
   bool is_replaying_shift() const { return player_ && player_->shift(); }
 
  private:
-  // What the panel shows and no other member has.
+  // Data for the panel that no other member holds.
   struct PanelData {
     std::vector<std::string> gates, presets, cars, hands;
     std::string device_name, opening;

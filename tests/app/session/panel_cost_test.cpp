@@ -159,7 +159,7 @@ struct PanelBench {
   // Cost of a copy of the panel's input, with the strings and lists in it.
   Cost copy() {
     const PanelInput input = session.panel_input();
-    Cost cost = cost_of([&] { const PanelInput copy(input); });
+    Cost cost = cost_of([&] { [[maybe_unused]] const PanelInput copy(input); });
     cost.bytes += sizeof(PanelInput);
     return cost;
   }
