@@ -41,14 +41,14 @@ std::vector<std::string> LessonLines::new_lines(const lessons::CoachView& coach)
   if (!has_trial && std::exchange(is_running_, false)) lines_.push_back(fmt::format("lesson {} ended early", lesson_));
   if (phase_ == lessons::LessonPhase::offered && before != phase_)
     lines_.push_back(fmt::format("lesson {} is ready to start: {}", coach.lesson, coach.goal));
-  if (!has_trial || !has_cycles(coach.result)) return lines_;
+  if (!has_trial || !has_cycles(*coach.result)) return lines_;
   const bool fresh = phase_ == lessons::LessonPhase::driving && !is_running_;
-  if (fresh || is_new_trial(coach.result)) begin(coach);
-  duration_ = coach.result.duration;
-  if (coach.now.step != step_) add_step_line(coach);
+  if (fresh || is_new_trial(*coach.result)) begin(coach);
+  duration_ = coach.result->duration;
+  if (coach.now->step != step_) add_step_line(coach);
   add_hint_lines(coach);
   if (phase_ == lessons::LessonPhase::over && std::exchange(is_running_, false))
-    lines_.push_back(fmt::format("lesson {} is over: {}", coach.lesson, format_result(coach.result)));
+    lines_.push_back(fmt::format("lesson {} is over: {}", coach.lesson, format_result(*coach.result)));
   return lines_;
 }
 
@@ -60,7 +60,7 @@ bool LessonLines::is_new_trial(const lessons::LessonResult& result) const {
 void LessonLines::begin(const lessons::CoachView& coach) {
   if (is_running_) lines_.emplace_back("previous attempt ended early");
   lesson_ = coach.lesson;
-  begin_ = coach.result.begin;
+  begin_ = coach.result->begin;
   is_running_ = true;
   hints_ = 0;
   lines_.push_back(fmt::format("lesson {} begins", coach.lesson));
@@ -68,13 +68,13 @@ void LessonLines::begin(const lessons::CoachView& coach) {
 }
 
 void LessonLines::add_step_line(const lessons::CoachView& coach) {
-  step_ = coach.now.step;
-  if (step_ < coach.now.steps)
-    lines_.push_back(fmt::format("step {} of {}: {}", step_ + 1, coach.now.steps, coach.now.prompt));
+  step_ = coach.now->step;
+  if (step_ < coach.now->steps)
+    lines_.push_back(fmt::format("step {} of {}: {}", step_ + 1, coach.now->steps, coach.now->prompt));
 }
 
 void LessonLines::add_hint_lines(const lessons::CoachView& coach) {
-  for (; hints_ < coach.now.feedback.size(); ++hints_) lines_.push_back(coach.now.feedback[hints_]);
+  for (; hints_ < coach.now->feedback.size(); ++hints_) lines_.push_back(coach.now->feedback[hints_]);
 }
 
 void print_lines(const std::vector<std::string>& lines, double time) {

@@ -144,10 +144,11 @@ void Session::update_lesson(std::span<const vehicle::DriveSample> cycles) {
 // passed.
 void Session::check_still_passable() {
   const lessons::CoachView& view = coach_.view();
-  const bool is_judged = view.phase == lessons::LessonPhase::driving && !view.result.guided && view.result.is_complete;
+  const bool is_judged =
+      view.phase == lessons::LessonPhase::driving && !view.result->guided && view.result->is_complete;
   if (!is_judged) is_unpassable_ = false;
-  if (!is_judged || std::exchange(error_count_, view.result.errors.size()) == view.result.errors.size()) return;
-  lessons::LessonResult done = view.result;
+  if (!is_judged || std::exchange(error_count_, view.result->errors.size()) == view.result->errors.size()) return;
+  lessons::LessonResult done = *view.result;
   done.end = lessons::LessonEnd::done;
   lessons::grade_result(*coach_.lesson(), done);
   is_unpassable_ = !done.passed;

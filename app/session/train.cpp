@@ -313,7 +313,7 @@ class WindowTrainer {
   void go_on(ui::LessonRequests& lesson) const {
     const lessons::CoachView& coach = session_.coach().view();
     if (session_.is_replaying()) return;
-    const bool goes_further = coach.result.passed && !coach.next.empty() && coach.next != coach.lesson;
+    const bool goes_further = coach.result->passed && !coach.next.empty() && coach.next != coach.lesson;
     if (coach.phase == lessons::LessonPhase::offered) lesson.begin = true;
     if (coach.phase != lessons::LessonPhase::over) return;
     if (goes_further)

@@ -80,7 +80,7 @@ class Trials {
     // If the disk was full, deleting unused recordings may have made room. Then try again to save the results.
     if (remove_unreferenced() && coach_.needs_room()) coach_.flush();
     report_coach_problem();
-    if (number == trials_.runs && !is_interrupted_) return coach_.view().result.passed;
+    if (number == trials_.runs && !is_interrupted_) return coach_.view().result->passed;
     base::print_message("interrupted {} run {} of {}", is_interrupted_ ? "during" : "before",
                         number + (is_interrupted_ ? 0 : 1), trials_.runs);
     return false;
@@ -118,7 +118,7 @@ class Trials {
     coach_.leave();  // no effect unless the learner gave up or the run was interrupted
     print_new_shifts();
     report_coach_problem();
-    print_result(coach_.view().result, coach_.view().run);
+    print_result(*coach_.view().result, coach_.view().run);
   }
 
   // Prints the lesson's goal and guidance. Called only after the first cycle, so that a lesson that cannot start prints
@@ -162,7 +162,7 @@ class Trials {
       remove(drive.trace);
       flush_cycles();
       report_recording_problem(problem.what());
-      if (coach_.view().phase != lessons::LessonPhase::driving || coach_.view().result.duration > 0.0) return;
+      if (coach_.view().phase != lessons::LessonPhase::driving || coach_.view().result->duration > 0.0) return;
       drive.trace.clear();
       lessons::drive_lesson(drive, judge());
     }
@@ -202,7 +202,7 @@ class Trials {
 
   // Call this after the coach has saved the shifts.
   void print_new_shifts() {
-    const std::vector<lessons::ShiftRecord>& shifts = coach_.view().result.shifts;
+    const std::vector<lessons::ShiftRecord>& shifts = coach_.view().result->shifts;
     for (; trials_.prints_shifts && printed_shifts_ < shifts.size(); ++printed_shifts_)
       print_shift(shifts[printed_shifts_], coach_.view().run);
   }

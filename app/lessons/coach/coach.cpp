@@ -42,6 +42,7 @@ struct Coach::State {
   explicit State(const CoachConfig& a_config)
       : config(a_config), memory(config.history, config.program, config.now, config.lock_timeout) {
     if (!config.no_history.empty()) startup_problem = config.no_history;
+    show_trial();
   }
 
   void refresh_view();
@@ -49,6 +50,7 @@ struct Coach::State {
   void suggest();
   void show_runs();
   void offer();
+  void show_trial();
   void plan();
   LessonMode usual_mode() const;
   void show_mode();
@@ -73,7 +75,7 @@ struct Coach::State {
   std::optional<std::uint64_t> cycle;     // number of the trial's last cycle in the haptic loop
   ForceGap forces;                        // time without forces in the trial
   bool has_saved_run = false;             // the displayed trial has a saved or pending run
-  bool is_view_stale = false;             // cycles were judged since the last update of the view
+  bool is_unsaved = false;                // cycles were judged since the last call of record_progress()
   std::string settings, recording;
 };
 
@@ -139,10 +141,7 @@ void Coach::dismiss_lesson() {
   view.phase = LessonPhase::none;
   view.lesson = view.title = view.goal = view.fail_conditions = "";
   view.time_limit = 0.0;
-  view.now = {};
-  view.result = {};
-  view.run = 0;
-  state.has_saved_run = false;
+  state.show_trial();
   view.guidance = 0.0;
   view.retention = false;
 }
@@ -162,8 +161,8 @@ void Coach::begin(const vehicle::CarSpec& car, const haptics::Gate& gate, const 
 void Coach::add(std::span<const vehicle::DriveSample> samples) {
   State& state = *state_;
   if (state.memory.retry_pending()) state.refresh_view();
-  const bool is_view_stale = std::exchange(state.is_view_stale, false);
-  if (!state.is_driving() || (samples.empty() && !is_view_stale)) return;
+  const bool is_unsaved = std::exchange(state.is_unsaved, false);
+  if (!state.is_driving() || (samples.empty() && !is_unsaved)) return;
   const bool over = state.process_samples(samples);
   state.record_progress();
   if (over) state.finish_trial();
@@ -171,7 +170,7 @@ void Coach::add(std::span<const vehicle::DriveSample> samples) {
 
 const LessonRun& Coach::assess(const vehicle::DriveSample& sample) {
   if (!state_->is_driving()) throw std::logic_error("no lesson is in progress");
-  state_->is_view_stale = true;
+  state_->is_unsaved = true;
   (void)state_->process_samples({&sample, 1});
   return *state_->run;
 }
@@ -207,7 +206,7 @@ double Coach::guidance() const noexcept {
 }
 
 int Coach::guided_gear() const noexcept {
-  return state_->is_driving() ? state_->view.now.guided_gear : haptics::kNeutralGear;
+  return state_->is_driving() ? state_->view.now->guided_gear : haptics::kNeutralGear;
 }
 
 void Coach::set_next(std::string_view lesson) {
@@ -302,12 +301,19 @@ void Coach::State::offer() {
   view.goal = lesson->goal;
   view.fail_conditions = failing_errors_sentence(*lesson);
   view.time_limit = lesson->time_limit;
-  view.now = {};
-  view.result = {};
-  view.run = 0;
-  has_saved_run = false;
+  show_trial();
   show_mode();
   plan();
+}
+
+// Shows the trial `run`, which is not saved yet; none if `run` is null.
+void Coach::State::show_trial() {
+  static const LessonView no_prompts;
+  static const LessonResult no_result;
+  view.now = run ? &run->view() : &no_prompts;
+  view.result = run ? &run->result() : &no_result;
+  view.run = 0;
+  has_saved_run = false;
 }
 
 void Coach::State::plan() {
@@ -338,10 +344,7 @@ void Coach::State::begin(const vehicle::CarSpec& car, const haptics::Gate& gate)
   cycle.reset();
   forces = {};
   view.phase = LessonPhase::driving;
-  view.now = run->view();
-  view.result = run->result();
-  view.run = 0;
-  has_saved_run = false;
+  show_trial();
 }
 
 // Judges the samples up to the end of the trial and ignores later ones. Returns true if the trial is over.
@@ -373,8 +376,6 @@ void Coach::State::record_progress() {
   if (!memory.in_run()) memory.begin_run(run->result(), settings, recording);
   has_saved_run = true;
   for (const ShiftRecord& shift : run->drain_shifts()) memory.add_shift(shift);
-  view.now = run->view();
-  view.result = run->result();
   view.run = memory.run_number();
   view.is_saving = memory.is_usable();
   if (memory.is_learner_deleted() && !view.learner_deleted) refresh_view();
@@ -389,8 +390,6 @@ void Coach::State::leave() {
 // A trial without samples is not saved.
 void Coach::State::finish_trial() {
   view.phase = LessonPhase::over;
-  view.now = run->view();
-  view.result = run->result();
   has_saved_run = memory.in_run();
   if (has_saved_run) memory.end_run(run->result());
   memory.reload();  // the instructor may have chosen a different lesson

@@ -49,9 +49,11 @@ struct CoachView {
   bool help_wanted = true;  // chosen by the user; false: no trial is guided
   double guidance = 0.0;    // [1] guidance gain of this trial; 0: the trial is graded
   HintStyle hints = HintStyle::prescriptive;
-  bool retention = false;   // first trial after a day: unguided, without hints
-  LessonView now;           // set in phases driving and over
-  LessonResult result;      // result so far, or final result
+  bool retention = false;  // first trial after a day: unguided, without hints
+  // The trial's prompts and its result so far; empty in phases none and offered. Never null in Coach::view(). They
+  // belong to the coach and change with every sample, which is why they are not copied.
+  const LessonView* now = nullptr;
+  const LessonResult* result = nullptr;
   double time_limit = 0.0;  // [s] time limit of the lesson; 0: no lesson
   std::int64_t run = 0;     // number of the run in the history; 0: not saved
 

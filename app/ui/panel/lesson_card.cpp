@@ -115,7 +115,7 @@ std::string format_time_left(double seconds) {
 
 void draw_time_left(const lessons::CoachView& coach) {
   if (coach.time_limit <= 0.0) return;
-  const double left = coach.time_limit - coach.result.duration;
+  const double left = coach.time_limit - coach.result->duration;
   const std::string words = format_time_left(left);
   same_line_if_fits(width_of(words, engine::UiFont::small));
   put(words, left <= kLittleTimeLeft ? ink::kWarn : ink::kSoft, engine::UiFont::small);
@@ -182,7 +182,7 @@ void LessonCard::follow(const lessons::CoachView& coach, ImVec2 size) {
 // Notes when the newest feedback sentence arrived. Called even while the card is hidden, so that a sentence's age does
 // not depend on when the card is shown.
 void LessonCard::note_new_feedback(const lessons::CoachView& coach) {
-  const std::size_t feedback = coach.phase == lessons::LessonPhase::driving ? coach.now.feedback.size() : 0;
+  const std::size_t feedback = coach.phase == lessons::LessonPhase::driving ? coach.now->feedback.size() : 0;
   if (feedback > feedback_count_) feedback_time_ = ImGui::GetTime();
   feedback_count_ = feedback;
 }
@@ -257,8 +257,8 @@ void LessonCard::draw_driving(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
   ImGui::AlignTextToFramePadding();
   put(coach.title, ink::kSoft, engine::UiFont::small);
-  if (coach.now.steps > 0) {
-    const std::string words = format_step(coach.now);
+  if (coach.now->steps > 0) {
+    const std::string words = format_step(*coach.now);
     same_line_if_fits(width_of(words, engine::UiFont::small));
     put(words, ink::kAccent, engine::UiFont::small);
   }
@@ -266,7 +266,7 @@ void LessonCard::draw_driving(FrameContext& now) {
   if (coach.guidance > 0.0) draw_badge("guided, not graded", ink::kAccent);
   if (coach.retention) draw_badge("test: no guidance", ink::kText);
   if (small_button(now.controls, "lesson_leave", "Leave")) now.out.lesson.leave = true;
-  draw_progress(coach.now.step, coach.now.steps);
+  draw_progress(coach.now->step, coach.now->steps);
   draw_parts(
       lessons::LessonPhase::driving, [&] { return draw_prompts(now); }, [&] { draw_controls_and_car(now); });
 }
@@ -274,15 +274,15 @@ void LessonCard::draw_driving(FrameContext& now) {
 // Returns the height that must be visible [px]: everything except the older sentences.
 float LessonCard::draw_prompts(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
-  put_wrapped(coach.now.prompt, ink::kText, engine::UiFont::prompt);
+  put_wrapped(coach.now->prompt, ink::kText, engine::UiFont::prompt);
   if (now.forces_off) put_wrapped(forces_off_text(now.input), ink::kBad, engine::UiFont::title);
   if (now.input.car.stalled) draw_restart_prompt(now.input.keys);
-  if (!coach.now.hint.empty()) put_wrapped(coach.now.hint, ink::kAccent, engine::UiFont::body);
+  if (!coach.now->hint.empty()) put_wrapped(coach.now->hint, ink::kAccent, engine::UiFont::body);
   if (now.input.is_unpassable)
     put_wrapped("You can no longer pass this attempt. Keep practising, or press \"Leave\" and start again.",
                 ink::kWarn);
   float visible_height = ImGui::GetCursorPosY();
-  draw_feedback(coach.now.feedback, visible_height);
+  draw_feedback(coach.now->feedback, visible_height);
   return visible_height;
 }
 
@@ -310,7 +310,7 @@ void LessonCard::draw_over(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
   LessonRequests& out = now.out.lesson;
   const bool has_next = !coach.next.empty() && coach.next != coach.lesson,
-             can_continue = coach.result.passed && has_next;
+             can_continue = coach.result->passed && has_next;
   const auto foot = [&] {
     if (now.input.instructor_holds_pedals)
       put_wrapped("The instructor is holding the clutch and brake. Press \"Close\" to take over.", ink::kWarn);

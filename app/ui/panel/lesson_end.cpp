@@ -46,7 +46,7 @@ void draw_grade(const lessons::LessonResult& result) {
 }
 
 void draw_outcome(const lessons::CoachView& coach) {
-  const lessons::LessonResult& result = coach.result;
+  const lessons::LessonResult& result = *coach.result;
   ImGui::BeginGroup();
   put_wrapped(coach.title, ink::kSoft, engine::UiFont::small);
   put(format_outcome(result), is_grade_shown(result) ? verdict_colour(result) : ink::kText, engine::UiFont::prompt);
@@ -114,7 +114,7 @@ void draw_driving_errors(const lessons::LessonResult& result) {
 }
 
 float draw_judgement(const lessons::CoachView& coach) {
-  draw_grade(coach.result);
+  draw_grade(*coach.result);
   draw_outcome(coach);
   return ImGui::GetCursorPosY();
 }
@@ -125,7 +125,7 @@ float draw_lesson_end(const lessons::CoachView& coach) {
   const float em = engine::ui_em(), all = ImGui::GetContentRegionAvail().x;
   if (all < kTwoColumns * em) {
     const float judged = draw_judgement(coach);
-    draw_driving_errors(coach.result);
+    draw_driving_errors(*coach.result);
     const float line = engine::ui_font(engine::UiFont::small)->FontSize + 2.0f * ImGui::GetStyle().CellPadding.y;
     return std::min(ImGui::GetCursorPosY(), judged + kVisibleErrors * line);
   }
@@ -134,7 +134,7 @@ float draw_lesson_end(const lessons::CoachView& coach) {
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("faults", {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
-  draw_driving_errors(coach.result);
+  draw_driving_errors(*coach.result);
   ImGui::EndChild();
   return judged;
 }

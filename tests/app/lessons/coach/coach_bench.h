@@ -78,7 +78,7 @@ struct CoachBench {
                               [&](const lessons::Lesson& each) { return each.key == lesson; }));
     begin(coach);
     coach.add(bench_drive(how, coach.guidance()));
-    return coach.view().result;
+    return *coach.view().result;
   }
 };
 

@@ -44,14 +44,14 @@ TEST_CASE("a lesson goes through the phases offered, driving and over; cycles co
 
   bench.begin(coach);
   CHECK(coach.view().phase == LessonPhase::driving);
-  CHECK(coach.view().now.prompt == "Clutch down.");
+  CHECK(coach.view().now->prompt == "Clutch down.");
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
   coach.add(std::span(drive).first(1500));  // third gear is engaged after 1500 samples
-  CHECK(coach.view().now.prompt == "Clutch up.");
+  CHECK(coach.view().now->prompt == "Clutch up.");
   CHECK(coach.guided_gear() == 3);
   coach.add(std::span(drive).subspan(1500));
   CHECK(coach.view().phase == LessonPhase::over);
-  CHECK(coach.view().result.end == LessonEnd::done);
+  CHECK(coach.view().result->end == LessonEnd::done);
   CHECK(coach.guided_gear() == kNeutralGear);
 
   coach.dismiss_lesson();
@@ -77,7 +77,7 @@ TEST_CASE("a drive in batches of any size is assessed exactly as without a coach
       coach.add(std::span(drive).subspan(at, lot));
       at += lot;
     }
-    const LessonResult &mine = coach.view().result, &expected = single.result();
+    const LessonResult &mine = *coach.view().result, &expected = single.result();
     CHECK(mine.end == expected.end);
     CHECK(mine.why == expected.why);
     CHECK(mine.grade == expected.grade);
@@ -95,7 +95,7 @@ TEST_CASE("a drive in batches of any size is assessed exactly as without a coach
     REQUIRE(mine.shifts.size() == 1);
     CHECK(mine.shifts[0].path_length == expected.shifts[0].path_length);
     CHECK(mine.shifts[0].end == expected.shifts[0].end);
-    CHECK(coach.view().now.feedback == single.view().feedback);
+    CHECK(coach.view().now->feedback == single.view().feedback);
   }
 }
 
@@ -108,7 +108,7 @@ TEST_CASE(
     coach.offer(bench.config.lessons[0]);
     bench.begin(coach);
     coach.add(samples);
-    return coach.view().result;
+    return *coach.view().result;
   };
   for (const std::uint64_t from : {0u, 1u, 123456u}) {
     const LessonResult complete = driven(bench_drive(Drive::good, 0.0, from));
@@ -161,10 +161,10 @@ TEST_CASE("a trial without forces for 1 s during shifts or 3 s in total gets no 
       if (sample.time() >= from && sample.time() < to) sample.lever.guard = state;
     }
     coach.add(drive);
-    REQUIRE(coach.view().result.end == LessonEnd::done);
-    REQUIRE(coach.view().result.shifts.size() == 1);
-    REQUIRE(coach.view().result.shifts[0].end - coach.view().result.shifts[0].begin > 1.05);
-    return coach.view().result;
+    REQUIRE(coach.view().result->end == LessonEnd::done);
+    REQUIRE(coach.view().result->shifts.size() == 1);
+    REQUIRE(coach.view().result->shifts[0].end - coach.view().result->shifts[0].begin > 1.05);
+    return *coach.view().result;
   };
   const LessonResult undisturbed = driven(GuardState::running, 0.0, 0.0);
   REQUIRE(undisturbed.passed);
@@ -202,9 +202,9 @@ TEST_CASE(
   bench.begin(coach);
   coach.set_mode(LessonMode::follow_me);
   coach.add(bench_drive(Drive::good));
-  CHECK(coach.view().result.mode == LessonMode::by_yourself);
+  CHECK(coach.view().result->mode == LessonMode::by_yourself);
   bench.begin(coach);
-  CHECK(coach.view().result.mode == LessonMode::follow_me);
+  CHECK(coach.view().result->mode == LessonMode::follow_me);
 }
 
 TEST_CASE("the standing in a lesson: number of graded trials, the last grade, whether one was passed") {

@@ -49,7 +49,7 @@ TEST_CASE("the gain of trial n + 1 follows from the errors of n trials, and half
     if (gain > 0.0) CHECK(gain == doctest::Approx(hand.gain).epsilon(1e-12));
     guided += gain > 0.0 ? 1 : 0;
     coach.add(bench_drive(trial % 2 == 0 ? Drive::pushed : Drive::good, gain));
-    const LessonResult& result = coach.view().result;
+    const LessonResult& result = *coach.view().result;
     CHECK(result.guided == (gain > 0.0));
     if (result.guided) CHECK_FALSE(result.passed);
     CHECK((error_of(result) > 0.0) == (trial % 2 == 0));
@@ -141,7 +141,7 @@ TEST_CASE("the first trial after 20 hours is a test without guidance and hints; 
   bench.begin(coach);
   CHECK(coach.view().retention);
   coach.add(bench_drive(Drive::pushed));
-  CHECK_FALSE(coach.view().result.guided);
+  CHECK_FALSE(coach.view().result->guided);
   other.offer(bench.config.lessons[0]);
   CHECK_FALSE(other.view().retention);
   bench.begin(coach);

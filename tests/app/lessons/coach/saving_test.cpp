@@ -164,7 +164,7 @@ TEST_CASE("the lesson set by the instructor takes precedence over the suggestion
   coach.offer(bench.config.lessons[1]);
   bench.begin(coach);
   coach.add(bench_drive(Drive::good, 0.5));
-  CHECK(coach.view().result.guided);
+  CHECK(coach.view().result->guided);
   CHECK(wanted() == "two");  // a guided run is not graded, so it does not remove the choice
   bench.begin(coach);
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
@@ -322,7 +322,7 @@ TEST_CASE("a full disk is reported once; the lesson counts, and is saved when th
                                      "results are kept in memory until "
                                      "there is space");
   CHECK_FALSE(coach->view().is_saving);
-  CHECK(coach->view().result.passed);
+  CHECK(coach->view().result->passed);
   CHECK(coach->view().runs.size() == 2);
   CHECK(coach->view().lessons[0].trials == 2);
   CHECK(bench.trial(*coach, "one").passed);
@@ -343,7 +343,7 @@ TEST_CASE("a full disk is reported once; the lesson counts, and is saved when th
   CHECK(coach->view().is_saving);
   disk_is_full = true;
   coach->add(std::span(drive.begin() + 500, cut));
-  REQUIRE(coach->view().result.shifts.size() == 1);
+  REQUIRE(coach->view().result->shifts.size() == 1);
   CHECK(coach->view().phase == LessonPhase::driving);
   CHECK(is_one_sentence(coach->take_problem()));  // the problem is reported again, because saving had worked in between
   CHECK(coach->view().run == 0);

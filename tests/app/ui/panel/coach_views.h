@@ -1,4 +1,4 @@
-// Hand-written values of CoachView for each phase of a lesson. They contain the shipped lessons and a learner who has
+// Hand-written states of the coach for each phase of a lesson. They contain the shipped lessons and a learner who has
 // passed some of them.
 #pragma once
 
@@ -17,10 +17,22 @@ inline lessons::Lesson shipped_lesson(std::string_view key) {
   return lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + std::string(key) + ".toml");
 }
 
+// A CoachView with a trial of its own. view() is valid while this object is neither moved nor changed.
+struct CoachState : lessons::CoachView {
+  lessons::LessonView now;
+  lessons::LessonResult result;
+
+  const lessons::CoachView& view() {
+    CoachView::now = &now;
+    CoachView::result = &result;
+    return *this;
+  }
+};
+
 // A named learner who has passed four lessons and tried a fifth. The suggested lesson is `hill_start`. No lesson is
 // offered.
-inline lessons::CoachView half_way() {
-  lessons::CoachView coach;
+inline CoachState half_way() {
+  CoachState coach;
   coach.learner = "Ada Example";
   coach.learners = {"Ada Example", "Bert", "Charlotte van der Hoek"};
   coach.is_saving = true;
@@ -41,8 +53,8 @@ inline lessons::CoachView half_way() {
   return coach;
 }
 
-inline lessons::CoachView offered(std::string_view key = "hill_start") {
-  lessons::CoachView coach = half_way();
+inline CoachState offered(std::string_view key = "hill_start") {
+  CoachState coach = half_way();
   const lessons::Lesson lesson = shipped_lesson(key);
   coach.phase = lessons::LessonPhase::offered;
   coach.lesson = lesson.key;
@@ -52,8 +64,8 @@ inline lessons::CoachView offered(std::string_view key = "hill_start") {
 }
 
 // A lesson in its third step, with two errors so far.
-inline lessons::CoachView driven(std::string_view key = "hill_start") {
-  lessons::CoachView coach = offered(key);
+inline CoachState driven(std::string_view key = "hill_start") {
+  CoachState coach = offered(key);
   const lessons::Lesson lesson = shipped_lesson(key);
   coach.phase = lessons::LessonPhase::driving;
   coach.now.step = 2;
@@ -110,8 +122,8 @@ inline std::vector<lessons::DrivingError> failing_errors() {
   return errors;
 }
 
-inline lessons::CoachView over(const lessons::LessonResult& result) {
-  lessons::CoachView coach = driven(result.lesson);
+inline CoachState over(const lessons::LessonResult& result) {
+  CoachState coach = driven(result.lesson);
   coach.phase = lessons::LessonPhase::over;
   coach.result = result;
   coach.guidance = result.guided ? 0.8 : 0.0;
@@ -121,8 +133,8 @@ inline lessons::CoachView over(const lessons::LessonResult& result) {
 
 // A learner with six runs, newest first: passed, failed, guided, left, interrupted, incomplete. The newest run has a
 // comment.
-inline lessons::CoachView with_history() {
-  lessons::CoachView coach = half_way();
+inline CoachState with_history() {
+  CoachState coach = half_way();
   const auto add = [&](std::int64_t id, const char* at, lessons::LessonResult result, const char* recording) {
     coach.runs.push_back({id, 1, at, recording, std::move(result)});
     coach.comments.emplace_back();

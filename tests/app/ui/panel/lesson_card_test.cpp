@@ -26,11 +26,11 @@ std::vector<KeyHint> some_keys() {
 }
 
 struct CardRig : PanelRig {
-  explicit CardRig(const CoachView& coach, bool panel_shown = false) {
+  explicit CardRig(const CoachState& coach, bool panel_shown = false) {
     panel.set_visible(panel_shown);
     show(coach);
   }
-  void show(const CoachView& coach) {
+  void show(const CoachState& coach) {
     input.coach = coach;
     for (int i = 0; i < 6; ++i) frame();
   }
@@ -61,7 +61,7 @@ TEST_CASE(
   CHECK(says("Hill start"));
   CHECK(says("without rolling back"));
   CHECK_FALSE(says("You fail if you"));
-  CoachView failing = offered();
+  CoachState failing = offered();
   failing.fail_conditions = "You fail if you stall.";
   rig.show(failing);
   CHECK(says("You fail if you stall."));
@@ -71,7 +71,7 @@ TEST_CASE(
   CHECK(rig.click("lesson_dismiss").lesson.dismiss_lesson);
   CHECK(rig.click("mode").lesson.mode == LessonMode::by_yourself);
   CHECK(rig.click("help").lesson.help == false);
-  CoachView other = offered();
+  CoachState other = offered();
   other.mode = LessonMode::by_yourself;
   other.help_wanted = false;
   rig.show(other);
@@ -116,7 +116,7 @@ TEST_CASE("the card is at the bottom centre and keeps its size in every phase") 
     CHECK(rig.rect("lesson_begin").min.y > middle.max.y);
     CHECK(rig.panel.covers({0.5 * (all.min.x + all.max.x), all.max.y - 20.0}));
     CHECK_FALSE(rig.panel.covers({0.5 * (all.min.x + all.max.x), middle.max.y - 2.0}));
-    for (const CoachView& coach : {driven(), over(result_of("hill_start", some_errors())), offered()}) {
+    for (const CoachState& coach : {driven(), over(result_of("hill_start", some_errors())), offered()}) {
       rig.input.coach = coach;
       rig.frame();  // only one frame: the card must have its size at once
       CHECK(rig.panel.cabin_area().max.y <= middle.max.y);
@@ -124,7 +124,7 @@ TEST_CASE("the card is at the bottom centre and keeps its size in every phase") 
     }
     const double settled = rig.panel.cabin_area().max.y;  // the card has grown to fit its largest phase
     CHECK(settled > 0.55 * all.max.y);
-    for (const CoachView& coach : {driven(), over(result_of("hill_start", some_errors())), offered()}) {
+    for (const CoachState& coach : {driven(), over(result_of("hill_start", some_errors())), offered()}) {
       rig.input.coach = coach;
       rig.frame();
       CHECK(rig.panel.cabin_area().max.y == settled);
@@ -142,7 +142,7 @@ TEST_CASE("no prompt of the shipped lessons, with hint and messages, covers more
     for (std::size_t step = 0; step < lesson.steps.size(); ++step) {
       CAPTURE(lesson.key);
       CAPTURE(step);
-      CoachView coach = driven(key);
+      CoachState coach = driven(key);
       coach.now.prompt = lesson.steps[step].prompt;
       coach.now.hint = lesson.steps[step].hint;
       rig.show(coach);
@@ -159,7 +159,7 @@ TEST_CASE("the button that Enter presses is marked: try again after failing, nex
   rig.frame();
   CHECK(says("Next lesson (Enter)"));
   CHECK_FALSE(says("Try again (Enter)"));
-  CoachView failed = over(result_of("hill_start", failing_errors()));
+  CoachState failed = over(result_of("hill_start", failing_errors()));
   failed.next = "bite_point";
   rig.show(failed);
   CHECK(says("Try again (Enter)"));
@@ -195,7 +195,7 @@ TEST_CASE("with forces off, starting a lesson switches them on, and a running le
 }
 
 TEST_CASE("the remaining time is shown, and in the warning colour for the last twenty seconds") {
-  CoachView coach = driven();
+  CoachState coach = driven();
   coach.result.duration = 30.4;
   CardRig rig(coach);
   CHECK_FALSE(says("left"));  // a lesson without a time limit shows no remaining time
@@ -231,7 +231,7 @@ TEST_CASE("a lesson that ended early shows that this gives 0 points, in addition
 }
 
 TEST_CASE("the keys are listed under goal and prompt, with the starter's key after a stall") {
-  for (const CoachView& coach : {offered(), driven()}) {
+  for (const CoachState& coach : {offered(), driven()}) {
     CardRig rig(coach);
     CHECK_FALSE(is_drawn("a little throttle"));
     CHECK_FALSE(says("mouse"));
@@ -295,7 +295,7 @@ TEST_CASE("with the panel hidden the card shows pedals, engine, handbrake and sl
 }
 
 TEST_CASE("a guided trial is marked while it is driven, not before; a retention test is marked too") {
-  CoachView coach = offered();
+  CoachState coach = offered();
   coach.guidance = 0.8;
   CardRig rig(coach);
   CHECK_FALSE(says("guided"));
@@ -314,7 +314,7 @@ TEST_CASE("a guided trial is marked while it is driven, not before; a retention 
 }
 
 TEST_CASE("prompt, hint and step are the coach's, and the progress bar has a part for each completed step") {
-  CoachView coach = driven("reverse");
+  CoachState coach = driven("reverse");
   coach.now.feedback.clear();
   CardRig rig(coach);
   CHECK(says(coach.now.prompt));
@@ -333,7 +333,7 @@ TEST_CASE("prompt, hint and step are the coach's, and the progress bar has a par
 
 TEST_CASE("the newest message is large for some seconds, then as small as the earlier ones") {
   const std::string first = "The lever moved 0.12 s before the clutch was down.", second = "The engine stalled.";
-  CoachView coach = driven();
+  CoachState coach = driven();
   coach.now.hint.clear();
   coach.now.feedback = {first};
   CardRig rig(coach);
@@ -357,7 +357,7 @@ TEST_CASE(
     "from a phase's second frame on the card has all its buttons and keys; an open card has them from the first") {
   for (const bool panel_shown : {true, false}) {
     CAPTURE(panel_shown);
-    for (const CoachView& coach : {offered(), over(result_of("hill_start", failing_errors()))}) {
+    for (const CoachState& coach : {offered(), over(result_of("hill_start", failing_errors()))}) {
       CardRig rig(half_way(), panel_shown);
       rig.input.keys = some_keys();
       rig.input.coach = coach;

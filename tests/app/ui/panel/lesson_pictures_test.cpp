@@ -43,12 +43,12 @@ void check_inside(const PanelRig& rig, const ControlRect& room, const std::vecto
 
 struct Moment {
   const char* name;
-  CoachView coach;
+  CoachState coach;
   std::vector<std::string> controls;  // names of controls that must be visible
 };
 
 std::vector<Moment> moments() {
-  CoachView by_yourself = offered("another_gate"), guided = driven("bite_point"), test = driven("reverse");
+  CoachState by_yourself = offered("another_gate"), guided = driven("bite_point"), test = driven("reverse");
   by_yourself.mode = LessonMode::by_yourself;
   by_yourself.help_wanted = false;
   guided.guidance = 0.7;

@@ -20,7 +20,7 @@ namespace {
 constexpr int kEnter = 257;
 
 struct LessonsRig : PanelRig {
-  explicit LessonsRig(const CoachView& coach, const char* tab = "tab_lesson") {
+  explicit LessonsRig(const CoachState& coach, const char* tab = "tab_lesson") {
     input.coach = coach;
     frame();
     click(tab);
@@ -147,7 +147,7 @@ TEST_CASE("the list of learners is as wide as the field") {
 }
 
 TEST_CASE("a note explains why nothing is saved") {
-  CoachView coach = half_way();
+  CoachState coach = half_way();
   coach.is_saving = false;
   LessonsRig rig(coach);
   CHECK(is_drawn("Your history could not be opened, so nothing is being saved."));
@@ -215,7 +215,7 @@ TEST_CASE("each run shows its grade, or why it has none") {
 }
 
 TEST_CASE("the runs that are scrolled out of view are reached by the mouse wheel, also below an opened run") {
-  CoachView coach = with_history();
+  CoachState coach = with_history();
   while (coach.runs.size() < kMaxRunsShown) {
     coach.runs.push_back(coach.runs.front());
     coach.runs.back().id = 10 - static_cast<std::int64_t>(coach.runs.size());
@@ -248,7 +248,7 @@ TEST_CASE("the runs that are scrolled out of view are reached by the mouse wheel
 }
 
 TEST_CASE("an error costs points in a graded run, and none in a run that was left") {
-  CoachView coach = with_history();
+  CoachState coach = with_history();
   LessonResult left = result_of("hill_start", some_errors());
   left.end = LessonEnd::left;
   grade_result(shipped_lesson("hill_start"), left);
@@ -283,7 +283,7 @@ TEST_CASE("a comment needs an author and a text, and is requested once") {
 }
 
 TEST_CASE("a comment can be edited, or deleted with a second click to confirm") {
-  CoachView coach = with_history();
+  CoachState coach = with_history();
   coach.comments[0][0].id = 7;
   LessonsRig rig(coach, "tab_history");
   rig.click("run: 16");
@@ -322,7 +322,7 @@ TEST_CASE("an invalid name is not requested, and the reason is below the field u
 }
 
 TEST_CASE("a learner deleted by another program is marked, and can be selected again by name") {
-  CoachView coach = half_way();
+  CoachState coach = half_way();
   coach.learner_deleted = true;
   coach.is_saving = false;
   LessonsRig rig(coach);
@@ -340,7 +340,7 @@ TEST_CASE("a learner deleted by another program is marked, and can be selected a
 }
 
 TEST_CASE("each kind of error shows its advice only once") {
-  CoachView coach = with_history();
+  CoachState coach = with_history();
   coach.runs[0].result.errors.push_back({ErrorKind::jerk, Severity::minor, 15.0, 8.8, 0});
   LessonsRig rig(coach, "tab_history");
   rig.click("run: 16");

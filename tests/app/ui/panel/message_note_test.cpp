@@ -59,7 +59,7 @@ TEST_CASE("a message shown in the bar is not repeated; one that does not fit is 
 
 TEST_CASE("a message over the cabin and a comment that is being edited both fit") {
   PanelRig rig;
-  CoachView coach = with_history();
+  CoachState coach = with_history();
   coach.learner_deleted = true;
   coach.comments[0][0].id = 7;
   rig.input.coach = coach;

@@ -14,6 +14,7 @@
 #include "haptics/device/scripted_hand.h"
 #include "haptics/loop/shift_script.h"
 #include "haptics/loop/simulated_run.h"
+#include "tests/app/ui/panel/coach_views.h"
 #include "tests/support/gates.h"
 
 namespace gearshift::test {
@@ -57,14 +58,14 @@ struct PanelState {
   double frame_ms = 0.0;
   std::string car_name;
   std::vector<std::string> cars;
-  lessons::CoachView coach;
+  CoachState coach;
   const lessons::Player* replay = nullptr;
   std::string opening;
   std::vector<ui::KeyHint> keys;
   bool mouse_moves_lever = false, is_automatic_hand = false, instructor_holds_pedals = false, is_unpassable = false;
   std::optional<cabin::HeadsetReport> headset;
 
-  ui::PanelInput view(const haptics::Gate& gate, const haptics::DeviceSpec& device) const {
+  ui::PanelInput view(const haptics::Gate& gate, const haptics::DeviceSpec& device) {
     return {gate,
             device,
             haptics,
@@ -89,7 +90,7 @@ struct PanelState {
             frame_ms,
             car_name,
             cars,
-            coach,
+            coach.view(),
             replay,
             opening,
             keys,
