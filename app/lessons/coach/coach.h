@@ -68,7 +68,8 @@ class Coach {
   // without samples, because this call also retries to save results.
   void add(std::span<const vehicle::DriveSample> samples);
   // Judges one cycle. For simulated drivers, which need the result after every cycle. The view's `now` and `result`
-  // follow at once; the next add(), with or without samples, updates the phase and saves results. Throws std::logic_error if no lesson is running.
+  // follow at once; the next add(), with or without samples, updates the phase and saves results. Throws
+  // std::logic_error if no lesson is running.
   const LessonRun& assess(const vehicle::DriveSample& sample);
   void leave();  // ends the lesson early; the phase becomes `over`
   // Removes the recording's path from the current or last trial and from the history.

@@ -47,9 +47,13 @@ Cost cost_of(const Work& work) {
 
 }  // namespace
 
-// These replace the operators of the whole test program. Over-aligned types are not counted.
+// These replace the operators of the whole test program. Over-aligned types are not counted. The nothrow form is
+// replaced too, because a sanitizer's own one would not match the operator delete below.
 void* operator new(std::size_t size) {
   return counted(size);
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return std::malloc(size == 0 ? 1 : size);
 }
 void operator delete(void* memory) noexcept {
   std::free(memory);
