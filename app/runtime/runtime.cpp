@@ -153,6 +153,7 @@ Runtime::State::State(const RuntimeConfig& wanted)
   newest.cycle.out.lever = newest.cycle.out.proxy = start;
   newest.cycle.out.wall_stiffness = admitted.tuning.wall_stiffness;
   newest.keyboard = config.keyboard;
+  if (!driver) runner.pedal_keys.write(config.pedal_keys);
   if (run->car() != nullptr) newest.car = run->car()->state();
   begin();
 }

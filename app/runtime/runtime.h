@@ -50,6 +50,7 @@ struct RuntimeConfig {
   LeverFactory lever;        // if set: a real lever is used, set_hand() is ignored, and `driver` must be empty
   DriverFunction driver;     // empty: set_hand() and set_controls() are used
   haptics::Pedals keyboard;  // initial positions of the keyboard's pedals
+  PedalKeyInput pedal_keys;  // initial keys, until set_pedal_keys()
   RuntimeClock clock = RuntimeClock::real_time;
   std::uint64_t seed = 1;             // random seed of the car
   std::string program = "gearshift";  // program name and version, written to the trace

@@ -1,13 +1,11 @@
-// A session: the running haptic loop with its car, the lessons, the cabin and its sound. Executes what the user
-// requests in the panel.
+// A session: lever and car in force, lessons, replays and recordings, with the cabin and its sound. Executes what the
+// user requests in the panel.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,26 +14,19 @@
 #include "app/cabin/sound/cabin_sound.h"
 #include "app/cabin/stage/stage.h"
 #include "app/cabin/view/cabin_kind.h"
-#include "app/lessons/coach/coach.h"
-#include "app/lessons/replay/drive_loader.h"
-#include "app/runtime/runtime.h"
-#include "app/session/resolve_choice.h"
+#include "app/session/drive_recorder.h"
+#include "app/session/lesson_director.h"
+#include "app/session/lever_in_force.h"
+#include "app/session/replay_viewer.h"
 #include "app/session/session_choice.h"
 #include "app/ui/panel/panel.h"
 
 namespace gearshift::session {
 
-// Ignition and hand brake at the start of a lesson. The caller must set the user's switches to these values.
-struct CarSwitches {
-  bool ignition = true;
-  double hand_brake = 0.0;  // [1] 0: released, 1: fully applied
-};
-
 class Session {
  public:
   // Throws FileError, GltfError, std::invalid_argument or std::runtime_error with a one-sentence message.
   explicit Session(const SessionChoice& choice);
-  ~Session();  // stops the haptic loop first
 
   // Call set_driver(), advance() and update_cabin() once per frame, in this order, and apply() at any time in a frame.
   // They do not throw: if a request is rejected, message() says why. Until the next set_driver(), `keys` move the
@@ -47,7 +38,7 @@ class Session {
   void advance(double seconds);  // advances lesson, replay and a loop on the virtual clock; reads events
   void update_cabin();           // places the cabin's parts and updates the sound
 
-  void set_foot_pace(const vehicle::PedalTiming& pace) { pedals_.timing = pace; }
+  void set_foot_pace(const vehicle::PedalTiming& pace) { lever_.set_pedal_timing(pace); }
 
   // Replays a recorded drive: the shift with the index `shift` or, if `shift` is empty, the whole drive. `from` [s]:
   // start time in the recording. Throws FileError, std::invalid_argument or std::runtime_error with a one-sentence
@@ -56,16 +47,16 @@ class Session {
                    double from = 0.0);
 
   const cabin::Stage& stage() const { return *stage_; }
-  void set_camera(std::string_view camera);    // see cabin_for_camera()
-  bool take_new_model();                       // true once after the stage was rebuilt
-  bool take_new_runtime();                     // true once after gate, car, hand or device have changed
-  std::optional<CarSwitches> take_switches();  // not empty once after a lesson has begun
-  ui::PanelInput panel_input();                // valid until the next call of another function of this session
-  runtime::Runtime& runtime() { return *runtime_; }
-  const lessons::Coach& coach() const { return coach_; }
+  void set_camera(std::string_view camera);                      // see cabin_for_camera()
+  bool take_new_model();                                         // true once after the stage was rebuilt
+  bool take_new_runtime() { return lever_.take_new_runtime(); }  // true once after gate, car, hand or device changed
+  std::optional<CarSwitches> take_switches() { return lever_.take_switches(); }  // not empty once after a lesson began
+  ui::PanelInput panel_input();  // valid until the next call of another function of this session
+  runtime::Runtime& runtime() { return lever_.runtime(); }
+  const lessons::Coach& coach() const { return director_.coach(); }
   const haptics::HapticSnapshot& shown() const { return shown_; }  // lever shown in the cabin, live or replayed
   const vehicle::VehicleState& car() const { return car_; }        // car shown in the cabin, live or replayed
-  const std::optional<vehicle::CarSpec>& car_spec() const { return runtime_->config().car; }
+  const std::optional<vehicle::CarSpec>& car_spec() const { return lever_.runtime().config().car; }
   const std::vector<haptics::HapticEvent>& events() const {
     return events_;
   }  // events of the running loop in this frame; times [ns] since the start of the session
@@ -74,7 +65,7 @@ class Session {
   // [s] time of the running loop's newest snapshot, from the start of the session
   double lever_time() const { return 1e-9 * static_cast<double>(newest_ns_ - start_ns_); }
   const std::string& message() const { return message_; }  // last message, e.g. a rejection; one sentence
-  bool recording() const { return runtime_ && runtime_->is_recording(); }
+  bool recording() const { return lever_.exists() && lever_.runtime().is_recording(); }
   // Call before the session ends. Ends a running lesson early, saves pending results and deletes recordings that the
   // history does not reference. Returns a sentence that says what could not be saved; empty if everything was saved.
   std::string save_and_stop();
@@ -92,9 +83,9 @@ class Session {
   void set_pointer(const std::optional<cabin::Beam>& beam) { pointer_ = beam; }
   void set_keys(std::vector<ui::KeyHint> keys) { panel_.keys = std::move(keys); }
   void set_mouse_leads(bool leads) { panel_.mouse_moves_lever = leads; }
-  bool is_replaying() const { return player_.has_value(); }
-  bool is_replay_over() const { return player_ && !player_->is_playing(); }
-  bool is_replaying_shift() const { return player_ && player_->shift(); }
+  bool is_replaying() const { return viewer_.player() != nullptr; }
+  bool is_replay_over() const { return is_replaying() && !viewer_.player()->is_playing(); }
+  bool is_replaying_shift() const { return viewer_.shift() != nullptr; }
 
  private:
   // Data for the panel that no other member holds.
@@ -108,21 +99,7 @@ class Session {
     runtime::LoopHealth health;
   };
 
-  // Functions for the real stick, defined in session_stick.cpp.
-  bool arm();
-  void poll_stick();
-  haptics::Gate check_stick(runtime::RuntimeConfig config) const;
-  std::unique_ptr<runtime::Runtime> replace_runtime(const runtime::RuntimeConfig& config);
-  void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;
-
-  // Functions for the running loop, its cabin and one frame, defined in session.cpp.
-  void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
-                 std::string_view reason = "the loop was restarted");  // reason: reported if this ends a lesson
-  void apply_choice(const ui::PanelRequests& requests);
-  std::string describe_limit() const;
-  void close_current(std::string_view reason);
-  void adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Lesson* lesson);
-  bool should_arm();
+  // Defined in session.cpp.
   void rebuild_stage(const haptics::Gate& gate, const std::string& text, const haptics::YokeGeometry& yoke,
                      cabin::Cabin cabin);
   const haptics::Gate& displayed_gate() const;
@@ -131,91 +108,62 @@ class Session {
   void drain_cycles();
   void update_shown();
   void report_sound();
-  void save_preset(const std::string& name);
-
-  // Defined in session_lessons.cpp.
-  void apply_lesson_requests(const ui::LessonRequests& requests);
-  void offer_initial(const SessionChoice& choice);
-  void offer(const lessons::Lesson& lesson);
-  void change_comment(const ui::LessonRequests::CommentChange& change);
-  void change_learner(const std::string& name);
-  void leave_lesson();
-  void report_early_end(std::string_view reason);
-  void begin_lesson();
-  std::filesystem::path record_lesson(const lessons::Lesson& lesson);  // returns an empty path on failure
-  void update_lesson(std::span<const vehicle::DriveSample> cycles);
-  void hold_car();
-  void check_still_passable();
-  haptics::DriverControls effective_controls() const;
-  bool delete_unreferenced_recordings();
-
-  // Defined in session_replay.cpp.
-  void apply_replay_requests(const ui::ReplayRequests& requests);
-  void open_last_recording();
-  // `near` [s]: the shift that begins nearest to this time is shown; if empty, the whole drive is shown
-  void open_recording(const std::filesystem::path& recording, std::optional<double> near);
   void finish_opening();
-  void show_opened();
-  void cancel_opening();
-  void start_replay(lessons::Player player);
   void show_replay(double seconds);
-  void end_replay();
-  void check_can_replay() const;
 
-  // Defined in session_recordings.cpp.
-  std::filesystem::path recordings_folder() const;
+  // Defined in session_commands.cpp.
+  void apply_lever_requests(const ui::PanelRequests& requests);
+  void apply_choice(const ui::PanelRequests& requests);
+  void apply_lesson_requests(const ui::LessonRequests& requests);
+  void apply_replay_requests(const ui::ReplayRequests& requests);
+  // Replaces the lever. `reason`: reported if this ends a lesson. If it fails, the old lever keeps running unchanged.
+  void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
+                 std::string_view reason = "the loop was restarted");
+  void close_current(std::string_view reason);
   void toggle_recording();
-  void start_recording(const std::string& name);
   void end_lesson_recording();
-  void report_recording_problem();
+  void save_preset(const std::string& name);
+  void change_learner(const std::string& name);
+  void begin_lesson();
+  std::filesystem::path record_lesson(const std::string& lesson);
+  void end_lesson();
+  void report_early_end(std::string_view reason);
+  void open_last_recording();
+  void open_recording(const std::filesystem::path& recording, std::optional<double> near);
+  void check_can_replay() const;
+  void show_opened();
+  void start_replay(lessons::Player player);
+  void end_replay();
 
-  SessionChoice choice_;   // the user's choice
-  SessionChoice running_;  // choice_ with the names of the car and gate in use, which are never empty
+  LessonDirector director_;
+  ReplayViewer viewer_;
+  DriveRecorder recorder_;
+
   cabin::Cabin cabin_;
-  lessons::Coach coach_;
-  std::unique_ptr<runtime::Runtime> runtime_;
   std::unique_ptr<cabin::Stage> stage_;
   std::string stage_gate_;            // text of the gate file for which the stage was built
   haptics::YokeGeometry stage_yoke_;  // yoke for which the stage was built
   engine::SoundWorld sound_;
   cabin::CabinSound cabin_sound_;
-  std::unique_ptr<lessons::DriveLoader> opening_;  // not null while a recording is being read
-  std::optional<double> opening_near_;             // [s] time `near` of open_recording()
-  std::optional<lessons::Player> player_;          // not empty during a replay
-  runtime::PedalKeyInput pedals_;                  // the user's keys for the pedals
-  haptics::DriverControls controls_;               // the user's controls, without the keyboard pedals
-  haptics::DriverControls newest_controls_;
-  double slope_ = 0.0;  // [rad] slope of the lesson's road
-  // True after a lesson while the instructor holds clutch and brake. Ends when the next lesson starts, the lesson is
-  // dismissed, or car, gate or hand change.
-  bool is_car_held_ = false;
-  std::size_t error_count_ = 0;  // number of driving errors in the current trial
-  bool is_unpassable_ = false;
-  std::optional<CarSwitches> switches_;
   engine::EyePose ears_;
   double visual_offset_ = 0.0;  // [m] see set_visual_offset()
   std::optional<cabin::Beam> pointer_;
+
+  haptics::DriverControls newest_controls_;
   haptics::HapticSnapshot shown_;
   vehicle::VehicleState car_;                     // displayed state of the car
   std::vector<haptics::HapticSnapshot> history_;  // lever samples of this frame for the plots
   std::vector<haptics::HapticEvent> events_;
   PanelData panel_;
-  std::filesystem::path last_recording_;
-  std::set<std::string> lesson_recordings_;  // recordings made automatically for lessons
   std::string message_;
-  std::string why_silent_;                // sound_.silence_reason() in the previous frame
-  bool wants_forces_ = true;              // true after arming, false after the user or a fault switched forces off
-  bool armed_this_frame_ = false;         // the user switched forces on in this frame
-  bool is_stick_connected_ = false;       // the stick was connected in the previous frame
-  bool is_lesson_recording_ = false;      // the running recording belongs to a lesson
-  bool is_recording_incomplete_ = false;  // the last recording belonged to a lesson and failed
-  std::int64_t start_ns_ = 0;             // [ns] start of this session, on the loop's clock
-  std::int64_t newest_ns_ = 0;            // [ns] time of the newest snapshot, on the loop's clock
-  double time_ = 0.0;                     // [s] see time()
-  double frame_ms_ = 0.0;                 // [ms] length of the last frame
-  std::uint64_t run_ = 0;                 // see PanelInput::run
+  std::string why_silent_;      // sound_.silence_reason() in the previous frame
+  std::int64_t start_ns_ = 0;   // [ns] start of this session, on the loop's clock
+  std::int64_t newest_ns_ = 0;  // [ns] time of the newest snapshot, on the loop's clock
+  double time_ = 0.0;           // [s] see time()
+  double frame_ms_ = 0.0;       // [ms] length of the last frame
+  std::uint64_t run_ = 0;       // see PanelInput::run
   bool new_model_ = true;
-  bool new_runtime_ = true;
+  LeverInForce lever_;  // last, so that its motors stop first: other destructors may take long, as without a sound card
 };
 
 }  // namespace gearshift::session

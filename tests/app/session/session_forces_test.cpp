@@ -51,6 +51,45 @@ struct ForcesRig {
     if (which == 3) requests.restart = session.runtime().config().preset.haptics;
     session.apply(requests);
   }
+  // With a position margin of zero, pushing against the device's end stop causes a fault.
+  void provoke_fault() {
+    PanelRequests restart;
+    restart.restart = session.runtime().config().preset.haptics;
+    restart.restart->guard.position_margin = 0.0;
+    session.apply(restart);
+    go(2.0);
+    HandTarget hand;
+    for (int i = 0; i < 3000 && session.runtime().snapshot().guard != GuardState::released; ++i) {
+      hand.position = {i % 2 ? 0.09 : -0.09, i % 2 ? 0.09 : -0.09};
+      hand.push = {0.0, i % 2 ? 75.0 : -75.0};
+      session.set_driver(hand, {});
+      session.advance(0.1);
+    }
+    REQUIRE(session.runtime().snapshot().guard == GuardState::released);
+    session.set_driver({}, {});
+  }
+  void cause(ForceCause what) {
+    switch (what) {
+      case ForceCause::start:
+      case ForceCause::stick_lost:
+        return;
+      case ForceCause::user_arms:
+        return ask(&PanelRequests::arm);
+      case ForceCause::user_disarms:
+        return ask(&PanelRequests::disarm);
+      case ForceCause::user_stops:
+        return ask(&PanelRequests::stop);
+      case ForceCause::fault:
+        provoke_fault();
+        return change(2);
+      case ForceCause::new_lever:
+        return change(0);
+      case ForceCause::recording:
+        ask(&PanelRequests::record);
+        go(0.5);
+        return ask(&PanelRequests::record);
+    }
+  }
   bool has_forces() {
     const GuardState guard = session.runtime().snapshot().guard;
     return guard == GuardState::armed || guard == GuardState::ramping || guard == GuardState::running;
@@ -58,6 +97,24 @@ struct ForcesRig {
 };
 
 }  // namespace
+
+// Every rule of the table, on a lever whose forces were on, and on one whose forces were off.
+TEST_CASE("each rule of arming and motors-off, on a simulated lever") {
+  for (const ForceRule& rule : kForceRules) {
+    CAPTURE(static_cast<int>(rule.cause));
+    for (const bool before : {true, false}) {
+      CAPTURE(before);
+      const bool is_possible = before || (rule.cause != ForceCause::start && rule.cause != ForceCause::fault);
+      if (!is_possible) continue;  // a session starts once, and a lever without forces has no fault
+      ForcesRig rig;
+      if (!before) rig.ask(&PanelRequests::disarm);
+      rig.go(1.0);
+      rig.cause(rule.cause);
+      rig.go(2.0);
+      CHECK(rig.has_forces() == (rule.simulated == ForceEffect::keep ? before : rule.simulated == ForceEffect::on));
+    }
+  }
+}
 
 TEST_CASE("after STOP or Forces off, no gate, preset, hand or restart restores the forces; only arming does") {
   for (const auto request : {&PanelRequests::stop, &PanelRequests::disarm}) {
@@ -122,21 +179,7 @@ TEST_CASE("event times are relative to the session's start, across every change 
 TEST_CASE("forces removed by a fault are not restored by two changes or the start of a lesson; only arming does") {
   for (const bool lesson : {false, true}) {
     ForcesRig rig;
-    // With a position margin of zero, pushing against the device's end stop causes a fault.
-    PanelRequests restart;
-    restart.restart = rig.session.runtime().config().preset.haptics;
-    restart.restart->guard.position_margin = 0.0;
-    rig.session.apply(restart);
-    rig.go(2.0);
-    HandTarget hand;
-    for (int i = 0; i < 3000 && rig.session.runtime().snapshot().guard != GuardState::released; ++i) {
-      hand.position = {i % 2 ? 0.09 : -0.09, i % 2 ? 0.09 : -0.09};
-      hand.push = {0.0, i % 2 ? 75.0 : -75.0};
-      rig.session.set_driver(hand, {});
-      rig.session.advance(0.1);
-    }
-    REQUIRE(rig.session.runtime().snapshot().guard == GuardState::released);
-    rig.session.set_driver({}, {});
+    rig.provoke_fault();
     rig.change(2);
     rig.go(1.0);
     CHECK_FALSE(rig.has_forces());

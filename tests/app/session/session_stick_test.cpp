@@ -103,6 +103,41 @@ struct HeldRig {
 
 }  // namespace
 
+// Every rule of the table, on a stick whose forces were on, and on one whose forces were off. The rule of a fault has no
+// case of its own, because a stick's new lever is without forces whatever happened before.
+TEST_CASE("each rule of arming and motors-off, on a stick") {
+  const auto cause = [](HeldRig& rig, ForceCause what) {
+    const auto ask = [&](bool PanelRequests::*request) {
+      rig.ask([request](PanelRequests& requests) { requests.*request = true; });
+    };
+    if (what == ForceCause::user_arms) rig.arm();
+    if (what == ForceCause::user_disarms) ask(&PanelRequests::disarm);
+    if (what == ForceCause::user_stops) ask(&PanelRequests::stop);
+    if (what == ForceCause::new_lever) rig.ask([](PanelRequests& requests) { requests.gate = "four_speed"; });
+    if (what == ForceCause::recording) ask(&PanelRequests::record);
+    if (what == ForceCause::stick_lost) {
+      rig.held.unplug();
+      REQUIRE(rig.becomes_true([&] { return !rig.session->panel_input().stick->plugged_in; }));
+      rig.held.plug_in();
+      REQUIRE(rig.becomes_true([&] { return rig.session->panel_input().stick->plugged_in; }));
+    }
+  };
+  for (const ForceRule& rule : kForceRules) {
+    if (rule.cause == ForceCause::fault) continue;
+    CAPTURE(static_cast<int>(rule.cause));
+    for (const bool before : {true, false}) {
+      CAPTURE(before);
+      if (before && rule.cause == ForceCause::start) continue;  // no forces have been switched on at the start
+      HeldRig rig;
+      if (before) rig.arm();
+      if (before) REQUIRE(rig.runs());
+      cause(rig, rule.cause);
+      const bool after = rule.stick == ForceEffect::keep ? before : rule.stick == ForceEffect::on;
+      CHECK((after ? rig.becomes_true([&] { return rig.guard() == GuardState::running; }) : rig.stays_off(60)));
+    }
+  }
+}
+
 TEST_CASE("only Enter arms the stick: not the start, nor a change of gate, car, preset or setup") {
   HeldRig rig;
   CHECK(rig.stays_off());

@@ -1,0 +1,175 @@
+#include "app/session/lever_in_force.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/lessons/assessment/lever_path_text.h"
+#include "app/session/make_runtime_config.h"
+#include "haptics/contact/proxy.h"
+#include "haptics/gate/gear_selector.h"
+
+namespace gearshift::session {
+
+std::string first_limit(const haptics::AdmittedTuning& admitted) {
+  return admitted.limits.empty() ? std::string{} : haptics::describe(admitted.limits.front());
+}
+
+LeverInForce::Next LeverInForce::prepare(const SessionChoice& choice, const lessons::Lesson* lesson) const {
+  const ResolvedCar chosen = resolve_car(choice);
+  Next next{choice, chosen.layout.text, make_runtime_config(choice, chosen, lesson), nullptr, {}, {}};
+  next.choice.car = chosen.car;
+  next.choice.gate = chosen.gate;
+  if (runtime_) next.config.keyboard = runtime_->keyboard();
+  next.config.pedal_keys = keys_;
+  if (choice.stick) {
+    runtime::RuntimeConfig detached = next.config;  // checked while the old runtime still drives the stick
+    detached.lever = [&choice](double period) { return choice.stick->detached_lever(period); };
+    next.gate = runtime::check_runtime(detached);
+    if (lesson != nullptr) check_lever_gear(*lesson, next.gate);
+  } else {
+    next.runtime = std::make_unique<runtime::Runtime>(next.config);
+    next.gate = next.runtime->gate();
+  }
+  if (lesson != nullptr) next.switches = CarSwitches{lesson->start.running, lesson->start.hand_brake};
+  return next;
+}
+
+void LeverInForce::hand_over(Next next) {
+  if (!runtime_) follow(ForceCause::start);
+  if (runtime_ && !armed_this_frame_) {
+    if (has_fault()) follow(ForceCause::fault);
+    follow(ForceCause::new_lever);
+  }
+  runtime_ = next.runtime ? std::move(next.runtime) : replace_runtime(next.config);
+  is_new_ = true;
+  is_car_held_ = false;
+  running_ = std::move(next.choice);
+  if (next.switches) switches_ = next.switches;
+  if (switches_) {
+    controls_.ignition = switches_->ignition;
+    controls_.pedals.hand_brake = switches_->hand_brake;
+  }
+  runtime_->set_pedal_keys(keys_);
+  if (wants_forces_) runtime_->arm();
+}
+
+// Ends the old runtime before creating the new one, because only one runtime may use the stick. The new configuration
+// has already been checked; if the new runtime fails anyway, the old one is created again.
+std::unique_ptr<runtime::Runtime> LeverInForce::replace_runtime(const runtime::RuntimeConfig& config) {
+  if (!runtime_) return std::make_unique<runtime::Runtime>(config);
+  const runtime::RuntimeConfig before = runtime_->config();
+  runtime_.reset();
+  try {
+    return std::make_unique<runtime::Runtime>(config);
+  } catch (...) {
+    runtime_ = std::make_unique<runtime::Runtime>(before);
+    throw;
+  }
+}
+
+// Throws unless the real stick is in the lesson's starting gear, because only the user can move a real stick.
+void LeverInForce::check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const {
+  if (!runtime_) return;
+  if (!choice_.stick->connected())
+    throw std::runtime_error(
+        fmt::format("{} is not plugged in. Plug it in, then start the lesson.", choice_.stick->name()));
+  haptics::GearSelector at_once(0.0);
+  const int gear = at_once.update(gate, haptics::place_proxy(gate, runtime_->snapshot().lever).position, 0.0);
+  if (gear == lesson.start.gear) return;
+  throw std::runtime_error(fmt::format("the lesson starts in {0}, but the stick is in {1}. Move it to {0}, then start.",
+                                       lessons::gear_word(lesson.start.gear), lessons::gear_word(gear)));
+}
+
+void LeverInForce::follow(ForceCause cause) {
+  const auto* rule = std::find_if(std::begin(kForceRules), std::end(kForceRules),
+                                  [cause](const ForceRule& each) { return each.cause == cause; });
+  const ForceEffect effect = choice_.stick ? rule->stick : rule->simulated;
+  if (effect != ForceEffect::keep) wants_forces_ = effect == ForceEffect::on;
+}
+
+bool LeverInForce::has_fault() {
+  const haptics::GuardState guard = runtime_->snapshot().guard;
+  return guard == haptics::GuardState::released || guard == haptics::GuardState::damped;
+}
+
+// A stick must not start to push when it is plugged in, so it cannot be armed before.
+bool LeverInForce::arm() {
+  if (choice_.stick && !choice_.stick->connected()) return false;
+  follow(ForceCause::user_arms);
+  armed_this_frame_ = true;
+  runtime_->arm();
+  return true;
+}
+
+void LeverInForce::disarm() {
+  follow(ForceCause::user_disarms);
+  armed_this_frame_ = false;
+  runtime_->disarm();
+}
+
+void LeverInForce::stop() {
+  follow(ForceCause::user_stops);
+  armed_this_frame_ = false;
+  runtime_->stop();
+}
+
+std::string LeverInForce::begin_frame() {
+  armed_this_frame_ = false;
+  std::string news;
+  if (!choice_.stick) return news;
+  while (const std::optional<std::string> one = choice_.stick->take_message())
+    news += (news.empty() ? "" : "; ") + *one;
+  const bool was_there = std::exchange(is_stick_connected_, choice_.stick->connected());
+  if (was_there && !is_stick_connected_) {
+    follow(ForceCause::stick_lost);
+    runtime_->stop();
+  }
+  return news;
+}
+
+void LeverInForce::set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
+                              const vehicle::PedalKeys& keys) {
+  runtime_->set_hand(hand);
+  controls_ = controls;
+  keys_.keys = is_car_held_ ? vehicle::PedalKeys{} : keys;
+  runtime_->set_pedal_keys(keys_);
+}
+
+void LeverInForce::hold_car() {
+  is_car_held_ = true;
+  keys_.keys = {};
+  runtime_->set_pedal_keys(keys_);
+}
+
+// After a lesson the instructor brakes the car to a stop.
+void LeverInForce::send_controls(const LessonControls& lesson) {
+  haptics::DriverControls controls = controls_;
+  if (is_car_held_) {
+    controls.pedals.throttle = 0.0;
+    controls.pedals.clutch = 1.0;
+    controls.pedals.brake = std::max(controls.pedals.brake, 0.5);
+  }
+  controls.slope = lesson.slope;
+  controls.guidance = lesson.guidance;
+  controls.guided_gear = lesson.guided_gear;
+  runtime_->set_controls(controls);
+}
+
+// For a real stick prefers the wall stiffness, because the user feels this limit most.
+std::string LeverInForce::describe_limit() const {
+  const haptics::AdmittedTuning& admitted = runtime_->admitted();
+  if (!running_.stick || admitted.limits.empty()) return first_limit(admitted);
+  const auto wall =
+      std::find_if(admitted.limits.begin(), admitted.limits.end(), [](const haptics::TuningLimit& limited) {
+        return limited.parameter == haptics::TuningParameter::wall_stiffness && limited.used < limited.wanted;
+      });
+  const std::string delay =
+      fmt::format("{} takes {:.1f} ms to respond", running_.stick->name(), 1e3 * running_.stick->answer_time());
+  if (wall == admitted.limits.end()) return delay + "; " + first_limit(admitted);
+  return fmt::format("{}, so the walls were softened from {:.0f} to {:.0f} N/m", delay, wall->wanted, wall->used);
+}
+
+}  // namespace gearshift::session

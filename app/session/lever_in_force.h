@@ -1,0 +1,134 @@
+// The lever and car in force: which runtime runs, whether it has forces, and who holds lever and pedals.
+//
+// Another gate, car, hand or preset needs another runtime. prepare() makes or checks it while the old one keeps running;
+// hand_over() then replaces the old one. Only one runtime at a time may use a real stick.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/lessons/assessment/lesson.h"
+#include "app/runtime/runtime.h"
+#include "app/session/resolve_choice.h"
+#include "app/session/session_choice.h"
+
+namespace gearshift::session {
+
+// Rules of arming and motors-off. A force comes back by a person only: `on` appears beside a user's action, and at the
+// start of a simulated lever, which cannot hurt anybody.
+enum class ForceCause {
+  start,         // the session's first lever
+  user_arms,     // Enter, or "Forces on"; refused while the stick is not plugged in
+  user_disarms,  // "Forces off"
+  user_stops,    // STOP
+  fault,         // the guard ended the forces, and a new lever follows
+  new_lever,     // another gate, car, hand or preset, or a lesson; not in the frame in which the user armed
+  stick_lost,    // the stick was unplugged
+  recording      // a recording starts or ends
+};
+enum class ForceEffect { off, keep, on };
+struct ForceRule {
+  ForceCause cause;
+  ForceEffect simulated, stick;  // effect on the forces of a simulated lever and of a real stick
+};
+inline constexpr ForceRule kForceRules[] = {
+    {ForceCause::start, ForceEffect::on, ForceEffect::off},
+    {ForceCause::user_arms, ForceEffect::on, ForceEffect::on},
+    {ForceCause::user_disarms, ForceEffect::off, ForceEffect::off},
+    {ForceCause::user_stops, ForceEffect::off, ForceEffect::off},
+    {ForceCause::fault, ForceEffect::off, ForceEffect::off},
+    {ForceCause::new_lever, ForceEffect::keep, ForceEffect::off},
+    {ForceCause::stick_lost, ForceEffect::keep, ForceEffect::off},
+    {ForceCause::recording, ForceEffect::keep, ForceEffect::keep},
+};
+
+// Ignition and hand brake at the start of a lesson. The caller must set the user's switches to these values.
+struct CarSwitches {
+  bool ignition = true;
+  double hand_brake = 0.0;  // [1] 0: released, 1: fully applied
+};
+
+// The first limit that the device imposes on a tuning, as a sentence; empty: none
+std::string first_limit(const haptics::AdmittedTuning& admitted);
+
+// What a lesson adds to the driver's controls: the slope of its road, and guidance of the hand.
+struct LessonControls {
+  double slope = 0.0;     // [rad]
+  double guidance = 0.0;  // [1] 0 to 1
+  int guided_gear = haptics::kNeutralGear;
+};
+
+class LeverInForce {
+ public:
+  explicit LeverInForce(const SessionChoice& choice) : choice_(choice) { controls_.ignition = true; }
+
+  // A lever that is ready to replace the one in force.
+  struct Next {
+    SessionChoice choice;  // with the names of the car and gate in use, which are never empty
+    std::string gate_text;
+    runtime::RuntimeConfig config;
+    std::unique_ptr<runtime::Runtime> runtime;  // null for a stick, which the old runtime still uses
+    haptics::Gate gate;
+    std::optional<CarSwitches> switches;  // not empty if the lever is for a lesson
+  };
+  // Throws FileError, std::invalid_argument or std::runtime_error with a one-sentence message; nothing then changes.
+  // `lesson`: null if the lever is for free driving.
+  Next prepare(const SessionChoice& choice, const lessons::Lesson* lesson) const;
+  // Replaces the lever in force, which then has forces as kForceRules says. If a stick's new lever cannot be made, the
+  // old one is made again, and this throws.
+  void hand_over(Next next);
+
+  // Switches forces on. Returns false if this is refused, because the stick is not plugged in.
+  bool arm();
+  void disarm();
+  void stop();
+  // Call at the beginning of a frame. Ends the stick's forces when it is unplugged. Returns the stick's messages,
+  // separated by "; "; may be empty.
+  std::string begin_frame();
+
+  // The user's hand, controls and pedal keys.
+  void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
+                  const vehicle::PedalKeys& keys);
+  void set_pedal_timing(const vehicle::PedalTiming& timing) { keys_.timing = timing; }
+  // The instructor holds clutch and brake after a lesson, until release_car() or the next lever.
+  void hold_car();
+  void release_car() { is_car_held_ = false; }
+  bool is_car_held() const { return is_car_held_; }
+  // Passes the controls to the runtime: the user's, or the instructor's, on the lesson's road.
+  void send_controls(const LessonControls& lesson);
+
+  bool exists() const { return runtime_ != nullptr; }
+  runtime::Runtime& runtime() { return *runtime_; }
+  const runtime::Runtime& runtime() const { return *runtime_; }
+  // The user's choice, and the same with the names in use. The caller changes the user's choice once it is in force.
+  SessionChoice& choice() { return choice_; }
+  const SessionChoice& choice() const { return choice_; }
+  SessionChoice& running() { return running_; }
+  const SessionChoice& running() const { return running_; }
+  bool is_stick_connected() const { return is_stick_connected_; }
+  std::string describe_limit() const;  // first limit of the tuning, as a sentence; may be empty
+
+  bool take_new_runtime() { return std::exchange(is_new_, false); }  // true once after hand_over()
+  std::optional<CarSwitches> take_switches() { return std::exchange(switches_, std::nullopt); }
+
+ private:
+  void follow(ForceCause cause);
+  bool has_fault();
+  void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;
+  std::unique_ptr<runtime::Runtime> replace_runtime(const runtime::RuntimeConfig& config);
+
+  SessionChoice choice_, running_;
+  std::unique_ptr<runtime::Runtime> runtime_;
+  runtime::PedalKeyInput keys_;
+  haptics::DriverControls controls_;  // the user's, without the keyboard's pedals
+  std::optional<CarSwitches> switches_;
+  bool is_car_held_ = false;
+  bool wants_forces_ = false;        // forces are on, or ended by a fault that was not noticed yet
+  bool armed_this_frame_ = false;    // the user switched forces on in this frame
+  bool is_stick_connected_ = false;  // the stick was connected in the previous frame
+  bool is_new_ = false;
+};
+
+}  // namespace gearshift::session
