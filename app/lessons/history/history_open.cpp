@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -82,7 +83,7 @@ void History::State::open() {
                                                   static_cast<int>(lock_timeout.count()));
     if (has_log) keep_log_at_close(*database, true);
     const int version = checked_version();
-    if (version != kSchemaVersion) migrate();
+    if (version != kSchemaVersion) upgrade();
     enable_write_ahead_log();
     keep_log_at_close(*database, false);
     database->exec("PRAGMA foreign_keys = ON");
@@ -101,7 +102,7 @@ void History::State::check_writable(const std::string& from) const {
   }
 }
 
-// Copies the file into memory. Writes nothing to disk and blocks no writer; an older version is migrated only in
+// Copies the file into memory. Writes nothing to disk and blocks no writer; an older version is upgraded only in
 // memory.
 void History::State::open_copy() {
   const std::string from = absolute_path();
@@ -113,7 +114,7 @@ void History::State::open_copy() {
       if (!cannot_create_index(problem)) throw;
       copy_immutable(from);
     }
-    if (checked_version() != kSchemaVersion) migrate();
+    if (checked_version() != kSchemaVersion) upgrade();
     database->exec("PRAGMA query_only = ON");
   });
 }
@@ -173,6 +174,10 @@ int History::State::version_in_file() {
   const int version = database->execAndGet("PRAGMA user_version").getInt();
   const bool is_empty = database->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
   const bool is_history = application == kApplicationId;
+  if (application == kOldApplicationId)
+    refuse(
+        "the file was written by an old version of gearshift and can no longer be read; nothing was changed; rename or "
+        "delete the file to start a new history");
   if (is_history && version > kSchemaVersion)
     refuse("the file was written by a newer version of gearshift; nothing was changed");
   const bool is_new = is_empty && version == 0 && (is_history || application == 0);
@@ -181,14 +186,17 @@ int History::State::version_in_file() {
   return version;
 }
 
-void History::State::migrate() {
+// Creates the tables of an empty file, or upgrades an older file.
+void History::State::upgrade() {
   SQLite::Transaction transaction(*database, SQLite::TransactionBehavior::IMMEDIATE);
-  // Read the version again, because another program may have migrated the file in the meantime.
-  for (int from = version_in_file(); from < kSchemaVersion; ++from) {
-    database->exec(kMigrations[static_cast<std::size_t>(from)]);
-    if (from + 1 == kRelativeRecordingsVersion) make_recordings_relative();
-    database->exec(fmt::format("PRAGMA user_version = {}", from + 1));
-  }
+  // Read the version again, because another program may have done this in the meantime.
+  const int version = version_in_file();
+  if (version == 0)
+    database->exec(kSchema);
+  else
+    for (const char* script : std::span(kUpgrades).subspan(static_cast<std::size_t>(version - 1)))
+      database->exec(script);
+  database->exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
   database->exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
   transaction.commit();
 }

@@ -22,10 +22,10 @@ class RunParts {
   explicit RunParts(SQLite::Database& database)
       : shift_rows_(database, "SELECT number, from_gear, to_gear, guided, missed, steps" + figure_names() +
                                   " FROM shift WHERE run = ? ORDER BY number"),
-        error_rows_(
-            database,
-            "SELECT kind, severity, time_s, value, shift, points, step, wanted_s FROM fault WHERE run = ? ORDER BY "
-            "number") {}
+        error_rows_(database,
+                    "SELECT kind, severity, time_s, value, shift, points, step, wanted FROM driving_error WHERE run = "
+                    "? ORDER BY "
+                    "number") {}
 
   void read(std::int64_t run, LessonResult& result) {
     for (begin(shift_rows_, run); shift_rows_.executeStep();) read_shift(result);
@@ -121,7 +121,8 @@ std::vector<RunRow> History::runs(std::int64_t learner) {
     // Reads all rows from one snapshot, even while another program is writing.
     SQLite::Transaction snapshot(*state_->database);
     SQLite::Statement rows = state_->query(
-        "SELECT r.id, session, r.begun_at, recording, lesson, task, mode, ended, guided, whole, begin_s, duration_s, "
+        "SELECT r.id, session, r.begun_at, recording, lesson, task, mode, ended, guided, complete, begin_s, "
+        "duration_s, "
         "grade, passed, why, slip_energy_j, engine_work_j FROM lesson_run r JOIN session s ON s.id = r.session "
         "WHERE s.learner = ? ORDER BY r.id");
     rows.bind(1, learner);

@@ -71,10 +71,9 @@ struct History::State {
   std::string absolute_path() const;
   void check_still_current();
   void check_writable(const std::string& from) const;
-  void make_recordings_relative();
   int checked_version();
   int version_in_file();
-  void migrate();
+  void upgrade();
   void enable_write_ahead_log();
   void copy_locked(const std::string& from);
   void copy_immutable(const std::string& from);

@@ -27,12 +27,12 @@ void History::State::insert_shift(std::int64_t run, const ShiftRecord& shift) {
 }
 
 void History::State::replace_errors(std::int64_t run, const LessonResult& result) {
-  SQLite::Statement deletion = query("DELETE FROM fault WHERE run = ?");
+  SQLite::Statement deletion = query("DELETE FROM driving_error WHERE run = ?");
   deletion.bind(1, run);
   deletion.exec();
   std::map<std::size_t, double> points;
   for (const Deduction& deduction : result.deductions) points[deduction.error] += deduction.points;
-  SQLite::Statement insert = query("INSERT INTO fault VALUES (" + placeholders(10) + ")");
+  SQLite::Statement insert = query("INSERT INTO driving_error VALUES (" + placeholders(10) + ")");
   for (std::size_t i = 0; i < result.errors.size(); ++i) {
     const DrivingError& error = result.errors[i];
     insert.bind(1, run);
@@ -97,7 +97,7 @@ void History::add_settings(std::int64_t session, std::string_view text) {
 std::int64_t History::begin_run(std::int64_t session, const LessonResult& result, std::string_view recording) {
   return state_->write([&] {
     SQLite::Statement insert = state_->query(
-        "INSERT INTO lesson_run (session, begun_at, recording, lesson, task, mode, ended, guided, whole, "
+        "INSERT INTO lesson_run (session, begun_at, recording, lesson, task, mode, ended, guided, complete, "
         "begin_s, duration_s, grade, passed, why, slip_energy_j, engine_work_j) VALUES (" +
         placeholders(16) + ")");
     insert.bind(1, session);
@@ -124,7 +124,7 @@ void History::add_shift(std::int64_t run, const ShiftRecord& shift) {
 void History::end_run(std::int64_t run, const LessonResult& result) {
   state_->write([&] {
     SQLite::Statement update = state_->query(
-        "UPDATE lesson_run SET ended = ?, guided = ?, whole = ?, begin_s = ?, duration_s = ?, grade = ?, "
+        "UPDATE lesson_run SET ended = ?, guided = ?, complete = ?, begin_s = ?, duration_s = ?, grade = ?, "
         "passed = ?, why = ?, slip_energy_j = ?, engine_work_j = ? WHERE id = ?");
     update.bind(1, static_cast<int>(result.end));
     update.bind(2, result.guided ? 1 : 0);

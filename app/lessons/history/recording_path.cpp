@@ -49,20 +49,6 @@ std::string History::State::relative_recording(const std::string& recording) con
   return relative.empty() ? recording : relative.string();
 }
 
-// Runs within the transaction of the schema migration.
-void History::State::make_recordings_relative() {
-  SQLite::Statement rows = query("SELECT DISTINCT recording FROM lesson_run WHERE recording LIKE '/%'");
-  std::vector<std::string> recordings;
-  while (rows.executeStep()) recordings.push_back(rows.getColumn(0).getString());
-  SQLite::Statement update = query("UPDATE lesson_run SET recording = ? WHERE recording = ?");
-  for (const std::string& recording : recordings) {
-    update.bind(1, relative_recording(recording));
-    update.bind(2, recording);
-    update.exec();
-    update.reset();
-  }
-}
-
 fs::path History::recording_file(std::string_view recording) const {
   // If `recording` is an absolute path, operator/ ignores the folder.
   return recording.empty() ? fs::path() : folder_of(file()) / recording;

@@ -315,12 +315,12 @@ TEST_CASE("data that cannot be reloaded keeps its last state until it can be rea
   coach.set_help(false);
   bench.trial(coach, "one");
   bench.trial(coach, "one");
-  by_hand(bench.config.history, "ALTER TABLE fault RENAME TO faults");
+  by_hand(bench.config.history, "ALTER TABLE driving_error RENAME TO renamed");
   coach.offer(bench.config.lessons[0]);
   CHECK(coach.take_problem().has_value());
   CHECK(coach.view().runs.size() == 2);
   CHECK(coach.view().lessons[0].passed);
-  by_hand(bench.config.history, "ALTER TABLE faults RENAME TO fault");
+  by_hand(bench.config.history, "ALTER TABLE renamed RENAME TO driving_error");
   coach.offer(bench.config.lessons[0]);
   CHECK(coach.view().runs.size() == 2);
   bench.trial(coach, "one");

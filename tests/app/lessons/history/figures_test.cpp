@@ -100,7 +100,7 @@ TEST_CASE("impossible values in the file are read as possible ones, or not at al
     }
     const ShiftRecord none;
     std::string text;
-    for (const char* field : {"mode", "ended", "guided", "whole", "begin_s", "duration_s", "grade", "passed",
+    for (const char* field : {"mode", "ended", "guided", "complete", "begin_s", "duration_s", "grade", "passed",
                               "slip_energy_j", "engine_work_j"})
       text += std::string("UPDATE lesson_run SET ") + field + " = " + value + ";";
     each_figure(none, [&](const char* name, const auto&) {
@@ -108,9 +108,9 @@ TEST_CASE("impossible values in the file are read as possible ones, or not at al
     });
     text += std::string("UPDATE shift SET from_gear = ") + value + " WHERE number = 2;";
     text += std::string("UPDATE shift SET number = ") + value + " WHERE number = 1;";
-    for (const char* field : {"severity", "time_s", "value", "shift", "points", "wanted_s"})
-      text += std::string("UPDATE fault SET ") + field + " = " + value + ";";
-    text += "UPDATE fault SET kind = 'missed_shift' WHERE number = 1;";
+    for (const char* field : {"severity", "time_s", "value", "shift", "points", "wanted"})
+      text += std::string("UPDATE driving_error SET ") + field + " = " + value + ";";
+    text += "UPDATE driving_error SET kind = 'missed_shift' WHERE number = 1;";
     write_by_hand(file, text);
     History history(file);
     const std::vector<RunRow> runs = history.runs(ada);

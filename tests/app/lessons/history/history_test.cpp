@@ -241,11 +241,15 @@ TEST_CASE("a damaged, foreign or newer file is rejected in one sentence and not 
   };
   CHECK_FALSE(refused(intact, ""));  // the undamaged file is accepted
   CHECK(refused("learner,grade\nAda,7\n" + std::string(4096, ' '), "nothing was changed"));
-  std::string foreign = intact, newer = intact;
+  std::string foreign = intact, newer = intact, old = intact;
   foreign[71] ^= 1;  // bytes 68 to 71: application ID; 60 to 63: version (sqlite.org/fileformat2.html, section 1.3)
   newer[63] = kSchemaVersion + 1;
+  old.replace(68, 4, "GSHI");
   CHECK(refused(foreign, "not a gearshift history"));
   CHECK(refused(newer, "newer version of gearshift"));
+  CHECK(refused(old,
+                "the file was written by an old version of gearshift and can no longer be read; nothing was changed; "
+                "rename or delete the file to start a new history"));
   CHECK(refused(intact.substr(0, intact.size() / 2), "damaged"));
   std::string torn = intact;
   for (std::size_t i = 8192; i < 12288; ++i) torn[i] = 'x';

@@ -97,46 +97,6 @@ TEST_CASE("a file of a newer version, left with its log by a killed program, is 
   CHECK(all_bytes(log) == logged);
 }
 
-TEST_CASE("a version 1 file is upgraded with all its data") {
-  const TempFolder folder;
-  const auto file = folder / "history.db";
-  sqlite3* old = nullptr;
-  REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
-  const std::string fill =
-      std::string(kMigrations[0]) +
-      "PRAGMA user_version = 1; PRAGMA application_id = " + std::to_string(kApplicationId) +
-      ";INSERT INTO learner VALUES (3, 'Ada', '2026-01-02T03:04:05Z', 'reverse');"
-      "INSERT INTO session VALUES (5, 3, '2026-01-02T03:04:06Z', 'gearshift 0.1');"
-      "INSERT INTO settings VALUES (1, 5, '2026-01-02T03:04:06Z', 'gate = paper');"
-      "INSERT INTO lesson_run VALUES (7, 5, '2026-01-02T03:04:07Z', 'a.trace', 'hill_start', 'moving_off', 1, 1, 0, 1, "
-      "12.5, 34.25, 7.5, 1, '', 1.5, 2.5);"
-      "INSERT INTO fault VALUES (7, 0, 'stall', 2, 13.5, 36.6, -1, 2.0);"
-      "INSERT INTO comment VALUES (1, 7, '2026-01-03T03:04:07Z', 'Bo', 'Calmer.');";
-  REQUIRE(sqlite3_exec(old, fill.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
-  sqlite3_close(old);
-
-  History history(file);
-  const auto ada = history.find_learner("Ada");
-  REQUIRE(ada.has_value());
-  CHECK(ada->next_lesson == "reverse");
-  const std::vector<RunRow> runs = history.runs(ada->id);
-  REQUIRE(runs.size() == 1);
-  CHECK(runs[0].id == 7);
-  CHECK(runs[0].begun_at == "2026-01-02T03:04:07Z");
-  CHECK(runs[0].result.grade == 7.5);
-  REQUIRE(runs[0].result.errors.size() == 1);
-  CHECK(runs[0].result.deductions.size() == 1);
-  CHECK(history.comments(7).size() == 1);
-  CHECK(history.settings(5).size() == 1);
-  CHECK(history.begin_run(5, some_result(0), "") == 8);
-  CHECK(history
-            .erase_learner(ada->id,
-                           [](const auto& recordings) { CHECK(recordings == std::vector<std::string>{"a.trace"}); })
-            .empty());
-  CHECK(history.comments(7).empty());  // the comments were deleted together with the learner
-  CHECK(history.find_or_add_learner("Ada") == 4);
-}
-
 // Invariant: data is written only to the file that was opened, and only while the file's version is unchanged.
 TEST_CASE(
     "a file upgraded by a newer program, or removed, while it is open: rejected in one sentence, and not written") {
@@ -254,6 +214,7 @@ TEST_CASE("a file of an unknown version or of a different program, empty or not,
     return all_bytes(database_file);
   };
   CHECK(refused(empty("PRAGMA application_id = 1")));
+  CHECK(refused(empty("PRAGMA application_id = 0x47534849")));  // "GSHI", the old id
   CHECK(refused(empty("PRAGMA user_version = 2")));
   CHECK(refused(empty("PRAGMA user_version = -2")));
   CHECK_FALSE(refused(""));  // an empty file is accepted

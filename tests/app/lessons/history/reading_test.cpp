@@ -1,6 +1,5 @@
-// Reading a history needs no write access. Tested with read-only files and folders, write-ahead logs of other programs,
-// and files of older schema versions.
-#include <sqlite3.h>
+// Reading a history needs no write access. Tested with read-only files and folders, and write-ahead logs of other
+// programs.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,7 +17,6 @@
 #include <doctest/doctest.h>
 
 #include "app/lessons/history/history.h"
-#include "app/lessons/history/schema.h"
 #include "haptics/files/printable.h"
 #include "tests/app/lessons/history/sample_result.h"
 #include "tests/support/temp_folder.h"
@@ -189,27 +187,6 @@ TEST_CASE("a log with its index is read; a log without its index is reported") {
   CHECK(message.find(without.file.string() + ": the history cannot be used because the file has a write-ahead log") ==
         0);
   CHECK(is_printable(message));
-}
-
-TEST_CASE("an older history is read as if upgraded, but is not changed") {
-  const TempFolder folder;
-  const auto file = folder / "history.db";
-  sqlite3* old = nullptr;
-  REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
-  const std::string text = kMigrations[0] +
-                           "PRAGMA user_version = 1; PRAGMA application_id = " + std::to_string(kApplicationId) +
-                           ";INSERT INTO learner VALUES (3, 'Ada', '2026-01-02T03:04:05Z', 'reverse');";
-  REQUIRE(sqlite3_exec(old, text.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
-  sqlite3_close(old);
-  const auto bytes = [&] {
-    std::ifstream in(file, std::ios::binary);
-    return std::string{std::istreambuf_iterator<char>(in), {}};
-  };
-  const std::string before = bytes();
-  History history = read_only(file);
-  REQUIRE(history.find_learner("Ada").has_value());
-  CHECK(history.runs(3).empty());
-  CHECK(bytes() == before);
 }
 
 TEST_CASE("a history opened for reading rejects writes and locks out no other program") {

@@ -1,6 +1,4 @@
 // A recording's path is relative to the history's folder, so the user can move or copy history and recordings together.
-#include <sqlite3.h>
-
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,7 +6,6 @@
 #include <doctest/doctest.h>
 
 #include "app/lessons/history/history.h"
-#include "app/lessons/history/schema.h"
 #include "tests/app/lessons/history/sample_result.h"
 #include "tests/support/temp_folder.h"
 
@@ -66,37 +63,6 @@ TEST_CASE(
   CHECK(name_of(link, folder / "real/a.trace") == "a.trace");
   CHECK(name_of(real, folder / "link/a.trace") == "a.trace");
   CHECK(name_of(real, "near.trace") == "near.trace");
-}
-
-TEST_CASE("upgrading from version 5 makes the paths of recordings below the history's folder relative") {
-  const TempFolder folder;
-  const fs::path file = folder / "history.db";
-  sqlite3* old = nullptr;
-  REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
-  std::string fill;
-  for (std::size_t i = 0; i < 5; ++i) fill += kMigrations[i];
-  fill += "PRAGMA user_version = 5; PRAGMA application_id = " + std::to_string(kApplicationId) +
-          ";INSERT INTO learner VALUES (1, 'Ada', '2026-01-02T03:04:05Z', '');"
-          "INSERT INTO session VALUES (1, 1, '2026-01-02T03:04:06Z', 'gearshift 0.1');";
-  const std::string below = (folder / "recordings/it's.trace").string();
-  for (const std::string& recording : {below, below, std::string("/away/b.trace"), std::string("near.trace")}) {
-    char* row = sqlite3_mprintf(
-        "INSERT INTO lesson_run (session, begun_at, recording, lesson, task, mode, ended, guided, whole, begin_s, "
-        "duration_s, grade, passed, why, slip_energy_j, engine_work_j) VALUES (1, '', %Q, 'a', 'a', 0, 1, 0, 1, 0, 0, "
-        "0, 0, '', 0, 0);",
-        recording.c_str());
-    fill += row;
-    sqlite3_free(row);
-  }
-  REQUIRE(sqlite3_exec(old, fill.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
-  sqlite3_close(old);
-  const std::vector<std::string> names{"recordings/it's.trace", "recordings/it's.trace", "/away/b.trace", "near.trace"};
-  for (const HistoryUse use : {HistoryUse::read, HistoryUse::write}) {
-    History history(file, system_seconds, kHistoryLockTimeout, use);
-    std::vector<std::string> found;
-    for (const RunRow& run : history.runs(1)) found.push_back(run.recording);
-    CHECK(found == names);
-  }
 }
 
 TEST_CASE("a forgotten recording is removed from all rows; recordings to which no other row refers are listed") {
