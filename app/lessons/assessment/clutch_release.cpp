@@ -4,11 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "app/lessons/assessment/error_rules.h"
-
 namespace gearshift::lessons {
 namespace {
 
+// A release that takes less than this time from the bite point to fully up is a clutch dump, if its slip power reaches
+// the threshold of `clutch_dump`.
+constexpr double kFastRelease = 0.15;      // [s] engineering value
 constexpr double kMaxReleaseTime = 5.0;    // [s] longest duration of one clutch release (engineering value)
 constexpr double kMaxBrakeForJerk = 0.05;  // [1] brake pedal position above which jerk is not counted
 constexpr double kLaunchTime = 3.0;        // [s] duration of a typical launch (engineering value)
@@ -78,15 +79,16 @@ bool ClutchRelease::is_over(const vehicle::DriveSample& sample) noexcept {
 std::optional<DrivingError> ClutchRelease::judge() const noexcept {
   const bool fast = closed_at_ > 0.0 && closed_at_ - begin_ < kFastRelease;
   if (fast && slip_peak_ >= error_rule(ErrorKind::clutch_dump).raise) {
-    return DrivingError{ErrorKind::clutch_dump, error_severity(ErrorKind::clutch_dump, slip_peak_), begin_, slip_peak_};
+    return make_driving_error(ErrorKind::clutch_dump, error_severity(ErrorKind::clutch_dump, slip_peak_), begin_,
+                              slip_peak_);
   }
   const double burnt = heat_ / burn_limit(car_, gear_, slope_);
   if (!stalled_ && burnt >= error_rule(ErrorKind::clutch_burn).raise) {
-    return DrivingError{ErrorKind::clutch_burn, error_severity(ErrorKind::clutch_burn, burnt), begin_, heat_};
+    return make_driving_error(ErrorKind::clutch_burn, error_severity(ErrorKind::clutch_burn, burnt), begin_, heat_);
   }
   const double jerk_ratio = jerk_peak_ / jerk_limit(car_, gear_);
   if (!stalled_ && jerk_ratio >= error_rule(ErrorKind::jerk).raise) {
-    return DrivingError{ErrorKind::jerk, error_severity(ErrorKind::jerk, jerk_ratio), begin_, jerk_peak_};
+    return make_driving_error(ErrorKind::jerk, error_severity(ErrorKind::jerk, jerk_ratio), begin_, jerk_peak_);
   }
   return std::nullopt;
 }

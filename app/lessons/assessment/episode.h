@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/lessons/assessment/error_rules.h"
-
 namespace gearshift::lessons {
+
+// An episode continues through gaps shorter than this.
+inline constexpr double kEpisodeGap = 0.3;  // [s] engineering value
 
 class Episode {
  public:

@@ -7,7 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/lessons/assessment/error_rules.h"
 #include "app/lessons/assessment/step_order.h"
 
 namespace gearshift::lessons {
@@ -255,7 +254,7 @@ void ErrorDetector::watch_gear(const vehicle::DriveSample& now, int wanted_gear,
   if (engaged && gear == wanted_gear && now.car.running) has_stalled_ = false;
   if (engaged && other && !is_moving_off_again(gear, wanted_gear)) {
     report_if(ErrorKind::wrong_gear, now.time(), gear);
-    errors_.back().wanted = wanted_gear;
+    errors_.back().wanted_gear = wanted_gear;
   }
   if (engaged) {
     move_to_back(engaged_, gear);
@@ -284,8 +283,8 @@ void ErrorDetector::judge_speed(const vehicle::DriveSample& now, double at) {
   const double turned = vehicle::shaft_per_road(car_, last_gear_) * speed;
   const Severity severity =
       error_severity(kind, by_ratio ? demanded_speed_ / max_downshift_speed(car_, band_) : turned);
-  errors_.push_back({kind, severity, now.time(), by_ratio ? demanded_speed_ : turned});
-  errors_.back().wanted = at;
+  errors_.push_back(make_driving_error(kind, severity, now.time(), by_ratio ? demanded_speed_ : turned));
+  errors_.back().target_speed = at;
   reported_speed_ = true;
 }
 
@@ -313,7 +312,8 @@ void ErrorDetector::report_episode(const WatchedEpisode& watched) {
   const bool is_ratio = watched.kind == ErrorKind::over_rev;
   const double rule_value = is_ratio ? value / car_.engine.red_line : value;
   if (rule_value >= threshold(watched.kind)) {
-    errors_.push_back({watched.kind, error_severity(watched.kind, rule_value), episode.begin(), value});
+    errors_.push_back(
+        make_driving_error(watched.kind, error_severity(watched.kind, rule_value), episode.begin(), value));
   }
 }
 
@@ -422,7 +422,8 @@ void ErrorDetector::judge_gear(const ShiftRecord& record) {
   const double ratio = demanded_speed_ / max_downshift_speed(car_, band_);
   if (!is_down(record) || reported_speed_ || ratio < threshold(ErrorKind::early_downshift)) return;
   const Severity severity = error_severity(ErrorKind::early_downshift, ratio);
-  errors_.push_back({ErrorKind::early_downshift, severity, record.end, demanded_speed_, record.number});
+  errors_.push_back(
+      make_driving_error(ErrorKind::early_downshift, severity, record.end, demanded_speed_, record.number));
 }
 
 // Judges the order of steps only in shifts between gears while driving, because moving off needs throttle before
@@ -440,12 +441,12 @@ void ErrorDetector::judge_order(const ShiftRecord& record, std::size_t errors_be
   // Here a negative `clutch_lead` or `clutch_lag` is within its tolerance, so the two steps that it swaps do not count.
   const int forgiven = (record.clutch_lead < 0.0 ? 2 : 0) + (record.clutch_lag < 0.0 ? 2 : 0);
   if (report_if(ErrorKind::step_order, record.begin, record.steps_out_of_place - forgiven, record.number))
-    errors_.back().wanted = static_cast<double>(first_order_mistake(record.steps, record.from, record.to));
+    errors_.back().mistake = first_order_mistake(record.steps, record.from, record.to);
 }
 
 bool ErrorDetector::report_if(ErrorKind kind, double time, double value, std::int64_t shift) {
   if (!(value >= threshold(kind))) return false;  // the negated comparison rejects NaN, too
-  errors_.push_back({kind, error_severity(kind, value), time, value, shift});
+  errors_.push_back(make_driving_error(kind, error_severity(kind, value), time, value, shift));
   return true;
 }
 

@@ -21,7 +21,7 @@ double points_of_all(std::span<const DrivingError> errors) noexcept {
 // True if the error is a step that took longer than the step's `within`, but less than its `fails_after`.
 bool is_within_tolerance(const Lesson& lesson, const DrivingError& error) {
   return std::any_of(lesson.steps.begin(), lesson.steps.end(), [&](const LessonStep& step) {
-    return step.fails_after && step.prompt == error.step && error.value < *step.fails_after;
+    return step.fails_after && step.prompt == error.step && error.duration < *step.fails_after;
   });
 }
 

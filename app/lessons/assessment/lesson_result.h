@@ -16,11 +16,17 @@ constexpr std::string_view to_string(LessonMode mode) noexcept {
   constexpr std::string_view kNames[] = {"follow_me", "by_yourself"};
   return kNames[static_cast<std::size_t>(mode)];
 }
+constexpr LessonMode last_value(LessonMode) noexcept {
+  return LessonMode::by_yourself;
+}
 
 enum class LessonEnd { running, done, aborted, out_of_time, left };
 constexpr std::string_view to_string(LessonEnd end) noexcept {
   constexpr std::string_view kNames[] = {"running", "done", "aborted", "out_of_time", "left"};
   return kNames[static_cast<std::size_t>(end)];
+}
+constexpr LessonEnd last_value(LessonEnd) noexcept {
+  return LessonEnd::left;
 }
 
 // Points deducted for one driving error.
@@ -48,5 +54,22 @@ struct LessonResult {
   double slip_energy = 0.0;  // [J] heat in the clutch during the whole lesson
   double fuel = 0.0;         // [J] work done by the engine, minus engine braking
 };
+
+// Errors, shifts and deductions are records of their own. `why` contains the effect of `had_forces`.
+constexpr void each_field(FieldsOf<LessonResult> auto&& result, auto&& visit) {
+  visit(RecordField{"lesson"}, result.lesson);
+  visit(RecordField{"task"}, result.task);
+  visit(RecordField{"mode"}, result.mode);
+  visit(RecordField{"ended"}, result.end);
+  visit(RecordField{"guided"}, result.guided);
+  visit(RecordField{"complete"}, result.is_complete);
+  visit(RecordField{"begin_s"}, result.begin);
+  visit(RecordField{"duration_s"}, result.duration);
+  visit(RecordField{"grade"}, result.grade);
+  visit(RecordField{"passed"}, result.passed);
+  visit(RecordField{"why"}, result.why);
+  visit(RecordField{"slip_energy_j"}, result.slip_energy);
+  visit(RecordField{"engine_work_j"}, result.fuel);
+}
 
 }  // namespace gearshift::lessons

@@ -9,7 +9,6 @@
 
 #include "app/lessons/assessment/drive_condition.h"
 #include "app/lessons/assessment/error_detector.h"
-#include "app/lessons/assessment/error_rules.h"
 #include "app/lessons/assessment/grade.h"
 #include "app/lessons/assessment/lever_path_text.h"
 #include "app/lessons/assessment/shift_meter.h"
@@ -237,9 +236,10 @@ void LessonRun::State::judge_time(double time) {
   const LessonStep& step = lesson.steps[view.step];
   const double took = time - step_began;
   if (!step.within || took < error_rule(ErrorKind::slow_step).raise * *step.within) return;
-  DrivingError error{ErrorKind::slow_step, error_severity(ErrorKind::slow_step, took / *step.within), time, took};
+  DrivingError error =
+      make_driving_error(ErrorKind::slow_step, error_severity(ErrorKind::slow_step, took / *step.within), time, took);
   error.step = step.prompt;
-  error.wanted = *step.within;
+  error.time_limit = *step.within;
   apply_errors({error});
 }
 

@@ -5,15 +5,29 @@
 // has been up for 2 s without a gear.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "app/lessons/assessment/record_field.h"
 #include "haptics/gate/gate.h"
 
 namespace gearshift::lessons {
 
 // The steps of a shift, in the order that the lessons teach.
 enum class ShiftStep : std::uint8_t { throttle_off, clutch_down, neutral, gear, clutch_up, throttle_on };
+inline constexpr std::string_view kShiftStepNames[] = {"throttle_off", "clutch_down", "neutral",
+                                                       "gear",         "clutch_up",   "throttle_on"};
+constexpr std::string_view to_string(ShiftStep step) noexcept {
+  return kShiftStepNames[static_cast<std::size_t>(step)];
+}
+inline std::string format_steps(const std::vector<ShiftStep>& steps) {  // "throttle_off clutch_down neutral"
+  std::string text;
+  for (const ShiftStep step : steps) text += (text.empty() ? "" : " ") + std::string(to_string(step));
+  return text;
+}
 
 struct ShiftRecord {
   std::int64_t number = 0;  // number of the shift in its lesson run, from 0
@@ -26,7 +40,10 @@ struct ShiftRecord {
   // Time
   double clutch_time = 0.0;  // [s] time with the pedal pressed beyond the bite point
   double lever_time = 0.0;   // [s] time from leaving one gear to engaging the next
-  double torque_gap = 0.0;   // [s] time with less than 5 % of the drive torque from before the shift
+  double clutch_lead = 0.0;  // [s] time from clutch down to gear left; negative: gear left first
+  // [s] time from gear engaged to clutch up; negative: clutch up first, even if it was pressed again later
+  double clutch_lag = 0.0;
+  double torque_gap = 0.0;  // [s] time with less than 5 % of the drive torque from before the shift
 
   // Engine and clutch
   double engine_speed = 0.0;     // [rad/s] engine speed at the beginning of the shift
@@ -34,10 +51,7 @@ struct ShiftRecord {
   double slip_power_peak = 0.0;  // [W]
   // [rad/s] engine speed minus shaft speed when the clutch first transmits torque after the gear was engaged
   double rev_error = 0.0;
-  double flare = 0.0;        // [rad/s] rise of engine speed while the clutch was down
-  double clutch_lead = 0.0;  // [s] time from clutch down to gear left; negative: gear left first
-  // [s] time from gear engaged to clutch up; negative: clutch up first, even if it was pressed again later
-  double clutch_lag = 0.0;
+  double flare = 0.0;  // [rad/s] rise of engine speed while the clutch was down
 
   // Comfort
   double jerk_peak = 0.0;       // [m/s^3] largest jerk, from the acceleration after a 15 Hz second-order low-pass
@@ -59,5 +73,39 @@ struct ShiftRecord {
   std::vector<ShiftStep> steps;  // in the order in which they happened
   int steps_out_of_place = 0;    // edit distance to the nearest order that the lessons teach
 };
+
+constexpr void each_field(FieldsOf<ShiftRecord> auto&& record, auto&& visit) {
+  visit(RecordField{"shift"}, record.number);
+  visit(RecordField{"from_gear", "", 0, true}, record.from);
+  visit(RecordField{"to_gear", "", 0, true}, record.to);
+  visit(RecordField{"guided"}, record.guided);
+  visit(RecordField{"missed"}, record.missed);
+  visit(RecordField{"steps"}, record.steps);
+  visit(RecordField{"begin_s"}, record.begin);
+  visit(RecordField{"end_s"}, record.end);
+  visit(RecordField{"clutch_time_s"}, record.clutch_time);
+  visit(RecordField{"lever_time_s"}, record.lever_time);
+  visit(RecordField{"clutch_lead_s", "Clutch down before lever [s]", 2}, record.clutch_lead);
+  visit(RecordField{"clutch_lag_s", "Clutch up after gear [s]", 2}, record.clutch_lag);
+  visit(RecordField{"torque_gap_s", "No drive [s]", 2}, record.torque_gap);
+  visit(RecordField{"engine_speed_rad_per_s"}, record.engine_speed);
+  visit(RecordField{"slip_energy_j", "Clutch heat [J]"}, record.slip_energy);
+  visit(RecordField{"slip_power_peak_w"}, record.slip_power_peak);
+  visit(RecordField{"rev_error_rad_per_s"}, record.rev_error);
+  visit(RecordField{"flare_rad_per_s"}, record.flare);
+  visit(RecordField{"jerk_peak_m_per_s3", "Jerk [m/s³]", 1}, record.jerk_peak);
+  visit(RecordField{"vibration_dose_m_per_s175"}, record.vibration_dose);
+  visit(RecordField{"force_peak_n", "Push [N]", 1}, record.force_peak);
+  visit(RecordField{"impulse_n_s"}, record.impulse);
+  visit(RecordField{"wall_work_j"}, record.wall_work);
+  visit(RecordField{"path_length_m"}, record.path_length);
+  visit(RecordField{"path_efficiency", "Path / shortest", 2}, record.path_efficiency);
+  visit(RecordField{"overshoot_m"}, record.overshoot);
+  visit(RecordField{"wrong_columns"}, record.wrong_columns);
+  visit(RecordField{"block_time_s"}, record.block_time);
+  visit(RecordField{"grind_time_s"}, record.grind_time);
+  visit(RecordField{"grind_energy_j"}, record.grind_energy);
+  visit(RecordField{"steps_out_of_place"}, record.steps_out_of_place);
+}
 
 }  // namespace gearshift::lessons

@@ -192,7 +192,7 @@ void History::State::upgrade() {
   // Read the version again, because another program may have done this in the meantime.
   const int version = version_in_file();
   if (version == 0)
-    database->exec(kSchema);
+    database->exec(schema());
   else
     for (const char* script : std::span(kUpgrades).subspan(static_cast<std::size_t>(version - 1)))
       database->exec(script);

@@ -1,4 +1,3 @@
-#include "app/lessons/assessment/shift_fields.h"
 #include "app/lessons/history/history_state.h"
 #include "app/lessons/history/sql_binding.h"
 
@@ -20,12 +19,9 @@ bool is_gear(std::int64_t gear) noexcept {
 class RunParts {
  public:
   explicit RunParts(SQLite::Database& database)
-      : shift_rows_(database, "SELECT number, from_gear, to_gear, guided, missed, steps" + figure_names() +
-                                  " FROM shift WHERE run = ? ORDER BY number"),
-        error_rows_(database,
-                    "SELECT kind, severity, time_s, value, shift, points, step, wanted FROM driving_error WHERE run = "
-                    "? ORDER BY "
-                    "number") {}
+      : shift_rows_(database, "SELECT " + column_names<ShiftRecord>() + " FROM shift WHERE run = ? ORDER BY shift"),
+        error_rows_(database, "SELECT points, " + column_names<DrivingError>() +
+                                  " FROM driving_error WHERE run = ? ORDER BY number") {}
 
   void read(std::int64_t run, LessonResult& result) {
     for (begin(shift_rows_, run); shift_rows_.executeStep();) read_shift(result);
@@ -40,32 +36,25 @@ class RunParts {
 
   // Reads one shift. Skips rows with an impossible gear or shift number.
   void read_shift(LessonResult& result) {
-    const std::int64_t from = shift_rows_.getColumn(1).getInt64(), to = shift_rows_.getColumn(2).getInt64();
-    const std::int64_t number = shift_rows_.getColumn(0).getInt64();
-    if (!is_gear(from) || !is_gear(to) || !is_shift_number(number)) return;
     ShiftRecord shift;
-    shift.number = number;
-    shift.from = static_cast<int>(from);
-    shift.to = static_cast<int>(to);
-    shift.guided = flag_in(shift_rows_, 3);
-    shift.missed = flag_in(shift_rows_, 4);
-    shift.steps = parse_steps(shift_rows_.getColumn(5).getString());
-    int index = 6;
-    each_figure(shift, [&](const char*, auto& value) {
-      value = static_cast<std::remove_reference_t<decltype(value)>>(figure_in(shift_rows_, index++));
-    });
-    result.shifts.push_back(std::move(shift));
+    read_record(shift_rows_, 0, shift);
+    if (is_gear(shift.from) && is_gear(shift.to) && is_shift_number(shift.number))
+      result.shifts.push_back(std::move(shift));
   }
 
+  // Skips an error of a kind that this version of the program does not know.
   void read_error(LessonResult& result) {
-    const std::optional<ErrorKind> kind = error_kind_of(error_rows_.getColumn(0).getString());
-    if (!kind) return;  // this version of the program does not know the kind of this error
-    const double points = std::clamp(figure_in(error_rows_, 5), 0.0, kMaxPoints);
-    if (points > 0.0) result.deductions.push_back({result.errors.size(), points});
-    const std::int64_t shift = error_rows_.getColumn(4).getInt64();
-    result.errors.push_back({*kind, enum_in(error_rows_, 1, Severity::very_severe), figure_in(error_rows_, 2),
-                             figure_in(error_rows_, 3), is_shift_number(shift) ? shift : -1,
-                             error_rows_.getColumn(6).getString(), figure_in(error_rows_, 7)});
+    if (!error_kind_of(error_rows_.getColumn(1).getString())) return;
+    double points = 0.0;
+    DrivingError error;
+    read_value(error_rows_, 0, points);
+    read_record(error_rows_, 1, error);
+    if (!is_shift_number(error.shift)) error.shift = -1;
+    for (std::optional<int>* gear : {&error.gear, &error.wanted_gear}) {
+      if (!is_gear(gear->value_or(haptics::kNeutralGear))) gear->reset();
+    }
+    if (points > 0.0) result.deductions.push_back({result.errors.size(), std::min(points, kMaxPoints)});
+    result.errors.push_back(std::move(error));
   }
 
   SQLite::Statement shift_rows_, error_rows_;
@@ -78,20 +67,8 @@ RunRow run_in(const SQLite::Statement& row) {
              row.getColumn(2).getString(),
              row.getColumn(3).getString(),
              {}};
-  LessonResult& result = run.result;
-  result.lesson = row.getColumn(4).getString();
-  result.task = row.getColumn(5).getString();
-  result.mode = enum_in(row, 6, LessonMode::by_yourself);
-  result.end = enum_in(row, 7, LessonEnd::left);
-  result.guided = flag_in(row, 8);
-  result.is_complete = flag_in(row, 9);
-  result.begin = figure_in(row, 10);
-  result.duration = figure_in(row, 11);
-  result.grade = std::clamp(figure_in(row, 12), 0.0, kMaxPoints);
-  result.passed = flag_in(row, 13);
-  result.why = row.getColumn(14).getString();
-  result.slip_energy = figure_in(row, 15);
-  result.fuel = figure_in(row, 16);
+  read_record(row, 4, run.result);
+  run.result.grade = std::clamp(run.result.grade, 0.0, kMaxPoints);
   return run;
 }
 
@@ -120,11 +97,10 @@ std::vector<RunRow> History::runs(std::int64_t learner) {
   return state_->translating_errors([&] {
     // Reads all rows from one snapshot, even while another program is writing.
     SQLite::Transaction snapshot(*state_->database);
-    SQLite::Statement rows = state_->query(
-        "SELECT r.id, session, r.begun_at, recording, lesson, task, mode, ended, guided, complete, begin_s, "
-        "duration_s, "
-        "grade, passed, why, slip_energy_j, engine_work_j FROM lesson_run r JOIN session s ON s.id = r.session "
-        "WHERE s.learner = ? ORDER BY r.id");
+    SQLite::Statement rows =
+        state_->query("SELECT r.id, session, r.begun_at, recording, " + column_names<LessonResult>() +
+                      " FROM lesson_run r JOIN session s ON s.id = r.session "
+                      "WHERE s.learner = ? ORDER BY r.id");
     rows.bind(1, learner);
     RunParts parts(*state_->database);
     std::vector<RunRow> runs;

@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <map>
 
-#include "app/lessons/assessment/shift_fields.h"
 #include "app/lessons/history/history_state.h"
 #include "app/lessons/history/sql_binding.h"
 #include "app/lessons/history/user_text.h"
@@ -9,20 +7,9 @@
 namespace gearshift::lessons {
 
 void History::State::insert_shift(std::int64_t run, const ShiftRecord& shift) {
-  static const std::string names = figure_names();
-  static const std::size_t figures = static_cast<std::size_t>(std::count(names.begin(), names.end(), ','));
-  SQLite::Statement insert =
-      query("INSERT OR REPLACE INTO shift (run, number, from_gear, to_gear, guided, missed, steps" + names +
-            ") VALUES (" + placeholders(7 + figures) + ")");
-  insert.bind(1, run);
-  insert.bind(2, shift.number);
-  insert.bind(3, shift.from);
-  insert.bind(4, shift.to);
-  insert.bind(5, shift.guided ? 1 : 0);
-  insert.bind(6, shift.missed ? 1 : 0);
-  insert.bind(7, format_steps(shift.steps));
-  int index = 8;
-  each_figure(shift, [&](const char*, const auto& value) { bind_figure(insert, index++, value); });
+  SQLite::Statement insert = query("INSERT OR REPLACE INTO shift (" + column_names<ShiftRecord>() + ", run) VALUES (" +
+                                   placeholders<ShiftRecord>(1) + ")");
+  insert.bind(bind_record(insert, 1, shift), run);
   insert.exec();
 }
 
@@ -32,19 +19,13 @@ void History::State::replace_errors(std::int64_t run, const LessonResult& result
   deletion.exec();
   std::map<std::size_t, double> points;
   for (const Deduction& deduction : result.deductions) points[deduction.error] += deduction.points;
-  SQLite::Statement insert = query("INSERT INTO driving_error VALUES (" + placeholders(10) + ")");
+  SQLite::Statement insert = query("INSERT INTO driving_error (" + column_names<DrivingError>() +
+                                   ", run, number, points) VALUES (" + placeholders<DrivingError>(3) + ")");
   for (std::size_t i = 0; i < result.errors.size(); ++i) {
-    const DrivingError& error = result.errors[i];
-    insert.bind(1, run);
-    insert.bind(2, static_cast<std::int64_t>(i));
-    insert.bind(3, std::string(to_string(error.kind)));
-    insert.bind(4, static_cast<int>(error.severity));
-    bind_figure(insert, 5, error.time);
-    bind_figure(insert, 6, error.value);
-    insert.bind(7, error.shift);
-    bind_figure(insert, 8, points.count(i) != 0 ? points.at(i) : 0.0);
-    insert.bind(9, error.step);
-    bind_figure(insert, 10, error.wanted);
+    const int next = bind_record(insert, 1, result.errors[i]);
+    insert.bind(next, run);
+    insert.bind(next + 1, static_cast<std::int64_t>(i));
+    bind_value(insert, next + 2, points[i]);
     insert.exec();
     insert.reset();
   }
@@ -95,23 +76,20 @@ void History::add_settings(std::int64_t session, std::string_view text) {
 }
 
 std::int64_t History::begin_run(std::int64_t session, const LessonResult& result, std::string_view recording) {
+  LessonResult start;
+  start.lesson = result.lesson;
+  start.task = result.task;
+  start.mode = result.mode;
+  start.guided = result.guided;
+  start.begin = result.begin;
   return state_->write([&] {
-    SQLite::Statement insert = state_->query(
-        "INSERT INTO lesson_run (session, begun_at, recording, lesson, task, mode, ended, guided, complete, "
-        "begin_s, duration_s, grade, passed, why, slip_energy_j, engine_work_j) VALUES (" +
-        placeholders(16) + ")");
-    insert.bind(1, session);
-    insert.bind(2, state_->date());
-    insert.bind(3, state_->relative_recording(std::string(recording)));
-    insert.bind(4, result.lesson);
-    insert.bind(5, result.task);
-    insert.bind(6, static_cast<int>(result.mode));
-    insert.bind(7, static_cast<int>(LessonEnd::running));
-    insert.bind(8, result.guided ? 1 : 0);
-    insert.bind(9, 1);
-    bind_figure(insert, 10, result.begin);
-    for (const int index : {11, 12, 13, 15, 16}) insert.bind(index, 0);
-    insert.bind(14, "");
+    SQLite::Statement insert =
+        state_->query("INSERT INTO lesson_run (" + column_names<LessonResult>() +
+                      ", session, begun_at, recording) VALUES (" + placeholders<LessonResult>(3) + ")");
+    const int next = bind_record(insert, 1, start);
+    insert.bind(next, session);
+    insert.bind(next + 1, state_->date());
+    insert.bind(next + 2, state_->relative_recording(std::string(recording)));
     insert.exec();
     return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
   });
@@ -123,20 +101,9 @@ void History::add_shift(std::int64_t run, const ShiftRecord& shift) {
 
 void History::end_run(std::int64_t run, const LessonResult& result) {
   state_->write([&] {
-    SQLite::Statement update = state_->query(
-        "UPDATE lesson_run SET ended = ?, guided = ?, complete = ?, begin_s = ?, duration_s = ?, grade = ?, "
-        "passed = ?, why = ?, slip_energy_j = ?, engine_work_j = ? WHERE id = ?");
-    update.bind(1, static_cast<int>(result.end));
-    update.bind(2, result.guided ? 1 : 0);
-    update.bind(3, result.is_complete ? 1 : 0);
-    bind_figure(update, 4, result.begin);
-    bind_figure(update, 5, result.duration);
-    bind_figure(update, 6, result.grade);
-    update.bind(7, result.passed ? 1 : 0);
-    update.bind(8, result.why);
-    bind_figure(update, 9, result.slip_energy);
-    bind_figure(update, 10, result.fuel);
-    update.bind(11, run);
+    SQLite::Statement update =
+        state_->query("UPDATE lesson_run SET " + column_names<LessonResult>(" = ?") + " WHERE id = ?");
+    update.bind(bind_record(update, 1, result), run);
     if (update.exec() == 0) state_->fail_as_deleted();
     for (const ShiftRecord& shift : result.shifts) state_->insert_shift(run, shift);
     state_->replace_errors(run, result);

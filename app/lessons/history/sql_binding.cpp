@@ -1,57 +1,48 @@
 #include "app/lessons/history/sql_binding.h"
 
 #include <cmath>
-
-#include "app/lessons/assessment/shift_fields.h"
+#include <iterator>
+#include <sstream>
 
 namespace gearshift::lessons {
 namespace {
 
 constexpr double kMaxFigure = 1e9;  // largest stored magnitude, in the number's unit; fits an int (engineering value)
 
-double figure(double value) noexcept {
+}  // namespace
+
+double stored_figure(double value) noexcept {
   return std::isfinite(value) ? std::clamp(value, -kMaxFigure, kMaxFigure) : 0.0;
 }
 
-}  // namespace
-
-void bind_figure(SQLite::Statement& statement, int index, double value) {
-  statement.bind(index, figure(value));
+void bind_value(SQLite::Statement& statement, int index, const std::string& value) {
+  statement.bind(index, value);
 }
 
-double figure_in(const SQLite::Statement& row, int index) {
-  return figure(row.getColumn(index).getDouble());
+void bind_value(SQLite::Statement& statement, int index, ErrorKind kind) {
+  statement.bind(index, std::string(to_string(kind)));
 }
 
-bool flag_in(const SQLite::Statement& row, int index) {
-  return row.getColumn(index).getInt64() != 0;
+void bind_value(SQLite::Statement& statement, int index, const std::vector<ShiftStep>& steps) {
+  statement.bind(index, format_steps(steps));
 }
 
-std::string placeholders(std::size_t count) {
-  std::string text = "?";
-  for (std::size_t i = 1; i < count; ++i) text += ", ?";
-  return text;
+void read_value(const SQLite::Statement& row, int index, std::string& value) {
+  value = row.getColumn(index).getString();
 }
 
-std::string figure_names() {
-  std::string names;
-  const ShiftRecord none;
-  each_figure(none, [&](const char* name, const auto&) { names += std::string(", ") + name; });
-  return names;
+void read_value(const SQLite::Statement& row, int index, ErrorKind& kind) {
+  kind = error_kind_of(row.getColumn(index).getString()).value_or(kind);
 }
 
-std::string format_steps(const std::vector<ShiftStep>& steps) {
-  std::string text;
-  for (const ShiftStep step : steps) text += static_cast<char>('0' + static_cast<int>(step));
-  return text;
-}
-
-std::vector<ShiftStep> parse_steps(const std::string& text) {
-  std::vector<ShiftStep> steps;
-  for (const char c : text) {
-    if (c >= '0' && c <= '5') steps.push_back(static_cast<ShiftStep>(c - '0'));
+// Skips names that are no steps.
+void read_value(const SQLite::Statement& row, int index, std::vector<ShiftStep>& steps) {
+  steps.clear();
+  std::istringstream names(row.getColumn(index).getString());
+  for (std::string name; names >> name;) {
+    const auto found = std::find(std::begin(kShiftStepNames), std::end(kShiftStepNames), name);
+    if (found != std::end(kShiftStepNames)) steps.push_back(static_cast<ShiftStep>(found - kShiftStepNames));
   }
-  return steps;
 }
 
 }  // namespace gearshift::lessons

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "app/lessons/assessment/error_rules.h"
+#include "app/lessons/assessment/driving_error.h"
 #include "app/lessons/report/progress.h"
 
 namespace gearshift::lessons {

@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include <fmt/format.h>
 
 #include "app/base/html.h"
@@ -14,6 +16,15 @@ std::string format_order(const ShiftRecord& shift) {
   return fmt::format("{} out of order", shift.steps_out_of_place);
 }
 
+// Calls visit(field, value) for each figure of a shift that the page shows.
+void each_figure(const ShiftRecord& shift, const auto& visit) {
+  each_field(shift, [&](const RecordField& field, const auto& value) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>) {
+      if (*field.label != '\0') visit(field, value);
+    }
+  });
+}
+
 std::string figures_row(const ShownShift& shown, std::span<const Lesson> lessons) {
   const ShiftRecord& shift = shown.chosen.shift;
   std::string row =
@@ -23,22 +34,15 @@ std::string figures_row(const ShownShift& shown, std::span<const Lesson> lessons
     row += "<td class=\"number\">" + format_number(value, digits) + "</td>";
   };
   number(shown.chosen.points, 1);
-  number(shift.clutch_lead, 2);
-  number(shift.clutch_lag, 2);
-  number(shift.torque_gap, 2);
-  number(shift.slip_energy, 0);
-  number(shift.jerk_peak, 1);
-  number(shift.force_peak, 1);
-  number(shift.path_efficiency, 2);
+  each_figure(shift, [&](const RecordField& field, double value) { number(value, field.decimals); });
   return row + fmt::format("<td>{}</td></tr>\n", format_order(shift));
 }
 
 std::string figures_table(std::span<const ShownShift> shifts, std::span<const Lesson> lessons) {
-  const auto head = [](const char* words) { return fmt::format("<th class=\"number\">{}</th>", words); };
   std::string table = "<table class=\"shifts\">\n<thead><tr><th>Shift</th><th>Gears</th><th>Lesson</th>";
-  for (const char* words : {"Points lost", "Clutch down before lever [s]", "Clutch up after gear [s]", "No drive [s]",
-                            "Clutch heat [J]", "Jerk [m/s³]", "Push [N]", "Path / shortest"})
-    table += head(words);
+  const auto head = [&](const char* words) { table += fmt::format("<th class=\"number\">{}</th>", words); };
+  head("Points lost");
+  each_figure({}, [&](const RecordField& field, double) { head(field.label); });
   table += "<th>Steps</th></tr></thead>\n<tbody>\n";
   for (const ShownShift& shown : shifts) table += figures_row(shown, lessons);
   return table + "</tbody></table>\n";

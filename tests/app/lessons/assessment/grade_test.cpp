@@ -20,7 +20,8 @@ Lesson lesson_that_catches(std::vector<ErrorKind> kinds) {
 LessonResult done_with(const std::vector<Severity>& severities) {
   LessonResult result;
   result.end = LessonEnd::done;
-  for (const Severity severity : severities) result.errors.push_back({ErrorKind::jerk, severity, 1.0, 60.0, 0});
+  for (const Severity severity : severities)
+    result.errors.push_back(make_driving_error(ErrorKind::jerk, severity, 1.0, 60.0, 0));
   return result;
 }
 
@@ -84,7 +85,7 @@ TEST_CASE("a lesson is passed from the pass grade on; otherwise one sentence giv
 
 TEST_CASE("an error that fails the lesson fails it at any grade, and its sentence is the reason") {
   LessonResult stalled = done_with({});
-  stalled.errors.push_back({ErrorKind::stall, Severity::severe, 3.0, 90.0, -1});
+  stalled.errors.push_back(make_driving_error(ErrorKind::stall, Severity::severe, 3.0, 90.0, -1));
   const LessonResult result = graded(stalled, lesson_that_catches({ErrorKind::stall}));
   CHECK(result.grade == 8.0);
   CHECK_FALSE(result.passed);
@@ -110,12 +111,14 @@ TEST_CASE("a slow step fails the lesson from its fails_after on, or without that
   step.within = 4.0;
   lesson.steps = {step};
   LessonResult slow = done_with({});
-  slow.errors.push_back({ErrorKind::slow_step, Severity::minor, 9.0, 4.5, -1, "Stop!", 4.0});
+  slow.errors.push_back(make_driving_error(ErrorKind::slow_step, Severity::minor, 9.0, 4.5));
+  slow.errors[0].step = "Stop!";
+  slow.errors[0].time_limit = 4.0;
   CHECK_FALSE(graded(slow, lesson).passed);
   lesson.steps[0].fails_after = 4.6;
   CHECK(graded(slow, lesson).passed);
   CHECK(graded(slow, lesson).grade == 9.5);
-  slow.errors[0].value = 4.6;
+  slow.errors[0].duration = 4.6;
   CHECK_FALSE(graded(slow, lesson).passed);
   CHECK(graded(slow, lesson).why == "You took 4.6 s for this step (limit 4.0 s): \"Stop!\"");
 }
@@ -127,7 +130,7 @@ TEST_CASE("only a finished lesson can be passed") {
   result.end = LessonEnd::left;
   CHECK(graded(result).why == "You left the lesson.");
   LessonResult stalled = result;  // leaving the lesson is named as the reason, even after a stall
-  stalled.errors.push_back({ErrorKind::stall, Severity::very_severe, 3.0, 62.0, -1});
+  stalled.errors.push_back(make_driving_error(ErrorKind::stall, Severity::very_severe, 3.0, 62.0, -1));
   CHECK(graded(stalled, lesson_that_catches({ErrorKind::stall})).why == "You left the lesson.");
   result.end = LessonEnd::running;
   CHECK_FALSE(graded(result).passed);

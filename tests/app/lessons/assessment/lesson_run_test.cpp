@@ -332,14 +332,14 @@ TEST_CASE("a step that took too long is an error with its own sentence; the valu
   const DrivingError& error = slow.result().errors[0];
   CHECK(error.kind == ErrorKind::slow_step);
   CHECK(error.severity == Severity::minor);
-  CHECK(error.value == doctest::Approx(0.41).epsilon(0.01));
+  CHECK(error.duration == doctest::Approx(0.41).epsilon(0.01));
   CHECK(error.time == doctest::Approx(100.491).epsilon(1e-5));
   CHECK(error.shift == 0);  // the error belongs to the first shift
   CHECK(error_sentence(error) == "You took 0.41 s for this step (limit 0.40 s): \"Lever to 3.\"");
   CHECK(slow.result().grade == 9.5);
   REQUIRE(slow.view().feedback.size() == 1);
   CHECK(within(0.20).result().errors[0].severity == Severity::severe);  // 0.41 s is more than twice this limit
-  CHECK(within(1.0, 0).result().errors[0].value == doctest::Approx(1.081).epsilon(0.01));
+  CHECK(within(1.0, 0).result().errors[0].duration == doctest::Approx(1.081).epsilon(0.01));
 }
 
 TEST_CASE("a step that took far too long fails a lesson that fails on slow steps, at any grade") {
@@ -382,7 +382,7 @@ TEST_CASE("a skipped step lasts until the next step is done, which itself takes 
   CHECK(run.result().end == LessonEnd::done);
   REQUIRE(run.result().errors.size() == 1);
   CHECK(run.result().errors[0].step == "Lever to 3.");
-  CHECK(run.result().errors[0].value == doctest::Approx(0.68).epsilon(0.02));
+  CHECK(run.result().errors[0].duration == doctest::Approx(0.68).epsilon(0.02));
 }
 
 TEST_CASE("a run that ends during an overdue step has that error, but not during a step that is still in time") {
@@ -396,7 +396,7 @@ TEST_CASE("a run that ends during an overdue step has that error, but not during
     const LessonResult result = driven.run().result();
     CHECK(result.end == LessonEnd::left);
     REQUIRE(result.errors.size() == (left_at > 0.3 ? 1 : 0));
-    if (left_at > 0.3) CHECK(result.errors[0].value == doctest::Approx(0.32).epsilon(0.02));
+    if (left_at > 0.3) CHECK(result.errors[0].duration == doctest::Approx(0.32).epsilon(0.02));
   }
 }
 
@@ -476,7 +476,7 @@ TEST_CASE("equal drives give equal results") {
   CHECK(a.fuel == b.fuel);
   REQUIRE(a.errors.size() == b.errors.size());
   CHECK_FALSE(a.errors.empty());
-  for (std::size_t i = 0; i < a.errors.size(); ++i) CHECK(a.errors[i].value == b.errors[i].value);
+  for (std::size_t i = 0; i < a.errors.size(); ++i) CHECK(error_sentence(a.errors[i]) == error_sentence(b.errors[i]));
   REQUIRE(a.shifts.size() == 1);
   CHECK(a.shifts[0].impulse == b.shifts[0].impulse);
   CHECK(a.shifts[0].jerk_peak == b.shifts[0].jerk_peak);

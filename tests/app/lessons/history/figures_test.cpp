@@ -32,8 +32,16 @@ void check_can_be(double value) {
   CHECK(std::abs(value) <= 1e9);  // so that it fits into an int
 }
 
+void check_numbers(const auto& record) {
+  each_field(record, [](const RecordField&, const auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::optional<double>>) check_can_be(value.value_or(0.0));
+    if constexpr (std::is_arithmetic_v<Value>) check_can_be(static_cast<double>(value));
+  });
+}
+
 void check_can_be(const LessonResult& result) {
-  for (const double value : {result.begin, result.duration, result.slip_energy, result.fuel}) check_can_be(value);
+  check_numbers(result);
   CHECK(result.grade >= 0.0);
   CHECK(result.grade <= 10.0);
   CHECK(result.mode <= LessonMode::by_yourself);
@@ -43,13 +51,12 @@ void check_can_be(const LessonResult& result) {
     CHECK(std::string(gear_name(shift.to)) != "?");
     CHECK(shift.number >= 0);
     CHECK(shift.number < 1'000'000);
-    each_figure(shift, [](const char*, const auto& value) { check_can_be(static_cast<double>(value)); });
+    check_numbers(shift);
   }
   for (const DrivingError& error : result.errors) {
     CHECK(error.severity <= Severity::very_severe);
-    check_can_be(error.value);
-    check_can_be(error.wanted);
-    check_can_be(error.time);
+    check_numbers(error);
+    CHECK(std::string(gear_name(error.gear.value_or(0))) != "?");
     CHECK(error.shift >= -1);
     CHECK(error.shift < 1'000'000);
     CHECK(!error_sentence(error).empty());
@@ -70,7 +77,7 @@ TEST_CASE("a non-finite value is dropped, the shift and the run are kept, and no
   LessonResult result = some_result(1);
   result.shifts[0].path_efficiency = kNan;
   result.shifts[0].jerk_peak = kInfinity;
-  result.errors[0].value = kNan;
+  result.errors[0].engine_speed = kNan;
   result.duration = kNan;
   history.add_shift(run, result.shifts[0]);
   history.end_run(run, result);
@@ -98,18 +105,20 @@ TEST_CASE("impossible values in the file are read as possible ones, or not at al
       const std::int64_t run = history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
       history.end_run(run, some_result(3));
     }
-    const ShiftRecord none;
     std::string text;
-    for (const char* field : {"mode", "ended", "guided", "complete", "begin_s", "duration_s", "grade", "passed",
-                              "slip_energy_j", "engine_work_j"})
-      text += std::string("UPDATE lesson_run SET ") + field + " = " + value + ";";
-    each_figure(none, [&](const char* name, const auto&) {
-      text += std::string("UPDATE shift SET ") + name + " = " + value + " WHERE number > 0;";
+    const auto spoil = [&](const std::string& table, const std::string& field, const std::string& where) {
+      text += "UPDATE " + table + " SET " + field + " = " + value + where + ";";
+    };
+    each_field(LessonResult(), [&](const RecordField& field, const auto&) { spoil("lesson_run", field.name, ""); });
+    each_field(ShiftRecord(), [&](const RecordField& field, const auto&) {
+      if (!field.is_gear && std::string(field.name) != "shift") spoil("shift", field.name, " WHERE shift > 0");
     });
-    text += std::string("UPDATE shift SET from_gear = ") + value + " WHERE number = 2;";
-    text += std::string("UPDATE shift SET number = ") + value + " WHERE number = 1;";
-    for (const char* field : {"severity", "time_s", "value", "shift", "points", "wanted"})
-      text += std::string("UPDATE driving_error SET ") + field + " = " + value + ";";
+    spoil("shift", "from_gear", " WHERE shift = 2");
+    spoil("shift", "shift", " WHERE shift = 1");
+    each_field(DrivingError(), [&](const RecordField& field, const auto&) {
+      spoil("driving_error", field.name, std::string(field.name) == "kind" ? " WHERE number = 0" : "");
+    });
+    spoil("driving_error", "points", "");
     text += "UPDATE driving_error SET kind = 'missed_shift' WHERE number = 1;";
     write_by_hand(file, text);
     History history(file);

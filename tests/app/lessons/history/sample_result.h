@@ -1,7 +1,7 @@
 // Lesson results in which every number is different.
 #pragma once
 
-#include "app/lessons/assessment/shift_fields.h"
+#include "app/lessons/assessment/lesson_result.h"
 #include "app/lessons/history/history.h"
 
 namespace gearshift::test {
@@ -16,8 +16,9 @@ inline lessons::ShiftRecord some_shift(std::int64_t number) {
   shift.steps = {lessons::ShiftStep::clutch_down, lessons::ShiftStep::throttle_off, lessons::ShiftStep::gear,
                  lessons::ShiftStep::clutch_up};
   int n = 0;
-  lessons::each_figure(shift, [&](const char*, auto& value) {
-    value = static_cast<std::remove_reference_t<decltype(value)>>(static_cast<double>(number) + 1.0 / ++n);
+  lessons::each_field(shift, [&](const lessons::RecordField& field, auto& value) {
+    if constexpr (std::is_same_v<decltype(value), double&>) value = static_cast<double>(number) + 1.0 / ++n;
+    if constexpr (std::is_same_v<decltype(value), int&>) value = field.is_gear ? value : ++n;
   });
   return shift;
 }
@@ -35,11 +36,12 @@ inline lessons::LessonResult some_result(int shifts) {
   result.why = "It's \"why\"; DROP TABLE shift; --";
   result.slip_energy = 2020.5;
   result.fuel = 4321.0;
-  result.errors = {
-      {lessons::ErrorKind::stall, lessons::Severity::severe, 13.5, 36.6, -1},
-      {lessons::ErrorKind::rollback, lessons::Severity::minor, 14.5, 0.3, 0},
-      {lessons::ErrorKind::jerk, lessons::Severity::note, 15.5, 9.0, 0},
-      {lessons::ErrorKind::slow_step, lessons::Severity::note, 16.5, 4.0, 0, "Let the \"hand\" brake off.", 2.5}};
+  result.errors = {make_driving_error(lessons::ErrorKind::stall, lessons::Severity::severe, 13.5, 36.6, -1),
+                   make_driving_error(lessons::ErrorKind::rollback, lessons::Severity::minor, 14.5, 0.3, 0),
+                   make_driving_error(lessons::ErrorKind::jerk, lessons::Severity::note, 15.5, 9.0, 0),
+                   make_driving_error(lessons::ErrorKind::slow_step, lessons::Severity::note, 16.5, 4.0, 0)};
+  result.errors[3].step = "Let the \"hand\" brake off.";
+  result.errors[3].time_limit = 2.5;
   result.deductions = {{0, 2.0}, {1, 0.5}};
   for (int i = 0; i < shifts; ++i) result.shifts.push_back(some_shift(i));
   return result;

@@ -18,7 +18,7 @@ TEST_CASE("at most three worst (by points) and three best (by time) shifts, from
   for (int i = 0; i < 6; ++i) history.runs.push_back(run_with(i + 1, 2, 5.0));
   const auto spoil = [&](std::size_t run, double points) {
     LessonResult& result = history.runs[run].row.result;
-    result.errors = {{ErrorKind::grind, Severity::minor, 5.1, 1.0, 0}};
+    result.errors = {make_driving_error(ErrorKind::grind, Severity::minor, 5.1, 1.0, 0)};
     result.deductions = {{0, points}};
   };
   spoil(0, 0.5);
@@ -48,7 +48,7 @@ TEST_CASE("at most three worst (by points) and three best (by time) shifts, from
 TEST_CASE("the best shifts are the quickest without an error, even in a run that lost points") {
   using Spoil = std::function<void(LessonResult&)>;
   const auto error = [](ErrorKind kind, Severity severity) {
-    return [=](LessonResult& result) { result.errors = {{kind, severity, 5.2, 1.0, 0}}; };
+    return [=](LessonResult& result) { result.errors = {make_driving_error(kind, severity, 5.2, 1.0, 0)}; };
   };
   const std::vector<std::pair<const char*, Spoil>> wrong{
       {"a step out of place", [](LessonResult& r) { r.shifts[0].steps_out_of_place = 1; }},

@@ -8,7 +8,6 @@
 
 #include <doctest/doctest.h>
 
-#include "app/lessons/assessment/shift_fields.h"
 #include "app/lessons/report/progress.h"
 #include "tests/app/lessons/history/sample_result.h"
 #include "tests/app/lessons/report/constructed_history.h"
@@ -99,7 +98,7 @@ TEST_CASE("runs are read back from the table") {
   CHECK(fields["mode"] == "by_yourself");
   CHECK(fields["ended"] == "done");
   CHECK(fields["guided"] == "0");
-  CHECK(fields["whole"] == "1");
+  CHECK(fields["complete"] == "1");
   CHECK(fields["begin_s"] == "12.5");
   CHECK(fields["duration_s"] == "34.25");
   CHECK(fields["grade"] == "7.5");
@@ -108,7 +107,7 @@ TEST_CASE("runs are read back from the table") {
   CHECK(fields["why"] == some_result(0).why);
   CHECK(fields["slip_energy_j"] == "2020.5");
   CHECK(fields["shifts"] == "5");
-  CHECK(fields["faults"] == "4");
+  CHECK(fields["errors"] == "4");
   CHECK(fields["recording"] == "a \"trace\".trace");
   CHECK(fields["comments"] == "Bo, 2026-01-03T00:00:00Z: " + kNasty + "\nDi, 2026-01-04T00:00:00Z: Fine.");
   CHECK(row(records, 1)["grade"].empty());  // the run was guided, so its grade is empty and not zero
@@ -147,61 +146,63 @@ TEST_CASE("shifts are read back from the table, every number to twelve digits") 
     CHECK(fields["guided"] == (shift.guided ? "1" : "0"));
     CHECK(fields["missed"] == (shift.missed ? "1" : "0"));
     CHECK(fields["steps"] == "clutch_down throttle_off gear clutch_up");
-    each_figure(shift, [&](const char* name, const auto& value) {
-      CAPTURE(name);
-      CHECK(is_read_back(fields.at(name), static_cast<double>(value)));
+    each_field(shift, [&](const RecordField& field, const auto& value) {
+      CAPTURE(field.name);
+      if constexpr (std::is_same_v<decltype(value), const double&>) CHECK(is_read_back(fields.at(field.name), value));
     });
+    CHECK(fields["steps_out_of_place"] == std::to_string(shift.steps_out_of_place));
   }
 }
 
-TEST_CASE("errors are read back from the table, with unit and points") {
+TEST_CASE("errors are read back from the table, with points and only the values that their kind has") {
   const auto records = parse(errors_csv(history_with_everything()));
   REQUIRE(records.size() == 5);
   auto stall = row(records, 0), rollback = row(records, 1), jerk = row(records, 2), slow = row(records, 3);
   CHECK(stall["kind"] == "stall");
   CHECK(stall["severity"] == "severe");
   CHECK(stall["time_s"] == "13.5");
-  CHECK(stall["value"] == "36.6");
-  CHECK(stall["unit"] == "rad/s");
+  CHECK(stall["engine_speed_rad_per_s"] == "36.6");
+  CHECK(stall["jerk_m_per_s3"].empty());
   CHECK(stall["shift"].empty());
   CHECK(stall["points"] == "2");
-  CHECK(rollback["unit"] == "m");
+  CHECK(rollback["distance_m"] == "0.3");
   CHECK(rollback["shift"] == "1");
-  CHECK(rollback["fault"] == "2");
+  CHECK(rollback["error"] == "2");
   CHECK(rollback["points"] == "0.5");
-  CHECK(jerk["unit"] == "m/s^3");
+  CHECK(jerk["jerk_m_per_s3"] == "9");
   CHECK(jerk["points"] == "0");
   CHECK(jerk["step"].empty());
-  CHECK(jerk["wanted_s"].empty());
-  CHECK(slow["unit"] == "s");
-  CHECK(slow["value"] == "4");
+  CHECK(jerk["time_limit_s"].empty());
+  CHECK(slow["duration_s"] == "4");
   CHECK(slow["step"] == "Let the \"hand\" brake off.");
-  CHECK(slow["wanted_s"] == "2.5");
+  CHECK(slow["time_limit_s"] == "2.5");
 }
 
-TEST_CASE("every kind of error has a unit, and its own name") {
+TEST_CASE("every kind of error has one measured value, in a column with the right unit") {
   LearnerHistory history;
   history.runs.push_back(run_with(1, 1, 5.0));
   for (int i = 0; i < kErrorKindCount; ++i)
-    history.runs[0].row.result.errors.push_back({static_cast<ErrorKind>(i), Severity::minor, 1.0, 1.0, -1});
+    history.runs[0].row.result.errors.push_back(make_driving_error(static_cast<ErrorKind>(i), Severity::minor, 1, 3.0));
   const auto records = parse(errors_csv(history));
   REQUIRE(records.size() == kErrorKindCount + 1);
-  std::map<std::string, std::string> units;
+  std::map<std::string, std::string> measured;  // kind of error to column
   for (std::size_t i = 0; i < kErrorKindCount; ++i) {
     auto fields = row(records, i);
-    CAPTURE(fields["kind"]);
-    CHECK_FALSE(fields["unit"].empty());
-    units[fields["kind"]] = fields["unit"];
+    for (const auto& [name, value] : fields) {
+      if (value == "3" && name != "error") measured[fields["kind"]] += name;
+    }
   }
-  CHECK(units["clutch_dump"] == "W");
-  CHECK(units["throttle_in_shift"] == "rad/s");
-  CHECK(units["grind"] == "J");
-  CHECK(units["missed_shift"] == "gear");
-  CHECK(units["over_push"] == "N");
-  CHECK(units["rollback"] == "m");
-  CHECK(units["wrong_direction"] == "m/s");
-  CHECK(units["coasting"] == "s");
-  CHECK(units["early_downshift"] == "rad/s");
+  const std::map<std::string, std::string> expected{{"clutch_dump", "slip_power_w"},
+                                                    {"throttle_in_shift", "rev_rise_rad_per_s"},
+                                                    {"grind", "heat_j"},
+                                                    {"missed_shift", "gear"},
+                                                    {"over_push", "force_n"},
+                                                    {"rollback", "distance_m"},
+                                                    {"wrong_direction", "road_speed_m_per_s"},
+                                                    {"coasting", "duration_s"},
+                                                    {"early_downshift", "engine_speed_rad_per_s"}};
+  CHECK(measured.size() == kErrorKindCount);
+  for (const auto& [kind, column] : expected) CHECK(measured[kind] == column);
 }
 
 TEST_CASE("without runs a table has only its header") {

@@ -96,9 +96,9 @@ TEST_CASE("runs, newest first: day, lesson, mode, grade, result, every error wit
   result.passed = false;
   result.why = "Grade 3.5 is below 6.0.";
   result.begin = 100.0;
-  result.errors = {{ErrorKind::clutch_early, Severity::severe, 112.4, 0.12, 2},
-                   {ErrorKind::stall, Severity::very_severe, 130.0, 40.0, -1},
-                   {ErrorKind::jerk, Severity::note, 131.0, 12.5, -1}};
+  result.errors = {make_driving_error(ErrorKind::clutch_early, Severity::severe, 112.4, 0.12, 2),
+                   make_driving_error(ErrorKind::stall, Severity::very_severe, 130.0, 40.0, -1),
+                   make_driving_error(ErrorKind::jerk, Severity::note, 131.0, 12.5, -1)};
   result.deductions = {{0, 2.0}, {1, 4.0}, {1, 0.5}};
   history.runs[1].comments = {{"2026-01-09T10:00:00Z", "Bo", "Calmer at the bite point."},
                               {"2026-01-10T10:00:00Z", "Di", "Better.", 2, "2026-01-11T10:00:00Z"}};
@@ -131,13 +131,13 @@ TEST_CASE("an error that cost no points shows its severity; deductions beyond te
   LessonResult& guided = history.runs[0].row.result;
   guided.guided = true;
   guided.passed = false;
-  guided.errors = {{ErrorKind::stall, Severity::severe, 1.0, 40.0, -1},
-                   {ErrorKind::jerk, Severity::very_severe, 1.0, 40.0, -1},
-                   {ErrorKind::jerk, Severity::note, 1.0, 9.0, -1}};
+  guided.errors = {make_driving_error(ErrorKind::stall, Severity::severe, 1.0, 40.0, -1),
+                   make_driving_error(ErrorKind::jerk, Severity::very_severe, 1.0, 40.0, -1),
+                   make_driving_error(ErrorKind::jerk, Severity::note, 1.0, 9.0, -1)};
   LessonResult& bad = history.runs[1].row.result;
   bad.grade = 0.0;
   bad.passed = false;
-  bad.errors.assign(3, {ErrorKind::stall, Severity::very_severe, 1.0, 40.0, -1});
+  bad.errors.assign(3, make_driving_error(ErrorKind::stall, Severity::very_severe, 1.0, 40.0, -1));
   bad.deductions = {{0, 4.0}, {1, 4.0}, {2, 3.5}};
   const auto rows = table_of(page_of(history), "runs");
   CHECK(has(rows[1][6], "Severe: The engine stalled"));
@@ -275,7 +275,10 @@ TEST_CASE("tasks with fewer than three graded runs are listed in one row and hav
 TEST_CASE("a step that took too long is named in the lists of runs and weaknesses") {
   LearnerHistory history = learner(2);
   const auto slow = [](const char* step, double seconds) {
-    return DrivingError{ErrorKind::slow_step, Severity::severe, 9.0, seconds, -1, step, 0.8};
+    DrivingError error = make_driving_error(ErrorKind::slow_step, Severity::severe, 9.0, seconds);
+    error.step = step;
+    error.time_limit = 0.8;
+    return error;
   };
   history.runs[0].row.result.errors = {slow("Start the engine.", 1.2)};
   history.runs[1].row.result.errors = {slow("Brake <hard>.", 1.78)};
@@ -293,7 +296,7 @@ TEST_CASE("an error of any kind has its name and its sentence on the page") {
   LearnerHistory history = learner(1);
   std::vector<DrivingError>& errors = history.runs[0].row.result.errors;
   for (int i = 0; i < kErrorKindCount; ++i)
-    errors.push_back({static_cast<ErrorKind>(i), Severity::minor, 1.0, 3.0, -1});
+    errors.push_back(make_driving_error(static_cast<ErrorKind>(i), Severity::minor, 1.0, 3.0));
   const std::string page = page_of(history);
   const auto weak = table_of(page, "weaknesses");
   REQUIRE(weak.size() == kErrorKindCount);
@@ -310,10 +313,10 @@ TEST_CASE("an error of any kind has its name and its sentence on the page") {
 TEST_CASE("the advice for a kind of error appears once, with the run, if the kind cost points") {
   LearnerHistory history = learner(1);
   LessonResult& result = history.runs[0].row.result;
-  result.errors = {{ErrorKind::grind, Severity::note, 1.0, 1.0, 0},
-                   {ErrorKind::grind, Severity::minor, 2.0, 1.0, 0},
-                   {ErrorKind::grind, Severity::minor, 3.0, 1.0, 0},
-                   {ErrorKind::jerk, Severity::note, 4.0, 9.0, 0}};
+  result.errors = {make_driving_error(ErrorKind::grind, Severity::note, 1.0, 1.0, 0),
+                   make_driving_error(ErrorKind::grind, Severity::minor, 2.0, 1.0, 0),
+                   make_driving_error(ErrorKind::grind, Severity::minor, 3.0, 1.0, 0),
+                   make_driving_error(ErrorKind::jerk, Severity::note, 4.0, 9.0, 0)};
   result.deductions = {{1, 0.5}, {2, 0.5}};
   const std::string cell = table_of(page_of(history), "runs")[0][6];
   const std::string grind(error_advice(ErrorKind::grind));
@@ -340,7 +343,8 @@ TEST_CASE("the style breaks long words, and does not break a printed shift") {
 TEST_CASE("the counts, points and rates of weaknesses match the rows") {
   LearnerHistory history = learner(4);  // 4 runs with 4 shifts each: 16 shifts
   LessonResult& result = history.runs[0].row.result;
-  result.errors = {{ErrorKind::grind, Severity::minor, 1.0, 1.0, 0}, {ErrorKind::grind, Severity::severe, 1.0, 1.0, 1}};
+  result.errors = {make_driving_error(ErrorKind::grind, Severity::minor, 1.0, 1.0, 0),
+                   make_driving_error(ErrorKind::grind, Severity::severe, 1.0, 1.0, 1)};
   result.deductions = {{0, 0.5}, {1, 2.0}};
   const auto rows = table_of(page_of(history), "weaknesses");
   REQUIRE(rows.size() == 1);
@@ -356,8 +360,8 @@ TEST_CASE("the worst shifts by points and the best by time, with figures that ma
   LessonResult& bad = history.runs[1].row.result;
   bad.shifts[2].clutch_lag = -0.12;
   bad.shifts[2].force_peak = 71.5;
-  bad.errors = {{ErrorKind::over_push, Severity::minor, 14.0, 71.5, 1},
-                {ErrorKind::clutch_early, Severity::severe, 18.0, 0.12, 2}};
+  bad.errors = {make_driving_error(ErrorKind::over_push, Severity::minor, 14.0, 71.5, 1),
+                make_driving_error(ErrorKind::clutch_early, Severity::severe, 18.0, 0.12, 2)};
   bad.deductions = {{0, 0.5}, {1, 2.0}};
   history.runs[2].row.result.shifts[3].end -= 0.2;
   const std::string page = page_of(history);
@@ -421,7 +425,7 @@ TEST_CASE("names, comments and reasons that contain markup are shown as text: th
     result.passed = false;
     history.runs[1].row.recording = text;
     history.runs[2].row.begun_at = text;
-    result.errors = {{ErrorKind::stall, Severity::minor, 1.0, 1.0, 0}};
+    result.errors = {make_driving_error(ErrorKind::stall, Severity::minor, 1.0, 1.0, 0)};
     history.runs[1].comments = {{text, text, text}};
   };
   fill(plain, "word");

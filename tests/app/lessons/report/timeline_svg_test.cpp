@@ -90,7 +90,7 @@ TEST_CASE(
   twice.clutch_time = 0.3;
   twice.clutch_lag = -0.25;
   std::vector<ShownShift> shifts{chosen(twice)};
-  shifts[0].chosen.errors = {{ErrorKind::clutch_early, Severity::severe, twice.end, 0.25, 0}};
+  shifts[0].chosen.errors = {make_driving_error(ErrorKind::clutch_early, Severity::severe, twice.end, 0.25, 0)};
   const std::string unknown = timeline_svg(shifts);
   CHECK(bars_of(unknown, kClutch).empty());
   CHECK(bars_of(unknown, kRed).empty());

@@ -49,7 +49,8 @@ TEST_CASE("a lesson with an error in each run, followed by a lesson without that
     history.runs.push_back(run_with(i + 1, 2, 5.0));
     LessonResult& result = history.runs.back().row.result;
     result.lesson = i < 12 ? "hill_start" : "skip_shifts";
-    result.errors = {{i < 12 ? ErrorKind::stall : ErrorKind::rev_mismatch, Severity::severe, 0.0, 1.0, 0}};
+    result.errors = {
+        make_driving_error(i < 12 ? ErrorKind::stall : ErrorKind::rev_mismatch, Severity::severe, 0.0, 1.0, 0)};
   }
   for (const WeakSpot& spot : weaknesses(history).spots) {
     CHECK(spot.trend == Trend::unclear);
@@ -71,7 +72,7 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   const auto error = [&](std::size_t run, ErrorKind kind, Severity severity, double points) {
     LessonResult& result = history.runs[run].row.result;
     if (points > 0.0) result.deductions.push_back({result.errors.size(), points});
-    result.errors.push_back({kind, severity, 0.0, 1.0, 0});
+    result.errors.push_back(make_driving_error(kind, severity, 0.0, 1.0, 0));
   };
   error(0, ErrorKind::stall, Severity::severe, 2.0);
   error(0, ErrorKind::grind, Severity::minor, 0.5);
@@ -101,7 +102,7 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
 TEST_CASE("errors of runs in neither half are not compared: they must not be shown as 0 times before and after") {
   LearnerHistory history;
   for (int i = 0; i < 3; ++i) history.runs.push_back(run_with(i + 1, 2, 5.0));
-  history.runs[1].row.result.errors = {{ErrorKind::stall, Severity::severe, 0.0, 1.0, 0}};
+  history.runs[1].row.result.errors = {make_driving_error(ErrorKind::stall, Severity::severe, 0.0, 1.0, 0)};
   REQUIRE(weaknesses(history).spots.size() == 1);
   CHECK(weaknesses(history).spots[0].trend == Trend::unknown);
   CHECK(weakness_section(history).find("0.0<br>") == std::string::npos);
@@ -116,7 +117,7 @@ TEST_CASE("without runs there are no weaknesses; without shifts an error has no 
   CHECK(weaknesses({}).spots.empty());
   LearnerHistory history;
   history.runs.push_back(run_with(1, 0, 6.0));
-  history.runs[0].row.result.errors.push_back({ErrorKind::stall, Severity::severe, 0.0, 1.0, -1});
+  history.runs[0].row.result.errors.push_back(make_driving_error(ErrorKind::stall, Severity::severe, 0.0, 1.0, -1));
   const Weaknesses found = weaknesses(history);
   CHECK(found.shifts == 0);
   REQUIRE(found.spots.size() == 1);

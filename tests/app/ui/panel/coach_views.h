@@ -108,17 +108,17 @@ inline lessons::LessonResult result_of(std::string_view key, std::vector<lessons
 }
 
 inline std::vector<lessons::DrivingError> some_errors() {
-  return {{lessons::ErrorKind::jerk, lessons::Severity::minor, 14.2, 9.7, 0},
-          {lessons::ErrorKind::grind, lessons::Severity::severe, 19.9, 12.4, 1},
-          {lessons::ErrorKind::wrong_column, lessons::Severity::note, 20.1, 2.0, 1}};
+  return {make_driving_error(lessons::ErrorKind::jerk, lessons::Severity::minor, 14.2, 9.7, 0),
+          make_driving_error(lessons::ErrorKind::grind, lessons::Severity::severe, 19.9, 12.4, 1),
+          make_driving_error(lessons::ErrorKind::wrong_column, lessons::Severity::note, 20.1, 2.0, 1)};
 }
 inline std::vector<lessons::DrivingError> failing_errors() {
   std::vector<lessons::DrivingError> errors = some_errors();
-  errors.push_back({lessons::ErrorKind::stall, lessons::Severity::very_severe, 31.0, 62.0, -1});
-  errors.push_back({lessons::ErrorKind::throttle_in_shift, lessons::Severity::minor, 33.0, 80.0, 1});
-  errors.push_back({lessons::ErrorKind::rollback, lessons::Severity::severe, 36.5, 0.42, -1});
-  errors.push_back({lessons::ErrorKind::over_push, lessons::Severity::minor, 37.0, 48.0, -1});
-  errors.push_back({lessons::ErrorKind::clutch_dump, lessons::Severity::severe, 38.0, 32000.0, -1});
+  errors.push_back(make_driving_error(lessons::ErrorKind::stall, lessons::Severity::very_severe, 31.0, 62.0, -1));
+  errors.push_back(make_driving_error(lessons::ErrorKind::throttle_in_shift, lessons::Severity::minor, 33.0, 80.0, 1));
+  errors.push_back(make_driving_error(lessons::ErrorKind::rollback, lessons::Severity::severe, 36.5, 0.42, -1));
+  errors.push_back(make_driving_error(lessons::ErrorKind::over_push, lessons::Severity::minor, 37.0, 48.0, -1));
+  errors.push_back(make_driving_error(lessons::ErrorKind::clutch_dump, lessons::Severity::severe, 38.0, 32000.0, -1));
   return errors;
 }
 

@@ -341,7 +341,7 @@ TEST_CASE("a learner deleted by another program is marked, and can be selected a
 
 TEST_CASE("each kind of error shows its advice only once") {
   CoachState coach = with_history();
-  coach.runs[0].result.errors.push_back({ErrorKind::jerk, Severity::minor, 15.0, 8.8, 0});
+  coach.runs[0].result.errors.push_back(make_driving_error(ErrorKind::jerk, Severity::minor, 15.0, 8.8, 0));
   LessonsRig rig(coach, "tab_history");
   rig.click("run: 16");
   const std::string advice = without_blanks(std::string(error_advice(ErrorKind::jerk))).substr(0, 16);
