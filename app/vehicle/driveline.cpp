@@ -141,7 +141,6 @@ void Driveline::publish_state(double capacity) noexcept {
   const double engine = std::max(0.0, speed_[engine_body]);
   state_.engine_speed = engine;
   state_.engine_load = engine_.load(engine, state_.pedals.throttle);
-  state_.engine_torque = engine_.torque(engine, state_.pedals.throttle) - friction_torque(car_.engine, engine);
   state_.running = engine_.running();
   state_.stalled = engine_.stalled();
   state_.over_revved = engine > car_.engine.red_line;

@@ -21,17 +21,16 @@ enum class SyncPhase : std::uint8_t {
 
 struct VehicleState {
   // Engine
-  double engine_speed = 0.0;   // [rad/s] >= 0
-  double engine_load = 0.0;    // [1] 0 to 1: fraction of the available torque
-  double engine_torque = 0.0;  // [N m] torque at the flywheel, net of engine friction
-  bool running = true;         // the engine fires
-  bool stalled = false;        // the engine died with the ignition on and has not run by itself since
-  double red_line = 0.0;       // [rad/s] 0: none
-  bool over_revved = false;    // the engine turns faster than its red line
-  bool fuel_cut = false;       // the rev limiter has cut the fuel
-  bool cranking = false;       // the starter turns the engine
-  double shudder = 0.0;        // [1] 0 to 1: vibration of a labouring or dying engine
-  int shift_advice = 0;        // +1: shift up; -1: shift down, because the engine labours; 0: stay
+  double engine_speed = 0.0;  // [rad/s] >= 0
+  double engine_load = 0.0;   // [1] 0 to 1: fraction of the available torque
+  bool running = true;        // the engine fires
+  bool stalled = false;       // the engine died with the ignition on and has not run by itself since
+  double red_line = 0.0;      // [rad/s] 0: none
+  bool over_revved = false;   // the engine turns faster than its red line
+  bool fuel_cut = false;      // the rev limiter has cut the fuel
+  bool cranking = false;      // the starter turns the engine
+  double shudder = 0.0;       // [1] 0 to 1: vibration of a labouring or dying engine
+  int shift_advice = 0;       // +1: shift up; -1: shift down, because the engine labours; 0: stay
 
   // Clutch and gearbox
   double clutch_bite = 0.0;      // [1] pedal position at which a clutch coming up starts to transmit torque; 0: no car

@@ -52,7 +52,6 @@ struct LessonResult {
   std::vector<ShiftRecord> shifts;
   std::vector<Deduction> deductions;
   double slip_energy = 0.0;  // [J] heat in the clutch during the whole lesson
-  double fuel = 0.0;         // [J] work done by the engine, minus engine braking
 };
 
 // Errors, shifts and deductions are records of their own. `why` contains the effect of `had_forces`.
@@ -69,7 +68,6 @@ constexpr void each_field(FieldsOf<LessonResult> auto&& result, auto&& visit) {
   visit(RecordField{"passed"}, result.passed);
   visit(RecordField{"why"}, result.why);
   visit(RecordField{"slip_energy_j"}, result.slip_energy);
-  visit(RecordField{"engine_work_j"}, result.fuel);
 }
 
 }  // namespace gearshift::lessons

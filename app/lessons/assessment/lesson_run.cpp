@@ -53,7 +53,7 @@ struct LessonRun::State {
 
   static bool shows_prompts(const LessonRunConfig& config) { return config.mode == LessonMode::follow_me; }
   void begin(const vehicle::DriveSample& sample);
-  void measure(const vehicle::DriveSample& sample, double dt);
+  void measure(const vehicle::DriveSample& sample);
   void add_shift(const std::optional<ShiftRecord>& ended);
   void apply_errors(std::vector<DrivingError> errors);
   void attribute(DrivingError& error) const;
@@ -113,8 +113,7 @@ void LessonRun::add(const vehicle::DriveSample& sample) {
   if (is_over()) return;
   State& state = *state_;
   if (!state.began) state.begin(sample);
-  const double dt = std::clamp(sample.time() - state.last.time(), 0.0, vehicle::kMaxSampleInterval);
-  state.measure(sample, dt);
+  state.measure(sample);
   state.last = sample;
   if (state.aborts(sample)) return;
   state.follow_steps(sample);
@@ -137,11 +136,9 @@ void LessonRun::State::begin(const vehicle::DriveSample& sample) {
   start_slip = sample.car.slip_energy;
 }
 
-void LessonRun::State::measure(const vehicle::DriveSample& sample, double dt) {
+void LessonRun::State::measure(const vehicle::DriveSample& sample) {
   result.duration = sample.time() - result.begin;
   result.slip_energy = sample.car.slip_energy - start_slip;
-  const double power = sample.car.engine_torque * sample.car.engine_speed;
-  result.fuel += 0.5 * dt * (last.car.engine_torque * last.car.engine_speed + power);
   result.guided = result.guided || sample.controls.guidance > 0.0;
   highest = std::max(highest, sample.car.distance);
 

@@ -32,14 +32,6 @@ double area(double before, double now, double dt) noexcept {
   return 0.5 * (before + now) * dt;
 }
 
-double fourth(double a) noexcept {
-  return a * a * a * a;
-}
-
-double penetration(const vehicle::DriveSample& sample) noexcept {
-  return glm::distance(sample.lever.lever, sample.lever.proxy);
-}
-
 }  // namespace
 
 ShiftMeter::ShiftMeter(const vehicle::CarSpec& car, const haptics::Gate& gate)
@@ -60,7 +52,7 @@ std::optional<ShiftRecord> ShiftMeter::add(const vehicle::DriveSample& sample) {
   filter_.update(sample.car.acceleration, dt);
 
   if (stage_ == Stage::settling) {
-    integrate_comfort(sample, dt);
+    measure_jerk();
     if (time >= open_.record.end + kJerkSettlingTime || begins_next(sample)) ended = close();
   } else if (stage_ == Stage::open && begins_next(sample)) {
     end(last_);
@@ -147,7 +139,7 @@ void ShiftMeter::follow(const vehicle::DriveSample& now, double dt, bool throttl
   follow_gear(now);
   measure_rev_error(now);
   integrate(now, dt);
-  integrate_comfort(now, dt);
+  measure_jerk();
   integrate_path(now);
   update_rest(now);
   if (is_cancelled()) stage_ = Stage::idle;
@@ -248,12 +240,6 @@ void ShiftMeter::integrate(const vehicle::DriveSample& now, double dt) {
   const double force = glm::length(now.lever.f_h), before = glm::length(last_.lever.f_h);
   record.force_peak = std::max(record.force_peak, force);
   record.impulse += area(before, force, dt);
-  record.overshoot = std::max(record.overshoot, penetration(now));
-  const double deeper = penetration(now) - penetration(last_);
-  if (deeper > 0.0 && dt > 0.0) {
-    record.wall_work += area(glm::length(last_.lever.wall_force), glm::length(now.lever.wall_force), deeper);
-  }
-  record.slip_power_peak = std::max(record.slip_power_peak, now.car.slip_power);
   record.slip_energy = now.car.slip_energy - open_.slip_before;
   record.grind_energy += area(last_.car.grind_power, now.car.grind_power, dt);
   if (now.car.grinding) record.grind_time += dt;
@@ -266,9 +252,8 @@ void ShiftMeter::integrate(const vehicle::DriveSample& now, double dt) {
 }
 
 // Also called after the end of the shift, while the jerk filter settles.
-void ShiftMeter::integrate_comfort(const vehicle::DriveSample& now, double dt) {
+void ShiftMeter::measure_jerk() {
   open_.record.jerk_peak = std::max(open_.record.jerk_peak, std::abs(filter_.jerk()));
-  open_.fourth_power += area(fourth(last_.car.acceleration), fourth(now.car.acceleration), dt);
 }
 
 void ShiftMeter::integrate_path(const vehicle::DriveSample& now) {
@@ -342,7 +327,6 @@ std::optional<ShiftRecord> ShiftMeter::finish() {
 }
 
 ShiftRecord ShiftMeter::close() {
-  open_.record.vibration_dose = std::pow(open_.fourth_power, 0.25);
   gear_ = open_.record.to;
   ++number_;
   stage_ = Stage::idle;

@@ -59,7 +59,6 @@ class ShiftMeter {
     double left_at = 0.0;         // [s]
     double gear_in_at = 0.0;      // [s]
     double rest_since = 0.0;      // [s]
-    double fourth_power = 0.0;    // [m^4/s^7] integral of the acceleration's fourth power
     Rest rest = Rest::busy;
     bool left = false;      // the lever has left the old gear's rest position, or has left neutral
     bool dogs_out = false;  // the old gear was disengaged
@@ -85,7 +84,7 @@ class ShiftMeter {
   void follow_gear(const vehicle::DriveSample& now);
   void measure_rev_error(const vehicle::DriveSample& now);
   void integrate(const vehicle::DriveSample& now, double dt);
-  void integrate_comfort(const vehicle::DriveSample& now, double dt);
+  void measure_jerk();
   void integrate_path(const vehicle::DriveSample& now);
   void end_path(const vehicle::DriveSample& now);
   bool is_cancelled() const noexcept;

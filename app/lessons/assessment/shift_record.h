@@ -46,24 +46,20 @@ struct ShiftRecord {
   double torque_gap = 0.0;  // [s] time with less than 5 % of the drive torque from before the shift
 
   // Engine and clutch
-  double engine_speed = 0.0;     // [rad/s] engine speed at the beginning of the shift
-  double slip_energy = 0.0;      // [J]
-  double slip_power_peak = 0.0;  // [W]
+  double engine_speed = 0.0;  // [rad/s] engine speed at the beginning of the shift
+  double slip_energy = 0.0;   // [J]
   // [rad/s] engine speed minus shaft speed when the clutch first transmits torque after the gear was engaged
   double rev_error = 0.0;
   double flare = 0.0;  // [rad/s] rise of engine speed while the clutch was down
 
   // Comfort
-  double jerk_peak = 0.0;       // [m/s^3] largest jerk, from the acceleration after a 15 Hz second-order low-pass
-  double vibration_dose = 0.0;  // [m/s^1.75] vibration dose value (ISO 2631-1) of the unweighted acceleration
+  double jerk_peak = 0.0;  // [m/s^3] largest jerk, from the acceleration after a 15 Hz second-order low-pass
 
   // Lever
   double force_peak = 0.0;       // [N] largest hand force
   double impulse = 0.0;          // [N s] integral of the hand's force over time
-  double wall_work = 0.0;        // [J] work against the walls while penetration increases
   double path_length = 0.0;      // [m] distance travelled by the lever
   double path_efficiency = 1.0;  // [1] path length divided by the shortest path through the gate, >= 1
-  double overshoot = 0.0;        // [m] largest penetration: distance between lever point and displayed lever
   int wrong_columns = 0;         // number of slots entered off the path, except slots of gears that were engaged
   double block_time = 0.0;       // [s] time spent pushing against a blocking synchroniser
   double grind_time = 0.0;       // [s]
@@ -90,17 +86,13 @@ constexpr void each_field(FieldsOf<ShiftRecord> auto&& record, auto&& visit) {
   visit(RecordField{"torque_gap_s", "No drive [s]", 2}, record.torque_gap);
   visit(RecordField{"engine_speed_rad_per_s"}, record.engine_speed);
   visit(RecordField{"slip_energy_j", "Clutch heat [J]"}, record.slip_energy);
-  visit(RecordField{"slip_power_peak_w"}, record.slip_power_peak);
   visit(RecordField{"rev_error_rad_per_s"}, record.rev_error);
   visit(RecordField{"flare_rad_per_s"}, record.flare);
   visit(RecordField{"jerk_peak_m_per_s3", "Jerk [m/s³]", 1}, record.jerk_peak);
-  visit(RecordField{"vibration_dose_m_per_s175"}, record.vibration_dose);
   visit(RecordField{"force_peak_n", "Push [N]", 1}, record.force_peak);
-  visit(RecordField{"impulse_n_s"}, record.impulse);
-  visit(RecordField{"wall_work_j"}, record.wall_work);
+  visit(RecordField{"impulse_n_s", "Impulse [N s]", 1}, record.impulse);
   visit(RecordField{"path_length_m"}, record.path_length);
   visit(RecordField{"path_efficiency", "Path / shortest", 2}, record.path_efficiency);
-  visit(RecordField{"overshoot_m"}, record.overshoot);
   visit(RecordField{"wrong_columns"}, record.wrong_columns);
   visit(RecordField{"block_time_s"}, record.block_time);
   visit(RecordField{"grind_time_s"}, record.grind_time);

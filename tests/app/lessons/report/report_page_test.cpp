@@ -364,6 +364,7 @@ TEST_CASE("the worst shifts by points and the best by time, with figures that ma
                 make_driving_error(ErrorKind::clutch_early, Severity::severe, 18.0, 0.12, 2)};
   bad.deductions = {{0, 0.5}, {1, 2.0}};
   history.runs[2].row.result.shifts[3].end -= 0.2;
+  history.runs[1].row.result.shifts[2].impulse = 12.34;
   const std::string page = page_of(history);
   const std::string_view shifts = section_of(page, "shifts");
   const auto worst = table_of(shifts, "shifts");
@@ -376,6 +377,7 @@ TEST_CASE("the worst shifts by points and the best by time, with figures that ma
   CHECK(worst[0][6] == "0.45");
   CHECK(worst[0][7] == "850");
   CHECK(worst[0][9] == "71.5");
+  CHECK(worst[0][10] == "12.3");
   CHECK(worst[1][0] == "Run 2 , shift 2");
   const auto best = table_of(shifts.substr(shifts.find("Best shifts")), "shifts");
   REQUIRE(best.size() == 3);

@@ -28,7 +28,6 @@ void check_equal(const LessonResult& a, const LessonResult& b) {
   CHECK(a.duration == b.duration);
   CHECK(a.grade == b.grade);
   CHECK(a.slip_energy == b.slip_energy);
-  CHECK(a.fuel == b.fuel);
   REQUIRE(a.shifts.size() == b.shifts.size());
   for (std::size_t i = 0; i < a.shifts.size(); ++i) {
     CHECK(a.shifts[i].impulse == b.shifts[i].impulse);
