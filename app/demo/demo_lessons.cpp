@@ -89,10 +89,10 @@ void write_demo_report(const DemoSetup& setup, const std::vector<DemoLesson>& le
       row.begun_at = fmt::format(fmt::runtime(kDay), row.id);
       if (i + 1 == lesson.trials.size()) row.recording = lesson.trace;
       row.result = lesson.trials[i];
-      history.runs.push_back({std::move(row), {}});
+      history.runs.push_back(std::move(row));
     }
   }
-  history.learner.made_at = history.runs.front().row.begun_at;
+  history.learner.made_at = history.runs.front().begun_at;
   const lessons::ShownShifts shifts = lessons::show_shifts(history, setup.tour.folder);
   haptics::write_text_file(setup.tour.folder / "report.html",
                            lessons::report_page(history, shifts, lessons::shipped_lessons()));

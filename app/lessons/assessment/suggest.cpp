@@ -5,15 +5,13 @@
 
 #include <fmt/core.h>
 
-#include "app/lessons/assessment/grade.h"
-
 namespace gearshift::lessons {
 namespace {
 
 constexpr std::size_t kLastResults = 3;  // engineering value
 
-bool was_passed(std::span<const PastResult> past, std::string_view lesson) {
-  return std::any_of(past.begin(), past.end(), [&](const PastResult& r) { return r.passed && r.lesson == lesson; });
+bool was_passed(std::span<const GradedTrial> past, std::string_view lesson) {
+  return std::any_of(past.begin(), past.end(), [&](const GradedTrial& r) { return r.passed && r.lesson == lesson; });
 }
 
 bool is_weaker(const RecentResults& a, const RecentResults& b) noexcept {
@@ -29,7 +27,7 @@ bool is_weak(const RecentResults& form, bool passed_once) noexcept {
 }
 
 // Returns the weakest lesson among those passed once or, with `only_weak`, among those for which is_weak() is true.
-const Lesson* weakest(std::span<const Lesson> lessons, std::span<const PastResult> past, bool only_weak) {
+const Lesson* weakest(std::span<const Lesson> lessons, std::span<const GradedTrial> past, bool only_weak) {
   const Lesson* found = nullptr;
   RecentResults lowest;
   for (const Lesson& lesson : lessons) {
@@ -51,12 +49,7 @@ std::string weak_lesson_text(const Lesson& lesson, const RecentResults& form) {
 
 }  // namespace
 
-std::optional<PastResult> past_result(const LessonResult& result) {
-  if (!is_graded(result)) return std::nullopt;
-  return PastResult{result.lesson, result.task, result.grade, result.passed};
-}
-
-std::optional<RecentResults> recent_results(std::span<const PastResult> past, std::string_view task) {
+std::optional<RecentResults> recent_results(std::span<const GradedTrial> past, std::string_view task) {
   RecentResults form;
   for (std::size_t i = past.size(); i > 0 && form.runs < static_cast<int>(kLastResults); --i) {
     if (past[i - 1].task != task) continue;
@@ -69,12 +62,12 @@ std::optional<RecentResults> recent_results(std::span<const PastResult> past, st
   return form;
 }
 
-std::optional<double> task_grade(std::span<const PastResult> past, std::string_view task) {
+std::optional<double> task_grade(std::span<const GradedTrial> past, std::string_view task) {
   const std::optional<RecentResults> form = recent_results(past, task);
   return form ? std::optional(form->grade) : std::nullopt;
 }
 
-std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const PastResult> past) {
+std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const GradedTrial> past) {
   if (lessons.empty()) return std::nullopt;
   if (const Lesson* lesson = weakest(lessons, past, true)) {
     return Suggestion{lesson->key, weak_lesson_text(*lesson, *recent_results(past, lesson->task))};

@@ -9,24 +9,17 @@
 #include "app/lessons/coach/force_gap.h"
 #include "app/lessons/coach/learner_memory.h"
 #include "app/lessons/coach/planned_trial.h"
+#include "app/lessons/history/graded_trials.h"
 
 namespace gearshift::lessons {
 namespace {
 
-std::vector<PastResult> past_results(const std::vector<RunRow>& runs) {
-  std::vector<PastResult> past;
-  for (const RunRow& run : runs) {
-    if (std::optional<PastResult> result = past_result(run.result)) past.push_back(std::move(*result));
-  }
-  return past;
-}
-
-LessonStanding standing_in(const Lesson& lesson, const std::vector<PastResult>& past) {
+LessonStanding standing_in(const Lesson& lesson, const std::vector<GradedTrial>& past) {
   LessonStanding standing;
   standing.key = lesson.key;
   standing.title = lesson.title;
   standing.task = lesson.task;
-  for (const PastResult& result : past) {
+  for (const GradedTrial& result : past) {
     if (result.lesson != lesson.key) continue;
     ++standing.trials;
     standing.grade = result.grade;
@@ -265,7 +258,7 @@ void Coach::State::refresh_view() {
 }
 
 void Coach::State::update_standings() {
-  const std::vector<PastResult> past = past_results(memory.runs());
+  const std::vector<GradedTrial> past = graded_trials(memory.runs());
   view.lessons.clear();
   for (const Lesson& each : config.lessons) view.lessons.push_back(standing_in(each, past));
 }
@@ -280,7 +273,7 @@ void Coach::State::suggest() {
     view.next_why = "Chosen by the instructor.";
     return;
   }
-  const Suggestion next = suggest_lesson(config.lessons, past_results(memory.runs())).value_or(Suggestion{});
+  const Suggestion next = suggest_lesson(config.lessons, graded_trials(memory.runs())).value_or(Suggestion{});
   view.next = next.lesson;
   view.next_why = next.why;
 }
@@ -289,8 +282,7 @@ void Coach::State::show_runs() {
   const std::vector<RunRow>& runs = memory.runs();
   const auto count = static_cast<std::ptrdiff_t>(std::min(runs.size(), kMaxRunsShown));
   view.runs.assign(runs.rbegin(), runs.rbegin() + count);
-  view.comments.clear();
-  for (const RunRow& row : view.runs) view.comments.push_back(memory.comments(row.id));
+  for (RunRow& row : view.runs) row.comments = memory.comments(row.id);
 }
 
 void Coach::State::offer() {
@@ -325,11 +317,7 @@ void Coach::State::plan() {
 
 // Every step is prompted until the learner has passed the lesson once.
 LessonMode Coach::State::usual_mode() const {
-  const std::vector<RunRow>& runs = memory.runs();
-  const bool passed = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) {
-    return row.result.lesson == lesson->key && is_graded(row.result) && row.result.passed;
-  });
-  return passed ? LessonMode::by_yourself : LessonMode::follow_me;
+  return standing_in(*lesson, graded_trials(memory.runs())).passed ? LessonMode::by_yourself : LessonMode::follow_me;
 }
 
 void Coach::State::show_mode() {

@@ -58,8 +58,7 @@ struct CoachView {
   std::int64_t run = 0;     // number of the run in the history; 0: not saved
 
   // Past runs
-  std::vector<RunRow> runs;                       // the learner's runs, newest first, at most kMaxRunsShown
-  std::vector<std::vector<CommentRow>> comments;  // in the order of `runs`
+  std::vector<RunRow> runs;  // the learner's runs, newest first, at most kMaxRunsShown
 };
 
 inline constexpr std::size_t kMaxRunsShown = 50;

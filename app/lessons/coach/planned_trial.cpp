@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/lessons/assessment/grade.h"
+#include "app/lessons/history/graded_trials.h"
 #include "haptics/files/fnv_1a.h"
 
 namespace gearshift::lessons {
@@ -12,10 +13,6 @@ namespace {
 // The seed depends only on the names of learner and lesson, not on the history. A zero byte separates the two names.
 std::uint64_t seed_of(std::string_view learner, std::string_view lesson) {
   return haptics::fnv_1a(std::string(learner) + '\0' + std::string(lesson));
-}
-
-bool is_after_pause(const std::optional<std::int64_t>& last, std::int64_t now) {
-  return last && now - *last >= kRetentionPause;
 }
 
 }  // namespace
@@ -31,7 +28,7 @@ PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::
     policy.learn(run_error(run.result));
     last = parse_utc(run.begun_at);
   }
-  if (is_after_pause(last, now)) return {policy.retention(), true};
+  if (retention_pause(last, now)) return {policy.retention(), true};
   return {policy.next(), false};
 }
 

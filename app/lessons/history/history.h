@@ -44,12 +44,20 @@ struct LearnerRow {
   std::string next_lesson;  // lesson chosen by the instructor; empty: the suggested lesson
 };
 
+struct CommentRow {
+  std::string at;  // ISO 8601, UTC
+  std::string author, text;
+  std::int64_t id = 0;
+  std::string edited_at{};  // ISO 8601, UTC; empty: never edited
+};
+
 struct RunRow {
   std::int64_t id = 0;
   std::int64_t session = 0;
   std::string begun_at;   // ISO 8601, UTC
   std::string recording;  // trace file, relative to the history's folder if inside it; may be empty
   LessonResult result;    // with driving errors, deductions and shifts; all numbers are finite even in a damaged file
+  std::vector<CommentRow> comments{};  // by the instructor, oldest first
 };
 
 // True if the run was driven to its end, whatever the result. Runs that the learner left or that never ended count
@@ -57,13 +65,6 @@ struct RunRow {
 inline bool was_completed(const RunRow& run) noexcept {
   return run.result.end != LessonEnd::running && run.result.end != LessonEnd::left;
 }
-
-struct CommentRow {
-  std::string at;  // ISO 8601, UTC
-  std::string author, text;
-  std::int64_t id = 0;
-  std::string edited_at{};  // ISO 8601, UTC; empty: never edited
-};
 
 using RecordingRemover = std::function<void(const std::vector<std::string>&)>;  // must not throw
 

@@ -15,25 +15,39 @@ bool is_gear(std::int64_t gear) noexcept {
   return gear >= haptics::kReverseGear && gear <= haptics::kMaxGear;
 }
 
-// Reads shifts and driving errors run by run, with prepared statements.
+constexpr const char* kSelectComments =
+    "SELECT made_at, author, text, id, edited_at FROM comment WHERE run = ? ORDER BY id";
+
+void begin(SQLite::Statement& rows, std::int64_t run) {
+  rows.reset();
+  rows.bind(1, run);
+}
+
+std::vector<CommentRow> comments_in(SQLite::Statement& rows, std::int64_t run) {
+  std::vector<CommentRow> all;
+  for (begin(rows, run); rows.executeStep();) {
+    all.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
+                   rows.getColumn(3).getInt64(), rows.getColumn(4).getString()});
+  }
+  return all;
+}
+
+// Reads shifts, driving errors and comments run by run, with prepared statements.
 class RunParts {
  public:
   explicit RunParts(SQLite::Database& database)
       : shift_rows_(database, "SELECT " + column_names<ShiftRecord>() + " FROM shift WHERE run = ? ORDER BY shift"),
         error_rows_(database, "SELECT points, " + column_names<DrivingError>() +
-                                  " FROM driving_error WHERE run = ? ORDER BY number") {}
+                                  " FROM driving_error WHERE run = ? ORDER BY number"),
+        comment_rows_(database, kSelectComments) {}
 
-  void read(std::int64_t run, LessonResult& result) {
-    for (begin(shift_rows_, run); shift_rows_.executeStep();) read_shift(result);
-    for (begin(error_rows_, run); error_rows_.executeStep();) read_error(result);
+  void read(RunRow& run) {
+    for (begin(shift_rows_, run.id); shift_rows_.executeStep();) read_shift(run.result);
+    for (begin(error_rows_, run.id); error_rows_.executeStep();) read_error(run.result);
+    run.comments = comments_in(comment_rows_, run.id);
   }
 
  private:
-  static void begin(SQLite::Statement& rows, std::int64_t run) {
-    rows.reset();
-    rows.bind(1, run);
-  }
-
   // Reads one shift. Skips rows with an impossible gear or shift number.
   void read_shift(LessonResult& result) {
     ShiftRecord shift;
@@ -57,7 +71,7 @@ class RunParts {
     result.errors.push_back(std::move(error));
   }
 
-  SQLite::Statement shift_rows_, error_rows_;
+  SQLite::Statement shift_rows_, error_rows_, comment_rows_;
 };
 
 // The columns are in the order of the SELECT in History::runs().
@@ -106,7 +120,7 @@ std::vector<RunRow> History::runs(std::int64_t learner) {
     std::vector<RunRow> runs;
     while (rows.executeStep()) {
       RunRow run = run_in(rows);
-      parts.read(run.id, run.result);
+      parts.read(run);
       runs.push_back(std::move(run));
     }
     return runs;
@@ -115,15 +129,8 @@ std::vector<RunRow> History::runs(std::int64_t learner) {
 
 std::vector<CommentRow> History::comments(std::int64_t run) {
   return state_->translating_errors([&] {
-    std::vector<CommentRow> all;
-    SQLite::Statement rows =
-        state_->query("SELECT made_at, author, text, id, edited_at FROM comment WHERE run = ? ORDER BY id");
-    rows.bind(1, run);
-    while (rows.executeStep()) {
-      all.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
-                     rows.getColumn(3).getInt64(), rows.getColumn(4).getString()});
-    }
-    return all;
+    SQLite::Statement rows = state_->query(kSelectComments);
+    return comments_in(rows, run);
   });
 }
 

@@ -60,10 +60,10 @@ void keep_first(std::vector<ChosenShift>& shifts, Order order) {
 
 ChosenShifts choose_shifts(const LearnerHistory& history) {
   ChosenShifts chosen;
-  for (const ReportedRun& run : history.runs) {
-    if (!is_graded(run.row.result)) continue;
-    for (const ShiftRecord& shift : run.row.result.shifts) {
-      ChosenShift one = with_its_errors(run.row, shift);
+  for (const RunRow& run : history.runs) {
+    if (!is_graded(run.result)) continue;
+    for (const ShiftRecord& shift : run.result.shifts) {
+      ChosenShift one = with_its_errors(run, shift);
       if (is_bad(one))
         chosen.worst.push_back(std::move(one));
       else if (is_good(one))

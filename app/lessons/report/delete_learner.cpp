@@ -29,7 +29,7 @@ DeletionReport count(History& history, const LearnerRow& learner) {
     ++sum.runs;
     sum.shifts += run.result.shifts.size();
     sum.errors += run.result.errors.size();
-    sum.comments += history.comments(run.id).size();
+    sum.comments += run.comments.size();
   }
   std::sort(sessions.begin(), sessions.end());
   sum.sessions = static_cast<std::size_t>(std::unique(sessions.begin(), sessions.end()) - sessions.begin());

@@ -19,7 +19,7 @@ std::string format_days(const Totals& sum) {
 }
 
 std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
-  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
+  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, graded_trials(history.runs));
   const bool is_chosen = is_lesson(lessons, history.learner.next_lesson);
   const std::string wanted = is_chosen ? history.learner.next_lesson : std::string();
   if (wanted.empty() && !suggestion) return {};

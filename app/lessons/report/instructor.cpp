@@ -31,8 +31,8 @@ std::vector<std::int64_t> runs_of(History& history, const LearnerRow& learner) {
 
 std::vector<std::int64_t> comments_of(History& history, const LearnerRow& learner) {
   std::vector<std::int64_t> numbers;
-  for (const std::int64_t run : runs_of(history, learner)) {
-    for (const CommentRow& comment : history.comments(run)) numbers.push_back(comment.id);
+  for (const RunRow& run : history.runs(learner.id)) {
+    for (const CommentRow& comment : run.comments) numbers.push_back(comment.id);
   }
   return numbers;
 }

@@ -7,16 +7,13 @@
 
 namespace gearshift::lessons {
 
-struct ReportedRun {
-  RunRow row;
-  std::vector<CommentRow> comments;
-};
-
 struct LearnerHistory {
   LearnerRow learner;
-  std::vector<ReportedRun> runs;  // oldest first
+  std::vector<RunRow> runs;  // oldest first
 };
 
-LearnerHistory read_learner(History& history, const LearnerRow& learner);  // throws HistoryError
+inline LearnerHistory read_learner(History& history, const LearnerRow& learner) {  // throws HistoryError
+  return {learner, history.runs(learner.id)};
+}
 
 }  // namespace gearshift::lessons

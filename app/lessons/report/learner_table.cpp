@@ -14,7 +14,7 @@ namespace {
 std::string format_next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::string& wanted = history.learner.next_lesson;
   if (is_lesson(lessons, wanted)) return haptics::printable(wanted) + " (chosen by the instructor)";
-  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
+  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, graded_trials(history.runs));
   return suggestion ? haptics::printable(suggestion->lesson) : "-";
 }
 
@@ -23,9 +23,9 @@ std::string comment_lines(const LearnerHistory& history) {
   std::string lines;
   for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) {
     for (const CommentRow& comment : run->comments)
-      lines += fmt::format("{:>5}  comment {}, {}, {}{}: {}\n", run->row.id, comment.id,
-                           haptics::printable(comment.author), haptics::printable(day_of(comment.at)),
-                           comment.edited_at.empty() ? "" : ", edited", haptics::printable(comment.text));
+      lines += fmt::format("{:>5}  comment {}, {}, {}{}: {}\n", run->id, comment.id, haptics::printable(comment.author),
+                           haptics::printable(day_of(comment.at)), comment.edited_at.empty() ? "" : ", edited",
+                           haptics::printable(comment.text));
   }
   return lines.empty() ? lines : "\n" + lines;
 }
@@ -49,9 +49,9 @@ std::string run_table(const LearnerHistory& history) {
   std::string table =
       fmt::format("{:>5}  {:<10}  {:<24}  {:<14}  {:>5}  result\n", "run", "day", "lesson", "mode", "grade");
   for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) {
-    const LessonResult& result = run->row.result;
-    table += fmt::format("{:>5}  {:<10}  {:<24}  {:<14}  {:>5}  {}\n", run->row.id,
-                         haptics::printable(day_of(run->row.begun_at)), haptics::printable(result.lesson),
+    const LessonResult& result = run->result;
+    table += fmt::format("{:>5}  {:<10}  {:<24}  {:<14}  {:>5}  {}\n", run->id,
+                         haptics::printable(day_of(run->begun_at)), haptics::printable(result.lesson),
                          result.mode == LessonMode::follow_me ? "follow me" : "do it yourself",
                          is_graded(result) ? fmt::format("{:.1f}", result.grade) : "-",
                          result.passed       ? "passed"

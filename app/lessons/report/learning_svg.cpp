@@ -9,7 +9,7 @@
 #include "app/base/colours.h"
 #include "app/lessons/report/chart.h"
 #include "app/lessons/report/curve_band.h"
-#include "app/lessons/report/retention.h"
+#include "app/lessons/report/report_text.h"
 
 namespace gearshift::lessons {
 namespace {
@@ -61,7 +61,8 @@ class LearningPlot {
       const GradedTrial& trial = task_.trials[i];
       const glm::dvec2 place = at(static_cast<double>(i), trial.grade);
       const std::string after = trial.pause > 0.0 ? ", after " + format_pause(trial.pause) : std::string();
-      const std::string tip = fmt::format("Run {}, {}: {:.1f}{}", trial.run, trial.day, trial.grade, after);
+      const std::string tip =
+          fmt::format("Run {}, {}: {:.1f}{}", trial.run, day_of(trial.begun_at), trial.grade, after);
       if (trial.pause > 0.0) svg_.ring(place, radius + 3.0, {base::kInk, 1.2});
       svg_.dot(place, radius, trial.passed ? base::kGearColour : "#ffffff", tip);
       if (!trial.passed) svg_.ring(place, radius, {base::kLockoutColour, 0.4 * radius});

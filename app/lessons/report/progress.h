@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,7 +9,7 @@
 
 #include "app/lessons/assessment/grade.h"
 #include "app/lessons/assessment/learning_curve.h"
-#include "app/lessons/assessment/suggest.h"
+#include "app/lessons/history/graded_trials.h"
 #include "app/lessons/report/learner_history.h"
 
 namespace gearshift::lessons {
@@ -26,20 +25,11 @@ struct Totals {
 };
 Totals totals(const LearnerHistory& history);
 
-struct GradedTrial {
-  std::int64_t run = 0;
-  std::string day;
-  double grade = 0.0;  // [1] of 10
-  bool passed = false;
-  double pause = 0.0;  // [s] break before a retention trial (retention.h); else 0
-};
 struct TaskProgress {
   std::string task;
   std::vector<GradedTrial> trials;  // oldest first, at least one
   std::optional<LearningCurve> curve;
 };
 std::vector<TaskProgress> task_progress(const LearnerHistory& history);  // in the order of their first runs
-
-std::vector<PastResult> past_results(const LearnerHistory& history);  // graded runs, oldest first
 
 }  // namespace gearshift::lessons

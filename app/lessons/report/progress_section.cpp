@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,7 +11,6 @@
 #include "app/lessons/report/learning_svg.h"
 #include "app/lessons/report/progress.h"
 #include "app/lessons/report/report_text.h"
-#include "app/lessons/report/retention.h"
 #include "app/lessons/report/sections.h"
 
 namespace gearshift::lessons {
@@ -42,7 +42,7 @@ std::string describe_fit(const TaskProgress& task) {
   return fmt::format("No curve: these {} grades scatter too much to show learning.", task.trials.size());
 }
 
-std::string task_row(const TaskProgress& task, std::span<const PastResult> past, std::span<const Lesson> lessons) {
+std::string task_row(const TaskProgress& task, std::span<const GradedTrial> past, std::span<const Lesson> lessons) {
   const auto best = std::max_element(task.trials.begin(), task.trials.end(),
                                      [](const GradedTrial& a, const GradedTrial& b) { return a.grade < b.grade; });
   const auto passed =
@@ -58,7 +58,7 @@ std::string task_row(const TaskProgress& task, std::span<const PastResult> past,
   return row + "</tr>\n";
 }
 
-std::string task_table(const std::vector<TaskProgress>& tasks, std::span<const PastResult> past,
+std::string task_table(const std::vector<TaskProgress>& tasks, std::span<const GradedTrial> past,
                        std::span<const Lesson> lessons) {
   std::string table =
       "<table class=\"tasks\">\n<thead><tr><th>Task</th><th class=\"number\">Graded runs</th><th "
@@ -119,28 +119,43 @@ constexpr const char* kHowToRead =
     "± is one standard deviation. Grades lie between 0 and 10, and so does A: if the fit would "
     "put A beyond that range, A is fixed at the limit, and only B and τ are fitted.";
 
-// The newest retention trials of a lesson, after a day and after a week.
+constexpr double kWeekAfter = 6.0 * 24.0 * 3600.0;  // [s] a break at least this long counts as a week
+
+struct Retention {
+  GradedTrial after;                  // the first trial after a break
+  std::optional<GradedTrial> before;  // the lesson's last trial before it
+};
+
+// The newest retention of a lesson, after a day and after a week.
 struct RetentionRow {
   std::string lesson;  // key
-  std::optional<RetentionTrial> day, week;
+  std::optional<Retention> day, week;
 };
 
 std::vector<RetentionRow> retention_rows(const LearnerHistory& history) {
   std::vector<RetentionRow> rows;
-  for (const RetentionTrial& trial : retention_trials(history)) {
-    auto found =
-        std::find_if(rows.begin(), rows.end(), [&](const RetentionRow& k) { return k.lesson == trial.lesson; });
-    if (found == rows.end()) found = rows.insert(rows.end(), RetentionRow{trial.lesson, {}, {}});
-    (trial.pause < kWeekAfter ? found->day : found->week) = trial;
+  std::map<std::string, GradedTrial> newest;  // by lesson
+  for (const GradedTrial& trial : graded_trials(history.runs)) {
+    const auto before = newest.find(trial.lesson);
+    if (trial.pause > 0.0) {
+      auto found =
+          std::find_if(rows.begin(), rows.end(), [&](const RetentionRow& k) { return k.lesson == trial.lesson; });
+      if (found == rows.end()) found = rows.insert(rows.end(), RetentionRow{trial.lesson, {}, {}});
+      std::optional<Retention>& cell = trial.pause < kWeekAfter ? found->day : found->week;
+      cell = Retention{trial, std::nullopt};
+      if (before != newest.end()) cell->before = before->second;
+    }
+    newest[trial.lesson] = trial;
   }
   return rows;
 }
 
-std::string retention_cells(const std::optional<RetentionTrial>& trial) {
-  if (!trial) return "<td class=\"number\">–</td><td class=\"number\"></td><td></td>";
+std::string retention_cells(const std::optional<Retention>& retention) {
+  if (!retention) return "<td class=\"number\">–</td><td class=\"number\"></td><td></td>";
+  const auto& [after, before] = *retention;
   return fmt::format("<td class=\"number\">{}</td><td class=\"number\"><strong>{}</strong></td><td>{}, {}</td>",
-                     trial->before ? format_number(trial->before->grade, 1) : "–", format_number(trial->grade, 1),
-                     run_link(trial->run), format_pause(trial->pause));
+                     before ? format_number(before->grade, 1) : "–", format_number(after.grade, 1), run_link(after.run),
+                     format_pause(after.pause));
 }
 
 constexpr const char* kRetentionCaption =
@@ -169,7 +184,7 @@ std::string retention_part(const LearnerHistory& history, std::span<const Lesson
 std::string progress_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::vector<TaskProgress> tasks = task_progress(history);
   if (tasks.empty()) return section("learning", "Learning", paragraph("No graded runs yet."));
-  std::string html = task_table(tasks, past_results(history), lessons);
+  std::string html = task_table(tasks, graded_trials(history.runs), lessons);
   if (const std::string figures = charts(tasks, lessons); !figures.empty())
     html += figures + few_runs(tasks, lessons) + "<p class=\"soft\">" + kHowToRead + "</p>\n";
   else

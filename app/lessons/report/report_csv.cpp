@@ -67,15 +67,15 @@ std::string runs_csv(const LearnerHistory& history) {
   add_names<LessonResult>(table);
   table.texts({"points_off", "shifts", "errors", "recording", "comments"});
   table.end();
-  for (const ReportedRun& run : history.runs) {
-    const LessonResult& result = run.row.result;
-    table.number(run.row.id).number(run.row.session).text(history.learner.name).text(run.row.begun_at);
+  for (const RunRow& run : history.runs) {
+    const LessonResult& result = run.result;
+    table.number(run.id).number(run.session).text(history.learner.name).text(run.begun_at);
     each_field(result, [&](const RecordField& field, const auto& value) {
       const bool is_missing = std::string_view(field.name) == "grade" && !is_graded(result);
       is_missing ? void(table.text("")) : add_field(table, field, value);
     });
     table.number(points_off(result)).number(result.shifts.size()).number(result.errors.size());
-    table.text(run.row.recording).text(comments_text(run.comments)).end();
+    table.text(run.recording).text(comments_text(run.comments)).end();
   }
   return std::move(table).take();
 }
@@ -85,9 +85,9 @@ std::string shifts_csv(const LearnerHistory& history) {
   table.text("run");
   add_names<ShiftRecord>(table);
   table.end();
-  for (const ReportedRun& run : history.runs) {
-    for (const ShiftRecord& shift : run.row.result.shifts) {
-      table.number(run.row.id);
+  for (const RunRow& run : history.runs) {
+    for (const ShiftRecord& shift : run.result.shifts) {
+      table.number(run.id);
       add_fields(table, shift);
       table.end();
     }
@@ -100,12 +100,12 @@ std::string errors_csv(const LearnerHistory& history) {
   table.texts({"run", "error", "points"});
   add_names<DrivingError>(table);
   table.end();
-  for (const ReportedRun& run : history.runs) {
-    const LessonResult& result = run.row.result;
+  for (const RunRow& run : history.runs) {
+    const LessonResult& result = run.result;
     std::map<std::size_t, double> points;
     for (const Deduction& deduction : result.deductions) points[deduction.error] += deduction.points;
     for (std::size_t i = 0; i < result.errors.size(); ++i) {
-      table.number(run.row.id).number(i + 1).number(points[i]);
+      table.number(run.id).number(i + 1).number(points[i]);
       add_fields(table, result.errors[i]);
       table.end();
     }

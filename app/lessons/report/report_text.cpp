@@ -39,6 +39,12 @@ std::string format_number(double value, int digits) {
   return (value < 0.0 && !is_nought ? "−" : "") + text;
 }
 
+std::string format_pause(double seconds) {
+  constexpr double kHour = 3600.0, kDay = 24.0 * kHour;  // [s]
+  if (seconds < 2.0 * kDay) return fmt::format("{:.0f} hours", seconds / kHour);
+  return fmt::format("{:.0f} days", seconds / kDay);
+}
+
 std::string gear_change(const ShiftRecord& shift) {
   return std::string(haptics::gear_name(shift.from)) + " → " + haptics::gear_name(shift.to);
 }

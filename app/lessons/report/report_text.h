@@ -24,6 +24,8 @@ bool is_lesson(std::span<const Lesson> lessons, std::string_view key);
 // Formats the value with `digits` decimals and a typographic minus sign; zero has no sign.
 std::string format_number(double value, int digits);
 
+std::string format_pause(double seconds);  // for example "26 hours" or "8 days"
+
 std::string gear_change(const ShiftRecord& shift);  // "2 → 3"
 
 }  // namespace gearshift::lessons

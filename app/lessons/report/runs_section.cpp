@@ -7,7 +7,6 @@
 #include "app/base/html.h"
 #include "app/lessons/report/progress.h"
 #include "app/lessons/report/report_text.h"
-#include "app/lessons/report/retention.h"
 #include "app/lessons/report/sections.h"
 
 namespace gearshift::lessons {
@@ -93,13 +92,13 @@ std::string format_mode(const LessonResult& result, double pause) {
   return pause > 0.0 ? words + fmt::format("<br>after a break of {}", format_pause(pause)) : words;
 }
 
-std::string run_row(const ReportedRun& run, std::span<const Lesson> lessons, double pause) {
-  const LessonResult& result = run.row.result;
+std::string run_row(const RunRow& run, std::span<const Lesson> lessons, double pause) {
+  const LessonResult& result = run.result;
   return fmt::format(
       "<tr id=\"run-{0}\"><td class=\"number\">{0}</td><td class=\"day\">{1}</td><td>{2}<br><span "
       "class=\"soft\">{3}</span></td><td class=\"number\">{4}</td><td class=\"number\"><strong>{5}</strong></td>"
       "<td>{6}</td><td>{7}{8}</td></tr>\n",
-      run.row.id, format_begin(run.row.begun_at), base::html_text(lesson_title(lessons, result.lesson)),
+      run.id, format_begin(run.begun_at), base::html_text(lesson_title(lessons, result.lesson)),
       format_mode(result, pause), result.shifts.size(),
       is_graded(result) ? fmt::format("{:.1f}", result.grade) : std::string("–"), format_outcome(result),
       error_list(result), comments_list(run.comments));
@@ -113,9 +112,10 @@ std::string runs_section(const LearnerHistory& history, std::span<const Lesson> 
       "<table class=\"runs\">\n<thead><tr><th class=\"number\">Run</th><th>Day</th><th>Lesson</th>"
       "<th class=\"number\">Shifts</th><th class=\"number\">Grade</th><th>Result</th>"
       "<th>Findings and comments</th></tr></thead>\n<tbody>\n";
-  std::map<std::int64_t, double> pauses = retention_pauses(history);
+  std::map<std::int64_t, double> pauses;
+  for (const GradedTrial& trial : graded_trials(history.runs)) pauses[trial.run] = trial.pause;
   for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run)
-    table += run_row(*run, lessons, pauses[run->row.id]);
+    table += run_row(*run, lessons, pauses[run->id]);
   return section("runs", "Runs, newest first", table + "</tbody></table>\n");
 }
 

@@ -42,8 +42,8 @@ double per_ten(std::size_t count, std::size_t all) noexcept {
 
 std::vector<const LessonResult*> graded_results(const LearnerHistory& history) {
   std::vector<const LessonResult*> results;
-  for (const ReportedRun& run : history.runs) {
-    if (is_graded(run.row.result)) results.push_back(&run.row.result);
+  for (const RunRow& run : history.runs) {
+    if (is_graded(run.result)) results.push_back(&run.result);
   }
   return results;
 }

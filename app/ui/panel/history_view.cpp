@@ -89,7 +89,7 @@ void HistoryView::draw(Controls& controls, const lessons::CoachView& coach, Pane
   if (opened == runs.end()) return draw_runs(controls, coach, runs);
   const auto index = static_cast<std::size_t>(opened - runs.begin());
   draw_runs(controls, coach, runs.first(index + 1));
-  draw_opened(controls, *opened, coach.comments[index], out);
+  draw_opened(controls, *opened, out);
   draw_runs(controls, coach, runs.subspan(index + 1));
 }
 
@@ -128,8 +128,7 @@ void HistoryView::draw_run(Controls& controls, const lessons::CoachView& coach, 
   ImGui::SetCursorPos({begin, bottom});
 }
 
-void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run,
-                              const std::vector<lessons::CommentRow>& comments, PanelRequests& out) {
+void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run, PanelRequests& out) {
   ImGui::Indent(0.7f * engine::ui_em());
   const char* mode = run.result.mode == lessons::LessonMode::follow_me ? "Follow me" : "Do it yourself";
   put_wrapped(fmt::format("{}, {:.0f} s", mode, run.result.duration), ink::kSoft);
@@ -139,7 +138,7 @@ void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run,
   if (run.recording.empty() && !run.result.shifts.empty())
     put_wrapped("No replay: this run was not recorded.", ink::kSoft);
   for (const lessons::ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out.playback);
-  comments_.draw(controls, run.id, comments, out.lesson);
+  comments_.draw(controls, run.id, run.comments, out.lesson);
   ImGui::Unindent(0.7f * engine::ui_em());
   ImGui::Spacing();
   ImGui::Separator();

@@ -16,8 +16,7 @@ class HistoryView {
  private:
   void draw_runs(Controls& controls, const lessons::CoachView& coach, std::span<const lessons::RunRow> runs);
   void draw_run(Controls& controls, const lessons::CoachView& coach, const lessons::RunRow& run);
-  void draw_opened(Controls& controls, const lessons::RunRow& run, const std::vector<lessons::CommentRow>& comments,
-                   PanelRequests& out);
+  void draw_opened(Controls& controls, const lessons::RunRow& run, PanelRequests& out);
 
   std::int64_t opened_ = 0;  // RunRow::id of the run whose details are shown; 0: none
   CommentList comments_;     // comments on the opened run

@@ -19,11 +19,11 @@ std::vector<Lesson> three_lessons() {
   return lessons;
 }
 
-PastResult result(const char* lesson, double grade) {
+GradedTrial result(const char* lesson, double grade) {
   return {lesson, lesson, grade, grade >= 6.0};
 }
 
-std::string next(const std::vector<PastResult>& past) {
+std::string next(const std::vector<GradedTrial>& past) {
   return suggest_lesson(three_lessons(), past)->lesson;
 }
 
@@ -38,16 +38,16 @@ TEST_CASE("a beginner starts with the first lesson, and continues with the first
 }
 
 TEST_CASE("lessons with worse results come before new ones, the worst first") {
-  const std::vector<PastResult> past{result("start", 8.0), result("bite", 9.0), result("bite", 2.0),
-                                     result("bite", 3.0),  result("bite", 4.0), result("start", 3.0)};
+  const std::vector<GradedTrial> past{result("start", 8.0), result("bite", 9.0), result("bite", 2.0),
+                                      result("bite", 3.0),  result("bite", 4.0), result("start", 3.0)};
   CHECK(next(past) == "bite");  // average of the last three grades: "bite" 3.0, "start" 5.5 (only two grades)
   const auto suggestion = suggest_lesson(three_lessons(), past);
   CHECK(suggestion->why == "Bite point needs practice: 3 of the last 3 attempts failed (average grade 3.0).");
 }
 
 TEST_CASE("worse means recently failed, at any grade: one error can fail a lesson at 9.5") {
-  const PastResult failed{"away", "away", 9.5, false}, passed{"away", "away", 9.5, true};
-  std::vector<PastResult> past{result("start", 8.0), passed, result("start", 6.0)};
+  const GradedTrial failed{"away", "away", 9.5, false}, passed{"away", "away", 9.5, true};
+  std::vector<GradedTrial> past{result("start", 8.0), passed, result("start", 6.0)};
   CHECK(next(past) == "bite");
   past.push_back(failed);
   CHECK(next(past) == "away");
@@ -59,11 +59,11 @@ TEST_CASE("worse means recently failed, at any grade: one error can fail a lesso
 
 TEST_CASE("more failures are worse; if equal, the lower grade is worse") {
   const auto runs = [](const char* lesson, const std::vector<double>& grades) {
-    std::vector<PastResult> list{{lesson, lesson, 10.0, true}};
+    std::vector<GradedTrial> list{{lesson, lesson, 10.0, true}};
     for (const double grade : grades) list.push_back({lesson, lesson, grade, false});
     return list;
   };
-  std::vector<PastResult> past = runs("start", {0.0}), more = runs("bite", {9.0, 9.0, 9.0});
+  std::vector<GradedTrial> past = runs("start", {0.0}), more = runs("bite", {9.0, 9.0, 9.0});
   past.insert(past.end(), more.begin(), more.end());
   CHECK(next(past) == "bite");
   past = runs("start", {8.0, 8.0, 8.0});
@@ -72,7 +72,7 @@ TEST_CASE("more failures are worse; if equal, the lower grade is worse") {
 }
 
 TEST_CASE("a lesson never passed in three runs also counts as worse; with one or two runs it is still new") {
-  std::vector<PastResult> past{result("start", 8.0)};
+  std::vector<GradedTrial> past{result("start", 8.0)};
   for (int run = 1; run <= 6; ++run) {
     past.push_back(result("away", 0.0));
     CHECK(next(past) == (run < 3 ? "bite" : "away"));
@@ -84,8 +84,8 @@ TEST_CASE("with all lessons passed the weakest is suggested") {
 }
 
 TEST_CASE("only the last three results of a task count") {
-  const std::vector<PastResult> past{result("start", 0.0), result("start", 6.0), result("bite", 1.0),
-                                     result("start", 7.0), result("start", 8.0)};
+  const std::vector<GradedTrial> past{result("start", 0.0), result("start", 6.0), result("bite", 1.0),
+                                      result("start", 7.0), result("start", 8.0)};
   CHECK(task_grade(past, "start") == doctest::Approx(7.0));
   CHECK(task_grade(past, "bite") == doctest::Approx(1.0));
   CHECK_FALSE(task_grade(past, "away").has_value());

@@ -59,7 +59,7 @@ struct Deleting {
     bench.trial(coach, "one");
     coach.set_next("two");
     coach.add_comment(coach.view().runs[0].id, "Bo", "Calmer.");
-    coach.edit_comment(coach.view().runs[0].id, coach.view().comments[0][0].id, "Much calmer.");
+    coach.edit_comment(coach.view().runs[0].id, coach.view().runs[0].comments[0].id, "Much calmer.");
     CHECK(coach.view().run == 0);
     CHECK(coach.flush().empty());
     CHECK_FALSE(coach.take_problem().has_value());  // reported only once

@@ -115,8 +115,8 @@ TEST_CASE("while the history is locked no frame waits for it, and afterwards eve
     frames(coach);
     CHECK(coach.view().run > first);
     CHECK(coach.view().runs[0].id == coach.view().run);
-    REQUIRE(coach.view().comments[0].size() == 1);
-    CHECK(coach.view().comments[0][0].text == "Too much.");
+    REQUIRE(coach.view().runs[0].comments.size() == 1);
+    CHECK(coach.view().runs[0].comments[0].text == "Too much.");
     CHECK_FALSE(coach.take_problem().has_value());
   }
   const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
@@ -199,7 +199,7 @@ TEST_CASE("comments that were edited or deleted while the history was locked are
     bench.trial(coach, "one");
     run = coach.view().run;
     for (const char* text : {"one", "two", "three"}) coach.add_comment(run, "Bo", text);
-    const auto number = [&](std::size_t i) { return coach.view().comments[0].at(i).id; };
+    const auto number = [&](std::size_t i) { return coach.view().runs[0].comments.at(i).id; };
     const LockHolder holder(bench.config.history);
     in_a_frame([&] { coach.edit_comment(run, number(0), "One."); });
     in_a_frame([&] { coach.delete_comment(run, number(1)); });
@@ -208,9 +208,9 @@ TEST_CASE("comments that were edited or deleted while the history was locked are
     in_a_frame([&] { coach.edit_comment(run, number(2), "Four."); });
     in_a_frame([&] { coach.delete_comment(run, number(3)); });
     in_a_frame([&] { coach.edit_comment(run, number(0), "One!"); });
-    REQUIRE(coach.view().comments[0].size() == 3);
-    CHECK(coach.view().comments[0][0].text == "One!");
-    CHECK(coach.view().comments[0][2].text == "Four.");
+    REQUIRE(coach.view().runs[0].comments.size() == 3);
+    CHECK(coach.view().runs[0].comments[0].text == "One!");
+    CHECK(coach.view().runs[0].comments[2].text == "Four.");
   }
   const std::vector<CommentRow> comments = History(bench.config.history).comments(run);
   REQUIRE(comments.size() == 3);

@@ -194,26 +194,26 @@ TEST_CASE("a comment belongs to its run and can be edited and deleted, with and 
     bench.trial(coach, "one");
     bench.trial(coach, "one");
     coach.add_comment(coach.view().runs[1].id, "Bo", "Calmer.");
-    REQUIRE(coach.view().comments.size() == 2);
-    CHECK(coach.view().comments[0].empty());
-    REQUIRE(coach.view().comments[1].size() == 1);
-    CHECK(coach.view().comments[1][0].text == "Calmer.");
+    REQUIRE(coach.view().runs.size() == 2);
+    CHECK(coach.view().runs[0].comments.empty());
+    REQUIRE(coach.view().runs[1].comments.size() == 1);
+    CHECK(coach.view().runs[1].comments[0].text == "Calmer.");
 
-    const std::int64_t run = coach.view().runs[1].id, calmer = coach.view().comments[1][0].id;
+    const std::int64_t run = coach.view().runs[1].id, calmer = coach.view().runs[1].comments[0].id;
     coach.add_comment(run, "Di", "Fine.");
     coach.edit_comment(run, calmer, "Much calmer.");
-    REQUIRE(coach.view().comments[1].size() == 2);
-    CHECK(coach.view().comments[1][0].text == "Much calmer.");
-    CHECK(coach.view().comments[1][0].author == "Bo");
+    REQUIRE(coach.view().runs[1].comments.size() == 2);
+    CHECK(coach.view().runs[1].comments[0].text == "Much calmer.");
+    CHECK(coach.view().runs[1].comments[0].author == "Bo");
     coach.delete_comment(run, calmer);
-    REQUIRE(coach.view().comments[1].size() == 1);
-    CHECK(coach.view().comments[1][0].text == "Fine.");
+    REQUIRE(coach.view().runs[1].comments.size() == 1);
+    CHECK(coach.view().runs[1].comments[0].text == "Fine.");
     CHECK_THROWS_AS(coach.edit_comment(run, calmer, "Again."), std::invalid_argument);
-    CHECK_THROWS_AS(coach.delete_comment(coach.view().runs[0].id, coach.view().comments[1][0].id),
+    CHECK_THROWS_AS(coach.delete_comment(coach.view().runs[0].id, coach.view().runs[1].comments[0].id),
                     std::invalid_argument);
     CHECK_THROWS_AS(coach.add_comment(run, "Bo", "\t"), std::invalid_argument);
     CHECK_THROWS_AS(coach.add_comment(run, " Bo", "Calmer."), std::invalid_argument);
-    CHECK_THROWS_AS(coach.edit_comment(run, coach.view().comments[1][0].id, ""), std::invalid_argument);
+    CHECK_THROWS_AS(coach.edit_comment(run, coach.view().runs[1].comments[0].id, ""), std::invalid_argument);
     CHECK_FALSE(coach.take_problem().has_value());
     if (file.empty()) continue;
     REQUIRE(History(file).comments(run).size() == 1);

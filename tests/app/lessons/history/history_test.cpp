@@ -44,9 +44,9 @@ struct Anything {
   }
 };
 template <class S, class... Values>
-constexpr std::size_t member_count() {
+constexpr std::size_t count_members() {
   if constexpr (requires { S{Values{}..., Anything{}}; })
-    return member_count<S, Values..., Anything>();
+    return count_members<S, Values..., Anything>();
   else
     return sizeof...(Values);
 }
@@ -151,10 +151,10 @@ TEST_CASE("a lesson is read back as written, with errors, shifts, settings and c
 }
 
 TEST_CASE("every member of a record is a column") {
-  CHECK(fields_of(ShiftRecord()).size() == member_count<ShiftRecord>());
-  CHECK(fields_of(DrivingError()).size() == member_count<DrivingError>());
+  CHECK(fields_of(ShiftRecord()).size() == count_members<ShiftRecord>());
+  CHECK(fields_of(DrivingError()).size() == count_members<DrivingError>());
   // Errors, shifts and deductions have tables of their own; `had_forces` shows in `why`.
-  CHECK(fields_of(LessonResult()).size() + 4 == member_count<LessonResult>());
+  CHECK(fields_of(LessonResult()).size() + 4 == count_members<LessonResult>());
 }
 
 TEST_CASE("every kind of error is read back with its named values, and with nothing else") {

@@ -17,7 +17,7 @@ TEST_CASE("at most three worst (by points) and three best (by time) shifts, from
   LearnerHistory history;
   for (int i = 0; i < 6; ++i) history.runs.push_back(run_with(i + 1, 2, 5.0));
   const auto spoil = [&](std::size_t run, double points) {
-    LessonResult& result = history.runs[run].row.result;
+    LessonResult& result = history.runs[run].result;
     result.errors = {make_driving_error(ErrorKind::grind, Severity::minor, 5.1, 1.0, 0)};
     result.deductions = {{0, points}};
   };
@@ -26,11 +26,11 @@ TEST_CASE("at most three worst (by points) and three best (by time) shifts, from
   spoil(2, 2.0);
   spoil(3, 2.0);
   spoil(4, 9.0);
-  history.runs[4].row.result.guided = true;
-  history.runs[5].row.result.shifts[1].end -= 0.1;
-  history.runs[0].row.result.shifts[1].from = kNeutralGear;  // the quickest shift, but it starts in neutral
-  history.runs[0].row.result.shifts[1].end -= 0.3;
-  history.runs[5].row.result.shifts[0].missed = true;
+  history.runs[4].result.guided = true;
+  history.runs[5].result.shifts[1].end -= 0.1;
+  history.runs[0].result.shifts[1].from = kNeutralGear;  // the quickest shift, but it starts in neutral
+  history.runs[0].result.shifts[1].end -= 0.3;
+  history.runs[5].result.shifts[0].missed = true;
   const ChosenShifts chosen = choose_shifts(history);
   REQUIRE(chosen.worst.size() == 3);
   CHECK(chosen.worst[0].run == 2);
@@ -64,7 +64,7 @@ TEST_CASE("the best shifts are the quickest without an error, even in a run that
     CAPTURE(each.first);
     LearnerHistory history;
     history.runs = {run_with(1, 1, 10.0), run_with(2, 1, 10.0)};
-    LessonResult& quick = history.runs[1].row.result;
+    LessonResult& quick = history.runs[1].result;
     quick.shifts[0].end -= 0.2;
     quick.shifts[0].block_time = 0.3;  // normal synchronising time is not a block
     REQUIRE(choose_shifts(history).best.size() == 2);

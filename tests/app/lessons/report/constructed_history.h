@@ -15,12 +15,12 @@ inline std::string two_digits(std::int64_t number) {
 
 // A graded run of the lesson "drill" for the task "upshift". Its number `id` also sets its day, so each run has its own
 // day.
-inline lessons::ReportedRun run_with(std::int64_t id, int shifts, double grade) {
-  lessons::ReportedRun run;
-  run.row.id = id;
-  run.row.session = id;
-  run.row.begun_at = "2026-" + two_digits(1 + id / 28 % 12) + "-" + two_digits(1 + id % 28) + "T10:00:00Z";
-  lessons::LessonResult& result = run.row.result;
+inline lessons::RunRow run_with(std::int64_t id, int shifts, double grade) {
+  lessons::RunRow run;
+  run.id = id;
+  run.session = id;
+  run.begun_at = "2026-" + two_digits(1 + id / 28 % 12) + "-" + two_digits(1 + id % 28) + "T10:00:00Z";
+  lessons::LessonResult& result = run.result;
   result.lesson = "drill";
   result.task = "upshift";
   result.mode = lessons::LessonMode::by_yourself;

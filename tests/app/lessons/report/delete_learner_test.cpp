@@ -105,7 +105,7 @@ TEST_CASE("a learner is read back with runs and comments") {
   const LearnerHistory all = read_learner(history, *history.find_learner("Ada"));
   CHECK(all.learner.name == "Ada");
   REQUIRE(all.runs.size() == 2);
-  CHECK(all.runs[1].row.recording == "b");
+  CHECK(all.runs[1].recording == "b");
   REQUIRE(all.runs[1].comments.size() == 1);
   CHECK(all.runs[1].comments[0].text == "Remarkable Xylophone");
 }

@@ -11,7 +11,7 @@ TEST_CASE("the table has one line per learner: sessions, runs, last day and next
   std::vector<LearnerHistory> learners(2);
   learners[0].learner.name = "Ada";
   for (int i = 0; i < 3; ++i) learners[0].runs.push_back(run_with(i + 1, 1, 9.0));
-  learners[0].runs[2].row.session = 2;
+  learners[0].runs[2].session = 2;
   learners[1].learner.name = "Bo\n\x1b[31mred";
   learners[1].learner.next_lesson = "reverse";
   std::vector<Lesson> lessons(2);

@@ -69,12 +69,12 @@ const std::string kNasty = "a,\"b\"\r\n'c';\t=1+1\n\"";
 LearnerHistory history_with_everything() {
   LearnerHistory history;
   history.learner.name = kNasty;
-  ReportedRun run;
-  run.row = {12, 3, "2026-01-02T03:04:05Z", "a \"trace\".trace", some_result(5)};
+  RunRow run;
+  run = {12, 3, "2026-01-02T03:04:05Z", "a \"trace\".trace", some_result(5)};
   run.comments = {{"2026-01-03T00:00:00Z", "Bo", kNasty}, {"2026-01-04T00:00:00Z", "Di", "Fine."}};
   history.runs.push_back(run);
   history.runs.push_back(run_with(13, 0, 5.5));
-  history.runs[1].row.result.guided = true;
+  history.runs[1].result.guided = true;
   return history;
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("runs are read back from the table") {
 
 TEST_CASE("rounding errors in a time's last bit are not printed, and a small time keeps its digits") {
   LearnerHistory history = history_with_everything();
-  LessonResult& result = history.runs[0].row.result;
+  LessonResult& result = history.runs[0].result;
   result.begin = std::nextafter(13.379, 14.0);  // 13.379000000000001
   result.duration = 1.0 / 3.0;
   result.slip_energy = -0.0;
@@ -133,12 +133,12 @@ TEST_CASE("rounding errors in a time's last bit are not printed, and a small tim
 
 TEST_CASE("shifts are read back from the table, every number to twelve digits") {
   LearnerHistory history = history_with_everything();
-  history.runs[0].row.result.shifts[2].jerk_peak = std::nextafter(0.1, 1.0);
+  history.runs[0].result.shifts[2].jerk_peak = std::nextafter(0.1, 1.0);
   const auto records = parse(shifts_csv(history));
   REQUIRE(records.size() == 6);
   for (std::size_t i = 0; i < 5; ++i) {
     auto fields = row(records, i);
-    const ShiftRecord& shift = history.runs[0].row.result.shifts[i];
+    const ShiftRecord& shift = history.runs[0].result.shifts[i];
     CHECK(fields["run"] == "12");
     CHECK(fields["shift"] == std::to_string(i + 1));  // counted from 1
     CHECK(fields["from_gear"] == gear_name(shift.from));
@@ -182,7 +182,7 @@ TEST_CASE("every kind of error has one measured value, in a column with the righ
   LearnerHistory history;
   history.runs.push_back(run_with(1, 1, 5.0));
   for (int i = 0; i < kErrorKindCount; ++i)
-    history.runs[0].row.result.errors.push_back(make_driving_error(static_cast<ErrorKind>(i), Severity::minor, 1, 3.0));
+    history.runs[0].result.errors.push_back(make_driving_error(static_cast<ErrorKind>(i), Severity::minor, 1, 3.0));
   const auto records = parse(errors_csv(history));
   REQUIRE(records.size() == kErrorKindCount + 1);
   std::map<std::string, std::string> measured;  // kind of error to column

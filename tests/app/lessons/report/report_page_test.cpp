@@ -63,10 +63,10 @@ std::vector<std::pair<double, double>> dots_of(std::string_view svg) {
 
 TEST_CASE("the totals of days, sessions, runs, shifts and minutes equal those of the rows") {
   LearnerHistory history = learner(5);
-  history.runs[1].row.begun_at = "2026-01-02T19:00:00Z";  // the same day as the first run
-  history.runs[0].row.begun_at = "2026-01-02T09:00:00Z";
-  history.runs[1].row.session = history.runs[0].row.session;
-  history.runs[4].row.result.duration = 90.0;
+  history.runs[1].begun_at = "2026-01-02T19:00:00Z";  // the same day as the first run
+  history.runs[0].begun_at = "2026-01-02T09:00:00Z";
+  history.runs[1].session = history.runs[0].session;
+  history.runs[4].result.duration = 90.0;
   const std::string page = page_of(history);
   CHECK(text_of_id(page, "days") == "4");
   CHECK(text_of_id(page, "sessions") == "4");
@@ -78,8 +78,8 @@ TEST_CASE("the totals of days, sessions, runs, shifts and minutes equal those of
 
 TEST_CASE("the next lesson is the instructor's, otherwise the suggested one, with its reason") {
   LearnerHistory history = learner(1);
-  history.runs[0].row.result.passed = true;
-  history.runs[0].row.result.grade = 9.0;
+  history.runs[0].result.passed = true;
+  history.runs[0].result.grade = 9.0;
   CHECK(has(page_of(history), "Next lesson: <strong>Reverse</strong>. You haven't passed Reverse yet."));
   history.learner.next_lesson = "drill";
   const std::string page = page_of(history);
@@ -91,7 +91,7 @@ TEST_CASE("the next lesson is the instructor's, otherwise the suggested one, wit
 
 TEST_CASE("runs, newest first: day, lesson, mode, grade, result, every error with its points, comments") {
   LearnerHistory history = learner(2);
-  LessonResult& result = history.runs[1].row.result;
+  LessonResult& result = history.runs[1].result;
   result.grade = 3.5;
   result.passed = false;
   result.why = "Grade 3.5 is below 6.0.";
@@ -128,13 +128,13 @@ TEST_CASE("runs, newest first: day, lesson, mode, grade, result, every error wit
 
 TEST_CASE("an error that cost no points shows its severity; deductions beyond ten points are shown as one sum") {
   LearnerHistory history = learner(2);
-  LessonResult& guided = history.runs[0].row.result;
+  LessonResult& guided = history.runs[0].result;
   guided.guided = true;
   guided.passed = false;
   guided.errors = {make_driving_error(ErrorKind::stall, Severity::severe, 1.0, 40.0, -1),
                    make_driving_error(ErrorKind::jerk, Severity::very_severe, 1.0, 40.0, -1),
                    make_driving_error(ErrorKind::jerk, Severity::note, 1.0, 9.0, -1)};
-  LessonResult& bad = history.runs[1].row.result;
+  LessonResult& bad = history.runs[1].result;
   bad.grade = 0.0;
   bad.passed = false;
   bad.errors.assign(3, make_driving_error(ErrorKind::stall, Severity::very_severe, 1.0, 40.0, -1));
@@ -154,8 +154,8 @@ TEST_CASE("a guided, damaged or unfinished run has no grade on the page, neither
   const std::string before(section_of(page_of(history), "learning"));
   const auto add = [&](auto&& change) {
     history.runs.push_back(run_with(static_cast<std::int64_t>(history.runs.size()) + 1, 3, 9.9));
-    change(history.runs.back().row.result);
-    history.runs.back().row.result.passed = false;
+    change(history.runs.back().result);
+    history.runs.back().result.passed = false;
   };
   add([](LessonResult& r) { r.guided = true; });
   add([](LessonResult& r) { r.is_complete = false; });
@@ -178,7 +178,7 @@ TEST_CASE("the learning curve's dots are at the grades, and its figures are thos
   const auto dots = dots_of(learning);
   REQUIRE(dots.size() == 12);
   // A dot's height must be a linear function of its grade, and the dots must be evenly spaced.
-  const auto grade = [&](std::size_t i) { return history.runs[i].row.result.grade; };
+  const auto grade = [&](std::size_t i) { return history.runs[i].result.grade; };
   const double per_point = (dots[11].second - dots[0].second) / (grade(11) - grade(0));
   CHECK(per_point < 0.0);
   for (std::size_t i = 1; i < 12; ++i) {
@@ -211,9 +211,9 @@ TEST_CASE("without a curve the page says why") {
   CHECK(has(page_of(learner(3)), "No curve yet: 5 graded runs needed, 3 so far."));
   CHECK(has(page_of(learner(4)), "No curve yet: 5 graded runs needed, 4 so far."));
   LearnerHistory flat = learner(8);
-  for (ReportedRun& run : flat.runs) run.row.result.grade = 7.0;
+  for (RunRow& run : flat.runs) run.result.grade = 7.0;
   CHECK(has(page_of(flat), "No curve: all 8 grades are 7.0."));
-  flat.runs[3].row.result.grade = 9.0;
+  flat.runs[3].result.grade = 9.0;
   CHECK(has(page_of(flat), "No curve: these 8 grades scatter too much to show learning."));
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("a level at its bound is marked as fixed, without a deviation, if the 
   std::vector<double> grades;
   for (int i = 0; i < 12; ++i) {
     grades.push_back(std::min(10.0, 11.0 - 8.0 * std::exp(-i / 8.0) + (i % 2 == 0 ? 0.2 : -0.2)));
-    history.runs[static_cast<std::size_t>(i)].row.result.grade = grades.back();
+    history.runs[static_cast<std::size_t>(i)].result.grade = grades.back();
   }
   const auto free = fit_learning_curve(grades), held = fit_learning_curve(grades, {0.0, 10.0});
   REQUIRE(free.has_value());
@@ -240,7 +240,7 @@ TEST_CASE("tasks with fewer than three graded runs are listed in one row and hav
   LearnerHistory history = learner(3);
   const auto add = [&](const char* task, double grade) {
     history.runs.push_back(run_with(static_cast<std::int64_t>(history.runs.size()) + 1, 1, grade));
-    history.runs.back().row.result.task = task;
+    history.runs.back().result.task = task;
   };
   add("reverse", 8.0);
   add("hill_start", 4.5);
@@ -280,8 +280,8 @@ TEST_CASE("a step that took too long is named in the lists of runs and weaknesse
     error.time_limit = 0.8;
     return error;
   };
-  history.runs[0].row.result.errors = {slow("Start the engine.", 1.2)};
-  history.runs[1].row.result.errors = {slow("Brake <hard>.", 1.78)};
+  history.runs[0].result.errors = {slow("Start the engine.", 1.2)};
+  history.runs[1].result.errors = {slow("Brake <hard>.", 1.78)};
   const std::string page = page_of(history);
   CHECK(has(table_of(page, "runs")[1][6], "You took 1.20 s for this step (limit 0.80 s): \"Start the engine.\""));
   CHECK(has(table_of(page, "runs")[0][6], "You took 1.78 s for this step (limit 0.80 s): \"Brake <hard>.\""));
@@ -294,7 +294,7 @@ TEST_CASE("a step that took too long is named in the lists of runs and weaknesse
 
 TEST_CASE("an error of any kind has its name and its sentence on the page") {
   LearnerHistory history = learner(1);
-  std::vector<DrivingError>& errors = history.runs[0].row.result.errors;
+  std::vector<DrivingError>& errors = history.runs[0].result.errors;
   for (int i = 0; i < kErrorKindCount; ++i)
     errors.push_back(make_driving_error(static_cast<ErrorKind>(i), Severity::minor, 1.0, 3.0));
   const std::string page = page_of(history);
@@ -312,7 +312,7 @@ TEST_CASE("an error of any kind has its name and its sentence on the page") {
 
 TEST_CASE("the advice for a kind of error appears once, with the run, if the kind cost points") {
   LearnerHistory history = learner(1);
-  LessonResult& result = history.runs[0].row.result;
+  LessonResult& result = history.runs[0].result;
   result.errors = {make_driving_error(ErrorKind::grind, Severity::note, 1.0, 1.0, 0),
                    make_driving_error(ErrorKind::grind, Severity::minor, 2.0, 1.0, 0),
                    make_driving_error(ErrorKind::grind, Severity::minor, 3.0, 1.0, 0),
@@ -342,7 +342,7 @@ TEST_CASE("the style breaks long words, and does not break a printed shift") {
 
 TEST_CASE("the counts, points and rates of weaknesses match the rows") {
   LearnerHistory history = learner(4);  // 4 runs with 4 shifts each: 16 shifts
-  LessonResult& result = history.runs[0].row.result;
+  LessonResult& result = history.runs[0].result;
   result.errors = {make_driving_error(ErrorKind::grind, Severity::minor, 1.0, 1.0, 0),
                    make_driving_error(ErrorKind::grind, Severity::severe, 1.0, 1.0, 1)};
   result.deductions = {{0, 0.5}, {1, 2.0}};
@@ -357,14 +357,14 @@ TEST_CASE("the counts, points and rates of weaknesses match the rows") {
 
 TEST_CASE("the worst shifts by points and the best by time, with figures that match the records") {
   LearnerHistory history = learner(3);
-  LessonResult& bad = history.runs[1].row.result;
+  LessonResult& bad = history.runs[1].result;
   bad.shifts[2].clutch_lag = -0.12;
   bad.shifts[2].force_peak = 71.5;
   bad.errors = {make_driving_error(ErrorKind::over_push, Severity::minor, 14.0, 71.5, 1),
                 make_driving_error(ErrorKind::clutch_early, Severity::severe, 18.0, 0.12, 2)};
   bad.deductions = {{0, 0.5}, {1, 2.0}};
-  history.runs[2].row.result.shifts[3].end -= 0.2;
-  history.runs[1].row.result.shifts[2].impulse = 12.34;
+  history.runs[2].result.shifts[3].end -= 0.2;
+  history.runs[1].result.shifts[2].impulse = 12.34;
   const std::string page = page_of(history);
   const std::string_view shifts = section_of(page, "shifts");
   const auto worst = table_of(shifts, "shifts");
@@ -390,8 +390,8 @@ TEST_CASE("retention: grades before and after a day and a week, marked at the ru
                          "2026-03-12T10:20:00Z"};
   const double grades[] = {4.0, 6.5, 6.2, 7.0};
   for (std::size_t i = 0; i < 4; ++i) {
-    history.runs[i].row.begun_at = times[i];
-    history.runs[i].row.result.grade = grades[i];
+    history.runs[i].begun_at = times[i];
+    history.runs[i].result.grade = grades[i];
   }
   const std::string page = page_of(history);
   const std::string_view learning = section_of(page, "learning");
@@ -409,7 +409,11 @@ TEST_CASE("retention: grades before and after a day and a week, marked at the ru
   CHECK(rings == 2);
   CHECK(has(learning, "Run 4, 2026-03-12: 7.0, after 10 days"));
 
-  for (ReportedRun& run : history.runs) run.row.begun_at = times[0];
+  history.runs[0].result.guided = history.runs[1].result.guided = true;
+  const std::string unknown = page_of(history);
+  CHECK(table_of(section_of(unknown, "learning"), "kept")[0][1] == "–");
+
+  for (RunRow& run : history.runs) run.begun_at = times[0];
   CHECK(has(page_of(history), "No lesson has been repeated after a day's break yet."));
   CHECK_FALSE(has(page_of(history), "<table class=\"kept\">"));
 }
@@ -420,13 +424,13 @@ TEST_CASE("names, comments and reasons that contain markup are shown as text: th
   const auto fill = [](LearnerHistory& history, const std::string& text) {
     history.learner.name = text;
     history.learner.next_lesson = text;
-    LessonResult& result = history.runs[1].row.result;
+    LessonResult& result = history.runs[1].result;
     result.lesson = text;
     result.task = text;
     result.why = text;
     result.passed = false;
-    history.runs[1].row.recording = text;
-    history.runs[2].row.begun_at = text;
+    history.runs[1].recording = text;
+    history.runs[2].begun_at = text;
     result.errors = {make_driving_error(ErrorKind::stall, Severity::minor, 1.0, 1.0, 0)};
     history.runs[1].comments = {{text, text, text}};
   };

@@ -47,7 +47,7 @@ TEST_CASE("a lesson with an error in each run, followed by a lesson without that
   LearnerHistory history;
   for (int i = 0; i < 24; ++i) {
     history.runs.push_back(run_with(i + 1, 2, 5.0));
-    LessonResult& result = history.runs.back().row.result;
+    LessonResult& result = history.runs.back().result;
     result.lesson = i < 12 ? "hill_start" : "skip_shifts";
     result.errors = {
         make_driving_error(i < 12 ? ErrorKind::stall : ErrorKind::rev_mismatch, Severity::severe, 0.0, 1.0, 0)};
@@ -58,7 +58,7 @@ TEST_CASE("a lesson with an error in each run, followed by a lesson without that
     CHECK(spot.recent == 5.0);
   }
   // Control: if stalls stop in the middle of the lesson's runs, that is a change. Notes do not count as stalls.
-  for (std::size_t i = 6; i < 12; ++i) history.runs[i].row.result.errors[0].severity = Severity::note;
+  for (std::size_t i = 6; i < 12; ++i) history.runs[i].result.errors[0].severity = Severity::note;
   const Weaknesses found = weaknesses(history);
   REQUIRE(found.spots.size() == 2);
   const WeakSpot& stall = found.spots[0].kind == ErrorKind::stall ? found.spots[0] : found.spots[1];
@@ -70,7 +70,7 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   LearnerHistory history;
   for (int i = 0; i < 4; ++i) history.runs.push_back(run_with(i + 1, 5, 8.0));
   const auto error = [&](std::size_t run, ErrorKind kind, Severity severity, double points) {
-    LessonResult& result = history.runs[run].row.result;
+    LessonResult& result = history.runs[run].result;
     if (points > 0.0) result.deductions.push_back({result.errors.size(), points});
     result.errors.push_back(make_driving_error(kind, severity, 0.0, 1.0, 0));
   };
@@ -79,7 +79,7 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   error(1, ErrorKind::grind, Severity::note, 0.0);
   error(3, ErrorKind::grind, Severity::very_severe, 4.0);
   history.runs.push_back(run_with(5, 7, 0.0));  // a guided run: neither its shifts nor its errors count
-  history.runs.back().row.result.guided = true;
+  history.runs.back().result.guided = true;
   error(4, ErrorKind::stall, Severity::severe, 0.0);
 
   const Weaknesses found = weaknesses(history);
@@ -102,13 +102,13 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
 TEST_CASE("errors of runs in neither half are not compared: they must not be shown as 0 times before and after") {
   LearnerHistory history;
   for (int i = 0; i < 3; ++i) history.runs.push_back(run_with(i + 1, 2, 5.0));
-  history.runs[1].row.result.errors = {make_driving_error(ErrorKind::stall, Severity::severe, 0.0, 1.0, 0)};
+  history.runs[1].result.errors = {make_driving_error(ErrorKind::stall, Severity::severe, 0.0, 1.0, 0)};
   REQUIRE(weaknesses(history).spots.size() == 1);
   CHECK(weaknesses(history).spots[0].trend == Trend::unknown);
   CHECK(weakness_section(history).find("0.0<br>") == std::string::npos);
   // Control: of three runs only the middle one is in neither half. So if the last run has the error, the halves are
   // compared.
-  history.runs[2].row.result.errors = history.runs[1].row.result.errors;
+  history.runs[2].result.errors = history.runs[1].result.errors;
   CHECK(weaknesses(history).spots[0].trend == Trend::unclear);
   CHECK(weakness_section(history).find("0.0<br>") != std::string::npos);
 }
@@ -117,7 +117,7 @@ TEST_CASE("without runs there are no weaknesses; without shifts an error has no 
   CHECK(weaknesses({}).spots.empty());
   LearnerHistory history;
   history.runs.push_back(run_with(1, 0, 6.0));
-  history.runs[0].row.result.errors.push_back(make_driving_error(ErrorKind::stall, Severity::severe, 0.0, 1.0, -1));
+  history.runs[0].result.errors.push_back(make_driving_error(ErrorKind::stall, Severity::severe, 0.0, 1.0, -1));
   const Weaknesses found = weaknesses(history);
   CHECK(found.shifts == 0);
   REQUIRE(found.spots.size() == 1);

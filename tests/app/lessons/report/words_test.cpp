@@ -11,6 +11,12 @@ TEST_CASE("numbers have a true minus sign, and none before a zero") {
   CHECK(format_number(12.0, 0) == "12");
 }
 
+TEST_CASE("the length of a break is written in hours or days") {
+  CHECK(format_pause(20.0 * 3600.0) == "20 hours");
+  CHECK(format_pause(47.4 * 3600.0) == "47 hours");
+  CHECK(format_pause(7.2 * 86400.0) == "7 days");
+}
+
 TEST_CASE("an unknown lesson is shown by its key") {
   std::vector<Lesson> lessons(1);
   lessons[0].key = "hill_start";

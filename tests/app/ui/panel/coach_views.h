@@ -137,7 +137,6 @@ inline CoachState with_history() {
   CoachState coach = half_way();
   const auto add = [&](std::int64_t id, const char* at, lessons::LessonResult result, const char* recording) {
     coach.runs.push_back({id, 1, at, recording, std::move(result)});
-    coach.comments.emplace_back();
   };
   lessons::LessonResult left = result_of("reverse", {}), cut = left, lost = left;
   left.end = lessons::LessonEnd::left;
@@ -151,7 +150,7 @@ inline CoachState with_history() {
   add(13, "2026-01-01T09:11:00Z", left, "");
   add(12, "2026-01-01T09:05:00Z", cut, "");
   add(11, "2026-01-01T09:00:00Z", lost, "");
-  coach.comments[0] = {{"2026-01-02T11:00:00Z", "Ms Torque", "Wait for the synchroniser: push, do not hit."}};
+  coach.runs[0].comments = {{"2026-01-02T11:00:00Z", "Ms Torque", "Wait for the synchroniser: push, do not hit."}};
   return coach;
 }
 

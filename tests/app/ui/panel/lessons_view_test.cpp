@@ -219,7 +219,6 @@ TEST_CASE("the runs that are scrolled out of view are reached by the mouse wheel
   while (coach.runs.size() < kMaxRunsShown) {
     coach.runs.push_back(coach.runs.front());
     coach.runs.back().id = 10 - static_cast<std::int64_t>(coach.runs.size());
-    coach.comments.emplace_back();
   }
   const std::string last = "run: " + std::to_string(coach.runs.back().id);
   LessonsRig rig(coach, "tab_history");
@@ -284,7 +283,7 @@ TEST_CASE("a comment needs an author and a text, and is requested once") {
 
 TEST_CASE("a comment can be edited, or deleted with a second click to confirm") {
   CoachState coach = with_history();
-  coach.comments[0][0].id = 7;
+  coach.runs[0].comments[0].id = 7;
   LessonsRig rig(coach, "tab_history");
   rig.click("run: 16");
   rig.click("comment_edit: 7");

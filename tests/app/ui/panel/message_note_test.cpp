@@ -61,7 +61,7 @@ TEST_CASE("a message over the cabin and a comment that is being edited both fit"
   PanelRig rig;
   CoachState coach = with_history();
   coach.learner_deleted = true;
-  coach.comments[0][0].id = 7;
+  coach.runs[0].comments[0].id = 7;
   rig.input.coach = coach;
   show_message(rig, kLong + " " + kLong);
   rig.click("tab_history");

@@ -116,7 +116,6 @@ TEST_CASE("a replay names its recording's car and gate, and for a known run its 
   CHECK(says("not the recording's"));  // a note beside the lists of cars and gates
   rig.input.coach = half_way();
   rig.input.coach.runs.push_back({4, 1, "no date", rig.player.file().string(), result_of("hill_start", {})});
-  rig.input.coach.comments.emplace_back();
   rig.settle();
   CHECK(says("Hill start"));
   CHECK(says("Ada Example"));
