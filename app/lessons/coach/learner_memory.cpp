@@ -97,9 +97,9 @@ std::vector<std::string> LearnerMemory::learners() {
   read([&] {
     for (const LearnerRow& row : history_->learners()) names.push_back(row.name);
   });
-  for (const PendingRun& run : pending_runs_) {
-    if (!run.owner->deleted) names.push_back(run.owner->name);
-  }
+  each_pending<PendingRun>(pending_, [&](const PendingWrite& entry, const PendingRun&) {
+    if (!entry.owner->deleted) names.push_back(entry.owner->name);
+  });
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   std::erase(names, "");
@@ -154,12 +154,12 @@ void LearnerMemory::load() {
     next_ = row.next_lesson;
     changes_ = changes;
   });
-  for (const PendingRun& run : pending_runs_) {
-    if (run.over && run.owner == person_) merge_pending(runs_, run.row);
-  }
-  for (const PendingChoice& next : pending_choices_) {
-    if (next.owner == person_) next_ = next.lesson;
-  }
+  each_pending<PendingRun>(pending_, [&](const PendingWrite& entry, const PendingRun& run) {
+    if (run.over && entry.owner == person_) merge_pending(runs_, run.row);
+  });
+  each_pending<PendingChoice>(pending_, [&](const PendingWrite& entry, const PendingChoice& choice) {
+    if (entry.owner == person_) next_ = choice.lesson;
+  });
 }
 
 // Returns true if a learner was deleted.
@@ -183,27 +183,28 @@ bool LearnerMemory::drop_deleted() {
 }
 
 // Drops a deleted learner's pending writes. The current or last run stays visible but is never saved. Returns true if
-// anything was pending.
+// results were pending.
 bool LearnerMemory::drop_pending_of(const PersonPtr& person) {
-  const std::size_t before = pending_runs_.size() + pending_comments_.size() + pending_choices_.size();
-  for (PendingRun& run : pending_runs_) {
-    if (run.owner != person) continue;
+  each_pending<PendingRun>(pending_, [&](const PendingWrite& entry, PendingRun& run) {
+    if (entry.owner != person) return;
     if (!run.row.recording.empty()) unreferenced_recordings_.push_back(std::exchange(run.row.recording, ""));
     renumber(run, --last_local_id_);
-  }
-  const auto is_owned = [&](const auto& entry) { return entry.owner == person; };
-  std::erase_if(pending_runs_, [&](const PendingRun& run) { return is_owned(run) && run.row.id != last_run_; });
-  std::erase_if(pending_comments_, is_owned);
-  std::erase_if(pending_choices_, is_owned);
-  std::erase_if(pending_removals_, is_owned);
-  return pending_runs_.size() + pending_comments_.size() + pending_choices_.size() < before;
+  });
+  bool any = false;
+  std::erase_if(pending_, [&](const PendingWrite& entry) {
+    const auto* run = std::get_if<PendingRun>(&entry.what);
+    const bool drops = entry.owner == person && (run == nullptr || run->row.id != last_run_);
+    any = any || (drops && !std::holds_alternative<PendingRemoval>(entry.what));
+    return drops;
+  });
+  return any;
 }
 
 std::vector<CommentRow> LearnerMemory::comments(std::int64_t run) {
   std::vector<CommentRow> all;
   if (run > 0) read([&] { all = history_->comments(run); });
-  for (const PendingComment& pending : pending_comments_) {
-    if (pending.run != run) continue;
+  each_pending<PendingComment>(pending_, [&](const PendingWrite&, const PendingComment& pending) {
+    if (pending.run != run) return;
     const auto same =
         std::find_if(all.begin(), all.end(), [&](const CommentRow& row) { return row.id == pending.row.id; });
     if (pending.row.id < 0)
@@ -212,74 +213,79 @@ std::vector<CommentRow> LearnerMemory::comments(std::int64_t run) {
       all.erase(same);
     else if (same != all.end())
       same->text = pending.row.text, same->edited_at = pending.row.edited_at;
-  }
+  });
   return all;
 }
 
 void LearnerMemory::add_comment(std::int64_t run, const std::string& author, const std::string& text) {
   const std::int64_t now = now_();
-  pending_comments_.push_back({person_, run, now, {format_utc(now), author, text, --last_local_id_}});
+  pending_.push_back({person_, now, PendingComment{run, {format_utc(now), author, text, --last_local_id_}}});
   write_now();
 }
 
-// Changes the pending entry of the comment. If the comment is already saved, it has none, and one is added.
 void LearnerMemory::edit_comment(std::int64_t run, std::int64_t comment, const std::string& text) {
-  const std::int64_t now = now_();
-  PendingComment* pending = find_pending_comment(comment);
-  if (!pending) pending = &pending_comments_.emplace_back(PendingComment{person_, run, now, {{}, {}, {}, comment}});
-  pending->row.text = text;
-  if (comment > 0) pending->at = now, pending->row.edited_at = format_utc(now);
+  PendingWrite& entry = find_or_add_comment(run, comment);
+  CommentRow& row = std::get<PendingComment>(entry.what).row;
+  row.text = text;
+  if (comment > 0) entry.at = now_(), row.edited_at = format_utc(entry.at);
   write_now();
 }
 
 void LearnerMemory::delete_comment(std::int64_t run, std::int64_t comment) {
-  PendingComment* pending = find_pending_comment(comment);
-  if (comment < 0) {
-    std::erase_if(pending_comments_, [&](const PendingComment& each) { return each.row.id == comment; });
-    return;
-  }
-  if (!pending) pending = &pending_comments_.emplace_back(PendingComment{person_, run, now_(), {{}, {}, {}, comment}});
-  pending->deleted = true;
+  PendingWrite& entry = find_or_add_comment(run, comment);
+  std::get<PendingComment>(entry.what).deleted = true;
+  entry.written = comment < 0;  // a comment that was never saved needs no write
+  std::erase_if(pending_, is_written);
   write_now();
 }
 
-LearnerMemory::PendingComment* LearnerMemory::find_pending_comment(std::int64_t comment) noexcept {
-  const auto found = std::find_if(pending_comments_.begin(), pending_comments_.end(),
-                                  [&](const PendingComment& each) { return each.row.id == comment; });
-  return found == pending_comments_.end() ? nullptr : &*found;
+// The pending entry of the comment. A saved comment has none until it is changed again.
+LearnerMemory::PendingWrite& LearnerMemory::find_or_add_comment(std::int64_t run, std::int64_t comment) {
+  for (PendingWrite& entry : pending_) {
+    const auto* pending = std::get_if<PendingComment>(&entry.what);
+    if (pending != nullptr && pending->row.id == comment) return entry;
+  }
+  return pending_.emplace_back(PendingWrite{person_, now_(), PendingComment{run, {{}, {}, {}, comment}}});
 }
 
 void LearnerMemory::set_next_lesson(const std::string& lesson) {
   next_ = lesson;
-  std::erase_if(pending_choices_, [&](const PendingChoice& next) { return next.owner == person_; });
-  pending_choices_.push_back({person_, now_(), lesson});
+  std::erase_if(pending_, [&](const PendingWrite& entry) {
+    return entry.owner == person_ && std::holds_alternative<PendingChoice>(entry.what);
+  });
+  pending_.push_back({person_, now_(), PendingChoice{lesson}});
   write_now();
 }
 
 void LearnerMemory::begin_run(const LessonResult& result, const std::string& settings, const std::string& recording) {
-  PendingRun run;
-  run.owner = person_;
-  run.settings = settings;
-  run.at = now_();
-  run.row = {--last_local_id_, 0, format_utc(run.at), recording, result};
+  const std::int64_t now = now_();
+  PendingRun run{settings, {--last_local_id_, 0, format_utc(now), recording, result}};
   run.row.result.shifts.clear();
   last_run_ = run.row.id;
-  pending_runs_.push_back(std::move(run));
+  pending_.push_back({person_, now, std::move(run)});
   in_run_ = true;
   write_now();
 }
 
+// The run in progress; it stays pending until it is over.
+LearnerMemory::PendingWrite& LearnerMemory::current_run() noexcept {
+  PendingWrite* current = nullptr;
+  each_pending<PendingRun>(pending_, [&](PendingWrite& entry, const PendingRun&) { current = &entry; });
+  return *current;
+}
+
 void LearnerMemory::add_shift(const ShiftRecord& shift) {
-  pending_runs_.back().row.result.shifts.push_back(shift);
+  std::get<PendingRun>(current_run().what).row.result.shifts.push_back(shift);
   write_now();
 }
 
 void LearnerMemory::end_run(const LessonResult& result) {
-  PendingRun& run = pending_runs_.back();
+  PendingWrite& entry = current_run();
+  PendingRun& run = std::get<PendingRun>(entry.what);
   run.row.result = result;
   run.over = true;
   in_run_ = false;
-  if (run.owner == person_) merge_pending(runs_, run.row);
+  if (entry.owner == person_) merge_pending(runs_, run.row);
   write_now();
 }
 
@@ -290,28 +296,28 @@ void LearnerMemory::clear_recording() {
     if (row.id == last_run_) row.recording.clear();
   }
   PersonPtr owner = person_;
-  for (PendingRun& run : pending_runs_) {
-    if (run.row.id != last_run_) continue;
+  each_pending<PendingRun>(pending_, [&](const PendingWrite& entry, PendingRun& run) {
+    if (run.row.id != last_run_) return;
     run.row.recording.clear();
-    owner = run.owner;
-  }
-  if (last_run_ > 0) pending_removals_.push_back({owner, now_(), last_run_});
+    owner = entry.owner;
+  });
+  if (last_run_ > 0) pending_.push_back({owner, now_(), PendingRemoval{last_run_}});
   write_now();
 }
 
 std::int64_t LearnerMemory::run_number() const noexcept {
-  const auto pending = std::find_if(pending_runs_.begin(), pending_runs_.end(),
-                                    [&](const PendingRun& run) { return run.row.id == last_run_; });
-  if (pending == pending_runs_.end()) return std::max<std::int64_t>(last_run_, 0);
-  const bool has_all = !pending->over && pending->shifts == pending->row.result.shifts.size();
-  return has_all && last_run_ > 0 ? last_run_ : 0;
+  bool has_all = true;
+  each_pending<PendingRun>(pending_, [&](const PendingWrite&, const PendingRun& run) {
+    if (run.row.id == last_run_) has_all = !run.over && run.shifts == run.row.result.shifts.size();
+  });
+  return has_all ? std::max<std::int64_t>(last_run_, 0) : 0;
 }
 
 std::vector<std::string> LearnerMemory::take_unreferenced_recordings() {
   std::vector<std::string> files = std::exchange(unreferenced_recordings_, {});
-  for (PendingRun& run : pending_runs_) {
+  each_pending<PendingRun>(pending_, [&](const PendingWrite&, PendingRun& run) {
     if (run.row.id < 0 && !run.row.recording.empty()) files.push_back(std::exchange(run.row.recording, ""));
-  }
+  });
   return files;
 }
 

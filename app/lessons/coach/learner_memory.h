@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "app/lessons/history/history.h"
@@ -87,31 +88,28 @@ class LearnerMemory {
   };
   using PersonPtr = std::shared_ptr<Person>;  // shared by all pending writes of one learner
 
+  // What waits to be written.
   struct PendingRun {
-    PersonPtr owner;
     std::string settings;
-    std::int64_t at = 0;  // [s] since 1970
     RunRow row;
     std::size_t shifts = 0;  // number of shifts already written
-    bool over = false, written = false;
+    bool over = false;
   };
   struct PendingComment {
-    PersonPtr owner;
     std::int64_t run = 0;
-    std::int64_t at = 0;  // [s] since 1970
-    CommentRow row;       // id < 0: a new comment; else new content of an existing comment
-    bool deleted = false, written = false;
+    CommentRow row;  // id < 0: a new comment; else new content of an existing comment
+    bool deleted = false;
   };
   struct PendingChoice {
-    PersonPtr owner;
-    std::int64_t at = 0;  // [s] since 1970
     std::string lesson;
-    bool written = false;
   };
   struct PendingRemoval {  // removes the recording from a saved run
+    std::int64_t run = 0;
+  };
+  struct PendingWrite {
     PersonPtr owner;
     std::int64_t at = 0;  // [s] since 1970
-    std::int64_t run = 0;
+    std::variant<PendingRun, PendingComment, PendingChoice, PendingRemoval> what;
     bool written = false;
   };
   struct DrivingSession {
@@ -127,29 +125,28 @@ class LearnerMemory {
   std::chrono::milliseconds current_lock_timeout() const;
   template <class Work>
   bool read(const Work& work);  // returns false if reading fails or there is no history
-  template <class Work>
-  WriteResult try_write(Person& owner, std::int64_t at, const Work& work);
   PersonPtr find_or_add_person(const std::string& name);
   void load();
   bool drop_deleted();
   bool drop_pending_of(const PersonPtr& person);
+  template <class What>
+  static void each_pending(auto& queue, const auto& visit);  // visit(entry, what) for the entries of this type
   bool waits_for_history(const Person& owner) const noexcept;
-  bool is_waiting(const PendingRun& run) const noexcept;
-  bool is_waiting(const PendingComment& comment) const noexcept;
-  bool is_waiting(const PendingChoice& next) const noexcept;
-  bool is_waiting(const PendingRemoval& removal) const noexcept;
+  static bool is_written(const PendingWrite& entry) noexcept { return entry.written; }
+  bool is_waiting(const PendingWrite& entry) const noexcept;
   bool has_pending() const noexcept;
   std::string describe_pending() const;
   void write_now();
   bool write_pending(Moment until);
-  WriteResult write(PendingRun& run);
-  WriteResult write(PendingComment& comment);
-  WriteResult write(PendingChoice& next);
-  WriteResult write(PendingRemoval& removal);
-  PendingComment* find_pending_comment(std::int64_t comment) noexcept;
-  void begin(PendingRun& run);
+  WriteResult try_write(PendingWrite& entry);
+  void write(PendingWrite& entry, PendingRun& run);
+  void write(PendingWrite& entry, const PendingComment& comment);
+  void write(PendingWrite& entry, const PendingChoice& choice);
+  void write(PendingWrite& entry, const PendingRemoval& removal);
+  PendingWrite& current_run() noexcept;
+  PendingWrite& find_or_add_comment(std::int64_t run, std::int64_t comment);
   void renumber(PendingRun& run, std::int64_t number);
-  std::int64_t session_for(const PendingRun& run);
+  std::int64_t session_for(const PersonPtr& owner, const std::string& settings);
   std::int64_t id_for(Person& person);
 
   static constexpr std::chrono::milliseconds kNoWait{0};  // lock timeout for a file that is known to be locked
@@ -179,15 +176,19 @@ class LearnerMemory {
   std::optional<DrivingSession> session_;
 
   // Data that is not saved in the history yet.
-  std::vector<PendingRun> pending_runs_;  // in driving order; the last run may still be in progress
-  std::vector<PendingComment> pending_comments_;
-  std::vector<PendingChoice> pending_choices_;  // at most one per learner
-  std::vector<PendingRemoval> pending_removals_;
+  std::vector<PendingWrite> pending_;  // oldest first; includes the run in progress; at most one choice per learner
   std::vector<std::string> unreferenced_recordings_;
   bool in_run_ = false;
   std::int64_t last_run_ = 0;       // number of the last run
   std::int64_t last_local_id_ = 0;  // last temporary (negative) number
   Moment next_try_{};
 };
+
+template <class What>
+void LearnerMemory::each_pending(auto& queue, const auto& visit) {
+  for (auto& entry : queue) {
+    if (auto* what = std::get_if<What>(&entry.what)) visit(entry, *what);
+  }
+}
 
 }  // namespace gearshift::lessons

@@ -27,20 +27,21 @@ milliseconds LearnerMemory::current_lock_timeout() const {
   return std::max(kNoWait, std::chrono::duration_cast<milliseconds>(*flush_deadline_ - steady_clock::now()));
 }
 
-template <class Work>
-LearnerMemory::WriteResult LearnerMemory::try_write(Person& owner, std::int64_t at, const Work& work) {
-  write_time_ = at;
+// Makes the entry's next call to the history. This is the only place that decides whether a write is done, is tried
+// again later or is dropped.
+LearnerMemory::WriteResult LearnerMemory::try_write(PendingWrite& entry) {
+  write_time_ = entry.at;
   history_->set_lock_timeout(std::exchange(is_locked_, false) ? kNoWait : current_lock_timeout());
   WriteResult result = WriteResult::retry;
   try {
-    work();
+    std::visit([&](auto& what) { write(entry, what); }, entry.what);
     result = WriteResult::done;
     is_usable_ = true;
     is_disk_full_ = false;
     reported_.clear();
   } catch (const HistoryDeleted&) {
     result = WriteResult::dropped;
-    owner.deleted = true;
+    entry.owner->deleted = true;
   } catch (const HistoryBusy& problem) {
     is_locked_ = true;
     reason_ = problem.what();
@@ -65,44 +66,32 @@ bool LearnerMemory::waits_for_history(const Person& owner) const noexcept {
   return !owner.name.empty() && !owner.deleted && !file_.empty();
 }
 
-bool LearnerMemory::is_waiting(const PendingRun& run) const noexcept {
-  return waits_for_history(*run.owner) && !run.written &&
-         (run.over || run.row.id < 0 || run.shifts < run.row.result.shifts.size());
-}
-
-// A comment can be written only once its run has a number in the history.
-bool LearnerMemory::is_waiting(const PendingComment& comment) const noexcept {
-  return waits_for_history(*comment.owner) && !comment.written && comment.run > 0;
-}
-
-bool LearnerMemory::is_waiting(const PendingChoice& next) const noexcept {
-  return waits_for_history(*next.owner) && !next.written;
-}
-
-bool LearnerMemory::is_waiting(const PendingRemoval& removal) const noexcept {
-  return waits_for_history(*removal.owner) && !removal.written;
+// A run in progress waits only for its start and its new shifts, a comment only once its run has a number.
+bool LearnerMemory::is_waiting(const PendingWrite& entry) const noexcept {
+  if (entry.written || !waits_for_history(*entry.owner)) return false;
+  if (const auto* run = std::get_if<PendingRun>(&entry.what))
+    return run->over || run->row.id < 0 || run->shifts < run->row.result.shifts.size();
+  const auto* comment = std::get_if<PendingComment>(&entry.what);
+  return comment == nullptr || comment->run > 0;
 }
 
 bool LearnerMemory::has_pending() const noexcept {
-  const auto is_pending = [this](const auto& entry) { return is_waiting(entry); };
-  return std::any_of(pending_runs_.begin(), pending_runs_.end(), is_pending) ||
-         std::any_of(pending_comments_.begin(), pending_comments_.end(), is_pending) ||
-         std::any_of(pending_choices_.begin(), pending_choices_.end(), is_pending) ||
-         std::any_of(pending_removals_.begin(), pending_removals_.end(), is_pending);
+  return std::any_of(pending_.begin(), pending_.end(), [this](const PendingWrite& entry) { return is_waiting(entry); });
 }
 
 // Returns text such as "2 runs, 1 comment".
 std::string LearnerMemory::describe_pending() const {
-  const auto is_pending = [this](const auto& entry) { return is_waiting(entry); };
+  std::ptrdiff_t runs = 0, comments = 0, choices = 0;
+  each_pending<PendingRun>(pending_,
+                           [&](const PendingWrite& entry, const PendingRun&) { runs += is_waiting(entry) ? 1 : 0; });
   // Counts comments on unsaved runs as well.
-  const auto is_unsaved = [this](const PendingComment& comment) {
-    return waits_for_history(*comment.owner) && !comment.written;
-  };
-  const std::string text =
-      counted(std::count_if(pending_runs_.begin(), pending_runs_.end(), is_pending), "run", "runs") +
-      counted(std::count_if(pending_comments_.begin(), pending_comments_.end(), is_unsaved), "comment", "comments") +
-      counted(std::count_if(pending_choices_.begin(), pending_choices_.end(), is_pending), "choice of the next lesson",
-              "choices of the next lesson");
+  each_pending<PendingComment>(pending_, [&](const PendingWrite& entry, const PendingComment&) {
+    comments += waits_for_history(*entry.owner) ? 1 : 0;
+  });
+  each_pending<PendingChoice>(
+      pending_, [&](const PendingWrite& entry, const PendingChoice&) { choices += is_waiting(entry) ? 1 : 0; });
+  const std::string text = counted(runs, "run", "runs") + counted(comments, "comment", "comments") +
+                           counted(choices, "choice of the next lesson", "choices of the next lesson");
   return text.empty() ? text : text.substr(2);
 }
 
@@ -134,71 +123,52 @@ void LearnerMemory::flush() {
 // written, or if data of a deleted learner was dropped.
 bool LearnerMemory::write_pending(Moment until) {
   if (!history_ || !has_pending()) return false;
-  bool any = false, keep_going = true;
-  const auto write_one = [&](auto& entry) {
-    if (!keep_going || !is_waiting(entry)) return;
-    const WriteResult result = write(entry);
-    any = any || result == WriteResult::done;
-    keep_going = result != WriteResult::retry && steady_clock::now() < until;
-  };
-  for (PendingRun& run : pending_runs_) write_one(run);
-  for (PendingComment& comment : pending_comments_) write_one(comment);
-  for (PendingChoice& next : pending_choices_) write_one(next);
-  for (PendingRemoval& removal : pending_removals_) write_one(removal);
-  const auto is_written = [](const auto& entry) { return entry.written; };
-  std::erase_if(pending_runs_, is_written);
-  std::erase_if(pending_comments_, is_written);
-  std::erase_if(pending_choices_, is_written);
-  std::erase_if(pending_removals_, is_written);
+  bool any = false, keeps_going = true;
+  for (PendingWrite& entry : pending_) {
+    while (keeps_going && is_waiting(entry)) {
+      const WriteResult result = try_write(entry);
+      any = any || result == WriteResult::done;
+      keeps_going = result != WriteResult::retry && steady_clock::now() < until;
+    }
+  }
+  std::erase_if(pending_, is_written);
   return drop_deleted() || any;
 }
 
-// Writes the start of the run. Then writes its new shifts or, once the run is over, its result.
-LearnerMemory::WriteResult LearnerMemory::write(PendingRun& run) {
-  const std::vector<ShiftRecord>& shifts = run.row.result.shifts;
-  WriteResult result = WriteResult::done;
-  if (run.row.id < 0) result = try_write(*run.owner, run.at, [&] { begin(run); });
-  while (result == WriteResult::done && !run.over && run.shifts < shifts.size()) {
-    result = try_write(*run.owner, run.at, [&] { history_->add_shift(run.row.id, shifts[run.shifts]); });
-    if (result == WriteResult::done) ++run.shifts;
+// Writes the start of the run, then each new shift or, once the run is over, its result with all shifts.
+void LearnerMemory::write(PendingWrite& entry, PendingRun& run) {
+  if (run.row.id < 0) {
+    run.row.session = session_for(entry.owner, run.settings);
+    renumber(run, history_->begin_run(run.row.session, run.row.result, run.row.recording));
+  } else if (run.over) {
+    history_->end_run(run.row.id, run.row.result);
+    entry.written = true;
+  } else {
+    history_->add_shift(run.row.id, run.row.result.shifts[run.shifts]);
+    ++run.shifts;
   }
-  if (result != WriteResult::done || !run.over) return result;
-  result = try_write(*run.owner, run.at, [&] { history_->end_run(run.row.id, run.row.result); });
-  run.written = result == WriteResult::done;
-  return result;
 }
 
 // Adds, edits or deletes a comment in the history. If another program has deleted the comment, it stays deleted.
-LearnerMemory::WriteResult LearnerMemory::write(PendingComment& comment) {
-  const WriteResult result = try_write(*comment.owner, comment.at, [&] {
-    const CommentRow& row = comment.row;
-    if (row.id < 0)
-      history_->add_comment(comment.run, row.author, row.text);
-    else if (comment.deleted)
-      history_->delete_comment(row.id);
-    else
-      history_->edit_comment(row.id, row.text);
-  });
-  comment.written = result == WriteResult::done;
-  return result;
+void LearnerMemory::write(PendingWrite& entry, const PendingComment& comment) {
+  const CommentRow& row = comment.row;
+  if (row.id < 0)
+    history_->add_comment(comment.run, row.author, row.text);
+  else if (comment.deleted)
+    history_->delete_comment(row.id);
+  else
+    history_->edit_comment(row.id, row.text);
+  entry.written = true;
 }
 
-LearnerMemory::WriteResult LearnerMemory::write(PendingChoice& next) {
-  const WriteResult result =
-      try_write(*next.owner, next.at, [&] { history_->set_next_lesson(id_for(*next.owner), next.lesson); });
-  next.written = result == WriteResult::done;
-  return result;
+void LearnerMemory::write(PendingWrite& entry, const PendingChoice& choice) {
+  history_->set_next_lesson(id_for(*entry.owner), choice.lesson);
+  entry.written = true;
 }
 
-LearnerMemory::WriteResult LearnerMemory::write(PendingRemoval& removal) {
-  const WriteResult result = try_write(*removal.owner, removal.at, [&] { history_->clear_recording(removal.run); });
-  removal.written = result == WriteResult::done;
-  return result;
-}
-
-void LearnerMemory::begin(PendingRun& run) {
-  run.row.session = session_for(run);
-  renumber(run, history_->begin_run(run.row.session, run.row.result, run.row.recording));
+void LearnerMemory::write(PendingWrite& entry, const PendingRemoval& removal) {
+  history_->clear_recording(removal.run);
+  entry.written = true;
 }
 
 void LearnerMemory::renumber(PendingRun& run, std::int64_t number) {
@@ -206,19 +176,19 @@ void LearnerMemory::renumber(PendingRun& run, std::int64_t number) {
   for (RunRow& row : runs_) {
     if (row.id == before) row = run.row;
   }
-  for (PendingComment& comment : pending_comments_) {
+  each_pending<PendingComment>(pending_, [&](const PendingWrite&, PendingComment& comment) {
     if (comment.run == before) comment.run = number;
-  }
+  });
   if (last_run_ == before) last_run_ = number;
 }
 
-std::int64_t LearnerMemory::session_for(const PendingRun& run) {
-  if (!session_ || session_->owner != run.owner) {
+std::int64_t LearnerMemory::session_for(const PersonPtr& owner, const std::string& settings) {
+  if (!session_ || session_->owner != owner) {
     session_.reset();
-    session_ = DrivingSession{run.owner, history_->begin_session(id_for(*run.owner), program_), std::nullopt};
+    session_ = DrivingSession{owner, history_->begin_session(id_for(*owner), program_), std::nullopt};
   }
-  if (session_->settings != run.settings) history_->add_settings(session_->id, run.settings);
-  session_->settings = run.settings;
+  if (session_->settings != settings) history_->add_settings(session_->id, settings);
+  session_->settings = settings;
   return session_->id;
 }
 
