@@ -43,7 +43,7 @@ constexpr const char* kReportExamples =
     "\nExamples:\n"
     "  gearshift report                                      all learners\n"
     "  gearshift report --learner Ada                        Ada's runs\n"
-    "  gearshift report --learner Ada --out ada --csv        ada/index.html, runs.csv, shifts.csv, faults.csv\n"
+    "  gearshift report --learner Ada --out ada --csv        ada/index.html, runs.csv, shifts.csv, errors.csv\n"
     "  gearshift report --learner Ada --comment 12 \"Much calmer.\" --by Bo\n"
     "  gearshift report --learner Ada --edit-comment 3 \"Calmer.\"   3 is the number of the comment in the table of "
     "runs\n"
@@ -52,7 +52,7 @@ constexpr const char* kReportExamples =
     "suggestion\n"
     "  gearshift report --learner Ada --delete               permanently deletes Ada's results and recordings\n";
 
-constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kFaults = "faults.csv";
+constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kErrors = "errors.csv";
 
 using NumberedText = std::pair<std::int64_t, std::string>;
 
@@ -95,7 +95,7 @@ int list_learners(lessons::History& history) {
 
 void check_out(const ReportArguments& arguments, const fs::path& history) {
   if (arguments.out.empty()) return;
-  for (const char* name : {kPage, kRuns, kShifts, kFaults})
+  for (const char* name : {kPage, kRuns, kShifts, kErrors})
     check_distinct_outputs("--out", "the report and the history", fs::path(arguments.out) / name, history);
 }
 
@@ -107,7 +107,7 @@ void write_report(const ReportArguments& arguments, lessons::History& history, c
   if (arguments.csv) {
     files.push_back({kRuns, lessons::runs_csv(all)});
     files.push_back({kShifts, lessons::shifts_csv(all)});
-    files.push_back({kFaults, lessons::errors_csv(all)});
+    files.push_back({kErrors, lessons::errors_csv(all)});
   }
   base::make_folder(arguments.out);
   lessons::write_report_files(arguments.out, files,

@@ -53,8 +53,8 @@ check "the next lesson" grep -qF "Next lesson: <strong>Hill start</strong>, chos
 check "a curve was fitted" grep -q "A = 9\.0. ± " "$page"
 check "force and path of recorded shifts" test "$(grep -c 'class="path"' "$page")" -eq 6
 check "nothing runs and nothing is fetched" test "$(grep -cE '<script|src=|https?://[^w]' "$page")" -eq 0
-check "the tables have 12 runs, 36 shifts, 12 faults" \
-  test "$(cat "a folder/ä/"{runs,shifts,faults}.csv | grep -c $'\r$')" -eq $((13 + 37 + 13))
+check "the tables have 12 runs, 36 shifts, 12 driving errors" \
+  test "$(cat "a folder/ä/"{runs,shifts,errors}.csv | grep -c $'\r$')" -eq $((13 + 37 + 13))
 check "a comment in the table is quoted" grep -qF '""much"" <calmer>' "a folder/ä/runs.csv"
 cp "$page" first.html
 report --learner "$ada" --out "a folder/ä"

@@ -23,7 +23,7 @@ TEST_CASE("without room for the third file, two are complete, and the message na
   const std::vector<ReportFile> files{{"index.html", std::string(500, 'a')},
                                       {"runs.csv", std::string(900, 'b')},
                                       {"shifts.csv", std::string(20'000, 'c')},
-                                      {"faults.csv", "d"}};
+                                      {"errors.csv", "d"}};
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
@@ -35,7 +35,7 @@ TEST_CASE("without room for the third file, two are complete, and the message na
     } catch (const std::runtime_error& problem) {
       const std::string wanted =
           (folder / "shifts.csv").string() +
-          ": cannot be written (File too large); written: index.html, runs.csv; not written: shifts.csv, faults.csv";
+          ": cannot be written (File too large); written: index.html, runs.csv; not written: shifts.csv, errors.csv";
       _exit(files_written == 2 && problem.what() == wanted ? 0 : 2);
     }
     _exit(1);
