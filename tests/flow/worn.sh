@@ -1,7 +1,13 @@
 # The flow tests with a headset source this file after window.sh. The headset is the OpenXR test runtime of $manifest,
 # with a script for each run.
 grep -q library_path "$manifest" || { echo "no manifest of the test runtime: $manifest"; exit 1; }
+ls /usr/share/openxr/1/api_layers/explicit.d/*core_validation* >/dev/null 2>&1 || {
+  echo "flows with a headset need the OpenXR layer XR_APILAYER_LUNARG_core_validation (Debian: openxr-layer-corevalidation)"
+  exit 1
+}
 unset XR_LOADER_DEBUG
+# Khronos' validation layer checks the program's calls. The test runtime refuses a program that runs without it.
+export XR_ENABLE_API_LAYERS=XR_APILAYER_LUNARG_core_validation XR_CORE_VALIDATION_EXPORT_TYPE=text
 
 seat=config/gearshift/headset.toml
 found="gearshift test headset connected through gearshift test runtime"
@@ -21,6 +27,7 @@ wear() {
   } >"$1.toml"
   mkdir "$1"
   export XR_RUNTIME_JSON=$manifest GEARSHIFT_XR_SCRIPT=$work/$1.toml GEARSHIFT_XR_OUT=$work/$1
+  export XR_CORE_VALIDATION_FILE_NAME=$work/$1/validation.txt
   $puts_on "$1" --xr --silent $panel "${@:2}"
 }
 begin() { # like check, but ends the test if the trainer has ended, because nothing can follow
@@ -45,7 +52,10 @@ is_reported_times() { [ "$(grep -c -- "$1" "$log.err")" = "$2" ]; }
 ended_by_itself() { within 60 has_ended && wait $trainer; } # succeeds if the exit code is 0
 frames() { grep -c "^frame .* shown" "$log/log.txt"; }
 has_more_frames() { [ "$(frames)" -gt "$1" ]; }
-broke_no_rule() { grep -q "^frame" "$log/log.txt" && ! grep "^violation\|^leak" "$log/log.txt"; }
+# The layer creates its file only if it has something to report.
+broke_no_rule() {
+  grep -q "^frame" "$log/log.txt" && ! grep "^violation\|^leak" "$log/log.txt" && ! cat "$log/validation.txt" 2>/dev/null
+}
 # layers=2: picture and text card. locates=2: the eyes' poses are queried a second time, after the rest of the frame is
 # prepared.
 each_frame_is_complete() {

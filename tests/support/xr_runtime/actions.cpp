@@ -42,8 +42,6 @@ namespace xr {
 XrResult XRAPI_CALL CreateActionSet(XrInstance instance, const XrActionSetCreateInfo* info, XrActionSet* set) {
   return call("xrCreateActionSet", [&](State& s) {
     live(instance);
-    require_structure(info, XR_TYPE_ACTION_SET_CREATE_INFO);
-    require_pointer(set, "actionSet");
     check_names(s.action_sets, info->actionSetName, info->localizedActionSetName,
                 [&](const ActionSetObject& one) { return one.instance == instance; });
     *set = s.action_sets.add(
@@ -55,7 +53,6 @@ XrResult XRAPI_CALL CreateActionSet(XrInstance instance, const XrActionSetCreate
 
 XrResult XRAPI_CALL DestroyActionSet(XrActionSet set) {
   return call("xrDestroyActionSet", [&](State& s) {
-    require(s.action_sets.find(set) != nullptr, "handle_live", "action set");
     drop_action_set(s, set);
     count_live();
     return XR_SUCCESS;
@@ -65,8 +62,6 @@ XrResult XRAPI_CALL DestroyActionSet(XrActionSet set) {
 XrResult XRAPI_CALL CreateAction(XrActionSet set, const XrActionCreateInfo* info, XrAction* action) {
   return call("xrCreateAction", [&](State& s) {
     const ActionSetObject& action_set = live(set);
-    require_structure(info, XR_TYPE_ACTION_CREATE_INFO);
-    require_pointer(action, "action");
     require(!action_set.attached, "action_before_attach");
     check_names(s.actions, info->actionName, info->localizedActionName,
                 [&](const ActionObject& one) { return one.set == set; });
@@ -84,7 +79,6 @@ XrResult XRAPI_CALL CreateAction(XrActionSet set, const XrActionCreateInfo* info
 
 XrResult XRAPI_CALL DestroyAction(XrAction action) {
   return call("xrDestroyAction", [&](State& s) {
-    require(s.actions.find(action) != nullptr, "handle_live", "action");
     s.actions.erase(action);
     count_live();
     return XR_SUCCESS;
@@ -95,7 +89,6 @@ XrResult XRAPI_CALL SuggestInteractionProfileBindings(XrInstance instance,
                                                       const XrInteractionProfileSuggestedBinding* info) {
   return call("xrSuggestInteractionProfileBindings", [&](State&) {
     InstanceObject& object = live(instance);
-    require_structure(info, XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
     const std::string& profile = path_string(object, info->interactionProfile);
     if (!knows_profile(profile)) return XR_ERROR_PATH_UNSUPPORTED;  // OpenXR allows runtimes without this controller
     std::vector<XrActionSuggestedBinding> bindings;
@@ -111,7 +104,6 @@ XrResult XRAPI_CALL SuggestInteractionProfileBindings(XrInstance instance,
 XrResult XRAPI_CALL AttachSessionActionSets(XrSession session, const XrSessionActionSetsAttachInfo* info) {
   return call("xrAttachSessionActionSets", [&](State&) {
     SessionObject& object = live(session);
-    require_structure(info, XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO);
     require(!object.has_attached, "attach_once");
     for (std::uint32_t i = 0; i < info->countActionSets; ++i) live(info->actionSets[i]);
     for (std::uint32_t i = 0; i < info->countActionSets; ++i) {
@@ -126,7 +118,6 @@ XrResult XRAPI_CALL AttachSessionActionSets(XrSession session, const XrSessionAc
 XrResult XRAPI_CALL GetCurrentInteractionProfile(XrSession session, XrPath user, XrInteractionProfileState* state) {
   return call("xrGetCurrentInteractionProfile", [&](State&) {
     const SessionObject& object = live(session);
-    require_structure(state, XR_TYPE_INTERACTION_PROFILE_STATE);
     require(object.has_attached, "set_attached");
     InstanceObject& instance = live(object.instance);
     const bool has = hand_of(user, instance) >= 0 && !object.profile.empty();
@@ -138,8 +129,6 @@ XrResult XRAPI_CALL GetCurrentInteractionProfile(XrSession session, XrPath user,
 XrResult XRAPI_CALL CreateActionSpace(XrSession session, const XrActionSpaceCreateInfo* info, XrSpace* space) {
   return call("xrCreateActionSpace", [&](State& s) {
     live(session);
-    require_structure(info, XR_TYPE_ACTION_SPACE_CREATE_INFO);
-    require_pointer(space, "space");
     const ActionObject& action = live(info->action);
     require(action.type == XR_ACTION_TYPE_POSE_INPUT, "action_type", action.name);
     check_subaction(action, info->subactionPath);

@@ -24,7 +24,7 @@ void restart(Control& control) {
 template <class Handle, class Object>
 Object& find_or_reject(const Table<Handle, Object>& table, Handle handle) {
   Object* const object = table.find(handle);
-  require(object != nullptr, "handle_live", Object::kKind);
+  if (object == nullptr) reject_call(XR_ERROR_HANDLE_INVALID);
   return *object;
 }
 
@@ -123,31 +123,6 @@ ActionObject& live(XrAction handle) {
   ActionObject& action = find_or_reject(state().actions, handle);
   live(action.set);
   return action;
-}
-
-void require_pointer(const void* value, const char* name) {
-  require(value != nullptr, "pointer", name);
-}
-
-bool enabled(const char* extension) {
-  State& s = state();
-  const auto instances_with =
-      s.instances.find_all([&](const InstanceObject& one) { return one.extensions.contains(extension); });
-  return !instances_with.empty();
-}
-
-void require_structure(const void* value, XrStructureType type, std::initializer_list<Extends> allowed) {
-  require_pointer(value, "a structure");
-  const auto* const head = static_cast<const Header*>(value);
-  require(head->type == type, "struct_type", "is " + std::to_string(head->type) + ", not " + std::to_string(type));
-  for (auto* next = static_cast<const Header*>(head->next); next != nullptr;
-       next = static_cast<const Header*>(next->next)) {
-    const auto known = std::find_if(allowed.begin(), allowed.end(),
-                                    [&](const Extends& extends) { return extends.type == next->type; });
-    require(known != allowed.end(), "next_chain", "type " + std::to_string(next->type));
-    require(known->extension == nullptr || enabled(known->extension), "extension_enabled",
-            known->extension == nullptr ? "" : known->extension);
-  }
 }
 
 const void* find_chained(const void* value, XrStructureType type) {

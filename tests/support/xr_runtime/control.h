@@ -262,8 +262,12 @@ struct Control {
   }
 };
 
-// Sets XR_RUNTIME_JSON and loads the runtime. Each call returns the same object. Throws std::runtime_error. Defined in
-// the library xr_test_control.
+// Loads the runtime, and sets the environment so that the OpenXR loader finds it and puts Khronos' validation layer in
+// front of it. Each call returns the same object. Throws std::runtime_error. Defined in the library xr_test_control.
 Control& control();
+
+// Returns what Khronos' validation layer and the runtime found wrong with the program's calls since the last complaints(),
+// one line each. Defined in the library xr_test_control.
+std::string complaints();
 
 }  // namespace gearshift::xr_test

@@ -33,11 +33,9 @@ bool is_shown(const State& s, const SessionObject& session, double t) {
 
 namespace xr {
 
-XrResult XRAPI_CALL WaitFrame(XrSession session, const XrFrameWaitInfo* info, XrFrameState* state) {
+XrResult XRAPI_CALL WaitFrame(XrSession session, const XrFrameWaitInfo*, XrFrameState* state) {
   return call("xrWaitFrame", [&](State& s) {
     SessionObject& object = live(session);
-    if (info != nullptr) require_structure(info, XR_TYPE_FRAME_WAIT_INFO);
-    require_structure(state, XR_TYPE_FRAME_STATE);
     require(object.running, "session_running");
     require(!object.waited, "wait_twice");
     // Handle the events that are due before choosing the display time, because an event `stall` delays it.
@@ -59,10 +57,9 @@ XrResult XRAPI_CALL WaitFrame(XrSession session, const XrFrameWaitInfo* info, Xr
   });
 }
 
-XrResult XRAPI_CALL BeginFrame(XrSession session, const XrFrameBeginInfo* info) {
+XrResult XRAPI_CALL BeginFrame(XrSession session, const XrFrameBeginInfo*) {
   return call("xrBeginFrame", [&](State& s) {
     SessionObject& object = live(session);
-    if (info != nullptr) require_structure(info, XR_TYPE_FRAME_BEGIN_INFO);
     require(object.running, "session_running");
     require(object.waited.has_value(), "wait_before_begin");
     const bool discarded = object.begun.has_value();
@@ -76,7 +73,6 @@ XrResult XRAPI_CALL BeginFrame(XrSession session, const XrFrameBeginInfo* info) 
 XrResult XRAPI_CALL EndFrame(XrSession session, const XrFrameEndInfo* info) {
   return call("xrEndFrame", [&](State& s) {
     SessionObject& object = live(session);
-    require_structure(info, XR_TYPE_FRAME_END_INFO);
     require(object.running, "session_running");
     require(object.begun.has_value(), "begin_before_end");
     require(info->displayTime > 0, "time_positive");

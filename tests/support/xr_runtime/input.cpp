@@ -107,11 +107,9 @@ ActionValue value_of(const ActionObject& action, XrPath subaction) {
 
 template <class Out, class Write>
 XrResult get_state(const char* function, XrSession session, const XrActionStateGetInfo* info, Out* out,
-                   XrStructureType type, XrActionType action_type, Write write) {
+                   XrActionType action_type, Write write) {
   return call(function, [&](State&) {
     const SessionObject& object = live(session);
-    require_structure(info, XR_TYPE_ACTION_STATE_GET_INFO);
-    require_structure(out, type);
     const ActionValue value =
         value_of(require_readable(object, info->action, info->subactionPath, action_type), info->subactionPath);
     write(value);
@@ -153,7 +151,6 @@ namespace xr {
 XrResult XRAPI_CALL SyncActions(XrSession session, const XrActionsSyncInfo* info) {
   return call("xrSyncActions", [&](State& s) {
     SessionObject& object = live(session);
-    require_structure(info, XR_TYPE_ACTIONS_SYNC_INFO);
     for (std::uint32_t i = 0; i < info->countActiveActionSets; ++i) {
       live(info->activeActionSets[i].actionSet);
       require(is_attached(object, info->activeActionSets[i].actionSet), "set_attached");
@@ -178,8 +175,8 @@ XrResult XRAPI_CALL SyncActions(XrSession session, const XrActionsSyncInfo* info
 
 XrResult XRAPI_CALL GetActionStateBoolean(XrSession session, const XrActionStateGetInfo* info,
                                           XrActionStateBoolean* state) {
-  return get_state("xrGetActionStateBoolean", session, info, state, XR_TYPE_ACTION_STATE_BOOLEAN,
-                   XR_ACTION_TYPE_BOOLEAN_INPUT, [&](const ActionValue& value) {
+  return get_state("xrGetActionStateBoolean", session, info, state, XR_ACTION_TYPE_BOOLEAN_INPUT,
+                   [&](const ActionValue& value) {
                      state->currentState = value.x > 0.0f ? XR_TRUE : XR_FALSE;
                      write_change(state, value);
                    });
@@ -187,8 +184,8 @@ XrResult XRAPI_CALL GetActionStateBoolean(XrSession session, const XrActionState
 
 XrResult XRAPI_CALL GetActionStateFloat(XrSession session, const XrActionStateGetInfo* info,
                                         XrActionStateFloat* state) {
-  return get_state("xrGetActionStateFloat", session, info, state, XR_TYPE_ACTION_STATE_FLOAT,
-                   XR_ACTION_TYPE_FLOAT_INPUT, [&](const ActionValue& value) {
+  return get_state("xrGetActionStateFloat", session, info, state, XR_ACTION_TYPE_FLOAT_INPUT,
+                   [&](const ActionValue& value) {
                      state->currentState = value.x;
                      write_change(state, value);
                    });
@@ -196,23 +193,21 @@ XrResult XRAPI_CALL GetActionStateFloat(XrSession session, const XrActionStateGe
 
 XrResult XRAPI_CALL GetActionStateVector2f(XrSession session, const XrActionStateGetInfo* info,
                                            XrActionStateVector2f* state) {
-  return get_state("xrGetActionStateVector2f", session, info, state, XR_TYPE_ACTION_STATE_VECTOR2F,
-                   XR_ACTION_TYPE_VECTOR2F_INPUT, [&](const ActionValue& value) {
+  return get_state("xrGetActionStateVector2f", session, info, state, XR_ACTION_TYPE_VECTOR2F_INPUT,
+                   [&](const ActionValue& value) {
                      state->currentState = {value.x, value.y};
                      write_change(state, value);
                    });
 }
 
 XrResult XRAPI_CALL GetActionStatePose(XrSession session, const XrActionStateGetInfo* info, XrActionStatePose* state) {
-  return get_state("xrGetActionStatePose", session, info, state, XR_TYPE_ACTION_STATE_POSE, XR_ACTION_TYPE_POSE_INPUT,
-                   [](const ActionValue&) {});
+  return get_state("xrGetActionStatePose", session, info, state, XR_ACTION_TYPE_POSE_INPUT, [](const ActionValue&) {});
 }
 
 XrResult XRAPI_CALL EnumerateBoundSourcesForAction(XrSession session, const XrBoundSourcesForActionEnumerateInfo* info,
                                                    std::uint32_t capacity, std::uint32_t* count, XrPath* paths) {
   return call("xrEnumerateBoundSourcesForAction", [&](State&) {
     const SessionObject& object = live(session);
-    require_structure(info, XR_TYPE_BOUND_SOURCES_FOR_ACTION_ENUMERATE_INFO);
     require(is_attached(object, live(info->action).set), "set_attached");
     InstanceObject& instance = live(object.instance);
     return fill(capacity, count, paths, sources(object, info->action, XR_NULL_PATH),
@@ -224,7 +219,6 @@ XrResult XRAPI_CALL GetInputSourceLocalizedName(XrSession session, const XrInput
                                                 std::uint32_t capacity, std::uint32_t* count, char* buffer) {
   return call("xrGetInputSourceLocalizedName", [&](State&) {
     const SessionObject& object = live(session);
-    require_structure(info, XR_TYPE_INPUT_SOURCE_LOCALIZED_NAME_GET_INFO);
     require(object.has_attached, "set_attached");
     // A localized name for display, made of the path's parts; programs must not parse it.
     std::string name = path_string(live(object.instance), info->sourcePath).substr(1);
@@ -237,8 +231,6 @@ XrResult XRAPI_CALL ApplyHapticFeedback(XrSession session, const XrHapticActionI
                                         const XrHapticBaseHeader* haptic) {
   return call("xrApplyHapticFeedback", [&](State& s) {
     const SessionObject& object = live(session);
-    require_structure(info, XR_TYPE_HAPTIC_ACTION_INFO);
-    require_structure(haptic, XR_TYPE_HAPTIC_VIBRATION);
     require_readable(object, info->action, info->subactionPath, XR_ACTION_TYPE_VIBRATION_OUTPUT);
     const auto& pulse = reinterpret_cast<const XrHapticVibration&>(*haptic);
     const bool has_duration = pulse.duration > 0 || pulse.duration == XR_MIN_HAPTIC_DURATION;
@@ -257,7 +249,6 @@ XrResult XRAPI_CALL ApplyHapticFeedback(XrSession session, const XrHapticActionI
 XrResult XRAPI_CALL StopHapticFeedback(XrSession session, const XrHapticActionInfo* info) {
   return call("xrStopHapticFeedback", [&](State&) {
     const SessionObject& object = live(session);
-    require_structure(info, XR_TYPE_HAPTIC_ACTION_INFO);
     require_readable(object, info->action, info->subactionPath, XR_ACTION_TYPE_VIBRATION_OUTPUT);
     return object.state == XR_SESSION_STATE_FOCUSED ? XR_SUCCESS : XR_SESSION_NOT_FOCUSED;
   });

@@ -6,8 +6,6 @@
 namespace gearshift::xr_test {
 namespace {
 
-constexpr Extends kDepth{XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR, XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME};
-
 Rect check_image(const XrSwapchainSubImage& image) {
   const SwapchainObject& swapchain = live(image.swapchain);
   require(swapchain.released.has_value(), "image_released");
@@ -32,7 +30,8 @@ Fov check_fov(const XrFovf& fov) {
 
 DepthRecord check_depth(const XrCompositionLayerProjectionView& view) {
   DepthRecord record;
-  const auto* const depth = static_cast<const XrCompositionLayerDepthInfoKHR*>(find_chained(&view, kDepth.type));
+  const auto* const depth =
+      static_cast<const XrCompositionLayerDepthInfoKHR*>(find_chained(&view, XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR));
   if (depth == nullptr) return record;
   record = {true, depth->minDepth, depth->maxDepth, depth->nearZ, depth->farZ, check_image(depth->subImage), {}};
   require(record.min_depth >= 0.0f && record.min_depth < record.max_depth && record.max_depth <= 1.0f, "depth_info");
@@ -42,13 +41,10 @@ DepthRecord check_depth(const XrCompositionLayerProjectionView& view) {
 }
 
 LayerRecord read_projection(const XrCompositionLayerProjection& layer) {
-  require_structure(&layer, XR_TYPE_COMPOSITION_LAYER_PROJECTION);
   require(layer.viewCount == 2, "view_count", std::to_string(layer.viewCount));
-  require_pointer(layer.views, "views");
   LayerRecord record{.type = layer.type, .flags = layer.layerFlags, .space = live(layer.space).type};
   for (std::uint32_t i = 0; i < layer.viewCount; ++i) {
     const XrCompositionLayerProjectionView& view = layer.views[i];
-    require_structure(&view, XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, {kDepth});
     require_unit_pose(view.pose, "view");
     const Fov fov = check_fov(view.fov);
     const Rect rect = check_image(view.subImage);
@@ -58,7 +54,6 @@ LayerRecord read_projection(const XrCompositionLayerProjection& layer) {
 }
 
 LayerRecord read_quad(const XrCompositionLayerQuad& layer) {
-  require_structure(&layer, XR_TYPE_COMPOSITION_LAYER_QUAD);
   require_unit_pose(layer.pose, "quad");
   LayerRecord record{.type = layer.type, .flags = layer.layerFlags, .space = live(layer.space).type};
   record.width = layer.size.width;
@@ -73,10 +68,8 @@ LayerRecord read_quad(const XrCompositionLayerQuad& layer) {
 
 std::vector<LayerRecord> read_layers(const XrFrameEndInfo& info) {
   std::vector<LayerRecord> records;
-  if (info.layerCount != 0) require_pointer(info.layers, "layers");
   for (std::uint32_t i = 0; i < info.layerCount; ++i) {
     const XrCompositionLayerBaseHeader* const layer = info.layers[i];
-    require(layer != nullptr, "layer_type", "NULL");
     if (layer->type == XR_TYPE_COMPOSITION_LAYER_PROJECTION) {
       records.push_back(read_projection(reinterpret_cast<const XrCompositionLayerProjection&>(*layer)));
     } else {

@@ -44,6 +44,12 @@ const Function functions[] = {
 #undef GEARSHIFT_XR_FUNCTION
 };
 
+// True if the instance (there is at most one) enabled the extension.
+bool enabled(const char* extension) {
+  const auto has_it = [&](const InstanceObject& one) { return one.extensions.contains(extension); };
+  return !state().instances.find_all(has_it).empty();
+}
+
 XrResult XRAPI_CALL get_function(XrInstance instance, const char* name, PFN_xrVoidFunction* address) {
   *address = nullptr;
   const std::string_view wanted = name;

@@ -56,8 +56,6 @@ namespace xr {
 XrResult XRAPI_CALL StringToPath(XrInstance instance, const char* text, XrPath* path) {
   return call("xrStringToPath", [&](State&) {
     InstanceObject& object = live(instance);
-    require_pointer(text, "pathString");
-    require_pointer(path, "path");
     require(is_well_formed_path(text), "path_format", text);
     *path = path_number(object, text);
     return XR_SUCCESS;

@@ -127,8 +127,6 @@ XrResult XRAPI_CALL EnumerateReferenceSpaces(XrSession session, std::uint32_t ca
 XrResult XRAPI_CALL CreateReferenceSpace(XrSession session, const XrReferenceSpaceCreateInfo* info, XrSpace* space) {
   return call("xrCreateReferenceSpace", [&](State& s) {
     live(session);
-    require_structure(info, XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
-    require_pointer(space, "space");
     const Space type = reference_type(s.control.script, info->referenceSpaceType);
     require_unit_pose(info->poseInReferenceSpace, "poseInReferenceSpace");
     *space = s.spaces.add({.session = session, .type = type, .pose = from_xr(info->poseInReferenceSpace)});
@@ -140,7 +138,6 @@ XrResult XRAPI_CALL CreateReferenceSpace(XrSession session, const XrReferenceSpa
 XrResult XRAPI_CALL GetReferenceSpaceBoundsRect(XrSession session, XrReferenceSpaceType type, XrExtent2Df* bounds) {
   return call("xrGetReferenceSpaceBoundsRect", [&](State& s) {
     live(session);
-    require_pointer(bounds, "bounds");
     const bool stage = reference_type(s.control.script, type) == Space::stage;
     *bounds = stage ? XrExtent2Df{2.0f, 2.0f} : XrExtent2Df{0.0f, 0.0f};
     return stage ? XR_SUCCESS : XR_SPACE_BOUNDS_UNAVAILABLE;
@@ -149,7 +146,6 @@ XrResult XRAPI_CALL GetReferenceSpaceBoundsRect(XrSession session, XrReferenceSp
 
 XrResult XRAPI_CALL DestroySpace(XrSpace space) {
   return call("xrDestroySpace", [&](State& s) {
-    require(s.spaces.find(space) != nullptr, "handle_live", "space");
     s.spaces.erase(space);
     count_live();
     return XR_SUCCESS;
@@ -159,7 +155,6 @@ XrResult XRAPI_CALL DestroySpace(XrSpace space) {
 XrResult XRAPI_CALL LocateSpace(XrSpace space, XrSpace base, XrTime time, XrSpaceLocation* location) {
   return call("xrLocateSpace", [&](State& s) {
     const SpaceObject &located = live(space), &base_space = live(base);
-    require_structure(location, XR_TYPE_SPACE_LOCATION, {{XR_TYPE_SPACE_VELOCITY}});
     require(time > 0, "time_positive");
     const Pose pose = relative(s, located, base_space, time);
     location->locationFlags = location_flags(pose);
@@ -175,8 +170,6 @@ XrResult XRAPI_CALL LocateViews(XrSession session, const XrViewLocateInfo* info,
                                 std::uint32_t capacity, std::uint32_t* count, XrView* views) {
   return call("xrLocateViews", [&](State& s) {
     live(session);
-    require_structure(info, XR_TYPE_VIEW_LOCATE_INFO);
-    require_structure(view_state, XR_TYPE_VIEW_STATE);
     require_stereo(info->viewConfigurationType);
     require(info->displayTime > 0, "time_positive");
     const SpaceObject& base = live(info->space);
@@ -188,7 +181,6 @@ XrResult XRAPI_CALL LocateViews(XrSession session, const XrViewLocateInfo* info,
     view_state->viewStateFlags = location_flags(pose);
     const XrResult result =
         fill(capacity, count, views, std::vector<std::size_t>{0, 1}, [&](XrView& to, std::size_t eye) {
-          require_structure(&to, XR_TYPE_VIEW);
           const double side = (eye == 0 ? -0.5 : 0.5) * s.control.script.eye_distance;
           to.pose = to_xr(pose * Pose{.position = {side, 0.0, 0.0}});
           to.fov = xr_fov(s.control.script.fov[eye]);

@@ -190,25 +190,14 @@ SwapchainObject& live(XrSwapchain handle);
 ActionSetObject& live(XrActionSet handle);
 ActionObject& live(XrAction handle);
 
-void require_pointer(const void* value, const char* name);
-bool enabled(const char* extension);  // true if the instance (there is at most one) enabled the extension
-
-// An entry of `allowed` below: a structure type in the next chain, and the extension that provides it.
-struct Extends {
-  XrStructureType type;
-  const char* extension = nullptr;
-};
-void require_structure(const void* value, XrStructureType type, std::initializer_list<Extends> allowed = {});
 const void* find_chained(const void* value, XrStructureType type);  // nullptr if the chain does not contain the type
 
 // The two-call idiom of the OpenXR section "Buffer Size Parameters".
 template <class Out, class Items, class Write>
 XrResult fill(std::uint32_t capacity, std::uint32_t* count, Out* out, const Items& items, Write write) {
-  require_pointer(count, "the count");
   *count = static_cast<std::uint32_t>(items.size());
   if (capacity == 0) return XR_SUCCESS;
   if (capacity < *count) return XR_ERROR_SIZE_INSUFFICIENT;
-  require_pointer(out, "the buffer");
   for (std::size_t i = 0; i < items.size(); ++i) write(out[i], items[i]);
   return XR_SUCCESS;
 }

@@ -60,8 +60,6 @@ XrResult XRAPI_CALL EnumerateSwapchainFormats(XrSession session, std::uint32_t c
 XrResult XRAPI_CALL CreateSwapchain(XrSession session, const XrSwapchainCreateInfo* info, XrSwapchain* swapchain) {
   return call("xrCreateSwapchain", [&](State& s) {
     const SessionObject& owner = live(session);
-    require_structure(info, XR_TYPE_SWAPCHAIN_CREATE_INFO);
-    require_pointer(swapchain, "swapchain");
     check_create_info(s.control.script, *info);
     SwapchainObject created{.session = session, .info = *info};
     created.info.next = nullptr;
@@ -75,7 +73,6 @@ XrResult XRAPI_CALL CreateSwapchain(XrSession session, const XrSwapchainCreateIn
 XrResult XRAPI_CALL DestroySwapchain(XrSwapchain swapchain) {
   return call("xrDestroySwapchain", [&](State& s) {
     const SwapchainObject* const object = s.swapchains.find(swapchain);
-    require(object != nullptr, "handle_live", "swapchain");
     if (!object->acquired.empty()) write_violation("destroyed_in_use", {});  // the swapchain is destroyed anyway
     drop_swapchain(s, swapchain);
     count_live();
@@ -88,19 +85,15 @@ XrResult XRAPI_CALL EnumerateSwapchainImages(XrSwapchain swapchain, std::uint32_
   return call("xrEnumerateSwapchainImages", [&](State&) {
     const SwapchainObject& object = live(swapchain);
     auto* const out = reinterpret_cast<XrSwapchainImageVulkanKHR*>(images);
-    return fill(capacity, count, out, object.images, [](XrSwapchainImageVulkanKHR& to, const SwapchainImage& from) {
-      require_structure(&to, XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR);
-      to.image = from.image;
-    });
+    return fill(capacity, count, out, object.images,
+                [](XrSwapchainImageVulkanKHR& to, const SwapchainImage& from) { to.image = from.image; });
   });
 }
 
-XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageAcquireInfo* info,
+XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageAcquireInfo*,
                                           std::uint32_t* index) {
   return call("xrAcquireSwapchainImage", [&](State& s) {
     SwapchainObject& object = live(swapchain);
-    if (info != nullptr) require_structure(info, XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO);
-    require_pointer(index, "index");
     require(object.acquired.size() < object.images.size(), "acquire_order");
     *index = object.next;
     object.next = (object.next + 1) % static_cast<std::uint32_t>(object.images.size());
@@ -110,20 +103,18 @@ XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapcha
   });
 }
 
-XrResult XRAPI_CALL WaitSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageWaitInfo* info) {
+XrResult XRAPI_CALL WaitSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageWaitInfo*) {
   return call("xrWaitSwapchainImage", [&](State&) {
     SwapchainObject& object = live(swapchain);
-    require_structure(info, XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
     require(!object.acquired.empty() && !object.waited, "image_wait_order");
     object.waited = true;
     return XR_SUCCESS;
   });
 }
 
-XrResult XRAPI_CALL ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageReleaseInfo* info) {
+XrResult XRAPI_CALL ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageReleaseInfo*) {
   return call("xrReleaseSwapchainImage", [&](State&) {
     SwapchainObject& object = live(swapchain);
-    if (info != nullptr) require_structure(info, XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO);
     require(object.waited, "release_order");
     object.released = object.acquired.front();
     object.acquired.pop_front();

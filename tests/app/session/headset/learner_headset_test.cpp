@@ -74,6 +74,11 @@ struct Worn {
     wear();
   }
 
+  ~Worn() {
+    headset.reset();
+    CHECK(xr_test::complaints() == "");
+  }
+
   void wear() {
     headset = std::make_unique<LearnerHeadset>(setup, window, ui);
     REQUIRE(headset->is_found());
