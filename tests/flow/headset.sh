@@ -14,7 +14,7 @@ source "$flows/worn.sh"
 
 # --- the simulated driver drives a lesson, until the headset's menu ends the program
 begin "a lesson starts in the headset" wear lesson --hand "by itself" --lesson hill_start --seat-height 0.05 < <(
-  echo 'capture = {every = 3}'
+  echo 'capture_every = 3'
   at 13 exit)
 check "the headset is reported" within 20 warned "$found"
 check "the lesson is passed in it" within 30 printed "lesson hill_start is over: grade .*/10, passed"
@@ -49,7 +49,7 @@ check "the text changes after the lesson" differs "$card" "$last_card" 1000
 # --- every session state; a turned tracking space; interrupted head tracking. The car does not move, so the picture
 # must not change.
 begin "it starts with the seat on the right" wear states --lesson none --car none --hand grip --drive right --knob -0.3,0.5,0.3 < <(
-  echo 'capture = {every = 1}'
+  echo 'capture_every = 1'
   at 6 visible
   at 7 focused
   at 8 synchronized
@@ -60,7 +60,7 @@ begin "it starts with the seat on the right" wear states --lesson none --car non
   at 16 space_change 'space = "local"' "position = [0.2, 0, 0.1]" "yaw = 20"
   at 17 space_change 'space = "stage"' "position = [0.4, 0, -0.3]" "yaw = 90"
   echo '[[tracking_gap]]'
-  printf 'from = 18.5\nuntil = 20\nvalid = false\n[[tracking_gap]]\nfrom = 20.1\nuntil = 20.5\n'
+  printf 'from = 18.5\nuntil = 20\n[[tracking_gap]]\nfrom = 20.1\nuntil = 20.5\n'
   at 22 exit)
 check "the headset's menu ends it" ended_by_itself
 check "taking it off is reported" warned "^gearshift: the headset was taken off, so the desktop shows the cabin$"

@@ -34,7 +34,7 @@ order() { echo "$*" >&8; }
 beneath=(umockdev-wrapper "$emulator" --family openffboard --own-power --orders orders --log forces.log --)
 size=960x600 panel= hang="left -0.3"
 begin "stick and headset are found" wear touched --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
-  echo 'capture = {every = 2}'
+  echo 'capture_every = 2'
   in_room script)
 check "the headset is reported" within 20 warned "$found"
 xdotool windowfocus "$window"
@@ -106,7 +106,7 @@ in_room truth "$seat"
 beneath=(umockdev-wrapper "$emulator" --family openffboard --tour paper --log lost.log --)
 panel=--no-panel hang="left -0.3 right 0.3"
 begin "a new start" wear lost --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
-  echo 'capture = {every = 2}'
+  echo 'capture_every = 2'
   in_room script | grep "^head\|^stage_origin"
   fails 36 xrEndFrame XR_ERROR_RUNTIME_FAILURE
   for i in 2 3 4 5 6 7; do fails $i xrGetSystem XR_ERROR_FORM_FACTOR_UNAVAILABLE; done)

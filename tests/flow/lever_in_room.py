@@ -56,7 +56,7 @@ def script():
     aim = [pose(tips[g], *HELD[g], t + after) for t, g in pulls for after in (-0.3, PULL + 0.2)]
     print("stage_origin = {position = [0, 0, 0]}")  # stage and local space coincide, so the program may use either
     print(f"head = [{pose(to_room(EYE), YAW - math.degrees(TURN), PITCH, 0)}]")
-    print(f"right = {{aim = [{', '.join(aim)}]}}")
+    print(f"right = [{', '.join(aim)}]")
     print('[[input]]\npath = "/user/hand/right/input/trigger/value"')
     print("at = [" + ", ".join(f"{t:.1f}, {t + PULL:.1f}" for t, _ in pulls) + "]")
     print("value = [" + ", ".join(["1.0, 0.0"] * len(pulls)) + "]")

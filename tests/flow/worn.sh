@@ -16,7 +16,7 @@ lost="; the desktop shows the cabin. The lever keeps running.$"
 # The controllers hang down, so that they do not point at the text card.
 hang="left -0.3 right 0.3"
 puts_on=start panel=--no-panel
-hanging() { printf '%s = {aim = [{position = [%s, -0.6, 0], pitch = -80}]}\n' "$@"; }
+hanging() { printf '%s = [{position = [%s, -0.6, 0], pitch = -80}]\n' "$@"; }
 # Takes the name of the run, which is also the name of its script and output, and arguments; starts the trainer. The
 # rest of the script comes from stdin. The eyes' pictures are small, because the CPU draws them.
 wear() {

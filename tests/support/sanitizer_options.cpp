@@ -27,8 +27,7 @@ extern "C" const char* __lsan_default_suppressions() {
          "leak:libLLVM\n"
          "leak:libVkLayer_khronos_validation.so\n"
          "leak:libvulkan.so\n"
-         "leak:libopenxr_loader.so\n"
-         "leak:libXrApiLayer_core_validation.so\n";
+         "leak:libopenxr_loader.so\n";
 }
 #endif
 

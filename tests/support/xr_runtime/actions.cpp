@@ -1,147 +1,207 @@
-// Action sets and actions: creation, binding, attachment.
+// Paths, controllers, actions and their values. An XrPath is the number of a path string in its instance.
 #include <algorithm>
+#include <regex>
 #include <string_view>
+#include <utility>
 
-#include "tests/support/xr_runtime/functions.h"
-#include "tests/support/xr_runtime/profiles.h"
 #include "tests/support/xr_runtime/state.h"
 
 namespace gearshift::xr_test {
 namespace {
 
-template <class Table, class Sibling>
-void check_names(const Table& table, const char* name, const char* localized, Sibling sibling) {
-  require(is_path_part(name), "name_valid", name);
-  require(localized[0] != '\0', "localized_valid", name);
-  const auto clashes = [&](auto same) {
-    return !table.find_all([&](const auto& one) { return sibling(one) && same(one); }).empty();
-  };
-  require(!clashes([&](const auto& one) { return one.name == name; }), "name_unique", name);
-  require(!clashes([&](const auto& one) { return one.localized == localized; }), "localized_unique", localized);
+// The controllers that the runtime knows, with their inputs as in the OpenXR specification's section "Interaction
+// Profile Paths". The script's inputs are those of the Touch controller.
+constexpr std::string_view kTouch = "/interaction_profiles/oculus/touch_controller";
+struct Input {
+  std::string_view profile;
+  std::string_view hands;  // controllers that have the path: "l", "r" or "lr"
+  std::string_view path;
+};
+constexpr std::string_view kSimple = "/interaction_profiles/khr/simple_controller";
+constexpr Input kInputs[] = {
+    {kSimple, "lr", "input/select/click"},    {kSimple, "lr", "input/menu/click"},   {kSimple, "lr", "input/aim/pose"},
+    {kSimple, "lr", "input/grip/pose"},       {kTouch, "l", "input/x/click"},        {kTouch, "l", "input/y/click"},
+    {kTouch, "l", "input/menu/click"},        {kTouch, "r", "input/a/click"},        {kTouch, "r", "input/b/click"},
+    {kTouch, "lr", "input/squeeze/value"},    {kTouch, "lr", "input/trigger/value"}, {kTouch, "lr", "input/thumbstick"},
+    {kTouch, "lr", "input/thumbstick/click"}, {kTouch, "lr", "input/grip/pose"},     {kTouch, "lr", "input/aim/pose"},
+};
+
+// True if the controller has this input.
+bool has_input(std::string_view profile, std::string_view path) {
+  const std::string_view left = "/user/hand/left/", right = "/user/hand/right/";
+  const bool is_left = path.starts_with(left);
+  if (!is_left && !path.starts_with(right)) return false;
+  const std::string_view part = path.substr(is_left ? left.size() : right.size());
+  return std::any_of(std::begin(kInputs), std::end(kInputs), [&](const Input& one) {
+    return one.profile == profile && one.path == part && one.hands.find(is_left ? 'l' : 'r') != std::string_view::npos;
+  });
 }
 
-void check_binding(const InstanceObject& instance, const std::string& profile,
-                   const XrActionSuggestedBinding& binding) {
-  const ActionObject& action = live(binding.action);
-  require(!live(action.set).attached, "suggest_before_attach");
-  const std::string& path = path_string(instance, binding.binding);
-  require(has_source(profile, path), "binding_path", path);
+// True if the text is one or several parts of a path: lower-case letters, digits, and - _ . but not only dots.
+bool is_path(const std::string& text) {
+  static const std::regex path("(/[a-z0-9._-]*[a-z0-9_-][a-z0-9._-]*)+");
+  return std::regex_match(text, path);
+}
+
+const std::string& path_string(XrInstance instance, XrPath path) {
+  const std::vector<std::string>& paths = live(instance).paths;
+  require(path >= 1 && path <= paths.size(), "path_format", std::to_string(path));
+  return paths[path - 1];
+}
+
+// Returns the input path to which an action is bound on one of the Touch controllers; empty if it is not bound.
+std::string source_of(XrAction action, XrPath hand) {
+  const XrInstance instance = live(live(action).parent).parent;
+  for (const XrActionSuggestedBinding& binding : live(instance).suggestions[std::string(kTouch)]) {
+    const std::string& path = path_string(instance, binding.binding);
+    if (binding.action == action && path.starts_with(path_string(instance, hand) + "/")) return path;
+  }
+  return {};
+}
+
+float scripted_value(const Script& script, const std::string& path, double t) {
+  const auto input = script.inputs.find(path);
+  return input == script.inputs.end() ? 0.0f : static_cast<float>(input->second(t));
+}
+
+ActionValue read_source(const Script& script, XrActionType type, const std::string& path, double t) {
+  if (path.empty()) return {};
+  if (type == XR_ACTION_TYPE_VECTOR2F_INPUT)
+    return {scripted_value(script, path + "/x", t), scripted_value(script, path + "/y", t), true};
+  constexpr float kPressed = 0.5f;
+  return {scripted_value(script, path, t) >= kPressed ? 1.0f : 0.0f, 0.0f, true};
+}
+
+const ActionValue& value_of(XrSession session, const XrActionStateGetInfo& info, XrActionType type) {
+  require(live(session).attached && live(live(info.action).parent).attached, "attach_order");
+  const Object<XrAction>& action = live(info.action);
+  require(action.type == type && action.values.contains(info.subactionPath), "action_type");
+  return action.values.at(info.subactionPath);
 }
 
 }  // namespace
 
-void drop_action_set(State& s, XrActionSet handle) {
-  for (const XrAction action : s.actions.find_all([&](const ActionObject& one) { return one.set == handle; })) {
-    s.actions.erase(action);  // no leak: destroying a set also destroys its actions
-  }
-  s.action_sets.erase(handle);
+void drop_action_set(XrActionSet handle) {
+  for_children<XrAction>(handle, drop<XrAction>);  // no leak: destroying a set also destroys its actions
+  drop(handle);
 }
 
-namespace xr {
+Pose action_pose(const Object<XrSpace>& space, double t) {
+  if (!live(space.action).values.at(space.subaction).active)
+    return {.position_valid = false, .orientation_valid = false, .tracked = false};
+  const std::string source = source_of(space.action, space.subaction);
+  return state().control.script.aim[source.starts_with("/user/hand/left/") ? 0 : 1](t);
+}
 
-XrResult XRAPI_CALL CreateActionSet(XrInstance instance, const XrActionSetCreateInfo* info, XrActionSet* set) {
-  return call("xrCreateActionSet", [&](State& s) {
+XrResult XRAPI_CALL xr::StringToPath(XrInstance instance, const char* text, XrPath* path) {
+  return call("xrStringToPath", [&](State&) {
+    require(is_path(text), "path_format", text);
+    std::vector<std::string>& paths = live(instance).paths;
+    const auto known = std::find(paths.begin(), paths.end(), text);
+    *path = static_cast<XrPath>(known - paths.begin()) + 1;
+    if (known == paths.end()) paths.emplace_back(text);
+  });
+}
+
+XrResult XRAPI_CALL xr::CreateActionSet(XrInstance instance, const XrActionSetCreateInfo* info, XrActionSet* set) {
+  return call("xrCreateActionSet", [&](State&) {
     live(instance);
-    check_names(s.action_sets, info->actionSetName, info->localizedActionSetName,
-                [&](const ActionSetObject& one) { return one.instance == instance; });
-    *set = s.action_sets.add(
-        {.instance = instance, .name = info->actionSetName, .localized = info->localizedActionSetName});
-    count_live();
-    return XR_SUCCESS;
+    require(is_path(std::string("/") + info->actionSetName), "path_format", info->actionSetName);
+    *set = add<XrActionSet>({.parent = instance});
   });
 }
 
-XrResult XRAPI_CALL DestroyActionSet(XrActionSet set) {
-  return call("xrDestroyActionSet", [&](State& s) {
-    drop_action_set(s, set);
-    count_live();
-    return XR_SUCCESS;
+XrResult XRAPI_CALL xr::DestroyActionSet(XrActionSet set) {
+  return call("xrDestroyActionSet", [&](State&) { drop_action_set(set); });
+}
+
+XrResult XRAPI_CALL xr::CreateAction(XrActionSet set, const XrActionCreateInfo* info, XrAction* action) {
+  return call("xrCreateAction", [&](State&) {
+    require(!live(set).attached, "attach_order");
+    require(is_path(std::string("/") + info->actionName), "path_format", info->actionName);
+    Object<XrAction> created{.parent = set, .type = info->actionType};
+    for (std::uint32_t i = 0; i < info->countSubactionPaths; ++i) created.values[info->subactionPaths[i]] = {};
+    *action = add<XrAction>(std::move(created));
   });
 }
 
-XrResult XRAPI_CALL CreateAction(XrActionSet set, const XrActionCreateInfo* info, XrAction* action) {
-  return call("xrCreateAction", [&](State& s) {
-    const ActionSetObject& action_set = live(set);
-    require(!action_set.attached, "action_before_attach");
-    check_names(s.actions, info->actionName, info->localizedActionName,
-                [&](const ActionObject& one) { return one.set == set; });
-    ActionObject created{
-        .set = set, .name = info->actionName, .localized = info->localizedActionName, .type = info->actionType};
-    for (std::uint32_t i = 0; i < info->countSubactionPaths; ++i) {
-      require(path_string(live(action_set.instance), info->subactionPaths[i]).starts_with("/user/"), "subaction_path");
-      created.subactions.push_back(info->subactionPaths[i]);
-    }
-    *action = s.actions.add(std::move(created));
-    count_live();
-    return XR_SUCCESS;
-  });
-}
-
-XrResult XRAPI_CALL DestroyAction(XrAction action) {
-  return call("xrDestroyAction", [&](State& s) {
-    s.actions.erase(action);
-    count_live();
-    return XR_SUCCESS;
-  });
-}
-
-XrResult XRAPI_CALL SuggestInteractionProfileBindings(XrInstance instance,
-                                                      const XrInteractionProfileSuggestedBinding* info) {
+XrResult XRAPI_CALL xr::SuggestInteractionProfileBindings(XrInstance instance,
+                                                          const XrInteractionProfileSuggestedBinding* info) {
   return call("xrSuggestInteractionProfileBindings", [&](State&) {
-    InstanceObject& object = live(instance);
-    const std::string& profile = path_string(object, info->interactionProfile);
-    if (!knows_profile(profile)) return XR_ERROR_PATH_UNSUPPORTED;  // OpenXR allows runtimes without this controller
-    std::vector<XrActionSuggestedBinding> bindings;
-    for (std::uint32_t i = 0; i < info->countSuggestedBindings; ++i) {
-      check_binding(object, profile, info->suggestedBindings[i]);
-      bindings.push_back(info->suggestedBindings[i]);
+    const std::string& profile = path_string(instance, info->interactionProfile);
+    if (profile != kSimple && profile != kTouch) return XR_ERROR_PATH_UNSUPPORTED;  // the specification allows this
+    const std::span bindings(info->suggestedBindings, info->countSuggestedBindings);
+    for (const XrActionSuggestedBinding& one : bindings) {
+      require(!live(live(one.action).parent).attached, "attach_order");
+      const std::string& path = path_string(instance, one.binding);
+      require(has_input(profile, path), "binding_path", path);
     }
-    object.suggestions[profile] = std::move(bindings);
+    live(instance).suggestions[profile].assign(bindings.begin(), bindings.end());
     return XR_SUCCESS;
   });
 }
 
-XrResult XRAPI_CALL AttachSessionActionSets(XrSession session, const XrSessionActionSetsAttachInfo* info) {
+XrResult XRAPI_CALL xr::AttachSessionActionSets(XrSession session, const XrSessionActionSetsAttachInfo* info) {
   return call("xrAttachSessionActionSets", [&](State&) {
-    SessionObject& object = live(session);
-    require(!object.has_attached, "attach_once");
-    for (std::uint32_t i = 0; i < info->countActionSets; ++i) live(info->actionSets[i]);
-    for (std::uint32_t i = 0; i < info->countActionSets; ++i) {
-      live(info->actionSets[i]).attached = true;
-      object.attached.push_back(info->actionSets[i]);
-    }
-    object.has_attached = true;
-    return XR_SUCCESS;
+    require(!live(session).attached, "attach_order");
+    for (std::uint32_t i = 0; i < info->countActionSets; ++i) live(info->actionSets[i]).attached = true;
+    live(session).attached = true;
   });
 }
 
-XrResult XRAPI_CALL GetCurrentInteractionProfile(XrSession session, XrPath user, XrInteractionProfileState* state) {
-  return call("xrGetCurrentInteractionProfile", [&](State&) {
-    const SessionObject& object = live(session);
-    require(object.has_attached, "set_attached");
-    InstanceObject& instance = live(object.instance);
-    const bool has = hand_of(user, instance) >= 0 && !object.profile.empty();
-    state->interactionProfile = has ? path_number(instance, object.profile) : XR_NULL_PATH;
-    return XR_SUCCESS;
-  });
-}
-
-XrResult XRAPI_CALL CreateActionSpace(XrSession session, const XrActionSpaceCreateInfo* info, XrSpace* space) {
-  return call("xrCreateActionSpace", [&](State& s) {
+XrResult XRAPI_CALL xr::CreateActionSpace(XrSession session, const XrActionSpaceCreateInfo* info, XrSpace* space) {
+  return call("xrCreateActionSpace", [&](State&) {
     live(session);
-    const ActionObject& action = live(info->action);
-    require(action.type == XR_ACTION_TYPE_POSE_INPUT, "action_type", action.name);
-    check_subaction(action, info->subactionPath);
+    const Object<XrAction>& action = live(info->action);
+    require(action.type == XR_ACTION_TYPE_POSE_INPUT && action.values.contains(info->subactionPath), "action_type");
     require_unit_pose(info->poseInActionSpace, "poseInActionSpace");
-    *space = s.spaces.add({.session = session,
+    *space = add<XrSpace>({.parent = session,
                            .type = Space::action,
                            .pose = from_xr(info->poseInActionSpace),
                            .action = info->action,
                            .subaction = info->subactionPath});
-    count_live();
-    return XR_SUCCESS;
   });
 }
 
-}  // namespace xr
+XrResult XRAPI_CALL xr::SyncActions(XrSession session, const XrActionsSyncInfo* info) {
+  return call("xrSyncActions", [&](State& s) {
+    const bool focused = live(session).state == XR_SESSION_STATE_FOCUSED;
+    if (focused && !std::exchange(live(session).synced, true)) {
+      XrEventDataInteractionProfileChanged changed{XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED};
+      changed.session = session;
+      push_event(s, changed);
+    }
+    for (std::uint32_t i = 0; i < info->countActiveActionSets; ++i) {
+      const XrActionSet set = info->activeActionSets[i].actionSet;
+      require(live(session).attached && live(set).attached, "attach_order");
+      for_children<XrAction>(set, [&](XrAction handle) {
+        Object<XrAction>& action = live(handle);
+        for (auto& [hand, value] : action.values) {
+          value = focused ? read_source(s.control.script, action.type, source_of(handle, hand), seconds(s, now(s)))
+                          : ActionValue{};
+        }
+      });
+    }
+    return focused ? XR_SUCCESS : XR_SESSION_NOT_FOCUSED;
+  });
+}
+
+XrResult XRAPI_CALL xr::GetActionStateBoolean(XrSession session, const XrActionStateGetInfo* info,
+                                              XrActionStateBoolean* state) {
+  return call("xrGetActionStateBoolean", [&](State&) {
+    const ActionValue& value = value_of(session, *info, XR_ACTION_TYPE_BOOLEAN_INPUT);
+    state->currentState = value.x > 0.0f ? XR_TRUE : XR_FALSE;
+    state->isActive = value.active ? XR_TRUE : XR_FALSE;
+  });
+}
+
+XrResult XRAPI_CALL xr::GetActionStateVector2f(XrSession session, const XrActionStateGetInfo* info,
+                                               XrActionStateVector2f* state) {
+  return call("xrGetActionStateVector2f", [&](State&) {
+    const ActionValue& value = value_of(session, *info, XR_ACTION_TYPE_VECTOR2F_INPUT);
+    state->currentState = {value.x, value.y};
+    state->isActive = value.active ? XR_TRUE : XR_FALSE;
+  });
+}
+
 }  // namespace gearshift::xr_test

@@ -1,46 +1,89 @@
-// Code that runs in every OpenXR function: checks of handles, structures and rules; injected failures; the log.
-#include <algorithm>
-#include <cstring>
+// Code that runs in every OpenXR function: rules, injected failures, the log; the functions that the OpenXR loader gets.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
 
-#include "tests/support/xr_runtime/rules.h"
-#include "tests/support/xr_runtime/script.h"
 #include "tests/support/xr_runtime/state.h"
 
 namespace gearshift::xr_test {
 namespace {
 
+// What Khronos' validation layer does not check, but a headset's runtime may reject or punish with a wrong picture.
+constexpr Rule kRules[] = {
+    {"validated", XR_ERROR_VALIDATION_FAILURE, "the layer checks handles, pointers, structures, enumeration values"},
+    {"offered", XR_ERROR_VALIDATION_FAILURE, "a value must be one that the runtime offers: system, space, blend mode"},
+    {"graphics", XR_ERROR_GRAPHICS_DEVICE_INVALID, "the runtime's requirements are queried, its device is used"},
+    {"session_state", XR_ERROR_SESSION_NOT_RUNNING, "begun when READY, ended when STOPPING, frames only in between"},
+    {"frame_order", XR_ERROR_CALL_ORDER_INVALID, "xrWaitFrame, xrBeginFrame, xrEndFrame; otherwise frames block"},
+    {"frame_time", XR_ERROR_TIME_INVALID, "a frame ends with its predicted display time, or reprojection is wrong"},
+    {"layers", XR_ERROR_LAYER_INVALID, "at most 16 layers of enabled types, with a view for each eye"},
+    {"pose_unit", XR_ERROR_POSE_INVALID, "orientations are unit quaternions, positions are finite"},
+    {"fov", XR_ERROR_VALIDATION_FAILURE, "the angles lie between -pi/2 and pi/2 and span something"},
+    {"image_rect", XR_ERROR_SWAPCHAIN_RECT_INVALID, "the submitted rectangle lies inside the swapchain's images"},
+    {"depth_info", XR_ERROR_VALIDATION_FAILURE, "0 <= minDepth < maxDepth <= 1, nearZ and farZ differ, a depth format"},
+    {"image_order", XR_ERROR_CALL_ORDER_INVALID, "images are acquired, waited for and released before they are shown"},
+    {"swapchain_size", XR_ERROR_VALIDATION_FAILURE, "extent, samples, layers and levels within the system's limits"},
+    {"path_format", XR_ERROR_PATH_FORMAT_INVALID, "paths and names have only a-z 0-9 - _ . in their parts"},
+    {"binding_path", XR_ERROR_PATH_UNSUPPORTED, "a suggested binding is a path that the controller has"},
+    {"attach_order", XR_ERROR_ACTIONSETS_ALREADY_ATTACHED, "actions and bindings, then attached once, then read"},
+    {"action_type", XR_ERROR_ACTION_TYPE_MISMATCH, "an action is read with its own type, for a hand that it declares"},
+};
+
 void restart(Control& control) {
   State& s = state();
   const std::lock_guard lock(s.mutex);
-  control.record = {};
+  control.record = {.live_handles = control.record.live_handles};
   s.events.clear();
   s.begin = 0;
   s.next_step = 0;
   s.hidden_until = -1.0;
   s.origins.clear();
-  count_live();
 }
 
-template <class Handle, class Object>
-Object& find_or_reject(const Table<Handle, Object>& table, Handle handle) {
-  Object* const object = table.find(handle);
-  if (object == nullptr) reject_call(XR_ERROR_HANDLE_INVALID);
-  return *object;
+// Aborts on an error, because a test with an incomplete script would prove nothing.
+void read_flow_script(Control& control) noexcept {
+  if (const char* const file = std::getenv("GEARSHIFT_XR_SCRIPT")) control.script = read_script(file);
 }
 
-struct Header {
-  XrStructureType type;
-  const void* next;
+// Debian has no header with this structure: the loader's document "Loader/Runtime Interface Negotiation".
+struct RuntimeRequest {
+  int structure_type;
+  std::uint32_t structure_version;
+  std::size_t structure_size;
+  std::uint32_t interface_version;
+  XrVersion api_version;
+  PFN_xrGetInstanceProcAddr get_function;
 };
+
+struct Function {
+  std::string_view name;
+  PFN_xrVoidFunction address;
+};
+const Function functions[] = {
+#define GEARSHIFT_XR_ENTRY(name) {"xr" #name, reinterpret_cast<PFN_xrVoidFunction>(&xr::name)},
+    GEARSHIFT_XR_FUNCTIONS(GEARSHIFT_XR_ENTRY)
+#undef GEARSHIFT_XR_ENTRY
+};
+
+XrResult XRAPI_CALL get_function(XrInstance, const char* name, PFN_xrVoidFunction* address) {
+  *address = nullptr;
+  if (std::string_view(name) == "xrGetInstanceProcAddr") *address = reinterpret_cast<PFN_xrVoidFunction>(&get_function);
+  for (const Function& one : functions) {
+    if (one.name == name) *address = one.address;
+  }
+  return *address == nullptr ? XR_ERROR_FUNCTION_UNSUPPORTED : XR_SUCCESS;
+}
 
 }  // namespace
 
 State& state() {
   static State* const one = [] {
     auto* const created = new State;  // never deleted, because it must outlive the destructors of the loader
-    created->control.rules = rules();
+    created->control.rules = kRules;
     created->control.restart = restart;
-    created->control.read_script = [](const char* file) { return read_script(file); };
+    created->control.read_script = read_script;
     read_flow_script(created->control);
     return created;
   }();
@@ -53,10 +96,14 @@ void reject_call(XrResult result) {
 
 XrResult write_violation(const char* id, const std::string& detail) {
   State& s = state();
-  const Rule& broken = rule(id);
-  s.control.record.violations.push_back({id, s.function, detail});
-  log_line(std::string("violation ") + id + " " + s.function + (detail.empty() ? "" : ": " + detail));
-  return broken.result;
+  for (const Rule& rule : kRules) {
+    if (std::string_view(rule.id) != id) continue;
+    const std::string line = std::string(id) + ": " + s.function + ": " + rule.law + "; " + detail;
+    s.control.record.violations.push_back(line);
+    log_line("violation " + line);
+    return rule.result;
+  }
+  throw std::logic_error(std::string("no such rule: ") + id);
 }
 
 std::optional<XrResult> injected_failure(const char* function) {
@@ -71,67 +118,34 @@ std::optional<XrResult> injected_failure(const char* function) {
   return std::nullopt;
 }
 
+const char* out_folder() {
+  return std::getenv("GEARSHIFT_XR_OUT");
+}
+
 void log_line(const std::string& line) {
-  state().control.record.log.push_back(line);
-  write_log(line);
-}
-
-void count_live() {
-  State& s = state();
-  s.control.record.live = {{"instance", s.instances.size()},     {"session", s.sessions.size()},
-                           {"space", s.spaces.size()},           {"swapchain", s.swapchains.size()},
-                           {"action set", s.action_sets.size()}, {"action", s.actions.size()}};
-}
-
-void leak(State& s, const char* kind, const char* parent) {
-  s.control.record.leaks.push_back(std::string(kind) + " of " + parent);
-  log_line("leak " + s.control.record.leaks.back());
-}
-
-InstanceObject& live(XrInstance handle) {
-  InstanceObject& instance = find_or_reject(state().instances, handle);
-  if (instance.lost) reject_call(XR_ERROR_INSTANCE_LOST);
-  return instance;
-}
-
-SessionObject& live(XrSession handle) {
-  SessionObject& session = find_or_reject(state().sessions, handle);
-  live(session.instance);
-  if (session.lost) reject_call(XR_ERROR_SESSION_LOST);
-  return session;
-}
-
-SpaceObject& live(XrSpace handle) {
-  SpaceObject& space = find_or_reject(state().spaces, handle);
-  live(space.session);
-  return space;
-}
-
-SwapchainObject& live(XrSwapchain handle) {
-  SwapchainObject& swapchain = find_or_reject(state().swapchains, handle);
-  live(swapchain.session);
-  return swapchain;
-}
-
-ActionSetObject& live(XrActionSet handle) {
-  ActionSetObject& set = find_or_reject(state().action_sets, handle);
-  live(set.instance);
-  return set;
-}
-
-ActionObject& live(XrAction handle) {
-  ActionObject& action = find_or_reject(state().actions, handle);
-  live(action.set);
-  return action;
+  if (out_folder() == nullptr) return;
+  // The file is closed after each line, so that no line is lost if the program crashes.
+  std::ofstream(std::filesystem::path(out_folder()) / "log.txt", std::ios::app) << line << "\n";
 }
 
 const void* find_chained(const void* value, XrStructureType type) {
-  auto* next = static_cast<const Header*>(static_cast<const Header*>(value)->next);
-  while (next != nullptr && next->type != type) next = static_cast<const Header*>(next->next);
+  const auto next_of = [](const void* structure) { return static_cast<const XrBaseInStructure*>(structure)->next; };
+  const XrBaseInStructure* next = next_of(value);
+  while (next != nullptr && next->type != type) next = next->next;
   return next;
 }
 
 }  // namespace gearshift::xr_test
+
+// NOLINTBEGIN(readability-identifier-naming): the loader requires this name
+extern "C" __attribute__((visibility("default"))) XrResult XRAPI_CALL
+xrNegotiateLoaderRuntimeInterface(const void*, gearshift::xr_test::RuntimeRequest* request) {
+  request->interface_version = 1;
+  request->api_version = XR_CURRENT_API_VERSION;
+  request->get_function = gearshift::xr_test::get_function;
+  return XR_SUCCESS;
+}
+// NOLINTEND(readability-identifier-naming)
 
 extern "C" __attribute__((visibility("default"))) gearshift::xr_test::Control* gearshift_xr_test_control() {
   return &gearshift::xr_test::state().control;

@@ -20,9 +20,7 @@ constexpr const char* kLayer = "XR_APILAYER_LUNARG_core_validation";
 void require_layer() {
   std::uint32_t count = 0;
   xrEnumerateApiLayerProperties(0, &count, nullptr);
-  XrApiLayerProperties blank{};
-  blank.type = XR_TYPE_API_LAYER_PROPERTIES;
-  std::vector<XrApiLayerProperties> layers(count, blank);
+  std::vector<XrApiLayerProperties> layers(count, {XR_TYPE_API_LAYER_PROPERTIES, nullptr, {}, {}, {}, {}});
   xrEnumerateApiLayerProperties(count, &count, layers.data());
   const auto is_wanted = [](const auto& layer) { return std::strcmp(layer.layerName, kLayer) == 0; };
   if (std::none_of(layers.begin(), layers.end(), is_wanted)) {
@@ -63,8 +61,7 @@ std::string complaints() {
   if (std::ifstream messages(layer_file()); messages) text << messages.rdbuf();
   std::filesystem::remove(layer_file());
   Record& record = control().record;
-  for (const Violation& broken : record.violations)
-    text << broken.rule << ": " << broken.function << " " << broken.detail << "\n";
+  for (const std::string& violation : record.violations) text << violation << "\n";
   record.violations.clear();
   return text.str();
 }

@@ -1,12 +1,11 @@
-// Instance, system, events, names of enumeration values.
-#include <openxr/openxr_reflection.h>
-
+// Instance, system, events; XR_KHR_vulkan_enable2, which creates Vulkan objects for the program (this runtime adds
+// nothing to the create infos); XR_KHR_convert_timespec_time.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
-#include "tests/support/xr_runtime/functions.h"
 #include "tests/support/xr_runtime/state.h"
 
 namespace gearshift::xr_test {
@@ -14,128 +13,82 @@ namespace {
 
 constexpr XrSystemId kSystem = 0x67656172;
 
-struct Offer {
-  const char* name;
-  std::uint32_t version;
-};
-
-std::vector<Offer> offered(const Script& script) {
-  std::vector<Offer> offers;
-  if (script.vulkan_enable2)
-    offers.push_back({XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME, XR_KHR_vulkan_enable2_SPEC_VERSION});
-  if (script.composition_layer_depth) {
-    offers.push_back({XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, XR_KHR_composition_layer_depth_SPEC_VERSION});
-  }
-  if (script.convert_timespec_time) {
-    offers.push_back({XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME, XR_KHR_convert_timespec_time_SPEC_VERSION});
-  }
-  return offers;
+void require_system(XrInstance instance, XrSystemId system,
+                    XrViewConfigurationType type = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) {
+  live(instance);
+  require(system == kSystem, "offered", "systemId");
+  require(type == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO, "offered", "viewConfigurationType");
 }
 
-// True if the OpenXR loader puts Khronos' validation layer in front of this runtime. If the layer is missing, the loader
-// creates no instance.
-bool is_validated() {
-  const char* const layers = std::getenv("XR_ENABLE_API_LAYERS");
-  return layers != nullptr && std::strcmp(layers, "XR_APILAYER_LUNARG_core_validation") == 0;
-}
-
-template <std::size_t size>
-void copy_text(char (&to)[size], const std::string& from) {
-  std::snprintf(to, size, "%s", from.c_str());
+std::vector<const char*> offered(const Script& script) {
+  std::vector<const char*> names;
+  if (script.vulkan_enable2) names.push_back(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME);
+  if (script.composition_layer_depth) names.push_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
+  if (script.convert_timespec_time) names.push_back(XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME);
+  return names;
 }
 
 // Called by each xrPollEvent that returns no event. Advances the stepped clock while no session is running, and counts
 // down the calls until a session becomes READY.
 void tick(State& s) {
-  const bool frames_running = !s.sessions.find_all([](const SessionObject& one) { return one.running; }).empty();
-  if (s.begin != 0 && !frames_running && s.control.script.pacing == Pacing::stepped) ++s.next_step;
-  for (const XrSession handle :
-       s.sessions.find_all([](const SessionObject& one) { return one.polls_before_ready > 0; })) {
-    SessionObject& session = *s.sessions.find(handle);
-    if (--session.polls_before_ready == 0) set_state(s, handle, session, XR_SESSION_STATE_READY);
+  bool frames_running = false;
+  for (auto& [handle, session] : s.all<XrSession>()) {
+    frames_running |= session.running;
+    if (session.polls_before_ready > 0 && --session.polls_before_ready == 0)
+      set_state(s, handle, XR_SESSION_STATE_READY);
   }
+  if (s.begin != 0 && !frames_running && s.control.script.pacing == Pacing::stepped) ++s.next_step;
 }
 
 }  // namespace
 
-void require_system(XrSystemId system) {
-  require(system == kSystem, "system_id");
-}
-
-void require_stereo(XrViewConfigurationType type) {
-  require(type == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO, "view_configuration");
-}
-
-namespace xr {
-
-XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char* layer, std::uint32_t capacity,
-                                                         std::uint32_t* count, XrExtensionProperties* properties) {
+XrResult XRAPI_CALL xr::EnumerateInstanceExtensionProperties(const char*, std::uint32_t capacity, std::uint32_t* count,
+                                                             XrExtensionProperties* properties) {
   return call("xrEnumerateInstanceExtensionProperties", [&](State& s) {
-    if (layer != nullptr) return XR_ERROR_API_LAYER_NOT_PRESENT;
     return fill(capacity, count, properties, offered(s.control.script),
-                [](XrExtensionProperties& to, const Offer& from) {
-                  copy_text(to.extensionName, from.name);
-                  to.extensionVersion = from.version;
+                [](XrExtensionProperties& to, const char* name) {
+                  std::snprintf(to.extensionName, sizeof to.extensionName, "%s", name);
                 });
   });
 }
 
-XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo* info, XrInstance* instance) {
+XrResult XRAPI_CALL xr::CreateInstance(const XrInstanceCreateInfo* info, XrInstance* instance) {
   return call("xrCreateInstance", [&](State& s) {
-    require(is_validated(), "validated");
-    if (s.instances.size() != 0) return XR_ERROR_LIMIT_REACHED;
-    InstanceObject created;
-    const std::vector<Offer> offers = offered(s.control.script);
+    // The OpenXR loader puts Khronos' validation layer in front of this runtime, or creates no instance.
+    const char* const layers = std::getenv("XR_ENABLE_API_LAYERS");
+    require(layers != nullptr && std::strcmp(layers, "XR_APILAYER_LUNARG_core_validation") == 0, "validated");
+    const std::vector<const char*> names = offered(s.control.script);
     for (std::uint32_t i = 0; i < info->enabledExtensionCount; ++i) {
-      const std::string name = info->enabledExtensionNames[i];
-      if (std::none_of(offers.begin(), offers.end(), [&](const Offer& one) { return name == one.name; })) {
-        return XR_ERROR_EXTENSION_NOT_PRESENT;
-      }
-      created.extensions.insert(name);
+      const std::string_view wanted = info->enabledExtensionNames[i];
+      if (std::find(names.begin(), names.end(), wanted) == names.end()) return XR_ERROR_EXTENSION_NOT_PRESENT;
     }
-    if (XR_VERSION_MAJOR(info->applicationInfo.apiVersion) != 1) return XR_ERROR_API_VERSION_UNSUPPORTED;
-    *instance = s.instances.add(std::move(created));
-    count_live();
+    *instance = add<XrInstance>({});
     return XR_SUCCESS;
   });
 }
 
-XrResult XRAPI_CALL DestroyInstance(XrInstance instance) {
+XrResult XRAPI_CALL xr::DestroyInstance(XrInstance instance) {
   return call("xrDestroyInstance", [&](State& s) {
-    for (const XrSession session :
-         s.sessions.find_all([&](const SessionObject& one) { return one.instance == instance; })) {
-      leak(s, "session", "instance");
-      drop_session(s, session);
-    }
-    for (const XrActionSet set :
-         s.action_sets.find_all([&](const ActionSetObject& one) { return one.instance == instance; })) {
-      leak(s, "action set", "instance");
-      drop_action_set(s, set);
-    }
-    s.instances.erase(instance);
-    s.vulkan_instances.clear();
-    s.vulkan_physicals.clear();
-    s.vulkan_devices.clear();
+    drop_leaked<XrSession>(instance, drop_session);
+    drop_leaked<XrActionSet>(instance, drop_action_set);
+    drop(instance);
+    s.vulkan_device = VK_NULL_HANDLE;
     s.events.clear();
     s.control.record.state = XR_SESSION_STATE_UNKNOWN;
-    count_live();
-    return XR_SUCCESS;
   });
 }
 
-XrResult XRAPI_CALL GetInstanceProperties(XrInstance instance, XrInstanceProperties* properties) {
+XrResult XRAPI_CALL xr::GetInstanceProperties(XrInstance instance, XrInstanceProperties* properties) {
   return call("xrGetInstanceProperties", [&](State&) {
     live(instance);
     properties->runtimeVersion = XR_MAKE_VERSION(1, 0, 0);
-    copy_text(properties->runtimeName, "gearshift test runtime");
-    return XR_SUCCESS;
+    std::snprintf(properties->runtimeName, sizeof properties->runtimeName, "gearshift test runtime");
   });
 }
 
-XrResult XRAPI_CALL PollEvent(XrInstance instance, XrEventDataBuffer* data) {
+XrResult XRAPI_CALL xr::PollEvent(XrInstance instance, XrEventDataBuffer* data) {
   return call("xrPollEvent", [&](State& s) {
-    InstanceObject* const object = s.instances.find(instance);
-    if (!object->lost) play_timeline(s, seconds(s, now(s)));
+    if (!s.all<XrInstance>().at(instance).lost) play_timeline(s, seconds(s, now(s)));
     if (s.events.empty()) {
       live(instance);
       tick(s);
@@ -147,104 +100,94 @@ XrResult XRAPI_CALL PollEvent(XrInstance instance, XrEventDataBuffer* data) {
   });
 }
 
-XrResult XRAPI_CALL ResultToString(XrInstance instance, XrResult value, char buffer[XR_MAX_RESULT_STRING_SIZE]) {
-  return call("xrResultToString", [&](State&) {
-    live(instance);
-    std::string name = (value < 0 ? "XR_UNKNOWN_FAILURE_" : "XR_UNKNOWN_SUCCESS_") + std::to_string(value);
-#define GEARSHIFT_XR_NAME(one, number) \
-  if (value == (number)) name = #one;
-    XR_LIST_ENUM_XrResult(GEARSHIFT_XR_NAME);
-    std::snprintf(buffer, XR_MAX_RESULT_STRING_SIZE, "%s", name.c_str());
-    return XR_SUCCESS;
-  });
-}
-
-XrResult XRAPI_CALL StructureTypeToString(XrInstance instance, XrStructureType value,
-                                          char buffer[XR_MAX_STRUCTURE_NAME_SIZE]) {
-  return call("xrStructureTypeToString", [&](State&) {
-    live(instance);
-    std::string name = "XR_UNKNOWN_STRUCTURE_TYPE_" + std::to_string(value);
-    XR_LIST_ENUM_XrStructureType(GEARSHIFT_XR_NAME);
-#undef GEARSHIFT_XR_NAME
-    std::snprintf(buffer, XR_MAX_STRUCTURE_NAME_SIZE, "%s", name.c_str());
-    return XR_SUCCESS;
-  });
-}
-
-XrResult XRAPI_CALL GetSystem(XrInstance instance, const XrSystemGetInfo* info, XrSystemId* system) {
+XrResult XRAPI_CALL xr::GetSystem(XrInstance instance, const XrSystemGetInfo* info, XrSystemId* system) {
   return call("xrGetSystem", [&](State& s) {
     live(instance);
-    require(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY, "form_factor");
+    require(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY, "offered", "formFactor");
     if (!s.control.script.headset) return XR_ERROR_FORM_FACTOR_UNAVAILABLE;
     *system = kSystem;
     return XR_SUCCESS;
   });
 }
 
-XrResult XRAPI_CALL GetSystemProperties(XrInstance instance, XrSystemId system, XrSystemProperties* properties) {
-  return call("xrGetSystemProperties", [&](State& s) {
-    live(instance);
-    require_system(system);
+XrResult XRAPI_CALL xr::GetSystemProperties(XrInstance instance, XrSystemId system, XrSystemProperties* properties) {
+  return call("xrGetSystemProperties", [&](State&) {
+    require_system(instance, system);
     properties->systemId = system;
-    properties->vendorId = 0;
-    copy_text(properties->systemName, "gearshift test headset");
-    properties->graphicsProperties = {s.control.script.max_height, s.control.script.max_width,
-                                      XR_MIN_COMPOSITION_LAYERS_SUPPORTED};
-    properties->trackingProperties = {XR_TRUE, XR_TRUE};
-    return XR_SUCCESS;
+    std::snprintf(properties->systemName, sizeof properties->systemName, "gearshift test headset");
   });
 }
 
-XrResult XRAPI_CALL EnumerateEnvironmentBlendModes(XrInstance instance, XrSystemId system, XrViewConfigurationType type,
-                                                   std::uint32_t capacity, std::uint32_t* count,
-                                                   XrEnvironmentBlendMode* modes) {
+XrResult XRAPI_CALL xr::EnumerateEnvironmentBlendModes(XrInstance instance, XrSystemId system,
+                                                       XrViewConfigurationType type, std::uint32_t capacity,
+                                                       std::uint32_t* count, XrEnvironmentBlendMode* modes) {
   return call("xrEnumerateEnvironmentBlendModes", [&](State&) {
-    live(instance);
-    require_system(system);
-    require_stereo(type);
+    require_system(instance, system, type);
     return fill(capacity, count, modes, std::vector{XR_ENVIRONMENT_BLEND_MODE_OPAQUE});
   });
 }
 
-XrResult XRAPI_CALL EnumerateViewConfigurations(XrInstance instance, XrSystemId system, std::uint32_t capacity,
-                                                std::uint32_t* count, XrViewConfigurationType* types) {
-  return call("xrEnumerateViewConfigurations", [&](State&) {
-    live(instance);
-    require_system(system);
-    return fill(capacity, count, types, std::vector{XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO});
-  });
-}
-
-XrResult XRAPI_CALL GetViewConfigurationProperties(XrInstance instance, XrSystemId system, XrViewConfigurationType type,
-                                                   XrViewConfigurationProperties* properties) {
-  return call("xrGetViewConfigurationProperties", [&](State&) {
-    live(instance);
-    require_system(system);
-    require_stereo(type);
-    properties->viewConfigurationType = type;
-    properties->fovMutable = XR_TRUE;
-    return XR_SUCCESS;
-  });
-}
-
-XrResult XRAPI_CALL EnumerateViewConfigurationViews(XrInstance instance, XrSystemId system,
-                                                    XrViewConfigurationType type, std::uint32_t capacity,
-                                                    std::uint32_t* count, XrViewConfigurationView* views) {
+XrResult XRAPI_CALL xr::EnumerateViewConfigurationViews(XrInstance instance, XrSystemId system,
+                                                        XrViewConfigurationType type, std::uint32_t capacity,
+                                                        std::uint32_t* count, XrViewConfigurationView* views) {
   return call("xrEnumerateViewConfigurationViews", [&](State& s) {
-    live(instance);
-    require_system(system);
-    require_stereo(type);
+    require_system(instance, system, type);
     const Script& script = s.control.script;
     return fill(capacity, count, views, std::vector{0, 1}, [&](XrViewConfigurationView& to, int) {
       to.recommendedImageRectWidth = script.recommended_width;
       to.recommendedImageRectHeight = script.recommended_height;
-      to.maxImageRectWidth = script.max_width;
-      to.maxImageRectHeight = script.max_height;
-      to.recommendedSwapchainSampleCount = script.recommended_samples;
-      to.maxSwapchainSampleCount = script.max_samples;
+      to.maxImageRectWidth = to.maxImageRectHeight = script.max_width;
     });
   });
 }
 
-}  // namespace xr
+XrResult XRAPI_CALL xr::GetVulkanGraphicsRequirements2KHR(XrInstance instance, XrSystemId system,
+                                                          XrGraphicsRequirementsVulkanKHR* requirements) {
+  return call("xrGetVulkanGraphicsRequirements2KHR", [&](State&) {
+    require_system(instance, system);
+    live(instance).requirements_queried = true;
+    requirements->minApiVersionSupported = XR_MAKE_VERSION(1, 0, 0);
+    requirements->maxApiVersionSupported = XR_MAKE_VERSION(1, 3, 0);
+  });
+}
+
+XrResult XRAPI_CALL xr::CreateVulkanInstanceKHR(XrInstance instance, const XrVulkanInstanceCreateInfoKHR* info,
+                                                VkInstance* vulkan, VkResult* result) {
+  return call("xrCreateVulkanInstanceKHR", [&](State& s) {
+    require_system(instance, info->systemId);
+    *result = vkCreateInstance(info->vulkanCreateInfo, info->vulkanAllocator, vulkan);
+    if (*result == VK_SUCCESS) s.vulkan_instance = *vulkan;
+  });
+}
+
+XrResult XRAPI_CALL xr::GetVulkanGraphicsDevice2KHR(XrInstance instance, const XrVulkanGraphicsDeviceGetInfoKHR* info,
+                                                    VkPhysicalDevice* device) {
+  return call("xrGetVulkanGraphicsDevice2KHR", [&](State& s) {
+    require_system(instance, info->systemId);
+    require(info->vulkanInstance == s.vulkan_instance, "graphics", "vulkanInstance");
+    std::uint32_t count = 1;
+    *device = VK_NULL_HANDLE;
+    vkEnumeratePhysicalDevices(info->vulkanInstance, &count, device);
+    if (*device == VK_NULL_HANDLE) reject_call(XR_ERROR_RUNTIME_FAILURE);
+    s.vulkan_physical = *device;
+  });
+}
+
+XrResult XRAPI_CALL xr::CreateVulkanDeviceKHR(XrInstance instance, const XrVulkanDeviceCreateInfoKHR* info,
+                                              VkDevice* device, VkResult* result) {
+  return call("xrCreateVulkanDeviceKHR", [&](State& s) {
+    require_system(instance, info->systemId);
+    require(info->vulkanPhysicalDevice == s.vulkan_physical, "graphics", "vulkanPhysicalDevice");
+    *result = vkCreateDevice(info->vulkanPhysicalDevice, info->vulkanCreateInfo, info->vulkanAllocator, device);
+    if (*result == VK_SUCCESS) s.vulkan_device = *device;
+  });
+}
+
+XrResult XRAPI_CALL xr::ConvertTimespecTimeToTimeKHR(XrInstance instance, const timespec* from, XrTime* to) {
+  return call("xrConvertTimespecTimeToTimeKHR", [&](State&) {
+    live(instance);
+    *to = from->tv_sec * 1'000'000'000 + from->tv_nsec;
+  });
+}
+
 }  // namespace gearshift::xr_test

@@ -1,5 +1,4 @@
-#include "tests/support/xr_runtime/script.h"
-
+// Reads script files, which are TOML: README.md.
 #include <openxr/openxr_reflection.h>
 
 #include <algorithm>
@@ -11,6 +10,8 @@
 
 #include <toml++/toml.h>
 
+#include "tests/support/xr_runtime/state.h"
+
 namespace gearshift::xr_test {
 namespace {
 
@@ -18,11 +19,17 @@ namespace {
   throw std::runtime_error(what);
 }
 
-// Returns the value of the node; empty if it has another type. An integer is accepted as a floating-point number.
+// Returns the value of the node; throws if it has another type. An integer is accepted as a floating-point number.
 template <class T>
-std::optional<T> exact_value(const toml::node& node) {
-  if constexpr (std::is_floating_point_v<T>) return node.is_number() ? node.value<T>() : std::nullopt;
-  return node.value_exact<T>();
+T value_of_node(const toml::node& node, const char* key) {
+  std::optional<T> value;
+  if constexpr (std::is_same_v<T, double>) {
+    if (node.is_number()) value = node.value<double>();
+  } else {
+    value = node.value_exact<T>();
+  }
+  if (!value) fail(std::string(key) + " has the wrong type");
+  return *value;
 }
 
 // Reads one table of the script. A key that the reader does not know is an error, because a test whose script is
@@ -33,31 +40,18 @@ class TableReader {
   TableReader(const TableReader&) = delete;
   TableReader& operator=(const TableReader&) = delete;
 
-  const toml::node* find(const char* key) {
-    read_keys_.insert(key);
-    return table_.get(key);
-  }
   template <class T>
   void read(const char* key, T& to) {
-    const toml::node* const node = find(key);
-    if (node == nullptr) return;
-    using Stored = std::conditional_t<std::is_same_v<T, std::uint32_t> || std::is_same_v<T, int>, std::int64_t, T>;
-    const auto value = exact_value<Stored>(*node);
-    if (!value) fail(std::string(key) + " has the wrong type");
-    to = static_cast<T>(*value);
+    using Stored = std::conditional_t<std::is_same_v<T, int>, std::int64_t, T>;
+    if (const toml::node* const node = find(key)) to = static_cast<T>(value_of_node<Stored>(*node, key));
   }
-  template <class T>
-  void read_list(const char* key, std::vector<T>& to) {
+  std::vector<double> numbers(const char* key) {
+    std::vector<double> list;
     const toml::node* const node = find(key);
-    if (node == nullptr) return;
+    if (node == nullptr) return list;
     if (!node->is_array()) fail(std::string(key) + " is not a list");
-    to.clear();
-    for (const toml::node& one : *node->as_array()) {
-      using Stored = std::conditional_t<std::is_floating_point_v<T>, double, std::int64_t>;
-      const auto value = exact_value<Stored>(one);
-      if (!value) fail(std::string(key) + " has the wrong type");
-      to.push_back(static_cast<T>(*value));
-    }
+    for (const toml::node& one : *node->as_array()) list.push_back(value_of_node<double>(one, key));
+    return list;
   }
   // Calls `use` for each table of a list, or for a single table; does nothing if the key is missing.
   template <class Function>
@@ -78,6 +72,10 @@ class TableReader {
   }
 
  private:
+  const toml::node* find(const char* key) {
+    read_keys_.insert(key);
+    return table_.get(key);
+  }
   template <class Function>
   static void use_table(const toml::table& source, Function use) {
     TableReader table(source);
@@ -89,34 +87,30 @@ class TableReader {
   std::set<std::string, std::less<>> read_keys_;
 };
 
-// Reads position [m] and the angles yaw (positive to the left), pitch (up) and roll (to the left) [degrees].
+// Reads position [m] and the angles yaw (positive to the left) and pitch (up) [degrees].
 Pose read_pose(TableReader& table) {
-  std::vector<double> position{0.0, 0.0, 0.0};
-  double yaw = 0.0, pitch = 0.0, roll = 0.0;
-  table.read_list("position", position);
-  if (position.size() != 3) fail("position has three numbers");
+  const std::vector<double> position = table.numbers("position");
+  if (!position.empty() && position.size() != 3) fail("position has three numbers");
+  double yaw = 0.0, pitch = 0.0;
   table.read("yaw", yaw);
   table.read("pitch", pitch);
-  table.read("roll", roll);
   const auto turn = [](double degrees, glm::dvec3 axis) { return glm::angleAxis(degrees * kDegree, axis); };
-  return {{position[0], position[1], position[2]},
-          turn(yaw, {0.0, 1.0, 0.0}) * turn(pitch, {1.0, 0.0, 0.0}) * turn(roll, {0.0, 0.0, 1.0})};
+  return {position.empty() ? glm::dvec3(0.0) : glm::dvec3(position[0], position[1], position[2]),
+          turn(yaw, {0.0, 1.0, 0.0}) * turn(pitch, {1.0, 0.0, 0.0})};
 }
 
-struct PoseKey {
-  double at = 0.0;  // [s]
-  Pose pose;
-};
+using PoseKey = std::pair<double, Pose>;  // time [s], pose
 
 // Interpolates linearly between the keys. The pose is constant before the first key and after the last key.
 Pose interpolate(const std::vector<PoseKey>& keys, double t) {
-  const auto next = std::find_if(keys.begin(), keys.end(), [&](const PoseKey& key) { return key.at > t; });
-  if (next == keys.begin()) return keys.front().pose;
-  if (next == keys.end()) return keys.back().pose;
-  const PoseKey& last = *(next - 1);
-  const double fraction = (t - last.at) / (next->at - last.at);
-  return {last.pose.position * (1.0 - fraction) + next->pose.position * fraction,
-          glm::slerp(last.pose.orientation, next->pose.orientation, fraction)};
+  const auto next = std::find_if(keys.begin(), keys.end(), [&](const PoseKey& key) { return key.first > t; });
+  if (next == keys.begin()) return keys.front().second;
+  if (next == keys.end()) return keys.back().second;
+  const auto& [last, from] = *(next - 1);
+  const auto& [then, to] = *next;
+  const double fraction = (t - last) / (then - last);
+  return {from.position * (1.0 - fraction) + to.position * fraction,
+          glm::slerp(from.orientation, to.orientation, fraction)};
 }
 
 void read_path(TableReader& table, const char* key, std::function<Pose(double)>& to) {
@@ -124,26 +118,17 @@ void read_path(TableReader& table, const char* key, std::function<Pose(double)>&
   table.for_each(key, [&](TableReader& one) {
     double at = 0.0;
     one.read("at", at);
-    if (!keys.empty() && at <= keys.back().at) fail(std::string(key) + ": times must grow");
+    if (!keys.empty() && at <= keys.back().first) fail(std::string(key) + ": times must grow");
     keys.push_back({at, read_pose(one)});
   });
   if (!keys.empty()) to = [keys](double t) { return interpolate(keys, t); };
 }
 
-void read_hand(TableReader& table, const char* key, Hand& hand) {
-  table.for_each(key, [&](TableReader& one) {
-    read_path(one, "aim", hand.aim);
-    read_path(one, "grip", hand.grip);
-  });
-}
-
 // Each value of an input applies until the time of the next value; before the first time the input is zero.
 void read_input(TableReader& table, Script& script) {
   std::string path;
-  std::vector<double> at, value;
   table.read("path", path);
-  table.read_list("at", at);
-  table.read_list("value", value);
+  const std::vector<double> at = table.numbers("at"), value = table.numbers("value");
   if (at.size() != value.size() || !std::is_sorted(at.begin(), at.end()))
     fail("input: a value for each time, in order");
   script.inputs[path] = [at, value](double t) {
@@ -152,134 +137,70 @@ void read_input(TableReader& table, Script& script) {
   };
 }
 
-Event::Kind parse_event_kind(const std::string& text) {
-  using Kind = Event::Kind;
-  static const std::map<std::string, Kind> table{{"focused", Kind::focused},
-                                                 {"visible", Kind::visible},
-                                                 {"synchronized", Kind::synchronized},
-                                                 {"stopping", Kind::stopping},
-                                                 {"ready", Kind::ready},
-                                                 {"loss_pending", Kind::loss_pending},
-                                                 {"instance_loss", Kind::instance_loss},
-                                                 {"exit", Kind::exit},
-                                                 {"space_change", Kind::space_change},
-                                                 {"profile", Kind::profile},
-                                                 {"hidden", Kind::hidden},
-                                                 {"stall", Kind::stall}};
-  const auto found = table.find(text);
-  if (found == table.end()) fail("event: " + text);
-  return found->second;
-}
-
 void read_event(TableReader& table, Script& script) {
+  static constexpr std::string_view kKinds[] = {"focused",      "visible",      "synchronized",  "stopping",
+                                                "ready",        "loss_pending", "instance_loss", "exit",
+                                                "space_change", "hidden",       "stall"};  // as in Event::Kind
   Event event;
   std::string what, space = "local";
   table.read("at", event.at);
   table.read("what", what);
-  event.kind = parse_event_kind(what);
+  const auto* const kind = std::find(std::begin(kKinds), std::end(kKinds), what);
+  if (kind == std::end(kKinds)) fail("event: " + what);
+  event.kind = static_cast<Event::Kind>(kind - std::begin(kKinds));
   table.read("space", space);
   if (space != "local" && space != "stage") fail("space: local or stage");
   event.space = space == "stage" ? Space::stage : Space::local;
   event.pose = read_pose(table);
-  table.read("frames_ahead", event.frames_ahead);
-  table.read("profile", event.profile);
   table.read("span", event.span);
   table.read("periods", event.periods);
   script.timeline.push_back(event);
 }
 
-XrResult parse_result(const std::string& text) {
-#define GEARSHIFT_XR_RESULT(name, number) \
-  if (text == #name) return name;
-  XR_LIST_ENUM_XrResult(GEARSHIFT_XR_RESULT);
-#undef GEARSHIFT_XR_RESULT
-  fail("result: " + text);
-}
-
 void read_failure(TableReader& table, Script& script) {
   Failure failure;
-  std::string result = "XR_ERROR_RUNTIME_FAILURE";
+  std::string result;
   table.read("function", failure.function);
   table.read("result", result);
   table.read("nth", failure.nth);
-  failure.result = parse_result(result);
+  bool known = false;
+#define GEARSHIFT_XR_RESULT(name, number) \
+  if (result == #name) failure.result = (name), known = true;
+  XR_LIST_ENUM_XrResult(GEARSHIFT_XR_RESULT);
+#undef GEARSHIFT_XR_RESULT
+  if (!known) fail("result: " + result);
   script.failures.push_back(failure);
-}
-
-void read_size(TableReader& table, const char* key, std::uint32_t& width, std::uint32_t& height) {
-  std::vector<std::uint32_t> size{width, height};
-  table.read_list(key, size);
-  if (size.size() != 2) fail(std::string(key) + " is a width and a height");
-  width = size[0];
-  height = size[1];
-}
-
-void read_fov(TableReader& table, const char* eye, Fov& fov) {
-  std::vector<double> degrees;
-  table.read_list(eye, degrees);
-  if (degrees.empty()) return;
-  if (degrees.size() != 4) fail("fov: left, right, up, down");
-  fov = {degrees[0] * kDegree, degrees[1] * kDegree, degrees[2] * kDegree, degrees[3] * kDegree};
-}
-
-void read_headset(TableReader& table, Script& script) {
-  table.read("headset", script.headset);
-  table.read("vulkan_enable2", script.vulkan_enable2);
-  table.read("composition_layer_depth", script.composition_layer_depth);
-  table.read("convert_timespec_time", script.convert_timespec_time);
-  table.read("stage", script.stage);
-  table.for_each("stage_origin", [&](TableReader& one) { script.stage_origin = read_pose(one); });
-  read_size(table, "recommended", script.recommended_width, script.recommended_height);
-  read_size(table, "max", script.max_width, script.max_height);
-  table.read("recommended_samples", script.recommended_samples);
-  table.read("max_samples", script.max_samples);
-  table.read("images", script.images);
-  table.read_list("colour_formats", script.colour_formats);
-  table.read_list("depth_formats", script.depth_formats);
-  table.for_each("fov", [&](TableReader& one) {
-    read_fov(one, "left", script.fov[0]);
-    read_fov(one, "right", script.fov[1]);
-  });
-  table.read("eye_distance", script.eye_distance);
-  table.read("period", script.period);
-}
-
-void read_play(TableReader& table, Script& script) {
-  std::string pacing = "stepped";
-  table.read("pacing", pacing);
-  if (pacing != "stepped" && pacing != "real") fail("pacing: stepped or real");
-  script.pacing = pacing == "real" ? Pacing::real : Pacing::stepped;
-  table.read("polls_before_ready", script.polls_before_ready);
-  read_path(table, "head", script.head);
-  table.for_each("tracking_gap", [&](TableReader& one) {
-    Gap gap;
-    one.read("from", gap.from);
-    one.read("until", gap.until);
-    one.read("valid", gap.valid);
-    script.tracking_gaps.push_back(gap);
-  });
-  table.read("early_error", script.early_error);
-  read_hand(table, "left", script.hands[0]);
-  read_hand(table, "right", script.hands[1]);
-  table.read("profile", script.profile);
-  table.for_each("input", [&](TableReader& one) { read_input(one, script); });
-  table.for_each("event", [&](TableReader& one) { read_event(one, script); });
-  table.for_each("failure", [&](TableReader& one) { read_failure(one, script); });
-  table.for_each("capture", [&](TableReader& one) {
-    one.read("every", script.capture.every);
-    one.read_list("only", script.capture.only);
-    one.read("depth", script.capture.depth);
-  });
 }
 
 }  // namespace
 
-Script read_script(const std::filesystem::path& file) {
-  const toml::table root = toml::parse_file(file.string());
+Script read_script(const char* file) {
+  const toml::table root = toml::parse_file(file);
   TableReader table(root);
   Script script;
-  read_headset(table, script);
-  read_play(table, script);
+  table.read("headset", script.headset);
+  table.for_each("stage_origin", [&](TableReader& one) { script.stage_origin = read_pose(one); });
+  if (const std::vector<double> size = table.numbers("recommended"); size.size() == 2) {
+    script.recommended_width = static_cast<std::uint32_t>(size[0]);
+    script.recommended_height = static_cast<std::uint32_t>(size[1]);
+  }
+  std::string pacing = "stepped";
+  table.read("pacing", pacing);
+  if (pacing != "stepped" && pacing != "real") fail("pacing: stepped or real");
+  script.pacing = pacing == "real" ? Pacing::real : Pacing::stepped;
+  read_path(table, "head", script.head);
+  read_path(table, "left", script.aim[0]);
+  read_path(table, "right", script.aim[1]);
+  table.for_each("tracking_gap", [&](TableReader& one) {
+    Gap gap;
+    one.read("from", gap.from);
+    one.read("until", gap.until);
+    script.tracking_gaps.push_back(gap);
+  });
+  table.for_each("input", [&](TableReader& one) { read_input(one, script); });
+  table.for_each("event", [&](TableReader& one) { read_event(one, script); });
+  table.for_each("failure", [&](TableReader& one) { read_failure(one, script); });
+  table.read("capture_every", script.capture_every);
   table.check_complete();
   return script;
 }

@@ -33,6 +33,7 @@ using namespace gearshift::haptics;
 using namespace gearshift::test;
 using glm::dvec2;
 using glm::dvec3;
+using Kind = xr_test::Event::Kind;
 using glm::vec3;
 
 namespace {
@@ -58,7 +59,7 @@ struct HeadsetRig {
     xr.script.stage = false;
     xr.script.recommended_width = 256;
     xr.script.recommended_height = 192;
-    xr.script.capture.every = 1;
+    xr.script.capture_every = 1;
     if (!worn) xr.script.polls_before_ready = 1000000;  // keeps the OpenXR session idle
     HeadsetViewConfig config;
     config.samples = samples;
@@ -70,7 +71,7 @@ struct HeadsetRig {
     CHECK(view->validation_messages() == 0);
     view.reset();
     CHECK(xr_test::complaints() == "");
-    CHECK(xr_test::control().record.live_handles() == 0);
+    CHECK(xr_test::control().record.live_handles == 0);
   }
 
   // Shows one frame, with a red square in the panel's upper left corner.
@@ -323,7 +324,7 @@ TEST_CASE(
   for (const bool runs : {false, true}) {
     CAPTURE(runs);
     HeadsetRig rig(1, runs);
-    xr_test::control().script.timeline = {xr_test::hidden(0.0, 1e6)};
+    xr_test::control().script.timeline = {xr_test::Event{0.0, Kind::hidden, 1e6}};
     xr_test::control().script.head = [](double) {  // the headset lies on a table, facing backwards
       return xr_test::Pose{dvec3(2.0, -0.5, 1.0), glm::angleAxis(std::numbers::pi, dvec3(0, 1, 0))};
     };
@@ -461,7 +462,7 @@ TEST_CASE("a headset view that is created repeatedly leaks no file, no thread, a
       }
       CHECK(!shown_frames().empty());
     }
-    CHECK(xr.record.live_handles() == 0);
+    CHECK(xr.record.live_handles == 0);
     if (i == 0) files = entries("/proc/self/fd"), threads = entries("/proc/self/task");
     if (i == restarts / 2) half_way = resident();
   }

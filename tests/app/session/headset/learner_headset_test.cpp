@@ -23,6 +23,7 @@ using namespace gearshift::engine;
 using namespace gearshift::session;
 using namespace gearshift::test;
 using glm::dvec3;
+using Kind = xr_test::Event::Kind;
 
 namespace {
 
@@ -62,7 +63,7 @@ struct Worn {
       pose.position_valid = placed;
       return pose;
     };
-    xr.script.hands[1].aim = [this](double) {
+    xr.script.aim[1] = [this](double) {
       xr_test::Pose pose = pose_of(hand);
       pose.tracked = hand_tracked;
       return pose;
@@ -310,7 +311,8 @@ TEST_CASE("taking the headset off is reported once, a second later, but not if t
     Worn worn;
     const double now = xr_test::control().record.frames.back().time;
     xr_test::control().script.polls_before_ready = 1000000;
-    xr_test::control().script.timeline = {leaves ? xr_test::exit(now + 0.05) : xr_test::stopping(now + 0.05)};
+    xr_test::control().script.timeline = {leaves ? xr_test::Event{now + 0.05, Kind::exit}
+                                                 : xr_test::Event{now + 0.05, Kind::stopping}};
     CHECK(worn.headset->is_worn());
     for (int i = 0; i < 12; ++i) worn.frame();
     CHECK_FALSE(worn.headset->is_worn());
@@ -367,7 +369,7 @@ TEST_CASE("the seat is set only while frames are shown: a headset lying on a tab
   xr_test::Control& xr = xr_test::control();
   const double now = xr.record.frames.back().time;
   check_sits(worn, driver_eye());
-  xr.script.timeline = {xr_test::stopping(now + 0.05), xr_test::ready(now + 0.4)};
+  xr.script.timeline = {xr_test::Event{now + 0.05, Kind::stopping}, xr_test::Event{now + 0.4, Kind::ready}};
   for (int i = 0; i < 12; ++i) worn.frame();
   const EyePose worn_head = worn.head;
   worn.head = {{2.0, 0.1, 1.0}, glm::angleAxis(1.5, dvec3(0, 0, 1))};  // the headset lies on a table
@@ -502,7 +504,8 @@ TEST_CASE("a lost headset is reported once, searched for, and reopened when it i
     (void)worn.headset->take_message();
     xr_test::Control& xr = xr_test::control();
     const double now = xr.record.frames.back().time;
-    xr.script.timeline = {instance ? xr_test::lose_instance(now) : xr_test::lose_session(now)};
+    xr.script.timeline = {instance ? xr_test::Event{now, Kind::instance_loss}
+                                   : xr_test::Event{now, Kind::loss_pending}};
     for (int i = 0; i < 5 && worn.headset->is_open(); ++i) worn.frame();
     REQUIRE_FALSE(worn.headset->is_open());
     CHECK(worn.headset->take_message().find("the desktop shows the cabin. The lever keeps running.") !=
