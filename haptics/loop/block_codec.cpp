@@ -1,15 +1,12 @@
-// This work is based on:
-// P. Ratanaworabhan, J. Ke, M. Burtscher. Fast Lossless Compression of Scientific Floating-Point Data. 2006
-// (predict, XOR, and store only the bytes that remain)
 #include "haptics/loop/block_codec.h"
 
-#include <algorithm>
-#include <array>
+#include <zstd.h>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <optional>
+#include <new>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,6 +14,13 @@ namespace gearshift::haptics {
 namespace {
 
 using Word = std::uint64_t;
+
+// Of zstd. On seven drives this takes 0.78 to 1.00 times the bytes per cycle of our own former predictor and run-length
+// code, and 0.6 to 0.8 times its time (760 + 410 instead of 930 + 560 ns); level 5 takes more time than that code.
+constexpr int kLevel = 4;
+
+static_assert(kMaxCodedBytes >= ZSTD_COMPRESSBOUND(kSamplesPerBlock * kSampleBytes));
+static_assert(kSampleBytes % sizeof(Word) == 0);  // change_planes() and restore() work on words
 
 template <class T>
 constexpr bool find_field(const T& value, std::string_view path, std::size_t& at) {
@@ -44,218 +48,93 @@ consteval std::size_t field_offset(std::string_view path) {
   return at;
 }
 
-enum class Rule {
-  extrapolated,  // linear extrapolation from the two previous samples
-  previous,      // a different field of the previous sample
-  same,          // a different field of this sample
-  negated,       // a different field of this sample, negated
-  difference,    // difference of two fields of this sample
-  sum            // sum of three fields of this sample
-};
-
-// Prediction of one 8-byte word. Bytes without a prediction of their own are predicted to equal the previous sample's.
-struct Prediction {
-  Rule rule = Rule::same;
-  std::size_t at = 0;
-  std::size_t from = 0, and_from = 0, and_also = 0;
-};
-
-// Sorted by position in the sample. A prediction from the current sample reads only earlier fields.
-constexpr std::array kPredictions = {
-    Prediction{Rule::extrapolated, field_offset("deadline_ns")},
-    Prediction{Rule::extrapolated, field_offset("reading.sequence")},
-    Prediction{Rule::extrapolated, field_offset("reading.time_ns")},
-    Prediction{Rule::previous, field_offset("reading.actuator_force.x"), field_offset("out.commanded.x")},
-    Prediction{Rule::previous, field_offset("reading.actuator_force.y"), field_offset("out.commanded.y")},
-    Prediction{Rule::extrapolated, field_offset("out.cycle")},
-    Prediction{Rule::same, field_offset("out.time_ns"), field_offset("deadline_ns")},
-    Prediction{Rule::same, field_offset("out.lever.x"), field_offset("reading.position.x")},
-    Prediction{Rule::same, field_offset("out.lever.y"), field_offset("reading.position.y")},
-    Prediction{Rule::sum, field_offset("out.commanded.x"), field_offset("out.wall_force.x"),
-               field_offset("out.feel_force.x"), field_offset("out.world_force.x")},
-    Prediction{Rule::sum, field_offset("out.commanded.y"), field_offset("out.wall_force.y"),
-               field_offset("out.feel_force.y"), field_offset("out.world_force.y")},
-    Prediction{Rule::same, field_offset("out.f_h.x"), field_offset("reading.hand_force.x")},
-    Prediction{Rule::same, field_offset("out.f_h.y"), field_offset("reading.hand_force.y")},
-    Prediction{Rule::negated, field_offset("out.f_a.x"), field_offset("reading.actuator_force.x")},
-    Prediction{Rule::negated, field_offset("out.f_a.y"), field_offset("reading.actuator_force.y")},
-    Prediction{Rule::difference, field_offset("out.f_j.x"), field_offset("out.f_h.x"), field_offset("out.f_a.x")},
-    Prediction{Rule::difference, field_offset("out.f_j.y"), field_offset("out.f_h.y"), field_offset("out.f_a.y")},
-};
-
-constexpr bool refers_to_known(const Prediction& prediction) {
-  // These rules read only previous samples.
-  const bool uses_none = prediction.rule == Rule::extrapolated || prediction.rule == Rule::previous;
-  const std::size_t last = std::max({prediction.from, prediction.and_from, prediction.and_also});
-  return uses_none || last + sizeof(Word) <= prediction.at;
-}
-constexpr bool in_order(const Prediction& a, const Prediction& b) {
-  return a.at + sizeof(Word) <= b.at;
-}
-static_assert(std::all_of(kPredictions.begin(), kPredictions.end(), refers_to_known));
-static_assert(std::is_sorted(kPredictions.begin(), kPredictions.end(),
-                             [](auto& a, auto& b) { return in_order(a, b); }));
-
-constexpr Word kSign = Word{1} << 63;
-constexpr EncodedSample kZeroSample{};
-
 Word word_at(const std::byte* sample, std::size_t at) noexcept {
   Word word = 0;
   std::memcpy(&word, sample + at, sizeof word);
   return word;
 }
 
-double number_at(const std::byte* sample, std::size_t at) noexcept {
-  return std::bit_cast<double>(word_at(sample, at));
+// XORs a number with the bits of `sum`; with 0 if the sum is NaN or infinite, because a NaN's bits depend on the
+// processor.
+void xor_number(std::byte* sample, std::size_t at, double sum) noexcept {
+  const Word word = word_at(sample, at) ^ (std::isfinite(sum) ? std::bit_cast<Word>(sum) : 0);
+  std::memcpy(sample + at, &word, sizeof word);
 }
 
-// Returns the bits of a predicted number; 0 if it is NaN or infinite, because a NaN's bits depend on the processor.
-Word bits_of(double sum) noexcept {
-  return std::isfinite(sum) ? std::bit_cast<Word>(sum) : 0;
-}
-
-// The two previous samples, and the current sample as far as it is decoded.
-struct SampleContext {
-  const std::byte* older = kZeroSample.data();
-  const std::byte* before = kZeroSample.data();
-  const std::byte* now = nullptr;
-};
-
-Word predicted_word(const Prediction& prediction, const SampleContext& context) noexcept {
-  switch (prediction.rule) {
-    case Rule::extrapolated:
-      return 2 * word_at(context.before, prediction.at) - word_at(context.older, prediction.at);
-    case Rule::previous:
-      return word_at(context.before, prediction.from);
-    case Rule::same:
-      return word_at(context.now, prediction.from);
-    case Rule::negated:
-      return word_at(context.now, prediction.from) ^ kSign;
-    case Rule::difference:
-      return bits_of(number_at(context.now, prediction.from) - number_at(context.now, prediction.and_from));
-    case Rule::sum:
-      return bits_of(number_at(context.now, prediction.from) + number_at(context.now, prediction.and_from) +
-                     number_at(context.now, prediction.and_also));
-  }
-  return 0;
-}
-
-// XORs a sample with its prediction; encoding and decoding are the same operation. `context.now` is the decoded sample;
-// predictions read only those parts of it that are already decoded.
-void apply_predictions(const SampleContext& context, const std::byte* from, std::byte* to) noexcept {
-  std::size_t at = 0;
-  const auto previous = [&](std::size_t end) {
-    for (; at < end; ++at) to[at] = from[at] ^ context.before[at];
-  };
-  for (const Prediction& prediction : kPredictions) {
-    previous(prediction.at);
-    const Word word = word_at(from, at) ^ predicted_word(prediction, context);
-    std::memcpy(to + at, &word, sizeof word);
-    at += sizeof word;
-  }
-  previous(kSampleBytes);
-}
-
-// Makes `sample` the previous sample for the next prediction.
-void advance_to(SampleContext& context, const std::byte* sample) noexcept {
-  context.older = context.before == kZeroSample.data() ? sample : context.before;
-  context.before = sample;
-}
-
-constexpr std::size_t kMinRun = 3;  // [zeros] shortest encoded run, because each run needs two numbers
-
-std::size_t zeros_at(std::span<const std::byte> bytes) noexcept {
-  std::size_t zeros = 0;
-  while (zeros < bytes.size() && bytes[zeros] == std::byte{0}) ++zeros;
-  return zeros;
-}
-
-// Number of bytes before the next run of zeros, or before the trailing zeros.
-std::size_t others_at(std::span<const std::byte> bytes) noexcept {
-  std::size_t others = 0;
-  while (others < bytes.size()) {
-    const std::size_t zeros = zeros_at(bytes.subspan(others));
-    if (zeros >= kMinRun || others + zeros == bytes.size()) break;
-    others += zeros + 1;
-  }
-  return others;
-}
-
-void put_number(std::size_t number, std::vector<std::byte>& bytes) {
-  for (; number >= 128; number >>= 7) bytes.push_back(static_cast<std::byte>(number | 128));
-  bytes.push_back(static_cast<std::byte>(number));
-}
-
-void put_runs(std::span<const std::byte> planes, std::vector<std::byte>& coded) {
-  coded.clear();
-  while (!planes.empty()) {
-    const std::size_t zeros = zeros_at(planes);
-    planes = planes.subspan(zeros);
-    const std::size_t others = others_at(planes);
-    put_number(zeros, coded);
-    put_number(others, coded);
-    coded.insert(coded.end(), planes.begin(), planes.begin() + static_cast<std::ptrdiff_t>(others));
-    planes = planes.subspan(others);
+// XORs forces that follow from others of the same sample with what follows. Encoding and decoding are the same.
+void xor_derived(std::byte* sample) noexcept {
+  for (const std::size_t axis : {std::size_t{0}, sizeof(double)}) {
+    const auto number = [&](std::size_t at) { return std::bit_cast<double>(word_at(sample, at + axis)); };
+    xor_number(sample, field_offset("out.commanded") + axis,
+               number(field_offset("out.wall_force")) + number(field_offset("out.feel_force")) +
+                   number(field_offset("out.world_force")));
+    xor_number(sample, field_offset("out.f_j") + axis,
+               number(field_offset("out.f_h")) - number(field_offset("out.f_a")));
   }
 }
 
-// Reads a number from the front; empty if it is cut off or larger than any block.
-std::optional<std::size_t> read_number(std::span<const std::byte>& bytes) noexcept {
-  std::size_t number = 0;
-  for (unsigned shift = 0; shift < 21 && !bytes.empty(); shift += 7) {
-    const auto group = std::to_integer<std::size_t>(bytes[0]);
-    bytes = bytes.subspan(1);
-    number |= (group & 127) << shift;
-    if (group < 128) return number;
+// Writes the XOR of each sample with the previous one, by byte planes.
+void change_planes(const std::byte* samples, std::size_t count, std::byte* planes) noexcept {
+  for (std::size_t at = 0; at < kSampleBytes; at += sizeof(Word)) {
+    Word before = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Word now = word_at(samples + i * kSampleBytes, at);
+      for (std::size_t byte = 0; byte < sizeof(Word); ++byte)
+        planes[(at + byte) * count + i] = static_cast<std::byte>((now ^ before) >> 8 * byte);
+      before = now;
+    }
   }
-  return std::nullopt;
 }
 
-bool read_runs(std::span<const std::byte> coded, std::span<std::byte> planes) noexcept {
-  while (!planes.empty()) {
-    const std::optional<std::size_t> zeros = read_number(coded);
-    if (!zeros || *zeros > planes.size()) return false;
-    std::fill_n(planes.begin(), *zeros, std::byte{0});
-    planes = planes.subspan(*zeros);
-    const std::optional<std::size_t> others = read_number(coded);
-    if (!others || *others > planes.size() || *others > coded.size()) return false;
-    std::copy_n(coded.begin(), *others, planes.begin());
-    planes = planes.subspan(*others);
-    coded = coded.subspan(*others);
+// The reverse of change_planes().
+void restore(const std::byte* planes, std::size_t count, std::byte* samples) noexcept {
+  for (std::size_t at = 0; at < kSampleBytes; at += sizeof(Word)) {
+    Word now = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t byte = 0; byte < sizeof(Word); ++byte)
+        now ^= std::to_integer<Word>(planes[(at + byte) * count + i]) << 8 * byte;
+      std::memcpy(samples + i * kSampleBytes + at, &now, sizeof now);
+    }
   }
-  return coded.empty();
 }
 
 }  // namespace
 
-BlockCodec::BlockCodec() : planes_(kSamplesPerBlock * kSampleBytes) {}
+void BlockCodec::Free::operator()(ZSTD_CCtx_s* compressor) const noexcept {
+  ZSTD_freeCCtx(compressor);
+}
+void BlockCodec::Free::operator()(ZSTD_DCtx_s* decompressor) const noexcept {
+  ZSTD_freeDCtx(decompressor);
+}
+
+BlockCodec::BlockCodec()
+    : compressor_(ZSTD_createCCtx()),
+      decompressor_(ZSTD_createDCtx()),
+      derived_(kSamplesPerBlock * kSampleBytes),
+      planes_(kSamplesPerBlock * kSampleBytes) {
+  if (!compressor_ || !decompressor_) throw std::bad_alloc();
+}
 
 void BlockCodec::encode(std::span<const std::byte> samples, std::vector<std::byte>& coded) {
-  const std::size_t count = samples.size() / kSampleBytes;
-  SampleContext context;
-  for (std::size_t i = 0; i < count; ++i) {
-    EncodedSample residual;
-    context.now = samples.data() + i * kSampleBytes;
-    apply_predictions(context, context.now, residual.data());
-    advance_to(context, context.now);
-    for (std::size_t plane = 0; plane < kSampleBytes; ++plane) planes_[plane * count + i] = residual[plane];
-  }
-  put_runs(std::span(planes_).first(count * kSampleBytes), coded);
+  derived_.assign(samples.begin(), samples.end());
+  for (std::size_t at = 0; at < samples.size(); at += kSampleBytes) xor_derived(&derived_[at]);
+  change_planes(derived_.data(), samples.size() / kSampleBytes, planes_.data());
+  coded.resize(kMaxCodedBytes);
+  const std::size_t size =
+      ZSTD_compressCCtx(compressor_.get(), coded.data(), coded.size(), planes_.data(), samples.size(), kLevel);
+  if (ZSTD_isError(size) != 0) throw std::bad_alloc();  // with enough room, nothing else can fail
+  coded.resize(size);
 }
 
 bool BlockCodec::decode(std::span<const std::byte> coded, std::size_t count, std::vector<std::byte>& samples) {
   if (count == 0 || count > kSamplesPerBlock) return false;
-  samples.resize(count * kSampleBytes);
-  if (!read_runs(coded, std::span(planes_).first(samples.size()))) return false;
-  SampleContext context;
-  for (std::size_t i = 0; i < count; ++i) {
-    EncodedSample residual;
-    for (std::size_t plane = 0; plane < kSampleBytes; ++plane) residual[plane] = planes_[plane * count + i];
-    std::byte* const sample = samples.data() + i * kSampleBytes;
-    context.now = sample;
-    apply_predictions(context, residual.data(), sample);
-    advance_to(context, sample);
-  }
+  const std::size_t size = count * kSampleBytes;
+  if (ZSTD_getFrameContentSize(coded.data(), coded.size()) != size) return false;
+  if (ZSTD_findFrameCompressedSize(coded.data(), coded.size()) != coded.size()) return false;
+  if (ZSTD_decompressDCtx(decompressor_.get(), planes_.data(), size, coded.data(), coded.size()) != size) return false;
+  samples.resize(size);
+  restore(planes_.data(), count, samples.data());
+  for (std::size_t at = 0; at < size; at += kSampleBytes) xor_derived(&samples[at]);
   return true;
 }
 

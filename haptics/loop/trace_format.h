@@ -23,7 +23,7 @@ namespace gearshift::haptics {
 
 // The magic contains a line end, so that a file transfer that converts line ends damages the magic and is detected.
 inline constexpr std::array<char, 8> kTraceMagic = {'\x89', 'G', 'S', 'T', 'R', 'C', '\r', '\n'};
-inline constexpr std::uint32_t kTraceVersion = 7;
+inline constexpr std::uint32_t kTraceVersion = 8;
 
 // Everything that a replay needs before the first cycle. For a replayable trace, start recording before the first
 // cycle, and put the initial tuning into the config instead of the channels.

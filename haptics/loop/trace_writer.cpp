@@ -13,8 +13,9 @@ TraceWriter::TraceWriter(const std::filesystem::path& file, const TraceHeader& h
   // Without buffering, a write error is reported at the block that failed. The blocks are large enough to be written
   // directly.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
-  block_.reserve(kSamplesPerBlock * kSampleBytes);
-  coded_.reserve(kMaxCodedBytes);
+  block_.resize(kSamplesPerBlock * kSampleBytes);
+  codec_.encode(block_, coded_);  // reserves the memory for later blocks
+  block_.clear();
 
   write(std::as_bytes(std::span(kTraceMagic)));
   write(std::as_bytes(std::span(&kTraceVersion, 1)));

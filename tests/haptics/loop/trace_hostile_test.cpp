@@ -78,6 +78,19 @@ Bytes payload_of(const Bytes& file, std::size_t at) {
   return slice(file, at + kFrame, at + kFrame + get(file, at + 4));
 }
 
+// A zstd frame that declares `size` bytes of content, but repeats a zero byte for more than all samples of a block
+// (RFC 8878: magic, descriptor with a size of 4 bytes in a single segment, size, two blocks of one repeated byte).
+Bytes with_content_size(std::uint32_t size) {
+  Bytes frame{0x28, 0xB5, 0x2F, 0xFD, 0xA0, 0, 0, 0, 0};
+  put(frame, 5, size);
+  for (const unsigned is_last : {0u, 1u}) {
+    const std::uint32_t header = is_last | 1u << 1 | 65'536u << 3;
+    for (const int shift : {0, 8, 16}) frame.push_back(static_cast<unsigned char>(header >> shift));
+    frame.push_back(0);
+  }
+  return frame;
+}
+
 // Changes the samples of a block and corrects the checksums, as an attacker who knows the code could.
 void forge(Bytes& file, std::size_t at, const std::function<void(std::byte* samples)>& change) {
   const Bytes payload = payload_of(file, at);
@@ -117,11 +130,12 @@ const std::vector<Hostile> hostile_traces = {
     {"another magic", [](B& f, At&) { f[1] ^= 1; }, "is not a gearshift trace"},
     {"line ends rewritten", [](B& f, At&) { f.erase(f.begin() + 6); }, "is not a gearshift trace"},
     {"cut inside the magic", [](B& f, At&) { f.resize(5); }, "is not a gearshift trace"},
-    {"a newer format", [](B& f, At&) { put(f, 8, 8); },
-     "recorded by a newer gearshift (format 8), but this version reads only format 7"},
+    {"a newer format", [](B& f, At&) { put(f, 8, 9); },
+     "recorded by a newer gearshift (format 9), but this version reads only format 8"},
     {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "recorded by a newer gearshift"},
-    {"an older format", [](B& f, At&) { put(f, 8, 5); },
-     "recorded by an older gearshift (format 5), but this version reads only format 7"},
+    {"an older format", [](B& f, At&) { put(f, 8, 7); },
+     "recorded by an older gearshift (format 7), but this version reads only format 8; replay the trace with that "
+     "version"},
     {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is incomplete; it ends inside its header"},
     {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); },
      "is incomplete; it ends inside its header"},
@@ -159,7 +173,7 @@ const std::vector<Hostile> hostile_traces = {
     {"an end with samples", [](B& f, At& at) { put(f, at[4] + 8, 1), seal_frame(f, at[4]); },
      "is damaged; a block is missing at byte"},
     {"a block larger than any can be",
-     [](B& f, At& at) { put(f, at[1] + 4, 256 * kSampleBytes + 17), seal_frame(f, at[1]); },
+     [](B& f, At& at) { put(f, at[1] + 4, 257 * kSampleBytes + 65), seal_frame(f, at[1]); },
      "is damaged; a block is missing at byte"},
     {"a block of fewer samples than it claims, and a matching end block",
      [](B& f, At& at) {
@@ -187,14 +201,30 @@ const std::vector<Hostile> hostile_traces = {
        put_payload(f, at[2], more, 256);
      },
      "does not contain the 256 cycles that it declares"},
-    {"a coded block that expands beyond all samples",
+    {"a coded block that declares 4 GB",
+     [](B& f, At& at) { put_payload(f, at[1], with_content_size(0xFFFFFFFF), 256); },
+     "does not contain the 256 cycles that it declares"},
+    {"a coded block that declares one byte more than the samples",
+     [](B& f, At& at) { put_payload(f, at[1], with_content_size(256 * kSampleBytes + 1), 256); },
+     "does not contain the 256 cycles that it declares"},
+    {"a coded block that declares the right size, but expands beyond all samples",
+     [](B& f, At& at) { put_payload(f, at[1], with_content_size(256 * kSampleBytes), 256); },
+     "does not contain the 256 cycles that it declares"},
+    {"a coded block of two frames",
      [](B& f, At& at) {
-       put_payload(f, at[1], {0xFF, 0xFF, 0x7F, 0}, 256);
+       Bytes twice = payload_of(f, at[3]);
+       append(twice, Bytes(twice));
+       put_payload(f, at[3], twice, 88);
      },
+     "does not contain the 88 cycles that it declares"},
+    {"a coded block with no frame", [](B& f, At& at) { put_payload(f, at[1], Bytes(100'000, 0), 256); },
      "does not contain the 256 cycles that it declares"},
-    {"a coded block of endless nothing", [](B& f, At& at) { put_payload(f, at[1], Bytes(100'000, 0), 256); },
-     "does not contain the 256 cycles that it declares"},
-    {"a coded block with a number that does not end", [](B& f, At& at) { put_payload(f, at[1], Bytes(64, 0x80), 256); },
+    {"a coded block whose frame has another magic",
+     [](B& f, At& at) {
+       Bytes other = payload_of(f, at[1]);
+       other[0] ^= 1;
+       put_payload(f, at[1], other, 256);
+     },
      "does not contain the 256 cycles that it declares"},
     {"a coded block that is empty", [](B& f, At& at) { put_payload(f, at[1], {}, 256); },
      "does not contain the 256 cycles that it declares"},
@@ -329,7 +359,7 @@ TEST_CASE("a torn trace returns its intact cycles on request, and is reported as
 TEST_CASE("salvaging stops before an invalid coded block") {
   const TempFolder folder;
   Bytes lying = file_bytes(put_trace(folder / "t.trace", kCycles));
-  put_payload(lying, borders(lying)[2], {0xFF, 0xFF, 0x7F, 0}, 256);
+  put_payload(lying, borders(lying)[2], with_content_size(256 * kSampleBytes), 256);
   put_file(folder / "t.trace", lying);
   haptics::TraceReader reader(folder / "t.trace", haptics::TornTrace::salvage);
   std::size_t cycles = 0;
