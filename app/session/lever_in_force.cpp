@@ -164,7 +164,7 @@ std::string LeverInForce::describe_limit() const {
   if (!running_.stick || admitted.limits.empty()) return first_limit(admitted);
   const auto wall =
       std::find_if(admitted.limits.begin(), admitted.limits.end(), [](const haptics::TuningLimit& limited) {
-        return limited.parameter == haptics::TuningParameter::wall_stiffness && limited.used < limited.wanted;
+        return limited.parameter == &haptics::HapticTuning::wall_stiffness && limited.used < limited.wanted;
       });
   const std::string delay =
       fmt::format("{} takes {:.1f} ms to respond", running_.stick->name(), 1e3 * running_.stick->answer_time());

@@ -71,13 +71,13 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
                     const Limiter& limiter) {
   HapticTuning& tuning = admitted.tuning;
   const double tau = lag(config, spec), damping = kQuiet * lighter_mass(spec) / tau;
-  limiter.limit(tuning.aisle_damping, damping, TuningParameter::aisle_damping, kDampingLaw);
-  limiter.limit(tuning.limit_damping, damping, TuningParameter::limit_damping, kDampingLaw);
+  limiter.limit(tuning.aisle_damping, damping, &HapticTuning::aisle_damping, kDampingLaw);
+  limiter.limit(tuning.limit_damping, damping, &HapticTuning::limit_damping, kDampingLaw);
   const bool observed = admitted.hold == ContactHold::observer;
-  if (!observed) limiter.limit(tuning.wall_damping, damping, TuningParameter::wall_damping, kDampingLaw);
+  if (!observed) limiter.limit(tuning.wall_damping, damping, &HapticTuning::wall_damping, kDampingLaw);
   if (admitted.hold == ContactHold::zero_order) return;
   const double stiffness = (observed ? kQuietObserved : kQuiet) * lighter_mass(spec) / (tau * tau);
-  limiter.limit(tuning.wall_stiffness, stiffness, TuningParameter::wall_stiffness, observed ? kObservedLaw : kQuietLaw);
+  limiter.limit(tuning.wall_stiffness, stiffness, &HapticTuning::wall_stiffness, observed ? kObservedLaw : kQuietLaw);
 }
 
 // Raises the damping to the minimum of the observer hold, even with allow_unstable, because the observer hold does not
@@ -86,7 +86,7 @@ void raise_observed_damping(AdmittedTuning& admitted) {
   double& damping = admitted.tuning.wall_damping;
   if (admitted.hold != ContactHold::observer || damping >= kMinObserverDamping) return;
   admitted.limits.push_back(
-      {kObservedDampingLaw, TuningParameter::wall_damping, damping, kMinObserverDamping, kMinObserverDamping, {}});
+      {kObservedDampingLaw, &HapticTuning::wall_damping, damping, kMinObserverDamping, kMinObserverDamping, {}});
   damping = kMinObserverDamping;
 }
 
@@ -147,8 +147,8 @@ void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, Admi
     trial.tuning.aisle_damping = factor * admitted.tuning.aisle_damping;
     trial.tuning.limit_damping = factor * admitted.tuning.limit_damping;
   }
-  limiter.limit(admitted.tuning.aisle_damping, trial.tuning.aisle_damping, TuningParameter::aisle_damping, kFreeLaw);
-  limiter.limit(admitted.tuning.limit_damping, trial.tuning.limit_damping, TuningParameter::limit_damping, kFreeLaw);
+  limiter.limit(admitted.tuning.aisle_damping, trial.tuning.aisle_damping, &HapticTuning::aisle_damping, kFreeLaw);
+  limiter.limit(admitted.tuning.limit_damping, trial.tuning.limit_damping, &HapticTuning::limit_damping, kFreeLaw);
 }
 
 // Limits the damping of the loop's wall on a device that renders walls itself. The loop's damping is delayed, so it can
@@ -158,7 +158,7 @@ void limit_damping_with_device_walls(const HapticConfig& config, const DeviceSpe
   if (!has_device_walls(spec) || admitted.hold == ContactHold::observer) return;
   double damping = admitted.tuning.wall_damping;
   while (!is_stable_without_wall(config, admitted, spec, damping) && damping > 1e-3) damping *= 0.5;
-  limiter.limit(admitted.tuning.wall_damping, damping, TuningParameter::wall_damping, kFreeLaw);
+  limiter.limit(admitted.tuning.wall_damping, damping, &HapticTuning::wall_damping, kFreeLaw);
 }
 
 struct StableStiffness {
@@ -227,7 +227,7 @@ AdmittedTuning fall_back_to_half_sample(HapticConfig config, const DeviceSpec& d
   config.contact.hold = ContactHold::half_sample;
   AdmittedTuning fallback = admit_tuning(config, device, gate);
   const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(fallback.hold);
-  fallback.limits.push_back({kObserverLaw, TuningParameter::hold, from, to, to, std::string(hand)});
+  fallback.limits.push_back({kObserverLaw, kHold, from, to, to, std::string(hand)});
   return fallback;
 }
 
@@ -325,23 +325,23 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
     if (usable_wall_stiffness(spec) == 0.0)
       throw std::invalid_argument("no wall of any stiffness is stable on this device");
   }
-  limiter.limit(out.tuning.wall_stiffness, stable.max, TuningParameter::wall_stiffness, kStableLaw, stable.hand);
+  limiter.limit(out.tuning.wall_stiffness, stable.max, &HapticTuning::wall_stiffness, kStableLaw, stable.hand);
   const double feel = max_feel_stiffness(gate);
   if (feel > 0.0)
-    limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, TuningParameter::feel_scale, kFeelLaw);
-  add_device_part(out, out.tuning.wall_stiffness, TuningParameter::wall_stiffness, config.tuning.wall_stiffness,
+    limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, &HapticTuning::feel_scale, kFeelLaw);
+  add_device_part(out, out.tuning.wall_stiffness, &HapticTuning::wall_stiffness, config.tuning.wall_stiffness,
                   usable_wall_stiffness(spec), " N/m");
-  add_device_part(out, out.tuning.wall_damping, TuningParameter::wall_damping, config.tuning.wall_damping,
+  add_device_part(out, out.tuning.wall_damping, &HapticTuning::wall_damping, config.tuning.wall_damping,
                   usable_wall_damping(spec), " N s/m");
   return out;
 }
 
 const char* to_string(TuningParameter parameter) noexcept {
-  return parameter == TuningParameter::hold ? "hold" : kParameters<HapticTuning>[static_cast<int>(parameter)].key;
+  return parameter == kHold ? "hold" : parameter_of(parameter).key;
 }
 
 std::string describe(const TuningLimit& limit) {
-  const bool is_hold = limit.parameter == TuningParameter::hold;  // the values of `hold` are enumerators, not numbers
+  const bool is_hold = limit.parameter == kHold;  // the values of `hold` are enumerators, not numbers
   const auto text = [&](double value) {
     return is_hold ? file_key(static_cast<ContactHold>(value)) : short_text(value);
   };

@@ -127,23 +127,15 @@ constexpr void each_section(Config& config, auto&& visit) {
   visit("over_push", config.over_push);
 }
 
-// Parameters that a check may lower, raise or replace: those of HapticTuning, in its order, and the hold.
-enum class TuningParameter : std::uint8_t {
-  wall_stiffness,
-  wall_damping,
-  feel_scale,
-  aisle_damping,
-  speed_limit,
-  limit_damping,
-  hold
-};
-static_assert(static_cast<int>(TuningParameter::hold) == std::size(kParameters<HapticTuning>));
+// A parameter that a check may lower, raise or replace: a member of HapticTuning, or kHold.
+using TuningParameter = double HapticTuning::*;
+inline constexpr TuningParameter kHold = nullptr;
 const char* to_string(TuningParameter parameter) noexcept;  // key in files, such as "wall_stiffness_n_per_m"
 
 // A parameter that was limited. With `allow_unstable`, the limit is reported but not applied.
 struct TuningLimit {
   std::string law;  // the rule that sets the limit, as text for the user
-  TuningParameter parameter = TuningParameter::wall_stiffness;
+  TuningParameter parameter = &HapticTuning::wall_stiffness;
   double wanted = 0.0, used = 0.0;
   double bound = 0.0;  // the limit that the law sets
   std::string hand;    // the hand model that sets the limit; empty if the limit depends on no hand

@@ -94,9 +94,8 @@ std::string format_runtime_answer(const haptics::ContactLaw& wall, const Runtime
 
 Json limited_json(const haptics::TuningLimit& limited) {
   const auto value = [&](double number) {
-    return limited.parameter == haptics::TuningParameter::hold
-               ? Json(haptics::file_key(static_cast<haptics::ContactHold>(number)))
-               : Json(number);
+    return limited.parameter == haptics::kHold ? Json(haptics::file_key(static_cast<haptics::ContactHold>(number)))
+                                               : Json(number);
   };
   return {{"law", limited.law},
           {"what", haptics::to_string(limited.parameter)},

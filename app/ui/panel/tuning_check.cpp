@@ -75,7 +75,7 @@ StableRanges stable_ranges(const TuningQuestion& question) {
   }
   // The gate's feel (centring, detents) is limited if the wall is softer than the feel. So the wall's stable range
   // begins at the stiffness of the feel.
-  constexpr std::size_t kWall = index_of(haptics::TuningParameter::wall_stiffness);
+  constexpr std::size_t kWall = index_of(&haptics::HapticTuning::wall_stiffness);
   const double feel = question.config.tuning.feel_scale * haptics::max_feel_stiffness(*question.gate);
   if (feel > 0.99 * ranges[kWall].min && answer(with_value(safe, kTuningFields[kWall], feel)).admissible)
     ranges[kWall].min = feel;
@@ -96,9 +96,8 @@ std::optional<haptics::HapticTuning> nearest_stable(const TuningQuestion& questi
 }
 
 std::string format_limit(const haptics::TuningLimit& limit) {
-  if (limit.parameter == haptics::TuningParameter::hold)
-    return fmt::format("{}: {}", haptics::to_string(limit.parameter), limit.law);
-  const TuningField& field = kTuningFields[index_of(limit.parameter)];
+  if (limit.parameter == haptics::kHold) return fmt::format("{}: {}", haptics::to_string(limit.parameter), limit.law);
+  const TuningField& field = haptics::parameter_of(limit.parameter);
   return fmt::format("{} {} is {} the stable limit of {}. Rule: {}{}{}.", field.label,
                      format_value(limit.wanted, field), limit.wanted > limit.bound ? "above" : "below",
                      format_value(limit.bound, field), limit.law,

@@ -19,9 +19,9 @@ inline double value_of(const haptics::HapticTuning& tuning, const TuningField& f
   return tuning.*std::get<double haptics::HapticTuning::*>(field.member);
 }
 
-// Index into kTuningFields. parameter: not `hold`.
+// Index into kTuningFields. parameter: not kHold.
 constexpr std::size_t index_of(haptics::TuningParameter parameter) {
-  return static_cast<std::size_t>(parameter);
+  return static_cast<std::size_t>(&haptics::parameter_of(parameter) - kTuningFields);
 }
 
 }  // namespace gearshift::ui

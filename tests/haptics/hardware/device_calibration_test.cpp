@@ -254,7 +254,7 @@ TEST_CASE("a 3 ms device gets parameters that are stable at 3 ms, and reports th
   CHECK(plain.tuning.wall_stiffness > 683.0);
   CHECK(plain.tuning.wall_stiffness < 873.0);
   REQUIRE_FALSE(plain.limits.empty());
-  CHECK(plain.limits.front().parameter == TuningParameter::wall_stiffness);
+  CHECK(plain.limits.front().parameter == &HapticTuning::wall_stiffness);
   CHECK(plain.limits.front().wanted == 5000.0);
 
   config = {};
@@ -263,7 +263,7 @@ TEST_CASE("a 3 ms device gets parameters that are stable at 3 ms, and reports th
   // The limit is 1881 N/m, the limit of the lighter axis.
   CHECK(held.tuning.wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 16e-6));
   const auto is_wall = [](const TuningLimit& one) {
-    return one.parameter == TuningParameter::wall_stiffness && one.wanted == 5000.0;
+    return one.parameter == &HapticTuning::wall_stiffness && one.wanted == 5000.0;
   };
   CHECK(std::any_of(held.limits.begin(), held.limits.end(), is_wall));
 }

@@ -241,7 +241,7 @@ const TuningLimit* limit_of(TuningParameter what, const AdmittedTuning& admitted
   return nullptr;
 }
 const TuningLimit* limit_of_wall(const AdmittedTuning& admitted) {
-  return limit_of(TuningParameter::wall_stiffness, admitted);
+  return limit_of(&HapticTuning::wall_stiffness, admitted);
 }
 
 // A device with the given delay and a damper of `own` [N s/m].
@@ -305,7 +305,7 @@ TEST_CASE("the loop renders the rest of a wall's damping; with the device's part
   const AdmittedTuning both = admitted_with(weak, 10.0, ContactHold::half_sample);
   CHECK(both.tuning.wall_damping == doctest::Approx(quiet + 3.0));
   CHECK(contact_law({}, both, weak).damping == doctest::Approx(quiet));
-  const TuningLimit* limit = limit_of(TuningParameter::wall_damping, both);
+  const TuningLimit* limit = limit_of(&HapticTuning::wall_damping, both);
   REQUIRE(limit != nullptr);
   CHECK(limit->wanted == 10.0);
   CHECK(limit->used == both.tuning.wall_damping);
@@ -316,7 +316,7 @@ TEST_CASE("the loop renders the rest of a wall's damping; with the device's part
   const AdmittedTuning device_only = admitted_with(strong, 10.0, ContactHold::half_sample);
   CHECK(device_only.tuning.wall_damping == 10.0);
   CHECK(contact_law({}, device_only, strong).damping == 0.0);
-  CHECK(limit_of(TuningParameter::wall_damping, device_only) == nullptr);
+  CHECK(limit_of(&HapticTuning::wall_damping, device_only) == nullptr);
 
   const AdmittedTuning observed = admitted_with(damping_itself(20.0, 3), 10.0, ContactHold::observer);
   REQUIRE(observed.hold == ContactHold::observer);

@@ -54,7 +54,7 @@ TEST_CASE(
   const double bound = 0.35 * std::min(kPaperAxisX.mass, kPaperAxisY.mass) / (0.002 * 0.002);
   const TuningAnswer fine = answer(question);
   CHECK(fine.admissible);
-  CHECK(stable_ranges(question)[index_of(TuningParameter::wall_stiffness)].max == Approx(bound).epsilon(1e-9));
+  CHECK(stable_ranges(question)[index_of(&HapticTuning::wall_stiffness)].max == Approx(bound).epsilon(1e-9));
   question.config.tuning.wall_stiffness = 20000.0;
   const TuningAnswer refused = answer(question);
   CHECK_FALSE(refused.admissible);
