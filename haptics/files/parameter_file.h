@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -102,7 +103,8 @@ std::string allowed_text(const Parameter<S, Enums...>& parameter, const Value&) 
 
 // A parameter's value as a file has it.
 template <class S, class... Enums, class Value>
-std::string value_text(const Parameter<S, Enums...>& parameter, const Value& value) {
+requires(!std::is_same_v<Value, std::optional<double>> && !std::is_same_v<Value, std::optional<bool>>) std::string
+    value_text(const Parameter<S, Enums...>& parameter, const Value& value) {
   if constexpr (std::is_same_v<Value, bool>)
     return value ? "true" : "false";
   else if constexpr (std::is_enum_v<Value>)
@@ -133,6 +135,39 @@ std::string parameters_text(const S& object, bool described) {
   });
   return text;
 }
+
+// The parameters as a Markdown table: key, allowed values and default, description. defaults: one object of each section
+// of a file, with the section's name, such as "[feel]"; a required section has no defaults.
+class ParameterTable {
+ public:
+  explicit ParameterTable(Missing missing = Missing::default_value) : missing_(missing) {}
+
+  template <class S>
+  ParameterTable& add(std::string_view section, const S& defaults) {
+    each_parameter(defaults, [&](const auto& parameter, const auto& value) {
+      text_ += '`' + std::string(section) + (section.empty() ? "" : " ") + parameter.key + "` | " +
+               allowed_text(parameter, value);
+      if (missing_ == Missing::default_value) text_ += default_text(parameter, value);
+      text_ += std::string(" |") + (*parameter.description == '\0' ? "" : " ") + parameter.description + '\n';
+    });
+    return *this;
+  }
+
+  const std::string& text() const noexcept { return text_; }
+
+ private:
+  static std::string default_text(const auto& parameter, const auto& value) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
+      return ", " + number_text(to_file(parameter.range.unit, value));
+    else if constexpr (requires { value_text(parameter, value); })
+      return ", " + value_text(parameter, value);
+    else
+      return {};  // an optional value has no default
+  }
+
+  Missing missing_;
+  std::string text_ = "key | allowed, default | meaning\n---|---|---\n";
+};
 
 // True if every number is in its range. A std::uint64_t is limited only in files, which hold numbers as doubles.
 template <class S>

@@ -75,14 +75,13 @@ struct GateLayout {
 template <>
 inline constexpr Parameter<GateLayout> kParameters<GateLayout>[] = {
     {&GateLayout::aisle_width, "aisle_width", "aisle_width_mm",
-     FileRange{1e3 * kMinAisleWidth, 40.0, file_unit::kMillimetres}, "Width of the neutral aisle, wall to wall."},
+     FileRange{1e3 * kMinAisleWidth, 40.0, file_unit::kMillimetres}, "Neutral aisle, wall to wall."},
     {&GateLayout::slot_width, "slot_width", "slot_width_mm",
-     FileRange{1e3 * kMinAisleWidth, 30.0, file_unit::kMillimetres}, "Width of a slot, wall to wall."},
+     FileRange{1e3 * kMinAisleWidth, 30.0, file_unit::kMillimetres}, "Slots, wall to wall."},
     {&GateLayout::slot_length, "slot_length", "slot_length_mm",
-     FileRange{1e3 * kMinSlotProper, 120.0, file_unit::kMillimetres},
-     "Length of a slot from the aisle's centre line to the end stop."},
+     FileRange{1e3 * kMinSlotProper, 120.0, file_unit::kMillimetres}, "Aisle's centre line to end stop."},
     {&GateLayout::chamfer, "chamfer", "chamfer_mm", FileRange{0.0, 10.0, file_unit::kMillimetres},
-     "Leg of the 45 degree slot mouths."},
+     "Leg of a slot's 45 degree corners."},
 };
 
 template <>
@@ -95,25 +94,24 @@ inline constexpr Parameter<ColumnLayout> kParameters<ColumnLayout>[] = {
 template <>
 inline constexpr Parameter<FeelLayout> kParameters<FeelLayout>[] = {
     {&FeelLayout::center_force, "center_force", "center_force_n", FileRange{0.5, 10.0},
-     "Select centring towards the neutral column."},
+     "Sideways, to the neutral column; grows with the distance."},
     {&FeelLayout::aisle_force, "aisle_force", "aisle_force_n", FileRange{0.0, 5.0},
-     "Shift centring inside the neutral aisle."},
-    {&FeelLayout::mouth_force, "mouth_force", "mouth_force_n", FileRange{0.0, 15.0},
-     "Bump at the slot's mouth, towards neutral."},
+     "Fore and aft, to the aisle's centre line."},
+    {&FeelLayout::mouth_force, "mouth_force", "mouth_force_n", FileRange{0.0, 15.0}, "Bump at the mouth of a slot."},
     {&FeelLayout::detent_force, "detent_force", "detent_force_n", FileRange{0.0, 20.0},
      "Resistance before a gear engages."},
     {&FeelLayout::lock_force, "lock_force", "lock_force_n", FileRange{1.0, 25.0}, "Pull-out force of an engaged gear."},
     {&FeelLayout::buffer_force, "buffer_force", "buffer_force_n", FileRange{0.0, 10.0},
-     "Deflecting force in a closed junction's buffer."},
+     "Turning force at a closed junction."},
 };
 static_assert(DescribesAll<FeelLayout>);
 
 template <>
 inline constexpr Parameter<LockoutLayout> kParameters<LockoutLayout>[] = {
     {&LockoutLayout::close_above, "close_above", "close_above_kmh", FileRange{0.0, 400.0, file_unit::kKmPerHour},
-     "Above this road speed the slot closes."},
+     "Road speed; for `speed` only."},
     {&LockoutLayout::open_below, "open_below", "open_below_kmh", FileRange{0.0, 400.0, file_unit::kKmPerHour},
-     "Below this road speed the slot opens again."},
+     "Road speed; for `speed` only."},
 };
 
 // Throws FileError (haptics/files) with file, line, key, value and allowed range.

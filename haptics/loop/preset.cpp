@@ -96,13 +96,14 @@ std::string preset_text(const Preset& preset, PresetComments comments) {
 
 std::string parameter_table(const HapticConfig& defaults) {
   std::string text =
-      "| key | panel | range | default | effect if too low; if too high |\n"
-      "|---|---|---|---|---|\n";
+      "key | panel | allowed | default | effect if too low; if too high\n"
+      "---|---|---|---|---\n";
   each_section(defaults, [&](std::string_view section, const auto& part) {
     each_parameter(part, [&](const auto& parameter, const auto& value) {
-      text += "| `[" + std::string(section) + "] " + parameter.key + "` | " + parameter.label + " | " +
-              allowed_text(parameter, value) + " | " + value_text(parameter, value) + " | " + parameter.too_low + "; " +
-              parameter.too_high + " |\n";
+      const bool has_low = *parameter.too_low != '\0', has_high = *parameter.too_high != '\0';
+      text += "`[" + std::string(section) + "] " + parameter.key + "` | " + parameter.label + " | " +
+              allowed_text(parameter, value) + " | " + value_text(parameter, value) + " | " + parameter.too_low +
+              (has_low || has_high ? "; " : "") + parameter.too_high + '\n';
     });
   });
   return text;

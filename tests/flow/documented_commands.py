@@ -299,9 +299,13 @@ class Runner:
                 self.fail(command, f'does not say "{words}": {printed[-500:]}')
 
     def check_parameters(self):
-        """The shipped default preset and the tuning guide's table must be what the program prints."""
+        """The shipped default preset and the pages' tables of parameters must be what the program prints."""
+        table = "gearshift parameters --table"
         for page, command in (("assets/presets/default.toml", "gearshift parameters"),
-                              ("haptics/TUNING.md", "gearshift parameters --table")):
+                              ("haptics/TUNING.md", f"{table} haptics"), ("assets/cars/README.md", f"{table} car"),
+                              ("assets/gates/README.md", f"{table} gate"),
+                              ("assets/lessons/GUIDE.md", f"{table} lesson"),
+                              ("assets/lessons/README.md", f"{table} condition")):
             printed = self.shell(command, self.work).stdout
             row = Command(page, 0, command)
             if not printed or printed not in (self.sources / page).read_text():
