@@ -84,6 +84,17 @@ void Svg::polyline(const std::vector<glm::dvec2>& points, const Pen& pen) {
   body_ += fmt::format("<polyline points=\"{}\" fill=\"none\" {}/>\n", point_list(points), stroke(pen));
 }
 
+// The size is also given as a style, because a page's style for pictures would apply to this inner one, too.
+void Svg::begin_clip(const Rect& r) {
+  body_ +=
+      fmt::format("<svg {0} style=\"width:{3:.3f}px;height:{4:.3f}px\" viewBox=\"{1:.3f} {2:.3f} {3:.3f} {4:.3f}\">\n",
+                  box(r), r.x, r.y, r.width, r.height);
+}
+
+void Svg::end_clip() {
+  body_ += "</svg>\n";
+}
+
 std::string Svg::finish() && {
   return std::move(body_) + "</svg>\n";
 }

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "app/base/chart.h"
 #include "app/base/colours.h"
 #include "app/base/svg.h"
-#include "app/lab/bench/log_axis.h"
 #include "app/lab/bench/pareto.h"
 
 namespace gearshift::lab {
@@ -80,8 +80,8 @@ class Panel {
         corner_(corner),
         box_{corner.x + kLeft, corner.y + kTop, kPanelWidth - kLeft - kRight, kPlotHeight},
         contest_(contest),
-        cost_(all_of(contest, &Trade::cost)),
-        error_(all_of(contest, &Trade::error)) {
+        chart_(svg, box_, base::Scale::decades_around(all_of(contest, &Trade::cost)),
+               base::Scale::decades_around(all_of(contest, &Trade::error))) {
     std::vector<glm::dvec2> points;
     for (const Trade* trade : contest) points.emplace_back(trade->cost.value, trade->error.value);
     front_ = pareto_front(points);
@@ -99,10 +99,7 @@ class Panel {
   }
 
  private:
-  glm::dvec2 at(double cost, double error) const {
-    return {box_.x + box_.width * cost_.fraction(cost), box_.bottom() - box_.height * error_.fraction(error)};
-  }
-  glm::dvec2 at(const Trade& trade) const { return at(trade.cost.value, trade.error.value); }
+  glm::dvec2 at(const Trade& trade) const { return chart_.at(trade.cost.value, trade.error.value); }
   bool on_front(std::size_t i) const { return std::find(front_.begin(), front_.end(), i) != front_.end(); }
   const char* colour_of(std::size_t i) const {
     return contest_[i]->chosen ? kChosen : on_front(i) ? kOnFront : kBeaten;
@@ -110,22 +107,10 @@ class Panel {
 
   void grid() {
     svg_.frame(box_, "none", {base::kGridInk, 1.0});
-    const base::Type below{11.0, base::kSoftInk, "middle"}, left{11.0, base::kSoftInk, "end"};
-    const auto label = [](double value) { return fmt::format("{:g}", value); };
-    for (const LogAxis::Tick& tick : cost_.ticks()) {
-      const double x = box_.x + box_.width * cost_.fraction(tick.value);
-      svg_.line({x, box_.y}, {x, box_.bottom()}, {base::kGridInk, 1.0});
-      if (tick.named) svg_.text({x, box_.bottom() + 16.0}, below, label(tick.value));
-    }
-    for (const LogAxis::Tick& tick : error_.ticks()) {
-      const double y = box_.bottom() - box_.height * error_.fraction(tick.value);
-      svg_.line({box_.x, y}, {box_.right(), y}, {base::kGridInk, 1.0});
-      if (tick.named) svg_.text({box_.x - 7.0, y + 4.0}, left, label(tick.value));
-    }
-    if (cost_.begins_with_zero()) svg_.text({box_.x, box_.bottom() + 16.0}, below, "0");
-    if (error_.begins_with_zero()) svg_.text({box_.x - 7.0, box_.bottom() + 4.0}, left, "0");
-    svg_.text({box_.right(), box_.bottom() + 34.0}, {12.0, base::kSoftInk, "end"}, axis_name(contest_.front()->cost));
-    svg_.text({box_.x, box_.y - 9.0}, {12.0, base::kSoftInk}, axis_name(contest_.front()->error));
+    chart_.x_grid();
+    chart_.y_grid();
+    chart_.x_name(axis_name(contest_.front()->cost));
+    chart_.y_name(axis_name(contest_.front()->error));
   }
 
   // Draws the front as steps: at each cost, the line shows the error of the best method that costs no more.
@@ -152,11 +137,11 @@ class Panel {
     const Trade& trade = *contest_[i];
     const base::Pen pen{colour_of(i), 1.2};
     if (has_bar(trade.cost))
-      bar(at(trade.cost.spread->low, trade.error.value), at(trade.cost.spread->high, trade.error.value), {0.0, kCap},
-          pen);
+      bar(chart_.at(trade.cost.spread->low, trade.error.value), chart_.at(trade.cost.spread->high, trade.error.value),
+          {0.0, kCap}, pen);
     if (has_bar(trade.error))
-      bar(at(trade.cost.value, trade.error.spread->low), at(trade.cost.value, trade.error.spread->high), {kCap, 0.0},
-          pen);
+      bar(chart_.at(trade.cost.value, trade.error.spread->low), chart_.at(trade.cost.value, trade.error.spread->high),
+          {kCap, 0.0}, pen);
     svg_.dot(at(trade), kDot, colour_of(i), trade.method);
     if (trade.chosen) svg_.ring(at(trade), kDot + 3.0, {kChosen, 1.6});
   }
@@ -209,7 +194,7 @@ class Panel {
   glm::dvec2 corner_;
   base::Rect box_;
   const Contest& contest_;
-  LogAxis cost_, error_;
+  base::Chart chart_;
   std::vector<std::size_t> front_;
   std::vector<glm::dvec2> numbers_;
 };

@@ -6,23 +6,36 @@
 
 #include <fmt/format.h>
 
+#include "app/base/chart.h"
 #include "app/base/colours.h"
 
 namespace gearshift::lab {
 namespace {
 
-constexpr double kStep = 0.1e-3;      // [m] step of the plotted curve
-constexpr double kForceTick = 4.0;    // [N]
-constexpr double kDepthTick = 0.010;  // [m]
+constexpr double kStep = 0.1e-3;     // [m] step of the plotted curve
+constexpr double kForceTick = 4.0;   // [N]
+constexpr double kDepthTick = 10.0;  // [mm]
+
+// Force [N] against depth [mm].
+std::vector<glm::dvec2> force_curve(const haptics::Slot& slot) {
+  std::vector<glm::dvec2> points;
+  for (double depth = 0.0; depth < slot.end + kStep; depth += kStep) {
+    const double inside = std::min(slot.end, depth);
+    points.emplace_back(1e3 * inside, haptics::feel_force(slot.feel, inside));
+  }
+  return points;
+}
 
 class SlotPlot {
  public:
   SlotPlot(base::Svg& svg, const haptics::Gate& gate, const haptics::Slot& slot, const base::Rect& box)
-      : svg_(svg), gate_(gate), slot_(slot), box_(box), mouth_(gate.half_aisle + gate.chamfer) {
-    double largest = kForceTick;
-    for (int i = 0; i <= steps(); ++i) largest = std::max(largest, std::abs(haptics::feel_force(slot.feel, i * kStep)));
-    limit_ = std::ceil(1.05 * largest / kForceTick) * kForceTick;
-  }
+      : svg_(svg),
+        gate_(gate),
+        slot_(slot),
+        box_(box),
+        mouth_(gate.half_aisle + gate.chamfer),
+        curve_(force_curve(slot)),
+        chart_(svg, box, {0.0, 1e3 * slot.end}, {-limit(), limit()}, 2.2) {}
 
   void zones() {
     svg_.rect(box_, base::kFreeColour);
@@ -34,19 +47,8 @@ class SlotPlot {
   }
 
   void axes() {
-    const int force_ticks = static_cast<int>(std::lround(limit_ / kForceTick));
-    for (int i = -force_ticks; i <= force_ticks; ++i) {
-      const bool zero = i == 0;
-      const double force = i * kForceTick;
-      svg_.line({box_.x, y(force)}, {box_.right(), y(force)},
-                {zero ? base::kSoftInk : base::kGridInk, zero ? 0.3 : 0.15});
-      svg_.text({box_.x - 1.2, y(force) + 0.8}, {2.2, base::kSoftInk, "end"}, fmt::format("{:.0f}", force));
-    }
-    for (int i = 0; i * kDepthTick <= slot_.end + 1e-9; ++i) {
-      const double depth = i * kDepthTick;
-      svg_.line({x(depth), box_.bottom()}, {x(depth), box_.bottom() + 1.0}, {base::kSoftInk, 0.2});
-      svg_.text({x(depth), box_.bottom() + 3.6}, {2.2, base::kSoftInk, "middle"}, fmt::format("{:.0f}", depth * 1e3));
-    }
+    chart_.x_grid(kDepthTick);
+    chart_.y_grid(kForceTick);
     // The curve does not cross the first label: in every layout, it runs below this label up to its crest.
     svg_.text({x(mouth_) + 1.2, y(0.0) - 1.4}, {2.1, base::kSoftInk}, "pulls into gear");
     svg_.text({x(mouth_) + 1.2, box_.bottom() - 1.6}, {2.1, base::kSoftInk}, "pushes back");
@@ -61,28 +63,28 @@ class SlotPlot {
   }
 
   void curve() {
-    std::vector<glm::dvec2> points;
-    for (int i = 0; i <= steps(); ++i) {
-      const double depth = std::min(slot_.end, i * kStep);
-      points.emplace_back(x(depth), y(haptics::feel_force(slot_.feel, depth)));
-    }
-    svg_.polyline(points, {base::kInk, 0.6});
+    chart_.curve(curve_, {base::kInk, 0.6});
     svg_.line({box_.right(), box_.y}, {box_.right(), box_.bottom()}, {base::kInk, 1.1});  // the end stop
     svg_.dot({x(slot_.rest), y(0.0)}, 0.8, base::kGearColour);
   }
 
  private:
-  int steps() const { return static_cast<int>(std::ceil(slot_.end / kStep)); }
-  double x(double depth) const { return box_.x + box_.width * depth / slot_.end; }
-  double y(double force) const { return box_.y + box_.height * (0.5 - 0.5 * force / limit_); }
+  double limit() const {
+    double largest = kForceTick;
+    for (const glm::dvec2 point : curve_) largest = std::max(largest, std::abs(point.y));
+    return std::ceil(1.05 * largest / kForceTick) * kForceTick;
+  }
+  double x(double depth) const { return chart_.at(1e3 * depth, 0.0).x; }
+  double y(double force) const { return chart_.at(0.0, force).y; }
   base::Rect band(double from, double to) const { return {x(from), box_.y, x(to) - x(from), box_.height}; }
 
   base::Svg& svg_;
   const haptics::Gate& gate_;
   const haptics::Slot& slot_;
   base::Rect box_;
-  double mouth_;               // [m] depth at which the mouth ends and the straight slot begins
-  double limit_ = kForceTick;  // [N] force at the top of the plot
+  double mouth_;                   // [m] depth at which the mouth ends and the straight slot begins
+  std::vector<glm::dvec2> curve_;  // [mm, N]
+  base::Chart chart_;
 };
 
 }  // namespace

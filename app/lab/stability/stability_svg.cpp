@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "app/base/chart.h"
 #include "app/base/colours.h"
 #include "app/base/svg.h"
 #include "app/lab/stability/stability_report.h"
@@ -22,129 +23,77 @@ constexpr base::Rect kPage{0.0, 0.0, 198.0, 122.0};
 constexpr base::Rect kPlot{24.0, 28.0, 122.0, 78.0};
 constexpr double kLeft = 4.0;
 constexpr double kLegendLine = 6.0;
+constexpr double kDot = 0.9, kRing = 1.5;  // at B = 0, the ring ends before the numbers of the axis
 constexpr const char* kStableColour = "#e3eef8";
 constexpr const char* kDash = "1.6 1.6";
 constexpr std::array<const char*, 4> kHandColours = {base::kGearColour, "#2e8b57", base::kBufferColour, "#7b4ba8"};
 
-// Rounds up to 1, 2 or 5 times a power of ten.
-double round_up(double number) {
-  const double power = std::pow(10.0, std::floor(std::log10(number)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (number <= factor * power) return factor * power;
+// Stiffness [N/m] at the bottom and the top of the plot.
+base::Scale stiffness_scale(const StabilityQuestion& question, const StabilityMap& map) {
+  double lowest = 1e9, highest = 1.0;
+  const auto include = [&](double stiffness) {
+    if (stiffness <= 0.0 || std::isinf(stiffness)) return;
+    lowest = std::min(lowest, stiffness);
+    highest = std::max(highest, stiffness);
+  };
+  include(question.wall.stiffness);
+  if (!map.passive.empty()) include(map.passive.front());
+  for (const std::vector<double>& limits : map.limits) {
+    include(limits.front());
+    include(*std::max_element(limits.begin(), limits.end()));
   }
-  return 10.0 * power;
-}
-
-// Groups digits: 1000000 becomes "1 000 000".
-std::string grouped(double number) {
-  const std::string digits = fmt::format("{:.15g}", number);
-  std::string out;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && number >= 1000.0 && (digits.size() - i) % 3 == 0) out += ' ';
-    out += digits[i];
-  }
-  return out;
+  const double low = std::floor(std::log10(std::min(lowest, 0.5 * highest)));
+  return base::Scale::decades(std::pow(10.0, low), base::grid_step(1.1 * highest, 1));
 }
 
 class MapPlot {
  public:
   MapPlot(base::Svg& svg, const StabilityQuestion& question, const StabilityMap& map)
-      : svg_(svg), end_(map.damping.back()), wanted_(question.wall.stiffness) {
-    include_stiffness(wanted_);
-    if (!map.passive.empty()) include_stiffness(map.passive.front());
-    for (const std::vector<double>& limits : map.limits) {
-      include_stiffness(limits.front());
-      include_stiffness(*std::max_element(limits.begin(), limits.end()));
-    }
-    low_ = std::floor(std::log10(std::min(lowest_, 0.5 * highest_)));
-    high_ = std::log10(round_up(1.1 * highest_));
-  }
+      : svg_(svg),
+        wall_(question.wall),
+        end_(map.damping.back()),
+        stiffness_(stiffness_scale(question, map)),
+        chart_(svg, kPlot, {0.0, end_}, stiffness_, 2.6) {}
 
   void grid() {
     svg_.rect(kPlot, base::kFreeColour);
-    for (double decade = low_; decade <= high_; ++decade) {
-      for (const double digit : {1.0, 2.0, 5.0}) k_line(digit * std::pow(10.0, decade), digit == 1.0);
-    }
-    const double step = round_up(end_ / 7.0);
-    for (int i = 0; i * step <= end_; ++i) b_line(i * step);
-    const base::Type name{3.0, base::kInk, "middle"};
-    svg_.text({kPlot.x + 0.5 * kPlot.width, kPlot.bottom() + 11.0}, name, "damping B of the wall [N s/m]");
-    svg_.text({kLeft, kPlot.y - 3.5}, {3.0, base::kInk}, "stiffness K of the wall [N/m]");
+    chart_.x_grid(base::grid_step(end_, 7));
+    chart_.y_grid();
+    chart_.x_name("damping B of the wall [N s/m]");
+    chart_.y_name("stiffness K of the wall [N/m]");
   }
 
   // Fills the area below the limits of all hands.
   void stable_area(const StabilityMap& map) {
-    std::vector<double> lowest = map.limits.front();
-    for (const std::vector<double>& limits : map.limits) {
-      for (std::size_t i = 0; i < lowest.size(); ++i) lowest[i] = std::min(lowest[i], limits[i]);
+    std::vector<dvec2> area{{end_, 0.0}, {0.0, 0.0}};
+    for (std::size_t i = 0; i < map.damping.size(); ++i) {
+      double lowest = map.limits.front()[i];
+      for (const std::vector<double>& limits : map.limits) lowest = std::min(lowest, limits[i]);
+      area.emplace_back(map.damping[i], lowest);
     }
-    for (std::vector<dvec2> piece : segments_of(map.damping, lowest)) {
-      piece.emplace_back(piece.back().x, kPlot.bottom());
-      piece.emplace_back(piece.front().x, kPlot.bottom());
-      svg_.polygon(piece, kStableColour);
-    }
+    chart_.area(area, kStableColour);
   }
 
   void curve(const std::vector<double>& damping, const std::vector<double>& limits, const base::Pen& pen) {
-    for (const std::vector<dvec2>& piece : segments_of(damping, limits)) svg_.polyline(piece, pen);
+    std::vector<dvec2> points;
+    for (std::size_t i = 0; i < limits.size(); ++i) points.emplace_back(damping[i], limits[i]);
+    chart_.curve(points, pen);
   }
 
-  void point(double damping, const char* colour) {
-    svg_.dot({x(damping), y(wanted_)}, 1.3, colour);
-    svg_.ring({x(damping), y(wanted_)}, 2.2, {colour, 0.4});
+  void point(const char* colour) {
+    const dvec2 at = chart_.at(wall_.damping, std::max(wall_.stiffness, stiffness_.from()));
+    svg_.dot(at, kDot, colour);
+    svg_.ring(at, kRing, {colour, 0.4});
   }
 
   void frame() { svg_.frame(kPlot, "none", {base::kSoftInk, 0.3}); }
 
  private:
-  void include_stiffness(double stiffness) {
-    if (stiffness <= 0.0 || std::isinf(stiffness)) return;
-    lowest_ = std::min(lowest_, stiffness);
-    highest_ = std::max(highest_, stiffness);
-  }
-
-  double x(double damping) const { return kPlot.x + kPlot.width * damping / end_; }
-  double y(double stiffness) const {
-    const double fraction = (std::log10(stiffness) - low_) / (high_ - low_);
-    return kPlot.bottom() - kPlot.height * std::clamp(fraction, 0.0, 1.0);
-  }
-  double bottom() const { return std::pow(10.0, low_); }
-
-  void k_line(double stiffness, bool decade) {
-    if (stiffness > 1.001 * std::pow(10.0, high_)) return;
-    svg_.line({kPlot.x, y(stiffness)}, {kPlot.right(), y(stiffness)}, {base::kGridInk, decade ? 0.3 : 0.12});
-    svg_.text({kPlot.x - 3.2, y(stiffness) + 0.9}, {decade ? 2.6 : 2.2, decade ? base::kInk : base::kSoftInk, "end"},
-              grouped(stiffness));
-  }
-  void b_line(double damping) {
-    svg_.line({x(damping), kPlot.y}, {x(damping), kPlot.bottom()}, {base::kGridInk, 0.12});
-    svg_.text({x(damping), kPlot.bottom() + 4.2}, {2.6, base::kInk, "middle"}, grouped(damping));
-  }
-
-  // The parts of a curve above the bottom of the plot.
-  std::vector<std::vector<dvec2>> segments_of(const std::vector<double>& damping,
-                                              const std::vector<double>& limits) const {
-    std::vector<std::vector<dvec2>> all;
-    const auto crossing = [&](std::size_t in, std::size_t out) {
-      const double inside = std::min(limits[in], 1e9);
-      const double fraction = (inside - bottom()) / (inside - limits[out]);
-      return dvec2(x(damping[in] + fraction * (damping[out] - damping[in])), kPlot.bottom());
-    };
-    for (std::size_t i = 0; i < limits.size(); ++i) {
-      const bool on_page = limits[i] > bottom(), was_on_page = i > 0 && limits[i - 1] > bottom();
-      if (on_page && !was_on_page) all.emplace_back();
-      if (on_page && !was_on_page && i > 0) all.back().push_back(crossing(i, i - 1));
-      if (on_page) all.back().emplace_back(x(damping[i]), y(limits[i]));
-      if (!on_page && was_on_page) all.back().push_back(crossing(i - 1, i));
-    }
-    return all;
-  }
-
   base::Svg& svg_;
-  double end_;                           // [N s/m] damping at the right edge
-  double wanted_;                        // [N/m]
-  double lowest_ = 1e9, highest_ = 1.0;  // [N/m] range of stiffness that the plot must include
-  double low_ = 0.0, high_ = 1.0;        // log10 of the stiffness [N/m] at the bottom and the top of the plot
+  haptics::ContactLaw wall_;
+  double end_;  // [N s/m] damping at the right edge
+  base::Scale stiffness_;
+  base::Chart chart_;
 };
 
 class MapLegend {
@@ -160,8 +109,8 @@ class MapLegend {
     entry(label);
   }
   void point(const char* colour, std::string_view label) {
-    svg_.dot(at_ + dvec2(3.0, 0.0), 1.3, colour);
-    svg_.ring(at_ + dvec2(3.0, 0.0), 2.2, {colour, 0.4});
+    svg_.dot(at_ + dvec2(3.0, 0.0), kDot, colour);
+    svg_.ring(at_ + dvec2(3.0, 0.0), kRing, {colour, 0.4});
     entry(label);
   }
   void note(std::string_view label) {
@@ -212,7 +161,7 @@ std::string stability_svg(const StabilityQuestion& question, const StabilityAnsw
   for (std::size_t i = map.limits.size(); i-- > 0;) plot.curve(map.damping, map.limits[i], {hand_colour(i), 0.8});
   plot.curve(map.damping, map.passive, {base::kSoftInk, 0.6, kDash});
   plot.frame();
-  plot.point(question.wall.damping, answer.may_use ? base::kInk : base::kLockoutColour);
+  plot.point(answer.may_use ? base::kInk : base::kLockoutColour);
   draw_legend(svg, question, answer);
   return std::move(svg).finish();
 }

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "app/base/chart.h"
 #include "app/base/colours.h"
-#include "app/lessons/report/chart.h"
 #include "app/lessons/report/curve_band.h"
 #include "app/lessons/report/report_text.h"
 
@@ -33,7 +33,7 @@ class LearningPlot {
 
   void axes() {
     chart_.y_grid(2.0);
-    chart_.x_grid(std::max(1.0, grid_step(last_, 10)));
+    chart_.x_grid(std::max(1.0, base::grid_step(last_, 10)));
     chart_.y_name("grade");
     chart_.x_name("graded run");
   }
@@ -42,24 +42,24 @@ class LearningPlot {
     std::vector<glm::dvec2> edge, lower;
     for (int i = 0; i <= kCurveSteps; ++i) {
       const double width = kBandDeviations * curve_deviation(*task_.curve, task_.trials.size(), trial_at(i));
-      edge.push_back(at(trial_at(i), task_.curve->at(trial_at(i)) + width));
-      lower.push_back(at(trial_at(i), task_.curve->at(trial_at(i)) - width));
+      edge.push_back(data(trial_at(i), task_.curve->at(trial_at(i)) + width));
+      lower.push_back(data(trial_at(i), task_.curve->at(trial_at(i)) - width));
     }
     edge.insert(edge.end(), lower.rbegin(), lower.rend());
-    svg_.polygon(edge, kBandColour);
+    chart_.area(edge, kBandColour);
   }
 
   void curve() {
     std::vector<glm::dvec2> points;
-    for (int i = 0; i <= kCurveSteps; ++i) points.push_back(at(trial_at(i), task_.curve->at(trial_at(i))));
-    svg_.polyline(points, {base::kGearColour, 2.0});
+    for (int i = 0; i <= kCurveSteps; ++i) points.push_back(data(trial_at(i), task_.curve->at(trial_at(i))));
+    chart_.curve(points, {base::kGearColour, 2.0});
   }
 
   void trials() {
     const double radius = task_.trials.size() > 60 ? 2.0 : 4.0;
     for (std::size_t i = 0; i < task_.trials.size(); ++i) {
       const GradedTrial& trial = task_.trials[i];
-      const glm::dvec2 place = at(static_cast<double>(i), trial.grade);
+      const glm::dvec2 point = data(static_cast<double>(i), trial.grade), place = chart_.at(point.x, point.y);
       const std::string after = trial.pause > 0.0 ? ", after " + format_pause(trial.pause) : std::string();
       const std::string tip =
           fmt::format("Run {}, {}: {:.1f}{}", trial.run, day_of(trial.begun_at), trial.grade, after);
@@ -74,12 +74,12 @@ class LearningPlot {
   double trial_at(int step) const { return static_cast<double>(task_.trials.size() - 1) * step / kCurveSteps; }
   // `n` counts trials from 0, as the curve does; the axis counts from 1. Points outside the scale are drawn at its
   // edge.
-  glm::dvec2 at(double n, double grade) const { return chart_.at(n + 1.0, std::clamp(grade, 0.0, kBestGrade)); }
+  static glm::dvec2 data(double n, double grade) { return {n + 1.0, std::clamp(grade, 0.0, kBestGrade)}; }
 
   const TaskProgress& task_;
   base::Svg& svg_;
   double last_;
-  Chart chart_;
+  base::Chart chart_;
 };
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "app/base/chart.h"
 #include "app/base/colours.h"
-#include "app/lessons/report/chart.h"
 #include "app/lessons/report/gate_outline.h"
 #include "haptics/gate/gate_description.h"
 
@@ -54,19 +54,11 @@ std::vector<RecordedCycle> thin_out(const std::vector<RecordedCycle>& cycles) {
   return thinned;
 }
 
-template <class Value>
-std::vector<glm::dvec2> line_of(const Chart& chart, const std::vector<RecordedCycle>& cycles, const Value& value) {
-  std::vector<glm::dvec2> points;
-  points.reserve(cycles.size());
-  for (const RecordedCycle& cycle : cycles) points.push_back(chart.at(cycle.time, value(cycle)));
-  return points;
-}
-
 template <class Place>
-std::vector<glm::dvec2> path_of(const std::vector<RecordedCycle>& cycles, const Place& place) {
+std::vector<glm::dvec2> points_of(const std::vector<RecordedCycle>& cycles, const Place& place) {
   std::vector<glm::dvec2> points;
   points.reserve(cycles.size());
-  for (const RecordedCycle& cycle : cycles) points.push_back(on_page(place(cycle)));
+  for (const RecordedCycle& cycle : cycles) points.push_back(place(cycle));
   return points;
 }
 
@@ -82,13 +74,12 @@ class ShiftCharts {
   void force() {
     double max_force = kMinForceScale;
     for (const RecordedCycle& cycle : cycles_) max_force = std::max(max_force, 1.1 * cycle.force);
-    const double step = grid_step(max_force, 5);
+    const double step = base::grid_step(max_force, 5);
     const double top = step * std::ceil(max_force / step);
-    const Chart chart = begin(kForceBox, {0.0, top}, step);
+    const base::Chart chart = begin(kForceBox, {0.0, top}, step);
     chart.y_name("hand force [N]");
     if (shift_.alarm <= top)
-      svg_.line(chart.at(time_.from, shift_.alarm), chart.at(time_.to, shift_.alarm),
-                {base::kLockoutColour, 1.5, "6 4"});
+      chart.curve({{time_.from(), shift_.alarm}, {time_.to(), shift_.alarm}}, {base::kLockoutColour, 1.5, "6 4"});
     draw(chart, {base::kInk, 1.6}, [](const RecordedCycle& c) { return c.force; });
   }
 
@@ -100,8 +91,8 @@ class ShiftCharts {
       high = std::max({high, kPerMinute * c.engine_speed, kPerMinute * c.shaft_speed});
     }
     high = std::max(high, low + kMinSpeedSpan);
-    const double step = grid_step(high - low, 4);
-    const Chart chart = begin(box, {step * std::floor(low / step), step * std::ceil(high / step)}, step);
+    const double step = base::grid_step(high - low, 4);
+    const base::Chart chart = begin(box, {step * std::floor(low / step), step * std::ceil(high / step)}, step);
     name(box, 0.0, base::kGearColour, "engine [1/min]");
     name(box, 110.0, kShaftColour, "gearbox shaft [1/min]");
     draw(chart, {kShaftColour, 2.2}, [](const RecordedCycle& c) { return kPerMinute * c.shaft_speed; });
@@ -109,7 +100,7 @@ class ShiftCharts {
   }
 
   void pedals(const base::Rect& box) {
-    const Chart chart = begin(box, {0.0, 1.0}, 1.0);
+    const base::Chart chart = begin(box, {0.0, 1.0}, 1.0);
     name(box, 0.0, kPedalColour, "clutch pedal");
     name(box, 100.0, kThrottleColour, "throttle");
     draw(chart, {kPedalColour, 2.2}, [](const RecordedCycle& c) { return std::clamp(c.clutch, 0.0, 1.0); });
@@ -118,9 +109,9 @@ class ShiftCharts {
 
   // A strip with one box per gear; no box in neutral.
   void gears(const base::Rect& box) {
-    const Chart chart(svg_, box, time_, {0.0, 1.0});
+    const base::Chart chart(svg_, box, time_, {0.0, 1.0});
     svg_.text({box.x - 8.0, box.bottom() - 4.0}, {12.0, base::kSoftInk, "end"}, "gear");
-    chart.x_grid(grid_step(time_.to - time_.from, 8));
+    chart.x_grid(base::grid_step(time_.to() - time_.from(), 8));
     chart.x_name("time since the shift began [s]");
     svg_.rect(box, base::kAisleShade, 2.0);
     for (std::size_t i = 0; i < cycles_.size();) {
@@ -134,12 +125,12 @@ class ShiftCharts {
 
  private:
   // Starts a chart; shades the duration of the shift.
-  Chart begin(const base::Rect& box, ChartRange values, double step) {
-    const Chart chart(svg_, box, time_, values);
+  base::Chart begin(const base::Rect& box, base::Scale values, double step) {
+    const base::Chart chart(svg_, box, time_, values);
     const double from = chart.at(0.0, 0.0).x;
     svg_.rect({from, box.y, chart.at(shift_.end, 0.0).x - from, box.height}, base::kMouthShade);
     chart.y_grid(step);
-    chart.x_lines(grid_step(time_.to - time_.from, 8));
+    chart.x_lines(base::grid_step(time_.to() - time_.from(), 8));
     return chart;
   }
 
@@ -148,8 +139,8 @@ class ShiftCharts {
   }
 
   template <class Value>
-  void draw(const Chart& chart, const base::Pen& pen, const Value& value) {
-    svg_.polyline(line_of(chart, cycles_, value), pen);
+  void draw(const base::Chart& chart, const base::Pen& pen, const Value& value) {
+    chart.curve(points_of(cycles_, [&](const RecordedCycle& c) { return glm::dvec2(c.time, value(c)); }), pen);
   }
 
   void gear(const base::Rect& box, int gear) {
@@ -162,7 +153,7 @@ class ShiftCharts {
   base::Svg& svg_;
   const ShiftRecording& shift_;
   std::vector<RecordedCycle> cycles_;
-  ChartRange time_;
+  base::Scale time_;
 };
 
 base::Rect below(const base::Rect& box, double gap, double height) {
@@ -198,8 +189,8 @@ std::string path_svg(const ShiftRecording& shift) {
   draw_gate_walls(svg, description);
   draw_gears(svg, shift.gate);
   const std::vector<RecordedCycle> cycles = thin_out(shift.cycles);
-  svg.polyline(path_of(cycles, [](const RecordedCycle& c) { return c.hand; }), {base::kBufferColour, 0.6});
-  svg.polyline(path_of(cycles, [](const RecordedCycle& c) { return c.lever; }), {kLeverColour, 1.0});
+  svg.polyline(points_of(cycles, [](const RecordedCycle& c) { return on_page(c.hand); }), {base::kBufferColour, 0.6});
+  svg.polyline(points_of(cycles, [](const RecordedCycle& c) { return on_page(c.lever); }), {kLeverColour, 1.0});
   svg.polyline(path_on_page(shift.ideal), {kIdealColour, 0.7, "1.6 1.4"});
   svg.ring(on_page(cycles.front().lever), 1.8, {kLeverColour, 0.7});
   svg.dot(on_page(cycles.back().lever), 1.8, kLeverColour);

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "app/base/chart.h"
 #include "app/base/colours.h"
 #include "app/lessons/replay/shift_times.h"
-#include "app/lessons/report/chart.h"
 #include "app/lessons/report/report_text.h"
 
 namespace gearshift::lessons {
@@ -66,7 +66,7 @@ class Timeline {
       : svg_(svg), box_(box), seconds_(seconds), chart_(svg, box, {0.0, seconds}, {0.0, 1.0}) {}
 
   void axis() {
-    chart_.x_grid(grid_step(seconds_, 10));
+    chart_.x_grid(base::grid_step(seconds_, 10));
     chart_.x_name("time since the shift began [s]");
   }
 
@@ -153,7 +153,7 @@ class Timeline {
   base::Svg& svg_;
   base::Rect box_;
   double seconds_;
-  Chart chart_;
+  base::Chart chart_;
 };
 
 }  // namespace
