@@ -24,7 +24,6 @@ struct HapticTuning {
   double aisle_damping = 2.0;      // [N s/m] 0 to 50, acts at every position
   double speed_limit = 0.6;        // [m/s] 0.05 to 5; limit_damping acts above this speed
   double limit_damping = 15.0;     // [N s/m] 0 to 50, multiplies the speed above speed_limit
-  double gear_damping = 0.0;       // [N s/m] 0 to 30, only in a gear
   bool operator==(const HapticTuning&) const = default;
 };
 
@@ -48,9 +47,6 @@ inline constexpr Parameter<HapticTuning> kParameters<HapticTuning>[] = {
     {&HapticTuning::limit_damping, "limit_damping", "limit_damping_n_s_per_m", FileRange{0.0, 50.0},
      "Extra damping force per m/s above the speed limit.", "Limit damping", "no speed limit", "a kick above it",
      Display{"N s/m", 1}},
-    {&HapticTuning::gear_damping, "gear_damping", "gear_damping_n_s_per_m", FileRange{0.0, 30.0},
-     "Damping force per m/s of lever speed while a gear is engaged.", "Gear damping", "an engaged gear rattles",
-     "the lever sticks in gear", Display{"N s/m", 1}},
 };
 static_assert(DescribesAll<HapticTuning>);
 
