@@ -5,6 +5,7 @@
 set -u
 gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+export XDG_DATA_HOME=$work/data  # not the history of whoever runs the test
 
 campaign() { "$gearshift" campaign --seed 11 --shifts 200 "$@" >"$work/out" 2>"$work/err"; }
 fails() { ! "$@"; }

@@ -50,7 +50,7 @@ if [ -n "$locked" ]; then
   check "and it is unchanged" test "$(cat locked.svg)" = mine
   cp drawn/train.png train.png
   chmod 444 train.png
-  start refused HOME=/ train --offscreen . --seconds 0.1 --size 320x180
+  XDG_DATA_HOME=$work/data start refused HOME=/ train --offscreen . --seconds 0.1 --size 320x180
   check "a read-only picture: one sentence, got: $(cat refused.err)" one_sentence refused.err "train.png: the picture cannot be written (Permission denied)"
   check "and it is unchanged" cmp train.png drawn/train.png
 fi
