@@ -187,9 +187,24 @@ void LearnerHeadset::follow_hands(const cabin::Stage& stage) {
   }
 }
 
-void LearnerHeadset::apply(const cabin::HeadsetRequests& requests, double bound) {
-  if (requests.start_touching) panel_open_ = true;  // because the panel shows the instructions
-  seating_.apply_requests(requests, bound, view_->is_room_persistent());
+void LearnerHeadset::apply(const ui::HeadsetCommand& command, double bound) {
+  struct Handlers {
+    LearnerHeadset& headset;
+    double bound;
+    void operator()(const ui::RecentreSeat&) const { headset.recentre(); }
+    void operator()(const ui::StartTouching&) const {
+      headset.panel_open_ = true;  // because the panel shows the instructions
+      headset.seating_.start_touching();
+    }
+    void operator()(const ui::SaveTouches&) const {
+      headset.seating_.save_touches(bound, headset.view_->is_room_persistent());
+    }
+    void operator()(const ui::ForgetTouches&) const { headset.seating_.forget_touches(); }
+    void operator()(const ui::SetSeatHeight& asked) const { headset.seating_.set_height(asked.height); }
+    void operator()(const ui::SetKnob& asked) const { headset.seating_.set_knob(asked.knob); }
+    void operator()(const ui::ForgetKnob&) const { headset.seating_.set_knob(std::nullopt); }
+  };
+  std::visit(Handlers{*this, bound}, command);
 }
 
 engine::EyePose LearnerHeadset::head() const {

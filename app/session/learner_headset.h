@@ -16,6 +16,7 @@
 #include "app/cabin/headset/seat_file.h"
 #include "app/cabin/stage/stage.h"
 #include "app/cabin/view/headset_view.h"
+#include "app/ui/panel/commands.h"
 
 namespace gearshift::session {
 
@@ -66,7 +67,7 @@ class LearnerHeadset {
 
   void recentre() noexcept { seating_.recentre(); }
   // Call only while is_open(). `bound` [m]: maximum allowed distance between felt and displayed lever.
-  void apply(const cabin::HeadsetRequests& requests, double bound);
+  void apply(const ui::HeadsetCommand& command, double bound);
   cabin::HeadsetReport report() const;
   double touch_error() const noexcept;  // [m] distance between felt and displayed lever due to the seat calibration
   std::string take_message();           // one sentence, returned only once; empty: no message

@@ -1,5 +1,5 @@
 // A session: lever and car in force, lessons, replays and recordings, with the cabin and its sound. Executes what the
-// user requests in the panel.
+// user asks for in the panel.
 #pragma once
 
 #include <cstdint>
@@ -29,12 +29,15 @@ class Session {
   explicit Session(const SessionChoice& choice);
 
   // Call set_driver(), advance() and update_cabin() once per frame, in this order, and apply() at any time in a frame.
-  // They do not throw: if a request is rejected, message() says why. Until the next set_driver(), `keys` move the
+  // They do not throw: if a command is rejected, message() says why. Until the next set_driver(), `keys` move the
   // keyboard pedals on the car's clock. Each pedal is as far down as the keyboard pedal or the value in `controls`,
   // whichever is further down.
   void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
                   const vehicle::PedalKeys& keys = {});
-  void apply(const ui::PanelRequests& requests);
+  // Executes the commands in this order. STOP is executed before all others too, and a rejected command does not stop
+  // those after it.
+  void apply(const ui::PanelCommands& commands);
+  void apply(const ui::PanelCommand& command) { apply(ui::PanelCommands{command}); }
   void advance(double seconds);  // advances lesson, replay and a loop on the virtual clock; reads events
   void update_cabin();           // places the cabin's parts and updates the sound
 
@@ -112,10 +115,10 @@ class Session {
   void show_replay(double seconds);
 
   // Defined in session_commands.cpp.
-  void apply_lever_requests(const ui::PanelRequests& requests);
-  void apply_choice(const ui::PanelRequests& requests);
-  void apply_lesson_requests(const ui::LessonRequests& requests);
-  void apply_replay_requests(const ui::ReplayRequests& requests);
+  struct Handlers;
+  void arm();
+  SessionChoice current_choice() const;
+  void change_choice(const SessionChoice& wanted, std::string_view reason);
   // Replaces the lever. `reason`: reported if this ends a lesson. If it fails, the old lever keeps running unchanged.
   void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
                  std::string_view reason = "the loop was restarted");
@@ -133,7 +136,7 @@ class Session {
   void check_can_replay() const;
   void show_opened();
   void start_replay(lessons::Player player);
-  void end_replay();
+  void close_replay();
 
   LessonDirector director_;
   ReplayViewer viewer_;

@@ -1,4 +1,4 @@
-// What the user requests in the panel, and what follows from it.
+// What the user asks for in the panel, and what follows from it.
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -21,64 +21,132 @@ bool same_geometry(const haptics::YokeGeometry& a, const haptics::YokeGeometry& 
   return a.radius == b.radius && a.theta_limit == b.theta_limit && a.phi_limit == b.phi_limit;
 }
 
-// Describes the change that the user requests; if there are several, only the first one.
-std::string_view change_reason(const ui::PanelRequests& requests) {
-  if (requests.car) return "the car changed";
-  if (requests.gate) return "the gate changed";
-  if (requests.hand) return "the hand changed";
-  return requests.preset ? "the preset changed" : "the settings changed";
-}
-
 }  // namespace
 
-void Session::apply(const ui::PanelRequests& requests) {
-  try {
-    apply_lever_requests(requests);
-    if (requests.record) toggle_recording();
-    if (requests.replay) open_last_recording();
-    if (requests.save_preset) save_preset(*requests.save_preset);
-    apply_replay_requests(requests.playback);
-    apply_choice(requests);
-    apply_lesson_requests(requests.lesson);
-    if (requests.compare) {
-      panel_.compared.reset();
-      panel_.compared = haptics::read_preset(preset_file(*requests.compare).string());
-    }
-  } catch (const std::exception& refused) {
-    message_ = refused.what();
-  }
-}
+// One handler per command. A command without a handler does not compile.
+struct Session::Handlers {
+  Session& session;
 
-void Session::apply_lever_requests(const ui::PanelRequests& requests) {
-  if (requests.stop) lever_.stop();
-  if (requests.disarm) lever_.disarm();
-  const std::shared_ptr<runtime::StickLever>& stick = lever_.choice().stick;
-  if (requests.arm && !lever_.arm())
-    message_ = fmt::format("{} is not plugged in. Plug it in, then turn forces on.", stick->name());
-  else if (requests.arm && stick)
-    message_.clear();  // the message asked the user to turn forces on
-  if (requests.tuning) message_ = first_limit(lever_.runtime().change_tuning(*requests.tuning));
-}
+  void operator()(const ui::Stop&) const { session.lever_.stop(); }
+  void operator()(const ui::Arm&) const { session.arm(); }
+  void operator()(const ui::Disarm&) const { session.lever_.disarm(); }
+  void operator()(const ui::ToggleRecording&) const { session.toggle_recording(); }
+  void operator()(const ui::ReplayLastRecording&) const { session.open_last_recording(); }
 
-// Applies changes of gate, car, hand, preset and configuration. Tuned parameters stay unchanged unless a preset is
-// requested.
-void Session::apply_choice(const ui::PanelRequests& requests) {
-  if (!requests.gate && !requests.car && !requests.preset && !requests.hand && !requests.restart) return;
-  SessionChoice wanted = lever_.choice();
-  if (wanted.car.empty()) wanted.car = kDefaultCar;
-  wanted.haptics = lever_.runtime().config().preset.haptics;
-  if (requests.gate) wanted = with_gate(wanted, *requests.gate);
-  if (requests.car) {
-    wanted.car = *requests.car;
-    wanted.gate = wanted.car == kNoCar ? lever_.running().gate : std::string{};
+  void operator()(const ui::ChangeTuning& asked) const {
+    session.message_ = first_limit(session.lever_.runtime().change_tuning(asked.tuning));
   }
-  if (requests.hand) wanted.hand = *requests.hand;
-  if (requests.restart) wanted.haptics = *requests.restart;
-  if (requests.preset) {
-    wanted.preset = *requests.preset;
+  void operator()(const ui::Restart& asked) const {
+    SessionChoice wanted = session.current_choice();
+    wanted.haptics = asked.config;
+    session.change_choice(wanted, "the settings changed");
+  }
+  void operator()(const ui::ChooseGate& asked) const {
+    session.change_choice(with_gate(session.current_choice(), asked.name), "the gate changed");
+  }
+  void operator()(const ui::ChooseCar& asked) const {
+    SessionChoice wanted = session.current_choice();
+    wanted.car = asked.name;
+    wanted.gate = wanted.car == kNoCar ? session.lever_.running().gate : std::string{};
+    session.change_choice(wanted, "the car changed");
+  }
+  void operator()(const ui::ChoosePreset& asked) const {
+    SessionChoice wanted = session.current_choice();
+    wanted.preset = asked.name;
     wanted.haptics.reset();
+    session.change_choice(wanted, "the preset changed");
   }
-  switch_to(wanted, nullptr, change_reason(requests));
+  void operator()(const ui::ChooseHand& asked) const {
+    SessionChoice wanted = session.current_choice();
+    wanted.hand = asked.name;
+    session.change_choice(wanted, "the hand changed");
+  }
+  void operator()(const ui::SavePreset& asked) const { session.save_preset(asked.name); }
+  void operator()(const ui::ComparePreset& asked) const {
+    session.panel_.compared.reset();
+    session.panel_.compared = haptics::read_preset(preset_file(asked.name).string());
+  }
+
+  void operator()(const ui::OfferLesson& asked) const {
+    session.director_.offer(asked.key);
+    session.recorder_.keep_incomplete();
+  }
+  void operator()(const ui::BeginLesson&) const {
+    if (coach().lesson() != nullptr) session.begin_lesson();
+  }
+  void operator()(const ui::LeaveLesson&) const {
+    if (session.director_.leave()) session.lever_.hold_car();
+  }
+  void operator()(const ui::DismissLesson&) const {
+    session.director_.dismiss();
+    session.lever_.release_car();
+  }
+  void operator()(const ui::SetMode& asked) const { coach().set_mode(asked.mode); }
+  void operator()(const ui::SetHelp& asked) const { coach().set_help(asked.on); }
+  void operator()(const ui::ChooseLearner& asked) const { session.change_learner(asked.name); }
+  void operator()(const ui::ChooseNextLesson& asked) const { coach().set_next(asked.key); }
+  void operator()(const ui::AddComment& asked) const { coach().add_comment(asked.run, asked.author, asked.text); }
+  void operator()(const ui::EditComment& asked) const { coach().edit_comment(asked.run, asked.comment, asked.text); }
+  void operator()(const ui::DeleteComment& asked) const { coach().delete_comment(asked.run, asked.comment); }
+
+  void operator()(const ui::OpenShift& asked) const { session.open_recording(asked.recording, asked.begin); }
+  void operator()(const ui::ShowShift& asked) const {
+    if (player()) player()->select_shift(asked.index);
+  }
+  void operator()(const ui::ShowWholeDrive&) const {
+    if (player()) player()->select_shift(std::nullopt);
+  }
+  void operator()(const ui::SeekReplay& asked) const {
+    if (player()) player()->seek(asked.time);
+  }
+  void operator()(const ui::PlayReplay& asked) const {
+    if (player()) player()->play(asked.on);
+  }
+  void operator()(const ui::SetPace& asked) const {
+    if (player()) player()->set_pace(asked.pace);
+  }
+  void operator()(const ui::CloseReplay&) const { session.close_replay(); }
+
+  // Executed by the window, which owns camera and headset.
+  void operator()(const ui::ResetView&) const {}
+  void operator()(const ui::HeadsetCommand&) const {}
+
+  lessons::Coach& coach() const { return session.director_.coach(); }
+  lessons::Player* player() const { return session.viewer_.player(); }  // null if nothing is replayed
+};
+
+void Session::apply(const ui::PanelCommands& commands) {
+  std::string rejected;  // reported last, because the commands that follow may set another message
+  for (const ui::PanelCommand& command : commands)
+    if (std::holds_alternative<ui::Stop>(command)) lever_.stop();  // at once, as others may take long
+  for (const ui::PanelCommand& command : commands) {
+    try {
+      std::visit(Handlers{*this}, command);
+    } catch (const std::exception& refused) {
+      rejected += (rejected.empty() ? "" : "; ") + std::string(refused.what());
+    }
+  }
+  if (!director_.is_driving()) end_lesson_recording();
+  if (!rejected.empty()) message_ = rejected;
+}
+
+void Session::arm() {
+  const std::shared_ptr<runtime::StickLever>& stick = lever_.choice().stick;
+  if (!lever_.arm())
+    throw std::runtime_error(fmt::format("{} is not plugged in. Plug it in, then turn forces on.", stick->name()));
+  if (stick) message_.clear();  // the message asked the user to turn forces on
+}
+
+// The user's choice with the configuration in use, so that tuned parameters stay unchanged.
+SessionChoice Session::current_choice() const {
+  SessionChoice choice = lever_.choice();
+  if (choice.car.empty()) choice.car = kDefaultCar;
+  choice.haptics = lever_.runtime().config().preset.haptics;
+  return choice;
+}
+
+void Session::change_choice(const SessionChoice& wanted, std::string_view reason) {
+  switch_to(wanted, nullptr, reason);
   lever_.choice() = wanted;
   if (director_.view().learner != learner_of(wanted)) director_.coach().set_learner(learner_of(wanted));
 }
@@ -146,32 +214,6 @@ void Session::end_lesson_recording() {
   if (const std::optional<std::string> problem = recorder_.end_lesson(lever_.runtime())) message_ = *problem;
 }
 
-void Session::apply_lesson_requests(const ui::LessonRequests& requests) {
-  lessons::Coach& coach = director_.coach();
-  if (requests.learner) change_learner(*requests.learner);
-  if (requests.next) coach.set_next(*requests.next);
-  if (const auto& change = requests.comment_change) {
-    if (change->text)
-      coach.edit_comment(change->run, change->comment, *change->text);
-    else
-      coach.delete_comment(change->run, change->comment);
-  }
-  if (requests.comment) coach.add_comment(requests.comment->run, requests.comment->author, requests.comment->text);
-  if (requests.offer) {
-    director_.offer(*requests.offer);
-    recorder_.keep_incomplete();
-  }
-  if (requests.mode) coach.set_mode(*requests.mode);
-  if (requests.help) coach.set_help(*requests.help);
-  if (requests.leave && director_.leave()) lever_.hold_car();
-  if (requests.dismiss_lesson) {
-    director_.dismiss();
-    lever_.release_car();
-  }
-  if (requests.begin && coach.lesson() != nullptr) begin_lesson();
-  if (!director_.is_driving()) end_lesson_recording();
-}
-
 // Selects the learner. If the name is invalid, throws before anything changes.
 void Session::change_learner(const std::string& name) {
   if (!name.empty()) lessons::check_learner_name(name);
@@ -227,23 +269,6 @@ std::string Session::save_and_stop() {
   return director_.make_room(recorder_, std::move(unsaved));
 }
 
-void Session::apply_replay_requests(const ui::ReplayRequests& requests) {
-  if (requests.open) open_recording(requests.open->recording, requests.open->begin);
-  if (requests.close && viewer_.is_opening()) {
-    viewer_.cancel();
-    message_.clear();
-    return;
-  }
-  lessons::Player* player = viewer_.player();
-  if (player == nullptr) return;
-  if (requests.shift) player->select_shift(requests.shift);
-  if (requests.whole_drive) player->select_shift(std::nullopt);
-  if (requests.seek) player->seek(*requests.seek);
-  if (requests.pace) player->set_pace(*requests.pace);
-  if (requests.play) player->play(*requests.play);
-  if (requests.close) end_replay();
-}
-
 void Session::open_last_recording() {
   check_can_replay();
   if (recording() && !end_recording()) return;
@@ -290,7 +315,14 @@ void Session::start_replay(lessons::Player player) {
   viewer_.show(std::move(player));
 }
 
-void Session::end_replay() {
+// Returns to the live lever. If a recording is loading, cancels only that.
+void Session::close_replay() {
+  if (viewer_.is_opening()) {
+    viewer_.cancel();
+    message_.clear();
+    return;
+  }
+  if (viewer_.player() == nullptr) return;
   viewer_.close();
   ++run_;
   message_.clear();

@@ -256,17 +256,15 @@ class WindowTrainer {
   }
 
   void act(ui::Action action) {
-    ui::PanelRequests requests;
     switch (action) {
       case ui::Action::stop:
-        requests.stop = true;
+        session_.apply(ui::Stop{});
         break;
       case ui::Action::arm:
-        requests.arm = true;
-        go_on(requests.lesson);
+        session_.apply(enter_commands());
         break;
       case ui::Action::record:
-        requests.record = true;
+        session_.apply(ui::ToggleRecording{});
         break;
       case ui::Action::recentre:
         look_.recentre();
@@ -296,7 +294,7 @@ class WindowTrainer {
         break;
       case ui::Action::grab_mouse:
         if (!session_.is_replaying()) break;
-        requests.playback.close = true;
+        session_.apply(ui::CloseReplay{});
         input_.release_mouse();
         break;
       case ui::Action::quit:
@@ -305,21 +303,20 @@ class WindowTrainer {
       default:
         break;  // driving actions, which DriverInput handles
     }
-    session_.apply(requests);
   }
 
-  // Starts the offered lesson. After a passed lesson, offers the next one, if it is a different lesson. Otherwise
-  // restarts the lesson.
-  void go_on(ui::LessonRequests& lesson) const {
+  // What Enter asks for: turn forces on, and start the offered lesson. After a passed lesson, offer the next one, if it
+  // is a different lesson. Otherwise restart the lesson.
+  ui::PanelCommands enter_commands() const {
+    ui::PanelCommands commands{ui::Arm{}};
+    if (session_.is_replaying()) return commands;
     const lessons::CoachView& coach = session_.coach().view();
-    if (session_.is_replaying()) return;
-    const bool goes_further = coach.result->passed && !coach.next.empty() && coach.next != coach.lesson;
-    if (coach.phase == lessons::LessonPhase::offered) lesson.begin = true;
-    if (coach.phase != lessons::LessonPhase::over) return;
-    if (goes_further)
-      lesson.offer = coach.next;
-    else
-      lesson.begin = true;
+    const bool is_over = coach.phase == lessons::LessonPhase::over;
+    if (is_over && coach.result->passed && !coach.next.empty() && coach.next != coach.lesson)
+      commands.push_back(ui::OfferLesson{coach.next});
+    else if (is_over || coach.phase == lessons::LessonPhase::offered)
+      commands.push_back(ui::BeginLesson{});
+    return commands;
   }
 
   void draw_panel() {
@@ -331,12 +328,16 @@ class WindowTrainer {
     session_.set_headset(wears() ? std::optional(headset_->report()) : std::nullopt);
     const ui::PanelInput& input = session_.panel_input();
     health_ = input.health;
-    const ui::PanelRequests requests = panel_.draw(input);
+    const ui::PanelCommands commands = panel_.draw(input);
     ui_.end();
     help_ = panel_.shows_help();
-    if (requests.reset_view) look_.recentre();
-    if (wears()) headset_->apply(requests.headset, session_.runtime().config().preset.haptics.ghost_offset);
-    session_.apply(requests);
+    const double bound = session_.runtime().config().preset.haptics.ghost_offset;
+    for (const ui::PanelCommand& command : commands) {
+      if (std::holds_alternative<ui::ResetView>(command)) look_.recentre();
+      const auto* seat = std::get_if<ui::HeadsetCommand>(&command);
+      if (seat && wears()) headset_->apply(*seat, bound);
+    }
+    session_.apply(commands);
   }
 
   void show() {

@@ -1,7 +1,6 @@
-// Headset data shown in the panel, and the panel's requests to the headset.
+// Headset data shown in the panel.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include <glm/vec2.hpp>
@@ -23,15 +22,6 @@ struct HeadsetReport {
   bool touching = false;     // a touch calibration is running: trigger pulls count as touches of the knob
   std::size_t touches = 0;   // number of touches so far
   double worst_touch = 0.0;  // [m] largest distance of a touch from the drawn knob
-};
-
-struct HeadsetRequests {
-  bool recentre = false;
-  bool start_touching = false, save_touches = false;
-  bool forget_touches = false;       // cancels a running touch calibration, or else discards the saved one
-  std::optional<double> height;      // [m] new SeatSettings::height
-  std::optional<KnobDistance> knob;  // [m] new SeatSettings::knob
-  bool forget_knob = false;
 };
 
 }  // namespace gearshift::cabin

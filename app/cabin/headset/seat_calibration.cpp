@@ -57,6 +57,12 @@ void SeatCalibration::restore_touch(const engine::EyePose& head) {
   touch_error_ = settings_.touch_error;
 }
 
+void SeatCalibration::start_touching() noexcept {
+  if (touching_) return;
+  touching_ = true;
+  before_touching_ = cabin_from_room_;
+}
+
 void SeatCalibration::stop_touching() noexcept {
   if (touching_) cabin_from_room_ = before_touching_;
   touching_ = false;
@@ -108,7 +114,8 @@ void SeatCalibration::touch(const engine::EyePose& tip, glm::dvec3 knob_top) {
   cabin_from_room_ = fit_.cabin_from_room;
 }
 
-void SeatCalibration::finish_touching(double bound, bool is_room_persistent) {
+void SeatCalibration::save_touches(double bound, bool is_room_persistent) {
+  if (!touching_) return;
   if (touches_.count() < kMinTouches || !fit_.turned) {
     message_ = "touch the knob in at least three positions that are far apart, then save again";
     return;
@@ -145,31 +152,27 @@ void SeatCalibration::finish_touching(double bound, bool is_room_persistent) {
   save_settings();
 }
 
-void SeatCalibration::apply_requests(const HeadsetRequests& requests, double bound, bool is_room_persistent) {
-  if (requests.start_touching && !touching_) {
-    touching_ = true;
-    before_touching_ = cabin_from_room_;
-  }
-  if (requests.save_touches && touching_) finish_touching(bound, is_room_persistent);
-  if (requests.forget_touches && touching_) {
+void SeatCalibration::forget_touches() {
+  if (touching_) {
     stop_touching();
-  } else if (requests.forget_touches) {
-    touched_.reset();
-    settings_.touched.reset();
-    recentre();
-    save_settings();
+    return;
   }
-  if (requests.height) {
-    if (is_seated_ && !touched_ && !settings_.knob) cabin_from_room_.position.y += *requests.height - settings_.height;
-    settings_.height = *requests.height;
-    save_settings();
-  }
-  if (requests.knob || requests.forget_knob) {
-    settings_.knob = requests.knob;
-    recentre();
-    save_settings();
-  }
-  if (requests.recentre) recentre();
+  touched_.reset();
+  settings_.touched.reset();
+  recentre();
+  save_settings();
+}
+
+void SeatCalibration::set_height(double height) {
+  if (is_seated_ && !touched_ && !settings_.knob) cabin_from_room_.position.y += height - settings_.height;
+  settings_.height = height;
+  save_settings();
+}
+
+void SeatCalibration::set_knob(const std::optional<KnobDistance>& knob) {
+  settings_.knob = knob;
+  recentre();
+  save_settings();
 }
 
 void SeatCalibration::report(HeadsetReport& report) const {

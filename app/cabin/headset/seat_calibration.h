@@ -33,8 +33,13 @@ class SeatCalibration {
 
   bool is_touching() const noexcept { return touching_; }
   void touch(const engine::EyePose& tip, glm::dvec3 knob_top);  // tip: pose in the room; knob_top: in the cabin
-  // `bound` [m]: maximum allowed distance between real and drawn lever.
-  void apply_requests(const HeadsetRequests& requests, double bound, bool is_room_persistent);
+  void start_touching() noexcept;
+  // Ends the touch calibration, if enough was touched. `bound` [m]: maximum allowed distance between real and drawn
+  // lever.
+  void save_touches(double bound, bool is_room_persistent);
+  void forget_touches();           // cancels a running touch calibration, or else discards the saved one
+  void set_height(double height);  // [m] SeatSettings::height
+  void set_knob(const std::optional<KnobDistance>& knob);  // SeatSettings::knob
 
   double touch_error() const noexcept { return touched_ ? touch_error_ : 0.0; }  // [m] between real and drawn lever
   void report(HeadsetReport& report) const;
@@ -42,7 +47,6 @@ class SeatCalibration {
 
  private:
   void restore_touch(const engine::EyePose& head);
-  void finish_touching(double bound, bool is_room_persistent);
   void stop_touching() noexcept;
 
   SeatSettings settings_;

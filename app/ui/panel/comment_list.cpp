@@ -29,13 +29,13 @@ bool comment_button(Controls& controls, const std::string& name, const char* lab
 }  // namespace
 
 void CommentList::draw(Controls& controls, std::int64_t run, const std::vector<lessons::CommentRow>& comments,
-                       LessonRequests& out) {
+                       PanelCommands& out) {
   for (const lessons::CommentRow& comment : comments) draw_comment(controls, run, comment, out);
   draw_field(controls, run, out);
 }
 
 void CommentList::draw_comment(Controls& controls, std::int64_t run, const lessons::CommentRow& comment,
-                               LessonRequests& out) {
+                               PanelCommands& out) {
   const bool changes = change_ != Change::none && changed_ == comment.id;
   const std::string when = format_local_time(comment.at) + (comment.edited_at.empty() ? "" : ", edited");
   put(comment.author, ink::kAccent, engine::UiFont::small);
@@ -64,13 +64,13 @@ void CommentList::draw_buttons(Controls& controls, const lessons::CommentRow& co
   }
 }
 
-void CommentList::draw_edit(Controls& controls, std::int64_t run, LessonRequests& out) {
+void CommentList::draw_edit(Controls& controls, std::int64_t run, PanelCommands& out) {
   ImGui::InputTextMultiline("##comment_text", edited_.data(), edited_.size(),
                             {ImGui::GetContentRegionAvail().x, kEditLines * ImGui::GetTextLineHeightWithSpacing()});
   controls.mark("comment_text");
   ImGui::BeginDisabled(!is_accepted(lessons::UserText::comment, "a comment", edited_.data()));
   if (comment_button(controls, "comment_save", "Save")) {
-    out.comment_change = {run, changed_, edited_.data()};
+    out.push_back(EditComment{run, changed_, edited_.data()});
     change_ = Change::none;
   }
   ImGui::EndDisabled();
@@ -79,17 +79,17 @@ void CommentList::draw_edit(Controls& controls, std::int64_t run, LessonRequests
 }
 
 // Asks for confirmation before deleting a comment, because a deletion cannot be undone.
-void CommentList::draw_delete(Controls& controls, std::int64_t run, LessonRequests& out) {
+void CommentList::draw_delete(Controls& controls, std::int64_t run, PanelCommands& out) {
   const engine::WithFont small(engine::UiFont::small);
   if (controls.button("comment_delete_sure", "Delete permanently", {0.0f, 0.0f}, ink::kBadDeep)) {
-    out.comment_change = {run, changed_, std::nullopt};
+    out.push_back(DeleteComment{run, changed_});
     change_ = Change::none;
   }
   ImGui::SameLine();
   if (controls.button("comment_cancel", "Keep")) change_ = Change::none;
 }
 
-void CommentList::draw_field(Controls& controls, std::int64_t run, LessonRequests& out) {
+void CommentList::draw_field(Controls& controls, std::int64_t run, PanelCommands& out) {
   const float em = engine::ui_em(), button = button_width("Add");
   ImGui::SetNextItemWidth(std::min(9.0f * em, ImGui::GetContentRegionAvail().x));
   ImGui::InputTextWithHint("##author", "your name", author_.data(), author_.size());
@@ -106,7 +106,7 @@ void CommentList::draw_field(Controls& controls, std::int64_t run, LessonRequest
   ImGui::EndDisabled();
   (void)is_accepted(lessons::UserText::comment, "a comment", text_.data());
   if (!(entered || pressed) || !named || !has_text) return;
-  out.comment = {run, author_.data(), text_.data()};
+  out.push_back(AddComment{run, author_.data(), text_.data()});
   text_.fill('\0');
 }
 

@@ -13,17 +13,16 @@ namespace gearshift::ui {
 
 class CommentList {
  public:
-  void draw(Controls& controls, std::int64_t run, const std::vector<lessons::CommentRow>& comments,
-            LessonRequests& out);
+  void draw(Controls& controls, std::int64_t run, const std::vector<lessons::CommentRow>& comments, PanelCommands& out);
 
  private:
   enum class Change { none, edits, deletes };
 
-  void draw_comment(Controls& controls, std::int64_t run, const lessons::CommentRow& comment, LessonRequests& out);
+  void draw_comment(Controls& controls, std::int64_t run, const lessons::CommentRow& comment, PanelCommands& out);
   void draw_buttons(Controls& controls, const lessons::CommentRow& comment);
-  void draw_edit(Controls& controls, std::int64_t run, LessonRequests& out);
-  void draw_delete(Controls& controls, std::int64_t run, LessonRequests& out);
-  void draw_field(Controls& controls, std::int64_t run, LessonRequests& out);
+  void draw_edit(Controls& controls, std::int64_t run, PanelCommands& out);
+  void draw_delete(Controls& controls, std::int64_t run, PanelCommands& out);
+  void draw_field(Controls& controls, std::int64_t run, PanelCommands& out);
 
   Change change_ = Change::none;
   std::int64_t changed_ = 0;  // CommentRow::id of the comment being edited

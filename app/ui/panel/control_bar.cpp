@@ -248,23 +248,23 @@ void draw_state(const BarCursor& parts, float width, const haptics::HapticSnapsh
 }
 
 void draw_force_switch(Controls& controls, const BarCursor& parts, float width, const PanelInput& input,
-                       PanelRequests& out) {
+                       PanelCommands& out) {
   const haptics::GuardState state = input.now.guard;
   const bool off = state == haptics::GuardState::idle || state == haptics::GuardState::damped ||
                    state == haptics::GuardState::released;
   const ImVec2 size(width, parts.height());
   if (off) {
     ImGui::BeginDisabled(input.stick && !input.stick->plugged_in);
-    out.arm = controls.button("arm", "Forces on", size, ink::kAccentDeep);
+    if (controls.button("arm", "Forces on", size, ink::kAccentDeep)) out.push_back(Arm{});
     ImGui::EndDisabled();
   } else {
-    out.disarm = controls.button("disarm", "Forces off", size);
+    if (controls.button("disarm", "Forces off", size)) out.push_back(Disarm{});
   }
 }
 
 // The button cannot end a lesson's recording, because that recording ends with the lesson.
 void draw_recording(Controls& controls, const BarCursor& parts, float width, const PanelInput& input,
-                    PanelRequests& out) {
+                    PanelCommands& out) {
   const float gap = 0.25f * engine::ui_em();
   const ImVec2 size(width, 0.5f * (parts.height() - gap));
   const bool of_lesson = input.recording && input.coach.phase == lessons::LessonPhase::driving;
@@ -274,18 +274,19 @@ void draw_recording(Controls& controls, const BarCursor& parts, float width, con
     controls.button("record", "Recording lesson", size);
     ImGui::EndDisabled();
   } else {
-    out.record = input.recording ? controls.button("record", "End recording", size, ink::kBadDeep)
-                                 : controls.button("record", "Record", size);
+    const bool pressed = input.recording ? controls.button("record", "End recording", size, ink::kBadDeep)
+                                         : controls.button("record", "Record", size);
+    if (pressed) out.push_back(ToggleRecording{});
   }
   ImGui::SetCursorScreenPos({parts.low().x, parts.low().y + size.y + gap});
-  out.replay = controls.button("replay", "Replay", size);
+  if (controls.button("replay", "Replay", size)) out.push_back(ReplayLastRecording{});
 }
 
 // Stops on mouse-down, because the release is lost if the pointer leaves the button first.
-void draw_stop(Controls& controls, const BarCursor& parts, float width, PanelRequests& out) {
+void draw_stop(Controls& controls, const BarCursor& parts, float width, PanelCommands& out) {
   const engine::WithFont large(engine::UiFont::digits);
   controls.button("stop", "STOP", {width, parts.height()}, ink::kBadDeep);
-  out.stop = ImGui::IsItemActivated();
+  if (ImGui::IsItemActivated()) out.push_back(Stop{});
 }
 
 // The parts of the bar that fit in its width; the least important ones are left out first.
@@ -315,7 +316,7 @@ BarLayout fit_layout(float room, float first_lamp_width) {
 
 }  // namespace
 
-bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out) {
+bool draw_control_bar(Controls& controls, const PanelInput& input, PanelCommands& out) {
   const float em = engine::ui_em(), all = ImGui::GetContentRegionAvail().x;
   const float stop = std::min(kStop * em, all), right_group = ImGui::GetCursorScreenPos().x + all;
   const BarLayout shown = fit_layout(all / em, first_lamp_width(input));

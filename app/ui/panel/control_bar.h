@@ -6,6 +6,6 @@
 namespace gearshift::ui {
 
 // Returns true if the whole message fits in the bar.
-bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out);
+bool draw_control_bar(Controls& controls, const PanelInput& input, PanelCommands& out);
 
 }  // namespace gearshift::ui

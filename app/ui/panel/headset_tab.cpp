@@ -58,18 +58,17 @@ std::optional<double> length_field(Controls& controls, const char* name, const c
 }
 
 // `is_real`: true if the lever is a physical stick, so that its position matters.
-void draw_touch_buttons(Controls& controls, const cabin::HeadsetReport& headset, bool is_real,
-                        cabin::HeadsetRequests& out) {
-  out.start_touching = controls.button("headset_touch", "Touch the knob");
+void draw_touch_buttons(Controls& controls, const cabin::HeadsetReport& headset, bool is_real, PanelCommands& out) {
+  if (controls.button("headset_touch", "Touch the knob")) out.push_back(StartTouching{});
   if (headset.is_touched) {
     ImGui::SameLine();
-    out.forget_touches = controls.button("headset_forget", "Forget points");
+    if (controls.button("headset_forget", "Forget points")) out.push_back(ForgetTouches{});
     put_wrapped(fmt::format("Calibrated by touch. The drawn lever is within {:.0f} mm of the real one.",
                             1e3 * headset.touch_error),
                 ink::kSoft);
   } else if (headset.seat.touched) {
     ImGui::SameLine();
-    out.forget_touches = controls.button("headset_forget", "Forget points");
+    if (controls.button("headset_forget", "Forget points")) out.push_back(ForgetTouches{});
     put_wrapped("The saved touch points do not match this room. They remain saved, but are not used here.", ink::kWarn);
   } else if (is_real) {
     put_wrapped(
@@ -84,31 +83,32 @@ std::string format_touches(const cabin::HeadsetReport& headset) {
   return fmt::format("{} points touched, up to {:.0f} mm off.", headset.touches, 1e3 * headset.worst_touch);
 }
 
-void draw_touch_instructions(Controls& controls, const cabin::HeadsetReport& headset, cabin::HeadsetRequests& out) {
+void draw_touch_instructions(Controls& controls, const cabin::HeadsetReport& headset, PanelCommands& out) {
   put_wrapped(
       "Hold the controller's tip, where its ray begins, on the centre of the knob's top and pull the trigger. Do this "
       "in neutral, then in two other gears: turn the controller sideways for one and tilt it for the other.",
       ink::kText);
-  out.save_touches = controls.button("headset_touched", "Save points");
+  if (controls.button("headset_touched", "Save points")) out.push_back(SaveTouches{});
   ImGui::SameLine();
-  out.forget_touches = controls.button("headset_forget", "Cancel");
+  if (controls.button("headset_forget", "Cancel")) out.push_back(ForgetTouches{});
   put(format_touches(headset), ink::kSoft, engine::UiFont::small);
 }
 
-void draw_seat(Controls& controls, const cabin::HeadsetReport& headset, bool is_real, cabin::HeadsetRequests& out) {
+void draw_seat(Controls& controls, const cabin::HeadsetReport& headset, bool is_real, PanelCommands& out) {
   const cabin::SeatSettings& seat = headset.seat;
   put("Seat", ink::kText, engine::UiFont::title);
-  out.recentre = controls.button("headset_recentre", "Recentre the seat");
+  if (controls.button("headset_recentre", "Recentre the seat")) out.push_back(RecentreSeat{});
   if (headset.touching)
     draw_touch_instructions(controls, headset, out);
   else
     draw_touch_buttons(controls, headset, is_real, out);
   if (headset.is_touched || headset.touching) return;  // the touched points define the knob's position
   if (!seat.knob) {
-    out.height = length_field(controls, "headset_height", "Seat raised by", seat.height, kMaxHeight);
+    const auto height = length_field(controls, "headset_height", "Seat raised by", seat.height, kMaxHeight);
+    if (height) out.push_back(SetSeatHeight{*height});
     // Initial values: the knob's position in the drawn cabin.
     const double right = seat.drive == cabin::DriveSide::left ? 0.33 : -0.33;
-    if (controls.button("headset_knob", "Enter knob position")) out.knob = cabin::KnobDistance{right, 0.51, 0.32};
+    if (controls.button("headset_knob", "Enter knob position")) out.push_back(SetKnob{{right, 0.51, 0.32}});
     return;
   }
   put_wrapped("Knob position relative to your eyes:", ink::kSoft);
@@ -117,17 +117,17 @@ void draw_seat(Controls& controls, const cabin::HeadsetReport& headset, bool is_
     const std::optional<double> changed = length_field(controls, name, label, value, kMaxDistance);
     if (!changed) return;
     value = *changed;
-    out.knob = knob;
+    out.push_back(SetKnob{knob});
   };
   field("headset_knob_right", "right", knob.right);
   field("headset_knob_down", "down", knob.down);
   field("headset_knob_ahead", "ahead", knob.ahead);
-  out.forget_knob = controls.button("headset_knob", "Forget knob position");
+  if (controls.button("headset_knob", "Forget knob position")) out.push_back(ForgetKnob{});
 }
 
 }  // namespace
 
-void draw_headset_tab(Controls& controls, const PanelInput& input, cabin::HeadsetRequests& out) {
+void draw_headset_tab(Controls& controls, const PanelInput& input, PanelCommands& out) {
   draw_frames(*input.headset);
   ImGui::Spacing();
   draw_seat(controls, *input.headset, input.stick.has_value(), out);

@@ -53,8 +53,7 @@ void draw_driving_errors(const lessons::LessonResult& result, std::int64_t shift
   }
 }
 
-void draw_shift(Controls& controls, const lessons::RunRow& run, const lessons::ShiftRecord& shift,
-                ReplayRequests& out) {
+void draw_shift(Controls& controls, const lessons::RunRow& run, const lessons::ShiftRecord& shift, PanelCommands& out) {
   const std::string name = fmt::format("look: {} {}", run.id, shift.number);
   put(format_gears(shift), shift.missed ? ink::kBad : ink::kText, engine::UiFont::title);
   ImGui::SameLine();
@@ -64,7 +63,7 @@ void draw_shift(Controls& controls, const lessons::RunRow& run, const lessons::S
     const engine::WithFont small(engine::UiFont::small);
     align_right(button_width("Watch"));
     ImGui::BeginDisabled(run.recording.empty());
-    if (controls.button(name.c_str(), "Watch")) out.open = {run.recording, shift.begin};
+    if (controls.button(name.c_str(), "Watch")) out.push_back(OpenShift{run.recording, shift.begin});
     ImGui::EndDisabled();
   }
   put_wrapped(describe_clutch_timing(shift), ink::kSoft);
@@ -76,7 +75,7 @@ void draw_shift(Controls& controls, const lessons::RunRow& run, const lessons::S
 
 }  // namespace
 
-void HistoryView::draw(Controls& controls, const lessons::CoachView& coach, PanelRequests& out) {
+void HistoryView::draw(Controls& controls, const lessons::CoachView& coach, PanelCommands& out) {
   if (coach.runs.empty()) {
     put_wrapped(coach.learner.empty() ? "Choose a learner to see their history." : "You haven't driven a lesson yet.",
                 ink::kSoft);
@@ -128,7 +127,7 @@ void HistoryView::draw_run(Controls& controls, const lessons::CoachView& coach, 
   ImGui::SetCursorPos({begin, bottom});
 }
 
-void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run, PanelRequests& out) {
+void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run, PanelCommands& out) {
   ImGui::Indent(0.7f * engine::ui_em());
   const char* mode = run.result.mode == lessons::LessonMode::follow_me ? "Follow me" : "Do it yourself";
   put_wrapped(fmt::format("{}, {:.0f} s", mode, run.result.duration), ink::kSoft);
@@ -137,8 +136,8 @@ void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run, Pa
   ImGui::Spacing();
   if (run.recording.empty() && !run.result.shifts.empty())
     put_wrapped("No replay: this run was not recorded.", ink::kSoft);
-  for (const lessons::ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out.playback);
-  comments_.draw(controls, run.id, run.comments, out.lesson);
+  for (const lessons::ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out);
+  comments_.draw(controls, run.id, run.comments, out);
   ImGui::Unindent(0.7f * engine::ui_em());
   ImGui::Spacing();
   ImGui::Separator();

@@ -151,7 +151,7 @@ void draw_next(const lessons::CoachView& coach, bool has_next) {
 }  // namespace
 
 double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_shown, const ControlRect& room,
-                        PanelRequests& out) {
+                        PanelCommands& out) {
   const lessons::CoachView& coach = input.coach;
   note_new_feedback(coach);
   const float em = engine::ui_em(), width = bottom_width(room, kMaxCardWidth);
@@ -222,9 +222,9 @@ void LessonCard::draw_controls_and_car(const FrameContext& now) {
 
 void LessonCard::draw_offered(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
-  LessonRequests& out = now.out.lesson;
+  PanelCommands& out = now.out;
   draw_title(coach);
-  if (small_button(now.controls, "lesson_dismiss", "Not now")) out.dismiss_lesson = true;
+  if (small_button(now.controls, "lesson_dismiss", "Not now")) out.push_back(DismissLesson{});
   const auto body = [&] {
     put_wrapped(coach.goal, ink::kText, engine::UiFont::prompt);
     if (!coach.fail_conditions.empty()) put_wrapped(coach.fail_conditions, ink::kSoft);
@@ -237,16 +237,16 @@ void LessonCard::draw_offered(FrameContext& now) {
   const auto foot = [&] {
     if (primary_button(now.controls, "lesson_begin",
                        now.forces_off ? "Turn forces on and start (Enter)" : "Start (Enter)")) {
-      out.begin = true;
-      now.out.arm = now.out.arm || now.forces_off;
+      if (now.forces_off) out.push_back(Arm{});
+      out.push_back(BeginLesson{});
     }
     const bool by_yourself = coach.mode == lessons::LessonMode::by_yourself;
     same_line_if_fits(button_width(kFollowMe) + button_width(kByYourself));
     if (draw_switch(now.controls, "mode", kFollowMe, kByYourself, by_yourself))
-      out.mode = by_yourself ? lessons::LessonMode::follow_me : lessons::LessonMode::by_yourself;
+      out.push_back(SetMode{by_yourself ? lessons::LessonMode::follow_me : lessons::LessonMode::by_yourself});
     same_line_if_fits(ImGui::GetFrameHeight() + button_width(kGuideMyHand));
     bool help = coach.help_wanted;
-    if (ImGui::Checkbox(kGuideMyHand, &help)) out.help = help;
+    if (ImGui::Checkbox(kGuideMyHand, &help)) out.push_back(SetHelp{help});
     now.controls.mark("help");
     draw_controls_and_car(now);
   };
@@ -265,7 +265,7 @@ void LessonCard::draw_driving(FrameContext& now) {
   draw_time_left(coach);
   if (coach.guidance > 0.0) draw_badge("guided, not graded", ink::kAccent);
   if (coach.retention) draw_badge("test: no guidance", ink::kText);
-  if (small_button(now.controls, "lesson_leave", "Leave")) now.out.lesson.leave = true;
+  if (small_button(now.controls, "lesson_leave", "Leave")) now.out.push_back(LeaveLesson{});
   draw_progress(coach.now->step, coach.now->steps);
   draw_parts(
       lessons::LessonPhase::driving, [&] { return draw_prompts(now); }, [&] { draw_controls_and_car(now); });
@@ -308,7 +308,7 @@ void LessonCard::draw_feedback(const std::vector<std::string>& feedback, float& 
 // Draws the result and the next lesson. Enter has the same effect as the coloured button; the button's label says so.
 void LessonCard::draw_over(FrameContext& now) {
   const lessons::CoachView& coach = now.coach;
-  LessonRequests& out = now.out.lesson;
+  PanelCommands& out = now.out;
   const bool has_next = !coach.next.empty() && coach.next != coach.lesson,
              can_continue = coach.result->passed && has_next;
   const auto foot = [&] {
@@ -319,15 +319,15 @@ void LessonCard::draw_over(FrameContext& now) {
                         : now.forces_off ? "Turn forces on and retry (Enter)"
                                          : "Try again (Enter)";
     if (primary_button(now.controls, "lesson_again", again, !can_continue)) {
-      out.begin = true;
-      now.out.arm = now.out.arm || now.forces_off;
+      if (now.forces_off) out.push_back(Arm{});
+      out.push_back(BeginLesson{});
     }
     const char* next = can_continue ? "Next lesson (Enter)" : "Next lesson";
     if (has_next) {
       same_line_if_fits(button_width(next));
-      if (primary_button(now.controls, "lesson_next", next, can_continue)) out.offer = coach.next;
+      if (primary_button(now.controls, "lesson_next", next, can_continue)) out.push_back(OfferLesson{coach.next});
     }
-    if (small_button(now.controls, "lesson_dismiss", "Close")) out.dismiss_lesson = true;
+    if (small_button(now.controls, "lesson_dismiss", "Close")) out.push_back(DismissLesson{});
   };
   draw_parts(
       lessons::LessonPhase::over, [&] { return draw_lesson_end(coach); }, foot);

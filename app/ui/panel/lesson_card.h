@@ -16,7 +16,7 @@ class LessonCard {
   // lesson is selected or no text fits. The height is the same in all phases of a lesson unless a text needs more.
   // While the panel is hidden, the card also shows the car's state.
   double draw(Controls& controls, const PanelInput& input, bool panel_shown, const ControlRect& room,
-              PanelRequests& out);
+              PanelCommands& out);
 
  private:
   struct FrameContext {
@@ -24,7 +24,7 @@ class LessonCard {
     const PanelInput& input;
     const lessons::CoachView& coach;
     bool panel_shown, forces_off;
-    PanelRequests& out;
+    PanelCommands& out;
   };
   void follow(const lessons::CoachView& coach, ImVec2 size);
   void note_new_feedback(const lessons::CoachView& coach);

@@ -38,13 +38,13 @@ bool is_pressed(ImGuiKey_ key) {
 }
 
 // Draws the known learners as a drop-down list. `width` [px]: width of the opened list.
-void draw_known(Controls& controls, const lessons::CoachView& coach, float width, LessonRequests& out) {
+void draw_known(Controls& controls, const lessons::CoachView& coach, float width, PanelCommands& out) {
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, 24.0f * engine::ui_em()});
   const bool open = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
   controls.mark("learner_known");
   if (!open) return;
   const auto entry = [&](const std::string& name, const char* label) {
-    if (ImGui::Selectable(label, name == coach.learner) && name != coach.learner) out.learner = name;
+    if (ImGui::Selectable(label, name == coach.learner) && name != coach.learner) out.push_back(ChooseLearner{name});
     controls.mark(controls.join("learner", name));
   };
   for (const std::string& name : coach.learners) entry(name, name.c_str());
@@ -86,7 +86,7 @@ void draw_note(const lessons::CoachView& coach, const std::string& name, const s
 }
 
 // Draws the next lesson, marked by a bar on its left.
-void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool can_offer, LessonRequests& out) {
+void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool can_offer, PanelCommands& out) {
   if (coach.next.empty()) return;
   const float em = engine::ui_em();
   const ImVec2 low = ImGui::GetCursorScreenPos();
@@ -96,11 +96,11 @@ void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool ca
   put_wrapped(lesson_title(coach, coach.next), ink::kAccent, engine::UiFont::title);
   if (!coach.next_why.empty()) put_wrapped(coach.next_why, ink::kText);
   ImGui::BeginDisabled(!can_offer);
-  if (controls.button("lesson_suggested", "Start", {0.0f, 0.0f}, ink::kPrimary)) out.offer = coach.next;
+  if (controls.button("lesson_suggested", "Start", {0.0f, 0.0f}, ink::kPrimary)) out.push_back(OfferLesson{coach.next});
   ImGui::EndDisabled();
   if (coach.next_by_instructor) {
     same_line_if_fits(button_width("Use suggestion"));
-    if (controls.button("next_as_suggested", "Use suggestion")) out.next = std::string();
+    if (controls.button("next_as_suggested", "Use suggestion")) out.push_back(ChooseNextLesson{});
   }
   ImGui::EndGroup();
   ImGui::Unindent(0.7f * em);
@@ -126,13 +126,12 @@ void draw_standing(const lessons::LessonStanding& lesson) {
 }
 
 // Draws a ring, with a dot in it for the next lesson; a click makes this lesson the next one.
-void draw_next_choice(Controls& controls, const lessons::CoachView& coach, const std::string& key,
-                      LessonRequests& out) {
+void draw_next_choice(Controls& controls, const lessons::CoachView& coach, const std::string& key, PanelCommands& out) {
   const float height = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, 0.0f});
   if (controls.button(controls.join("next", key), "", {width, height}, engine::with_alpha(ink::kRaised, 0.0f)))
-    out.next = key;
+    out.push_back(ChooseNextLesson{key});
   ImGui::PopStyleVar();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("Set as next lesson");
   const bool on = coach.next == key, hovered = ImGui::IsItemHovered();
@@ -155,7 +154,7 @@ std::string format_standing(const lessons::LessonStanding& lesson) {
 }
 
 void draw_lesson(Controls& controls, const lessons::CoachView& coach, const lessons::LessonStanding& lesson,
-                 bool can_offer, LessonRequests& out) {
+                 bool can_offer, PanelCommands& out) {
   ImGui::PushID(lesson.key.c_str());
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
@@ -165,7 +164,7 @@ void draw_lesson(Controls& controls, const lessons::CoachView& coach, const less
   const ImVec2 begin = ImGui::GetCursorPos();
   const float room = ImGui::GetContentRegionAvail().x;
   ImGui::BeginDisabled(!can_offer);
-  if (ImGui::Selectable("##lesson", is_here)) out.offer = lesson.key;
+  if (ImGui::Selectable("##lesson", is_here)) out.push_back(OfferLesson{lesson.key});
   controls.mark(controls.join("lesson", lesson.key));
   if (lesson.trials > 0 && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("%s", format_standing(lesson).c_str());
@@ -181,7 +180,7 @@ void draw_lesson(Controls& controls, const lessons::CoachView& coach, const less
   ImGui::PopID();
 }
 
-void draw_list(Controls& controls, const lessons::CoachView& coach, bool can_offer, LessonRequests& out) {
+void draw_list(Controls& controls, const lessons::CoachView& coach, bool can_offer, PanelCommands& out) {
   const ImVec2 padding = ImGui::GetStyle().CellPadding;
   ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {0.6f * padding.x, padding.y});
   const bool open = ImGui::BeginTable("lessons", 5, ImGuiTableFlags_SizingFixedFit);
@@ -205,7 +204,7 @@ void draw_list(Controls& controls, const lessons::CoachView& coach, bool can_off
 }  // namespace
 
 void LessonsView::draw(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand,
-                       LessonRequests& out) {
+                       PanelCommands& out) {
   draw_learner(controls, coach, is_automatic_hand, out);
   ImGui::Spacing();
   // While a lesson is driven, disables the other lessons: a click on one of them must not discard the current lesson.
@@ -217,7 +216,7 @@ void LessonsView::draw(Controls& controls, const lessons::CoachView& coach, bool
 
 // Draws the field for the learner's name. Pressing Enter or leaving the field applies a typed name; Escape discards it.
 void LessonsView::draw_learner(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand,
-                               LessonRequests& out) {
+                               PanelCommands& out) {
   if (coach.learner != shown_) fill(name_, shown_ = coach.learner);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Learner");
@@ -235,7 +234,7 @@ void LessonsView::draw_learner(Controls& controls, const lessons::CoachView& coa
   const std::string problem =
       name.empty() ? std::string() : lessons::user_text_problem(lessons::UserText::name, "a learner's name", name);
   const bool is_another = name != coach.learner || (entered && coach.learner_deleted);
-  if ((entered || leaves) && !is_cancelled && problem.empty() && is_another) out.learner = name;
+  if ((entered || leaves) && !is_cancelled && problem.empty() && is_another) out.push_back(ChooseLearner{name});
   if (left) fill(name_, is_cancelled ? coach.learner : name);
   ImGui::SameLine(0.0f, 0.0f);
   draw_known(controls, coach, width, out);

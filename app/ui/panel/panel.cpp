@@ -65,12 +65,12 @@ void title(const char* text) {
 }
 
 // Draws the button "Reset view" at the right end of the line.
-void draw_view_reset(Controls& controls, PanelRequests& out) {
+void draw_view_reset(Controls& controls, PanelCommands& out) {
   const engine::WithFont small(engine::UiFont::small);
   constexpr const char* kLabel = "Reset view";
   const float width = ImGui::CalcTextSize(kLabel).x + 2.0f * ImGui::GetStyle().FramePadding.x;
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-  out.reset_view = controls.button("reset_view", kLabel);
+  if (controls.button("reset_view", kLabel)) out.push_back(ResetView{});
 }
 
 // The command line calls the simulated driver's hand "by itself".
@@ -157,12 +157,12 @@ struct Panel::State {
 
   void follow(const PanelInput& input);
   void follow(const haptics::HapticSnapshot& snapshot);
-  void draw_left(const Layout& layout, const PanelInput& input, PanelRequests& out);
-  void draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out);
-  void draw_choices(const PanelInput& input, PanelRequests& out);
-  void draw_tabs(const PanelInput& input, PanelRequests& out);
-  void draw_over_cabin(const PanelInput& input, PanelRequests& out);
-  void draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out);
+  void draw_left(const Layout& layout, const PanelInput& input, PanelCommands& out);
+  void draw_right(const Layout& layout, const PanelInput& input, PanelCommands& out);
+  void draw_choices(const PanelInput& input, PanelCommands& out);
+  void draw_tabs(const PanelInput& input, PanelCommands& out);
+  void draw_over_cabin(const PanelInput& input, PanelCommands& out);
+  void draw_bar(const Layout& layout, const PanelInput& input, PanelCommands& out);
 };
 
 void Panel::State::follow(const haptics::HapticSnapshot& snapshot) {
@@ -188,7 +188,7 @@ void Panel::State::follow(const PanelInput& input) {
   events.add(input.events);
 }
 
-void Panel::State::draw_left(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+void Panel::State::draw_left(const Layout& layout, const PanelInput& input, PanelCommands& out) {
   if (begin_part("Lever", {0.0f, 0.0f}, {layout.left, layout.screen.y - layout.bar})) {
     title("Lever");
     plots.draw_axis_choice(controls);
@@ -205,20 +205,23 @@ void Panel::State::draw_left(const Layout& layout, const PanelInput& input, Pane
   ImGui::End();
 }
 
-void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
+void Panel::State::draw_choices(const PanelInput& input, PanelCommands& out) {
   const float label = 4.6f * engine::ui_em();
   if (input.replay != nullptr) put("Live settings, not the recording's:", ink::kWarn, engine::UiFont::small);
   const auto row = [&](const char* name, const char* caption, std::string_view current,
-                       std::span<const std::string> options, std::optional<std::string>& asked,
+                       std::span<const std::string> options, auto command,
                        std::string (*text_of)(std::string_view) = nullptr) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s", caption);
     ImGui::SameLine(label);
-    asked = controls.choice(name, current, options, ImGui::GetContentRegionAvail().x, text_of);
+    const auto chosen = controls.choice(name, current, options, ImGui::GetContentRegionAvail().x, text_of);
+    if (!chosen) return;
+    command.name = *chosen;
+    out.push_back(command);
   };
-  if (!input.cars.empty()) row("car", "Car", input.car_name, input.cars, out.car, readable_name);
-  row("gate", "Gate", input.gate_name, input.gates, out.gate, readable_name);
-  row("preset", "Preset", input.preset_name, input.presets, out.preset);
+  if (!input.cars.empty()) row("car", "Car", input.car_name, input.cars, ChooseCar{}, readable_name);
+  row("gate", "Gate", input.gate_name, input.gates, ChooseGate{}, readable_name);
+  row("preset", "Preset", input.preset_name, input.presets, ChoosePreset{});
   const auto fixed_row = [&](const char* caption, std::string_view value, ImU32 colour) {
     ImGui::TextDisabled("%s", caption);
     ImGui::SameLine(label);
@@ -227,12 +230,12 @@ void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
   if (input.hands.empty())
     fixed_row("Hand", input.hand_name, ink::kText);
   else
-    row("hand", "Hand", input.hand_name, input.hands, out.hand, hand_label);
+    row("hand", "Hand", input.hand_name, input.hands, ChooseHand{}, hand_label);
   fixed_row("Device", input.device_name, ink::kText);
   if (input.stick) fixed_row("", format_stick_state(*input.stick), input.stick->plugged_in ? ink::kSoft : ink::kBad);
 }
 
-void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
+void Panel::State::draw_tabs(const PanelInput& input, PanelCommands& out) {
   const bool dense = !tabs_fit(tabs_of(input));
   const auto bar = [&] {
     const TabStyle style(dense);
@@ -252,7 +255,7 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
     ImGui::EndTabItem();
   };
   if (!bar()) return;
-  tab(kTabs[0], [&] { lessons.draw(controls, input.coach, input.is_automatic_hand, out.lesson); });
+  tab(kTabs[0], [&] { lessons.draw(controls, input.coach, input.is_automatic_hand, out); });
   tab(kTabs[1], [&] { runs.draw(controls, input.coach, out); });
   tab(kTabs[2], [&] {
     tuning.draw(controls, input, out);
@@ -261,11 +264,11 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
   tab(kTabs[3], [&] { setup.draw(controls, input, out); });
   tab(kTabs[4], [&] { draw_loop_view(input); });
   tab(kTabs[5], [&] { presets.draw(controls, input, out); });
-  if (input.headset) tab(kTabs[6], [&] { draw_headset_tab(controls, input, out.headset); });
+  if (input.headset) tab(kTabs[6], [&] { draw_headset_tab(controls, input, out); });
   ImGui::EndTabBar();
 }
 
-void Panel::State::draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+void Panel::State::draw_right(const Layout& layout, const PanelInput& input, PanelCommands& out) {
   if (begin_part("Haptics", {layout.screen.x - layout.right, 0.0f}, {layout.right, layout.screen.y - layout.bar})) {
     draw_choices(input, out);
     ImGui::Spacing();
@@ -276,15 +279,15 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
 
 // Draws the parts that are shown even while the panel is hidden: note, replay bar and lesson card. During a replay the
 // card is hidden unless a lesson is being driven. Replay bar and card reduce the cabin's area.
-void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
+void Panel::State::draw_over_cabin(const PanelInput& input, PanelCommands& out) {
   const ControlRect room = central_area = cabin_area;
   note.draw(input.message, message_fits, stick_request(input), room);
-  cabin_area.max.y = replay.draw(controls, input, room, out.playback);
+  cabin_area.max.y = replay.draw(controls, input, room, out);
   if (input.replay == nullptr || input.coach.phase == lessons::LessonPhase::driving)
     cabin_area.max.y = card.draw(controls, input, visible, cabin_area, out);
 }
 
-void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, PanelCommands& out) {
   if (begin_part(kBarName, {0.0f, layout.screen.y - layout.bar}, {layout.screen.x, layout.bar}))
     message_fits = draw_control_bar(controls, input, out);
   ImGui::End();
@@ -293,9 +296,9 @@ void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, Panel
 Panel::Panel() : state_(std::make_unique<State>()) {}
 Panel::~Panel() = default;
 
-PanelRequests Panel::draw(const PanelInput& input) {
+PanelCommands Panel::draw(const PanelInput& input) {
   State& s = *state_;
-  PanelRequests out;
+  PanelCommands out;
   s.controls.begin_frame();
   update_keyboard_focus(kBarName, s.visible);
   s.follow(input);

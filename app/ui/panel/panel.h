@@ -1,4 +1,4 @@
-// The engineer's and the instructor's panel, in Dear ImGui. It draws its input and returns the user's requests; it
+// The engineer's and the instructor's panel, in Dear ImGui. It draws its input and returns the user's commands; it
 // starts, stops and changes nothing itself.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "app/lessons/coach/coach_view.h"
 #include "app/lessons/replay/player.h"
 #include "app/runtime/runtime.h"
+#include "app/ui/panel/commands.h"
 #include "app/ui/panel/controls.h"
 #include "app/vehicle/vehicle_state.h"
 
@@ -46,8 +47,7 @@ struct PanelInput {
   std::string_view gate_name, preset_name, hand_name, device_name;
   std::optional<StickView> stick;                      // physical stick; none: the lever is simulated
   std::span<const std::string> gates, presets, hands;  // choices; `hands` is empty if a real hand moves the lever
-  const haptics::Preset*
-      compared;  // preset named by PanelRequests::compare; null if there is none, or it is unreadable
+  const haptics::Preset* compared;  // preset named by ComparePreset; null if there is none, or it is unreadable
   bool recording;
   std::string_view message;  // the last message, one sentence
   double frame_ms;
@@ -65,54 +65,6 @@ struct PanelInput {
 };
 static_assert(std::is_trivially_copyable_v<PanelInput>);
 
-struct LessonRequests {
-  std::optional<std::string> offer;  // a lesson's key
-  bool begin = false;                // start the offered lesson, or repeat the finished one
-  bool leave = false, dismiss_lesson = false;
-  std::optional<lessons::LessonMode> mode;
-  std::optional<bool> help;
-  std::optional<std::string> learner;  // name of a known or new learner; empty string: no learner
-  std::optional<std::string> next;     // next lesson, chosen by the instructor; empty string: as suggested
-  struct Comment {
-    std::int64_t run = 0;
-    std::string author, text;
-  };
-  std::optional<Comment> comment;
-  struct CommentChange {
-    std::int64_t run = 0, comment = 0;  // RunRow::id, CommentRow::id
-    std::optional<std::string> text;    // none: delete the comment
-  };
-  std::optional<CommentChange> comment_change;
-};
-
-struct ReplayRequests {
-  struct Shift {
-    std::string recording;
-    double begin = 0.0;  // [s] start of the shift on the loop's clock
-  };
-  std::optional<Shift> open;         // replay this shift from the history
-  std::optional<std::size_t> shift;  // show only this shift of the replayed drive
-  bool whole_drive = false;          // show the whole drive
-  std::optional<double> seek;        // [s]
-  std::optional<bool> play;
-  std::optional<double> pace;
-  bool close = false;  // end the replay, return to the live lever
-};
-
-// The user's requests of this frame. The caller carries them out and shows problems in PanelInput::message.
-struct PanelRequests {
-  bool arm = false, disarm = false, stop = false, record = false, replay = false, reset_view = false;
-  std::optional<haptics::HapticTuning> tuning;    // tuning to apply; already checked to be admissible
-  std::optional<haptics::HapticConfig> restart;   // restart the loop with this configuration; its values are in range
-  std::optional<std::string> gate, preset, hand;  // name of the gate, preset or hand to select
-  std::optional<std::string> save_preset;         // preset name
-  std::optional<std::string> compare;             // name of a preset to be read into PanelInput::compared
-  std::optional<std::string> car;                 // change to this car, and to its gate
-  LessonRequests lesson;
-  ReplayRequests playback;
-  cabin::HeadsetRequests headset;
-};
-
 class Panel {
  public:
   Panel();
@@ -120,8 +72,9 @@ class Panel {
   Panel(const Panel&) = delete;
   Panel& operator=(const Panel&) = delete;
 
-  // Call once per frame, between UiContext::begin and end.
-  PanelRequests draw(const PanelInput& input);
+  // Call once per frame, between UiContext::begin and end. The caller executes the commands and shows problems in
+  // PanelInput::message.
+  PanelCommands draw(const PanelInput& input);
 
   // Call between UiContext::end and the next UiContext::begin. covers(): true if a mouse press at this place [px] goes
   // to the panel as last drawn. has_keyboard(): true if a key press goes to the panel. A drag that began on the panel

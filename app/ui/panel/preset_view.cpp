@@ -73,14 +73,14 @@ void draw_difference(const PanelInput& input) {
 
 }  // namespace
 
-void PresetView::draw(Controls& controls, const PanelInput& input, PanelRequests& out) {
+void PresetView::draw(Controls& controls, const PanelInput& input, PanelCommands& out) {
   draw_save(controls, out);
   ImGui::Spacing();
   ImGui::Separator();
   draw_compare(controls, input, out);
 }
 
-void PresetView::draw_save(Controls& controls, PanelRequests& out) {
+void PresetView::draw_save(Controls& controls, PanelCommands& out) {
   ImGui::TextUnformatted("Save current settings as");
   const float button = 4.5f * engine::ui_em();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
@@ -92,14 +92,14 @@ void PresetView::draw_save(Controls& controls, PanelRequests& out) {
   ImGui::BeginDisabled(empty);
   const bool pressed = controls.button("save", "Save", {button, 0.0f});
   ImGui::EndDisabled();
-  if ((entered || pressed) && !empty) out.save_preset = name_.data();
+  if ((entered || pressed) && !empty) out.push_back(SavePreset{name_.data()});
 }
 
-void PresetView::draw_compare(Controls& controls, const PanelInput& input, PanelRequests& out) {
+void PresetView::draw_compare(Controls& controls, const PanelInput& input, PanelCommands& out) {
   ImGui::TextUnformatted("Compare with");
   const auto chosen = controls.choice("compare", compared_.empty() ? "choose a preset" : compared_, input.presets,
                                       ImGui::GetContentRegionAvail().x);
-  if (chosen) out.compare = compared_ = *chosen;
+  if (chosen) out.push_back(ComparePreset{compared_ = *chosen});
   if (!compared_.empty() && input.compared) draw_difference(input);
 }
 

@@ -10,11 +10,11 @@ namespace gearshift::ui {
 
 class PresetView {
  public:
-  void draw(Controls& controls, const PanelInput& input, PanelRequests& out);
+  void draw(Controls& controls, const PanelInput& input, PanelCommands& out);
 
  private:
-  void draw_save(Controls& controls, PanelRequests& out);
-  void draw_compare(Controls& controls, const PanelInput& input, PanelRequests& out);
+  void draw_save(Controls& controls, PanelCommands& out);
+  void draw_compare(Controls& controls, const PanelInput& input, PanelCommands& out);
 
   std::array<char, 64> name_{};
   std::string compared_;  // name of the preset to compare with

@@ -73,13 +73,13 @@ std::string heading(const lessons::Player& replay, const lessons::CoachView& coa
 }
 
 // "Opening drive-20260131.trace ..."
-void draw_opening(Controls& controls, std::string_view file, ReplayRequests& out) {
+void draw_opening(Controls& controls, std::string_view file, PanelCommands& out) {
   const float close = button_width("Close") + ImGui::GetStyle().ItemSpacing.x;
   const std::string words = fmt::format("Opening {} \u2026", file);
   ImGui::AlignTextToFramePadding();
   put(without_middle(words, ImGui::GetContentRegionAvail().x - close), ink::kText);
   align_right(button_width("Close"));
-  if (controls.button("replay_close", "Close")) out.close = true;
+  if (controls.button("replay_close", "Close")) out.push_back(CloseReplay{});
 }
 
 // Maps the time of the whole drive to pixels, from left to right.
@@ -109,7 +109,7 @@ Mark mark_of(const Overview& view, std::span<const lessons::RecordedShift> shift
 }
 
 void draw_shift_mark(Controls& controls, const Overview& view, const lessons::RecordedDrive& drive, std::size_t index,
-                     bool on, ReplayRequests& out) {
+                     bool on, PanelCommands& out) {
   const engine::WithFont small(engine::UiFont::small);
   const lessons::ShiftRecord& shift = drive.shifts()[index].record;
   const std::string words = format_gears(shift), name = fmt::format("replay_shift: {}", index);
@@ -118,12 +118,12 @@ void draw_shift_mark(Controls& controls, const Overview& view, const lessons::Re
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, 0.0f});
   if (controls.button(name.c_str(), mark.named ? words.c_str() : "", {mark.width, view.size.y},
                       on ? ink::kAccentDeep : ink::kRaisedHover))
-    out.shift = index;
+    out.push_back(ShowShift{index});
   ImGui::PopStyleVar();
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, %.2f s", words.c_str(), shift.end - shift.begin);
 }
 
-void draw_shift_marks(Controls& controls, const lessons::Player& replay, ReplayRequests& out) {
+void draw_shift_marks(Controls& controls, const lessons::Player& replay, PanelCommands& out) {
   const lessons::RecordedDrive& drive = replay.drive();
   const float em = engine::ui_em();
   const ImVec2 low = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, 1.25f * em);
@@ -163,7 +163,7 @@ void draw_handle(double from, double to, double now) {
   ImGui::GetWindowDrawList()->AddRectFilled({x - half, low.y + 2.0f}, {x + half, high.y - 2.0f}, colour, 0.4f * half);
 }
 
-void draw_time(Controls& controls, const lessons::Player& replay, ReplayRequests& out) {
+void draw_time(Controls& controls, const lessons::Player& replay, PanelCommands& out) {
   const double begin = replay.drive().begin();
   double time = replay.time() - begin;
   const double from = replay.from() - begin, to = replay.to() - begin;
@@ -172,21 +172,21 @@ void draw_time(Controls& controls, const lessons::Player& replay, ReplayRequests
   ImGui::PushStyleColor(ImGuiCol_SliderGrab, engine::with_alpha(ink::kAccent, 0.0f));
   ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, engine::with_alpha(ink::kAccent, 0.0f));
   if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time, &from, &to, "", ImGuiSliderFlags_AlwaysClamp))
-    out.seek = begin + time;
+    out.push_back(SeekReplay{begin + time});
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar();
   controls.mark("replay_time");
   draw_handle(from, to, replay.time() - begin);
 }
 
-void draw_paces(Controls& controls, const lessons::Player& replay, ReplayRequests& out) {
+void draw_paces(Controls& controls, const lessons::Player& replay, PanelCommands& out) {
   for (const double pace : kPaces) {
     const std::string label = fmt::format("{:g}\u00d7", pace);
     if (pace != kPaces.front()) ImGui::SameLine(0.0f, 2.0f);
     const bool on = std::abs(replay.pace() - pace) < 1e-9;
     if (controls.button(fmt::format("replay_pace: {:g}", pace).c_str(), label.c_str(), {0.0f, 0.0f},
                         on ? ink::kAccentDeep : ink::kRaised))
-      out.pace = pace;
+      out.push_back(SetPace{pace});
   }
 }
 
@@ -196,10 +196,10 @@ float paces_width() {
   return width;
 }
 
-void draw_buttons(Controls& controls, const lessons::Player& replay, ReplayRequests& out) {
+void draw_buttons(Controls& controls, const lessons::Player& replay, PanelCommands& out) {
   const float play = std::max(button_width("Play"), button_width("Pause"));
   if (controls.button("replay_play", replay.is_playing() ? "Pause" : "Play", {play, 0.0f}, ink::kPrimary))
-    out.play = !replay.is_playing();
+    out.push_back(PlayReplay{!replay.is_playing()});
   const std::string time = fmt::format("{:.2f} s", replay.time() - replay.drive().begin());
   const float widest = width_of("888.88 s");
   same_line_if_fits(widest);
@@ -211,9 +211,9 @@ void draw_buttons(Controls& controls, const lessons::Player& replay, ReplayReque
   draw_paces(controls, replay, out);
   same_line_if_fits(button_width("Whole drive"));
   if (controls.button("replay_whole", "Whole drive", {0.0f, 0.0f}, replay.shift() ? ink::kRaised : ink::kAccentDeep))
-    out.whole_drive = true;
+    out.push_back(ShowWholeDrive{});
   align_right(button_width("Close"));
-  if (controls.button("replay_close", "Close")) out.close = true;
+  if (controls.button("replay_close", "Close")) out.push_back(CloseReplay{});
 }
 
 // Writes the unit in the upper right corner of a plot.
@@ -247,7 +247,7 @@ void ReplayBar::follow(const lessons::Player& replay) {
   for (const vehicle::DriveSample& sample : replay.drive().between(from_, to_)) curves_->push(sample);
 }
 
-double ReplayBar::draw(Controls& controls, const PanelInput& input, const ControlRect& room, ReplayRequests& out) {
+double ReplayBar::draw(Controls& controls, const PanelInput& input, const ControlRect& room, PanelCommands& out) {
   const lessons::Player* replay = input.replay;
   const bool opens = !input.opening.empty();
   const float width = bottom_width(room, opens ? kOpeningWidth : kMaxBarWidth);

@@ -15,7 +15,7 @@ class ReplayBar {
  public:
   // Draws along the lower edge of `room` [px]. Returns the bar's upper edge [px], or the lower edge of `room` if there
   // is no replay.
-  double draw(Controls& controls, const PanelInput& input, const ControlRect& room, ReplayRequests& out);
+  double draw(Controls& controls, const PanelInput& input, const ControlRect& room, PanelCommands& out);
 
  private:
   // Curves of the replayed part; rebuilt when a different part is selected.

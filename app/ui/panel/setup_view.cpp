@@ -111,7 +111,7 @@ void SetupView::judge(const PanelInput& input) {
   }
 }
 
-void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests& out) {
+void SetupView::draw(Controls& controls, const PanelInput& input, PanelCommands& out) {
   follow(input.haptics);
   const float verdict =
       3.0f * engine::ui_font(engine::UiFont::small)->FontSize + 2.0f * ImGui::GetStyle().ItemSpacing.y;
@@ -129,11 +129,11 @@ void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests&
 }
 
 // Draws the buttons and the result of the check below the scrolling fields, where both are always visible.
-void SetupView::draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out) {
+void SetupView::draw_restart(Controls& controls, const PanelInput& input, PanelCommands& out) {
   const bool changed = is_changed();
   if (changed) judge(input);
   ImGui::BeginDisabled(!changed || !rejection_.empty());
-  if (controls.button("restart", "Restart loop")) out.restart = staged_;
+  if (controls.button("restart", "Restart loop")) out.push_back(Restart{staged_});
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(!changed);

@@ -10,12 +10,12 @@ namespace gearshift::ui {
 
 class SetupView {
  public:
-  void draw(Controls& controls, const PanelInput& input, PanelRequests& out);
+  void draw(Controls& controls, const PanelInput& input, PanelCommands& out);
 
  private:
   void follow(const haptics::HapticConfig& running);
   void draw_fields(Controls& controls);
-  void draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out);
+  void draw_restart(Controls& controls, const PanelInput& input, PanelCommands& out);
   void judge(const PanelInput& input);
 
   // All inputs on which the check depends.

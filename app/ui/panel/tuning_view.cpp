@@ -63,18 +63,18 @@ TuningQuestion TuningView::question(const PanelInput& input, const haptics::Hapt
   return question;
 }
 
-void TuningView::request(const haptics::HapticTuning& tuning, PanelRequests& out) {
-  out.tuning = tuning;
+void TuningView::request(const haptics::HapticTuning& tuning, PanelCommands& out) {
+  out.push_back(ChangeTuning{tuning});
   requested_[request_count_++ % requested_.size()] = tuning;
 }
 
-void TuningView::show(const haptics::HapticTuning& tuning, const PanelInput& input, PanelRequests& out) {
+void TuningView::show(const haptics::HapticTuning& tuning, const PanelInput& input, PanelCommands& out) {
   edited_ = tuning;
   same_drag_ = false;
   if (judged(input).admissible) request(tuning, out);
 }
 
-void TuningView::edit(const haptics::HapticTuning& tuning, const PanelInput& input, PanelRequests& out) {
+void TuningView::edit(const haptics::HapticTuning& tuning, const PanelInput& input, PanelCommands& out) {
   edited_ = tuning;
   if (!judged(input).admissible) return;
   history_.change(tuning, same_drag_);
@@ -82,7 +82,7 @@ void TuningView::edit(const haptics::HapticTuning& tuning, const PanelInput& inp
   request(tuning, out);
 }
 
-void TuningView::apply_step(Step step, const PanelInput& input, PanelRequests& out) {
+void TuningView::apply_step(Step step, const PanelInput& input, PanelCommands& out) {
   switch (step) {
     case Step::undo:
       if (!is_refused(input)) history_.undo();  // if the last edit was rejected, undo only discards that edit
@@ -100,7 +100,7 @@ void TuningView::apply_step(Step step, const PanelInput& input, PanelRequests& o
   show(history_.current(), input, out);
 }
 
-void TuningView::draw(Controls& controls, const PanelInput& input, PanelRequests& out) {
+void TuningView::draw(Controls& controls, const PanelInput& input, PanelCommands& out) {
   draw_steps(controls, input, out);
   // All ranges stay unchanged while a slider is dragged, and are updated when it is released.
   ranges_ = judge_.ranges(question(input, edited_), ImGui::IsAnyItemActive());
@@ -108,7 +108,7 @@ void TuningView::draw(Controls& controls, const PanelInput& input, PanelRequests
   draw_verdict(controls, input, out);
 }
 
-void TuningView::draw_steps(Controls& controls, const PanelInput& input, PanelRequests& out) {
+void TuningView::draw_steps(Controls& controls, const PanelInput& input, PanelCommands& out) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 4.0f * gap) / 5.0f;
   const auto slot_button = [&](TuningSlot slot, const char* name, const char* label) {
@@ -131,7 +131,7 @@ void TuningView::draw_steps(Controls& controls, const PanelInput& input, PanelRe
   step_button(Step::reset, "reset", "Reset", true);
 }
 
-void TuningView::draw_field(std::size_t index, Controls& controls, const PanelInput& input, PanelRequests& out) {
+void TuningView::draw_field(std::size_t index, Controls& controls, const PanelInput& input, PanelCommands& out) {
   const TuningField& field = kTuningFields[index];
   const StableRange stable = ranges_[index];
   const double running = value_of(running_, field);
@@ -160,7 +160,7 @@ void TuningView::draw_field(std::size_t index, Controls& controls, const PanelIn
 }
 
 // Draws the result of the check of the edited values, one or two sentences.
-void TuningView::draw_verdict(Controls& controls, const PanelInput& input, PanelRequests& out) {
+void TuningView::draw_verdict(Controls& controls, const PanelInput& input, PanelCommands& out) {
   ImGui::Separator();
   if (is_refused(input)) {
     draw_refusal(controls, input, out);
@@ -175,7 +175,7 @@ void TuningView::draw_verdict(Controls& controls, const PanelInput& input, Panel
   }
 }
 
-void TuningView::draw_refusal(Controls& controls, const PanelInput& input, PanelRequests& out) {
+void TuningView::draw_refusal(Controls& controls, const PanelInput& input, PanelCommands& out) {
   const TuningAnswer answered = judged(input);
   put_wrapped("Not applied. The previous values are still in use.", ink::kBad);
   if (!answered.refused.empty()) put_wrapped(answered.refused, ink::kWarn);

@@ -18,22 +18,22 @@ class TuningView {
   enum class Step { undo, redo, reset, switch_slot };
 
   void follow(const PanelInput& input);  // call first in each frame: the running values may have changed
-  void apply_step(Step step, const PanelInput& input, PanelRequests& out);
-  void draw(Controls& controls, const PanelInput& input, PanelRequests& out);
+  void apply_step(Step step, const PanelInput& input, PanelCommands& out);
+  void draw(Controls& controls, const PanelInput& input, PanelCommands& out);
 
  private:
   TuningQuestion question(const PanelInput& input, const haptics::HapticTuning& tuning) const;
   const TuningAnswer& judged(const PanelInput& input) { return judge_.judge(question(input, edited_)); }
   bool is_refused(const PanelInput& input) { return edited_ != running_ && !judged(input).admissible; }
-  void request(const haptics::HapticTuning& tuning, PanelRequests& out);
-  void show(const haptics::HapticTuning& tuning, const PanelInput& input, PanelRequests& out);
-  void edit(const haptics::HapticTuning& tuning, const PanelInput& input, PanelRequests& out);
+  void request(const haptics::HapticTuning& tuning, PanelCommands& out);
+  void show(const haptics::HapticTuning& tuning, const PanelInput& input, PanelCommands& out);
+  void edit(const haptics::HapticTuning& tuning, const PanelInput& input, PanelCommands& out);
   bool was_requested(const haptics::HapticTuning& tuning) const;
 
-  void draw_steps(Controls& controls, const PanelInput& input, PanelRequests& out);
-  void draw_field(std::size_t index, Controls& controls, const PanelInput& input, PanelRequests& out);
-  void draw_verdict(Controls& controls, const PanelInput& input, PanelRequests& out);
-  void draw_refusal(Controls& controls, const PanelInput& input, PanelRequests& out);
+  void draw_steps(Controls& controls, const PanelInput& input, PanelCommands& out);
+  void draw_field(std::size_t index, Controls& controls, const PanelInput& input, PanelCommands& out);
+  void draw_verdict(Controls& controls, const PanelInput& input, PanelCommands& out);
+  void draw_refusal(Controls& controls, const PanelInput& input, PanelCommands& out);
 
   TuningHistory history_;
   TuningJudge judge_;

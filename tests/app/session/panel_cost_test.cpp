@@ -147,12 +147,9 @@ struct PanelBench {
 
   // Replays a recording of the lever at rest, which is in no run of the history.
   Cost replay() {
-    PanelRequests record, replay;
-    record.record = replay.replay = true;
-    session.apply(record);
+    session.apply(ToggleRecording{});
     session.advance(0.5);
-    session.apply(record);
-    session.apply(replay);
+    session.apply(PanelCommands{ToggleRecording{}, ReplayLastRecording{}});
     REQUIRE(session.is_replaying());
     session.set_message("");  // the message names the file
     session.advance(1.0 / 60.0);

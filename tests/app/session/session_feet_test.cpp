@@ -85,9 +85,7 @@ TEST_CASE("a pedal keeps its position when the lever is replaced, and a pad's pe
   session.set_driver({}, {}, {.clutch = true});
   session.advance(0.5);
   CHECK(session.car().pedals.clutch == 1.0);
-  PanelRequests other;
-  other.car = "diesel";
-  session.apply(other);
+  session.apply(ChooseCar{"diesel"});
   session.advance(2.0 * kCycle);
   CHECK(session.car().pedals.clutch == 1.0);
   DriverControls pad;
@@ -130,9 +128,7 @@ TEST_CASE("on the real clock a keyboard clutch keeps its pace through a change o
     const Steady::time_point begin = Steady::now();
     session.advance(0.0);
     const double before = session.car().pedals.clutch;
-    PanelRequests other;
-    other.gate = gate;
-    session.apply(other);
+    session.apply(ChooseGate{gate});
     session.advance(0.0);
     went += before - session.car().pedals.clutch;
     passed += std::chrono::duration<double>(Steady::now() - begin).count();

@@ -37,25 +37,17 @@ struct ForcesRig {
   void go(double seconds) {
     for (double time = 0.0; time < seconds; time += 1.0 / 60.0) session.advance(1.0 / 60.0);
   }
-  void ask(bool PanelRequests::*request) {
-    PanelRequests requests;
-    requests.*request = true;
-    session.apply(requests);
-  }
-  // Requests change number `which` (0, 1, ...). Each of these changes needs a new runtime.
+  // Asks for change number `which` (0, 1, ...). Each of these changes needs a new runtime.
   void change(int which) {
-    PanelRequests requests;
-    if (which == 0) requests.gate = "four_speed";
-    if (which == 1) requests.preset = "measured";
-    if (which == 2) requests.hand = "arm";
-    if (which == 3) requests.restart = session.runtime().config().preset.haptics;
-    session.apply(requests);
+    if (which == 0) session.apply(ChooseGate{"four_speed"});
+    if (which == 1) session.apply(ChoosePreset{"measured"});
+    if (which == 2) session.apply(ChooseHand{"arm"});
+    if (which == 3) session.apply(Restart{session.runtime().config().preset.haptics});
   }
   // With a position margin of zero, pushing against the device's end stop causes a fault.
   void provoke_fault() {
-    PanelRequests restart;
-    restart.restart = session.runtime().config().preset.haptics;
-    restart.restart->guard.position_margin = 0.0;
+    Restart restart{session.runtime().config().preset.haptics};
+    restart.config.guard.position_margin = 0.0;
     session.apply(restart);
     go(2.0);
     HandTarget hand;
@@ -74,20 +66,20 @@ struct ForcesRig {
       case ForceCause::stick_lost:
         return;
       case ForceCause::user_arms:
-        return ask(&PanelRequests::arm);
+        return session.apply(Arm{});
       case ForceCause::user_disarms:
-        return ask(&PanelRequests::disarm);
+        return session.apply(Disarm{});
       case ForceCause::user_stops:
-        return ask(&PanelRequests::stop);
+        return session.apply(Stop{});
       case ForceCause::fault:
         provoke_fault();
         return change(2);
       case ForceCause::new_lever:
         return change(0);
       case ForceCause::recording:
-        ask(&PanelRequests::record);
+        session.apply(ToggleRecording{});
         go(0.5);
-        return ask(&PanelRequests::record);
+        return session.apply(ToggleRecording{});
     }
   }
   bool has_forces() {
@@ -107,7 +99,7 @@ TEST_CASE("each rule of arming and motors-off, on a simulated lever") {
       const bool is_possible = before || (rule.cause != ForceCause::start && rule.cause != ForceCause::fault);
       if (!is_possible) continue;  // a session starts once, and a lever without forces has no fault
       ForcesRig rig;
-      if (!before) rig.ask(&PanelRequests::disarm);
+      if (!before) rig.session.apply(Disarm{});
       rig.go(1.0);
       rig.cause(rule.cause);
       rig.go(2.0);
@@ -117,20 +109,20 @@ TEST_CASE("each rule of arming and motors-off, on a simulated lever") {
 }
 
 TEST_CASE("after STOP or Forces off, no gate, preset, hand or restart restores the forces; only arming does") {
-  for (const auto request : {&PanelRequests::stop, &PanelRequests::disarm}) {
+  for (const PanelCommand& command : PanelCommands{Stop{}, Disarm{}}) {
     for (int which = 0; which < 4; ++which) {
       CAPTURE(which);
       ForcesRig rig;
       REQUIRE(rig.has_forces());
-      rig.ask(request);
-      if (which % 2 == 0) rig.go(0.5);  // for odd `which`, the change comes in the same frame as the request
+      rig.session.apply(command);
+      if (which % 2 == 0) rig.go(0.5);  // for odd `which`, the change comes in the same frame as the command
       rig.change(which);
       rig.go(2.0);
       CHECK_FALSE(rig.has_forces());
       rig.change((which + 1) % 4);
       rig.go(2.0);
       CHECK_FALSE(rig.has_forces());
-      rig.ask(&PanelRequests::arm);
+      rig.session.apply(Arm{});
       rig.go(2.0);
       CHECK(rig.has_forces());
     }
@@ -156,7 +148,7 @@ TEST_CASE("event times are relative to the session's start, across every change 
     double last = 0.0;
     for (int i = 0; i < 60; ++i) {
       if (i % 20 == 10) rig.change(i == 30 ? 1 : 0);
-      if (i % 20 == 15) rig.ask(i % 40 == 15 ? &PanelRequests::stop : &PanelRequests::arm);
+      if (i % 20 == 15) rig.session.apply(i % 40 == 15 ? PanelCommand(Stop{}) : PanelCommand(Arm{}));
       if (clock == RuntimeClock::real_time) std::this_thread::sleep_for(std::chrono::milliseconds(5));
       const double before = rig.session.time();
       rig.session.advance(1.0 / 60.0);
@@ -184,16 +176,14 @@ TEST_CASE("forces removed by a fault are not restored by two changes or the star
     rig.go(1.0);
     CHECK_FALSE(rig.has_forces());
     if (lesson) {
-      PanelRequests begin;
-      begin.lesson.begin = true;
-      rig.session.apply(begin);
+      rig.session.apply(BeginLesson{});
       CHECK(rig.session.coach().view().phase == LessonPhase::driving);
     } else {
       rig.change(1);
     }
     rig.go(1.0);
     CHECK_FALSE(rig.has_forces());
-    rig.ask(&PanelRequests::arm);
+    rig.session.apply(Arm{});
     rig.go(2.0);
     CHECK(rig.has_forces());
   }

@@ -1,5 +1,4 @@
 // Tests how a lesson can end early, the message for each case, and who controls the car afterwards.
-#include <functional>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -38,16 +37,11 @@ struct LeftRig {
     choice.sound = SoundOutput::none;
     return choice;
   }
-  void ask(const std::function<void(PanelRequests&)>& request) {
-    PanelRequests requests;
-    request(requests);
-    session.apply(requests);
-  }
   void go(double seconds) {
     for (double time = 0.0; time < seconds; time += kLeftFrame) session.advance(kLeftFrame);
   }
   void begin() {
-    ask([](PanelRequests& requests) { requests.lesson.begin = true; });
+    session.apply(BeginLesson{});
     go(0.2);
     REQUIRE(session.coach().view().phase == LessonPhase::driving);
   }
@@ -67,53 +61,50 @@ struct LeftRig {
 TEST_CASE("every way to end a lesson early is reported with its reason") {
   struct Case {
     const char* why;
-    std::function<void(PanelRequests&)> request;
+    PanelCommand command;
   };
-  const Case cases[] = {{"the learner changed", [](PanelRequests& r) { r.lesson.learner = "Bo"; }},
-                        {"the learner changed", [](PanelRequests& r) { r.lesson.learner = ""; }},
-                        {"the car changed", [](PanelRequests& r) { r.car = "diesel"; }},
-                        {"the gate changed", [](PanelRequests& r) { r.gate = "four_speed"; }},
-                        {"the hand changed", [](PanelRequests& r) { r.hand = std::string(kAutomaticHand); }},
-                        {"the preset changed", [](PanelRequests& r) { r.preset = "measured"; }},
-                        {"the settings changed", [](PanelRequests& r) { r.restart = HapticConfig(); }}};
+  const Case cases[] = {{"the learner changed", ChooseLearner{"Bo"}},
+                        {"the learner changed", ChooseLearner{""}},
+                        {"the car changed", ChooseCar{"diesel"}},
+                        {"the gate changed", ChooseGate{"four_speed"}},
+                        {"the hand changed", ChooseHand{std::string(kAutomaticHand)}},
+                        {"the preset changed", ChoosePreset{"measured"}},
+                        {"the settings changed", Restart{HapticConfig()}}};
   for (const Case& one : cases) {
     CAPTURE(one.why);
     LeftRig rig;
     rig.begin();
-    rig.ask(one.request);
+    rig.session.apply(one.command);
     CHECK(rig.session.coach().view().phase != LessonPhase::driving);
     CAPTURE(rig.session.message());
     CHECK(rig.says("ended early"));
     CHECK(rig.says(one.why));
-    rig.ask(one.request);  // no lesson is running now, so none can end early
+    rig.session.apply(one.command);  // no lesson is running now, so none can end early
     CHECK_FALSE(rig.says("ended early"));
   }
 }
 
 TEST_CASE("after a lesson the instructor holds the car, and the panel shows it, until a new choice returns it") {
-  for (const auto& choose :
-       {std::function<void(PanelRequests&)>([](PanelRequests& r) { r.car = "diesel"; }),
-        std::function<void(PanelRequests&)>([](PanelRequests& r) { r.gate = "four_speed"; }),
-        std::function<void(PanelRequests&)>([](PanelRequests& r) { r.hand = "light"; }),
-        std::function<void(PanelRequests&)>([](PanelRequests& r) { r.lesson.dismiss_lesson = true; })}) {
+  for (const PanelCommand& choose :
+       PanelCommands{ChooseCar{"diesel"}, ChooseGate{"four_speed"}, ChooseHand{"light"}, DismissLesson{}}) {
     LeftRig rig;
     CHECK_FALSE(rig.session.panel_input().instructor_holds_pedals);
     rig.begin();
     CHECK_FALSE(rig.session.panel_input().instructor_holds_pedals);
-    rig.ask([](PanelRequests& requests) { requests.lesson.leave = true; });
+    rig.session.apply(LeaveLesson{});
     CHECK_FALSE(rig.has_car());
     CHECK(rig.session.panel_input().instructor_holds_pedals);
     // Offering a lesson does not return the car to the learner; only choosing a lesson does.
-    rig.ask([](PanelRequests& requests) { requests.lesson.offer = "hill_start"; });
+    rig.session.apply(OfferLesson{"hill_start"});
     CHECK_FALSE(rig.has_car());
     CHECK(rig.session.panel_input().instructor_holds_pedals);
-    rig.ask(choose);
+    rig.session.apply(choose);
     CHECK(rig.has_car());
     CHECK_FALSE(rig.session.panel_input().instructor_holds_pedals);
   }
   LeftRig rig;
   rig.begin();
-  rig.ask([](PanelRequests& requests) { requests.lesson.leave = true; });
+  rig.session.apply(LeaveLesson{});
   rig.begin();
   CHECK(rig.has_car());
 }
@@ -122,14 +113,14 @@ TEST_CASE("the errors that fail a lesson are listed with its goal; without a les
   LeftRig rig;
   CHECK(rig.session.coach().view().fail_conditions == failing_errors_sentence(*rig.session.coach().lesson()));
   CHECK_FALSE(rig.session.coach().view().fail_conditions.empty());
-  rig.ask([](PanelRequests& requests) { requests.lesson.dismiss_lesson = true; });
+  rig.session.apply(DismissLesson{});
   CHECK(rig.session.coach().view().fail_conditions.empty());
 }
 
 TEST_CASE("a car chosen during a lesson is controlled by the learner") {
   LeftRig rig;
   rig.begin();
-  rig.ask([](PanelRequests& requests) { requests.car = "diesel"; });
+  rig.session.apply(ChooseCar{"diesel"});
   CHECK(rig.has_car());
 }
 
@@ -137,15 +128,15 @@ TEST_CASE("a rejected name selects nobody and is reported once; a valid one remo
   for (const std::string& hand : {std::string("grip"), std::string(kAutomaticHand)}) {
     CAPTURE(hand);
     LeftRig rig(hand);
-    rig.ask([](PanelRequests& requests) { requests.lesson.learner = "a\tb"; });
+    rig.session.apply(ChooseLearner{"a\tb"});
     CHECK(rig.says("learner's name"));
-    rig.ask([](PanelRequests& requests) { requests.car = "diesel"; });
+    rig.session.apply(ChooseCar{"diesel"});
     CHECK_FALSE(rig.says("learner's name"));
     CHECK(rig.session.coach().view().learner == (hand == kAutomaticHand ? "" : "Ada"));
-    rig.ask([](PanelRequests& requests) { requests.lesson.learner = "a\tb"; });
-    rig.ask([](PanelRequests& requests) { requests.lesson.learner = "Bo"; });
+    rig.session.apply(ChooseLearner{"a\tb"});
+    rig.session.apply(ChooseLearner{"Bo"});
     CHECK_FALSE(rig.says("learner's name"));
-    rig.ask([](PanelRequests& requests) { requests.hand = "light"; });
+    rig.session.apply(ChooseHand{"light"});
     CHECK(rig.session.coach().view().learner == "Bo");
   }
 }
@@ -172,7 +163,7 @@ TEST_CASE("the panel shows that a trial can no longer be passed, from the failin
   REQUIRE(rig.session.coach().view().phase == LessonPhase::driving);
   REQUIRE(rig.session.car().stalled);
   CHECK(rig.session.panel_input().is_unpassable);
-  rig.ask([](PanelRequests& requests) { requests.lesson.leave = true; });
+  rig.session.apply(LeaveLesson{});
   CHECK_FALSE(rig.session.panel_input().is_unpassable);
   rig.begin();
   CHECK_FALSE(rig.session.panel_input().is_unpassable);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <string>
 
@@ -54,12 +53,6 @@ struct LessonRig {
   }
 };
 
-void ask(Session& session, const std::function<void(LessonRequests&)>& request) {
-  PanelRequests requests;
-  request(requests.lesson);
-  session.apply(requests);
-}
-
 void go(Session& session, double seconds) {
   for (double time = 0.0; time < seconds; time += kLessonFrame) {
     session.advance(kLessonFrame);
@@ -70,8 +63,7 @@ void go(Session& session, double seconds) {
 // Drives the lesson to its end as a competent user would. Uses the hand and pedal inputs, with one frame per
 // millisecond.
 const CoachView& drive_as_person(Session& session) {
-  if (session.coach().view().phase == LessonPhase::offered)
-    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  if (session.coach().view().phase == LessonPhase::offered) session.apply(BeginLesson{});
   AutoDriverConfig config;
   config.lesson = *session.coach().lesson();
   config.car = *session.car_spec();
@@ -127,16 +119,16 @@ TEST_CASE("a lesson begins with the gear, speed, engine and handbrake in its fil
   Session session(rig.choice("emergency_stop", "grip"));
   CHECK(session.coach().view().phase == LessonPhase::offered);
   CHECK(session.car().road_speed == 0.0);
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   go(session, 0.1);
   CHECK(session.coach().view().phase == LessonPhase::driving);
   CHECK(session.shown().gear == 3);
   CHECK(session.car().road_speed == doctest::Approx(40.0 / 3.6).epsilon(0.02));
-  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  session.apply(LeaveLesson{});
   CHECK(session.coach().view().result->end == LessonEnd::left);
-  ask(session, [](LessonRequests& lesson) { lesson.offer = "start_and_stop"; });
+  session.apply(OfferLesson{"start_and_stop"});
   (void)session.take_switches();
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   const std::optional<CarSwitches> switches = session.take_switches();
   REQUIRE(switches);
   CHECK_FALSE(switches->ignition);
@@ -149,16 +141,12 @@ TEST_CASE("a lesson begins with the gear, speed, engine and handbrake in its fil
 TEST_CASE("during a lesson, a change of gate ends the lesson, and a replay is refused") {
   LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   go(session, 1.0);
-  PanelRequests look;
-  look.playback.open = ReplayRequests::Shift{"nowhere.trace", 0.0};
-  session.apply(look);
+  session.apply(OpenShift{"nowhere.trace", 0.0});
   CHECK(session.message().find("Leave the lesson first") != std::string::npos);
   CHECK(session.coach().view().phase == LessonPhase::driving);
-  PanelRequests gate;
-  gate.gate = "four_speed";
-  session.apply(gate);
+  session.apply(ChooseGate{"four_speed"});
   CHECK(session.coach().view().phase == LessonPhase::over);
   CHECK(session.coach().view().result->end == LessonEnd::left);
   CHECK_FALSE(session.recording());
@@ -171,10 +159,7 @@ TEST_CASE("any shift in the history can be replayed in the cabin as it was recor
   REQUIRE(coach.result->shifts.size() >= 3);
   const RunRow run = coach.runs.front();
   const ShiftRecord& wanted = coach.result->shifts[1];
-  PanelRequests look;
-  look.playback.open = ReplayRequests::Shift{run.recording, wanted.begin};
-  look.playback.play = false;
-  session.apply(look);
+  session.apply(PanelCommands{OpenShift{run.recording, wanted.begin}, PlayReplay{false}});
   const Player* player = session.panel_input().replay;
   REQUIRE(player);
   REQUIRE(player->shift());
@@ -185,9 +170,7 @@ TEST_CASE("any shift in the history can be replayed in the cabin as it was recor
   const Trace trace = read_trace(run.recording);
   for (const double part : {0.1, 0.5, 0.9}) {
     const double time = wanted.begin + part * (wanted.end - wanted.begin);
-    PanelRequests seek;
-    seek.playback.seek = time;
-    session.apply(seek);
+    session.apply(SeekReplay{time});
     go(session, kLessonFrame);
     const auto then = std::find_if(trace.samples.begin(), trace.samples.end(), [time](const TraceSample& sample) {
       return 1e-9 * static_cast<double>(sample.out.time_ns) > time - 4.1e-3;
@@ -205,31 +188,27 @@ TEST_CASE(
   LessonRig rig;
   Session session(rig.choice(std::string(kNoLesson), "grip"));
   CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
-  const auto ask_for = [&session](std::optional<std::string> PanelRequests::*request, const std::string& name) {
-    PanelRequests requests;
-    requests.*request = name;
-    session.apply(requests);
+  const auto ask_for = [&session](const PanelCommand& command) {
+    session.apply(command);
     go(session, 0.05);
     return session.panel_input();
   };
-  CHECK(ask_for(&PanelRequests::gate, "six_speed_r_left_up").car_name == "diesel");
-  CHECK(ask_for(&PanelRequests::car, "hatchback").gate_name == "five_speed_r_right_down");
+  CHECK(ask_for(ChooseGate{"six_speed_r_left_up"}).car_name == "diesel");
+  CHECK(ask_for(ChooseCar{"hatchback"}).gate_name == "five_speed_r_right_down");
   CHECK(session.car().engine_speed > 60.0);
-  CHECK(ask_for(&PanelRequests::car, "none").gate_name == "five_speed_r_right_down");
+  CHECK(ask_for(ChooseCar{"none"}).gate_name == "five_speed_r_right_down");
   CHECK(session.car().engine_speed == 0.0);
 }
 
 TEST_CASE("a lesson's own gate is used only in that lesson: the next one uses the user's gate") {
   LessonRig rig;
   Session session(rig.choice("another_gate", "grip"));
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   CHECK(session.panel_input().gate_name == "dog_leg_five");
-  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
-  PanelRequests tune;
-  tune.tuning = HapticTuning{.wall_stiffness = 4321.0};
-  session.apply(tune);
-  ask(session, [](LessonRequests& lesson) { lesson.offer = "moving_off"; });
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(LeaveLesson{});
+  session.apply(ChangeTuning{HapticTuning{.wall_stiffness = 4321.0}});
+  session.apply(OfferLesson{"moving_off"});
+  session.apply(BeginLesson{});
   CHECK(session.runtime().config().preset.haptics.tuning.wall_stiffness == 4321.0);  // [N/m] the user's tuning is kept
   CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
 }
@@ -240,13 +219,11 @@ TEST_CASE("the user can neither stop a lesson's recording nor start one during t
   for (const char* learner : {"Ada", ""}) {
     choice.learner = learner;
     Session session(choice);
-    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+    session.apply(BeginLesson{});
     go(session, 0.2);
     const bool recording = session.recording();
     CHECK(recording == (choice.learner == "Ada"));
-    PanelRequests record;
-    record.record = true;
-    session.apply(record);
+    session.apply(ToggleRecording{});
     go(session, 0.2);
     CHECK(session.recording() == recording);
     CHECK(session.message().find("recorded automatically") != std::string::npos);
@@ -258,12 +235,10 @@ TEST_CASE("automatic driving is not saved for the learner; after the user takes 
   LessonRig rig;
   Session session(rig.choice("moving_off"));
   CHECK(drive_to_the_end(session).result->passed);
-  PanelRequests person;
-  person.hand = "grip";
-  session.apply(person);
+  session.apply(ChooseHand{"grip"});
   CHECK(session.coach().view().learner == "Ada");
   CHECK(History(rig.history).learners().empty());
-  ask(session, [](LessonRequests& lesson) { lesson.offer = "moving_off"; });
+  session.apply(OfferLesson{"moving_off"});
   (void)drive_as_person(session);
   CHECK(History(rig.history).runs(History(rig.history).find_learner("Ada").value().id).size() == 1);
 }
@@ -304,7 +279,7 @@ TEST_CASE("in a guided trial the lever guides and no grade is given; without hel
   SessionChoice unguided = rig.choice("up_through_the_gears", "grip");
   for (int trial = 0; trial < 6; ++trial) {
     Session session(unguided);
-    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+    session.apply(BeginLesson{});
     CHECK(session.coach().guidance() == 0.0);
     unguided.learner += "a";
   }
@@ -332,11 +307,9 @@ TEST_CASE("in a guided trial the lever guides and no grade is given; without hel
 TEST_CASE("a replay requested during a lesson neither ends its recording nor shows anything") {
   LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   go(session, 0.3);
-  PanelRequests replay;
-  replay.replay = true;
-  session.apply(replay);
+  session.apply(ReplayLastRecording{});
   CHECK(session.message().find("Leave the lesson first") != std::string::npos);
   CHECK(session.recording());
   CHECK(session.panel_input().replay == nullptr);
@@ -347,11 +320,11 @@ TEST_CASE("dismissing a lesson removes its slope, and recordings are stored next
   rig.history = rig.folder / "elsewhere" / "history.db";
   fs::create_directories(rig.history.parent_path());
   Session session(rig.choice("hill_start", "grip"));
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   go(session, 0.3);
   CHECK(session.car().slope > 0.09);
-  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
-  ask(session, [](LessonRequests& lesson) { lesson.dismiss_lesson = true; });
+  session.apply(LeaveLesson{});
+  session.apply(DismissLesson{});
   go(session, 0.3);
   CHECK(session.car().slope == 0.0);
   CHECK(fs::exists(rig.folder / "elsewhere/recordings"));
@@ -362,7 +335,7 @@ TEST_CASE(
     "after a lesson the instructor holds the car, also on a slope, until the next lesson begins or is dismissed") {
   LessonRig rig;
   Session session(rig.choice("hill_start", "grip"));
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   DriverControls rolls;
   rolls.ignition = true;
   rolls.pedals.clutch = 1.0;
@@ -373,7 +346,7 @@ TEST_CASE(
   go(session, 2.0);
   CHECK(session.car().road_speed == 0.0);
   CHECK(session.car().running);
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   session.set_driver({}, rolls);
   go(session, 1.0);
   CHECK(session.car().road_speed < -0.1);
@@ -383,14 +356,14 @@ TEST_CASE(
     "if another program deletes the learner during her lesson, a message appears and her recordings are deleted") {
   LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
-  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.apply(BeginLesson{});
   go(session, 0.5);
   REQUIRE(std::distance(fs::directory_iterator(rig.folder / "recordings"), fs::directory_iterator()) == 1);
   {
     History other(rig.history);
     CHECK(other.erase_learner(other.find_learner("Ada").value().id, [](const auto&) {}).empty());
   }
-  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  session.apply(LeaveLesson{});
   go(session, 0.5);
   CHECK(session.panel_input().message.find("Another program deleted Ada") != std::string::npos);
   CHECK(session.panel_input().coach.learner_deleted);
@@ -399,17 +372,17 @@ TEST_CASE(
   CHECK(History(rig.history).learners().empty());
 }
 
-TEST_CASE("an instructor's comment is edited and deleted through the panel's requests") {
+TEST_CASE("an instructor's comment is edited and deleted through the panel's commands") {
   LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
   (void)drive_as_person(session);
   const std::int64_t run = session.coach().view().run;
-  ask(session, [run](LessonRequests& lesson) { lesson.comment = {run, "Ms Torque", "Slower."}; });
+  session.apply(AddComment{run, "Ms Torque", "Slower."});
   const auto comments = [&] { return History(rig.history).comments(run); };
   REQUIRE(comments().size() == 1);
   const std::int64_t comment = comments()[0].id;
-  ask(session, [=](LessonRequests& lesson) { lesson.comment_change = {run, comment, "Slower at the bite point."}; });
+  session.apply(EditComment{run, comment, "Slower at the bite point."});
   CHECK(comments().at(0).text == "Slower at the bite point.");
-  ask(session, [=](LessonRequests& lesson) { lesson.comment_change = {run, comment, std::nullopt}; });
+  session.apply(DeleteComment{run, comment});
   CHECK(comments().empty());
 }

@@ -43,18 +43,6 @@ struct OpeningRig {
   }
 };
 
-void ask(Session& session, const ReplayRequests& look) {
-  PanelRequests requests;
-  requests.playback = look;
-  session.apply(requests);
-}
-
-ReplayRequests open(const fs::path& file) {
-  ReplayRequests playback;
-  playback.open = ReplayRequests::Shift{file.string(), 0.0};
-  return playback;
-}
-
 // Runs frames until loading has ended, and returns the number of frames.
 int wait(Session& session) {
   int frames = 0;
@@ -72,7 +60,7 @@ TEST_CASE("a long recording is loaded while frames continue, with a message") {
   const fs::path file = rig.recorded(60.0);
   Session session = rig.session(RuntimeClock::real_time);
   const auto begin = std::chrono::steady_clock::now();
-  ask(session, open(file));
+  session.apply(OpenShift{file.string(), 0.0});
   const double asked = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   CHECK(session.panel_input().opening == "long.trace");
   CHECK_FALSE(session.is_replaying());
@@ -87,16 +75,12 @@ TEST_CASE("loading can be cancelled, and a change of gate cancels it too") {
   const OpeningRig rig;
   const fs::path file = rig.recorded(60.0);
   Session session = rig.session(RuntimeClock::real_time);
-  ask(session, open(file));
-  ReplayRequests close;
-  close.close = true;
-  ask(session, close);
+  session.apply(OpenShift{file.string(), 0.0});
+  session.apply(CloseReplay{});
   CHECK(session.panel_input().opening.empty());
   CHECK(session.message().empty());
-  ask(session, open(file));
-  PanelRequests other;
-  other.gate = "dog_leg_five";
-  session.apply(other);
+  session.apply(OpenShift{file.string(), 0.0});
+  session.apply(ChooseGate{"dog_leg_five"});
   CHECK(session.panel_input().opening.empty());
   session.advance(0.01);
   CHECK_FALSE(session.is_replaying());
@@ -105,7 +89,7 @@ TEST_CASE("loading can be cancelled, and a change of gate cancels it too") {
 TEST_CASE("a file that is no recording is reported in one sentence after it was read") {
   const OpeningRig rig;
   Session session = rig.session(RuntimeClock::real_time);
-  ask(session, open("nowhere.trace"));
+  session.apply(OpenShift{"nowhere.trace", 0.0});
   wait(session);
   CHECK_FALSE(session.is_replaying());
   CHECK(session.message().find("nowhere.trace") != std::string::npos);

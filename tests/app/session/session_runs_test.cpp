@@ -1,6 +1,5 @@
 // Tests which changes the session reports to the panel as a new run. Uses the virtual clock.
 #include <cstdint>
-#include <functional>
 
 #include <doctest/doctest.h>
 
@@ -23,24 +22,22 @@ TEST_CASE("a new lever and the start or end of a replay are new runs for the pan
   choice.clock = RuntimeClock::virtual_time;
   choice.sound = SoundOutput::none;
   Session session(choice);
-  const auto changes = [&](const std::function<void(PanelRequests&)>& request, int frames = 30) {
-    PanelRequests requests;
-    request(requests);
+  const auto changes = [&](const PanelCommands& commands, int frames = 30) {
     const std::uint64_t before = session.panel_input().run;
-    session.apply(requests);
+    session.apply(commands);
     for (int i = 0; i < frames; ++i) session.advance(1.0 / 60.0);
     return session.panel_input().run != before;
   };
-  CHECK_FALSE(changes([](PanelRequests&) {}));
-  CHECK_FALSE(changes([](PanelRequests& r) { r.tuning = HapticTuning{.wall_stiffness = 4000.0}; }));
-  CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
-  CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
-  CHECK(changes([](PanelRequests& r) { r.replay = true; }, 1));
-  CHECK_FALSE(changes([](PanelRequests&) {}, 60));  // the replay reaches its end after 0.5 s, i.e. 30 frames
-  CHECK(changes([](PanelRequests& r) { r.playback.seek = 0.0; }, 1));
-  CHECK(changes([](PanelRequests& r) { r.playback.close = true; }));
-  CHECK(changes([](PanelRequests& r) { r.gate = "four_speed"; }));
-  CHECK(changes([](PanelRequests& r) { r.preset = "measured"; }));
-  CHECK(changes([](PanelRequests& r) { r.hand = "grip"; }));
-  CHECK_FALSE(changes([](PanelRequests& r) { r.gate = "no_such_gate"; }));
+  CHECK_FALSE(changes({}));
+  CHECK_FALSE(changes({ChangeTuning{HapticTuning{.wall_stiffness = 4000.0}}}));
+  CHECK_FALSE(changes({ToggleRecording{}}));
+  CHECK_FALSE(changes({ToggleRecording{}}));
+  CHECK(changes({ReplayLastRecording{}}, 1));
+  CHECK_FALSE(changes({}, 60));  // the replay reaches its end after 0.5 s, i.e. 30 frames
+  CHECK(changes({SeekReplay{0.0}}, 1));
+  CHECK(changes({CloseReplay{}}));
+  CHECK(changes({ChooseGate{"four_speed"}}));
+  CHECK(changes({ChoosePreset{"measured"}}));
+  CHECK(changes({ChooseHand{"grip"}}));
+  CHECK_FALSE(changes({ChooseGate{"no_such_gate"}}));
 }

@@ -64,14 +64,7 @@ struct HeldRig {
     for (int i = 0; i < 2000 && !condition(); ++i) frame();
     return condition();
   }
-  void ask(const std::function<void(PanelRequests&)>& request) {
-    PanelRequests requests;
-    request(requests);
-    session->apply(requests);
-  }
-  void arm() {
-    ask([](PanelRequests& requests) { requests.arm = true; });
-  }
+  void arm() { session->apply(Arm{}); }
   GuardState guard() { return session->runtime().snapshot().guard; }
   // Runs frames until the guard's state is `running`. If the guard trips, as may happen on a busy machine, arms the
   // lever again.
@@ -107,14 +100,11 @@ struct HeldRig {
 // case of its own, because a stick's new lever is without forces whatever happened before.
 TEST_CASE("each rule of arming and motors-off, on a stick") {
   const auto cause = [](HeldRig& rig, ForceCause what) {
-    const auto ask = [&](bool PanelRequests::*request) {
-      rig.ask([request](PanelRequests& requests) { requests.*request = true; });
-    };
     if (what == ForceCause::user_arms) rig.arm();
-    if (what == ForceCause::user_disarms) ask(&PanelRequests::disarm);
-    if (what == ForceCause::user_stops) ask(&PanelRequests::stop);
-    if (what == ForceCause::new_lever) rig.ask([](PanelRequests& requests) { requests.gate = "four_speed"; });
-    if (what == ForceCause::recording) ask(&PanelRequests::record);
+    if (what == ForceCause::user_disarms) rig.session->apply(Disarm{});
+    if (what == ForceCause::user_stops) rig.session->apply(Stop{});
+    if (what == ForceCause::new_lever) rig.session->apply(ChooseGate{"four_speed"});
+    if (what == ForceCause::recording) rig.session->apply(ToggleRecording{});
     if (what == ForceCause::stick_lost) {
       rig.held.unplug();
       REQUIRE(rig.becomes_true([&] { return !rig.session->panel_input().stick->plugged_in; }));
@@ -144,13 +134,10 @@ TEST_CASE("only Enter arms the stick: not the start, nor a change of gate, car, 
   CHECK(rig.session->panel_input().device_name == "SideWinder");
   rig.arm();
   CHECK(rig.runs());
-  const std::function<void(PanelRequests&)> changes[] = {
-      [](PanelRequests& requests) { requests.gate = "four_speed"; },
-      [](PanelRequests& requests) { requests.car = "diesel"; },
-      [](PanelRequests& requests) { requests.preset = "measured"; },
-      [](PanelRequests& requests) { requests.restart = HapticConfig(); }};
-  for (const auto& change : changes) {
-    rig.ask(change);
+  const PanelCommand changes[] = {ChooseGate{"four_speed"}, ChooseCar{"diesel"}, ChoosePreset{"measured"},
+                                  Restart{HapticConfig()}};
+  for (const PanelCommand& change : changes) {
+    rig.session->apply(change);
     CHECK(rig.stays_off(30));
     rig.arm();
     CHECK(rig.runs());
@@ -181,12 +168,12 @@ TEST_CASE("a rejected change leaves lever, forces and gate unchanged") {
   const Runtime* before = &rig.session->runtime();
   HapticConfig study = before->config().preset.haptics;
   study.contact.allow_unstable = true;
-  rig.ask([&](PanelRequests& requests) { requests.restart = study; });
+  rig.session->apply(Restart{study});
   CHECK(rig.says("simulated"));
-  rig.ask([](PanelRequests& requests) { requests.hand = std::string(kAutomaticHand); });
+  rig.session->apply(ChooseHand{std::string(kAutomaticHand)});
   CHECK(rig.says("works only with the simulated lever"));
   const fs::path gate = rig.wide_gate();
-  rig.ask([&](PanelRequests& requests) { requests.gate = gate.string(); });
+  rig.session->apply(ChooseGate{gate.string()});
   CHECK(rig.says("outside the workspace"));
   CHECK(&rig.session->runtime() == before);
   CHECK(rig.guard() == GuardState::running);
@@ -195,8 +182,8 @@ TEST_CASE("a rejected change leaves lever, forces and gate unchanged") {
 TEST_CASE(
     "unplugged in a recorded lesson: forces off, the lesson continues, and the user arms it again when it is back") {
   HeldRig rig("moving_off");
-  // One button on the lesson card makes both requests.
-  rig.ask([](PanelRequests& requests) { requests.arm = requests.lesson.begin = true; });
+  // One button on the lesson card asks for both.
+  rig.session->apply(PanelCommands{Arm{}, BeginLesson{}});
   REQUIRE(rig.session->coach().view().phase == LessonPhase::driving);
   CHECK(rig.session->recording());
   CHECK(rig.runs());
@@ -211,7 +198,7 @@ TEST_CASE(
   CHECK(rig.stays_off());
   rig.arm();
   CHECK(rig.runs());
-  rig.ask([](PanelRequests& requests) { requests.lesson.leave = true; });
+  rig.session->apply(LeaveLesson{});
   CHECK(rig.session->save_and_stop().empty());
   rig.session.reset();
   History history(rig.folder / "history.db");
@@ -224,7 +211,7 @@ TEST_CASE(
 
 TEST_CASE("a session that ends while the stick is unplugged still saves its lesson") {
   HeldRig rig("moving_off");
-  rig.ask([](PanelRequests& requests) { requests.arm = requests.lesson.begin = true; });
+  rig.session->apply(PanelCommands{Arm{}, BeginLesson{}});
   REQUIRE(rig.runs());
   rig.held.unplug();
   rig.frame();
@@ -238,7 +225,7 @@ TEST_CASE("a session that ends while the stick is unplugged still saves its less
 
 TEST_CASE("a lesson that starts in a gear begins only when the stick is in that gear") {
   HeldRig rig("eco_driving");  // this lesson starts in first gear
-  rig.ask([](PanelRequests& requests) { requests.lesson.begin = true; });
+  rig.session->apply(BeginLesson{});
   CHECK(rig.says("starts in first, but the stick is in neutral"));
   CHECK(rig.session->coach().view().phase == LessonPhase::offered);
   DriverControls feet;
@@ -250,6 +237,6 @@ TEST_CASE("a lesson that starts in a gear begins only when the stick is in that 
   CHECK(rig.becomes_true([&] { return std::abs(rig.session->shown().lever.x - first.x) < 0.003; }));
   rig.held.hand.go(first);
   CHECK(rig.becomes_true([&] { return rig.session->shown().gear == 1; }));
-  rig.ask([](PanelRequests& requests) { requests.lesson.begin = true; });
+  rig.session->apply(BeginLesson{});
   CHECK(rig.session->coach().view().phase == LessonPhase::driving);
 }

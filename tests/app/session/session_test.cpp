@@ -1,4 +1,4 @@
-// The user's requests at the panel. Tested on the virtual clock, without window, GPU or sound card.
+// The user's commands at the panel. Tested on the virtual clock, without window, GPU or sound card.
 #include "app/session/session.h"
 
 #include <algorithm>
@@ -51,16 +51,6 @@ struct Rig {
   void go(double seconds) {
     for (double time = 0.0; time < seconds; time += 1.0 / 60.0) session.advance(1.0 / 60.0);
   }
-  void ask(std::optional<std::string> PanelRequests::*request, const std::string& name) {
-    PanelRequests requests;
-    requests.*request = name;
-    session.apply(requests);
-  }
-  void ask(bool PanelRequests::*request) {
-    PanelRequests requests;
-    requests.*request = true;
-    session.apply(requests);
-  }
   bool says(const std::string& words) const { return session.message().find(words) != std::string::npos; }
   HapticTuning tuning() { return session.runtime().config().preset.haptics.tuning; }
 
@@ -87,27 +77,51 @@ bool has_node(const Session& session, const std::string& name) {
 
 TEST_CASE("a change of gate or hand keeps the tuning; a chosen preset brings its own") {
   Rig rig;
-  PanelRequests requests;
-  requests.tuning = softer(rig.tuning());
-  rig.session.apply(requests);
-  rig.ask(&PanelRequests::gate, "four_speed");
+  rig.session.apply(ChangeTuning{softer(rig.tuning())});
+  rig.session.apply(ChooseGate{"four_speed"});
   CHECK(rig.tuning().wall_stiffness == 4321.0);
-  rig.ask(&PanelRequests::hand, "grip");
+  rig.session.apply(ChooseHand{"grip"});
   CHECK(rig.tuning().wall_stiffness == 4321.0);
-  rig.ask(&PanelRequests::preset, "measured");
+  rig.session.apply(ChoosePreset{"measured"});
   CHECK(rig.tuning() == read_preset(GEARSHIFT_ASSETS "/presets/measured.toml").haptics.tuning);
+}
+
+TEST_CASE("commands are executed in their order, and a rejected one is reported without stopping the others") {
+  Rig rig;
+  rig.session.apply(PanelCommands{ChooseGate{"four_speed"}, ChooseHand{"grip"}, ChooseGate{"no_such_gate"},
+                                  SavePreset{"a/b"}, ChooseGate{"dog_leg_five"}, ChangeTuning{softer(rig.tuning())}});
+  CHECK(rig.session.panel_input().gate_name == "dog_leg_five");
+  CHECK(rig.session.panel_input().hand_name == "grip");
+  CHECK(rig.tuning().wall_stiffness == 4321.0);
+  CHECK(rig.says("no_such_gate"));
+  CHECK(rig.says("is not a valid preset name"));
+  rig.session.apply(ChooseGate{"paper"});
+  CHECK(rig.session.message().empty());
+}
+
+TEST_CASE("STOP comes before the other commands, whatever becomes of them") {
+  Rig rig;
+  rig.go(2.0);
+  REQUIRE(rig.session.runtime().snapshot().guard == GuardState::running);
+  rig.session.apply(PanelCommands{ChooseGate{"no_such_gate"}, ChooseGate{"four_speed"}, Stop{}});
+  rig.go(2.0);
+  CHECK(rig.session.panel_input().gate_name == "four_speed");
+  CHECK(rig.session.runtime().snapshot().guard == GuardState::idle);  // the new lever's forces were never on
+  rig.session.apply(PanelCommands{Stop{}, Arm{}});
+  rig.go(2.0);
+  CHECK(rig.session.runtime().snapshot().guard == GuardState::running);
+  rig.session.apply(PanelCommands{Arm{}, Stop{}});
+  rig.go(2.0);
+  CHECK(rig.session.runtime().snapshot().guard == GuardState::released);
 }
 
 TEST_CASE("a change of hand also keeps a restart's configuration and the tuning after it") {
   Rig rig;
-  PanelRequests restart;
-  restart.restart = rig.session.runtime().config().preset.haptics;
-  restart.restart->guard.ramp_time = 0.25;
+  Restart restart{rig.session.runtime().config().preset.haptics};
+  restart.config.guard.ramp_time = 0.25;
   rig.session.apply(restart);
-  PanelRequests tune;
-  tune.tuning = softer(rig.tuning());
-  rig.session.apply(tune);
-  rig.ask(&PanelRequests::hand, "arm");
+  rig.session.apply(ChangeTuning{softer(rig.tuning())});
+  rig.session.apply(ChooseHand{"arm"});
   CHECK(rig.session.runtime().config().preset.haptics.guard.ramp_time == 0.25);
   CHECK(rig.tuning().wall_stiffness == 4321.0);
 }
@@ -116,7 +130,7 @@ TEST_CASE("a failed recording is reported in the same frame, and has ended") {
   Rig rig;
   {
     const SmallFiles small(60'000);  // [bytes] room to record a few tenths of a second
-    rig.ask(&PanelRequests::record);
+    rig.session.apply(ToggleRecording{});
     CHECK(rig.says("recording to"));
     rig.go(3.0);
   }
@@ -127,9 +141,9 @@ TEST_CASE("a failed recording is reported in the same frame, and has ended") {
 
 TEST_CASE("a change of gate ends the recording and reports where the file is, or how it failed") {
   Rig rig;
-  rig.ask(&PanelRequests::record);
+  rig.session.apply(ToggleRecording{});
   rig.go(0.5);
-  rig.ask(&PanelRequests::gate, "four_speed");
+  rig.session.apply(ChooseGate{"four_speed"});
   CHECK_FALSE(rig.session.recording());
   CHECK(rig.says("recorded: "));
   REQUIRE(rig.traces().size() == 1);
@@ -140,9 +154,9 @@ TEST_CASE("a change of gate ends the recording and reports where the file is, or
     // [bytes] More than the trace's header and less than one of its blocks, so the write fails only when the file is
     // closed.
     const SmallFiles small(10'000);
-    rig.ask(&PanelRequests::record);
+    rig.session.apply(ToggleRecording{});
     rig.go(0.1);
-    rig.ask(&PanelRequests::gate, "paper");
+    rig.session.apply(ChooseGate{"paper"});
   }
   CHECK(rig.says("the recording failed after"));
 }
@@ -150,7 +164,7 @@ TEST_CASE("a change of gate ends the recording and reports where the file is, or
 TEST_CASE("two recordings within a second are two complete files") {
   Rig rig;
   for (int i = 0; i < 4; ++i) {
-    rig.ask(&PanelRequests::record);
+    rig.session.apply(ToggleRecording{});
     rig.go(0.1);
   }
   REQUIRE(rig.traces().size() == 2);
@@ -160,14 +174,14 @@ TEST_CASE("two recordings within a second are two complete files") {
 TEST_CASE("a replay shows the trace's cycles in order, each once, and the running lever's guard") {
   Rig rig;
   rig.go(1.0);
-  rig.ask(&PanelRequests::record);
+  rig.session.apply(ToggleRecording{});
   rig.go(2.0);
-  rig.ask(&PanelRequests::record);
+  rig.session.apply(ToggleRecording{});
   const Trace trace = read_trace(*rig.traces().begin());
   rig.go(1.0);
-  rig.ask(&PanelRequests::replay);
+  rig.session.apply(ReplayLastRecording{});
   REQUIRE(rig.says("replaying"));
-  rig.ask(&PanelRequests::stop);
+  rig.session.apply(Stop{});
   std::vector<std::uint64_t> cycles;
   std::size_t events = 0;
   for (int i = 0; i < 60; ++i) {
@@ -189,9 +203,7 @@ TEST_CASE("a replay shows the trace's cycles in order, each once, and the runnin
   rig.go(1.5);
   // The replay stops at the trace's end.
   CHECK(rig.session.panel_input().now.time_ns == trace.samples.back().out.time_ns);
-  PanelRequests close;
-  close.playback.close = true;
-  rig.session.apply(close);
+  rig.session.apply(CloseReplay{});
   rig.go(0.1);
   CHECK(rig.session.panel_input().now.time_ns > trace.samples.back().out.time_ns);
   for (const HapticSnapshot& snapshot : rig.session.panel_input().history)
@@ -200,35 +212,33 @@ TEST_CASE("a replay shows the trace's cycles in order, each once, and the runnin
 
 TEST_CASE("a trace is shown in the gate of its recording, and a change of gate ends the replay") {
   Rig rig;
-  rig.ask(&PanelRequests::record);
+  rig.session.apply(ToggleRecording{});
   rig.go(1.0);
-  rig.ask(&PanelRequests::record);
-  rig.ask(&PanelRequests::replay);
+  rig.session.apply(ToggleRecording{});
+  rig.session.apply(ReplayLastRecording{});
   rig.go(0.1);
   const glm::dvec2 shown = rig.session.shown().lever;
-  rig.ask(&PanelRequests::gate, "four_speed");
+  rig.session.apply(ChooseGate{"four_speed"});
   rig.session.advance(1.0 / 60.0);
   // The replay has ended, so the panel gets the running lever's events, for example that it was armed.
   CHECK_FALSE(rig.session.panel_input().events.empty());
   CHECK(rig.session.panel_input().gate.slot_count == 5);
   (void)rig.session.take_new_model();
-  rig.ask(&PanelRequests::replay);
+  rig.session.apply(ReplayLastRecording{});
   CHECK(rig.session.take_new_model());
   CHECK(rig.session.panel_input().gate.slot_count == 6);
   rig.go(0.1);
   CHECK(rig.session.shown().lever == shown);
-  PanelRequests close;
-  close.playback.close = true;
-  rig.session.apply(close);
+  rig.session.apply(CloseReplay{});
   CHECK(rig.session.take_new_model());
   CHECK(rig.session.panel_input().gate.slot_count == 5);
 }
 
 TEST_CASE("if the preset to compare with is unreadable, nothing is compared, and a message says so") {
   Rig rig;
-  rig.ask(&PanelRequests::compare, "measured");
+  rig.session.apply(ComparePreset{"measured"});
   CHECK(rig.session.panel_input().compared != nullptr);
-  rig.ask(&PanelRequests::compare, "no_such_preset");
+  rig.session.apply(ComparePreset{"no_such_preset"});
   CHECK(rig.session.panel_input().compared == nullptr);
   CHECK(rig.says("no_such_preset"));
 }
@@ -237,14 +247,14 @@ TEST_CASE("a preset is saved under the user's name and is listed at once, only o
   Rig rig;
   for (const char* name : {"", ".", "..", ".hidden", "a/b", "../x", "default", "paper"}) {
     CAPTURE(name);
-    rig.ask(&PanelRequests::save_preset, name);
+    rig.session.apply(SavePreset{name});
     CHECK(rig.says("is not a valid preset name"));
   }
   CHECK_FALSE(fs::exists(rig.folder / "gearshift/presets"));
-  rig.ask(&PanelRequests::save_preset, (rig.folder / "x").string());
+  rig.session.apply(SavePreset{(rig.folder / "x").string()});
   CHECK_FALSE(fs::exists(rig.folder / "x.toml"));
-  rig.ask(&PanelRequests::save_preset, "heavy");
-  rig.ask(&PanelRequests::save_preset, "heavy");
+  rig.session.apply(SavePreset{"heavy"});
+  rig.session.apply(SavePreset{"heavy"});
   CHECK(fs::exists(rig.own_preset("heavy")));
   const auto presets = rig.session.panel_input().presets;
   CHECK(std::ranges::equal(presets, std::array{"default", "measured", "paper", "heavy"}));
@@ -252,29 +262,27 @@ TEST_CASE("a preset is saved under the user's name and is listed at once, only o
 
 TEST_CASE("a file named like a shipped preset neither replaces it nor is listed twice") {
   Rig rig;
-  PanelRequests requests;
-  requests.tuning = softer(rig.tuning());
-  rig.session.apply(requests);
-  rig.ask(&PanelRequests::save_preset, "heavy");
+  rig.session.apply(ChangeTuning{softer(rig.tuning())});
+  rig.session.apply(SavePreset{"heavy"});
   fs::rename(rig.own_preset("heavy"), rig.own_preset("measured"));
   Session other(Rig::choice_by_itself());
   const auto presets = other.panel_input().presets;
   CHECK(std::count(presets.begin(), presets.end(), "measured") == 1);
-  rig.ask(&PanelRequests::preset, "measured");
+  rig.session.apply(ChoosePreset{"measured"});
   CHECK(rig.tuning().wall_stiffness != 4321.0);
 }
 
 TEST_CASE("the stage is created again only for a different gate or yoke") {
   Rig rig;
   CHECK(rig.session.take_new_model());
-  rig.ask(&PanelRequests::hand, "grip");
-  rig.ask(&PanelRequests::preset, "measured");
+  rig.session.apply(ChooseHand{"grip"});
+  rig.session.apply(ChoosePreset{"measured"});
   CHECK_FALSE(rig.session.take_new_model());
-  rig.ask(&PanelRequests::gate, "four_speed");
+  rig.session.apply(ChooseGate{"four_speed"});
   CHECK(rig.session.take_new_model());
   const fs::path wide = rig.folder / "wide.toml";
   std::ofstream(wide) << "name = \"wide\"\n[lever.yoke]\nradius_m = 0.15\n[lever]\nhand = \"grip\"\n";
-  rig.ask(&PanelRequests::preset, wide.string());
+  rig.session.apply(ChoosePreset{wide.string()});
   CHECK(rig.session.runtime().device().yoke_radius == 0.15);
   CHECK(rig.session.take_new_model());
 }
@@ -294,7 +302,7 @@ TEST_CASE("the cameras that look into the mechanism open the cabin") {
   rig.session.set_camera("gate");
   CHECK(rig.session.take_new_model());
   CHECK(rig.session.stage().model().triangle_count() != closed);
-  rig.ask(&PanelRequests::gate, "four_speed");  // the gearbox is cut open in the new stage too
+  rig.session.apply(ChooseGate{"four_speed"});  // the gearbox is cut open in the new stage too
   rig.session.set_camera("gate");
   CHECK(rig.session.take_new_model());
   CHECK_FALSE(rig.session.take_new_model());
@@ -305,7 +313,7 @@ TEST_CASE("repeated changes of gate do not increase a session's memory") {
   const auto there_and_back = [&](int times) {
     for (int i = 0; i < times; ++i) {
       for (const char* gate : {"six_speed_r_left_up", "four_speed"}) {
-        rig.ask(&PanelRequests::gate, gate);
+        rig.session.apply(ChooseGate{gate});
         rig.go(0.1);
       }
     }

@@ -35,7 +35,7 @@ struct Desk {
     frame();
   }
 
-  const PanelRequests& frame() {
+  const PanelCommands& frame() {
     shared.update(window, 1.0 / 60.0, mouse ? *mouse : window.mouse, rig.panel, rig.ui);
     rig.ui.begin(rig.screen);
     rig.asked = rig.panel.draw(rig.input.view(rig.gate, rig.device));
@@ -43,10 +43,10 @@ struct Desk {
     window.keys.clear();
     return rig.asked;
   }
-  // Presses and releases a key, and returns all requests made in these frames.
-  PanelRequests key(int code, bool control = false) {
+  // Presses and releases a key, and returns all commands asked in these frames.
+  PanelCommands key(int code, bool control = false) {
     window.keys = {{code, true, false, control, false}};
-    PanelRequests all = frame();
+    PanelCommands all = frame();
     PanelRig::merge(all, frame());
     window.keys = {{code, false, false, control, false}};
     PanelRig::merge(all, frame());
@@ -70,16 +70,16 @@ TEST_CASE("a click on STOP counts once, on press, in the frame in which the mous
     desk.frame();
     desk.window.mouse = desk.middle(name);
     desk.window.mouse_down[0] = true;
-    PanelRequests all = desk.frame();
-    if (std::string(name) == "stop") CHECK(all.stop);
+    PanelCommands all = desk.frame();
+    if (std::string(name) == "stop") CHECK(has<Stop>(all));
     desk.window.mouse_down[0] = false;
     for (int i = 0; i < 3; ++i) {
-      const PanelRequests next = desk.frame();
-      CHECK_FALSE((all.stop && next.stop));
+      const PanelCommands next = desk.frame();
+      CHECK_FALSE((has<Stop>(all) && has<Stop>(next)));
       PanelRig::merge(all, next);
     }
-    CHECK(all.stop == (std::string(name) == "stop"));
-    CHECK(all.disarm == (std::string(name) == "disarm"));
+    CHECK(has<Stop>(all) == (std::string(name) == "stop"));
+    CHECK(has<Disarm>(all) == (std::string(name) == "disarm"));
     CHECK_FALSE(desk.driver.mouse_moves_lever());
   }
   // A click on the cabin moves the hand, even if the mouse was on the panel in the previous frame.
@@ -88,7 +88,7 @@ TEST_CASE("a click on STOP counts once, on press, in the frame in which the mous
   desk.frame();
   desk.window.mouse = {640.0, 300.0};
   desk.window.mouse_down[0] = true;
-  CHECK_FALSE(desk.frame().stop);
+  CHECK_FALSE(has<Stop>(desk.frame()));
   CHECK(desk.driver.mouse_moves_lever());
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("Ctrl+Tab cycles through the panel's parts, and Space presses the focu
   CHECK_FALSE(desk.driver.mouse_moves_lever());
   for (int i = 0; i < 3; ++i) desk.key(GLFW_KEY_ESCAPE);
   desk.key(GLFW_KEY_TAB);  // Tab moves the focus to the first control of the status bar
-  CHECK(desk.key(GLFW_KEY_SPACE).disarm);
+  CHECK(has<Disarm>(desk.key(GLFW_KEY_SPACE)));
   CHECK(desk.driver.pressed().empty());
 }
 
@@ -185,11 +185,11 @@ TEST_CASE("Ctrl+click on a slider lets the user type a number, and its digits do
   CHECK(desk.rig.panel.has_keyboard());
   desk.window.text = U"7";
   desk.window.keys = {{GLFW_KEY_7, true, false, false, false}, {GLFW_KEY_7, false, false, false, false}};
-  PanelRequests all = desk.frame();
+  PanelCommands all = desk.frame();
   desk.window.text.clear();
   PanelRig::merge(all, desk.key(GLFW_KEY_ENTER));
-  REQUIRE(all.tuning.has_value());
-  CHECK(all.tuning->wall_damping == 7.0);
+  REQUIRE(has<ChangeTuning>(all));
+  CHECK(find<ChangeTuning>(all)->tuning.wall_damping == 7.0);
 }
 
 TEST_CASE("in stereo, the mouse on the panel in either eye's picture is on the panel") {
@@ -201,7 +201,7 @@ TEST_CASE("in stereo, the mouse on the panel in either eye's picture is on the p
     desk.mouse = mouse_in_eye(stereo, desk.window.mouse, {2560, 720});
     desk.frame();
     desk.window.mouse_down[0] = true;
-    CHECK(desk.frame().stop);
+    CHECK(has<Stop>(desk.frame()));
     desk.window.mouse_down[0] = false;
     desk.frame();
     CHECK_FALSE(desk.driver.mouse_moves_lever());

@@ -22,6 +22,7 @@ using namespace gearshift::cabin;
 using namespace gearshift::engine;
 using namespace gearshift::session;
 using namespace gearshift::test;
+using namespace gearshift::ui;
 using glm::dvec3;
 using Kind = xr_test::Event::Kind;
 
@@ -124,17 +125,13 @@ struct Worn {
 
   // Touches the knob at three lever positions and saves the result.
   void touch_all() {
-    ask(&HeadsetRequests::start_touching);
+    ask(StartTouching{});
     for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) touch(gear);
-    ask(&HeadsetRequests::save_touches);
+    ask(SaveTouches{});
     frame();
   }
 
-  void ask(bool HeadsetRequests::*request) {
-    HeadsetRequests requests;
-    requests.*request = true;
-    headset->apply(requests, kBound);
-  }
+  void ask(const HeadsetCommand& command) { headset->apply(command, kBound); }
 
   gearshift::engine::Window window;
   UiContext ui;
@@ -201,14 +198,14 @@ TEST_CASE("a knob touched at three lever positions is drawn where it really is, 
   setup.seat_file = folder.path() / "headset.toml";
   auto today = std::make_unique<Worn>(setup);
   Worn& worn = *today;
-  worn.ask(&HeadsetRequests::start_touching);
+  worn.ask(StartTouching{});
   CHECK(worn.headset->report().touching);
   for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
   CHECK(worn.headset->report().touches == 3);
   // The seat file is written only when the touches are saved.
   CHECK(read_seat(setup.seat_file).touched.has_value() == false);
   CHECK(worn.headset->report().worst_touch < 1e-4);
-  worn.ask(&HeadsetRequests::save_touches);
+  worn.ask(SaveTouches{});
   worn.frame();
   CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
   worn.headset->recentre();  // recentring must not move the touched lever
@@ -222,7 +219,7 @@ TEST_CASE("a knob touched at three lever positions is drawn where it really is, 
   Worn tomorrow(setup);
   CHECK(glm::distance(tomorrow.headset->head().position, kTruth * tomorrow.head.position) < 1e-3);
   CHECK(tomorrow.headset->touch_error() == setup.seat.touch_error);
-  tomorrow.ask(&HeadsetRequests::forget_touches);
+  tomorrow.ask(ForgetTouches{});
   tomorrow.frame();
   check_sits(tomorrow, driver_eye());
   CHECK_FALSE(read_seat(setup.seat_file).touched);
@@ -233,13 +230,13 @@ TEST_CASE("touches that do not fit the lever are rejected with error and limit, 
   HeadsetSetup setup;
   setup.seat_file = folder.path() / "headset.toml";
   Worn worn(setup);
-  worn.ask(&HeadsetRequests::start_touching);
+  worn.ask(StartTouching{});
   worn.touch({0.0, 0.0});
-  worn.ask(&HeadsetRequests::save_touches);  // one touch determines neither the room's direction nor the tip's error
+  worn.ask(SaveTouches{});  // one touch determines neither the room's direction nor the tip's error
   CHECK(worn.headset->take_message().find("at least three positions") != std::string::npos);
   worn.touch({-0.036, 0.04}, {0.0, 0.06, 0.0});  // the tip is 6 cm too high
   worn.touch({0.036, -0.04});
-  worn.ask(&HeadsetRequests::save_touches);
+  worn.ask(SaveTouches{});
   const std::string news = worn.headset->take_message();
   int error = 0;
   REQUIRE(std::sscanf(news.c_str(),
@@ -257,8 +254,8 @@ TEST_CASE("touches without turning the controller are rejected, and touches whil
   worn.touch_all();
   CHECK(worn.headset->take_message().find("turn the controller sideways") != std::string::npos);
   CHECK_FALSE(worn.headset->report().is_touched);
-  worn.ask(&HeadsetRequests::forget_touches);
-  worn.ask(&HeadsetRequests::start_touching);
+  worn.ask(ForgetTouches{});
+  worn.ask(StartTouching{});
   worn.hand_tracked = false;
   worn.touch({0.0, 0.0});
   CHECK(worn.headset->report().touches == 0);
@@ -340,10 +337,8 @@ TEST_CASE(
   worn.touch_all();
   CHECK(worn.headset->report().is_touched);
   CHECK(worn.headset->take_message().find("to this session only") != std::string::npos);
-  worn.ask(&HeadsetRequests::recentre);
-  HeadsetRequests raise;
-  raise.height = 0.02;
-  worn.headset->apply(raise, kBound);
+  worn.ask(RecentreSeat{});
+  worn.ask(SetSeatHeight{0.02});
   REQUIRE(read_seat(setup.seat_file).touched);
   CHECK(read_seat(setup.seat_file).touched->position == glm::dvec3(1.0, 0.0, 0.0));
 }
@@ -355,10 +350,10 @@ TEST_CASE("discarding new touches restores the saved ones") {
   Worn worn(setup);
   worn.touch_all();
   const dvec3 before = worn.headset->head().position;
-  worn.ask(&HeadsetRequests::start_touching);
+  worn.ask(StartTouching{});
   worn.touch({0.0, 0.0}, {0.3, 0.0, 0.0});
   CHECK(glm::distance(worn.headset->head().position, before) > 0.2);
-  worn.ask(&HeadsetRequests::forget_touches);
+  worn.ask(ForgetTouches{});
   worn.frame();
   CHECK(glm::distance(worn.headset->head().position, before) < 1e-9);
   CHECK(read_seat(setup.seat_file).touched.has_value());
@@ -415,9 +410,9 @@ TEST_CASE(
 
 TEST_CASE("when the origin of the STAGE space moves, a touched lever stays where it is") {
   Worn worn;
-  worn.ask(&HeadsetRequests::start_touching);
+  worn.ask(StartTouching{});
   for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
-  worn.ask(&HeadsetRequests::save_touches);
+  worn.ask(SaveTouches{});
   worn.frame();
   const dvec3 before = worn.headset->head().position;
   xr_test::Control& xr = xr_test::control();

@@ -1,4 +1,4 @@
-// The panel's tab for the headset: its texts and its requests.
+// The panel's tab for the headset: its texts and its commands.
 #include <string>
 
 #include <doctest/doctest.h>
@@ -32,18 +32,17 @@ struct HeadsetTabRig : PanelRig {
     frame();
   }
   // Drags the slider of the length `name` to the right.
-  HeadsetRequests drag_length(const std::string& name) {
-    HeadsetRequests requested;
+  PanelCommands drag_length(const std::string& name) {
+    PanelCommands all;
     for (int step = 0; step <= 10; ++step) {
       point(name, 0.2 + 0.06 * step);
       frame();
-      if (asked.headset.height) requested.height = asked.headset.height;
-      if (asked.headset.knob) requested.knob = asked.headset.knob;
+      merge(all, asked);
       events.mouse_down[0] = true;
     }
     events.mouse_down[0] = false;
     frame();
-    return requested;
+    return all;
   }
 };
 
@@ -71,34 +70,34 @@ TEST_CASE("without a headset there is no headset tab; with one it shows its fram
 
 TEST_CASE("the seat is set by a recentre, by height, by distances, or by touching the knob") {
   HeadsetTabRig rig;
-  CHECK(rig.click("headset_recentre").headset.recentre);
-  const HeadsetRequests raised = rig.drag_length("headset_height");
-  REQUIRE(raised.height);
-  CHECK(*raised.height > 0.0);
-  CHECK(*raised.height <= 0.3);
-  const auto asked_knob = rig.click("headset_knob").headset.knob;
+  CHECK(has<RecentreSeat>(rig.click("headset_recentre")));
+  const auto raised = find<SetSeatHeight>(rig.drag_length("headset_height"));
+  REQUIRE(raised);
+  CHECK(raised->height > 0.0);
+  CHECK(raised->height <= 0.3);
+  const auto asked_knob = value(rig.click("headset_knob"), &SetKnob::knob);
   REQUIRE(asked_knob);
   rig.input.headset->seat.knob = asked_knob;
   rig.show();
   // Entered distances to the knob determine the seat height, so the slider for the height is hidden.
   CHECK_FALSE(rig.panel.control_rect("headset_height").has_value());
-  const HeadsetRequests moved = rig.drag_length("headset_knob_down");
-  REQUIRE(moved.knob);
-  CHECK(moved.knob->down > asked_knob->down);
-  CHECK(moved.knob->right == asked_knob->right);
-  CHECK(rig.click("headset_knob").headset.forget_knob);
-  CHECK(rig.click("headset_touch").headset.start_touching);
+  const auto moved = find<SetKnob>(rig.drag_length("headset_knob_down"));
+  REQUIRE(moved);
+  CHECK(moved->knob.down > asked_knob->down);
+  CHECK(moved->knob.right == asked_knob->right);
+  CHECK(has<ForgetKnob>(rig.click("headset_knob")));
+  CHECK(has<StartTouching>(rig.click("headset_touch")));
   rig.input.headset->touching = true;
   rig.input.headset->touches = 3;
   rig.input.headset->worst_touch = 0.0042;
   rig.show();
   CHECK(is_drawn("3 points touched, up to 4 mm off."));
-  CHECK(rig.click("headset_touched").headset.save_touches);
+  CHECK(has<SaveTouches>(rig.click("headset_touched")));
   rig.input.headset->touching = false;
   rig.input.stick = StickView{};
   rig.show();
   CHECK(rig.panel.control_rect("headset_touch").has_value());
   rig.input.headset->is_touched = true;
   rig.show();
-  CHECK(rig.click("headset_forget").headset.forget_touches);
+  CHECK(has<ForgetTouches>(rig.click("headset_forget")));
 }

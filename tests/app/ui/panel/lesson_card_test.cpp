@@ -1,4 +1,4 @@
-// The lesson card over the cabin: its texts, and the requests that it makes when clicked.
+// The lesson card over the cabin: its texts, and the commands of its buttons.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -41,11 +41,6 @@ double height_of(const std::string& sentence) {
   return box.max.y - box.min.y;
 }
 
-bool has_no_request(const LessonRequests& asked) {
-  return !asked.begin && !asked.leave && !asked.dismiss_lesson && !asked.offer && !asked.mode && !asked.help &&
-         !asked.next && !asked.learner && !asked.comment;
-}
-
 // Whether `words` are drawn, as a line or as part of a line.
 bool says(const std::string& words) {
   const std::vector<DrawnText> texts = drawn_texts();
@@ -56,7 +51,7 @@ bool says(const std::string& words) {
 }  // namespace
 
 TEST_CASE(
-    "an offered lesson is started, set up and dismissed by one click each; without a click there are no requests") {
+    "an offered lesson is started, set up and dismissed by one click each; without a click there are no commands") {
   CardRig rig(offered());
   CHECK(says("Hill start"));
   CHECK(says("without rolling back"));
@@ -65,18 +60,18 @@ TEST_CASE(
   failing.fail_conditions = "You fail if you stall.";
   rig.show(failing);
   CHECK(says("You fail if you stall."));
-  CHECK(has_no_request(rig.frame().lesson));
-  CHECK(rig.click("lesson_begin").lesson.begin);
-  CHECK_FALSE(rig.frame().lesson.begin);
-  CHECK(rig.click("lesson_dismiss").lesson.dismiss_lesson);
-  CHECK(rig.click("mode").lesson.mode == LessonMode::by_yourself);
-  CHECK(rig.click("help").lesson.help == false);
+  CHECK(rig.frame().empty());
+  CHECK(has<BeginLesson>(rig.click("lesson_begin")));
+  CHECK_FALSE(has<BeginLesson>(rig.frame()));
+  CHECK(has<DismissLesson>(rig.click("lesson_dismiss")));
+  CHECK(value(rig.click("mode"), &SetMode::mode) == LessonMode::by_yourself);
+  CHECK(value(rig.click("help"), &SetHelp::on) == false);
   CoachState other = offered();
   other.mode = LessonMode::by_yourself;
   other.help_wanted = false;
   rig.show(other);
-  CHECK(rig.click("mode").lesson.mode == LessonMode::follow_me);
-  CHECK(rig.click("help").lesson.help == true);
+  CHECK(value(rig.click("mode"), &SetMode::mode) == LessonMode::follow_me);
+  CHECK(value(rig.click("help"), &SetHelp::on) == true);
 }
 
 TEST_CASE("the card is also shown while the panel is hidden, and covers only the area behind it") {
@@ -88,7 +83,7 @@ TEST_CASE("the card is also shown while the panel is hidden, and covers only the
     CHECK_FALSE(rig.panel.covers({640.0, 400.0}));
     CHECK(leave.min.x > middle.min.x);
     CHECK(leave.max.x < middle.max.x);
-    CHECK(rig.click("lesson_leave").lesson.leave);
+    CHECK(has<LeaveLesson>(rig.click("lesson_leave")));
     rig.show(half_way());
     CHECK_FALSE(rig.panel.covers(0.5 * (leave.min + leave.max)));
     CHECK_FALSE(rig.panel.control_rect("lesson_leave").has_value());
@@ -164,7 +159,7 @@ TEST_CASE("the button that Enter presses is marked: try again after failing, nex
   rig.show(failed);
   CHECK(says("Try again (Enter)"));
   CHECK_FALSE(says("Next lesson (Enter)"));
-  CHECK(rig.click("lesson_next").lesson.offer == "bite_point");
+  CHECK(value(rig.click("lesson_next"), &OfferLesson::key) == "bite_point");
   rig.show(offered());
   CHECK(says("Start (Enter)"));
   CHECK_FALSE(says("motors"));
@@ -176,19 +171,19 @@ TEST_CASE("with forces off, starting a lesson switches them on, and a running le
     rig.input.now.guard = guard;
     rig.show(offered());
     CHECK(says("Turn forces on and start (Enter)"));
-    const PanelRequests asked = rig.click("lesson_begin");
-    CHECK(asked.lesson.begin);
-    CHECK(asked.arm);
+    const PanelCommands asked = rig.click("lesson_begin");
+    CHECK(has<BeginLesson>(asked));
+    CHECK(has<Arm>(asked));
     rig.show(driven());
     CHECK(the_text(drawn_texts(), "Forces are off. Press Enter to turn them on.").colour == ui::ink::kBad);
-    CHECK_FALSE(rig.frame().arm);
+    CHECK_FALSE(has<Arm>(rig.frame()));
   }
   for (const GuardState guard : {GuardState::running, GuardState::ramping}) {
     rig.input.now.guard = guard;
     rig.show(offered());
-    const PanelRequests asked = rig.click("lesson_begin");
-    CHECK(asked.lesson.begin);
-    CHECK_FALSE(asked.arm);
+    const PanelCommands asked = rig.click("lesson_begin");
+    CHECK(has<BeginLesson>(asked));
+    CHECK_FALSE(has<Arm>(asked));
     rig.show(driven());
     CHECK_FALSE(says("Motors off"));
   }
@@ -429,9 +424,9 @@ TEST_CASE("deductions and grade add up to ten, and each deduction names its erro
 
 TEST_CASE("after a lesson one click restarts it or offers the next lesson; a guided lesson has no grade") {
   CardRig rig(over(result_of("hill_start", some_errors())));
-  CHECK(rig.click("lesson_again").lesson.begin);
-  CHECK(rig.click("lesson_next").lesson.offer == "emergency_stop");
-  CHECK(rig.click("lesson_dismiss").lesson.dismiss_lesson);
+  CHECK(has<BeginLesson>(rig.click("lesson_again")));
+  CHECK(value(rig.click("lesson_next"), &OfferLesson::key) == "emergency_stop");
+  CHECK(has<DismissLesson>(rig.click("lesson_dismiss")));
   CHECK(says("Emergency stop"));
   rig.show(over(result_of("hill_start", failing_errors())));
   CHECK(says("Not passed"));

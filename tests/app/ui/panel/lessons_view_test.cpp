@@ -26,9 +26,9 @@ struct LessonsRig : PanelRig {
     click(tab);
     for (int i = 0; i < 3; ++i) frame();
   }
-  PanelRequests write(const std::u32string& text) {
+  PanelCommands write(const std::u32string& text) {
     events.text = text;
-    PanelRequests all = frame();
+    PanelCommands all = frame();
     merge(all, frame());
     return all;
   }
@@ -60,42 +60,42 @@ TEST_CASE("the lessons tab is open at the start, in teaching order, with a disc 
 
 TEST_CASE("a click offers a lesson, and a button the suggested one; neither works during a lesson") {
   LessonsRig rig(half_way());
-  CHECK(rig.click("lesson: reverse").lesson.offer == "reverse");
-  CHECK(rig.click("lesson_suggested").lesson.offer == "hill_start");
+  CHECK(value(rig.click("lesson: reverse"), &OfferLesson::key) == "reverse");
+  CHECK(value(rig.click("lesson_suggested"), &OfferLesson::key) == "hill_start");
   CHECK(is_drawn(rig.input.coach.next_why));
-  CHECK_FALSE(rig.frame().lesson.offer.has_value());
+  CHECK_FALSE(has<OfferLesson>(rig.frame()));
   rig.input.coach = driven();
   rig.frame();
-  CHECK_FALSE(rig.click("lesson: reverse").lesson.offer.has_value());
-  CHECK_FALSE(rig.click("lesson_suggested").lesson.offer.has_value());
+  CHECK_FALSE(has<OfferLesson>(rig.click("lesson: reverse")));
+  CHECK_FALSE(has<OfferLesson>(rig.click("lesson_suggested")));
 }
 
 TEST_CASE("the instructor can set the next lesson, and restore the suggested one") {
   LessonsRig rig(half_way());
-  CHECK(rig.click("next: reverse").lesson.next == "reverse");
+  CHECK(value(rig.click("next: reverse"), &ChooseNextLesson::key) == "reverse");
   CHECK_FALSE(rig.panel.control_rect("next_as_suggested").has_value());
   rig.input.coach.next_by_instructor = true;
   rig.frame();
   rig.frame();
-  CHECK(rig.click("next_as_suggested").lesson.next == std::string());
+  CHECK(value(rig.click("next_as_suggested"), &ChooseNextLesson::key) == std::string());
 }
 
 TEST_CASE("a learner's name is typed and confirmed with Enter, chosen from the list, or empty") {
   LessonsRig rig(half_way());
   rig.click("learner");
   CHECK(rig.panel.has_keyboard());
-  CHECK_FALSE(rig.write(U"Dora").lesson.learner.has_value());  // before Enter, a typed name selects nobody
-  CHECK(rig.press(kEnter).lesson.learner == "Dora");
+  CHECK_FALSE(has<ChooseLearner>(rig.write(U"Dora")));  // before Enter, a typed name selects nobody
+  CHECK(value(rig.press(kEnter), &ChooseLearner::name) == "Dora");
   rig.input.coach.learner = "Dora";
   rig.frame();
   rig.frame();
   CHECK_FALSE(rig.panel.has_keyboard());
   rig.click("learner");
-  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());  // the name has not changed, so nothing is requested
+  CHECK_FALSE(has<ChooseLearner>(rig.press(kEnter)));  // the name has not changed, so nothing is requested
   rig.click("learner_known");
-  CHECK(rig.click("learner: Bert").lesson.learner == "Bert");
+  CHECK(value(rig.click("learner: Bert"), &ChooseLearner::name) == "Bert");
   rig.click("learner_known");
-  CHECK(rig.click("learner: ").lesson.learner == std::string());
+  CHECK(value(rig.click("learner: "), &ChooseLearner::name) == std::string());
 }
 
 TEST_CASE("a field has the keyboard from the frame in which it was clicked") {
@@ -115,9 +115,9 @@ TEST_CASE("leaving the field by a click or Tab applies the name; Escape restores
   rig.write(U"Dora");
   CHECK(is_drawn("Press Enter to add this learner."));
   CHECK(rig.rect("lesson: reverse").min.y == row);
-  PanelRequests asked = rig.click("lesson: reverse");
-  CHECK(asked.lesson.learner == "Dora");
-  CHECK(asked.lesson.offer == "reverse");
+  PanelCommands asked = rig.click("lesson: reverse");
+  CHECK(value(asked, &ChooseLearner::name) == "Dora");
+  CHECK(value(asked, &OfferLesson::key) == "reverse");
   CHECK_FALSE(rig.panel.has_keyboard());
   CHECK(rig.rect("lesson: reverse").min.y == row);
   rig.input.coach.learner = "Dora";
@@ -125,13 +125,13 @@ TEST_CASE("leaving the field by a click or Tab applies the name; Escape restores
   rig.click("learner");
   rig.write(U"Eve");
   constexpr int kTab = 258;
-  CHECK(rig.press(kTab).lesson.learner == "Eve");
+  CHECK(value(rig.press(kTab), &ChooseLearner::name) == "Eve");
   rig.input.coach.learner = "Eve";
   rig.press(kEscape);
   rig.press(kEscape);
   rig.click("learner");
   rig.write(U"Fay");
-  CHECK_FALSE(rig.press(kEscape).lesson.learner.has_value());
+  CHECK_FALSE(has<ChooseLearner>(rig.press(kEscape)));
   CHECK(is_drawn("Eve"));
   CHECK_FALSE(is_drawn("Fay"));
 }
@@ -179,7 +179,7 @@ TEST_CASE("a name with characters that the font lacks is accepted, with a note o
   rig.click("learner");
   rig.write(U"李娜");
   CHECK(is_explained());
-  CHECK(rig.press(kEnter).lesson.learner == "李娜");
+  CHECK(value(rig.press(kEnter), &ChooseLearner::name) == "李娜");
   rig.input.coach.learner = "李娜";
   rig.frame();
   rig.frame();
@@ -190,10 +190,10 @@ TEST_CASE("a click opens a past run; its shifts can be replayed if they were rec
   LessonsRig rig(with_history(), "tab_history");
   CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
   rig.click("run: 16");
-  const PanelRequests asked = rig.click("look: 16 1");
-  REQUIRE(asked.playback.open.has_value());
-  CHECK(asked.playback.open->recording == "/tmp/hill.trace");
-  CHECK(asked.playback.open->begin == 19.5);
+  const auto asked = find<OpenShift>(rig.click("look: 16 1"));
+  REQUIRE(asked);
+  CHECK(asked->recording == "/tmp/hill.trace");
+  CHECK(asked->begin == 19.5);
   CHECK(is_drawn("clutch released 0.08 s before the gear engaged; revs off by 239 rpm"));
   CHECK(is_drawn("blocked by the synchroniser for 0.31 s"));
   CHECK(is_drawn("The gears ground (12.4 J). (-2.0)"));
@@ -201,7 +201,7 @@ TEST_CASE("a click opens a past run; its shifts can be replayed if they were rec
   rig.click("run: 16");
   CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
   rig.click("run: 15");  // this run was not recorded
-  CHECK_FALSE(rig.click("look: 15 0").playback.open.has_value());
+  CHECK_FALSE(has<OpenShift>(rig.click("look: 15 0")));
   CHECK(is_drawn("No replay: this run was not recorded."));
 }
 
@@ -268,17 +268,17 @@ TEST_CASE("a comment needs an author and a text, and is requested once") {
   rig.click("run: 16");
   rig.click("comment");
   rig.write(U"Well done");
-  CHECK_FALSE(rig.press(kEnter).lesson.comment.has_value());  // no author has been entered yet
+  CHECK_FALSE(has<AddComment>(rig.press(kEnter)));  // no author has been entered yet
   rig.click("comment_author");
   CHECK(rig.panel.has_keyboard());
   rig.write(U"Ms Torque");
   rig.press(kEscape + 1);  // GLFW's code of the Enter key; Enter leaves the field
-  const PanelRequests asked = rig.click("comment_add");
-  REQUIRE(asked.lesson.comment.has_value());
-  CHECK(asked.lesson.comment->run == 16);
-  CHECK(asked.lesson.comment->author == "Ms Torque");
-  CHECK(asked.lesson.comment->text == "Well done");
-  CHECK_FALSE(rig.click("comment_add").lesson.comment.has_value());
+  const auto asked = find<AddComment>(rig.click("comment_add"));
+  REQUIRE(asked);
+  CHECK(asked->run == 16);
+  CHECK(asked->author == "Ms Torque");
+  CHECK(asked->text == "Well done");
+  CHECK_FALSE(has<AddComment>(rig.click("comment_add")));
 }
 
 TEST_CASE("a comment can be edited, or deleted with a second click to confirm") {
@@ -289,27 +289,26 @@ TEST_CASE("a comment can be edited, or deleted with a second click to confirm") 
   rig.click("comment_edit: 7");
   rig.click("comment_text");
   rig.write(U" Well.");
-  const PanelRequests edited = rig.click("comment_save");
-  REQUIRE(edited.lesson.comment_change.has_value());
-  CHECK(edited.lesson.comment_change->run == 16);
-  CHECK(edited.lesson.comment_change->comment == 7);
-  REQUIRE(edited.lesson.comment_change->text.has_value());
-  CHECK(edited.lesson.comment_change->text->find("Wait for the synchroniser: push, do not hit.") != std::string::npos);
-  CHECK(edited.lesson.comment_change->text->find("Well.") != std::string::npos);
-  CHECK_FALSE(rig.click("comment_delete: 7").lesson.comment_change.has_value());
-  CHECK_FALSE(rig.click("comment_cancel").lesson.comment_change.has_value());
+  const auto edited = find<EditComment>(rig.click("comment_save"));
+  REQUIRE(edited);
+  CHECK(edited->run == 16);
+  CHECK(edited->comment == 7);
+  CHECK(edited->text.find("Wait for the synchroniser: push, do not hit.") != std::string::npos);
+  CHECK(edited->text.find("Well.") != std::string::npos);
+  CHECK(rig.click("comment_delete: 7").empty());
+  CHECK(rig.click("comment_cancel").empty());
   rig.click("comment_delete: 7");
-  const PanelRequests deleted = rig.click("comment_delete_sure");
-  REQUIRE(deleted.lesson.comment_change.has_value());
-  CHECK(deleted.lesson.comment_change->comment == 7);
-  CHECK_FALSE(deleted.lesson.comment_change->text.has_value());
+  const auto deleted = find<DeleteComment>(rig.click("comment_delete_sure"));
+  REQUIRE(deleted);
+  CHECK(deleted->run == 16);
+  CHECK(deleted->comment == 7);
 }
 
 TEST_CASE("an invalid name is not requested, and the reason is below the field until the name changes") {
   LessonsRig rig(half_way());
   rig.click("learner");
   rig.write(U"Eve\u200b");
-  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());
+  CHECK_FALSE(has<ChooseLearner>(rig.press(kEnter)));
   const std::string why = user_text_problem(UserText::name, "a learner's name", "Eve\u200b");
   const std::vector<DrawnText> texts = drawn_texts();
   CHECK(std::any_of(texts.begin(), texts.end(), [&](const DrawnText& text) {
@@ -317,7 +316,7 @@ TEST_CASE("an invalid name is not requested, and the reason is below the field u
   }));
   rig.click("learner");
   rig.write(U"Eve");
-  CHECK(rig.press(kEnter).lesson.learner == "Eve");
+  CHECK(value(rig.press(kEnter), &ChooseLearner::name) == "Eve");
 }
 
 TEST_CASE("a learner deleted by another program is marked, and can be selected again by name") {
@@ -331,11 +330,11 @@ TEST_CASE("a learner deleted by another program is marked, and can be selected a
   // The note must name the field, because Enter starts a lesson if the field is not active.
   CHECK(note.find(without_blanks("Enter in this field")) != std::string::npos);
   rig.click("learner");
-  CHECK(rig.press(kEnter).lesson.learner == "Ada Example");
+  CHECK(value(rig.press(kEnter), &ChooseLearner::name) == "Ada Example");
   rig.input.coach.learner_deleted = false;
   rig.frame();
   rig.click("learner");
-  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());
+  CHECK_FALSE(has<ChooseLearner>(rig.press(kEnter)));
 }
 
 TEST_CASE("each kind of error shows its advice only once") {
@@ -356,5 +355,5 @@ TEST_CASE("each kind of error shows its advice only once") {
 TEST_CASE("a different car is chosen from its list") {
   PanelRig rig;
   rig.click("car");
-  CHECK(rig.click("car: diesel").car == "diesel");
+  CHECK(value(rig.click("car: diesel"), &ChooseCar::name) == "diesel");
 }

@@ -69,21 +69,21 @@ TEST_CASE("values that need allow_unstable are not requested without it, and req
   rig.click("tab_setup");
   rig.frame();
   rig.click("reversal_limiter");
-  CHECK_FALSE(rig.click("restart").restart.has_value());
+  CHECK_FALSE(has<Restart>(rig.click("restart")));
   rig.click("study");
-  const PanelRequests asked = rig.click("restart");
-  REQUIRE(asked.restart.has_value());
-  CHECK(asked.restart->contact.allow_unstable);
-  CHECK_FALSE(asked.restart->contact.reversal_limiter);
-  CHECK_NOTHROW(admit_tuning(*asked.restart, rig.device, rig.gate));
-  rig.input.haptics = *asked.restart;  // as if the program had applied the request
+  const auto asked = find<Restart>(rig.click("restart"));
+  REQUIRE(asked);
+  CHECK(asked->config.contact.allow_unstable);
+  CHECK_FALSE(asked->config.contact.reversal_limiter);
+  CHECK_NOTHROW(admit_tuning(asked->config, rig.device, rig.gate));
+  rig.input.haptics = asked->config;  // as if the program had executed the command
   rig.frame();
-  CHECK_FALSE(rig.click("restart").restart.has_value());
+  CHECK_FALSE(has<Restart>(rig.click("restart")));
   rig.drag("window_samples", 0.02, 0.5);
   rig.drag("speed_limit_m_per_s", 0.2, 0.8);
-  const PanelRequests more = rig.click("restart");
-  REQUIRE(more.restart.has_value());
-  CHECK(more.restart->estimator.window > 20);
-  CHECK(more.restart->estimator.speed_limit > 50.0);
-  CHECK_NOTHROW(check_config(*more.restart));
+  const auto more = find<Restart>(rig.click("restart"));
+  REQUIRE(more);
+  CHECK(more->config.estimator.window > 20);
+  CHECK(more->config.estimator.speed_limit > 50.0);
+  CHECK_NOTHROW(check_config(more->config));
 }

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -102,6 +105,34 @@ struct PanelState {
   }
 };
 
+template <class Command, class Asked>
+void find_in(const Asked& asked, std::optional<Command>& found) {
+  if constexpr (std::is_same_v<Asked, Command>)
+    found = asked;
+  else if constexpr (std::is_same_v<Asked, ui::PanelCommand> || std::is_same_v<Asked, ui::HeadsetCommand>)
+    std::visit([&](const auto& inner) { find_in(inner, found); }, asked);
+}
+
+// The newest command of this type; empty if there is none.
+template <class Command>
+std::optional<Command> find(const ui::PanelCommands& commands) {
+  std::optional<Command> found;
+  for (const ui::PanelCommand& command : commands) find_in(command, found);
+  return found;
+}
+
+template <class Command>
+bool has(const ui::PanelCommands& commands) {
+  return find<Command>(commands).has_value();
+}
+
+// The member's value in the newest command of its type; empty if there is none.
+template <class Command, class Value>
+std::optional<Value> value(const ui::PanelCommands& commands, Value Command::*member) {
+  const std::optional<Command> found = find<Command>(commands);
+  return found ? std::optional<Value>((*found).*member) : std::nullopt;
+}
+
 struct PanelRig {
   haptics::Gate gate = paper_gate();
   haptics::DeviceSpec device;
@@ -110,7 +141,7 @@ struct PanelRig {
   engine::UiEvents events;
   ui::Panel panel;
   PanelState input;
-  ui::PanelRequests asked;  // the requests that the panel made in the newest frame
+  ui::PanelCommands asked;  // commands of the newest frame
 
   explicit PanelRig(int delay = 0) {
     device.simulated = true;
@@ -133,7 +164,7 @@ struct PanelRig {
   }
 
   // Draws one frame of the panel, and applies a requested tuning as the session does.
-  const ui::PanelRequests& frame() {
+  const ui::PanelCommands& frame() {
     ui.feed(events);
     events.keys.clear();
     events.text.clear();
@@ -143,12 +174,12 @@ struct PanelRig {
     ui.end();
     input.history.clear();
     input.events.clear();
-    if (asked.tuning) {
+    if (const auto change = find<ui::ChangeTuning>(asked)) {
       haptics::HapticConfig wanted = input.haptics;
-      wanted.tuning = *asked.tuning;
+      wanted.tuning = change->tuning;
       wanted.contact.hold = input.admitted.hold;
       input.admitted = haptics::admit_tuning(wanted, device, gate);
-      input.haptics.tuning = *asked.tuning;
+      input.haptics.tuning = change->tuning;
     }
     return asked;
   }
@@ -170,12 +201,12 @@ struct PanelRig {
     events.mouse = {r.min.x + fraction * (r.max.x - r.min.x), 0.5 * (r.min.y + r.max.y)};
   }
 
-  // Clicks a control, and returns all requests made in the frames of the click.
-  ui::PanelRequests click(const std::string& name) {
+  // Clicks a control, and returns all commands of the frames of the click.
+  ui::PanelCommands click(const std::string& name) {
     point(name);
     frame();
     events.mouse_down[0] = true;
-    ui::PanelRequests all = frame();
+    ui::PanelCommands all = frame();
     events.mouse_down[0] = false;
     merge(all, frame());
     merge(all, frame());
@@ -187,7 +218,7 @@ struct PanelRig {
     std::vector<haptics::HapticTuning> tunings;
     const auto look = [&] {
       frame();
-      if (asked.tuning) tunings.push_back(*asked.tuning);
+      if (const auto change = find<ui::ChangeTuning>(asked)) tunings.push_back(change->tuning);
     };
     point(name, from);
     look();
@@ -201,10 +232,10 @@ struct PanelRig {
     look();
     return tunings;
   }
-  ui::PanelRequests press(int key, bool control = false) {
+  ui::PanelCommands press(int key, bool control = false) {
     events.control = control;
     events.keys = {{key, true}};
-    ui::PanelRequests all = frame();
+    ui::PanelCommands all = frame();
     merge(all, frame());
     events.keys = {{key, false}};
     merge(all, frame());
@@ -213,48 +244,8 @@ struct PanelRig {
     return all;
   }
 
-  static void merge(ui::PanelRequests& all, const ui::PanelRequests& next) {
-    all.arm |= next.arm;
-    all.disarm |= next.disarm;
-    all.stop |= next.stop;
-    all.record |= next.record;
-    all.replay |= next.replay;
-    all.reset_view |= next.reset_view;
-    const auto take = [](auto& to, const auto& from) {
-      if (from) to = from;
-    };
-    take(all.tuning, next.tuning);
-    take(all.restart, next.restart);
-    take(all.gate, next.gate);
-    take(all.preset, next.preset);
-    take(all.hand, next.hand);
-    take(all.save_preset, next.save_preset);
-    take(all.compare, next.compare);
-    take(all.car, next.car);
-    all.lesson.begin |= next.lesson.begin;
-    all.lesson.leave |= next.lesson.leave;
-    all.lesson.dismiss_lesson |= next.lesson.dismiss_lesson;
-    take(all.lesson.offer, next.lesson.offer);
-    take(all.lesson.mode, next.lesson.mode);
-    take(all.lesson.help, next.lesson.help);
-    take(all.lesson.learner, next.lesson.learner);
-    take(all.lesson.next, next.lesson.next);
-    take(all.lesson.comment, next.lesson.comment);
-    take(all.lesson.comment_change, next.lesson.comment_change);
-    all.playback.whole_drive |= next.playback.whole_drive;
-    all.playback.close |= next.playback.close;
-    take(all.playback.open, next.playback.open);
-    take(all.playback.shift, next.playback.shift);
-    take(all.playback.seek, next.playback.seek);
-    take(all.playback.play, next.playback.play);
-    take(all.playback.pace, next.playback.pace);
-    all.headset.recentre |= next.headset.recentre;
-    all.headset.start_touching |= next.headset.start_touching;
-    all.headset.save_touches |= next.headset.save_touches;
-    all.headset.forget_touches |= next.headset.forget_touches;
-    all.headset.forget_knob |= next.headset.forget_knob;
-    take(all.headset.height, next.headset.height);
-    take(all.headset.knob, next.headset.knob);
+  static void merge(ui::PanelCommands& all, const ui::PanelCommands& next) {
+    all.insert(all.end(), next.begin(), next.end());
   }
 };
 

@@ -20,23 +20,23 @@ constexpr const char* kStiffness = "wall_stiffness_n_per_m";
 
 TEST_CASE("stop, arm, release, record and replay are requested once by a click on their button only") {
   PanelRig rig;
-  const PanelRequests stop = rig.click("stop");
-  CHECK(stop.stop);
-  CHECK_FALSE(stop.arm);
-  CHECK_FALSE(rig.frame().stop);
-  CHECK(rig.click("arm").arm);
+  const PanelCommands stop = rig.click("stop");
+  CHECK(has<Stop>(stop));
+  CHECK_FALSE(has<Arm>(stop));
+  CHECK_FALSE(has<Stop>(rig.frame()));
+  CHECK(has<Arm>(rig.click("arm")));
   rig.input.now.guard = GuardState::running;
   rig.frame();
   CHECK_FALSE(rig.panel.control_rect("arm").has_value());
-  CHECK(rig.click("disarm").disarm);
-  CHECK(rig.click("stop").stop);
-  CHECK(rig.click("record").record);
-  CHECK(rig.click("replay").replay);
-  CHECK(rig.click("reset_view").reset_view);
-  CHECK_FALSE(rig.frame().reset_view);
+  CHECK(has<Disarm>(rig.click("disarm")));
+  CHECK(has<Stop>(rig.click("stop")));
+  CHECK(has<ToggleRecording>(rig.click("record")));
+  CHECK(has<ReplayLastRecording>(rig.click("replay")));
+  CHECK(has<ResetView>(rig.click("reset_view")));
+  CHECK_FALSE(has<ResetView>(rig.frame()));
   rig.events.mouse = {640, 300};  // the cabin
   rig.events.mouse_down[0] = true;
-  CHECK_FALSE(rig.frame().stop);
+  CHECK_FALSE(has<Stop>(rig.frame()));
   CHECK_FALSE(rig.ui.wants_mouse());
 }
 
@@ -74,13 +74,13 @@ TEST_CASE("a rejected value can be reduced to the stable limit, or discarded") {
   TuningRig rig(1);
   rig.drag(kStiffness, 0.25, 1.0, 3);
   const double before = rig.input.admitted.tuning.wall_stiffness;
-  CHECK_FALSE(rig.click("keep_running").tuning.has_value());
+  CHECK_FALSE(has<ChangeTuning>(rig.click("keep_running")));
   CHECK_FALSE(rig.panel.control_rect("use_stable").has_value());
   CHECK(rig.input.admitted.tuning.wall_stiffness == before);
   rig.drag(kStiffness, 0.25, 1.0, 3);
-  const PanelRequests asked = rig.click("use_stable");
-  REQUIRE(asked.tuning.has_value());
-  CHECK(asked.tuning->wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 4e-6));
+  const auto asked = find<ChangeTuning>(rig.click("use_stable"));
+  REQUIRE(asked);
+  CHECK(asked->tuning.wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 4e-6));
   CHECK_FALSE(rig.panel.control_rect("use_stable").has_value());
 }
 
@@ -163,57 +163,55 @@ TEST_CASE("the panel also works if the program applies a tuning some frames late
     rig.point(kStiffness, 0.25 + 0.03 * i);
     rig.ui.feed(rig.events);
     rig.ui.begin(rig.screen);
-    const PanelRequests asked = rig.panel.draw(rig.input.view(rig.gate, rig.device));
+    const auto asked = find<ChangeTuning>(rig.panel.draw(rig.input.view(rig.gate, rig.device)));
     rig.ui.end();
-    if (asked.tuning) late.push_back(*asked.tuning);
+    if (asked) late.push_back(asked->tuning);
     if (late.size() > 3) rig.input.admitted.tuning = late[late.size() - 4];
   }
   rig.events.mouse_down[0] = false;
   rig.input.admitted.tuning = late.back();
   rig.frame();
-  const PanelRequests undone = rig.click("undo");
-  REQUIRE(undone.tuning.has_value());
-  CHECK(*undone.tuning == HapticTuning());  // one undo reverts the whole drag
+  CHECK(value(rig.click("undo"), &ChangeTuning::tuning) == HapticTuning());  // one undo reverts the whole drag
 }
 
 TEST_CASE("gate, preset and hand are chosen from their lists") {
   PanelRig rig;
   rig.click("gate");
-  CHECK(rig.click("gate: dog_leg_five").gate == "dog_leg_five");
+  CHECK(value(rig.click("gate: dog_leg_five"), &ChooseGate::name) == "dog_leg_five");
   rig.click("preset");
-  CHECK(rig.click("preset: paper").preset == "paper");
+  CHECK(value(rig.click("preset: paper"), &ChoosePreset::name) == "paper");
   rig.click("hand");
-  CHECK(rig.click("hand: touring").hand == "touring");
+  CHECK(value(rig.click("hand: touring"), &ChooseHand::name) == "touring");
   rig.click("gate");
-  CHECK_FALSE(rig.click("gate: paper").gate.has_value());  // this gate is already selected
+  CHECK_FALSE(has<ChooseGate>(rig.click("gate: paper")));  // this gate is already selected
 }
 
 TEST_CASE("a preset is saved only under a typed name") {
   PanelRig rig;
   rig.click("tab_presets");
-  CHECK_FALSE(rig.click("save").save_preset.has_value());
+  CHECK_FALSE(has<SavePreset>(rig.click("save")));
   rig.click("save_name");
   rig.events.text = U"heavy";
   rig.frame();
   rig.frame();
-  CHECK(rig.click("save").save_preset == "heavy");
+  CHECK(value(rig.click("save"), &SavePreset::name) == "heavy");
   rig.click("compare");
-  CHECK(rig.click("compare: paper").compare == "paper");
+  CHECK(value(rig.click("compare: paper"), &ComparePreset::name) == "paper");
 }
 
 TEST_CASE("settings that are fixed while the loop runs are collected, checked, and applied by a restart") {
   PanelRig rig;
   rig.click("tab_setup");
-  CHECK_FALSE(rig.click("restart").restart.has_value());  // no setting has changed, so there is nothing to request
+  CHECK_FALSE(has<Restart>(rig.click("restart")));  // no setting has changed, so there is nothing to request
   rig.drag("slew_n_per_cycle", 0.25, 0.75);
-  const PanelRequests asked = rig.click("restart");
-  REQUIRE(asked.restart.has_value());
-  CHECK(asked.restart->guard.slew == doctest::Approx(75.0).epsilon(0.05));
-  CHECK_NOTHROW(check_config(*asked.restart));
+  const auto asked = find<Restart>(rig.click("restart"));
+  REQUIRE(asked);
+  CHECK(asked->config.guard.slew == doctest::Approx(75.0).epsilon(0.05));
+  CHECK_NOTHROW(check_config(asked->config));
   rig.drag("clear_below_n", 0.1, 0.9);  // invalid, because `clear_below` now exceeds `warn_above`
-  CHECK_FALSE(rig.click("restart").restart.has_value());
+  CHECK_FALSE(has<Restart>(rig.click("restart")));
   rig.click("setup_back");
-  CHECK_FALSE(rig.click("restart").restart.has_value());
+  CHECK_FALSE(has<Restart>(rig.click("restart")));
 }
 
 TEST_CASE("the check of new settings is repeated when the device changes, even if the settings do not") {
@@ -221,9 +219,9 @@ TEST_CASE("the check of new settings is repeated when the device changes, even i
   rig.device.simulated = true;
   rig.click("tab_setup");
   rig.click("study");
-  REQUIRE(rig.click("restart").restart.has_value());
+  REQUIRE(has<Restart>(rig.click("restart")));
   rig.device.simulated = false;  // unstable values are rejected on a real device
-  CHECK_FALSE(rig.click("restart").restart.has_value());
+  CHECK_FALSE(has<Restart>(rig.click("restart")));
 }
 
 TEST_CASE("by keys only: Tab enters the panel, arrows move to STOP, Space presses it, Escape leaves the panel") {
@@ -236,7 +234,7 @@ TEST_CASE("by keys only: Tab enters the panel, arrows move to STOP, Space presse
   bool stopped = false;
   for (int i = 0; i < 6 && !stopped; ++i) {
     rig.press(kRight);
-    stopped = rig.press(kSpace).stop;
+    stopped = has<Stop>(rig.press(kSpace));
   }
   CHECK(stopped);
   rig.press(kEscape);
@@ -260,8 +258,8 @@ TEST_CASE("Ctrl+Tab moves to the lists for car and gate; from there the arrows r
   for (int i = 0; i < 4 && stiffness == 0.0; ++i) {  // moves the focus past the undo buttons to the first slider
     rig.press(kDown);
     rig.press(kSpace);
-    const PanelRequests asked = rig.press(kRight);
-    if (asked.tuning) stiffness = asked.tuning->wall_stiffness;
+    const auto asked = find<ChangeTuning>(rig.press(kRight));
+    if (asked) stiffness = asked->tuning.wall_stiffness;
     rig.press(kSpace);
   }
   CHECK(stiffness > 5000.0);
@@ -284,11 +282,11 @@ TEST_CASE("a hidden panel draws nothing, ignores the mouse and keeps collecting 
   CHECK(ImGui::GetDrawData()->TotalVtxCount == 0);
   rig.events.mouse = 0.5 * (stop.min + stop.max);
   rig.events.mouse_down[0] = true;
-  CHECK_FALSE(rig.frame().stop);
+  CHECK_FALSE(has<Stop>(rig.frame()));
   rig.events.mouse_down[0] = false;
   rig.panel.set_visible(true);
   rig.frame();
-  CHECK(rig.click("stop").stop);
+  CHECK(has<Stop>(rig.click("stop")));
 }
 
 TEST_CASE("the help lists the text it is given, and can be closed") {

@@ -165,11 +165,11 @@ TEST_CASE("a lesson's own recording cannot be stopped with the button") {
   rig.input.coach.phase = LessonPhase::driving;
   run_and_draw(rig);
   CHECK(is_drawn("Recording lesson"));
-  CHECK_FALSE(rig.click("record").record);
+  CHECK_FALSE(has<ToggleRecording>(rig.click("record")));
   rig.input.coach.phase = LessonPhase::none;
   run_and_draw(rig);
   CHECK(is_drawn("End recording"));
-  CHECK(rig.click("record").record);
+  CHECK(has<ToggleRecording>(rig.click("record")));
 }
 
 TEST_CASE("a path too long for its line is shortened in the middle") {
@@ -195,7 +195,7 @@ TEST_CASE("gates and cars are shown by readable names and requested by their fil
   CHECK(is_drawn("Hatchback"));
   rig.click("gate");
   CHECK(is_drawn("Dog-leg 5-speed"));
-  CHECK(rig.click("gate: dog_leg_five").gate == "dog_leg_five");
+  CHECK(value(rig.click("gate: dog_leg_five"), &ChooseGate::name) == "dog_leg_five");
 }
 
 TEST_CASE("the loop's figures are next to their names") {

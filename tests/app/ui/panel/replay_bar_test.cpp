@@ -1,4 +1,4 @@
-// A recorded drive in the panel: the requests that clicks on the replay bar make, and the positions at which paths are
+// A recorded drive in the panel: the commands of clicks on the replay bar, and the positions at which paths are
 // drawn.
 #include <cmath>
 #include <string>
@@ -43,19 +43,16 @@ TEST_CASE("one click each plays, pauses, slows, closes a replay, and shows one s
   for (const bool panel_shown : {true, false}) {
     CAPTURE(panel_shown);
     ReplayRig rig(panel_shown);
-    CHECK(rig.click("replay_play").playback.play == false);  // a click on the running replay asks for a pause
+    CHECK(value(rig.click("replay_play"), &PlayReplay::on) == false);  // a click on the running replay asks for a pause
     rig.player.play(false);
     rig.frame();
-    CHECK(rig.click("replay_play").playback.play == true);
-    CHECK(rig.click("replay_pace: 0.1").playback.pace == 0.1);
-    CHECK(rig.click("replay_pace: 2").playback.pace == 2.0);
-    CHECK(rig.click("replay_shift: 1").playback.shift == 1);
-    CHECK(rig.click("replay_whole").playback.whole_drive);
-    CHECK(rig.click("replay_close").playback.close);
-    const PanelRequests idle = rig.frame();
-    CHECK_FALSE(idle.playback.close);
-    CHECK_FALSE(idle.playback.seek.has_value());
-    CHECK_FALSE(idle.playback.play.has_value());
+    CHECK(value(rig.click("replay_play"), &PlayReplay::on) == true);
+    CHECK(value(rig.click("replay_pace: 0.1"), &SetPace::pace) == 0.1);
+    CHECK(value(rig.click("replay_pace: 2"), &SetPace::pace) == 2.0);
+    CHECK(value(rig.click("replay_shift: 1"), &ShowShift::index) == 1);
+    CHECK(has<ShowWholeDrive>(rig.click("replay_whole")));
+    CHECK(has<CloseReplay>(rig.click("replay_close")));
+    CHECK(rig.frame().empty());
   }
 }
 
@@ -70,11 +67,12 @@ TEST_CASE("the scrub bar seeks over its full width within the shown part of the 
       rig.point("replay_time", fraction);
       rig.frame();
       rig.events.mouse_down[0] = true;
-      PanelRequests asked = rig.frame();
+      PanelCommands asked = rig.frame();
       rig.events.mouse_down[0] = false;
       PanelRig::merge(asked, rig.frame());
-      REQUIRE(asked.playback.seek.has_value());
-      CHECK(std::abs(*asked.playback.seek - (from + fraction * (to - from))) < 0.02 * (to - from));
+      const auto seek = find<SeekReplay>(asked);
+      REQUIRE(seek);
+      CHECK(std::abs(seek->time - (from + fraction * (to - from))) < 0.02 * (to - from));
     }
   }
 }
@@ -278,7 +276,7 @@ TEST_CASE("while a drive is being loaded the bar names it, and Close cancels it"
   rig.input.opening = "moving_off-20261122-000929-29480.trace";
   for (int i = 0; i < 3; ++i) rig.frame();
   CHECK(is_drawn("Opening moving_off-20261122-000929-29480.trace \u2026"));
-  CHECK(rig.click("replay_close").playback.close);
+  CHECK(has<CloseReplay>(rig.click("replay_close")));
   CHECK_FALSE(rig.panel.control_rect("replay_play").has_value());
   CHECK(rig.panel.cabin_area().max.y < rig.rect("replay_close").min.y);
 }
