@@ -84,7 +84,7 @@ struct Runtime::State {
   glm::dvec2 start_position() const { return haptics::rest_position(gate, config.start.gear); }
   haptics::HapticConfig running_config() const;
   haptics::TraceHeader header(const char* replay_parameters, bool armed) const;
-  bool requires_manual_arming(const haptics::HapticSnapshot& now) const;
+  bool requires_manual_arming(const CycleRecord& record) const;
   void switch_to(std::unique_ptr<LoopRun> next);
   void begin();
   void cycle_once();
@@ -119,12 +119,14 @@ struct Runtime::State {
   CycleRecord newest;
   std::vector<vehicle::DriveSample> cycles;  // not yet returned by drain_cycles()
   haptics::EventDetector detector;
+  std::uint64_t last_read_run = 0;
   std::vector<haptics::HapticEvent> events;  // not yet returned by drain_events()
   haptics::DurationHistogram lateness;
   // [ns] durations of the stages in the latest stamped cycles
   std::array<std::array<std::int64_t, 8>, kStamps> stages{};
   std::size_t stamps_read = 0;
   std::uint64_t stamped_cycle = 0;
+  std::uint64_t commanded_run = 0, commanded_cycle = 0;  // newest cycle when the last command was sent
   bool wants_forces = false;        // true if the last request was arm(), false after disarm() or stop()
   std::int64_t start_ns = 0;        // [ns] one period before the first cycle, on the loop's clock
   std::int64_t virtual_ns = 0;      // [ns] time of the last cycle on the virtual clock
@@ -216,10 +218,14 @@ haptics::TraceHeader Runtime::State::header(const char* replay_parameters, bool 
           config.layout.text, replay_parameters, armed};
 }
 
-// True if a fault has ended the forces and only arm() may restore them. HapticLoop::watch_guard() has the same rule.
-bool Runtime::State::requires_manual_arming(const haptics::HapticSnapshot& now) const {
-  const bool may_rearm = lever.spec().simulated && now.fault != haptics::GuardFault::chatter;
-  return now.guard == haptics::GuardState::released || (now.guard == haptics::GuardState::damped && !may_rearm);
+// True if a fault has ended the forces, or arming was refused, and only arm() may restore them. False while the last
+// command may not have been processed: until the second cycle after it.
+bool Runtime::State::requires_manual_arming(const CycleRecord& record) const {
+  const haptics::HapticSnapshot& now = record.cycle.out;
+  if (record.run == commanded_run && now.cycle < commanded_cycle + 2) return false;
+  if (now.guard == haptics::GuardState::idle) return now.fault == haptics::GuardFault::stopped;
+  return now.guard == haptics::GuardState::released ||
+         (now.guard == haptics::GuardState::damped && !haptics::rearms_itself(lever.spec(), now.fault));
 }
 
 // Replaces the running loop. Returns after the first cycle of the next loop, so that later commands reach that loop and
@@ -241,7 +247,7 @@ void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
       std::this_thread::sleep_for(kPollPeriod);
   }
   run = std::move(next);
-  if (!wants_forces || !requires_manual_arming(last.cycle.out)) return;
+  if (!wants_forces || !requires_manual_arming(last)) return;
   wants_forces = false;
   send(haptics::LoopCommand::stop);
 }
@@ -267,6 +273,7 @@ void Runtime::State::read_records() {
   unread_cycles = 0;
   for (CycleRecord record; reader.pop(record);) {
     if (cycles.size() < CycleRunner::kMaxRecords) cycles.push_back(record.sample());
+    if (std::exchange(last_read_run, record.run) != record.run) detector = {};
     detector.update(record.cycle, events);
     lateness.add(record.late_ns);
     note_stages(record.stamps);
@@ -283,6 +290,9 @@ void Runtime::State::note_stages(const haptics::StageStamps& stamps) {
 // Queues the command; the loop processes one command per cycle. If the queue is full on the virtual clock, which may be
 // stopped, drops the oldest command. If it is full on the real clock, waits until the loop has processed a command.
 void Runtime::State::send(haptics::LoopCommand command) {
+  update_newest();
+  commanded_run = newest.run;
+  commanded_cycle = newest.cycle.out.cycle;
   while (!runner.inputs.commands.push(command)) {
     haptics::LoopCommand oldest;
     if (is_virtual())
@@ -399,13 +409,17 @@ void Runtime::start_recording(const std::filesystem::path& file) {
   if (s.recorder) throw std::logic_error("a recording is already running; stop it first");
   std::unique_ptr<LoopRun> next = s.make_run();
   // Forces that were requested count as on even if the loop has not processed the command yet.
-  const bool armed = s.wants_forces && !s.requires_manual_arming(s.newest.cycle.out);
+  const bool armed = s.wants_forces && !s.requires_manual_arming(s.newest);
   if (armed) next->loop.arm();
   s.recorder = std::make_unique<haptics::TraceRecorder>(file, s.header(next->load().replay_parameters(), armed));
   s.recorded_run = next->number;
-  if (!s.is_virtual()) {
-    s.recorder_thread.emplace(s.runner.stream, kRecorderInterval, StreamThread::AtEnd::finish,
-                              [&s](const CycleRecord& record) { s.record(record); });
+  try {
+    if (!s.is_virtual())
+      s.recorder_thread.emplace(s.runner.stream, kRecorderInterval, StreamThread::AtEnd::finish,
+                                [&s](const CycleRecord& record) { s.record(record); });
+  } catch (...) {
+    s.recorder.reset();
+    throw;
   }
   s.wants_forces = armed;
   s.switch_to(std::move(next));

@@ -39,10 +39,8 @@ LeverInForce::Next LeverInForce::prepare(const SessionChoice& choice, const less
 
 void LeverInForce::hand_over(Next next) {
   if (!runtime_) follow(ForceCause::start);
-  if (runtime_ && !armed_this_frame_) {
-    if (has_fault()) follow(ForceCause::fault);
-    follow(ForceCause::new_lever);
-  }
+  if (runtime_ && has_fault()) follow(ForceCause::fault);
+  if (runtime_ && !armed_cycle_) follow(ForceCause::new_lever);
   runtime_ = next.runtime ? std::move(next.runtime) : replace_runtime(next.config);
   is_new_ = true;
   is_car_held_ = false;
@@ -65,8 +63,20 @@ std::unique_ptr<runtime::Runtime> LeverInForce::replace_runtime(const runtime::R
   try {
     return std::make_unique<runtime::Runtime>(config);
   } catch (...) {
-    runtime_ = std::make_unique<runtime::Runtime>(before);
+    is_new_ = true;
+    wants_forces_ = false;
+    runtime_ = old_runtime(before);
     throw;
+  }
+}
+
+// The lever that was in force, without forces. If the stick has just failed, the lever has no connection to it.
+std::unique_ptr<runtime::Runtime> LeverInForce::old_runtime(runtime::RuntimeConfig config) const {
+  try {
+    return std::make_unique<runtime::Runtime>(config);
+  } catch (const std::exception&) {
+    config.lever = [stick = choice_.stick](double period) { return stick->detached_lever(period); };
+    return std::make_unique<runtime::Runtime>(config);
   }
 }
 
@@ -84,40 +94,43 @@ void LeverInForce::check_lever_gear(const lessons::Lesson& lesson, const haptics
 }
 
 void LeverInForce::follow(ForceCause cause) {
-  const auto* rule = std::find_if(std::begin(kForceRules), std::end(kForceRules),
-                                  [cause](const ForceRule& each) { return each.cause == cause; });
-  const ForceEffect effect = choice_.stick ? rule->stick : rule->simulated;
+  const ForceRule& rule = rule_of(cause);
+  const ForceEffect effect = choice_.stick ? rule.stick : rule.simulated;
   if (effect != ForceEffect::keep) wants_forces_ = effect == ForceEffect::on;
 }
 
+// A fault that the arming of this frame has cleared does not count. The loop processes a command at the latest in the
+// second cycle after it.
 bool LeverInForce::has_fault() {
-  const haptics::GuardState guard = runtime_->snapshot().guard;
-  return guard == haptics::GuardState::released || guard == haptics::GuardState::damped;
+  const haptics::HapticSnapshot now = runtime_->snapshot();
+  if (armed_cycle_ && now.cycle < *armed_cycle_ + 2) return false;
+  const bool is_refused = now.guard == haptics::GuardState::idle && now.fault == haptics::GuardFault::stopped;
+  return is_refused || now.guard == haptics::GuardState::released || now.guard == haptics::GuardState::damped;
 }
 
 // A stick must not start to push when it is plugged in, so it cannot be armed before.
 bool LeverInForce::arm() {
   if (choice_.stick && !choice_.stick->connected()) return false;
   follow(ForceCause::user_arms);
-  armed_this_frame_ = true;
+  armed_cycle_ = runtime_->snapshot().cycle;
   runtime_->arm();
   return true;
 }
 
 void LeverInForce::disarm() {
   follow(ForceCause::user_disarms);
-  armed_this_frame_ = false;
+  armed_cycle_.reset();
   runtime_->disarm();
 }
 
 void LeverInForce::stop() {
   follow(ForceCause::user_stops);
-  armed_this_frame_ = false;
+  armed_cycle_.reset();
   runtime_->stop();
 }
 
 std::string LeverInForce::begin_frame() {
-  armed_this_frame_ = false;
+  armed_cycle_.reset();
   std::string news;
   if (!choice_.stick) return news;
   while (const std::optional<std::string> one = choice_.stick->take_message())

@@ -23,10 +23,10 @@ enum class ForceCause {
   user_arms,     // Enter, or "Forces on"; refused while the stick is not plugged in
   user_disarms,  // "Forces off"
   user_stops,    // STOP
-  fault,         // the guard ended the forces, and a new lever follows
-  new_lever,     // another gate, car, hand or preset, or a lesson; not in the frame in which the user armed
-  stick_lost,    // the stick was unplugged
-  recording      // a recording starts or ends
+  fault,       // the guard ended the forces or refused to arm, since the user last armed; seen when a new lever follows
+  new_lever,   // another gate, car, hand or preset, or a lesson; not in the frame in which the user armed
+  stick_lost,  // the stick was unplugged
+  recording    // a recording starts or ends: Runtime::start_recording() keeps the forces
 };
 enum class ForceEffect { off, keep, on };
 struct ForceRule {
@@ -43,6 +43,13 @@ inline constexpr ForceRule kForceRules[] = {
     {ForceCause::stick_lost, ForceEffect::keep, ForceEffect::off},
     {ForceCause::recording, ForceEffect::keep, ForceEffect::keep},
 };
+constexpr const ForceRule& rule_of(ForceCause cause) {
+  return kForceRules[static_cast<std::size_t>(cause)];
+}
+static_assert(rule_of(ForceCause::start).cause == ForceCause::start &&
+                  rule_of(ForceCause::fault).cause == ForceCause::fault &&
+                  rule_of(ForceCause::recording).cause == ForceCause::recording,
+              "the rules are in the order of ForceCause");
 
 // Ignition and hand brake at the start of a lesson. The caller must set the user's switches to these values.
 struct CarSwitches {
@@ -118,6 +125,7 @@ class LeverInForce {
   bool has_fault();
   void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;
   std::unique_ptr<runtime::Runtime> replace_runtime(const runtime::RuntimeConfig& config);
+  std::unique_ptr<runtime::Runtime> old_runtime(runtime::RuntimeConfig config) const;
 
   SessionChoice choice_, running_;
   std::unique_ptr<runtime::Runtime> runtime_;
@@ -125,8 +133,9 @@ class LeverInForce {
   haptics::DriverControls controls_;  // the user's, without the keyboard's pedals
   std::optional<CarSwitches> switches_;
   bool is_car_held_ = false;
-  bool wants_forces_ = false;        // forces are on, or ended by a fault that was not noticed yet
-  bool armed_this_frame_ = false;    // the user switched forces on in this frame
+  bool wants_forces_ = false;  // forces are on, or ended by a fault that was not noticed yet
+  // Number of the newest cycle when the user switched forces on in this frame; empty: not in this frame.
+  std::optional<std::uint64_t> armed_cycle_;
   bool is_stick_connected_ = false;  // the stick was connected in the previous frame
   bool is_new_ = false;
 };

@@ -119,9 +119,11 @@ class Session {
   void arm();
   SessionChoice current_choice() const;
   void change_choice(const SessionChoice& wanted, std::string_view reason);
-  // Replaces the lever. `reason`: reported if this ends a lesson. If it fails, the old lever keeps running unchanged.
+  // Replaces the lever. `reason`: reported if this ends a lesson. If the new lever is rejected, the old one keeps running
+  // unchanged; if a stick's new lever fails although it was accepted, the old one runs again, without forces.
   void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
                  std::string_view reason = "the loop was restarted");
+  void show_lever_in_force();
   void close_current(std::string_view reason);
   void toggle_recording();
   void end_lesson_recording();

@@ -158,7 +158,12 @@ void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* less
     rebuild_stage(next.gate, next.gate_text, yoke, cabin_);
   message_.clear();
   close_current(reason);
-  lever_.hand_over(std::move(next));
+  try {
+    lever_.hand_over(std::move(next));
+  } catch (...) {
+    if (lever_.exists()) show_lever_in_force();
+    throw;
+  }
   ++run_;
   const runtime::RuntimeConfig& config = lever_.runtime().config();
   if (config.car) configure_sound(*config.car);
@@ -326,9 +331,15 @@ void Session::close_replay() {
   viewer_.close();
   ++run_;
   message_.clear();
+  show_lever_in_force();
+}
+
+// Rebuilds the stage if it shows another gate or yoke than the lever in force has.
+void Session::show_lever_in_force() {
   const runtime::RuntimeConfig& config = lever_.runtime().config();
-  if (stage_gate_ != config.layout.text)
-    rebuild_stage(lever_.runtime().gate(), config.layout.text, stage_yoke_, cabin_);
+  const haptics::YokeGeometry& yoke = config.preset.lever.yoke;
+  if (stage_gate_ != config.layout.text || !same_geometry(stage_yoke_, yoke))
+    rebuild_stage(lever_.runtime().gate(), config.layout.text, yoke, cabin_);
 }
 
 }  // namespace gearshift::session

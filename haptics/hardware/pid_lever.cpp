@@ -48,11 +48,12 @@ double LeverAxisMap::deflection(double metres) const noexcept {
   return std::clamp((counts(metres) - middle_) / half_range_, -1.0, 1.0);
 }
 
-PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, double period)
+PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, double period, StopButton* stop)
     : calibration_(with_range(calibration)),
       driver_(driver),
       spec_(spec_of(calibration, period)),
-      session_(driver.state().session) {
+      session_(driver.state().session),
+      stop_(stop != nullptr ? *stop : own_stop_) {
   driver.expect_answer(answer_time(calibration.has_timing() ? calibration.timing : kUnmeasuredTiming));
   const bool has_motors = calibration.select.usage <= kUsageY.id && calibration.shift.usage <= kUsageY.id;
   if (!has_motors)
@@ -133,8 +134,8 @@ bool PidLever::has_button(const LeverCounts& counts, int button) const noexcept 
 
 bool PidLever::is_stop_pressed(const LeverCounts& counts) noexcept {
   const bool held = has_button(counts, calibration_.stop_button);
-  stop_was_released_ = stop_was_released_ || !held;
-  return held && stop_was_released_;
+  stop_.was_released = stop_.was_released || !held;
+  return held && stop_.was_released;
 }
 
 void PidLever::write(glm::dvec2 force) noexcept {

@@ -27,11 +27,18 @@ class LeverAxisMap {
   double below_ = 1.0, above_ = 1.0;                       // [m] distance per count, on the low and on the high side
 };
 
+// The stick's stop button, over all levers that use the stick one after the other. A button that is held from the
+// start, as a switch may be, is ignored until it has been released once.
+struct StopButton {
+  bool was_released = false;
+};
+
 class PidLever final : public HapticDevice {
  public:
-  // The driver must outlive the lever. `period`: period of the loop [s]. Throws std::invalid_argument if the
-  // calibration has no range, the stick lacks an axis, or the stick's delay is longer than the loop supports.
-  PidLever(const DeviceCalibration& calibration, PidDriver& driver, double period);
+  // The driver must outlive the lever, and so must `stop`, if given. `period`: period of the loop [s]. Throws
+  // std::invalid_argument if the calibration has no range, the stick lacks an axis, or the stick's delay is longer than
+  // the loop supports.
+  PidLever(const DeviceCalibration& calibration, PidDriver& driver, double period, StopButton* stop = nullptr);
   ~PidLever() override { driver_.release(); }
   PidLever(const PidLever&) = delete;
   PidLever& operator=(const PidLever&) = delete;
@@ -72,10 +79,11 @@ class PidLever final : public HapticDevice {
   std::array<Axis, 2> axis_;  // select, shift
   StickCommand command_;
   LeverWalls walls_;
-  glm::dvec2 position_{0.0};        // [m] newest
-  std::uint64_t session_;           // session of the last state
-  bool halted_ = false;             // the session changed in this cycle
-  bool stop_was_released_ = false;  // a stop button held since the start is ignored until it has been released once
+  glm::dvec2 position_{0.0};  // [m] newest
+  std::uint64_t session_;     // session of the last state
+  bool halted_ = false;       // the session changed in this cycle
+  StopButton own_stop_;
+  StopButton& stop_;
 };
 
 }  // namespace gearshift::haptics

@@ -351,8 +351,8 @@ void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   if ((is_new && is_off) || is_faded) device_.release();
   const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
   healthy_time_ = is_healthy ? healthy_time_ + period_ : 0.0;
-  const bool may_rearm = spec_.simulated && guard_.fault() != GuardFault::chatter;
-  if (guard_.state() == GuardState::damped && may_rearm && healthy_time_ > kRearmAfter) arm();
+  const bool may_rearm = guard_.state() == GuardState::damped && rearms_itself(spec_, guard_.fault());
+  if (may_rearm && healthy_time_ > kRearmAfter) arm();
 }
 
 void HapticLoop::publish(std::int64_t deadline_ns, std::int64_t skipped) noexcept {

@@ -30,6 +30,12 @@ const char* to_string(GuardFault fault) noexcept;
 // At a slew limit of 1 N the wall force rises so slowly that an arm moves by 80 mm.
 inline constexpr double kMinSlew = 2.0;  // [N/cycle]
 
+// True if a lever in the state `damped` may re-arm itself after this fault: a simulated lever that did not chatter. After
+// every other fault, and on every real device, only the user arms the lever.
+constexpr bool rearms_itself(const DeviceSpec& spec, GuardFault fault) noexcept {
+  return spec.simulated && fault != GuardFault::chatter;
+}
+
 struct GuardConfig {
   double slew = 25.0;             // [N/cycle] 2 to 100, largest change per axis; an impact needs 16 at 1 kHz
   double ramp_time = 0.5;         // [s] 0.001 to 60, from armed to full force

@@ -33,7 +33,7 @@ StickLever::StickLever(const KnownStick& stick, haptics::PortOpener open)
 StickLever::~StickLever() = default;
 
 std::unique_ptr<haptics::HapticDevice> StickLever::lever(double period) {
-  return std::make_unique<haptics::PidLever>(stick_.calibration, driver_, period);
+  return std::make_unique<haptics::PidLever>(stick_.calibration, driver_, period, &stop_);
 }
 
 std::unique_ptr<haptics::HapticDevice> StickLever::detached_lever(double period) {

@@ -12,6 +12,7 @@
 #include "app/runtime/devices/known_stick.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/hardware/pid_driver.h"
+#include "haptics/hardware/pid_lever.h"
 #include "haptics/hardware/stick_connection.h"
 
 namespace gearshift::runtime {
@@ -46,6 +47,7 @@ class StickLever {
   haptics::PidDriver idle_;  // not connected to any device
   haptics::PidDriver driver_;
   haptics::StickConnection connection_;
+  haptics::StopButton stop_;
   std::size_t notes_reported_ = 0;  // number of PidAbility::notes that take_message() has returned
 };
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -33,6 +34,7 @@ KnownStick late_by(double delay) {  // [s] delay of the stick's response
   IdleHand idle_hand;
   KnownStick known{sidewinder_calibration(), EmulatedStick({}, idle_hand).report_descriptor()};
   known.calibration.timing.delay = delay;
+  known.calibration.stop_button = 3;
   return known;
 }
 
@@ -65,6 +67,23 @@ struct HeldRig {
     return condition();
   }
   void arm() { session->apply(Arm{}); }
+  // Holds or releases the stick's panic button, and waits until the stick has reported it.
+  void hold_stop(bool held_down) {
+    {
+      const std::lock_guard lock(held.mutex);
+      held.stick.held_buttons = held_down ? 1u << 2 : 0u;
+    }
+    for (int i = 0; i < 10; ++i) frame();
+  }
+  void tap_stop() {  // without a frame
+    for (const std::uint64_t buttons : {std::uint64_t{1u << 2}, std::uint64_t{0}}) {
+      {
+        const std::lock_guard lock(held.mutex);
+        held.stick.held_buttons = buttons;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
   GuardState guard() { return session->runtime().snapshot().guard; }
   // Runs frames until the guard's state is `running`. If the guard trips, as may happen on a busy machine, arms the
   // lever again.
@@ -142,6 +161,42 @@ TEST_CASE("only Enter arms the stick: not the start, nor a change of gate, car, 
     rig.arm();
     CHECK(rig.runs());
   }
+}
+
+// The stick's own panic button against Enter, which on the lesson card both arms and begins the lesson.
+TEST_CASE("while the panic button is held, neither Enter nor a new lever nor a recording switches forces on") {
+  HeldRig rig("moving_off");
+  rig.hold_stop(true);
+  rig.session->apply(PanelCommands{Arm{}, BeginLesson{}});
+  REQUIRE(rig.session->coach().view().phase == LessonPhase::driving);
+  CHECK(rig.stays_off(40));
+  rig.hold_stop(false);
+  CHECK(rig.stays_off(40));  // a person has to arm again
+  rig.session->apply(PanelCommands{LeaveLesson{}});
+
+  rig.session->apply(Disarm{});
+  rig.hold_stop(true);
+  rig.arm();  // refused
+  CHECK(rig.stays_off(20));
+  rig.hold_stop(false);
+  rig.frame();
+  rig.session->apply(PanelCommands{ToggleRecording{}});
+  CHECK(rig.session->recording());
+  CHECK(rig.stays_off(40));
+  rig.arm();
+  CHECK(rig.runs());
+}
+
+TEST_CASE("a panic button tapped after Enter, while the lesson loads, keeps the lesson's lever without forces") {
+  HeldRig rig("moving_off");
+  rig.frame();
+  rig.session->apply(PanelCommands{Arm{}});
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  rig.tap_stop();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  rig.session->apply(PanelCommands{BeginLesson{}});  // in the same frame as Enter
+  REQUIRE(rig.session->coach().view().phase == LessonPhase::driving);
+  CHECK(rig.stays_off(60));
 }
 
 TEST_CASE("the message that the stick's delay makes the walls softer is shown until it is armed") {
