@@ -73,6 +73,13 @@ void xor_derived(std::byte* sample) noexcept {
   }
 }
 
+// Without this check, libzstd may pass a hostile block to one of its decoders for formats before 1.0.
+bool is_current_format(std::span<const std::byte> coded) noexcept {
+  std::uint32_t magic = 0;
+  if (coded.size() >= sizeof magic) std::memcpy(&magic, coded.data(), sizeof magic);  // little-endian, as the machine
+  return magic == ZSTD_MAGICNUMBER;
+}
+
 // Writes the XOR of each sample with the previous one, by byte planes.
 void change_planes(const std::byte* samples, std::size_t count, std::byte* planes) noexcept {
   for (std::size_t at = 0; at < kSampleBytes; at += sizeof(Word)) {
@@ -129,6 +136,7 @@ void BlockCodec::encode(std::span<const std::byte> samples, std::vector<std::byt
 bool BlockCodec::decode(std::span<const std::byte> coded, std::size_t count, std::vector<std::byte>& samples) {
   if (count == 0 || count > kSamplesPerBlock) return false;
   const std::size_t size = count * kSampleBytes;
+  if (!is_current_format(coded)) return false;
   if (ZSTD_getFrameContentSize(coded.data(), coded.size()) != size) return false;
   if (ZSTD_findFrameCompressedSize(coded.data(), coded.size()) != coded.size()) return false;
   if (ZSTD_decompressDCtx(decompressor_.get(), planes_.data(), size, coded.data(), coded.size()) != size) return false;

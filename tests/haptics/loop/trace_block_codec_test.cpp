@@ -176,6 +176,18 @@ TEST_CASE("block codec: truncated data, or a wrong number of samples, is refused
   }
 }
 
+// libzstd may also decode the formats before 1.0 (zstd/lib/legacy). In that of 0.7, the first byte of a block header
+// contains its kind: 0x80 repeats the byte that follows the header, 0xC0 ends the frame.
+TEST_CASE("block codec: a frame of a format before zstd 1.0 is refused, although libzstd may decode it") {
+  constexpr int kSize = 2 * kSample;
+  const Block frame = text({0x27, 0xB5, 0x2F, 0xFD,                // magic of 0.7; that of 1.0 is 28 B5 2F FD
+                            0xA0, kSize & 0xFF, kSize >> 8, 0, 0,  // one segment, size in 4 bytes
+                            0x80, kSize >> 8, kSize & 0xFF, 0, 0xC0, 0, 0});  // zeros, end
+  haptics::BlockCodec codec;
+  Block back;
+  CHECK_FALSE(codec.decode(frame, 2, back));
+}
+
 TEST_CASE("block codec: random bytes and corrupted blocks are either decoded to samples or refused") {
   haptics::BlockCodec codec;
   Block back;
