@@ -67,7 +67,7 @@ void xor_derived(std::byte* sample) noexcept {
     const auto number = [&](std::size_t at) { return std::bit_cast<double>(word_at(sample, at + axis)); };
     xor_number(sample, field_offset("out.commanded") + axis,
                number(field_offset("out.wall_force")) + number(field_offset("out.feel_force")) +
-                   number(field_offset("out.world_force")));
+                   number(field_offset("out.load_force")));
     xor_number(sample, field_offset("out.f_j") + axis,
                number(field_offset("out.f_h")) - number(field_offset("out.f_a")));
   }

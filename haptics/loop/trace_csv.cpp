@@ -65,7 +65,7 @@ void add_motion(Row& row, const HapticSnapshot& out) {
 void add_forces(Row& row, const HapticSnapshot& out) {
   row.pair("wall_force", "n", out.wall_force, 1.0);
   row.pair("feel_force", "n", out.feel_force, 1.0);
-  row.pair("world_force", "n", out.load_force, 1.0);
+  row.pair("load_force", "n", out.load_force, 1.0);
   row.pair("commanded", "n", out.commanded, 1.0);
   row.pair("f_h", "n", out.f_h, 1.0);
   row.pair("f_a", "n", out.f_a, 1.0);

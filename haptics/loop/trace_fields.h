@@ -3,8 +3,9 @@
 //
 //   each_field(value, visit)   calls visit("name", member) for every member, in file order
 //
-// Each list uses a structured binding, so that it no longer compiles when its struct gains or loses a member. Then
-// change the list in the same way and raise kTraceVersion. Also raise it if a member changes its type.
+// Each list uses a structured binding, so that it no longer compiles when its struct gains or loses a member. A struct
+// with a table of parameters has that table as its list. If a list or the type of a member changes, raise
+// kTraceVersion: trace_format.h does not compile if a size changes, but nothing detects a change of order.
 #pragma once
 
 #include <concepts>
@@ -45,8 +46,8 @@ constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
   visit("delay", delay);
   visit("axis_x", axis_x);
   visit("axis_y", axis_y);
-  visit("own_stiffness", device_wall_stiffness);
-  visit("own_damping", device_wall_damping);
+  visit("device_wall_stiffness", device_wall_stiffness);
+  visit("device_wall_damping", device_wall_damping);
   visit("measures_hand_force", measures);
   visit("simulated", simulated);
 }
@@ -104,7 +105,7 @@ constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit)
   visit("proxy", proxy);
   visit("wall_force", wall_force);
   visit("feel_force", feel_force);
-  visit("world_force", load_force);
+  visit("load_force", load_force);
   visit("commanded", commanded);
   visit("f_h", f_h);
   visit("f_a", f_a);

@@ -26,7 +26,7 @@ inline constexpr std::array<char, 8> kTraceMagic = {'\x89', 'G', 'S', 'T', 'R', 
 inline constexpr std::uint32_t kTraceVersion = 8;
 
 // Everything that a replay needs before the first cycle. For a replayable trace, start recording before the first
-// cycle, and put the initial tuning into the config instead of the channels.
+// cycle, and put the initial tuning into the config instead of calling HapticLoop::change_tuning().
 struct TraceHeader {
   std::string program;  // name and version of the recording program
   HapticConfig config;
@@ -40,6 +40,8 @@ struct TraceHeader {
 // Size of an encoded sample [bytes]; the last kOutputBytes of a sample are its outputs.
 inline constexpr std::size_t kSampleBytes = encoded_size<TraceSample>();
 inline constexpr std::size_t kOutputBytes = encoded_size<HapticSnapshot>();
+static_assert(kSampleBytes == 392 && encoded_size<HapticConfig>() + encoded_size<DeviceSpec>() == 314,
+              "the format of traces has changed: raise kTraceVersion, then put the new sizes here");
 inline constexpr std::size_t kSamplesPerBlock = 256;
 using EncodedSample = std::array<std::byte, kSampleBytes>;
 EncodedSample encode_sample(const TraceSample& sample) noexcept;
