@@ -146,6 +146,7 @@ inline constexpr Parameter<vehicle::EngineSpec> kParameters<vehicle::EngineSpec>
     {&vehicle::EngineSpec::shudder, "shudder", "shudder_n", FileRange{0.0, 10.0},
      "Vibration at the knob while the engine dies."},
 };
+static_assert(describes_all(&vehicle::EngineSpec::full_load, &vehicle::EngineSpec::points));
 
 template <>
 inline constexpr Parameter<vehicle::ClutchSpec> kParameters<vehicle::ClutchSpec>[] = {
@@ -167,6 +168,7 @@ inline constexpr Parameter<vehicle::GearboxSpec> kParameters<vehicle::GearboxSpe
      "Increase per 1000 rpm."},
     {&vehicle::GearboxSpec::efficiency, "efficiency", "efficiency", FileRange{0.5, 1.0}, "Meshing teeth; 1: lossless."},
 };
+static_assert(describes_all(&vehicle::GearboxSpec::ratio));
 
 template <>
 inline constexpr Parameter<vehicle::SynchroSpec> kParameters<vehicle::SynchroSpec>[] = {

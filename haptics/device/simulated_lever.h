@@ -58,6 +58,9 @@ inline constexpr Parameter<SimulatedLeverConfig> kParameters<SimulatedLeverConfi
     {&SimulatedLeverConfig::seed, "seed", "seed", FileRange{0.0, 9007199254740992.0},
      "For sensor noise, model error and jitter."},
 };
+static_assert(describes_all(&SimulatedLeverConfig::yoke, &SimulatedLeverConfig::axis_x, &SimulatedLeverConfig::axis_y,
+                            &SimulatedLeverConfig::actuator, &SimulatedLeverConfig::force_sensor,
+                            &SimulatedLeverConfig::hand));
 
 // Calls visit(section, part) for each section of a preset that describes the lever, and the struct that it sets.
 template <class Config>

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -83,10 +84,36 @@ constexpr std::size_t member_count() {
     return sizeof...(Values);
 }
 
-// Every member of S has a description.
+constexpr bool is_same_member(auto a, auto b) {
+  if constexpr (std::is_same_v<decltype(a), decltype(b)>) return a == b;
+  return false;
+}
+
+// True if every member of S either has one description or is one of `others`, which are no parameters, and if no name
+// or key occurs twice. If S has such members, assert this below its table.
+template <class S, class... Others>
+consteval bool describes_all(Others S::*... others) {
+  constexpr const auto& table = kParameters<S>;
+  if (member_count<S>() != std::size(table) + sizeof...(others)) return false;
+  for (auto a = std::begin(table); a != std::end(table); ++a) {
+    for (auto b = std::begin(table); b != a; ++b) {
+      if (a->member == b->member || std::string_view(a->name) == b->name) return false;
+      if (std::string_view(a->key) == b->key) return false;
+    }
+    const auto is_other = [&]([[maybe_unused]] auto member) {
+      return (is_same_member(member, others) || ... || false);
+    };
+    if (std::visit(is_other, a->member)) return false;
+  }
+  [[maybe_unused]] const auto is_listed_once = [&](auto other) {
+    return (0 + ... + int{is_same_member(other, others)}) == 1;
+  };
+  return (is_listed_once(others) && ... && true);
+}
+
+// Every member of S is a parameter.
 template <class S>
-concept DescribesAll = std::is_array_v<decltype(kParameters<S>)> && member_count<S>()
-== std::size(kParameters<S>);
+concept DescribesAll = std::is_array_v<decltype(kParameters<S>)> && describes_all<S>();
 
 // The description of a member, such as &HapticTuning::wall_stiffness.
 template <class S, class Value>

@@ -83,12 +83,15 @@ inline constexpr Parameter<GateLayout> kParameters<GateLayout>[] = {
     {&GateLayout::chamfer, "chamfer", "chamfer_mm", FileRange{0.0, 10.0, file_unit::kMillimetres},
      "Leg of a slot's 45 degree corners."},
 };
+static_assert(describes_all(&GateLayout::name, &GateLayout::file, &GateLayout::text, &GateLayout::columns,
+                            &GateLayout::neutral_column, &GateLayout::feel, &GateLayout::lockouts, &GateLayout::lines));
 
 template <>
 inline constexpr Parameter<ColumnLayout> kParameters<ColumnLayout>[] = {
     {&ColumnLayout::position, "position", "position_mm", FileRange{-200.0, 200.0, file_unit::kMillimetres},
      "Sideways position of the column's centre line."},
 };
+static_assert(describes_all(&ColumnLayout::forward, &ColumnLayout::back, &ColumnLayout::junction, &ColumnLayout::line));
 
 // The paper's lever has a peak force of 31.7 N; a lock must leave some of it for the walls.
 template <>
@@ -113,6 +116,8 @@ inline constexpr Parameter<LockoutLayout> kParameters<LockoutLayout>[] = {
     {&LockoutLayout::open_below, "open_below", "open_below_kmh", FileRange{0.0, 400.0, file_unit::kKmPerHour},
      "Road speed; for `speed` only."},
 };
+static_assert(describes_all(&LockoutLayout::gear, &LockoutLayout::kind, &LockoutLayout::after_gear,
+                            &LockoutLayout::line));
 
 // Throws FileError (haptics/files) with file, line, key, value and allowed range.
 GateLayout read_gate_layout(const std::filesystem::path& file);

@@ -114,6 +114,8 @@ inline constexpr Parameter<HapticConfig> kParameters<HapticConfig>[] = {
      "If lever and proxy are further apart, the picture shows the true position of the hand.", "Past wall beyond",
      "a ghost hand at every wall", "picture and hand differ unnoticed", Display{"mm", 0, 1e3}},
 };
+static_assert(describes_all(&HapticConfig::tuning, &HapticConfig::contact, &HapticConfig::estimator,
+                            &HapticConfig::guard, &HapticConfig::over_push));
 
 // Calls visit(section, part) for each section of a configuration file and the struct that it sets.
 template <class Config>

@@ -136,6 +136,7 @@ inline constexpr Parameter<lessons::DriveCondition> kParameters<lessons::DriveCo
      "Rolled back from the step's foremost position; in reverse gear: distance reversed."},
     {&lessons::DriveCondition::held, "held", "held_s", FileRange{0.0, 60.0}, "Their sum must be below `time_limit_s`."},
 };
+static_assert(describes_all(&lessons::DriveCondition::gear));
 
 template <>
 inline constexpr Parameter<lessons::LessonStep> kParameters<lessons::LessonStep>[] = {
@@ -150,6 +151,8 @@ inline constexpr Parameter<lessons::LessonStep> kParameters<lessons::LessonStep>
     {&lessons::LessonStep::at, "at", "at_km_per_h", FileRange{5.0, 150.0, file_unit::kKmPerHour},
      "Speed of the shift; only for a forward gear."},
 };
+static_assert(describes_all(&lessons::LessonStep::prompt, &lessons::LessonStep::hint, &lessons::LessonStep::until,
+                            &lessons::LessonStep::gear));
 
 template <>
 inline constexpr Parameter<lessons::LessonStart> kParameters<lessons::LessonStart>[] = {
@@ -158,11 +161,18 @@ inline constexpr Parameter<lessons::LessonStart> kParameters<lessons::LessonStar
     {&lessons::LessonStart::hand_brake, "hand_brake", "hand_brake", FileRange{0.0, 1.0}, "Lever, 1 is fully up."},
     {&lessons::LessonStart::running, "running", "running", FileRange{}, ""},
 };
+static_assert(describes_all(&lessons::LessonStart::gear, &lessons::LessonStart::slope));
 
 template <>
 inline constexpr Parameter<lessons::Lesson> kParameters<lessons::Lesson>[] = {
     {&lessons::Lesson::pass_grade, "pass_grade", "pass_grade", FileRange{1.0, 10.0}, "Least grade that passes, of 10."},
     {&lessons::Lesson::time_limit, "time_limit", "time_limit_s", FileRange{10.0, 1800.0}, "Of the whole lesson."},
 };
+static_assert(describes_all(&lessons::Lesson::key, &lessons::Lesson::title, &lessons::Lesson::goal,
+                            &lessons::Lesson::task, &lessons::Lesson::car, &lessons::Lesson::gate,
+                            &lessons::Lesson::start, &lessons::Lesson::steps, &lessons::Lesson::aborts,
+                            &lessons::Lesson::fails_on, &lessons::Lesson::counted, &lessons::Lesson::shift_from,
+                            &lessons::Lesson::shift_to, &lessons::Lesson::band_of_car, &lessons::Lesson::text,
+                            &lessons::Lesson::file));
 
 }  // namespace gearshift::haptics
