@@ -74,7 +74,7 @@ inline constexpr int kParameters = 0;
 // Number of members of an aggregate: the largest number of initialisers that it accepts.
 struct AnyValue {
   template <class T>
-  constexpr operator T() const;
+  operator T() const;
 };
 template <class S, class... Values>
 constexpr std::size_t member_count() {
