@@ -1,4 +1,4 @@
-// Axes, grids, numbers and curves of a plot. Every SVG plot of this program is drawn with them.
+// Axes, grids, numbers and curves of SVG plots. The verbs tour, identify and reproduce draw with gnuplot instead.
 #pragma once
 
 #include <string_view>

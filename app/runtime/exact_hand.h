@@ -8,7 +8,7 @@ namespace gearshift::runtime {
 
 class ExactHand final : public haptics::HandDriver {
  public:
-  // The channel must outlive this object. Nothing else may read from the channel.
+  // `channel` must outlive this object and must have no other reader.
   explicit ExactHand(haptics::LatestValue<haptics::HandTarget>& channel) noexcept : channel_(channel) {}
 
   haptics::HandTarget next(double, glm::dvec2) noexcept override {

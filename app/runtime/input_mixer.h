@@ -1,8 +1,8 @@
 // Selects the hand and the controls that the lever receives. Normally these are the user's hand and controls. If a
 // driver function drives, they are the driver's, but slope and guidance are the instructor's.
 //
-// This class is the only writer of the hand and controls channels. The frame's thread and the driver's thread call it,
-// one at a time. The haptic thread only reads the channels and never waits.
+// This class is the only writer of the hand's target and of the controls. The frame's thread and the driver's thread
+// call it, one at a time. The haptic thread reads the newest values and never waits.
 #pragma once
 
 #include <mutex>
@@ -15,7 +15,7 @@ namespace gearshift::runtime {
 class InputMixer {
  public:
   // `driven`: a driver function drives, so only slope and guidance from set_controls() are used. `first`: initial hand
-  // and controls. The channel of the controls must outlive this object.
+  // and controls. `channel` receives the controls and must outlive this object.
   InputMixer(bool driven, const vehicle::DriverAction& first, haptics::LatestValue<haptics::DriverControls>& channel);
 
   void set_hand(const haptics::HandTarget& target);            // the user's hand; ignored if a driver function drives

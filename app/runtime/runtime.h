@@ -63,7 +63,7 @@ struct LoopHealth {
   double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;
   std::uint64_t overruns = 0;  // number of cycles since the start that took longer than a period
   std::uint64_t skipped = 0;   // number of deadlines since the start that were missed, by overruns or late wake-ups
-  std::uint64_t unseen = 0;    // number of cycles since the start that were lost, because the caller paused for seconds
+  std::uint64_t unseen = 0;    // number of cycles since the start that were overwritten before the caller read them
   // [ns] Mean durations of the eight stages of a cycle: read, estimate, proxy, couple, feel, load, guard and write;
   // over the latest cycles with time stamps.
   std::array<double, 8> stage_ns{};
@@ -96,8 +96,9 @@ class Runtime {
   haptics::HapticSnapshot snapshot();                // newest state of the lever
   vehicle::VehicleState car();                       // newest state of the car; default values without a car
   std::vector<haptics::HapticEvent> drain_events();  // events since the last call, in order
-  // Returns every cycle since the last call, in order, but at most 8192. If there were more cycles, some are missing;
-  // HapticSnapshot::cycle shows the gap.
+  // Returns every cycle since the last call, in order. If more than 8192 were read since then (drain_events() and
+  // health() read cycles, too), the newest are missing. If none of the three was called for more than 8192 cycles, the
+  // oldest are missing; LoopHealth::unseen counts only these. HapticSnapshot::cycle shows the gap.
   std::vector<vehicle::DriveSample> drain_cycles();
   // Uses position and push of the target. Has no effect with a driver or a real lever.
   void set_hand(const haptics::HandTarget& target);

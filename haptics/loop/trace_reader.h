@@ -21,7 +21,7 @@ enum class TornTrace {
 
 class TraceReader {
  public:
-  // Throws FileError with one sentence if the file is missing, a directory, empty, not a trace, of a newer format,
+  // Throws FileError with one sentence if the file is missing, a directory, empty, not a trace, of another format,
   // damaged or torn. The constructor checks the frames of all blocks; next() checks the payloads.
   explicit TraceReader(const std::filesystem::path& file, TornTrace torn = TornTrace::refuse);
 

@@ -72,7 +72,7 @@ using RecordingRemover = std::function<void(const std::vector<std::string>&)>;  
 inline constexpr std::chrono::milliseconds kHistoryLockTimeout{3000};
 
 enum class HistoryUse {
-  write,  // creates a missing file and upgrades an older one
+  write,  // creates a missing file
   // Works on a copy of the current state in memory: neither file nor folder needs write permission, and calls that
   // write throw HistoryError.
   read

@@ -31,7 +31,7 @@ TEST_CASE("on the real clock, moved through the paper's gate, the gears engage i
   CHECK(gears == kPaperTour);
 }
 
-TEST_CASE("while a frame hangs for a second, the lever keeps running, its wall holds, and no event is lost") {
+TEST_CASE("while a frame hangs for a second, the lever keeps running, and no cycle is lost") {
   RuntimeConfig config = runtime_config(RuntimeClock::real_time);
   config.preset.haptics.rate = 4000.0;  // [Hz] the highest rate fills the queues fastest
   config.driver = touring_driver(paper_gate(), 1.0 / 4000.0);
