@@ -5,6 +5,7 @@
 // Written here, because the queues of Debian's libraries either have one reader or make a slow reader stop the writer.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -23,8 +24,10 @@ class Broadcast {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  // Room for at least `capacity` values. Only the constructor allocates.
-  explicit Broadcast(std::size_t capacity) : slots_(std::bit_ceil(capacity)), mask_(slots_.size() - 1) {}
+  // Room for at least `capacity` values, and for 2, because a reader cannot use the slot that is written next. Only the
+  // constructor allocates.
+  explicit Broadcast(std::size_t capacity)
+      : slots_(std::bit_ceil(std::max<std::size_t>(capacity, 2))), mask_(slots_.size() - 1) {}
 
   // Writer only.
   void push(const T& value) noexcept {

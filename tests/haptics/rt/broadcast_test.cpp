@@ -50,6 +50,19 @@ TEST_CASE("every reader gets every value in order, from the moment it was create
   CHECK_FALSE(second.pop(value));
 }
 
+TEST_CASE("a queue for a single value still delivers each value to a reader that keeps up") {
+  Broadcast<int> queue(1);
+  Broadcast<int>::Reader reader(queue);
+  for (int i = 0; i < 5; ++i) {
+    queue.push(i);
+    int value = -1;
+    REQUIRE(reader.pop(value));
+    CHECK(value == i);
+    CHECK_FALSE(reader.pop(value));
+  }
+  CHECK(reader.lost() == 0);
+}
+
 TEST_CASE("a reader that is too slow misses the oldest values, counts them, and goes on in order") {
   Broadcast<int> queue(8);
   Broadcast<int>::Reader reader(queue);
