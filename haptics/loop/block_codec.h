@@ -27,7 +27,7 @@ class BlockCodec {
   BlockCodec();
 
   // samples: 1 to kSamplesPerBlock encoded samples, concatenated. Replaces the content of `coded`; allocates nothing if
-  // `coded` has capacity for kMaxCodedBytes and a block was encoded before. Throws std::bad_alloc.
+  // `coded` has capacity for kMaxCodedBytes and the block before was a full one. Throws std::bad_alloc.
   void encode(std::span<const std::byte> samples, std::vector<std::byte>& coded);
 
   // Replaces the content of `samples` with `count` decoded samples. Returns false if `count` is not 1 to
