@@ -62,6 +62,7 @@ struct Coach::State {
   LearnerMemory memory;
   std::optional<std::string> startup_problem;  // why there is no history; reported to the user once
   CoachView view;
+  std::vector<GradedTrial> past;  // the learner's graded trials, oldest first; as of the last refresh_view()
   std::optional<Lesson> lesson;
   std::optional<LessonMode> chosen_mode;  // mode that the user chose for this lesson
   std::unique_ptr<LessonRun> run;         // the current or last trial
@@ -249,6 +250,7 @@ void Coach::State::check_comment(std::int64_t number, std::int64_t comment) {
 void Coach::State::refresh_view() {
   view.learner = memory.learner();
   view.learners = memory.learners();
+  past = graded_trials(memory.runs());
   update_standings();
   suggest();
   show_runs();
@@ -258,7 +260,6 @@ void Coach::State::refresh_view() {
 }
 
 void Coach::State::update_standings() {
-  const std::vector<GradedTrial> past = graded_trials(memory.runs());
   view.lessons.clear();
   for (const Lesson& each : config.lessons) view.lessons.push_back(standing_in(each, past));
 }
@@ -273,7 +274,7 @@ void Coach::State::suggest() {
     view.next_why = "Chosen by the instructor.";
     return;
   }
-  const Suggestion next = suggest_lesson(config.lessons, graded_trials(memory.runs())).value_or(Suggestion{});
+  const Suggestion next = suggest_lesson(config.lessons, past).value_or(Suggestion{});
   view.next = next.lesson;
   view.next_why = next.why;
 }
@@ -317,7 +318,7 @@ void Coach::State::plan() {
 
 // Every step is prompted until the learner has passed the lesson once.
 LessonMode Coach::State::usual_mode() const {
-  return standing_in(*lesson, graded_trials(memory.runs())).passed ? LessonMode::by_yourself : LessonMode::follow_me;
+  return standing_in(*lesson, past).passed ? LessonMode::by_yourself : LessonMode::follow_me;
 }
 
 void Coach::State::show_mode() {
