@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -20,9 +21,10 @@
 namespace gearshift::lessons {
 
 // Problems with the history do not throw; take_problem() returns each of them once, as one sentence. Data that could
-// not be saved is kept in order; each later write and retry_pending() try again to save it. Learners are identified by
-// their number in the history, not by name. If another program deletes a learner, this class reports it, drops the
-// learner's pending data and does not create the learner again.
+// not be saved is kept in order; each later write and retry_pending() try again to save it. An entry that keeps failing
+// while others are saved is given up and reported. Learners are identified by their number in the history, not by name.
+// If another program deletes a learner, this class reports it, drops the learner's pending data and does not create the
+// learner again.
 class LearnerMemory {
  public:
   LearnerMemory(const std::filesystem::path& history, std::string program, Clock now,
@@ -79,7 +81,8 @@ class LearnerMemory {
  private:
   using Moment = std::chrono::steady_clock::time_point;
 
-  enum class WriteResult { done, retry, dropped };  // dropped: the learner was deleted
+  // retry: nothing can be saved now; failed: this entry failed several times; dropped: the learner was deleted
+  enum class WriteResult { done, retry, failed, dropped };
 
   struct Person {
     std::string name;     // empty: no learner
@@ -111,6 +114,8 @@ class LearnerMemory {
     std::int64_t at = 0;  // [s] since 1970
     std::variant<PendingRun, PendingComment, PendingChoice, PendingRemoval> what;
     bool written = false;
+    int failures = 0;   // failed attempts since the last success, without those on a locked file or a full disk
+    bool lost = false;  // given up, but still shown
   };
   struct DrivingSession {
     PersonPtr owner;
@@ -139,6 +144,7 @@ class LearnerMemory {
   void write_now();
   bool write_pending(Moment until);
   WriteResult try_write(PendingWrite& entry);
+  void give_up(std::span<PendingWrite* const> failed);
   void write(PendingWrite& entry, PendingRun& run);
   void write(PendingWrite& entry, const PendingComment& comment);
   void write(PendingWrite& entry, const PendingChoice& choice);

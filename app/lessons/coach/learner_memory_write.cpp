@@ -1,5 +1,6 @@
 // Writes pending data to the history in order. A write waits at most the lock timeout for a locked file.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kRetryInterval{500};  // shortest time between two write attempts
 constexpr milliseconds kMaxWriteTime{50};    // limit per frame for all pending writes
+constexpr int kMaxFailures = 3;              // attempts after which an entry no longer delays the entries after it
 
 // Returns text such as ", 2 runs"; empty if the count is 0.
 std::string counted(std::ptrdiff_t count, const char* one, const char* many) {
@@ -36,6 +38,7 @@ LearnerMemory::WriteResult LearnerMemory::try_write(PendingWrite& entry) {
   try {
     std::visit([&](auto& what) { write(entry, what); }, entry.what);
     result = WriteResult::done;
+    entry.failures = 0;
     is_usable_ = true;
     is_disk_full_ = false;
     reported_.clear();
@@ -55,8 +58,9 @@ LearnerMemory::WriteResult LearnerMemory::try_write(PendingWrite& entry) {
     is_usable_ = false;
     reason_ = problem.what();
     report(reason_);
+    if (++entry.failures >= kMaxFailures) result = WriteResult::failed;
   }
-  if (result == WriteResult::retry) next_try_ = steady_clock::now() + kRetryInterval;
+  if (result == WriteResult::retry || result == WriteResult::failed) next_try_ = steady_clock::now() + kRetryInterval;
   write_time_.reset();
   return result;
 }
@@ -68,7 +72,7 @@ bool LearnerMemory::waits_for_history(const Person& owner) const noexcept {
 
 // A run in progress waits only for its start and its new shifts, a comment only once its run has a number.
 bool LearnerMemory::is_waiting(const PendingWrite& entry) const noexcept {
-  if (entry.written || !waits_for_history(*entry.owner)) return false;
+  if (entry.written || entry.lost || !waits_for_history(*entry.owner)) return false;
   if (const auto* run = std::get_if<PendingRun>(&entry.what))
     return run->over || run->row.id < 0 || run->shifts < run->row.result.shifts.size();
   const auto* comment = std::get_if<PendingComment>(&entry.what);
@@ -86,7 +90,7 @@ std::string LearnerMemory::describe_pending() const {
                            [&](const PendingWrite& entry, const PendingRun&) { runs += is_waiting(entry) ? 1 : 0; });
   // Counts comments on unsaved runs as well.
   each_pending<PendingComment>(pending_, [&](const PendingWrite& entry, const PendingComment&) {
-    comments += waits_for_history(*entry.owner) ? 1 : 0;
+    comments += !entry.lost && waits_for_history(*entry.owner) ? 1 : 0;
   });
   each_pending<PendingChoice>(
       pending_, [&](const PendingWrite& entry, const PendingChoice&) { choices += is_waiting(entry) ? 1 : 0; });
@@ -119,20 +123,36 @@ void LearnerMemory::flush() {
   if (!unsaved.empty()) report(loss_message_ = fmt::format("{}; not saved: {}", reason_, unsaved));
 }
 
-// Writes in order, so an entry that cannot be written yet delays all later entries. Returns true if anything was
-// written, or if data of a deleted learner was dropped.
+// Writes in order, so an entry that cannot be written yet delays all later entries, until it has failed kMaxFailures
+// times. Returns true if anything was written, or if data of a deleted learner was dropped.
 bool LearnerMemory::write_pending(Moment until) {
   if (!history_ || !has_pending()) return false;
   bool any = false, keeps_going = true;
+  std::vector<PendingWrite*> failed;
   for (PendingWrite& entry : pending_) {
-    while (keeps_going && is_waiting(entry)) {
-      const WriteResult result = try_write(entry);
+    WriteResult result = WriteResult::done;
+    while (keeps_going && result != WriteResult::failed && is_waiting(entry)) {
+      result = try_write(entry);
+      if (result == WriteResult::failed) failed.push_back(&entry);
       any = any || result == WriteResult::done;
       keeps_going = result != WriteResult::retry && steady_clock::now() < until;
     }
   }
+  if (any) give_up(failed);
   std::erase_if(pending_, is_written);
   return drop_deleted() || any;
+}
+
+// Gives up entries that failed although others could be written: the fault is theirs, not the file's. They stay visible
+// in this session.
+void LearnerMemory::give_up(std::span<PendingWrite* const> failed) {
+  static constexpr std::array kWhat{"a run", "a comment", "the choice of the next lesson",
+                                    "the removal of a recording"};
+  static_assert(kWhat.size() == std::variant_size_v<decltype(PendingWrite::what)>);
+  for (PendingWrite* entry : failed) {
+    entry->lost = true;
+    report(fmt::format("{}; {} was dropped", reason_, kWhat[entry->what.index()]));
+  }
 }
 
 // Writes the start of the run, then each new shift or, once the run is over, its result with all shifts.

@@ -308,6 +308,54 @@ TEST_CASE("a history that could not be opened is opened with the next lesson, an
   CHECK(runs_of_ada(bench.config.history).size() == 2);
 }
 
+// The trigger makes SQLite refuse new comments for ever, as a damaged row or a limit of SQLite may; all else can be saved.
+TEST_CASE("a write that always fails is dropped and reported, and does not keep later results from the history") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  coach.set_help(false);
+  bench.trial(coach, "one");
+  by_hand(bench.config.history,
+          "CREATE TRIGGER no BEFORE INSERT ON comment BEGIN SELECT RAISE(ABORT, 'not this comment'); END");
+  coach.add_comment(coach.view().run, "Bo", "Calmer.");
+  bench.trial(coach, "one");
+  bench.trial(coach, "one");
+  std::string problems;
+  for (const auto end = steady_clock::now() + milliseconds(3000); steady_clock::now() < end;) {
+    coach.add({});
+    problems += coach.take_problem().value_or("");
+    std::this_thread::sleep_for(milliseconds(16));
+  }
+  CHECK(problems.find("not this comment; a comment was dropped") != std::string::npos);
+  CHECK(coach.view().is_saving);
+  CHECK(runs_of_ada(bench.config.history).size() == 3);
+  by_hand(bench.config.history, "DROP TRIGGER no");
+  CHECK(coach.flush().empty());
+  CHECK(runs_of_ada(bench.config.history)[0].comments.empty());  // dropped for good
+}
+
+TEST_CASE("while nothing at all can be written, nothing is dropped") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  coach.set_help(false);
+  bench.trial(coach, "one");
+  for (const char* table : {"comment", "lesson_run"})
+    by_hand(bench.config.history, (std::string("CREATE TRIGGER no_") + table + " BEFORE INSERT ON " + table +
+                                   " BEGIN SELECT RAISE(ABORT, 'nothing'); END")
+                                      .c_str());
+  coach.add_comment(coach.view().run, "Bo", "Calmer.");
+  bench.trial(coach, "one");
+  frames(coach, milliseconds(3000));
+  CHECK(runs_of_ada(bench.config.history).size() == 1);
+  (void)coach.take_problem();
+  by_hand(bench.config.history, "DROP TRIGGER no_comment; DROP TRIGGER no_lesson_run");
+  CHECK(coach.flush().empty());
+  const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[0].comments.size() == 1);
+}
+
 TEST_CASE("data that cannot be reloaded keeps its last state until it can be read again") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
