@@ -23,12 +23,14 @@ LearnerRow row_of(std::vector<LearnerRow> rows, const Person& person) {
   return {};
 }
 
-// Adds a pending run to `runs`. Replaces the row of the same run if it is partly saved, otherwise inserts the run by
-// date.
+// Adds a pending run to `runs`. Replaces the row of the same run, except its comments, if it is partly saved, otherwise
+// inserts the run by date.
 void merge_pending(std::vector<RunRow>& runs, const RunRow& pending) {
   const auto same = std::find_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.id == pending.id; });
   if (same != runs.end()) {
+    std::vector<CommentRow> comments = std::move(same->comments);
     *same = pending;
+    same->comments = std::move(comments);
     return;
   }
   const auto later =
@@ -200,21 +202,30 @@ bool LearnerMemory::drop_pending_of(const PersonPtr& person) {
   return any;
 }
 
-std::vector<CommentRow> LearnerMemory::comments(std::int64_t run) {
+std::vector<CommentRow> LearnerMemory::comments(std::int64_t run) const {
   std::vector<CommentRow> all;
-  if (run > 0) read([&] { all = history_->comments(run); });
+  for (const RunRow& row : runs_) {
+    if (row.id == run) all = row.comments;
+  }
   each_pending<PendingComment>(pending_, [&](const PendingWrite&, const PendingComment& pending) {
     if (pending.run != run) return;
-    const auto same =
-        std::find_if(all.begin(), all.end(), [&](const CommentRow& row) { return row.id == pending.row.id; });
     if (pending.row.id < 0)
       all.push_back(pending.row);
-    else if (same != all.end() && pending.deleted)
-      all.erase(same);
-    else if (same != all.end())
-      same->text = pending.row.text, same->edited_at = pending.row.edited_at;
+    else
+      apply(pending, all);
   });
   return all;
+}
+
+// Edits or deletes the comment if it is in the list.
+void LearnerMemory::apply(const PendingComment& change, std::vector<CommentRow>& comments) {
+  const auto same =
+      std::find_if(comments.begin(), comments.end(), [&](const CommentRow& row) { return row.id == change.row.id; });
+  if (same == comments.end()) return;
+  if (change.deleted)
+    comments.erase(same);
+  else
+    same->text = change.row.text, same->edited_at = change.row.edited_at;
 }
 
 void LearnerMemory::add_comment(std::int64_t run, const std::string& author, const std::string& text) {

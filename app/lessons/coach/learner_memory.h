@@ -51,7 +51,7 @@ class LearnerMemory {
 
   // Runs of the current learner, oldest first. Unsaved runs are included and have negative numbers.
   const std::vector<RunRow>& runs() const noexcept { return runs_; }
-  std::vector<CommentRow> comments(std::int64_t run);  // unsaved comments have negative numbers
+  std::vector<CommentRow> comments(std::int64_t run) const;  // unsaved comments have negative numbers
   void add_comment(std::int64_t run, const std::string& author, const std::string& text);
   void edit_comment(std::int64_t run, std::int64_t comment, const std::string& text);
   void delete_comment(std::int64_t run, std::int64_t comment);
@@ -146,7 +146,8 @@ class LearnerMemory {
   WriteResult try_write(PendingWrite& entry);
   void give_up(std::span<PendingWrite* const> failed);
   void write(PendingWrite& entry, PendingRun& run);
-  void write(PendingWrite& entry, const PendingComment& comment);
+  void write(PendingWrite& entry, PendingComment& comment);
+  static void apply(const PendingComment& change, std::vector<CommentRow>& comments);
   void write(PendingWrite& entry, const PendingChoice& choice);
   void write(PendingWrite& entry, const PendingRemoval& removal);
   PendingWrite& current_run() noexcept;

@@ -169,16 +169,25 @@ void LearnerMemory::write(PendingWrite& entry, PendingRun& run) {
   }
 }
 
-// Adds, edits or deletes a comment in the history. If another program has deleted the comment, it stays deleted.
-void LearnerMemory::write(PendingWrite& entry, const PendingComment& comment) {
-  const CommentRow& row = comment.row;
-  if (row.id < 0)
-    history_->add_comment(comment.run, row.author, row.text);
+// Adds, edits or deletes a comment in the history and in its run. If another program has deleted the comment, it stays
+// deleted.
+void LearnerMemory::write(PendingWrite& entry, PendingComment& comment) {
+  CommentRow& row = comment.row;
+  const bool is_new = row.id < 0;
+  if (is_new)
+    row.id = history_->add_comment(comment.run, row.author, row.text);
   else if (comment.deleted)
     history_->delete_comment(row.id);
   else
-    history_->edit_comment(row.id, row.text);
+    comment.deleted = !history_->edit_comment(row.id, row.text);
   entry.written = true;
+  for (RunRow& run : runs_) {
+    if (run.id != comment.run) continue;
+    if (is_new)
+      run.comments.push_back(row);
+    else
+      apply(comment, run.comments);
+  }
 }
 
 void LearnerMemory::write(PendingWrite& entry, const PendingChoice& choice) {

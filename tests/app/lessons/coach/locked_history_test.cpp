@@ -356,6 +356,19 @@ TEST_CASE("while nothing at all can be written, nothing is dropped") {
   CHECK(runs[0].comments.size() == 1);
 }
 
+TEST_CASE("the comments of past runs are read together with the runs, not again whenever the view is refreshed") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  bench.trial(coach, "one");
+  coach.add_comment(coach.view().run, "Bo", "Calmer.");
+  by_hand(bench.config.history, "ALTER TABLE comment RENAME TO renamed");
+  coach.set_next("two");
+  CHECK_FALSE(coach.take_problem().has_value());
+  REQUIRE(coach.view().runs[0].comments.size() == 1);
+  CHECK(coach.view().runs[0].comments[0].text == "Calmer.");
+}
+
 TEST_CASE("data that cannot be reloaded keeps its last state until it can be read again") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
