@@ -35,10 +35,7 @@ bool is_plausible(const T& value) noexcept {
 
 // Copies the part of the car's state that the recording contains.
 void apply_recorded(const haptics::TraceSample& sample, vehicle::VehicleState& car) noexcept {
-  car.pedals.throttle = sample.controls.pedals.throttle;
-  car.pedals.brake = sample.controls.pedals.brake;
-  car.pedals.clutch = sample.controls.pedals.clutch;
-  car.pedals.hand_brake = sample.controls.pedals.hand_brake;
+  car.pedals = sample.controls.pedals;
   car.ignition = sample.controls.ignition;
   car.slope = sample.controls.slope;
   car.gear = sample.out.gear;
