@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "haptics/files/file_error.h"
+#include "haptics/files/toml_text.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
 
@@ -44,9 +45,6 @@ std::string tenths(int value) {
 
 std::string entry(const std::string& key, const std::string& value) {
   return key + " = " + value + "\n";
-}
-std::string quoted(const std::string& text) {
-  return '"' + text + '"';
 }
 
 struct Plan {
@@ -161,10 +159,10 @@ std::string sizes_text(const Plan& plan) {
 
 std::string column_text(Dice& dice, const Plan& plan, std::size_t i) {
   std::string text = "\n[[column]]\n" + entry("position_mm", tenths(plan.position[i]));
-  if (!plan.forward[i].empty()) text += entry("forward", quoted(plan.forward[i]));
-  if (!plan.back[i].empty()) text += entry("back", quoted(plan.back[i]));
+  if (!plan.forward[i].empty()) text += entry("forward", haptics::toml_string(plan.forward[i]));
+  if (!plan.back[i].empty()) text += entry("back", haptics::toml_string(plan.back[i]));
   const bool at_end = i == 0 || i + 1 == plan.position.size();
-  if (at_end && i != plan.neutral && dice.coin()) text += entry("junction", quoted("closed"));
+  if (at_end && i != plan.neutral && dice.coin()) text += entry("junction", haptics::toml_string("closed"));
   if (i == plan.neutral) text += entry("neutral", "true");
   return text;
 }
@@ -176,12 +174,14 @@ std::string lockouts_text(Dice& dice, const Plan& plan) {
          {std::pair{plan.forward[i], plan.back[i]}, std::pair{plan.back[i], plan.forward[i]}}) {
       if (gear.empty() || dice.between(0, 3) != 0) continue;
       const int kind = dice.between(0, other.empty() ? 2 : 3);
-      text += "\n[[lockout]]\n" + entry("gear", quoted(gear));
-      if (kind == 0) text += entry("kind", quoted("push_down"));
-      if (kind == 1) text += entry("kind", quoted("lift"));
+      text += "\n[[lockout]]\n" + entry("gear", haptics::toml_string(gear));
+      if (kind == 0) text += entry("kind", haptics::toml_string("push_down"));
+      if (kind == 1) text += entry("kind", haptics::toml_string("lift"));
       if (kind == 2)
-        text += entry("kind", quoted("speed")) + entry("close_above_kmh", std::to_string(dice.between(16, 40)));
-      if (kind == 3) text += entry("kind", quoted("after_gear")) + entry("after", quoted(other));
+        text += entry("kind", haptics::toml_string("speed")) +
+                entry("close_above_kmh", std::to_string(dice.between(16, 40)));
+      if (kind == 3)
+        text += entry("kind", haptics::toml_string("after_gear")) + entry("after", haptics::toml_string(other));
     }
   }
   return text;
@@ -193,7 +193,8 @@ std::string layout_text(Dice& dice, Plan& plan, std::uint64_t seed) {
   plan_length(dice, plan);
   if (!plan_positions(dice, plan)) return {};
   plan_gears(dice, plan);
-  std::string text = entry("name", quoted("Random gate " + std::to_string(seed))) + "\n" + sizes_text(plan);
+  std::string text =
+      entry("name", haptics::toml_string("Random gate " + std::to_string(seed))) + "\n" + sizes_text(plan);
   for (std::size_t i = 0; i < plan.position.size(); ++i) text += column_text(dice, plan, i);
   return text + lockouts_text(dice, plan);
 }
