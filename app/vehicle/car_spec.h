@@ -58,7 +58,7 @@ struct GearboxSpec {
 
 // All forward gears share these values; reverse has no synchroniser.
 struct SynchroSpec {
-  double friction = 0.10;        // [1] cone friction; below critical_friction() the synchroniser counts as worn
+  double friction = 0.10;        // [1] cone friction; a ring that has less than it needs to block counts as worn
   double radius = 0.030;         // [m] mean radius of the cone
   double cone_angle = 0.11;      // [rad] half-angle
   int cones = 1;                 // [1] number of friction surfaces

@@ -38,12 +38,8 @@ double gap_next_to(const haptics::Gate& gate, const haptics::Column& column) noe
   return gap;
 }
 
-struct Pull {
-  double energy = 0.0;  // [m] guidance potential divided by kGuidancePull
-  dvec2 force{0.0};     // [1] guidance force divided by kGuidancePull
-};
-
-Pull pull_to(const haptics::Gate& gate, const haptics::Slot& slot, dvec2 p) noexcept {
+// Returns the guidance force divided by kGuidancePull [1].
+dvec2 pull_to(const haptics::Gate& gate, const haptics::Slot& slot, dvec2 p) noexcept {
   const haptics::Column& goal = haptics::column_of(gate, slot.column);
   const haptics::Column& here = haptics::column_of(gate, haptics::nearest_column(gate, p.x));
   const double width = 2.0 * goal.half_width, soft = goal.half_width;
@@ -60,12 +56,8 @@ Pull pull_to(const haptics::Gate& gate, const haptics::Slot& slot, dvec2 p) noex
   const Shape in = rounded(p.y - side * slot.rest, soft);
   const double end_pull = in.value - slot.rest;  // <= out.value
 
-  Pull pull;
-  pull.energy =
-      across.value - fade.value * (across.value - held) + (1.0 - on_column) * out.value + on_column * end_pull;
-  pull.force.x = -across.slope * (1.0 - fade.value) - on_column_slope * (end_pull - out.value);
-  pull.force.y = fade.slope * upward * (across.value - held) - (1.0 - on_column) * out.slope - on_column * in.slope;
-  return pull;
+  return {-across.slope * (1.0 - fade.value) - on_column_slope * (end_pull - out.value),
+          fade.slope * upward * (across.value - held) - (1.0 - on_column) * out.slope - on_column * in.slope};
 }
 
 }  // namespace
@@ -73,13 +65,7 @@ Pull pull_to(const haptics::Gate& gate, const haptics::Slot& slot, dvec2 p) noex
 dvec2 guidance_force(const haptics::Gate& gate, int gear, dvec2 proxy) noexcept {
   const int index = haptics::slot_of_gear(gate, gear);
   if (index == haptics::kNoSlot || !haptics::is_finite(proxy)) return {0.0, 0.0};
-  return kGuidancePull * pull_to(gate, haptics::slot_of(gate, index), proxy).force;
-}
-
-double guidance_energy(const haptics::Gate& gate, int gear, dvec2 proxy) noexcept {
-  const int index = haptics::slot_of_gear(gate, gear);
-  if (index == haptics::kNoSlot || !haptics::is_finite(proxy)) return 0.0;
-  return kGuidancePull * pull_to(gate, haptics::slot_of(gate, index), proxy).energy;
+  return kGuidancePull * pull_to(gate, haptics::slot_of(gate, index), proxy);
 }
 
 GuidedLoad::GuidedLoad(haptics::LeverLoad& inner, const haptics::Gate& gate)

@@ -18,8 +18,8 @@ inline constexpr double kGuidancePull = 3.0;  // [N] force at full strength, sim
 inline constexpr double kGuidanceRate = 2.0;  // [1/s] fastest change of the strength (0 to 1)
 inline constexpr double kGuidanceFadeTime = 1.0 / kGuidanceRate;  // [s] time from full to zero strength
 
-// Guidance at full strength for a proxy at this point: force F_g [N] and its potential V [J]. Both are zero if the gate
-// lacks the gear. The force is also zero at the gear's rest position. With F = kGuidancePull:
+// Guidance force F_g [N] at full strength for a proxy at this point: the negative gradient of a potential V [J]. It is
+// zero if the gate lacks the gear, and at the gear's rest position. With F = kGuidancePull:
 //
 //     V / F = X(x) - B (X(x) - X(c)) + (1 - W) S(|y|) + W (S(|y - y_gear|) - |y_gear|)
 //
@@ -28,7 +28,6 @@ inline constexpr double kGuidanceFadeTime = 1.0 / kGuidanceRate;  // [s] time fr
 // sideways pull fades, so nothing presses on the slot's walls further in. W is 1 in the gear's own column and 0 from
 // the next column on: in the gear's column the lever is led to the gear, elsewhere to the aisle. |F_g| <= 2.2 F.
 glm::dvec2 guidance_force(const haptics::Gate& gate, int gear, glm::dvec2 proxy) noexcept;
-double guidance_energy(const haptics::Gate& gate, int gear, glm::dvec2 proxy) noexcept;
 
 // Follows DriverControls::guidance and guided_gear. The strength changes by at most kGuidanceRate. When the gear
 // changes, the strength first falls to zero and then rises for the new gear. So for each gear, guidance releases at

@@ -72,12 +72,6 @@ double index_gain(const SynchroSpec& synchro) noexcept {
   return synchro.index_radius * (cosine - mu * sine) / (sine + mu * cosine);
 }
 
-// The cone friction at which the torques of cone and ring teeth are equal. It does not depend on the push, because both
-// torques are proportional to the push.
-double critical_friction(const SynchroSpec& synchro) noexcept {
-  return synchro.friction * index_gain(synchro) / cone_gain(synchro);
-}
-
 Synchroniser::Synchroniser(const SynchroSpec& synchro, const haptics::Gate& gate, double force_scale, int meshed,
                            std::uint64_t seed)
     : synchro_(synchro),

@@ -36,8 +36,6 @@ SleeveStations sleeve_stations(const haptics::Slot& slot) noexcept;
 double cone_gain(const SynchroSpec& synchro) noexcept;
 // Torque with which the ring's teeth turn the ring aside, divided by the force on the sleeve [m].
 double index_gain(const SynchroSpec& synchro) noexcept;
-// Cone friction [1] below which the sleeve can turn the ring aside before the speeds match.
-double critical_friction(const SynchroSpec& synchro) noexcept;
 
 struct SleeveInput {
   int slot = haptics::kNoSlot;  // slot that the lever is in

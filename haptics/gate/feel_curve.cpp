@@ -59,12 +59,6 @@ double feel_force(const FeelCurve& curve, double at) noexcept {
   return piece.c[0] + u * (piece.c[1] + u * (piece.c[2] + u * piece.c[3]));
 }
 
-double feel_slope(const FeelCurve& curve, double at) noexcept {
-  if (curve.pieces == 0 || at < curve.piece[0].from) return 0.0;
-  const FeelCurve::Piece& piece = piece_at(curve, at);
-  return piece_slope(piece, at - piece.from);
-}
-
 double feel_work(const FeelCurve& curve, double at) noexcept {
   if (curve.pieces == 0) return 0.0;
   if (at < curve.piece[0].from) return curve.force_before * (at - curve.piece[0].from);

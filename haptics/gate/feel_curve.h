@@ -30,9 +30,8 @@ struct FeelCurve {
 // `knots`: 1 to kMaxFeelKnots knots at strictly increasing positions.
 FeelCurve make_feel_curve(std::span<const FeelKnot> knots) noexcept;
 
-// At position `at`: the force [N], its slope dF/dx [N/m], and its integral from the first knot [J].
+// At position `at`: the force [N], and its integral from the first knot [J].
 double feel_force(const FeelCurve& curve, double at) noexcept;
-double feel_slope(const FeelCurve& curve, double at) noexcept;
 double feel_work(const FeelCurve& curve, double at) noexcept;
 
 // Exact extremes of the slope dF/dx on the whole curve. A restoring force, for example a spring, has a negative slope,

@@ -35,8 +35,6 @@ class Actuator {
   // command is not finite.
   double deliver(double commanded, double period) noexcept;
 
-  bool is_overloaded() const noexcept { return is_overloaded_; }
-
  private:
   ActuatorLimits limits_;
   double heat_ = 0.0;  // [N^2 s] heat beyond what the continuous force produces

@@ -66,16 +66,6 @@ glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torqu
   return std::sqrt(s.d) / yoke.radius * direction;
 }
 
-// tau = J^T f: torques tau, tip force f, and the derivative J of the tip position (eq (2) of the paper).
-JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 force) noexcept {
-  const SinCos s = sin_cos(q);
-  const double scale = yoke.radius / (s.d * std::sqrt(s.d));
-  const double theta =
-      force.x * s.cp * s.ct + force.y * s.sp * s.st * s.cp * s.cp - force.z * s.st * s.cp * s.cp * s.cp;
-  const double phi = -force.x * s.st * s.sp * s.ct * s.ct - force.y * s.ct * s.cp - force.z * s.sp * s.ct * s.ct * s.ct;
-  return {scale * theta, scale * phi};
-}
-
 // Eq (6) of the paper: converts the torques to forces along the arcs (rho theta, -rho phi).
 glm::dvec2 tip_force_small_angle(const YokeGeometry& yoke, JointTorques torque) noexcept {
   return {torque.theta / yoke.radius, -torque.phi / yoke.radius};

@@ -69,14 +69,11 @@ glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 // Force at the tip [N], tangential to the sphere, for given joint torques: eq (5) of the paper, corrected.
 glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
 
-// Inverse of tip_force(): joint torques [N m] that are equivalent to a force at the tip (tau = J^T f).
-JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 force) noexcept;
-
 // Force at the tip [N] for small angles: eq (6) of the paper.
 glm::dvec2 tip_force_small_angle(const YokeGeometry& yoke, JointTorques torque) noexcept;
 
-// Conversions like tip_force() and joint_torques(), but for generalised forces in the gate plane (fz = 0), whose work
-// is f . d(px, py). Forces in [N], torques in [N m].
+// Like tip_force(), and its inverse (tau = J^T f), but for generalised forces in the gate plane (fz = 0), whose work is
+// f . d(px, py). Forces in [N], torques in [N m].
 glm::dvec2 plane_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
 JointTorques joint_torques_from_plane(const YokeGeometry& yoke, JointAngles q, glm::dvec2 force) noexcept;
 

@@ -58,12 +58,10 @@ class PassivityController {
   // restarts with every contact.
   double control(double wanted, double last, double travel, bool in_contact) noexcept;
 
-  double absorbed_energy() const noexcept { return absorbed_energy_; }  // [J] net energy absorbed from the lever
-
  private:
   double period_;
-  double max_damping_;  // [N s/m] highest stable damping of a sampled damper on the handle
-  double absorbed_energy_ = 0.0;
+  double max_damping_;            // [N s/m] highest stable damping of a sampled damper on the handle
+  double absorbed_energy_ = 0.0;  // [J] net energy absorbed from the lever since the contact began
 };
 
 }  // namespace gearshift::haptics

@@ -1,6 +1,9 @@
 #include "app/lessons/assessment/grade.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include <fmt/core.h>
@@ -55,12 +58,6 @@ std::string reason(const Lesson& lesson, const LessonResult& result) {
 
 double points_of(Severity severity) noexcept {
   return kPoints[static_cast<std::size_t>(severity)];
-}
-
-std::array<std::size_t, 4> count_by_severity(std::span<const DrivingError> errors) noexcept {
-  std::array<std::size_t, 4> counts{};
-  for (const DrivingError& error : errors) ++counts[static_cast<std::size_t>(error.severity)];
-  return counts;
 }
 
 void grade_result(const Lesson& lesson, LessonResult& result) {

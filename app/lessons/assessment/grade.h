@@ -1,10 +1,6 @@
 // Grades a lesson run by deducting points for driving errors.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <span>
-
 #include "app/lessons/assessment/driving_error.h"
 #include "app/lessons/assessment/lesson.h"
 #include "app/lessons/assessment/lesson_result.h"
@@ -15,9 +11,6 @@ inline constexpr double kBestGrade = 10.0;
 
 // Points deducted for one error of this severity [1]; 0 for a note.
 double points_of(Severity severity) noexcept;
-
-// Returns the number of errors of each severity: note, minor, severe, very_severe.
-std::array<std::size_t, 4> count_by_severity(std::span<const DrivingError> errors) noexcept;
 
 // Computes the result's `deductions`, `grade`, `passed` and `why` from its other members. The grade is 10 minus the
 // deductions, but at least 0. The grade is 0 if the lesson was aborted or not finished in time. A guided or incomplete

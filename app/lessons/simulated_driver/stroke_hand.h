@@ -22,7 +22,6 @@ class StrokeHand {
   void set_push_limit(double push) noexcept { push_limit_ = push; }  // [N] constant weak push; 0: as hard as needed
   haptics::HandTarget next(double time, glm::dvec2 lever) noexcept;
 
-  bool has_released_lever() const noexcept { return strokes_.empty(); }
   bool in_last_stroke() const noexcept { return !strokes_.empty() && current_ + 1 == strokes_.size(); }
   bool is_at_end(double time) const noexcept;       // the last stroke is over, even if the lever did not follow
   double time_waiting(double time) const noexcept;  // [s] time since the planned end of the current stroke; 0 before

@@ -113,7 +113,6 @@ const TuningAnswer& TuningJudge::judge(const TuningQuestion& question) {
   if (!answer_ || basis != answer_basis_) {
     answer_ = answer(question);
     answer_basis_ = basis;
-    ++evaluations_;
   }
   return *answer_;
 }
@@ -124,7 +123,6 @@ const StableRanges& TuningJudge::ranges(const TuningQuestion& question, bool fro
   if (!ranges_ || basis != ranges_basis_) {
     ranges_ = stable_ranges(question);
     ranges_basis_ = basis;
-    ++evaluations_;
   }
   return *ranges_;
 }

@@ -48,7 +48,6 @@ class TuningJudge {
   // Checks many tunings, which takes 1 ms to some tens of milliseconds. frozen: returns the previous ranges without a
   // check.
   const StableRanges& ranges(const TuningQuestion& question, bool frozen = false);
-  int evaluations() const noexcept { return evaluations_; }  // number of questions not answered from the cache
 
  private:
   // All inputs on which an answer depends.
@@ -64,7 +63,6 @@ class TuningJudge {
   std::optional<TuningAnswer> answer_;
   std::optional<StableRanges> ranges_;
   Basis answer_basis_{}, ranges_basis_{};
-  int evaluations_ = 0;
 };
 
 }  // namespace gearshift::ui

@@ -30,4 +30,11 @@ inline double road_speed_at(const vehicle::CarSpec& car, int gear, double shaft_
   return shaft_speed / vehicle::shaft_per_road(car, gear);
 }
 
+// Cone friction [1] below which the ring's teeth turn the ring aside, by the wedge's angle of friction: n mu R / sin a of
+// the cone equals R_t cot(b + atan mu_t) of the teeth.
+inline double critical_friction(const vehicle::SynchroSpec& synchro) {
+  const double teeth = synchro.index_radius / std::tan(synchro.pointing_angle + std::atan(synchro.index_friction));
+  return teeth * std::sin(synchro.cone_angle) / (synchro.cones * synchro.radius);
+}
+
 }  // namespace gearshift::test

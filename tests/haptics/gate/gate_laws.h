@@ -23,6 +23,12 @@ inline bool yoke_reaches(glm::dvec2 point) {
   return theta < 40.0 && phi < 35.0;
 }
 
+// Slope dF/dx [N/m] of the curve behind this point, from two forces 1 nm apart.
+inline double feel_slope(const haptics::FeelCurve& curve, double at) {
+  constexpr double kStep = 1e-9;
+  return (haptics::feel_force(curve, at + kStep) - haptics::feel_force(curve, at)) / kStep;
+}
+
 // On the chamfers, the force along x must not depend on x and the force along y must not depend on y. Otherwise a lever
 // could gain energy by moving round the corner.
 inline void check_constant_at_mouths(const haptics::Gate& gate) {
@@ -31,12 +37,12 @@ inline void check_constant_at_mouths(const haptics::Gate& gate) {
   for (int i = 0; i <= kSteps; ++i) {
     const double leg = gate.chamfer * i / kSteps;
     for (const haptics::Slot& slot : haptics::slots(gate)) {
-      CHECK(haptics::feel_slope(slot.feel, gate.half_aisle + leg) == doctest::Approx(0.0).epsilon(1e-9));
+      CHECK(std::abs(feel_slope(slot.feel, gate.half_aisle + leg)) < 1.0);
       CHECK(haptics::feel_force(slot.feel, gate.half_aisle + leg) == doctest::Approx(at_wall));
     }
     for (const haptics::Column& column : haptics::columns(gate)) {
       for (const double off : {-column.half_width - leg, column.half_width + leg}) {
-        CHECK(haptics::feel_slope(gate.select_feel, column.center + off) == doctest::Approx(0.0).epsilon(1e-9));
+        CHECK(std::abs(feel_slope(gate.select_feel, column.center + off)) < 1.0);
       }
     }
   }

@@ -97,15 +97,6 @@ TEST_CASE("eq (5) corrected: the tip force is tangential and does the torques' w
   });
 }
 
-TEST_CASE("the way back is tau = J^T f for any force at the tip") {
-  everywhere([](JointAngles q) {
-    const glm::dvec3 f{11.0, -6.0, 4.0};
-    const JointTorques torque = joint_torques(kYoke, q, f);
-    CHECK(std::abs(torque.theta - glm::dot(f, d_tip(q, 1.0, 0.0))) < 1e-9);
-    CHECK(std::abs(torque.phi - glm::dot(f, d_tip(q, 0.0, 1.0))) < 1e-9);
-  });
-}
-
 TEST_CASE("forces in the gate plane do the same work as the torques, in both directions") {
   everywhere([](JointAngles q) {
     const glm::dvec2 f{11.0, -6.0};

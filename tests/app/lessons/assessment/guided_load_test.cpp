@@ -48,6 +48,34 @@ std::vector<dvec2> free_points(const Gate& gate, int count, unsigned seed) {
   return points;
 }
 
+// The potential's formula in guided_load.h, with its parts from first principles: S' = v (3 - v^2) / 2 within the rounding
+// and 1 beyond it, integrated; B and W by the cubic that has zero slope at both ends.
+double guidance_energy(const Gate& gate, int gear, dvec2 p) {
+  const Slot& slot = slot_of(gate, slot_of_gear(gate, gear));
+  const Column& goal = column_of(gate, slot.column);
+  const Column& here = column_of(gate, nearest_column(gate, p.x));
+  const double soft = goal.half_width;
+  const auto s = [&](double u) {
+    const double inside = std::min(std::abs(u), soft);
+    return 0.75 * inside * inside / soft - 0.125 * std::pow(inside, 4) / std::pow(soft, 3) + std::abs(u) - inside;
+  };
+  const auto step = [](double u, double width) {
+    const double v = std::clamp(u / width, 0.0, 1.0);
+    return 3.0 * v * v - 2.0 * v * v * v;
+  };
+  double gap = 1.0;  // [m] from the edge of the gear's column to that of the next one
+  for (const Column& other : columns(gate)) {
+    if (&other == &goal) continue;
+    gap = std::min(gap, std::abs(other.center - goal.center) - other.half_width - goal.half_width);
+  }
+  if (gap == 1.0) gap = gate.select_max - gate.select_min;
+  const double across = s(p.x - goal.center);
+  const double b = step(std::abs(p.y) - gate.half_aisle, 2.0 * soft);
+  const double w = 1.0 - step(std::abs(p.x - goal.center) - goal.half_width, gap);
+  const double end = s(p.y - static_cast<int>(slot.side) * slot.rest) - slot.rest;
+  return kGuidancePull * (across - b * (across - s(here.center - goal.center)) + (1.0 - w) * s(p.y) + w * end);
+}
+
 // A load whose output contains signed zeros and rounded numbers, so that any change of the output shows in its bits.
 class OddLoad final : public LeverLoad {
  public:

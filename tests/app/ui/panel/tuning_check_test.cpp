@@ -6,6 +6,7 @@
 #include <chrono>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -124,34 +125,39 @@ TEST_CASE("with allow_unstable every value is accepted and reported; on a real d
   CHECK_FALSE(refused.refused.empty());
 }
 
+// A cached answer keeps its list of limits, so the list's address stays; a new check makes a new list while the old one
+// exists.
 TEST_CASE("the check runs once per question, and again after any relevant change") {
   TuningJudge judge;
-  TuningQuestion question = ask_at(1000.0, 0);
-  for (int i = 0; i < 10; ++i) judge.judge(question);
-  CHECK(judge.evaluations() == 1);
+  TuningQuestion question = ask_at(100.0, 0);  // not stable, so there are limits
+  const TuningLimit* before = nullptr;
+  const auto is_checked_again = [&] {
+    const TuningLimit* now = judge.judge(question).admitted.limits.data();
+    REQUIRE(now != nullptr);
+    return std::exchange(before, now) != now;
+  };
+  CHECK(is_checked_again());
+  for (int i = 0; i < 10; ++i) CHECK_FALSE(is_checked_again());
   question.config.tuning.wall_damping += 1.0;
-  judge.judge(question);
-  CHECK(judge.evaluations() == 2);
+  CHECK(is_checked_again());
   question.device.axis_y.mass *= 0.5;
-  judge.judge(question);
-  CHECK(judge.evaluations() == 3);
+  CHECK(is_checked_again());
   question.hold = ContactHold::zero_order;
-  judge.judge(question);
-  CHECK(judge.evaluations() == 4);
+  CHECK(is_checked_again());
   const Gate other = shipped_gate("four_speed");
   question.gate = &other;
-  judge.judge(question);
-  const int evaluations = judge.evaluations();
-  judge.judge(question);
-  CHECK(judge.evaluations() == evaluations);
-  judge.ranges(question);
-  judge.ranges(question);
-  CHECK(judge.evaluations() == evaluations + 1);
-  question.config.tuning.wall_damping += 1.0;
-  judge.ranges(question, true);
-  CHECK(judge.evaluations() == evaluations + 1);
-  judge.ranges(question);
-  CHECK(judge.evaluations() == evaluations + 2);
+  is_checked_again();  // only if the new gate's feel is stiffer
+  CHECK_FALSE(is_checked_again());
+}
+
+TEST_CASE("ranges follow the question unless they are frozen") {
+  constexpr std::size_t kWall = index_of(&HapticTuning::wall_stiffness);
+  TuningJudge judge;
+  const double first = judge.ranges(ask_at(1000.0, 1))[kWall].max;
+  CHECK(judge.ranges(ask_at(1000.0, 2), true)[kWall].max == first);
+  const double second = judge.ranges(ask_at(1000.0, 2))[kWall].max;
+  CHECK(second == stable_ranges(ask_at(1000.0, 2))[kWall].max);
+  CHECK(second < first);
 }
 
 TEST_CASE("reports how long an answer takes at the worst delays and rates") {
