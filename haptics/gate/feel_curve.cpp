@@ -27,25 +27,17 @@ double piece_slope(const FeelCurve::Piece& piece, double u) noexcept {
   return c[1] + u * (2.0 * c[2] + 3.0 * u * c[3]);
 }
 
-double piece_work(const FeelCurve::Piece& piece, double u) noexcept {
-  const auto& c = piece.c;
-  return u * (c[0] + u * (c[1] / 2.0 + u * (c[2] / 3.0 + u * c[3] / 4.0)));
-}
-
 }  // namespace
 
 FeelCurve make_feel_curve(std::span<const FeelKnot> knots) noexcept {
   FeelCurve curve;
   if (knots.empty()) return curve;
   curve.force_before = knots.front().force;
-  double work = 0.0;
   for (std::size_t i = 0; i < knots.size(); ++i) {
     FeelCurve::Piece& piece = curve.piece[i];
     piece.from = knots[i].at;
-    piece.work = work;
     const bool last = i + 1 == knots.size();
     piece.c = last ? std::array<double, 4>{knots[i].force, 0.0, 0.0, 0.0} : hermite(knots[i], knots[i + 1]);
-    if (!last) work += piece_work(piece, knots[i + 1].at - knots[i].at);
   }
   curve.pieces = static_cast<int>(knots.size());
   return curve;
@@ -57,13 +49,6 @@ double feel_force(const FeelCurve& curve, double at) noexcept {
   const FeelCurve::Piece& piece = piece_at(curve, at);
   const double u = at - piece.from;
   return piece.c[0] + u * (piece.c[1] + u * (piece.c[2] + u * piece.c[3]));
-}
-
-double feel_work(const FeelCurve& curve, double at) noexcept {
-  if (curve.pieces == 0) return 0.0;
-  if (at < curve.piece[0].from) return curve.force_before * (at - curve.piece[0].from);
-  const FeelCurve::Piece& piece = piece_at(curve, at);
-  return piece.work + piece_work(piece, at - piece.from);
 }
 
 SlopeRange slope_range(const FeelCurve& curve) noexcept {

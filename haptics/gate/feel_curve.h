@@ -20,7 +20,6 @@ struct FeelCurve {
   struct Piece {
     double from = 0.0;          // [m]
     std::array<double, 4> c{};  // force = c0 + c1 u + c2 u^2 + c3 u^3 with u = at - from
-    double work = 0.0;          // [J] integral of the force from the first knot to `from`
   };
   int pieces = 0;  // number of pieces, including the constant piece after the last knot
   std::array<Piece, kMaxFeelKnots> piece{};
@@ -30,9 +29,8 @@ struct FeelCurve {
 // `knots`: 1 to kMaxFeelKnots knots at strictly increasing positions.
 FeelCurve make_feel_curve(std::span<const FeelKnot> knots) noexcept;
 
-// At position `at`: the force [N], and its integral from the first knot [J].
+// The force [N] at position `at`.
 double feel_force(const FeelCurve& curve, double at) noexcept;
-double feel_work(const FeelCurve& curve, double at) noexcept;
 
 // Exact extremes of the slope dF/dx on the whole curve. A restoring force, for example a spring, has a negative slope,
 // and its stiffness is -min.

@@ -69,16 +69,6 @@ glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept {
   return force;
 }
 
-double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept {
-  double energy = -feel_work(gate.select_feel, proxy.x);
-  energy -= feel_work(shift_curve(gate, proxy), std::abs(proxy.y));
-  for (const Buffer& buffer : buffers(gate)) {
-    energy -=
-        buffer.force * buffer_rise(buffer, proxy.x).value * buffer_turn(buffer, gate.half_aisle, proxy.y).integral;
-  }
-  return energy;
-}
-
 double max_feel_stiffness(const Gate& gate) noexcept {
   double steepest = std::min(slope_range(gate.select_feel).min, slope_range(gate.aisle_feel).min);
   for (const Slot& slot : slots(gate)) steepest = std::min(steepest, slope_range(slot.feel).min);

@@ -10,11 +10,9 @@ namespace gearshift::haptics {
 // The slot that contains the point; kNoSlot if the point is in the neutral aisle.
 int slot_at(const Gate& gate, glm::dvec2 point) noexcept;
 
-// Force [N] on the lever when the proxy is at this point of free space: the negative gradient of gate_energy().
+// Force [N] on the lever when the proxy is at this point of free space: the negative gradient of a potential, so that no
+// closed path supplies energy.
 glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept;
-
-// Potential energy [J] of the forces of gate_feel(). It depends only on position, so no closed path supplies energy.
-double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept;
 
 // Largest restoring stiffness [N/m] of the mechanism anywhere in the gate. The coupling must not be softer.
 double max_feel_stiffness(const Gate& gate) noexcept;
