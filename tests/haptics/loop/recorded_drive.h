@@ -72,7 +72,7 @@ class RecordedDrive {
   // Runs one cycle with its scripted events.
   void step() noexcept {
     const std::uint64_t cycle = next_cycle_++;
-    if (cycle == 600) inputs_.controls.write({0.3, 0.0, 1.0, 0.0, true, false});
+    if (cycle == 600) inputs_.controls.write({{.throttle = 0.3, .clutch = 1.0}, true, false});
     if (cycle == 900) inputs_.tuning.write(softer());
     if (cycle == 1300) inputs_.tuning.write(loop_.admitted().tuning);
     if (cycle == 2600) (void)inputs_.commands.push(haptics::LoopCommand::disarm);

@@ -101,10 +101,10 @@ TEST_CASE("block codec: zstd stores changes by byte planes, and nothing of force
   samples[2].out.commanded.x = 1.25;  // only its sign differs from the sum
   const Block planes = decompressed(coded(encoded(samples)));
   REQUIRE(planes.size() == 3 * kSample);
-  const auto plane = [&](std::size_t at) { return Block(planes.begin() + 3 * at, planes.begin() + 3 * (at + 1)); };
+  const auto plane = [&](std::ptrdiff_t at) { return Block(planes.begin() + 3 * at, planes.begin() + 3 * (at + 1)); };
   CHECK(plane(16) == text({0x40, 1, 1}));
   CHECK(plane(305) == text({0, 0, 0x80}));
-  for (std::size_t at = 298; at < 314; ++at)
+  for (std::ptrdiff_t at = 298; at < 314; ++at)
     if (at != 305) CHECK(plane(at) == text({0, 0, 0}));
 }
 
