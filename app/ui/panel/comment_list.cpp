@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/ui/panel/lesson_text.h"
+#include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
 
 namespace gearshift::ui {

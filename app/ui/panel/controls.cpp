@@ -1,5 +1,6 @@
 #include "app/ui/panel/controls.h"
 
+#include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
 #include "engine/ui/ui_style.h"
 

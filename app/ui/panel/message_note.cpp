@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
 
 namespace gearshift::ui {

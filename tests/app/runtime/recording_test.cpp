@@ -282,7 +282,7 @@ TEST_CASE("on the real clock, a recording begun while the lever is moved and tun
     runtime.start_recording(folder / name);
     runtime.change_tuning(softer(runtime));
     person.go({-0.02, 0.004});
-    runtime.set_controls({0.5, 0.0, 0.0, 0.0, true, false});
+    runtime.set_controls({{.throttle = 0.5}, true, false});
     person.go({0.02, 0.0});
     CHECK_FALSE(runtime.stop_recording());
     const Trace trace = read_trace(folder / name);

@@ -493,10 +493,7 @@ TEST_CASE("for any input, the output is finite and bounded") {
     in.slot = static_cast<int>(chance() * (gate.slot_count + 1)) - 1;
     in.depth = in.slot == kNoSlot ? 0.0 : 0.05 * chance();
     in.push = {0.0, chance() < 0.05 ? nan : chance() < 0.05 ? inf : 400.0 * (chance() - 0.5)};
-    in.controls = {chance(),
-                   chance(),
-                   chance() < 0.1 ? nan : chance(),
-                   0.0,
+    in.controls = {{chance(), chance(), chance() < 0.1 ? nan : chance(), 0.0},
                    chance() < 0.9,
                    chance() < 0.1,
                    0.2 * (chance() - 0.5),
