@@ -43,7 +43,7 @@ class Svg {
   void dot(glm::dvec2 center, double radius, std::string_view fill, std::string_view tip = {});  // tip: tooltip
   void ring(glm::dvec2 center, double radius, const Pen& pen);
   void polygon(const std::vector<glm::dvec2>& points, std::string_view fill);
-  // What is drawn until end_clip() is cut off outside the rectangle.
+  // Shapes drawn until end_clip() are cut off outside the rectangle.
   void begin_clip(const Rect& r);
   void end_clip();
   void polyline(const std::vector<glm::dvec2>& points, const Pen& pen);

@@ -1,7 +1,7 @@
 // The lever and car in force: which runtime runs, whether it has forces, and who holds lever and pedals.
 //
-// Another gate, car, hand or preset needs another runtime. prepare() makes or checks it while the old one keeps running;
-// hand_over() then replaces the old one. Only one runtime at a time may use a real stick.
+// Another gate, car, hand or preset needs another runtime. prepare() makes or checks it while the old one keeps
+// running; hand_over() then replaces the old one. Only one runtime at a time may use a real stick.
 #pragma once
 
 #include <memory>
@@ -60,7 +60,7 @@ struct CarSwitches {
 // The first limit that the device imposes on a tuning, as a sentence; empty: none
 std::string first_limit(const haptics::AdmittedTuning& admitted);
 
-// What a lesson adds to the driver's controls: the slope of its road, and guidance of the hand.
+// A lesson's additions to the driver's controls: the slope of its road, and guidance of the hand.
 struct LessonControls {
   double slope = 0.0;     // [rad]
   double guidance = 0.0;  // [1] 0 to 1

@@ -1,4 +1,4 @@
-// What the user asks for in the panel, and what follows from it.
+// Executes the user's commands from the panel.
 #include <cmath>
 #include <stdexcept>
 #include <utility>

@@ -305,8 +305,8 @@ class WindowTrainer {
     }
   }
 
-  // What Enter asks for: turn forces on, and start the offered lesson. After a passed lesson, offer the next one, if it
-  // is a different lesson. Otherwise restart the lesson.
+  // Commands of the Enter key: turn forces on, and start the offered lesson. After a passed lesson, offer the next one,
+  // if it is a different lesson. Otherwise restart the lesson.
   ui::PanelCommands enter_commands() const {
     ui::PanelCommands commands{ui::Arm{}};
     if (session_.is_replaying()) return commands;

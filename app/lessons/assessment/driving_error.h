@@ -89,7 +89,7 @@ struct DrivingError {
   std::optional<int> wrong_slots{};          // number of slots entered off the path
   std::optional<int> steps_out_of_place{};   // edit distance to the taught order
 
-  // What the lesson asked for.
+  // Requested by the lesson.
   std::optional<int> wanted_gear{};      // in place of `gear`
   std::optional<double> target_speed{};  // [m/s] road speed at which to shift
   std::optional<double> time_limit{};    // [s] for the step

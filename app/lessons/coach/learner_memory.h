@@ -91,7 +91,7 @@ class LearnerMemory {
   };
   using PersonPtr = std::shared_ptr<Person>;  // shared by all pending writes of one learner
 
-  // What waits to be written.
+  // Data that waits to be written.
   struct PendingRun {
     std::string settings;
     RunRow row;

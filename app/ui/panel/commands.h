@@ -1,4 +1,4 @@
-// What the user asks for in the panel: one type per command, in the order in which the user asked. The session executes
+// Commands of the user in the panel: one type per command, in the order in which the user asked. The session executes
 // them (app/session/session_commands.cpp), except for those to the view and to the headset.
 #pragma once
 

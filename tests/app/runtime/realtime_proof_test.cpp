@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t kPeriod = 1'000'000;  // [ns]
 
 // Runs the callback first without a car, then with a car that is recorded and whose guidance is switched on and off.
-// Nobody reads the stream, so it wraps. Keys move the pedals.
+// The stream has no reader, so it wraps. Keys move the pedals.
 void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
   const Gate gate = paper_gate();
   ScriptedHand script = tour_of(gate);

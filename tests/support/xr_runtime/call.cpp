@@ -10,7 +10,7 @@
 namespace gearshift::xr_test {
 namespace {
 
-// What Khronos' validation layer does not check, but a headset's runtime may reject or punish with a wrong picture.
+// Rules that Khronos' validation layer does not check, although breaking them may cost a picture on a real headset.
 constexpr Rule kRules[] = {
     {"validated", XR_ERROR_VALIDATION_FAILURE, "the layer checks handles, pointers, structures, enumeration values"},
     {"offered", XR_ERROR_VALIDATION_FAILURE, "a value must be one that the runtime offers: system, space, blend mode"},
