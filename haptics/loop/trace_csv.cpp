@@ -8,13 +8,42 @@
 #include <utility>
 
 #include "haptics/files/file_error.h"
+#include "haptics/loop/trace_fields.h"
 #include "haptics/loop/trace_format.h"
 
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kMm = 1e3;  // [mm/m]
 constexpr int kDigits = 12;  // significant digits; the trace itself is lossless
+
+// The unit in the column of a field, which the trace holds in SI units. Fields that are not listed have no unit.
+struct ColumnUnit {
+  std::string_view field, unit;
+  double scale;  // from the SI unit
+};
+constexpr ColumnUnit kUnits[] = {
+    {"lever", "_mm", 1e3},
+    {"proxy", "_mm", 1e3},
+    {"position", "_mm", 1e3},
+    {"wall_force", "_n", 1.0},
+    {"feel_force", "_n", 1.0},
+    {"load_force", "_n", 1.0},
+    {"commanded", "_n", 1.0},
+    {"f_h", "_n", 1.0},
+    {"f_a", "_n", 1.0},
+    {"f_j", "_n", 1.0},
+    {"hand_force", "_n", 1.0},
+    {"actuator_force", "_n", 1.0},
+    {"slope", "_rad", 1.0},
+    {"velocity", "_mm_per_s", 1e3},
+    {"road_speed", "_m_per_s", 1.0},
+    {"wall_stiffness", "_n_per_m", 1.0},
+};
+constexpr ColumnUnit unit_of(std::string_view field) {
+  for (const ColumnUnit& unit : kUnits)
+    if (unit.field == field) return unit;
+  return {field, "", 1.0};
+}
 
 // Collects the cells of one line. The same code builds the header line and the data lines, so that their columns match.
 class Row {
@@ -30,11 +59,6 @@ class Row {
       text_ += value;
     else
       number(value);
-  }
-
-  void pair(const std::string& name, const std::string& unit, glm::dvec2 v, double scale) {
-    cell(name + "_x_" + unit, scale * v.x);
-    cell(name + "_y_" + unit, scale * v.y);
   }
 
   std::string take() { return std::move(text_); }
@@ -56,66 +80,50 @@ class Row {
   std::string text_;
 };
 
-void add_motion(Row& row, const HapticSnapshot& out) {
-  row.pair("lever", "mm", out.lever, kMm);
-  row.pair("proxy", "mm", out.proxy, kMm);
-  row.pair("velocity", "mm_per_s", out.velocity, kMm);
+// Adds the columns of a field; those of a struct are named `prefix` and the member's name.
+template <class T>
+void add(Row& row, const std::string& prefix, std::string_view field, const T& value) {
+  const ColumnUnit unit = unit_of(field);
+  const std::string name = prefix + std::string(field);
+  if constexpr (std::is_same_v<T, glm::dvec2>) {
+    row.cell(name + "_x" + std::string(unit.unit), unit.scale * value.x);
+    row.cell(name + "_y" + std::string(unit.unit), unit.scale * value.y);
+  } else if constexpr (std::is_same_v<T, double>) {
+    row.cell(name + std::string(unit.unit), unit.scale * value);
+  } else if constexpr (std::is_enum_v<T>) {
+    row.cell(name, to_string(value));
+  } else if constexpr (LeafField<T>) {
+    row.cell(name, value);
+  } else {
+    each_field(value, [&](const char* member, const auto& inner) { add(row, prefix, member, inner); });
+  }
 }
 
-void add_forces(Row& row, const HapticSnapshot& out) {
-  row.pair("wall_force", "n", out.wall_force, 1.0);
-  row.pair("feel_force", "n", out.feel_force, 1.0);
-  row.pair("load_force", "n", out.load_force, 1.0);
-  row.pair("commanded", "n", out.commanded, 1.0);
-  row.pair("f_h", "n", out.f_h, 1.0);
-  row.pair("f_a", "n", out.f_a, 1.0);
-  row.pair("f_j", "n", out.f_j, 1.0);
-}
-
-void add_state(Row& row, const HapticSnapshot& out) {
-  const auto flag = [&](const char* name, std::uint32_t bit) { row.cell(name, (out.flags & bit) != 0); };
-  row.cell("gear", out.gear);
-  row.cell("slot", out.slot);
-  row.cell("road_speed_m_per_s", out.road_speed);
-  row.cell("guard", to_string(out.guard));
-  row.cell("fault", to_string(out.fault));
-  flag("contact", kFlagContact);
-  flag("saturated", kFlagSaturated);
-  flag("over_push", kFlagOverPush);
-  flag("push_estimated", kFlagPushEstimated);
-  flag("ghost", kFlagGhost);
-  flag("fresh", kFlagFresh);
-}
-
-void add_inputs(Row& row, const TraceSample& sample) {
-  row.cell("skipped_cycles", sample.skipped);
-  row.cell("reading_sequence", sample.reading.sequence);
-  row.pair("reading", "mm", sample.reading.position, kMm);
-  row.pair("hand_force", "n", sample.reading.hand_force, 1.0);
-  row.pair("actuator_force", "n", sample.reading.actuator_force, 1.0);
-  row.cell("pressed_down", sample.reading.pressed_down);
-  row.cell("lifted", sample.reading.lifted);
-  row.cell("throttle", sample.controls.pedals.throttle);
-  row.cell("brake", sample.controls.pedals.brake);
-  row.cell("clutch", sample.controls.pedals.clutch);
-  row.cell("hand_brake", sample.controls.pedals.hand_brake);
-  row.cell("ignition", sample.controls.ignition);
-  row.cell("starter", sample.controls.starter);
-  row.cell("slope_rad", sample.controls.slope);
-  row.cell("guided_gear", sample.controls.guided_gear);
-  row.cell("guidance", sample.controls.guidance);
-  each_parameter(sample.tuning, [&](const auto& parameter, double value) { row.cell(parameter.key, value); });
-  row.cell("command", to_string(sample.command));
+void add_flags(Row& row, std::uint32_t flags) {
+  constexpr std::pair<const char*, std::uint32_t> kFlags[] = {
+      {"contact", kFlagContact},    {"saturated", kFlagSaturated},
+      {"over_push", kFlagOverPush}, {"push_estimated", kFlagPushEstimated},
+      {"ghost", kFlagGhost},        {"fresh", kFlagFresh}};
+  for (const auto& [name, bit] : kFlags) row.cell(name, (flags & bit) != 0);
 }
 
 std::string row_of(const TraceSample& sample, std::int64_t first_ns, bool names) {
+  const auto& [deadline_ns, skipped, reading, controls, tuning, command, out] = sample;
   Row row(names);
-  row.cell("cycle", sample.out.cycle);
-  row.cell("time_s", 1e-9 * static_cast<double>(nanoseconds_between(first_ns, sample.deadline_ns)));
-  add_motion(row, sample.out);
-  add_forces(row, sample.out);
-  add_state(row, sample.out);
-  add_inputs(row, sample);
+  row.cell("time_s", 1e-9 * static_cast<double>(nanoseconds_between(first_ns, deadline_ns)));
+  each_field(out, [&](std::string_view field, const auto& value) {
+    if (field == "time_ns") return;  // the deadline
+    if constexpr (std::is_same_v<decltype(value), const std::uint32_t&>)
+      add_flags(row, value);
+    else
+      add(row, "", field, value);
+  });
+  row.cell("skipped_cycles", skipped);
+  add(row, "reading_", "", reading);
+  add(row, "", "", controls);
+  each_parameter(tuning,
+                 [&](const auto& parameter, double value) { row.cell("tuning_" + std::string(parameter.key), value); });
+  row.cell("command", to_string(command));
   return row.take();
 }
 

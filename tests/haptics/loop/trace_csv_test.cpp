@@ -40,6 +40,7 @@ haptics::TraceSample known_sample() {
   sample.out.lever = {-0.0125, 0.03};
   sample.out.velocity = {0.25, 0.0};
   sample.out.commanded = {1.5, -31.7};
+  sample.out.wall_stiffness = 4321.5;
   sample.out.gear = haptics::kReverseGear;
   sample.out.guard = haptics::GuardState::running;
   sample.out.flags = haptics::kFlagContact | haptics::kFlagFresh;
@@ -48,6 +49,7 @@ haptics::TraceSample known_sample() {
   sample.controls.guided_gear = 3;
   sample.controls.guidance = 0.5;
   sample.command = haptics::LoopCommand::stop;
+  sample.reading.stop = true;
   sample.reading.hand_force = {std::numeric_limits<double>::quiet_NaN(), 2.0};
   return sample;
 }
@@ -63,7 +65,7 @@ struct GermanNumbers : std::numpunct<char> {
 
 TEST_CASE("csv: the header begins with the time in seconds and every quantity carries its unit") {
   CHECK(haptics::trace_csv_header().find(
-            "cycle,time_s,lever_x_mm,lever_y_mm,proxy_x_mm,proxy_y_mm,velocity_x_mm_per_s,") == 0);
+            "time_s,cycle,lever_x_mm,lever_y_mm,velocity_x_mm_per_s,velocity_y_mm_per_s,proxy_x_mm,") == 0);
   for (const char* name : {"commanded_x_n", "f_h_y_n", "road_speed_m_per_s", "wall_stiffness_n_per_m"})
     CHECK(haptics::trace_csv_header().find(name) != std::string::npos);
 }
@@ -85,7 +87,10 @@ TEST_CASE("csv: numbers are in the unit of their column") {
   CHECK(row["guided_gear"] == "3");
   CHECK(row["guidance"] == "0.5");
   CHECK(row["command"] == "stop");
-  CHECK(row["hand_force_x_n"] == "nan");
+  CHECK(row["reading_stop"] == "1");
+  CHECK(row["wall_stiffness_n_per_m"] == "4321.5");
+  CHECK(row["tuning_wall_stiffness_n_per_m"] == "5000");
+  CHECK(row["reading_hand_force_x_n"] == "nan");
 }
 
 TEST_CASE("csv: the same in any locale") {
