@@ -4,6 +4,7 @@
 
 #include "app/lessons/assessment/driving_error.h"
 #include "app/ui/panel/text_lines.h"
+#include "engine/ui/ui_style.h"
 
 namespace gearshift::ui {
 

@@ -6,6 +6,7 @@
 
 #include "app/ui/panel/table_rows.h"
 #include "app/ui/panel/text_lines.h"
+#include "engine/ui/ui_style.h"
 
 namespace gearshift::ui {
 namespace {
