@@ -8,16 +8,16 @@ namespace gearshift::runtime {
 
 class ExactHand final : public haptics::HandDriver {
  public:
-  // `channel` must outlive this object and must have no other reader.
-  explicit ExactHand(haptics::LatestValue<haptics::HandTarget>& channel) noexcept : channel_(channel) {}
+  // `target` must outlive this object and must have no other reader.
+  explicit ExactHand(haptics::LatestValue<haptics::HandTarget>& target) noexcept : target_(target) {}
 
   haptics::HandTarget next(double, glm::dvec2) noexcept override {
-    channel_.update();
-    return channel_.value();
+    target_.update();
+    return target_.value();
   }
 
  private:
-  haptics::LatestValue<haptics::HandTarget>& channel_;
+  haptics::LatestValue<haptics::HandTarget>& target_;
 };
 
 }  // namespace gearshift::runtime

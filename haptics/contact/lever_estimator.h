@@ -22,9 +22,9 @@ struct LeverMotion {
 inline constexpr int kMaxWindow = 64;  // [samples]
 
 struct EstimatorConfig {
-  double smoothing = 0.004;   // [s] 1e-5 to 1, time constant of smooth_velocity
-  double speed_limit = 10.0;  // [m/s] 0.1 to 1000; a sample that implies a faster motion is rejected
-  int window = 1;             // [samples] 1 to 64, time span of the velocity estimate; more than 1 needs allow_unstable
+  double smoothing = 0.004;   // [s] time constant of smooth_velocity
+  double speed_limit = 10.0;  // [m/s] a sample that implies a faster motion is rejected
+  int window = 1;             // [samples] time span of the velocity estimate; more than 1 needs allow_unstable
   bool operator==(const EstimatorConfig&) const = default;
 };
 

@@ -25,18 +25,18 @@ struct SimulatedLeverConfig {
   AxisModel axis_x = kPaperAxisX;
   AxisModel axis_y = kPaperAxisY;
   double coulomb_friction = 0.0;  // [N] dry friction per axis; 0: none
-  // [counts/deg] 1 to 1e6, or 0 for no quantisation. Table 2 of the paper gives 2250 counts over 80 deg, which are 74.5
+  // [counts/deg] 0: no quantisation. Table 2 of the paper gives 2250 counts over 80 deg, which are 74.5
   // um per count at the tip. The value of 75.4 um in gate_layout.h is for the encoder alone: 2500 lines x 4 = 10000
   // counts per turn = 27.8 counts/deg.
   double encoder_counts = 2250.0 / 80.0;
   ActuatorLimits actuator;
   ForceSensorModel force_sensor;
-  int delay = 0;                       // [cycles] 0 to 8, time from write() to the effect of the force
-  double device_wall_stiffness = 0.0;  // [N/m] 0 to 1e5, stiffness of the device walls on both axes; 0: none
+  int delay = 0;                       // [cycles] time from write() to the effect of the force
+  double device_wall_stiffness = 0.0;  // [N/m] stiffness of the device walls on both axes; 0: none
   HandImpedance hand = kBareHand;
   // Random deviations from spec(), for difficult test cases. They are uniformly distributed and determined by the seed.
-  double model_error = 0.0;    // [1] 0 to 0.5, largest relative error of each axis's mass, damping and stiffness
-  double period_jitter = 0.0;  // [1] 0 to 0.5, largest relative error of each period
+  double model_error = 0.0;    // [1] largest relative error of each axis's mass, damping and stiffness
+  double period_jitter = 0.0;  // [1] largest relative error of each period
   std::uint64_t seed = 1;      // seed of sensor noise, model error and jitter
   bool operator==(const SimulatedLeverConfig&) const = default;
 };

@@ -18,8 +18,8 @@ constexpr double kMaxPosition = 1.0;  // [m] limits the target; farther than any
 
 }  // namespace
 
-SmoothedHand::SmoothedHand(LatestValue<HandTarget>& channel, double period, double smoothing)
-    : channel_(channel),
+SmoothedHand::SmoothedHand(LatestValue<HandTarget>& target, double period, double smoothing)
+    : target_(target),
       filter_(critically_damped(require_between("SmoothedHand: smoothing", smoothing, 1e-3, 1.0, "s"))),
       stepper_(filter_, require_between("SmoothedHand: period", period, 1e-6, 1.0, "s")) {}
 
@@ -30,8 +30,8 @@ HandTarget SmoothedHand::next(double, glm::dvec2 lever) noexcept {
     latest_.position = lever;
     has_started_ = true;
   }
-  channel_.update();
-  const HandTarget& newest = channel_.value();
+  target_.update();
+  const HandTarget& newest = target_.value();
   if (is_finite(newest.position) && is_finite(newest.push)) latest_ = newest;
   latest_.position = glm::clamp(latest_.position, -kMaxPosition, kMaxPosition);
 

@@ -12,14 +12,14 @@ namespace gearshift::haptics {
 // HandTarget: the filter computes a velocity that matches its position. A target that is not finite is ignored.
 class SmoothedHand final : public HandDriver {
  public:
-  // `period`: period of the device [s], 1e-6 to 1. `smoothing`: time constant of the filter [s], 0.001 to 1. `channel`
+  // `period`: period of the device [s], 1e-6 to 1. `smoothing`: time constant of the filter [s], 0.001 to 1. `target`
   // must outlive the hand and must have no other reader. Throws std::invalid_argument.
-  SmoothedHand(LatestValue<HandTarget>& channel, double period, double smoothing = 0.015);
+  SmoothedHand(LatestValue<HandTarget>& target, double period, double smoothing = 0.015);
 
   HandTarget next(double time, glm::dvec2 lever) noexcept override;
 
  private:
-  LatestValue<HandTarget>& channel_;
+  LatestValue<HandTarget>& target_;
   AxisModel filter_;
   AxisStepper stepper_;
   AxisState select_, shift_;

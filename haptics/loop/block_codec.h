@@ -31,7 +31,7 @@ class BlockCodec {
   void encode(std::span<const std::byte> samples, std::vector<std::byte>& coded);
 
   // Replaces the content of `samples` with `count` decoded samples. Returns false if `count` is not 1 to
-  // kSamplesPerBlock, or if `coded` does not hold exactly `count` samples; its size is checked before it is decoded.
+  // kSamplesPerBlock, or if `coded` does not hold exactly `count` samples; size and frame header are checked before it is decoded.
   // The values of the fields are not checked.
   bool decode(std::span<const std::byte> coded, std::size_t count, std::vector<std::byte>& samples);
 

@@ -18,12 +18,12 @@ namespace gearshift::haptics {
 
 // Parameters that may change while the loop runs. They are applied together, between two cycles, and recorded.
 struct HapticTuning {
-  double wall_stiffness = 5000.0;  // [N/m] 0 to 20000, whole wall including the device wall
-  double wall_damping = 10.0;      // [N s/m] 0 to 100
-  double feel_scale = 1.0;         // [1] 0 to 4, factor on the gate's feel
-  double aisle_damping = 2.0;      // [N s/m] 0 to 50, acts at every position
-  double speed_limit = 0.6;        // [m/s] 0.05 to 5; limit_damping acts above this speed
-  double limit_damping = 15.0;     // [N s/m] 0 to 50, multiplies the speed above speed_limit
+  double wall_stiffness = 5000.0;  // [N/m] whole wall including the device wall
+  double wall_damping = 10.0;      // [N s/m]
+  double feel_scale = 1.0;         // [1] factor on the gate's feel
+  double aisle_damping = 2.0;      // [N s/m] acts at every position
+  double speed_limit = 0.6;        // [m/s] limit_damping acts above this speed
+  double limit_damping = 15.0;     // [N s/m] multiplies the speed above speed_limit
   bool operator==(const HapticTuning&) const = default;
 };
 
@@ -51,7 +51,7 @@ inline constexpr Parameter<HapticTuning> kParameters<HapticTuning>[] = {
 static_assert(DescribesAll<HapticTuning>);
 
 struct OverPushConfig {
-  double warn_above = 60.0;   // [N] 1 to 1000; the user is warned if the hand pushes harder than this
+  double warn_above = 60.0;   // [N] the user is warned if the hand pushes harder than this
   double clear_below = 50.0;  // [N] 0 to warn_above; the warning ends below this push
   bool operator==(const OverPushConfig&) const = default;
 };
@@ -92,14 +92,14 @@ inline constexpr Parameter<ContactConfig, ContactHold, EnergyControl> kParameter
 static_assert(DescribesAll<ContactConfig>);
 
 struct HapticConfig {
-  double rate = 1000.0;  // [Hz] 100 to 4000
+  double rate = 1000.0;  // [Hz]
   HapticTuning tuning;
   ContactConfig contact;
   EstimatorConfig estimator;
   GuardConfig guard;
   OverPushConfig over_push;
-  double gear_debounce = 0.010;  // [s] 0 to 0.5
-  double ghost_offset = 0.020;   // [m] 0 to 1; the true hand is drawn if lever and proxy are further apart than this
+  double gear_debounce = 0.010;  // [s]
+  double ghost_offset = 0.020;   // [m] the true hand is drawn if lever and proxy are further apart than this
   bool operator==(const HapticConfig&) const = default;
 };
 

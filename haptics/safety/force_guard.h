@@ -37,13 +37,13 @@ constexpr bool rearms_itself(const DeviceSpec& spec, GuardFault fault) noexcept 
 }
 
 struct GuardConfig {
-  double slew = 25.0;             // [N/cycle] 2 to 100, largest change per axis; an impact needs 16 at 1 kHz
-  double ramp_time = 0.5;         // [s] 0.001 to 60, from armed to full force
-  double stale_time = 0.020;      // [s] 0.001 to 1, time without a fresh reading before state damped
-  double fade_time = 0.020;       // [s] 0.001 to 1, time in which the force fades out in state damped
-  int overruns_in_row = 8;        // [cycles] 1 to 1000, consecutive overruns before state damped
-  double damped_damping = 5.0;    // [N s/m] 0 to 50, applied in state damped while readings are fresh
-  double position_margin = 0.02;  // [m] 0 to 1; a position further outside the workspace is a fault
+  double slew = 25.0;             // [N/cycle] largest change per axis; an impact needs 16 at 1 kHz
+  double ramp_time = 0.5;         // [s] from armed to full force
+  double stale_time = 0.020;      // [s] time without a fresh reading before state damped
+  double fade_time = 0.020;       // [s] time in which the force fades out in state damped
+  int overruns_in_row = 8;        // [cycles] consecutive overruns before state damped
+  double damped_damping = 5.0;    // [N s/m] applied in state damped while readings are fresh
+  double position_margin = 0.02;  // [m] a position further outside the workspace is a fault
   bool operator==(const GuardConfig&) const = default;
 };
 
