@@ -5,21 +5,38 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
+#include <utility>
 
-#include "app/runtime/runtime_loop.h"
+#include "app/vehicle/car_load.h"
 #include "app/vehicle/drive_sample.h"
-#include "app/vehicle/keyboard_pedals.h"
+#include "haptics/loop/haptic_loop.h"
 #include "haptics/rt/broadcast.h"
-#include "haptics/rt/latest_value.h"
 #include "haptics/rt/realtime_thread.h"
 
 namespace gearshift::runtime {
 
+// A haptic loop with the load on its lever. A new loop is created when a recording starts.
+struct LoopRun {
+  // Gate, device and inputs must outlive this object. Without a car the lever has no load. Throws the same errors as
+  // HapticLoop.
+  LoopRun(const haptics::HapticConfig& config, const haptics::Gate& gate, haptics::HapticDevice& device,
+          haptics::LoopInputs& inputs, std::uint64_t run_number, std::unique_ptr<vehicle::CarLoad> car_load = nullptr)
+      : number(run_number), car(std::move(car_load)), loop(config, gate, device, load(), inputs) {}
+  LoopRun(const LoopRun&) = delete;
+  LoopRun& operator=(const LoopRun&) = delete;
+
+  haptics::LeverLoad& load() noexcept { return car ? static_cast<haptics::LeverLoad&>(*car) : no_load; }
+
+  std::uint64_t number;  // >= 1; distinguishes this run from those before and after it
+  haptics::NoLoad no_load;
+  std::unique_ptr<vehicle::CarLoad> car;  // null: no car
+  haptics::HapticLoop loop;
+};
+
 struct CycleRecord {
   haptics::TraceSample cycle;   // inputs and outputs of the loop
   vehicle::VehicleState car;    // default values if there is no car
-  haptics::Pedals keyboard;     // positions of the keyboard's pedals
   haptics::StageStamps stamps;  // of this cycle, or of an earlier one
   std::uint64_t run = 0;        // LoopRun::number; 0: before the first cycle
   std::int64_t late_ns = 0;     // [ns] from the deadline to the wake-up of the thread
@@ -29,21 +46,11 @@ struct CycleRecord {
 };
 using CycleStream = haptics::Broadcast<CycleRecord>;
 
-// The user's keys for the pedals.
-struct PedalKeyInput {
-  vehicle::PedalKeys keys;
-  vehicle::PedalTiming timing;
-};
-
 class CycleRunner {
  public:
   static constexpr std::size_t kMaxRecords = 8192;  // 8 s of cycles at 1 kHz, 2 s at 4 kHz
 
-  // `period_ns` [ns]: period of the thread. `keyboard`: initial positions of the keyboard's pedals; empty: no keyboard.
-  explicit CycleRunner(std::int64_t period_ns, const std::optional<haptics::Pedals>& keyboard = haptics::Pedals{})
-      : period_ns_(period_ns) {
-    if (keyboard) keyboard_.emplace(*keyboard);
-  }
+  explicit CycleRunner(std::int64_t period_ns) : period_ns_(period_ns) {}  // [ns] period of the thread
 
   // Runs one cycle; real-time safe. `statistics`: those of the calling thread; null on the virtual clock, on which no
   // cycle is late.
@@ -56,24 +63,17 @@ class CycleRunner {
   // number, the previous run may be destroyed.
   void switch_to(LoopRun& next) noexcept { next_.store(&next, std::memory_order_release); }
 
-  // Inputs of all runs. Each has one writer outside this class, but the loop's controls are written by cycle(): each
-  // pedal is as far down as in `controls` or the keyboard's pedal, whichever is further down.
-  haptics::LoopInputs inputs;
-  haptics::LatestValue<haptics::DriverControls> controls;
-  haptics::LatestValue<PedalKeyInput> pedal_keys;
+  haptics::LoopInputs inputs;  // of all runs; each has one writer outside this class
 
   CycleStream stream{kMaxRecords};
 
  private:
-  void set_controls(std::int64_t deadline_ns) noexcept;
-  void press_keys(std::int64_t deadline_ns, haptics::Pedals& pedals) noexcept;
   std::int64_t lateness(const haptics::CycleCall& call, const haptics::CycleStatistics& statistics) noexcept;
   void publish() noexcept;
 
   std::int64_t period_ns_;
   std::atomic<LoopRun*> next_{nullptr};
   LoopRun* run_ = nullptr;
-  std::optional<vehicle::KeyboardPedals> keyboard_;
   CycleRecord record_;
 };
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
 #include "app/runtime/cycle_runner.h"
 #include "app/runtime/exact_hand.h"
-#include "app/runtime/input_mixer.h"
-#include "app/runtime/runtime_loop.h"
 #include "app/runtime/stream_thread.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/device/smoothed_hand.h"
@@ -56,10 +55,67 @@ haptics::Gate gate_for(const RuntimeConfig& config, const haptics::HapticDevice*
 std::unique_ptr<vehicle::CarLoad> make_car(const RuntimeConfig& config, const haptics::Gate& gate,
                                            const haptics::DeviceSpec& device, const vehicle::CarStart& from) {
   if (!config.car) return nullptr;
-  return std::make_unique<vehicle::CarLoad>(*config.car, gate, device.max_force.y, from, config.seed);
+  return std::make_unique<vehicle::CarLoad>(*config.car, gate, device.max_force.y, from, config.seed,
+                                            config.pedal_timing);
+}
+
+// Combines the driver's controls with the instructor's slope and guidance.
+haptics::DriverControls merged(const haptics::DriverControls& driver,
+                               const haptics::DriverControls& instructor) noexcept {
+  haptics::DriverControls both = driver;
+  both.slope = instructor.slope;
+  both.guided_gear = instructor.guided_gear;
+  both.guidance = instructor.guidance;
+  return both;
 }
 
 }  // namespace
+
+// Selects the hand and the controls that the lever receives: the user's or, if a driver function drives, the driver's
+// with the instructor's slope and guidance.
+//
+// This class is the only writer of the hand's target and of the controls. The frame's thread and the driver's thread
+// call it, one at a time. The haptic thread reads the newest values and never waits.
+class InputMixer {
+ public:
+  // `driven`: a driver function drives. `first`, `keys`: initial hand, controls and pedal keys. `inputs` receives the
+  // controls and must outlive this object.
+  InputMixer(bool driven, const vehicle::DriverAction& first, const haptics::PedalKeys& keys,
+             haptics::LoopInputs& inputs)
+      : driven_(driven), controls_(first.controls), inputs_(inputs), hand_(first.hand) {
+    inputs_.controls.write(controls_);
+    if (!driven_) inputs_.pedal_keys.write(keys);
+  }
+
+  void set_hand(const haptics::HandTarget& target) {
+    const std::lock_guard lock(mutex_);
+    if (!driven_) hand_.write(target);
+  }
+
+  void set_controls(const haptics::DriverControls& controls, const haptics::PedalKeys& keys) {
+    const std::lock_guard lock(mutex_);
+    controls_ = driven_ ? merged(controls_, controls) : controls;
+    inputs_.controls.write(controls_);
+    if (!driven_) inputs_.pedal_keys.write(keys);
+  }
+
+  // The driver function's hand and controls.
+  void act(const vehicle::DriverAction& action) {
+    const std::lock_guard lock(mutex_);
+    hand_.write(action.hand);
+    controls_ = merged(action.controls, controls_);
+    inputs_.controls.write(controls_);
+  }
+
+  haptics::LatestValue<haptics::HandTarget>& hand() noexcept { return hand_; }  // read by the device's hand
+
+ private:
+  const bool driven_;
+  std::mutex mutex_;  // guards everything below
+  haptics::DriverControls controls_;
+  haptics::LoopInputs& inputs_;
+  haptics::LatestValue<haptics::HandTarget> hand_;
+};
 
 haptics::Gate check_runtime(const RuntimeConfig& wanted) {
   const RuntimeConfig config = checked(wanted);
@@ -140,8 +196,8 @@ Runtime::State::State(const RuntimeConfig& wanted)
       period_ns(haptics::period_ns(config.preset.haptics)),
       real_device(make_lever(config)),
       gate(gate_for(config, real_device.get())),
-      runner(period_ns, config.driver ? std::nullopt : std::optional(config.keyboard)),
-      input(static_cast<bool>(config.driver), resting_action(), runner.controls),
+      runner(period_ns),
+      input(static_cast<bool>(config.driver), resting_action(), config.pedal_keys, runner.inputs),
       hand(real_device ? nullptr : make_hand()),
       simulated(real_device ? nullptr
                             : std::make_unique<haptics::SimulatedLever>(config.preset.lever, period_ns, *hand)),
@@ -154,9 +210,7 @@ Runtime::State::State(const RuntimeConfig& wanted)
   if (simulated) simulated->place(start);
   newest.cycle.out.lever = newest.cycle.out.proxy = start;
   newest.cycle.out.wall_stiffness = admitted.tuning.wall_stiffness;
-  newest.keyboard = config.keyboard;
-  if (!driver) runner.pedal_keys.write(config.pedal_keys);
-  if (run->car() != nullptr) newest.car = run->car()->state();
+  if (run->car) newest.car = run->car->state();
   begin();
 }
 
@@ -331,11 +385,6 @@ vehicle::VehicleState Runtime::car() {
   return state_->newest.car;
 }
 
-haptics::Pedals Runtime::keyboard() {
-  state_->update_newest();
-  return state_->newest.keyboard;
-}
-
 std::vector<haptics::HapticEvent> Runtime::drain_events() {
   state_->read_records();
   return std::exchange(state_->events, {});
@@ -350,12 +399,8 @@ void Runtime::set_hand(const haptics::HandTarget& target) {
   state_->input.set_hand(target);
 }
 
-void Runtime::set_controls(const haptics::DriverControls& controls) {
-  state_->input.set_controls(controls);
-}
-
-void Runtime::set_pedal_keys(const PedalKeyInput& input) {
-  if (!state_->driver) state_->runner.pedal_keys.write(input);
+void Runtime::set_controls(const haptics::DriverControls& controls, const haptics::PedalKeys& keys) {
+  state_->input.set_controls(controls, keys);
 }
 
 haptics::AdmittedTuning Runtime::change_tuning(const haptics::HapticTuning& wanted) {

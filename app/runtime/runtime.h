@@ -47,10 +47,10 @@ struct RuntimeConfig {
   vehicle::CarStart start;              // the car's initial state; the lever starts in the car's gear
   double hand_brake = 0.0;              // [1] 0 to 1; initial value
   haptics::Preset preset;               // a hand too soft to move the lever is replaced, see leading_hand()
-  LeverFactory lever;        // if set: a real lever is used, set_hand() is ignored, and `driver` must be empty
-  DriverFunction driver;     // empty: set_hand() and set_controls() are used
-  haptics::Pedals keyboard;  // initial positions of the keyboard's pedals
-  PedalKeyInput pedal_keys;  // initial keys, until set_pedal_keys()
+  LeverFactory lever;                 // if set: a real lever is used, set_hand() is ignored, and `driver` must be empty
+  DriverFunction driver;              // empty: set_hand() and set_controls() are used
+  haptics::PedalKeys pedal_keys;      // initial keys, until set_controls()
+  vehicle::PedalTiming pedal_timing;  // of the car's pedals that keys press
   RuntimeClock clock = RuntimeClock::real_time;
   std::uint64_t seed = 1;             // random seed of the car
   std::string program = "gearshift";  // program name and version, written to the trace
@@ -102,13 +102,11 @@ class Runtime {
   std::vector<vehicle::DriveSample> drain_cycles();
   // Uses position and push of the target. Has no effect with a driver or a real lever.
   void set_hand(const haptics::HandTarget& target);
-  // Without a driver, each pedal is as far down as in `controls` or the keyboard's pedal, whichever is further down.
-  // With a driver, only slope, guidance and guided gear of `controls` are used. They replace those of the driver.
-  // Guidance needs a car.
-  void set_controls(const haptics::DriverControls& controls);
-  // The keys held now. The keyboard's pedals move in the car's time, cycle by cycle. Has no effect with a driver.
-  void set_pedal_keys(const PedalKeyInput& input);
-  haptics::Pedals keyboard();  // newest positions of the keyboard's pedals
+  // Without a driver, each pedal of the car is as far down as in `controls` or as `keys` have moved it, whichever is
+  // further down. The keys are those held now; they move the pedals in the car's time, cycle by cycle. With a driver,
+  // only slope, guidance and guided gear of `controls` are used. They replace those of the driver. Keys and guidance
+  // need a car.
+  void set_controls(const haptics::DriverControls& controls, const haptics::PedalKeys& keys = {});
   haptics::AdmittedTuning change_tuning(const haptics::HapticTuning& wanted);  // see HapticLoop::change_tuning()
   // arm() allows forces, which ramp up from zero; disarm() ends them; stop() switches the motors off at once, like an
   // emergency stop button. The commands take effect in the next cycle; the resulting guard state is in the snapshot:

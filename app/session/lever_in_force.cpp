@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include "app/lessons/assessment/lever_path_text.h"
-#include "app/session/make_runtime_config.h"
 #include "haptics/contact/proxy.h"
 #include "haptics/gate/gear_selector.h"
 
@@ -22,7 +21,7 @@ LeverInForce::Next LeverInForce::prepare(const SessionChoice& choice, const less
   Next next{choice, chosen.layout.text, make_runtime_config(choice, chosen, lesson), nullptr, {}, {}};
   next.choice.car = chosen.car;
   next.choice.gate = chosen.gate;
-  if (runtime_) next.config.keyboard = runtime_->keyboard();
+  if (runtime_) next.config.start.keyboard = runtime_->car().keyboard;
   next.config.pedal_keys = keys_;
   if (choice.stick) {
     runtime::RuntimeConfig detached = next.config;  // checked while the old runtime still drives the stick
@@ -50,7 +49,6 @@ void LeverInForce::hand_over(Next next) {
     controls_.ignition = switches_->ignition;
     controls_.pedals.hand_brake = switches_->hand_brake;
   }
-  runtime_->set_pedal_keys(keys_);
   if (wants_forces_) runtime_->arm();
 }
 
@@ -144,31 +142,25 @@ std::string LeverInForce::begin_frame() {
 }
 
 void LeverInForce::set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
-                              const vehicle::PedalKeys& keys) {
+                              const haptics::PedalKeys& keys) {
   runtime_->set_hand(hand);
   controls_ = controls;
-  keys_.keys = is_car_held_ ? vehicle::PedalKeys{} : keys;
-  runtime_->set_pedal_keys(keys_);
+  keys_ = keys;
 }
 
-void LeverInForce::hold_car() {
-  is_car_held_ = true;
-  keys_.keys = {};
-  runtime_->set_pedal_keys(keys_);
-}
-
-// After a lesson the instructor brakes the car to a stop.
+// After a lesson the instructor presses the clutch and brakes the car to a stop.
 void LeverInForce::send_controls(const LessonControls& lesson) {
   haptics::DriverControls controls = controls_;
+  haptics::PedalKeys keys = keys_;
   if (is_car_held_) {
+    keys = {.clutch = true};
     controls.pedals.throttle = 0.0;
-    controls.pedals.clutch = 1.0;
     controls.pedals.brake = std::max(controls.pedals.brake, 0.5);
   }
   controls.slope = lesson.slope;
   controls.guidance = lesson.guidance;
   controls.guided_gear = lesson.guided_gear;
-  runtime_->set_controls(controls);
+  runtime_->set_controls(controls, keys);
 }
 
 // For a real stick prefers the wall stiffness, because the user feels this limit most.

@@ -95,12 +95,12 @@ class LeverInForce {
   // separated by "; "; may be empty.
   std::string begin_frame();
 
-  // The user's hand, controls and pedal keys.
+  // The user's hand at once, controls and pedal keys from the next send_controls() on. Each pedal is as far down as in
+  // `controls` or as `keys` move it in the car's time, whichever is further down.
   void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
-                  const vehicle::PedalKeys& keys);
-  void set_pedal_timing(const vehicle::PedalTiming& timing) { keys_.timing = timing; }
+                  const haptics::PedalKeys& keys = {});
   // The instructor holds clutch and brake after a lesson, until release_car() or the next lever.
-  void hold_car();
+  void hold_car() { is_car_held_ = true; }
   void release_car() { is_car_held_ = false; }
   bool is_car_held() const { return is_car_held_; }
   // Passes the controls to the runtime: the user's, or the instructor's, on the lesson's road.
@@ -117,7 +117,9 @@ class LeverInForce {
   bool is_stick_connected() const { return is_stick_connected_; }
   std::string describe_limit() const;  // first limit of the tuning, as a sentence; may be empty
 
-  bool take_new_runtime() { return std::exchange(is_new_, false); }  // true once after hand_over()
+  // True once after gate, car, hand or device changed.
+  bool take_new_runtime() { return std::exchange(is_new_, false); }
+  // Not empty once after a lesson began.
   std::optional<CarSwitches> take_switches() { return std::exchange(switches_, std::nullopt); }
 
  private:
@@ -129,8 +131,8 @@ class LeverInForce {
 
   SessionChoice choice_, running_;
   std::unique_ptr<runtime::Runtime> runtime_;
-  runtime::PedalKeyInput keys_;
-  haptics::DriverControls controls_;  // the user's, without the keyboard's pedals
+  haptics::DriverControls controls_;  // the user's, without the pedals that keys press
+  haptics::PedalKeys keys_;           // the user's
   std::optional<CarSwitches> switches_;
   bool is_car_held_ = false;
   bool wants_forces_ = false;  // forces are on, or ended by a fault that was not noticed yet

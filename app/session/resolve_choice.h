@@ -1,4 +1,4 @@
-// Resolves the names in a SessionChoice to a preset, a car and a gate.
+// Resolves the names in a SessionChoice to a preset, a car and a gate, and makes the runtime's configuration of them.
 #pragma once
 
 #include <optional>
@@ -26,6 +26,12 @@ struct ResolvedCar {
 // Replaces empty names in the choice: the car by the default car, the gate by the car's gate. Throws FileError or
 // std::runtime_error with a one-sentence message.
 ResolvedCar resolve_car(const SessionChoice& choice);
+
+// `lesson`: defines the car's state at the start. If it is null, the car is parked. The hand "by itself" drives the
+// lesson or, without a lesson, shifts through all gears again and again. Throws FileError or std::invalid_argument with
+// a one-sentence message.
+runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const ResolvedCar& chosen,
+                                           const lessons::Lesson* lesson);
 
 // Returns the choice with its gate replaced. Keeps the car if it has every gear of the new gate. Otherwise the choice
 // gets the first shipped car that has every gear, or kNoCar if there is no such car. Throws like resolve_car().

@@ -80,11 +80,6 @@ const haptics::Gate& Session::displayed_gate() const {
   return viewer_.player() != nullptr ? viewer_.player()->drive().gate() : lever_.runtime().gate();
 }
 
-void Session::set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
-                         const vehicle::PedalKeys& keys) {
-  lever_.set_driver(hand, controls, keys);
-}
-
 void Session::advance(double seconds) {
   time_ += seconds;
   if (const std::string news = lever_.begin_frame(); !news.empty()) message_ = news;

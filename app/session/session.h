@@ -28,20 +28,15 @@ class Session {
   // Throws FileError, GltfError, std::invalid_argument or std::runtime_error with a one-sentence message.
   explicit Session(const SessionChoice& choice);
 
-  // Call set_driver(), advance() and update_cabin() once per frame, in this order, and apply() at any time in a frame.
-  // They do not throw: if a command is rejected, message() says why. Until the next set_driver(), `keys` move the
-  // keyboard pedals on the car's clock. Each pedal is as far down as the keyboard pedal or the value in `controls`,
-  // whichever is further down.
-  void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
-                  const vehicle::PedalKeys& keys = {});
+  // Call lever().set_driver(), advance() and update_cabin() once per frame, in this order, and apply() at any time in a
+  // frame. They do not throw: if a command is rejected, message() says why.
+  LeverInForce& lever() { return lever_; }
   // Executes the commands in this order. STOP is executed before all others too, and a rejected command does not stop
   // those after it.
   void apply(const ui::PanelCommands& commands);
   void apply(const ui::PanelCommand& command) { apply(ui::PanelCommands{command}); }
   void advance(double seconds);  // advances lesson, replay and a loop on the virtual clock; reads events
   void update_cabin();           // places the cabin's parts and updates the sound
-
-  void set_foot_pace(const vehicle::PedalTiming& pace) { lever_.set_pedal_timing(pace); }
 
   // Replays a recorded drive: the shift with the index `shift` or, if `shift` is empty, the whole drive. `from` [s]:
   // start time in the recording. Throws FileError, std::invalid_argument or std::runtime_error with a one-sentence
@@ -50,16 +45,13 @@ class Session {
                    double from = 0.0);
 
   const cabin::Stage& stage() const { return *stage_; }
-  void set_camera(std::string_view camera);                      // see cabin_for_camera()
-  bool take_new_model();                                         // true once after the stage was rebuilt
-  bool take_new_runtime() { return lever_.take_new_runtime(); }  // true once after gate, car, hand or device changed
-  std::optional<CarSwitches> take_switches() { return lever_.take_switches(); }  // not empty once after a lesson began
-  ui::PanelInput panel_input();  // valid until the next call of another function of this session
+  void set_camera(std::string_view camera);  // see cabin_for_camera()
+  bool take_new_model();                     // true once after the stage was rebuilt
+  ui::PanelInput panel_input();              // valid until the next call of another function of this session
   runtime::Runtime& runtime() { return lever_.runtime(); }
   const lessons::Coach& coach() const { return director_.coach(); }
   const haptics::HapticSnapshot& shown() const { return shown_; }  // lever shown in the cabin, live or replayed
   const vehicle::VehicleState& car() const { return car_; }        // car shown in the cabin, live or replayed
-  const std::optional<vehicle::CarSpec>& car_spec() const { return lever_.runtime().config().car; }
   const std::vector<haptics::HapticEvent>& events() const {
     return events_;
   }  // events of the running loop in this frame; times [ns] since the start of the session
@@ -119,8 +111,8 @@ class Session {
   void arm();
   SessionChoice current_choice() const;
   void change_choice(const SessionChoice& wanted, std::string_view reason);
-  // Replaces the lever. `reason`: reported if this ends a lesson. If the new lever is rejected, the old one keeps running
-  // unchanged; if a stick's new lever fails although it was accepted, the old one runs again, without forces.
+  // Replaces the lever. `reason`: reported if this ends a lesson. If the new lever is rejected, the old one keeps
+  // running unchanged; if a stick's new lever fails although it was accepted, the old one runs again, without forces.
   void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
                  std::string_view reason = "the loop was restarted");
   void show_lever_in_force();

@@ -34,6 +34,7 @@ struct SessionChoice {
   cabin::DriveSide drive = cabin::DriveSide::left;  // side on which the driver sits
   runtime::RuntimeClock clock = runtime::RuntimeClock::real_time;
   engine::SoundOutput sound = engine::SoundOutput::card;
+  vehicle::PedalTiming pedal_timing;             // of the pedals that keys press
   std::uint64_t seed = 1;                        // random seed of the car and of the simulated driver
   std::optional<haptics::HapticConfig> haptics;  // if not empty, replaces the preset's configuration
 

@@ -81,7 +81,8 @@ class WindowTrainer {
   int finish() {
     print_unsaved(session_.save_and_stop());
     print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
-    if (!session_.take_new_runtime()) health_ = session_.runtime().health();  // includes cycles after the last frame
+    if (!session_.lever().take_new_runtime())
+      health_ = session_.runtime().health();  // includes cycles after the last frame
     print_health(health_);
     if (!session_.recording()) return 0;
     const bool is_complete = session_.end_recording();
@@ -228,26 +229,15 @@ class WindowTrainer {
   // Passes the user's input to the session. After a change of gate, car, hand or device, the hand starts at the lever's
   // position.
   void set_driver() {
-    if (session_.take_new_runtime()) {
+    LeverInForce& lever = session_.lever();
+    if (lever.take_new_runtime()) {
       print_health(std::exchange(health_, std::nullopt));
-      runtime::Runtime& runtime = session_.runtime();
+      runtime::Runtime& runtime = lever.runtime();
       input_.set_reach(ui::hand_reach(runtime.gate(), runtime.device()));
       input_.recentre(runtime.snapshot().lever);
-      session_.set_foot_pace(foot_pace());
     }
-    if (const std::optional<CarSwitches> car = session_.take_switches()) input_.set_car(car->ignition, car->hand_brake);
-    session_.set_driver(input_.hand(), input_.controls(), input_.pedal_keys());
-  }
-
-  vehicle::PedalTiming foot_pace() const {
-    vehicle::PedalTiming pace;
-    pace.pedal_time = setup_.bindings.pedal_time;
-    pace.slip_time = setup_.bindings.clutch_slip_time;
-    const std::optional<vehicle::CarSpec>& car = session_.car_spec();
-    if (!car) return pace;
-    pace.clutch_closed = car->clutch.closed;
-    pace.clutch_bite = car->clutch.bite;
-    return pace;
+    if (const std::optional<CarSwitches> car = lever.take_switches()) input_.set_car(car->ignition, car->hand_brake);
+    lever.set_driver(input_.hand(), input_.controls(), input_.pedal_keys());
   }
 
   void act() {

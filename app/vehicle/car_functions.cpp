@@ -28,11 +28,4 @@ double friction_torque(const EngineSpec& engine, double speed) noexcept {
   return engine.friction + (engine.friction_slope + engine.friction_square * speed) * speed;
 }
 
-double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept {
-  if (pedal >= clutch.bite) return 0.0;
-  if (pedal <= clutch.closed) return clutch.capacity;
-  const double fraction = (clutch.bite - pedal) / (clutch.bite - clutch.closed);
-  return clutch.capacity * fraction * fraction;
-}
-
 }  // namespace gearshift::vehicle

@@ -31,6 +31,37 @@ double finite_or_zero(double value) noexcept {
   return std::isfinite(value) ? value : 0.0;
 }
 
+constexpr double kLightThrottle = 0.2;  // [1] fraction of full throttle; enough to move off
+constexpr double kFreeSpeed = 180.0;    // [rad/s] about 1700 rpm; an uncoupled engine gets no light throttle above this
+constexpr double kFreeBand = 50.0;      // [rad/s] range below kFreeSpeed in which light throttle falls to 0
+
+// Returns the light throttle [1]. While the engine is not coupled to the wheels, the throttle falls to 0 as the engine
+// speed approaches kFreeSpeed. A constant kLightThrottle would over-rev the engine.
+double light_throttle(double engine_speed, bool coupled) noexcept {
+  if (coupled) return kLightThrottle;
+  return kLightThrottle * std::clamp((kFreeSpeed - engine_speed) / kFreeBand, 0.0, 1.0);
+}
+
+// Returns the pedal position after `seconds` of motion towards `to`. `time`: duration of the full travel [s].
+double ramped(double pedal, double to, double seconds, double time) noexcept {
+  const double step = seconds / time;
+  return std::clamp(to, pedal - step, pedal + step);
+}
+
+// Returns the position of the released clutch pedal after `seconds`: the pedal rises fast, but slowly from the bite
+// point to the point of full capacity.
+double release_clutch(double pedal, double seconds, const PedalTiming& timing, const ClutchSpec& clutch) noexcept {
+  const double edges[] = {clutch.bite, clutch.closed, 0.0};
+  const double quick = 1.0 / timing.pedal_time, slow = (clutch.bite - clutch.closed) / timing.slip_time;
+  const double speeds[] = {quick, slow, quick};
+  for (int part = 0; part < 3; ++part) {
+    const double step = std::min(std::max(pedal - edges[part], 0.0), speeds[part] * seconds);
+    pedal -= step;
+    seconds -= step / speeds[part];
+  }
+  return pedal;
+}
+
 // Fills in the speeds that were left empty.
 CarStart complete_start(const CarSpec& car, CarStart start) {
   const double shaft = shaft_per_road(car, start.gear) * start.road_speed;
@@ -59,7 +90,22 @@ CarStart start_from(const VehicleState& state) noexcept {
   start.shaft_speed = state.shaft_speed;
   start.distance = state.distance;
   start.slip_energy = state.slip_energy;
+  start.keyboard = state.keyboard;
   return start;
+}
+
+const haptics::Pedals& KeyboardPedals::move(const haptics::PedalKeys& keys, double seconds, double engine_speed,
+                                            bool coupled) noexcept {
+  seconds = std::isfinite(seconds) ? std::max(seconds, 0.0) : 0.0;
+  const double time = timing_.pedal_time;
+  const double light = keys.throttle_light ? light_throttle(engine_speed, coupled) : 0.0;
+  pedals_.throttle = ramped(pedals_.throttle, keys.throttle ? 1.0 : light, seconds, time);
+  pedals_.brake = ramped(pedals_.brake, keys.brake ? 1.0 : 0.0, seconds, time);
+  if (keys.clutch)
+    pedals_.clutch = ramped(pedals_.clutch, 1.0, seconds, time);
+  else if (!keys.clutch_hold)
+    pedals_.clutch = release_clutch(pedals_.clutch, seconds, timing_, clutch_);
+  return pedals_;
 }
 
 void check_car_fits(const CarSpec& car, const haptics::Gate& gate) {
@@ -71,14 +117,16 @@ void check_car_fits(const CarSpec& car, const haptics::Gate& gate) {
 }
 
 CarLoad::CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_limit, const CarStart& start,
-                 std::uint64_t seed)
+                 std::uint64_t seed, const PedalTiming& timing)
     : car_(car),
       gate_(gate),
       start_(complete_start(car, start)),
       parameters_(format_parameters(car, force_limit, start_, seed)),
+      keyboard_(timing, car.clutch, start.keyboard),
       driveline_(car),
       synchroniser_(car.synchro, gate, force_scale(force_limit), start.gear, seed),
-      vibration_(car.engine.shudder * force_scale(force_limit)) {
+      vibration_(car.engine.shudder * force_scale(force_limit)),
+      guidance_(gate) {
   check_car_fits(car, gate);
   for (std::size_t i = 0; i < haptics::slots(gate).size(); ++i) {
     const haptics::Slot& slot = gate.slot[i];
@@ -92,6 +140,15 @@ CarLoad::CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_lim
   state_.slip_energy = start_.slip_energy;
   state_.gear = start_.gear;
   state_.force_scale = force_scale(force_limit);
+  state_.keyboard = start_.keyboard;
+}
+
+haptics::Pedals CarLoad::move_pedals(const haptics::Pedals& axes, const haptics::PedalKeys& keys,
+                                     double period) noexcept {
+  const bool coupled = state_.gear != haptics::kNeutralGear && state_.clutch_capacity > 0.0;
+  state_.keyboard = keyboard_.move(keys, period, state_.engine_speed, coupled);
+  return {std::max(axes.throttle, state_.keyboard.throttle), std::max(axes.brake, state_.keyboard.brake),
+          std::max(axes.clutch, state_.keyboard.clutch), axes.hand_brake};
 }
 
 haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period) noexcept {
@@ -122,6 +179,7 @@ haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period)
   const double vibration = vibration_.step(state_.shudder, state_.engine_speed, period);
   out.force.y += vibration;
   out.vibration.y += vibration;
+  out.force += guidance_.step(driver, in.proxy, period);
   return out;
 }
 
@@ -147,10 +205,12 @@ double CarLoad::difference(const SlotGear& gear) const noexcept {
 void CarLoad::update_state(const haptics::DriverControls& controls, const SleeveInput& lever,
                            const SleeveOutput& sleeve) noexcept {
   const double scale = state_.force_scale;
+  const haptics::Pedals keyboard = state_.keyboard;
   state_ = driveline_.state();
   state_.distance += start_.distance;
   state_.slip_energy += start_.slip_energy;
   state_.force_scale = scale;
+  state_.keyboard = keyboard;
   state_.gear = sleeve.meshed;
   state_.sync = sleeve.phase;
   if (lever.slot != haptics::kNoSlot && sleeve.meshed == haptics::kNeutralGear)

@@ -1,4 +1,5 @@
-// The car as a load on the lever: a driveline and a synchroniser, stepped once per haptic cycle.
+// The car as a load on the lever: pedals that keys press, a driveline, a synchroniser, and an instructor's guidance of
+// the hand, stepped once per haptic cycle.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include "app/vehicle/car_spec.h"
 #include "app/vehicle/driveline.h"
 #include "app/vehicle/engine_shudder.h"
+#include "app/vehicle/hand_guidance.h"
 #include "app/vehicle/synchroniser.h"
 #include "app/vehicle/vehicle_state.h"
 #include "haptics/gate/gate.h"
@@ -29,6 +31,7 @@ struct CarStart {
   std::optional<double> shaft_speed;
   double distance = 0.0;     // [m] distance driven before the start
   double slip_energy = 0.0;  // [J] heat dissipated in the clutch before the start
+  haptics::Pedals keyboard;  // positions of the pedals that keys press; not part of replay_parameters()
 };
 
 // Returns a start that continues from `state`.
@@ -37,17 +40,44 @@ CarStart start_from(const VehicleState& state) noexcept;
 // Throws std::invalid_argument with one sentence if the gate has a gear that the car lacks.
 void check_car_fits(const CarSpec& car, const haptics::Gate& gate);
 
+struct PedalTiming {
+  double pedal_time = 0.25;  // [s] time for the full pedal travel
+  double slip_time = 1.2;    // [s] time in which the rising clutch pedal passes from the bite point to full capacity
+};
+
+// Actuator model of the pedals that keys press. It moves them in every cycle of the car's clock, so that no pedal jumps
+// at a low frame rate. `throttle_light` presses the throttle by a fifth of the travel, or less while the engine turns
+// fast and is not coupled to the wheels. The released clutch pedal rises fast, but slowly while the clutch slips, and
+// stops while `clutch_hold` is held. The hand brake does not move.
+class KeyboardPedals {
+ public:
+  KeyboardPedals(const PedalTiming& timing, const ClutchSpec& clutch, const haptics::Pedals& from = {}) noexcept
+      : timing_(timing), clutch_(clutch), pedals_(from) {}
+
+  // Moves the pedals by `seconds` of the car's time (negative counts as 0) and returns their positions.
+  // `engine_speed`: [rad/s]. `coupled`: the engine drives the wheels. Real-time safe.
+  const haptics::Pedals& move(const haptics::PedalKeys& keys, double seconds, double engine_speed,
+                              bool coupled) noexcept;
+
+ private:
+  PedalTiming timing_;
+  ClutchSpec clutch_;
+  haptics::Pedals pedals_;
+};
+
 class CarLoad final : public haptics::LeverLoad {
  public:
   // `force_limit`: largest force that the device can render at the knob [N], > 0. VehicleState::force_scale scales the
   // forces on the lever down to this limit. `seed`: seeds the random tooth positions of the second bump
   // (synchroniser.h). Throws like check_car_fits().
   CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_limit, const CarStart& start = {},
-          std::uint64_t seed = 1);
+          std::uint64_t seed = 1, const PedalTiming& timing = {});
 
+  haptics::Pedals move_pedals(const haptics::Pedals& axes, const haptics::PedalKeys& keys,
+                              double period) noexcept override;
   haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override;
-  // Returns "car", the exact value of every constructor argument and the text of the car file. make_car_load() rebuilds
-  // the same load from this text.
+  // Returns "car", the exact values from which make_car_load() rebuilds this load, and the text of the car file. Pedals
+  // that keys press are left out, see LeverLoad::move_pedals().
   const char* replay_parameters() const noexcept override { return parameters_.c_str(); }
   const CarSpec& spec() const noexcept { return car_; }
   const VehicleState& state() const noexcept { return state_; }
@@ -71,9 +101,11 @@ class CarLoad final : public haptics::LeverLoad {
   CarStart start_;
   std::string parameters_;
   std::array<SlotGear, haptics::kMaxSlots> gear_of_slot_{};
+  KeyboardPedals keyboard_;
   Driveline driveline_;
   Synchroniser synchroniser_;
   LeverVibration vibration_;
+  HandGuidance guidance_;
   VehicleState state_;
 };
 

@@ -106,8 +106,6 @@ double shaft_per_road(const CarSpec& car, int gear) noexcept;
 double full_torque(const EngineSpec& engine, double speed) noexcept;
 // Engine friction with the throttle closed [N m]. `speed` is in rad/s.
 double friction_torque(const EngineSpec& engine, double speed) noexcept;
-// Largest torque that the clutch can transmit [N m]. `pedal` is 0 when released and 1 when fully pressed.
-double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept;
 
 }  // namespace gearshift::vehicle
 

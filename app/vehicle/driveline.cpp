@@ -27,6 +27,13 @@ double pedal(double value) noexcept {
 
 }  // namespace
 
+double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept {
+  if (pedal >= clutch.bite) return 0.0;
+  if (pedal <= clutch.closed) return clutch.capacity;
+  const double fraction = (clutch.bite - pedal) / (clutch.bite - clutch.closed);
+  return clutch.capacity * fraction * fraction;
+}
+
 Driveline::Driveline(const CarSpec& car) : car_(car), engine_(car.engine) {
   car_.clutch.capacity = std::min(car.clutch.capacity, kMaxTorque);
   chain_.inertia = {car.engine.inertia, car.clutch.disc_inertia, car.body.mass + car.body.rotating};

@@ -17,6 +17,9 @@
 
 namespace gearshift::vehicle {
 
+// Largest torque that the clutch can transmit [N m]. `pedal` is 0 when released and 1 when fully pressed.
+double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept;
+
 struct DrivelineInput {
   haptics::Pedals pedals;
   bool ignition = true;

@@ -15,7 +15,7 @@
 #include "app/base/progress_bar.h"
 #include "app/lab/campaign/broken_laws.h"
 #include "app/lessons/replay/recorded_drive.h"
-#include "app/vehicle/lesson_load.h"
+#include "app/vehicle/car_load.h"
 #include "app/verbs/distinct_outputs.h"
 #include "app/verbs/verbs.h"
 #include "haptics/loop/replay.h"
@@ -70,7 +70,7 @@ int print_result(const haptics::ReplayResult& result, const haptics::TraceReader
 
 std::unique_ptr<haptics::LeverLoad> make_load(const std::string& name, const haptics::Gate& gate) {
   std::unique_ptr<haptics::LeverLoad> no_load = haptics::make_no_load(name, gate);
-  return no_load ? std::move(no_load) : vehicle::make_lesson_load(name, gate);
+  return no_load ? std::move(no_load) : vehicle::make_car_load(name, gate);
 }
 
 // Reads the file once. Exports every cycle, and replays the cycles up to the first difference.

@@ -93,6 +93,7 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
   setup.bindings = ui::read_bindings(session::bindings_file(arguments.bindings, config_folder()));
+  setup.choice.pedal_timing = setup.bindings.pedal_timing;
   // In stereo each eye has only half of the picture's width. That is too narrow for the panel.
   setup.panel = !arguments.no_panel && !arguments.stereo;
   setup.replay = arguments.replay;

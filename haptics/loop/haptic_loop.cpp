@@ -132,6 +132,7 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
 void HapticLoop::take_inputs() noexcept {
   if (inputs_.tuning.update() && inputs_.tuning.value() != tuning_) retune(inputs_.tuning.value());
   (void)inputs_.controls.update();
+  (void)inputs_.pedal_keys.update();
   controls_ = inputs_.controls.value();
   command_ = LoopCommand::none;
   if (inputs_.commands.pop(command_)) apply_command(command_);
@@ -222,6 +223,11 @@ dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
 }
 
 LeverOutput HapticLoop::step_load(std::int64_t skipped) noexcept {
+  const double periods = static_cast<double>(1 + std::min(skipped, kMaxCatchUpCycles));
+  const double elapsed = first_step_ ? 0.0 : period_ * periods;
+  first_step_ = false;
+  controls_.pedals = load_.move_pedals(controls_.pedals, inputs_.pedal_keys.value(), elapsed);
+
   LeverInput in;
   in.position = motion_.position;
   in.velocity = motion_.smooth_velocity;
@@ -232,9 +238,6 @@ LeverOutput HapticLoop::step_load(std::int64_t skipped) noexcept {
   in.gear = selector_.gear();
   in.controls = controls_;
   slot_ = in.slot;
-  const double periods = static_cast<double>(1 + std::min(skipped, kMaxCatchUpCycles));
-  const double elapsed = first_step_ ? 0.0 : period_ * periods;
-  first_step_ = false;
   return load_.step(in, elapsed);
 }
 

@@ -41,11 +41,12 @@ struct TraceSample {
   HapticSnapshot out;
 };
 
-// Inputs that the rest of the program may change while the loop runs. Each channel has one writer; the loop reads them
+// Inputs that the rest of the program may change while the loop runs. Each has one writer; the loop reads them
 // at the start of a cycle and never waits. Two loops that run one after the other may share them.
 struct LoopInputs {
-  LatestValue<HapticTuning> tuning;  // written only by HapticLoop::change_tuning, with the admitted values
-  LatestValue<DriverControls> controls;
+  LatestValue<HapticTuning> tuning;      // written only by HapticLoop::change_tuning, with the admitted values
+  LatestValue<DriverControls> controls;  // pedals: positions of the pedal axes
+  LatestValue<PedalKeys> pedal_keys;
   SpscQueue<LoopCommand> commands{16};
 };
 

@@ -32,6 +32,11 @@ struct Pedals {
   double hand_brake = 0.0;  // [1] 0 to 1
 };
 
+// Keys that press a pedal and are held now. A load that models the pedals moves them, see LeverLoad::move_pedals().
+struct PedalKeys {
+  bool throttle = false, throttle_light = false, brake = false, clutch = false, clutch_hold = false;
+};
+
 // The driver's controls except the lever, and the settings of a lesson. The frame thread writes them as one value.
 struct DriverControls {
   Pedals pedals;
@@ -66,6 +71,10 @@ struct LeverOutput {
 class LeverLoad {
  public:
   virtual ~LeverLoad() = default;
+  // Returns the pedals' positions after `period` [s]: those of the axes, or further down where keys press a pedal.
+  // Called before step(), under the same rules. The trace contains the result and not the keys: a replay passes the
+  // recorded positions without keys, so it must get the same positions back.
+  virtual Pedals move_pedals(const Pedals& axes, const PedalKeys&, double /*period*/) noexcept { return axes; }
   virtual LeverOutput step(const LeverInput& in, double period) noexcept = 0;  // period [s]
   // Text that identifies the model and its parameters in a trace; a replay rejects a different model.
   virtual const char* replay_parameters() const noexcept = 0;

@@ -7,7 +7,7 @@
 #include "app/cabin/headset/seat_file.h"
 #include "app/lessons/assessment/lesson.h"
 #include "app/ui/input/bindings.h"
-#include "app/vehicle/car_spec.h"
+#include "app/vehicle/driveline.h"
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/hardware/device_calibration.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/lessons/replay/recorded_drive.h"
-#include "app/vehicle/lesson_load.h"
+#include "app/vehicle/car_load.h"
 #include "haptics/files/file_error.h"
 #include "haptics/loop/block_codec.h"
 #include "haptics/loop/replay.h"
@@ -40,7 +40,7 @@ FuzzedFile& the_trace() {
 
 std::unique_ptr<LeverLoad> make_load(const std::string& name, const Gate& gate) {
   std::unique_ptr<LeverLoad> no_load = make_no_load(name, gate);
-  return no_load ? std::move(no_load) : make_lesson_load(name, gate);
+  return no_load ? std::move(no_load) : make_car_load(name, gate);
 }
 
 // Returns the recording of a drive of kCycles cycles.

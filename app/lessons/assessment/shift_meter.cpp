@@ -7,7 +7,7 @@
 
 #include "app/lessons/assessment/gate_path.h"
 #include "app/lessons/assessment/step_order.h"
-#include "app/vehicle/guided_load.h"
+#include "app/vehicle/hand_guidance.h"
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift::lessons {

@@ -3,17 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "app/vehicle/lesson_load.h"
+#include "app/vehicle/car_load.h"
 #include "haptics/files/file_error.h"
 #include "haptics/loop/trace_fields.h"
 
 namespace gearshift::lessons {
 namespace {
-
-const vehicle::CarLoad* car_in(const haptics::LeverLoad* load) noexcept {
-  if (const auto* lesson = dynamic_cast<const vehicle::LessonLoad*>(load)) return &lesson->car();
-  return dynamic_cast<const vehicle::CarLoad*>(load);
-}
 
 // Largest magnitude of a plausible number, in any unit. Its square must fit into a float for drawing. Engineering
 // value.
@@ -56,9 +51,9 @@ DriveReader::DriveReader(const std::filesystem::path& file, std::uint64_t max_cy
 std::unique_ptr<haptics::LeverLoad> DriveReader::make_load(const std::string& name, const haptics::Gate& gate) {
   gate_ = gate;
   if (std::unique_ptr<haptics::LeverLoad> no_load = haptics::make_no_load(name, gate)) return no_load;
-  std::unique_ptr<haptics::LeverLoad> load = vehicle::make_lesson_load(name, gate);
-  car_ = car_in(load.get());
-  return load;
+  std::unique_ptr<vehicle::CarLoad> car = vehicle::make_car_load(name, gate);
+  car_ = car.get();
+  return car;
 }
 
 void DriveReader::check(const haptics::TraceSample& sample) const {

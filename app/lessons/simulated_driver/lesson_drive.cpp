@@ -6,8 +6,6 @@
 #include "app/lessons/assessment/lesson_run.h"
 #include "app/lessons/simulated_driver/simulated_driver.h"
 #include "app/vehicle/car_load.h"
-#include "app/vehicle/guided_load.h"
-#include "app/vehicle/lesson_load.h"
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/loop/simulated_run.h"
@@ -49,21 +47,15 @@ class Drive {
         gate_(driven_gate(config.gate)),
         setup_(run_config(config, gate_)),
         car_(config.car, gate_, device_.max_force.y, car_start(config.lesson.start), config.seed),
-        guided_(car_, gate_),
-        run_(setup_, hand_, config.guidance > 0.0 ? static_cast<haptics::LeverLoad*>(&guided_) : &car_),
+        run_(setup_, hand_, &car_),
         driver_(config.lesson, config.car, gate_, config.skill, config.errors, config.seed, run_.period()) {
     hand_.target.position = setup_.start;
     sample_.controls.ignition = config.lesson.start.running;
     sample_.controls.pedals.hand_brake = config.lesson.start.hand_brake;
     sample_.controls.slope = config.lesson.start.slope;
     if (config.trace.empty()) return;
-    const haptics::TraceHeader header{kProgram,
-                                      setup_.haptics,
-                                      device_,
-                                      config.gate.file,
-                                      config.gate.text,
-                                      config.guidance > 0.0 ? guided_.replay_parameters() : car_.replay_parameters(),
-                                      true};
+    const haptics::TraceHeader header{kProgram,         setup_.haptics,           device_, config.gate.file,
+                                      config.gate.text, car_.replay_parameters(), true};
     recorder_.emplace(config.trace, header);
   }
 
@@ -104,7 +96,6 @@ class Drive {
   haptics::Gate gate_;
   haptics::SimulatedRunConfig setup_;
   vehicle::CarLoad car_;
-  vehicle::GuidedLoad guided_;
   DecidedHand hand_;
   haptics::SimulatedRun run_;
   SimulatedDriver driver_;

@@ -147,8 +147,9 @@ void read_pace(const haptics::TomlTable& root, Bindings& bindings) {
   const haptics::TomlTable pace = root.table("pace");
   bindings.mouse_mm_per_px = pace.number_or("mouse_mm_per_px", bindings.mouse_mm_per_px, {0.005, 5.0});
   bindings.key_speed = pace.number_or("lever_key_m_per_s", bindings.key_speed, {0.01, 2.0});
-  bindings.pedal_time = pace.number_or("pedal_key_s", bindings.pedal_time, {0.01, 5.0});
-  bindings.clutch_slip_time = pace.number_or("clutch_key_slip_s", bindings.clutch_slip_time, {0.01, 10.0});
+  vehicle::PedalTiming& pedals = bindings.pedal_timing;
+  pedals.pedal_time = pace.number_or("pedal_key_s", pedals.pedal_time, {0.01, 5.0});
+  pedals.slip_time = pace.number_or("clutch_key_slip_s", pedals.slip_time, {0.01, 10.0});
   pace.reject_unknown_keys();
 }
 

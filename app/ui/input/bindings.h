@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/ui/input/axis.h"
+#include "app/vehicle/car_load.h"
 
 namespace gearshift::ui {
 
@@ -64,11 +65,10 @@ struct Bindings {
   std::string button_stick;  // pad_buttons apply to sticks whose name contains this, or whose GUID it is; empty: all
   std::optional<AxisBinding> lever_select, lever_shift, throttle, brake, clutch;
   LeverMode lever_mode = LeverMode::moves;
-  double stick_speed = 0.3;       // [m/s] hand speed at full deflection of the stick, with LeverMode::moves
-  double mouse_mm_per_px = 0.12;  // [mm] hand motion in the lever plane per mouse pixel
-  double key_speed = 0.25;        // [m/s] hand speed while a lever key is held
-  double pedal_time = 0.25;       // [s] time that a key needs to move a pedal over its full travel
-  double clutch_slip_time = 1.2;  // [s] time in which the clutch pedal, moved by a key, rises through the bite zone
+  double stick_speed = 0.3;           // [m/s] hand speed at full deflection of the stick, with LeverMode::moves
+  double mouse_mm_per_px = 0.12;      // [mm] hand motion in the lever plane per mouse pixel
+  double key_speed = 0.25;            // [m/s] hand speed while a lever key is held
+  vehicle::PedalTiming pedal_timing;  // of the pedals that keys press
 };
 
 // Throws FileError, which names file, line, key, value and allowed range. Each key and each button may have only one

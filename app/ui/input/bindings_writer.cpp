@@ -55,8 +55,8 @@ std::string bindings_text(const Bindings& bindings) {
           line("full_speed_m_per_s", haptics::toml_number(bindings.stick_speed));
   return text + "\n[pace]\n" + line("mouse_mm_per_px", haptics::toml_number(bindings.mouse_mm_per_px)) +
          line("lever_key_m_per_s", haptics::toml_number(bindings.key_speed)) +
-         line("pedal_key_s", haptics::toml_number(bindings.pedal_time)) +
-         line("clutch_key_slip_s", haptics::toml_number(bindings.clutch_slip_time));
+         line("pedal_key_s", haptics::toml_number(bindings.pedal_timing.pedal_time)) +
+         line("clutch_key_slip_s", haptics::toml_number(bindings.pedal_timing.slip_time));
 }
 
 void write_bindings(const Bindings& bindings, const fs::path& file) {

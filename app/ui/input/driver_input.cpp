@@ -150,7 +150,7 @@ bool DriverInput::is_held_at_end(Action action) const {
   });
 }
 
-vehicle::PedalKeys DriverInput::pedal_keys() const {
+haptics::PedalKeys DriverInput::pedal_keys() const {
   return {is_held_at_end(Action::throttle), is_held_at_end(Action::throttle_light), is_held_at_end(Action::brake),
           is_held_at_end(Action::clutch), is_held_at_end(Action::clutch_hold)};
 }

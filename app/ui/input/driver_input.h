@@ -6,7 +6,7 @@
 //           becomes a push on the lever. With keys, or with a stick that sets the speed, the hand leads the
 //           lever by at most 5 cm. 0.3 s after their release the hand moves back to at most 5 mm from the lever, so
 //           that it does not push on the lever permanently.
-//   pedals  The held pedal keys are passed to vehicle::KeyboardPedals, which moves the pedals on the car's clock. A pedal axis
+//   pedals  The held pedal keys go to the car, which moves its pedals, see vehicle::KeyboardPedals. A pedal axis
 //           is used only after its first motion, because a pad does not report the true position of an axis earlier.
 //   mouse   A click on the cabin, or the action `grab_mouse`, captures the mouse for the lever. `grab_mouse` again, or
 //           the loss of the window's focus, releases the mouse.
@@ -24,7 +24,6 @@
 #include <vector>
 
 #include "app/ui/input/bindings.h"
-#include "app/vehicle/keyboard_pedals.h"
 #include "engine/window/window.h"
 #include "haptics/device/hand.h"
 #include "haptics/device/haptic_device.h"
@@ -54,7 +53,7 @@ class DriverInput {
   const haptics::HandTarget& hand() const noexcept { return hand_; }
   const haptics::DriverControls& controls() const noexcept { return controls_; }  // pedal axes only, no pedal keys
   // Pedal keys held until the next update(). A key pressed and released between two frames is held for one frame.
-  vehicle::PedalKeys pedal_keys() const;
+  haptics::PedalKeys pedal_keys() const;
   const std::vector<Action>& pressed() const noexcept { return pressed_; }  // one-shot actions of this frame, in order
   bool mouse_moves_lever() const noexcept { return mouse_moves_lever_; }    // the mouse is captured
 

@@ -51,8 +51,8 @@ void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
       controls.guidance = i % 2000 < 1000 ? 0.0 : 0.7;
       controls.guided_gear = 1 + i / 4000;
       controls.pedals.clutch = i % 3000 < 1500 ? 1.0 : 0.0;
-      runner->controls.write(controls);
-      runner->pedal_keys.write({{.throttle = i % 700 < 300, .clutch = i % 900 < 500}, {}});
+      runner->inputs.controls.write(controls);
+      runner->inputs.pedal_keys.write({.throttle = i % 700 < 300, .clutch = i % 900 < 500});
       led.write(script.next(1e-9 * static_cast<double>(now), runner->newest().cycle.out.lever));
       runner->cycle({now, skipped}, statistics.get());
     }

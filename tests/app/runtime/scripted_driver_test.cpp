@@ -1,5 +1,6 @@
 // A scripted driver is called with every cycle, and the lever gets exactly the hand target that the driver returns.
 // Only the instructor sets road and guidance.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -9,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-#include "app/vehicle/lesson_load.h"
+#include "app/vehicle/car_load.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_reader.h"
@@ -32,7 +33,7 @@ DriverAction restless(const DriveSample& now) {
   action.hand.velocity = {0.3 * std::cos(9.0 * t), 0.0};
   action.hand.push = {0.0, 2.0 * std::sin(40.0 * t)};
   action.controls.ignition = true;
-  action.controls.pedals.throttle = 0.3 + 0.2 * std::sin(t) - 0.001 * now.car.engine_speed;
+  action.controls.pedals.throttle = std::max(0.0, 0.3 + 0.2 * std::sin(t) - 0.001 * now.car.engine_speed);
   action.controls.pedals.clutch = std::fmod(t, 1.0);
   action.controls.guidance = 1.0;  // ignored, because only the instructor sets guidance and slope
   action.controls.guided_gear = 5;
@@ -180,7 +181,7 @@ TEST_CASE("recorded on the virtual clock, a scripted drive replays bit for bit a
   const Trace trace = read_trace(folder / "a.trace");
   CHECK(trace.samples.size() == 800);
   CHECK(trace.samples[0].controls.pedals.throttle != 0.0);  // recording does not reset the throttle
-  CHECK(replay(trace, make_lesson_load).bit_for_bit());
+  CHECK(replay(trace, make_car_load).bit_for_bit());
 }
 
 TEST_CASE(
@@ -227,7 +228,7 @@ TEST_CASE(
   }
   CHECK(guided);
   for (const char* name : {"a.trace", "b.trace", "c.trace"})
-    CHECK(replay(read_trace(folder / name), make_lesson_load).bit_for_bit());
+    CHECK(replay(read_trace(folder / name), make_car_load).bit_for_bit());
 }
 
 TEST_CASE("a sleeping driver blocks neither lever nor instructor, and the runtime ends when the driver returns") {

@@ -48,7 +48,7 @@ TEST_CASE("the session's sound depends on the position and direction of the list
   DriverControls controls;
   controls.ignition = true;
   controls.pedals.clutch = 1.0;
-  session.set_driver({}, controls);
+  session.lever().set_driver({}, controls);
   const glm::dvec3 seat{0.0, 0.65, 0.05};
   const EarLevels ahead = engine_levels(session, look_at(seat, seat + glm::dvec3(0.0, 0.0, -1.0)));
   CHECK(ahead.right > 1e-3);

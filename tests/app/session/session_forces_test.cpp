@@ -57,11 +57,11 @@ struct ForcesRig {
     for (int i = 0; i < 3000 && session.runtime().snapshot().guard != GuardState::released; ++i) {
       hand.position = {i % 2 ? 0.09 : -0.09, i % 2 ? 0.09 : -0.09};
       hand.push = {0.0, i % 2 ? 75.0 : -75.0};
-      session.set_driver(hand, {});
+      session.lever().set_driver(hand, {});
       session.advance(0.1);
     }
     REQUIRE(session.runtime().snapshot().guard == GuardState::released);
-    session.set_driver({}, {});
+    session.lever().set_driver({}, {});
   }
   void cause(ForceCause what) {
     switch (what) {

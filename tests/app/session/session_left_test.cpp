@@ -1,4 +1,6 @@
 // Tests how a lesson can end early, the message for each case, and who controls the car afterwards.
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -50,8 +52,8 @@ struct LeftRig {
   bool has_car() {
     DriverControls free;
     free.ignition = true;
-    session.set_driver({}, free);
-    go(0.1);
+    session.lever().set_driver({}, free);
+    go(2.0);  // the clutch pedal takes 1.5 s to rise
     return session.car().pedals.brake == 0.0 && session.car().pedals.clutch == 0.0;
   }
 };
@@ -109,6 +111,22 @@ TEST_CASE("after a lesson the instructor holds the car, and the panel shows it, 
   CHECK(rig.has_car());
 }
 
+TEST_CASE("the clutch pedal does not jump when the instructor takes the car and returns it") {
+  LeftRig rig;
+  rig.begin();
+  rig.session.apply(LeaveLesson{});
+  double before = rig.session.car().pedals.clutch, highest = 0.0;
+  for (int frame = 0; frame < 240; ++frame) {
+    if (frame == 120) rig.session.apply(DismissLesson{});
+    rig.go(kLeftFrame / 2);
+    const double clutch = rig.session.car().pedals.clutch;
+    CHECK(std::abs(clutch - before) <= kLeftFrame / 0.25 + 0.005);  // the full travel takes 0.25 s; 0.005: a cycle more
+    highest = std::max(highest, before = clutch);
+  }
+  CHECK(highest == 1.0);
+  CHECK(before == 0.0);
+}
+
 TEST_CASE("the errors that fail a lesson are listed with its goal; without a lesson there is no list") {
   LeftRig rig;
   CHECK(rig.session.coach().view().fail_conditions == failing_errors_sentence(*rig.session.coach().lesson()));
@@ -151,14 +169,14 @@ TEST_CASE("the panel shows that a trial can no longer be passed, from the failin
   HandTarget first;
   first.position = rest_position(rig.session.runtime().gate(), 1);
   const auto column = glm::dvec2(first.position.x, 0.0);
-  rig.session.set_driver({column, {}}, stalls);
+  rig.session.lever().set_driver({column, {}}, stalls);
   rig.go(1.0);
-  rig.session.set_driver(first, stalls);
+  rig.session.lever().set_driver(first, stalls);
   rig.go(1.0);
   REQUIRE(rig.session.shown().gear == 1);
   CHECK_FALSE(rig.session.panel_input().is_unpassable);
   stalls.pedals.clutch = 0.0;
-  rig.session.set_driver(first, stalls);
+  rig.session.lever().set_driver(first, stalls);
   rig.go(1.5);
   REQUIRE(rig.session.coach().view().phase == LessonPhase::driving);
   REQUIRE(rig.session.car().stalled);

@@ -10,7 +10,7 @@
 
 #include "app/lessons/simulated_driver/auto_driver.h"
 #include "app/session/session.h"
-#include "app/vehicle/lesson_load.h"
+#include "app/vehicle/car_load.h"
 #include "haptics/loop/replay.h"
 #include "tests/support/small_files.h"
 #include "tests/support/temp_folder.h"
@@ -66,7 +66,7 @@ const CoachView& drive_as_person(Session& session) {
   if (session.coach().view().phase == LessonPhase::offered) session.apply(BeginLesson{});
   AutoDriverConfig config;
   config.lesson = *session.coach().lesson();
-  config.car = *session.car_spec();
+  config.car = *session.runtime().config().car;
   config.gate = session.runtime().gate();
   AutoDriver driver(config);
   DriveSample sample;
@@ -78,7 +78,7 @@ const CoachView& drive_as_person(Session& session) {
     sample.car = session.car();
     const DriverAction action = driver.act(sample);
     sample.controls = action.controls;
-    session.set_driver(action.hand, action.controls);
+    session.lever().set_driver(action.hand, action.controls);
   }
   REQUIRE(session.coach().view().phase == LessonPhase::over);
   return session.coach().view();
@@ -106,7 +106,7 @@ TEST_CASE("a competent driver passes a lesson in the running session; run, shift
   CHECK(runs[0].result.shifts.size() == coach.result->shifts.size());
   CHECK_FALSE(session.recording());
   const Trace trace = read_trace(history.recording_file(runs[0].recording).string());
-  CHECK(replay(trace, make_lesson_load).bit_for_bit());
+  CHECK(replay(trace, make_car_load).bit_for_bit());
   // The recording covers every shift of the lesson. A shift may end up to 0.5 s after the last recorded cycle.
   for (const ShiftRecord& shift : runs[0].result.shifts) {
     CHECK(shift.begin > 1e-9 * static_cast<double>(trace.samples.front().out.time_ns));
@@ -127,9 +127,9 @@ TEST_CASE("a lesson begins with the gear, speed, engine and handbrake in its fil
   session.apply(LeaveLesson{});
   CHECK(session.coach().view().result->end == LessonEnd::left);
   session.apply(OfferLesson{"start_and_stop"});
-  (void)session.take_switches();
+  (void)session.lever().take_switches();
   session.apply(BeginLesson{});
-  const std::optional<CarSwitches> switches = session.take_switches();
+  const std::optional<CarSwitches> switches = session.lever().take_switches();
   REQUIRE(switches);
   CHECK_FALSE(switches->ignition);
   CHECK(switches->hand_brake == 1.0);
@@ -298,7 +298,7 @@ TEST_CASE("in a guided trial the lever guides and no grade is given; without hel
     CHECK(std::any_of(trace.samples.begin(), trace.samples.end(), [](const TraceSample& sample) {
       return sample.controls.guidance > 0.0 && sample.controls.guided_gear == 2;
     }));
-    CHECK(replay(trace, make_lesson_load).bit_for_bit());
+    CHECK(replay(trace, make_car_load).bit_for_bit());
     return;
   }
   FAIL("none of four trials was guided");
@@ -339,7 +339,7 @@ TEST_CASE(
   DriverControls rolls;
   rolls.ignition = true;
   rolls.pedals.clutch = 1.0;
-  session.set_driver({}, rolls);
+  session.lever().set_driver({}, rolls);
   for (int i = 0; i < 20 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kLessonFrame);
   REQUIRE(session.coach().view().phase == LessonPhase::over);  // the car rolled back one metre, which ended the lesson
   CHECK(session.car().road_speed < -0.5);
@@ -347,7 +347,7 @@ TEST_CASE(
   CHECK(session.car().road_speed == 0.0);
   CHECK(session.car().running);
   session.apply(BeginLesson{});
-  session.set_driver({}, rolls);
+  session.lever().set_driver({}, rolls);
   go(session, 1.0);
   CHECK(session.car().road_speed < -0.1);
 }

@@ -25,7 +25,7 @@ TEST_CASE("a seat offset counts towards the 20 mm at which the true hand is show
     session.set_visual_offset(offset);
     for (int i = 0; i < 90; ++i) {
       hand.position.x = 0.018;
-      session.set_driver(hand, {});
+      session.lever().set_driver(hand, {});
       session.advance(1.0 / 60.0);
     }
     return (session.shown().flags & kFlagGhost) != 0;

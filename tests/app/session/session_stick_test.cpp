@@ -219,7 +219,7 @@ TEST_CASE("the lever follows the stick, and the mouse has no effect") {
   rig.held.hand.go({0.020, 0.0});
   HandTarget mouse;
   mouse.position = {-0.05, 0.0};
-  rig.session->set_driver(mouse, {});
+  rig.session->lever().set_driver(mouse, {});
   CHECK(rig.becomes_true([&] { return std::abs(rig.session->shown().lever.x - 0.020) < 0.002; }));
 }
 
@@ -293,7 +293,7 @@ TEST_CASE("a lesson that starts in a gear begins only when the stick is in that 
   DriverControls feet;
   feet.ignition = true;
   feet.pedals.clutch = 1.0;  // with the clutch pedal up, the synchroniser would block the gear
-  rig.session->set_driver({}, feet);
+  rig.session->lever().set_driver({}, feet);
   const glm::dvec2 first = rest_position(rig.session->runtime().gate(), 1);
   rig.held.hand.go({first.x, 0.0});
   CHECK(rig.becomes_true([&] { return std::abs(rig.session->shown().lever.x - first.x) < 0.003; }));

@@ -10,7 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "app/base/program_name.h"
-#include "app/vehicle/lesson_load.h"
+#include "app/vehicle/car_load.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
 #include "tests/support/memory_in_use.h"
@@ -148,7 +148,7 @@ TEST_CASE("a change of gate ends the recording and reports where the file is, or
   CHECK(rig.says("recorded: "));
   REQUIRE(rig.traces().size() == 1);
   const Trace trace = read_trace(*rig.traces().begin());
-  CHECK(replay(trace, make_lesson_load).bit_for_bit());
+  CHECK(replay(trace, make_car_load).bit_for_bit());
   CHECK(trace.header.program == program_name());
   {
     // [bytes] More than the trace's header and less than one of its blocks, so the write fails only when the file is
@@ -168,7 +168,7 @@ TEST_CASE("two recordings within a second are two complete files") {
     rig.go(0.1);
   }
   REQUIRE(rig.traces().size() == 2);
-  for (const fs::path& file : rig.traces()) CHECK(replay(read_trace(file), make_lesson_load).bit_for_bit());
+  for (const fs::path& file : rig.traces()) CHECK(replay(read_trace(file), make_car_load).bit_for_bit());
 }
 
 TEST_CASE("a replay shows the trace's cycles in order, each once, and the running lever's guard") {

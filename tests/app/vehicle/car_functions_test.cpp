@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "app/vehicle/car_spec.h"
+#include "app/vehicle/driveline.h"
 #include "app/vehicle/engine_control.h"
 
 using namespace gearshift::haptics;

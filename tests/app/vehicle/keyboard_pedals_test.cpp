@@ -1,6 +1,4 @@
 // Keyboard pedals, compared with their closed form for any time step and at low frame rates.
-#include "app/vehicle/keyboard_pedals.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,11 +7,15 @@
 
 #include <doctest/doctest.h>
 
+#include "app/vehicle/car_load.h"
+
+using namespace gearshift::haptics;
 using namespace gearshift::vehicle;
 
 namespace {
 
-constexpr PedalTiming kPace{.pedal_time = 0.25, .slip_time = 1.2, .clutch_closed = 0.2, .clutch_bite = 0.8};
+constexpr PedalTiming kPace{.pedal_time = 0.25, .slip_time = 1.2};
+constexpr ClutchSpec kClutch{.bite = 0.8, .closed = 0.2};
 
 // [1] The position of a clutch pedal `time` seconds after its release from the floor (1). The pedal moves to 0.8 at 4
 // per second, to 0.2 in 1.2 s, and then to 0 at 4 per second.
@@ -26,7 +28,7 @@ double let_up_for(double time) {
 // The clutch position after each cycle of `cycle` seconds. The clutch key is held from 0 s to 0.51 s, and is polled
 // once per frame.
 std::vector<double> clutch_path(double frames_per_second, double cycle) {
-  KeyboardPedals feet;
+  KeyboardPedals feet(kPace, kClutch);
   PedalKeys keys;
   std::vector<double> path;
   double next_frame = 0.0;
@@ -36,7 +38,7 @@ std::vector<double> clutch_path(double frames_per_second, double cycle) {
       keys = {.clutch = time < 0.51};
       next_frame += 1.0 / frames_per_second;
     }
-    path.push_back(feet.move(keys, kPace, cycle, 0.0, false).clutch);
+    path.push_back(feet.move(keys, cycle, 0.0, false).clutch);
   }
   return path;
 }
@@ -46,10 +48,10 @@ std::vector<double> clutch_path(double frames_per_second, double cycle) {
 TEST_CASE("a released clutch follows its closed form, for any time steps") {
   for (const double part : {0.001, 0.0137, 0.1, 0.9}) {
     CAPTURE(part);
-    KeyboardPedals feet;
-    CHECK(feet.move({.clutch = true}, kPace, 10.0, 0.0, false).clutch == 1.0);
+    KeyboardPedals feet(kPace, kClutch);
+    CHECK(feet.move({.clutch = true}, 10.0, 0.0, false).clutch == 1.0);
     for (double time = part; time < 2.0; time += part)
-      REQUIRE(feet.move({}, kPace, part, 0.0, false).clutch == doctest::Approx(let_up_for(time)).epsilon(1e-9));
+      REQUIRE(feet.move({}, part, 0.0, false).clutch == doctest::Approx(let_up_for(time)).epsilon(1e-9));
   }
 }
 
@@ -70,7 +72,7 @@ TEST_CASE("at 10, 30 and 144 frames per second the pedal follows the same path, 
 
 TEST_CASE("light throttle takes a free engine to at most 1700 rpm; under load it is 0.2") {
   const auto throttle = [](double speed, bool coupled) {
-    return KeyboardPedals().move({.throttle_light = true}, kPace, 1.0, speed, coupled).throttle;
+    return KeyboardPedals(kPace, kClutch).move({.throttle_light = true}, 1.0, speed, coupled).throttle;
   };
   CHECK(throttle(84.0, false) == doctest::Approx(0.2));
   CHECK(throttle(155.0, false) == doctest::Approx(0.1));
@@ -79,17 +81,17 @@ TEST_CASE("light throttle takes a free engine to at most 1700 rpm; under load it
 }
 
 TEST_CASE("invalid time steps do not move the pedals") {
-  KeyboardPedals feet;
+  KeyboardPedals feet(kPace, kClutch);
   const PedalKeys all{.throttle = true, .brake = true, .clutch = true};
   for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), -HUGE_VAL, HUGE_VAL}) {
-    const gearshift::haptics::Pedals pedals = feet.move(all, kPace, seconds, 0.0, false);
+    const Pedals pedals = feet.move(all, seconds, 0.0, false);
     CHECK(pedals.throttle + pedals.brake + pedals.clutch == 0.0);
   }
 }
 
 TEST_CASE("pedals that continue from other positions move on from there") {
-  KeyboardPedals feet({.brake = 0.4, .hand_brake = 0.7});
-  const gearshift::haptics::Pedals pedals = feet.move({.brake = true}, kPace, 0.050, 0.0, false);
+  KeyboardPedals feet(kPace, kClutch, {.brake = 0.4, .hand_brake = 0.7});
+  const Pedals pedals = feet.move({.brake = true}, 0.050, 0.0, false);
   CHECK(pedals.brake == doctest::Approx(0.6));  // the full travel in 0.25 s
   CHECK(pedals.hand_brake == 0.7);
 }

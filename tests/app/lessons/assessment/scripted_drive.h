@@ -12,7 +12,6 @@
 
 #include "app/lessons/assessment/lesson_run.h"
 #include "app/vehicle/car_load.h"
-#include "app/vehicle/lesson_load.h"
 #include "haptics/gate/gate_feel.h"
 #include "tests/support/gates.h"
 

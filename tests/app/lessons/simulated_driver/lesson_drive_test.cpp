@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "app/vehicle/lesson_load.h"
+#include "app/vehicle/car_load.h"
 #include "haptics/files/file_error.h"
 #include "haptics/loop/replay.h"
 #include "tests/app/lessons/simulated_driver/lessons.h"
@@ -61,7 +61,7 @@ TEST_CASE("a lesson's trace replays bit for bit, guided and unguided, and record
     config.trace = folder / "lesson.trace";
     check_equal(drive_lesson(config), plain);
     const Trace trace = read_trace(config.trace);
-    const ReplayResult again = replay(trace, make_lesson_load);
+    const ReplayResult again = replay(trace, make_car_load);
     CHECK(again.bit_for_bit());
     CHECK(again.seconds == doctest::Approx(plain.duration).epsilon(0.001));
     CHECK(again.cycles > 5000);

@@ -63,8 +63,8 @@ TEST_CASE("in the shipped bindings every action has a key, pedals and lever have
   CHECK(bindings.lever_shift->from == 1.0);
   CHECK(bindings.mouse_mm_per_px == Bindings{}.mouse_mm_per_px);
   CHECK(bindings.key_speed == Bindings{}.key_speed);
-  CHECK(bindings.pedal_time == Bindings{}.pedal_time);
-  CHECK(bindings.clutch_slip_time == Bindings{}.clutch_slip_time);
+  CHECK(bindings.pedal_timing.pedal_time == Bindings{}.pedal_timing.pedal_time);
+  CHECK(bindings.pedal_timing.slip_time == Bindings{}.pedal_timing.slip_time);
 }
 
 TEST_CASE("STOP works while the panel has the keyboard: one of its shipped keys types no text") {
@@ -125,7 +125,7 @@ TEST_CASE("several keys for one action, buttons and axes are read as written") {
   CHECK_FALSE(bindings.throttle);
   CHECK(bindings.mouse_mm_per_px == 0.3);
   CHECK(bindings.key_speed == 0.5);
-  CHECK(bindings.pedal_time == 1.0);
+  CHECK(bindings.pedal_timing.pedal_time == 1.0);
 }
 
 TEST_CASE("an error gives file, line, key, value and the allowed values") {
@@ -209,7 +209,7 @@ TEST_CASE("bindings that are written and read again are equal: the shipped ones 
   full.lever_select->end_zone = 1.0 / 3.0;
   full.lever_mode = LeverMode::places;
   full.stick_speed = 0.1;
-  full.clutch_slip_time = 2.5;
+  full.pedal_timing.slip_time = 2.5;
   for (const Bindings& bindings : {read_bindings(shipped), full}) {
     const TempFolder folder;
     const std::filesystem::path file = user_bindings_file(folder / "config", "mine");
@@ -228,7 +228,7 @@ TEST_CASE("bindings that are written and read again are equal: the shipped ones 
     CHECK(back.lever_shift->from == bindings.lever_shift->from);
     CHECK(back.lever_mode == bindings.lever_mode);
     CHECK(back.stick_speed == bindings.stick_speed);
-    CHECK(back.clutch_slip_time == bindings.clutch_slip_time);
+    CHECK(back.pedal_timing.slip_time == bindings.pedal_timing.slip_time);
   }
 }
 

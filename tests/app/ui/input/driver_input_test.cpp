@@ -43,15 +43,14 @@ Bindings bindings() {
 
 struct Driver {
   DriverInput driver{{bindings(), {0.06, 0.05}}};
-  gearshift::vehicle::KeyboardPedals feet;
-  gearshift::vehicle::PedalTiming timing;
+  gearshift::vehicle::KeyboardPedals feet{{}, {.bite = 0.8, .closed = 0.2}};
   gearshift::haptics::Pedals pedals;
   WindowInput input;
 
   void key(int code, bool down) { input.keys.push_back({code, down, false, false, false}); }
   void frame(double seconds = kFrame, bool ui_has_mouse = false, bool ui_has_keys = false) {
     driver.update(input, seconds, ui_has_mouse, ui_has_keys);
-    pedals = feet.move(driver.pedal_keys(), timing, seconds, 0.0, false);
+    pedals = feet.move(driver.pedal_keys(), seconds, 0.0, false);
     input.keys.clear();
     input.mouse_moved = glm::dvec2(0.0);
   }
@@ -255,7 +254,6 @@ TEST_CASE("a pressed or released pedal key moves the pedal over its full travel 
 TEST_CASE("a released keyboard clutch moves slowly around the bite point, for the configured time, at any frame rate") {
   for (const int parts : {1, 7}) {  // number of updates into which 10 ms are divided
     Driver d;
-    d.timing = {.clutch_closed = 0.2, .clutch_bite = 0.8};
     const auto hold = [&d, parts](int key, double seconds) {
       d.key(key, true);
       for (int i = 0; i < std::lround(100.0 * parts * seconds); ++i) d.frame(0.01 / parts);

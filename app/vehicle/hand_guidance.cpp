@@ -1,4 +1,4 @@
-#include "app/vehicle/guided_load.h"
+#include "app/vehicle/hand_guidance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,22 +68,13 @@ dvec2 guidance_force(const haptics::Gate& gate, int gear, dvec2 proxy) noexcept 
   return kGuidancePull * pull_to(gate, haptics::slot_of(gate, index), proxy);
 }
 
-GuidedLoad::GuidedLoad(haptics::LeverLoad& inner, const haptics::Gate& gate)
-    : inner_(inner), gate_(gate), parameters_(std::string("guided ") + inner.replay_parameters()) {}
-
-haptics::LeverOutput GuidedLoad::step(const haptics::LeverInput& in, double period) noexcept {
-  haptics::LeverOutput out = inner_.step(in, period);
-  follow(in.controls, period);
-  if (strength_ > 0.0) out.force += strength_ * guidance_force(gate_, gear_, in.proxy);
-  return out;
-}
-
-void GuidedLoad::follow(const haptics::DriverControls& controls, double period) noexcept {
+dvec2 HandGuidance::step(const haptics::DriverControls& controls, dvec2 proxy, double period) noexcept {
   const bool same = controls.guided_gear == gear_;
   const double asked = same && controls.guidance > 0.0 ? std::min(controls.guidance, 1.0) : 0.0;
   const double max_step = kGuidanceRate * period;
   strength_ += std::clamp(asked - strength_, -max_step, max_step);
   if (strength_ == 0.0) gear_ = controls.guided_gear;
+  return strength_ > 0.0 ? strength_ * guidance_force(gate_, gear_, proxy) : dvec2{0.0, 0.0};
 }
 
 }  // namespace gearshift::vehicle

@@ -1,11 +1,8 @@
-// A force that leads the lever to a gear, like an instructor's hand on the learner's. It is added to the force of a
-// load.
+// A force that leads the lever to a gear, like an instructor's hand on the learner's.
 //
 // Guidance is separate from the gearbox's mechanism: the walls of the mechanism are always there, while guidance fades
 // with the learner's progress (guidance.h).
 #pragma once
-
-#include <string>
 
 #include <glm/vec2.hpp>
 
@@ -31,22 +28,16 @@ glm::dvec2 guidance_force(const haptics::Gate& gate, int gear, glm::dvec2 proxy)
 
 // Follows DriverControls::guidance and guided_gear. The strength changes by at most kGuidanceRate. When the gear
 // changes, the strength first falls to zero and then rises for the new gear. So for each gear, guidance releases at
-// most the energy that its potential holds at full strength. Without guidance the output is exactly that of the inner
-// load.
-class GuidedLoad final : public haptics::LeverLoad {
+// most the energy that its potential holds at full strength.
+class HandGuidance {
  public:
-  // `inner` must outlive this object; the gate is copied.
-  GuidedLoad(haptics::LeverLoad& inner, const haptics::Gate& gate);
+  explicit HandGuidance(const haptics::Gate& gate) : gate_(gate) {}
 
-  haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override;
-  const char* replay_parameters() const noexcept override { return parameters_.c_str(); }
+  // Returns the force on the lever [N] with the proxy at this point, after `period` [s]. Real-time safe.
+  glm::dvec2 step(const haptics::DriverControls& controls, glm::dvec2 proxy, double period) noexcept;
 
  private:
-  void follow(const haptics::DriverControls& controls, double period) noexcept;
-
-  haptics::LeverLoad& inner_;
   haptics::Gate gate_;
-  std::string parameters_;
   int gear_ = haptics::kNeutralGear;
   double strength_ = 0.0;  // [1]
 };

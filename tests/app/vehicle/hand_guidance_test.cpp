@@ -1,11 +1,9 @@
 // Tests that the guidance force is the gradient of a bounded potential, leads to the gear in every gate, and is zero
 // when guidance is off.
-#include "app/vehicle/guided_load.h"
+#include "app/vehicle/hand_guidance.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
@@ -48,8 +46,8 @@ std::vector<dvec2> free_points(const Gate& gate, int count, unsigned seed) {
   return points;
 }
 
-// The potential's formula in guided_load.h, with its parts from first principles: S' = v (3 - v^2) / 2 within the rounding
-// and 1 beyond it, integrated; B and W by the cubic that has zero slope at both ends.
+// The potential's formula in hand_guidance.h, with its parts from first principles: S' = v (3 - v^2) / 2 within the
+// rounding and 1 beyond it, integrated; B and W by the cubic that has zero slope at both ends.
 double guidance_energy(const Gate& gate, int gear, dvec2 p) {
   const Slot& slot = slot_of(gate, slot_of_gear(gate, gear));
   const Column& goal = column_of(gate, slot.column);
@@ -76,30 +74,11 @@ double guidance_energy(const Gate& gate, int gear, dvec2 p) {
   return kGuidancePull * (across - b * (across - s(here.center - goal.center)) + (1.0 - w) * s(p.y) + w * end);
 }
 
-// A load whose output contains signed zeros and rounded numbers, so that any change of the output shows in its bits.
-class OddLoad final : public LeverLoad {
- public:
-  LeverOutput step(const LeverInput& in, double) noexcept override {
-    LeverOutput out;
-    out.force = {-0.0, 0.1 * in.position.x};
-    out.limited_slot = 3;
-    out.depth_max = 0.02;
-    out.road_speed = -0.0;
-    return out;
-  }
-  const char* replay_parameters() const noexcept override { return "odd"; }
-};
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
-LeverInput at(dvec2 p, int gear, double guidance) {
-  LeverInput in;
-  in.position = in.proxy = p;
-  in.controls.guided_gear = gear;
-  in.controls.guidance = guidance;
-  return in;
+DriverControls asking(int gear, double guidance) {
+  DriverControls controls;
+  controls.guided_gear = gear;
+  controls.guidance = guidance;
+  return controls;
 }
 
 }  // namespace
@@ -204,56 +183,43 @@ TEST_CASE("from every point, a lever moved only by the guidance force arrives at
   });
 }
 
-TEST_CASE("without guidance the inner load's output is unchanged; with guidance only the force differs") {
+TEST_CASE("without guidance there is no force; at half strength the force is half the full one") {
   const Gate gate = paper_gate();
-  OddLoad inner;
-  GuidedLoad load(inner, gate);
-  for (const dvec2 p : free_points(gate, 200, 5)) {
-    const LeverOutput out = load.step(at(p, 3, 0.0), 1e-3), plain = inner.step(at(p, 3, 0.0), 1e-3);
-    CHECK(same_bits(out.force.x, plain.force.x));
-    CHECK(same_bits(out.force.y, plain.force.y));
-    CHECK(same_bits(out.road_speed, plain.road_speed));
-    CHECK(out.limited_slot == plain.limited_slot);
-    CHECK(out.depth_max == plain.depth_max);
-  }
-  CHECK(std::string(load.replay_parameters()) == "guided odd");
-  LeverOutput out;
-  for (int i = 0; i < 1000; ++i) out = load.step(at({0.01, 0.0}, 1, 0.5), 1e-3);
-  const dvec2 added = 0.5 * guidance_force(gate, 1, {0.01, 0.0});
-  CHECK(out.force.x == doctest::Approx(added.x).epsilon(1e-9));
-  CHECK(out.force.y == doctest::Approx(0.001 + added.y).epsilon(1e-9));
-  CHECK(out.limited_slot == 3);
+  HandGuidance guidance(gate);
+  for (const dvec2 p : free_points(gate, 200, 5)) CHECK(guidance.step(asking(3, 0.0), p, 1e-3) == dvec2{0.0, 0.0});
+  dvec2 force;
+  for (int i = 0; i < 1000; ++i) force = guidance.step(asking(1, 0.5), {0.01, 0.0}, 1e-3);
+  CHECK(glm::distance(force, 0.5 * guidance_force(gate, 1, {0.01, 0.0})) < 1e-9);
+  CHECK(glm::length(force) > 1.0);
 }
 
 TEST_CASE("the force rises and fades gradually for any sequence of requests") {
   const Gate gate = paper_gate();
-  NoLoad inner;
-  GuidedLoad load(inner, gate);
+  HandGuidance guidance(gate);
   std::mt19937 random(6);
   std::uniform_int_distribution<int> gear(-1, 9);
   std::uniform_real_distribution<double> strength(-0.5, 2.0);
   const dvec2 p{0.012, 0.001};
   dvec2 before{0.0};
-  LeverInput in = at(p, 3, 0.0);
-  load.step(in, 0.0);
+  DriverControls controls = asking(3, 0.0);
+  guidance.step(controls, p, 0.0);
   for (int i = 0; i < 20000; ++i) {
-    if (i % 37 == 0) in = at(p, gear(random), strength(random));
-    const dvec2 force = load.step(in, 1e-3).force;
+    if (i % 37 == 0) controls = asking(gear(random), strength(random));
+    const dvec2 force = guidance.step(controls, p, 1e-3);
     CHECK(glm::length(force - before) <= kGuidanceRate * 1e-3 * 3.0 * kGuidancePull + 1e-12);
     before = force;
   }
-  for (int i = 0; i < 600; ++i) load.step(at(p, 3, 0.0), 1e-3);
-  CHECK(load.step(at(p, 3, 0.0), 1e-3).force == dvec2{0.0, 0.0});
+  for (int i = 0; i < 600; ++i) guidance.step(asking(3, 0.0), p, 1e-3);
+  CHECK(guidance.step(asking(3, 0.0), p, 1e-3) == dvec2{0.0, 0.0});
 }
 
 TEST_CASE("a gear that the gate lacks, neutral and non-finite input give no guidance force") {
   const Gate gate = paper_gate();
   CHECK(guidance_force(gate, 6, {0.0, 0.0}) == dvec2{0.0, 0.0});
   CHECK(guidance_force(gate, kNeutralGear, {0.01, 0.0}) == dvec2{0.0, 0.0});
-  NoLoad inner;
-  GuidedLoad load(inner, gate);
+  HandGuidance guidance(gate);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; i < 100; ++i) CHECK(load.step(at({0.01, 0.0}, 1, nan), 1e-3).force == dvec2{0.0, 0.0});
-  for (int i = 0; i < 100; ++i) load.step(at({0.01, 0.0}, 1, 1.0), 1e-3);
-  CHECK(load.step(at({nan, 0.0}, 1, 1.0), 1e-3).force == dvec2{0.0, 0.0});
+  for (int i = 0; i < 100; ++i) CHECK(guidance.step(asking(1, nan), {0.01, 0.0}, 1e-3) == dvec2{0.0, 0.0});
+  for (int i = 0; i < 100; ++i) guidance.step(asking(1, 1.0), {0.01, 0.0}, 1e-3);
+  CHECK(guidance.step(asking(1, 1.0), {nan, 0.0}, 1e-3) == dvec2{0.0, 0.0});
 }
