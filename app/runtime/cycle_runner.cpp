@@ -8,10 +8,17 @@ namespace gearshift::runtime {
 
 void CycleRunner::cycle(const haptics::CycleCall& call, const haptics::CycleStatistics* statistics) noexcept {
   if (statistics != nullptr) record_.late_ns = lateness(call, *statistics);
-  if (next_.load(std::memory_order_relaxed) != nullptr) run_ = next_.exchange(nullptr, std::memory_order_acquire);
+  if (next_.load(std::memory_order_relaxed) != nullptr) start_next();
   if (run_ == nullptr) return;
   run_->loop.cycle(call.deadline_ns, call.skipped);
   publish();
+}
+
+// The next car was made some cycles ago; its driver's feet stay where they are now.
+void CycleRunner::start_next() noexcept {
+  LoopRun* const next = next_.exchange(nullptr, std::memory_order_acquire);
+  if (run_ != nullptr && run_->car && next->car) next->car->place_pedals(run_->car->keyboard());
+  run_ = next;
 }
 
 // [ns] How late the thread woke up. This includes the deadlines that the thread slept through, but not those that
@@ -27,7 +34,10 @@ std::int64_t CycleRunner::lateness(const haptics::CycleCall& call,
 
 void CycleRunner::publish() noexcept {
   record_.cycle = run_->loop.published();
-  if (run_->car) record_.car = run_->car->state();
+  if (run_->car) {
+    record_.car = run_->car->state();
+    record_.keyboard = run_->car->keyboard();
+  }
   record_.stamps = run_->loop.stamps();
   record_.run = run_->number;
   stream.push(record_);

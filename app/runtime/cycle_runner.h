@@ -37,6 +37,7 @@ struct LoopRun {
 struct CycleRecord {
   haptics::TraceSample cycle;   // inputs and outputs of the loop
   vehicle::VehicleState car;    // default values if there is no car
+  haptics::Pedals keyboard;     // see CarLoad::keyboard()
   haptics::StageStamps stamps;  // of this cycle, or of an earlier one
   std::uint64_t run = 0;        // LoopRun::number; 0: before the first cycle
   std::int64_t late_ns = 0;     // [ns] from the deadline to the wake-up of the thread
@@ -69,6 +70,7 @@ class CycleRunner {
 
  private:
   std::int64_t lateness(const haptics::CycleCall& call, const haptics::CycleStatistics& statistics) noexcept;
+  void start_next() noexcept;
   void publish() noexcept;
 
   std::int64_t period_ns_;

@@ -210,7 +210,11 @@ Runtime::State::State(const RuntimeConfig& wanted)
   if (simulated) simulated->place(start);
   newest.cycle.out.lever = newest.cycle.out.proxy = start;
   newest.cycle.out.wall_stiffness = admitted.tuning.wall_stiffness;
-  if (run->car) newest.car = run->car->state();
+  if (run->car) {
+    run->car->place_pedals(config.keyboard);
+    newest.car = run->car->state();
+    newest.keyboard = config.keyboard;
+  }
   begin();
 }
 
@@ -230,7 +234,7 @@ vehicle::DriverAction Runtime::State::resting_action() const {
   vehicle::DriverAction action;
   action.hand.position = start_position();
   action.controls.ignition = config.car && config.start.running;
-  action.controls.pedals.hand_brake = config.hand_brake;
+  action.controls.pedals = config.pedals;
   return action;
 }
 
@@ -383,6 +387,11 @@ haptics::HapticSnapshot Runtime::snapshot() {
 vehicle::VehicleState Runtime::car() {
   state_->update_newest();
   return state_->newest.car;
+}
+
+haptics::Pedals Runtime::keyboard() {
+  state_->update_newest();
+  return state_->newest.keyboard;
 }
 
 std::vector<haptics::HapticEvent> Runtime::drain_events() {

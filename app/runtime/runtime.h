@@ -45,10 +45,11 @@ struct RuntimeConfig {
   haptics::GateLayout layout;
   std::optional<vehicle::CarSpec> car;  // the car that loads the lever; empty: no load
   vehicle::CarStart start;              // the car's initial state; the lever starts in the car's gear
-  double hand_brake = 0.0;              // [1] 0 to 1; initial value
+  haptics::Pedals pedals;               // initial positions of the pedal axes and the hand brake
   haptics::Preset preset;               // a hand too soft to move the lever is replaced, see leading_hand()
   LeverFactory lever;                 // if set: a real lever is used, set_hand() is ignored, and `driver` must be empty
   DriverFunction driver;              // empty: set_hand() and set_controls() are used
+  haptics::Pedals keyboard;           // initial positions of the pedals that keys press
   haptics::PedalKeys pedal_keys;      // initial keys, until set_controls()
   vehicle::PedalTiming pedal_timing;  // of the car's pedals that keys press
   RuntimeClock clock = RuntimeClock::real_time;
@@ -107,6 +108,7 @@ class Runtime {
   // only slope, guidance and guided gear of `controls` are used. They replace those of the driver. Keys and guidance
   // need a car.
   void set_controls(const haptics::DriverControls& controls, const haptics::PedalKeys& keys = {});
+  haptics::Pedals keyboard();  // newest positions of the pedals that keys press
   haptics::AdmittedTuning change_tuning(const haptics::HapticTuning& wanted);  // see HapticLoop::change_tuning()
   // arm() allows forces, which ramp up from zero; disarm() ends them; stop() switches the motors off at once, like an
   // emergency stop button. The commands take effect in the next cycle; the resulting guard state is in the snapshot:

@@ -21,8 +21,7 @@ LeverInForce::Next LeverInForce::prepare(const SessionChoice& choice, const less
   Next next{choice, chosen.layout.text, make_runtime_config(choice, chosen, lesson), nullptr, {}, {}};
   next.choice.car = chosen.car;
   next.choice.gate = chosen.gate;
-  if (runtime_) next.config.start.keyboard = runtime_->car().keyboard;
-  next.config.pedal_keys = keys_;
+  if (!next.config.driver) hand_over_pedals(next.config);
   if (choice.stick) {
     runtime::RuntimeConfig detached = next.config;  // checked while the old runtime still drives the stick
     detached.lever = [&choice](double period) { return choice.stick->detached_lever(period); };
@@ -52,6 +51,15 @@ void LeverInForce::hand_over(Next next) {
   if (wants_forces_) runtime_->arm();
 }
 
+// The learner's feet stay where they are. A pedal that the instructor holds is not the learner's.
+void LeverInForce::hand_over_pedals(runtime::RuntimeConfig& config) const {
+  const double hand_brake = config.pedals.hand_brake;
+  config.pedals = controls_.pedals;
+  config.pedals.hand_brake = hand_brake;
+  config.pedal_keys = keys_;
+  if (runtime_ && !is_car_held_) config.keyboard = runtime_->keyboard();
+}
+
 // Ends the old runtime before creating the new one, because only one runtime may use the stick. The new configuration
 // has already been checked; if the new runtime fails anyway, the old one is created again.
 std::unique_ptr<runtime::Runtime> LeverInForce::replace_runtime(const runtime::RuntimeConfig& config) {
@@ -62,7 +70,7 @@ std::unique_ptr<runtime::Runtime> LeverInForce::replace_runtime(const runtime::R
     return std::make_unique<runtime::Runtime>(config);
   } catch (...) {
     is_new_ = true;
-    wants_forces_ = false;
+    follow(ForceCause::fault);
     runtime_ = old_runtime(before);
     throw;
   }

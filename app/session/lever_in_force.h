@@ -4,6 +4,7 @@
 // running; hand_over() then replaces the old one. Only one runtime at a time may use a real stick.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,9 +47,7 @@ inline constexpr ForceRule kForceRules[] = {
 constexpr const ForceRule& rule_of(ForceCause cause) {
   return kForceRules[static_cast<std::size_t>(cause)];
 }
-static_assert(rule_of(ForceCause::start).cause == ForceCause::start &&
-                  rule_of(ForceCause::fault).cause == ForceCause::fault &&
-                  rule_of(ForceCause::recording).cause == ForceCause::recording,
+static_assert(std::ranges::all_of(kForceRules, [](const ForceRule& rule) { return &rule_of(rule.cause) == &rule; }),
               "the rules are in the order of ForceCause");
 
 // Ignition and hand brake at the start of a lesson. The caller must set the user's switches to these values.
@@ -123,6 +122,7 @@ class LeverInForce {
   std::optional<CarSwitches> take_switches() { return std::exchange(switches_, std::nullopt); }
 
  private:
+  void hand_over_pedals(runtime::RuntimeConfig& config) const;
   void follow(ForceCause cause);
   bool has_fault();
   void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;

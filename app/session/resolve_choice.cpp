@@ -103,7 +103,7 @@ runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const Re
   config.program = base::program_name();
   if (lesson) {
     config.start = lessons::car_start(lesson->start);
-    config.hand_brake = lesson->start.hand_brake;
+    config.pedals.hand_brake = lesson->start.hand_brake;
   }
   if (choice.stick) config.lever = [stick = choice.stick](double period) { return stick->lever(period); };
   if (choice.hand != kAutomaticHand) return config;

@@ -90,7 +90,6 @@ CarStart start_from(const VehicleState& state) noexcept {
   start.shaft_speed = state.shaft_speed;
   start.distance = state.distance;
   start.slip_energy = state.slip_energy;
-  start.keyboard = state.keyboard;
   return start;
 }
 
@@ -122,7 +121,7 @@ CarLoad::CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_lim
       gate_(gate),
       start_(complete_start(car, start)),
       parameters_(format_parameters(car, force_limit, start_, seed)),
-      keyboard_(timing, car.clutch, start.keyboard),
+      keyboard_(timing, car.clutch),
       driveline_(car),
       synchroniser_(car.synchro, gate, force_scale(force_limit), start.gear, seed),
       vibration_(car.engine.shudder * force_scale(force_limit)),
@@ -140,15 +139,18 @@ CarLoad::CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_lim
   state_.slip_energy = start_.slip_energy;
   state_.gear = start_.gear;
   state_.force_scale = force_scale(force_limit);
-  state_.keyboard = start_.keyboard;
+}
+
+void CarLoad::place_pedals(const haptics::Pedals& keyboard) noexcept {
+  keyboard_.place(keyboard);
 }
 
 haptics::Pedals CarLoad::move_pedals(const haptics::Pedals& axes, const haptics::PedalKeys& keys,
                                      double period) noexcept {
   const bool coupled = state_.gear != haptics::kNeutralGear && state_.clutch_capacity > 0.0;
-  state_.keyboard = keyboard_.move(keys, period, state_.engine_speed, coupled);
-  return {std::max(axes.throttle, state_.keyboard.throttle), std::max(axes.brake, state_.keyboard.brake),
-          std::max(axes.clutch, state_.keyboard.clutch), axes.hand_brake};
+  const haptics::Pedals& pressed = keyboard_.move(keys, period, state_.engine_speed, coupled);
+  return {std::max(axes.throttle, pressed.throttle), std::max(axes.brake, pressed.brake),
+          std::max(axes.clutch, pressed.clutch), axes.hand_brake};
 }
 
 haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period) noexcept {
@@ -205,12 +207,10 @@ double CarLoad::difference(const SlotGear& gear) const noexcept {
 void CarLoad::update_state(const haptics::DriverControls& controls, const SleeveInput& lever,
                            const SleeveOutput& sleeve) noexcept {
   const double scale = state_.force_scale;
-  const haptics::Pedals keyboard = state_.keyboard;
   state_ = driveline_.state();
   state_.distance += start_.distance;
   state_.slip_energy += start_.slip_energy;
   state_.force_scale = scale;
-  state_.keyboard = keyboard;
   state_.gear = sleeve.meshed;
   state_.sync = sleeve.phase;
   if (lever.slot != haptics::kNoSlot && sleeve.meshed == haptics::kNeutralGear)
@@ -221,8 +221,8 @@ void CarLoad::update_state(const haptics::DriverControls& controls, const Sleeve
   state_.slope = controls.slope;
 }
 
-std::unique_ptr<CarLoad> make_car_load(const std::string& name, const haptics::Gate& gate) {
-  std::istringstream stream(name);
+std::unique_ptr<CarLoad> make_car_load(const std::string& parameters, const haptics::Gate& gate) {
+  std::istringstream stream(parameters);
   stream.imbue(std::locale::classic());
   std::string kind, file;
   double force_limit = 0.0, engine_speed = 0.0, shaft_speed = 0.0;

@@ -31,7 +31,6 @@ struct CarStart {
   std::optional<double> shaft_speed;
   double distance = 0.0;     // [m] distance driven before the start
   double slip_energy = 0.0;  // [J] heat dissipated in the clutch before the start
-  haptics::Pedals keyboard;  // positions of the pedals that keys press; not part of replay_parameters()
 };
 
 // Returns a start that continues from `state`.
@@ -40,19 +39,16 @@ CarStart start_from(const VehicleState& state) noexcept;
 // Throws std::invalid_argument with one sentence if the gate has a gear that the car lacks.
 void check_car_fits(const CarSpec& car, const haptics::Gate& gate);
 
-struct PedalTiming {
-  double pedal_time = 0.25;  // [s] time for the full pedal travel
-  double slip_time = 1.2;    // [s] time in which the rising clutch pedal passes from the bite point to full capacity
-};
-
 // Actuator model of the pedals that keys press. It moves them in every cycle of the car's clock, so that no pedal jumps
 // at a low frame rate. `throttle_light` presses the throttle by a fifth of the travel, or less while the engine turns
 // fast and is not coupled to the wheels. The released clutch pedal rises fast, but slowly while the clutch slips, and
 // stops while `clutch_hold` is held. The hand brake does not move.
 class KeyboardPedals {
  public:
-  KeyboardPedals(const PedalTiming& timing, const ClutchSpec& clutch, const haptics::Pedals& from = {}) noexcept
-      : timing_(timing), clutch_(clutch), pedals_(from) {}
+  KeyboardPedals(const PedalTiming& timing, const ClutchSpec& clutch) noexcept : timing_(timing), clutch_(clutch) {}
+
+  void place(const haptics::Pedals& pedals) noexcept { pedals_ = pedals; }
+  const haptics::Pedals& pedals() const noexcept { return pedals_; }
 
   // Moves the pedals by `seconds` of the car's time (negative counts as 0) and returns their positions.
   // `engine_speed`: [rad/s]. `coupled`: the engine drives the wheels. Real-time safe.
@@ -73,6 +69,11 @@ class CarLoad final : public haptics::LeverLoad {
   CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_limit, const CarStart& start = {},
           std::uint64_t seed = 1, const PedalTiming& timing = {});
 
+  // Sets the pedals that keys press, e.g. to those of the car that this one replaces. Real-time safe.
+  void place_pedals(const haptics::Pedals& keyboard) noexcept;
+  // The pedals that keys press, without the pedal axes.
+  const haptics::Pedals& keyboard() const noexcept { return keyboard_.pedals(); }
+  // The axes' positions, at least those of keyboard(). Negative positions become 0.
   haptics::Pedals move_pedals(const haptics::Pedals& axes, const haptics::PedalKeys& keys,
                               double period) noexcept override;
   haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override;

@@ -82,6 +82,12 @@ struct BodySpec {
   double hand_brake_force = 4500.0;   // [N] brake force with the lever fully up
 };
 
+// How keys move the car's pedals, see KeyboardPedals in car_load.h. Times are > 0.
+struct PedalTiming {
+  double pedal_time = 0.25;  // [s] time for the full pedal travel
+  double slip_time = 1.2;    // [s] time in which the rising clutch pedal passes from the bite point to full capacity
+};
+
 struct CarSpec {
   std::string name;  // the file's name without .toml
   std::string title;

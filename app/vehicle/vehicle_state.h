@@ -57,7 +57,6 @@ struct VehicleState {
   double drive_torque = 0.0;  // [N m] torque of the gearbox at the wheels; forward is positive
   double slope = 0.0;         // [rad] slope of the road; uphill is positive
   haptics::Pedals pedals;
-  haptics::Pedals keyboard;                    // positions of the pedals that keys press, without the pedal axes
   double steering = 0.0;                       // [rad] steering wheel angle; left is positive
   bool ignition = true;                        // lights the warning lamps if the engine is off
   bool turn_left = false, turn_right = false;  // indicators

@@ -31,8 +31,8 @@ class BlockCodec {
   void encode(std::span<const std::byte> samples, std::vector<std::byte>& coded);
 
   // Replaces the content of `samples` with `count` decoded samples. Returns false if `count` is not 1 to
-  // kSamplesPerBlock, or if `coded` does not hold exactly `count` samples; size and frame header are checked before it is decoded.
-  // The values of the fields are not checked.
+  // kSamplesPerBlock, or if `coded` does not hold exactly `count` samples; size and frame header are checked before
+  // decoding. The values of the fields are not checked.
   bool decode(std::span<const std::byte> coded, std::size_t count, std::vector<std::byte>& samples);
 
  private:

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "haptics/files/file_error.h"
+#include "haptics/files/parameter_file.h"
 #include "haptics/loop/trace_fields.h"
 #include "haptics/loop/trace_format.h"
 
@@ -109,20 +110,25 @@ void add_flags(Row& row, std::uint32_t flags) {
 
 std::string row_of(const TraceSample& sample, std::int64_t first_ns, bool names) {
   const auto& [deadline_ns, skipped, reading, controls, tuning, command, out] = sample;
+  const auto seconds = [first_ns](std::int64_t ns) {
+    return 1e-9 * static_cast<double>(nanoseconds_between(first_ns, ns));
+  };
   Row row(names);
-  row.cell("time_s", 1e-9 * static_cast<double>(nanoseconds_between(first_ns, deadline_ns)));
+  row.cell("time_s", seconds(deadline_ns));
   each_field(out, [&](std::string_view field, const auto& value) {
     if (field == "time_ns") return;  // the deadline
-    if constexpr (std::is_same_v<decltype(value), const std::uint32_t&>)
-      add_flags(row, value);
-    else
-      add(row, "", field, value);
+    if (field == "flags") return add_flags(row, out.flags);
+    add(row, "", field, value);
   });
   row.cell("skipped_cycles", skipped);
-  add(row, "reading_", "", reading);
+  each_field(reading, [&](std::string_view field, const auto& value) {
+    if (field == "time_ns") return row.cell("reading_time_s", seconds(reading.time_ns));
+    add(row, "reading_", field, value);
+  });
   add(row, "", "", controls);
-  each_parameter(tuning,
-                 [&](const auto& parameter, double value) { row.cell("tuning_" + std::string(parameter.key), value); });
+  each_parameter(tuning, [&](const auto& parameter, double value) {
+    row.cell("tuning_" + std::string(parameter.key), to_file(parameter.range.unit, value));
+  });
   row.cell("command", to_string(command));
   return row.take();
 }

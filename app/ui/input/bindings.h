@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/ui/input/axis.h"
-#include "app/vehicle/car_load.h"
+#include "app/vehicle/car_spec.h"
 
 namespace gearshift::ui {
 

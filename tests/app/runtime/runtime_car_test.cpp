@@ -90,6 +90,34 @@ TEST_CASE("the car continues when a recording begins, and the trace replays bit 
   CHECK(result.cycles > 1500);
 }
 
+TEST_CASE("pedals moved by keys continue when a recording begins, and the trace replays without the keys") {
+  const TempFolder folder;
+  RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
+  config.pedal_timing = {0.25, 1.2};
+  Runtime runtime(config);
+  runtime.arm();
+  DriverControls key_on;
+  key_on.ignition = true;
+  runtime.set_controls(key_on, {.throttle_light = true, .clutch = true});
+  runtime.advance(0.5);
+  runtime.set_controls(key_on, {.throttle = true});
+  runtime.advance(0.1);
+  const Pedals before = runtime.car().pedals;
+  CHECK(before.throttle == doctest::Approx(0.2 + 0.1 / 0.25).epsilon(0.01));
+  CHECK(before.clutch < 0.76);  // it has left the floor, and rises through the bite zone in 1.2 s
+  runtime.start_recording(folder / "keys.trace");
+  runtime.advance(0.5);
+  runtime.set_controls(key_on, {.brake = true, .clutch_hold = true});
+  runtime.advance(0.2);
+  CHECK_FALSE(runtime.stop_recording());
+  const Trace trace = read_trace(folder / "keys.trace");
+  const Pedals first = trace.samples.front().controls.pedals;
+  CHECK(std::abs(first.throttle - before.throttle) < 0.005);  // 0.004 in a cycle
+  CHECK(std::abs(first.clutch - before.clutch) < 0.005);
+  CHECK(trace.samples.back().controls.pedals.brake == doctest::Approx(0.8).epsilon(0.01));
+  CHECK(replay(trace, make_car_load).bit_for_bit());
+}
+
 TEST_CASE("guidance on, off and to a different gear has an effect, and its recording replays bit for bit") {
   const TempFolder folder;
   Runtime runtime(hatchback(RuntimeClock::virtual_time));

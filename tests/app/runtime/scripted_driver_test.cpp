@@ -74,7 +74,7 @@ std::vector<DriveSample> driven_without_runtime(const RuntimeConfig& config, con
   DriveSample now;
   now.controls.ignition = true;
   now.controls.slope = 0.05;
-  now.controls.pedals.hand_brake = config.hand_brake;
+  now.controls.pedals = config.pedals;
   for (int i = 0; i < cycles; ++i) {
     run.inputs().controls.write(now.controls);
     now.lever = run.step();
@@ -94,7 +94,7 @@ std::vector<DriveSample> driven_without_runtime(const RuntimeConfig& config, con
 
 TEST_CASE("on the virtual clock the driver gets every cycle once, and its action is applied exactly in the next") {
   RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
-  config.hand_brake = 0.8;
+  config.pedals.hand_brake = 0.8;
   const auto driven = std::make_shared<std::vector<DriveSample>>();
   config.driver = [driven](const DriveSample& now) {
     driven->push_back(now);

@@ -118,13 +118,47 @@ TEST_CASE("the clutch pedal does not jump when the instructor takes the car and 
   double before = rig.session.car().pedals.clutch, highest = 0.0;
   for (int frame = 0; frame < 240; ++frame) {
     if (frame == 120) rig.session.apply(DismissLesson{});
-    rig.go(kLeftFrame / 2);
+    rig.go(kLeftFrame);
     const double clutch = rig.session.car().pedals.clutch;
-    CHECK(std::abs(clutch - before) <= kLeftFrame / 0.25 + 0.005);  // the full travel takes 0.25 s; 0.005: a cycle more
+    CHECK(std::abs(clutch - before) <= kLeftFrame / 0.25 + 0.005);  // the full travel takes 0.25 s; a cycle more
     highest = std::max(highest, before = clutch);
   }
   CHECK(highest == 1.0);
   CHECK(before == 0.0);
+}
+
+TEST_CASE("the instructor's foot does not press the clutch in the learner's next lesson") {
+  LeftRig rig;
+  rig.begin();
+  rig.session.apply(LeaveLesson{});
+  rig.go(1.0);
+  CHECK(rig.session.car().pedals.clutch == 1.0);
+  rig.begin();  // the lesson's first step asks for the clutch
+  CHECK(rig.session.car().pedals.clutch == 0.0);
+  CHECK(rig.session.coach().view().now->step == 0);
+}
+
+TEST_CASE("a pedal key held when the automatic driver takes the car does not press his pedals") {
+  LeftRig rig;
+  rig.session.apply(DismissLesson{});
+  rig.session.lever().set_driver({}, {}, {.brake = true});
+  rig.go(0.5);
+  CHECK(rig.session.car().pedals.brake == 1.0);
+  rig.session.apply(ChooseHand{std::string(kAutomaticHand)});
+  rig.session.advance(kLeftFrame);
+  CHECK(rig.session.car().pedals.brake < 0.2);  // the driver's own foot; the released key's pedal would be above 0.9
+}
+
+TEST_CASE("an axis keeps its pedal pressed from the new lever's first cycle on") {
+  LeftRig rig;
+  rig.session.apply(DismissLesson{});
+  DriverControls pad;
+  pad.pedals.clutch = 0.9;
+  rig.session.lever().set_driver({}, pad);
+  rig.go(0.1);
+  rig.session.apply(ChooseCar{"diesel"});
+  rig.session.runtime().advance(kLeftFrame);
+  for (const auto& cycle : rig.session.runtime().drain_cycles()) CHECK(cycle.car.pedals.clutch == 0.9);
 }
 
 TEST_CASE("the errors that fail a lesson are listed with its goal; without a lesson there is no list") {

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include "app/vehicle/car_load.h"
+#include "tests/app/vehicle/cars.h"
 
 using namespace gearshift::haptics;
 using namespace gearshift::vehicle;
@@ -90,8 +91,27 @@ TEST_CASE("invalid time steps do not move the pedals") {
 }
 
 TEST_CASE("pedals that continue from other positions move on from there") {
-  KeyboardPedals feet(kPace, kClutch, {.brake = 0.4, .hand_brake = 0.7});
+  KeyboardPedals feet(kPace, kClutch);
+  feet.place({.brake = 0.4, .hand_brake = 0.7});
   const Pedals pedals = feet.move({.brake = true}, 0.050, 0.0, false);
   CHECK(pedals.brake == doctest::Approx(0.6));  // the full travel in 0.25 s
   CHECK(pedals.hand_brake == 0.7);
+}
+
+TEST_CASE("a pedal of the car is where the axis or the key has put it, whichever is further down") {
+  const CarSpec car = gearshift::test::shipped_car("hatchback");
+  CarLoad load(car, gearshift::test::gate_of(car), 75.0, {}, 1, kPace);
+  const PedalKeys all{.throttle = true, .brake = true, .clutch = true};
+  const Pedals keys = load.move_pedals({}, all, 0.1);  // 0.1 s of the 0.25 s for the full travel
+  for (const double pedal : {keys.throttle, keys.brake, keys.clutch}) CHECK(pedal == doctest::Approx(0.4));
+  CHECK(keys.hand_brake == 0.0);
+  const Pedals axes{.throttle = 0.3, .brake = 0.8, .clutch = -0.2, .hand_brake = 0.6};
+  const Pedals both = load.move_pedals(axes, all, 0.0);
+  CHECK(both.throttle == doctest::Approx(0.4));
+  CHECK(both.brake == 0.8);
+  CHECK(both.clutch == doctest::Approx(0.4));
+  CHECK(both.hand_brake == 0.6);
+  CarLoad untouched(car, gearshift::test::gate_of(car), 75.0);
+  CHECK(untouched.move_pedals(both, {}, 0.1).throttle == both.throttle);  // as in a replay
+  CHECK(untouched.move_pedals(axes, {}, 0.1).clutch == 0.0);
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <locale>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -50,6 +51,7 @@ haptics::TraceSample known_sample() {
   sample.controls.guidance = 0.5;
   sample.command = haptics::LoopCommand::stop;
   sample.reading.stop = true;
+  sample.reading.time_ns = 4'998'000'000;
   sample.reading.hand_force = {std::numeric_limits<double>::quiet_NaN(), 2.0};
   return sample;
 }
@@ -66,8 +68,38 @@ struct GermanNumbers : std::numpunct<char> {
 TEST_CASE("csv: the header begins with the time in seconds and every quantity carries its unit") {
   CHECK(haptics::trace_csv_header().find(
             "time_s,cycle,lever_x_mm,lever_y_mm,velocity_x_mm_per_s,velocity_y_mm_per_s,proxy_x_mm,") == 0);
-  for (const char* name : {"commanded_x_n", "f_h_y_n", "road_speed_m_per_s", "wall_stiffness_n_per_m"})
-    CHECK(haptics::trace_csv_header().find(name) != std::string::npos);
+  const std::set<std::string> plain{"cycle",
+                                    "gear",
+                                    "slot",
+                                    "guard",
+                                    "fault",
+                                    "contact",
+                                    "saturated",
+                                    "over_push",
+                                    "push_estimated",
+                                    "ghost",
+                                    "fresh",
+                                    "skipped_cycles",
+                                    "reading_sequence",
+                                    "reading_pressed_down",
+                                    "reading_lifted",
+                                    "reading_stop",
+                                    "throttle",
+                                    "brake",
+                                    "clutch",
+                                    "hand_brake",
+                                    "ignition",
+                                    "starter",
+                                    "guided_gear",
+                                    "guidance",
+                                    "command",
+                                    "tuning_feel_scale"};
+  for (const std::string& name : cells(haptics::trace_csv_header())) {
+    CAPTURE(name);
+    bool has_unit = false;
+    for (const std::string unit : {"_s", "_mm", "_n", "_rad", "_per_m", "_per_s"}) has_unit |= name.ends_with(unit);
+    CHECK(has_unit != plain.contains(name));
+  }
 }
 
 TEST_CASE("csv: numbers are in the unit of their column") {
@@ -88,6 +120,7 @@ TEST_CASE("csv: numbers are in the unit of their column") {
   CHECK(row["guidance"] == "0.5");
   CHECK(row["command"] == "stop");
   CHECK(row["reading_stop"] == "1");
+  CHECK(row["reading_time_s"] == "-0.001");
   CHECK(row["wall_stiffness_n_per_m"] == "4321.5");
   CHECK(row["tuning_wall_stiffness_n_per_m"] == "5000");
   CHECK(row["reading_hand_force_x_n"] == "nan");

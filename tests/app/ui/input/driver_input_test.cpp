@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "app/vehicle/car_load.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift::engine;
