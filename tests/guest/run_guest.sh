@@ -17,11 +17,13 @@ get_kernel() { # downloads the kernel's package and extracts vmlinuz and the mod
   [ -n "$package" ] || { echo "No package linux-image-amd64 is known: apt-get update" >&2; return 1; }
   new=$(mktemp -d kernel.XXXXXX)
   (cd "$new" && apt-get download -qq "$package" 2>/dev/null) || { echo "$package cannot be downloaded" >&2; return 1; }
+  mkdir "$new/package"
   dpkg-deb --fsys-tarfile "$new"/*.deb |
-    tar -x -C "$new" --wildcards './boot/vmlinuz-*' '*/kernel/drivers/usb/*' '*/kernel/drivers/hid/*' '*/kernel/drivers/input/*'
-  mv "$new"/boot/vmlinuz-* "$new/vmlinuz"
-  for module in "${modules[@]}"; do mv "$(find "$new/lib" -name "$module.ko")" "$new/"; done
-  rm -rf "$new"/*.deb "$new/lib" "$new/boot"
+    tar -x -C "$new/package" --wildcards './boot/vmlinuz-*' '*/kernel/drivers/usb/*' '*/kernel/drivers/hid/*' '*/kernel/drivers/input/*'
+  mv "$new"/package/boot/vmlinuz-* "$new/vmlinuz"
+  find "$new/package" -name '*.ko.xz' -exec unxz {} + # Debian 13 compresses its modules
+  for module in "${modules[@]}"; do mv "$(find "$new/package" -name "$module.ko")" "$new/"; done
+  rm -rf "$new"/*.deb "$new/package"
   mv "$new" kernel
 }
 [ -f kernel/vmlinuz ] || get_kernel
