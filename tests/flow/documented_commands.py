@@ -23,7 +23,7 @@ import sys
 import tempfile
 
 PROGRAM = (r"(cp|sed|sudo|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|\w+_fuzz|\w+_tests"
-           r"|tests/\S+\.sh|tests/fuzz/run|tests/coverage|build/\S+)")
+           r"|tests/\S+\.sh|tests/fuzz/run|tests/coverage|tests/in_debian|build/\S+)")
 PROGRAMS = re.compile(rf"^([A-Z_]+=\S+ )*(\./run|\./test|{PROGRAM})( |$)")
 BARE = re.compile(rf"^{PROGRAM}$")  # the program's name without arguments
 # In these guides, each command that this test does not run must be marked with "# not run: REASON".
@@ -43,7 +43,8 @@ ELSEWHERE = {
     r"\./test": ("runs this test",),
     r"ctest": ("runs this test", "test", "ctest --preset dev"),
     r"cmake --workflow": ("builds and tests all of it",),
-    r"cmake --(preset release|build) .*--target package": ("makes the package: ./test --full", "test", "--target package"),
+    r"cmake --(preset release|build) .*--target package": 
+        ("makes the package", "tests/flow/deb_in_chroot.sh", "--target package"),
     r"cmake --build": ("builds all of it anew", "test", "cmake --build --preset"),
     r"gearshift tour .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh", "tour --device"),
     r"gearshift .*--device ": ("the same, and a window", "tests/flow/headset_stick.sh", "--device ffboard"),
@@ -69,6 +70,7 @@ ELSEWHERE = {
     r"(hid_descriptor|gltf)_fuzz": ("searches for ever; for a minute there", "tests/fuzz/run", r"\1"),
     r"tests/guest/run_guest\.sh": ("boots a kernel: ./test --full", "tests/guest/CMakeLists.txt", "run_guest.sh"),
     r"tests/flow/deb_in_chroot\.sh": ("makes a Debian of its own: ./test --full", "test", "tests/flow/deb_in_chroot.sh"),
+    r"tests/in_debian ": ("makes a Debian of its own", ".ci/run", "tests/in_debian"),
     r"tests/flow/soak\.sh": ("takes hours",),
     r"tests/flow/(\w+)\.sh": ("a flow itself", "tests/flow/CMakeLists.txt", r"\1"),
     r"umockdev-wrapper ": ("an emulated stick in real time", "tests/flow/sticks.sh", "umockdev-wrapper"),
