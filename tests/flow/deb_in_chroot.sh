@@ -16,9 +16,9 @@ if [ "${1:-}" != --inside ]; then
       .ci/install run package lintian
       cmake --preset release >/dev/null
       cmake --build --preset release --target package -- --quiet
-      lintian --fail-on error,warning,info build/release/gearshift_*.deb
       mkdir out
-      mv build/release/gearshift_*.deb out'
+      mv build/release/gearshift_*.deb out
+      lintian --fail-on error,warning,info out/gearshift_*.deb'
     tests/in_debian "$release" tests/flow/deb_in_chroot.sh --inside <"$(ls out/"$release"/gearshift_*.deb)"
   done
   exit
