@@ -44,7 +44,7 @@ check "dpkg finds every file unchanged" dpkg --verify gearshift
 gearshift --version >version.txt
 package_version=$(dpkg-query -W -f '${Version}' gearshift)
 check "the version is that of the package, before the +" grep -qx "gearshift ${package_version%+*}" version.txt
-check "the commit is that of the source" grep -q "^commit [0-9a-f]*$" version.txt
+check "the commit is that of the source" grep -qE "^commit [0-9a-f]{12}$" version.txt
 check "no library is missing" fails grep -q "not found" <(ldd /usr/bin/gearshift)
 check "the program does not contain paths of the build machine" fails grep -aqF "$source_folder/" /usr/bin/gearshift
 demo() { gearshift demo --out demo >demo.txt 2>demo.err || { tail -n 2 demo.err; return 1; }; }
