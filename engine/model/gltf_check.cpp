@@ -292,8 +292,7 @@ class Check {
       if (!has_parent_[i]) reached.push_back(i);
     }
     for (std::size_t i = 0; i < reached.size(); ++i) {
-      const std::vector<std::size_t>& next = children[reached[i]];
-      reached.insert(reached.end(), next.begin(), next.end());
+      for (const std::size_t child : children[reached[i]]) reached.push_back(child);
     }
     if (reached.size() != children.size()) throw GltfError("the node hierarchy contains a cycle");
   }
