@@ -1,45 +1,57 @@
 #include "app/session/shared_input.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <variant>
 
 namespace gearshift::session {
+namespace {
 
-void SharedInput::update(const engine::WindowInput& window, double seconds, glm::dvec2 mouse, const ui::Panel& panel,
-                         engine::UiContext& ui, const std::optional<PanelPointer>& hand) {
-  const bool panel_has_mouse = panel.covers(mouse), panel_has_keys = panel.has_keyboard();
-  ui.feed(for_panel(window, mouse, hand));
+// [px] Where a button was first pressed since the last poll; otherwise, where the mouse is.
+glm::dvec2 deciding_position(const engine::WindowInput& window) {
+  for (const engine::InputEvent& event : window.events) {
+    const auto* const button = std::get_if<engine::ButtonEvent>(&event);
+    if (button != nullptr && button->down) return button->at;
+  }
+  return window.mouse;
+}
+
+}  // namespace
+
+void SharedInput::update(const engine::WindowInput& window, double seconds, const InPanel& in_panel,
+                         const ui::Panel& panel, engine::UiContext& ui, const std::optional<PanelPointer>& hand) {
+  const bool panel_has_mouse = panel.covers(in_panel(deciding_position(window))), panel_has_keys = panel.has_keyboard();
+  ui.feed(for_panel(window, in_panel, hand));
   driver_.update(window, seconds, panel_has_mouse, panel_has_keys);
   look(window, panel_has_mouse);
 }
 
-// The window's input as passed to the panel. This class tracks the state of Shift, Ctrl and Alt itself, because a key
-// event of a modifier carries the state before the event.
-engine::UiEvents SharedInput::for_panel(const engine::WindowInput& window, glm::dvec2 mouse,
-                                        const std::optional<PanelPointer>& hand) {
+// The window's input as passed to the panel.
+engine::UiEvents SharedInput::for_panel(const engine::WindowInput& window, const InPanel& in_panel,
+                                        const std::optional<PanelPointer>& hand) const {
   engine::UiEvents events;
-  events.mouse = mouse;
+  events.focused = window.focused;
+  events.mouse = in_panel(window.mouse);
   events.has_mouse = !driver_.mouse_moves_lever();
   events.mouse_down = window.mouse_down;
-  events.scroll = window.scroll;
+  const bool mouse_steps = events.has_mouse && !hand;
+  for (const engine::InputEvent& event : window.events) {
+    if (const auto* key = std::get_if<engine::KeyEvent>(&event)) {
+      events.steps.emplace_back(engine::UiKey{key->key, key->down});
+    } else if (const auto* letter = std::get_if<char32_t>(&event)) {
+      events.steps.emplace_back(*letter);
+    } else if (const auto* button = std::get_if<engine::ButtonEvent>(&event)) {
+      if (mouse_steps) events.steps.emplace_back(engine::UiButton{button->button, button->down, in_panel(button->at)});
+      events.mouse_down[static_cast<std::size_t>(button->button)] = button->down;
+    } else if (const auto* scroll = std::get_if<engine::ScrollEvent>(&event); mouse_steps && scroll != nullptr) {
+      events.steps.emplace_back(engine::UiScroll{scroll->lines, in_panel(scroll->at)});
+    }
+  }
   if (hand) {
     events.mouse = hand->at;
     events.has_mouse = events.draws_cursor = true;
     events.mouse_down = {hand->down};
-    events.scroll = hand->scroll;
+    events.steps.emplace_back(engine::UiScroll{hand->scroll, hand->at});
   }
-  for (const engine::KeyEvent& key : window.keys) {
-    events.keys.push_back({key.key, key.down});
-    if (key.key == GLFW_KEY_LEFT_SHIFT || key.key == GLFW_KEY_RIGHT_SHIFT) shift_ = key.down;
-    if (key.key == GLFW_KEY_LEFT_CONTROL || key.key == GLFW_KEY_RIGHT_CONTROL) control_ = key.down;
-    if (key.key == GLFW_KEY_LEFT_ALT || key.key == GLFW_KEY_RIGHT_ALT) alt_ = key.down;
-  }
-  if (!window.focused) shift_ = control_ = alt_ = false;
-  events.shift = shift_;
-  events.control = control_;
-  events.alt = alt_;
-  events.text = window.text;
-  events.focused = window.focused;
   return events;
 }
 

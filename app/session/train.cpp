@@ -198,7 +198,8 @@ class WindowTrainer {
     if (wears() && headset_->take_opened()) panel_.set_visible(true);
     pointer_ = pointer_at_panel();
     pointing_.follow(polled, input_.mouse_moves_lever(), pointer_, panel_size(), seconds_);
-    shared_.update(polled, seconds_, mouse_at_panel(polled.mouse), panel_, ui_, pointing_.pointer());
+    shared_.update(
+        polled, seconds_, [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_, pointing_.pointer());
     if (setup_.choice.stick) input_.release_mouse();
     look_.turn(shared_.turned());
   }

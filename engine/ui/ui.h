@@ -1,5 +1,5 @@
 // Dear ImGui with our own Vulkan pipelines: context, font, drawing. Dear ImGui's own Vulkan backend (version 1.86, as
-// in Debian) requires a VkRenderPass, which this engine does not use.
+// in Debian 12) requires a VkRenderPass, which this engine does not use.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class UiContext {
   UiContext(const UiContext&) = delete;
   UiContext& operator=(const UiContext&) = delete;
 
-  void feed(const UiEvents& events);  // mouse, keys and text for the next begin()
+  void feed(const UiEvents& events);  // mouse, keys and text, for as many frames as they need
   void begin(const UiInput& input);   // makes the context current and calls ImGui::NewFrame
   void end();                         // calls ImGui::Render
 

@@ -9,14 +9,11 @@ namespace gearshift::engine {
 
 UiContext::UiContext() : state_(std::make_unique<State>()) {
   IMGUI_CHECKVERSION();
-  state_->context = ImGui::CreateContext();
-  ImGui::SetCurrentContext(state_->context);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // allows more than 65536 vertices with 16-bit indices
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavNoCaptureKeyboard;
-  map_imgui_keys();
 }
 
 UiContext::~UiContext() {
@@ -25,8 +22,7 @@ UiContext::~UiContext() {
 
 void UiContext::feed(const UiEvents& events) {
   ImGui::SetCurrentContext(state_->context);
-  feed_mouse(events);
-  state_->keys.push(events);
+  state_->queue.push(events);
 }
 
 void UiContext::begin(const UiInput& input) {
@@ -41,7 +37,7 @@ void UiContext::begin(const UiInput& input) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {input.width, input.height};
   io.DeltaTime = std::max(input.seconds, 1e-5f);
-  state_->keys.feed_next_frame();
+  state_->queue.start_frame();
   ImGui::NewFrame();
 }
 

@@ -43,11 +43,12 @@ void upload(Gpu& gpu, UiBuffers& buffers, const ImDrawData& data) {
   grow_buffer(gpu, buffers.indices, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   std::byte* to_vertices = buffers.vertices.mapped();
   std::byte* to_indices = buffers.indices.mapped();
-  for (const ImDrawList* list : std::span(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount))) {
-    std::memcpy(to_vertices, list->VtxBuffer.Data, static_cast<std::size_t>(list->VtxBuffer.size_in_bytes()));
-    std::memcpy(to_indices, list->IdxBuffer.Data, static_cast<std::size_t>(list->IdxBuffer.size_in_bytes()));
-    to_vertices += list->VtxBuffer.size_in_bytes();
-    to_indices += list->IdxBuffer.size_in_bytes();
+  for (int i = 0; i < data.CmdListsCount; ++i) {
+    const ImDrawList& list = *data.CmdLists[i];
+    std::memcpy(to_vertices, list.VtxBuffer.Data, static_cast<std::size_t>(list.VtxBuffer.size_in_bytes()));
+    std::memcpy(to_indices, list.IdxBuffer.Data, static_cast<std::size_t>(list.IdxBuffer.size_in_bytes()));
+    to_vertices += list.VtxBuffer.size_in_bytes();
+    to_indices += list.IdxBuffer.size_in_bytes();
   }
 }
 
@@ -191,10 +192,11 @@ void UiOverlay::draw(VkCommandBuffer commands, VkExtent2D extent, int slot) {
   state.bind(commands, *data, frame);
   std::uint32_t first_index = 0;
   std::int32_t first_vertex = 0;
-  for (const ImDrawList* list : std::span(data->CmdLists, static_cast<std::size_t>(data->CmdListsCount))) {
-    draw_list(commands, extent, *list, first_index, first_vertex);
-    first_index += static_cast<std::uint32_t>(list->IdxBuffer.Size);
-    first_vertex += list->VtxBuffer.Size;
+  for (int i = 0; i < data->CmdListsCount; ++i) {
+    const ImDrawList& list = *data->CmdLists[i];
+    draw_list(commands, extent, list, first_index, first_vertex);
+    first_index += static_cast<std::uint32_t>(list.IdxBuffer.Size);
+    first_vertex += list.VtxBuffer.Size;
   }
 }
 

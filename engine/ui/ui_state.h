@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "engine/ui/ui.h"
+#include "engine/ui/ui_queue.h"
 
 namespace gearshift::engine {
 
@@ -15,9 +16,16 @@ inline ImTextureID font_texture() {
   return &font_marker;
 }
 
+// A new context, which is then the current one.
+inline ImGuiContext* make_context() {
+  ImGuiContext* context = ImGui::CreateContext();
+  ImGui::SetCurrentContext(context);
+  return context;
+}
+
 struct UiContext::State {
-  ImGuiContext* context = nullptr;
-  UiKeyQueue keys;
+  ImGuiContext* context = make_context();
+  UiQueue queue;                   // after the context, which it needs
   float scale = 0.0f;              // scale for which style and font were built
   std::uint64_t font_version = 0;  // number of times the atlas was built
 };

@@ -100,18 +100,22 @@ void Window::State::set_callbacks() {
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
     state_of(w)->on_mouse_button(button, action == GLFW_PRESS);
   });
-  glfwSetScrollCallback(window,
-                        [](GLFWwindow* w, double x, double y) { state_of(w)->input.scroll += glm::dvec2(x, y); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    WindowInput& scrolled = state_of(w)->input;
+    scrolled.events.emplace_back(ScrollEvent{.lines = {x, y}, .at = scrolled.mouse});
+  });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     if (action == GLFW_REPEAT) return;
-    state_of(w)->input.keys.push_back({.key = key,
-                                       .down = action == GLFW_PRESS,
-                                       .shift = (mods & GLFW_MOD_SHIFT) != 0,
-                                       .control = (mods & GLFW_MOD_CONTROL) != 0,
-                                       .alt = (mods & GLFW_MOD_ALT) != 0});
+    const KeyEvent event{.key = key,
+                         .down = action == GLFW_PRESS,
+                         .shift = (mods & GLFW_MOD_SHIFT) != 0,
+                         .control = (mods & GLFW_MOD_CONTROL) != 0,
+                         .alt = (mods & GLFW_MOD_ALT) != 0};
+    state_of(w)->input.keys.push_back(event);
+    state_of(w)->input.events.emplace_back(event);
   });
   glfwSetCharCallback(
-      window, [](GLFWwindow* w, unsigned int c) { state_of(w)->input.text.push_back(static_cast<char32_t>(c)); });
+      window, [](GLFWwindow* w, unsigned int c) { state_of(w)->input.events.emplace_back(static_cast<char32_t>(c)); });
 }
 
 void Window::State::on_mouse_moved(double x, double y) {
@@ -131,6 +135,7 @@ void Window::State::on_mouse_button(int button, bool down) {
   const auto index = static_cast<std::size_t>(button);
   held[index] = down;
   if (down) input.mouse_down[index] = true;
+  input.events.emplace_back(ButtonEvent{.button = button, .down = down, .at = input.mouse});
 }
 
 // A window manager can iconify the window, or unmap it when the user changes the desktop. In both cases nothing needs
@@ -155,9 +160,9 @@ std::vector<const char*> Window::instance_extensions() {
 const WindowInput& Window::poll() {
   State& s = *state_;
   if (!s.shown) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  s.input.mouse_moved = s.input.scroll = glm::dvec2(0.0);
+  s.input.mouse_moved = glm::dvec2(0.0);
+  s.input.events.clear();
   s.input.keys.clear();
-  s.input.text.clear();
   s.input.mouse_down = s.held;
   glfwPollEvents();
   for (std::size_t i = 0; i < s.held.size(); ++i) s.input.mouse_down[i] = s.input.mouse_down[i] || s.held[i];

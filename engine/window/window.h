@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -26,15 +27,27 @@ struct KeyEvent {
   bool shift = false, control = false, alt = false;
 };
 
+struct ButtonEvent {
+  int button = 0;  // left, right, middle, ...
+  bool down = false;
+  glm::dvec2 at{0.0};  // [px] as WindowInput::mouse
+};
+
+struct ScrollEvent {
+  glm::dvec2 lines{0.0};  // [lines] up is positive
+  glm::dvec2 at{0.0};     // [px] as WindowInput::mouse
+};
+
+using InputEvent = std::variant<ButtonEvent, ScrollEvent, KeyEvent, char32_t>;  // char32_t: a letter that was typed
+
 // Input since the last poll.
 struct WindowInput {
   glm::dvec2 mouse{0.0};             // [px] in the framebuffer; constant while captured
   glm::dvec2 mouse_moved{0.0};       // [px] since the last poll, also while captured
   std::array<bool, 5> mouse_down{};  // down now or at any time since the last poll: left, right, middle, ...
-  glm::dvec2 scroll{0.0};
-  std::vector<KeyEvent> keys;
-  std::u32string text;
-  std::vector<PadState> pads;  // currently plugged in
+  std::vector<InputEvent> events;    // in order
+  std::vector<KeyEvent> keys;        // the key events of `events`
+  std::vector<PadState> pads;        // currently plugged in
   bool focused = true;
 };
 

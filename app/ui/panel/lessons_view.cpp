@@ -33,10 +33,6 @@ bool is_known(const lessons::CoachView& coach, const std::string& name) {
   return std::find(coach.learners.begin(), coach.learners.end(), name) != coach.learners.end();
 }
 
-bool is_pressed(ImGuiKey_ key) {
-  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
-}
-
 // Draws the known learners as a drop-down list. `width` [px]: width of the opened list.
 void draw_known(Controls& controls, const lessons::CoachView& coach, float width, PanelCommands& out) {
   ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, 24.0f * engine::ui_em()});
@@ -228,8 +224,8 @@ void LessonsView::draw_learner(Controls& controls, const lessons::CoachView& coa
                                ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   controls.mark("learner");
   const bool is_typing = ImGui::IsItemActive(), left = ImGui::IsItemDeactivated();
-  const bool is_cancelled = left && is_pressed(ImGuiKey_Escape),
-             leaves = left || (is_typing && is_pressed(ImGuiKey_Tab));
+  const bool is_cancelled = left && ImGui::IsKeyPressed(ImGuiKey_Escape, false),
+             leaves = left || (is_typing && ImGui::IsKeyPressed(ImGuiKey_Tab, false));
   const std::string name = trimmed(name_.data());
   const std::string problem =
       name.empty() ? std::string() : lessons::user_text_problem(lessons::UserText::name, "a learner's name", name);

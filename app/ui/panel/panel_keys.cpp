@@ -6,10 +6,6 @@
 namespace gearshift::ui {
 namespace {
 
-bool is_key_pressed(ImGuiKey_ key) {
-  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
-}
-
 // Moves the keyboard focus to the window's first control, from the next frame on.
 void enter(ImGuiWindow* window) {
   if (window == nullptr) return;
@@ -26,11 +22,12 @@ void update_keyboard_focus(const char* first_window, bool shown) {
                     ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   if (busy) return;
   if (ui.NavWindow == nullptr) {
-    if (shown && is_key_pressed(ImGuiKey_Tab) && !ui.IO.KeyCtrl) enter(ImGui::FindWindowByName(first_window));
+    if (shown && ImGui::IsKeyPressed(ImGuiKey_Tab, false) && !ui.IO.KeyCtrl)
+      enter(ImGui::FindWindowByName(first_window));
     return;
   }
   const bool by_mouse = ui.NavDisableHighlight, nowhere = ui.NavId == 0;
-  if (by_mouse || (nowhere && is_key_pressed(ImGuiKey_Escape))) {
+  if (by_mouse || (nowhere && ImGui::IsKeyPressed(ImGuiKey_Escape, false))) {
     ImGui::SetWindowFocus(nullptr);
   } else if (nowhere) {
     enter(ui.NavWindow);  // the user has chosen this window with Ctrl+Tab

@@ -36,10 +36,13 @@ struct Desk {
   }
 
   const PanelCommands& frame() {
-    shared.update(window, 1.0 / 60.0, mouse ? *mouse : window.mouse, rig.panel, rig.ui);
+    window.events.insert(window.events.begin(), window.keys.begin(), window.keys.end());
+    shared.update(
+        window, 1.0 / 60.0, [this](glm::dvec2 at) { return mouse ? *mouse : at; }, rig.panel, rig.ui);
     rig.ui.begin(rig.screen);
     rig.asked = rig.panel.draw(rig.input.view(rig.gate, rig.device));
     rig.ui.end();
+    window.events.clear();
     window.keys.clear();
     return rig.asked;
   }
@@ -183,10 +186,9 @@ TEST_CASE("Ctrl+click on a slider lets the user type a number, and its digits do
   desk.window.keys = {{GLFW_KEY_LEFT_CONTROL, false, false, true, false}};
   desk.frame();
   CHECK(desk.rig.panel.has_keyboard());
-  desk.window.text = U"7";
+  desk.window.events = {U'7'};
   desk.window.keys = {{GLFW_KEY_7, true, false, false, false}, {GLFW_KEY_7, false, false, false, false}};
   PanelCommands all = desk.frame();
-  desk.window.text.clear();
   PanelRig::merge(all, desk.key(GLFW_KEY_ENTER));
   REQUIRE(has<ChangeTuning>(all));
   CHECK(find<ChangeTuning>(all)->tuning.wall_damping == 7.0);

@@ -22,9 +22,7 @@ struct Form {
 
   void frame() {
     ui.feed(events);
-    events.keys.clear();
-    events.text.clear();
-    events.scroll = {};
+    events.steps.clear();
     ui.begin(screen);
     ImGui::SetNextWindowPos({20, 20});
     ImGui::SetNextWindowSize({300, 200});
@@ -67,6 +65,29 @@ TEST_CASE("a click presses a button once, and only where the button is") {
   CHECK(form.presses == 1);
 }
 
+TEST_CASE("clicks between two frames all count, each where it was made, and a scroll in between as well") {
+  Form form;
+  for (int i = 0; i < 3; ++i) form.frame();  // a new window accepts no clicks at first
+  const auto at = [](ImVec2 place) { return glm::dvec2(place.x, place.y); };
+  const glm::dvec2 button = at(form.button), field = at(form.field), outside(600, 500);
+  form.events.steps = {UiButton{0, true, button},
+                       UiButton{0, false, button},
+                       UiButton{0, true, button},
+                       UiScroll{{0, 1}, button},
+                       UiButton{0, false, button},
+                       UiButton{0, true, field},
+                       UiButton{0, false, field},
+                       U'x',
+                       UiButton{0, true, outside},
+                       UiButton{0, false, outside},
+                       U'y'};
+  form.events.mouse = outside;
+  for (int i = 0; i < 20; ++i) form.frame();
+  CHECK(form.presses == 2);
+  CHECK(std::string(form.text) == "x");
+  CHECK_FALSE(form.ui.wants_keys());
+}
+
 TEST_CASE("the mouse belongs to the interface inside a window, and to the scene elsewhere") {
   Form form;
   form.frame();
@@ -88,7 +109,7 @@ TEST_CASE("the keyboard belongs to the interface while a field is edited, not be
   form.click(form.field);
   form.frame();
   CHECK(form.ui.wants_keys());
-  form.events.text = U"5\u00b5";
+  form.events.steps = {U'5', U'\u00b5'};
   form.frame();
   form.frame();
   CHECK(std::string(form.text) == "5\u00b5");
@@ -98,9 +119,9 @@ TEST_CASE("keys navigate and press: GLFW's key codes are mapped") {
   Form form;
   form.frame();
   const auto strike = [&form](int key) {
-    form.events.keys = {{key, true}};
+    form.events.steps = {UiKey{key, true}};
     form.frame();
-    form.events.keys = {{key, false}};
+    form.events.steps = {UiKey{key, false}};
     form.frame();
   };
   form.click(form.button);
@@ -110,7 +131,7 @@ TEST_CASE("keys navigate and press: GLFW's key codes are mapped") {
   CHECK(form.ui.wants_keys());
   strike(kKeySpace);
   CHECK(form.presses == 2);
-  form.events.keys = {{9999, true}, {-1, true}, {kKeyA, true}};  // unknown key codes are ignored
+  form.events.steps = {UiKey{9999, true}, UiKey{-1, true}, UiKey{kKeyA, true}};  // unknown key codes are ignored
   form.frame();
 }
 
@@ -119,48 +140,64 @@ TEST_CASE("a key that goes down and up between two frames counts as pressed, as 
   Form form;
   form.frame();
   form.click(form.button);  // presses the button, where keyboard navigation then starts
-  form.events.keys = {{kKeyDown, true}, {kKeyDown, false}, {kKeyUp, true}, {kKeyUp, false}};
+  form.events.steps = {UiKey{kKeyDown, true}, UiKey{kKeyDown, false}, UiKey{kKeyUp, true}, UiKey{kKeyUp, false}};
   for (int i = 0; i < 5; ++i) form.frame();
-  form.events.keys = {{kKeySpace, true}, {kKeySpace, false}};
+  form.events.steps = {UiKey{kKeySpace, true}, UiKey{kKeySpace, false}};
   for (int i = 0; i < 3; ++i) form.frame();
   CHECK(form.presses == 2);
   form.click(form.field);
   // All input arrives in one poll, as in a slow frame: types "Bb", selects all, types "Ccc" over it, and deletes one
   // letter.
   constexpr int kBackspace = 259;
-  form.events.text = U"BbCcc";
-  form.events.keys = {{kB, true},       {kB, false},   {kB, true},         {kB, false},
-                      {kControl, true}, {kKeyA, true}, {kKeyA, false},     {kControl, false},
-                      {kC, true},       {kC, false},   {kC, true},         {kC, false},
-                      {kC, true},       {kC, false},   {kBackspace, true}, {kBackspace, false}};
+  form.events.steps = {UiKey{kB, true},
+                       U'B',
+                       UiKey{kB, false},
+                       UiKey{kB, true},
+                       U'b',
+                       UiKey{kB, false},
+                       UiKey{kControl, true},
+                       UiKey{kKeyA, true},
+                       UiKey{kKeyA, false},
+                       UiKey{kControl, false},
+                       UiKey{kC, true},
+                       U'C',
+                       UiKey{kC, false},
+                       UiKey{kC, true},
+                       U'c',
+                       UiKey{kC, false},
+                       UiKey{kC, true},
+                       U'c',
+                       UiKey{kC, false},
+                       UiKey{kBackspace, true},
+                       UiKey{kBackspace, false}};
   for (int i = 0; i < 8; ++i) form.frame();
   CHECK(std::string(form.text) == "Cc");
-  form.events.keys = {{kEnter, true}, {kEnter, false}};
+  form.events.steps = {UiKey{kEnter, true}, UiKey{kEnter, false}};
   form.frame();
-  CHECK(ImGui::IsKeyDown(kEnter));
+  CHECK(ImGui::IsKeyDown(ImGuiKey_Enter));
   form.frame();
-  CHECK_FALSE(ImGui::IsKeyDown(kEnter));
+  CHECK_FALSE(ImGui::IsKeyDown(ImGuiKey_Enter));
 }
 
 TEST_CASE("queued keys are dropped when the window loses focus") {
   Form form;
-  form.events.keys = {{kKeySpace, true}, {kKeySpace, false}, {kKeySpace, true}};
+  form.events.steps = {UiKey{kKeySpace, true}, UiKey{kKeySpace, false}, UiKey{kKeySpace, true}};
   form.frame();
   form.events.focused = false;
   for (int i = 0; i < 3; ++i) {
     form.frame();
-    CHECK_FALSE(ImGui::IsKeyDown(kKeySpace));
+    CHECK_FALSE(ImGui::IsKeyDown(ImGuiKey_Space));
   }
 }
 
 TEST_CASE("pressed keys are released when the window loses focus") {
   Form form;
-  form.events.keys = {{kKeySpace, true}};
+  form.events.steps = {UiKey{kKeySpace, true}};
   form.frame();
-  CHECK(ImGui::IsKeyDown(kKeySpace));
+  CHECK(ImGui::IsKeyDown(ImGuiKey_Space));
   form.events.focused = false;
   form.frame();
-  CHECK_FALSE(ImGui::IsKeyDown(kKeySpace));
+  CHECK_FALSE(ImGui::IsKeyDown(ImGuiKey_Space));
 }
 
 TEST_CASE("fonts and sizes follow the scale, and letters beyond ASCII have glyphs of their own") {

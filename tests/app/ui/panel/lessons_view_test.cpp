@@ -27,7 +27,7 @@ struct LessonsRig : PanelRig {
     for (int i = 0; i < 3; ++i) frame();
   }
   PanelCommands write(const std::u32string& text) {
-    events.text = text;
+    events.steps.assign(text.begin(), text.end());
     PanelCommands all = frame();
     merge(all, frame());
     return all;
@@ -227,7 +227,7 @@ TEST_CASE("the runs that are scrolled out of view are reached by the mouse wheel
   CHECK_FALSE(rig.panel.control_rect(last).has_value());
   const auto scroll = [&](double lines) {
     for (int i = 0; i < 50; ++i) {
-      rig.events.scroll = {0.0, lines};
+      rig.events.steps = {engine::UiScroll{{0.0, lines}, rig.events.mouse}};
       rig.frame();
     }
     rig.frame();

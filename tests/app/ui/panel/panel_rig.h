@@ -166,9 +166,7 @@ struct PanelRig {
   // Draws one frame of the panel, and applies a requested tuning as the session does.
   const ui::PanelCommands& frame() {
     ui.feed(events);
-    events.keys.clear();
-    events.text.clear();
-    events.scroll = {};
+    events.steps.clear();
     ui.begin(screen);
     asked = panel.draw(input.view(gate, device));
     ui.end();
@@ -233,13 +231,14 @@ struct PanelRig {
     return tunings;
   }
   ui::PanelCommands press(int key, bool control = false) {
-    events.control = control;
-    events.keys = {{key, true}};
+    constexpr int kLeftControl = 341;  // GLFW_KEY_LEFT_CONTROL
+    events.steps = {engine::UiKey{key, true}};
+    if (control) events.steps.insert(events.steps.begin(), engine::UiKey{kLeftControl, true});
     ui::PanelCommands all = frame();
     merge(all, frame());
-    events.keys = {{key, false}};
+    events.steps = {engine::UiKey{key, false}};
     merge(all, frame());
-    events.control = false;
+    events.steps = {engine::UiKey{kLeftControl, false}};
     merge(all, frame());
     return all;
   }

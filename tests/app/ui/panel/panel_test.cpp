@@ -191,7 +191,8 @@ TEST_CASE("a preset is saved only under a typed name") {
   rig.click("tab_presets");
   CHECK_FALSE(has<SavePreset>(rig.click("save")));
   rig.click("save_name");
-  rig.events.text = U"heavy";
+  const std::u32string name = U"heavy";
+  rig.events.steps.assign(name.begin(), name.end());
   rig.frame();
   rig.frame();
   CHECK(value(rig.click("save"), &SavePreset::name) == "heavy");
