@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/lessons/assessment/driving_error.h"
+#include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
 #include "engine/ui/ui_style.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -22,7 +23,7 @@ const engine::Model& road_model() {
   return loaded;
 }
 
-const engine::Mesh& mesh_of(const std::string& node) {
+const engine::Mesh& mesh_of(std::string_view node) {
   const int index = road_model().node(node);
   REQUIRE(index != engine::kNone);
   return road_model().meshes[static_cast<std::size_t>(road_model().nodes[static_cast<std::size_t>(index)].mesh)];

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -94,7 +95,8 @@ inline std::string without_blanks(std::string text) {
   return text;
 }
 
-inline const DrawnText& the_text(const std::vector<DrawnText>& texts, const std::string& wanted) {
+inline const DrawnText& the_text(const std::vector<DrawnText>& texts, std::string_view words) {
+  const std::string wanted(words);
   const auto found = std::find_if(texts.begin(), texts.end(),
                                   [&](const DrawnText& text) { return text.text == without_blanks(wanted); });
   REQUIRE_MESSAGE(found != texts.end(), "'" << wanted << "' is not on the screen");
