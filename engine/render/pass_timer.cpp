@@ -16,13 +16,17 @@ void PassTimer::begin(VkCommandBuffer commands, int slot) {
   if (!queries_) return;
   const auto index = static_cast<std::size_t>(slot);
   const std::uint32_t first = kQueries * static_cast<std::uint32_t>(slot);
-  if (written_[index]) read(first);
-  written_[index] = true;
+  if (submitted_[index]) read(first);
+  submitted_[index] = false;
   vkCmdResetQueryPool(commands, queries_.get(), first, kQueries);
   next_ = first;
   next_flush_stamp_ = first + kStamps;
   end_ = first + kQueries;
   stamp(commands);
+}
+
+void PassTimer::end(int slot) {
+  submitted_[static_cast<std::size_t>(slot)] = true;
 }
 
 void PassTimer::stamp(VkCommandBuffer commands) {
@@ -37,7 +41,6 @@ void PassTimer::stamp_to_flush(VkCommandBuffer commands) {
 
 void PassTimer::read(std::uint32_t first) {
   std::array<std::uint64_t, kStamps> stamps{};
-  // If a frame failed half-way, some of its timestamps are unwritten. The times of an earlier frame are then kept.
   if (vkGetQueryPoolResults(gpu_.device(), queries_.get(), first, kStamps, sizeof stamps, stamps.data(),
                             sizeof stamps[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
     return;

@@ -19,6 +19,7 @@ class PassTimer {
   // Writes a timestamp that is never read, which makes a software driver start shading: see
   // Renderer::State::flush_collected_triangles(). Does nothing after kFlushStamps calls in one frame.
   void stamp_to_flush(VkCommandBuffer commands);
+  void end(int slot);  // call once the frame is submitted
   const PassTimes& times() const noexcept { return times_; }
 
  private:
@@ -26,7 +27,9 @@ class PassTimer {
   void read(std::uint32_t first);
   Gpu& gpu_;
   QueryPool queries_;
-  std::array<bool, kFramesInFlight> written_{};
+  // A frame that failed half-way was not submitted, so its timestamps must not be read; the times of an earlier frame
+  // are then kept.
+  std::array<bool, kFramesInFlight> submitted_{};
   std::uint32_t next_ = 0, next_flush_stamp_ = 0, end_ = 0;
   PassTimes times_;
 };

@@ -116,10 +116,13 @@ std::uint64_t Renderer::State::draw(const FrameScene& scene, std::span<const Vie
   timer.stamp(frame.commands);
   transition(frame.commands, picture.colour.image, ImageUse::copy_from);
   if (picture.stores_depth) transition(frame.commands, picture.stored_depth().image, ImageUse::copy_from);
-  if (finish == nullptr) return ring.end();
-  finish->record(frame.commands, picture.colour.image, frame.slot_index);
-  apply_late_views(frame, finish->late_views());
-  return ring.end(finish->wait_for, finish->then_signal);
+  if (finish != nullptr) {
+    finish->record(frame.commands, picture.colour.image, frame.slot_index);
+    apply_late_views(frame, finish->late_views());
+  }
+  const std::uint64_t done = finish != nullptr ? ring.end(finish->wait_for, finish->then_signal) : ring.end();
+  timer.end(frame.slot_index);
+  return done;
 }
 
 // Returns the mirror of this frame; empty if there is none, if no eye sees its bounding box, or if either eye is behind

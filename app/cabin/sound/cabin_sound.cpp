@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include "app/cabin/sound/car_synth.h"
 #include "app/cabin/sound/synth.h"
@@ -15,6 +16,9 @@ namespace {
 constexpr glm::vec3 kEnginePlace{0.2f, 0.2f, -1.5f};  // [m]
 constexpr glm::vec3 kCluster{0.0f, 0.37f, -0.70f};    // [m]
 constexpr float kWarningGain = 0.55f, kOverRevGain = 0.45f;
+// [s] From coasting to full load. OpenAL Soft 1.24 applies a new gain almost at once, where 1.19 took a whole update: a
+// step of the load then clicks, with twice the sharpest bend of the engine's own wave.
+constexpr double kLoadTime = 0.065;
 constexpr float kWarningRadius = 0.5f;  // [m] so large that both ears hear the warning in every head pose
 
 }  // namespace
@@ -63,7 +67,7 @@ void CabinSound::on_event(const haptics::HapticEvent& event, glm::vec3 knob) {
 void CabinSound::update(const haptics::HapticSnapshot& lever, const vehicle::VehicleState& car,
                         const engine::EyePose& ears, glm::vec3 knob, double time) {
   update_listener(ears);
-  update_engine(car);
+  update_engine(car, time);
   car_.set(world_, car, config_.engine, config_.dog_teeth, {kEnginePlace, knob, kCluster}, time);
   update_warning(over_push_, (lever.flags & haptics::kFlagOverPush) != 0, {knob, kWarningGain}, time);
   update_warning(saturation_, (lever.flags & haptics::kFlagSaturated) != 0, {knob, kWarningGain}, time);
@@ -81,10 +85,12 @@ void CabinSound::update_listener(const engine::EyePose& ears) {
   world_.set_listener(glm::vec3(ears.position), glm::vec3(forward), glm::vec3(up));
 }
 
-void CabinSound::update_engine(const vehicle::VehicleState& car) {
+void CabinSound::update_engine(const vehicle::VehicleState& car, double time) {
+  const double step = std::max(0.0, time - std::exchange(updated_at_, time)) / kLoadTime;
+  load_ += std::clamp(car.engine_load - load_, -step, step);
   if (!config_.engine) return;
   const double speed = car.engine_speed * 30.0 / std::numbers::pi;  // [1/min]
-  engine_voices().set(world_, speed, car.engine_load, 1.0, kEnginePlace);
+  engine_voices().set(world_, speed, load_, 1.0, kEnginePlace);
 }
 
 void CabinSound::update_warning(Warning& warning, bool lasts, engine::Voice as, double time) {

@@ -16,7 +16,7 @@
 namespace gearshift::cabin {
 
 struct CabinSoundConfig {
-  float volume = 0.7f;  // [1] 0 to 1
+  float volume = 0.68f;  // [1] 0 to 1; all sounds together then stay within full scale, also with OpenAL Soft 1.24
   bool engine = true;
   int cylinders = 4;            // 1 to 12; the four-stroke engine fires cylinders / 2 times per revolution
   double dog_teeth = 36.0;      // [1] > 0; number of dog teeth; determines the pitch of the grind
@@ -49,7 +49,7 @@ class CabinSound {
 
   const EngineVoices& engine_voices();
   void update_listener(const engine::EyePose& ears);
-  void update_engine(const vehicle::VehicleState& car);
+  void update_engine(const vehicle::VehicleState& car, double time);
   void update_warning(Warning& warning, bool lasts, engine::Voice as, double time);
 
   engine::SoundWorld& world_;
@@ -59,6 +59,8 @@ class CabinSound {
   Warning over_push_, saturation_, over_rev_;
   // Engine sounds by number of cylinders. A SoundWorld never frees its clips, so each engine is synthesised only once.
   std::map<int, EngineVoices> engines_;
+  double load_ = 0.0;        // [1] the engine's load as it is heard
+  double updated_at_ = 0.0;  // [s] time of the last update
 };
 
 }  // namespace gearshift::cabin
