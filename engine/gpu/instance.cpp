@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
+#include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace gearshift::engine {
 namespace {
@@ -17,10 +21,14 @@ bool is_layer_installed() {
   return std::any_of(layers.begin(), layers.end(), [](const auto& l) { return std::strcmp(l.layerName, kLayer) == 0; });
 }
 
+// Newer validation layers give the rule only as the message's name.
 VKAPI_ATTR VkBool32 VKAPI_CALL on_debug_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                                 const VkDebugUtilsMessengerCallbackDataEXT* data, void* instance) {
   const bool has_text = data->pMessage != nullptr && *data->pMessage != '\0';
-  static_cast<Instance*>(instance)->count(has_text ? data->pMessage : "validation message without text");
+  const std::string_view text = has_text ? data->pMessage : "validation message without text";
+  const std::string_view rule = data->pMessageIdName != nullptr ? data->pMessageIdName : "";
+  const bool names_rule = text.find(rule) != std::string_view::npos;
+  static_cast<Instance*>(instance)->count(names_rule ? std::string(text) : fmt::format("{}: {}", rule, text));
   return VK_FALSE;
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("validation names objects that outlive the device") {
     VkBuffer leaked = VK_NULL_HANDLE;
     check(vkCreateBuffer(gpu.device(), &info, nullptr, &leaked), "vkCreateBuffer");
   }
-  CHECK(any_contains(messages, "VUID-vkDestroyDevice-device-00378"));
+  CHECK(any_contains(messages, "VUID-vkDestroyDevice-device-"));  // 00378, in newer layers 05137
 }
 
 TEST_CASE("without validation there are no messages") {

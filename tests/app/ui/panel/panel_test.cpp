@@ -204,7 +204,8 @@ TEST_CASE("settings that are fixed while the loop runs are collected, checked, a
   PanelRig rig;
   rig.click("tab_setup");
   CHECK_FALSE(has<Restart>(rig.click("restart")));  // no setting has changed, so there is nothing to request
-  rig.drag("slew_n_per_cycle", 0.25, 0.75);
+  // The drag does not begin on the grab, which would keep its distance from the mouse.
+  rig.drag("slew_n_per_cycle", 0.5, 0.75);
   const auto asked = find<Restart>(rig.click("restart"));
   REQUIRE(asked);
   CHECK(asked->config.guard.slew == doctest::Approx(75.0).epsilon(0.05));
