@@ -2,6 +2,7 @@
 
 #include <GLFW/glfw3.h>
 
+#include <cstdlib>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -14,8 +15,9 @@ int users = 0;  // no lock is needed, because GLFW is used from one thread only
 }  // namespace
 
 GlfwUse::GlfwUse() {
-#ifdef GLFW_PLATFORM  // since 3.4, which otherwise prefers Wayland, where windows have no position
-  glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#ifdef GLFW_PLATFORM  // since 3.4, which prefers Wayland, where windows have no position
+  const bool has_only_wayland = std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") != nullptr;
+  glfwInitHint(GLFW_PLATFORM, has_only_wayland ? GLFW_PLATFORM_WAYLAND : GLFW_PLATFORM_X11);
 #endif
   if (users == 0 && glfwInit() == GLFW_FALSE) {
     throw std::runtime_error(fmt::format("There is no display for a window ({}).", glfw_error()));

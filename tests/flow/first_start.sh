@@ -26,7 +26,8 @@ start() { # takes the name for the output, HOME=..., and the arguments
   shift 2
   "${as_others[@]}" env "$home" "$gearshift" "$@" >"$name.txt" 2>"$name.err" </dev/null
 }
-one_sentence() { [ "$(wc -l <"$1")" -eq 1 ] && grep -q "$2" "$1"; }
+# Mesa 25 adds its own lines about a cache that it cannot make.
+one_sentence() { sed -i '/^Failed to create .* for shader cache/d' "$1" && [ "$(wc -l <"$1")" -eq 1 ] && grep -q "$2" "$1"; }
 for home in $locked; do
   check "$home: a lesson is passed" start lesson "HOME=$work/$home" lesson hill_start --learner Ada
   check "$home: one message that nothing is saved, got: $(cat lesson.err)" \
