@@ -117,12 +117,12 @@ std::string row_of(const TraceSample& sample, std::int64_t first_ns, bool names)
   row.cell("time_s", seconds(deadline_ns));
   each_field(out, [&](std::string_view field, const auto& value) {
     if (field == "time_ns") return;  // the deadline
-    if (field == "flags") return add_flags(row, out.flags);
+    if (field == "flags") return add_flags(row, sample.out.flags);
     add(row, "", field, value);
   });
   row.cell("skipped_cycles", skipped);
   each_field(reading, [&](std::string_view field, const auto& value) {
-    if (field == "time_ns") return row.cell("reading_time_s", seconds(reading.time_ns));
+    if (field == "time_ns") return row.cell("reading_time_s", seconds(sample.reading.time_ns));
     add(row, "reading_", field, value);
   });
   add(row, "", "", controls);
