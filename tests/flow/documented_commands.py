@@ -70,7 +70,7 @@ ELSEWHERE = {
     r"(hid_descriptor|gltf)_fuzz": ("searches for ever; for a minute there", "tests/fuzz/run", r"\1"),
     r"tests/guest/run_guest\.sh": ("boots a kernel: ./test --full", "tests/guest/CMakeLists.txt", "run_guest.sh"),
     r"tests/flow/deb_in_chroot\.sh": ("makes a Debian of its own: ./test --full", "test", "tests/flow/deb_in_chroot.sh"),
-    r"tests/in_debian ": ("makes a Debian of its own", ".ci/run", "tests/in_debian"),
+    r"tests/in_debian ": ("makes a Debian of its own", "tests/flow/deb_in_chroot.sh", "tests/in_debian"),
     r"tests/flow/soak\.sh": ("takes hours",),
     r"tests/flow/(\w+)\.sh": ("a flow itself", "tests/flow/CMakeLists.txt", r"\1"),
     r"umockdev-wrapper ": ("an emulated stick in real time", "tests/flow/sticks.sh", "umockdev-wrapper"),

@@ -100,8 +100,8 @@ print(*sqlite3.connect(sys.argv[1]).execute("SELECT duration_s FROM lesson_run O
 check "clock: the duration of the lesson is correct, got $(span) s" awk -v s="$(span)" 'BEGIN {exit !(s > 1 && s < 200)}'
 check "and nothing else is reported, got: $(grep -v picture picture.err)" [ "$(wc -l <picture.err)" -eq 1 ]
 
-# The clock jumps by an hour while OpenAL plays to its null device (ALSOFT_DRIVERS above). OpenAL first mixes an hour
-# of sound, so the program ends late. The lever must not wait for this.
+# The clock jumps by an hour while OpenAL plays to its null device (ALSOFT_DRIVERS above). OpenAL 1.19 first mixes an
+# hour of sound, so the program ends late. The lever must not wait for this. OpenAL 1.24 drops the hour.
 check "late end: a lesson begins" lesson late
 check "late end: it has forces" in_time 10 has_forces
 check "late end: it runs" find_program
@@ -112,9 +112,9 @@ inject clock 3600
 sleep 0.3
 check "late end: the lesson is left" in_time 20 press_until_logged End "lesson moving_off is over" 1
 [ "$had" -gt 0 ] && check "late end: the lever has ended" in_time 5 ended_lever
-check "late end: the sound has not ended" alive
+alive || echo "not shown: that the lever ends before the sound (the sound ended at once)"
 [ "$had" -gt 0 ] || echo "not shown: that the lever ends before the sound (no real-time thread is allowed here)"
-kill -KILL "$pid"
+kill -KILL "$pid" 2>/dev/null
 wait "$trainer" 2>/dev/null
 mend clock
 late_is_saved() { runs=$((runs + 1)) && [ "$(left_runs | sed -n 1p)" -eq $runs ]; }
@@ -216,8 +216,7 @@ if [ "$has_mounts" = yes ]; then
   check "space again: no loss is reported, got: $(cat room.err)" [ ! -s room.err ]
   check "space again: the run is in the history" [ "$(left_runs | sed -n 1p)" = 1 ]
 
-  mount -t tmpfs -o size=1m none home
-  mount -o remount,ro home
+  mount -t tmpfs -o ro,size=1m none home
   # The cache folder stays writable, because the GPU driver starts slowly without its cache.
   XDG_DATA_HOME=$work/home/data XDG_CONFIG_HOME=$work/home/config
   check "read-only home: a lesson begins" lesson read_only
