@@ -53,10 +53,13 @@ haptics::Gate gate_for(const RuntimeConfig& config, const haptics::HapticDevice*
 }
 
 std::unique_ptr<vehicle::CarLoad> make_car(const RuntimeConfig& config, const haptics::Gate& gate,
-                                           const haptics::DeviceSpec& device, const vehicle::CarStart& from) {
+                                           const haptics::DeviceSpec& device, const vehicle::CarStart& from,
+                                           const haptics::Pedals& keyboard) {
   if (!config.car) return nullptr;
-  return std::make_unique<vehicle::CarLoad>(*config.car, gate, device.max_force.y, from, config.seed,
-                                            config.pedal_timing);
+  auto car =
+      std::make_unique<vehicle::CarLoad>(*config.car, gate, device.max_force.y, from, config.seed, config.pedal_timing);
+  car->place_pedals(keyboard);
+  return car;
 }
 
 // Combines the driver's controls with the instructor's slope and guidance.
@@ -126,7 +129,8 @@ haptics::Gate check_runtime(const RuntimeConfig& wanted) {
   if (!real_device) simulated.emplace(config.preset.lever, haptics::period_ns(config.preset.haptics), idle_hand);
   haptics::HapticDevice& lever = real_device ? *real_device : *simulated;
   haptics::LoopInputs inputs;
-  const LoopRun run(config.preset.haptics, gate, lever, inputs, 1, make_car(config, gate, lever.spec(), config.start));
+  const LoopRun run(config.preset.haptics, gate, lever, inputs, 1,
+                    make_car(config, gate, lever.spec(), config.start, config.keyboard));
   return gate;
 }
 
@@ -203,7 +207,7 @@ Runtime::State::State(const RuntimeConfig& wanted)
                             : std::make_unique<haptics::SimulatedLever>(config.preset.lever, period_ns, *hand)),
       lever(real_device ? *real_device : *simulated),
       run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever, runner.inputs, 1,
-                                    make_car(config, gate, lever.spec(), config.start))),
+                                    make_car(config, gate, lever.spec(), config.start, config.keyboard))),
       admitted(run->loop.admitted()),
       reader(runner.stream) {
   const glm::dvec2 start = start_position();
@@ -211,7 +215,6 @@ Runtime::State::State(const RuntimeConfig& wanted)
   newest.cycle.out.lever = newest.cycle.out.proxy = start;
   newest.cycle.out.wall_stiffness = admitted.tuning.wall_stiffness;
   if (run->car) {
-    run->car->place_pedals(config.keyboard);
     newest.car = run->car->state();
     newest.keyboard = config.keyboard;
   }
@@ -243,7 +246,7 @@ std::unique_ptr<LoopRun> Runtime::State::make_run() {
   update_newest();
   const vehicle::CarStart from = vehicle::start_from(newest.car);
   return std::make_unique<LoopRun>(running_config(), gate, lever, runner.inputs, run->number + 1,
-                                   make_car(config, gate, lever.spec(), from));
+                                   make_car(config, gate, lever.spec(), from, newest.keyboard));
 }
 
 void Runtime::State::begin() {

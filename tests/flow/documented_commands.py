@@ -43,7 +43,7 @@ ELSEWHERE = {
     r"\./test": ("runs this test",),
     r"ctest": ("runs this test", "test", "ctest --preset dev"),
     r"cmake --workflow": ("builds and tests all of it",),
-    r"cmake --(preset release|build) .*--target package": 
+    r"cmake --(preset release|build) .*--target package":
         ("makes the package", "tests/flow/deb_in_chroot.sh", "--target package"),
     r"cmake --build": ("builds all of it anew", "test", "cmake --build --preset"),
     r"gearshift tour .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh", "tour --device"),

@@ -101,7 +101,7 @@ check "clock: the duration of the lesson is correct, got $(span) s" awk -v s="$(
 check "and nothing else is reported, got: $(grep -v picture picture.err)" [ "$(wc -l <picture.err)" -eq 1 ]
 
 # The clock jumps by an hour while OpenAL plays to its null device (ALSOFT_DRIVERS above). OpenAL 1.19 first mixes an
-# hour of sound, so the program ends late. The lever must not wait for this. OpenAL 1.24 drops the hour.
+# hour of sound, so the program ends late. The lever must not wait for this. With OpenAL 1.24 the program ends at once.
 check "late end: a lesson begins" lesson late
 check "late end: it has forces" in_time 10 has_forces
 check "late end: it runs" find_program
@@ -112,7 +112,11 @@ inject clock 3600
 sleep 0.3
 check "late end: the lesson is left" in_time 20 press_until_logged End "lesson moving_off is over" 1
 [ "$had" -gt 0 ] && check "late end: the lever has ended" in_time 5 ended_lever
-alive || echo "not shown: that the lever ends before the sound (the sound ended at once)"
+if "$gearshift" --version | grep -q "openal 1.19"; then
+  check "late end: the sound has not ended" alive
+else
+  echo "not shown: that the lever ends before the sound (the sound may end at once)"
+fi
 [ "$had" -gt 0 ] || echo "not shown: that the lever ends before the sound (no real-time thread is allowed here)"
 kill -KILL "$pid" 2>/dev/null
 wait "$trainer" 2>/dev/null

@@ -5,7 +5,6 @@
 #include "app/lessons/assessment/driving_error.h"
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
-#include "engine/ui/ui_style.h"
 
 namespace gearshift::ui {
 
