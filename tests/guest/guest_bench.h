@@ -27,7 +27,7 @@ bool becomes_true(Condition condition, double seconds) {
 
 // An emulated stick plugged into the kernel.
 struct PluggedStick {
-  PluggedStick(const EmulatedStickConfig& config, HandDriver& hand) : stick(config, hand) {
+  PluggedStick(const EmulatedStickConfig& config, haptics::HandDriver& hand) : stick(config, hand) {
     stick.logs = false;
     plug_in();
   }

@@ -18,7 +18,8 @@
 #include "tests/guest/guest_bench.h"
 #include "tests/haptics/device/still_hand.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 

@@ -29,7 +29,8 @@
 #include "tests/haptics/device/still_hand.h"
 #include "tests/support/gates.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 

@@ -1,8 +1,11 @@
 #include "haptics/loop/replay.h"
 
+#include <bit>
+#include <cstdint>
 #include <future>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -36,7 +39,7 @@ void each_double(T& value, const std::string& prefix, const Visit& visit) {
     using Member = std::remove_cvref_t<decltype(member)>;
     if constexpr (std::is_same_v<Member, double>)
       visit(prefix + name, member);
-    else if constexpr (!LeafField<Member>)
+    else if constexpr (!haptics::LeafField<Member>)
       each_double(member, prefix + name + ".", visit);
   });
 }
