@@ -102,7 +102,9 @@ constexpr std::pair<ForceCause, std::optional<bool>> kSimulatedForces[] = {
 static_assert(std::size(kSimulatedForces) == std::size(kForceRules));
 
 TEST_CASE("each rule of arming and motors-off, on a simulated lever that had forces, and on one that had none") {
-  for (const auto& [cause, after] : kSimulatedForces) {
+  for (const auto& rule : kSimulatedForces) {
+    const ForceCause cause = rule.first;
+    const std::optional<bool>& after = rule.second;
     CAPTURE(static_cast<int>(cause));
     for (const bool before : {true, false}) {
       CAPTURE(before);

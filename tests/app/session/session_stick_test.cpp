@@ -139,7 +139,9 @@ TEST_CASE("each rule of arming and motors-off, on a stick") {
       {ForceCause::user_stops, false}, {ForceCause::new_lever, false}, {ForceCause::stick_lost, false},
       {ForceCause::recording, {}},
   };
-  for (const auto& [what, forces] : wanted) {
+  for (const auto& rule : wanted) {
+    const ForceCause what = rule.first;
+    const std::optional<bool>& forces = rule.second;
     CAPTURE(static_cast<int>(what));
     for (const bool before : {true, false}) {
       CAPTURE(before);
