@@ -54,7 +54,7 @@ DepthRecord read_depth(const XrCompositionLayerProjectionView& view, bool captur
   ViewRecord::Rect rect;
   const std::vector<std::uint8_t> bytes = read_image(depth->subImage, captured, rect);
   record.values.resize(bytes.size() / sizeof(float));
-  std::memcpy(record.values.data(), bytes.data(), bytes.size());
+  if (!bytes.empty()) std::memcpy(record.values.data(), bytes.data(), bytes.size());
   return record;
 }
 
