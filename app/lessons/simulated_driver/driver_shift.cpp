@@ -10,8 +10,10 @@
 namespace gearshift::lessons {
 namespace {
 
+// -1 or 1; 0 for neutral, which has no slot.
 double side_of(const haptics::Gate& gate, int gear) noexcept {
-  return static_cast<double>(static_cast<int>(haptics::slot_of(gate, haptics::slot_of_gear(gate, gear)).side));
+  const int slot = haptics::slot_of_gear(gate, gear);
+  return slot == haptics::kNoSlot ? 0.0 : static_cast<double>(static_cast<int>(haptics::slot_of(gate, slot).side));
 }
 
 bool closes_after(const haptics::Gate& gate, int gear, int from) noexcept {
