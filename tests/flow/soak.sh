@@ -10,6 +10,8 @@ gearshift=$1 sources=$2 hours=$3 csv=$(realpath -m "${4:-soak.csv}") week=${5:-1
 flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 [ "$hours" = week ] || life=$(awk "BEGIN {print int(3600 * $hours) + 300}")
 source "$flows/checks.sh"
+# The address sanitizer would keep freed memory until there are 256 MB of it, which looks like growth.
+export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}quarantine_size_mb=1:thread_local_quarantine_size_kb=64
 echo "what,seconds,rss_kb,files,threads,lessons,missed,too_long" >"$csv"
 
 sample() { # appends a row; takes name, process, driven seconds, lessons, missed deadlines, cycles that took too long
