@@ -3,35 +3,16 @@
 #include "tests/support/stick/device_effects.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "tests/support/stick/force_laws.h"
 
 namespace gearshift::test {
 namespace {
 
 constexpr int kEndlessLoops = 255;
 
-glm::dvec2 condition_forces(const DeviceEffect& effect, glm::dvec2 deflection, double slope) noexcept {
-  glm::dvec2 force{0.0};
-  for (int axis = 0; axis < 2; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    if (!effect.settings.axis[i] || !effect.condition[i].is_set) continue;
-    force[axis] = effect.settings.gain * condition_force(effect.condition[i], deflection[axis], slope);
-  }
-  return force;
-}
-
 }  // namespace
-
-double condition_force(const AxisCondition& condition, double deflection, double slope) noexcept {
-  const double offset = deflection - condition.centre;
-  const double excess = std::abs(offset) - condition.dead_band;
-  if (excess <= 0.0) return 0.0;
-  const double coefficient = offset > 0.0 ? condition.positive : condition.negative;
-  const double limit = offset > 0.0 ? condition.positive_saturation : condition.negative_saturation;
-  const double force = std::clamp(coefficient * slope * excess, -limit, limit);
-  return offset > 0.0 ? -force : force;
-}
 
 int DeviceEffects::create() noexcept {
   for (std::size_t i = 0; i < effects_.size(); ++i) {
@@ -41,6 +22,18 @@ int DeviceEffects::create() noexcept {
     return static_cast<int>(i) + 1;
   }
   return 0;
+}
+
+int DeviceEffects::create_or_take_stopped() noexcept {
+  for (DeviceEffect& effect : effects_) {
+    if (effect.in_use && !effect.playing && effect.start_ns > 0) effect = {};
+  }
+  return create();
+}
+
+void DeviceEffects::take(int block) noexcept {
+  if (block < 1 || block > static_cast<int>(effects_.size())) return;
+  effects_[static_cast<std::size_t>(block - 1)].in_use = true;
 }
 
 void DeviceEffects::free(int block) noexcept {
@@ -78,6 +71,14 @@ void DeviceEffects::stop_all() noexcept {
   for (DeviceEffect& effect : effects_) effect.playing = false;
 }
 
+void DeviceEffects::forget_all() noexcept {
+  for (DeviceEffect& effect : effects_) {
+    const bool in_use = effect.in_use;
+    effect = {};
+    effect.in_use = in_use;
+  }
+}
+
 std::vector<int> DeviceEffects::expire(std::int64_t now_ns) {
   std::vector<int> ended;
   for (std::size_t i = 0; i < effects_.size(); ++i) {
@@ -101,17 +102,18 @@ int DeviceEffects::playing() const noexcept {
   return static_cast<int>(std::count_if(effects_.begin(), effects_.end(), [](const auto& e) { return e.playing; }));
 }
 
-EffectForces DeviceEffects::forces(const DeviceMotion& motion, std::int64_t now_ns) const noexcept {
+EffectForces DeviceEffects::forces(const DeviceMotion& motion, const StickHabits& habits,
+                                   std::int64_t now_ns) const noexcept {
+  const auto gap_ns = static_cast<std::int64_t>(1e9 * habits.restart_gap);
   EffectForces forces;
   for (const DeviceEffect& effect : effects_) {
-    if (!effect.playing || now_ns < effect.start_ns) continue;
-    const EffectSettings& settings = effect.settings;
-    if (settings.kind == EffectKind::constant) {
-      forces.constant += settings.gain * effect.magnitude * settings.direction;
-    } else if (settings.kind == EffectKind::spring) {
-      forces.spring += condition_forces(effect, motion.deflection, motion.spring_slope);
-    } else if (settings.kind == EffectKind::damper) {
-      forces.damper += condition_forces(effect, motion.speed, 1.0);
+    if (!effect.playing || effect.settings.waits_for_button || now_ns < effect.start_ns + gap_ns) continue;
+    if (effect.settings.kind == EffectKind::constant) {
+      add_constant(effect, habits, forces.constant);
+    } else if (effect.settings.kind == EffectKind::spring) {
+      forces.spring += condition_forces(effect, habits, motion.deflection, motion.spring_slope);
+    } else if (effect.settings.kind == EffectKind::damper) {
+      forces.damper += condition_forces(effect, habits, motion.speed, 1.0);
     }
   }
   return forces;

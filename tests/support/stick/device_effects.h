@@ -9,6 +9,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "tests/support/stick/stick_habits.h"
+
 namespace gearshift::test {
 
 // Silent effects are accepted, but make no force.
@@ -17,6 +19,7 @@ enum class EffectKind : std::uint8_t { silent, constant, spring, damper };
 struct AxisCondition {
   bool is_set = false;
   double centre = 0.0, dead_band = 0.0;
+  double centre_counts = 0.0, dead_band_counts = 0.0;           // as told
   double positive = 0.0, negative = 0.0;                        // coefficients on the two sides of the centre
   double positive_saturation = 0.0, negative_saturation = 0.0;  // 0 to 1
 };
@@ -27,15 +30,21 @@ struct EffectSettings {
   std::int64_t duration_ns = 0;  // 0: endless
   std::int64_t delay_ns = 0;     // delay of the force after the start command
   double gain = 1.0;
-  glm::dvec2 direction{0.0};               // direction in which a positive constant force pushes
-  std::array<bool, 2> axis{false, false};  // axes on which a condition acts
+  std::uint8_t axes = 0;          // bit 0: X, bit 1: Y, bit 2: the direction counts
+  glm::dvec2 angle{0.0};          // [rad] the two direction fields
+  bool waits_for_button = false;  // plays only while a button is pressed; no button ever is
 };
 
 struct DeviceEffect {
   bool in_use = false;
   EffectSettings settings;
   double magnitude = 0.0;
+  std::array<int, 2> place{};  // of the parameters, if the driver manages the pool
+  bool sign_dropped = false;   // StickHabits::drops_sign
   std::array<AxisCondition, 2> condition{};
+  std::uint8_t condition_reports = 0;  // ConditionLaw::counted
+  bool is_single = true;               // ConditionLaw::board
+  glm::dvec2 factor{0.0};              // ConditionLaw::board
   bool playing = false;
   std::int64_t start_ns = 0, end_ns = 0;  // times at which the force begins and ends; end_ns 0: no end
 };
@@ -55,6 +64,9 @@ class DeviceEffects {
   explicit DeviceEffects(int blocks) : effects_(static_cast<std::size_t>(blocks)) {}  // blocks are numbered from 1
 
   int create() noexcept;  // returns the lowest free block, 0 if there is none
+  // As create(), but a block that has been started and stopped counts as free.
+  int create_or_take_stopped() noexcept;
+  void take(int block) noexcept;  // uses the block, if it is free
   void free(int block) noexcept;
   void free_all() noexcept;
   DeviceEffect* find(int block) noexcept;  // nullptr if the block is not in use
@@ -64,20 +76,17 @@ class DeviceEffects {
   // With `loops` = 255, the effect is endless. An effect that is already playing starts again.
   void start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept;
   void stop_all() noexcept;
+  void forget_all() noexcept;  // blocks stay in use, but without settings
   // Ends the effects whose time is over and returns the numbers of their blocks.
   std::vector<int> expire(std::int64_t now_ns);
   // Delays the start and the end of all playing effects by `by_ns`, the duration of a pause.
   void postpone(std::int64_t by_ns) noexcept;
   int playing() const noexcept;
 
-  EffectForces forces(const DeviceMotion& motion, std::int64_t now_ns) const noexcept;
+  EffectForces forces(const DeviceMotion& motion, const StickHabits& habits, std::int64_t now_ns) const noexcept;
 
  private:
   std::vector<DeviceEffect> effects_;  // indexed by block - 1
 };
-
-// Force towards the centre, proportional to the deflection beyond the dead band. `slope`: force with coefficient 1 at
-// deflection 1.
-double condition_force(const AxisCondition& condition, double deflection, double slope) noexcept;
 
 }  // namespace gearshift::test

@@ -126,7 +126,7 @@ Answer EmulatedStick::get_report(int kind, std::uint8_t id) {
   State& state = *state_;
   if (kind == kFeatureReport) {
     state.apply_all_outputs();
-    std::optional<StickReport> report = state.firmware.feature(id);
+    std::optional<StickReport> report = state.firmware.take_feature(id);
     if (report) log_message(StickMessage::Kind::get_feature, *report);
     return report;
   }

@@ -14,14 +14,30 @@
 
 #include "haptics/device/hand.h"
 #include "haptics/device/simulated_lever.h"
+#include "tests/support/stick/stick_habits.h"
 
 namespace gearshift::test {
 
-enum class StickFamily : std::uint8_t { sidewinder, openffboard, vjoy };
+enum class StickFamily : std::uint8_t {
+  sidewinder,
+  openffboard,
+  vjoy,
+  openffboard_32bit,
+  arduino,
+  arduino_hat,
+  adapt_ffb_joy,
+  sunffb,
+  affbwheel,
+  brwheel,
+  steering_go,
+  stm32,
+  saitek
+};
 const char* to_string(StickFamily family) noexcept;  // "sidewinder", ...
 
 struct EmulatedStickConfig {
   StickFamily family = StickFamily::sidewinder;
+  StickHabits habits;
   // The lever and the hand. The stick uses its own encoder, stops and motors instead of the configured ones, and no
   // delay.
   haptics::SimulatedLeverConfig lever;
@@ -51,6 +67,7 @@ struct EmulatedFaults {
   bool jump = false;             // every 50th report is off by 60 % of the full deflection
   bool wrong_length = false;     // lever reports lack their last byte
   bool stuck = false;            // sends one lever report again and again
+  bool reversed = false;         // all forces act in the other direction
   bool silent = false;           // sends no lever reports, not even with GET_REPORT
   bool refuses_effects = false;  // creating an effect fails with the block load status "error"
   bool pool_full = false;        // creating an effect fails with the block load status "full"

@@ -2,6 +2,7 @@
 // devices' report descriptors (tests/data/hid), so that our parser and these tables check each other.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -42,25 +43,42 @@ struct LeverBytes : ReportShape {
   std::size_t hat_at = 0;        // byte of the hat, which reports 8 (not pressed); 0: no hat
 };
 struct SetEffectBytes : ReportShape {
-  StickNumber duration, start_delay;     // [ms]
-  std::size_t gain_at = 0, axes_at = 0;  // gain byte: 0 to 255; axes byte: bit 0 X, bit 1 Y, bit 2 direction
-  StickNumber direction_x, direction_y;
-  double full_turn = 0.0;  // [counts] per full turn of a direction
+  StickNumber duration, start_delay;  // [ms]
+  StickFraction gain;
+  std::size_t trigger_at = 0;
+  std::size_t axes_at = 0;
+  std::uint8_t x_bit = 1, y_bit = 2, direction_bit = 4;  // masks of the axes byte
+  StickNumber direction_x{}, direction_y{};              // `direction_y` may be missing
+  double full_turn = 0.0;                                // [counts] per full turn of a direction
+  std::array<StickNumber, 2> places{};                   // of the effect's parameters, if the driver manages the pool
 };
+// A missing negative field has the value of the positive one, a missing saturation is 1, a missing dead band 0.
 struct ConditionBytes : ReportShape {
   StickFraction centre, positive, negative, positive_saturation, negative_saturation, dead_band;
+  StickNumber place;  // if the driver manages the pool
 };
 struct ConstantBytes : ReportShape {
   StickFraction magnitude;
+  StickNumber place;  // if the driver manages the pool
+};
+// Bits of the state report's first byte after its ID.
+struct StateBytes : ReportShape {
+  int paused = 0, actuators = 1, safety_switch = 2, power = 4;
+  // Without a block: `playing` is a bit of the same byte. With a block: the second byte holds it, after the playing bit,
+  // unless `playing` is a bit of the first byte.
+  int playing = -1;
+  bool playing_is_top = false;  // the playing bit is the highest of the second byte, not the lowest
 };
 
 // Choices that PID 1.0 leaves open, and deviations from PID 1.0.
 struct StickQuirks {
   int first_block = 1;  // lower blocks are built in: block 1 of the SideWinder is its centring spring
   int last_block = 40;
-  bool control_bits = false;   // device control has one bit per command instead of a number from 1 to 6
-  bool board_control = false;  // OpenFFBoard: one switch for actuators, pause and stop all; a reset turns it off, and
-                               // setting an effect turns it on
+  int more_announced = 0;       // blocks that the pool report announces in excess
+  bool driver_managed = false;  // the driver places effects and their parameters in the stick's memory
+  bool control_bits = false;    // device control has one bit per command instead of a number from 1 to 6
+  bool board_control = false;   // OpenFFBoard: one switch for actuators, pause and stop all; a reset turns it off, and
+                                // setting an effect turns it on
 };
 
 struct StickFamilyTable {
@@ -69,15 +87,20 @@ struct StickFamilyTable {
   const char *maker, *product_name, *serial;  // serial "": none
   std::uint8_t endpoint_in, endpoint_out;     // if `endpoint_out` is 0, outputs use the control pipe
   LeverBytes lever;
-  ReportShape state;  // size: 3 with the effect's block, 2 without; 0: no state report
+  StateBytes state;  // size: 2 without the effect's block; 0: no state report
   SetEffectBytes set_effect;
   ConditionBytes condition;
   ConstantBytes constant;
-  ReportShape operation, block_free, control, gain;
-  std::vector<ReportShape> other_outputs;  // accepted, but ignored
-  ReportShape create, block_load, pool;    // features
-  ReportShape block_state;                 // feature report, only on vJoy
-  std::uint8_t last_type;                  // highest effect type; 1 is constant, 8 spring, 9 damper
+  ReportShape operation, block_free, control;
+  ReportShape gain;
+  double gain_max = 255.0;                                 // [counts] full device gain
+  std::vector<ReportShape> other_outputs;                  // accepted, but ignored
+  ReportShape create, block_load, pool;                    // features
+  ReportShape block_state;                                 // feature report, only on vJoy
+  std::uint8_t last_type;                                  // highest effect type
+  std::array<std::uint8_t, 3> types{1, 8, 9};              // constant, spring, damper
+  std::array<std::uint8_t, 3> operations{1, 2, 3};         // start, start solo, stop
+  std::array<std::uint8_t, 6> controls{1, 2, 3, 4, 5, 6};  // enable, disable, stop all, reset, pause, continue
   StickQuirks quirks;
 };
 

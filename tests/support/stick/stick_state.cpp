@@ -63,7 +63,7 @@ EmulatedStick::State::State(const EmulatedStickConfig& wanted, haptics::HandDriv
       faults(wrong),
       held_buttons(held),
       lever(mechanism(config), period_ns, hand),
-      firmware(family, config.blocks, config.finite_refused) {}
+      firmware(family, config.habits, config.blocks, config.finite_refused) {}
 
 bool EmulatedStick::State::accept_output(std::span<const std::uint8_t> report) {
   if (!firmware.accepts_output(report)) return false;
@@ -141,6 +141,7 @@ void EmulatedStick::State::apply_force() {
   const glm::dvec2 spring = glm::dvec2(config.spring_sign) * effect_forces.spring;
   const glm::dvec2 damper = glm::dvec2(config.damper_sign) * effect_forces.damper;
   force = config.full_force * flip_y(glm::clamp(constant + spring + damper, -1.0, 1.0));
+  if (faults.reversed) force = -force;
   lever.write(force);
 }
 
@@ -168,6 +169,7 @@ StickReport EmulatedStick::State::lever_report(double error) const {
   if (bytes.hat_at != 0) report[bytes.hat_at] = kHatCentred;
   const std::uint64_t hand = (reading_.pressed_down ? 1U : 0U) | (reading_.lifted ? 2U : 0U);
   report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // buttons 1 to 8, which all families have
+  report.resize(static_cast<std::size_t>(static_cast<int>(bytes.size) + config.habits.longer_input));
   return report;
 }
 

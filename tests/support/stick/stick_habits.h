@@ -1,0 +1,105 @@
+// Habits of real firmware: deviations from PID 1.0, one switch each. A comment names the firmware that has the habit and
+// the source that it was read in. Signs of forces are in EmulatedStickConfig.
+//
+//   [adapt]    tloimu/adapt-ffb-joy 845266a, ffb-pro.c and main.c; [adapt 0.4] a85f4b8
+//   [affb]     vsulako/AFFBWheel 706e188
+//   [board]    Ultrawipf/OpenFFBoard 160af910 (1.17.1), HidFFB.cpp and EffectsCalculator.cpp; [board 1.16] 445ee456
+//   [br]       ranenbg/Arduino-FFB-wheel 463a080
+//   [fino]     jmriego/Fino b686bc6
+//   [library]  YukMingLaw/ArduinoJoystickWithFFBLibrary ed86e27 (1.0.0)
+//   [pico]     nobonobo/pico-ffb-steering-wheel 6e08bff
+//   [saitek]   zanppa/hid-pidff 37709a8, a driver tried on the Cyborg Evo Force
+//   [stm]      billydragon/STM32_FFBJoystick 586a7c5
+//   [sun]      sunwj/SunFFBJoystick b5a6f09
+//   [vjoy]     njz3/vJoy 02a337b
+#pragma once
+
+#include <cstdint>
+
+namespace gearshift::test {
+
+// Direction in which a constant force pushes. a0, a1: the angles in the two direction fields.
+enum class ConstantLaw : std::uint8_t {
+  pid,           // by a0 if the direction bit is set, otherwise by the axis bits and Cartesian components
+  first_angle,   // by a0, whatever the axes byte says [adapt, fino]
+  equal_to_4,    // by a0 if the axes byte is 4, otherwise X by a0 and Y by a1 [library, stm]
+  x_only,        // X, whatever the direction [affb, pico]
+  rotates_sum,   // each directed force rotates the sum of those before it; Y is reversed [br, two motors]
+  no_bit_alone,  // by a0, but only on axes whose bit is set [JakaSimonic/ForceFeedback-core-library 0bb2cee]
+};
+
+// Which condition acts on which axis. A condition has been told for one axis or for both.
+enum class ConditionLaw : std::uint8_t {
+  per_axis,         // PID 1.0 with axis bits; the direction bit enables both axes
+  board,            // condition 0 on both axes until condition 1 can make a force; times a factor from the direction,
+                    // unless both can make a force when the effect is set [board]
+  counted,          // axes byte 4: condition 0 on both axes, rotated, until two reports have arrived; the 8-bit count
+                    // wraps [library, stm]
+  exactly_4,        // axes byte 4: per axis; otherwise condition 0 on both axes, times the direction [fino]
+  x_only,           // condition 1 is not used [affb]
+  along_direction,  // direction bit: condition 0 along the direction; otherwise per axis [saitek]
+  times_direction,  // without the direction bit, times the components of the direction [sun]
+  both_axes,        // a condition without a direction acts on both axes [fino, by ../facts: one-condition effects]
+  never,            // conditions make no force [pico]
+};
+
+enum class DeadBandLaw : std::uint8_t {
+  honoured,
+  ignored,        // [adapt, br, Asetek by the quirks of Linux' hid-pidff]
+  raw_counts,     // centre and dead band in counts are compared with a deflection of -1 to 1 [library, fino]
+  shifts_centre,  // the centre moves to the upper end of the dead band, and there is no dead band [stm]
+};
+
+enum class AutoCentre : std::uint8_t {
+  none,
+  after_reset,  // on at power-on and after a reset, until stop-all [adapt]
+  always,       // [FFBeast: its manual; VPforce Rhino, until the host plays a spring]
+  while_on,     // while the actuators are on
+  when_off      // while the actuators are off [board]: slope 1.77, limit 0.136
+};
+
+enum class StateTold : std::uint8_t {
+  at_changes,
+  never,      // [adapt, library, fino, affb, br, pico, vjoy]
+  at_setting  // when an effect is created or set [board]
+};
+
+struct StickHabits {
+  // Forces
+  ConstantLaw constant = ConstantLaw::pid;
+  ConditionLaw condition = ConditionLaw::per_axis;
+  DeadBandLaw dead_band = DeadBandLaw::honoured;
+  AutoCentre auto_centre = AutoCentre::none;
+  double centring_slope = 0.4;  // [1] of `auto_centre`: force at full deflection; limited to 0.3 of the full force
+  bool drops_sign = false;      // setting an effect reverses a negative constant force until it is told anew [adapt]
+  bool constant_ignores_gain = false;  // [library, fino]
+  bool ignores_device_gain = false;    // [library, fino, br, pico, stm]
+  int motors = 2;                      // 1: Y makes no force [affb, pico, wheels on boards]
+
+  // Effects
+  bool trigger_none_is_ff = false;   // trigger button 0 is the first button, FFh is none [adapt, sun]
+  bool one_effect = false;           // starting an effect stops the others
+  double restart_gap = 0.0;          // [s] silence after each start
+  bool stopped_is_free = false;      // a stopped block may be given to another effect [library, fino, affb]
+  bool mute_until_stop_all = false;  // after power-on and reset [fino]
+  bool off_until_enabled = false;    // actuators are off after a reset, although the state says on [sun]
+  bool ignores_actuators = false;  // enabling and disabling them has no effect on forces [library, fino, br, pico, stm]
+  bool stop_all_erases = false;    // stop-all also frees all effects, in secret [adapt 0.4]
+  bool ignores_stop_all = false;   // [br]
+  bool control_tests_bits = false;  // control numbers are tested bit by bit: pause and continue free all effects [stm]
+
+  // Answers
+  int late_loads = 0;                // reads of the block load report that answer "pending" before the block [../facts]
+  int short_features = 0;            // [bytes] missing at the end of feature reports [adapt]
+  bool load_answers_once = false;    // a second read answers the lever's report [adapt]
+  bool first_create_fails = false;   // after power-on [pico]
+  bool pool_by_driver_flag = false;  // the pool report says that the driver manages the pool; not true [vjoy]
+  bool pool_read_frees_all = false;  // [adapt]
+  StateTold state_told = StateTold::at_changes;
+  bool says_no_safety_switch = false;  // the bit is never set [board]
+  bool says_no_power = false;          // the bit is never set
+  bool says_no_actuators = false;      // the bit is never set
+  int longer_input = 0;                // [bytes] lever reports are longer (or shorter) than declared
+};
+
+}  // namespace gearshift::test
