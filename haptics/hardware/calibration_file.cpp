@@ -21,7 +21,8 @@ namespace gearshift::haptics {
 namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
-constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0};
+constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0},
+    kDeadBand{0.0, 10.0};
 constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] smallest valid values; 0 means not known
 
 using AxisName = std::pair<std::string_view, int>;  // name and usage ID on the HID Generic Desktop page
@@ -83,6 +84,8 @@ void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
   axis.spring_stiffness = table.number("spring_stiffness_n_per_m", kStiffness);
   if (table.has("damper_sign")) read_integer(table, "damper_sign", axis.damper_sign, kSign);
   if (table.has("damper_n_s_per_m")) axis.damper_strength = table.number("damper_n_s_per_m", kDamping);
+  if (table.has("spring_dead_band")) axis.spring_dead_band = table.number("spring_dead_band", kDeadBand);
+  if (table.has("own_spring_n_per_m")) axis.own_spring = table.number("own_spring_n_per_m", kStiffness);
   read_handle(table.table("handle"), axis.handle);
   table.reject_unknown_keys();
 }
@@ -92,6 +95,32 @@ void read_timing(const TomlTable& table, DeviceTiming& timing) {
   timing.output_interval = table.number("output_interval_s", kTime);
   timing.delay = table.number("delay_s", kTime);
   timing.jitter = table.number("jitter_s", kTime);
+  if (table.has("restart_gap_s")) timing.restart_gap = table.number("restart_gap_s", kTime);
+  table.reject_unknown_keys();
+}
+
+constexpr std::array<std::pair<std::string_view, AxisStyle>, 3> kStyles{
+    {{"direction", AxisStyle::direction}, {"both", AxisStyle::both}, {"bits", AxisStyle::bits}}};
+
+AxisStyle read_style(const TomlTable& table, std::string_view key) {
+  std::vector<std::string> names;
+  for (const auto& style : kStyles) names.emplace_back(style.first);
+  const std::string word = table.choice(key, names);
+  return std::find_if(kStyles.begin(), kStyles.end(), [&](const auto& style) { return style.first == word; })->second;
+}
+
+std::string style_name(AxisStyle wanted) {
+  for (const auto& [name, style] : kStyles)
+    if (style == wanted) return std::string(name);
+  return "unknown";
+}
+
+constexpr StickStyle kOldStyle{AxisStyle::both, AxisStyle::bits};  // of files from before the styles were measured
+
+void read_effects(const TomlTable& table, DeviceCalibration& calibration) {
+  calibration.style = {read_style(table, "constants_by"), read_style(table, "conditions_by")};
+  if (table.has("springs_refused")) calibration.springs_refused = table.text("springs_refused");
+  if (table.has("dampers_refused")) calibration.dampers_refused = table.text("dampers_refused");
   table.reject_unknown_keys();
 }
 
@@ -141,22 +170,26 @@ std::string axis_name(int usage) {
   return "unknown";
 }
 
+// Comments that fit both axes are written at the first.
 void put_axis(CommentedText& out, const std::string& section, const LeverAxisCalibration& axis, bool is_select) {
+  const auto once = [&](std::string_view comment) { return is_select ? comment : std::string_view(); };
   out.section(section, is_select ? "lever to the right (+) and to the left (-)" : "lever forward (+) and back (-)");
-  out.put("axis", toml_string(axis_name(axis.usage)), "axis of the device; only x and y have motors");
+  out.put("axis", toml_string(axis_name(axis.usage)), once("axis of the device; only x and y have motors"));
   out.put("low_counts", axis.low, is_select ? "at the left stop" : "at the back stop");
-  out.put("centre_counts", axis.centre, "at rest");
+  out.put("centre_counts", axis.centre, once("at rest"));
   out.put("high_counts", axis.high, is_select ? "at the right stop" : "at the forward stop");
-  out.put("travel_m", axis.travel, "travel of the knob from stop to stop");
-  out.put("full_force_n", axis.full_force, "force at the knob at full magnitude");
+  out.put("travel_m", axis.travel, once("travel of the knob from stop to stop"));
+  out.put("full_force_n", axis.full_force, once("force at the knob at full magnitude"));
   out.put("constant_sign", axis.constant_sign,
           is_select ? "1: a positive force pushes right; -1: left" : "1: a positive force pushes forward; -1: back");
-  out.put("spring_sign", axis.spring_sign, "1: a spring pulls to its centre; -1: pushes away from it");
-  out.put("spring_stiffness_n_per_m", axis.spring_stiffness, "strongest spring; 0: not measured");
-  out.put("damper_sign", axis.damper_sign, "1: a damper brakes the lever; -1: drives it");
-  out.put("damper_n_s_per_m", axis.damper_strength, "strongest damper; 0: not measured");
-  out.section(section + ".handle", "handle without a hand");
-  out.put("mass_kg", axis.handle.mass, "0: not measured");
+  out.put("spring_sign", axis.spring_sign, once("1: a spring pulls to its centre; -1: pushes away from it"));
+  out.put("spring_stiffness_n_per_m", axis.spring_stiffness, once("strongest spring; 0: not measured"));
+  out.put("damper_sign", axis.damper_sign, once("1: a damper brakes the lever; -1: drives it"));
+  out.put("damper_n_s_per_m", axis.damper_strength, once("strongest damper; 0: not measured"));
+  out.put("spring_dead_band", axis.spring_dead_band, once("its measured over its commanded width; 0: unknown"));
+  out.put("own_spring_n_per_m", axis.own_spring, once("centring by its motors; 0: none"));
+  out.section(section + ".handle", once("handle without a hand"));
+  out.put("mass_kg", axis.handle.mass, once("0: not measured"));
   out.put("damping_n_s_per_m", axis.handle.damping, "");
   out.put("stiffness_n_per_m", axis.handle.stiffness, "");
 }
@@ -188,6 +221,8 @@ std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& f
   if (calibration.select.usage == calibration.shift.usage)
     root.table("shift").fail("axis", "must differ from the axis of select");
   read_timing(root.table("timing"), calibration.timing);
+  calibration.style = kOldStyle;
+  if (root.has("effects")) read_effects(root.table("effects"), calibration);
   read_buttons(root.table("buttons"), calibration);
   root.reject_unknown_keys();
   return calibration;
@@ -208,6 +243,14 @@ std::string calibration_text(const DeviceCalibration& calibration) {
   out.put("output_interval_s", timing.output_interval, "time between two force commands");
   out.put("delay_s", timing.delay, "time from sending a force to its effect");
   out.put("jitter_s", timing.jitter, "99 % of the readings are at most this late");
+  out.put("restart_gap_s", timing.restart_gap, "silence when an effect is renewed");
+  out.section("effects", "how they name their axes: direction, both or bits");
+  out.put("constants_by", toml_string(style_name(calibration.style.constants)), "");
+  out.put("conditions_by", toml_string(style_name(calibration.style.conditions)), "");
+  if (!calibration.springs_refused.empty())
+    out.put("springs_refused", toml_string(calibration.springs_refused), "so springs are not used");
+  if (!calibration.dampers_refused.empty())
+    out.put("dampers_refused", toml_string(calibration.dampers_refused), "so dampers are not used");
   out.section("buttons", "numbered from 1; 0: no button");
   out.put("press", calibration.press_button, "pushes the knob down");
   out.put("lift", calibration.lift_button, "lifts the ring");

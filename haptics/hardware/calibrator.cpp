@@ -65,16 +65,14 @@ std::string counts_text(const LeverAxisCalibration& axis) {
 }  // namespace
 
 std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs) {
-  const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
-  const bool has_spring_signs = select.spring_sign != 0 && shift.spring_sign != 0;
-  const bool has_springs = select.spring_stiffness > 0.0 && shift.spring_stiffness > 0.0;
   std::vector<CalibrationStep> missing;
   if (!calibration.has_stops()) missing.push_back(CalibrationStep::range);
   if (!calibration.has_travel() || !calibration.has_force()) missing.push_back(CalibrationStep::numbers);
-  if (!calibration.has_polarity() || (springs && !has_spring_signs)) missing.push_back(CalibrationStep::polarity);
+  if (!calibration.has_polarity()) missing.push_back(CalibrationStep::polarity);
   if (!calibration.has_timing()) missing.push_back(CalibrationStep::timing);
   if (!calibration.has_handle()) missing.push_back(CalibrationStep::handle);
-  if (springs && !has_springs) missing.push_back(CalibrationStep::springs);
+  if (springs && !calibration.has_springs() && calibration.springs_refused.empty())
+    missing.push_back(CalibrationStep::springs);
   return missing;
 }
 

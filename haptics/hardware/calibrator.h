@@ -52,12 +52,13 @@ class Calibrator {
   // Waits up to `seconds` for a button press and stores the button's number. Ignores buttons already held at the start.
   std::string find_button(LeverButton button, double seconds);
 
-  std::string measure_polarity();  // sign of constant forces and of springs, per axis
-  std::string measure_timing();    // intervals, jitter, delay
-  std::string measure_handle();    // mass, damping, stiffness; call it after set_numbers()
-  // Measures spring stiffness [N/m] and damper strength [N s/m]; call it after set_numbers(). The sign of a damper is
-  // measured at the fraction kCautiousForce of its maximum coefficient. If only the dampers fail, the springs are still
-  // stored.
+  std::string measure_polarity();  // sign of constant forces per axis, and how their effects must name the axis
+  std::string measure_timing();    // intervals, jitter, delay, silence when an effect is renewed
+  // Mass, damping, stiffness, and how much of it is a spring of the stick's motors; call it after set_numbers().
+  std::string measure_handle();
+  // Measures sign, stiffness [N/m] and dead band of springs, and sign and strength [N s/m] of dampers; call it after
+  // set_numbers(). The sign of a damper is measured at the fraction kCautiousForce of its maximum coefficient. Springs
+  // or dampers that measure wrong are not used; the sentence says so.
   std::string measure_springs();
 
  private:
@@ -77,16 +78,39 @@ class Calibrator {
   void require_polarity() const;
   static LeverAxisCalibration range_of(const std::string& name, const FoundAxis& found,
                                        const std::vector<double>& positions, double centre, double range);
-  int constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name) const;
-  double push(StickRig& rig, const AxisPlace& place, const StickCommand& command) const;
+  struct Signs {
+    std::array<int, 2> sign{};  // select, shift
+    double magnitude = 0.0;     // [1] that moved both axes
+  };
+  struct Spring {
+    int sign = 0;
+    double stiffness = 0.0;  // [N/m]
+    double dead_band = 0.0;  // [1]
+  };
+
+  std::array<AxisPlace, 2> places() const { return {axis_place(calibration_.select), axis_place(calibration_.shift)}; }
+  void apply(StickStyle style);
+  Signs constant_signs();
+  int constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name, double& magnitude) const;
+  static void require_motors(const std::array<int, 2>& sign);
+  void check_together(StickRig& rig, const Signs& found) const;
+  double push(StickRig& rig, const AxisPlace& place, const StickCommand& idle, const StickCommand& command) const;
+  std::array<Spring, 2> find_springs();
+  std::array<Spring, 2> springs_by(StickStyle style);
   int spring_sign(StickRig& rig, const AxisPlace& place) const;
+  void check_springs_together(StickRig& rig, const std::array<Spring, 2>& springs) const;
+  double dead_band(StickRig& rig, const LeverAxisCalibration& axis, const Spring& spring) const;
   DeviceTiming measure_intervals(StickRig& rig) const;
   Pulse pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const;
   std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double& magnitude) const;
+  double restart_gap(StickRig& rig, const DeviceTiming& timing) const;
+  double distance_pushed(StickRig& rig, const AxisPlace& place, bool restarts) const;
+  double own_share(StickRig& rig, const LeverAxisCalibration& axis) const;
+  double distance_returned(StickRig& rig, const AxisPlace& place, bool motors) const;
   PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper = 0.0) const;
   static PulseFit fit_of(std::span<const Pulse> pulses, const std::string& name);
   static PulseFit validated(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
-  double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis) const;
+  double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis, int sign) const;
   std::string measure_dampers();
   double damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper) const;
 

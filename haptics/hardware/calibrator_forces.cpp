@@ -1,5 +1,6 @@
 // Calibration measurements without a hand on the lever.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -12,10 +13,14 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kMoved = 0.02, kMinMoved = 0.01;          // [1] fraction of the axis's range
-constexpr std::int64_t kPushTime = 250'000'000;            // [ns] longest push
-constexpr double kSpringOffset = 0.25;                     // [1] fraction of the full deflection
-constexpr double kLoadForce = 0.05, kLoadFrequency = 5.0;  // [1] fraction of the full force; [Hz]
+constexpr double kMoved = 0.02, kMinMoved = 0.01;  // [1] fraction of the axis's range
+constexpr std::int64_t kPushTime = 250'000'000;    // [ns] longest push
+constexpr std::int64_t kStyleTime = 250'000'000;   // [ns] for the effects' settings to be sent
+constexpr double kBand = 0.2, kBandOffset = 0.12;  // [1] dead band and centre, fractions of the full deflection
+constexpr std::int64_t kLeakTime = 400'000'000;    // [ns] inside the dead band
+constexpr double kMinBandRatio = 0.5, kMaxBandRatio = 2.0, kMaxBandSkew = 0.2;  // [1] measured over commanded
+constexpr double kSpringOffset = 0.25;                                          // [1] fraction of the full deflection
+constexpr double kLoadForce = 0.05, kLoadFrequency = 5.0;                       // [1] fraction of the full force; [Hz]
 constexpr double kLoadDither = 0.01;  // [1] added with alternating sign, so that the force changes in every tick
 constexpr std::int64_t kLoadTime = 2'100'000'000, kLoadStart = 100'000'000;  // [ns] total time; initial part, ignored
 constexpr std::size_t kMinReadings = 50;
@@ -36,7 +41,13 @@ constexpr double kDamper = 0.5;            // [1] damper coefficient in the meas
 // [1] largest plausible force of the handle's own spring at a stop, as a fraction of the full force. A stronger spring
 // means that a hand is on the lever.
 constexpr double kMaxHandleSpringForce = 0.3;
+constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are not asked for their origin
+constexpr double kMinOwnShare = 0.25;        // [1] of the handle's stiffness
+constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000;  // [ns]
+constexpr double kMinGap = 0.0003;   // [s] shorter gaps cannot be told from noise
 constexpr double kMinBraking = 0.3;  // [N s/m] smallest damping whose sign can be determined
+
+constexpr std::array kNames{"select", "shift"};
 
 StickCommand idle_command() noexcept {
   StickCommand command;
@@ -83,79 +94,117 @@ Calibrator::AxisPlace Calibrator::axis_place(const LeverAxisCalibration& axis) c
           axis.high > axis.low ? 1.0 : -1.0};
 }
 
-std::string Calibrator::measure_polarity() {
-  require_range();
+// Sends the effects' settings anew, if the style differs, and waits until that is done. The motors stay off.
+void Calibrator::apply(StickStyle style) {
+  driver_.set_style(style);
   StickRig rig(driver_, tick_);
-  DeviceCalibration found = calibration_;
-  std::string sentence;
-  for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
-    const std::string name = axis == &found.select ? "select" : "shift";
-    const AxisPlace place = axis_place(*axis);
-    axis->constant_sign = constant_sign(rig, place, name);
-    axis->spring_sign = spring_sign(rig, place);
-    sentence += (sentence.empty() ? "in " : "; in ") + name + ", a positive force pushes " +
-                (axis == &found.select ? (axis->constant_sign > 0 ? "right" : "left")
-                                       : (axis->constant_sign > 0 ? "forward" : "back")) +
-                (axis->spring_sign == 0  ? " and springs have no effect"
-                 : axis->spring_sign > 0 ? " and springs pull to their centre"
-                                         : " and springs push away from their centre");
-  }
-  calibration_ = found;
-  return sentence;
+  const std::int64_t begin = rig.step().now_ns;
+  while (rig.step().now_ns - begin < kStyleTime) continue;
 }
 
-// Finds the sign of a constant force. Pushes the lever in both directions, with the smallest of three forces that moves
-// it.
-int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name) const {
+std::string Calibrator::measure_polarity() {
+  require_range();
+  const Signs found = constant_signs();
+  calibration_.select.constant_sign = found.sign[0];
+  calibration_.shift.constant_sign = found.sign[1];
+  return std::string("in select, a positive force pushes ") + (found.sign[0] > 0 ? "right" : "left") +
+         "; in shift, a positive force pushes " + (found.sign[1] > 0 ? "forward" : "back");
+}
+
+// Tries each way of naming an axis until the constant forces move the right axes, alone and together.
+Calibrator::Signs Calibrator::constant_signs() {
+  std::string reason;
+  for (const AxisStyle style : {AxisStyle::direction, AxisStyle::both, AxisStyle::bits}) {
+    const StickStyle tried{style, calibration_.style.conditions};
+    apply(tried);
+    try {
+      StickRig rig(driver_, tick_);
+      Signs found;
+      const std::array<AxisPlace, 2> place = places();
+      for (std::size_t i = 0; i < 2; ++i) found.sign[i] = constant_sign(rig, place[i], kNames[i], found.magnitude);
+      require_motors(found.sign);
+      check_together(rig, found);
+      calibration_.style = tried;
+      return found;
+    } catch (const EffectsRefused& refused) {
+      if (reason.empty()) reason = refused.what();
+    }
+  }
+  throw CalibrationRefused(reason);
+}
+
+// Finds the sign of the only constant force that plays; 0 if the axis does not move. Pushes the lever in both
+// directions, with the smallest of three forces that moves it, and stores the largest such force in `largest`.
+int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name, double& largest) const {
+  StickCommand idle = idle_command();
+  idle.pushes[1 - place.motor] = false;
   for (const double magnitude : {0.25 * kCautiousForce, 0.5 * kCautiousForce, kCautiousForce}) {
-    StickCommand command = idle_command();
+    StickCommand command = idle;
     command.constant[place.motor] = magnitude;
-    const double there = push(rig, place, command);
+    const double there = push(rig, place, idle, command);
     if (std::abs(there) < kMinMoved) continue;
     command.constant[place.motor] = -magnitude;
-    const double back = push(rig, place, command);
+    const double back = push(rig, place, idle, command);
     if (std::abs(back) < kMinMoved || (there > 0.0) == (back > 0.0))
-      throw CalibrationRefused(name + " did not move in both directions. Take your hands off the lever");
+      throw EffectsRefused(name + " did not move in both directions. Take your hands off the lever");
+    largest = std::max(largest, magnitude);
     return there > 0.0 ? 1 : -1;
   }
-  throw CalibrationRefused(name + " does not move with " + number_text(100.0 * kCautiousForce, 0) +
-                           " % of the full force. Check that the stick has power and can move freely");
+  return 0;
+}
+
+void Calibrator::require_motors(const std::array<int, 2>& sign) {
+  if (sign[0] == 0 && sign[1] == 0)
+    throw EffectsRefused("the lever does not move with " + number_text(100.0 * kCautiousForce, 0) +
+                         " % of the full force. Check that the stick has power and can move freely");
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (sign[i] == 0)
+      throw EffectsRefused(std::string("the stick has a motor for ") + kNames[1 - i] + ", but none for " + kNames[i] +
+                           ", and a lever needs both");
+  }
+}
+
+// Some sticks render one force at a time, or mix the forces of the two axes.
+void Calibrator::check_together(StickRig& rig, const Signs& found) const {
+  const std::array<AxisPlace, 2> place = places();
+  for (const double direction : {1.0, -1.0}) {
+    StickCommand command = idle_command();
+    std::array<double, 2> from{}, moved{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      from[i] = rig.rest(place[i].report, idle_command());
+      const double wanted = i == 0 ? direction : 1.0;  // to the right or forward
+      command.constant[place[i].motor] = wanted * found.sign[i] * found.magnitude;
+    }
+    const std::int64_t begin = rig.latest().now_ns;
+    while (rig.latest().now_ns - begin < kPushTime && std::abs(moved[0]) < 2.0 * kMoved &&
+           std::abs(moved[1]) < 2.0 * kMoved) {
+      rig.step(command);
+      for (std::size_t i = 0; i < 2; ++i)
+        moved[i] = place[i].sign * (rig.position(place[i].report) - from[i]) / rig.range(place[i].report);
+    }
+    rig.step(idle_command());
+    if (direction * moved[0] < 0.25 * kMinMoved || moved[1] < 0.25 * kMinMoved)
+      throw EffectsRefused("the stick does not render the forces of both axes at the same time");
+  }
 }
 
 // Applies the command to the lever at rest. Returns the motion to the right or forward [1], as a fraction of the axis's
 // range.
-double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickCommand& command) const {
+double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickCommand& idle,
+                        const StickCommand& command) const {
   const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
-  const double from = rig.rest(place.report, idle_command()), other_from = rig.position(other);
+  const double from = rig.rest(place.report, idle), other_from = rig.position(other);
   const std::int64_t begin = rig.latest().now_ns;
   double moved = 0.0, other_moved = 0.0;
   while (std::abs(moved) < kMoved && rig.latest().now_ns - begin < kPushTime) {
     rig.step(command);
     moved = (rig.position(place.report) - from) / rig.range(place.report);
     other_moved = (rig.position(other) - other_from) / rig.range(other);
-    if (std::abs(other_moved) > kMoved) throw CalibrationRefused("a force along one axis also moves the other axis");
+    if (std::abs(other_moved) > kMoved)
+      throw EffectsRefused("a force along one axis of the stick also moves the other axis, or moves it instead");
   }
-  rig.step(idle_command());
+  rig.step(idle);
   return moved * place.sign;
-}
-
-// Commands a spring whose centre is kSpringOffset away from the lever. Returns +1 if the spring pulls the lever to the
-// centre, -1 if it pushes the lever away, and 0 if the lever does not move. The spring's saturation limits the force.
-int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
-  const PidLayout& pid = driver_.layout();
-  if (!pid.has_effect(PidEffect::spring) || !pid.set_condition.exists()) return 0;
-  const bool is_capped = pid.set_condition.positive_saturation.exists();
-  for (const double coefficient : {0.1, 0.4, 1.0}) {
-    if (!is_capped && coefficient * kSpringOffset > kCautiousForce) break;
-    rig.rest(place.report, idle_command());
-    const double here = rig.deflection(place.report), offset = here < 0.0 ? kSpringOffset : -kSpringOffset;
-    StickCommand command = idle_command();
-    command.spring[place.motor] = {here + offset, 0.0, coefficient, kCautiousForce};
-    const double moved = push(rig, place, command) * place.sign;  // positive if the counts rise
-    if (std::abs(moved) < kMinMoved) continue;
-    return (moved > 0.0) == (offset > 0.0) ? 1 : -1;
-  }
-  return 0;
 }
 
 std::string Calibrator::measure_timing() {
@@ -166,11 +215,43 @@ std::string Calibrator::measure_timing() {
     const PulseFit found = fit(rig, *axis, axis == &calibration_.select ? "select" : "shift");
     timing.delay = std::max({timing.delay, found.delay, 0.0});
   }
+  timing.restart_gap = restart_gap(rig, timing);
   calibration_.timing = timing;
   return "a reading every " + number_text(1e3 * timing.input_interval, 2) + " ms (jitter " +
          number_text(1e3 * timing.jitter, 2) + " ms), a force every " + number_text(1e3 * timing.output_interval, 2) +
          " ms, delay " + number_text(1e3 * timing.delay, 2) + " ms; the stick responds after " +
-         number_text(1e3 * answer_time(timing), 1) + " ms";
+         number_text(1e3 * answer_time(timing), 1) + " ms" +
+         (timing.restart_gap == 0.0
+              ? ""
+              : "; each renewal interrupts a force for " + number_text(1e3 * timing.restart_gap, 1) +
+                    " ms, which makes forces weaker by " + number_text(100.0 * timing.restart_gap / kRenewAfter, 0) +
+                    " %");
+}
+
+// Compares how far a force pushes the lever with and without frequent renewals.
+double Calibrator::restart_gap(StickRig& rig, const DeviceTiming& timing) const {
+  const AxisPlace place = axis_place(calibration_.select);
+  const double steady = distance_pushed(rig, place, false), restarted = distance_pushed(rig, place, true);
+  const double interval = timing.output_interval * std::ceil(kRestartInterval / timing.output_interval - 0.1);
+  const double gap = steady > 0.0 ? (1.0 - restarted / steady) * interval : 0.0;
+  return gap < kMinGap ? 0.0 : std::min(gap, kRenewAfter);
+}
+
+// [counts] that a small force pushes the lever in kPushedTime.
+double Calibrator::distance_pushed(StickRig& rig, const AxisPlace& place, bool restarts) const {
+  StickCommand command = idle_command();
+  command.pushes[1 - place.motor] = false;
+  const double from = rig.rest(place.report, command);
+  command.constant[place.motor] = kCautiousForce;
+  command.restarts = restarts;
+  const std::int64_t begin = rig.latest().now_ns;
+  while (rig.latest().now_ns - begin < kPushedTime) {
+    rig.step(command);
+    rig.watch_runaway(place.report, from);
+  }
+  const double pushed = std::abs(rig.position(place.report) - from);
+  rig.step(idle_command());
+  return pushed;
 }
 
 // Measures how often the stick sends readings and accepts forces. Meanwhile, moves the lever and changes the forces of
@@ -298,6 +379,7 @@ std::string Calibrator::measure_handle() {
     throw CalibrationRefused("the lever's travel and full force are not known yet. Enter these numbers first");
   StickRig rig(driver_, tick_);
   std::array<AxisModel, 2> handle;
+  std::array<double, 2> own_spring{};
   std::string sentence;
   for (const bool select : {true, false}) {
     const LeverAxisCalibration& axis = select ? calibration_.select : calibration_.shift;
@@ -307,34 +389,194 @@ std::string Calibrator::measure_handle() {
     if (!(mass >= 0.005 && mass <= 20.0))
       throw CalibrationRefused("a handle of " + number_text(mass, 4) +
                                " kg is not plausible. Check the full force and the travel");
-    // [N] force of the handle's own spring at a stop
+    // [N] force of the handle's spring at a stop, and the part of it that motors make
     const double stop_force = 0.5 * found.stiffness * mass * axis.travel;
-    if (stop_force > kMaxHandleSpringForce * axis.full_force)
+    const bool is_stiff = stop_force > kMinOwnSpringForce * axis.full_force;
+    const double share = is_stiff ? own_share(rig, axis) : 0.0;
+    if ((1.0 - share) * stop_force > kMaxHandleSpringForce * axis.full_force)
       throw CalibrationRefused((select ? "select has a spring of " : "shift has a spring of ") +
                                newtons_per_metre(found.stiffness * mass) +
-                               ", too stiff for the motors. Take your hands off the lever");
+                               ", too stiff for the motors. Take your hands off the lever, or make the stick's own "
+                               "centring weaker in its own software");
     handle[select ? 0 : 1] = {mass, found.damping * mass, found.stiffness * mass};
+    own_spring[select ? 0 : 1] = share * found.stiffness * mass;
     sentence += (select ? "select has " : "; shift has ") + number_text(mass, 3) + " kg, " +
                 number_text(found.damping * mass, 2) + " N s/m, " + newtons_per_metre(found.stiffness * mass);
   }
   calibration_.select.handle = handle[0];
   calibration_.shift.handle = handle[1];
-  return sentence;
+  calibration_.select.own_spring = own_spring[0];
+  calibration_.shift.own_spring = own_spring[1];
+  if (own_spring[0] == 0.0 && own_spring[1] == 0.0) return sentence;
+  return sentence + "; the stick pulls to its centre by itself, with " + newtons_per_metre(own_spring[0]) + " and " +
+         newtons_per_metre(own_spring[1]) +
+         ", and nothing that this program can send stops it, so gates feel wrong by that much. Look for a setting in "
+         "the "
+         "stick's own software";
+}
+
+// Share of the handle's stiffness that disappears with the motors: deflects the lever and compares how it returns with
+// the motors on, without a force, and with the motors off.
+double Calibrator::own_share(StickRig& rig, const LeverAxisCalibration& axis) const {
+  const AxisPlace place = axis_place(axis);
+  const double on = distance_returned(rig, place, true), off = distance_returned(rig, place, false);
+  const double share = on > 0.0 ? std::clamp(1.0 - off / on, 0.0, 1.0) : 0.0;
+  return share < kMinOwnShare ? 0.0 : share;
+}
+
+// [counts] that the lever returns in kReturnTime after a constant force ended.
+double Calibrator::distance_returned(StickRig& rig, const AxisPlace& place, bool motors) const {
+  StickCommand command = idle_command();
+  command.constant[place.motor] = kCautiousForce;
+  const double from = rig.rest(place.report, command);
+  const std::int64_t begin = rig.latest().now_ns;
+  while (rig.latest().now_ns - begin < kReturnTime) rig.step(motors ? idle_command() : StickCommand{});
+  return std::abs(rig.position(place.report) - from);
 }
 
 std::string Calibrator::measure_springs() {
   require_polarity();
   if (!calibration_.has_range() || !calibration_.has_force())
     throw CalibrationRefused("the lever's travel and full force are not known yet. Enter these numbers first");
+  for (LeverAxisCalibration* axis : {&calibration_.select, &calibration_.shift}) {
+    axis->spring_sign = axis->damper_sign = 0;
+    axis->spring_stiffness = axis->spring_dead_band = axis->damper_strength = 0.0;
+  }
+  calibration_.springs_refused.clear();
+  std::string sentence;
+  try {
+    const std::array<Spring, 2> found = find_springs();
+    for (LeverAxisCalibration* axis : {&calibration_.select, &calibration_.shift}) {
+      const Spring& spring = found[axis == &calibration_.select ? 0 : 1];
+      axis->spring_sign = spring.sign;
+      axis->spring_stiffness = spring.stiffness;
+      axis->spring_dead_band = spring.dead_band;
+    }
+    const bool useful = std::min(found[0].stiffness, found[1].stiffness) >= kMinSpring;
+    sentence = "springs of up to " + newtons_per_metre(found[0].stiffness) + " in select and " +
+               newtons_per_metre(found[1].stiffness) + " in shift" + (useful ? "" : ", too weak to be used");
+  } catch (const EffectsRefused& refused) {
+    calibration_.springs_refused = refused.what();
+    sentence = calibration_.springs_refused +
+               ", so springs are not used, and walls are as soft as the stick's delay "
+               "makes them";
+  }
+  calibration_.dampers_refused.clear();
+  // Dampers serve only the walls that springs make.
+  if (!calibration_.springs_refused.empty() || !driver_.layout().has_effect(PidEffect::damper)) return sentence;
+  try {
+    return sentence + "; " + measure_dampers();
+  } catch (const EffectsRefused& refused) {
+    calibration_.dampers_refused = refused.what();
+    return sentence + "; " + refused.what() + ", so dampers are not used";
+  }
+}
+
+// Tries each way of naming an axis until the springs of both axes pull to their centres and keep their dead bands.
+std::array<Calibrator::Spring, 2> Calibrator::find_springs() {
+  std::string reason;
+  for (const AxisStyle style : {AxisStyle::bits, AxisStyle::direction}) {
+    try {
+      const std::array<Spring, 2> found = springs_by({calibration_.style.constants, style});
+      calibration_.style.conditions = style;
+      return found;
+    } catch (const EffectsRefused& refused) {
+      if (reason.empty()) reason = refused.what();
+    }
+  }
+  throw EffectsRefused(reason);
+}
+
+std::array<Calibrator::Spring, 2> Calibrator::springs_by(StickStyle style) {
+  if (!driver_.layout().set_condition.dead_band.exists()) throw EffectsRefused("the stick's springs have no dead band");
+  apply(style);
   StickRig rig(driver_, tick_);
-  const double select = spring_stiffness(rig, calibration_.select);
-  const double shift = spring_stiffness(rig, calibration_.shift);
-  calibration_.select.spring_stiffness = select;
-  calibration_.shift.spring_stiffness = shift;
-  const bool useful = std::min(select, shift) >= kMinSpring;
-  const std::string springs = "springs of up to " + newtons_per_metre(select) + " in select and " +
-                              newtons_per_metre(shift) + " in shift" + (useful ? "" : ", too weak to be used");
-  return driver_.layout().has_effect(PidEffect::damper) ? springs + "; " + measure_dampers() : springs;
+  std::array<Spring, 2> found;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const LeverAxisCalibration& axis = i == 0 ? calibration_.select : calibration_.shift;
+    found[i].sign = spring_sign(rig, axis_place(axis));
+    found[i].stiffness = spring_stiffness(rig, axis, found[i].sign);
+    found[i].dead_band = dead_band(rig, axis, found[i]);
+  }
+  check_springs_together(rig, found);
+  return found;
+}
+
+// Commands a spring whose centre is kSpringOffset away from the lever. Returns +1 if the spring pulls the lever to the
+// centre, -1 if it pushes the lever away. The spring's saturation limits the force.
+int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
+  const PidSetCondition& set = driver_.layout().set_condition;
+  const bool is_capped = set.positive_saturation.exists();
+  for (const double coefficient : {0.1, 0.4, 1.0}) {
+    if (!is_capped && coefficient * kSpringOffset > kCautiousForce) break;
+    rig.rest(place.report, idle_command());
+    const double here = rig.deflection(place.report), offset = here < 0.0 ? kSpringOffset : -kSpringOffset;
+    StickCommand command = idle_command();
+    command.spring[place.motor] = {here + offset, 0.0, coefficient, kCautiousForce};
+    const double moved = push(rig, place, idle_command(), command) * place.sign;  // positive if the counts rise
+    if (std::abs(moved) < kMinMoved) continue;
+    const int sign = (moved > 0.0) == (offset > 0.0) ? 1 : -1;
+    if (sign < 0 && set.positive_coefficient.min >= set.positive_coefficient.zero)
+      throw EffectsRefused("the stick's springs push away from their centre and cannot be inverted");
+    return sign;
+  }
+  throw EffectsRefused("the stick's springs do not move the lever");
+}
+
+// Some sticks give one axis the spring of the other, unless both are told.
+void Calibrator::check_springs_together(StickRig& rig, const std::array<Spring, 2>& springs) const {
+  const std::array<AxisPlace, 2> place = places();
+  std::array<double, 2> from{}, offset{}, moved{};
+  StickCommand command = idle_command();
+  for (std::size_t i = 0; i < 2; ++i) {
+    from[i] = rig.rest(place[i].report, idle_command());
+    const double here = rig.deflection(place[i].report);
+    offset[i] = (here < 0.0) == (i == 0) ? kSpringOffset : -kSpringOffset;
+    command.spring[place[i].motor] = {here + offset[i], 0.0, static_cast<double>(springs[i].sign), kCautiousForce};
+  }
+  const std::int64_t begin = rig.latest().now_ns;
+  while (rig.latest().now_ns - begin < kPushTime && std::abs(moved[0]) < 2.0 * kMoved &&
+         std::abs(moved[1]) < 2.0 * kMoved) {
+    rig.step(command);
+    for (std::size_t i = 0; i < 2; ++i)
+      moved[i] = (rig.position(place[i].report) - from[i]) / rig.range(place[i].report);
+  }
+  rig.step(idle_command());
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (moved[i] * offset[i] < 0.25 * kMinMoved * std::abs(offset[i]))
+      throw EffectsRefused("the stick does not render the springs of both axes at the same time");
+  }
+}
+
+// Measures the dead band of a spring whose centre is away from the lever's rest: inside it, the lever must stay where
+// it is; then a constant force pushes it against both ends. Returns the measured width over the commanded one.
+double Calibrator::dead_band(StickRig& rig, const LeverAxisCalibration& axis, const Spring& spring) const {
+  const AxisPlace place = axis_place(axis);
+  const LeverAxisMap map(axis, driver_.lever_report().axes[place.report].field);
+  const double from = rig.rest(place.report, idle_command()), here = rig.deflection(place.report);
+  const double centre = here + (here < 0.0 ? kBandOffset : -kBandOffset);
+  StickCommand command = idle_command();
+  command.spring[place.motor] = {centre, kBand, static_cast<double>(spring.sign), kCautiousForce};
+  for (const std::int64_t begin = rig.latest().now_ns; rig.latest().now_ns - begin < kLeakTime;) {
+    rig.step(command);
+    if (std::abs(rig.position(place.report) - from) > kMinMoved * rig.range(place.report))
+      throw EffectsRefused("the stick's springs push inside their dead band");
+  }
+  command.spring[place.motor].saturation = 1.0;
+  const double half_range = 0.5 * rig.range(place.report);
+  const double metre = std::abs(map.metres(from + half_range * kBand) - map.metres(from)) / kBand;  // per deflection
+  const double middle = map.metres(from + (centre - here) * half_range);
+  std::array<double, 2> width{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double direction = i == 0 ? 1.0 : -1.0, force = direction * kCautiousForce * axis.full_force;
+    command.constant[place.motor] = direction * axis.constant_sign * kCautiousForce;
+    const double there = map.metres(rig.rest(place.report, command));
+    width[i] = direction * (there - middle - (force - axis.handle.stiffness * there) / spring.stiffness) / metre;
+  }
+  const double mean = 0.5 * (width[0] + width[1]) / kBand, skew = 0.5 * std::abs(width[0] - width[1]) / kBand;
+  if (mean < kMinBandRatio || mean > kMaxBandRatio || skew > kMaxBandSkew)
+    throw EffectsRefused("the stick's springs do not keep their dead band");
+  return mean;
 }
 
 // Measures the sign of each damper first, with the small coefficient kCautiousForce, and then its strength.
@@ -345,12 +587,11 @@ std::string Calibrator::measure_dampers() {
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
     const double braking = damping_by(rig, *axis, name, kCautiousForce);
-    if (std::abs(braking) < kMinBraking) return "the dampers are too weak to be used";
+    if (std::abs(braking) < kMinBraking) throw EffectsRefused("the stick's dampers do not brake the lever");
     axis->damper_sign = braking > 0.0 ? 1 : -1;
     axis->damper_strength = damping_by(rig, *axis, name, kDamper * axis->damper_sign) / kDamper;
     if (axis->damper_strength <= 0.0)
-      throw CalibrationRefused("the damper of " + name +
-                               " accelerates the lever with either sign instead of braking it");
+      throw EffectsRefused("the damper of " + name + " accelerates the lever with either sign instead of braking it");
   }
   calibration_ = found;
   return "dampers of up to " + number_text(found.select.damper_strength, 1) + " N s/m in select and " +
@@ -366,16 +607,12 @@ double Calibrator::damping_by(StickRig& rig, const LeverAxisCalibration& axis, c
 
 // Measures the stiffness [N/m] of the strongest device spring: pushes against it with a known force in each direction
 // and compares where the lever comes to rest.
-double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis) const {
+double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis, int sign) const {
   const AxisPlace place = axis_place(axis);
-  const BitField& coefficient = driver_.layout().set_condition.positive_coefficient;
-  if (axis.spring_sign == 0) throw CalibrationRefused("the stick's springs do not move the lever");
-  if (axis.spring_sign < 0 && coefficient.min >= coefficient.zero)
-    throw CalibrationRefused("the stick's springs push away from their centre and cannot be inverted");
   const LeverAxisMap map(axis, driver_.lever_report().axes[place.report].field);
   rig.rest(place.report, idle_command());
   StickCommand command = idle_command();
-  command.spring[place.motor] = {rig.deflection(place.report), 0.0, static_cast<double>(axis.spring_sign), 1.0};
+  command.spring[place.motor] = {rig.deflection(place.report), 0.0, static_cast<double>(sign), 1.0};
   double magnitude = kPulseForce;
   while (true) {
     command.constant[place.motor] = magnitude;
@@ -384,7 +621,7 @@ double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& a
     const double back = rig.rest(place.report, command);
     const double width = std::abs(there - back) / rig.range(place.report);
     const bool is_fine = width > kMinBalance || magnitude >= kMaxBalanceForce;
-    if (is_fine && width == 0.0) throw CalibrationRefused("the stick's springs do not give way under a force");
+    if (is_fine && width == 0.0) throw EffectsRefused("the stick's springs do not give way under a force");
     if (is_fine) {
       const double metres = std::abs(map.metres(there) - map.metres(back));
       return std::max(0.0, 2.0 * magnitude * axis.full_force / metres - axis.handle.stiffness);

@@ -32,7 +32,8 @@ AxisModel handle_of(const LeverAxisCalibration& axis) noexcept {
 }
 
 double usable_stiffness_of(const LeverAxisCalibration& axis) noexcept {
-  return axis.spring_sign != 0 && axis.spring_stiffness >= kMinSpring ? axis.spring_stiffness : 0.0;
+  const bool is_usable = axis.spring_sign != 0 && axis.spring_stiffness >= kMinSpring && axis.spring_dead_band > 0.0;
+  return is_usable ? axis.spring_stiffness : 0.0;
 }
 
 double usable_damping_of(const LeverAxisCalibration& axis) noexcept {

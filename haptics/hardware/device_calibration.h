@@ -7,6 +7,7 @@
 #include <string>
 
 #include "haptics/device/haptic_device.h"
+#include "haptics/hardware/report_scheduler.h"
 #include "haptics/hid/hid_port.h"
 #include "haptics/joystick/plant.h"
 
@@ -26,6 +27,9 @@ struct LeverAxisCalibration {
   AxisModel handle{0.0, 0.0, 0.0};  // handle's mass, damping and stiffness, without a hand; mass 0: not measured
   int damper_sign = 0;              // +1: a damper brakes; -1: it drives the lever; 0: not measured
   double damper_strength = 0.0;     // [N s/m] damping at the knob at the maximum coefficient; 0: not measured
+  double spring_dead_band = 0.0;  // [1] measured width of a spring's dead band over the commanded one; 0: not measured
+  // [N/m] centring spring that the stick adds while its motors are on; 0: none, or not measured
+  double own_spring = 0.0;
 };
 
 struct DeviceTiming {
@@ -33,6 +37,7 @@ struct DeviceTiming {
   double output_interval = 0.0;  // [s] mean time between outputs
   double delay = 0.0;            // [s] time from sending a force until readings show its effect
   double jitter = 0.0;           // [s] 99th percentile of the input interval minus its median
+  double restart_gap = 0.0;      // [s] silence of an effect each time it is renewed
 };
 
 struct DeviceCalibration {
@@ -41,6 +46,8 @@ struct DeviceCalibration {
   std::string name;
   LeverAxisCalibration select, shift;
   DeviceTiming timing;
+  StickStyle style;
+  std::string springs_refused, dampers_refused;  // why they measured wrong and are not used; empty: they did not
   int press_button = 0, lift_button = 0, stop_button = 0;  // button numbers from 1; 0: none
 
   bool has_stops() const noexcept { return select.low != select.high && shift.low != shift.high; }
@@ -49,6 +56,7 @@ struct DeviceCalibration {
   bool has_force() const noexcept { return select.full_force > 0.0 && shift.full_force > 0.0; }
   bool has_polarity() const noexcept { return select.constant_sign != 0 && shift.constant_sign != 0; }
   bool has_timing() const noexcept { return timing.input_interval > 0.0; }
+  bool has_springs() const noexcept { return select.spring_dead_band > 0.0 && shift.spring_dead_band > 0.0; }
   bool has_handle() const noexcept { return select.handle.mass > 0.0 && shift.handle.mass > 0.0; }
 };
 

@@ -15,6 +15,7 @@ constexpr std::int64_t kMillisecond = 1'000'000;                                
 constexpr std::int64_t kUnarrived = 100 * kMillisecond;  // [ns] an output that is in transit for longer is stuck
 constexpr std::int64_t kSlowness = 500 * kMillisecond;   // [ns] period for which transfer times are averaged
 constexpr std::int64_t kMinArrivals = 5;
+constexpr int kSteadyReports = 20;  // so many lever reports in a row of an undeclared length are right
 
 LeverReport lever_of(const ReportDescriptor& descriptor) {
   if (std::optional<LeverReport> lever = find_lever_report(descriptor)) return *std::move(lever);
@@ -48,17 +49,18 @@ bool is_number(const StickCommand& command) noexcept {
 
 }  // namespace
 
-PidDriver::PidDriver(const std::vector<std::uint8_t>& report_descriptor)
+PidDriver::PidDriver(const std::vector<std::uint8_t>& report_descriptor, StickStyle style)
     : descriptor_(parse_report_descriptor(report_descriptor)),
       lever_(lever_of(descriptor_)),
       pid_(pid_of(descriptor_)),
       wake_fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)),
+      style_(style),
       scheduler_(pid_),
       watch_(lever_, stick_axes(lever_)) {
   for (std::size_t id = 0; id < input_size_.size(); ++id) {
     input_size_[id] = descriptor_.report_size(ReportKind::input, static_cast<std::uint8_t>(id));
   }
-  scheduler_.begin(blocks_, true);
+  scheduler_.begin(blocks_, true, {});
 }
 
 PidDriver::~PidDriver() {
@@ -68,10 +70,15 @@ PidDriver::~PidDriver() {
 PidAbility PidDriver::prepare(HidPort& port) {
   end_.store(false, std::memory_order_relaxed);
   prepared_ = false;
-  PreparedStick prepared = prepare_stick(port, pid_);
+  const StickStyle style = style_.load(std::memory_order_relaxed);
+  PreparedStick prepared = prepare_stick(port, pid_, style);
   problems_.reset();
   blocks_ = prepared.blocks;
-  scheduler_.begin(blocks_, prepared.ability.finite);
+  scheduler_.begin(blocks_, prepared.ability.finite, style);
+  lever_size_ = lever_.size;
+  odd_size_ = 0;
+  odd_reports_ = 0;
+  has_right_length_ = false;
   watch_ = InputWatch(lever_, stick_axes(lever_));
   driven_ = unarrived_ = false;
   arrivals_ = {};
@@ -93,20 +100,39 @@ void PidDriver::finish(HidPort& port) noexcept {
   silence_stick(port, pid_, blocks_);
   blocks_ = {};
   prepared_ = false;
-  scheduler_.begin(blocks_, true);
+  scheduler_.begin(blocks_, true, {});
   publish();
 }
 
 void PidDriver::on_input(std::span<const std::uint8_t> report, std::int64_t time_ns) noexcept {
   if (report.empty()) return;
-  const std::size_t expected = input_size_[report[0]];
-  if (expected == 0) return problems_.raise(StickProblem::unknown_report, report[0]);
-  if (report.size() != expected) {
-    return problems_.raise(StickProblem::wrong_length, static_cast<std::int64_t>(report.size()),
-                           static_cast<std::int64_t>(expected));
+  if (input_size_[report[0]] == 0) return problems_.raise(StickProblem::unknown_report, report[0]);
+  if (report[0] == lever_.id) {
+    const bool is_right = is_length_right(report.size());
+    const std::optional<LeverCounts> counts = decode_lever(lever_, report);
+    if (is_right && counts) {
+      on_lever_report(*counts, time_ns);
+    } else if (has_right_length_ || !counts) {
+      problems_.raise(StickProblem::wrong_length, static_cast<std::int64_t>(report.size()),
+                      static_cast<std::int64_t>(lever_size_));
+    }
   }
-  if (const std::optional<LeverCounts> counts = decode_lever(lever_, report)) on_lever_report(*counts, time_ns);
   if (const std::optional<PidStatus> status = decode_state(pid_, report)) on_state_report(*status, time_ns);
+}
+
+// Some sticks send more or fewer bytes than their descriptor declares, from the first report on. A single report of
+// another length may be anything, an echo of an output for example.
+bool PidDriver::is_length_right(std::size_t size) noexcept {
+  if (size == lever_size_) {
+    odd_reports_ = 0;
+    has_right_length_ = true;
+    return true;
+  }
+  odd_reports_ = size == odd_size_ ? odd_reports_ + 1 : 1;
+  odd_size_ = size;
+  if (has_right_length_ || odd_reports_ < kSteadyReports) return false;
+  lever_size_ = size;
+  return true;
 }
 
 // Checks the position sensors and publishes the reading. Readings of a frozen sensor are dropped, so that the loop sees
@@ -169,6 +195,7 @@ void PidDriver::apply_command(std::int64_t now_ns) noexcept {
     command.constant[i] *= watch_.force_fraction(i);
     command.spring[i].coefficient *= watch_.force_fraction(i);
   }
+  scheduler_.set_style(style_.load(std::memory_order_relaxed));
   scheduler_.set_command(command);
 }
 

@@ -53,13 +53,17 @@ struct StickState {
 class PidDriver final : public HidStream {
  public:
   // Throws HidError if the descriptor has no lever with X and Y, or no PID reports that can make a force.
-  explicit PidDriver(const std::vector<std::uint8_t>& report_descriptor);
+  explicit PidDriver(const std::vector<std::uint8_t>& report_descriptor, StickStyle style = {});
   ~PidDriver() override;
   PidDriver(const PidDriver&) = delete;
   PidDriver& operator=(const PidDriver&) = delete;
 
   const LeverReport& lever_report() const noexcept { return lever_; }
   const PidLayout& layout() const noexcept { return pid_; }
+
+  // How the effects name their axes. A new style switches the motors off until the stick has been told. May be called on
+  // any thread.
+  void set_style(StickStyle style) noexcept { style_.store(style, std::memory_order_relaxed); }
 
   // Port's thread.
   PidAbility prepare(HidPort& port);  // throws HidDisconnected, or HidError if the device cannot make a constant force
@@ -70,11 +74,12 @@ class PidDriver final : public HidStream {
   void on_sent(std::int64_t time_ns) noexcept override;
   bool should_end() const noexcept override { return end_.load(std::memory_order_relaxed); }
 
-  // The haptic thread or a calibration calls the next three functions, on one thread only. They are real-time safe;
+  // The haptic thread or a calibration calls the next four functions, on one thread only. They are real-time safe;
   // command() and release() write to an eventfd. A command expires after kCommandSilence, so it must be repeated every
   // cycle.
   StickState state() noexcept;
   void command(const StickCommand& command) noexcept;
+  void report(StickProblem problem) noexcept { problems_.raise(problem); }
   void release() noexcept;  // switches the motors off before anything else is sent; a later command() may enable them
 
   // Sets the calibrated answer time [s]. May be called on any thread. The motors are switched off if most outputs take
@@ -108,6 +113,7 @@ class PidDriver final : public HidStream {
   void watch_slowness(std::int64_t now_ns) noexcept;
   void on_lever_report(const LeverCounts& counts, std::int64_t time_ns) noexcept;
   void on_state_report(const PidStatus& status, std::int64_t time_ns) noexcept;
+  bool is_length_right(std::size_t size) noexcept;
   void publish() noexcept;
 
   // Constant properties of the device.
@@ -123,13 +129,18 @@ class PidDriver final : public HidStream {
   std::atomic<std::uint64_t> releases_{0};
   std::atomic<bool> end_{false};
   std::atomic<std::int64_t> answer_ns_{0};  // 0: not known
+  std::atomic<StickStyle> style_;
   StickProblems problems_;
 
   // The port's thread.
   ReportScheduler scheduler_;
   InputWatch watch_;
   StickBlocks blocks_{};
-  bool prepared_ = false;  // prepared and not finished
+  bool prepared_ = false;          // prepared and not finished
+  std::size_t lever_size_ = 0;     // [bytes] of lever reports, as declared or as the stick sends them from the start
+  std::size_t odd_size_ = 0;       // [bytes] of the newest lever reports, if different
+  int odd_reports_ = 0;            // number of lever reports of odd_size_ in a row
+  bool has_right_length_ = false;  // a report of lever_size_ has arrived
   StickState state_;
   std::uint64_t applied_releases_ = 0;
   std::int64_t command_ns_ = 0;  // when the last command was received

@@ -53,7 +53,9 @@ PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, doub
       driver_(driver),
       spec_(spec_of(calibration, period)),
       session_(driver.state().session),
+      watch_(spec_, calibration.timing.delay + calibration.timing.input_interval, period),
       stop_(stop != nullptr ? *stop : own_stop_) {
+  driver.set_style(calibration.style);
   driver.expect_answer(answer_time(calibration.has_timing() ? calibration.timing : kUnmeasuredTiming));
   const bool has_motors = calibration.select.usage <= kUsageY.id && calibration.shift.usage <= kUsageY.id;
   if (!has_motors)
@@ -80,6 +82,7 @@ PidLever::Axis PidLever::make_axis(const LeverAxisCalibration& calibration, bool
   axis.sign = calibration.constant_sign;
   axis.spring = coefficient(PidEffect::spring, calibration.spring_sign, usable_wall_stiffness(spec_),
                             calibration.spring_stiffness);
+  if (calibration.spring_dead_band > 0.0) axis.dead_band = calibration.spring_dead_band;
   axis.damper =
       coefficient(PidEffect::damper, calibration.damper_sign, usable_wall_damping(spec_), calibration.damper_strength);
   return axis;
@@ -111,7 +114,21 @@ LeverReading PidLever::read(std::int64_t) noexcept {
   reading.pressed_down = has_button(state.counts, calibration_.press_button);
   reading.lifted = has_button(state.counts, calibration_.lift_button);
   reading.stop = (state.sequence > 0 && is_stop_pressed(state.counts)) || halted_;
+  if (pushes_the_wrong_way(state, reading)) {
+    driver_.report(StickProblem::reversed);
+    release();
+    reading.stop = true;
+  }
   return reading;
+}
+
+bool PidLever::pushes_the_wrong_way(const StickState& state, const LeverReading& reading) noexcept {
+  if (!state.actuators) {
+    watch_.reset();
+    return false;
+  }
+  watch_.update(reading.position, reading.actuator_force);
+  return watch_.is_reversed();
 }
 
 glm::dvec2 PidLever::motor_force(const StickState& state, glm::dvec2 position) const noexcept {
@@ -160,7 +177,7 @@ void PidLever::set_device_walls(const LeverWalls& walls) noexcept {
     if (axis.spring == 0.0) continue;
     const double low = axis.map.deflection(walls_.low[i]), high = axis.map.deflection(walls_.high[i]);
     PidSpring& spring = command_.spring[axis.motor];
-    spring = {0.5 * (low + high), 0.5 * std::abs(high - low), stiffness_fraction * axis.spring, 1.0};
+    spring = {0.5 * (low + high), 0.5 * std::abs(high - low) / axis.dead_band, stiffness_fraction * axis.spring, 1.0};
     if (spring.coefficient != 0.0) command_.enabled = true;
   }
   send();

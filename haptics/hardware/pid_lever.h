@@ -7,6 +7,7 @@
 
 #include "haptics/device/haptic_device.h"
 #include "haptics/hardware/device_calibration.h"
+#include "haptics/hardware/force_watch.h"
 #include "haptics/hardware/pid_driver.h"
 
 namespace gearshift::haptics {
@@ -61,6 +62,7 @@ class PidLever final : public HapticDevice {
     double full_force = 0.0;  // [N] 0: no motor, or its force is not known
     double sign = 0.0;        // sign of constant forces: +1, -1, or 0 if there is no motor
     double spring = 0.0;      // signed spring coefficient of the device walls; 0: no device walls
+    double dead_band = 1.0;   // [1] measured width of a spring's dead band over the commanded one
     double damper = 0.0;      // signed damper coefficient of the device walls; 0: none
   };
 
@@ -68,6 +70,7 @@ class PidLever final : public HapticDevice {
   double coefficient(PidEffect effect, int sign, double wanted, double strongest) const noexcept;
   glm::dvec2 motor_force(const StickState& state, glm::dvec2 position) const noexcept;
   bool has_button(const LeverCounts& counts, int button) const noexcept;
+  bool pushes_the_wrong_way(const StickState& state, const LeverReading& reading) noexcept;
   bool is_stop_pressed(const LeverCounts& counts) noexcept;
   void damp_in_walls() noexcept;
   void send() noexcept;
@@ -82,6 +85,7 @@ class PidLever final : public HapticDevice {
   glm::dvec2 position_{0.0};  // [m] newest
   std::uint64_t session_;     // session of the last state
   bool halted_ = false;       // the session changed in this cycle
+  ForceWatch watch_;
   StopButton own_stop_;
   StopButton& stop_;
 };

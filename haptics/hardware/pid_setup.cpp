@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 #include <thread>
+#include <utility>
 
 namespace gearshift::haptics {
 namespace {
@@ -18,19 +19,9 @@ constexpr const char* kNoReset = "the stick cannot be reset, so effects of anoth
 constexpr const char* kNoSwitch =
     "the stick's motors cannot be switched off; they are quiet only while no force is commanded";
 
-PidEffect kind_of(StickEffect effect) noexcept {
-  if (effect == StickEffect::spring) return PidEffect::spring;
-  return effect == StickEffect::damper ? PidEffect::damper : PidEffect::constant;
-}
-
-int axis_of(StickEffect effect) noexcept {
-  if (effect == StickEffect::constant_x) return 0;
-  return effect == StickEffect::constant_y ? 1 : -1;
-}
-
 class StickSetup {
  public:
-  StickSetup(HidPort& port, const PidLayout& pid) : port_(port), pid_(pid) {}
+  StickSetup(HidPort& port, const PidLayout& pid, StickStyle style) : port_(port), pid_(pid), style_(style) {}
 
   PreparedStick run() {
     read_pool();
@@ -74,6 +65,7 @@ class StickSetup {
     if (!supports(PidControl::enable_actuators) || !supports(PidControl::disable_actuators)) note(kNoSwitch);
     send(PidControl::stop_all);
     send(PidControl::reset);
+    send(PidControl::stop_all);
     send(PidControl::disable_actuators);
     send(encode_gain(pid_, 0.0));
   }
@@ -102,7 +94,6 @@ class StickSetup {
     if (std::find(result_.blocks.begin(), result_.blocks.end(), block) != result_.blocks.end())
       throw HidError("the stick assigned effect block " + std::to_string(block) + " twice; this stick cannot be used");
     set(effect, block);
-    zero(effect, block);
     result_.blocks[index] = block;
     ++result_.ability.blocks;
   }
@@ -113,15 +104,30 @@ class StickSetup {
     const std::string refuses = std::string("a ") + to_string(effect) + " cannot be created, because ";
     const HidBytes report = encode_create(pid_, effect);
     if (report.size == 0) throw HidError(refuses + "the stick does not support this effect");
-    port_.set_feature(report);
-    if (!pid_.block_load.exists()) return ++implicit_blocks_;
-    const BlockLoad load = poll_block_load();
+    const bool is_first = !std::exchange(has_created_, true);
+    BlockLoad load;
+    try {
+      load = create_once(report);
+    } catch (const HidDisconnected&) {
+      throw;
+    } catch (const HidError&) {
+      if (!is_first) throw;
+      load.status = BlockLoad::Status::full;
+    }
+    // Some firmware refuses its first effect after power-on.
+    if (is_first && load.status == BlockLoad::Status::full) load = create_once(report);
     if (load.status == BlockLoad::Status::full)
       throw HidError(refuses + "the stick's memory for effects is full; unplug it and plug it in again");
     if (load.status == BlockLoad::Status::error) throw HidError(refuses + "the stick reports an error");
     if (load.status == BlockLoad::Status::pending) throw HidError(refuses + "the stick does not confirm the effect");
     if (load.block == kNoBlock) throw HidError(refuses + "the stick assigns no effect block");
     return load.block;
+  }
+
+  BlockLoad create_once(const HidBytes& report) {
+    port_.set_feature(report);
+    if (!pid_.block_load.exists()) return {++implicit_blocks_, BlockLoad::Status::success};
+    return poll_block_load();
   }
 
   BlockLoad poll_block_load() {
@@ -150,12 +156,12 @@ class StickSetup {
   }
 
   bool accepts(StickEffect effect, int block, double duration) {
-    const HidBytes report = encode_set_effect(pid_, {block, kind_of(effect), duration, 1.0, axis_of(effect)});
-    if (report.size == 0)
+    const EffectReports reports(pid_, effect, block, style_, duration);
+    if (!reports.has_settings())
       throw HidError("the stick assigned effect block " + std::to_string(block) +
                      ", a number that its own reports cannot hold; this stick cannot be used");
     try {
-      port_.send(report);
+      for (const HidBytes& report : reports.all()) port_.send(report);
     } catch (const HidDisconnected&) {
       throw;
     } catch (const HidError&) {
@@ -167,21 +173,18 @@ class StickSetup {
     return load.status != BlockLoad::Status::error || load.block != block;
   }
 
-  void zero(StickEffect effect, int block) {
-    if (axis_of(effect) >= 0) return send(encode_constant(pid_, block, 0.0));
-    for (int axis = 0; axis < 2; ++axis) send(encode_condition(pid_, block, axis, PidCondition{}));
-  }
-
   HidPort& port_;
   const PidLayout& pid_;
+  StickStyle style_;
   PreparedStick result_;
+  bool has_created_ = false;
   int implicit_blocks_ = 0;  // blocks numbered by this program, for a device without Create or Block Load
 };
 
 }  // namespace
 
-PreparedStick prepare_stick(HidPort& port, const PidLayout& pid) {
-  StickSetup setup(port, pid);
+PreparedStick prepare_stick(HidPort& port, const PidLayout& pid, StickStyle style) {
+  StickSetup setup(port, pid, style);
   try {
     return setup.run();
   } catch (const HidDisconnected&) {
@@ -204,10 +207,12 @@ void silence_stick(HidPort& port, const PidLayout& pid, const StickBlocks& block
       return;  // the next report may still succeed
     }
   };
+  for (const int block : blocks) send(encode_operation(pid, block, PidOperation::stop, 0));
   send(encode_control(pid, PidControl::stop_all));
   send(encode_control(pid, PidControl::disable_actuators));
   for (const int block : blocks) send(encode_block_free(pid, block));
   send(encode_control(pid, PidControl::reset));
+  send(encode_control(pid, PidControl::stop_all));
   send(encode_control(pid, PidControl::disable_actuators));
 }
 

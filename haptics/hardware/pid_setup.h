@@ -1,11 +1,12 @@
 // The reports that are sent to a stick before and after streaming.
 //
-//   prepare_stick  pool -> stop all -> reset -> actuators off -> gain 0 -> each effect: create, block load, set,
-//                  values zero -> actuators off -> gain full
-//   silence_stick  stop all -> actuators off -> free blocks -> reset -> actuators off
+//   prepare_stick  pool -> stop all -> reset -> stop all -> actuators off -> gain 0 -> each effect: create, block load,
+//                  values, settings, values zero (EffectReports) -> actuators off -> gain full
+//   silence_stick  stop effects -> stop all -> actuators off -> free blocks -> reset -> stop all -> actuators off
 //
 // A reset switches the actuators on (PID 1.0 section 5.9), and on some boards setting an effect does too, so the
-// actuators are switched off again afterwards. The effects are constant X, constant Y, spring and damper.
+// actuators are switched off again afterwards. A reset may also switch a centring spring on, or mute all effects, until
+// they are all stopped. The effects are constant X, constant Y, spring and damper.
 //
 // This work is based on:
 // USB Implementers' Forum. Device Class Definition for Physical Interface Devices (PID), version 1.0. 1999
@@ -33,7 +34,7 @@ struct PreparedStick {
 
 // Throws HidDisconnected if the stick was unplugged, and HidError if the device cannot make a constant force. The
 // motors are switched off before HidError is thrown.
-PreparedStick prepare_stick(HidPort& port, const PidLayout& pid);
+PreparedStick prepare_stick(HidPort& port, const PidLayout& pid, StickStyle style = {});
 
 // Best effort: a report that fails is skipped.
 void silence_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept;

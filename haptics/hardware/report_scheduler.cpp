@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::int64_t kDuration = static_cast<std::int64_t>(1e9 * kEffectDuration);  // [ns]
 constexpr std::int64_t kRenew = static_cast<std::int64_t>(1e9 * kRenewAfter);         // [ns]
+constexpr std::int64_t kRestart = static_cast<std::int64_t>(1e9 * kRestartInterval);  // [ns]
 constexpr std::int64_t kReportLag = 50'000'000;  // [ns] longest delay of a state report
 constexpr int kOnce = 1;                         // loop count
 
@@ -17,20 +18,63 @@ double difference(const PidCondition& a, const PidCondition& b) noexcept {
 }
 
 constexpr PidCondition kZero{};
+// Firmware may look at its conditions when an effect is set, and give those without a force to the other axis.
+constexpr PidCondition kSlight{0.0, 0.0, 0.01, 0.01};
+constexpr int kPlaceSize = 16;  // [bytes] memory for the parameters of one axis; no report of PID 1.0 needs more
+
+// Where value 0 to 5 is, if the driver manages the pool.
+constexpr int place_of(std::size_t value) noexcept {
+  return kPlaceSize * static_cast<int>(value);
+}
 
 }  // namespace
 
-void ReportScheduler::begin(const StickBlocks& blocks, bool finite) noexcept {
+PidEffect kind_of(StickEffect effect) noexcept {
+  if (effect == StickEffect::spring) return PidEffect::spring;
+  return effect == StickEffect::damper ? PidEffect::damper : PidEffect::constant;
+}
+
+// Parameters come before the settings for firmware that looks at them then, and again afterwards.
+EffectReports::EffectReports(const PidLayout& pid, StickEffect effect, int block, StickStyle style,
+                             double duration) noexcept {
+  const auto index = static_cast<std::size_t>(effect);
+  const bool is_constant = index < 2;
+  const std::size_t value = is_constant ? index : 2 * index - 2;
+  const auto tell = [&](const PidCondition& condition) {
+    const auto target = [&](std::size_t axis) { return pid.is_pool_ours() ? place_of(value + axis) : block; };
+    if (is_constant) return add(encode_constant(pid, target(0), 0.0));
+    for (int axis = 0; axis < 2; ++axis)
+      add(encode_condition(pid, target(static_cast<std::size_t>(axis)), axis, condition));
+  };
+  PidEffectSettings settings{block, kind_of(effect), duration};
+  settings.axis = is_constant ? static_cast<int>(index) : -1;
+  settings.style = is_constant ? style.constants : style.conditions;
+  settings.place = {place_of(value), is_constant ? -1 : place_of(value + 1)};
+  tell(kSlight);
+  const HidBytes set = encode_set_effect(pid, settings);
+  has_settings_ = set.size > 0;
+  add(set);
+  tell(kZero);
+}
+
+void EffectReports::add(const HidBytes& report) noexcept {
+  if (report.size > 0) reports_[size_++] = report;
+}
+
+void ReportScheduler::begin(const StickBlocks& blocks, bool finite, StickStyle style) noexcept {
   command_ = {};
   released_ = false;
   finite_ = finite;
+  style_ = wanted_style_ = style;
+  settings_sent_ = 0;
+  said_power_ = said_safety_switch_ = said_actuators_ = false;
   on_ = !has_switch();
   sent_ = {};
   for (std::size_t i = 0; i < kStickEffects; ++i) {
     effect_[i] = {};
     effect_[i].block = blocks[i];
   }
-  for (std::size_t i = 0; i < kValues; ++i) value_[i] = {kZero, encode(i, kZero), 0};
+  for (std::size_t i = 0; i < kValues; ++i) value_[i] = {kZero, encode(i, kZero), 0, false};
 }
 
 bool ReportScheduler::plays() const noexcept {
@@ -70,7 +114,7 @@ bool ReportScheduler::is_wanted(std::size_t effect) const noexcept {
       // which is too long at a contact.
       return command_.damper[0] != 0.0 || command_.damper[1] != 0.0 || effect_[effect].playing;
     default:
-      return true;
+      return command_.pushes[effect];
   }
 }
 
@@ -90,7 +134,9 @@ PidCondition ReportScheduler::target_value(std::size_t value) const noexcept {
 }
 
 HidBytes ReportScheduler::encode(std::size_t value, const PidCondition& setting) const noexcept {
-  const int block = effect_[effect_of(value)].block;
+  const int block = pid_.is_pool_ours() && effect_[effect_of(value)].block != kNoBlock
+                        ? place_of(value)
+                        : effect_[effect_of(value)].block;
   if (value < 2) return encode_constant(pid_, block, setting.coefficient);
   return encode_condition(pid_, block, static_cast<int>(value % 2), setting);
 }
@@ -98,13 +144,34 @@ HidBytes ReportScheduler::encode(std::size_t value, const PidCondition& setting)
 HidBytes ReportScheduler::next(std::int64_t now_ns) noexcept {
   sent_ = {};
   expire(now_ns);
-  if (released_ || !command_.enabled) {
+  if (released_ || !command_.enabled || wanted_style_ != style_) {
     next_off();
     if (sent_.report.size > 0) return sent_.report;
     released_ = false;
+    if (send_setting()) return sent_.report;
   }
   if (command_.enabled) next_on(now_ns);
   return sent_.report;
+}
+
+// Sends the next report that gives the effects the wanted style. Some firmware switches its actuators on when an effect
+// is set, so they are switched off afterwards.
+bool ReportScheduler::send_setting() noexcept {
+  if (wanted_style_ == style_) return false;
+  std::size_t passed = 0;
+  for (std::size_t i = 0; i < kStickEffects; ++i) {
+    if (effect_[i].block == kNoBlock) continue;
+    const EffectReports reports(pid_, static_cast<StickEffect>(i), effect_[i].block, wanted_style_,
+                                finite_ ? kEffectDuration : kForever);
+    if (settings_sent_ < passed + reports.all().size()) {
+      sent_ = {Sent::Kind::setting, i, {}, reports.all()[settings_sent_ - passed]};
+      return true;
+    }
+    passed += reports.all().size();
+  }
+  style_ = wanted_style_;
+  settings_sent_ = 0;
+  return has_switch() && control(PidControl::disable_actuators, Sent::Kind::off);
 }
 
 // Marks the effects whose duration has ended.
@@ -114,16 +181,16 @@ void ReportScheduler::expire(std::int64_t now_ns) noexcept {
   }
 }
 
-// Chooses the next report that switches the motors off: actuators off, stop all, values to zero. Effects that still
-// play, because the device has no command to stop all, are stopped one by one at the end.
+// Chooses the next report that switches the motors off.
 void ReportScheduler::next_off() noexcept {
+  for (Value& value : value_) value.is_told = false;
   if (on_ && has_switch() && control(PidControl::disable_actuators, Sent::Kind::off)) return;
+  for (std::size_t i = 0; i < kStickEffects; ++i) {
+    if (effect_[i].playing && operate(i, PidOperation::stop)) return;
+  }
   if (plays() && control(PidControl::stop_all, Sent::Kind::all_stopped)) return;
   for (std::size_t i = 0; i < kValues; ++i) {
     if (send_value(i, kZero)) return;
-  }
-  for (std::size_t i = 0; i < kStickEffects; ++i) {
-    if (effect_[i].playing && operate(i, PidOperation::stop)) return;
   }
 }
 
@@ -136,9 +203,13 @@ void ReportScheduler::next_on(std::int64_t now_ns) noexcept {
 // Values are sent before the start, so that an effect never starts with an old force.
 bool ReportScheduler::start_if_wanted() noexcept {
   for (std::size_t i = 0; i < kStickEffects; ++i) {
-    if (effect_[i].playing || !is_wanted(i)) continue;
+    if (effect_[i].playing || !is_wanted(i)) {
+      for (std::size_t value = 0; value < kValues; ++value)
+        if (effect_of(value) == i) value_[value].is_told = false;
+      continue;
+    }
     for (std::size_t value = 0; value < kValues; ++value) {
-      if (effect_of(value) == i && send_value(value, target_value(value))) return true;
+      if (effect_of(value) == i && !value_[value].is_told && send_value(value, target_value(value))) return true;
     }
     if (operate(i, PidOperation::start)) return true;
   }
@@ -148,7 +219,8 @@ bool ReportScheduler::start_if_wanted() noexcept {
 bool ReportScheduler::renew_if_due(std::int64_t now_ns) noexcept {
   if (!finite_) return false;
   for (std::size_t i = 0; i < kStickEffects; ++i) {
-    const bool due = effect_[i].playing && is_wanted(i) && now_ns >= effect_[i].renew_ns;
+    const std::int64_t due_ns = command_.restarts ? effect_[i].started_ns + kRestart : effect_[i].renew_ns;
+    const bool due = effect_[i].playing && is_wanted(i) && now_ns >= due_ns;
     if (due && operate(i, PidOperation::start)) return true;
   }
   return false;
@@ -203,6 +275,9 @@ void ReportScheduler::arrived(std::int64_t now_ns) noexcept {
   switch (sent_.kind) {
     case Sent::Kind::nothing:
       break;
+    case Sent::Kind::setting:
+      ++settings_sent_;
+      break;
     case Sent::Kind::on:
       on_ = true;
       switched_on_ns_ = now_ns;
@@ -220,7 +295,7 @@ void ReportScheduler::arrived(std::int64_t now_ns) noexcept {
       effect_[sent_.index].playing = false;
       break;
     case Sent::Kind::value:
-      value_[sent_.index] = {sent_.setting, sent_.report, now_ns};
+      value_[sent_.index] = {sent_.setting, sent_.report, now_ns, true};
       break;
   }
   sent_ = {};
@@ -237,10 +312,13 @@ void ReportScheduler::started(Effect& effect, std::size_t index, std::int64_t no
 // kReportLag.
 StickFault ReportScheduler::on_report(const PidStatus& status, std::int64_t now_ns) noexcept {
   const PidState& layout = pid_.state;
+  said_power_ = said_power_ || status.actuator_power;
+  said_safety_switch_ = said_safety_switch_ || status.safety_switch;
+  said_actuators_ = said_actuators_ || status.actuators_enabled;
   if (!command_.enabled) return StickFault::none;
-  if (!status.actuator_power) return StickFault::no_power;
-  if (!status.safety_switch) return StickFault::safety_switch;
-  const bool is_off = layout.actuators_enabled.exists() && !status.actuators_enabled;
+  if (said_power_ && !status.actuator_power) return StickFault::no_power;
+  if (said_safety_switch_ && !status.safety_switch) return StickFault::safety_switch;
+  const bool is_off = said_actuators_ && !status.actuators_enabled;
   if (is_off && has_switch() && on_ && now_ns - switched_on_ns_ > kReportLag) {
     on_ = false;
     return StickFault::switched_off;

@@ -1,7 +1,8 @@
 // Chooses the next output report that brings a stick closer to the current command: one report at a time, most
 // important first. Pure logic without a clock or a device.
 //
-//   1  off        after release() or while disabled: actuators off, stop all, values to zero
+//   1  off        after release() or while disabled: actuators off, each effect stopped, values to zero
+//                 (not "stop all": firmware may take it for a switch, ignore it, or forget its effects)
 //   2  on         actuators on; for each effect needed but not playing: first its values, then its start
 //   3  renew      an effect that has played for kRenewAfter is started again, long before it ends
 //   4  values     the value with the largest product of error and waiting time, so that no value waits forever
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "haptics/hardware/stick_command.h"
 #include "haptics/hid/pid_report.h"
@@ -22,7 +24,30 @@ inline constexpr double kRenewAfter = 0.1;      // [s] time after an effect's st
 
 enum class StickEffect : std::uint8_t { constant_x, constant_y, spring, damper };
 inline constexpr std::size_t kStickEffects = 4;
+PidEffect kind_of(StickEffect effect) noexcept;
 using StickBlocks = std::array<int, kStickEffects>;  // effect block index per effect; kNoBlock: not created
+
+// How the effects name their axes, as measured by the calibration.
+struct StickStyle {
+  AxisStyle constants = AxisStyle::direction, conditions = AxisStyle::bits;
+  bool operator==(const StickStyle&) const = default;
+};
+
+// The reports that set an effect's parameters, in order; all values are zero afterwards.
+class EffectReports {
+ public:
+  // `duration` [s] as in PidEffectSettings
+  EffectReports(const PidLayout& pid, StickEffect effect, int block, StickStyle style, double duration) noexcept;
+  std::span<const HidBytes> all() const noexcept { return {reports_.data(), size_}; }
+  bool has_settings() const noexcept { return has_settings_; }  // false: the device's reports cannot hold the block
+
+ private:
+  void add(const HidBytes& report) noexcept;
+
+  std::array<HidBytes, 5> reports_;
+  std::size_t size_ = 0;
+  bool has_settings_ = false;
+};
 
 // A fault found in a device's state report.
 enum class StickFault : std::uint8_t { none, switched_off, effect_stopped, no_power, safety_switch };
@@ -33,7 +58,8 @@ class ReportScheduler {
 
   // Starts from the state in which prepare_stick() leaves the device: actuators off, nothing playing, every value zero.
   // `finite`: whether effects end by themselves after kEffectDuration.
-  void begin(const StickBlocks& blocks, bool finite) noexcept;
+  void begin(const StickBlocks& blocks, bool finite, StickStyle style) noexcept;
+  void set_style(StickStyle style) noexcept { wanted_style_ = style; }  // switches the motors off until it is told
 
   void set_command(const StickCommand& command) noexcept { command_ = command; }
   void release() noexcept { released_ = true; }  // switches the motors off first, whatever the command says
@@ -65,9 +91,10 @@ class ReportScheduler {
     PidCondition current;
     HidBytes sent;
     std::int64_t since_ns = 0;
+    bool is_told = false;  // since the effect was wanted; a value that changes in every cycle must not delay its start
   };
   struct Sent {  // the report in transit
-    enum class Kind : std::uint8_t { nothing, on, off, all_stopped, start, stop, value };
+    enum class Kind : std::uint8_t { nothing, setting, on, off, all_stopped, start, stop, value };
     Kind kind = Kind::nothing;
     std::size_t index = 0;
     PidCondition setting;
@@ -86,6 +113,7 @@ class ReportScheduler {
   HidBytes encode(std::size_t value, const PidCondition& setting) const noexcept;
 
   void expire(std::int64_t now_ns) noexcept;
+  bool send_setting() noexcept;
   void next_off() noexcept;
   void next_on(std::int64_t now_ns) noexcept;
   bool start_if_wanted() noexcept;
@@ -101,6 +129,10 @@ class ReportScheduler {
   StickCommand command_;
   bool released_ = false;
   bool finite_ = true;
+  StickStyle style_, wanted_style_;
+  std::size_t settings_sent_ = 0;  // reports of the wanted style
+  // A device that never set a bit of its state report does not use it.
+  bool said_power_ = false, said_safety_switch_ = false, said_actuators_ = false;
   bool on_ = false;  // actuators
   std::int64_t switched_on_ns_ = 0;
   std::array<Effect, kStickEffects> effect_{};

@@ -39,6 +39,9 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
     case StickProblem::slow_output:
       return "the stick takes " + std::to_string(a) + " ms per output, but responded after " + std::to_string(b) +
              " ms when it was calibrated; the motors are off until you turn them on again";
+    case StickProblem::reversed:
+      return "the stick pushes the other way than when it was calibrated; the motors are off until you turn them on "
+             "again; run: gearshift devices --calibrate";
     case StickProblem::no_commands:
       break;
   }

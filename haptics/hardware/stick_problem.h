@@ -23,9 +23,10 @@ enum class StickProblem : std::uint8_t {
   safety_switch,  // the safety switch is open
   output_stuck,   // an output report does not complete
   slow_output,    // [ms] time per output, [ms] answer time from the calibration
+  reversed,       // its forces move the lever against their direction
   no_commands     // [ms] time without a command, because the haptic side is late or dead
 };
-inline constexpr std::size_t kStickProblems = 12;
+inline constexpr std::size_t kStickProblems = 13;
 
 class StickProblems {
  public:

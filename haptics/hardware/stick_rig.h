@@ -17,6 +17,12 @@ class CalibrationRefused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Thrown if the stick's effects do not act as told, so that repeating the measurement would not help.
+class EffectsRefused : public CalibrationRefused {
+ public:
+  using CalibrationRefused::CalibrationRefused;
+};
+
 // Blocks until the next tick, about every millisecond, and returns the time on the driver's clock [ns].
 using CalibrationTick = std::function<std::int64_t()>;
 

@@ -12,11 +12,6 @@ namespace {
 constexpr std::uint16_t kSimulation = 0x02, kButton = 0x09;
 constexpr std::size_t kIdBits = 8;
 
-bool contains_field(std::span<const std::uint8_t> report, const BitField& field) noexcept {
-  const auto offset = static_cast<std::size_t>(field.offset), bits = static_cast<std::size_t>(field.bits);
-  return field.exists() && kIdBits + offset + bits <= 8 * report.size();
-}
-
 // Reads and writes the bytes that contain a field (at most 32 bits) as one number. `shift` is the field's position in
 // this number.
 struct Window {
@@ -128,8 +123,13 @@ LeverReport report_of(const ReportDescriptor& descriptor, std::uint8_t id) {
 
 }  // namespace
 
+bool contains(std::span<const std::uint8_t> report, const BitField& field) noexcept {
+  const auto offset = static_cast<std::size_t>(field.offset), bits = static_cast<std::size_t>(field.bits);
+  return field.exists() && kIdBits + offset + bits <= 8 * report.size();
+}
+
 std::int64_t read_bits(std::span<const std::uint8_t> report, const BitField& field) noexcept {
-  if (!contains_field(report, field)) return 0;
+  if (!contains(report, field)) return 0;
   const Window window(field);
   const auto value = static_cast<std::int64_t>(window.load(report) >> window.shift & window.mask);
   const std::int64_t sign = std::int64_t{1} << (field.bits - 1);
@@ -137,7 +137,7 @@ std::int64_t read_bits(std::span<const std::uint8_t> report, const BitField& fie
 }
 
 void write_bits(std::span<std::uint8_t> report, const BitField& field, std::int64_t value) noexcept {
-  if (!contains_field(report, field)) return;
+  if (!contains(report, field)) return;
   const Window window(field);
   const std::uint64_t bits = static_cast<std::uint64_t>(std::clamp(value, field.min, field.max)) & window.mask;
   const std::uint64_t others = window.load(report) & ~(window.mask << window.shift);
@@ -169,7 +169,11 @@ std::optional<LeverReport> find_lever_report(const ReportDescriptor& descriptor)
 }
 
 std::optional<LeverCounts> decode_lever(const LeverReport& layout, std::span<const std::uint8_t> report) noexcept {
-  if (report.empty() || report.size() != layout.size || report[0] != layout.id) return std::nullopt;
+  if (report.empty() || report[0] != layout.id) return std::nullopt;
+  const auto is_missing = [&](const HidAxis& axis) {
+    return (axis.usage == kUsageX || axis.usage == kUsageY) && !contains(report, axis.field);
+  };
+  if (std::ranges::any_of(layout.axes, is_missing)) return std::nullopt;
   LeverCounts counts;
   for (std::size_t i = 0; i < std::min(layout.axes.size(), kMaxAxes); ++i) {
     counts.axis[i] = read_bits(report, layout.axes[i].field);

@@ -26,6 +26,7 @@ struct BitField {
 // The bit field of one element; bits = 0 unless the field has 1 to 32 bits.
 BitField bit_field(const HidField& field, int element) noexcept;
 
+bool contains(std::span<const std::uint8_t> report, const BitField& field) noexcept;
 // Returns 0 if the report is too short.
 std::int64_t read_bits(std::span<const std::uint8_t> report, const BitField& field) noexcept;
 // Writes the value, clamped to the logical range. Writes nothing if the report is too short.
@@ -59,7 +60,7 @@ struct LeverCounts {
   bool operator==(const LeverCounts&) const = default;
 };
 
-// Empty if the report ID or length is wrong. Real-time safe.
+// Empty if the report ID is wrong or the report ends before X or Y; what it lacks otherwise is 0. Real-time safe.
 std::optional<LeverCounts> decode_lever(const LeverReport& layout, std::span<const std::uint8_t> report) noexcept;
 
 }  // namespace gearshift::haptics

@@ -181,6 +181,7 @@ PidSetEffect set_effect_of(const ReportDescriptor& descriptor) {
   const std::array<FieldElement, 2> direction = directions(view);
   report.direction = bits_of(direction);
   report.full_turn = full_turn(direction[0]);
+  report.place = bits_of(view.within(pid_usage(0x58)).of_axes());
   report.start_delay = view.value(0xa7);
   return report;
 }
@@ -189,6 +190,7 @@ PidSetConstant set_constant_of(const ReportDescriptor& descriptor) {
   const ReportView view(descriptor, ReportKind::output, pid_usage(0x73));
   auto report = begin<PidSetConstant>(view);
   report.block = view.value(kBlock);
+  if (!report.block.exists()) report.place = view.value(0x23);
   report.magnitude = view.value(0x70);
   return report;
 }
@@ -284,9 +286,10 @@ PidState state_of(const ReportDescriptor& descriptor) {
 // True if the device can make a constant force. A rumble-only gamepad also has a Set Effect report, but no effect
 // blocks.
 bool can_push(const PidLayout& pid) {
-  return pid.set_effect.exists() && pid.set_effect.block.exists() && pid.set_constant.exists() &&
-         pid.set_constant.block.exists() && pid.set_constant.magnitude.exists() && pid.operate.exists() &&
-         pid.operate.block.exists() && pid.operate.operation.supports(static_cast<std::size_t>(PidOperation::start));
+  const bool is_addressed = pid.set_constant.block.exists() || (pid.is_pool_ours() && pid.set_effect.place[0].exists());
+  return pid.set_effect.exists() && pid.set_effect.block.exists() && is_addressed &&
+         pid.set_constant.magnitude.exists() && pid.operate.exists() && pid.operate.block.exists() &&
+         pid.operate.operation.supports(static_cast<std::size_t>(PidOperation::start));
 }
 
 }  // namespace

@@ -57,16 +57,17 @@ struct PidSetEffect : PidReport {
   BitField block, duration, trigger_repeat, sample_period, gain, trigger_button, direction_enable, start_delay;
   PidChoice<kPidEffects> type;
   std::array<BitField, 2> axis_enable;  // X, Y
-  std::array<BitField, 2> direction;    // 8 or 16 bits; [0] holds the angle, [1] is always sent as 0
+  std::array<BitField, 2> direction;    // 8 or 16 bits; both hold the angle
+  std::array<BitField, 2> place;        // places of the effect's parameters, if the driver manages the pool
   double duration_unit = 1e-3;          // [s] per count
   double full_turn = 0.0;               // [counts] of direction per 360 degrees
 };
 struct PidSetConstant : PidReport {
-  BitField block, magnitude;
+  BitField block, place, magnitude;
 };
 struct PidSetCondition : PidReport {
-  BitField block, parameter_block, centre, positive_coefficient, negative_coefficient, positive_saturation,
-      negative_saturation, dead_band;
+  BitField block, parameter_block;  // without a block, `parameter_block` is the place in the pool
+  BitField centre, positive_coefficient, negative_coefficient, positive_saturation, negative_saturation, dead_band;
 };
 struct PidOperate : PidReport {
   BitField block, loops;
@@ -110,6 +111,8 @@ struct PidLayout {
   PidPool pool;
   PidState state;
 
+  // The driver, not the device, places effects and their parameters in the device's memory (PID 1.0 section 5.11.1).
+  bool is_pool_ours() const noexcept { return set_constant.place.exists(); }
   bool has_effect(PidEffect effect) const noexcept {
     return create.type.supports(static_cast<std::size_t>(effect)) ||
            set_effect.type.supports(static_cast<std::size_t>(effect));

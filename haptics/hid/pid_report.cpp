@@ -32,9 +32,13 @@ void put_fraction(HidBytes& bytes, const BitField& field, double fraction) noexc
   put(bytes, field, field.zero + rounded(limited * span_counts));
 }
 
+bool is_within(const BitField& field, int value) noexcept {
+  return field.exists() && value >= field.min && value <= field.max;
+}
+
 // False for a block index outside the field's range, because encoding would clamp the index to a different block.
 bool is_valid_block(const BitField& field, int block) noexcept {
-  return block > kNoBlock && block >= field.min && block <= field.max;
+  return block > kNoBlock && is_within(field, block);
 }
 
 template <std::size_t N>
@@ -66,17 +70,37 @@ void put_duration(HidBytes& bytes, const PidSetEffect& effect, double seconds) n
   put(bytes, field, rounded(std::clamp(counts, 1.0, std::max(max_counts, 1.0))));
 }
 
-// Direction 0 means a force from the far side, and angles increase clockwise. So X is a quarter turn and Y half a turn.
-void put_direction(HidBytes& bytes, const PidSetEffect& effect, int axis) noexcept {
-  put(bytes, effect.direction_enable, 1);
-  const BitField& field = effect.direction[0];
-  std::int64_t counts = rounded((axis == 0 ? 0.25 : 0.5) * effect.full_turn);
-  if (counts > field.max) counts -= rounded(effect.full_turn);
-  put(bytes, field, counts);
+// All ones, which is outside the logical range: a null value, "none" (HID 1.11 section 6.2.2.5).
+void put_none(HidBytes& bytes, BitField field) noexcept {
+  if (!field.exists()) return;
+  field.min = 0;
+  field.max = (std::int64_t{1} << field.bits) - 1;
+  put(bytes, field, field.max);
 }
 
-bool matches(const PidReport& layout, std::span<const std::uint8_t> report) noexcept {
-  return layout.exists() && report.size() == layout.size && report[0] == layout.id;
+// Direction 0 means a force from the far side, and angles increase clockwise. So X is a quarter turn and Y half a turn.
+// The same angle in both fields is right for firmware that reads one of them and for firmware that reads both.
+void put_direction(HidBytes& bytes, const PidSetEffect& effect, int axis) noexcept {
+  for (const BitField& field : effect.direction) {
+    std::int64_t counts = rounded((axis == 1 ? 0.5 : 0.25) * effect.full_turn);
+    if (counts > field.max) counts -= rounded(effect.full_turn);
+    put(bytes, field, counts);
+  }
+}
+
+void put_axis(HidBytes& bytes, const PidSetEffect& effect, int axis, AxisStyle style) noexcept {
+  const bool has_direction = effect.direction_enable.exists() && effect.direction[0].exists();
+  put_direction(bytes, effect, axis);
+  if (has_direction && style != AxisStyle::bits) put(bytes, effect.direction_enable, 1);
+  if (has_direction && style == AxisStyle::direction) return;
+  for (int i = 0; i < 2; ++i) {
+    if (axis == i || axis < 0) put(bytes, effect.axis_enable[static_cast<std::size_t>(i)], 1);
+  }
+}
+
+// True if the report has this ID and contains the field.
+bool holds(const PidReport& layout, const BitField& field, std::span<const std::uint8_t> report) noexcept {
+  return layout.exists() && !report.empty() && report[0] == layout.id && (!field.exists() || contains(report, field));
 }
 
 bool flag_or(std::span<const std::uint8_t> report, const BitField& field, bool fallback) noexcept {
@@ -95,17 +119,26 @@ HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settin
   if (has_type) put_choice(bytes, effect.type, type);
   put_duration(bytes, effect, settings.duration);
   put_fraction(bytes, effect.gain, std::max(settings.gain, 0.0));
-  for (int axis = 0; axis < 2; ++axis) {
-    if (settings.axis == axis || settings.axis < 0) put(bytes, effect.axis_enable[static_cast<std::size_t>(axis)], 1);
+  put_axis(bytes, effect, settings.axis, settings.style);
+  if (!pid.is_pool_ours()) {
+    put_none(bytes, effect.trigger_button);  // 0 would be a button on some devices
+    return bytes;
   }
-  if (settings.axis >= 0) put_direction(bytes, effect, settings.axis);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (settings.place[i] < 0)
+      put_none(bytes, effect.place[i]);
+    else
+      put(bytes, effect.place[i], settings.place[i]);
+  }
   return bytes;
 }
 
 HidBytes encode_constant(const PidLayout& pid, int block, double magnitude) noexcept {
-  if (!is_valid_block(pid.set_constant.block, block)) return {};
+  const BitField& place = pid.set_constant.place;
+  const bool is_valid = place.exists() ? is_within(place, block) : is_valid_block(pid.set_constant.block, block);
+  if (!is_valid) return {};
   HidBytes bytes = begin(pid.set_constant);
-  put(bytes, pid.set_constant.block, block);
+  put(bytes, place.exists() ? place : pid.set_constant.block, block);
   put_fraction(bytes, pid.set_constant.magnitude, magnitude);
   return bytes;
 }
@@ -113,11 +146,13 @@ HidBytes encode_constant(const PidLayout& pid, int block, double magnitude) noex
 HidBytes encode_condition(const PidLayout& pid, int block, int axis, const PidCondition& condition) noexcept {
   const PidSetCondition& set = pid.set_condition;
   // Without a parameter block field there is only one condition, so a second axis would overwrite the first.
-  const bool is_valid_axis = axis == 0 || (axis >= set.parameter_block.min && axis <= set.parameter_block.max);
-  if (!is_valid_block(set.block, block) || !is_valid_axis) return {};
+  const bool is_valid = pid.is_pool_ours()
+                            ? is_within(set.parameter_block, block)
+                            : is_valid_block(set.block, block) && (axis == 0 || is_within(set.parameter_block, axis));
+  if (!is_valid) return {};
   HidBytes bytes = begin(set);
   put(bytes, set.block, block);
-  put(bytes, set.parameter_block, axis);
+  put(bytes, set.parameter_block, pid.is_pool_ours() ? block : axis);
   put_fraction(bytes, set.centre, condition.centre);
   put_fraction(bytes, set.positive_coefficient, condition.coefficient);
   put_fraction(bytes, set.negative_coefficient, condition.coefficient);
@@ -168,7 +203,7 @@ HidBytes encode_create(const PidLayout& pid, PidEffect effect) noexcept {
 }
 
 std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
-  if (!matches(pid.block_load, report)) return std::nullopt;
+  if (!holds(pid.block_load, pid.block_load.block, report)) return std::nullopt;
   BlockLoad load;
   load.block = static_cast<int>(std::clamp<std::int64_t>(read_bits(report, pid.block_load.block), 0, 0xffff));
   using enum BlockLoad::Status;
@@ -180,7 +215,7 @@ std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const
 }
 
 std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
-  if (!matches(pid.pool, report)) return std::nullopt;
+  if (!holds(pid.pool, pid.pool.simultaneous, report)) return std::nullopt;
   PoolInfo info;
   info.ram = read_bits(report, pid.pool.ram_size);
   info.simultaneous = read_bits(report, pid.pool.simultaneous);
@@ -189,7 +224,7 @@ std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::u
 }
 
 std::optional<PidStatus> decode_state(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
-  if (!matches(pid.state, report)) return std::nullopt;
+  if (!holds(pid.state, pid.state.actuators_enabled, report)) return std::nullopt;
   PidStatus status;
   status.actuators_enabled = flag_or(report, pid.state.actuators_enabled, false);
   status.actuator_power = flag_or(report, pid.state.actuator_power, true);

@@ -14,15 +14,24 @@ namespace gearshift::haptics {
 
 inline constexpr int kNoBlock = 0;  // effect blocks count from 1
 
+// How Set Effect names the axis. Firmware differs in what it understands, so the calibration finds out.
+enum class AxisStyle : std::uint8_t {
+  direction,  // direction enable bit alone, as Windows sends it
+  both,       // direction enable bit and axis bits
+  bits        // axis bits alone
+};
+
 struct PidEffectSettings {
   int block = kNoBlock;
   PidEffect effect = PidEffect::constant;
   double duration = 0.3;  // [s] > 0; kForever: endless, or as long as possible
   double gain = 1.0;      // [1] 0 to 1
-  // Axis on which the effect acts: 0 X, 1 Y, -1 both (for conditions). The axis is encoded in the axis enable bits and,
-  // if the device has a direction field, as a direction: X 90 degrees, Y 180 degrees (PID 1.0 section 4.2: 0 degrees is
-  // a force from the far side, angles increase clockwise).
+  // Axis on which the effect acts: 0 X, 1 Y, -1 both (for conditions). As a direction, X is 90 degrees and Y 180 degrees
+  // (PID 1.0 section 4.2: 0 degrees is a force from the far side, angles increase clockwise); both axes have 90 degrees.
+  // A device without a direction gets axis bits.
   int axis = 0;
+  AxisStyle style = AxisStyle::direction;
+  std::array<int, 2> place{-1, -1};  // of the effect's parameters, if the driver manages the pool; -1: none
 };
 inline constexpr double kForever = 1e9;  // [s]
 
@@ -34,6 +43,7 @@ struct PidCondition {  // for one axis; fractions of full deflection (-1 to 1) o
 };
 
 HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settings) noexcept;
+// `block` is the effect's block, or the place of the parameters if the driver manages the pool.
 HidBytes encode_constant(const PidLayout& pid, int block, double magnitude) noexcept;  // -1 to 1
 HidBytes encode_condition(const PidLayout& pid, int block, int axis, const PidCondition& condition) noexcept;
 HidBytes encode_operation(const PidLayout& pid, int block, PidOperation operation, int loops) noexcept;
@@ -57,7 +67,8 @@ struct PidStatus {
   bool playing = false;
   int block = kNoBlock;
 };
-// Empty if the report ID or length is wrong.
+// Empty if the report ID is wrong or the report ends before its last needed field. Longer reports are accepted, as in
+// Linux.
 std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
 std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
 std::optional<PidStatus> decode_state(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;

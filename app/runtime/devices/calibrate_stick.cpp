@@ -58,7 +58,7 @@ void wait_until_open(haptics::StickConnection& keeper, const std::string& name) 
 class OpenStick {
  public:
   OpenStick(const KnownStick& stick, haptics::PortOpener open)
-      : driver_(stick.report_descriptor), connection_(driver_, std::move(open), kTickNs) {
+      : driver_(stick.report_descriptor, stick.calibration.style), connection_(driver_, std::move(open), kTickNs) {
     wait_until_open(connection_, stick_name(identity_of(stick.calibration)));
   }
   haptics::PidDriver& driver() { return driver_; }
@@ -107,6 +107,7 @@ std::string run_dialog(OpenStick& stick, KnownStick& known, const fs::path& fold
   } catch (const CalibrationEnded& ended) {
     base::print_line(ended.what());
   }
+  for (const std::string& row : calibration_table(calibrator.calibration())) base::print_line(row);
   return describe_missing(calibrator.calibration());
 }
 

@@ -27,6 +27,23 @@ std::optional<double> number_of(std::string_view text, std::string_view unit) {
   return value;
 }
 
+// False if the step needs the result of an earlier one that was left out.
+bool is_possible(haptics::CalibrationStep step, const haptics::DeviceCalibration& known) {
+  switch (step) {
+    case haptics::CalibrationStep::range:
+      return true;
+    case haptics::CalibrationStep::numbers:
+    case haptics::CalibrationStep::polarity:
+      return known.has_stops();
+    case haptics::CalibrationStep::timing:
+      return known.has_polarity();
+    case haptics::CalibrationStep::handle:
+    case haptics::CalibrationStep::springs:
+      return known.has_polarity() && known.has_range() && known.has_force();
+  }
+  return true;
+}
+
 class DialogRunner {
  public:
   DialogRunner(haptics::Calibrator& calibrator, const CalibrationDialog& dialog, const CalibrationTimes& times)
@@ -42,95 +59,106 @@ class DialogRunner {
         return measure_hands_off(
             "This step measures in which direction the forces push. The stick moves a little, using at most a tenth of "
             "its force.",
-            Needed::yes, [&] { return calibrator_.measure_polarity(); });
+            "the stick cannot be used", [&] { return calibrator_.measure_polarity(); });
       case haptics::CalibrationStep::timing:
         return measure_hands_off(
-            "This step measures how fast the stick responds. The stick shakes a little for a few seconds.", Needed::yes,
-            [&] { return calibrator_.measure_timing(); });
+            "This step measures how fast the stick responds. The stick shakes a little for a few seconds.",
+            "the stick cannot be used", [&] { return calibrator_.measure_timing(); });
       case haptics::CalibrationStep::handle:
         return measure_hands_off(
             "This step measures how heavy the handle is. The motors push the handle back and forth with up to 40 % of "
             "their force.",
-            Needed::no, [&] { return calibrator_.measure_handle(); });
+            "the handle is taken for a light one, and walls are softer than they could be",
+            [&] { return calibrator_.measure_handle(); });
       case haptics::CalibrationStep::springs:
         return measure_hands_off(
             "This step measures the springs and dampers that the stick itself can render. The motors pull the handle "
             "to one side, hold it there, and then push it back and forth.",
-            Needed::no, [&] { return calibrator_.measure_springs(); });
+            "walls are as soft as the stick's delay makes them", [&] { return calibrator_.measure_springs(); });
     }
   }
 
  private:
-  enum class Needed { yes, no };
+  static constexpr int kMaxTries = 3;
 
-  // Repeats a measurement until it succeeds or is skipped. Returns true if it succeeded.
+  // Repeats a measurement until it succeeds, is left out, or was rejected kMaxTries times. Returns true if it succeeded.
+  // `cost`: what follows if it is left out.
   template <class Measure>
-  bool repeat_until_measured(const std::string& instruction, Needed needed, const Measure& measure) {
-    const char* answers = needed == Needed::yes ? "[Enter to start]" : "[Enter to start, - to skip]";
-    for (;;) {
-      const std::string answer = dialog_.ask(instruction + " " + answers);
-      if (needed == Needed::no && answer == "-") return false;
+  bool repeat_until_measured(const std::string& instruction, const std::string& cost, const Measure& measure) {
+    for (int tries = 0; tries < kMaxTries;) {
+      const std::string answer =
+          dialog_.ask(fmt::format("{} [Enter to start, - to leave it out: then {}]", instruction, cost));
+      if (answer == "-") return false;
       if (!answer.empty()) {
-        dialog_.print(
-            fmt::format("\"{}\" is not a valid answer. {}", haptics::printable(answer),
-                        needed == Needed::yes ? "Press Enter to start." : "Press Enter to start, or type - to skip."));
+        dialog_.print(fmt::format("\"{}\" is not a valid answer. Press Enter to start, or type - to leave it out.",
+                                  haptics::printable(answer)));
         continue;
       }
       try {
         dialog_.print("  Found: " + measure() + ".");
         return true;
       } catch (const haptics::CalibrationRefused& refused) {
-        dialog_.print(fmt::format("  Rejected: {}. Try again.", refused.what()));
+        const bool is_last = ++tries == kMaxTries;
+        dialog_.print(fmt::format("  Rejected: {}. {}", refused.what(),
+                                  is_last ? fmt::format("This step is left out: {}.", cost) : "Try again."));
       }
     }
+    return false;
   }
 
   void save() const { dialog_.save(calibrator_.calibration()); }
 
   template <class Measure>
-  void measure_hands_off(const std::string& instruction, Needed needed, const Measure& measure) {
-    repeat_until_measured("HANDS OFF the stick: its motors will move it. " + instruction, needed, measure);
+  void measure_hands_off(const std::string& instruction, const std::string& cost, const Measure& measure) {
+    repeat_until_measured("HANDS OFF the stick: its motors will move it. " + instruction, cost, measure);
     save();  // even if the step was skipped: a part of it (e.g. the springs) may have been measured
   }
 
   // Finds the axes and buttons, then measures the range. A calibration without a range repeats this whole step, so the
   // range is measured last.
   void run_range() {
+    constexpr const char* kCost = "the stick cannot be used";
     dialog_.print("The motors stay off during this step.");
-    repeat_until_measured(
-        fmt::format(
-            "Leave the stick at rest and press Enter. Then, within {:g} s, push the stick all the way to the RIGHT and "
-            "hold it there.",
-            times_.axis),
-        Needed::yes, [&] { return calibrator_.find_axis(true, times_.axis); });
-    repeat_until_measured(
-        fmt::format("Press Enter. Then, within {:g} s, push the stick all the way FORWARD, away from you, and hold it "
-                    "there.",
-                    times_.axis),
-        Needed::yes, [&] { return calibrator_.find_axis(false, times_.axis); });
-    run_button(haptics::LeverButton::press, "to push the knob down, as for reverse in many cars");
-    run_button(haptics::LeverButton::lift, "to lift the ring below the knob");
-    run_button(haptics::LeverButton::stop, "to stop the motors in an emergency");
+    const bool has_axes =
+        repeat_until_measured(
+            fmt::format("Leave the stick at rest and press Enter. Then, within {:g} s, push the stick all the way to "
+                        "the RIGHT and hold it there.",
+                        times_.axis),
+            kCost, [&] { return calibrator_.find_axis(true, times_.axis); }) &&
+        repeat_until_measured(
+            fmt::format("Press Enter. Then, within {:g} s, push the stick all the way FORWARD, away from you, and hold "
+                        "it there.",
+                        times_.axis),
+            kCost, [&] { return calibrator_.find_axis(false, times_.axis); });
+    if (!has_axes) return;
+    run_button(haptics::LeverButton::press, "to push the knob down, as for reverse in many cars",
+               "reverse gears behind that lock stay closed");
+    run_button(haptics::LeverButton::lift, "to lift the ring below the knob",
+               "reverse gears behind a ring stay closed");
+    run_button(haptics::LeverButton::stop, "to stop the motors in an emergency", "only the program's own stop is left");
     repeat_until_measured(
         fmt::format(
             "Press Enter. Then move the stick along all its stops for {:g} s, and LET GO of it for the last two "
             "seconds.",
             times_.range),
-        Needed::yes, [&] { return calibrator_.measure_range(times_.range); });
+        kCost, [&] { return calibrator_.measure_range(times_.range); });
     save();
   }
 
-  void run_button(haptics::LeverButton button, const char* purpose) {
+  void run_button(haptics::LeverButton button, const char* purpose, const char* cost) {
     repeat_until_measured(
         fmt::format(
             "Choose the button on the stick that you will use {}. Press Enter, then press that button within {:g} s.",
             purpose, times_.button),
-        Needed::no, [&] { return calibrator_.find_button(button, times_.button); });
+        cost, [&] { return calibrator_.find_button(button, times_.button); });
   }
 
-  double ask_number(const std::string& question, double min, double max, std::string_view unit) {
+  // Empty if the number is left out.
+  std::optional<double> ask_number(const std::string& question, double min, double max, std::string_view unit) {
     for (;;) {
-      const std::string answer = dialog_.ask(fmt::format("{} [{:g} to {:g} {}]", question, min, max, unit));
+      const std::string answer = dialog_.ask(fmt::format(
+          "{} [{:g} to {:g} {}, - to leave it out: then the stick cannot be used]", question, min, max, unit));
+      if (answer == "-") return std::nullopt;
       const std::optional<double> number = number_of(answer, unit);
       if (number && *number >= min && *number <= max) return *number;
       dialog_.print(fmt::format("  Rejected: \"{}\" is not a number from {:g} to {:g} {}. Try again.",
@@ -139,15 +167,18 @@ class DialogRunner {
   }
 
   void run_numbers() {
-    const double select =
+    const std::optional<double> select =
         ask_number("How far does the knob travel from the left stop to the right stop?", 20, 500, "mm");
-    const double shift =
+    if (!select) return;
+    const std::optional<double> shift =
         ask_number("How far does the knob travel from the back stop to the forward stop?", 20, 500, "mm");
-    const double force = ask_number(
+    if (!shift) return;
+    const std::optional<double> force = ask_number(
         "What is the stick's maximum force at the knob? Take the value from the data sheet (torque divided by lever "
         "length), or measure it with a spring scale.",
         0.5, 100, "N");
-    dialog_.print("  Saved: " + calibrator_.set_numbers(1e-3 * select, 1e-3 * shift, force) + ".");
+    if (!force) return;
+    dialog_.print("  Saved: " + calibrator_.set_numbers(1e-3 * *select, 1e-3 * *shift, *force) + ".");
     save();
   }
 
@@ -161,8 +192,9 @@ class DialogRunner {
 void calibrate(haptics::Calibrator& calibrator, bool springs, const CalibrationDialog& dialog,
                const CalibrationTimes& times) {
   DialogRunner runner(calibrator, dialog, times);
-  for (const haptics::CalibrationStep step : haptics::missing_steps(calibrator.calibration(), springs))
-    runner.run_step(step);
+  for (const haptics::CalibrationStep step : haptics::missing_steps(calibrator.calibration(), springs)) {
+    if (is_possible(step, calibrator.calibration())) runner.run_step(step);
+  }
 }
 
 }  // namespace gearshift::runtime

@@ -64,6 +64,62 @@ std::string describe_missing(const haptics::DeviceCalibration& calibration) {
   return words;
 }
 
+std::vector<std::string> calibration_table(const haptics::DeviceCalibration& calibration) {
+  const haptics::LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
+  std::vector<std::string> rows;
+  const auto add = [&rows](const char* what, const std::string& left, const std::string& right) {
+    rows.push_back(fmt::format("  {:<18}{:<26}{}", what, left, right));
+  };
+  const auto per_axis = [&](const char* what, const auto& text) { add(what, text(select), text(shift)); };
+  const auto sign = [](int value, const char* positive, const char* negative) {
+    return value > 0 ? positive : value < 0 ? negative : "not measured";
+  };
+  add("", "select", "shift");
+  per_axis("full force", [](const auto& axis) { return fmt::format("{:.3g} N", axis.full_force); });
+  add("positive force", sign(select.constant_sign, "pushes right", "pushes left"),
+      sign(shift.constant_sign, "pushes forward", "pushes back"));
+  per_axis("handle", [](const auto& axis) {
+    return axis.handle.mass == 0.0 ? std::string("not measured")
+                                   : fmt::format("{:.3f} kg, {:.1f} N s/m, {:.0f} N/m", axis.handle.mass,
+                                                 axis.handle.damping, axis.handle.stiffness);
+  });
+  per_axis("own centring", [](const auto& axis) {
+    return axis.own_spring == 0.0 ? std::string("none") : fmt::format("{:.0f} N/m", axis.own_spring);
+  });
+  if (!calibration.springs_refused.empty()) {
+    rows.push_back("  springs           not used: " + calibration.springs_refused);
+  } else {
+    per_axis("springs", [](const auto& axis) {
+      return axis.spring_dead_band == 0.0
+                 ? std::string("not measured")
+                 : fmt::format("{:.0f} N/m, {}", axis.spring_stiffness, axis.spring_sign > 0 ? "pulls" : "inverted");
+    });
+    per_axis("dead band",
+             [](const auto& axis) { return fmt::format("{:.0f} % of the told", 100.0 * axis.spring_dead_band); });
+  }
+  if (!calibration.dampers_refused.empty()) {
+    rows.push_back("  dampers           not used: " + calibration.dampers_refused);
+  } else {
+    per_axis("dampers", [](const auto& axis) {
+      return axis.damper_sign == 0
+                 ? std::string("not measured")
+                 : fmt::format("{:.1f} N s/m, {}", axis.damper_strength, axis.damper_sign > 0 ? "brakes" : "inverted");
+    });
+  }
+  const haptics::DeviceTiming& timing = calibration.timing;
+  if (!calibration.has_timing()) {
+    rows.push_back("  timing            not measured");
+  } else {
+    rows.push_back(
+        fmt::format("  timing            a reading every {:.2f} ms (jitter {:.2f} ms), a force every {:.2f} ms, delay "
+                    "{:.2f} ms, {:.1f} ms "
+                    "of silence at a renewal",
+                    1e3 * timing.input_interval, 1e3 * timing.jitter, 1e3 * timing.output_interval, 1e3 * timing.delay,
+                    1e3 * timing.restart_gap));
+  }
+  return rows;
+}
+
 std::optional<KnownStick> read_known_stick(const fs::path& folder, const haptics::HidIdentity& device) {
   const fs::path file = haptics::calibration_file(folder, device);
   std::optional<KnownStick> known = read_file(file);

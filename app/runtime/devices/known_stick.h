@@ -27,6 +27,9 @@ std::string stick_id(const haptics::HidIdentity& identity);  // vendor and produ
 // Lists what must still be measured before the stick may render forces; empty if nothing is missing.
 std::string describe_missing(const haptics::DeviceCalibration& calibration);
 
+// A table of what was measured, one line per row: per axis, or for the whole stick. What is not used says why.
+std::vector<std::string> calibration_table(const haptics::DeviceCalibration& calibration);
+
 // Returns the device's saved data; empty if it was never calibrated. Throws FileError.
 std::optional<KnownStick> read_known_stick(const std::filesystem::path& folder, const haptics::HidIdentity& device);
 

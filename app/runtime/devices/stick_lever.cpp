@@ -27,8 +27,10 @@ haptics::PortOpener with_descriptor_check(haptics::PortOpener open, const KnownS
 StickLever::StickLever(const KnownStick& stick, haptics::PortOpener open)
     : stick_(stick),
       idle_(stick.report_descriptor),
-      driver_(stick.report_descriptor),
-      connection_(driver_, with_descriptor_check(std::move(open), stick), kTickNs) {}
+      driver_(stick.report_descriptor, stick.calibration.style),
+      connection_(driver_, with_descriptor_check(std::move(open), stick), kTickNs),
+      has_old_springs_(stick.calibration.select.spring_sign != 0 && !stick.calibration.has_springs() &&
+                       stick.calibration.springs_refused.empty()) {}
 
 StickLever::~StickLever() = default;
 
@@ -41,6 +43,13 @@ std::unique_ptr<haptics::HapticDevice> StickLever::detached_lever(double period)
 }
 
 std::optional<std::string> StickLever::take_message() {
+  if (std::exchange(has_old_springs_, false)) {
+    const haptics::HidIdentity identity = identity_of(stick_.calibration);
+    return fmt::format(
+        "the springs of {} were calibrated without their dead band, so they are not used and walls are softer; run: "
+        "gearshift devices --calibrate {}",
+        stick_name(identity), stick_id(identity));
+  }
   const std::optional<haptics::PidAbility> ability = connection_.ability();
   if (ability && notes_reported_ < ability->notes.size()) return ability->notes[notes_reported_++];
   return connection_.take_message();

@@ -28,7 +28,8 @@ inline haptics::DeviceCalibration calibration_of(const EmulatedStickConfig& stic
                   stick.spring_stiffness,
                   stick.lever.axis_x,
                   stick.damper_sign.x,
-                  stick.full_force};  // at 1 m/s
+                  stick.full_force,  // at 1 m/s
+                  1.0};
   known.shift = {0x31,
                  range.high,
                  centre,
@@ -40,7 +41,8 @@ inline haptics::DeviceCalibration calibration_of(const EmulatedStickConfig& stic
                  stick.spring_stiffness,
                  stick.lever.axis_y,
                  stick.damper_sign.y,
-                 stick.full_force};
+                 stick.full_force,
+                 1.0};
   known.timing = {stick.input_interval, 0.001, stick.delay, 0.0};
   known.press_button = 1;
   known.lift_button = 2;

@@ -13,8 +13,7 @@
 
 #include "tests/haptics/device/still_hand.h"
 #include "tests/haptics/hardware/calibrated.h"
-#include "tests/haptics/hardware/showing_hand.h"
-#include "tests/haptics/hardware/stick_bench.h"
+#include "tests/haptics/hardware/calibration_bench.h"
 #include "tests/haptics/hardware/stick_loop.h"
 
 using namespace gearshift::haptics;
@@ -22,48 +21,6 @@ using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
-
-// A stick, its user and the calibrator. While the calibrator measures, it advances the virtual clock tick by tick.
-struct CalibrationBench : StickBench {
-  explicit CalibrationBench(const EmulatedStickConfig& config, const DeviceCalibration& known = {})
-      : StickBench(config, person),
-        calibrator((prepare(), driver),
-                   [this] {
-                     tick();
-                     strongest = std::max(strongest, glm::length(stick.force()));
-                     if (every_tick) every_tick();
-                     return now_ns;
-                   },
-                   known) {
-    stick.logs = false;
-  }
-
-  void move_along(const std::function<dvec2(double)>& path) {  // `path`: position [m] at a time [s] since this call
-    person.target_position = [this, path, begin = time()] { return path(time() - begin); };
-  }
-  void hands_off() { person.target_position = nullptr; }
-
-  void find_axes() {
-    move_along([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
-    calibrator.find_axis(true, 2.0);
-    move_along([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
-    calibrator.find_axis(false, 2.0);
-  }
-  std::string measure_all_stops() {
-    move_along([](double t) { return 0.090 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
-    every_tick = [this, begin = time()] {
-      if (time() - begin > 4.0) hands_off();
-    };
-    std::string sentence = calibrator.measure_range(5.0);
-    every_tick = nullptr;
-    return sentence;
-  }
-
-  ShowingHand person;
-  double strongest = 0.0;  // [N]
-  std::function<void()> every_tick;
-  Calibrator calibrator;
-};
 
 EmulatedStickConfig config_of(StickFamily family) {
   EmulatedStickConfig config;
@@ -78,7 +35,7 @@ DeviceCalibration unmeasured_calibration(const EmulatedStickConfig& config) {
   for (LeverAxisCalibration* axis : {&known.select, &known.shift}) {
     axis->constant_sign = axis->spring_sign = 0;
     axis->damper_sign = 0;
-    axis->spring_stiffness = axis->damper_strength = 0.0;
+    axis->spring_stiffness = axis->spring_dead_band = axis->damper_strength = 0.0;
     axis->handle = {};
   }
   return known;
@@ -225,7 +182,7 @@ TEST_CASE("missing steps are listed in order, and finished steps are not listed"
   known = calibration_of(config_of(StickFamily::vjoy));
   CHECK(missing_steps(known, true).empty());
   known.timing = {};
-  known.shift.spring_stiffness = 0.0;
+  known.shift.spring_dead_band = 0.0;
   CHECK(missing_steps(known, true) == std::vector{timing, springs});
   known = unmeasured_calibration(config_of(StickFamily::vjoy));
   CHECK(missing_steps(known, true) == std::vector{polarity, timing, handle, springs});
@@ -365,14 +322,14 @@ TEST_CASE(
   CalibrationBench stuck(stiff, unmeasured_calibration(stiff));
   CHECK(refusal([&] {
           stuck.calibrator.measure_polarity();
-        }).find("select does not move with 10 % of the full force") == 0);
+        }).find("the lever does not move with 10 % of the full force") == 0);
   CHECK(stuck.strongest <= 2.0 + 1e-9);
 
   EmulatedStickConfig in_hand = config;
   in_hand.lever.hand = kArmHand;
   in_hand.lever.hand.stiffness = 5000.0;
   CalibrationBench held(in_hand, unmeasured_calibration(in_hand));
-  CHECK(refusal([&] { held.calibrator.measure_polarity(); }).find("select does not move") == 0);
+  CHECK(refusal([&] { held.calibrator.measure_polarity(); }).find("the lever does not move") == 0);
 
   CalibrationBench pushed(config, unmeasured_calibration(config));
   pushed.every_tick = [&] {  // a hand pushes to the right whenever the motors push

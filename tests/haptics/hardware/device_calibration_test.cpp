@@ -39,7 +39,10 @@ class RandomCalibration {
     fill(made.shift);
     made.select.usage = 0x30 + static_cast<int>(chance_() % 4);
     made.shift.usage = 0x34 + static_cast<int>(chance_() % 5);
-    made.timing = {between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0)};
+    made.timing = {between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0)};
+    made.style = {static_cast<AxisStyle>(chance_() % 3), static_cast<AxisStyle>(chance_() % 3)};
+    if (flag()) made.springs_refused = "springs \"" + std::to_string(chance_());
+    if (flag()) made.dampers_refused = "dampers # " + std::to_string(chance_());
     made.press_button = static_cast<int>(chance_() % 65);
     made.lift_button = static_cast<int>(chance_() % 65);
     made.stop_button = static_cast<int>(chance_() % 65);
@@ -60,6 +63,10 @@ class RandomCalibration {
     axis.constant_sign = sign();
     axis.spring_sign = sign();
     axis.spring_stiffness = between(0.0, 1e5);
+    axis.spring_dead_band = between(0.0, 10.0);
+    axis.own_spring = between(0.0, 1e5);
+    axis.damper_sign = sign();
+    axis.damper_strength = between(0.0, 1e3);
     axis.handle = {flag() ? 0.0 : between(1e-3, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
   }
 
@@ -73,16 +80,19 @@ bool same(const AxisModel& a, const AxisModel& b) {
 bool same(const LeverAxisCalibration& a, const LeverAxisCalibration& b) {
   return a.usage == b.usage && a.low == b.low && a.centre == b.centre && a.high == b.high && a.travel == b.travel &&
          a.full_force == b.full_force && a.constant_sign == b.constant_sign && a.spring_sign == b.spring_sign &&
-         a.spring_stiffness == b.spring_stiffness && same(a.handle, b.handle);
+         a.spring_stiffness == b.spring_stiffness && a.spring_dead_band == b.spring_dead_band &&
+         a.own_spring == b.own_spring && a.damper_sign == b.damper_sign && a.damper_strength == b.damper_strength &&
+         same(a.handle, b.handle);
 }
 
 bool same(const DeviceTiming& a, const DeviceTiming& b) {
   return a.input_interval == b.input_interval && a.output_interval == b.output_interval && a.delay == b.delay &&
-         a.jitter == b.jitter;
+         a.jitter == b.jitter && a.restart_gap == b.restart_gap;
 }
 
 bool same(const DeviceCalibration& a, const DeviceCalibration& b) {
-  return a.vendor == b.vendor && a.product == b.product && a.serial == b.serial && a.name == b.name &&
+  return a.style == b.style && a.springs_refused == b.springs_refused && a.dampers_refused == b.dampers_refused &&
+         a.vendor == b.vendor && a.product == b.product && a.serial == b.serial && a.name == b.name &&
          same(a.select, b.select) && same(a.shift, b.shift) && same(a.timing, b.timing) &&
          a.press_button == b.press_button && a.lift_button == b.lift_button && a.stop_button == b.stop_button;
 }
@@ -92,6 +102,7 @@ DeviceCalibration measured(const DeviceTiming& timing) {
   DeviceCalibration known;
   known.select = {0x30, 0.0, 500.0, 1000.0, 0.14, 20.0, 1, 1, 400.0, kPaperAxisX};
   known.shift = {0x31, 1000.0, 400.0, 0.0, 0.14, 20.0, -1, 1, 300.0, kPaperAxisY};
+  known.select.spring_dead_band = known.shift.spring_dead_band = 1.0;
   known.timing = timing;
   return known;
 }
@@ -154,7 +165,7 @@ TEST_CASE("invalid values are refused with file, line, key, value and range") {
         "c.toml:12: constant_sign = 2: must be between -1 and 1");
   CHECK(refusal(changed("constant_sign", "constant_sign = 0.5")) ==
         "c.toml:12: constant_sign = 0.5: must be a whole number between -1 and 1");
-  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:19: mass_kg = nan: must be between 0 and 1000") == 0);
+  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:21: mass_kg = nan: must be between 0 and 1000") == 0);
   CHECK(refusal(changed("axis", "axis = \"q\"")) ==
         "c.toml:6: axis = \"q\": must be one of x, y, z, rx, ry, rz, slider, dial, wheel");
   CHECK(refusal(changed("axis", "axis = \"y\"")).find("must differ from the axis of select") != std::string::npos);
@@ -192,6 +203,23 @@ TEST_CASE("cycles of delay: (1 + delay) T is at least the time from a reading to
                        "is too slow for any "
                        "rate from 100 Hz up",
                        std::invalid_argument);
+}
+
+TEST_CASE("a file from before dead bands were measured loads, its springs are not used, and its signs still hold") {
+  std::istringstream text(calibration_text(measured({0.001, 0.001, 0.002, 0.0})));
+  std::string old, line;
+  for (bool keeps = true; std::getline(text, line);) {
+    if (line.starts_with("[")) keeps = !line.starts_with("[effects]");
+    if (keeps && !line.starts_with("spring_dead_band")) old += line + '\n';
+  }
+  const TempFolder folder;
+  std::ofstream(folder / "c.toml") << old;
+  const DeviceCalibration known = read_calibration(folder / "c.toml").value();
+  CHECK(known.style == StickStyle{AxisStyle::both, AxisStyle::bits});  // as the program named axes then
+  CHECK(known.has_polarity());
+  CHECK(known.select.spring_stiffness == 400.0);
+  CHECK_FALSE(known.has_springs());
+  CHECK(spec_of(known, 0.001).device_wall_stiffness == glm::dvec2(0.0));
 }
 
 TEST_CASE("the device specification from a calibration") {

@@ -54,40 +54,48 @@ EmulatedStickConfig stick_of(StickFamily family) {
 }  // namespace
 
 // The bytes of Set Effect (report 0x01) after its ID: block, type (constant 1, spring 8, damper 9), duration of 300 ms
-// (0x012C), trigger repeat, sample period, gain 0xFF, trigger button, axes (X 1, Y 2, direction 4), direction (0x40 is
-// 90 degrees, 0x80 is 180 degrees). Conditions (report 0x03) start with coefficients 0, full saturation and no dead
+// (0x012C), trigger repeat, sample period, gain 0xFF, trigger button, axes (X 1, Y 2, direction 4), both directions
+// (0x40 is 90 degrees, 0x80 is 180 degrees). Conditions (report 0x03) start with coefficients 0, full saturation and no dead
 // band. Created blocks are numbered from 2, because block 1 is the device's own spring.
 TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
   const SetupResult result = prepared(stick_of(StickFamily::sidewinder));
   CHECK(result.before == Lines{"get 03 e0 04 27 01",  // memory pool: 1248 bytes, 39 effects
                                "out 0c 03",           // stop all
                                "out 0c 04",           // reset
+                               "out 0c 03",           // stop all, the centring spring too
                                "out 0c 02",           // actuators off
                                "out 0d 00",           // gain
                                "set 01 01 00 00",
                                "get 02 02 01 c0 04",                                   // constant: block 2
-                               "out 01 02 01 2c 01 00 00 00 00 ff 00 05 40 00 00 00",  // X, 90 degrees
-                               "get 02 02 01 c0 04",                                   // no error: duration accepted
                                "out 05 02 00 00",                                      // magnitude 0
+                               "out 01 02 01 2c 01 00 00 00 00 ff ff 04 40 40 00 00",  // X, 90 degrees
+                               "out 05 02 00 00",                                      //
+                               "get 02 02 01 c0 04",                                   // no error: duration accepted
                                "set 01 01 00 00",
                                "get 02 03 01 a0 04",                                   // constant: block 3
-                               "out 01 03 01 2c 01 00 00 00 00 ff 00 06 80 00 00 00",  // Y, 180 degrees
+                               "out 05 03 00 00",                                      //
+                               "out 01 03 01 2c 01 00 00 00 00 ff ff 04 80 80 00 00",  // Y, 180 degrees
                                "out 05 03 00 00",                                      //
                                "set 01 08 00 00",
                                "get 02 04 01 80 04",                                   // spring: block 4
-                               "out 01 04 08 2c 01 00 00 00 00 ff 00 03 00 00 00 00",  // X and Y
+                               "out 03 04 00 00 01 01 03 03 00",                       // X: a slight coefficient
+                               "out 03 04 01 00 01 01 03 03 00",                       // Y
+                               "out 01 04 08 2c 01 00 00 00 00 ff ff 03 40 40 00 00",  // X and Y
                                "out 03 04 00 00 00 00 ff ff 00",                       // X: coefficients 0
                                "out 03 04 01 00 00 00 ff ff 00",                       // Y: coefficients 0
                                "set 01 09 00 00",
                                "get 02 05 01 60 04",                                   // damper: block 5
-                               "out 01 05 09 2c 01 00 00 00 00 ff 00 03 00 00 00 00",  //
+                               "out 03 05 00 00 01 01 03 03 00",                       // X: a slight coefficient
+                               "out 03 05 01 00 01 01 03 03 00",                       // Y
+                               "out 01 05 09 2c 01 00 00 00 00 ff ff 03 40 40 00 00",  //
                                "out 03 05 00 00 00 00 ff ff 00",                       //
                                "out 03 05 01 00 00 00 ff ff 00",                       //
                                "out 0c 02",                                            // actuators off
                                "out 0d ff"});                                          // full gain
-  CHECK(result.after == Lines{"out 0c 03", "out 0c 02",                                // stop all, actuators off
-                              "out 0b 02", "out 0b 03", "out 0b 04", "out 0b 05",      // free the blocks
-                              "out 0c 04", "out 0c 02"});                              // reset, actuators off again
+  CHECK(result.after == Lines{"out 0a 02 03 00", "out 0a 03 03 00", "out 0a 04 03 00", "out 0a 05 03 00",  // stop each
+                              "out 0c 03", "out 0c 02",                            // stop all, actuators off
+                              "out 0b 02", "out 0b 03", "out 0b 04", "out 0b 05",  // free the blocks
+                              "out 0c 04", "out 0c 03", "out 0c 02"});             // reset, all off again
   CHECK(result.ability.spring);
   CHECK(result.ability.damper);
   CHECK(result.ability.finite);
@@ -103,31 +111,39 @@ TEST_CASE("OpenFFBoard: the same sequence, with bits and other fields") {
   CHECK(result.before == Lines{"get 13 00 05 28 01",  //
                                "out 0c 04",
                                "out 0c 08",
+                               "out 0c 04",
                                "out 0c 02",
                                "out 0d 00",
                                "set 11 01 00 00",
                                "get 12 01 01 e0 04",
-                               "out 01 01 01 2c 01 00 00 00 00 00 00 ff 00 05 28 23 00 00 00 00 00 00",
-                               "get 12 01 01 e0 04",
                                "out 05 01 00 00",
+                               "out 01 01 01 2c 01 00 00 00 00 00 00 ff ff 04 28 23 28 23 00 00 00 00",
+                               "out 05 01 00 00",
+                               "get 12 01 01 e0 04",
                                "set 11 01 00 00",
                                "get 12 02 01 c0 04",
-                               "out 01 02 01 2c 01 00 00 00 00 00 00 ff 00 06 50 46 00 00 00 00 00 00",
+                               "out 05 02 00 00",
+                               "out 01 02 01 2c 01 00 00 00 00 00 00 ff ff 04 50 46 50 46 00 00 00 00",
                                "out 05 02 00 00",
                                "set 11 08 00 00",
                                "get 12 03 01 a0 04",
-                               "out 01 03 08 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
+                               "out 03 03 00 00 00 48 01 48 01 48 01 48 01 00 00",
+                               "out 03 03 01 00 00 48 01 48 01 48 01 48 01 00 00",
+                               "out 01 03 08 2c 01 00 00 00 00 00 00 ff ff 03 28 23 28 23 00 00 00 00",
                                "out 03 03 00 00 00 00 00 00 00 ff 7f ff 7f 00 00",
                                "out 03 03 01 00 00 00 00 00 00 ff 7f ff 7f 00 00",
                                "set 11 09 00 00",
                                "get 12 04 01 80 04",
-                               "out 01 04 09 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
+                               "out 03 04 00 00 00 48 01 48 01 48 01 48 01 00 00",
+                               "out 03 04 01 00 00 48 01 48 01 48 01 48 01 00 00",
+                               "out 01 04 09 2c 01 00 00 00 00 00 00 ff ff 03 28 23 28 23 00 00 00 00",
                                "out 03 04 00 00 00 00 00 00 00 ff 7f ff 7f 00 00",
                                "out 03 04 01 00 00 00 00 00 00 ff 7f ff 7f 00 00",
                                "out 0c 02",  // off again, because Set Effect switched the actuators on
                                "out 0d ff"});
-  CHECK(result.after ==
-        Lines{"out 0c 04", "out 0c 02", "out 0b 01", "out 0b 02", "out 0b 03", "out 0b 04", "out 0c 08", "out 0c 02"});
+  CHECK(result.after == Lines{"out 0a 01 03 00", "out 0a 02 03 00", "out 0a 03 03 00", "out 0a 04 03 00", "out 0c 04",
+                              "out 0c 02", "out 0b 01", "out 0b 02", "out 0b 03", "out 0b 04", "out 0c 08", "out 0c 04",
+                              "out 0c 02"});
 }
 
 // vJoy's report IDs start at 0x11, and its Device Control is a command number. A full turn is 0x7FFF, so 90 degrees are
@@ -137,31 +153,39 @@ TEST_CASE("vJoy: the same sequence, with other IDs") {
   CHECK(result.before == Lines{"get 13 80 0c 64 01",
                                "out 1c 03",
                                "out 1c 04",
+                               "out 1c 03",
                                "out 1c 02",
                                "out 1d 00",
                                "set 11 01 00 00",
                                "get 12 01 01 60 0c",
-                               "out 11 01 01 2c 01 00 00 00 00 00 00 ff 00 05 00 20 00 00 00 00 00 00",
-                               "get 12 01 01 60 0c",
                                "out 15 01 00 00",
+                               "out 11 01 01 2c 01 00 00 00 00 00 00 ff ff 04 00 20 00 20 00 00 00 00",
+                               "out 15 01 00 00",
+                               "get 12 01 01 60 0c",
                                "set 11 01 00 00",
                                "get 12 02 01 40 0c",
-                               "out 11 02 01 2c 01 00 00 00 00 00 00 ff 00 06 00 40 00 00 00 00 00 00",
+                               "out 15 02 00 00",
+                               "out 11 02 01 2c 01 00 00 00 00 00 00 ff ff 04 00 40 00 40 00 00 00 00",
                                "out 15 02 00 00",
                                "set 11 08 00 00",
                                "get 12 03 01 20 0c",
-                               "out 11 03 08 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
+                               "out 13 03 00 00 00 64 00 64 00 64 00 64 00 00 00",
+                               "out 13 03 01 00 00 64 00 64 00 64 00 64 00 00 00",
+                               "out 11 03 08 2c 01 00 00 00 00 00 00 ff ff 03 00 20 00 20 00 00 00 00",
                                "out 13 03 00 00 00 00 00 00 00 10 27 10 27 00 00",
                                "out 13 03 01 00 00 00 00 00 00 10 27 10 27 00 00",
                                "set 11 09 00 00",
                                "get 12 04 01 00 0c",
-                               "out 11 04 09 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
+                               "out 13 04 00 00 00 64 00 64 00 64 00 64 00 00 00",
+                               "out 13 04 01 00 00 64 00 64 00 64 00 64 00 00 00",
+                               "out 11 04 09 2c 01 00 00 00 00 00 00 ff ff 03 00 20 00 20 00 00 00 00",
                                "out 13 04 00 00 00 00 00 00 00 10 27 10 27 00 00",
                                "out 13 04 01 00 00 00 00 00 00 10 27 10 27 00 00",
                                "out 1c 02",
                                "out 1d ff"});
-  CHECK(result.after ==
-        Lines{"out 1c 03", "out 1c 02", "out 1b 01", "out 1b 02", "out 1b 03", "out 1b 04", "out 1c 04", "out 1c 02"});
+  CHECK(result.after == Lines{"out 1a 01 03 00", "out 1a 02 03 00", "out 1a 03 03 00", "out 1a 04 03 00", "out 1c 03",
+                              "out 1c 02", "out 1b 01", "out 1b 02", "out 1b 03", "out 1b 04", "out 1c 04", "out 1c 03",
+                              "out 1c 02"});
 }
 
 TEST_CASE("a device that refuses a duration gets endless effects, and a note says so") {
@@ -319,8 +343,8 @@ TEST_CASE("reports that a device lacks are left out") {
   pid.device_control = {};
   port.sent.clear();
   CHECK(prepared_with(pid, port).ability.notes.size() == 4);
-  // For each of the two axes: create the effect, set the effect, set the magnitude.
-  CHECK(port.sent == std::vector<int>{0x11, 0x11, 0x15, 0x11, 0x11, 0x15});
+  // For each of the two axes: create the effect, set the magnitude, the effect, and the magnitude again.
+  CHECK(port.sent == std::vector<int>{0x11, 0x15, 0x11, 0x15, 0x11, 0x15, 0x11, 0x15});
 }
 
 TEST_CASE("unplugged at any moment of the setup: HidDisconnected, and nothing more is sent") {
@@ -337,9 +361,9 @@ TEST_CASE("unplugged at any moment of the setup: HidDisconnected, and nothing mo
       CHECK(port.disconnect_after == -1);
     }
   }
-  // The setup has 16 outputs: 4 clear the stick, 2 + 2 + 3 + 3 create the four effects, 2 finish. Each output fails in
-  // one round; the 17th round has no failure.
-  CHECK(outputs == 17);
+  // The setup has 23 outputs: 5 clear the stick, 3 + 3 + 5 + 5 set the four effects, 2 finish. Each output fails in one
+  // round; the 24th round has no failure.
+  CHECK(outputs == 24);
   ScriptedPort disconnected;
   disconnected.disconnect_after = 0;
   silence_stick(disconnected, pid, {1, 2, 3, 4});

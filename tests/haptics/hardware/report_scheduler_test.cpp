@@ -32,7 +32,7 @@ PidLayout layout_of(StickFamily family) {
 // kind.
 struct Wire {
   explicit Wire(StickFamily family, bool finite = true) : pid(layout_of(family)), stream(pid) {
-    stream.begin(kBlocks, finite);
+    stream.begin(kBlocks, finite, {});
   }
   HidBytes tick(const StickCommand& command) {
     now_ns += kMs;
@@ -74,6 +74,20 @@ TEST_CASE("on: actuators, then each effect's values before its start, then only 
   const int renewed = wire.count(pushing(0.5, 0.0), 1000, wire.pid.operate);
   CHECK(renewed == 20);  // two effects, each renewed ten times per second
   CHECK(wire.count(pushing(0.5, 0.0), 1000, wire.pid.set_constant) == 0);
+}
+
+// Found with SunFFB's state reports: while the guard's ramp raised the walls in every cycle, the springs did not start,
+// and the constant forces ran out because starts come before renewals.
+TEST_CASE("a value that changes in every cycle does not delay the start of its effect") {
+  Wire wire(StickFamily::openffboard);
+  StickCommand command = everything(0.5, 0.5);
+  for (int i = 0; i < 20; ++i) {
+    for (PidSpring& spring : command.spring) spring.coefficient += 0.001;
+    for (double& damper : command.damper) damper += 0.001;
+    wire.tick(command);
+  }
+  CHECK(wire.stream.spring()[0].coefficient > 0.5);
+  CHECK(wire.count(command, 100, wire.pid.operate) == 4);  // all four effects play, and are renewed once
 }
 
 TEST_CASE("a force too small to be encoded sends nothing") {
@@ -156,22 +170,18 @@ TEST_CASE("a release comes before anything else, and nothing drives until the ol
   }
 }
 
-TEST_CASE("a device without a motor switch is stopped, and without stop all gets zero forces") {
+TEST_CASE("a device without a motor switch: each effect is stopped, constant forces first") {
   for (const bool has_stop : {true, false}) {
     Wire wire(StickFamily::vjoy);
     for (std::size_t i = 0; i < kPidControls; ++i) {
       wire.pid.device_control.control.supported[i] = has_stop && i == static_cast<std::size_t>(PidControl::stop_all);
     }
-    wire.stream.begin(kBlocks, true);
+    wire.stream.begin(kBlocks, true, {});
     for (int i = 0; i < 20; ++i) wire.tick(everything(0.9, -0.9));
     CHECK(wire.stream.drives());
     const HidBytes first = wire.tick({});
-    if (has_stop) {
-      CHECK(first == encode_control(wire.pid, PidControl::stop_all));
-    } else {
-      CHECK(first == encode_constant(wire.pid, 1, 0.0));
-      CHECK(wire.tick({}) == encode_constant(wire.pid, 2, 0.0));
-    }
+    CHECK(first == encode_operation(wire.pid, 1, PidOperation::stop, 1));
+    CHECK(wire.tick({}) == encode_operation(wire.pid, 2, PidOperation::stop, 1));
     for (int i = 0; i < 20; ++i) wire.tick({});
     CHECK(wire.tick({}).size == 0);
     CHECK_FALSE(wire.stream.drives());

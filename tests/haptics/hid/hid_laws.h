@@ -113,7 +113,9 @@ class HidLaws {
       expect(counts->axis[i] == lever.axes[i].field.zero, "an axis is read as it was written");
     }
     report.push_back(0);
-    expect(!haptics::decode_lever(lever, report), "a report of another length is not read");
+    expect(haptics::decode_lever(lever, report) == counts, "a longer report is read alike");
+    report.resize(1);
+    expect(!haptics::decode_lever(lever, report), "a report that ends before X and Y is not read");
   }
 
   // `layout.size` is the size of the report according to the descriptor.
@@ -188,13 +190,15 @@ class HidLaws {
   }
 
   void check_encoding(const haptics::PidLayout& pid) {
-    const auto block = static_cast<int>(std::min<std::int64_t>(pid.set_constant.block.max, 1000));
+    const auto block = static_cast<int>(
+        std::min<std::int64_t>((pid.is_pool_ours() ? pid.set_constant.place : pid.set_constant.block).max, 1000));
     for (const double magnitude : {-1.0, 0.0, 1.0}) {
       const haptics::HidBytes bytes = haptics::encode_constant(pid, block, magnitude);
       check_bytes(bytes, pid.set_constant);
       if (bytes.size == 0) continue;
       const haptics::BitField& field = pid.set_constant.magnitude;
-      expect(haptics::read_bits(bytes.view(), pid.set_constant.block) == block, "the block is encoded");
+      const haptics::BitField& target = pid.is_pool_ours() ? pid.set_constant.place : pid.set_constant.block;
+      expect(haptics::read_bits(bytes.view(), target) == block, "the block is encoded");
       expect(haptics::read_bits(bytes.view(), field) == (magnitude < 0.0   ? field.min
                                                          : magnitude > 0.0 ? field.max
                                                                            : field.zero),
@@ -227,10 +231,13 @@ class HidLaws {
       std::vector<std::uint8_t> report = salted(size);
       for (const std::uint8_t id : {pid.block_load.id, pid.pool.id, pid.state.id}) {
         if (size > 0) report[0] = id;
-        expect(!haptics::decode_block_load(pid, report) || size == pid.block_load.size,
-               "a block load of its length is read");
-        expect(!haptics::decode_pool(pid, report) || size == pid.pool.size, "a pool of its length is read");
-        expect(!haptics::decode_state(pid, report) || size == pid.state.size, "a state of its length is read");
+        const auto holds = [&](const haptics::BitField& field) {
+          return size > 0 && (!field.exists() || haptics::contains(report, field));
+        };
+        expect(!haptics::decode_block_load(pid, report) || holds(pid.block_load.block),
+               "a read block load has a block");
+        expect(!haptics::decode_pool(pid, report) || holds(pid.pool.simultaneous), "a read pool has its number");
+        expect(!haptics::decode_state(pid, report) || holds(pid.state.actuators_enabled), "a read state has its bit");
       }
     }
     if (!pid.block_load.exists()) return;

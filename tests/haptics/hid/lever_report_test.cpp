@@ -126,12 +126,15 @@ TEST_CASE("no lever: a mouse, a stick of one axis, axes of a keyboard, axes that
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 75 08 96 FF 00 81 01 " + axes + "81 02 C0"));
 }
 
-TEST_CASE("a report with another ID or length is rejected") {
+// As in Linux, which adds zeros to short reports: some sticks send more or fewer bytes than they declare.
+TEST_CASE("a report with another ID, or that ends before X and Y, is rejected") {
   const LeverReport lever = lever_of(device_descriptor("saitek-gamepad-ff0d"));
   CHECK(decode_lever(lever, hex_bytes("01 80 80 80 80 00 00")));
   CHECK_FALSE(decode_lever(lever, hex_bytes("02 80 80 80 80 00 00")));
-  CHECK_FALSE(decode_lever(lever, hex_bytes("01 80 80 80 80 00")));
-  CHECK_FALSE(decode_lever(lever, hex_bytes("01 80 80 80 80 00 00 00")));
+  CHECK(decode_lever(lever, hex_bytes("01 80 80 80 80 00")));
+  CHECK(decode_lever(lever, hex_bytes("01 80 80 80 80 00 00 00")));
+  CHECK(decode_lever(lever, hex_bytes("01 81 82"))->axis[1] == 0x82);
+  CHECK_FALSE(decode_lever(lever, hex_bytes("01 81")));
   CHECK_FALSE(decode_lever(lever, {}));
 }
 

@@ -38,6 +38,7 @@
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/gate/gate_layout.h"
 #include "haptics/joystick/kinematics.h"
+#include "tests/support/stick/stick_profiles.h"
 #include "tests/support/usb/go_to_hand.h"
 #include "tests/support/usb/mock_usb.h"
 #include "tests/support/usb/touring_hand.h"
@@ -69,11 +70,19 @@ const std::map<std::string, void (*)(EmulatedFaults&)> kFaults{
     {"slow", [](EmulatedFaults& faults) { faults.slow = 0.05; }},
 };
 
-StickFamily family_of(const std::string& name) {
+// A family of sticks without the habits of its firmware, or a profile with them (stick_profiles.cpp).
+EmulatedStickConfig stick_named(const std::string& name) {
+  EmulatedStickConfig config;
   for (const StickFamily family : {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy}) {
-    if (name == to_string(family)) return family;
+    config.family = family;
+    if (name == to_string(family)) return config;
   }
-  throw std::runtime_error("--family " + name + ": sidewinder, openffboard or vjoy");
+  std::string known = "sidewinder, openffboard, vjoy";
+  for (const StickProfile& profile : stick_profiles()) {
+    if (name == profile.name) return config_of(profile);
+    known += std::string("; ") + profile.name;
+  }
+  throw std::runtime_error("--family " + name + ": must be one of " + known);
 }
 
 // `name` is a file or the name of a shipped gate.
@@ -137,7 +146,7 @@ class Emulation {
 };
 
 Emulation::Emulation(const Options& options) : options_(options) {
-  config_.family = family_of(options.family);
+  config_ = stick_named(options.family);
   // Without a tour (scripted gear changes) and without an orders file, no hand holds the lever.
   if (!options.tour.empty() || !options.orders.empty()) config_.lever.hand = haptics::kGripHand;
   config_.own_power = options.own_power;

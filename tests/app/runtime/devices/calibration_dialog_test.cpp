@@ -199,20 +199,44 @@ TEST_CASE("an interrupted calibration continues with the first missing step and 
   CHECK(found.press_button == 3);
 }
 
-TEST_CASE("a measurement may be skipped if the stick can be driven without it, and only then") {
+TEST_CASE("every step may be left out, and the question says what that costs") {
+  for (const char* left_out : {"RIGHT", "knob down", "along all its stops", "left stop", "maximum force", "forces push",
+                               "how fast", "how heavy", "springs and dampers"}) {
+    CAPTURE(left_out);
+    Rig rig;
+    CalibrationDialog dialog;
+    dialog.print = [&](const std::string& line) { rig.printed.push_back(line); };
+    dialog.save = [](const DeviceCalibration&) {};
+    dialog.ask = [&](const std::string& next) {
+      const std::string line = rig.answer(next);
+      if (!rig.is_about(left_out)) return line;
+      CHECK(next.find("- to leave it out: then ") != std::string::npos);
+      return std::string("-");
+    };
+    Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, {});
+    calibrate(calibrator, rig.ability.spring, dialog);
+    CHECK_FALSE(rig.has_printed("Rejected"));
+    CHECK(calibrator.calibration().has_springs() ==
+          (std::string(left_out) == "knob down" || std::string(left_out) == "how fast" ||
+           std::string(left_out) == "how heavy"));
+  }
+}
+
+// A person who always presses Enter, with a stick that never moves.
+TEST_CASE("a step that is rejected three times is left out, and those that need it are not asked for") {
   Rig rig;
   CalibrationDialog dialog;
   dialog.print = [&](const std::string& line) { rig.printed.push_back(line); };
   dialog.save = [](const DeviceCalibration&) {};
   dialog.ask = [&](const std::string& next) {
-    const std::string line = rig.answer(next);
-    const bool first_time = rig.asked.size() < 2 || rig.asked[rig.asked.size() - 2] != next;
-    return next.starts_with("HANDS OFF") && first_time ? "-" : line;
+    rig.stick.faults.stuck = next.starts_with("HANDS OFF");
+    return rig.answer(next);
   };
   Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, {});
   calibrate(calibrator, rig.ability.spring, dialog);
-  CHECK(calibrator.calibration().has_polarity());
-  CHECK(calibrator.calibration().has_timing());
-  CHECK_FALSE(calibrator.calibration().has_handle());
-  CHECK(rig.has_printed("\"-\" is not a valid answer"));
+  CHECK(rig.has_printed("the lever does not move with 10 % of the full force"));
+  CHECK(rig.has_printed("This step is left out: the stick cannot be used."));
+  CHECK(rig.asked.size() == 12);  // 6 for the range, 3 numbers, 3 times the direction of forces
+  CHECK(calibrator.calibration().has_range());
+  CHECK_FALSE(calibrator.calibration().has_polarity());
 }
