@@ -32,8 +32,13 @@ std::vector<Device> known_devices() {
 }
 
 // Decodes a field bit by bit, as HID 1.11 section 8.4 defines it. Bit 0 is the lowest bit of the first byte after the
-// ID.
+// ID. A field that the report does not contain is 0, as in Linux.
+bool has_bits(std::span<const std::uint8_t> report, const BitField& field) {
+  return 8 + field.offset + field.bits <= static_cast<int>(8 * report.size());
+}
+
 std::int64_t slow_bits(std::span<const std::uint8_t> report, const BitField& field) {
+  if (!has_bits(report, field)) return 0;
   std::int64_t value = 0;
   for (int i = 0; i < field.bits; ++i) {
     const int at = 8 + field.offset + i;
@@ -47,14 +52,18 @@ bool slow_flag(std::span<const std::uint8_t> report, const BitField& field, bool
   return field.exists() ? slow_bits(report, field) != 0 : default_value;
 }
 
-bool is_report(std::span<const std::uint8_t> report, std::uint8_t id, std::size_t size) {
-  return size > 0 && report.size() == size && report[0] == id;
+// `needed`: the last field without which the report says nothing
+bool is_report(std::span<const std::uint8_t> report, const PidReport& layout, const BitField& needed) {
+  return layout.exists() && !report.empty() && report[0] == layout.id && (!needed.exists() || has_bits(report, needed));
 }
 
 void check_lever(const LeverReport& layout, std::span<const std::uint8_t> report) {
   const auto counts = decode_lever(layout, report);
-  check_invariant(counts.has_value() == is_report(report, layout.id, layout.size),
-                  "a lever's report is identified by ID and length");
+  const bool has_both = std::ranges::all_of(layout.axes, [&](const HidAxis& axis) {
+    return (axis.usage != kUsageX && axis.usage != kUsageY) || has_bits(report, axis.field);
+  });
+  check_invariant(counts.has_value() == (!report.empty() && report[0] == layout.id && has_both),
+                  "a lever's report is identified by its ID, and has X and Y");
   if (!counts) return;
   for (std::size_t i = 0; i < layout.axes.size(); ++i) {
     check_invariant(counts->axis[i] == slow_bits(report, layout.axes[i].field), "an axis is decoded correctly");
@@ -68,8 +77,8 @@ void check_lever(const LeverReport& layout, std::span<const std::uint8_t> report
 void check_state(const PidLayout& pid, std::span<const std::uint8_t> report) {
   const PidState& layout = pid.state;
   const auto state = decode_state(pid, report);
-  check_invariant(state.has_value() == is_report(report, layout.id, layout.size),
-                  "a state report is identified by ID and length");
+  check_invariant(state.has_value() == is_report(report, layout, layout.actuators_enabled),
+                  "a state report is identified by its ID");
   if (!state) return;
   check_invariant(state->actuators_enabled == slow_flag(report, layout.actuators_enabled, false),
                   "motors are decoded correctly");
@@ -83,14 +92,14 @@ void check_state(const PidLayout& pid, std::span<const std::uint8_t> report) {
 
 void check_responses(const PidLayout& pid, std::span<const std::uint8_t> report) {
   const auto load = decode_block_load(pid, report);
-  check_invariant(load.has_value() == is_report(report, pid.block_load.id, pid.block_load.size),
-                  "a load report is identified by ID and length");
+  check_invariant(load.has_value() == is_report(report, pid.block_load, pid.block_load.block),
+                  "a load report is identified by its ID");
   if (load && pid.block_load.block.exists())
     check_invariant(load->block == std::clamp<std::int64_t>(slow_bits(report, pid.block_load.block), 0, 0xffff),
                     "a block as it stands");
   const auto pool = decode_pool(pid, report);
-  check_invariant(pool.has_value() == is_report(report, pid.pool.id, pid.pool.size),
-                  "a pool report is identified by ID and length");
+  check_invariant(pool.has_value() == is_report(report, pid.pool, pid.pool.simultaneous),
+                  "a pool report is identified by its ID");
   if (pool && pid.pool.ram_size.exists())
     check_invariant(pool->ram == slow_bits(report, pid.pool.ram_size), "memory is decoded correctly");
 }

@@ -14,8 +14,19 @@
 
 namespace gearshift::test {
 
-inline constexpr const char* kPidDevices[] = {"microsoft-sidewinder-ff2", "openffboard-2axis", "vjoy-2axis-ffb-tlid1",
-                                              "saitek-gamepad-ff0d"};
+inline constexpr const char* kPidDevices[] = {"microsoft-sidewinder-ff2",
+                                              "openffboard-2axis",
+                                              "vjoy-2axis-ffb-tlid1",
+                                              "saitek-gamepad-ff0d",
+                                              "openffboard-2axis-32bit-1.17",
+                                              "arduino-ffb-library-yukminglaw-xy",
+                                              "arduino-ffb-library-yukminglaw-xy-hat",
+                                              "adapt-ffb-joy-tloimu",
+                                              "sunffb-joystick",
+                                              "affbwheel-vsulako",
+                                              "brwheel-ranenbg",
+                                              "stm32-ffbjoystick-billydragon",
+                                              "saitek-cyborg-evo-force"};
 inline constexpr const char* kOtherDevices[] = {"sony-dualshock4-v2-usb", "logitech-g29-ps4",
                                                 "fanatec-clubsport-handbrake"};
 

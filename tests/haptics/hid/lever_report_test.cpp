@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "haptics/hid/hid_bytes.h"
+#include "haptics/hid/pid_layout.h"
 #include "tests/haptics/hid/descriptors.h"
 
 using namespace gearshift::haptics;
@@ -124,6 +125,12 @@ TEST_CASE("no lever: a mouse, a stick of one axis, axes of a keyboard, axes that
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 09 30 75 08 95 01 81 02 85 02 09 31 81 02 C0"));  // X and Y in two reports
   // The same axes are rejected in a report of more than 256 bytes; here 255 vendor bytes precede the axes.
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 75 08 96 FF 00 81 01 " + axes + "81 02 C0"));
+}
+
+TEST_CASE("a wheel without Y is no lever, even if it pushes") {
+  const ReportDescriptor wheel = parse_report_descriptor(device_descriptor("switchscience-ffb-steering-go"));
+  CHECK(find_pid(wheel));
+  CHECK_FALSE(find_lever_report(wheel));
 }
 
 // As in Linux, which adds zeros to short reports: some sticks send more or fewer bytes than they declare.

@@ -274,8 +274,9 @@ TEST_CASE("a block index outside the field's range is not encoded, because it wo
     for (const int block : {kNoBlock, -1, 256, 300, 100000}) {
       CAPTURE(block);
       CHECK(hex_of(encode_set_effect(pid, settings(block, PidEffect::constant, 0))).empty());
-      CHECK(hex_of(encode_constant(pid, block, 1.0)).empty());
-      CHECK(hex_of(encode_condition(pid, block, 0, kSpring)).empty());
+      // Where the driver manages the pool, these two have a place in memory instead of a block.
+      CHECK((pid.is_pool_ours() || hex_of(encode_constant(pid, block, 1.0)).empty()));
+      CHECK((pid.is_pool_ours() || hex_of(encode_condition(pid, block, 0, kSpring)).empty()));
       CHECK(hex_of(encode_operation(pid, block, PidOperation::start, 1)).empty());
       CHECK(hex_of(encode_block_free(pid, block)).empty());
     }
@@ -283,6 +284,25 @@ TEST_CASE("a block index outside the field's range is not encoded, because it wo
   CHECK(hex_of(encode_constant(pid_of("microsoft-sidewinder-ff2"), 41, 1.0)).empty());
   CHECK(hex_of(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, 2, kSpring)).empty());  // only two axes
   CHECK(hex_of(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, -1, kSpring)).empty());
+}
+
+// Bytes as in zanppa/hid-pidff 37709a8, which was tried on this stick; offsets of ours. A spring is enabled by axis bits
+// (C0h), because with the direction bit (20h) only its first condition acts.
+TEST_CASE("Cyborg Evo Force: the driver places parameters in the stick's memory") {
+  const PidLayout pid = pid_of("saitek-cyborg-evo-force");
+  CHECK(pid.is_pool_ours());
+  PidEffectSettings constant = settings(1, PidEffect::constant, 1);
+  constant.place = {16, -1};
+  CHECK(hex_of(encode_set_effect(pid, constant)) == "0B 01 01 20 2C 01 80 00 00 10 00 FF FF 00 00");
+  CHECK(hex_of(encode_constant(pid, 16, 1.0)) == "0D 10 00 7F");
+  PidEffectSettings spring = settings(3, PidEffect::spring, -1);
+  spring.style = AxisStyle::bits;
+  spring.place = {32, 48};
+  CHECK(hex_of(encode_set_effect(pid, spring)) == "0B 03 07 C0 2C 01 40 00 00 20 00 30 00 00 00");
+  CHECK(hex_of(encode_condition(pid, 48, 1, kSpring)).starts_with("0F 30 00 "));
+  CHECK(hex_of(encode_constant(pid, 300, 1.0)).empty());  // the memory has 300 bytes
+  CHECK(control(pid, PidControl::reset) == "52 01");
+  CHECK(control(pid, PidControl::enable_actuators) == "52 03");
 }
 
 TEST_CASE("MOZA: six controls in one field that is flagged as a variable are still one number") {

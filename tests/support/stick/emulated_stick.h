@@ -29,7 +29,6 @@ enum class StickFamily : std::uint8_t {
   sunffb,
   affbwheel,
   brwheel,
-  steering_go,
   stm32,
   saitek
 };

@@ -284,15 +284,6 @@ StickFamilyTable brwheel() {
   return table;
 }
 
-// A wheel whose descriptor has no Y.
-StickFamilyTable steering_go() {
-  StickFamilyTable table = arduino();
-  table.name = "steering_go";
-  table.product_name = "FFB Steering Controller";
-  table.lever = {{0x01, 16}, s16(4), s16(6), -32767.0, 32767.0, 16, 1, 0};
-  return table;
-}
-
 StickFamilyTable stm32() {
   StickFamilyTable table = arduino_like("stm32", 10000.0, 39);
   table.vendor = 0x2906;
@@ -382,9 +373,9 @@ double read_fraction(std::span<const std::uint8_t> report, const StickFraction& 
 }
 
 const StickFamilyTable& stick_family(StickFamily family) noexcept {
-  static const std::array<StickFamilyTable, 13> tables{
-      sidewinder(), openffboard(), vjoy(),    openffboard_32bit(), arduino(), arduino_hat(), adapt_ffb_joy(),
-      sunffb(),     affbwheel(),   brwheel(), steering_go(),       stm32(),   saitek()};
+  static const std::array<StickFamilyTable, 12> tables{
+      sidewinder(),    openffboard(), vjoy(),      openffboard_32bit(), arduino(), arduino_hat(),
+      adapt_ffb_joy(), sunffb(),      affbwheel(), brwheel(),           stm32(),   saitek()};
   return tables.at(static_cast<std::size_t>(family));
 }
 
@@ -393,7 +384,7 @@ const char* to_string(StickFamily family) noexcept {
 }
 
 std::vector<std::uint8_t> stick_report_descriptor(StickFamily family) {
-  static constexpr std::array<const char*, 13> kFiles{"microsoft-sidewinder-ff2",
+  static constexpr std::array<const char*, 12> kFiles{"microsoft-sidewinder-ff2",
                                                       "openffboard-2axis",
                                                       "vjoy-2axis-ffb-tlid1",
                                                       "openffboard-2axis-32bit-1.17",
@@ -403,7 +394,6 @@ std::vector<std::uint8_t> stick_report_descriptor(StickFamily family) {
                                                       "sunffb-joystick",
                                                       "affbwheel-vsulako",
                                                       "brwheel-ranenbg",
-                                                      "switchscience-ffb-steering-go",
                                                       "stm32-ffbjoystick-billydragon",
                                                       "saitek-cyborg-evo-force"};
   const std::string path =
