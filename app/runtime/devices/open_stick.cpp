@@ -20,6 +20,24 @@ bool matches_exactly(const haptics::HidIdentity& stick, const std::string& wante
   return lower(wanted) == stick_id(stick) || wanted == stick.serial || wanted == stick.place;
 }
 
+bool is_same_device(const ListedStick& a, const ListedStick& b) {
+  return a.identity.vendor == b.identity.vendor && a.identity.product == b.identity.product &&
+         a.identity.serial == b.identity.serial && a.identity.place == b.identity.place;
+}
+
+// Of the interfaces of one device, only the first with forces is meant, or the first of all if none has forces.
+void keep_one_interface(std::vector<const ListedStick*>& found) {
+  const std::vector<const ListedStick*> all = found;
+  std::erase_if(found, [&all](const ListedStick* stick) {
+    return std::any_of(all.begin(), all.end(), [stick](const ListedStick* other) {
+      if (other == stick || !is_same_device(*other, *stick)) return false;
+      const bool pushes = stick->force == StickForce::force_feedback;
+      const bool other_pushes = other->force == StickForce::force_feedback;
+      return other_pushes != pushes ? other_pushes : other->interface < stick->interface;
+    });
+  });
+}
+
 bool name_contains(const haptics::HidIdentity& stick, const std::string& wanted) {
   return lower(stick_name(stick)).find(lower(wanted)) != std::string::npos;
 }
@@ -90,18 +108,30 @@ haptics::HidIdentity identity_to_open(const ListedStick& stick, const std::strin
                                       std::span<const ListedStick> plugged) {
   const auto is_same = [&stick](const ListedStick& other) {
     return other.identity.vendor == stick.identity.vendor && other.identity.product == stick.identity.product &&
-           other.identity.serial == stick.identity.serial;
+           other.identity.serial == stick.identity.serial && other.identity.place != stick.identity.place;
   };
   haptics::HidIdentity identity = stick.identity;
-  const bool has_twin = std::count_if(plugged.begin(), plugged.end(), is_same) > 1;
+  const bool has_twin = std::any_of(plugged.begin(), plugged.end(), is_same);
   if (!has_twin && wanted != identity.place) identity.place.clear();
   return identity;
+}
+
+// Opens the interface whose reports are those of the calibration; one of a stick that was not plugged in is not known
+// before.
+std::unique_ptr<haptics::HidPort> open_known(const haptics::HidIdentity& identity, const KnownStick& known) {
+  for (const haptics::UsbHidDevice& device : haptics::usb_hid_devices()) {
+    const bool is_it = device.identity.vendor == identity.vendor && device.identity.product == identity.product &&
+                       device.report_descriptor == known.report_descriptor;
+    if (is_it) return haptics::open_usb_hid(identity, device.interface);
+  }
+  return haptics::open_usb_hid(identity);
 }
 
 }  // namespace
 
 const ListedStick* find_plugged_stick(const std::string& wanted, std::span<const ListedStick> plugged) {
-  const std::vector<const ListedStick*> found = matching_sticks(wanted, plugged, listed_identity);
+  std::vector<const ListedStick*> found = matching_sticks(wanted, plugged, listed_identity);
+  keep_one_interface(found);
   if (found.size() < 2) return found.empty() ? nullptr : found.front();
   std::vector<ListedStick> candidates;
   for (const ListedStick* stick : found) candidates.push_back(*stick);
@@ -147,8 +177,9 @@ ResolvedStick resolve_stick(const std::string& wanted, std::span<const ListedSti
 
 std::shared_ptr<StickLever> open_stick(const std::string& wanted, const std::filesystem::path& folder) {
   const ResolvedStick stick = resolve_stick(wanted, list_sticks(haptics::usb_hid_devices(), folder), folder);
-  const auto open = [identity = stick.identity, interface = stick.interface] {
-    return haptics::open_usb_hid(identity, interface);
+  const auto open = [stick] {
+    return stick.interface == haptics::kFirstInterface ? open_known(stick.identity, stick.known)
+                                                       : haptics::open_usb_hid(stick.identity, stick.interface);
   };
   return std::make_shared<StickLever>(stick.known, open);
 }

@@ -72,6 +72,24 @@ TEST_CASE("a complete serial number or place takes precedence over part of a nam
   CHECK(select_stick("2A0030", list_sticks(plugged, {})).identity.vendor == 0x1209);
 }
 
+TEST_CASE("of several interfaces of one device, the first with forces is meant") {
+  UsbHidDevice keys = usb_device("sony-dualshock4-v2-usb", 0x1209, 0xffb0, "FFBoard", "1-2", "2A0030");
+  UsbHidDevice base = openffboard(), second = openffboard();
+  keys.interface = 0;
+  base.interface = 1;
+  second.interface = 2;
+  const TempFolder folder;
+  save_known_stick(calibrated(base), folder.path());
+  const std::vector<UsbHidDevice> plugged{keys, second, base};
+  const ResolvedStick stick = resolve_stick("ffboard", list_sticks(plugged, folder.path()), folder.path());
+  CHECK(stick.interface == 1);
+  CHECK(stick.identity.place.empty());  // no twin, so any port will do
+  // Two such devices are still two sticks.
+  UsbHidDevice twin = base;
+  twin.identity.place = "1-7";
+  CHECK(says(refusal("ffboard", {keys, base, twin}, folder.path()), {"several", "at 1-2", "at 1-7"}));
+}
+
 TEST_CASE("several matches, no match or no stick at all: one printable sentence with the connected sticks") {
   const std::vector<UsbHidDevice> twins{sidewinder("1-1"), sidewinder("1-2"), openffboard("1-3")};
   CHECK(says(refusal("sidewinder", twins), {"several", "at 1-1", "at 1-2"}));
