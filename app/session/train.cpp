@@ -201,7 +201,17 @@ class WindowTrainer {
     shared_.update(
         polled, seconds_, [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_, pointing_.pointer());
     if (setup_.choice.stick) input_.release_mouse();
+    if (!setup_.choice.stick) report_unbound(polled.pads);
     look_.turn(shared_.turned());
+  }
+
+  void report_unbound(const std::vector<engine::PadState>& sticks) {
+    std::vector<std::string> sentences = ui::describe_unbound(setup_.bindings, sticks);
+    for (const std::string& sentence : sentences) {
+      const bool is_known = std::find(unbound_.begin(), unbound_.end(), sentence) != unbound_.end();
+      if (!is_known) report_message(sentence);
+    }
+    unbound_ = std::move(sentences);
   }
 
   // Where the hand points at the panel; empty if it does not, or if this part of the panel has no controls.
@@ -374,6 +384,7 @@ class WindowTrainer {
   Clock::time_point next_view_{}, view_quiet_until_{};
   std::optional<runtime::LoopHealth> health_;  // health of the loop in the newest frame
   std::string printed_message_;
+  std::vector<std::string> unbound_;  // sentences about the sticks of the last frame
 };
 
 // True if the lesson or the replay has ended.

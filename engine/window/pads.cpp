@@ -2,6 +2,8 @@
 
 #include <GLFW/glfw3.h>
 
+#include <iterator>
+
 #include "engine/window/glfw_use.h"
 
 namespace gearshift::engine {
@@ -16,7 +18,15 @@ std::vector<PadState> read_pads() {
     const char* name = glfwGetJoystickName(id);
     const char* guid = glfwGetJoystickGUID(id);
     if (name == nullptr || guid == nullptr) continue;  // the device was just unplugged
-    pads.push_back({name, {axis, axis + axes}, {button, button + buttons}, guid});
+    GLFWgamepadstate mapped;
+    if (glfwGetGamepadState(id, &mapped) == GLFW_TRUE)
+      pads.push_back({name,
+                      {std::begin(mapped.axes), std::end(mapped.axes)},
+                      {std::begin(mapped.buttons), std::end(mapped.buttons)},
+                      guid,
+                      true});
+    else
+      pads.push_back({name, {axis, axis + axes}, {button, button + buttons}, guid, false});
   }
   return pads;
 }

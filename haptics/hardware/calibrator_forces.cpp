@@ -130,6 +130,7 @@ Calibrator::Signs Calibrator::constant_signs() {
       if (reason.empty()) reason = refused.what();
     }
   }
+  driver_.set_style(calibration_.style);
   throw CalibrationRefused(reason);
 }
 
@@ -484,6 +485,7 @@ std::array<Calibrator::Spring, 2> Calibrator::find_springs() {
       if (reason.empty()) reason = refused.what();
     }
   }
+  driver_.set_style(calibration_.style);
   throw EffectsRefused(reason);
 }
 

@@ -17,6 +17,7 @@
 
 #include "tests/guest/guest_bench.h"
 #include "tests/haptics/device/still_hand.h"
+#include "tests/support/stick/stick_profiles.h"
 
 using namespace gearshift::haptics;
 using namespace gearshift::test;
@@ -116,6 +117,32 @@ TEST_CASE("hid-pidff accepts each family as a PID device, and knows its effects"
     const int playing = family == StickFamily::sidewinder ? 1 : 0;
     CHECK(becomes_true([&] { return stick.with_stick_state([](EmulatedStick& s) { return s.playing(); }) == playing; },
                        5.0));
+  }
+}
+
+// hid-pidff of Linux 6.1 and 6.12 needs a start delay in Set Effect and a pool managed by the device; without the negative
+// fields of a condition it has no springs (pidff_init_fields).
+TEST_CASE("hid-pidff accepts the profiles that have what it needs, with their habits, and only those") {
+  for (const StickProfile& profile : stick_profiles()) {
+    CAPTURE(std::string(profile.name));
+    const StickFamily family = profile.family;
+    const bool has_delay = family != StickFamily::arduino && family != StickFamily::arduino_hat &&
+                           family != StickFamily::adapt_ffb_joy && family != StickFamily::affbwheel &&
+                           family != StickFamily::stm32;
+    const bool is_accepted = has_delay && family != StickFamily::saitek && !profile.habits.pool_by_driver_flag;
+    const int before = count_in_kernel_log("Force feedback for USB HID PID devices");
+    StillHand hand;
+    PluggedStick plugged(config_of(profile), hand);
+    int events = -1;
+    REQUIRE(becomes_true([&] { return (events = open_event_device(plugged.vendor(), plugged.product())) >= 0; }, 20.0));
+    const auto is_logged = [&] { return count_in_kernel_log("Force feedback for USB HID PID devices") > before; };
+    CHECK(becomes_true(is_logged, is_accepted ? 5.0 : 1.0) == is_accepted);
+    std::array<std::uint8_t, FF_MAX / 8 + 1> bits{};
+    ioctl(events, EVIOCGBIT(EV_FF, bits.size()), bits.data());
+    const auto has = [&](int type) { return (bits[static_cast<std::size_t>(type / 8)] >> (type % 8) & 1) != 0; };
+    CHECK(has(FF_CONSTANT) == is_accepted);
+    CHECK(has(FF_SPRING) == (is_accepted && family != StickFamily::brwheel));
+    close(events);
   }
 }
 

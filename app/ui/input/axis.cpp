@@ -20,8 +20,9 @@ double between_zones(const AxisBinding& axis, double value) noexcept {
 }  // namespace
 
 bool matches_stick(const engine::PadState& stick, std::string_view name) {
+  if (name.empty()) return stick.is_pad;
   const auto at = std::search(stick.name.begin(), stick.name.end(), name.begin(), name.end(), same_letter);
-  return name.empty() || at != stick.name.end() || stick.guid == name;
+  return at != stick.name.end() || stick.guid == name;
 }
 
 const engine::PadState* find_stick(const std::vector<engine::PadState>& sticks, const AxisBinding& axis) {

@@ -18,10 +18,11 @@ struct AxisBinding {
   double dead_zone = 0.0;        // [1] 0 to 0.9: fraction ignored around a lever's rest position or at a pedal's start
   double end_zone = 0.0;         // [1] 0 to 0.9: fraction at the end that counts as full; dead_zone + end_zone <= 0.95
   std::optional<double> centre;  // raw value of a lever at rest, between `from` and `to`; default: midway
-  std::string stick;             // part of the stick's name, or its whole GUID; empty: any stick
+  std::string stick;             // part of the stick's name, or its whole GUID; empty: any game pad
 };
 
-// Returns true if the stick's name contains `name` (ignoring case) or its GUID equals `name`.
+// Returns true if the stick's name contains `name` (ignoring case) or its GUID equals `name`. An empty name stands for
+// any game pad, because axes of other sticks mean nothing before a person has said which is which.
 bool matches_stick(const engine::PadState& stick, std::string_view name);
 
 // Returns the stick that the axis belongs to; null if this stick is not plugged in.

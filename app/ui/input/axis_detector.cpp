@@ -54,7 +54,7 @@ bool AxisDetector::check_sticks(const std::vector<engine::PadState>& sticks) {
   changed_ = changed_ || !std::equal(sticks_.begin(), sticks_.end(), sticks.begin(), sticks.end(), same);
   for (std::size_t s = 0; is_new && s < sticks.size(); ++s)
     for (std::size_t a = 0; a < sticks[s].axes.size(); ++a)
-      sticks_[s].axes[a].first = sticks_[s].axes[a].low = sticks_[s].axes[a].high = sticks[s].axes[a];
+      sticks_[s].axes[a].begin(sticks[s].axes[a], sticks[s].is_pad);
   return !changed_;
 }
 
@@ -65,6 +65,7 @@ void AxisDetector::record_move(const std::vector<engine::PadState>& sticks) {
     for (std::size_t a = 0; a < sticks[s].axes.size(); ++a) {
       AxisRange& range = sticks_[s].axes[a];
       const double raw = sticks[s].axes[a];
+      if (!range.is_reported && raw != range.first) range.begin(raw, true);
       if (raw < range.low) range.low_at = frames_, range.low = raw;
       if (raw > range.high) range.high_at = frames_, range.high = raw;
     }

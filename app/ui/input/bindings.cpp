@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "app/ui/input/key_names.h"
+#include "haptics/files/printable.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
@@ -72,11 +73,13 @@ struct BoundAxis {
   AxisBinding axis;
 };
 
-// True if both bindings use the same part of the same axis. Two pedals may share an axis, each using one half.
+// True if both bindings use the same part of the same axis. Two pedals may share an axis, each using one half; their
+// dead zones may overlap, because the measured rest of one may be a count beyond that of the other.
 bool overlap(const AxisBinding& a, const AxisBinding& b) {
   if (a.stick != b.stick || a.pad != b.pad || a.axis != b.axis) return false;
-  const auto [a_low, a_high] = std::minmax(a.from, a.to);
-  const auto [b_low, b_high] = std::minmax(b.from, b.to);
+  const auto start = [](const AxisBinding& axis) { return axis.from + axis.dead_zone * (axis.to - axis.from); };
+  const auto [a_low, a_high] = std::minmax({start(a), a.to});
+  const auto [b_low, b_high] = std::minmax({start(b), b.to});
   return a_low < b_high && b_low < a_high;
 }
 
@@ -183,6 +186,37 @@ Bindings read_bindings(const std::filesystem::path& file) {
   if (!bindings.keys.contains(Action::stop))
     root.fail({}, "[keys] has no key for stop; set one, so that you can always turn forces off");
   return bindings;
+}
+
+std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<engine::PadState>& sticks) {
+  std::map<std::string, std::string> controls;  // of each stick that the bindings name
+  const auto add = [&controls](const std::string& stick, const char* control) {
+    if (!stick.empty()) controls[stick] += (controls[stick].empty() ? "" : ", ") + std::string(control);
+  };
+  for (const auto& [axis, control] : {std::pair{&bindings.lever_select, "lever"},
+                                      {&bindings.throttle, "throttle"},
+                                      {&bindings.brake, "brake"},
+                                      {&bindings.clutch, "clutch"}})
+    if (*axis) add((*axis)->stick, control);
+  if (!bindings.pad_buttons.empty()) add(bindings.button_stick, "buttons");
+  std::vector<std::string> sentences;
+  for (const auto& [stick, names] : controls) {
+    const bool is_there = std::any_of(sticks.begin(), sticks.end(),
+                                      [&name = stick](const engine::PadState& s) { return matches_stick(s, name); });
+    if (!is_there)
+      sentences.push_back(
+          fmt::format("{} is not plugged in, so it moves no {}; plug it in, or run: gearshift devices --calibrate",
+                      haptics::printable(stick), names));
+  }
+  for (const engine::PadState& stick : sticks) {
+    const bool is_named = std::any_of(controls.begin(), controls.end(),
+                                      [&](const auto& named) { return matches_stick(stick, named.first); });
+    if (!stick.is_pad && !stick.axes.empty() && !is_named)
+      sentences.push_back(
+          fmt::format("{} was found; it moves nothing until you set it up: gearshift devices --calibrate",
+                      haptics::printable(stick.name)));
+  }
+  return sentences;
 }
 
 std::vector<DrivingKey> driving_keys(const Bindings& bindings) {

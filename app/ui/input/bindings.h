@@ -84,6 +84,10 @@ std::string bindings_text(const Bindings& bindings);
 // std::invalid_argument with one sentence if the name cannot be a file name.
 std::filesystem::path user_bindings_file(const std::filesystem::path& config_folder, const std::string& name);
 
+// Sentences about sticks that the bindings name but that are not plugged in, and about sticks (not game pads) that no
+// binding names.
+std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<engine::PadState>& sticks);
+
 // Returns the text of the help window (F1): one line per bound action, then lines for mouse and pad. A tab separates
 // the input from the action.
 std::string help_text(const Bindings& bindings);

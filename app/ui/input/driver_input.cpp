@@ -247,8 +247,13 @@ std::optional<double> DriverInput::raw_axis(const engine::WindowInput& input, co
     return std::nullopt;
   }
   const double raw = static_cast<double>(pad->axes[number]);
-  if (!state.first) state.first = raw;
-  state.moved = state.moved || std::abs(raw - *state.first) > kMinAxisMove;
+  if (!state.first) state = {raw, pad->is_pad, false};
+  const bool changed = std::abs(raw - *state.first) > kMinAxisMove;
+  if (changed && !state.is_reported) {
+    state = {raw, true, false};
+  } else if (changed) {
+    state.moved = true;
+  }
   return state.moved ? std::optional(raw) : std::nullopt;
 }
 

@@ -7,7 +7,8 @@
 //           lever by at most 5 cm. 0.3 s after their release the hand moves back to at most 5 mm from the lever, so
 //           that it does not push on the lever permanently.
 //   pedals  The held pedal keys go to the car, which moves its pedals, see vehicle::KeyboardPedals. A pedal axis
-//           is used only after its first motion, because a pad does not report the true position of an axis earlier.
+//           is used only after its first motion, because a pad does not report the true position of an axis earlier. The
+//           first change of another stick's axis may be its first report, so its motion begins with the second.
 //   mouse   A click on the cabin, or the action `grab_mouse`, captures the mouse for the lever. `grab_mouse` again, or
 //           the loss of the window's focus, releases the mouse.
 //   panel   Keys and clicks that the panel uses are ignored, with two exceptions: `stop` with a key that types no text,
@@ -66,6 +67,7 @@ class DriverInput {
  private:
   struct AxisWatch {
     std::optional<double> first;
+    bool is_reported = false;  // `first` is from a report
     bool moved = false;
   };
   struct Source {  // a key or button

@@ -100,14 +100,20 @@ std::string key_label(int key) {
 }
 
 std::string pad_button_label(int button) {
-  constexpr std::array<const char*, 11> kNames{"A", "B", "X", "Y", "LB", "RB", "Back", "Start", "Guide", "LS", "RS"};
+  constexpr std::array<const char*, 15> kNames{"A",  "B",        "X",           "Y",          "LB",
+                                               "RB", "Back",     "Start",       "Guide",      "LS",
+                                               "RS", "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
   const auto index = static_cast<std::size_t>(button);
   return button >= 0 && index < kNames.size() ? kNames[index] : "button " + std::to_string(button);
 }
 
 std::string pad_axis_label(int axis) {
-  constexpr std::array<const char*, 6> kNames{"left stick, left and right",  "left stick, up and down",  "LT",
-                                              "right stick, left and right", "right stick, up and down", "RT"};
+  constexpr std::array<const char*, 6> kNames{"left stick, left and right",
+                                              "left stick, up and down",
+                                              "right stick, left and right",
+                                              "right stick, up and down",
+                                              "LT",
+                                              "RT"};
   const auto index = static_cast<std::size_t>(axis);
   return axis >= 0 && index < kNames.size() ? kNames[index] : "axis " + std::to_string(axis);
 }

@@ -82,6 +82,23 @@ TEST_CASE("if the pad reports an axis only after it moves, its rest is the value
   CHECK(detector.result().to == doctest::Approx(1.0).epsilon(0.005));
 }
 
+// Until its first report, the kernel holds 0 for every axis: -1 here, the far end of a Logitech wheel's pedals.
+TEST_CASE("the first report of a wheel moves all its pedals at once, and is no motion") {
+  Desk desk;
+  desk.sticks[1].is_pad = false;
+  desk.sticks[1].axes = {-1.0f, -1.0f, -1.0f};
+  AxisDetector detector(Control::pedal);
+  detector.record_move(desk.shown());
+  desk.sticks[1].axes = {1.0f, 1.0f, 1.0f};
+  detector.record_move(desk.shown());
+  desk.move(detector, 1, 2, -0.8);  // a pedal that does not reach its end
+  desk.move(detector, 1, 2, 1.0);
+  desk.rest(detector);
+  CHECK(detector.result().axis == 2);
+  CHECK(detector.result().from == doctest::Approx(1.0).epsilon(0.005));
+  CHECK(detector.result().to == doctest::Approx(-0.8).epsilon(0.01));
+}
+
 TEST_CASE("a lever is learnt: the first end reached is left or back, and its rest is where it was released") {
   for (const double first : {-0.9, 0.8}) {
     Desk desk;

@@ -169,6 +169,25 @@ TEST_CASE("throttle and brake may be the two halves of one axis, but must not ov
   const std::string throttle = stop + "[pad_axes.throttle]\naxis = 1\nfrom = 0\nto = 1\n[pad_axes.brake]\naxis = 1\n";
   CHECK(refusal(throttle + "from = 0\nto = -1\n") == "accepted");
   CHECK(begins(refusal(throttle + "from = 0.1\nto = -1\n"), "my.toml:8: axis = 1: is already bound to throttle"));
+  // Measured rests may differ by a count; the dead zone has room for it.
+  CHECK(refusal(throttle + "from = 0.004\nto = -1\ndead_zone = 0.02\n") == "accepted");
+}
+
+TEST_CASE("sticks that are absent, and those that nobody has set up, are told; game pads need no setting up") {
+  using gearshift::engine::PadState;
+  const Bindings bindings = bindings_of(stop +
+                                        "[pad_buttons]\nstick = \"Box\"\narm = \"3\"\n"
+                                        "[pad_axes.throttle]\nstick = \"Pedals\"\naxis = 0\n"
+                                        "[pad_axes.brake]\nstick = \"Pedals\"\naxis = 1\n");
+  const PadState pad{"X-Box pad", {0.0f}, {}, "x", true}, wheel{"Wheel", {0.0f}, {}, "w", false},
+      pedals{"Acme Pedals", {0.0f}, {}, "p", false}, keyboard{"Keyboard", {}, {0}, "k", false},
+      box{"Button Box", {}, {0}, "b", false};
+  CHECK(describe_unbound(bindings, {pad, pedals, keyboard, box}).empty());
+  CHECK(
+      describe_unbound(bindings, {pad, wheel, box}) ==
+      std::vector<std::string>{
+          "Pedals is not plugged in, so it moves no throttle, brake; plug it in, or run: gearshift devices --calibrate",
+          "Wheel was found; it moves nothing until you set it up: gearshift devices --calibrate"});
 }
 
 TEST_CASE("stick names, a lever's rest, both dead zones and the lever mode are read as written") {

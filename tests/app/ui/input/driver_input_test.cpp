@@ -338,6 +338,55 @@ TEST_CASE("a pedal's axis is used from its first movement on, because a pad repo
   CHECK(d.driver.controls().pedals.throttle == 0.0);
 }
 
+// A Logitech G29 that nobody touches (new-lg4ff issue 91): until its first report the kernel holds 0, which is fully
+// pressed for its pedals and half for its wheel; then the pedals rest at 1. Axes: wheel, clutch, throttle, brake.
+TEST_CASE("a wheel that nobody has set up moves neither pedals nor lever, with the shipped bindings") {
+  Driver d;
+  d.driver = DriverInput({read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml"), {0.06, 0.05}});
+  const auto all_at_rest = [&] {
+    const auto& pedals = d.driver.controls().pedals;
+    return pedals.throttle == 0.0 && pedals.brake == 0.0 && pedals.clutch == 0.0 && pedals.hand_brake == 0.0 &&
+           glm::length(d.driver.hand().position) == 0.0 && d.driver.pressed().empty();
+  };
+  PadState wheel{"Logitech G29 Driving Force Racing Wheel", {0.0f, -1.0f, -1.0f, -1.0f}, {}, "g29", false};
+  wheel.buttons.assign(29, 0);
+  d.input.pads = {wheel};
+  d.frame();
+  CHECK(all_at_rest());
+  for (const float turned : {0.0f, -0.5f, 0.5f, 0.0f}) {
+    d.input.pads[0].axes = {turned, 1.0f, turned, -turned};
+    std::fill(d.input.pads[0].buttons.begin(), d.input.pads[0].buttons.end(), turned > 0.0f ? 1 : 0);
+    d.frame();
+    CHECK(all_at_rest());
+  }
+  // Negative control: a game pad with the same values.
+  d.input.pads[0].is_pad = true;
+  d.input.pads[0].axes = {0.0f, 0.0f, 0.0f, 0.0f, -1.0f, -1.0f};
+  d.frame();
+  d.input.pads[0].axes[5] = 1.0f;
+  d.frame();
+  CHECK(d.driver.controls().pedals.throttle == 1.0);
+}
+
+TEST_CASE("the first report of a wheel that is set up is no motion: its pedals stay up until a foot moves them") {
+  Driver d;
+  Bindings custom = bindings();
+  custom.throttle = AxisBinding{0, 2, 1.0, -1.0, 0.0};
+  custom.throttle->stick = "G29";
+  d.driver = DriverInput({custom, {0.06, 0.05}});
+  d.input.pads = {{"Logitech G29 Driving Force Racing Wheel", {0.0f, -1.0f, -1.0f, -1.0f}, {}, "g29", false}};
+  d.frame();
+  CHECK(d.driver.controls().pedals.throttle == 0.0);
+  for (const float rest : {0.4f, 0.4f}) {  // the first report, of a pedal that springs back to less than its end
+    d.input.pads[0].axes[2] = rest;
+    d.frame();
+    CHECK(d.driver.controls().pedals.throttle == 0.0);
+  }
+  d.input.pads[0].axes[2] = 0.0f;
+  d.frame();
+  CHECK(d.driver.controls().pedals.throttle == doctest::Approx(0.5));
+}
+
 TEST_CASE("each pedal follows its own axis only") {
   Bindings custom = bindings();
   custom.throttle = AxisBinding{0, 0, -1.0, 1.0, 0.0};

@@ -59,6 +59,7 @@ Bindings foot_on_pedals() {
   bindings.throttle = AxisBinding{0, 2, -1.0, 1.0, 0.0};
   bindings.throttle->stick = "acme";
   bindings.pad_buttons = {{Action::stop, {1}}};
+  bindings.button_stick = "acme";
   return bindings;
 }
 
@@ -83,7 +84,11 @@ TEST_CASE("a kernel input device is listed; its pedal moves the throttle, its bu
     driver.update(input, 0.01, false, false);
     return input.pads;
   };
+  CHECK_FALSE(sticks[0].is_pad);
   detector.record_move(frame());
+  pedals.press_pedal(-120);  // the first report is no motion
+  detector.record_move(frame());
+  CHECK(driver.controls().pedals.throttle == 0.0);
   for (const int value : {-100, -50, 0, 63, 127, 127, 63, -127}) {
     pedals.press_pedal(value);
     detector.record_move(frame());
