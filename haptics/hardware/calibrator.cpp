@@ -71,8 +71,7 @@ std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration,
   if (!calibration.has_polarity()) missing.push_back(CalibrationStep::polarity);
   if (!calibration.has_timing()) missing.push_back(CalibrationStep::timing);
   if (!calibration.has_handle()) missing.push_back(CalibrationStep::handle);
-  if (springs && !calibration.has_springs() && calibration.springs_refused.empty())
-    missing.push_back(CalibrationStep::springs);
+  if (springs && !calibration.has_springs()) missing.push_back(CalibrationStep::springs);
   return missing;
 }
 

@@ -95,7 +95,10 @@ class Calibrator {
   static void require_motors(const std::array<int, 2>& sign);
   void check_together(StickRig& rig, const Signs& found) const;
   double push(StickRig& rig, const AxisPlace& place, const StickCommand& idle, const StickCommand& command) const;
+  std::string measure_springs_anew();
+  std::string measure_spring_strengths();
   std::array<Spring, 2> find_springs();
+  std::array<Spring, 2> springs_twice(StickStyle style);
   std::array<Spring, 2> springs_by(StickStyle style);
   int spring_sign(StickRig& rig, const AxisPlace& place) const;
   void check_springs_together(StickRig& rig, const std::array<Spring, 2>& springs) const;
@@ -104,7 +107,7 @@ class Calibrator {
   Pulse pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const;
   std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double& magnitude) const;
   double restart_gap(StickRig& rig, const DeviceTiming& timing) const;
-  double distance_pushed(StickRig& rig, const AxisPlace& place, bool restarts) const;
+  double distance_pushed(StickRig& rig, const AxisPlace& place, bool alone, double restart_interval) const;
   double own_share(StickRig& rig, const LeverAxisCalibration& axis) const;
   double distance_returned(StickRig& rig, const AxisPlace& place, bool motors) const;
   PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper = 0.0) const;

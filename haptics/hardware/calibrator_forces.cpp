@@ -41,13 +41,18 @@ constexpr double kDamper = 0.5;            // [1] damper coefficient in the meas
 // [1] largest plausible force of the handle's own spring at a stop, as a fraction of the full force. A stronger spring
 // means that a hand is on the lever.
 constexpr double kMaxHandleSpringForce = 0.3;
-constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are not asked for their origin
+constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are assumed to be mechanical
 constexpr double kMinOwnShare = 0.25;        // [1] of the handle's stiffness
 constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000;  // [ns]
 constexpr double kMinGap = 0.0003;   // [s] shorter gaps cannot be told from noise
 constexpr double kMinBraking = 0.3;  // [N s/m] smallest damping whose sign can be determined
 
 constexpr std::array kNames{"select", "shift"};
+
+// [s] often enough to show a gap, and seldom enough to leave the force three of four outputs
+double restart_interval(const DeviceTiming& timing) noexcept {
+  return std::max(0.004, 4.0 * timing.output_interval);
+}
 
 StickCommand idle_command() noexcept {
   StickCommand command;
@@ -94,7 +99,7 @@ Calibrator::AxisPlace Calibrator::axis_place(const LeverAxisCalibration& axis) c
           axis.high > axis.low ? 1.0 : -1.0};
 }
 
-// Sends the effects' settings anew, if the style differs, and waits until that is done. The motors stay off.
+// Sends the effects' settings again, if the style differs, and waits until that is done. The motors stay off.
 void Calibrator::apply(StickStyle style) {
   driver_.set_style(style);
   StickRig rig(driver_, tick_);
@@ -147,7 +152,7 @@ int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::
     command.constant[place.motor] = -magnitude;
     const double back = push(rig, place, idle, command);
     if (std::abs(back) < kMinMoved || (there > 0.0) == (back > 0.0))
-      throw EffectsRefused(name + " did not move in both directions. Take your hands off the lever");
+      throw CalibrationRefused(name + " did not move in both directions. Take your hands off the lever");
     largest = std::max(largest, magnitude);
     return there > 0.0 ? 1 : -1;
   }
@@ -168,6 +173,15 @@ void Calibrator::require_motors(const std::array<int, 2>& sign) {
 // Some sticks render one force at a time, or mix the forces of the two axes.
 void Calibrator::check_together(StickRig& rig, const Signs& found) const {
   const std::array<AxisPlace, 2> place = places();
+  for (const AxisPlace& axis : place) {
+    double alone = 0.0,
+           beside = 0.0;  // [counts] of several pushes, because effects are renewed at some time in between
+    for (int i = 0; i < 4; ++i) {
+      alone += distance_pushed(rig, axis, true, 0.0);
+      beside += distance_pushed(rig, axis, false, 0.0);
+    }
+    if (beside < 0.8 * alone) throw EffectsRefused("the stick renders one force at a time, and a lever needs two");
+  }
   for (const double direction : {1.0, -1.0}) {
     StickCommand command = idle_command();
     std::array<double, 2> from{}, moved{};
@@ -201,8 +215,11 @@ double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickComman
     rig.step(command);
     moved = (rig.position(place.report) - from) / rig.range(place.report);
     other_moved = (rig.position(other) - other_from) / rig.range(other);
-    if (std::abs(other_moved) > kMoved)
-      throw EffectsRefused("a force along one axis of the stick also moves the other axis, or moves it instead");
+    if (std::abs(other_moved) > kMoved) {
+      rig.step(idle);
+      if (std::abs(moved) < kMinMoved) return 0.0;  // it moves the other axis instead
+      throw EffectsRefused("a force along one axis also moves the other axis");
+    }
   }
   rig.step(idle);
   return moved * place.sign;
@@ -232,19 +249,20 @@ std::string Calibrator::measure_timing() {
 // Compares how far a force pushes the lever with and without frequent renewals.
 double Calibrator::restart_gap(StickRig& rig, const DeviceTiming& timing) const {
   const AxisPlace place = axis_place(calibration_.select);
-  const double steady = distance_pushed(rig, place, false), restarted = distance_pushed(rig, place, true);
-  const double interval = timing.output_interval * std::ceil(kRestartInterval / timing.output_interval - 0.1);
+  const double steady = distance_pushed(rig, place, true, 0.0);
+  const double restarted = distance_pushed(rig, place, true, restart_interval(timing));
+  const double interval = restart_interval(timing);
   const double gap = steady > 0.0 ? (1.0 - restarted / steady) * interval : 0.0;
   return gap < kMinGap ? 0.0 : std::min(gap, kRenewAfter);
 }
 
-// [counts] that a small force pushes the lever in kPushedTime.
-double Calibrator::distance_pushed(StickRig& rig, const AxisPlace& place, bool restarts) const {
+// [counts] that a small force pushes the lever in kPushedTime. `alone`: the other axis's constant force does not play.
+double Calibrator::distance_pushed(StickRig& rig, const AxisPlace& place, bool alone, double restart_interval) const {
   StickCommand command = idle_command();
-  command.pushes[1 - place.motor] = false;
+  command.pushes[1 - place.motor] = !alone;
   const double from = rig.rest(place.report, command);
-  command.constant[place.motor] = kCautiousForce;
-  command.restarts = restarts;
+  command.constant[place.motor] = 0.5 * kCautiousForce;
+  command.restart_interval = restart_interval;
   const std::int64_t begin = rig.latest().now_ns;
   while (rig.latest().now_ns - begin < kPushedTime) {
     rig.step(command);
@@ -411,9 +429,7 @@ std::string Calibrator::measure_handle() {
   if (own_spring[0] == 0.0 && own_spring[1] == 0.0) return sentence;
   return sentence + "; the stick pulls to its centre by itself, with " + newtons_per_metre(own_spring[0]) + " and " +
          newtons_per_metre(own_spring[1]) +
-         ", and nothing that this program can send stops it, so gates feel wrong by that much. Look for a setting in "
-         "the "
-         "stick's own software";
+         " while its motors are on, so gates feel wrong by that much. Look for a setting in the stick's own software";
 }
 
 // Share of the handle's stiffness that disappears with the motors: deflects the lever and compares how it returns with
@@ -439,32 +455,31 @@ std::string Calibrator::measure_springs() {
   require_polarity();
   if (!calibration_.has_range() || !calibration_.has_force())
     throw CalibrationRefused("the lever's travel and full force are not known yet. Enter these numbers first");
+  const DeviceCalibration before = calibration_;
+  try {
+    return measure_springs_anew();
+  } catch (const CalibrationRefused&) {
+    calibration_ = before;
+    throw;
+  }
+}
+
+std::string Calibrator::measure_springs_anew() {
   for (LeverAxisCalibration* axis : {&calibration_.select, &calibration_.shift}) {
     axis->spring_sign = axis->damper_sign = 0;
     axis->spring_stiffness = axis->spring_dead_band = axis->damper_strength = 0.0;
   }
   calibration_.springs_refused.clear();
+  calibration_.dampers_refused.clear();
   std::string sentence;
   try {
-    const std::array<Spring, 2> found = find_springs();
-    for (LeverAxisCalibration* axis : {&calibration_.select, &calibration_.shift}) {
-      const Spring& spring = found[axis == &calibration_.select ? 0 : 1];
-      axis->spring_sign = spring.sign;
-      axis->spring_stiffness = spring.stiffness;
-      axis->spring_dead_band = spring.dead_band;
-    }
-    const bool useful = std::min(found[0].stiffness, found[1].stiffness) >= kMinSpring;
-    sentence = "springs of up to " + newtons_per_metre(found[0].stiffness) + " in select and " +
-               newtons_per_metre(found[1].stiffness) + " in shift" + (useful ? "" : ", too weak to be used");
+    sentence = measure_spring_strengths();
   } catch (const EffectsRefused& refused) {
     calibration_.springs_refused = refused.what();
-    sentence = calibration_.springs_refused +
-               ", so springs are not used, and walls are as soft as the stick's delay "
-               "makes them";
+    return calibration_.springs_refused +
+           ", so springs are not used, and walls are as soft as the stick's delay makes them";
   }
-  calibration_.dampers_refused.clear();
-  // Dampers serve only the walls that springs make.
-  if (!calibration_.springs_refused.empty() || !driver_.layout().has_effect(PidEffect::damper)) return sentence;
+  if (!driver_.layout().has_effect(PidEffect::damper)) return sentence;
   try {
     return sentence + "; " + measure_dampers();
   } catch (const EffectsRefused& refused) {
@@ -473,12 +488,25 @@ std::string Calibrator::measure_springs() {
   }
 }
 
+std::string Calibrator::measure_spring_strengths() {
+  const std::array<Spring, 2> found = find_springs();
+  for (LeverAxisCalibration* axis : {&calibration_.select, &calibration_.shift}) {
+    const Spring& spring = found[axis == &calibration_.select ? 0 : 1];
+    axis->spring_sign = spring.sign;
+    axis->spring_stiffness = spring.stiffness;
+    axis->spring_dead_band = spring.dead_band;
+  }
+  const bool useful = std::min(found[0].stiffness, found[1].stiffness) >= kMinSpring;
+  return "springs of up to " + newtons_per_metre(found[0].stiffness) + " in select and " +
+         newtons_per_metre(found[1].stiffness) + " in shift" + (useful ? "" : ", too weak to be used");
+}
+
 // Tries each way of naming an axis until the springs of both axes pull to their centres and keep their dead bands.
 std::array<Calibrator::Spring, 2> Calibrator::find_springs() {
   std::string reason;
   for (const AxisStyle style : {AxisStyle::bits, AxisStyle::direction}) {
     try {
-      const std::array<Spring, 2> found = springs_by({calibration_.style.constants, style});
+      const std::array<Spring, 2> found = springs_twice({calibration_.style.constants, style});
       calibration_.style.conditions = style;
       return found;
     } catch (const EffectsRefused& refused) {
@@ -487,6 +515,15 @@ std::array<Calibrator::Spring, 2> Calibrator::find_springs() {
   }
   driver_.set_style(calibration_.style);
   throw EffectsRefused(reason);
+}
+
+// A single touch may spoil a measurement, so springs are refused only if it fails twice.
+std::array<Calibrator::Spring, 2> Calibrator::springs_twice(StickStyle style) {
+  try {
+    return springs_by(style);
+  } catch (const EffectsRefused&) {
+    return springs_by(style);
+  }
 }
 
 std::array<Calibrator::Spring, 2> Calibrator::springs_by(StickStyle style) {
@@ -509,7 +546,8 @@ std::array<Calibrator::Spring, 2> Calibrator::springs_by(StickStyle style) {
 int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
   const PidSetCondition& set = driver_.layout().set_condition;
   const bool is_capped = set.positive_saturation.exists();
-  for (const double coefficient : {0.1, 0.4, 1.0}) {
+  // Saturations may be ignored, and springs are up to four times as strong as told; a weak one is found first.
+  for (const double coefficient : {0.02, 0.1, 0.4, 1.0}) {
     if (!is_capped && coefficient * kSpringOffset > kCautiousForce) break;
     rig.rest(place.report, idle_command());
     const double here = rig.deflection(place.report), offset = here < 0.0 ? kSpringOffset : -kSpringOffset;

@@ -79,7 +79,7 @@ class PidDriver final : public HidStream {
   // cycle.
   StickState state() noexcept;
   void command(const StickCommand& command) noexcept;
-  void report(StickProblem problem) noexcept { problems_.raise(problem); }
+  void report(StickProblem problem) noexcept { problems_.raise_again(problem); }
   void release() noexcept;  // switches the motors off before anything else is sent; a later command() may enable them
 
   // Sets the calibrated answer time [s]. May be called on any thread. The motors are switched off if most outputs take

@@ -26,6 +26,10 @@ const DeviceCalibration& with_range(const DeviceCalibration& calibration) {
   return calibration;
 }
 
+const DeviceTiming& timing_of(const DeviceCalibration& calibration) noexcept {
+  return calibration.has_timing() ? calibration.timing : kUnmeasuredTiming;
+}
+
 }  // namespace
 
 LeverAxisMap::LeverAxisMap(const LeverAxisCalibration& axis, const BitField& field) noexcept
@@ -53,10 +57,11 @@ PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, doub
       driver_(driver),
       spec_(spec_of(calibration, period)),
       session_(driver.state().session),
-      watch_(spec_, calibration.timing.delay + calibration.timing.input_interval, period),
+      watch_(spec_, timing_of(calibration).delay + 0.5 * timing_of(calibration).input_interval,
+             timing_of(calibration).input_interval),
       stop_(stop != nullptr ? *stop : own_stop_) {
   driver.set_style(calibration.style);
-  driver.expect_answer(answer_time(calibration.has_timing() ? calibration.timing : kUnmeasuredTiming));
+  driver.expect_answer(answer_time(timing_of(calibration)));
   const bool has_motors = calibration.select.usage <= kUsageY.id && calibration.shift.usage <= kUsageY.id;
   if (!has_motors)
     spec_.max_force = spec_.continuous_force = spec_.device_wall_stiffness = spec_.device_wall_damping =
@@ -117,6 +122,7 @@ LeverReading PidLever::read(std::int64_t) noexcept {
   if (pushes_the_wrong_way(state, reading)) {
     driver_.report(StickProblem::reversed);
     release();
+    watch_.reset();
     reading.stop = true;
   }
   return reading;
@@ -127,7 +133,10 @@ bool PidLever::pushes_the_wrong_way(const StickState& state, const LeverReading&
     watch_.reset();
     return false;
   }
-  watch_.update(reading.position, reading.actuator_force);
+  if (reading.sequence == watched_sequence_) return false;
+  watch_.update(reading.position, reading.actuator_force, 1e-9 * static_cast<double>(reading.time_ns - watched_ns_));
+  watched_sequence_ = reading.sequence;
+  watched_ns_ = reading.time_ns;
   return watch_.is_reversed();
 }
 

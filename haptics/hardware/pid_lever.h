@@ -86,6 +86,8 @@ class PidLever final : public HapticDevice {
   std::uint64_t session_;     // session of the last state
   bool halted_ = false;       // the session changed in this cycle
   ForceWatch watch_;
+  std::uint64_t watched_sequence_ = 0;  // newest reading given to watch_
+  std::int64_t watched_ns_ = 0;         // and its time
   StopButton own_stop_;
   StopButton& stop_;
 };

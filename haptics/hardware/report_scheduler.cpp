@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::int64_t kDuration = static_cast<std::int64_t>(1e9 * kEffectDuration);  // [ns]
 constexpr std::int64_t kRenew = static_cast<std::int64_t>(1e9 * kRenewAfter);         // [ns]
-constexpr std::int64_t kRestart = static_cast<std::int64_t>(1e9 * kRestartInterval);  // [ns]
 constexpr std::int64_t kReportLag = 50'000'000;  // [ns] longest delay of a state report
 constexpr int kOnce = 1;                         // loop count
 
@@ -75,6 +74,11 @@ void ReportScheduler::begin(const StickBlocks& blocks, bool finite, StickStyle s
     effect_[i].block = blocks[i];
   }
   for (std::size_t i = 0; i < kValues; ++i) value_[i] = {kZero, encode(i, kZero), 0, false};
+}
+
+void ReportScheduler::set_style(StickStyle style) noexcept {
+  if (style != wanted_style_) settings_sent_ = 0;
+  wanted_style_ = style;
 }
 
 bool ReportScheduler::plays() const noexcept {
@@ -219,7 +223,8 @@ bool ReportScheduler::start_if_wanted() noexcept {
 bool ReportScheduler::renew_if_due(std::int64_t now_ns) noexcept {
   if (!finite_) return false;
   for (std::size_t i = 0; i < kStickEffects; ++i) {
-    const std::int64_t due_ns = command_.restarts ? effect_[i].started_ns + kRestart : effect_[i].renew_ns;
+    const auto interval_ns = static_cast<std::int64_t>(1e9 * command_.restart_interval);
+    const std::int64_t due_ns = interval_ns > 0 ? effect_[i].started_ns + interval_ns : effect_[i].renew_ns;
     const bool due = effect_[i].playing && is_wanted(i) && now_ns >= due_ns;
     if (due && operate(i, PidOperation::start)) return true;
   }

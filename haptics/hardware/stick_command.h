@@ -10,15 +10,13 @@ struct PidSpring {  // fractions as in PidCondition
   bool operator==(const PidSpring&) const = default;
 };
 
-inline constexpr double kRestartInterval = 0.004;  // [s]
-
 // A command is in effect until the next command. Arrays are in the device's axis order: X, Y.
 struct StickCommand {
-  bool enabled = false;                    // false: actuators off
-  std::array<double, 2> constant{};        // [1] -1 to 1, fraction of the full force
-  std::array<PidSpring, 2> spring{};       // coefficient 0: none
-  std::array<double, 2> damper{};          // [1] -1 to 1, fraction of the maximum coefficient; 0: none
-  bool restarts = false;                   // starts every effect again all kRestartInterval, to measure the gaps
+  bool enabled = false;               // false: actuators off
+  std::array<double, 2> constant{};   // [1] -1 to 1, fraction of the full force
+  std::array<PidSpring, 2> spring{};  // coefficient 0: none
+  std::array<double, 2> damper{};     // [1] -1 to 1, fraction of the maximum coefficient; 0: none
+  double restart_interval = 0.0;      // [s] 0: renewals as needed; otherwise every effect is started again this often
   std::array<bool, 2> pushes{true, true};  // false: the axis's constant force does not even play
   bool operator==(const StickCommand&) const = default;
 };

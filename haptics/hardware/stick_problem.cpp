@@ -58,6 +58,12 @@ void StickProblems::raise(StickProblem problem, std::int64_t a, std::int64_t b) 
   raised_and_reported_.fetch_or(bit_of(kind), std::memory_order_release);
 }
 
+void StickProblems::raise_again(StickProblem problem) noexcept {
+  const auto kind = static_cast<std::size_t>(problem);
+  raised_and_reported_.fetch_and(~reported_bit_of(kind), std::memory_order_relaxed);
+  raise(problem);
+}
+
 void StickProblems::reset() noexcept {
   raised_and_reported_.store(0, std::memory_order_relaxed);
 }

@@ -1,4 +1,4 @@
-// Problems of a streaming stick: raised on one thread, reported on a different thread, each kind once.
+// Problems of a streaming stick: raised on the port's and the haptic thread, reported on a third one, each kind once.
 #pragma once
 
 #include <array>
@@ -32,7 +32,8 @@ class StickProblems {
  public:
   // Real-time safe.
   void raise(StickProblem problem, std::int64_t a = 0, std::int64_t b = 0) noexcept;
-  void reset() noexcept;  // every kind may be reported again
+  void raise_again(StickProblem problem) noexcept;  // also if this kind was reported before; for kinds without details
+  void reset() noexcept;                            // every kind may be reported again
 
   // The next unreported problem as one sentence; empty if there is none. Any thread.
   std::optional<std::string> take();

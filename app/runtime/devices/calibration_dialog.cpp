@@ -57,8 +57,8 @@ class DialogRunner {
         return run_numbers();
       case haptics::CalibrationStep::polarity:
         return measure_hands_off(
-            "This step measures in which direction the forces push. The stick moves a little, using at most a tenth of "
-            "its force.",
+            "If the grip has a hand sensor, cover it with tape. This step measures in which direction the forces push. "
+            "The stick moves a little, using at most a tenth of its force.",
             "the stick cannot be used", [&] { return calibrator_.measure_polarity(); });
       case haptics::CalibrationStep::timing:
         return measure_hands_off(
@@ -68,7 +68,7 @@ class DialogRunner {
         return measure_hands_off(
             "This step measures how heavy the handle is. The motors push the handle back and forth with up to 40 % of "
             "their force.",
-            "the handle is taken for a light one, and walls are softer than they could be",
+            "the handle is assumed to be light, and walls are softer than they could be",
             [&] { return calibrator_.measure_handle(); });
       case haptics::CalibrationStep::springs:
         return measure_hands_off(
@@ -79,13 +79,13 @@ class DialogRunner {
   }
 
  private:
-  static constexpr int kMaxTries = 3;
+  static constexpr int kMaxTries = 3, kMaxAnswers = 20;
 
   // Repeats a measurement until it succeeds, is left out, or was rejected kMaxTries times. Returns true if it succeeded.
   // `cost`: what follows if it is left out.
   template <class Measure>
   bool repeat_until_measured(const std::string& instruction, const std::string& cost, const Measure& measure) {
-    for (int tries = 0; tries < kMaxTries;) {
+    for (int tries = 0, answers = 0; tries < kMaxTries && answers < kMaxAnswers; ++answers) {
       const std::string answer =
           dialog_.ask(fmt::format("{} [Enter to start, - to leave it out: then {}]", instruction, cost));
       if (answer == "-") return false;
@@ -164,6 +164,7 @@ class DialogRunner {
       dialog_.print(fmt::format("  Rejected: \"{}\" is not a number from {:g} to {:g} {}. Try again.",
                                 haptics::printable(answer), min, max, unit));
     }
+    return std::nullopt;
   }
 
   void run_numbers() {

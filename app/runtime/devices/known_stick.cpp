@@ -95,7 +95,7 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
                  : fmt::format("{:.0f} N/m, {}", axis.spring_stiffness, axis.spring_sign > 0 ? "pulls" : "inverted");
     });
     per_axis("dead band",
-             [](const auto& axis) { return fmt::format("{:.0f} % of the told", 100.0 * axis.spring_dead_band); });
+             [](const auto& axis) { return fmt::format("{:.0f} % of the commanded", 100.0 * axis.spring_dead_band); });
   }
   if (!calibration.dampers_refused.empty()) {
     rows.push_back("  dampers           not used: " + calibration.dampers_refused);

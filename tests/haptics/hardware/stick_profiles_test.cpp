@@ -136,14 +136,17 @@ DeviceCalibration believed_calibration(const EmulatedStickConfig& config, const 
 struct Habit {
   const char* name;
   std::function<void(StickHabits&)> give;
+  const char* refusal = "";  // beginning of the sentence if the stick cannot be used
 };
+constexpr const char* kOneMotor = "the stick has a motor for select, but none for shift";
 
 const std::vector<Habit>& habits() {
   static const std::vector<Habit> all{
       {"constants by the first angle", [](StickHabits& h) { h.constant = ConstantLaw::first_angle; }},
       {"constants by axes byte 4", [](StickHabits& h) { h.constant = ConstantLaw::equal_to_4; }},
-      {"constants on X only", [](StickHabits& h) { h.constant = ConstantLaw::x_only; }},
-      {"constants rotate their sum", [](StickHabits& h) { h.constant = ConstantLaw::rotates_sum; }},
+      {"constants on X only", [](StickHabits& h) { h.constant = ConstantLaw::x_only; }, kOneMotor},
+      {"constants rotate their sum", [](StickHabits& h) { h.constant = ConstantLaw::rotates_sum; },
+       "the stick renders one force at a time"},
       {"constants need axis bits", [](StickHabits& h) { h.constant = ConstantLaw::no_bit_alone; }},
       {"conditions of the board", [](StickHabits& h) { h.condition = ConditionLaw::board; }},
       {"conditions are counted", [](StickHabits& h) { h.condition = ConditionLaw::counted; }},
@@ -155,6 +158,9 @@ const std::vector<Habit>& habits() {
       {"no conditions", [](StickHabits& h) { h.condition = ConditionLaw::never; }},
       {"dead band ignored", [](StickHabits& h) { h.dead_band = DeadBandLaw::ignored; }},
       {"dead band in counts", [](StickHabits& h) { h.dead_band = DeadBandLaw::raw_counts; }},
+      {"dead band narrow", [](StickHabits& h) { h.dead_band = DeadBandLaw::narrow; }},
+      {"dead band wide", [](StickHabits& h) { h.dead_band = DeadBandLaw::wide; }},
+      {"one spring at a time", [](StickHabits& h) { h.condition = ConditionLaw::last_told; }},
       {"dead band shifts the centre", [](StickHabits& h) { h.dead_band = DeadBandLaw::shifts_centre; }},
       {"auto-centre after reset", [](StickHabits& h) { h.auto_centre = AutoCentre::after_reset; }},
       {"auto-centre always", [](StickHabits& h) { h.auto_centre = AutoCentre::always; }},
@@ -163,9 +169,9 @@ const std::vector<Habit>& habits() {
       {"drops the sign", [](StickHabits& h) { h.drops_sign = true; }},
       {"constants ignore gain", [](StickHabits& h) { h.constant_ignores_gain = true; }},
       {"ignores device gain", [](StickHabits& h) { h.ignores_device_gain = true; }},
-      {"one motor", [](StickHabits& h) { h.motors = 1; }},
+      {"one motor", [](StickHabits& h) { h.motors = 1; }, kOneMotor},
       {"trigger none is FFh", [](StickHabits& h) { h.trigger_none_is_ff = true; }},
-      {"one effect at a time", [](StickHabits& h) { h.one_effect = true; }},
+      {"one effect at a time", [](StickHabits& h) { h.one_effect = true; }, "the stick renders one force at a time"},
       {"silence after each start", [](StickHabits& h) { h.restart_gap = 0.001; }},
       {"stopped blocks are free", [](StickHabits& h) { h.stopped_is_free = true; }},
       {"mute until stop-all", [](StickHabits& h) { h.mute_until_stop_all = true; }},
@@ -193,10 +199,14 @@ const std::vector<Habit>& habits() {
 
 // Calibrates and drives a stick. Fails if the dialogue does not end, if a force has the wrong sign, or if the stick is
 // silent or makes other forces without a sentence.
-void check_stick(const EmulatedStickConfig& config, const std::string& name) {
+void check_stick(const EmulatedStickConfig& config, const std::string& name, const Habit* alone = nullptr) {
   CAPTURE(name);
   const Calibrated calibrated = calibrate_stick(config);
   CHECK(calibrated.seconds < kMaxDialogue);
+  if (alone != nullptr) {
+    CHECK_MESSAGE(calibrated.refusal.starts_with(alone->refusal), name, ": ", calibrated.refusal);
+    CHECK_MESSAGE(calibrated.refusal.empty() == std::string(alone->refusal).empty(), name, ": ", calibrated.refusal);
+  }
   if (!calibrated.refusal.empty()) return;
   const Driven driven = drive_through_gate(config, calibrated.found);
   const DeviceCalibration& found = calibrated.found;
@@ -223,7 +233,6 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
   };
   constexpr const char* kNoBand = "the stick's springs have no dead band";
   constexpr const char* kWrongBand = "the stick's springs do not keep their dead band";
-  constexpr const char* kOneMotor = "the stick has a motor for select, but none for shift";
   const std::vector<Expected> expected{
       {"PID 1.0", "", ""},
       {"SideWinder FF2", "", ""},
@@ -236,9 +245,9 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
       {"adapt-ffb-joy 0.5", "", kNoBand},
       {"adapt-ffb-joy 0.4", "", kNoBand},
       {"SunFFB", "", ""},
-      {"AFFBWheel", "a force along one axis of the stick also moves the other axis, or moves it instead", ""},
+      {"AFFBWheel", kOneMotor, ""},
       {"Arduino-FFB-wheel, one motor", kOneMotor, ""},
-      {"Arduino-FFB-wheel, two motors", "the stick does not render the forces of both axes at the same time", ""},
+      {"Arduino-FFB-wheel, two motors", "the stick renders one force at a time", ""},
       {"STM32_FFBJoystick", "", "the stick's springs push inside their dead band"},
       {"Cyborg Evo Force", "", ""},
       {"vJoy", "", ""},
@@ -279,7 +288,7 @@ TEST_CASE("every habit alone: the dialogue ends, no force has the wrong sign, no
   for (const Habit& habit : habits()) {
     EmulatedStickConfig config;
     habit.give(config.habits);
-    check_stick(config, habit.name);
+    check_stick(config, habit.name, &habit);
   }
 }
 

@@ -43,6 +43,7 @@ struct DeviceEffect {
   bool sign_dropped = false;   // StickHabits::drops_sign
   std::array<AxisCondition, 2> condition{};
   std::uint8_t condition_reports = 0;  // ConditionLaw::counted
+  int last_told = 0;                   // ConditionLaw::last_told: axis
   bool is_single = true;               // ConditionLaw::board
   glm::dvec2 factor{0.0};              // ConditionLaw::board
   bool playing = false;

@@ -63,6 +63,11 @@ bool makes_force(const AxisCondition& condition) noexcept {
 double condition_force(const AxisCondition& condition, double deflection, double slope, DeadBandLaw law) noexcept {
   double low = condition.centre - condition.dead_band, high = condition.centre + condition.dead_band;
   double below = low, above = high;  // where the force of each side is zero
+  if (law == DeadBandLaw::narrow || law == DeadBandLaw::wide) {
+    const double factor = law == DeadBandLaw::narrow ? 0.6 : 1.6;
+    low = below = condition.centre - factor * condition.dead_band;
+    high = above = condition.centre + factor * condition.dead_band;
+  }
   if (law == DeadBandLaw::ignored) low = high = below = above = condition.centre;
   if (law == DeadBandLaw::raw_counts) {
     low = condition.centre_counts - condition.dead_band_counts;
@@ -120,7 +125,7 @@ glm::dvec2 condition_forces(const DeviceEffect& effect, const StickHabits& habit
       if (settings.axes != kDirection || effect.condition_reports > 1) return own;
       return effect.condition_reports == 1 ? first * direction : first;
     case ConditionLaw::exactly_4:
-      if (has_two) return settings.axes == kDirection ? own : first * direction;
+      if (has_two) return settings.axes == kDirection ? own : first * -direction;
       return direction * of(0, 0) * direction.x;
     case ConditionLaw::both_axes:
       return has_direction_bit(settings) || has_two ? own : first;
@@ -135,6 +140,8 @@ glm::dvec2 condition_forces(const DeviceEffect& effect, const StickHabits& habit
     case ConditionLaw::times_direction:
       if (has_direction_bit(settings) && has_two) return own;
       return has_direction_bit(settings) ? direction * of(0, 0) * direction.x : own * -direction;
+    case ConditionLaw::last_told:
+      return effect.last_told == 0 ? glm::dvec2(own.x, 0.0) : glm::dvec2(0.0, own.y);
     case ConditionLaw::never:
       break;
   }
@@ -155,6 +162,7 @@ void on_effect_set(DeviceEffect& effect) noexcept {
 
 void on_condition_told(DeviceEffect& effect, std::size_t axis) noexcept {
   ++effect.condition_reports;
+  effect.last_told = static_cast<int>(axis);
   if (!makes_force(effect.condition[axis])) return;
   if (axis == 1) effect.is_single = false;
   double& factor = effect.factor[static_cast<int>(axis)];

@@ -230,7 +230,7 @@ void StickFirmware::operate(std::span<const std::uint8_t> report, std::int64_t n
 
 void StickFirmware::control(std::uint8_t value) {
   if (habits_.control_tests_bits) {
-    if ((value & 3) != 0) effects_.stop_all();
+    if ((value & 3) != 0) stop_all_effects();
     if ((value & 4) != 0) reset();
   } else if (!family_.quirks.control_bits) {
     control_by_number(ordinal_of(family_.controls, value));
@@ -276,6 +276,7 @@ void StickFirmware::stop_all_effects() noexcept {
 
 void StickFirmware::control_by_switch(int number) {
   if (number == reset_all) reset();
+  if (number == stop_all) centres_ = false;
   actuators_ = number == enable_actuators || number == continue_all;
 }
 

@@ -40,6 +40,7 @@ enum class ConditionLaw : std::uint8_t {
   along_direction,  // direction bit: condition 0 along the direction; otherwise per axis [saitek]
   times_direction,  // without the direction bit, times the components of the direction [sun]
   both_axes,        // a condition without a direction acts on both axes [fino, by ../facts: one-condition effects]
+  last_told,        // only the axis whose condition was told last makes a force
   never,            // conditions make no force [pico]
 };
 
@@ -47,6 +48,8 @@ enum class DeadBandLaw : std::uint8_t {
   honoured,
   ignored,        // [adapt, br, Asetek by the quirks of Linux' hid-pidff]
   raw_counts,     // centre and dead band in counts are compared with a deflection of -1 to 1 [library, fino]
+  narrow,         // 0.6 times as wide as told
+  wide,           // 1.6 times as wide
   shifts_centre,  // the centre moves to the upper end of the dead band, and there is no dead band [stm]
 };
 
