@@ -27,8 +27,9 @@ inline constexpr std::size_t kStickEffects = 4;
 PidEffect kind_of(StickEffect effect) noexcept;
 using StickBlocks = std::array<int, kStickEffects>;  // effect block index per effect; kNoBlock: not created
 
-// How the effects name their axes, as measured by the calibration.
-struct StickStyle {
+// How the effects name their axes, as measured by the calibration. Aligned, because clang locks an atomic of this size
+// otherwise, and the haptic cycle must not.
+struct alignas(2 * sizeof(AxisStyle)) StickStyle {
   AxisStyle constants = AxisStyle::direction, conditions = AxisStyle::bits;
   bool operator==(const StickStyle&) const = default;
 };

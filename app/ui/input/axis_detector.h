@@ -35,8 +35,7 @@ class AxisDetector {
     int low_at = 0, high_at = 0;                // numbers of the frames in which low and high were reached
     double rest_low = 0.0, rest_high = 0.0, rest_sum = 0.0;
     int rests = 0;
-    bool is_reported =
-        true;  // `first` is from a report; otherwise it may be what the kernel holds until the first report
+    bool is_reported = true;  // false: `first` may be what the kernel holds until the first report
     void begin(double raw, bool reported) {
       first = low = high = raw;
       is_reported = reported;
