@@ -44,7 +44,7 @@ constexpr double kMaxHandleSpringForce = 0.3;
 constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are assumed to be mechanical
 constexpr double kMinOwnShare = 0.25;        // [1] of the handle's stiffness
 constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000;  // [ns]
-constexpr double kMinGap = 0.0003;   // [s] shorter gaps cannot be told from noise
+constexpr double kMinGap = 0.0003;                                          // [s] shorter gaps are within the noise
 constexpr double kMinBraking = 0.3;  // [N s/m] smallest damping whose sign can be determined
 
 constexpr std::array kNames{"select", "shift"};
@@ -546,7 +546,7 @@ std::array<Calibrator::Spring, 2> Calibrator::springs_by(StickStyle style) {
 int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
   const PidSetCondition& set = driver_.layout().set_condition;
   const bool is_capped = set.positive_saturation.exists();
-  // Saturations may be ignored, and springs are up to four times as strong as told; a weak one is found first.
+  // Saturations may be ignored, and springs are up to four times as strong as commanded, so weak ones are tried first.
   for (const double coefficient : {0.02, 0.1, 0.4, 1.0}) {
     if (!is_capped && coefficient * kSpringOffset > kCautiousForce) break;
     rig.rest(place.report, idle_command());
@@ -563,7 +563,7 @@ int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
   throw EffectsRefused("the stick's springs do not move the lever");
 }
 
-// Some sticks give one axis the spring of the other, unless both are told.
+// Some sticks use the spring of one axis on the other unless both are set.
 void Calibrator::check_springs_together(StickRig& rig, const std::array<Spring, 2>& springs) const {
   const std::array<AxisPlace, 2> place = places();
   std::array<double, 2> from{}, offset{}, moved{};

@@ -61,7 +61,7 @@ class PidDriver final : public HidStream {
   const LeverReport& lever_report() const noexcept { return lever_; }
   const PidLayout& layout() const noexcept { return pid_; }
 
-  // How the effects name their axes. A new style switches the motors off until the stick has been told. May be called on
+  // How the effects name their axes. A new style switches the motors off until it has been sent. May be called on
   // any thread.
   void set_style(StickStyle style) noexcept { style_.store(style, std::memory_order_relaxed); }
 

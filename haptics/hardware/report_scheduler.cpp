@@ -39,7 +39,7 @@ EffectReports::EffectReports(const PidLayout& pid, StickEffect effect, int block
   const auto index = static_cast<std::size_t>(effect);
   const bool is_constant = index < 2;
   const std::size_t value = is_constant ? index : 2 * index - 2;
-  const auto tell = [&](const PidCondition& condition) {
+  const auto add_values = [&](const PidCondition& condition) {
     const auto target = [&](std::size_t axis) { return pid.is_pool_ours() ? place_of(value + axis) : block; };
     if (is_constant) return add(encode_constant(pid, target(0), 0.0));
     for (int axis = 0; axis < 2; ++axis)
@@ -49,11 +49,11 @@ EffectReports::EffectReports(const PidLayout& pid, StickEffect effect, int block
   settings.axis = is_constant ? static_cast<int>(index) : -1;
   settings.style = is_constant ? style.constants : style.conditions;
   settings.place = {place_of(value), is_constant ? -1 : place_of(value + 1)};
-  tell(kSlight);
+  add_values(kSlight);
   const HidBytes set = encode_set_effect(pid, settings);
   has_settings_ = set.size > 0;
   add(set);
-  tell(kZero);
+  add_values(kZero);
 }
 
 void EffectReports::add(const HidBytes& report) noexcept {

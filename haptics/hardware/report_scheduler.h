@@ -60,7 +60,7 @@ class ReportScheduler {
   // Starts from the state in which prepare_stick() leaves the device: actuators off, nothing playing, every value zero.
   // `finite`: whether effects end by themselves after kEffectDuration.
   void begin(const StickBlocks& blocks, bool finite, StickStyle style) noexcept;
-  void set_style(StickStyle style) noexcept;  // switches the motors off until the device has been told
+  void set_style(StickStyle style) noexcept;  // switches the motors off until it has been sent
 
   void set_command(const StickCommand& command) noexcept { command_ = command; }
   void release() noexcept { released_ = true; }  // switches the motors off first, whatever the command says

@@ -17,7 +17,7 @@ class CalibrationRefused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Thrown if the stick's effects do not act as told, so that repeating the measurement would not help.
+// Thrown if the stick's effects do not act as commanded, so that repeating the measurement would not help.
 class EffectsRefused : public CalibrationRefused {
  public:
   using CalibrationRefused::CalibrationRefused;

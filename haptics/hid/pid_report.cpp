@@ -214,15 +214,6 @@ std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const
   return load;
 }
 
-std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
-  if (!holds(pid.pool, pid.pool.simultaneous, report)) return std::nullopt;
-  PoolInfo info;
-  info.ram = read_bits(report, pid.pool.ram_size);
-  info.simultaneous = read_bits(report, pid.pool.simultaneous);
-  info.device_managed = flag_or(report, pid.pool.device_managed, false);
-  return info;
-}
-
 std::optional<PidStatus> decode_state(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
   if (!holds(pid.state, pid.state.actuators_enabled, report)) return std::nullopt;
   PidStatus status;

@@ -57,10 +57,6 @@ struct BlockLoad {
   int block = kNoBlock;
   Status status = Status::pending;
 };
-struct PoolInfo {
-  std::int64_t ram = 0, simultaneous = 0;  // 0: not reported
-  bool device_managed = false;
-};
 struct PidStatus {
   // The initial values apply to fields that the device does not report.
   bool actuators_enabled = false, actuator_power = true, safety_switch = true, paused = false;
@@ -70,7 +66,6 @@ struct PidStatus {
 // Empty if the report ID is wrong or the report ends before its last needed field. Longer reports are accepted, as in
 // Linux.
 std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
-std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
 std::optional<PidStatus> decode_state(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
 
 }  // namespace gearshift::haptics

@@ -97,11 +97,6 @@ void check_responses(const PidLayout& pid, std::span<const std::uint8_t> report)
   if (load && pid.block_load.block.exists())
     check_invariant(load->block == std::clamp<std::int64_t>(slow_bits(report, pid.block_load.block), 0, 0xffff),
                     "a block as it stands");
-  const auto pool = decode_pool(pid, report);
-  check_invariant(pool.has_value() == is_report(report, pid.pool, pid.pool.simultaneous),
-                  "a pool report is identified by its ID");
-  if (pool && pid.pool.ram_size.exists())
-    check_invariant(pool->ram == slow_bits(report, pid.pool.ram_size), "memory is decoded correctly");
 }
 
 }  // namespace

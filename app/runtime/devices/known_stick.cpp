@@ -111,9 +111,8 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
     rows.push_back("  timing            not measured");
   } else {
     rows.push_back(
-        fmt::format("  timing            a reading every {:.2f} ms (jitter {:.2f} ms), a force every {:.2f} ms, delay "
-                    "{:.2f} ms, {:.1f} ms "
-                    "of silence at a renewal",
+        fmt::format("  timing            a reading every {:.2f} ms (jitter {:.2f} ms), a force every {:.2f} ms, "
+                    "delay {:.2f} ms, {:.1f} ms of silence at a renewal",
                     1e3 * timing.input_interval, 1e3 * timing.jitter, 1e3 * timing.output_interval, 1e3 * timing.delay,
                     1e3 * timing.restart_gap));
   }

@@ -25,7 +25,7 @@ bool is_same_device(const ListedStick& a, const ListedStick& b) {
          a.identity.serial == b.identity.serial && a.identity.place == b.identity.place;
 }
 
-// Of the interfaces of one device, only the first with forces is meant, or the first of all if none has forces.
+// Keeps one interface of each device: the first with forces, or the first of all if none has forces.
 void keep_one_interface(std::vector<const ListedStick*>& found) {
   const std::vector<const ListedStick*> all = found;
   std::erase_if(found, [&all](const ListedStick* stick) {

@@ -142,7 +142,7 @@ TEST_CASE("no false alarm when a hand presses into a wall, slowly or fast") {
   MESSAGE("lowest slope ", lowest);
 }
 
-TEST_CASE("a stick whose forces turn round is switched off, and the person is told each time") {
+TEST_CASE("a stick whose forces turn round is switched off, and a message is shown each time") {
   std::string table = "readings every ms | turned at s | off after ms\n";
   for (const double interval : {0.001, 0.004, 0.008}) {
     for (const double turns_at : {0.8, 2.0, 3.0, 4.5}) {
@@ -165,7 +165,7 @@ TEST_CASE("a stick whose forces turn round is switched off, and the person is to
       REQUIRE(problems.size() == 1);
       CHECK(problems[0].starts_with("the stick pushes the other way than when it was calibrated"));
       CHECK(tour.run.stick.force() == dvec2(0.0));
-      tour.run.loop.arm();  // the person tries again, and is told again
+      tour.run.loop.arm();  // the person tries again, and the message is repeated
       tour.run.cycle_for(0.2);
       REQUIRE(tour.run.stick.actuators_on());
       for (int ms = 0; ms < 4000 && tour.run.stick.actuators_on(); ++ms) tour.cycle();

@@ -118,7 +118,7 @@ Driven drive_through_gate(const EmulatedStickConfig& bare, const DeviceCalibrati
   return result;
 }
 
-// What a program that believes the descriptor would assume.
+// Returns the calibration that a program would assume if it believed the descriptor.
 DeviceCalibration believed_calibration(const EmulatedStickConfig& config, const DeviceCalibration& found) {
   DeviceCalibration known = calibration_of(config);
   for (const bool select : {true, false}) {
@@ -160,7 +160,7 @@ const std::vector<Habit>& habits() {
       {"dead band in counts", [](StickHabits& h) { h.dead_band = DeadBandLaw::raw_counts; }},
       {"dead band narrow", [](StickHabits& h) { h.dead_band = DeadBandLaw::narrow; }},
       {"dead band wide", [](StickHabits& h) { h.dead_band = DeadBandLaw::wide; }},
-      {"one spring at a time", [](StickHabits& h) { h.condition = ConditionLaw::last_told; }},
+      {"one spring at a time", [](StickHabits& h) { h.condition = ConditionLaw::last_set; }},
       {"dead band shifts the centre", [](StickHabits& h) { h.dead_band = DeadBandLaw::shifts_centre; }},
       {"auto-centre after reset", [](StickHabits& h) { h.auto_centre = AutoCentre::after_reset; }},
       {"auto-centre always", [](StickHabits& h) { h.auto_centre = AutoCentre::always; }},
@@ -186,8 +186,8 @@ const std::vector<Habit>& habits() {
       {"first create fails", [](StickHabits& h) { h.first_create_fails = true; }},
       {"pool said to be the driver's", [](StickHabits& h) { h.pool_by_driver_flag = true; }},
       {"reading the pool frees all", [](StickHabits& h) { h.pool_read_frees_all = true; }},
-      {"tells no state", [](StickHabits& h) { h.state_told = StateTold::never; }},
-      {"tells its state at settings", [](StickHabits& h) { h.state_told = StateTold::at_setting; }},
+      {"reports no state", [](StickHabits& h) { h.state_sent = StateSent::never; }},
+      {"reports its state at settings", [](StickHabits& h) { h.state_sent = StateSent::at_setting; }},
       {"says no safety switch", [](StickHabits& h) { h.says_no_safety_switch = true; }},
       {"says no power", [](StickHabits& h) { h.says_no_power = true; }},
       {"says no actuators", [](StickHabits& h) { h.says_no_actuators = true; }},

@@ -236,7 +236,6 @@ class HidLaws {
         };
         expect(!haptics::decode_block_load(pid, report) || holds(pid.block_load.block),
                "a read block load has a block");
-        expect(!haptics::decode_pool(pid, report) || holds(pid.pool.simultaneous), "a read pool has its number");
         expect(!haptics::decode_state(pid, report) || holds(pid.state.actuators_enabled), "a read state has its bit");
       }
     }

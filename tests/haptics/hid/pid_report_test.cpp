@@ -120,15 +120,6 @@ TEST_CASE("SideWinder FF2: block load, pool and state") {
   CHECK_FALSE(decode_block_load(pid, hex_bytes("02 ")));
   CHECK_FALSE(decode_block_load(pid, hex_bytes("03 03 01 D0 07")));
   CHECK_FALSE(decode_block_load(pid, {}));
-  // The pool report says: 1024 bytes, 10 simultaneous effects, managed by the device.
-  const auto pool = decode_pool(pid, hex_bytes("03 00 04 0A 01"));
-  REQUIRE(pool);
-  CHECK(pool->ram == 1024);
-  CHECK(pool->simultaneous == 10);
-  CHECK(pool->device_managed);
-  CHECK_FALSE(decode_pool(pid, hex_bytes("03 00 04 0A 02"))->device_managed);
-  CHECK(decode_pool(pid, hex_bytes("03 00 04 0A 01 00")));
-  CHECK_FALSE(decode_pool(pid, hex_bytes("03 00 04")));
   // 1Eh = actuators 2 + safety switch 4 + override switch 8 + power 16. 07h = playing 1 + 2 x block 3.
   const auto state = decode_state(pid, hex_bytes("02 1E 07"));
   REQUIRE(state);
@@ -184,7 +175,6 @@ TEST_CASE("OpenFFBoard: 16-bit magnitudes and conditions, a bit for each control
   REQUIRE(load);
   CHECK(load->block == 2);
   CHECK(load->status == BlockLoad::Status::success);
-  CHECK(decode_pool(pid, hex_bytes("13 28 00 28 01"))->simultaneous == 40);
   // 1Ah in ffb_defs.h: actuators 2 + power 8 + playing 16. The safety switch is reported as open.
   const auto state = decode_state(pid, hex_bytes("02 1A"));
   REQUIRE(state);
@@ -249,13 +239,6 @@ TEST_CASE("Saitek: values without a field are left out") {
   REQUIRE(load);
   CHECK(load->block == 5);
   CHECK(load->status == BlockLoad::Status::full);
-  // 8200h: the low 15 bits are the pool's size, 200h = 512 bytes; the top bit says that the device manages the pool. 8
-  // effects can play at once.
-  const auto pool = decode_pool(pid, hex_bytes("0B 00 82 08"));
-  REQUIRE(pool);
-  CHECK(pool->ram == 512);
-  CHECK(pool->device_managed);
-  CHECK(pool->simultaneous == 8);
   // After the report ID 02: bits of the first byte are actuators 1 (set) and paused 2 (not set); the second byte is
   // 85h = block 5 (low 7 bits) + playing 80h (top bit).
   const auto state = decode_state(pid, hex_bytes("02 01 85"));

@@ -19,7 +19,7 @@ enum class EffectKind : std::uint8_t { silent, constant, spring, damper };
 struct AxisCondition {
   bool is_set = false;
   double centre = 0.0, dead_band = 0.0;
-  double centre_counts = 0.0, dead_band_counts = 0.0;           // as told
+  double centre_counts = 0.0, dead_band_counts = 0.0;           // as commanded
   double positive = 0.0, negative = 0.0;                        // coefficients on the two sides of the centre
   double positive_saturation = 0.0, negative_saturation = 0.0;  // 0 to 1
 };
@@ -43,7 +43,7 @@ struct DeviceEffect {
   bool sign_dropped = false;   // StickHabits::drops_sign
   std::array<AxisCondition, 2> condition{};
   std::uint8_t condition_reports = 0;  // ConditionLaw::counted
-  int last_told = 0;                   // ConditionLaw::last_told: axis
+  int last_set = 0;                    // ConditionLaw::last_set: axis
   bool is_single = true;               // ConditionLaw::board
   glm::dvec2 factor{0.0};              // ConditionLaw::board
   bool playing = false;

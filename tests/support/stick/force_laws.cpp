@@ -140,8 +140,8 @@ glm::dvec2 condition_forces(const DeviceEffect& effect, const StickHabits& habit
     case ConditionLaw::times_direction:
       if (has_direction_bit(settings) && has_two) return own;
       return has_direction_bit(settings) ? direction * of(0, 0) * direction.x : own * -direction;
-    case ConditionLaw::last_told:
-      return effect.last_told == 0 ? glm::dvec2(own.x, 0.0) : glm::dvec2(0.0, own.y);
+    case ConditionLaw::last_set:
+      return effect.last_set == 0 ? glm::dvec2(own.x, 0.0) : glm::dvec2(0.0, own.y);
     case ConditionLaw::never:
       break;
   }
@@ -162,7 +162,7 @@ void on_effect_set(DeviceEffect& effect) noexcept {
 
 void on_condition_told(DeviceEffect& effect, std::size_t axis) noexcept {
   ++effect.condition_reports;
-  effect.last_told = static_cast<int>(axis);
+  effect.last_set = static_cast<int>(axis);
   if (!makes_force(effect.condition[axis])) return;
   if (axis == 1) effect.is_single = false;
   double& factor = effect.factor[static_cast<int>(axis)];

@@ -22,7 +22,7 @@ glm::dvec2 condition_forces(const DeviceEffect& effect, const StickHabits& habit
                             double slope) noexcept;
 
 // Updates the state that the board's law keeps with an effect. Call them when the effect was set, and when one of its
-// conditions was told.
+// conditions was set.
 void on_effect_set(DeviceEffect& effect) noexcept;
 void on_condition_told(DeviceEffect& effect, std::size_t axis) noexcept;
 

@@ -299,7 +299,7 @@ void StickFirmware::create(int type) noexcept {
   if (refusal || type < 1 || type > family_.last_type) return;
   load_block_ = fails ? 0 : habits_.stopped_is_free ? effects_.create_or_take_stopped() : effects_.create();
   load_status_ = load_block_ > 0 ? BlockStatus::success : BlockStatus::full;
-  if (habits_.state_told == StateTold::at_setting) queue_state(load_block_, true);
+  if (habits_.state_sent == StateSent::at_setting) queue_state(load_block_, true);
 }
 
 std::optional<StickReport> StickFirmware::take_feature(std::uint8_t id) {
@@ -362,7 +362,7 @@ StickReport StickFirmware::state() const {
 void StickFirmware::queue_state(int block, bool at_setting) {
   state_block_ = block;
   const bool is_told =
-      habits_.state_told == StateTold::at_changes || (habits_.state_told == StateTold::at_setting && at_setting);
+      habits_.state_sent == StateSent::at_changes || (habits_.state_sent == StateSent::at_setting && at_setting);
   if (family_.state.size == 0 || !is_told) return;
   if (states_.size() == kMaxStates) states_.pop_front();
   states_.push_back(state());

@@ -28,7 +28,7 @@ enum class ConstantLaw : std::uint8_t {
   no_bit_alone,  // by a0, but only on axes whose bit is set [JakaSimonic/ForceFeedback-core-library 0bb2cee]
 };
 
-// Which condition acts on which axis. A condition has been told for one axis or for both.
+// Which condition acts on which axis. A condition was set for one axis or for both.
 enum class ConditionLaw : std::uint8_t {
   per_axis,         // PID 1.0 with axis bits; the direction bit enables both axes
   board,            // condition 0 on both axes until condition 1 can make a force; times a factor from the direction,
@@ -40,7 +40,7 @@ enum class ConditionLaw : std::uint8_t {
   along_direction,  // direction bit: condition 0 along the direction; otherwise per axis [saitek]
   times_direction,  // without the direction bit, times the components of the direction [sun]
   both_axes,        // a condition without a direction acts on both axes [fino, by ../facts: one-condition effects]
-  last_told,        // only the axis whose condition was told last makes a force
+  last_set,         // only the axis whose condition was set last makes a force
   never,            // conditions make no force [pico]
 };
 
@@ -48,7 +48,7 @@ enum class DeadBandLaw : std::uint8_t {
   honoured,
   ignored,        // [adapt, br, Asetek by the quirks of Linux' hid-pidff]
   raw_counts,     // centre and dead band in counts are compared with a deflection of -1 to 1 [library, fino]
-  narrow,         // 0.6 times as wide as told
+  narrow,         // 0.6 times as wide as commanded
   wide,           // 1.6 times as wide
   shifts_centre,  // the centre moves to the upper end of the dead band, and there is no dead band [stm]
 };
@@ -61,7 +61,7 @@ enum class AutoCentre : std::uint8_t {
   when_off      // while the actuators are off [board]: slope 1.77, limit 0.136
 };
 
-enum class StateTold : std::uint8_t {
+enum class StateSent : std::uint8_t {
   at_changes,
   never,      // [adapt, library, fino, affb, br, pico, vjoy]
   at_setting  // when an effect is created or set [board]
@@ -74,7 +74,7 @@ struct StickHabits {
   DeadBandLaw dead_band = DeadBandLaw::honoured;
   AutoCentre auto_centre = AutoCentre::none;
   double centring_slope = 0.4;  // [1] of `auto_centre`: force at full deflection; limited to 0.3 of the full force
-  bool drops_sign = false;      // setting an effect reverses a negative constant force until it is told anew [adapt]
+  bool drops_sign = false;      // setting an effect reverses a negative constant force until it is sent again [adapt]
   bool constant_ignores_gain = false;  // [library, fino]
   bool ignores_device_gain = false;    // [library, fino, br, pico, stm]
   int motors = 2;                      // 1: Y makes no force [affb, pico, wheels on boards]
@@ -98,7 +98,7 @@ struct StickHabits {
   bool first_create_fails = false;   // after power-on [pico]
   bool pool_by_driver_flag = false;  // the pool report says that the driver manages the pool; not true [vjoy]
   bool pool_read_frees_all = false;  // [adapt]
-  StateTold state_told = StateTold::at_changes;
+  StateSent state_sent = StateSent::at_changes;
   bool says_no_safety_switch = false;  // the bit is never set [board]
   bool says_no_power = false;          // the bit is never set
   bool says_no_actuators = false;      // the bit is never set

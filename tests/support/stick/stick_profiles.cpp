@@ -17,7 +17,7 @@ StickProfile openffboard_stick(const char* name, StickFamily family) {
   StickProfile profile{name, family, {}};
   profile.habits.condition = ConditionLaw::board;
   profile.habits.auto_centre = AutoCentre::when_off;
-  profile.habits.state_told = StateTold::at_setting;
+  profile.habits.state_sent = StateSent::at_setting;
   profile.habits.says_no_safety_switch = true;
   return profile;
 }
@@ -34,7 +34,7 @@ StickProfile arduino_like_stick(const char* name, StickFamily family) {
   profile.habits.ignores_device_gain = true;
   profile.habits.ignores_actuators = true;
   profile.habits.stopped_is_free = true;
-  profile.habits.state_told = StateTold::never;
+  profile.habits.state_sent = StateSent::never;
   return profile;
 }
 
@@ -66,7 +66,7 @@ StickProfile adapt_ffb_joy_stick(const char* name) {
   profile.habits.pool_read_frees_all = true;
   profile.habits.load_answers_once = true;
   profile.habits.short_features = 1;
-  profile.habits.state_told = StateTold::never;
+  profile.habits.state_sent = StateSent::never;
   return profile;
 }
 
@@ -100,7 +100,7 @@ StickProfile affbwheel_stick() {
   profile.habits.condition = ConditionLaw::x_only;
   profile.habits.stopped_is_free = true;
   profile.habits.motors = 1;
-  profile.habits.state_told = StateTold::never;
+  profile.habits.state_sent = StateSent::never;
   return profile;
 }
 
@@ -120,7 +120,7 @@ StickProfile stm32_stick() {
   profile.habits.condition = ConditionLaw::counted;
   profile.habits.dead_band = DeadBandLaw::shifts_centre;
   profile.habits.control_tests_bits = true;
-  profile.habits.state_told = StateTold::at_changes;
+  profile.habits.state_sent = StateSent::at_changes;
   return profile;
 }
 
