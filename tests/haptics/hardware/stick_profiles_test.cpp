@@ -61,7 +61,7 @@ Calibrated calibrate_stick(const EmulatedStickConfig& config) {
   const double begin = bench.time();
   const auto refusal_of = [&](auto step) -> std::string {
     try {
-      (calibrator.*step)();
+      std::invoke(step, calibrator);
     } catch (const CalibrationRefused& refused) {
       return refused.what();
     }
@@ -71,7 +71,10 @@ Calibrated calibrate_stick(const EmulatedStickConfig& config) {
     if (result.refusal.empty()) result.refusal = refusal_of(step);
   if (result.refusal.empty()) {
     result.handle_refused = refusal_of(&Calibrator::measure_handle);
-    if (bench.ability.spring) refusal_of(&Calibrator::measure_springs);
+    std::string springs;  // the dialogue's sentence
+    if (bench.ability.spring) refusal_of([&](Calibrator& c) { springs = c.measure_springs(); });
+    const std::string& refused = calibrator.calibration().springs_refused;
+    if (!refused.empty()) CHECK(springs.starts_with(refused + ", so springs are not used"));
   }
   result.seconds = bench.time() - begin;
   result.found = calibrator.calibration();
