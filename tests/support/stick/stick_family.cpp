@@ -62,6 +62,7 @@ ConditionBytes long_condition(std::uint8_t id, double max, double min) {
 StickFamilyTable sidewinder() {
   StickFamilyTable table{};
   table.name = "sidewinder";
+  table.descriptor = "microsoft-sidewinder-ff2";
   table.vendor = 0x045e;
   table.product = 0x001b;
   table.usb_version = 0x0110;
@@ -92,6 +93,7 @@ StickFamilyTable sidewinder() {
 StickFamilyTable openffboard() {
   StickFamilyTable table{};
   table.name = "openffboard";
+  table.descriptor = "openffboard-2axis";
   table.vendor = 0x1209;
   table.product = 0xffb0;
   table.usb_version = 0x0200;
@@ -125,6 +127,7 @@ StickFamilyTable openffboard() {
 StickFamilyTable vjoy() {
   StickFamilyTable table{};
   table.name = "vjoy";
+  table.descriptor = "vjoy-2axis-ffb-tlid1";
   table.vendor = 0x1234;
   table.product = 0xbead;
   table.usb_version = 0x0200;
@@ -155,15 +158,17 @@ StickFamilyTable vjoy() {
 StickFamilyTable openffboard_32bit() {
   StickFamilyTable table = openffboard();
   table.name = "openffboard 32-bit";
+  table.descriptor = "openffboard-2axis-32bit-1.17";
   table.lever = {{0x01, 29}, {9, 4, true}, {13, 4, true}, -2147483647.0, 2147483647.0, 32, 1, 0};
   return table;
 }
 
 // The report IDs that the Arduino library and its relatives share. Byte offsets of Set Effect: 9 gain, 10 trigger
 // button, 11 axes, 12 and 13 directions, 14 and 16 type-specific offsets; no start delay.
-StickFamilyTable arduino_like(const char* name, double full, int blocks) {
+StickFamilyTable arduino_like(const char* name, const char* descriptor, double full, int blocks) {
   StickFamilyTable table{};
   table.name = name;
+  table.descriptor = descriptor;
   table.vendor = 0x2341;
   table.product = 0x8036;
   table.usb_version = 0x0200;
@@ -195,7 +200,7 @@ StickFamilyTable arduino_like(const char* name, double full, int blocks) {
 }
 
 StickFamilyTable arduino() {
-  StickFamilyTable table = arduino_like("arduino", 10000.0, 13);
+  StickFamilyTable table = arduino_like("arduino", "arduino-ffb-library-yukminglaw-xy", 10000.0, 13);
   table.other_outputs = {{0x02, 14}, {0x04, 12}, {0x06, 6}, {0x07, 16}, {0x08, 2}, {0x0E, 5}};
   return table;
 }
@@ -203,12 +208,13 @@ StickFamilyTable arduino() {
 StickFamilyTable arduino_hat() {
   StickFamilyTable table = arduino();
   table.name = "arduino hat";
+  table.descriptor = "arduino-ffb-library-yukminglaw-xy-hat";
   table.lever = {{0x01, 7}, s16(3), s16(5), -32767.0, 32767.0, 16, 1, 2};
   return table;
 }
 
 StickFamilyTable adapt_ffb_joy() {
-  StickFamilyTable table = arduino_like("adapt-ffb-joy", 10000.0, 18);
+  StickFamilyTable table = arduino_like("adapt-ffb-joy", "adapt-ffb-joy-tloimu", 10000.0, 18);
   table.vendor = 0x03eb;
   table.product = 0x204e;
   table.maker = "LUFA";
@@ -229,7 +235,7 @@ StickFamilyTable adapt_ffb_joy() {
 }
 
 StickFamilyTable sunffb() {
-  StickFamilyTable table = arduino_like("sunffb", 10000.0, 15);
+  StickFamilyTable table = arduino_like("sunffb", "sunffb-joystick", 10000.0, 15);
   table.vendor = 0xffff;
   table.product = 0x2010;
   table.maker = "SunFFB";
@@ -258,7 +264,7 @@ StickFamilyTable sunffb() {
 }
 
 StickFamilyTable affbwheel() {
-  StickFamilyTable table = arduino_like("affbwheel", 16384.0, 13);
+  StickFamilyTable table = arduino_like("affbwheel", "affbwheel-vsulako", 16384.0, 13);
   table.product_name = "Arduino Micro";
   table.product = 0x8037;
   table.lever = {{0x01, 21}, s16(1), s16(3), -32768.0, 32767.0, 16, 17, 0};
@@ -269,7 +275,7 @@ StickFamilyTable affbwheel() {
 
 // One direction field; a condition has one coefficient and one saturation.
 StickFamilyTable brwheel() {
-  StickFamilyTable table = arduino_like("brwheel", 32767.0, 10);
+  StickFamilyTable table = arduino_like("brwheel", "brwheel-ranenbg", 32767.0, 10);
   table.product_name = "BRWheel";
   table.serial = "";
   table.lever = {{0x04, 13}, u16(1), u16(3), 0.0, 65535.0, 16, 10, 0};
@@ -285,7 +291,7 @@ StickFamilyTable brwheel() {
 }
 
 StickFamilyTable stm32() {
-  StickFamilyTable table = arduino_like("stm32", 10000.0, 39);
+  StickFamilyTable table = arduino_like("stm32", "stm32-ffbjoystick-billydragon", 10000.0, 39);
   table.vendor = 0x2906;
   table.product = 0x1969;
   table.maker = "STMicroelectronics";
@@ -307,6 +313,7 @@ StickFamilyTable stm32() {
 StickFamilyTable saitek() {
   StickFamilyTable table{};
   table.name = "saitek";
+  table.descriptor = "saitek-cyborg-evo-force";
   table.vendor = 0x06a3;
   table.product = 0xffb5;
   table.usb_version = 0x0110;
@@ -384,20 +391,7 @@ const char* to_string(StickFamily family) noexcept {
 }
 
 std::vector<std::uint8_t> stick_report_descriptor(StickFamily family) {
-  static constexpr std::array<const char*, 12> kFiles{"microsoft-sidewinder-ff2",
-                                                      "openffboard-2axis",
-                                                      "vjoy-2axis-ffb-tlid1",
-                                                      "openffboard-2axis-32bit-1.17",
-                                                      "arduino-ffb-library-yukminglaw-xy",
-                                                      "arduino-ffb-library-yukminglaw-xy-hat",
-                                                      "adapt-ffb-joy-tloimu",
-                                                      "sunffb-joystick",
-                                                      "affbwheel-vsulako",
-                                                      "brwheel-ranenbg",
-                                                      "stm32-ffbjoystick-billydragon",
-                                                      "saitek-cyborg-evo-force"};
-  const std::string path =
-      std::string(GEARSHIFT_TEST_DATA) + "/hid/" + kFiles.at(static_cast<std::size_t>(family)) + ".hex";
+  const std::string path = std::string(GEARSHIFT_TEST_DATA) + "/hid/" + stick_family(family).descriptor + ".hex";
   std::ifstream file(path);
   std::vector<std::uint8_t> bytes;
   for (unsigned value = 0; file >> std::hex >> value;) bytes.push_back(static_cast<std::uint8_t>(value));

@@ -82,7 +82,7 @@ struct StickQuirks {
 };
 
 struct StickFamilyTable {
-  const char* name;
+  const char *name, *descriptor;  // `descriptor`: file name in tests/data/hid
   std::uint16_t vendor, product, usb_version, device_version;
   const char *maker, *product_name, *serial;  // serial "": none
   std::uint8_t endpoint_in, endpoint_out;     // if `endpoint_out` is 0, outputs use the control pipe
