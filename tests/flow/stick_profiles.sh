@@ -24,7 +24,9 @@ calibrate() { # profile, id of the stick
   profile=$1
   printf '140\n140\n20\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n' |
     with_stick --family "$1" -- "$gearshift" devices --calibrate "$2" >calibrated.txt 2>calibrated.err
+  code=$?
 }
+ends_with() { check "$profile: exit status $1" [ $code = "$1" ]; }
 shows() { check "$profile: $1" grep -q -- "$1" calibrated.txt; }
 
 write_calibration 2341_8036_HIDEM 0x2341 0x8036 HIDEM -32767 0 32767
@@ -37,16 +39,20 @@ calibrate AFFBWheel 2341:8037
 shows "Rejected: the stick has a motor for select, but none for shift, and a lever needs both"
 shows "This step is left out: the stick cannot be used"
 shows "Still missing: delay, force direction"
+ends_with 1
 if is_full_run; then
   calibrate "Arduino library" 2341:8036
   shows "the stick's springs do not keep their dead band, so springs are not used"
   shows "springs  *not used: the stick's springs do not keep their dead band"
   shows "^Calibrated: "
+  ends_with 0
   calibrate "adapt-ffb-joy 0.5" 03eb:204e
   shows "the stick's springs have no dead band, so springs are not used"
   shows "^Calibrated: "
+  ends_with 0
   calibrate "Cyborg Evo Force" 06a3:ffb5
   shows "springs of up to [34][0-9][0-9] N/m in select"
   shows "^Calibrated: "
+  ends_with 0
 fi
 finish
