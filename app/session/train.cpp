@@ -17,6 +17,7 @@
 #include "app/session/panel_hand_pointer.h"
 #include "app/session/shared_input.h"
 #include "app/session/ui_scale.h"
+#include "app/ui/input/bound_controllers.h"
 #include "engine/gpu/instance.h"
 #include "engine/ui/ui.h"
 #include "haptics/files/printable.h"
@@ -30,6 +31,7 @@ constexpr double kOffscreenRate = 30.0;         // [1/s] frames per simulated se
 constexpr int kSettling = 3;                    // frames until every part of the panel has its final height
 constexpr double kMinFrameTime = 1.0 / 144;     // [s] shortest frame if the display does not limit the rate
 constexpr double kMaxFrameTime = 0.25;          // [s] car and pedals advance by at most this per frame
+constexpr std::chrono::seconds kLabelInterval{1};  // between updates of the keys' labels
 constexpr std::chrono::seconds kViewRetry{1};   // pause between attempts to recreate the view
 constexpr std::chrono::seconds kViewHolds{10};  // no message is printed if the view is lost again within this time
 
@@ -68,7 +70,6 @@ class WindowTrainer {
         look_(setup.choice.camera, setup.choice.drive),
         last_frame_(Clock::now()) {
     panel_.set_visible(setup.panel);
-    session_.set_keys(key_hints(setup.bindings));
     if (!setup.replay.empty()) session_.open_replay(setup.replay, setup.shift, setup.from);
   }
 
@@ -201,17 +202,26 @@ class WindowTrainer {
     shared_.update(
         polled, seconds_, [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_, pointing_.pointer());
     if (setup_.choice.stick) input_.release_mouse();
-    if (!setup_.choice.stick) report_unbound(polled.pads);
+    if (!setup_.choice.stick) report_controllers(polled.controllers);
+    update_key_labels();
     look_.turn(shared_.turned());
   }
 
-  void report_unbound(const std::vector<engine::PadState>& sticks) {
-    std::vector<std::string> sentences = ui::describe_unbound(setup_.bindings, sticks);
+  // The layout of the keyboard may change while the program runs; GLFW has no event for this.
+  void update_key_labels() {
+    if (last_frame_ < next_labels_) return;
+    next_labels_ = last_frame_ + kLabelInterval;
+    session_.set_keys(key_hints(input_.bindings()));
+    if (help_) show_help();
+  }
+
+  void report_controllers(const std::vector<engine::Controller>& controllers) {
+    std::vector<std::string> sentences = ui::describe_controllers(input_.bindings(), controllers);
     for (const std::string& sentence : sentences) {
-      const bool is_known = std::find(unbound_.begin(), unbound_.end(), sentence) != unbound_.end();
+      const bool is_known = std::find(reported_.begin(), reported_.end(), sentence) != reported_.end();
       if (!is_known) report_message(sentence);
     }
-    unbound_ = std::move(sentences);
+    reported_ = std::move(sentences);
   }
 
   // Where the hand points at the panel; empty if it does not, or if this part of the panel has no controls.
@@ -244,7 +254,7 @@ class WindowTrainer {
     if (lever.take_new_runtime()) {
       print_health(std::exchange(health_, std::nullopt));
       runtime::Runtime& runtime = lever.runtime();
-      input_.set_reach(ui::hand_reach(runtime.gate(), runtime.device()));
+      input_.set_gate(runtime.gate(), runtime.device());
       input_.recentre(runtime.snapshot().lever);
     }
     if (const std::optional<CarSwitches> car = lever.take_switches()) input_.set_car(car->ignition, car->hand_brake);
@@ -277,7 +287,7 @@ class WindowTrainer {
         break;
       case ui::Action::help:
         help_ = !help_;
-        panel_.show_help(help_, ui::help_text(setup_.bindings));
+        show_help();
         break;
       case ui::Action::panel:
         panel_.set_visible(!panel_.visible());
@@ -304,6 +314,10 @@ class WindowTrainer {
       default:
         break;  // driving actions, which DriverInput handles
     }
+  }
+
+  void show_help() {
+    panel_.show_help(help_, ui::help_text(input_.bindings(), window_.input().controllers));
   }
 
   // Commands of the Enter key: turn forces on, and start the offered lesson. After a passed lesson, offer the next one,
@@ -381,10 +395,10 @@ class WindowTrainer {
   bool help_ = false;
   bool quit_ = false;
   bool fresh_view_ = true;
-  Clock::time_point next_view_{}, view_quiet_until_{};
+  Clock::time_point next_view_{}, view_quiet_until_{}, next_labels_{};
   std::optional<runtime::LoopHealth> health_;  // health of the loop in the newest frame
   std::string printed_message_;
-  std::vector<std::string> unbound_;  // sentences about the sticks of the last frame
+  std::vector<std::string> reported_;  // sentences about the sticks of the last frame
 };
 
 // True if the lesson or the replay has ended.

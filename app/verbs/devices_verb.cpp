@@ -20,9 +20,9 @@
 #include "app/runtime/devices/open_stick.h"
 #include "app/runtime/devices/stick_list.h"
 #include "app/session/bindings_file.h"
-#include "app/ui/input/axis_dialog.h"
+#include "app/ui/input/controls_dialog.h"
 #include "app/verbs/verbs.h"
-#include "engine/window/window.h"
+#include "engine/window/controllers.h"
 #include "haptics/files/printable.h"
 
 namespace gearshift::verbs {
@@ -58,13 +58,14 @@ std::vector<runtime::ListedStick> plugged_sticks() {
   }
 }
 
-// Returns the devices that GLFW lists, including force-feedback sticks. Empty without a display, which GLFW needs.
-std::vector<engine::PadState> glfw_pads() {
-  return engine::has_display() ? engine::glfw_sticks() : std::vector<engine::PadState>{};
-}
-
-DeviceJson pad_json(const engine::PadState& pad) {
-  return {{"name", pad.name}, {"guid", pad.guid}, {"axes", pad.axes.size()}, {"buttons", pad.buttons.size()}};
+DeviceJson controller_json(const engine::Controller& one) {
+  return {{"name", one.name},
+          {"id", one.id},
+          {"guid", one.guid},
+          {"axes", one.axes.size()},
+          {"buttons", one.buttons.size()},
+          {"gamepad", one.gamepad.has_value()},
+          {"can_be_read", one.can_be_read}};
 }
 
 DeviceJson stick_json(const runtime::ListedStick& stick) {
@@ -111,65 +112,71 @@ void print_sticks(const std::vector<runtime::ListedStick>& sticks) {
     if (!stick.problem.empty()) base::print_out("  {}\n", stick.problem);
 }
 
-void print_pads(const std::vector<engine::PadState>& pads) {
-  if (pads.empty()) return;
-  base::print_out("\nDevices without force feedback, usable for the lever and the pedals:\n");
-  std::vector<DevicesRow> rows{{"name", "axes", "buttons"}};
-  for (const engine::PadState& pad : pads)
-    rows.push_back({haptics::printable(pad.name), std::to_string(pad.axes.size()), std::to_string(pad.buttons.size())});
+void print_controllers(const std::vector<engine::Controller>& controllers) {
+  if (controllers.empty()) return;
+  base::print_out("\nPads, wheels, pedals and shifters, usable for the lever and the pedals:\n");
+  std::vector<DevicesRow> rows{{"name", "id", "axes", "buttons", "kind"}};
+  for (const engine::Controller& one : controllers)
+    rows.push_back({haptics::printable(one.name), one.id, one.can_be_read ? std::to_string(one.axes.size()) : "?",
+                    one.can_be_read ? std::to_string(one.buttons.size()) : "?",
+                    !one.can_be_read ? "no permission"
+                    : one.gamepad    ? "game pad"
+                                     : "set up by --calibrate"});
   print_rows(rows);
 }
 
-// If the user may not open one of the sticks, prints once how to install the udev rule that grants access.
-void print_rule(const std::vector<runtime::ListedStick>& sticks) {
-  const bool forbidden = std::any_of(
-      sticks.begin(), sticks.end(), [](const runtime::ListedStick& stick) { return runtime::needs_permission(stick); });
+// If the user may not open one of the devices, prints once how to install the udev rule that grants access.
+void print_rule(const std::vector<runtime::ListedStick>& sticks, const std::vector<engine::Controller>& controllers) {
+  const bool forbidden =
+      std::any_of(sticks.begin(), sticks.end(), [](const auto& stick) { return runtime::needs_permission(stick); }) ||
+      std::any_of(controllers.begin(), controllers.end(), [](const auto& one) { return !one.can_be_read; });
   if (!forbidden) return;
   const std::string rule = (base::assets_folder() / "udev" / "70-gearshift.rules").string();
   base::print_out(
-      "To let the logged-in user open these sticks, run these commands once:\n"
+      "To let the logged-in user open these devices, run these commands once:\n"
       "  sudo cp \"{}\" /etc/udev/rules.d/\n"
       "  sudo udevadm control --reload\n"
-      "Then unplug the stick and plug it in again.\n",
+      "Then unplug the device and plug it in again.\n",
       rule);
 }
 
 int list_devices(bool as_json) {
   const std::vector<runtime::ListedStick> sticks = plugged_sticks();
-  const std::vector<engine::PadState> pads = glfw_pads();
+  const std::vector<engine::Controller> controllers = engine::list_controllers();
   const std::vector<std::string> absent = runtime::absent_problems(sticks, calibrations_to_read());
   if (as_json) {
     DeviceJson all = DeviceJson::array();
     for (const runtime::ListedStick& stick : sticks) all.push_back(stick_json(stick));
-    DeviceJson pads_json = DeviceJson::array();
-    for (const engine::PadState& pad : pads) pads_json.push_back(pad_json(pad));
-    const DeviceJson listed{{"sticks", all}, {"seen_by_glfw", pads_json}, {"problems_of_absent", absent}};
+    DeviceJson others = DeviceJson::array();
+    for (const engine::Controller& one : controllers) others.push_back(controller_json(one));
+    const DeviceJson listed{{"sticks", all}, {"controllers", others}, {"problems_of_absent", absent}};
     base::print_out("{}\n", listed.dump(2));
     return 0;
   }
   if (sticks.empty()) base::print_out("No USB joystick is plugged in. You can use the simulated lever without one.\n");
   if (!sticks.empty()) print_sticks(sticks);
   for (const std::string& problem : absent) base::print_out("  {}\n", problem);
-  print_rule(sticks);
-  print_pads(pads);
+  print_controllers(controllers);
+  print_rule(sticks, controllers);
   return 0;
 }
 
-// Calibrates the wanted device. Measures a force-feedback stick; for other sticks and pads, lets the user assign the
-// axes, which needs a display for GLFW.
+// Calibrates the wanted device. Measures a force-feedback stick; for other controllers, asks the user to move each
+// control.
 int calibrate(const std::string& wanted, bool again) {
   const std::vector<runtime::ListedStick> plugged = plugged_sticks();
   const runtime::ListedStick* stick = runtime::find_plugged_stick(wanted, plugged);
-  const bool may_be_pad =
+  const bool may_lack_force =
       stick == nullptr || stick->force == runtime::StickForce::none || stick->force == runtime::StickForce::rumble;
-  const std::vector<engine::PadState> pads = may_be_pad ? glfw_pads() : std::vector<engine::PadState>{};
+  const std::vector<engine::Controller> controllers =
+      may_lack_force ? engine::list_controllers() : std::vector<engine::Controller>{};
   const std::string name = stick == nullptr ? wanted : stick->identity.name;
-  const bool is_pad =
-      std::any_of(pads.begin(), pads.end(), [&](const engine::PadState& pad) { return ui::matches_stick(pad, name); });
-  if (!is_pad) return runtime::calibrate_stick(wanted, calibrations_folder(), again, STDIN_FILENO);
+  const bool is_controller = std::any_of(controllers.begin(), controllers.end(),
+                                         [&](const auto& one) { return ui::matches_stick(one, name); });
+  if (!is_controller) return runtime::calibrate_stick(wanted, calibrations_folder(), again, STDIN_FILENO);
   const std::filesystem::path file =
       ui::user_bindings_file(base::user_config_folder(), std::string(session::kOwnBindings));
-  return ui::calibrate_pads(file, base::find_asset("bindings", "default"), again, STDIN_FILENO);
+  return ui::calibrate_controllers(file, base::find_asset("bindings", "default"), again, STDIN_FILENO);
 }
 
 int run_devices(const DevicesArguments& arguments) {

@@ -29,6 +29,10 @@ GlfwUse::~GlfwUse() {
   if (--users == 0) glfwTerminate();
 }
 
+bool glfw_is_in_use() noexcept {
+  return users > 0;
+}
+
 std::string glfw_error() {
   const char* text = nullptr;
   glfwGetError(&text);

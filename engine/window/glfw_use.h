@@ -13,6 +13,8 @@ class GlfwUse {
   GlfwUse& operator=(const GlfwUse&) = delete;
 };
 
+bool glfw_is_in_use() noexcept;
+
 // Returns the text of GLFW's last error and clears the error. The text is never empty.
 std::string glfw_error();
 

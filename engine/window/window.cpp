@@ -64,6 +64,25 @@ bool has_display() {
   }
 }
 
+std::string printed_key(int key) {
+  const bool is_keypad = key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_EQUAL;
+  const char* name = !glfw_is_in_use() || is_keypad ? nullptr : glfwGetKeyName(key, 0);
+  if (name == nullptr) return {};
+  std::string text = name;
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (text.size() == 1 && byte(0) > ' ' && byte(0) < 0x7f) {
+    if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text;
+  }
+  // U+00A1 to U+00FF in UTF-8 start with c2 or c3. A small letter is U+0020 above its capital, except the division
+  // sign and y with diaeresis.
+  const bool is_latin = text.size() == 2 && ((byte(0) == 0xc2 && byte(1) > 0xa0) || byte(0) == 0xc3);
+  if (!is_latin) return {};
+  if (byte(0) == 0xc3 && byte(1) >= 0xa0 && byte(1) != 0xb7 && byte(1) != 0xbf)
+    text[1] = static_cast<char>(byte(1) - 0x20);
+  return text;
+}
+
 struct Window::State {
   State(int width, int height, const std::string& title);
   ~State() { glfwDestroyWindow(window); }
@@ -78,6 +97,7 @@ struct Window::State {
   GlfwUse use;
   GLFWwindow* window = nullptr;
   WindowInput input;
+  Controllers controllers;
   std::array<bool, 5> held{};  // current mouse buttons
   glm::dvec2 cursor{0.0};      // position in GLFW's window coordinates; unbounded while captured
   bool captured = false;
@@ -166,10 +186,14 @@ const WindowInput& Window::poll() {
   s.input.mouse_down = s.held;
   glfwPollEvents();
   for (std::size_t i = 0; i < s.held.size(); ++i) s.input.mouse_down[i] = s.input.mouse_down[i] || s.held[i];
-  s.input.pads = read_pads();
+  s.input.controllers = s.controllers.poll();
   s.input.focused = glfwGetWindowAttrib(s.window, GLFW_FOCUSED) == GLFW_TRUE;
   s.shown = s.is_visible();
   return s.input;
+}
+
+const WindowInput& Window::input() const {
+  return state_->input;
 }
 
 bool Window::wants_close() const {

@@ -13,12 +13,17 @@
 
 #include "engine/gpu/gpu.h"
 #include "engine/gpu/gpu_image.h"
-#include "engine/window/pads.h"
+#include "engine/window/controllers.h"
 
 namespace gearshift::engine {
 
 // True if the X server named by DISPLAY answers. Never throws, and leaves no connection open.
 bool has_display();
+
+// Text printed on the key by the user's keyboard layout, in capitals: "Q" for GLFW_KEY_A on a French keyboard. Empty if
+// the layout gives the key no character (Left Shift, F1), for keys of the keypad, for characters outside Latin-1, which
+// the panel's font lacks, and before GLFW is in use. Call on the thread that uses GLFW.
+std::string printed_key(int key);
 
 // A key that went down or up; auto-repeat produces no event.
 struct KeyEvent {
@@ -47,7 +52,7 @@ struct WindowInput {
   std::array<bool, 5> mouse_down{};  // down now or at any time since the last poll: left, right, middle, ...
   std::vector<InputEvent> events;    // in order
   std::vector<KeyEvent> keys;        // the key events of `events`
-  std::vector<PadState> pads;        // currently plugged in
+  std::vector<Controller> controllers;  // currently plugged in
   bool focused = true;
 };
 
@@ -62,6 +67,7 @@ class Window {
   static std::vector<const char*> instance_extensions();  // for GpuConfig; valid once a window exists
 
   const WindowInput& poll();  // does not wait, except while minimised: then at most 20 polls per second
+  const WindowInput& input() const;  // as returned by the last poll
   bool wants_close() const;
   glm::ivec2 framebuffer() const;  // [px] (0, 0) while minimised
   float content_scale() const;     // 1 at 96 dpi

@@ -127,6 +127,11 @@ bool TomlTable::has(std::string_view key) const {
   return node_->find(key) != nullptr;
 }
 
+bool TomlTable::is_text(std::string_view key) const {
+  const toml::node* value = node_->find(key);
+  return value != nullptr && value->is_string();
+}
+
 int TomlTable::line(std::string_view key) const {
   const toml::node* value = key.empty() ? nullptr : node_->table->get(key);
   return line_of(value != nullptr ? *value : *node_->table);

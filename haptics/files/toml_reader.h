@@ -18,6 +18,7 @@ class TomlTable {
   static TomlTable parse(std::string_view text, const std::string& file_name);
 
   bool has(std::string_view key) const;
+  bool is_text(std::string_view key) const;
   int line(std::string_view key = {}) const;  // line of the key, or of the table if the key is empty
 
   // These functions throw FileError if the value is missing, of the wrong type, not finite or out of range.

@@ -17,7 +17,10 @@ const std::vector<ActionInfo>& all_actions() {
       {Action::clutch, "clutch", "clutch", true},
       {Action::clutch_hold, "clutch_hold", "hold the clutch where it is", true},
       {Action::starter, "starter", "starter", true},
+      {Action::hand_brake_hold, "hand_brake_hold", "handbrake", true},
       {Action::hand_brake, "hand_brake", "turn the handbrake on or off", false},
+      {Action::shift_up, "shift_up", "shift one gear up", false},
+      {Action::shift_down, "shift_down", "shift one gear down", false},
       {Action::ignition, "ignition", "turn the ignition on or off", false},
       {Action::arm, "arm", "turn forces on and start the offered lesson", false},
       {Action::stop, "stop", "stop (turn forces off)", false},
@@ -33,6 +36,11 @@ const std::vector<ActionInfo>& all_actions() {
       {Action::quit, "quit", "quit", false},
   };
   return actions;
+}
+
+std::string gear_key(int gear) {
+  if (gear == haptics::kReverseGear) return "gear_reverse";
+  return gear == haptics::kNeutralGear ? "gear_neutral" : "gear_" + std::to_string(gear);
 }
 
 }  // namespace gearshift::ui

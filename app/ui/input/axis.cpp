@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "haptics/files/ascii.h"
+#include "haptics/files/printable.h"
 
 namespace gearshift::ui {
 namespace {
@@ -19,17 +20,24 @@ double between_zones(const AxisBinding& axis, double value) noexcept {
 
 }  // namespace
 
-bool matches_stick(const engine::PadState& stick, std::string_view name) {
-  if (name.empty()) return stick.is_pad;
-  const auto at = std::search(stick.name.begin(), stick.name.end(), name.begin(), name.end(), same_letter);
-  return at != stick.name.end() || stick.guid == name;
+ControllerName name_of(const engine::Controller& controller) {
+  const bool is_valid_in_file =
+      !controller.name.empty() && haptics::printable(controller.name) == controller.name;
+  return {is_valid_in_file ? controller.name : controller.guid, controller.id};
 }
 
-const engine::PadState* find_stick(const std::vector<engine::PadState>& sticks, const AxisBinding& axis) {
-  int before = axis.pad;
-  for (const engine::PadState& stick : sticks)
-    if (matches_stick(stick, axis.stick) && before-- == 0) return &stick;
-  return nullptr;
+bool matches_stick(const engine::Controller& controller, std::string_view stick) {
+  if (stick.empty()) return false;
+  const std::string& name = controller.name;
+  const auto at = std::search(name.begin(), name.end(), stick.begin(), stick.end(), same_letter);
+  return at != name.end() || controller.id == stick || controller.guid == stick;
+}
+
+bool is_named(const engine::Controller& controller, const ControllerName& name,
+              const std::vector<engine::Controller>& all) {
+  if (matches_stick(controller, name.stick)) return true;
+  return !name.id.empty() && controller.id == name.id &&
+         std::none_of(all.begin(), all.end(), [&](const auto& one) { return matches_stick(one, name.stick); });
 }
 
 double centre_of(const AxisBinding& axis) noexcept {

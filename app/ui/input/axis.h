@@ -1,4 +1,4 @@
-// Binding of a control (pedal or lever) to an axis of a stick, pad or pedal set.
+// Binding of a control (pedal, handbrake or lever) to an axis of a controller.
 #pragma once
 
 #include <optional>
@@ -6,27 +6,39 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/window/pads.h"
+#include "engine/window/controllers.h"
 
 namespace gearshift::ui {
 
+// How a bindings file names a controller.
+struct ControllerName {
+  std::string stick{};  // part of the name, the USB id ("046d:c24f") or the whole GUID; empty: any game pad
+  std::string id{};     // USB id, for a controller that appears under another name today; may be empty
+  bool operator==(const ControllerName&) const = default;
+};
+
 struct AxisBinding {
-  int pad = 0;  // index among the sticks that match `stick`; 0: the first one plugged in
-  int axis = 0;
+  ControllerName of{};
+  int which = 0;  // index among the controllers of this name; 0: the first one plugged in
+  int axis = 0;   // of any game pad: index in Gamepad::axes; of a named controller: index in Controller::axes
   double from = -1.0;            // raw value of a released pedal, or of a lever at its left or back end
   double to = 1.0;               // raw value of a fully pressed pedal, or of a lever at its right or forward end
   double dead_zone = 0.0;        // [1] 0 to 0.9: fraction ignored around a lever's rest position or at a pedal's start
   double end_zone = 0.0;         // [1] 0 to 0.9: fraction at the end that counts as full; dead_zone + end_zone <= 0.95
-  std::optional<double> centre;  // raw value of a lever at rest, between `from` and `to`; default: midway
-  std::string stick;             // part of the stick's name, or its whole GUID; empty: any game pad
+  std::optional<double> centre{};  // raw value of a lever at rest, between `from` and `to`; default: midway
 };
 
-// Returns true if the stick's name contains `name` (ignoring case) or its GUID equals `name`. An empty name stands for
-// any game pad, because axes of other sticks mean nothing before a person has said which is which.
-bool matches_stick(const engine::PadState& stick, std::string_view name);
+// Returns a name that finds this controller again and can be written to a file.
+ControllerName name_of(const engine::Controller& controller);
 
-// Returns the stick that the axis belongs to; null if this stick is not plugged in.
-const engine::PadState* find_stick(const std::vector<engine::PadState>& sticks, const AxisBinding& axis);
+// Returns true if the controller's name contains `stick` (ignoring case), or its USB id or GUID equals `stick`. False
+// if `stick` is empty.
+bool matches_stick(const engine::Controller& controller, std::string_view stick);
+
+// Returns true if the name stands for this controller: `stick` matches, or, if `stick` matches none of `all`, the USB
+// id does.
+bool is_named(const engine::Controller& controller, const ControllerName& name,
+              const std::vector<engine::Controller>& all);
 
 double centre_of(const AxisBinding& axis) noexcept;
 double lever_value(const AxisBinding& axis, double raw) noexcept;  // -1: left or back, 1: right or forward

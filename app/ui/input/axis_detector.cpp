@@ -15,7 +15,6 @@ constexpr double kMinMove = 0.2;        // [1] smaller changes of the raw value 
 constexpr double kMaxSecondAxis = 0.5;  // [1] maximum motion of a second axis, divided by the largest motion
 constexpr double kMinPedalSide = 0.75;  // [1] minimum fraction of a pedal's range that lies on one side of rest
 constexpr double kMinLeverSide = 0.15;  // [1] minimum fraction of a lever's range that lies on each side of rest
-constexpr int kMinRestFrames = 20;      // minimum number of frames recorded at rest
 constexpr double kMaxDeadZone = 0.25;   // [1] maximum dead zone, as a fraction of the range; a noisier axis is rejected
 constexpr double kMinZone = 0.02;       // [1] minimum dead zone; also used as the end zone
 constexpr double kNoiseMargin = 1.5;    // [1] dead zone divided by measured noise; above 1, as noise may grow later
@@ -35,44 +34,42 @@ double dead_zone(double wander, double range, const std::string& axis_name) {
   return zone;
 }
 
-bool is_valid_in_file(const std::string& name) {
-  return !name.empty() && haptics::printable(name) == name;
-}
-
 }  // namespace
 
 // The first call records the sticks. Later calls return false from the first frame in which the sticks differ, even if
 // the recorded sticks come back.
-bool AxisDetector::check_sticks(const std::vector<engine::PadState>& sticks) {
+bool AxisDetector::check_sticks(const std::vector<engine::Controller>& sticks) {
   const bool is_new = sticks_.empty();
   if (is_new)
-    for (const engine::PadState& stick : sticks)
-      sticks_.push_back({stick.name, stick.guid, std::vector<AxisRange>(stick.axes.size())});
-  const auto same = [](const Stick& a, const engine::PadState& b) {
-    return a.name == b.name && a.guid == b.guid && a.axes.size() == b.axes.size();
+    for (const engine::Controller& stick : sticks)
+      sticks_.push_back({stick, std::vector<AxisRange>(stick.axes.size())});
+  const auto same = [](const Stick& a, const engine::Controller& b) {
+    return a.name() == b.name && a.controller.guid == b.guid && a.axes.size() == b.axes.size();
   };
   changed_ = changed_ || !std::equal(sticks_.begin(), sticks_.end(), sticks.begin(), sticks.end(), same);
   for (std::size_t s = 0; is_new && s < sticks.size(); ++s)
     for (std::size_t a = 0; a < sticks[s].axes.size(); ++a)
-      sticks_[s].axes[a].begin(sticks[s].axes[a], sticks[s].is_pad);
+      sticks_[s].axes[a].first = sticks[s].axes[a];
   return !changed_;
 }
 
-void AxisDetector::record_move(const std::vector<engine::PadState>& sticks) {
+void AxisDetector::record_move(const std::vector<engine::Controller>& sticks) {
   ++frames_;
   if (!check_sticks(sticks)) return;
   for (std::size_t s = 0; s < sticks.size(); ++s) {
     for (std::size_t a = 0; a < sticks[s].axes.size(); ++a) {
       AxisRange& range = sticks_[s].axes[a];
       const double raw = sticks[s].axes[a];
-      if (!range.is_reported && raw != range.first) range.begin(raw, true);
+      if (!range.is_reported && raw == range.first) continue;
+      if (!range.is_reported) range.low = range.high = raw;
+      range.is_reported = true;
       if (raw < range.low) range.low_at = frames_, range.low = raw;
       if (raw > range.high) range.high_at = frames_, range.high = raw;
     }
   }
 }
 
-void AxisDetector::record_rest(const std::vector<engine::PadState>& sticks) {
+void AxisDetector::record_rest(const std::vector<engine::Controller>& sticks) {
   if (!check_sticks(sticks)) return;
   for (std::size_t s = 0; s < sticks.size(); ++s) {
     for (std::size_t a = 0; a < sticks[s].axes.size(); ++a) {
@@ -88,7 +85,7 @@ void AxisDetector::record_rest(const std::vector<engine::PadState>& sticks) {
 }
 
 std::string AxisDetector::name_of(const Place& at) const {
-  return haptics::printable(sticks_[at.stick].name);
+  return haptics::printable(sticks_[at.stick].name());
 }
 
 std::string AxisDetector::describe_axis(const Place& at) const {
@@ -112,12 +109,11 @@ AxisDetector::Place AxisDetector::axis_with_max_travel() const {
 
 // Returns a binding that finds this stick and axis again.
 AxisBinding AxisDetector::binding_of(const Place& at) const {
-  const Stick& stick = sticks_[at.stick];
+  const engine::Controller& stick = sticks_[at.stick].controller;
   AxisBinding axis;
-  axis.stick = is_valid_in_file(stick.name) ? stick.name : stick.guid;
+  axis.of = ui::name_of(stick);
   axis.axis = static_cast<int>(at.axis);
-  for (std::size_t s = 0; s < at.stick; ++s)
-    axis.pad += matches_stick({sticks_[s].name, {}, {}, sticks_[s].guid}, axis.stick) ? 1 : 0;
+  for (std::size_t s = 0; s < at.stick; ++s) axis.which += matches_stick(sticks_[s].controller, axis.of.stick) ? 1 : 0;
   return axis;
 }
 

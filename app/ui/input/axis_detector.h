@@ -19,10 +19,11 @@ namespace gearshift::ui {
 class AxisDetector {
  public:
   enum class Control { lever, pedal };
+  static constexpr int kMinRestFrames = 20;  // minimum number of frames recorded at rest
   explicit AxisDetector(Control control) : control_(control) {}
 
-  void record_move(const std::vector<engine::PadState>& sticks);
-  void record_rest(const std::vector<engine::PadState>& sticks);
+  void record_move(const std::vector<engine::Controller>& sticks);
+  void record_rest(const std::vector<engine::Controller>& sticks);
 
   // The binding identifies the stick by name, or by GUID if the name cannot be written to a file. Throws
   // std::invalid_argument with one sentence on what was wrong and what to do: no motion, two axes moved, too little
@@ -35,24 +36,21 @@ class AxisDetector {
     int low_at = 0, high_at = 0;                // numbers of the frames in which low and high were reached
     double rest_low = 0.0, rest_high = 0.0, rest_sum = 0.0;
     int rests = 0;
-    bool is_reported = true;  // false: `first` may be what the kernel holds until the first report
-    void begin(double raw, bool reported) {
-      first = low = high = raw;
-      is_reported = reported;
-    }
+    bool is_reported = false;  // false: `first` may be what the kernel holds until the first report
     double span() const { return high - low; }
     double rest() const { return rest_sum / rests; }
   };
   struct Stick {
-    std::string name, guid;
+    engine::Controller controller;
     std::vector<AxisRange> axes;
+    const std::string& name() const { return controller.name; }
   };
 
   struct Place {  // identifies an axis
     std::size_t stick = 0, axis = 0;
   };
 
-  bool check_sticks(const std::vector<engine::PadState>& sticks);
+  bool check_sticks(const std::vector<engine::Controller>& sticks);
   const AxisRange& range_of(const Place& at) const { return sticks_[at.stick].axes[at.axis]; }
   std::string name_of(const Place& at) const;
   std::string describe_axis(const Place& at) const;

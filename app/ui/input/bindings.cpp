@@ -6,17 +6,18 @@
 #include <functional>
 #include <utility>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
+#include "app/ui/input/bound_controllers.h"
 #include "app/ui/input/key_names.h"
-#include "haptics/files/printable.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
 namespace gearshift::ui {
 namespace {
 
-constexpr int kMaxPads = 16, kMaxAxes = 64, kMaxButtons = 128;
+constexpr int kMaxControllers = 16, kMaxAxes = 64;
+constexpr int kMaxButtons = 528;  // the kernel's button codes 0x100 to 0x2ff, and the directions of four hats
 constexpr double kMinSpan = 0.1;    // [1] minimum distance of `from` and `to`; a shorter axis would act as a switch
 constexpr double kMinSide = 0.05;   // [1] minimum fraction of a lever's range on each side of its centre
 constexpr double kMaxZones = 0.95;  // [1] maximum sum of dead zone and end zone
@@ -41,26 +42,39 @@ std::optional<int> button_of(std::string_view word) {
   return button < kMaxButtons ? std::optional(button) : std::nullopt;
 }
 
-// Reads a table with lines of the form ACTION = "NAME, NAME, ...". `of` converts a name to its key or button code.
-// `kind` describes valid names in error messages.
-std::map<Action, std::vector<int>> read_actions(const haptics::TomlTable& table,
-                                                const std::function<std::optional<int>(std::string_view)>& of,
-                                                const std::string& kind) {
-  std::map<Action, std::vector<int>> bound;
-  std::map<int, std::string_view> used;
-  for (const ActionInfo& action : all_actions()) {
-    if (!table.has(action.key)) continue;
-    for (const std::string& word : words_of(table.text(action.key))) {
-      const std::optional<int> code = of(word);
-      if (!code) table.fail(action.key, fmt::format("\"{}\" is not valid; use {}", word, kind));
-      const auto [other, is_new] = used.emplace(*code, action.key);
-      if (!is_new) table.fail(action.key, fmt::format("\"{}\" is already bound to {}", word, other->second));
-      bound[action.action].push_back(*code);
+// Reads lines of the form NAME = "CODE, CODE, ..." of one keyboard or controller, where a code has one meaning.
+class CodeReader {
+ public:
+  // `of` converts the text of a code to its number. `kind` describes valid texts in error messages.
+  CodeReader(const haptics::TomlTable& table, std::function<std::optional<int>(std::string_view)> of, std::string kind)
+      : table_(table), of_(std::move(of)), kind_(std::move(kind)) {}
+
+  std::vector<int> codes(const std::string& name) {
+    std::vector<int> codes;
+    if (!table_.has(name)) return codes;
+    for (const std::string& word : words_of(table_.text(name))) {
+      const std::optional<int> code = of_(word);
+      if (!code) table_.fail(name, fmt::format("\"{}\" is not valid; use {}", word, kind_));
+      const auto [other, is_new] = used_.emplace(*code, name);
+      if (!is_new) table_.fail(name, fmt::format("\"{}\" is already bound to {}", word, other->second));
+      codes.push_back(*code);
     }
+    return codes;
   }
-  table.reject_unknown_keys();
-  return bound;
-}
+
+  std::map<Action, std::vector<int>> actions() {
+    std::map<Action, std::vector<int>> bound;
+    for (const ActionInfo& action : all_actions())
+      if (std::vector<int> found = codes(std::string(action.key)); !found.empty()) bound[action.action] = found;
+    return bound;
+  }
+
+ private:
+  const haptics::TomlTable& table_;
+  std::function<std::optional<int>(std::string_view)> of_;
+  std::string kind_;
+  std::map<int, std::string> used_;
+};
 
 int read_integer(const haptics::TomlTable& table, std::string_view key, int max) {
   const double number = table.number_or(key, 0.0, {0.0, static_cast<double>(max)});
@@ -76,7 +90,7 @@ struct BoundAxis {
 // True if both bindings use the same part of the same axis. Two pedals may share an axis, each using one half; their
 // dead zones may overlap, because the measured rest of one may be a count beyond that of the other.
 bool overlap(const AxisBinding& a, const AxisBinding& b) {
-  if (a.stick != b.stick || a.pad != b.pad || a.axis != b.axis) return false;
+  if (a.of.stick != b.of.stick || a.which != b.which || a.axis != b.axis) return false;
   const auto start = [](const AxisBinding& axis) { return axis.from + axis.dead_zone * (axis.to - axis.from); };
   const auto [a_low, a_high] = std::minmax({start(a), a.to});
   const auto [b_low, b_high] = std::minmax({start(b), b.to});
@@ -91,20 +105,38 @@ void read_centre(const haptics::TomlTable& table, AxisBinding& read) {
     table.fail("centre", fmt::format("must lie well between \"from\" ({}) and \"to\" ({})", read.from, read.to));
 }
 
-void read_axis(const haptics::TomlTable& axes, std::string_view key, std::optional<AxisBinding>& axis,
+ControllerName read_name(const haptics::TomlTable& table) {
+  ControllerName name;
+  if (table.has("stick")) name.stick = table.text("stick");
+  if (table.has("id")) name.id = table.text("id");
+  return name;
+}
+
+int read_axis_number(const haptics::TomlTable& table, const ControllerName& of) {
+  const std::vector<std::string> names(std::begin(kPadAxes), std::end(kPadAxes));
+  if (of.stick.empty()) {
+    if (table.has("axis") && !table.is_text("axis"))
+      table.fail("axis", "an axis number needs \"stick\", the controller's name; for any game pad use a name such as \"lt\"");
+    return *pad_axis_of(table.choice("axis", names));
+  }
+  (void)table.number("axis", {0.0, kMaxAxes - 1.0});  // rejects a missing key, which read_integer() accepts
+  return read_integer(table, "axis", kMaxAxes - 1);
+}
+
+void read_axis(const haptics::TomlTable& axes, const AxisInfo& info, std::optional<AxisBinding>& axis,
                std::vector<BoundAxis>& used) {
+  const std::string_view key = info.key;
   if (!axes.has(key)) return;
   const haptics::TomlTable table = axes.table(key);
   AxisBinding read;
-  if (table.has("stick")) read.stick = table.text("stick");
-  read.pad = read_integer(table, "pad", kMaxPads - 1);
-  (void)table.number("axis", {0.0, kMaxAxes - 1.0});  // rejects a missing key, which read_integer() accepts
-  read.axis = read_integer(table, "axis", kMaxAxes - 1);
+  read.of = read_name(table);
+  read.which = read_integer(table, "pad", kMaxControllers - 1);
+  read.axis = read_axis_number(table, read.of);
   read.from = table.number_or("from", read.from, {-1.0, 1.0});
   read.to = table.number_or("to", read.to, {-1.0, 1.0});
   if (std::abs(read.to - read.from) < kMinSpan)
     table.fail("to", fmt::format("must differ from \"from\" ({}) by at least {}", read.from, kMinSpan));
-  if (key.starts_with("lever")) read_centre(table, read);
+  if (info.is_lever) read_centre(table, read);
   read.dead_zone = table.number_or("dead_zone", read.dead_zone, {0.0, 0.9});
   read.end_zone = table.number_or("end_zone", read.end_zone, {0.0, 0.9});
   if (read.dead_zone + read.end_zone > kMaxZones)
@@ -121,19 +153,30 @@ void read_axes(const haptics::TomlTable& root, Bindings& bindings) {
   if (!root.has("pad_axes")) return;
   const haptics::TomlTable axes = root.table("pad_axes");
   std::vector<BoundAxis> used;
-  read_axis(axes, "lever_select", bindings.lever_select, used);
-  read_axis(axes, "lever_shift", bindings.lever_shift, used);
-  read_axis(axes, "throttle", bindings.throttle, used);
-  read_axis(axes, "brake", bindings.brake, used);
-  read_axis(axes, "clutch", bindings.clutch, used);
+  for (const AxisInfo& info : kAxes) read_axis(axes, info, bindings.*info.axis, used);
   axes.reject_unknown_keys();
 }
 
 void read_buttons(const haptics::TomlTable& root, Bindings& bindings) {
-  if (!root.has("pad_buttons")) return;
-  const haptics::TomlTable table = root.table("pad_buttons");
-  if (table.has("stick")) bindings.button_stick = table.text("stick");
-  bindings.pad_buttons = read_actions(table, button_of, fmt::format("a button number from 0 to {}", kMaxButtons - 1));
+  if (root.has("pad_buttons")) {
+    const haptics::TomlTable table = root.table("pad_buttons");
+    bindings.pad_buttons =
+        CodeReader(table, pad_button_of, fmt::format("one of {}", fmt::join(kPadButtons, ", "))).actions();
+    table.reject_unknown_keys();
+  }
+  for (const haptics::TomlTable& table : root.tables("controller")) {
+    ControllerButtons controller;
+    controller.of = {table.text("stick"), read_name(table).id};
+    const bool is_twice = std::any_of(bindings.controllers.begin(), bindings.controllers.end(),
+                                      [&](const auto& other) { return other.of.stick == controller.of.stick; });
+    if (is_twice) table.fail("stick", "has another [[controller]] already");
+    CodeReader reader(table, button_of, fmt::format("a button number from 0 to {}", kMaxButtons - 1));
+    controller.actions = reader.actions();
+    for (int gear = haptics::kReverseGear; gear <= haptics::kMaxGear; ++gear)
+      if (std::vector<int> held = reader.codes(gear_key(gear)); !held.empty()) controller.gears[gear] = held;
+    table.reject_unknown_keys();
+    bindings.controllers.push_back(std::move(controller));
+  }
 }
 
 void read_lever(const haptics::TomlTable& root, Bindings& bindings) {
@@ -162,22 +205,17 @@ std::string joined(const std::vector<int>& codes, const std::function<std::strin
   return list;
 }
 
-// Returns the help text of an axis: the text of the action with the same key. The lever's axes have no such action and
-// get a separate text.
-std::string_view axis_help(std::string_view key) {
-  for (const ActionInfo& action : all_actions())
-    if (action.key == key) return action.help;
-  return key == "lever_select" ? "move the lever sideways" : "move the lever forward and back";
-}
-
 }  // namespace
 
 Bindings read_bindings(const std::filesystem::path& file) {
   const haptics::TomlTable root = haptics::TomlTable::parse(haptics::read_text_file(file), file.string());
   Bindings bindings;
-  if (root.has("keys"))
+  if (root.has("keys")) {
+    const haptics::TomlTable keys = root.table("keys");
     bindings.keys =
-        read_actions(root.table("keys"), key_of, "a key such as A, 7, F1, Left, Space, Left Shift or Keypad 4");
+        CodeReader(keys, key_of, "a key such as A, 7, F1, Left, Space, Left Shift or Keypad 4").actions();
+    keys.reject_unknown_keys();
+  }
   read_buttons(root, bindings);
   read_axes(root, bindings);
   read_lever(root, bindings);
@@ -186,37 +224,6 @@ Bindings read_bindings(const std::filesystem::path& file) {
   if (!bindings.keys.contains(Action::stop))
     root.fail({}, "[keys] has no key for stop; set one, so that you can always turn forces off");
   return bindings;
-}
-
-std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<engine::PadState>& sticks) {
-  std::map<std::string, std::string> controls;  // of each stick that the bindings name
-  const auto add = [&controls](const std::string& stick, const char* control) {
-    if (!stick.empty()) controls[stick] += (controls[stick].empty() ? "" : ", ") + std::string(control);
-  };
-  for (const auto& [axis, control] : {std::pair{&bindings.lever_select, "lever"},
-                                      {&bindings.throttle, "throttle"},
-                                      {&bindings.brake, "brake"},
-                                      {&bindings.clutch, "clutch"}})
-    if (*axis) add((*axis)->stick, control);
-  if (!bindings.pad_buttons.empty()) add(bindings.button_stick, "buttons");
-  std::vector<std::string> sentences;
-  for (const auto& [stick, names] : controls) {
-    const bool is_there = std::any_of(sticks.begin(), sticks.end(),
-                                      [&name = stick](const engine::PadState& s) { return matches_stick(s, name); });
-    if (!is_there)
-      sentences.push_back(
-          fmt::format("{} is not plugged in, so it moves no {}; plug it in, or run: gearshift devices --calibrate",
-                      haptics::printable(stick), names));
-  }
-  for (const engine::PadState& stick : sticks) {
-    const bool is_named = std::any_of(controls.begin(), controls.end(),
-                                      [&](const auto& named) { return matches_stick(stick, named.first); });
-    if (!stick.is_pad && !stick.axes.empty() && !is_named)
-      sentences.push_back(
-          fmt::format("{} was found; it moves nothing until you set it up: gearshift devices --calibrate",
-                      haptics::printable(stick.name)));
-  }
-  return sentences;
 }
 
 std::vector<DrivingKey> driving_keys(const Bindings& bindings) {
@@ -232,34 +239,32 @@ std::vector<DrivingKey> driving_keys(const Bindings& bindings) {
   return keys;
 }
 
-std::string help_text(const Bindings& bindings) {
+std::string help_text(const Bindings& bindings, const std::vector<engine::Controller>& all) {
   std::string text;
   const auto line = [&text](const std::string& control, std::string_view action) {
     text += fmt::format("{}\t{}\n", control, action);
   };
-  for (const ActionInfo& action : all_actions())
-    if (const auto keys = bindings.keys.find(action.action); keys != bindings.keys.end())
-      line(joined(keys->second, key_label), action.help);
+  const auto lines = [&](const std::map<Action, std::vector<int>>& bound, const auto& name) {
+    for (const ActionInfo& action : all_actions())
+      if (const auto codes = bound.find(action.action); codes != bound.end())
+        line(joined(codes->second, name), action.help);
+  };
+  const std::vector<const engine::Controller*> pads = free_gamepads(bindings, all);
+  const std::string_view maker = pads.empty() ? std::string_view() : std::string_view(pads.front()->id).substr(0, 4);
+  lines(bindings.keys, key_label);
   line("Mouse", "move the lever (click the cabin first)");
-  for (const ActionInfo& action : all_actions())
-    if (const auto buttons = bindings.pad_buttons.find(action.action); buttons != bindings.pad_buttons.end())
-      line(joined(buttons->second,
-                  [&](int button) {
-                    return bindings.button_stick.empty() ? "Pad " + pad_button_label(button)
-                                                         : fmt::format("{} button {}", bindings.button_stick, button);
-                  }),
-           action.help);
-  const std::pair<const std::optional<AxisBinding>&, std::string_view> axes[] = {
-      {bindings.lever_select, "lever_select"},
-      {bindings.lever_shift, "lever_shift"},
-      {bindings.throttle, "throttle"},
-      {bindings.brake, "brake"},
-      {bindings.clutch, "clutch"}};
-  for (const auto& [axis, key] : axes)
-    if (axis)
-      line(axis->stick.empty() ? "Pad " + pad_axis_label(axis->axis)
-                               : fmt::format("{} axis {}", axis->stick, axis->axis),
-           axis_help(key));
+  lines(bindings.pad_buttons, [&](int button) { return "Pad " + pad_button_label(button, maker); });
+  for (const ControllerButtons& controller : bindings.controllers) {
+    const auto name = [&](int button) { return fmt::format("{} button {}", controller.of.stick, button); };
+    lines(controller.actions, name);
+    for (const auto& [gear, buttons] : controller.gears)
+      line(joined(buttons, name), gear == haptics::kNeutralGear ? "neutral" : std::string("gear ") + haptics::gear_name(gear));
+  }
+  for (const AxisInfo& info : kAxes)
+    if (const auto& axis = bindings.*info.axis)
+      line(axis->of.stick.empty() ? "Pad " + pad_axis_label(axis->axis, maker)
+                                  : fmt::format("{} axis {}", axis->of.stick, axis->axis),
+           info.help);
   return text;
 }
 

@@ -30,8 +30,11 @@ enum class Action {
   clutch,
   clutch_hold,
   starter,
+  hand_brake_hold,
   // actions performed once per key press
   hand_brake,
+  shift_up,
+  shift_down,
   ignition,
   arm,
   stop,
@@ -59,17 +62,46 @@ enum class LeverMode {
   places  // for levers that stay in place when released: deflection sets the hand's position
 };
 
+// "gear_reverse", "gear_neutral", "gear_1", ...
+std::string gear_key(int gear);
+
+// The buttons of one controller.
+struct ControllerButtons {
+  ControllerName of;
+  std::map<Action, std::vector<int>> actions;
+  // Buttons that are held while the controller's own lever is in a gear. Some shifters also have one for neutral.
+  std::map<int, std::vector<int>> gears;
+};
+
 struct Bindings {
-  std::map<Action, std::vector<int>> keys;  // GLFW_KEY_...
-  std::map<Action, std::vector<int>> pad_buttons;
-  std::string button_stick;  // pad_buttons apply to sticks whose name contains this, or whose GUID it is; empty: all
-  std::optional<AxisBinding> lever_select, lever_shift, throttle, brake, clutch;
+  std::map<Action, std::vector<int>> keys;         // GLFW_KEY_...
+  std::map<Action, std::vector<int>> pad_buttons;  // GLFW_GAMEPAD_BUTTON_... of any game pad
+  std::vector<ControllerButtons> controllers;
+  std::optional<AxisBinding> clutch, brake, throttle, hand_brake, lever_select, lever_shift;
   LeverMode lever_mode = LeverMode::moves;
   double stick_speed = 0.3;           // [m/s] hand speed at full deflection of the stick, with LeverMode::moves
   double mouse_mm_per_px = 0.12;      // [mm] hand motion in the lever plane per mouse pixel
   double key_speed = 0.25;            // [m/s] hand speed while a lever key is held
   vehicle::PedalTiming pedal_timing;  // of the pedals that keys press
 };
+
+// The controls that an axis can move.
+struct AxisInfo {
+  std::string_view key;  // name in the bindings file
+  std::optional<AxisBinding> Bindings::*axis;
+  bool is_lever;          // otherwise a pedal, or the handbrake
+  std::string_view help;  // text in the help window
+  std::string_view prompt;
+};
+inline constexpr AxisInfo kAxes[] = {
+    {"clutch", &Bindings::clutch, false, "clutch", "Press the CLUTCH pedal all the way down, then release it."},
+    {"brake", &Bindings::brake, false, "brake", "Press the BRAKE pedal all the way down, then release it."},
+    {"throttle", &Bindings::throttle, false, "throttle", "Press the THROTTLE pedal all the way down, then release it."},
+    {"hand_brake", &Bindings::hand_brake, false, "handbrake", "Pull the HANDBRAKE all the way, then release it."},
+    {"lever_select", &Bindings::lever_select, true, "move the lever sideways",
+     "Move the LEVER to the left, then to the right, and let go."},
+    {"lever_shift", &Bindings::lever_shift, true, "move the lever forward and back",
+     "Move the LEVER back, then forward, and let go."}};
 
 // Throws FileError, which names file, line, key, value and allowed range. Each key and each button may have only one
 // action; ranges of an axis that are bound to different actions must not overlap.
@@ -84,13 +116,9 @@ std::string bindings_text(const Bindings& bindings);
 // std::invalid_argument with one sentence if the name cannot be a file name.
 std::filesystem::path user_bindings_file(const std::filesystem::path& config_folder, const std::string& name);
 
-// Sentences about sticks that the bindings name but that are not plugged in, and about sticks (not game pads) that no
-// binding names.
-std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<engine::PadState>& sticks);
-
-// Returns the text of the help window (F1): one line per bound action, then lines for mouse and pad. A tab separates
-// the input from the action.
-std::string help_text(const Bindings& bindings);
+// Returns the text of the help window (F1): one line per bound action, then lines for mouse and controllers. A tab
+// separates the input from the action. The buttons of game pads have the names that are printed on the first of them.
+std::string help_text(const Bindings& bindings, const std::vector<engine::Controller>& all);
 
 // A driving action and the first key bound to it, for example "clutch" and "A".
 struct DrivingKey {

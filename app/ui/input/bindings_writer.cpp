@@ -18,15 +18,24 @@ std::string line(std::string_view key, const std::string& value) {
   return fmt::format("{} = {}\n", key, value);
 }
 
+std::string name_text(const ControllerName& of) {
+  return (of.stick.empty() ? std::string() : line("stick", haptics::toml_string(of.stick))) +
+         (of.id.empty() ? std::string() : line("id", haptics::toml_string(of.id)));
+}
+
+template <class Name>
+std::string list_text(const std::vector<int>& codes, const Name& name) {
+  std::string list;
+  for (const int code : codes) list += (list.empty() ? "" : ", ") + name(code);
+  return haptics::toml_string(list);
+}
+
 template <class Name>
 std::string actions_text(const std::map<Action, std::vector<int>>& bound, const Name& name) {
   std::string text;
   for (const ActionInfo& action : all_actions()) {
     const auto found = bound.find(action.action);
-    if (found == bound.end()) continue;
-    std::string list;
-    for (const int code : found->second) list += (list.empty() ? "" : ", ") + name(code);
-    text += line(action.key, haptics::toml_string(list));
+    if (found != bound.end()) text += line(action.key, list_text(found->second, name));
   }
   return text;
 }
@@ -34,8 +43,8 @@ std::string actions_text(const std::map<Action, std::vector<int>>& bound, const 
 std::string axis_text(std::string_view key, const std::optional<AxisBinding>& axis) {
   if (!axis) return {};
   std::string text = fmt::format("\n[pad_axes.{}]\n", key);
-  if (!axis->stick.empty()) text += line("stick", haptics::toml_string(axis->stick));
-  text += line("pad", std::to_string(axis->pad)) + line("axis", std::to_string(axis->axis));
+  text += name_text(axis->of) + line("pad", std::to_string(axis->which));
+  text += line("axis", axis->of.stick.empty() ? haptics::toml_string(kPadAxes[axis->axis]) : std::to_string(axis->axis));
   text += line("from", haptics::toml_number(axis->from)) + line("to", haptics::toml_number(axis->to));
   if (axis->centre) text += line("centre", haptics::toml_number(*axis->centre));
   return text + line("dead_zone", haptics::toml_number(axis->dead_zone)) +
@@ -45,12 +54,14 @@ std::string axis_text(std::string_view key, const std::optional<AxisBinding>& ax
 }  // namespace
 
 std::string bindings_text(const Bindings& bindings) {
-  std::string text = "[keys]\n" + actions_text(bindings.keys, key_name) + "\n[pad_buttons]\n";
-  if (!bindings.button_stick.empty()) text += line("stick", haptics::toml_string(bindings.button_stick));
-  text += actions_text(bindings.pad_buttons, [](int button) { return std::to_string(button); });
-  text += axis_text("lever_select", bindings.lever_select) + axis_text("lever_shift", bindings.lever_shift) +
-          axis_text("throttle", bindings.throttle) + axis_text("brake", bindings.brake) +
-          axis_text("clutch", bindings.clutch);
+  std::string text = "[keys]\n" + actions_text(bindings.keys, key_name) + "\n[pad_buttons]\n" +
+                     actions_text(bindings.pad_buttons, [](int button) { return std::string(kPadButtons[button]); });
+  for (const AxisInfo& info : kAxes) text += axis_text(info.key, bindings.*info.axis);
+  const auto number = [](int button) { return std::to_string(button); };
+  for (const ControllerButtons& controller : bindings.controllers) {
+    text += "\n[[controller]]\n" + name_text(controller.of) + actions_text(controller.actions, number);
+    for (const auto& [gear, buttons] : controller.gears) text += line(gear_key(gear), list_text(buttons, number));
+  }
   text += "\n[lever]\n" + line("mode", bindings.lever_mode == LeverMode::moves ? "\"moves\"" : "\"places\"") +
           line("full_speed_m_per_s", haptics::toml_number(bindings.stick_speed));
   return text + "\n[pace]\n" + line("mouse_mm_per_px", haptics::toml_number(bindings.mouse_mm_per_px)) +

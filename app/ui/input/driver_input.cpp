@@ -8,16 +8,17 @@
 
 #include <glm/common.hpp>
 
+#include "app/ui/input/bound_controllers.h"
 #include "app/ui/input/key_names.h"
+#include "haptics/gate/gate_feel.h"
 
 namespace gearshift::ui {
 namespace {
 
 constexpr double kMinAxisMove = 0.02;  // [1] axis motion smaller than this is noise
 constexpr double kPushTravel = 0.05;   // [m] mouse motion beyond the hand's reach at which the push is `max_push`
+constexpr double kTakesOver = 0.5;     // [1] a handbrake pulled this far replaces the switched one
 constexpr double kBeyondGate = 0.02;   // [m] reach of the hand beyond the gate, see hand_reach()
-
-enum WatchedAxis : std::size_t { select_axis, shift_axis, throttle_axis, brake_axis, clutch_axis };
 
 bool is_once(Action action) {
   const auto& actions = all_actions();
@@ -29,6 +30,36 @@ bool is_once(Action action) {
 constexpr double kMaxKeyLead = 0.05;  // [m] maximum lead of the hand over the lever: 25 N at the hand's 500 N/m
 constexpr double kRestDelay = 0.3;    // [s] time from the release of keys or stick until kRestLead applies
 constexpr double kRestLead = 0.005;   // [m] maximum lead after kRestDelay: 2.5 N, enough to hold the lever off centre
+
+bool is_plugged(const ControllerName& name, const std::vector<engine::Controller>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const auto& one) { return is_named(one, name, all); });
+}
+
+bool is_button_down(const ControllerName& name, int button, const std::vector<engine::Controller>& all) {
+  const auto index = static_cast<std::size_t>(button);
+  return std::any_of(all.begin(), all.end(), [&](const engine::Controller& one) {
+    return is_named(one, name, all) && index < one.buttons.size() && one.buttons[index] != 0;
+  });
+}
+
+std::optional<int> held_gear(const ControllerButtons& shifter, const std::vector<engine::Controller>& all) {
+  for (const auto& [gear, buttons] : shifter.gears)
+    for (const int button : buttons)
+      if (is_button_down(shifter.of, button, all)) return gear;
+  return std::nullopt;
+}
+
+// Where to aim if a lever that stays in place is in a gear: at the gear's rest position. At the lever's own end the hand
+// would lean on the gear with up to 33 N.
+glm::dvec2 without_leaning(const haptics::Gate& gate, glm::dvec2 lever, glm::dvec2 aim) {
+  const int index = haptics::slot_at(gate, lever);
+  if (index == haptics::kNoSlot) return aim;
+  const haptics::Slot& slot = haptics::slot_of(gate, index);
+  const double side = static_cast<double>(static_cast<int>(slot.side));
+  const bool is_engaged = side * lever.y >= slot.engage_depth, stays = side * aim.y >= slot.engage_depth;
+  const bool is_same_column = haptics::nearest_column(gate, aim.x) == slot.column;
+  return is_engaged && stays && is_same_column ? haptics::rest_position(gate, slot.gear) : aim;
+}
 
 }  // namespace
 
@@ -56,6 +87,7 @@ void DriverInput::update(const engine::WindowInput& input, double seconds, bool 
   update_keys(input, ui_has_keys);
   update_buttons(input);
   update_mouse(input, ui_has_mouse);
+  follow_shifters(input);
   move_hand(input, seconds);
   read_pedals(input);
 }
@@ -64,7 +96,7 @@ void DriverInput::update(const engine::WindowInput& input, double seconds, bool 
 // between two frames is held for one frame.
 void DriverInput::update_keys(const engine::WindowInput& input, bool ui_has_keys) {
   for (const engine::KeyEvent& key : input.keys) {
-    const Source source{false, key.key};
+    const Source source{kKeyboard, key.key};
     if (key.down)
       press(source, ui_has_keys, is_chord(key));
     else
@@ -86,24 +118,48 @@ bool DriverInput::is_chord(const engine::KeyEvent& key) const {
 }
 
 void DriverInput::update_buttons(const engine::WindowInput& input) {
-  for (const auto& [action, buttons] : config_.bindings.pad_buttons) {
-    for (const int button : buttons) {
-      const auto index = static_cast<std::size_t>(button);
-      const bool down = std::any_of(input.pads.begin(), input.pads.end(), [this, index](const engine::PadState& pad) {
-        const bool is_there = index < pad.buttons.size() && matches_stick(pad, config_.bindings.button_stick);
-        return is_there && pad.buttons[index] != 0;
-      });
-      const Source source{true, button};
-      if (down)
-        press(source, false, false);
-      else
-        release(source);
-    }
+  const Bindings& bindings = config_.bindings;
+  const std::vector<const engine::Controller*> pads = free_gamepads(bindings, input.controllers);
+  for (const auto& [action, buttons] : bindings.pad_buttons)
+    for (const int button : buttons)
+      set_button({kGamepads, button}, std::any_of(pads.begin(), pads.end(), [&](const engine::Controller* pad) {
+                   return pad->gamepad->buttons[static_cast<std::size_t>(button)] != 0;
+                 }));
+  for (std::size_t i = 0; i < bindings.controllers.size(); ++i)
+    for (const auto& [action, buttons] : bindings.controllers[i].actions)
+      for (const int button : buttons)
+        set_button({static_cast<int>(i), button}, is_button_down(bindings.controllers[i].of, button, input.controllers));
+}
+
+void DriverInput::set_button(Source source, bool down) {
+  if (down)
+    press(source, false, false);
+  else
+    release(source);
+}
+
+// Moves the hand when a shifter's own lever has moved.
+void DriverInput::follow_shifters(const engine::WindowInput& input) {
+  const std::vector<ControllerButtons>& controllers = config_.bindings.controllers;
+  shifters_.resize(controllers.size());
+  for (std::size_t i = 0; i < controllers.size(); ++i) {
+    std::optional<int> gear = held_gear(controllers[i], input.controllers);
+    std::optional<int>& last = shifters_[i];
+    const bool is_plugged_in = is_plugged(controllers[i].of, input.controllers);
+    if (!gear && last && is_plugged_in) gear = haptics::kNeutralGear;
+    if (gear && gear != last) gear_hand_.shift_to(*gear, lever_);
+    last = is_plugged_in ? gear : std::nullopt;
   }
 }
 
+const std::map<Action, std::vector<int>>& DriverInput::bound_on(int device) const {
+  const Bindings& bindings = config_.bindings;
+  if (device == kKeyboard) return bindings.keys;
+  return device == kGamepads ? bindings.pad_buttons : bindings.controllers[static_cast<std::size_t>(device)].actions;
+}
+
 void DriverInput::press(Source source, bool ui_has_keys, bool chord) {
-  const auto& bound = source.pad ? config_.bindings.pad_buttons : config_.bindings.keys;
+  const auto& bound = bound_on(source.device);
   const auto found = std::find_if(bound.begin(), bound.end(), [&](const auto& binding) {
     return std::find(binding.second.begin(), binding.second.end(), source.code) != binding.second.end();
   });
@@ -122,19 +178,23 @@ void DriverInput::press(Source source, bool ui_has_keys, bool chord) {
 void DriverInput::trigger(Action action) {
   pressed_.push_back(action);
   if (action == Action::grab_mouse) mouse_moves_lever_ = !mouse_moves_lever_;
-  if (action == Action::hand_brake) controls_.pedals.hand_brake = controls_.pedals.hand_brake > 0.5 ? 0.0 : 1.0;
+  if (action == Action::hand_brake) hand_brake_switch_ = controls_.pedals.hand_brake > 0.5 ? 0.0 : 1.0;
+  if (action == Action::shift_up) gear_hand_.shift_by(1, lever_);
+  if (action == Action::shift_down) gear_hand_.shift_by(-1, lever_);
   if (action == Action::ignition) controls_.ignition = !controls_.ignition;
 }
 
 template <class Holds>
 bool DriverInput::any_bound_source(Action action, const Holds& holds) const {
-  const auto any = [&](const std::map<Action, std::vector<int>>& bound, bool pad) {
+  for (int device = kKeyboard; device < static_cast<int>(config_.bindings.controllers.size()); ++device) {
+    const auto& bound = bound_on(device);
     const auto found = bound.find(action);
-    return found != bound.end() && std::any_of(found->second.begin(), found->second.end(), [&](int code) {
-             return holds(Source{pad, code});
-           });
-  };
-  return any(config_.bindings.keys, false) || any(config_.bindings.pad_buttons, true);
+    const bool any = found != bound.end() && std::any_of(found->second.begin(), found->second.end(), [&](int code) {
+                       return holds(Source{device, code});
+                     });
+    if (any) return true;
+  }
+  return false;
 }
 
 // True if the action's key or button was held for at least part of this frame.
@@ -162,16 +222,27 @@ void DriverInput::update_mouse(const engine::WindowInput& input, bool ui_has_mou
 }
 
 void DriverInput::move_hand(const engine::WindowInput& input, double seconds) {
-  if (mouse_moved_lever_ && mouse_moves_lever_) aim_by_mouse(input.mouse_moved);
+  const bool mouse_moves = mouse_moved_lever_ && mouse_moves_lever_;
   mouse_moved_lever_ = mouse_moves_lever_;
   const Bindings& bindings = config_.bindings;
-  const glm::dvec2 at{stick(input, bindings.lever_select, select_axis), stick(input, bindings.lever_shift, shift_axis)};
+  const glm::dvec2 at{stick(input, &Bindings::lever_select), stick(input, &Bindings::lever_shift)};
   const bool moves = bindings.lever_mode == LeverMode::moves;
-  aim_by_speed(key_speed() + (moves ? bindings.stick_speed * at * glm::abs(at) : glm::dvec2(0.0)), seconds);
-  if (!moves) aim_by_stick(at);
-  set_hand();
-  hand_.pressed_down = is_held(Action::push_down);
-  hand_.lifted = is_held(Action::lift);
+  const glm::dvec2 speed = key_speed() + (moves ? bindings.stick_speed * at * glm::abs(at) : glm::dvec2(0.0));
+  const bool takes_over = speed != glm::dvec2(0.0) || (mouse_moves && input.mouse_moved != glm::dvec2(0.0)) ||
+                          (!moves && at != glm::dvec2(0.0));
+  if (takes_over) gear_hand_.release();
+  if (gear_hand_.is_active()) {
+    hand_ = gear_hand_.next(seconds, lever_);
+    aim_ = hand_.position;
+    since_key_motion_ = kRestDelay;
+  } else {
+    if (mouse_moves) aim_by_mouse(input.mouse_moved);
+    aim_by_speed(speed, seconds);
+    if (!moves) aim_by_stick(at);
+    set_hand();
+  }
+  hand_.pressed_down = hand_.pressed_down || is_held(Action::push_down);
+  hand_.lifted = hand_.lifted || is_held(Action::lift);
 }
 
 // Moving the mouse away from the user (pointer up) moves the hand forward.
@@ -213,66 +284,86 @@ void DriverInput::aim_by_stick(glm::dvec2 stick) {
     if (deflected) since_key_motion_ = kRestDelay;
     stick_controls_[axis] = deflected;
   }
+  if (gate_) aim_ = without_leaning(*gate_, lever_, aim_);
 }
 
 void DriverInput::set_hand() {
+  hand_ = {};
   hand_.position = glm::clamp(aim_, -config_.reach, config_.reach);
   hand_.push = (aim_ - hand_.position) / kPushTravel * config_.max_push;
 }
 
 void DriverInput::recentre(glm::dvec2 lever) {
+  gear_hand_.release();
   aim_ = glm::clamp(lever, -config_.reach, config_.reach);
   set_hand();
 }
 
-void DriverInput::set_reach(glm::dvec2 reach) {
-  config_.reach = reach;
+void DriverInput::set_gate(const haptics::Gate& gate, const haptics::DeviceSpec& device) {
+  config_.reach = hand_reach(gate, device);
+  gate_ = gate;
+  gear_hand_.set_gate(gate);
   recentre(aim_);
+}
+
+void DriverInput::rebind(const Bindings& bindings) {
+  config_.bindings = bindings;
+  watch_ = {};
+  shifters_.clear();
+  down_.clear();
+  newly_down_.clear();
+  released_.clear();
 }
 
 void DriverInput::set_car(bool ignition, double hand_brake) {
   controls_.ignition = ignition;
-  controls_.pedals.hand_brake = hand_brake;
+  controls_.pedals.hand_brake = hand_brake_switch_ = hand_brake;
 }
 
 // Returns the axis's raw value; empty until the axis has moved.
 std::optional<double> DriverInput::raw_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis,
-                                            std::size_t watch) {
-  if (!axis) return std::nullopt;
-  const engine::PadState* pad = find_stick(input.pads, *axis);
-  const auto number = static_cast<std::size_t>(axis->axis);
-  AxisWatch& state = watch_[watch];
-  if (pad == nullptr || number >= pad->axes.size() || !std::isfinite(pad->axes[number])) {
-    state = {};
+                                            AxisWatch& watch) const {
+  const std::optional<double> raw = axis ? raw_value(config_.bindings, *axis, input.controllers) : std::nullopt;
+  if (!raw) {
+    watch = {};
     return std::nullopt;
   }
-  const double raw = static_cast<double>(pad->axes[number]);
-  if (!state.first) state = {raw, pad->is_pad, false};
-  const bool changed = std::abs(raw - *state.first) > kMinAxisMove;
-  if (changed && !state.is_reported) {
-    state = {raw, true, false};
+  const bool is_any_pad = axis->of.stick.empty();
+  if (!watch.first) watch = {raw, is_any_pad, false};
+  const bool changed = std::abs(*raw - *watch.first) > kMinAxisMove;
+  if (changed && !watch.is_reported) {
+    watch = {raw, true, false};
   } else if (changed) {
-    state.moved = true;
+    watch.moved = true;
   }
-  return state.moved ? std::optional(raw) : std::nullopt;
+  return watch.moved ? raw : std::nullopt;
 }
 
-double DriverInput::stick(const engine::WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch) {
-  const std::optional<double> raw = raw_axis(input, axis, watch);
-  return raw ? lever_value(*axis, *raw) : 0.0;
+DriverInput::AxisWatch& DriverInput::watch_of(std::optional<AxisBinding> Bindings::*axis) {
+  const auto found = std::find_if(std::begin(kAxes), std::end(kAxes), [&](const auto& info) { return info.axis == axis; });
+  return watch_[static_cast<std::size_t>(found - std::begin(kAxes))];
 }
 
-double DriverInput::pedal_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis,
-                               std::size_t watch) {
-  const std::optional<double> raw = raw_axis(input, axis, watch);
-  return raw ? pedal_value(*axis, *raw) : 0.0;
+double DriverInput::stick(const engine::WindowInput& input, std::optional<AxisBinding> Bindings::*axis) {
+  const std::optional<AxisBinding>& bound = config_.bindings.*axis;
+  const std::optional<double> raw = raw_axis(input, bound, watch_of(axis));
+  return raw ? lever_value(*bound, *raw) : 0.0;
+}
+
+double DriverInput::pedal_axis(const engine::WindowInput& input, std::optional<AxisBinding> Bindings::*axis) {
+  const std::optional<AxisBinding>& bound = config_.bindings.*axis;
+  const std::optional<double> raw = raw_axis(input, bound, watch_of(axis));
+  return raw ? pedal_value(*bound, *raw) : 0.0;
 }
 
 void DriverInput::read_pedals(const engine::WindowInput& input) {
-  const Bindings& bindings = config_.bindings;
-  controls_.pedals.throttle = pedal_axis(input, bindings.throttle, throttle_axis);
-  controls_.pedals.brake = pedal_axis(input, bindings.brake, brake_axis);
-  controls_.pedals.clutch = pedal_axis(input, bindings.clutch, clutch_axis);
+  haptics::Pedals& pedals = controls_.pedals;
+  pedals.throttle = pedal_axis(input, &Bindings::throttle);
+  pedals.brake = pedal_axis(input, &Bindings::brake);
+  pedals.clutch = pedal_axis(input, &Bindings::clutch);
+  const double pulled = std::max(pedal_axis(input, &Bindings::hand_brake), double(is_held(Action::hand_brake_hold)));
+  if (pulled > kTakesOver) hand_brake_switch_ = 0.0;
+  pedals.hand_brake = std::max(hand_brake_switch_, pulled);
   controls_.starter = is_held(Action::starter);
 }
 

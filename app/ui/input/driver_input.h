@@ -6,6 +6,10 @@
 //           becomes a push on the lever. With keys, or with a stick that sets the speed, the hand leads the
 //           lever by at most 5 cm. 0.3 s after their release the hand moves back to at most 5 mm from the lever, so
 //           that it does not push on the lever permanently.
+//   gears   A controller's gear buttons move the hand to the gear whose button is held. None held stands for neutral,
+//           but only after one of them was held. Keys, mouse or a stick take the hand over when they move it.
+//   handbrake  Applied as far as its axis, or while `hand_brake_hold` is held, or from one press of `hand_brake` to the
+//           next. A lesson may start with the handbrake on; the first use of axis or `hand_brake_hold` takes it over.
 //   pedals  The held pedal keys go to the car, which moves its pedals, see vehicle::KeyboardPedals. A pedal axis
 //           is used only after its first motion, because a pad does not report the true position of an axis earlier. The
 //           first change of another stick's axis may be its first report, so its motion begins with the second.
@@ -18,13 +22,16 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <vector>
 
 #include "app/ui/input/bindings.h"
+#include "app/ui/input/gear_hand.h"
 #include "engine/window/window.h"
 #include "haptics/device/hand.h"
 #include "haptics/device/haptic_device.h"
@@ -59,10 +66,13 @@ class DriverInput {
   bool mouse_moves_lever() const noexcept { return mouse_moves_lever_; }    // the mouse is captured
 
   void recentre(glm::dvec2 lever);                          // puts the hand at the lever, without a push
-  void set_reach(glm::dvec2 reach);                         // [m] call when the gate or the device changes
+  void set_gate(const haptics::Gate& gate, const haptics::DeviceSpec& device);  // call when one of them changes
+  void rebind(const Bindings& bindings);
   void feel(glm::dvec2 lever) noexcept { lever_ = lever; }  // [m] lever point; call once per frame, before update()
   void release_mouse() noexcept { mouse_moves_lever_ = mouse_moved_lever_ = false; }
   void set_car(bool ignition, double hand_brake);  // call at the start of a lesson; hand_brake [1]: 0 to 1
+  const Bindings& bindings() const noexcept { return config_.bindings; }
+  std::optional<int> missed_gear() const { return gear_hand_.missed_gear(lever_); }  // see GearHand
 
  private:
   struct AxisWatch {
@@ -71,14 +81,18 @@ class DriverInput {
     bool moved = false;
   };
   struct Source {  // a key or button
-    bool pad = false;
+    int device = kKeyboard;  // kKeyboard, kGamepads, or an index in Bindings::controllers
     int code = 0;
-    bool operator<(const Source& other) const { return std::tie(pad, code) < std::tie(other.pad, other.code); }
+    auto operator<=>(const Source&) const = default;
   };
+  static constexpr int kKeyboard = -2, kGamepads = -1;
 
   void update_keys(const engine::WindowInput& input, bool ui_has_keys);
   bool is_chord(const engine::KeyEvent& key) const;
   void update_buttons(const engine::WindowInput& input);
+  void set_button(Source source, bool down);
+  void follow_shifters(const engine::WindowInput& input);
+  const std::map<Action, std::vector<int>>& bound_on(int device) const;
   void update_mouse(const engine::WindowInput& input, bool ui_has_mouse);
   void press(Source source, bool ui_has_keys, bool chord);
   void release(Source source) { released_.insert(source); }
@@ -96,9 +110,10 @@ class DriverInput {
   glm::dvec2 key_speed() const;
   void set_hand();
   std::optional<double> raw_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis,
-                                 std::size_t watch);
-  double stick(const engine::WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
-  double pedal_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
+                                 AxisWatch& watch) const;
+  double stick(const engine::WindowInput& input, std::optional<AxisBinding> Bindings::*axis);
+  double pedal_axis(const engine::WindowInput& input, std::optional<AxisBinding> Bindings::*axis);
+  AxisWatch& watch_of(std::optional<AxisBinding> Bindings::*axis);
 
   InputConfig config_;
   glm::dvec2 aim_{0.0};            // [m] target of the hand; the part beyond reach becomes a push
@@ -114,7 +129,11 @@ class DriverInput {
   std::set<Source> down_;           // keys and buttons held in this frame, even if only for part of it
   std::set<Source> newly_down_;     // keys and buttons in down_ that were pressed in this frame
   std::set<Source> released_;       // keys and buttons in down_ that were released in this frame
-  std::array<AxisWatch, 5> watch_;  // for lever_select, lever_shift, throttle, brake, clutch
+  std::array<AxisWatch, std::size(kAxes)> watch_;  // in the order of kAxes
+  std::optional<haptics::Gate> gate_;
+  GearHand gear_hand_;
+  std::vector<std::optional<int>> shifters_;  // gear of each of Bindings::controllers; empty until a gear was seen
+  double hand_brake_switch_ = 0.0;            // [1] as pressed by the action hand_brake or set by the lesson
   std::array<bool, 2> stick_controls_{};  // select, shift
 };
 

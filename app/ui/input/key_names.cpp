@@ -1,9 +1,13 @@
 #include "app/ui/input/key_names.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+
+#include "engine/window/window.h"
 
 namespace gearshift::ui {
 namespace {
@@ -64,6 +68,14 @@ constexpr std::array kNamedKeys{NamedKey{GLFW_KEY_SPACE, "Space"},
                                 NamedKey{GLFW_KEY_RIGHT_SUPER, "Right Super"},
                                 NamedKey{GLFW_KEY_MENU, "Menu"}};
 
+constexpr std::string_view kSonyVendor = "054c";
+
+template <std::size_t n>
+std::optional<int> index_of(const std::string_view (&names)[n], std::string_view name) {
+  const auto found = std::find(std::begin(names), std::end(names), name);
+  return found == std::end(names) ? std::nullopt : std::optional(static_cast<int>(found - std::begin(names)));
+}
+
 constexpr bool is_between(int key, int first, int last) {
   return key >= first && key <= last;
 }
@@ -81,6 +93,7 @@ std::string key_name(int key) {
 }
 
 std::string key_label(int key) {
+  if (std::string printed = engine::printed_key(key); !printed.empty()) return printed;
   switch (key) {
     case GLFW_KEY_APOSTROPHE:
     case GLFW_KEY_COMMA:
@@ -99,23 +112,29 @@ std::string key_label(int key) {
   }
 }
 
-std::string pad_button_label(int button) {
-  constexpr std::array<const char*, 15> kNames{"A",  "B",        "X",           "Y",          "LB",
-                                               "RB", "Back",     "Start",       "Guide",      "LS",
-                                               "RS", "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
-  const auto index = static_cast<std::size_t>(button);
-  return button >= 0 && index < kNames.size() ? kNames[index] : "button " + std::to_string(button);
+std::optional<int> pad_button_of(std::string_view name) {
+  return index_of(kPadButtons, name);
 }
 
-std::string pad_axis_label(int axis) {
-  constexpr std::array<const char*, 6> kNames{"left stick, left and right",
-                                              "left stick, up and down",
-                                              "right stick, left and right",
-                                              "right stick, up and down",
-                                              "LT",
-                                              "RT"};
-  const auto index = static_cast<std::size_t>(axis);
-  return axis >= 0 && index < kNames.size() ? kNames[index] : "axis " + std::to_string(axis);
+std::optional<int> pad_axis_of(std::string_view name) {
+  return index_of(kPadAxes, name);
+}
+
+std::string pad_button_label(int button, std::string_view maker) {
+  constexpr const char* kXbox[] = {"A",  "B",        "X",           "Y",          "LB",
+                                   "RB", "Back",     "Start",       "Guide",      "LS",
+                                   "RS", "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
+  constexpr const char* kSony[] = {"Cross", "Circle",   "Square",      "Triangle",   "L1",
+                                   "R1",    "Create",   "Options",     "PS",         "L3",
+                                   "R3",    "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
+  return (maker == kSonyVendor ? kSony : kXbox)[button];
+}
+
+std::string pad_axis_label(int axis, std::string_view maker) {
+  constexpr const char* kXbox[] = {"left stick, left and right",  "left stick, up and down", "right stick, left and right",
+                                   "right stick, up and down", "LT", "RT"};
+  const bool is_trigger = axis >= 4;
+  return maker == kSonyVendor && is_trigger ? (axis == 4 ? "L2" : "R2") : kXbox[axis];
 }
 
 std::optional<int> key_of(std::string_view name) {

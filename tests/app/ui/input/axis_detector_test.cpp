@@ -8,7 +8,11 @@
 
 #include <doctest/doctest.h>
 
+#include "app/ui/input/bound_controllers.h"
+#include "tests/support/controllers.h"
+
 using namespace gearshift::engine;
+using namespace gearshift::test;
 using namespace gearshift::ui;
 
 namespace {
@@ -17,13 +21,14 @@ using Control = AxisDetector::Control;
 
 // Two sticks with three axes each. Every axis is noisy.
 struct Desk {
-  std::vector<PadState> sticks{{"Stick", {0.1f, 0.0f, 0.0f}, {}, "0a"}, {"Pedals", {0.0f, 0.9f, 0.0f}, {}, "0b"}};
+  std::vector<Controller> sticks{controller("Stick", {0.1f, 0.0f, 0.0f}, 0, "0a"),
+                                 controller("Pedals", {0.0f, 0.9f, 0.0f}, 0, "0b")};
   double noise = 0.004;
   std::mt19937 random{3};
 
-  std::vector<PadState> shown() {
-    std::vector<PadState> now = sticks;
-    for (PadState& stick : now)
+  std::vector<Controller> shown() {
+    std::vector<Controller> now = sticks;
+    for (Controller& stick : now)
       for (float& axis : stick.axes)
         axis += static_cast<float>(noise * (static_cast<double>(random() % 2001) / 1000.0 - 1.0));
     return now;
@@ -59,8 +64,8 @@ TEST_CASE("a pedal is learnt from one press: its axis, both ends (also reversed)
   desk.move(detector, 1, 1, 0.9);
   desk.rest(detector);
   const AxisBinding pedal = detector.result();
-  CHECK(pedal.stick == "Pedals");
-  CHECK(pedal.pad == 0);
+  CHECK(pedal.of.stick == "Pedals");
+  CHECK(pedal.which == 0);
   CHECK(pedal.axis == 1);
   CHECK(pedal.from == doctest::Approx(0.9).epsilon(0.005));
   CHECK(pedal.to == doctest::Approx(-0.7).epsilon(0.01));
@@ -85,7 +90,6 @@ TEST_CASE("if the pad reports an axis only after it moves, its rest is the value
 // Until its first report, the kernel holds 0 for every axis: -1 here, the far end of a Logitech wheel's pedals.
 TEST_CASE("the first report of a wheel moves all its pedals at once, and is no motion") {
   Desk desk;
-  desk.sticks[1].is_pad = false;
   desk.sticks[1].axes = {-1.0f, -1.0f, -1.0f};
   AxisDetector detector(Control::pedal);
   detector.record_move(desk.shown());
@@ -109,7 +113,7 @@ TEST_CASE("a lever is learnt: the first end reached is left or back, and its res
     desk.move(detector, 0, 0, 0.06);  // close to the first rest position, 0.1
     desk.rest(detector);
     const AxisBinding lever = detector.result();
-    CHECK(lever.stick == "Stick");
+    CHECK(lever.of.stick == "Stick");
     CHECK(lever.axis == 0);
     CHECK(lever.from == doctest::Approx(first).epsilon(0.01));
     CHECK(lever.to == doctest::Approx(first < 0.0 ? 0.8 : -0.9).epsilon(0.01));
@@ -129,17 +133,17 @@ TEST_CASE(
   desk.move(detector, 1, 1, -0.7);
   desk.move(detector, 1, 1, 0.9);
   desk.rest(detector);
-  CHECK(detector.result().stick == "Twin");
-  CHECK(detector.result().pad == 1);
-  CHECK(find_stick(desk.sticks, detector.result()) == &desk.sticks[1]);
+  CHECK(detector.result().of.stick == "Twin");
+  CHECK(detector.result().which == 1);
+  CHECK(raw_value({}, detector.result(), desk.sticks) == static_cast<double>(desk.sticks[1].axes[1]));
 
   desk.sticks[1].name = "Bad\nname";
   AxisDetector again(Control::pedal);
   desk.move(again, 1, 1, -0.7);
   desk.move(again, 1, 1, 0.9);
   desk.rest(again);
-  CHECK(again.result().stick == "0b");
-  CHECK(find_stick(desk.sticks, again.result()) == &desk.sticks[1]);
+  CHECK(again.result().of.stick == "0b");
+  CHECK(raw_value({}, again.result(), desk.sticks) == static_cast<double>(desk.sticks[1].axes[1]));
 }
 
 TEST_CASE("invalid movements are rejected in one sentence with the remedy") {
@@ -194,7 +198,7 @@ TEST_CASE("non-finite values are ignored") {
   Desk desk;
   AxisDetector detector(Control::pedal);
   desk.move(detector, 1, 1, -0.7);
-  std::vector<PadState> broken = desk.sticks;
+  std::vector<Controller> broken = desk.sticks;
   broken[1].axes[1] = broken[0].axes[0] = std::nanf("");
   detector.record_move(broken);
   detector.record_rest(broken);

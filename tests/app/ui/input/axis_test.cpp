@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include "app/ui/input/bound_controllers.h"
+#include "tests/support/controllers.h"
+
 #include "tests/support/turkish_letters.h"
 
 using namespace gearshift::engine;
@@ -67,23 +70,40 @@ TEST_CASE("a lever is -1, 0 and 1 at its ends and rest, linear in between, with 
 
 TEST_CASE("a stick's name matches in any case, also in a Turkish locale, because GLFW uses the user's locale") {
   const TurkishLetters turkish;
-  CHECK(matches_stick({"SIDEWINDER", {}, {}, "1"}, "sidewinder"));
-  CHECK(matches_stick({"Sidewinder", {}, {}, "1"}, "SIDE"));
+  CHECK(matches_stick(controller("SIDEWINDER", {}), "sidewinder"));
+  CHECK(matches_stick(controller("Sidewinder", {}), "SIDE"));
 }
 
-TEST_CASE("a stick matches by part of its name, in any case, or by its complete GUID") {
-  const PadState stick{"Thrustmaster T.16000M", {}, {}, "030000004f0400000ab1000000010000"};
-  CHECK(matches_stick(stick, ""));
+TEST_CASE("a controller is named by part of its name in any case, its USB id or its GUID; a renamed one by its id") {
+  Controller stick = controller("Thrustmaster T.16000M", {}, 0, "044f:b10a");
+  stick.guid = "030000004f0400000ab1000000010000";
+  CHECK_FALSE(matches_stick(stick, ""));
   CHECK(matches_stick(stick, "t.16000m"));
+  CHECK(matches_stick(stick, "044f:b10a"));
   CHECK(matches_stick(stick, "030000004f0400000ab1000000010000"));
   CHECK_FALSE(matches_stick(stick, "030000004f04"));
   CHECK_FALSE(matches_stick(stick, "T16000M"));
-  const std::vector<PadState> two{{"Pad", {}, {}, "1"}, stick, {"Pad", {}, {}, "1"}};
-  AxisBinding axis;
-  CHECK(find_stick(two, axis) == &two[0]);
-  axis.stick = "pad";
-  axis.pad = 1;
-  CHECK(find_stick(two, axis) == &two[2]);
-  axis.pad = 2;
-  CHECK(find_stick(two, axis) == nullptr);
+  Controller renamed = stick;
+  renamed.name = "T16000M by another driver";
+  const ControllerName name{"T.16000M", "044f:b10a"};
+  CHECK(is_named(renamed, name, {renamed}));
+  CHECK_FALSE(is_named(renamed, name, {renamed, stick}));  // the one with the name counts
+  CHECK_FALSE(is_named(renamed, {"T.16000M", ""}, {renamed}));
+}
+
+TEST_CASE("an axis belongs to the n-th controller of its name, or to any game pad that the bindings do not name") {
+  const std::vector<Controller> all{controller("Pedals", {0.1f, 0.2f}), gamepad({0.3f, 0.4f}),
+                                    controller("Pedals", {0.5f}, 3, "a")};
+  Bindings bindings;
+  const auto raw = [&](const AxisBinding& axis) {
+    const std::optional<double> value = raw_value(bindings, axis, all);
+    return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
+  };
+  CHECK(raw({.of = {"pedals", ""}, .axis = 1}) == 0.2f);
+  CHECK(raw({.of = {"pedals", ""}, .which = 1}) == 0.5f);
+  CHECK_FALSE(raw({.of = {"pedals", ""}, .which = 1, .axis = 1}));
+  CHECK_FALSE(raw({.of = {"pedals", ""}, .which = 2}));
+  CHECK(raw({.axis = 1}) == 0.4f);
+  bindings.controllers = {{{"a pad", ""}, {}, {}}};  // a shifter whose encoder GLFW takes for a pad (0079:0006)
+  CHECK_FALSE(raw({.axis = 1}));
 }

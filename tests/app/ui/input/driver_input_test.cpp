@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/vehicle/car_load.h"
+#include "tests/support/controllers.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift::engine;
@@ -35,9 +36,9 @@ Bindings bindings() {
             {Action::recentre, {GLFW_KEY_R}},       {Action::grab_mouse, {GLFW_KEY_ESCAPE}},
             {Action::full_screen, {GLFW_KEY_F11}}};
   b.pad_buttons = {{Action::lift, {2}}, {Action::arm, {5}}};
-  b.lever_select = AxisBinding{0, 0, -1.0, 1.0, 0.2};
-  b.lever_shift = AxisBinding{0, 1, 1.0, -1.0, 0.2};
-  b.throttle = AxisBinding{0, 2, -1.0, 1.0, 0.0};
+  b.lever_select = AxisBinding{.axis = 0, .dead_zone = 0.2};
+  b.lever_shift = AxisBinding{.axis = 1, .from = 1.0, .to = -1.0, .dead_zone = 0.2};
+  b.throttle = AxisBinding{.axis = 2};
   b.lever_mode = LeverMode::places;
   return b;
 }
@@ -150,7 +151,9 @@ TEST_CASE("the hand stays within reach for any input") {
   CHECK(near(d.at(), {0.06, -0.01}));
   d.driver.recentre({0.01, 0.02});
   CHECK(near(d.at(), {0.01, 0.02}));
-  d.driver.set_reach({0.005, 0.03});
+  DeviceSpec small;
+  small.workspace = {0.005, 0.03};
+  d.driver.set_gate(paper_gate(), small);
   CHECK(near(d.at(), {0.005, 0.02}));
 }
 
@@ -199,12 +202,12 @@ TEST_CASE("the reach in every shipped gate extends beyond its gears and not beyo
 TEST_CASE("knob and ring are held while their key or button is pressed") {
   Driver d;
   d.key(GLFW_KEY_X, true);
-  d.input.pads = {{"pad", {}, {0, 0, 1}, ""}};
+  d.input.controllers = {gamepad({}, {0, 0, 1})};
   d.frame();
   CHECK(d.driver.hand().pressed_down);
   CHECK(d.driver.hand().lifted);
   d.key(GLFW_KEY_X, false);
-  d.input.pads = {{"pad", {}, {0, 0, 0}, ""}};
+  d.input.controllers = {gamepad({}, {0, 0, 0})};
   d.frame();
   d.frame();
   CHECK_FALSE(d.driver.hand().pressed_down);
@@ -230,7 +233,7 @@ TEST_CASE("one-shot actions are listed in order, once per press; held actions ar
   d.key(GLFW_KEY_F11, true);
   d.key(GLFW_KEY_D, true);
   d.key(GLFW_KEY_SPACE, true);
-  d.input.pads = {{"pad", {}, {0, 0, 0, 0, 0, 1}, ""}};
+  d.input.controllers = {gamepad({}, {0, 0, 0, 0, 0, 1})};
   d.frame();
   CHECK(d.driver.pressed() == std::vector{Action::full_screen, Action::stop, Action::arm});
   d.key(GLFW_KEY_F11, true);  // the operating system repeats the held key
@@ -324,16 +327,16 @@ TEST_CASE("the ignition is on at the start; ignition and handbrake toggle with e
 
 TEST_CASE("a pedal's axis is used from its first movement on, because a pad reports 0 for an untouched trigger") {
   Driver d;
-  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};  // if this pad were used, axis 2 at 0 would be half throttle
+  d.input.controllers = {gamepad({0.0f, 0.0f, 0.0f})};  // if this pad were used, axis 2 at 0 would be half throttle
   d.frame();
   CHECK(d.driver.controls().pedals.throttle == 0.0);
-  d.input.pads[0].axes[2] = -1.0f;
+  d.input.controllers[0].gamepad->axes[2] = -1.0f;
   d.frame();
   CHECK(d.driver.controls().pedals.throttle == 0.0);
-  d.input.pads[0].axes[2] = 0.0f;
+  d.input.controllers[0].gamepad->axes[2] = 0.0f;
   d.frame();
   CHECK(d.driver.controls().pedals.throttle == doctest::Approx(0.5));
-  d.input.pads.clear();  // the pad is unplugged
+  d.input.controllers.clear();  // the pad is unplugged
   d.frame();
   CHECK(d.driver.controls().pedals.throttle == 0.0);
 }
@@ -348,22 +351,21 @@ TEST_CASE("a wheel that nobody has set up moves neither pedals nor lever, with t
     return pedals.throttle == 0.0 && pedals.brake == 0.0 && pedals.clutch == 0.0 && pedals.hand_brake == 0.0 &&
            glm::length(d.driver.hand().position) == 0.0 && d.driver.pressed().empty();
   };
-  PadState wheel{"Logitech G29 Driving Force Racing Wheel", {0.0f, -1.0f, -1.0f, -1.0f}, {}, "g29", false};
-  wheel.buttons.assign(29, 0);
-  d.input.pads = {wheel};
+  d.input.controllers = {controller("Logitech G29 Driving Force Racing Wheel", {0.0f, -1.0f, -1.0f, -1.0f}, 29)};
   d.frame();
   CHECK(all_at_rest());
+  Controller& wheel = d.input.controllers[0];
   for (const float turned : {0.0f, -0.5f, 0.5f, 0.0f}) {
-    d.input.pads[0].axes = {turned, 1.0f, turned, -turned};
-    std::fill(d.input.pads[0].buttons.begin(), d.input.pads[0].buttons.end(), turned > 0.0f ? 1 : 0);
+    wheel.axes = {turned, 1.0f, turned, -turned};
+    std::fill(wheel.buttons.begin(), wheel.buttons.end(), turned > 0.0f ? 1 : 0);
     d.frame();
     CHECK(all_at_rest());
   }
   // Negative control: a game pad with the same values.
-  d.input.pads[0].is_pad = true;
-  d.input.pads[0].axes = {0.0f, 0.0f, 0.0f, 0.0f, -1.0f, -1.0f};
+  wheel.gamepad.emplace();
+  wheel.gamepad->axes = {0.0f, 0.0f, 0.0f, 0.0f, -1.0f, -1.0f};
   d.frame();
-  d.input.pads[0].axes[5] = 1.0f;
+  wheel.gamepad->axes[5] = 1.0f;
   d.frame();
   CHECK(d.driver.controls().pedals.throttle == 1.0);
 }
@@ -371,36 +373,36 @@ TEST_CASE("a wheel that nobody has set up moves neither pedals nor lever, with t
 TEST_CASE("the first report of a wheel that is set up is no motion: its pedals stay up until a foot moves them") {
   Driver d;
   Bindings custom = bindings();
-  custom.throttle = AxisBinding{0, 2, 1.0, -1.0, 0.0};
-  custom.throttle->stick = "G29";
+  custom.throttle = AxisBinding{.of = {"G29", ""}, .axis = 2, .from = 1.0, .to = -1.0};
   d.driver = DriverInput({custom, {0.06, 0.05}});
-  d.input.pads = {{"Logitech G29 Driving Force Racing Wheel", {0.0f, -1.0f, -1.0f, -1.0f}, {}, "g29", false}};
+  d.input.controllers = {controller("Logitech G29 Driving Force Racing Wheel", {0.0f, -1.0f, -1.0f, -1.0f})};
+  std::vector<float>& axes = d.input.controllers[0].axes;
   d.frame();
   CHECK(d.driver.controls().pedals.throttle == 0.0);
   for (const float rest : {0.4f, 0.4f}) {  // the first report, of a pedal that springs back to less than its end
-    d.input.pads[0].axes[2] = rest;
+    axes[2] = rest;
     d.frame();
     CHECK(d.driver.controls().pedals.throttle == 0.0);
   }
-  d.input.pads[0].axes[2] = 0.0f;
+  axes[2] = 0.0f;
   d.frame();
   CHECK(d.driver.controls().pedals.throttle == doctest::Approx(0.5));
 }
 
 TEST_CASE("each pedal follows its own axis only") {
   Bindings custom = bindings();
-  custom.throttle = AxisBinding{0, 0, -1.0, 1.0, 0.0};
-  custom.brake = AxisBinding{0, 1, -1.0, 1.0, 0.0};
-  custom.clutch = AxisBinding{0, 2, -1.0, 1.0, 0.0};
+  custom.throttle = AxisBinding{.axis = 0};
+  custom.brake = AxisBinding{.axis = 1};
+  custom.clutch = AxisBinding{.axis = 2};
   custom.lever_select.reset();
   custom.lever_shift.reset();
   for (const std::size_t axis : {0u, 1u, 2u}) {
     CAPTURE(axis);
     DriverInput driver({custom, {0.06, 0.05}});
     WindowInput input;
-    input.pads = {{"pad", {-1.0f, -1.0f, -1.0f}, {}, ""}};
+    input.controllers = {gamepad({-1.0f, -1.0f, -1.0f})};
     driver.update(input, kFrame, false, false);
-    input.pads[0].axes[axis] = 0.5f;  // three quarters of the pedal's travel
+    input.controllers[0].gamepad->axes[axis] = 0.5f;  // three quarters of the pedal's travel
     driver.update(input, kFrame, false, false);
     const double pedals[] = {driver.controls().pedals.throttle, driver.controls().pedals.brake,
                              driver.controls().pedals.clutch};
@@ -438,16 +440,16 @@ TEST_CASE("a hand moved to a lever beyond its reach stops at the limit and does 
 
 TEST_CASE("a deflected stick sets the hand's position, and a released stick returns it to the middle") {
   Driver d;
-  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};
+  d.input.controllers = {gamepad({0.0f, 0.0f, 0.0f})};
   d.frame();
-  d.input.pads[0].axes = {1.0f, -1.0f, 0.0f};  // right, forward
+  d.input.controllers[0].gamepad->axes = {1.0f, -1.0f, 0.0f};  // right, forward
   d.frame();
   CHECK(near(d.at(), {0.06, 0.05}));
-  d.input.pads[0].axes = {-0.6f, 0.1f, 0.0f};
+  d.input.controllers[0].gamepad->axes = {-0.6f, 0.1f, 0.0f};
   d.frame();
   CHECK(d.at().x == doctest::Approx(-0.5 * 0.06));  // (0.6 - dead zone 0.2) / 0.8 is half of the reach
   CHECK(d.at().y == 0.0);                           // inside the dead zone
-  d.input.pads[0].axes = {0.0f, 0.0f, 0.0f};
+  d.input.controllers[0].gamepad->axes = {0.0f, 0.0f, 0.0f};
   d.frame();
   CHECK(near(d.at(), {0.0, 0.0}));
   // A stick at rest does not move the hand, so keys can move it.
@@ -463,21 +465,21 @@ TEST_CASE("in mode `moves` the hand's speed is quadratic in the deflection beyon
   for (const int parts : {1, 10}) {
     DriverInput driver({custom, {0.06, 0.05}});
     WindowInput input;
-    input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};
+    input.controllers = {gamepad({0.0f, 0.0f, 0.0f})};
     const auto frames = [&](double seconds) {
       for (int i = 0; i < parts; ++i) driver.update(input, seconds / parts, false, false);
     };
     frames(0.1);
-    input.pads[0].axes = {1.0f, -0.6f, 0.0f};  // fully right; forward by half of the range beyond the dead zone
+    input.controllers[0].gamepad->axes = {1.0f, -0.6f, 0.0f};  // fully right; forward by half of the range beyond the dead zone
     frames(0.1);
     CHECK(driver.hand().position.x == doctest::Approx(0.3 * 0.1));
     CHECK(driver.hand().position.y == doctest::Approx(0.3 * 0.1 / 4.0));
-    input.pads[0].axes = {0.1f, 0.15f, 0.0f};  // the released stick trembles inside its dead zone
+    input.controllers[0].gamepad->axes = {0.1f, 0.15f, 0.0f};  // the released stick trembles inside its dead zone
     driver.feel({0.03, 0.0075});               // the lever has followed the hand
     const glm::dvec2 stays = driver.hand().position;
     for (int i = 0; i < 50; ++i) frames(0.1);
     CHECK(near(driver.hand().position, stays));
-    input.pads[0].axes = {-1.0f, 0.0f, 0.0f};
+    input.controllers[0].gamepad->axes = {-1.0f, 0.0f, 0.0f};
     frames(100.0);
     CHECK(driver.hand().position.x == doctest::Approx(0.03 - 0.05));  // the hand stays within 50 mm of a blocked lever
     CHECK(driver.hand().push == glm::dvec2(0.0));
@@ -489,36 +491,35 @@ TEST_CASE("a pad's stop button always works, even if the window does not have th
   custom.pad_buttons = {{Action::stop, {1}}};
   DriverInput driver({custom, {0.06, 0.05}});
   WindowInput input;
-  input.pads = {{"pad", {}, {0, 1}, ""}};
+  input.controllers = {gamepad({}, {0, 1})};
   driver.update(input, kFrame, true, true);
   CHECK(driver.pressed() == std::vector{Action::stop});
-  input.pads[0].buttons = {0, 0};
+  input.controllers[0].gamepad->buttons = {0, 0};
   driver.update(input, kFrame, false, false);
   input.focused = false;
   driver.update(input, kFrame, false, false);
-  input.pads[0].buttons = {0, 1};
+  input.controllers[0].gamepad->buttons = {0, 1};
   driver.update(input, kFrame, true, true);
   CHECK(driver.pressed() == std::vector{Action::stop});
 }
 
 TEST_CASE("axes and buttons bound by a stick's name follow that stick to any port, and ignore other sticks") {
   Bindings custom = bindings();
-  custom.throttle = AxisBinding{0, 0, 0.0, 1.0, 0.0};
-  custom.throttle->stick = "pedals";
-  custom.clutch = AxisBinding{1, 0, 0.0, 1.0, 0.0};  // pad 1: the second stick with a matching name
-  custom.clutch->stick = "pedals";
+  custom.throttle = AxisBinding{.of = {"pedals", ""}, .from = 0.0};
+  custom.clutch = AxisBinding{.of = {"pedals", ""}, .which = 1, .from = 0.0};  // the second one with a matching name
   custom.lever_select.reset();
   custom.lever_shift.reset();
-  custom.pad_buttons = {{Action::starter, {0}}};
-  custom.button_stick = "Wheel";
+  custom.pad_buttons.clear();
+  custom.controllers = {{{"Wheel", ""}, {{Action::starter, {0}}}, {}}};
   const auto drive = [&](const std::vector<std::size_t>& order) {
-    const std::vector<PadState> all{
-        {"Acme Pedals", {0.25f}, {1}, "01"}, {"Some Wheel", {0.5f}, {0}, "02"}, {"PEDALS two", {0.75f}, {1}, "03"}};
+    std::vector<Controller> all{controller("Acme Pedals", {0.25f}, 1), controller("Some Wheel", {0.5f}, 1),
+                                controller("PEDALS two", {0.75f}, 1)};
+    all[0].buttons[0] = all[2].buttons[0] = 1;
     WindowInput input;
-    for (const std::size_t i : order) input.pads.push_back(all[i]);
+    for (const std::size_t i : order) input.controllers.push_back(all[i]);
     DriverInput driver({custom, {0.06, 0.05}});
-    for (const bool moved : {false, true}) {
-      for (PadState& pad : input.pads) pad.axes[0] += moved ? 0.125f : 0.0f;
+    for (const float moved : {0.0f, 0.0625f, 0.0625f}) {
+      for (Controller& one : input.controllers) one.axes[0] += moved;
       driver.update(input, kFrame, false, false);
     }
     return driver.controls();
@@ -584,7 +585,7 @@ TEST_CASE("equal input gives exactly equal output") {
     for (int i = 0; i < 2000; ++i) {
       d->input.mouse_moved = {static_cast<double>(chance() % 21) - 10.0, static_cast<double>(chance() % 21) - 10.0};
       d->key(GLFW_KEY_SPACE + static_cast<int>(chance() % 300), chance() % 2 == 0);
-      d->input.pads = {{"pad", {static_cast<float>(chance() % 100) / 50.0f - 1.0f, 0.0f, 0.3f}, {1, 0, 1}, ""}};
+      d->input.controllers = {gamepad({static_cast<float>(chance() % 100) / 50.0f - 1.0f, 0.0f, 0.3f}, {1, 0, 1})};
       d->frame(0.001 * static_cast<double>(chance() % 40));
     }
   }
@@ -643,4 +644,52 @@ TEST_CASE(
   d.key(GLFW_KEY_A, false);
   d.frame();
   CHECK_FALSE(d.driver.pedal_keys().clutch);  // a press that lasts a frame ends with the release
+}
+
+TEST_CASE("the handbrake follows its axis, a held button and a switch; a pull takes it over from the lesson") {
+  Bindings custom = bindings();
+  custom.hand_brake = AxisBinding{.of = {"Handbrake", ""}};
+  custom.controllers = {{{"Box", ""}, {{Action::hand_brake_hold, {0}}, {Action::hand_brake, {1}}}, {}}};
+  Driver d;
+  d.driver = DriverInput({custom, {0.06, 0.05}});
+  d.input.controllers = {controller("Handbrake", {-1.0f}), controller("Box", {}, 2)};
+  float& lever = d.input.controllers[0].axes[0];
+  std::vector<unsigned char>& box = d.input.controllers[1].buttons;
+  const auto pull = [&](float to) {
+    lever = to;
+    d.frame();
+    return d.driver.controls().pedals.hand_brake;
+  };
+  const auto press = [&](std::size_t button, bool down) {
+    box[button] = down ? 1 : 0;
+    d.frame();
+    d.frame();
+    return d.driver.controls().pedals.hand_brake;
+  };
+  d.driver.set_car(true, 1.0);  // the lesson starts with the handbrake on
+  CHECK(pull(-1.0f) == 1.0);
+  CHECK(pull(-0.9f) == 1.0);  // the first report is no motion
+  CHECK(pull(-0.5f) == 1.0);  // pulled less than half: still on
+  CHECK(pull(1.0f) == 1.0);
+  CHECK(pull(0.0f) == doctest::Approx(0.5));  // now it follows the axis
+  CHECK(pull(-1.0f) == 0.0);
+  d.driver.set_car(true, 1.0);
+  CHECK(pull(-1.0f) == 1.0);
+  CHECK(press(0, true) == 1.0);
+  CHECK(press(0, false) == 0.0);
+  CHECK(press(1, true) == 1.0);
+  CHECK(press(1, false) == 1.0);
+  CHECK(press(1, true) == 0.0);
+}
+
+TEST_CASE("after new bindings nothing that was held stays held") {
+  Driver d;
+  d.key(GLFW_KEY_D, true);
+  d.key(GLFW_KEY_X, true);
+  d.frame();
+  CHECK(d.driver.hand().pressed_down);
+  d.driver.rebind(bindings());
+  d.frame();
+  CHECK_FALSE(d.driver.hand().pressed_down);
+  CHECK_FALSE(d.driver.pedal_keys().throttle);
 }

@@ -13,6 +13,7 @@
 #include "haptics/device/simulated_lever.h"
 #include "haptics/device/smoothed_hand.h"
 #include "haptics/loop/haptic_loop.h"
+#include "tests/support/controllers.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift::engine;
@@ -38,9 +39,9 @@ class ThumbDesk {
         hand_(target_, 0.001),
         lever_(gripped(), 1'000'000, hand_),
         loop_({}, gate_, lever_, load_, inputs_) {
-    driver_.set_reach(hand_reach(gate_, lever_.spec()));
+    driver_.set_gate(gate_, lever_.spec());
     loop_.arm();
-    input_.pads = {{"A pad", std::vector<float>(6, 0.0f), std::vector<unsigned char>(12, 0), ""}};
+    input_.controllers = {gamepad({})};
     rest(0.8);
   }
 
@@ -127,7 +128,7 @@ class ThumbDesk {
   void free_reverse(bool down) {  // pushes the knob and lifts the ring, as the lockout requires
     for (const Action action : {Action::push_down, Action::lift})
       for (const int button : bindings_.pad_buttons.at(action))
-        input_.pads[0].buttons[static_cast<std::size_t>(button)] = down ? 1 : 0;
+        input_.controllers[0].gamepad->buttons[static_cast<std::size_t>(button)] = down ? 1 : 0;
   }
 
   float raw_of(const AxisBinding& axis, double deflection) const {
@@ -140,7 +141,7 @@ class ThumbDesk {
     ++frames_;
     thumb_ = glm::clamp(wanted_, thumb_ - kThumbFrame * 10.0, thumb_ + kThumbFrame * 10.0);
     const dvec2 tremor = 0.03 * dvec2{std::sin(1.3 * frames_), std::sin(1.9 * frames_)};
-    std::vector<float>& axes = input_.pads[0].axes;
+    auto& axes = input_.controllers[0].gamepad->axes;
     axes[static_cast<std::size_t>(bindings_.lever_select->axis)] = raw_of(*bindings_.lever_select, thumb_.x + tremor.x);
     axes[static_cast<std::size_t>(bindings_.lever_shift->axis)] = raw_of(*bindings_.lever_shift, thumb_.y + tremor.y);
     if (thumb_ == dvec2{0.0, 0.0})

@@ -1,0 +1,96 @@
+// Asks the user to move each pedal, lever and shifter once, and binds what moved: the steps of this dialogue, without
+// clock, screen and devices. The window's card (ui/panel/controls_card.h) and the terminal (controls_dialog.h) show it.
+//
+//   ControlsSetup setup(bindings);
+//   while (!setup.is_over()) {
+//     show setup.prompt(), setup.note() and setup.choices()
+//     setup.frame(controllers, seconds);     each frame
+//     setup.answer(...)                      when the user has chosen
+//   }
+//   use setup.bindings()
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "app/ui/input/axis_detector.h"
+#include "app/ui/input/bindings.h"
+
+namespace gearshift::ui {
+
+class ControlsSetup {
+ public:
+  enum class Answer { done, skip, back, gear_buttons, two_buttons, lever, other, stays, returns };
+  struct Choice {
+    Answer answer;
+    const char* key;  // what to type in a terminal; "" stands for Enter
+    const char* label;
+  };
+
+  explicit ControlsSetup(Bindings start);
+
+  void frame(const std::vector<engine::Controller>& controllers, double seconds);
+  // `answer` is one of choices(). Ignored while is_resting().
+  void answer(Answer answer);
+
+  const std::string& prompt() const noexcept { return prompt_; }
+  const std::string& note() const noexcept { return note_; }  // what was found, or why the step is asked again
+  std::span<const Choice> choices() const noexcept;
+  bool is_resting() const noexcept { return is_resting_; }  // measures a released control
+  std::size_t step() const noexcept { return step_; }
+  std::size_t steps() const noexcept { return steps_.size(); }
+  bool is_over() const noexcept { return step_ == steps_.size(); }
+  const Bindings& bindings() const noexcept { return bindings_; }
+
+ private:
+  enum class Kind { axis, shifting, neutral, gear, direction, lever_mode };
+  struct Step {
+    Kind kind = Kind::axis;
+    const AxisInfo* axis = nullptr;     // Kind::axis
+    int gear = haptics::kNeutralGear;   // Kind::gear
+    Action action = Action::shift_up;   // Kind::direction
+  };
+  struct Button {
+    ControllerName of;
+    int number = 0;
+    auto operator<=>(const Button& other) const {
+      return std::tie(of.stick, number) <=> std::tie(other.of.stick, other.number);
+    }
+    bool operator==(const Button& other) const { return of.stick == other.of.stick && number == other.number; }
+  };
+  using Buttons = std::set<Button>;
+
+  void begin_step();
+  void repeat(const std::string& reason);
+  void next(const std::string& found);
+  void choose_shifting(Answer answer);
+  void finish_axis();
+  void finish_gear();
+  void finish_direction();
+  void bind(const Button& button, Action action);
+  void bind_gear(const Button& button, int gear);
+  ControllerButtons& buttons_of(const ControllerName& name);
+  void release_button(const Button& button);
+
+  Bindings bindings_;
+  std::vector<Step> steps_;
+  std::size_t step_ = 0;
+  std::vector<Bindings> before_;  // the bindings before each step, for Answer::back
+  std::string prompt_, note_;
+  std::optional<AxisDetector> detector_;
+  bool is_resting_ = false;
+  double rest_time_ = 0.0;  // [s] and number of frames measured at rest
+  int rest_frames_ = 0;
+  Buttons down_, neutral_, pressed_;  // held now; held in neutral; pressed during this step
+};
+
+// Returns the controllers that the user can set up: all except game pads, whose controls are known. (An encoder that is
+// built into pads, shifters and handbrakes alike counts as unknown.)
+std::vector<engine::Controller> controllers_to_set_up(const std::vector<engine::Controller>& all);
+
+}  // namespace gearshift::ui

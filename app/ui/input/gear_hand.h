@@ -1,0 +1,42 @@
+// Moves the hand to a gear that the driver has selected by a button: the buttons of a shifter, which are held as long
+// as its own lever is in a gear, or the buttons for one gear up and down. In the gear the hand follows the lever,
+// without a push.
+#pragma once
+
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "haptics/device/scripted_hand.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift::ui {
+
+class GearHand {
+ public:
+  void set_gate(const haptics::Gate& gate);
+
+  // Begins to move from the lever point `lever` [m] to the gear, and presses the knob or lifts the ring on the way if
+  // the gate requires it. Does nothing before set_gate().
+  void shift_to(int gear, glm::dvec2 lever);
+  // Like shift_to(), for the gear that follows the present one in the order R N 1 2 3 ...
+  void shift_by(int gears, glm::dvec2 lever);
+  void release() noexcept { hand_.reset(); }  // something else moves the hand
+
+  bool is_active() const noexcept { return hand_.has_value(); }
+  haptics::HandTarget next(double seconds, glm::dvec2 lever);  // call once per frame while active
+  // The gear that was selected, if the lever has not reached it in the time that the movement takes: the gate does not
+  // have this gear, or the lever is held, for example by a synchroniser. Empty otherwise.
+  std::optional<int> missed_gear(glm::dvec2 lever) const;
+
+ private:
+  bool is_in_gear(glm::dvec2 lever) const;
+
+  std::optional<haptics::Gate> gate_;
+  std::optional<haptics::ScriptedHand> hand_;
+  int gear_ = haptics::kNeutralGear;  // selected
+  double time_ = 0.0;                 // [s] since shift_to()
+  bool is_resting_ = false;           // the lever has arrived
+};
+
+}  // namespace gearshift::ui

@@ -1,0 +1,256 @@
+#include "engine/window/controllers.h"
+
+#include <GLFW/glfw3.h>
+#include <fcntl.h>
+#include <libevdev/libevdev.h>
+#include <linux/input.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "engine/window/glfw_use.h"
+#include "engine/window/window.h"
+
+namespace gearshift::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kDeviceFiles = "/dev/input";
+constexpr std::chrono::seconds kRetry{1};       // interval of attempts to open a device that may not be read
+constexpr std::chrono::seconds kGrantDelay{2};  // udev grants access some time after the kernel has made the device file
+constexpr const char* kSteamCopy = "28de:11ff";
+
+std::string sysfs_text(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string text;
+  std::getline(stream, text);
+  return text;
+}
+
+unsigned hex_number(const std::string& text) {
+  unsigned number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number, 16);
+  return number;
+}
+
+// The set bits of a line such as "3f 0 0 10003": words of an unsigned long each, the highest first.
+class BitSet {
+ public:
+  explicit BitSet(const std::string& line) {
+    for (std::size_t end = line.size(); end > 0;) {
+      const std::size_t blank = line.rfind(' ', end - 1);
+      const std::size_t begin = blank == std::string::npos ? 0 : blank + 1;
+      unsigned long word = 0;
+      std::from_chars(line.data() + begin, line.data() + end, word, 16);
+      words_.push_back(word);
+      end = blank == std::string::npos ? 0 : blank;
+    }
+  }
+
+  bool has(unsigned bit) const {
+    constexpr unsigned kBits = 8 * sizeof(unsigned long);
+    return bit / kBits < words_.size() && (words_[bit / kBits] >> (bit % kBits) & 1u) != 0;
+  }
+  bool has_between(unsigned first, unsigned last) const {
+    for (unsigned bit = first; bit <= last; ++bit)
+      if (has(bit)) return true;
+    return false;
+  }
+
+ private:
+  std::vector<unsigned long> words_;
+};
+
+// True if the input device may be a controller. The rules are those of the kernel's joydev (joydev_match), of udev
+// (test_pointers) and of SDL (SDL_evdev_capabilities.c), except that they refuse pedals, which have axes and no button.
+bool is_controller(const fs::path& device) {
+  const BitSet properties(sysfs_text(device / "properties"));
+  const BitSet axes(sysfs_text(device / "capabilities/abs")), keys(sysfs_text(device / "capabilities/key"));
+  const unsigned bus = hex_number(sysfs_text(device / "id/bustype"));
+  const bool is_built_in = bus == BUS_HOST || bus == BUS_I2C || bus == BUS_SPI || bus == BUS_ISA;
+  const bool points = keys.has_between(BTN_MOUSE, BTN_TASK) || keys.has_between(BTN_TOOL_PEN, BTN_TOOL_QUADTAP) ||
+                      axes.has(ABS_MT_POSITION_X);
+  const bool types = keys.has(KEY_A) && keys.has(KEY_Z) && keys.has(KEY_ENTER);
+  if (is_built_in || points || types || properties.has(INPUT_PROP_ACCELEROMETER)) return false;
+  return axes.has_between(ABS_X, ABS_BRAKE) || keys.has_between(BTN_JOYSTICK, BTN_THUMBR) ||
+         keys.has_between(BTN_TRIGGER_HAPPY, BTN_TRIGGER_HAPPY40);
+}
+
+// The identifier that GLFW computes; it follows SDL's.
+std::string guid_of(const fs::path& device, const std::string& name) {
+  const auto number = [&](const char* part) { return hex_number(sysfs_text(device / "id" / part)); };
+  const auto bytes = [](unsigned word) { return fmt::format("{:02x}{:02x}", word & 0xff, word >> 8 & 0xff); };
+  const unsigned vendor = number("vendor"), product = number("product"), version = number("version");
+  std::string guid = bytes(number("bustype")) + "0000";
+  if (vendor != 0 && product != 0 && version != 0)
+    return guid + bytes(vendor) + "0000" + bytes(product) + "0000" + bytes(version) + "0000";
+  for (std::size_t i = 0; i < 11; ++i) guid += fmt::format("{:02x}", i < name.size() ? static_cast<unsigned char>(name[i]) : 0);
+  return guid + "00";
+}
+
+float centred(const input_absinfo& axis) {
+  const float range = static_cast<float>(axis.maximum) - static_cast<float>(axis.minimum);
+  return range == 0.0f ? 0.0f
+                       : 2.0f * (static_cast<float>(axis.value) - static_cast<float>(axis.minimum)) / range - 1.0f;
+}
+
+// Adds the state of the game pads that GLFW knows to their controllers.
+void add_gamepads(std::vector<Controller>& controllers) {
+  if (!glfw_is_in_use()) return;
+  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+    GLFWgamepadstate mapped;
+    if (glfwGetGamepadState(id, &mapped) == GLFW_FALSE) continue;
+    const char* name = glfwGetJoystickName(id);
+    const char* guid = glfwGetJoystickGUID(id);
+    if (name == nullptr || guid == nullptr) continue;  // the pad was just unplugged
+    const auto same = std::find_if(controllers.begin(), controllers.end(), [&](const Controller& one) {
+      return one.name == name && one.guid == guid && !one.gamepad;
+    });
+    if (same == controllers.end()) continue;
+    same->gamepad.emplace();
+    std::copy(std::begin(mapped.axes), std::end(mapped.axes), same->gamepad->axes.begin());
+    std::copy(std::begin(mapped.buttons), std::end(mapped.buttons), same->gamepad->buttons.begin());
+  }
+}
+
+}  // namespace
+
+// A device file of a controller.
+struct Controllers::Node {
+  explicit Node(const fs::path& sysfs) : file(sysfs.filename()), found(std::chrono::steady_clock::now()) {
+    const fs::path input = sysfs / "device";
+    state.name = sysfs_text(input / "name");
+    state.id = sysfs_text(input / "id/vendor") + ":" + sysfs_text(input / "id/product");
+    state.guid = guid_of(input, state.name);
+    state.can_be_read = false;
+  }
+  ~Node() { close_file(); }
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  void open_file();
+  void close_file();
+  void read();
+  bool is_listed() const {
+    return !is_gone && (state.can_be_read || std::chrono::steady_clock::now() - found > kGrantDelay);
+  }
+
+  std::string file;  // "event5"
+  std::chrono::steady_clock::time_point found;
+  Controller state;
+  int descriptor = -1;
+  bool is_gone = false;  // unplugged
+  libevdev* device = nullptr;
+  std::vector<unsigned> axes, buttons, hats;  // the kernel's codes; of a hat, the code of its x axis
+};
+
+void Controllers::Node::open_file() {
+  descriptor = ::open((fs::path(kDeviceFiles) / file).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0 || libevdev_new_from_fd(descriptor, &device) < 0) return close_file();
+  state.can_be_read = true;
+  const auto has = [this](unsigned type, unsigned code) { return libevdev_has_event_code(device, type, code) != 0; };
+  for (unsigned code = 0; code < ABS_CNT; ++code)
+    if (has(EV_ABS, code) && (code < ABS_HAT0X || code > ABS_HAT3Y)) axes.push_back(code);
+  for (unsigned code = BTN_MISC; code < KEY_CNT; ++code)
+    if (has(EV_KEY, code)) buttons.push_back(code);
+  for (unsigned code = ABS_HAT0X; code <= ABS_HAT3X; code += 2)
+    if (has(EV_ABS, code) || has(EV_ABS, code + 1)) hats.push_back(code);
+}
+
+void Controllers::Node::close_file() {
+  libevdev_free(device);
+  if (descriptor >= 0) ::close(descriptor);
+  device = nullptr;
+  descriptor = -1;
+  state.can_be_read = false;
+}
+
+void Controllers::Node::read() {
+  if (device == nullptr) return;
+  input_event event;
+  int result = LIBEVDEV_READ_STATUS_SUCCESS;
+  while (result >= 0) {
+    // After an overflow of the kernel's queue (LIBEVDEV_READ_STATUS_SYNC), libevdev asks for the present state.
+    const bool overflowed = result == LIBEVDEV_READ_STATUS_SYNC;
+    result = libevdev_next_event(device, overflowed ? LIBEVDEV_READ_FLAG_SYNC : LIBEVDEV_READ_FLAG_NORMAL, &event);
+    if (overflowed && result == -EAGAIN) result = LIBEVDEV_READ_STATUS_SUCCESS;
+  }
+  is_gone = result != -EAGAIN;
+  state.axes.clear();
+  state.buttons.clear();
+  for (const unsigned code : axes) state.axes.push_back(centred(*libevdev_get_abs_info(device, code)));
+  for (const unsigned code : buttons)
+    state.buttons.push_back(libevdev_get_event_value(device, EV_KEY, code) != 0 ? 1 : 0);
+  for (const unsigned code : hats) {
+    const int x = libevdev_get_event_value(device, EV_ABS, code);
+    const int y = libevdev_get_event_value(device, EV_ABS, code + 1);
+    for (const bool pressed : {y < 0, x > 0, y > 0, x < 0}) state.buttons.push_back(pressed ? 1 : 0);
+  }
+}
+
+Controllers::Controllers() = default;
+Controllers::~Controllers() = default;
+
+bool Controllers::is_outdated() const {
+  struct stat folder {};
+  if (stat(kDeviceFiles, &folder) != 0) return !nodes_.empty();
+  if (folder.st_mtim.tv_sec != changed_.tv_sec || folder.st_mtim.tv_nsec != changed_.tv_nsec) return true;
+  if (std::any_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->is_gone; })) return true;
+  const bool lacks_permission =
+      std::any_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return !node->state.can_be_read; });
+  return lacks_permission && std::chrono::steady_clock::now() - scanned_ > kRetry;
+}
+
+// Finds the controllers by their entries in /sys, which every user may read, and opens the new ones.
+void Controllers::scan() {
+  struct stat folder {};
+  changed_ = stat(kDeviceFiles, &folder) == 0 ? folder.st_mtim : timespec{};
+  scanned_ = std::chrono::steady_clock::now();
+  std::vector<std::unique_ptr<Node>> present;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator("/sys/class/input", error)) {
+    const std::string file = entry.path().filename();
+    if (!file.starts_with("event") || !is_controller(entry.path() / "device")) continue;
+    const auto known = std::find_if(nodes_.begin(), nodes_.end(),
+                                    [&](const auto& node) { return node && node->file == file && !node->is_gone; });
+    present.push_back(known != nodes_.end() ? std::move(*known) : std::make_unique<Node>(entry.path()));
+    if (!present.back()->state.can_be_read) present.back()->open_file();
+  }
+  // In the order in which they were plugged in.
+  std::sort(present.begin(), present.end(), [](const auto& a, const auto& b) {
+    return std::pair(a->file.size(), a->file) < std::pair(b->file.size(), b->file);
+  });
+  nodes_ = std::move(present);
+}
+
+const std::vector<Controller>& Controllers::poll() {
+  if (is_outdated()) scan();
+  controllers_.clear();
+  for (const auto& node : nodes_) {
+    node->read();
+    if (node->is_listed()) controllers_.push_back(node->state);
+  }
+  add_gamepads(controllers_);
+  const bool has_original = std::any_of(controllers_.begin(), controllers_.end(), [](const Controller& one) {
+    return one.gamepad && one.id != kSteamCopy;
+  });
+  if (has_original) std::erase_if(controllers_, [](const Controller& one) { return one.id == kSteamCopy; });
+  return controllers_;
+}
+
+std::vector<Controller> list_controllers() {
+  std::optional<GlfwUse> glfw;
+  if (has_display()) glfw.emplace();
+  Controllers controllers;
+  return controllers.poll();
+}
+
+}  // namespace gearshift::engine

@@ -1,0 +1,60 @@
+// Game controllers: pads, sticks, wheels, pedals and shifters, as Linux's input devices (evdev) report them, without
+// their force. GLFW lists only those of them that have axes, and does not read which buttons are held at the start; it
+// is used for its table of game pads.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/stat.h>
+
+namespace gearshift::engine {
+
+// Controls of a game pad, the same for every model.
+struct Gamepad {
+  std::array<float, 6> axes{};              // [-1, 1] GLFW_GAMEPAD_AXIS_LEFT_X, ...; a released trigger is -1
+  std::array<unsigned char, 15> buttons{};  // 0 or 1; GLFW_GAMEPAD_BUTTON_A, ...
+};
+
+struct Controller {
+  std::string name;
+  std::string id;                      // "046d:c24f": USB vendor and product
+  std::string guid;                    // identifies the model, as GLFW and SDL write it
+  std::vector<float> axes;             // [-1, 1] in the order of the kernel's codes
+  std::vector<unsigned char> buttons;  // 0 or 1, in the order of the kernel's codes; then up, right, down, left per hat
+  std::optional<Gamepad> gamepad;      // if GLFW knows the model as a game pad
+  bool can_be_read = true;             // false: the user lacks permission; there are no axes and no buttons
+};
+
+class Controllers {
+ public:
+  Controllers();
+  ~Controllers();
+  Controllers(const Controllers&) = delete;
+  Controllers& operator=(const Controllers&) = delete;
+
+  // Returns the controllers that are plugged in now. Passes over devices that only look like controllers: keyboards,
+  // mice, touchpads, motion sensors, and Steam's copy of another controller. Marks game pads only while GLFW is in use.
+  const std::vector<Controller>& poll();
+
+ private:
+  struct Node;
+
+  bool is_outdated() const;
+  void scan();
+
+  std::vector<std::unique_ptr<Node>> nodes_;
+  std::vector<Controller> controllers_;
+  timespec changed_{};  // last change of the folder of device files at the last scan
+  std::chrono::steady_clock::time_point scanned_;
+};
+
+// Returns the controllers that are plugged in, for a program without a window. Marks game pads only if there is a
+// display, because GLFW needs one.
+std::vector<Controller> list_controllers();
+
+}  // namespace gearshift::engine

@@ -1,0 +1,237 @@
+// Shifters with a button per gear or per direction move the lever through the shipped gates, beneath a simulated hand.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "app/ui/input/driver_input.h"
+#include "haptics/device/simulated_lever.h"
+#include "haptics/device/smoothed_hand.h"
+#include "haptics/loop/haptic_loop.h"
+#include "haptics/loop/shift_script.h"
+#include "tests/support/controllers.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kFrameTime = 0.016;  // [s]
+constexpr int kButtonOfReverse = 18;                   // as on the shifter of a Logitech G29: 12 to 17 are gears 1 to 6
+
+int button_of(int gear) {
+  return gear == kReverseGear ? kButtonOfReverse : 11 + gear;
+}
+
+Bindings shifter_bindings() {
+  ControllerButtons shifter{{"G29", ""}, {{Action::shift_up, {4}}, {Action::shift_down, {5}}}, {}};
+  shifter.gears[kReverseGear] = {kButtonOfReverse};
+  for (int gear = 1; gear <= 6; ++gear) shifter.gears[gear] = {button_of(gear)};
+  Bindings bindings;
+  bindings.keys = {{Action::lever_left, {GLFW_KEY_LEFT}}};
+  bindings.controllers = {shifter};
+  return bindings;
+}
+
+// A blocking synchroniser: no gear beyond this depth.
+class BlockedGears final : public LeverLoad {
+ public:
+  bool blocks = false;
+  LeverOutput step(const LeverInput& in, double) noexcept override {
+    LeverOutput out;
+    if (blocks && in.slot != kNoSlot) out.limited_slot = in.slot, out.depth_max = 0.010;
+    return out;
+  }
+  const char* replay_parameters() const noexcept override { return "blocked"; }
+};
+
+class ShifterDesk {
+ public:
+  explicit ShifterDesk(const Gate& gate)
+      : gate_(gate), hand_(target_, 0.001), lever_(gripped(), 1'000'000, hand_), loop_({}, gate_, lever_, load, inputs_) {
+    driver.set_gate(gate_, lever_.spec());
+    loop_.arm();
+    input.controllers = {controller("Logitech G29", {0.0f}, 29)};
+    run(0.8);
+  }
+
+  // Releases all gear buttons, then holds that of `gear`, or none for neutral. A real shifter's travel takes `between`.
+  void put(int gear, double between = 0.12) {
+    std::fill(buttons().begin(), buttons().end(), 0);
+    run(between);
+    if (gear != kNeutralGear) buttons()[static_cast<std::size_t>(button_of(gear))] = 1;
+  }
+  void press(std::size_t button) {
+    buttons()[button] = 1;
+    run(2 * kFrameTime);
+    buttons()[button] = 0;
+  }
+  void run(double seconds) {
+    for (double time = 0.0; time < seconds; time += kFrameTime) {
+      driver.feel(loop_.snapshot().lever);
+      driver.update(input, kFrameTime, false, false);
+      input.keys.clear();
+      target_.write(driver.hand());
+      for (int i = 0; i < 16; ++i) {
+        loop_.cycle(now_ += 1'000'000, 0);
+        max_push = std::max(max_push, glm::length(loop_.snapshot().f_h));
+        if (loop_.snapshot().gear != kNeutralGear) gears_.insert(loop_.snapshot().gear);
+      }
+    }
+  }
+  int gear() const { return loop_.snapshot().gear; }
+  double push() const { return glm::length(loop_.snapshot().f_h); }
+  dvec2 at() const { return loop_.snapshot().lever; }
+  std::vector<unsigned char>& buttons() { return input.controllers[0].buttons; }
+  std::set<int> take_gears() { return std::exchange(gears_, {}); }
+
+  DriverInput driver{{shifter_bindings()}};
+  WindowInput input;
+  BlockedGears load;
+  double max_push = 0.0;  // [N]
+
+ private:
+  static SimulatedLeverConfig gripped() {
+    SimulatedLeverConfig config;
+    config.hand = kGripHand;
+    return config;
+  }
+
+  Gate gate_;
+  LatestValue<HandTarget> target_;
+  SmoothedHand hand_;
+  SimulatedLever lever_;
+  LoopInputs inputs_;
+  HapticLoop loop_;
+  std::int64_t now_ = 0;
+  std::set<int> gears_;
+};
+
+}  // namespace
+
+TEST_CASE("in every shipped gate a button per gear shifts from any gear to any other, reverse included") {
+  for (const std::string& name : shipped_names()) {
+    const Gate gate = shipped_gate(name);
+    CAPTURE(name);
+    ShifterDesk desk(gate);
+    const std::vector<int> gears = tour_order(gate);
+    for (const int from : gears)
+      for (const int to : gears) {
+        if (from == to || std::max(from, to) > 6) continue;
+        CAPTURE(from);
+        CAPTURE(to);
+        desk.put(from);
+        desk.run(1.0);
+        CHECK(desk.gear() == from);
+        desk.take_gears();
+        desk.put(to);
+        desk.run(1.0);
+        CHECK(desk.gear() == to);
+        CHECK_FALSE(desk.driver.missed_gear());
+        std::set<int> passed = desk.take_gears();
+        passed.erase(from);
+        CHECK(passed == std::set<int>{to});  // no other gear on the way
+        CHECK(desk.push() < 1.0);            // the hand does not lean on the gear
+      }
+    desk.put(kNeutralGear);
+    desk.run(1.5);
+    CHECK(desk.gear() == kNeutralGear);
+    CHECK(glm::length(desk.at() - rest_position(gate, kNeutralGear)) < 0.003);
+    MESSAGE(name, ": largest push ", desk.max_push, " N");
+    CHECK(desk.max_push < 60.0);  // below the warning of an over-push
+  }
+}
+
+TEST_CASE("no button held means neutral only after a gear was seen: at the start the shifter's place is unknown") {
+  ShifterDesk desk(paper_gate());
+  desk.input.keys = {{GLFW_KEY_LEFT, true, false, false, false}};
+  desk.run(0.1);
+  CHECK(desk.at().x < -0.003);  // keys move the lever, and the silent shifter does not pull it back
+  desk.run(0.5);
+  const dvec2 held = desk.at();
+  desk.run(0.5);
+  CHECK(glm::length(desk.at() - held) < 0.002);
+}
+
+TEST_CASE("buttons per direction shift one gear: R N 1 2 3 and back; beyond the last gear nothing moves") {
+  ShifterDesk desk(paper_gate());
+  std::vector<int> reached;
+  const auto press = [&](std::size_t button) {
+    desk.press(button);
+    desk.run(1.0);
+    reached.push_back(desk.gear());
+  };
+  for (int i = 0; i < 6; ++i) press(4);
+  for (int i = 0; i < 8; ++i) press(5);
+  CHECK(reached == std::vector{1, 2, 3, 4, 5, 5, 4, 3, 2, 1, kNeutralGear, kReverseGear, kReverseGear, kReverseGear});
+}
+
+TEST_CASE("a gear that the gate lacks or that is blocked is reported as missed; once it is free the hand completes it") {
+  ShifterDesk desk(paper_gate());
+  desk.put(6);
+  desk.run(1.0);
+  CHECK(desk.gear() == kNeutralGear);
+  CHECK(desk.driver.missed_gear() == 6);
+  desk.load.blocks = true;
+  desk.put(3);
+  desk.run(2.0);
+  CHECK(desk.gear() == kNeutralGear);
+  CHECK(desk.driver.missed_gear() == 3);
+  desk.load.blocks = false;
+  desk.run(0.5);
+  CHECK(desk.gear() == 3);
+  CHECK_FALSE(desk.driver.missed_gear());
+}
+
+TEST_CASE("keys take the hand over from a shifter, whose next gear takes it back; an unplugged one does not move it") {
+  ShifterDesk desk(paper_gate());
+  desk.put(3);
+  desk.run(1.0);
+  CHECK(desk.gear() == 3);
+  std::vector<Controller> unplugged = std::exchange(desk.input.controllers, {});
+  desk.run(1.0);
+  CHECK(desk.gear() == 3);
+  desk.input.controllers = unplugged;
+  desk.buttons().assign(29, 0);  // plugged in again, in neutral
+  desk.run(1.0);
+  CHECK(desk.gear() == 3);
+  desk.put(4);
+  desk.run(1.0);
+  CHECK(desk.gear() == 4);
+}
+
+TEST_CASE("a lever that stays in place does not lean on the gear: at its own end the hand aims at the gear's rest") {
+  Bindings bindings;
+  bindings.lever_mode = LeverMode::places;
+  bindings.lever_select = AxisBinding{.of = {"Shifter", ""}, .axis = 0};
+  bindings.lever_shift = AxisBinding{.of = {"Shifter", ""}, .axis = 1};
+  ShifterDesk desk(paper_gate());
+  desk.driver.rebind(bindings);
+  desk.input.controllers = {controller("Analog Shifter", {0.01f, 0.01f})};
+  std::vector<float>& axes = desk.input.controllers[0].axes;
+  desk.run(2 * kFrameTime);
+  axes = {0.02f, 0.05f};
+  desk.run(0.2);
+  for (float y = 0.05f; y < 1.0f; y += 0.02f) {  // about 0.8 s to the lever's end
+    axes[1] = y;
+    desk.run(kFrameTime);
+  }
+  desk.run(0.5);
+  CHECK(desk.gear() == 3);
+  CHECK(desk.push() < 1.0);
+  axes[1] = 0.0f;  // pulled out again
+  desk.run(0.5);
+  CHECK(desk.gear() == kNeutralGear);
+}
