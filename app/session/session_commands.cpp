@@ -110,6 +110,7 @@ struct Session::Handlers {
   // Executed by the window, which owns camera and headset.
   void operator()(const ui::ResetView&) const {}
   void operator()(const ui::HeadsetCommand&) const {}
+  void operator()(const ui::ControlsCommand&) const {}
 
   lessons::Coach& coach() const { return session.director_.coach(); }
   lessons::Player* player() const { return session.viewer_.player(); }  // null if nothing is replayed

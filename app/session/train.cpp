@@ -12,6 +12,7 @@
 #include "app/base/stop_signals.h"
 #include "app/cabin/view/desktop_mirror.h"
 #include "app/session/cabin_camera.h"
+#include "app/session/controls_assistant.h"
 #include "app/session/event_lines.h"
 #include "app/session/lesson_lines.h"
 #include "app/session/panel_hand_pointer.h"
@@ -27,13 +28,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kOffscreenRate = 30.0;         // [1/s] frames per simulated second
-constexpr int kSettling = 3;                    // frames until every part of the panel has its final height
-constexpr double kMinFrameTime = 1.0 / 144;     // [s] shortest frame if the display does not limit the rate
-constexpr double kMaxFrameTime = 0.25;          // [s] car and pedals advance by at most this per frame
+constexpr double kOffscreenRate = 30.0;            // [1/s] frames per simulated second
+constexpr int kSettling = 3;                       // frames until every part of the panel has its final height
+constexpr double kMinFrameTime = 1.0 / 144;        // [s] shortest frame if the display does not limit the rate
+constexpr double kMaxFrameTime = 0.25;             // [s] car and pedals advance by at most this per frame
 constexpr std::chrono::seconds kLabelInterval{1};  // between updates of the keys' labels
-constexpr std::chrono::seconds kViewRetry{1};   // pause between attempts to recreate the view
-constexpr std::chrono::seconds kViewHolds{10};  // no message is printed if the view is lost again within this time
+constexpr std::chrono::seconds kViewRetry{1};      // pause between attempts to recreate the view
+constexpr std::chrono::seconds kViewHolds{10};     // no message is printed if the view is lost again within this time
 
 // The part of the cabin's picture that panel and lesson card leave free. `size` [px]: size of the picture.
 cabin::VisibleRegion free_region(const ui::Panel& panel, glm::dvec2 size) {
@@ -67,6 +68,7 @@ class WindowTrainer {
         session_(setup.choice),
         shared_(setup.bindings),
         input_(shared_.driver()),
+        controls_(input_, setup.own_bindings),
         look_(setup.choice.camera, setup.choice.drive),
         last_frame_(Clock::now()) {
     panel_.set_visible(setup.panel);
@@ -199,8 +201,15 @@ class WindowTrainer {
     if (wears() && headset_->take_opened()) panel_.set_visible(true);
     pointer_ = pointer_at_panel();
     pointing_.follow(polled, input_.mouse_moves_lever(), pointer_, panel_size(), seconds_);
+    controls_.update(polled.controllers, seconds_);
+    engine::WindowInput without_controllers;
+    if (controls_.hides_controllers()) {
+      without_controllers = polled;
+      without_controllers.controllers.clear();
+    }
     shared_.update(
-        polled, seconds_, [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_, pointing_.pointer());
+        controls_.hides_controllers() ? without_controllers : polled, seconds_,
+        [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_, pointing_.pointer());
     if (setup_.choice.stick) input_.release_mouse();
     if (!setup_.choice.stick) report_controllers(polled.controllers);
     update_key_labels();
@@ -213,6 +222,10 @@ class WindowTrainer {
     next_labels_ = last_frame_ + kLabelInterval;
     session_.set_keys(key_hints(input_.bindings()));
     if (help_) show_help();
+  }
+
+  void report(const std::string& message) {
+    if (!message.empty()) report_message(message);
   }
 
   void report_controllers(const std::vector<engine::Controller>& controllers) {
@@ -272,7 +285,10 @@ class WindowTrainer {
         session_.apply(ui::Stop{});
         break;
       case ui::Action::arm:
-        session_.apply(enter_commands());
+        if (std::string message; controls_.press_enter(message))
+          report(message);
+        else
+          session_.apply(enter_commands());
         break;
       case ui::Action::record:
         session_.apply(ui::ToggleRecording{});
@@ -316,9 +332,7 @@ class WindowTrainer {
     }
   }
 
-  void show_help() {
-    panel_.show_help(help_, ui::help_text(input_.bindings(), window_.input().controllers));
-  }
+  void show_help() { panel_.show_help(help_, ui::help_text(input_.bindings(), window_.input().controllers)); }
 
   // Commands of the Enter key: turn forces on, and start the offered lesson. After a passed lesson, offer the next one,
   // if it is a different lesson. Otherwise restart the lesson.
@@ -341,7 +355,8 @@ class WindowTrainer {
     ui_.begin(
         {static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)), scale});
     session_.set_headset(wears() ? std::optional(headset_->report()) : std::nullopt);
-    const ui::PanelInput& input = session_.panel_input();
+    ui::PanelInput input = session_.panel_input();
+    input.controls = controls_.view(session_.runtime().gate(), !setup_.choice.stick && !input.is_automatic_hand);
     health_ = input.health;
     const ui::PanelCommands commands = panel_.draw(input);
     ui_.end();
@@ -351,6 +366,7 @@ class WindowTrainer {
       if (std::holds_alternative<ui::ResetView>(command)) look_.recentre();
       const auto* seat = std::get_if<ui::HeadsetCommand>(&command);
       if (seat && wears()) headset_->apply(*seat, bound);
+      if (const auto* controls = std::get_if<ui::ControlsCommand>(&command)) report(controls_.apply(*controls));
     }
     session_.apply(commands);
   }
@@ -388,6 +404,7 @@ class WindowTrainer {
   PointingHand pointing_;
   SharedInput shared_;
   ui::DriverInput& input_;
+  ControlsAssistant controls_;
   CabinCamera look_;
   LessonLines lines_;
   Clock::time_point last_frame_;

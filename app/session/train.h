@@ -15,6 +15,8 @@ struct TrainSetup {
   SessionChoice choice;
   cabin::ViewConfig view;
   ui::Bindings bindings;
+  std::filesystem::path
+      own_bindings;  // the user's file, written when controllers are set up; empty: there is no folder
   bool panel = true;
   std::optional<HeadsetSetup> headset;  // empty: desktop only
   std::filesystem::path replay;         // recording to replay; empty: none

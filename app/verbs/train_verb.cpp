@@ -93,6 +93,8 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
   setup.bindings = ui::read_bindings(session::bindings_file(arguments.bindings, config_folder()));
+  if (const std::filesystem::path folder = config_folder(); !folder.empty())
+    setup.own_bindings = ui::user_bindings_file(folder, std::string(session::kOwnBindings));
   setup.choice.pedal_timing = setup.bindings.pedal_timing;
   // In stereo each eye has only half of the picture's width. That is too narrow for the panel.
   setup.panel = !arguments.no_panel && !arguments.stereo;

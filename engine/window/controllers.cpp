@@ -24,8 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDeviceFiles = "/dev/input";
-constexpr std::chrono::seconds kRetry{1};       // interval of attempts to open a device that may not be read
-constexpr std::chrono::seconds kGrantDelay{2};  // udev grants access some time after the kernel has made the device file
+constexpr std::chrono::seconds kRetry{1};  // interval of attempts to open a device that may not be read
 constexpr const char* kSteamCopy = "28de:11ff";
 
 std::string sysfs_text(const fs::path& file) {
@@ -92,7 +91,8 @@ std::string guid_of(const fs::path& device, const std::string& name) {
   std::string guid = bytes(number("bustype")) + "0000";
   if (vendor != 0 && product != 0 && version != 0)
     return guid + bytes(vendor) + "0000" + bytes(product) + "0000" + bytes(version) + "0000";
-  for (std::size_t i = 0; i < 11; ++i) guid += fmt::format("{:02x}", i < name.size() ? static_cast<unsigned char>(name[i]) : 0);
+  for (std::size_t i = 0; i < 11; ++i)
+    guid += fmt::format("{:02x}", i < name.size() ? static_cast<unsigned char>(name[i]) : 0);
   return guid + "00";
 }
 
@@ -139,9 +139,6 @@ struct Controllers::Node {
   void open_file();
   void close_file();
   void read();
-  bool is_listed() const {
-    return !is_gone && (state.can_be_read || std::chrono::steady_clock::now() - found > kGrantDelay);
-  }
 
   std::string file;  // "event5"
   std::chrono::steady_clock::time_point found;
@@ -192,11 +189,11 @@ void Controllers::Node::read() {
   for (const unsigned code : hats) {
     const int x = libevdev_get_event_value(device, EV_ABS, code);
     const int y = libevdev_get_event_value(device, EV_ABS, code + 1);
-    for (const bool pressed : {y < 0, x > 0, y > 0, x < 0}) state.buttons.push_back(pressed ? 1 : 0);
+    for (const bool pressed : {y<0, x> 0, y > 0, x < 0}) state.buttons.push_back(pressed ? 1 : 0);
   }
 }
 
-Controllers::Controllers() = default;
+Controllers::Controllers(std::chrono::milliseconds grant_delay) : grant_delay_(grant_delay) {}
 Controllers::~Controllers() = default;
 
 bool Controllers::is_outdated() const {
@@ -234,14 +231,15 @@ void Controllers::scan() {
 const std::vector<Controller>& Controllers::poll() {
   if (is_outdated()) scan();
   controllers_.clear();
+  const auto now = std::chrono::steady_clock::now();
   for (const auto& node : nodes_) {
     node->read();
-    if (node->is_listed()) controllers_.push_back(node->state);
+    const bool is_denied = now - node->found >= grant_delay_;
+    if (!node->is_gone && (node->state.can_be_read || is_denied)) controllers_.push_back(node->state);
   }
   add_gamepads(controllers_);
-  const bool has_original = std::any_of(controllers_.begin(), controllers_.end(), [](const Controller& one) {
-    return one.gamepad && one.id != kSteamCopy;
-  });
+  const bool has_original = std::any_of(controllers_.begin(), controllers_.end(),
+                                        [](const Controller& one) { return one.gamepad && one.id != kSteamCopy; });
   if (has_original) std::erase_if(controllers_, [](const Controller& one) { return one.id == kSteamCopy; });
   return controllers_;
 }
@@ -249,7 +247,7 @@ const std::vector<Controller>& Controllers::poll() {
 std::vector<Controller> list_controllers() {
   std::optional<GlfwUse> glfw;
   if (has_display()) glfw.emplace();
-  Controllers controllers;
+  Controllers controllers(std::chrono::milliseconds(0));
   return controllers.poll();
 }
 

@@ -3,14 +3,14 @@
 // is used for its table of game pads.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <sys/stat.h>
 
 namespace gearshift::engine {
 
@@ -32,7 +32,9 @@ struct Controller {
 
 class Controllers {
  public:
-  Controllers();
+  // `grant_delay`: how long after its appearance a controller that may not be read is left out. udev grants access some
+  // time after the kernel has made the device file.
+  explicit Controllers(std::chrono::milliseconds grant_delay = std::chrono::seconds(2));
   ~Controllers();
   Controllers(const Controllers&) = delete;
   Controllers& operator=(const Controllers&) = delete;
@@ -47,6 +49,7 @@ class Controllers {
   bool is_outdated() const;
   void scan();
 
+  std::chrono::milliseconds grant_delay_;
   std::vector<std::unique_ptr<Node>> nodes_;
   std::vector<Controller> controllers_;
   timespec changed_{};  // last change of the folder of device files at the last scan

@@ -47,11 +47,11 @@ using InputEvent = std::variant<ButtonEvent, ScrollEvent, KeyEvent, char32_t>;  
 
 // Input since the last poll.
 struct WindowInput {
-  glm::dvec2 mouse{0.0};             // [px] in the framebuffer; constant while captured
-  glm::dvec2 mouse_moved{0.0};       // [px] since the last poll, also while captured
-  std::array<bool, 5> mouse_down{};  // down now or at any time since the last poll: left, right, middle, ...
-  std::vector<InputEvent> events;    // in order
-  std::vector<KeyEvent> keys;        // the key events of `events`
+  glm::dvec2 mouse{0.0};                // [px] in the framebuffer; constant while captured
+  glm::dvec2 mouse_moved{0.0};          // [px] since the last poll, also while captured
+  std::array<bool, 5> mouse_down{};     // down now or at any time since the last poll: left, right, middle, ...
+  std::vector<InputEvent> events;       // in order
+  std::vector<KeyEvent> keys;           // the key events of `events`
   std::vector<Controller> controllers;  // currently plugged in
   bool focused = true;
 };
@@ -66,7 +66,7 @@ class Window {
 
   static std::vector<const char*> instance_extensions();  // for GpuConfig; valid once a window exists
 
-  const WindowInput& poll();  // does not wait, except while minimised: then at most 20 polls per second
+  const WindowInput& poll();         // does not wait, except while minimised: then at most 20 polls per second
   const WindowInput& input() const;  // as returned by the last poll
   bool wants_close() const;
   glm::ivec2 framebuffer() const;  // [px] (0, 0) while minimised

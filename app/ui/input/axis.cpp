@@ -21,8 +21,7 @@ double between_zones(const AxisBinding& axis, double value) noexcept {
 }  // namespace
 
 ControllerName name_of(const engine::Controller& controller) {
-  const bool is_valid_in_file =
-      !controller.name.empty() && haptics::printable(controller.name) == controller.name;
+  const bool is_valid_in_file = !controller.name.empty() && haptics::printable(controller.name) == controller.name;
   return {is_valid_in_file ? controller.name : controller.guid, controller.id};
 }
 

@@ -19,12 +19,12 @@ struct ControllerName {
 
 struct AxisBinding {
   ControllerName of{};
-  int which = 0;  // index among the controllers of this name; 0: the first one plugged in
-  int axis = 0;   // of any game pad: index in Gamepad::axes; of a named controller: index in Controller::axes
-  double from = -1.0;            // raw value of a released pedal, or of a lever at its left or back end
-  double to = 1.0;               // raw value of a fully pressed pedal, or of a lever at its right or forward end
-  double dead_zone = 0.0;        // [1] 0 to 0.9: fraction ignored around a lever's rest position or at a pedal's start
-  double end_zone = 0.0;         // [1] 0 to 0.9: fraction at the end that counts as full; dead_zone + end_zone <= 0.95
+  int which = 0;           // index among the controllers of this name; 0: the first one plugged in
+  int axis = 0;            // of any game pad: index in Gamepad::axes; of a named controller: index in Controller::axes
+  double from = -1.0;      // raw value of a released pedal, or of a lever at its left or back end
+  double to = 1.0;         // raw value of a fully pressed pedal, or of a lever at its right or forward end
+  double dead_zone = 0.0;  // [1] 0 to 0.9: fraction ignored around a lever's rest position or at a pedal's start
+  double end_zone = 0.0;   // [1] 0 to 0.9: fraction at the end that counts as full; dead_zone + end_zone <= 0.95
   std::optional<double> centre{};  // raw value of a lever at rest, between `from` and `to`; default: midway
 };
 

@@ -48,8 +48,7 @@ bool AxisDetector::check_sticks(const std::vector<engine::Controller>& sticks) {
   };
   changed_ = changed_ || !std::equal(sticks_.begin(), sticks_.end(), sticks.begin(), sticks.end(), same);
   for (std::size_t s = 0; is_new && s < sticks.size(); ++s)
-    for (std::size_t a = 0; a < sticks[s].axes.size(); ++a)
-      sticks_[s].axes[a].first = sticks[s].axes[a];
+    for (std::size_t a = 0; a < sticks[s].axes.size(); ++a) sticks_[s].axes[a].first = sticks[s].axes[a];
   return !changed_;
 }
 
@@ -60,6 +59,7 @@ void AxisDetector::record_move(const std::vector<engine::Controller>& sticks) {
     for (std::size_t a = 0; a < sticks[s].axes.size(); ++a) {
       AxisRange& range = sticks_[s].axes[a];
       const double raw = sticks[s].axes[a];
+      range.now = raw;
       if (!range.is_reported && raw == range.first) continue;
       if (!range.is_reported) range.low = range.high = raw;
       range.is_reported = true;
@@ -92,13 +92,26 @@ std::string AxisDetector::describe_axis(const Place& at) const {
   return fmt::format("Axis {} of {}", at.axis, name_of(at));
 }
 
-AxisDetector::Place AxisDetector::axis_with_max_travel() const {
+// All axes, that with the largest travel first.
+std::vector<AxisDetector::Place> AxisDetector::places_by_travel() const {
   std::vector<Place> places;
   for (std::size_t s = 0; s < sticks_.size(); ++s)
     for (std::size_t a = 0; a < sticks_[s].axes.size(); ++a) places.push_back({s, a});
-  if (places.empty()) throw std::invalid_argument("No stick with an axis is plugged in. Plug one in.");
   const auto further = [this](const Place& a, const Place& b) { return range_of(a).span() > range_of(b).span(); };
   std::stable_sort(places.begin(), places.end(), further);
+  return places;
+}
+
+std::optional<AxisDetector::MovingAxis> AxisDetector::moving() const {
+  const std::vector<Place> places = places_by_travel();
+  if (places.empty() || range_of(places[0]).span() < kMinMove) return std::nullopt;
+  const AxisRange& range = range_of(places[0]);
+  return MovingAxis{describe_axis(places[0]), range.first, range.low, range.high, range.now};
+}
+
+AxisDetector::Place AxisDetector::axis_with_max_travel() const {
+  const std::vector<Place> places = places_by_travel();
+  if (places.empty()) throw std::invalid_argument("No stick with an axis is plugged in. Plug one in.");
   const double max_span = range_of(places[0]).span();
   if (max_span < kMinMove) throw std::invalid_argument("Nothing moved. Move one control all the way and release it.");
   if (places.size() > 1 && range_of(places[1]).span() > kMaxSecondAxis * max_span)

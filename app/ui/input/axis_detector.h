@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,17 @@ namespace gearshift::ui {
 class AxisDetector {
  public:
   enum class Control { lever, pedal };
-  static constexpr int kMinRestFrames = 20;  // minimum number of frames recorded at rest
+  static constexpr int kMinRestFrames = 8;  // minimum number of frames recorded at rest
   explicit AxisDetector(Control control) : control_(control) {}
 
   void record_move(const std::vector<engine::Controller>& sticks);
+  // The axis that has moved most; empty while nothing has moved far enough to be a control.
+  struct MovingAxis {
+    std::string name;                                     // "axis 2 of Wheel"
+    double rest = 0.0, low = 0.0, high = 0.0, now = 0.0;  // raw values; rest: the first one
+  };
+  std::optional<MovingAxis> moving() const;
+
   void record_rest(const std::vector<engine::Controller>& sticks);
 
   // The binding identifies the stick by name, or by GUID if the name cannot be written to a file. Throws
@@ -31,9 +39,9 @@ class AxisDetector {
   AxisBinding result() const;
 
  private:
-  struct AxisRange {                            // recorded motion of one axis
-    double first = 0.0, low = 0.0, high = 0.0;  // raw values
-    int low_at = 0, high_at = 0;                // numbers of the frames in which low and high were reached
+  struct AxisRange {                                       // recorded motion of one axis
+    double first = 0.0, low = 0.0, high = 0.0, now = 0.0;  // raw values
+    int low_at = 0, high_at = 0;                           // numbers of the frames in which low and high were reached
     double rest_low = 0.0, rest_high = 0.0, rest_sum = 0.0;
     int rests = 0;
     bool is_reported = false;  // false: `first` may be what the kernel holds until the first report
@@ -54,6 +62,7 @@ class AxisDetector {
   const AxisRange& range_of(const Place& at) const { return sticks_[at.stick].axes[at.axis]; }
   std::string name_of(const Place& at) const;
   std::string describe_axis(const Place& at) const;
+  std::vector<Place> places_by_travel() const;
   Place axis_with_max_travel() const;
   AxisBinding binding_of(const Place& at) const;
   AxisBinding pedal(const Place& at) const;

@@ -17,7 +17,7 @@ namespace gearshift::ui {
 namespace {
 
 constexpr int kMaxControllers = 16, kMaxAxes = 64;
-constexpr int kMaxButtons = 528;  // the kernel's button codes 0x100 to 0x2ff, and the directions of four hats
+constexpr int kMaxButtons = 528;    // the kernel's button codes 0x100 to 0x2ff, and the directions of four hats
 constexpr double kMinSpan = 0.1;    // [1] minimum distance of `from` and `to`; a shorter axis would act as a switch
 constexpr double kMinSide = 0.05;   // [1] minimum fraction of a lever's range on each side of its centre
 constexpr double kMaxZones = 0.95;  // [1] maximum sum of dead zone and end zone
@@ -116,7 +116,8 @@ int read_axis_number(const haptics::TomlTable& table, const ControllerName& of) 
   const std::vector<std::string> names(std::begin(kPadAxes), std::end(kPadAxes));
   if (of.stick.empty()) {
     if (table.has("axis") && !table.is_text("axis"))
-      table.fail("axis", "an axis number needs \"stick\", the controller's name; for any game pad use a name such as \"lt\"");
+      table.fail("axis",
+                 "an axis number needs \"stick\", the controller's name; for any game pad use a name such as \"lt\"");
     return *pad_axis_of(table.choice("axis", names));
   }
   (void)table.number("axis", {0.0, kMaxAxes - 1.0});  // rejects a missing key, which read_integer() accepts
@@ -212,8 +213,7 @@ Bindings read_bindings(const std::filesystem::path& file) {
   Bindings bindings;
   if (root.has("keys")) {
     const haptics::TomlTable keys = root.table("keys");
-    bindings.keys =
-        CodeReader(keys, key_of, "a key such as A, 7, F1, Left, Space, Left Shift or Keypad 4").actions();
+    bindings.keys = CodeReader(keys, key_of, "a key such as A, 7, F1, Left, Space, Left Shift or Keypad 4").actions();
     keys.reject_unknown_keys();
   }
   read_buttons(root, bindings);
@@ -258,7 +258,8 @@ std::string help_text(const Bindings& bindings, const std::vector<engine::Contro
     const auto name = [&](int button) { return fmt::format("{} button {}", controller.of.stick, button); };
     lines(controller.actions, name);
     for (const auto& [gear, buttons] : controller.gears)
-      line(joined(buttons, name), gear == haptics::kNeutralGear ? "neutral" : std::string("gear ") + haptics::gear_name(gear));
+      line(joined(buttons, name),
+           gear == haptics::kNeutralGear ? "neutral" : std::string("gear ") + haptics::gear_name(gear));
   }
   for (const AxisInfo& info : kAxes)
     if (const auto& axis = bindings.*info.axis)

@@ -44,7 +44,8 @@ std::string axis_text(std::string_view key, const std::optional<AxisBinding>& ax
   if (!axis) return {};
   std::string text = fmt::format("\n[pad_axes.{}]\n", key);
   text += name_text(axis->of) + line("pad", std::to_string(axis->which));
-  text += line("axis", axis->of.stick.empty() ? haptics::toml_string(kPadAxes[axis->axis]) : std::to_string(axis->axis));
+  text +=
+      line("axis", axis->of.stick.empty() ? haptics::toml_string(kPadAxes[axis->axis]) : std::to_string(axis->axis));
   text += line("from", haptics::toml_number(axis->from)) + line("to", haptics::toml_number(axis->to));
   if (axis->centre) text += line("centre", haptics::toml_number(*axis->centre));
   return text + line("dead_zone", haptics::toml_number(axis->dead_zone)) +

@@ -56,7 +56,8 @@ std::vector<NamedController> named_controllers(const Bindings& bindings) {
 
 bool is_named(const Controller& controller, const std::vector<NamedController>& named,
               const std::vector<Controller>& all) {
-  return std::any_of(named.begin(), named.end(), [&](const auto& one) { return ui::is_named(controller, one.of, all); });
+  return std::any_of(named.begin(), named.end(),
+                     [&](const auto& one) { return ui::is_named(controller, one.of, all); });
 }
 
 // What the user should know about a named controller; empty if everything is as expected.
@@ -92,8 +93,7 @@ std::vector<const Controller*> free_gamepads(const Bindings& bindings, const std
   return pads;
 }
 
-std::optional<double> raw_value(const Bindings& bindings, const AxisBinding& axis,
-                                const std::vector<Controller>& all) {
+std::optional<double> raw_value(const Bindings& bindings, const AxisBinding& axis, const std::vector<Controller>& all) {
   const auto index = static_cast<std::size_t>(axis.axis), which = static_cast<std::size_t>(axis.which);
   if (axis.of.stick.empty()) {
     const std::vector<const Controller*> pads = free_gamepads(bindings, all);

@@ -30,7 +30,8 @@ std::string choices_text(const ControlsSetup& setup) {
 
 void answer(ControlsSetup& setup, const std::string& line) {
   const auto choices = setup.choices();
-  const auto chosen = std::find_if(choices.begin(), choices.end(), [&](const auto& choice) { return choice.key == line; });
+  const auto chosen =
+      std::find_if(choices.begin(), choices.end(), [&](const auto& choice) { return choice.key == line; });
   if (chosen == choices.end())
     base::print_line(fmt::format("\"{}\" is not a valid answer.", haptics::printable(line)));
   else
@@ -59,8 +60,8 @@ int calibrate_controllers(const std::filesystem::path& file, const std::filesyst
   ControlsSetup setup(starting_bindings(file, defaults, again));
   std::string shown;
   while (!setup.is_over()) {
-    const std::string question = setup.is_resting() ? setup.prompt()
-                                                    : fmt::format("{} [{}]", setup.prompt(), choices_text(setup));
+    const std::string question =
+        setup.is_resting() ? setup.prompt() : fmt::format("{} [{}]", setup.prompt(), choices_text(setup));
     if (shown != question + setup.note()) {
       if (!setup.note().empty()) base::print_line("  " + setup.note());
       base::print_line(question);

@@ -68,6 +68,11 @@ std::span<const Choice> ControlsSetup::choices() const noexcept {
   return std::span(kDoneOrSkip).first(step_ == 0 ? 2 : 3);
 }
 
+std::optional<int> ControlsSetup::gear() const noexcept {
+  const bool asks_gear = !is_over() && (steps_[step_].kind == Kind::gear || steps_[step_].kind == Kind::neutral);
+  return asks_gear ? std::optional(steps_[step_].gear) : std::nullopt;
+}
+
 void ControlsSetup::begin_step() {
   before_.resize(step_);
   before_.push_back(bindings_);
@@ -91,8 +96,7 @@ void ControlsSetup::begin_step() {
       prompt_ = "Put the shifter into NEUTRAL.";
       break;
     case Kind::gear:
-      prompt_ = fmt::format("Put the shifter into {} and leave it there. Skip a gear that it does not have.",
-                            gear_text(now.gear));
+      prompt_ = fmt::format("Put the shifter into {} and leave it there.", gear_text(now.gear));
       break;
     case Kind::direction:
       prompt_ = now.action == Action::shift_up ? "Shift UP once." : "Shift DOWN once.";
@@ -193,7 +197,8 @@ void ControlsSetup::finish_axis() {
   try {
     const AxisBinding found = detector_->result();
     bindings_.*info.axis = found;
-    next(fmt::format("Found: {}, from {:.2f} to {:.2f}.", describe(found.of, "axis", found.axis), found.from, found.to));
+    next(
+        fmt::format("Found: {}, from {:.2f} to {:.2f}.", describe(found.of, "axis", found.axis), found.from, found.to));
   } catch (const std::invalid_argument& refused) {
     if (info.axis != &Bindings::hand_brake || pressed_.size() != 1) return repeat(refused.what());
     const Button button = *pressed_.begin();
@@ -231,7 +236,8 @@ void ControlsSetup::finish_direction() {
 ControllerButtons& ControlsSetup::buttons_of(const ControllerName& name) {
   const auto known = std::find_if(bindings_.controllers.begin(), bindings_.controllers.end(),
                                   [&](const auto& one) { return one.of.stick == name.stick; });
-  return known != bindings_.controllers.end() ? *known : bindings_.controllers.emplace_back(ControllerButtons{name, {}, {}});
+  return known != bindings_.controllers.end() ? *known
+                                              : bindings_.controllers.emplace_back(ControllerButtons{name, {}, {}});
 }
 
 // A button has one meaning, so its old one ends.

@@ -45,15 +45,19 @@ class ControlsSetup {
   std::size_t step() const noexcept { return step_; }
   std::size_t steps() const noexcept { return steps_.size(); }
   bool is_over() const noexcept { return step_ == steps_.size(); }
+  // For a picture of the present step: the axis that moves; the control or the gear that is asked for.
+  std::optional<AxisDetector::MovingAxis> moving() const { return detector_ ? detector_->moving() : std::nullopt; }
+  const AxisInfo* axis() const noexcept { return is_over() ? nullptr : steps_[step_].axis; }
+  std::optional<int> gear() const noexcept;
   const Bindings& bindings() const noexcept { return bindings_; }
 
  private:
   enum class Kind { axis, shifting, neutral, gear, direction, lever_mode };
   struct Step {
     Kind kind = Kind::axis;
-    const AxisInfo* axis = nullptr;     // Kind::axis
-    int gear = haptics::kNeutralGear;   // Kind::gear
-    Action action = Action::shift_up;   // Kind::direction
+    const AxisInfo* axis = nullptr;    // Kind::axis
+    int gear = haptics::kNeutralGear;  // Kind::gear
+    Action action = Action::shift_up;  // Kind::direction
   };
   struct Button {
     ControllerName of;

@@ -128,7 +128,8 @@ void DriverInput::update_buttons(const engine::WindowInput& input) {
   for (std::size_t i = 0; i < bindings.controllers.size(); ++i)
     for (const auto& [action, buttons] : bindings.controllers[i].actions)
       for (const int button : buttons)
-        set_button({static_cast<int>(i), button}, is_button_down(bindings.controllers[i].of, button, input.controllers));
+        set_button({static_cast<int>(i), button},
+                   is_button_down(bindings.controllers[i].of, button, input.controllers));
 }
 
 void DriverInput::set_button(Source source, bool down) {
@@ -143,13 +144,24 @@ void DriverInput::follow_shifters(const engine::WindowInput& input) {
   const std::vector<ControllerButtons>& controllers = config_.bindings.controllers;
   shifters_.resize(controllers.size());
   for (std::size_t i = 0; i < controllers.size(); ++i) {
+    ShifterState& last = shifters_[i];
+    if (!is_plugged(controllers[i].of, input.controllers)) {
+      last = {};
+      continue;
+    }
     std::optional<int> gear = held_gear(controllers[i], input.controllers);
-    std::optional<int>& last = shifters_[i];
-    const bool is_plugged_in = is_plugged(controllers[i].of, input.controllers);
-    if (!gear && last && is_plugged_in) gear = haptics::kNeutralGear;
-    if (gear && gear != last) gear_hand_.shift_to(*gear, lever_);
-    last = is_plugged_in ? gear : std::nullopt;
+    if (!gear && last.gear) gear = haptics::kNeutralGear;
+    if (last.is_seen && gear && gear != last.gear) gear_hand_.shift_to(*gear, lever_);
+    last = {true, gear};
   }
+}
+
+std::optional<int> DriverInput::missed_gear() const {
+  if (gear_hand_.is_moving()) return std::nullopt;
+  std::optional<int> wanted = gear_hand_.is_active() ? std::optional(gear_hand_.selected_gear()) : std::nullopt;
+  for (const ShifterState& shifter : shifters_)
+    if (shifter.gear && *shifter.gear != haptics::kNeutralGear) wanted = shifter.gear;
+  return wanted != gear_hand_.gear_of(lever_) ? wanted : std::nullopt;
 }
 
 const std::map<Action, std::vector<int>>& DriverInput::bound_on(int device) const {
@@ -340,7 +352,8 @@ std::optional<double> DriverInput::raw_axis(const engine::WindowInput& input, co
 }
 
 DriverInput::AxisWatch& DriverInput::watch_of(std::optional<AxisBinding> Bindings::*axis) {
-  const auto found = std::find_if(std::begin(kAxes), std::end(kAxes), [&](const auto& info) { return info.axis == axis; });
+  const auto found =
+      std::find_if(std::begin(kAxes), std::end(kAxes), [&](const auto& info) { return info.axis == axis; });
   return watch_[static_cast<std::size_t>(found - std::begin(kAxes))];
 }
 

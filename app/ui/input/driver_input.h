@@ -7,7 +7,8 @@
 //           lever by at most 5 cm. 0.3 s after their release the hand moves back to at most 5 mm from the lever, so
 //           that it does not push on the lever permanently.
 //   gears   A controller's gear buttons move the hand to the gear whose button is held. None held stands for neutral,
-//           but only after one of them was held. Keys, mouse or a stick take the hand over when they move it.
+//           but only after one of them was held, and nothing moves before the shifter is moved. Keys, mouse or a stick
+//           take the hand over when they move it.
 //   handbrake  Applied as far as its axis, or while `hand_brake_hold` is held, or from one press of `hand_brake` to the
 //           next. A lesson may start with the handbrake on; the first use of axis or `hand_brake_hold` takes it over.
 //   pedals  The held pedal keys go to the car, which moves its pedals, see vehicle::KeyboardPedals. A pedal axis
@@ -65,14 +66,16 @@ class DriverInput {
   const std::vector<Action>& pressed() const noexcept { return pressed_; }  // one-shot actions of this frame, in order
   bool mouse_moves_lever() const noexcept { return mouse_moves_lever_; }    // the mouse is captured
 
-  void recentre(glm::dvec2 lever);                          // puts the hand at the lever, without a push
+  void recentre(glm::dvec2 lever);  // puts the hand at the lever, without a push
   void set_gate(const haptics::Gate& gate, const haptics::DeviceSpec& device);  // call when one of them changes
   void rebind(const Bindings& bindings);
   void feel(glm::dvec2 lever) noexcept { lever_ = lever; }  // [m] lever point; call once per frame, before update()
   void release_mouse() noexcept { mouse_moves_lever_ = mouse_moved_lever_ = false; }
   void set_car(bool ignition, double hand_brake);  // call at the start of a lesson; hand_brake [1]: 0 to 1
   const Bindings& bindings() const noexcept { return config_.bindings; }
-  std::optional<int> missed_gear() const { return gear_hand_.missed_gear(lever_); }  // see GearHand
+  // The gear that a shifter is in or a button has selected, if the lever is not in it: the gate does not have the gear,
+  // or something holds the lever, for example a synchroniser. Empty otherwise.
+  std::optional<int> missed_gear() const;
 
  private:
   struct AxisWatch {
@@ -80,7 +83,11 @@ class DriverInput {
     bool is_reported = false;  // `first` is from a report
     bool moved = false;
   };
-  struct Source {  // a key or button
+  struct ShifterState {
+    bool is_seen = false;
+    std::optional<int> gear;  // empty until a gear button was held
+  };
+  struct Source {            // a key or button
     int device = kKeyboard;  // kKeyboard, kGamepads, or an index in Bindings::controllers
     int code = 0;
     auto operator<=>(const Source&) const = default;
@@ -132,8 +139,8 @@ class DriverInput {
   std::array<AxisWatch, std::size(kAxes)> watch_;  // in the order of kAxes
   std::optional<haptics::Gate> gate_;
   GearHand gear_hand_;
-  std::vector<std::optional<int>> shifters_;  // gear of each of Bindings::controllers; empty until a gear was seen
-  double hand_brake_switch_ = 0.0;            // [1] as pressed by the action hand_brake or set by the lesson
+  std::vector<ShifterState> shifters_;    // of Bindings::controllers
+  double hand_brake_switch_ = 0.0;        // [1] as pressed by the action hand_brake or set by the lesson
   std::array<bool, 2> stick_controls_{};  // select, shift
 };
 

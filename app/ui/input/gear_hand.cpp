@@ -15,15 +15,8 @@ constexpr double kPace = 0.6;          // [m/s] the shifter's own lever has alre
 constexpr double kReaction = 0.03;     // [s] added to each stroke
 constexpr double kNeutralDelay = 0.3;  // [s] a shift through neutral takes less; then the lever stays in its column
 constexpr double kRestAfter = 0.2;     // [s] after the end of the movement, if the lever is in the gear
-constexpr double kMissedAfter = 0.7;   // [s] after the end of the movement; a synchroniser needs less with the clutch open
-
-// The gear at the lever point; neutral outside the engaged part of a slot.
-int gear_at(const haptics::Gate& gate, glm::dvec2 lever) {
-  const int index = haptics::slot_at(gate, lever);
-  if (index == haptics::kNoSlot) return haptics::kNeutralGear;
-  const haptics::Slot& slot = haptics::slot_of(gate, index);
-  return std::abs(lever.y) >= slot.engage_depth ? slot.gear : haptics::kNeutralGear;
-}
+constexpr double kMissedAfter =
+    0.7;  // [s] after the end of the movement; a synchroniser needs less with the clutch open
 
 }  // namespace
 
@@ -44,21 +37,22 @@ void GearHand::shift_to(int gear, glm::dvec2 lever) {
   time_ = 0.0;
   is_resting_ = false;
   const bool exists = is_neutral || haptics::slot_of_gear(*gate_, gear) != haptics::kNoSlot;
-  hand_.emplace(haptics::touring_hand(lever),
-                exists ? haptics::shift_strokes(*gate_, lever, std::array{gear}, style) : std::vector<haptics::HandStroke>{},
-                kPeriod);
+  hand_.emplace(
+      haptics::touring_hand(lever),
+      exists ? haptics::shift_strokes(*gate_, lever, std::array{gear}, style) : std::vector<haptics::HandStroke>{},
+      kPeriod);
 }
 
 void GearHand::shift_by(int gears, glm::dvec2 lever) {
   if (!gate_) return;
-  const int from = is_active() ? gear_ : gear_at(*gate_, lever);
+  const int from = is_active() ? gear_ : gear_of(lever);
   const int to = from + gears;
   const bool exists = to == haptics::kNeutralGear || haptics::slot_of_gear(*gate_, to) != haptics::kNoSlot;
   if (exists) shift_to(to, lever);
 }
 
 haptics::HandTarget GearHand::next(double seconds, glm::dvec2 lever) {
-  is_resting_ = is_resting_ || (time_ > hand_->duration() + kRestAfter && is_in_gear(lever));
+  is_resting_ = is_resting_ || (time_ > hand_->duration() + kRestAfter && gear_of(lever) == gear_);
   if (is_resting_) {
     haptics::HandTarget rest;
     rest.position = lever;
@@ -69,13 +63,15 @@ haptics::HandTarget GearHand::next(double seconds, glm::dvec2 lever) {
   return target;
 }
 
-bool GearHand::is_in_gear(glm::dvec2 lever) const {
-  return gear_at(*gate_, lever) == gear_;
+int GearHand::gear_of(glm::dvec2 lever) const {
+  const int index = gate_ ? haptics::slot_at(*gate_, lever) : haptics::kNoSlot;
+  if (index == haptics::kNoSlot) return haptics::kNeutralGear;
+  const haptics::Slot& slot = haptics::slot_of(*gate_, index);
+  return std::abs(lever.y) >= slot.engage_depth ? slot.gear : haptics::kNeutralGear;
 }
 
-std::optional<int> GearHand::missed_gear(glm::dvec2 lever) const {
-  const bool is_late = is_active() && time_ > hand_->duration() + kMissedAfter;
-  return is_late && !is_in_gear(lever) ? std::optional(gear_) : std::nullopt;
+bool GearHand::is_moving() const {
+  return is_active() && !is_resting_ && time_ <= hand_->duration() + kMissedAfter;
 }
 
 }  // namespace gearshift::ui

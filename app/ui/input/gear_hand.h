@@ -25,13 +25,12 @@ class GearHand {
 
   bool is_active() const noexcept { return hand_.has_value(); }
   haptics::HandTarget next(double seconds, glm::dvec2 lever);  // call once per frame while active
-  // The gear that was selected, if the lever has not reached it in the time that the movement takes: the gate does not
-  // have this gear, or the lever is held, for example by a synchroniser. Empty otherwise.
-  std::optional<int> missed_gear(glm::dvec2 lever) const;
+  // The gear in which the lever is; neutral before set_gate().
+  int gear_of(glm::dvec2 lever) const;
+  bool is_moving() const;  // the lever may still arrive in the selected gear
+  int selected_gear() const noexcept { return gear_; }
 
  private:
-  bool is_in_gear(glm::dvec2 lever) const;
-
   std::optional<haptics::Gate> gate_;
   std::optional<haptics::ScriptedHand> hand_;
   int gear_ = haptics::kNeutralGear;  // selected

@@ -121,9 +121,8 @@ std::optional<int> pad_axis_of(std::string_view name) {
 }
 
 std::string pad_button_label(int button, std::string_view maker) {
-  constexpr const char* kXbox[] = {"A",  "B",        "X",           "Y",          "LB",
-                                   "RB", "Back",     "Start",       "Guide",      "LS",
-                                   "RS", "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
+  constexpr const char* kXbox[] = {"A",     "B",  "X",  "Y",        "LB",          "RB",         "Back",      "Start",
+                                   "Guide", "LS", "RS", "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
   constexpr const char* kSony[] = {"Cross", "Circle",   "Square",      "Triangle",   "L1",
                                    "R1",    "Create",   "Options",     "PS",         "L3",
                                    "R3",    "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
@@ -131,8 +130,12 @@ std::string pad_button_label(int button, std::string_view maker) {
 }
 
 std::string pad_axis_label(int axis, std::string_view maker) {
-  constexpr const char* kXbox[] = {"left stick, left and right",  "left stick, up and down", "right stick, left and right",
-                                   "right stick, up and down", "LT", "RT"};
+  constexpr const char* kXbox[] = {"left stick, left and right",
+                                   "left stick, up and down",
+                                   "right stick, left and right",
+                                   "right stick, up and down",
+                                   "LT",
+                                   "RT"};
   const bool is_trigger = axis >= 4;
   return maker == kSonyVendor && is_trigger ? (axis == 4 ? "L2" : "R2") : kXbox[axis];
 }

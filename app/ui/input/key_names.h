@@ -13,11 +13,12 @@ std::optional<int> key_of(std::string_view name);  // GLFW_KEY_...
 // Text printed on the key: "A" on a US keyboard, "Q" on a French one; "F1", "Left Shift". The label of a US keyboard
 // before GLFW is in use. Follows a change of the layout. Call on the thread that uses GLFW.
 std::string key_label(int key);
-bool types_text(int key) noexcept;                 // true if the key may enter a character in a text field
+bool types_text(int key) noexcept;  // true if the key may enter a character in a text field
 
 // Names of a game pad's controls in files; the indices are GLFW's.
-inline constexpr std::string_view kPadButtons[] = {"a",    "b",     "x",     "y",  "lb", "rb",      "back",       "start",
-                                                   "guide", "ls",   "rs",    "dpad_up", "dpad_right", "dpad_down", "dpad_left"};
+inline constexpr std::string_view kPadButtons[] = {"a",  "b",       "x",          "y",         "lb",
+                                                   "rb", "back",    "start",      "guide",     "ls",
+                                                   "rs", "dpad_up", "dpad_right", "dpad_down", "dpad_left"};
 inline constexpr std::string_view kPadAxes[] = {"left_x", "left_y", "right_x", "right_y", "lt", "rt"};
 std::optional<int> pad_button_of(std::string_view name);
 std::optional<int> pad_axis_of(std::string_view name);

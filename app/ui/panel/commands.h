@@ -1,5 +1,5 @@
 // Commands of the user in the panel: one type per command, in the order in which the user asked. The session executes
-// them (app/session/session_commands.cpp), except for those to the view and to the headset.
+// them (app/session/session_commands.cpp), except for those to the view, to the headset and to the controllers.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +10,7 @@
 
 #include "app/cabin/headset/seat.h"
 #include "app/lessons/assessment/lesson_result.h"
+#include "app/ui/input/controls_setup.h"
 #include "haptics/loop/haptic_config.h"
 
 namespace gearshift::ui {
@@ -114,11 +115,22 @@ struct ForgetKnob {};
 using HeadsetCommand =
     std::variant<RecentreSeat, StartTouching, SaveTouches, ForgetTouches, SetSeatHeight, SetKnob, ForgetKnob>;
 
-using PanelCommand = std::variant<Stop, Arm, Disarm, ToggleRecording, ReplayLastRecording, ResetView, ChangeTuning,
-                                  Restart, ChooseGate, ChooseCar, ChoosePreset, ChooseHand, SavePreset, ComparePreset,
-                                  OfferLesson, BeginLesson, LeaveLesson, DismissLesson, SetMode, SetHelp, ChooseLearner,
-                                  ChooseNextLesson, AddComment, EditComment, DeleteComment, OpenShift, ShowShift,
-                                  ShowWholeDrive, SeekReplay, PlayReplay, SetPace, CloseReplay, HeadsetCommand>;
+// Setting up controllers without force feedback.
+struct StartControls {};
+struct DeclineControls {};  // of the offered controller, for this session
+struct AnswerControls {
+  ControlsSetup::Answer answer;
+};
+struct SaveControls {};
+struct CancelControls {};
+using ControlsCommand = std::variant<StartControls, DeclineControls, AnswerControls, SaveControls, CancelControls>;
+
+using PanelCommand =
+    std::variant<Stop, Arm, Disarm, ToggleRecording, ReplayLastRecording, ResetView, ChangeTuning, Restart, ChooseGate,
+                 ChooseCar, ChoosePreset, ChooseHand, SavePreset, ComparePreset, OfferLesson, BeginLesson, LeaveLesson,
+                 DismissLesson, SetMode, SetHelp, ChooseLearner, ChooseNextLesson, AddComment, EditComment,
+                 DeleteComment, OpenShift, ShowShift, ShowWholeDrive, SeekReplay, PlayReplay, SetPace, CloseReplay,
+                 HeadsetCommand, ControlsCommand>;
 using PanelCommands = std::vector<PanelCommand>;
 
 }  // namespace gearshift::ui

@@ -7,6 +7,7 @@
 
 #include "app/ui/panel/clip_meter.h"
 #include "app/ui/panel/control_bar.h"
+#include "app/ui/panel/controls_card.h"
 #include "app/ui/panel/event_list.h"
 #include "app/ui/panel/force_plots.h"
 #include "app/ui/panel/gate_view.h"
@@ -232,6 +233,12 @@ void Panel::State::draw_choices(const PanelInput& input, PanelCommands& out) {
   else
     row("hand", "Hand", input.hand_name, input.hands, ChooseHand{}, hand_label);
   fixed_row("Device", input.device_name, ink::kText);
+  if (!input.controls.controllers.empty() && input.controls.setup == nullptr) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("Controls");
+    ImGui::SameLine(label);
+    if (controls.button("controls_setup", "Set up pedals and shifter")) out.push_back(StartControls{});
+  }
   if (input.stick) fixed_row("", format_stick_state(*input.stick), input.stick->plugged_in ? ink::kSoft : ink::kBad);
 }
 
@@ -277,14 +284,17 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
   ImGui::End();
 }
 
-// Draws the parts that are shown even while the panel is hidden: note, replay bar and lesson card. During a replay the
-// card is hidden unless a lesson is being driven. Replay bar and card reduce the cabin's area.
+// Draws the parts that are shown even while the panel is hidden: note, replay bar and cards. During a replay the lesson
+// card is hidden unless a lesson is being driven; it is hidden while controllers are set up. Bar and cards reduce the
+// cabin's area.
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelCommands& out) {
   const ControlRect room = central_area = cabin_area;
   note.draw(input.message, message_fits, stick_request(input), room);
   cabin_area.max.y = replay.draw(controls, input, room, out);
-  if (input.replay == nullptr || input.coach.phase == lessons::LessonPhase::driving)
+  const bool shows_lesson = input.replay == nullptr || input.coach.phase == lessons::LessonPhase::driving;
+  if (shows_lesson && input.controls.setup == nullptr)
     cabin_area.max.y = card.draw(controls, input, visible, cabin_area, out);
+  cabin_area.max.y = draw_controls_card(controls, input, cabin_area, out);
 }
 
 void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, PanelCommands& out) {

@@ -13,6 +13,7 @@
 #include "app/lessons/coach/coach_view.h"
 #include "app/lessons/replay/player.h"
 #include "app/runtime/runtime.h"
+#include "app/ui/input/controls_setup.h"
 #include "app/ui/panel/commands.h"
 #include "app/ui/panel/controls.h"
 #include "app/vehicle/vehicle_state.h"
@@ -27,6 +28,14 @@ struct KeyHint {
 struct StickView {
   bool plugged_in = true;
   double delay = 0.0;  // [s] measured time from a reading to the effect of the force computed from it
+};
+
+// Controllers without force feedback.
+struct ControlsView {
+  const ControlsSetup* setup = nullptr;                  // being done; null: none
+  std::span<const engine::Controller> controllers = {};  // that can be set up
+  std::string_view offer = {};                           // name of a controller that has no effect yet; empty: none
+  std::string_view request = {};                         // what to do with a shifter; empty: nothing
 };
 
 // The state that the panel shows. It refers to everything that is larger than a few words, so that a frame copies
@@ -62,6 +71,7 @@ struct PanelInput {
   bool instructor_holds_pedals;         // true after a lesson, until the next lesson or the Close button
   bool is_unpassable;                   // the current run can no longer be passed
   const cabin::HeadsetReport* headset;  // null: no headset in use
+  ControlsView controls{};
 };
 static_assert(std::is_trivially_copyable_v<PanelInput>);
 
@@ -100,6 +110,9 @@ class Panel {
   // Right column: the lists "car", "gate", "preset" and "hand"; while a list is open, also its entries, for example
   // "gate: NAME"; "tab_lesson", "tab_history", "tab_tuning", "tab_setup", "tab_loop", "tab_presets", and "tab_headset"
   // while a headset is in use.
+  // Setting up controllers: "controls_setup" in the right column; "setup_begin", "setup_decline"; "setup_done",
+  // "setup_skip", "setup_back", "setup_gears", "setup_paddles", "setup_lever", "setup_other", "setup_stays",
+  // "setup_returns", "setup_save", "setup_cancel".
   // Lessons: "learner" (Enter applies the name), "learner_known" with "learner: NAME" (empty name: no learner),
   // "lesson_suggested", "lesson: KEY", "next: KEY", "next_as_suggested". History: "run: ID" opens it; then
   // "look: ID SHIFT", "comment_author", "comment", "comment_add"; per comment "comment_edit: ID" ("comment_text",

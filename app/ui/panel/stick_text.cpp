@@ -10,7 +10,7 @@ std::string format_stick_state(const StickView& stick) {
 }
 
 std::string_view stick_request(const PanelInput& input) {
-  if (!input.stick) return {};
+  if (!input.stick) return input.controls.request;
   if (!input.stick->plugged_in) return "The stick is unplugged. Plug it in, then press Enter.";
   const haptics::GuardState guard = input.now.guard;
   const bool has_forces = guard == haptics::GuardState::running || guard == haptics::GuardState::ramping ||

@@ -5,7 +5,6 @@
 
 #include "app/ui/input/bound_controllers.h"
 #include "tests/support/controllers.h"
-
 #include "tests/support/turkish_letters.h"
 
 using namespace gearshift::engine;

@@ -153,14 +153,16 @@ TEST_CASE("an error gives file, line, key, value and the allowed values") {
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\nstick = \"G29\"\n"), "my.toml:3: axis is missing"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\nstick = \"G29\"\naxis = 1.5\n"),
                "my.toml:5: axis = 1.5: must be a whole number"));
-  CHECK(refusal(stop + "[pad_axes.clutch]\naxis = 2\n") ==
-        "my.toml:4: axis = 2: an axis number needs \"stick\", the controller's name; for any game pad use a name such as "
-        "\"lt\"");
+  CHECK(
+      refusal(stop + "[pad_axes.clutch]\naxis = 2\n") ==
+      "my.toml:4: axis = 2: an axis number needs \"stick\", the controller's name; for any game pad use a name such as "
+      "\"lt\"");
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = \"left\"\n"),
                "my.toml:4: axis = \"left\": must be one of left_x, left_y, right_x"));
   CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = \"lt\"\nfrom = 0.5\nto = 0.55\n"),
                "my.toml:6: to = 0.55: must differ from \"from\" (0.5) by at least 0.1"));
-  CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = \"lt\"\ndead_zone = 1\n"), "my.toml:5: dead_zone = 1: must be"));
+  CHECK(
+      begins(refusal(stop + "[pad_axes.clutch]\naxis = \"lt\"\ndead_zone = 1\n"), "my.toml:5: dead_zone = 1: must be"));
   CHECK(begins(refusal(stop + "[pad_axes.horn]\naxis = \"lt\"\n"), "my.toml:3: horn is not a known key"));
 }
 
@@ -182,7 +184,8 @@ TEST_CASE("a key, button or axis bound twice is rejected, also within one list")
 }
 
 TEST_CASE("throttle and brake may be the two halves of one axis, but must not overlap") {
-  const std::string throttle = stop + "[pad_axes.brake]\naxis = \"lt\"\nfrom = 0\nto = 1\n[pad_axes.throttle]\naxis = \"lt\"\n";
+  const std::string throttle =
+      stop + "[pad_axes.brake]\naxis = \"lt\"\nfrom = 0\nto = 1\n[pad_axes.throttle]\naxis = \"lt\"\n";
   CHECK(refusal(throttle + "from = 0\nto = -1\n") == "accepted");
   CHECK(begins(refusal(throttle + "from = 0.1\nto = -1\n"), "my.toml:8: axis = \"lt\": is already bound to brake"));
   // Measured rests may differ by a count; the dead zone has room for it.
@@ -205,19 +208,21 @@ TEST_CASE("controllers that are absent, renamed, unreadable, too small or not se
                   "controller.",
                   "Wheel was found. It has no effect until you set it up: gearshift devices --calibrate"});
   CHECK(describe_controllers(bindings, {renamed, base}) ==
-        Sentences{"Pedals is called Foot controls today. If its pedals or buttons have changed places, set it up again."});
+        Sentences{
+            "Pedals is called Foot controls today. If its pedals or buttons have changed places, set it up again."});
   CHECK(describe_controllers(bindings, {closed, base}) ==
         Sentences{"This user may not read Acme Pedals. \"gearshift devices\" shows how to allow it."});
-  CHECK(describe_controllers(bindings, {pedals, old}) ==
-        Sentences{"Gudsen R9 Base reports 80 buttons, so its button 113 has no effect. Linux before 6.15 reports at most "
-                  "80; a shifter on its own USB cable has fewer."});
+  CHECK(
+      describe_controllers(bindings, {pedals, old}) ==
+      Sentences{"Gudsen R9 Base reports 80 buttons, so its button 113 has no effect. Linux before 6.15 reports at most "
+                "80; a shifter on its own USB cable has fewer."});
 }
 
 TEST_CASE("the buttons of several controllers, their gears included, are read as written") {
-  const Bindings bindings = bindings_of(
-      stop +
-      "[[controller]]\nstick = \"Shifter\"\nid = \"0eb7:1a92\"\ngear_reverse = \"0\"\ngear_1 = \"1, 527\"\n"
-      "[[controller]]\nstick = \"Box\"\nshift_up = \"1\"\nhand_brake_hold = \"2\"\ngear_neutral = \"3\"\n");
+  const Bindings bindings =
+      bindings_of(stop +
+                  "[[controller]]\nstick = \"Shifter\"\nid = \"0eb7:1a92\"\ngear_reverse = \"0\"\ngear_1 = \"1, 527\"\n"
+                  "[[controller]]\nstick = \"Box\"\nshift_up = \"1\"\nhand_brake_hold = \"2\"\ngear_neutral = \"3\"\n");
   REQUIRE(bindings.controllers.size() == 2);
   CHECK(bindings.controllers[0].of == ControllerName{"Shifter", "0eb7:1a92"});
   CHECK(bindings.controllers[0].gears == std::map<int, std::vector<int>>{{kReverseGear, {0}}, {1, {1, 527}}});
@@ -250,7 +255,8 @@ TEST_CASE("stick names, a lever's rest, both dead zones and the lever mode are r
                "my.toml:5: centre = 0.95: must lie well between \"from\" (-1) and \"to\" (1)"));
   CHECK(begins(refusal(axis + "dead_zone = 0.5\nend_zone = 0.6\n"),
                "my.toml:6: end_zone = 0.6: the sum of end_zone and dead_zone (0.5) must not exceed 0.95"));
-  CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = \"lt\"\ncentre = 0\n"), "my.toml:5: centre is not a known key"));
+  CHECK(
+      begins(refusal(stop + "[pad_axes.clutch]\naxis = \"lt\"\ncentre = 0\n"), "my.toml:5: centre is not a known key"));
   CHECK(begins(refusal(stop + "[lever]\nmode = \"jumps\"\n"), "my.toml:4: mode = \"jumps\": must be"));
   CHECK(begins(refusal(stop + "[lever]\nfull_speed_m_per_s = 3\n"), "my.toml:4: full_speed_m_per_s = 3: must be"));
 }
@@ -261,8 +267,9 @@ TEST_CASE("the shipped bindings include a pad's stop button") {
 
 TEST_CASE("bindings that are written and read again are equal: the shipped ones and complete ones") {
   Bindings full = read_bindings(shipped);
-  full.controllers = {{{"a \"quoted\" \\ stick", "1234:abcd"}, {{Action::arm, {3, 12}}}, {{kReverseGear, {0}}, {1, {1}}}},
-                      {{"Another", ""}, {}, {}}};
+  full.controllers = {
+      {{"a \"quoted\" \\ stick", "1234:abcd"}, {{Action::arm, {3, 12}}}, {{kReverseGear, {0}}, {1, {1}}}},
+      {{"Another", ""}, {}, {}}};
   full.lever_select->of = {"Stick", "046d:c24f"};
   full.lever_select->centre = 0.1234567890123456;
   full.lever_select->end_zone = 1.0 / 3.0;

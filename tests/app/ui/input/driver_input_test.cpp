@@ -470,12 +470,13 @@ TEST_CASE("in mode `moves` the hand's speed is quadratic in the deflection beyon
       for (int i = 0; i < parts; ++i) driver.update(input, seconds / parts, false, false);
     };
     frames(0.1);
-    input.controllers[0].gamepad->axes = {1.0f, -0.6f, 0.0f};  // fully right; forward by half of the range beyond the dead zone
+    input.controllers[0].gamepad->axes = {1.0f, -0.6f,
+                                          0.0f};  // fully right; forward by half of the range beyond the dead zone
     frames(0.1);
     CHECK(driver.hand().position.x == doctest::Approx(0.3 * 0.1));
     CHECK(driver.hand().position.y == doctest::Approx(0.3 * 0.1 / 4.0));
     input.controllers[0].gamepad->axes = {0.1f, 0.15f, 0.0f};  // the released stick trembles inside its dead zone
-    driver.feel({0.03, 0.0075});               // the lever has followed the hand
+    driver.feel({0.03, 0.0075});                               // the lever has followed the hand
     const glm::dvec2 stays = driver.hand().position;
     for (int i = 0; i < 50; ++i) frames(0.1);
     CHECK(near(driver.hand().position, stays));

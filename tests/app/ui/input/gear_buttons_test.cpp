@@ -29,7 +29,7 @@ using glm::dvec2;
 namespace {
 
 constexpr double kFrameTime = 0.016;  // [s]
-constexpr int kButtonOfReverse = 18;                   // as on the shifter of a Logitech G29: 12 to 17 are gears 1 to 6
+constexpr int kButtonOfReverse = 18;  // as on the shifter of a Logitech G29: 12 to 17 are gears 1 to 6
 
 int button_of(int gear) {
   return gear == kReverseGear ? kButtonOfReverse : 11 + gear;
@@ -60,7 +60,10 @@ class BlockedGears final : public LeverLoad {
 class ShifterDesk {
  public:
   explicit ShifterDesk(const Gate& gate)
-      : gate_(gate), hand_(target_, 0.001), lever_(gripped(), 1'000'000, hand_), loop_({}, gate_, lever_, load, inputs_) {
+      : gate_(gate),
+        hand_(target_, 0.001),
+        lever_(gripped(), 1'000'000, hand_),
+        loop_({}, gate_, lever_, load, inputs_) {
     driver.set_gate(gate_, lever_.spec());
     loop_.arm();
     input.controllers = {controller("Logitech G29", {0.0f}, 29)};
@@ -178,7 +181,8 @@ TEST_CASE("buttons per direction shift one gear: R N 1 2 3 and back; beyond the 
   CHECK(reached == std::vector{1, 2, 3, 4, 5, 5, 4, 3, 2, 1, kNeutralGear, kReverseGear, kReverseGear, kReverseGear});
 }
 
-TEST_CASE("a gear that the gate lacks or that is blocked is reported as missed; once it is free the hand completes it") {
+TEST_CASE(
+    "a gear that the gate lacks or that is blocked is reported as missed; once it is free the hand completes it") {
   ShifterDesk desk(paper_gate());
   desk.put(6);
   desk.run(1.0);
@@ -204,9 +208,10 @@ TEST_CASE("keys take the hand over from a shifter, whose next gear takes it back
   desk.run(1.0);
   CHECK(desk.gear() == 3);
   desk.input.controllers = unplugged;
-  desk.buttons().assign(29, 0);  // plugged in again, in neutral
+  desk.put(2, 0.0);  // plugged in again, in another gear: nothing moves before the shifter is moved
   desk.run(1.0);
   CHECK(desk.gear() == 3);
+  CHECK(desk.driver.missed_gear() == 2);
   desk.put(4);
   desk.run(1.0);
   CHECK(desk.gear() == 4);

@@ -27,7 +27,7 @@ constexpr double kMaxForce = 75.0;  // [N]
 constexpr glm::dvec2 kUp{1.0, -1.0};
 constexpr glm::dvec2 kForces[] = {{0.0, 30.0}, {-30.0, 0.0}, {18.0, -24.0}};  // [N] each has the magnitude 30 N
 
-struct View {
+struct DrawnGate {
   UiContext ui;
   Gate gate = paper_gate();
   HapticSnapshot now;
@@ -60,7 +60,7 @@ glm::dvec2 tip_of(ImU32 colour, glm::dvec2 from) {
 }  // namespace
 
 TEST_CASE("in the gate view forward is up and right is right, with the same scale for both") {
-  View view;
+  DrawnGate view;
   const double scale = view.px_per_m();
   CHECK(scale > 1000.0);
   const glm::dvec2 middle = view.disc_at({0.0, 0.0});
@@ -69,7 +69,7 @@ TEST_CASE("in the gate view forward is up and right is right, with the same scal
 }
 
 TEST_CASE("walls and the engaged gear's name are drawn in the same frame of reference as the lever") {
-  View view;
+  DrawnGate view;
   for (const char* name : {"paper", "six_speed_r_left_up", "four_speed"}) {
     CAPTURE(name);
     view.gate = shipped_gate(name);
@@ -101,7 +101,7 @@ TEST_CASE("walls and the engaged gear's name are drawn in the same frame of refe
 }
 
 TEST_CASE("the filled disc is the proxy, the ring the true lever, and a red line joins them") {
-  View view;
+  DrawnGate view;
   const double scale = view.px_per_m();
   const glm::dvec2 middle = view.disc_at({0.0, 0.0});
   view.now.proxy = {-0.035, 0.030};
@@ -124,7 +124,7 @@ TEST_CASE("the filled disc is the proxy, the ring the true lever, and a red line
 }
 
 TEST_CASE("arrows from the lever show f_h (hand) and the commanded force (actuators), to scale") {
-  View view;
+  DrawnGate view;
   const glm::dvec2 lever = view.disc_at({0.0, 0.0});
   for (const bool hand : {true, false}) {
     CAPTURE(hand);

@@ -134,7 +134,7 @@ TEST_CASE("the help for the shipped bindings has two columns: keys and actions")
     }
     return bright;
   };
-  std::string help = help_text(read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml"));
+  std::string help = help_text(read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml"), {});
   CHECK(bright_pixels(help, "help.png") > 300);
   std::replace(help.begin(), help.end(), '\t', ' ');
   CHECK(bright_pixels(help, "help_without_tabs.png") == 0);

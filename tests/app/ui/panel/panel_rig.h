@@ -67,6 +67,7 @@ struct PanelState {
   std::vector<ui::KeyHint> keys;
   bool mouse_moves_lever = false, is_automatic_hand = false, instructor_holds_pedals = false, is_unpassable = false;
   std::optional<cabin::HeadsetReport> headset;
+  ui::ControlsView controls;
 
   ui::PanelInput view(const haptics::Gate& gate, const haptics::DeviceSpec& device) {
     return {gate,
@@ -101,7 +102,8 @@ struct PanelState {
             is_automatic_hand,
             instructor_holds_pedals,
             is_unpassable,
-            headset ? &*headset : nullptr};
+            headset ? &*headset : nullptr,
+            controls};
   }
 };
 
@@ -109,7 +111,8 @@ template <class Command, class Asked>
 void find_in(const Asked& asked, std::optional<Command>& found) {
   if constexpr (std::is_same_v<Asked, Command>)
     found = asked;
-  else if constexpr (std::is_same_v<Asked, ui::PanelCommand> || std::is_same_v<Asked, ui::HeadsetCommand>)
+  else if constexpr (std::is_same_v<Asked, ui::PanelCommand> || std::is_same_v<Asked, ui::HeadsetCommand> ||
+                     std::is_same_v<Asked, ui::ControlsCommand>)
     std::visit([&](const auto& inner) { find_in(inner, found); }, asked);
 }
 

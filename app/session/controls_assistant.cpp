@@ -1,0 +1,98 @@
+#include "app/session/controls_assistant.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "app/ui/input/bound_controllers.h"
+#include "app/ui/input/controls_dialog.h"
+#include "haptics/files/file_error.h"
+#include "haptics/files/printable.h"
+
+namespace gearshift::session {
+namespace {
+
+std::string shifter_request(int gear, const haptics::Gate& gate) {
+  const char* name = haptics::gear_name(gear);
+  if (gear != haptics::kNeutralGear && haptics::slot_of_gear(gate, gear) == haptics::kNoSlot)
+    return fmt::format("This gearbox has no gear {}.", name);
+  return fmt::format("Your shifter is in {}, but the lever is not. Press the clutch, or shift to neutral and back.",
+                     name);
+}
+
+}  // namespace
+
+ControlsAssistant::ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file)
+    : driver_(driver), own_file_(std::move(own_file)) {}
+
+void ControlsAssistant::update(const std::vector<engine::Controller>& controllers, double seconds) {
+  controllers_ = ui::controllers_to_set_up(controllers);
+  unbound_.clear();
+  for (const engine::Controller* one : ui::unbound_controllers(driver_.bindings(), controllers))
+    if (one->can_be_read) unbound_.push_back(haptics::printable(one->name));
+  if (!setup_) return;
+  setup_->frame(controllers, seconds);
+  if (setup_->is_over() && !std::exchange(is_tried_, true)) driver_.rebind(setup_->bindings());
+}
+
+std::string ControlsAssistant::apply(const ui::ControlsCommand& command) {
+  if (std::holds_alternative<ui::StartControls>(command)) {
+    before_ = driver_.bindings();
+    setup_.emplace(before_);
+    is_tried_ = false;
+  } else if (std::holds_alternative<ui::DeclineControls>(command)) {
+    declined_.insert(unbound_.begin(), unbound_.end());
+  } else if (!setup_) {
+    return {};
+  } else if (const auto* answer = std::get_if<ui::AnswerControls>(&command)) {
+    setup_->answer(answer->answer);
+  } else if (std::holds_alternative<ui::CancelControls>(command)) {
+    end(before_);
+  } else {
+    return save();
+  }
+  return {};
+}
+
+bool ControlsAssistant::press_enter(std::string& message) {
+  if (!setup_) return false;
+  const auto choices = setup_->choices();
+  const bool has_done = !choices.empty() && choices.front().answer == ui::ControlsSetup::Answer::done;
+  if (setup_->is_over())
+    message = save();
+  else if (has_done)
+    setup_->answer(ui::ControlsSetup::Answer::done);
+  return true;
+}
+
+// If the file cannot be written, the new bindings apply to this session.
+std::string ControlsAssistant::save() {
+  const ui::Bindings bindings = setup_->bindings();
+  end(bindings);
+  if (own_file_.empty()) return "Your home folder is unknown, so these controls apply to this session only.";
+  try {
+    ui::save_bindings(bindings, own_file_);
+  } catch (const haptics::FileError& error) {
+    return fmt::format("{} The controls apply to this session only.", error.what());
+  }
+  return fmt::format("Saved: {}", own_file_.string());
+}
+
+void ControlsAssistant::end(const ui::Bindings& bindings) {
+  driver_.rebind(bindings);
+  setup_.reset();
+}
+
+ui::ControlsView ControlsAssistant::view(const haptics::Gate& gate, bool offers) {
+  offer_.clear();
+  const auto wanted = std::find_if(unbound_.begin(), unbound_.end(),
+                                   [this](const std::string& name) { return !declined_.contains(name); });
+  if (offers && wanted != unbound_.end()) offer_ = *wanted;
+  const std::optional<int> missed = setup_ ? std::nullopt : driver_.missed_gear();
+  request_ = missed ? shifter_request(*missed, gate) : std::string();
+  return {setup_ ? &*setup_ : nullptr, controllers_, offer_, request_};
+}
+
+}  // namespace gearshift::session

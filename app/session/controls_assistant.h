@@ -1,0 +1,48 @@
+// Offers to set up controllers that have no effect yet, and leads through the steps in the window.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/ui/input/controls_setup.h"
+#include "app/ui/input/driver_input.h"
+#include "app/ui/panel/panel.h"
+
+namespace gearshift::session {
+
+class ControlsAssistant {
+ public:
+  // `own_file`: the user's bindings, written when the user saves; empty if the user has no folder for them.
+  ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file);
+
+  void update(const std::vector<engine::Controller>& controllers, double seconds);  // call once per frame
+  // True while the driver must not follow the controllers, because the user moves them to answer.
+  bool hides_controllers() const { return setup_ && !setup_->is_over(); }
+
+  // Returns a message for the user; empty if there is none.
+  std::string apply(const ui::ControlsCommand& command);
+  // The Enter key. Returns false if nothing is being set up.
+  bool press_enter(std::string& message);
+
+  // Valid until the next update() or apply(). `offers`: whether to offer new controllers.
+  ui::ControlsView view(const haptics::Gate& gate, bool offers);
+
+ private:
+  std::string save();
+  void end(const ui::Bindings& bindings);
+
+  ui::DriverInput& driver_;
+  std::filesystem::path own_file_;
+  std::optional<ui::ControlsSetup> setup_;
+  ui::Bindings before_;    // bindings before the set-up
+  bool is_tried_ = false;  // the driver uses the new bindings
+  std::vector<engine::Controller> controllers_;
+  std::vector<std::string> unbound_;  // names of controllers without effect
+  std::set<std::string> declined_;    // those of them that the user does not want to set up in this session
+  std::string offer_, request_;
+};
+
+}  // namespace gearshift::session

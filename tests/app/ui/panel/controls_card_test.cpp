@@ -1,0 +1,134 @@
+// The cards that offer to set up a controller and lead through its steps.
+#include "app/ui/panel/controls_card.h"
+
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/ui/panel/palette.h"
+#include "tests/app/ui/panel/drawn.h"
+#include "tests/app/ui/panel/panel_rig.h"
+#include "tests/support/controllers.h"
+
+using namespace gearshift;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+
+namespace {
+
+bool shows(const std::string& text) {
+  for (const DrawnText& one : drawn_texts())
+    if (one.text.find(without_blanks(text)) != std::string::npos) return true;
+  return false;
+}
+
+void settle(PanelRig& rig) {
+  for (int i = 0; i < 4; ++i) rig.frame();
+}
+
+std::vector<engine::Controller> desk() {
+  return {controller("Logitech G29", {0.0f, 1.0f, 1.0f, 1.0f}, 25), controller("Handbrake", {-1.0f})};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a controller without effect is offered with its name, with the panel shown and hidden; without one, nothing") {
+  PanelRig rig;
+  settle(rig);
+  CHECK_FALSE(rig.panel.control_rect("setup_begin"));
+  CHECK_FALSE(rig.panel.control_rect("controls_setup"));
+  const std::vector<engine::Controller> all = desk();
+  rig.input.controls = {nullptr, all, "Logitech G29", {}};
+  for (const bool visible : {true, false}) {
+    rig.panel.set_visible(visible);
+    settle(rig);
+    CHECK(shows("Logitech G29 was found. It has no effect until you set it up."));
+    CHECK(has<StartControls>(rig.click("setup_begin")));
+    CHECK(has<DeclineControls>(rig.click("setup_decline")));
+  }
+  rig.panel.set_visible(true);
+  rig.input.controls.offer = {};
+  settle(rig);
+  CHECK_FALSE(rig.panel.control_rect("setup_begin"));
+  CHECK(has<StartControls>(rig.click("controls_setup")));  // it can be done again at any time
+}
+
+TEST_CASE("each step shows its prompt, what was found and only its own answers, in place of the lesson") {
+  PanelRig rig;
+  std::vector<engine::Controller> all = desk();
+  ControlsSetup setup({});
+  rig.input.controls = {&setup, all, {}, {}};
+  const auto answers = [&] {
+    settle(rig);
+    std::vector<std::string> found;
+    for (const char* name : {"setup_done", "setup_skip", "setup_back", "setup_gears", "setup_paddles", "setup_lever",
+                             "setup_other", "setup_stays", "setup_returns", "setup_save", "setup_cancel"})
+      if (rig.panel.control_rect(name)) found.emplace_back(name);
+    return found;
+  };
+  const auto give = [&](const char* name) {
+    const auto answer = find<AnswerControls>(rig.click(name));
+    REQUIRE(answer);
+    setup.answer(answer->answer);
+  };
+  using Names = std::vector<std::string>;
+  CHECK(answers() == Names{"setup_done", "setup_skip", "setup_cancel"});
+  CHECK(shows("Press the CLUTCH pedal"));
+  CHECK(shows("step 1 of 5"));
+  for (int i = 0; i < 4; ++i) give("setup_skip");
+  CHECK(answers() == Names{"setup_back", "setup_gears", "setup_paddles", "setup_lever", "setup_other", "setup_cancel"});
+  give("setup_lever");
+  CHECK(answers() == Names{"setup_done", "setup_skip", "setup_back", "setup_cancel"});
+  CHECK(shows("Move the LEVER to the left"));
+  give("setup_skip");
+  give("setup_skip");
+  CHECK(answers() == Names{"setup_back", "setup_stays", "setup_returns", "setup_cancel"});
+  give("setup_stays");
+  CHECK(answers() == Names{"setup_save", "setup_cancel"});
+  CHECK(has<SaveControls>(rig.click("setup_save")));
+  CHECK(has<CancelControls>(rig.click("setup_cancel")));
+}
+
+TEST_CASE("the picture moves with the control, and lamps show the buttons that are held") {
+  PanelRig rig;
+  std::vector<engine::Controller> all = desk();
+  ControlsSetup setup({});
+  const auto frame = [&] {
+    setup.frame(all, 0.01);
+    rig.input.controls = {&setup, all, {}, {}};
+    rig.frame();
+  };
+  frame();
+  for (int i = 0; i < 4; ++i) frame();
+  const auto lit = [] { return drawn_in(ui::ink::kAccent).size(); };
+  const std::size_t at_rest = lit(), lamps = drawn_in(ui::ink::kGood).size();
+  for (int i = 1; i <= 20; ++i) {
+    all[0].axes[1] = 1.0f - 0.1f * static_cast<float>(i);
+    frame();
+  }
+  CHECK(lit() > at_rest);  // the pedal has become bright
+  all[0].buttons[12] = 1;
+  frame();
+  CHECK(drawn_in(ui::ink::kGood).size() > lamps);
+}
+
+TEST_CASE("in the smallest window no answer leaves the screen") {
+  PanelRig rig;
+  rig.screen.width = 640.0f;
+  rig.screen.height = 400.0f;
+  std::vector<engine::Controller> all = desk();
+  ControlsSetup setup({});
+  for (int i = 0; i < 4; ++i) setup.answer(ControlsSetup::Answer::skip);
+  rig.input.controls = {&setup, all, {}, {}};
+  rig.panel.set_visible(false);
+  settle(rig);
+  for (const char* name :
+       {"setup_gears", "setup_paddles", "setup_lever", "setup_other", "setup_back", "setup_cancel"}) {
+    const ControlRect r = rig.rect(name);
+    CHECK(r.min.x >= 0.0);
+    CHECK(r.max.x <= 640.0);
+    CHECK(r.max.y <= 400.0);
+  }
+}

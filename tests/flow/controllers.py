@@ -1,0 +1,361 @@
+#!/usr/bin/env python3
+"""Tests the whole program with the pads, wheels, pedals and shifters that people own: emulated kernel input devices, a
+private X server, the trainer in its window. What the program prints and records shows what the devices have moved.
+Usage: xvfb-run controllers.py GEARSHIFT SOURCE_FOLDER [SCENARIO...]
+"""
+import csv
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+gearshift, sources = sys.argv[1:3]
+sys.path.insert(0, f"{sources}/tests/support/controllers")
+import emulated_controllers as emulated  # noqa: E402
+
+G29, SHIFTER, PEDALS, HANDBRAKE = ("Logitech G29", "FANATEC ClubSport USB Shifter", "Heusinkveld", "USB Handbrake")
+
+# The G29's pedals are reversed. The numbers of its axes and buttons are the kernel's order.
+SET_UP = """
+[keys]
+stop = "Space"
+[pad_axes.clutch]
+stick = "Logitech G29"
+axis = 1
+from = 1
+to = -1
+[pad_axes.throttle]
+stick = "Logitech G29"
+axis = 2
+from = 1
+to = -1
+[pad_axes.hand_brake]
+stick = "USB Handbrake"
+axis = 0
+[pad_axes.brake]
+axis = "lt"
+[pad_buttons]
+starter = "y"
+[[controller]]
+stick = "ClubSport USB Shifter"
+gear_1 = "1"
+gear_2 = "2"
+gear_3 = "3"
+gear_4 = "4"
+gear_reverse = "0"
+[[controller]]
+stick = "Button Box"
+record = "0"
+quit = "1"
+hand_brake = "2"
+hand_brake_hold = "3"
+shift_up = "30"
+shift_down = "31"
+"""
+
+
+class Failed(Exception):
+    pass
+
+
+def check(what, holds):
+    print(("ok: " if holds else "FAILED: ") + what, flush=True)
+    if not holds:
+        raise Failed(what)
+
+
+class Trainer:
+    """The trainer in its window; `bindings`: text of a bindings file, or nothing for the shipped one."""
+
+    def __init__(self, folder, bindings=None, size="200x140"):
+        self.folder, self.log = folder, f"{folder}/out.txt"
+        options = []
+        if bindings:
+            with open(f"{folder}/bindings.toml", "w") as file:
+                file.write(bindings)
+            options = ["--bindings", f"{folder}/bindings.toml"]
+        with open(self.log, "w") as out:
+            self.process = subprocess.Popen(
+                [gearshift, "train", "--size", size, "--silent", "--no-panel", "--lesson", "none", "--gate",
+                 "five_speed_r_right_down", *options],
+                stdout=out, stderr=subprocess.STDOUT, cwd=folder, env={**os.environ, **homes(folder)})
+        self.wait_for("forces on$")
+
+    def text(self):
+        with open(self.log) as file:
+            return file.read()
+
+    def wait_for(self, pattern, times=1, seconds=30):
+        end = time.monotonic() + seconds
+        while len(re.findall(pattern, self.text(), re.MULTILINE)) < times:
+            if time.monotonic() > end or self.process.poll() is not None:
+                raise Failed(f'"{pattern}" was not printed {times} times in:\n{self.text()}')
+            time.sleep(0.05)
+
+    def end(self):
+        self.process.terminate()
+        self.process.wait(timeout=30)
+
+    def recording(self):
+        """The rows of the recorded drive, as numbers by column."""
+        data = f"{self.folder}/data/gearshift"
+        traces = [os.path.join(at, name) for at, _, names in os.walk(data) for name in names if name.endswith(".trace")]
+        assert len(traces) == 1, traces
+        subprocess.run([gearshift, "replay", traces[0], "--csv", f"{self.folder}/drive.csv"], check=True,
+                       stdout=subprocess.DEVNULL, env={**os.environ, **homes(self.folder)})
+        with open(f"{self.folder}/drive.csv") as file:
+            return list(csv.DictReader(file))
+
+
+def homes(folder):
+    return {"XDG_CONFIG_HOME": f"{folder}/config", "XDG_DATA_HOME": f"{folder}/data"}
+
+
+def values(rows, name):
+    return [float(row[name]) for row in rows]
+
+
+def changes(numbers):
+    return [number for i, number in enumerate(numbers) if i == 0 or number != numbers[i - 1]]
+
+
+def devices_are_listed(plugs, folder):
+    listed = json.loads(subprocess.run([gearshift, "devices", "--json"], check=True, capture_output=True, text=True,
+                                       env={**os.environ, **homes(folder)}).stdout)["controllers"]
+    names = {one["name"]: one for one in listed}
+    known = [device.name for device in emulated.DEVICES.values()]
+    ghosts = [known[0], known[1]]
+    check("all controllers are listed in the order of plugging in; a keyboard and motion sensors are not",
+          [one["name"] for one in listed] == [name for name in known if name not in ghosts])
+    check("a shifter without axes and pedals without buttons have what they report",
+          (names[plugs["shifter"].device.name]["buttons"], names[plugs["pedals"].device.name]["axes"]) == (10, 3))
+    check("a controller has SDL's identifier: bus, vendor, product and version, each in four little-endian bytes",
+          names[plugs["g29"].device.name]["guid"] == "030000006d0400004fc2000014010000")
+    check("only the pad is a game pad", [one["name"] for one in listed if one["gamepad"]] == [plugs["pad"].device.name])
+    check("pedals that may not be opened are listed as such",
+          [one["name"] for one in listed if not one["can_be_read"]] == [plugs["closed"].device.name])
+
+
+def first_reports(plugs):
+    for code in (emulated.ABS_Y, emulated.ABS_Z, emulated.ABS_RZ):
+        plugs["g29"].axis(code, 255)
+    plugs["g29"].axis(emulated.ABS_X, 32768)
+    time.sleep(0.3)
+
+
+def tap(plug, button):
+    plug.button(button)
+    time.sleep(0.3)
+    plug.button(button, False)
+    time.sleep(0.3)
+
+
+def unknown_devices_do_nothing(plugs, folder):
+    trainer = Trainer(folder)
+    first_reports(plugs)
+    for number in range(25):
+        plugs["g29"].button(number)
+        time.sleep(0.02)
+        plugs["g29"].button(number, False)
+    for value in (0, 128, 255):
+        for code in (emulated.ABS_Y, emulated.ABS_Z, emulated.ABS_RZ):
+            plugs["g29"].axis(code, value)
+        time.sleep(0.1)
+    plugs["keyboard"].button(30)
+    time.sleep(1.0)
+    text = trainer.text()
+    for name in (G29, SHIFTER, PEDALS, HANDBRAKE, "Button Box"):
+        check(f"{name} is offered for setting up", re.search(f"{name}.* was found. It has no effect until", text) is not None)
+    check("the keyboard and the motion sensors are not mentioned", "Keychron" not in text and "Motion" not in text)
+    check("pedals that may not be read are named", "This user may not read Thrustmaster T-Pedals" in text)
+    check("no gear, no stop, no handbrake", not re.search("engaged|motors off|forces off|recording", text))
+    trainer.end()
+
+
+def everything_set_up_works(plugs, folder):
+    trainer = Trainer(folder, SET_UP)
+    first_reports(plugs)
+    box, shifter, wheel = plugs["box"], plugs["shifter"], plugs["g29"]
+    tap(box, 0)  # record
+    trainer.wait_for("recording")
+    check("a shifter that is in gear 2 at the start moves nothing", "engaged" not in trainer.text())
+    shifter.button(2, False)
+    time.sleep(0.05)
+    wheel.axis(emulated.ABS_Y, 0)  # clutch
+    time.sleep(0.2)
+    for number, gear in ((3, "3"), (4, "4"), (0, "R"), (1, "1")):
+        shifter.button(number)
+        trainer.wait_for(f" {gear} engaged")
+        shifter.button(number, False)
+        time.sleep(0.1)
+    time.sleep(1.5)  # the lever goes to neutral
+    tap(box, 30)
+    trainer.wait_for(" 1 engaged", 2)
+    tap(box, 30)
+    trainer.wait_for(" 2 engaged")
+    tap(box, 31)
+    trainer.wait_for(" 1 engaged", 3)
+    wheel.axis(emulated.ABS_Z, 64)  # three quarters of the throttle
+    time.sleep(0.4)
+    wheel.axis(emulated.ABS_Z, 255)
+    for value in (20, 128, 255, 0):
+        plugs["handbrake"].axis(emulated.ABS_X, value)
+        time.sleep(0.3)
+    box.button(3)
+    time.sleep(0.3)
+    box.button(3, False)
+    time.sleep(0.3)
+    tap(box, 2)
+    tap(box, 2)
+    tap(box, 0)  # ends the recording
+    trainer.wait_for("recorded|saved|Saved|written", 1)
+    shifter.unplug()
+    trainer.wait_for("ClubSport USB Shifter is not plugged in, so these have no effect: gears")
+    tap(box, 1)  # quit
+    check("a button of another device quits", trainer.process.wait(timeout=30) == 0)
+    rows = trainer.recording()
+    throttle, clutch, brake, hand_brake = (values(rows, name) for name in ("throttle", "clutch", "brake", "hand_brake"))
+    check("the throttle goes to three quarters", abs(max(throttle) - (255 - 64) / 255) < 0.01)
+    check("the clutch goes down", max(clutch) > 0.99)
+    check("the brake, which is a pad's trigger, stays up", max(brake) == 0.0)
+    check("the handbrake follows its axis to a half and to the end, then two presses of a held button and of a switch",
+          [round(value, 1) for value in changes(hand_brake)] == [0.0, 0.5, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0])
+
+
+def renamed_device_works(plugs, folder):
+    bindings = SET_UP.replace('stick = "Logitech G29"', 'stick = "G29 Racing Wheel"\nid = "046d:c24f"')
+    trainer = Trainer(folder, bindings)
+    trainer.wait_for("G29 Racing Wheel is called Logitech G29 Driving Force Racing Wheel today. If its pedals")
+    first_reports(plugs)
+    tap(plugs["box"], 0)
+    trainer.wait_for("recording")
+    plugs["g29"].axis(emulated.ABS_Z, 64)
+    time.sleep(0.5)
+    tap(plugs["box"], 0)
+    tap(plugs["box"], 1)
+    trainer.process.wait(timeout=30)
+    check("the throttle of a renamed wheel works", max(values(trainer.recording(), "throttle")) > 0.7)
+
+
+def calibration_in_a_terminal(plugs, folder):
+    home = {**os.environ, **homes(folder)}
+    dialog = subprocess.Popen([gearshift, "devices", "--calibrate", "G29"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              text=True, env=home)
+    wheel, said = plugs["g29"], []
+
+    def until(text):
+        while not said or text not in said[-1]:
+            line = dialog.stdout.readline()
+            if not line:
+                raise Failed(f'"{text}" was not printed in:\n{"".join(said)}')
+            said.append(line)
+
+    def say(answer):
+        dialog.stdin.write(answer + "\n")
+        dialog.stdin.flush()
+
+    def press(code):
+        for value in (*range(255, -1, -15), *range(0, 256, 15)):
+            wheel.axis(code, value)
+            time.sleep(0.02)
+
+    until("CLUTCH")
+    first_reports(plugs)
+    say("")  # the first report is no motion
+    until("Nothing moved.")
+    until("CLUTCH")
+    for prompt, code in (("", emulated.ABS_Y), ("BRAKE", emulated.ABS_RZ), ("THROTTLE", emulated.ABS_Z)):
+        until(prompt)
+        press(code)
+        say("")
+        until("Found: axis")
+    until("HANDBRAKE")
+    say("-")
+    until("How do you shift?")
+    say("1")
+    until("NEUTRAL")
+    say("")
+    for gear in (1, 2):
+        until(f"gear {gear}")
+        wheel.button(11 + gear)
+        time.sleep(0.1)
+        say("")
+        until("Found: button")
+        wheel.button(11 + gear, False)
+    for prompt in ("gear 3", "gear 4", "gear 5", "gear 6", "gear 7", "REVERSE"):
+        until(prompt)
+        say("-")
+    until("Saved")
+    check("the dialogue ends well", dialog.wait(timeout=10) == 0)
+    with open(f"{folder}/config/gearshift/bindings/own.toml") as file:
+        saved = file.read()
+    for line in ('gear_1 = "12"', 'gear_2 = "13"', 'id = "046d:c24f"'):
+        check(f"{line} is saved", line in saved)
+    trainer = Trainer(folder)  # with the user's own bindings
+    first_reports(plugs)
+    wheel.axis(emulated.ABS_Y, 0)  # clutch
+    time.sleep(0.3)
+    wheel.button(12)
+    trainer.wait_for(" 1 engaged")
+    trainer.end()
+
+
+def labels_follow_the_layout(plugs, folder):
+    trainer = Trainer(folder, size="640x480")
+
+    def picture(name):
+        time.sleep(2.5)  # the labels are read once per second
+        path = f"{folder}/{name}.png"
+        subprocess.run(["import", "-window", "root", "-crop", "180x320+60+40", path], check=True)  # the column of keys
+        return path
+
+    def differ(one, other):
+        result = subprocess.run(["compare", "-metric", "AE", one, other, "null:"], capture_output=True, text=True)
+        return float(result.stderr.split()[0]) > 0
+
+    window = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "^gearshift$"], check=True,
+                            capture_output=True, text=True).stdout.split()[0]
+    subprocess.run(["xdotool", "windowfocus", window, "sleep", "0.5", "keydown", "F1", "sleep", "0.3", "keyup", "F1"],
+                   check=True)
+    us, again = picture("us"), picture("again")
+    check("the help does not change by itself", not differ(us, again))
+    subprocess.run(["setxkbmap", "fr"], check=True)
+    check("the help shows the keys of a French keyboard", differ(us, picture("fr")))
+    subprocess.run(["setxkbmap", "us"], check=True)
+    check("and again those of the first one", not differ(us, picture("us_again")))
+    trainer.end()
+
+
+SCENARIOS = [devices_are_listed, unknown_devices_do_nothing, everything_set_up_works, renamed_device_works,
+             calibration_in_a_terminal, labels_follow_the_layout]
+
+
+def inside():
+    """Runs beneath umockdev, with its own emulated devices."""
+    scenario = next(one for one in SCENARIOS if one.__name__ == sys.argv[4])
+    plugs = {name: emulated.Plug(name) for name in emulated.DEVICES}
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            scenario(plugs, folder)
+        except Failed as failed:
+            print(f"FAILED: {failed}")
+            return 1
+    return 0
+
+
+def main():
+    failed = []
+    wanted = sys.argv[3:]
+    for scenario in [one for one in SCENARIOS if not wanted or one.__name__ in wanted]:
+        with tempfile.TemporaryDirectory() as folder:
+            command = [sys.executable, __file__, gearshift, sources, "--inside", scenario.__name__]
+            if emulated.run(emulated.write(folder), command) != 0:
+                failed.append(scenario.__name__)
+    print("FAILED: " + ", ".join(failed) if failed else "all passed")
+    return 1 if failed else 0
+
+
+sys.exit(inside() if sys.argv[3:4] == ["--inside"] else main())
