@@ -170,7 +170,7 @@ def unknown_devices_do_nothing(plugs, folder):
     for name in (G29, SHIFTER, PEDALS, HANDBRAKE, "Button Box"):
         check(f"{name} is offered for setting up", re.search(f"{name}.* was found. It has no effect until", text) is not None)
     check("the keyboard and the motion sensors are not mentioned", "Keychron" not in text and "Motion" not in text)
-    check("pedals that may not be read are named", "This user may not read Thrustmaster T-Pedals" in text)
+    trainer.wait_for("This user may not read Thrustmaster T-Pedals")
     check("no gear, no stop, no handbrake", not re.search("engaged|motors off|forces off|recording", text))
     trainer.end()
 
@@ -318,14 +318,16 @@ def labels_follow_the_layout(plugs, folder):
 
     window = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "^gearshift$"], check=True,
                             capture_output=True, text=True).stdout.split()[0]
-    subprocess.run(["xdotool", "windowfocus", window, "sleep", "0.5", "keydown", "F1", "sleep", "0.3", "keyup", "F1"],
+    closed = picture("closed")
+    subprocess.run(["xdotool", "windowfocus", window, "sleep", "0.5", "keydown", "F1", "sleep", "0.5", "keyup", "F1"],
                    check=True)
-    us, again = picture("us"), picture("again")
-    check("the help does not change by itself", not differ(us, again))
+    check("F1 shows the help", any(differ(closed, picture("us")) for _ in range(5)))
+    us = picture("us")
+    check("the help does not change by itself", not differ(us, picture("again")))
     subprocess.run(["setxkbmap", "fr"], check=True)
-    check("the help shows the keys of a French keyboard", differ(us, picture("fr")))
+    check("the help shows the keys of a French keyboard", any(differ(us, picture("fr")) for _ in range(5)))
     subprocess.run(["setxkbmap", "us"], check=True)
-    check("and again those of the first one", not differ(us, picture("us_again")))
+    check("and again those of the first one", any(not differ(us, picture("us_again")) for _ in range(5)))
     trainer.end()
 
 

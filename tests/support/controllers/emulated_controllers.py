@@ -60,6 +60,7 @@ DEVICES = {
     "closed": Device(9, "Thrustmaster T-Pedals", 0x044f, 0xb678, [], {ABS_X: WORD, ABS_Y: WORD, ABS_Z: WORD},
                      opens=False),
 }
+NO_ANSWERS = "@DEV /dev/input/event9\nEVIOCGVERSION 0 01000100\n"  # libevdev asks for more and fails
 HELD_AT_START = {"shifter": [joystick_buttons(10)[2]]}
 
 
@@ -119,7 +120,7 @@ def write(folder, names=tuple(DEVICES)):
         with open(f"{folder}/{name}.umockdev", "w") as file:
             file.write(description(DEVICES[name]))
         with open(f"{folder}/{name}.ioctl", "w") as file:
-            file.write(answers(name, DEVICES[name]))
+            file.write(answers(name, DEVICES[name]) if DEVICES[name].opens else NO_ANSWERS)
     return [(f"{folder}/{name}", DEVICES[name]) for name in names]
 
 
@@ -141,7 +142,7 @@ class Plug:
         os.unlink(self.path)
         self.pipe = None
         if not self.device.opens:
-            os.mkdir(self.path)  # at each open() that fails, umockdev leaks a socket; here libevdev fails instead
+            os.mkdir(self.path)  # at each open() that fails, umockdev leaks a socket; so libevdev fails instead
             return
         os.mkfifo(self.path, 0o600)
         self.pipe = os.open(self.path, os.O_RDWR | os.O_NONBLOCK)
