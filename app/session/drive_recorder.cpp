@@ -28,20 +28,20 @@ std::optional<std::string> DriveRecorder::end(runtime::Runtime& runtime) {
 fs::path DriveRecorder::start_lesson(runtime::Runtime& runtime, const std::string& lesson) {
   start(runtime, lesson);
   is_lesson_ = true;
-  const fs::path file = haptics::make_absolute(last_);
+  fs::path file = haptics::make_absolute(last_);
   lessons_.insert(file.string());
   return file;
 }
 
 std::optional<std::string> DriveRecorder::end_lesson(runtime::Runtime& runtime) {
   if (!is_lesson_ || !runtime.is_recording()) return std::nullopt;
-  const std::optional<std::string> problem = runtime.stop_recording();
+  std::optional<std::string> problem = runtime.stop_recording();
   if (problem) is_incomplete_ = true;
   return problem;
 }
 
 std::optional<std::string> DriveRecorder::poll_problem(runtime::Runtime& runtime) {
-  const std::optional<std::string> problem = runtime.poll_recording_problem();
+  std::optional<std::string> problem = runtime.poll_recording_problem();
   if (!problem) return std::nullopt;
   (void)runtime.stop_recording();
   is_incomplete_ = is_lesson_;

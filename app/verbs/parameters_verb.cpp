@@ -54,7 +54,7 @@ std::string lesson_table() {
 
 // Every table of parameters, by kind.
 const std::map<std::string, std::function<std::string()>>& tables() {
-  static const std::map<std::string, std::function<std::string()>> kTables = {
+  static const std::map<std::string, std::function<std::string()>> all = {
       {"car", car_table},
       {"condition", [] { return ParameterTable().add("", lessons::DriveCondition{}).text(); }},
       {"gate", gate_table},
@@ -62,7 +62,7 @@ const std::map<std::string, std::function<std::string()>>& tables() {
       {"lesson", lesson_table},
       {"lever", lever_table},
   };
-  return kTables;
+  return all;
 }
 
 }  // namespace

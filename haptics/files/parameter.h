@@ -105,7 +105,7 @@ consteval bool describes_all(Others S::*... others) {
     };
     if (std::visit(is_other, a->member)) return false;
   }
-  [[maybe_unused]] const auto is_listed_once = [&](auto other) {
+  [[maybe_unused]] const auto is_listed_once = [&]([[maybe_unused]] auto other) {
     return (0 + ... + int{is_same_member(other, others)}) == 1;
   };
   return (is_listed_once(others) && ... && true);

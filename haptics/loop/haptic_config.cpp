@@ -336,7 +336,7 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   return out;
 }
 
-const char* to_string(TuningParameter parameter) noexcept {
+const char* to_string(TuningParameter parameter) {
   return parameter == kHold ? "hold" : parameter_of(parameter).key;
 }
 

@@ -132,7 +132,7 @@ constexpr void each_section(Config& config, auto&& visit) {
 // A parameter that a check may lower, raise or replace: a member of HapticTuning, or kHold.
 using TuningParameter = double HapticTuning::*;
 inline constexpr TuningParameter kHold = nullptr;
-const char* to_string(TuningParameter parameter) noexcept;  // key in files, such as "wall_stiffness_n_per_m"
+const char* to_string(TuningParameter parameter);  // key in files, such as "wall_stiffness_n_per_m"
 
 // A parameter that was limited. With `allow_unstable`, the limit is reported but not applied.
 struct TuningLimit {

@@ -162,7 +162,7 @@ const ErrorDescription& description_of(ErrorKind kind) noexcept {
 }
 
 // The measured value; 0 if it is missing, which can happen if the error was read from a file.
-double measured(const DrivingError& error) noexcept {
+double measured(const DrivingError& error) {
   return std::visit([&](auto figure) { return static_cast<double>((error.*figure).value_or(0)); },
                     description_of(error.kind).measured);
 }

@@ -1,6 +1,7 @@
 #include "app/lessons/coach/coach.h"
 
 #include <algorithm>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 
@@ -80,7 +81,11 @@ Coach::Coach(const CoachConfig& config) : state_(std::make_unique<State>(config)
 }
 
 Coach::~Coach() {
-  state_->leave();
+  try {
+    state_->leave();
+  } catch (const std::exception&) {
+    // Only a lack of memory arrives here. A destructor must not throw.
+  }
 }
 
 const CoachView& Coach::view() const noexcept {

@@ -1,6 +1,7 @@
 #include "app/lessons/coach/learner_memory.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,7 +48,11 @@ LearnerMemory::LearnerMemory(const std::filesystem::path& history, std::string p
 }
 
 LearnerMemory::~LearnerMemory() {
-  if (!flush_failed_) flush();
+  try {
+    if (!flush_failed_) flush();
+  } catch (const std::exception&) {
+    // Only a lack of memory arrives here, since flush() reports what a history refuses. A destructor must not throw.
+  }
 }
 
 void LearnerMemory::open(milliseconds lock_timeout) {

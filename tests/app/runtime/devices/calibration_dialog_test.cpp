@@ -208,7 +208,7 @@ TEST_CASE("every step may be left out, and the question says what that costs") {
     dialog.print = [&](const std::string& line) { rig.printed.push_back(line); };
     dialog.save = [](const DeviceCalibration&) {};
     dialog.ask = [&](const std::string& next) {
-      const std::string line = rig.answer(next);
+      std::string line = rig.answer(next);
       if (!rig.is_about(left_out)) return line;
       CHECK(next.find("- to leave it out: then ") != std::string::npos);
       return std::string("-");
