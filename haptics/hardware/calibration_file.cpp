@@ -22,7 +22,7 @@ namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
 constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0},
-    kDeadBand{0.0, 10.0};
+    kDeadBand{0.0, 10.0}, kMagnitude{0.01, 1.0}, kSlope{0.01, 10.0};
 constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] smallest valid values; 0 means not known
 
 using AxisName = std::pair<std::string_view, int>;  // name and usage ID on the HID Generic Desktop page
@@ -86,6 +86,10 @@ void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
   if (table.has("damper_n_s_per_m")) axis.damper_strength = table.number("damper_n_s_per_m", kDamping);
   if (table.has("spring_dead_band")) axis.spring_dead_band = table.number("spring_dead_band", kDeadBand);
   if (table.has("own_spring_n_per_m")) axis.own_spring = table.number("own_spring_n_per_m", kStiffness);
+  if (table.has("constant_limit")) {
+    axis.constant_limit = table.number("constant_limit", kMagnitude);
+    axis.constant_slope = table.number("constant_slope", kSlope);
+  }
   read_handle(table.table("handle"), axis.handle);
   table.reject_unknown_keys();
 }
@@ -101,16 +105,21 @@ void read_timing(const TomlTable& table, DeviceTiming& timing) {
 
 constexpr std::array<std::pair<std::string_view, AxisStyle>, 3> kStyles{
     {{"direction", AxisStyle::direction}, {"both", AxisStyle::both}, {"bits", AxisStyle::bits}}};
+constexpr std::array<std::pair<std::string_view, SignStyle>, 2> kSigns{
+    {{"magnitude", SignStyle::magnitude}, {"direction", SignStyle::direction}}};
 
-AxisStyle read_style(const TomlTable& table, std::string_view key) {
+template <class Style, std::size_t N>
+Style read_style(const TomlTable& table, std::string_view key,
+                 const std::array<std::pair<std::string_view, Style>, N>& styles) {
   std::vector<std::string> names;
-  for (const auto& style : kStyles) names.emplace_back(style.first);
+  for (const auto& style : styles) names.emplace_back(style.first);
   const std::string word = table.choice(key, names);
-  return std::find_if(kStyles.begin(), kStyles.end(), [&](const auto& style) { return style.first == word; })->second;
+  return std::find_if(styles.begin(), styles.end(), [&](const auto& style) { return style.first == word; })->second;
 }
 
-std::string style_name(AxisStyle wanted) {
-  for (const auto& [name, style] : kStyles)
+template <class Style, std::size_t N>
+std::string style_name(Style wanted, const std::array<std::pair<std::string_view, Style>, N>& styles) {
+  for (const auto& [name, style] : styles)
     if (style == wanted) return std::string(name);
   return "unknown";
 }
@@ -118,7 +127,8 @@ std::string style_name(AxisStyle wanted) {
 constexpr StickStyle kOldStyle{AxisStyle::both, AxisStyle::bits};  // of files from before the styles were measured
 
 void read_effects(const TomlTable& table, DeviceCalibration& calibration) {
-  calibration.style = {read_style(table, "constants_by"), read_style(table, "conditions_by")};
+  calibration.style = {read_style(table, "constants_by", kStyles), read_style(table, "conditions_by", kStyles)};
+  if (table.has("signs_by")) calibration.style.signs = read_style(table, "signs_by", kSigns);
   if (table.has("springs_refused")) calibration.springs_refused = table.text("springs_refused");
   if (table.has("dampers_refused")) calibration.dampers_refused = table.text("dampers_refused");
   table.reject_unknown_keys();
@@ -188,6 +198,10 @@ void put_axis(CommentedText& out, const std::string& section, const LeverAxisCal
   out.put("damper_n_s_per_m", axis.damper_strength, once("strongest damper; 0: not measured"));
   out.put("spring_dead_band", axis.spring_dead_band, once("its measured over its commanded width; 0: unknown"));
   out.put("own_spring_n_per_m", axis.own_spring, once("centring by its motors; 0: none"));
+  if (axis.constant_limit > 0.0) {
+    out.put("constant_limit", axis.constant_limit, once("forces grow evenly up to this magnitude"));
+    out.put("constant_slope", axis.constant_slope, once("measured force per magnitude there, over full_force_n"));
+  }
   out.section(section + ".handle", once("handle without a hand"));
   out.put("mass_kg", axis.handle.mass, once("0: not measured"));
   out.put("damping_n_s_per_m", axis.handle.damping, "");
@@ -245,8 +259,10 @@ std::string calibration_text(const DeviceCalibration& calibration) {
   out.put("jitter_s", timing.jitter, "99 % of the readings are at most this late");
   out.put("restart_gap_s", timing.restart_gap, "silence when an effect is renewed");
   out.section("effects", "how they name their axes: direction, both or bits");
-  out.put("constants_by", toml_string(style_name(calibration.style.constants)), "");
-  out.put("conditions_by", toml_string(style_name(calibration.style.conditions)), "");
+  out.put("constants_by", toml_string(style_name(calibration.style.constants, kStyles)), "");
+  out.put("conditions_by", toml_string(style_name(calibration.style.conditions, kStyles)), "");
+  if (calibration.style.signs != SignStyle::magnitude)
+    out.put("signs_by", toml_string(style_name(calibration.style.signs, kSigns)), "of constant forces");
   if (!calibration.springs_refused.empty())
     out.put("springs_refused", toml_string(calibration.springs_refused), "so springs are not used");
   if (!calibration.dampers_refused.empty())

@@ -70,6 +70,7 @@ std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration,
   if (!calibration.has_travel() || !calibration.has_force()) missing.push_back(CalibrationStep::numbers);
   if (!calibration.has_polarity()) missing.push_back(CalibrationStep::polarity);
   if (!calibration.has_timing()) missing.push_back(CalibrationStep::timing);
+  if (!calibration.has_strength()) missing.push_back(CalibrationStep::strength);
   if (!calibration.has_handle()) missing.push_back(CalibrationStep::handle);
   if (springs && !calibration.has_springs()) missing.push_back(CalibrationStep::springs);
   return missing;

@@ -4,11 +4,12 @@
 //
 //   the user moves the lever     find_axis (right, then forward), measure_range, find_button
 //   the user enters numbers      set_numbers: travel and full force at the knob, measured with ruler and spring scale
-//   no hand on the lever         measure_polarity, measure_timing, measure_handle, measure_springs
+//   no hand on the lever         measure_polarity, measure_timing, measure_strength, measure_handle, measure_springs
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ namespace gearshift::haptics {
 
 inline constexpr double kCautiousForce = 0.10;  // [1] fraction of the full force
 
-enum class CalibrationStep : std::uint8_t { range, numbers, polarity, timing, handle, springs };
+enum class CalibrationStep : std::uint8_t { range, numbers, polarity, timing, strength, handle, springs };
 
 // Calibration steps still to do, in the required order. `springs`: true if the device supports springs (PidAbility).
 std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs);
@@ -54,6 +55,9 @@ class Calibrator {
 
   std::string measure_polarity();  // sign of constant forces per axis, and how their effects must name the axis
   std::string measure_timing();    // intervals, jitter, delay, silence when an effect is renewed
+  // Forces at 5, 20, 60 and 100 % of the magnitude, to both sides, each changed and reversed while it acts. If they do
+  // not grow evenly, only the even part is used.
+  std::string measure_strength();
   // Mass, damping, stiffness, and how much of it is a spring of the stick's motors; call it after set_numbers().
   std::string measure_handle();
   // Measures sign, stiffness [N/m] and dead band of springs, and sign and strength [N s/m] of dampers; call it after
@@ -91,6 +95,8 @@ class Calibrator {
   std::array<AxisPlace, 2> places() const { return {axis_place(calibration_.select), axis_place(calibration_.shift)}; }
   void apply(StickStyle style);
   Signs constant_signs();
+  Signs constant_signs_by(StickStyle style);
+  bool keeps_forces();
   int constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name, double& magnitude) const;
   static void require_motors(const std::array<int, 2>& sign);
   void check_together(StickRig& rig, const Signs& found) const;
@@ -104,6 +110,13 @@ class Calibrator {
   void check_springs_together(StickRig& rig, const std::array<Spring, 2>& springs) const;
   double dead_band(StickRig& rig, const LeverAxisCalibration& axis, const Spring& spring) const;
   DeviceTiming measure_intervals(StickRig& rig) const;
+  struct Strength {
+    double limit = 1.0, slope = 1.0;   // as in LeverAxisCalibration
+    std::array<double, 4> measured{};  // [1] forces over the force at full magnitude
+  };
+  Strength strength(StickRig& rig, std::size_t axis);
+  double gain_at(StickRig& rig, std::size_t axis, double magnitude);
+  Pulse double_push(StickRig& rig, std::size_t axis, double magnitude);
   Pulse pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const;
   std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double& magnitude) const;
   double restart_gap(StickRig& rig, const DeviceTiming& timing) const;
@@ -120,7 +133,8 @@ class Calibrator {
   PidDriver& driver_;
   CalibrationTick tick_;
   DeviceCalibration calibration_;
-  std::array<FoundAxis, 2> found_{};  // select, shift
+  std::array<FoundAxis, 2> found_{};               // select, shift
+  std::array<std::optional<PulseFit>, 2> known_{};  // the lever's motion, until the handle is measured
 };
 
 }  // namespace gearshift::haptics

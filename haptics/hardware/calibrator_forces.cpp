@@ -5,6 +5,7 @@
 #include <numbers>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "haptics/files/number_text.h"
 #include "haptics/hardware/calibrator.h"
@@ -47,7 +48,21 @@ constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000;  // [
 constexpr double kMinGap = 0.0003;                                          // [s] shorter gaps are within the noise
 constexpr double kMinBraking = 0.3;  // [N s/m] smallest damping whose sign can be determined
 
+constexpr std::array kLevels{0.05, 0.2, 0.6, 1.0};      // [1] magnitudes of constant forces that are compared
+constexpr std::array kLowerLevels{0.5, 0.4, 0.3};       // [1] tried if the force at 60 % is wrong
+constexpr double kEven = 0.15;                          // [1] largest difference of the force per magnitude
+constexpr double kDoublePushMotion = 0.04;              // [1] of a push and a push back, fraction of the axis's range
+constexpr double kMinPushTime = 0.003, kMaxPushTime = 0.04;  // [s]
+constexpr std::int64_t kDoubleCoastTime = 200'000'000;  // [ns]
+
 constexpr std::array kNames{"select", "shift"};
+
+class OneSided : public EffectsRefused {
+  using EffectsRefused::EffectsRefused;
+};
+class NoMotion : public EffectsRefused {
+  using EffectsRefused::EffectsRefused;
+};
 
 // [s] often enough to show a gap, and seldom enough to leave the force three of four outputs
 double restart_interval(const DeviceTiming& timing) noexcept {
@@ -116,27 +131,51 @@ std::string Calibrator::measure_polarity() {
          "; in shift, a positive force pushes " + (found.sign[1] > 0 ? "forward" : "back");
 }
 
-// Tries each way of naming an axis until the constant forces move the right axes, alone and together.
+// Tries each way of naming an axis until the constant forces move the right axes, alone and together. If a force does
+// not change its sign, the sign is tried as a direction, too.
 Calibrator::Signs Calibrator::constant_signs() {
   std::string reason;
-  for (const AxisStyle style : {AxisStyle::direction, AxisStyle::both, AxisStyle::bits}) {
-    const StickStyle tried{style, calibration_.style.conditions};
-    apply(tried);
-    try {
-      StickRig rig(driver_, tick_);
-      Signs found;
-      const std::array<AxisPlace, 2> place = places();
-      for (std::size_t i = 0; i < 2; ++i) found.sign[i] = constant_sign(rig, place[i], kNames[i], found.magnitude);
-      require_motors(found.sign);
-      check_together(rig, found);
-      calibration_.style = tried;
-      return found;
-    } catch (const EffectsRefused& refused) {
-      if (reason.empty()) reason = refused.what();
+  bool keeps_sign = false, moves = true;
+  for (const SignStyle signs : {SignStyle::magnitude, SignStyle::direction}) {
+    if (signs == SignStyle::direction && (!keeps_sign || !driver_.layout().set_effect.direction[0].exists())) break;
+    for (const AxisStyle style : {AxisStyle::direction, AxisStyle::both, AxisStyle::bits}) {
+      try {
+        return constant_signs_by({style, calibration_.style.conditions, signs});
+      } catch (const EffectsRefused& refused) {
+        keeps_sign = keeps_sign || dynamic_cast<const OneSided*>(&refused) != nullptr;
+        if (reason.empty()) moves = dynamic_cast<const NoMotion*>(&refused) == nullptr;
+        if (reason.empty()) reason = refused.what();
+      }
     }
   }
+  if (!moves && keeps_forces())
+    reason = "the stick does not change a force while it acts, and a lever needs forces that change";
   driver_.set_style(calibration_.style);
   throw CalibrationRefused(reason);
+}
+
+Calibrator::Signs Calibrator::constant_signs_by(StickStyle style) {
+  apply(style);
+  StickRig rig(driver_, tick_);
+  Signs found;
+  const std::array<AxisPlace, 2> place = places();
+  for (std::size_t i = 0; i < 2; ++i) found.sign[i] = constant_sign(rig, place[i], kNames[i], found.magnitude);
+  require_motors(found.sign);
+  check_together(rig, found);
+  calibration_.style = style;
+  return found;
+}
+
+// True if a constant force of zero pushes the lever, because it keeps the strength that it was set with.
+bool Calibrator::keeps_forces() {
+  StickRig rig(driver_, tick_);
+  for (const AxisPlace& place : places()) {
+    StickCommand zero = idle_command();
+    zero.pushes[1 - place.motor] = false;
+    const double off = rig.rest(place.report), on = rig.rest(place.report, zero);
+    if (std::abs(on - off) > kMinMoved * rig.range(place.report)) return true;
+  }
+  return false;
 }
 
 // Finds the sign of the only constant force that plays; 0 if the axis does not move. Pushes the lever in both
@@ -152,7 +191,7 @@ int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::
     command.constant[place.motor] = -magnitude;
     const double back = push(rig, place, idle, command);
     if (std::abs(back) < kMinMoved || (there > 0.0) == (back > 0.0))
-      throw CalibrationRefused(name + " did not move in both directions. Take your hands off the lever");
+      throw OneSided(name + " did not move in both directions. Take your hands off the lever");
     largest = std::max(largest, magnitude);
     return there > 0.0 ? 1 : -1;
   }
@@ -161,7 +200,7 @@ int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::
 
 void Calibrator::require_motors(const std::array<int, 2>& sign) {
   if (sign[0] == 0 && sign[1] == 0)
-    throw EffectsRefused("the lever does not move with " + number_text(100.0 * kCautiousForce, 0) +
+    throw NoMotion("the lever does not move with " + number_text(100.0 * kCautiousForce, 0) +
                          " % of the full force. Check that the stick has power and can move freely");
   for (std::size_t i = 0; i < 2; ++i) {
     if (sign[i] == 0)
@@ -229,9 +268,9 @@ std::string Calibrator::measure_timing() {
   require_polarity();
   StickRig rig(driver_, tick_);
   DeviceTiming timing = measure_intervals(rig);
-  for (const LeverAxisCalibration* axis : {&calibration_.select, &calibration_.shift}) {
-    const PulseFit found = fit(rig, *axis, axis == &calibration_.select ? "select" : "shift");
-    timing.delay = std::max({timing.delay, found.delay, 0.0});
+  for (std::size_t i = 0; i < 2; ++i) {
+    known_[i] = fit(rig, i == 0 ? calibration_.select : calibration_.shift, kNames[i]);
+    timing.delay = std::max({timing.delay, known_[i]->delay, 0.0});
   }
   timing.restart_gap = restart_gap(rig, timing);
   calibration_.timing = timing;
@@ -317,7 +356,6 @@ Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const StickComman
   StickCommand on = rest;
   on.constant[place.motor] = magnitude;
   Pulse measured;
-  measured.magnitude = magnitude;
   std::int64_t on_ns = 0, off_ns = 0;
   bool pushing = true;
   while (off_ns == 0 || rig.latest().now_ns - off_ns < kCoastTime) {
@@ -333,7 +371,7 @@ Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const StickComman
     rig.watch_runaway(place.report, from);
     if (off_ns == 0 && tick.now_ns - begin > kNoForceTime) throw CalibrationRefused("the stick accepts no forces");
   }
-  measured.length = 1e-9 * static_cast<double>(off_ns - on_ns);
+  measured.steps = {{0.0, magnitude}, {1e-9 * static_cast<double>(off_ns - on_ns), 0.0}};
   return measured;
 }
 
@@ -392,6 +430,81 @@ PulseFit Calibrator::validated(const PulseFit& found, const LeverAxisCalibration
   return found;
 }
 
+std::string Calibrator::measure_strength() {
+  require_polarity();
+  StickRig rig(driver_, tick_);
+  const std::array<Strength, 2> found{strength(rig, 0), strength(rig, 1)};
+  std::string sentence;
+  for (std::size_t i = 0; i < 2; ++i) {
+    LeverAxisCalibration& axis = i == 0 ? calibration_.select : calibration_.shift;
+    axis.constant_limit = found[i].limit;
+    axis.constant_slope = found[i].slope;
+    sentence += (i == 0 ? "in " : "; in ") + std::string(kNames[i]) + ", magnitudes of 5, 20, 60 and 100 % give ";
+    for (std::size_t level = 0; level < kLevels.size(); ++level)
+      sentence += (level == 0 ? "" : level + 1 < kLevels.size() ? ", " : " and ") +
+                  number_text(100.0 * found[i].measured[level], 0);
+    sentence += " % of the full force";
+    if (found[i].limit < 1.0)
+      sentence += ", so only magnitudes up to " + number_text(100.0 * found[i].limit, 0) + " % are used, and no force exceeds " +
+                  number_text(100.0 * found[i].limit * found[i].slope, 0) + " % of the full one";
+  }
+  return sentence;
+}
+
+// The largest magnitude up to which the force is even, and the force there.
+Calibrator::Strength Calibrator::strength(StickRig& rig, std::size_t axis) {
+  if (!known_[axis]) known_[axis] = fit(rig, axis == 0 ? calibration_.select : calibration_.shift, kNames[axis]);
+  std::array<double, kLevels.size()> gain{};
+  for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = gain_at(rig, axis, kLevels[i]);
+  const double weak = gain[1], full = gain.back();
+  const auto is_even = [&](double found) { return std::abs(found / weak - 1.0) < kEven; };
+  Strength found;
+  for (std::size_t i = 0; i < gain.size(); ++i) found.measured[i] = kLevels[i] * gain[i] / full;
+  if (is_even(gain[2]) && is_even(full)) return found;
+  found.slope = weak / full;
+  found.limit = is_even(gain[2]) ? kLevels[2] : kLevels[1];
+  for (std::size_t i = 0; found.limit == kLevels[1] && i < kLowerLevels.size(); ++i)
+    if (is_even(gain_at(rig, axis, kLowerLevels[i]))) found.limit = kLowerLevels[i];
+  return found;
+}
+
+// Acceleration per magnitude [counts/s^2] at this magnitude, the mean of both directions.
+double Calibrator::gain_at(StickRig& rig, std::size_t axis, double magnitude) {
+  for (std::size_t tries = 0; tries < kMaxPairs; ++tries) {
+    const std::array<Pulse, 2> pair{double_push(rig, axis, magnitude), double_push(rig, axis, -magnitude)};
+    rig.step();  // switches the motors off, because a command would expire during the fit
+    const double there = gain_of(pair[0], *known_[axis]), back = gain_of(pair[1], *known_[axis]);
+    if (std::abs(there - back) < kEven * std::abs(there + back)) return 0.5 * (there + back);
+  }
+  throw CalibrationRefused(std::string(kNames[axis]) + " is not pushed equally far in both directions. Take your hands off the lever");
+}
+
+// A push and a push back of the same length, so that the lever comes to rest soon. The length is chosen by the motion
+// that is expected of a force in proportion.
+Pulse Calibrator::double_push(StickRig& rig, std::size_t axis, double magnitude) {
+  const AxisPlace place = places()[axis];
+  const double from = rig.rest(place.report, idle_command()), expected = std::abs(known_[axis]->gain * magnitude);
+  const double seconds = std::sqrt(kDoublePushMotion * rig.range(place.report) / expected);
+  const auto length = static_cast<std::int64_t>(1e9 * std::clamp(seconds, kMinPushTime, kMaxPushTime));
+  const std::int64_t begin = rig.latest().now_ns;
+  StickCommand command = idle_command();
+  Pulse measured;
+  std::int64_t first_ns = 0;
+  double sent = 0.0;
+  for (std::int64_t time = 0; time < 2 * length + kDoubleCoastTime; time = rig.latest().now_ns - begin) {
+    command.constant[place.motor] = time < length ? magnitude : time < 2 * length ? -magnitude : 0.0;
+    const StickRig::Tick& tick = rig.step(command);
+    const double now_sent = tick.state.sent[place.motor];
+    if (now_sent != sent && first_ns == 0) first_ns = tick.state.sent_ns;
+    if (now_sent != sent) measured.steps.push_back({1e-9 * static_cast<double>(tick.state.sent_ns - first_ns), now_sent});
+    sent = now_sent;
+    if (first_ns != 0 && tick.fresh)
+      measured.samples.push_back({1e-9 * static_cast<double>(tick.state.time_ns - first_ns), rig.position(place.report) - from});
+    rig.watch_runaway(place.report, from);
+  }
+  return measured;
+}
+
 std::string Calibrator::measure_handle() {
   require_polarity();
   if (!calibration_.has_range() || !calibration_.has_force())
@@ -402,9 +515,10 @@ std::string Calibrator::measure_handle() {
   std::string sentence;
   for (const bool select : {true, false}) {
     const LeverAxisCalibration& axis = select ? calibration_.select : calibration_.shift;
-    const PulseFit found = fit(rig, axis, select ? "select" : "shift");
+    const std::optional<PulseFit> known = std::exchange(known_[select ? 0 : 1], std::nullopt);
+    const PulseFit found = known ? *known : fit(rig, axis, select ? "select" : "shift");
     const double metre = axis.travel / std::abs(axis.high - axis.low);  // [m] per count
-    const double mass = axis.full_force / (std::abs(found.gain) * metre);
+    const double mass = axis.force_per_magnitude() / (std::abs(found.gain) * metre);
     if (!(mass >= 0.005 && mass <= 20.0))
       throw CalibrationRefused("a handle of " + number_text(mass, 4) +
                                " kg is not plausible. Check the full force and the travel");
@@ -608,7 +722,7 @@ double Calibrator::dead_band(StickRig& rig, const LeverAxisCalibration& axis, co
   const double middle = map.metres(from + (centre - here) * half_range);
   std::array<double, 2> width{};
   for (std::size_t i = 0; i < 2; ++i) {
-    const double direction = i == 0 ? 1.0 : -1.0, force = direction * kCautiousForce * axis.full_force;
+    const double direction = i == 0 ? 1.0 : -1.0, force = direction * kCautiousForce * axis.force_per_magnitude();
     command.constant[place.motor] = direction * axis.constant_sign * kCautiousForce;
     const double there = map.metres(rig.rest(place.report, command));
     width[i] = direction * (there - middle - (force - axis.handle.stiffness * there) / spring.stiffness) / metre;
@@ -660,11 +774,11 @@ double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& a
     command.constant[place.motor] = -magnitude;
     const double back = rig.rest(place.report, command);
     const double width = std::abs(there - back) / rig.range(place.report);
-    const bool is_fine = width > kMinBalance || magnitude >= kMaxBalanceForce;
+    const bool is_fine = width > kMinBalance || magnitude >= std::min(kMaxBalanceForce, axis.max_magnitude());
     if (is_fine && width == 0.0) throw EffectsRefused("the stick's springs do not give way under a force");
     if (is_fine) {
       const double metres = std::abs(map.metres(there) - map.metres(back));
-      return std::max(0.0, 2.0 * magnitude * axis.full_force / metres - axis.handle.stiffness);
+      return std::max(0.0, 2.0 * magnitude * axis.force_per_magnitude() / metres - axis.handle.stiffness);
     }
     magnitude *= 2.0;
   }

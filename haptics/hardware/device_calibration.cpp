@@ -31,6 +31,10 @@ AxisModel handle_of(const LeverAxisCalibration& axis) noexcept {
   return axis.handle.mass > 0.0 ? axis.handle : kUnmeasuredHandle;
 }
 
+double max_force_of(const LeverAxisCalibration& axis) noexcept {
+  return axis.force_per_magnitude() * axis.max_magnitude();
+}
+
 double usable_stiffness_of(const LeverAxisCalibration& axis) noexcept {
   const bool is_usable = axis.spring_sign != 0 && axis.spring_stiffness >= kMinSpring && axis.spring_dead_band > 0.0;
   return is_usable ? axis.spring_stiffness : 0.0;
@@ -56,7 +60,7 @@ int delay_cycles(const DeviceTiming& timing, double period) {
 DeviceSpec spec_of(const DeviceCalibration& calibration, double period) {
   const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
   DeviceSpec spec;
-  spec.max_force = calibration.has_polarity() ? glm::dvec2{select.full_force, shift.full_force} : glm::dvec2{0.0};
+  spec.max_force = calibration.has_polarity() ? glm::dvec2{max_force_of(select), max_force_of(shift)} : glm::dvec2{0.0};
   spec.continuous_force = spec.max_force;  // not below max_force, because the firmware protects the motors
   spec.workspace = 0.5 * glm::dvec2{select.travel, shift.travel};
   spec.position_step = std::max(step_of(select), step_of(shift));

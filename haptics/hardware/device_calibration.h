@@ -30,6 +30,12 @@ struct LeverAxisCalibration {
   double spring_dead_band = 0.0;  // [1] measured width of a spring's dead band over the commanded one; 0: not measured
   // [N/m] centring spring that the stick adds while its motors are on; 0: none, or not measured
   double own_spring = 0.0;
+  // [1] constant forces grow evenly up to this magnitude, and stronger ones are not used; 0: not measured
+  double constant_limit = 0.0;
+  double constant_slope = 1.0;  // [1] measured force per magnitude up to the limit, over full_force
+
+  double force_per_magnitude() const noexcept { return full_force * constant_slope; }  // [N]
+  double max_magnitude() const noexcept { return constant_limit > 0.0 ? constant_limit : 1.0; }
 };
 
 struct DeviceTiming {
@@ -55,6 +61,7 @@ struct DeviceCalibration {
   bool has_range() const noexcept { return has_stops() && has_travel(); }
   bool has_force() const noexcept { return select.full_force > 0.0 && shift.full_force > 0.0; }
   bool has_polarity() const noexcept { return select.constant_sign != 0 && shift.constant_sign != 0; }
+  bool has_strength() const noexcept { return select.constant_limit > 0.0 && shift.constant_limit > 0.0; }
   bool has_timing() const noexcept { return timing.input_interval > 0.0; }
   bool has_springs() const noexcept { return select.spring_dead_band > 0.0 && shift.spring_dead_band > 0.0; }
   bool has_handle() const noexcept { return select.handle.mass > 0.0 && shift.handle.mass > 0.0; }

@@ -84,6 +84,8 @@ PidLever::Axis PidLever::make_axis(const LeverAxisCalibration& calibration, bool
   if (!drives) return axis;
   axis.motor = calibration.usage == kUsageX.id ? 0 : 1;
   axis.full_force = calibration.full_force;
+  axis.per_magnitude = calibration.force_per_magnitude();
+  axis.limit = calibration.max_magnitude();
   axis.sign = calibration.constant_sign;
   axis.spring = coefficient(PidEffect::spring, calibration.spring_sign, usable_wall_stiffness(spec_),
                             calibration.spring_stiffness);
@@ -149,7 +151,7 @@ glm::dvec2 PidLever::motor_force(const StickState& state, glm::dvec2 position) c
     const bool has_wall = axis.spring != 0.0 && state.spring[axis.motor].coefficient != 0.0;
     const double wall = has_wall ? walls_.stiffness_fraction * spec_.device_wall_stiffness[i] * depth[i] : 0.0;
     force[i] =
-        std::clamp(axis.sign * state.sent[axis.motor] * axis.full_force - wall, -axis.full_force, axis.full_force);
+        std::clamp(axis.sign * state.sent[axis.motor] * axis.per_magnitude - wall, -axis.full_force, axis.full_force);
   }
   return force;
 }
@@ -169,7 +171,7 @@ void PidLever::write(glm::dvec2 force) noexcept {
   for (int i = 0; i < 2; ++i) {
     const Axis& axis = axis_[static_cast<std::size_t>(i)];
     if (axis.full_force == 0.0) continue;
-    command_.constant[axis.motor] = axis.sign * std::clamp(force[i] / axis.full_force, -1.0, 1.0);
+    command_.constant[axis.motor] = axis.sign * std::clamp(force[i] / axis.per_magnitude, -axis.limit, axis.limit);
     if (force[i] != 0.0) command_.enabled = true;
   }
   damp_in_walls();

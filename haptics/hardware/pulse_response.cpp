@@ -35,8 +35,12 @@ double step_response(const dvec3& model, double time) {
 }
 
 double pulse_response(const dvec3& model, const Pulse& pulse, double time) {
-  const double since = time - model.z;
-  return pulse.magnitude * (step_response(model, since) - step_response(model, since - pulse.length));
+  double position = 0.0, force = 0.0;
+  for (const PulseStep& step : pulse.steps) {
+    position += (step.force - force) * step_response(model, time - model.z - step.time);
+    force = step.force;
+  }
+  return position;
 }
 
 class PulseProblem {
@@ -150,12 +154,22 @@ dvec3 find_start(std::span<const Pulse> pulses) {
   return best.model;
 }
 
+void require_motion(const PulseProblem& problem) {
+  if (problem.size() < kMinSamples) throw std::invalid_argument("too few readings to identify the lever's motion");
+  if (!problem.has_motion()) throw std::invalid_argument("the lever did not move");
+}
+
 }  // namespace
+
+double gain_of(const Pulse& pulse, const PulseFit& known) {
+  const PulseProblem problem({&pulse, 1}, 1);
+  require_motion(problem);
+  return problem.try_model({known.damping, known.stiffness, known.delay}).gain;
+}
 
 PulseFit fit_pulses(std::span<const Pulse> pulses) {
   const PulseProblem problem(pulses, 1);
-  if (problem.size() < kMinSamples) throw std::invalid_argument("too few readings to identify the lever's motion");
-  if (!problem.has_motion()) throw std::invalid_argument("the lever did not move");
+  require_motion(problem);
   const PulseProblem::Trial best = problem.descend(find_start(pulses));
   return {best.gain, best.model.x, best.model.y, best.model.z, problem.residual(best)};
 }

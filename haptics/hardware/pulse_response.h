@@ -1,7 +1,7 @@
 // Identifies a lever's dynamics and delay from short force pulses: fits the exact response of a mass with damping and a
 // spring by least squares.
 //
-//   x'' + damping x' + stiffness x = gain u(t - delay),   u = magnitude for the length of the pulse, then 0
+//   x'' + damping x' + stiffness x = gain u(t - delay),   u = the pulse's steps of force
 //
 // The gain and each pulse's starting position follow in closed form from the other three parameters (variable
 // projection), which are found by the Levenberg-Marquardt method.
@@ -22,9 +22,13 @@ struct PulseSample {
   double position = 0.0;  // position relative to the rest position, in any unit of length
 };
 
+struct PulseStep {
+  double time = 0.0;   // [s] when the force was sent
+  double force = 0.0;  // [1] -1 to 1, fraction of the full force, until the next step
+};
+
 struct Pulse {
-  double magnitude = 0.0;  // [1] -1 to 1, fraction of the full force
-  double length = 0.0;     // [s] from sending the pulse to sending its end
+  std::vector<PulseStep> steps;  // before the first, there is no force
   std::vector<PulseSample> samples;
 };
 
@@ -38,5 +42,8 @@ struct PulseFit {
 
 // Throws std::invalid_argument with one sentence if there are fewer than 20 samples or no motion.
 PulseFit fit_pulses(std::span<const Pulse> pulses);
+
+// The gain of one more pulse of the lever that `known` describes. Throws as fit_pulses() does.
+double gain_of(const Pulse& pulse, const PulseFit& known);
 
 }  // namespace gearshift::haptics

@@ -17,6 +17,9 @@ double difference(const PidCondition& a, const PidCondition& b) noexcept {
 }
 
 constexpr PidCondition kZero{};
+// Some firmware keeps the strength that it had when the effect was first set. So that the calibration feels it, this is
+// not zero; so that it is harmless, it is small: for both axes together below a tenth. No effect plays yet.
+constexpr double kFirstForce = 0.07;  // [1]
 // Firmware may look at its conditions when an effect is set, and give those without a force to the other axis.
 constexpr PidCondition kSlight{0.0, 0.0, 0.01, 0.01};
 constexpr int kPlaceSize = 16;  // [bytes] memory for the parameters of one axis; no report of PID 1.0 needs more
@@ -33,27 +36,38 @@ PidEffect kind_of(StickEffect effect) noexcept {
   return effect == StickEffect::damper ? PidEffect::damper : PidEffect::constant;
 }
 
+namespace {
+
+PidEffectSettings settings_of(StickEffect effect, int block, StickStyle style, double duration) noexcept {
+  const auto index = static_cast<std::size_t>(effect);
+  const bool is_constant = index < 2;
+  const std::size_t value = is_constant ? index : 2 * index - 2;
+  PidEffectSettings settings{block, kind_of(effect), duration};
+  settings.axis = is_constant ? static_cast<int>(index) : -1;
+  settings.style = is_constant ? style.constants : style.conditions;
+  settings.place = {place_of(value), is_constant ? -1 : place_of(value + 1)};
+  return settings;
+}
+
+}  // namespace
+
 // Parameters come before the settings for firmware that looks at them then, and again afterwards.
 EffectReports::EffectReports(const PidLayout& pid, StickEffect effect, int block, StickStyle style,
                              double duration) noexcept {
   const auto index = static_cast<std::size_t>(effect);
   const bool is_constant = index < 2;
   const std::size_t value = is_constant ? index : 2 * index - 2;
-  const auto add_values = [&](const PidCondition& condition) {
+  const auto add_values = [&](const PidCondition& condition, double force) {
     const auto target = [&](std::size_t axis) { return pid.is_pool_ours() ? place_of(value + axis) : block; };
-    if (is_constant) return add(encode_constant(pid, target(0), 0.0));
+    if (is_constant) return add(encode_constant(pid, target(0), force));
     for (int axis = 0; axis < 2; ++axis)
       add(encode_condition(pid, target(static_cast<std::size_t>(axis)), axis, condition));
   };
-  PidEffectSettings settings{block, kind_of(effect), duration};
-  settings.axis = is_constant ? static_cast<int>(index) : -1;
-  settings.style = is_constant ? style.constants : style.conditions;
-  settings.place = {place_of(value), is_constant ? -1 : place_of(value + 1)};
-  add_values(kSlight);
-  const HidBytes set = encode_set_effect(pid, settings);
+  add_values(kSlight, kFirstForce);
+  const HidBytes set = encode_set_effect(pid, settings_of(effect, block, style, duration));
   has_settings_ = set.size > 0;
   add(set);
-  add_values(kZero);
+  add_values(kZero, 0.0);
 }
 
 void EffectReports::add(const HidBytes& report) noexcept {
@@ -141,6 +155,8 @@ HidBytes ReportScheduler::encode(std::size_t value, const PidCondition& setting)
   const int block = pid_.is_pool_ours() && effect_[effect_of(value)].block != kNoBlock
                         ? place_of(value)
                         : effect_[effect_of(value)].block;
+  if (value < 2 && style_.signs == SignStyle::direction)
+    return encode_constant(pid_, block, std::abs(setting.coefficient));
   if (value < 2) return encode_constant(pid_, block, setting.coefficient);
   return encode_condition(pid_, block, static_cast<int>(value % 2), setting);
 }
@@ -174,6 +190,7 @@ bool ReportScheduler::send_setting() noexcept {
     passed += reports.all().size();
   }
   style_ = wanted_style_;
+  for (Effect& effect : effect_) effect.is_reversed = false;
   settings_sent_ = 0;
   return has_switch() && control(PidControl::disable_actuators, Sent::Kind::off);
 }
@@ -248,7 +265,7 @@ void ReportScheduler::send_worst(std::int64_t now_ns) noexcept {
 // True if the device already has this setting. The encoded bytes are compared, so that a difference below the device's
 // resolution does not count.
 bool ReportScheduler::is_current(std::size_t value, const PidCondition& setting) noexcept {
-  if (encode(value, setting) != value_[value].sent) return false;
+  if (encode(value, setting) != value_[value].sent || has_wrong_direction(value, setting)) return false;
   value_[value].current = setting;
   return true;
 }
@@ -257,7 +274,28 @@ bool ReportScheduler::is_current(std::size_t value, const PidCondition& setting)
 bool ReportScheduler::send_value(std::size_t value, const PidCondition& setting) noexcept {
   const HidBytes report = encode(value, setting);
   if (report.size == 0 || is_current(value, setting)) return false;
+  if (has_wrong_direction(value, setting)) {
+    // The force is made zero before it is reversed, so that it is never strong in the wrong direction.
+    if (reverse(value)) return true;
+    return send_value(value, kZero);
+  }
   sent_ = {Sent::Kind::value, value, setting, report};
+  return true;
+}
+
+bool ReportScheduler::has_wrong_direction(std::size_t value, const PidCondition& setting) const noexcept {
+  if (value > 1 || style_.signs != SignStyle::direction || setting.coefficient == 0.0) return false;
+  return effect_[value].is_reversed != (setting.coefficient < 0.0);
+}
+
+// Reverses the direction of a constant force that is zero. Returns false if it is not zero yet.
+bool ReportScheduler::reverse(std::size_t value) noexcept {
+  if (encode(value, kZero) != value_[value].sent) return false;
+  const auto effect = static_cast<StickEffect>(value);
+  PidEffectSettings settings =
+      settings_of(effect, effect_[value].block, style_, finite_ ? kEffectDuration : kForever);
+  settings.is_reversed = !effect_[value].is_reversed;
+  sent_ = {Sent::Kind::reverse, value, {}, encode_set_effect(pid_, settings)};
   return true;
 }
 
@@ -298,6 +336,9 @@ void ReportScheduler::arrived(std::int64_t now_ns) noexcept {
       break;
     case Sent::Kind::stop:
       effect_[sent_.index].playing = false;
+      break;
+    case Sent::Kind::reverse:
+      effect_[sent_.index].is_reversed = !effect_[sent_.index].is_reversed;
       break;
     case Sent::Kind::value:
       value_[sent_.index] = {sent_.setting, sent_.report, now_ns, true};

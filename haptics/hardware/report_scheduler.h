@@ -27,10 +27,14 @@ inline constexpr std::size_t kStickEffects = 4;
 PidEffect kind_of(StickEffect effect) noexcept;
 using StickBlocks = std::array<int, kStickEffects>;  // effect block index per effect; kNoBlock: not created
 
-// How the effects name their axes, as measured by the calibration. Aligned, because clang locks an atomic of this size
-// otherwise, and the haptic cycle must not.
-struct alignas(2 * sizeof(AxisStyle)) StickStyle {
+// How the sign of a constant force is sent. Some firmware loses the sign of the magnitude while the effect plays.
+enum class SignStyle : std::uint8_t { magnitude, direction };
+
+// How the effects name their axes and signs, as measured by the calibration. Aligned, because clang locks an atomic of
+// this size otherwise, and the haptic cycle must not.
+struct alignas(4) StickStyle {
   AxisStyle constants = AxisStyle::direction, conditions = AxisStyle::bits;
+  SignStyle signs = SignStyle::magnitude;
   bool operator==(const StickStyle&) const = default;
 };
 
@@ -85,6 +89,7 @@ class ReportScheduler {
   struct Effect {
     int block = kNoBlock;
     bool playing = false;
+    bool is_reversed = false;  // its direction, with SignStyle::direction
     std::int64_t started_ns = 0;
     std::int64_t renew_ns = 0;  // staggered, so that effects are not all renewed at once
   };
@@ -95,7 +100,7 @@ class ReportScheduler {
     bool is_told = false;  // since the effect was wanted; a value that changes in every cycle must not delay its start
   };
   struct Sent {  // the report in transit
-    enum class Kind : std::uint8_t { nothing, setting, on, off, all_stopped, start, stop, value };
+    enum class Kind : std::uint8_t { nothing, setting, on, off, all_stopped, start, stop, reverse, value };
     Kind kind = Kind::nothing;
     std::size_t index = 0;
     PidCondition setting;
@@ -115,6 +120,8 @@ class ReportScheduler {
 
   void expire(std::int64_t now_ns) noexcept;
   bool send_setting() noexcept;
+  bool has_wrong_direction(std::size_t value, const PidCondition& setting) const noexcept;
+  bool reverse(std::size_t value) noexcept;
   void next_off() noexcept;
   void next_on(std::int64_t now_ns) noexcept;
   bool start_if_wanted() noexcept;

@@ -80,19 +80,21 @@ void put_none(HidBytes& bytes, BitField field) noexcept {
 
 // Direction 0 means a force from the far side, and angles increase clockwise. So X is a quarter turn and Y half a turn.
 // The same angle in both fields is right for firmware that reads one of them and for firmware that reads both.
-void put_direction(HidBytes& bytes, const PidSetEffect& effect, int axis) noexcept {
+void put_direction(HidBytes& bytes, const PidSetEffect& effect, int axis, bool is_reversed) noexcept {
+  const double turns = (axis == 1 ? 0.5 : 0.25) + (is_reversed ? 0.5 : 0.0);
   for (const BitField& field : effect.direction) {
-    std::int64_t counts = rounded((axis == 1 ? 0.5 : 0.25) * effect.full_turn);
+    std::int64_t counts = rounded((turns < 1.0 ? turns : turns - 1.0) * effect.full_turn);
     if (counts > field.max) counts -= rounded(effect.full_turn);
     put(bytes, field, counts);
   }
 }
 
-void put_axis(HidBytes& bytes, const PidSetEffect& effect, int axis, AxisStyle style) noexcept {
+void put_axis(HidBytes& bytes, const PidSetEffect& effect, const PidEffectSettings& settings) noexcept {
+  const int axis = settings.axis;
   const bool has_direction = effect.direction_enable.exists() && effect.direction[0].exists();
-  put_direction(bytes, effect, axis);
-  if (has_direction && style != AxisStyle::bits) put(bytes, effect.direction_enable, 1);
-  if (has_direction && style == AxisStyle::direction) return;
+  put_direction(bytes, effect, axis, settings.is_reversed);
+  if (has_direction && settings.style != AxisStyle::bits) put(bytes, effect.direction_enable, 1);
+  if (has_direction && settings.style == AxisStyle::direction) return;
   for (int i = 0; i < 2; ++i) {
     if (axis == i || axis < 0) put(bytes, effect.axis_enable[static_cast<std::size_t>(i)], 1);
   }
@@ -119,7 +121,7 @@ HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settin
   if (has_type) put_choice(bytes, effect.type, type);
   put_duration(bytes, effect, settings.duration);
   put_fraction(bytes, effect.gain, std::max(settings.gain, 0.0));
-  put_axis(bytes, effect, settings.axis, settings.style);
+  put_axis(bytes, effect, settings);
   if (!pid.is_pool_ours()) {
     put_none(bytes, effect.trigger_button);  // 0 would be a button on some devices
     return bytes;

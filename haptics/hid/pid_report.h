@@ -30,6 +30,7 @@ struct PidEffectSettings {
   // (PID 1.0 section 4.2: 0 degrees is a force from the far side, angles increase clockwise); both axes have 90 degrees.
   // A device without a direction gets axis bits.
   int axis = 0;
+  bool is_reversed = false;  // half a turn is added to the direction
   AxisStyle style = AxisStyle::direction;
   std::array<int, 2> place{-1, -1};  // of the effect's parameters, if the driver manages the pool; -1: none
 };

@@ -36,6 +36,7 @@ bool is_possible(haptics::CalibrationStep step, const haptics::DeviceCalibration
     case haptics::CalibrationStep::polarity:
       return known.has_stops();
     case haptics::CalibrationStep::timing:
+    case haptics::CalibrationStep::strength:
       return known.has_polarity();
     case haptics::CalibrationStep::handle:
     case haptics::CalibrationStep::springs:
@@ -64,6 +65,12 @@ class DialogRunner {
         return measure_hands_off(
             "This step measures how fast the stick responds. The stick shakes a little for a few seconds.",
             "the stick cannot be used", [&] { return calibrator_.measure_timing(); });
+      case haptics::CalibrationStep::strength:
+        return measure_hands_off(
+            "This step measures how strong the forces are. The motors push the handle for an instant with 5, 20, 60 "
+            "and 100 % of their force.",
+            "forces are as right as the stick's maker made them, and some sticks are far off",
+            [&] { return calibrator_.measure_strength(); });
       case haptics::CalibrationStep::handle:
         return measure_hands_off(
             "This step measures how heavy the handle is. The motors push the handle back and forth with up to 40 % of "

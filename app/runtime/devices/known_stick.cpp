@@ -78,6 +78,13 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
   per_axis("full force", [](const auto& axis) { return fmt::format("{:.3g} N", axis.full_force); });
   add("positive force", sign(select.constant_sign, "pushes right", "pushes left"),
       sign(shift.constant_sign, "pushes forward", "pushes back"));
+  per_axis("even forces", [](const auto& axis) {
+    return axis.constant_limit == 0.0 ? std::string("not measured")
+                                      : fmt::format("up to {:.0f} % of the magnitude", 100.0 * axis.constant_limit);
+  });
+  per_axis("largest force", [](const auto& axis) {
+    return fmt::format("{:.3g} N", axis.max_magnitude() * axis.force_per_magnitude());
+  });
   per_axis("handle", [](const auto& axis) {
     return axis.handle.mass == 0.0 ? std::string("not measured")
                                    : fmt::format("{:.3f} kg, {:.1f} N s/m, {:.0f} N/m", axis.handle.mass,

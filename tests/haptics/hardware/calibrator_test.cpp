@@ -88,6 +88,7 @@ TEST_CASE(
       calibrator.measure_polarity();
       CHECK(bench.strongest <= kCautiousForce * 20.0 * 1.01);
       calibrator.measure_timing();
+      calibrator.measure_strength();
       calibrator.measure_handle();
       calibrator.measure_springs();
 
@@ -111,6 +112,8 @@ TEST_CASE(
         CHECK(measured.handle.mass == doctest::Approx(expected.handle.mass).epsilon(0.05));
         CHECK(measured.handle.damping == doctest::Approx(expected.handle.damping).epsilon(0.05));
         CHECK(std::abs(measured.handle.stiffness - expected.handle.stiffness) < 4.0);
+        CHECK(measured.constant_limit == 1.0);
+        CHECK(measured.constant_slope == 1.0);
         CHECK(measured.spring_stiffness == doctest::Approx(400.0).epsilon(0.05));
         CHECK(measured.damper_sign == expected.damper_sign);
         CHECK(measured.damper_strength == doctest::Approx(2.0 * sampled_damper(expected.handle, 10.0)).epsilon(fine));
@@ -158,6 +161,55 @@ TEST_CASE("the measured delay is the emulation's, within a third of a millisecon
   }
 }
 
+// adapt-ffb-joy 0.4: 102 of 255 give 25 of 127, 128 give 31, but 153 give 102, and 255 give 127.
+TEST_CASE("forces that do not grow evenly are used up to where they do, and the handle's mass is right all the same") {
+  EmulatedStickConfig config = config_of(StickFamily::adapt_ffb_joy);
+  const auto calibrated = [&] {
+    DeviceCalibration known = calibration_of(config);
+    known.select.constant_limit = known.shift.constant_limit = 0.0;
+    known.select.handle = known.shift.handle = {};
+    known.select.low = known.shift.high = -512.0;
+    known.select.high = known.shift.low = 511.0;
+    known.select.centre = known.shift.centre = -0.5;
+    CalibrationBench bench(config, known);
+    const std::string sentence = bench.calibrator.measure_strength();
+    bench.calibrator.measure_handle();
+    return std::pair{sentence, bench.calibrator.calibration()};
+  };
+  config.habits.jumps_at_half = true;
+  const auto [sentence, found] = calibrated();
+  CHECK(sentence.find("in select, magnitudes of 5, 20, 60 and 100 % give 2, 9, 80 and 100 % of the full force, so only "
+                      "magnitudes up to 50 % are used, and no force exceeds 24 % of the full one") == 0);
+  for (const LeverAxisCalibration& axis : {found.select, found.shift}) {
+    CHECK(axis.constant_limit == 0.5);
+    CHECK(axis.constant_slope == doctest::Approx(12.0 / 127.0 / 0.2).epsilon(0.05));
+  }
+  CHECK(found.select.handle.mass == doctest::Approx(config.lever.axis_x.mass).epsilon(0.08));
+  CHECK(found.shift.handle.mass == doctest::Approx(config.lever.axis_y.mass).epsilon(0.08));
+  CHECK(spec_of(found, 0.001).max_force.x == doctest::Approx(20.0 * 31.0 / 127.0).epsilon(0.05));
+
+  config.habits.jumps_at_half = false;  // the same stick with even forces
+  const auto [even, whole] = calibrated();
+  CHECK(even.find("so only") == std::string::npos);
+  CHECK(whole.select.constant_limit == 1.0);
+  CHECK(spec_of(whole, 0.001).max_force == dvec2(20.0));
+}
+
+TEST_CASE("a stick that keeps the sign of a force that plays is driven by directions; one that keeps all is refused") {
+  EmulatedStickConfig config = config_of(StickFamily::adapt_ffb_joy);
+  config.habits.constant_update = ConstantUpdate::strength;
+  CalibrationBench bench(config, unmeasured_calibration(config));
+  bench.calibrator.measure_polarity();
+  CHECK(bench.calibrator.calibration().style.signs == SignStyle::direction);
+  CHECK(bench.strongest <= kCautiousForce * 20.0 * 1.01);
+
+  config.habits.constant_update = ConstantUpdate::nothing;
+  CalibrationBench fixed(config, unmeasured_calibration(config));
+  CHECK(refusal([&] { fixed.calibrator.measure_polarity(); }) ==
+        "the stick does not change a force while it acts, and a lever needs forces that change");
+  CHECK(fixed.strongest <= kCautiousForce * 20.0 * 1.01);
+}
+
 TEST_CASE("the measured intervals are those of the stick and its ticks") {
   for (const double interval : {0.002, 0.004, 0.008}) {
     EmulatedStickConfig config = config_of(StickFamily::vjoy);
@@ -177,8 +229,8 @@ TEST_CASE("the measured intervals are those of the stick and its ticks") {
 TEST_CASE("missing steps are listed in order, and finished steps are not listed") {
   using enum CalibrationStep;
   DeviceCalibration known;
-  CHECK(missing_steps(known, true) == std::vector{range, numbers, polarity, timing, handle, springs});
-  CHECK(missing_steps(known, false) == std::vector{range, numbers, polarity, timing, handle});
+  CHECK(missing_steps(known, true) == std::vector{range, numbers, polarity, timing, strength, handle, springs});
+  CHECK(missing_steps(known, false) == std::vector{range, numbers, polarity, timing, strength, handle});
   known = calibration_of(config_of(StickFamily::vjoy));
   CHECK(missing_steps(known, true).empty());
   known.timing = {};

@@ -40,7 +40,8 @@ class RandomCalibration {
     made.select.usage = 0x30 + static_cast<int>(chance_() % 4);
     made.shift.usage = 0x34 + static_cast<int>(chance_() % 5);
     made.timing = {between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0)};
-    made.style = {static_cast<AxisStyle>(chance_() % 3), static_cast<AxisStyle>(chance_() % 3)};
+    made.style = {static_cast<AxisStyle>(chance_() % 3), static_cast<AxisStyle>(chance_() % 3),
+                  static_cast<SignStyle>(chance_() % 2)};
     if (flag()) made.springs_refused = "springs \"" + std::to_string(chance_());
     if (flag()) made.dampers_refused = "dampers # " + std::to_string(chance_());
     made.press_button = static_cast<int>(chance_() % 65);
@@ -66,6 +67,10 @@ class RandomCalibration {
     axis.spring_dead_band = between(0.0, 10.0);
     axis.own_spring = between(0.0, 1e5);
     axis.damper_sign = sign();
+    if (flag()) {
+      axis.constant_limit = between(0.01, 1.0);
+      axis.constant_slope = between(0.01, 10.0);
+    }
     axis.damper_strength = between(0.0, 1e3);
     axis.handle = {flag() ? 0.0 : between(1e-3, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
   }
@@ -82,7 +87,7 @@ bool same(const LeverAxisCalibration& a, const LeverAxisCalibration& b) {
          a.full_force == b.full_force && a.constant_sign == b.constant_sign && a.spring_sign == b.spring_sign &&
          a.spring_stiffness == b.spring_stiffness && a.spring_dead_band == b.spring_dead_band &&
          a.own_spring == b.own_spring && a.damper_sign == b.damper_sign && a.damper_strength == b.damper_strength &&
-         same(a.handle, b.handle);
+         a.constant_limit == b.constant_limit && a.constant_slope == b.constant_slope && same(a.handle, b.handle);
 }
 
 bool same(const DeviceTiming& a, const DeviceTiming& b) {

@@ -67,13 +67,13 @@ TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
                                "out 0d 00",           // gain
                                "set 01 01 00 00",
                                "get 02 02 01 c0 04",                                   // constant: block 2
-                               "out 05 02 00 00",                                      // magnitude 0
+                               "out 05 02 12 00",                                      // a slight magnitude
                                "out 01 02 01 2c 01 00 00 00 00 ff ff 04 40 40 00 00",  // X, 90 degrees
                                "out 05 02 00 00",                                      //
                                "get 02 02 01 c0 04",                                   // no error: duration accepted
                                "set 01 01 00 00",
                                "get 02 03 01 a0 04",                                   // constant: block 3
-                               "out 05 03 00 00",                                      //
+                               "out 05 03 12 00",                                      //
                                "out 01 03 01 2c 01 00 00 00 00 ff ff 04 80 80 00 00",  // Y, 180 degrees
                                "out 05 03 00 00",                                      //
                                "set 01 08 00 00",
@@ -116,13 +116,13 @@ TEST_CASE("OpenFFBoard: the same sequence, with bits and other fields") {
                                "out 0d 00",
                                "set 11 01 00 00",
                                "get 12 01 01 e0 04",
-                               "out 05 01 00 00",
+                               "out 05 01 f6 08",
                                "out 01 01 01 2c 01 00 00 00 00 00 00 ff ff 04 28 23 28 23 00 00 00 00",
                                "out 05 01 00 00",
                                "get 12 01 01 e0 04",
                                "set 11 01 00 00",
                                "get 12 02 01 c0 04",
-                               "out 05 02 00 00",
+                               "out 05 02 f6 08",
                                "out 01 02 01 2c 01 00 00 00 00 00 00 ff ff 04 50 46 50 46 00 00 00 00",
                                "out 05 02 00 00",
                                "set 11 08 00 00",
@@ -158,13 +158,13 @@ TEST_CASE("vJoy: the same sequence, with other IDs") {
                                "out 1d 00",
                                "set 11 01 00 00",
                                "get 12 01 01 60 0c",
-                               "out 15 01 00 00",
+                               "out 15 01 bc 02",
                                "out 11 01 01 2c 01 00 00 00 00 00 00 ff ff 04 00 20 00 20 00 00 00 00",
                                "out 15 01 00 00",
                                "get 12 01 01 60 0c",
                                "set 11 01 00 00",
                                "get 12 02 01 40 0c",
-                               "out 15 02 00 00",
+                               "out 15 02 bc 02",
                                "out 11 02 01 2c 01 00 00 00 00 00 00 ff ff 04 00 40 00 40 00 00 00 00",
                                "out 15 02 00 00",
                                "set 11 08 00 00",

@@ -31,12 +31,12 @@ double creeping(double b, double k, double t) {  // overdamped: b^2 > 4 k
 std::vector<Pulse> pulses_of(const auto& step, double gain, double delay, double quantum) {
   std::vector<Pulse> pulses;
   for (const double magnitude : {0.05, -0.05, 0.10}) {
+    constexpr double kLength = 0.060;
     Pulse pulse;
-    pulse.magnitude = magnitude;
-    pulse.length = 0.060;
+    pulse.steps = {{0.0, magnitude}, {kLength, 0.0}};
     for (int ms = 0; ms < 460; ++ms) {
       const double since = 1e-3 * ms - delay;
-      const double x = magnitude * gain * (step(since) - step(since - pulse.length));
+      const double x = magnitude * gain * (step(since) - step(since - kLength));
       pulse.samples.push_back({1e-3 * ms, quantum > 0.0 ? quantum * std::round(x / quantum) : x});
     }
     pulses.push_back(pulse);

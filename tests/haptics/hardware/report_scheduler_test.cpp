@@ -76,6 +76,35 @@ TEST_CASE("on: actuators, then each effect's values before its start, then only 
   CHECK(wire.count(pushing(0.5, 0.0), 1000, wire.pid.set_constant) == 0);
 }
 
+// The device's force is the magnitude in the direction that was set last: it must never push the wrong way.
+TEST_CASE("signs by direction: no magnitude is negative, and a force is zero while its direction is reversed") {
+  for (const StickFamily family : {StickFamily::vjoy, StickFamily::adapt_ffb_joy}) {
+    Wire wire(family);
+    const std::uint8_t set_constant = wire.pid.set_constant.id, set_effect = wire.pid.set_effect.id;
+    wire.stream.set_style({AxisStyle::direction, AxisStyle::bits, SignStyle::direction});
+    for (int i = 0; i < 50; ++i) wire.tick({});
+    const auto is_x = [](const HidBytes& report) { return report.bytes[1] == 1; };
+    const BitField& field = wire.pid.set_constant.magnitude;
+    double magnitude = 0.0, direction = 1.0;
+    int turned = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double wanted = std::sin(0.02 * i);
+      const HidBytes report = wire.tick(pushing(wanted, 0.0));
+      if (report.size > 0 && report.id() == set_constant && is_x(report))
+        magnitude = static_cast<double>(read_bits(report.view(), field)) / static_cast<double>(field.max);
+      if (report.size > 0 && report.id() == set_effect && is_x(report)) {
+        CHECK(magnitude == 0.0);
+        direction = -direction;
+        ++turned;
+      }
+      CHECK(magnitude >= 0.0);
+      CHECK(wire.stream.force()[0] == doctest::Approx(direction * magnitude).epsilon(0.02));
+      if (i > 20) CHECK(std::abs(direction * magnitude - wanted) < 0.12);
+    }
+    CHECK(turned == 12);  // the sine's zeros
+  }
+}
+
 // Found with SunFFB's state reports: while the guard's ramp raised the walls in every cycle, the springs did not start,
 // and the constant forces ran out because starts come before renewals.
 TEST_CASE("a value that changes in every cycle does not delay the start of its effect") {

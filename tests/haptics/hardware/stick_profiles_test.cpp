@@ -30,18 +30,14 @@ constexpr double kMaxDialogue = 300.0;  // [s] of all measurements without a han
 
 struct Calibrated {
   DeviceCalibration found;
-  std::string refusal;  // why the stick cannot be used; empty: it can
-  std::string handle_refused;
+  std::string refusal;   // why the stick cannot be used; empty: it can
+  std::string left_out;  // all that is refused
+  std::string heard;     // all that the dialogue says about the forces
   double seconds = 0.0;  // [s] of all measurements without a hand
 };
 
-// All sentences about what is not used.
-std::string sentences(const Calibrated& calibrated) {
-  std::string all;
-  for (const std::string& part : {calibrated.refusal, calibrated.handle_refused, calibrated.found.springs_refused,
-                                  calibrated.found.dampers_refused})
-    if (!part.empty()) all += (all.empty() ? "" : "; ") + part;
-  return all;
+void append(std::string& all, const std::string& sentence) {
+  if (!sentence.empty()) all += (all.empty() ? "" : "; ") + sentence;
 }
 
 Calibrated calibrate_stick(const EmulatedStickConfig& config) {
@@ -52,29 +48,38 @@ Calibrated calibrate_stick(const EmulatedStickConfig& config) {
     bench.find_axes();
     bench.measure_all_stops();
   } catch (const CalibrationRefused& refused) {  // the reports end before Y
-    result.refusal = refused.what();
+    result.refusal = result.left_out = result.heard = refused.what();
     CHECK(bench.problems().size() == 1);
     return result;
   }
   calibrator.set_numbers(0.14, 0.14, 20.0);
   bench.hands_off();
   const double begin = bench.time();
-  const auto refusal_of = [&](auto step) -> std::string {
-    try {
-      std::invoke(step, calibrator);
-    } catch (const CalibrationRefused& refused) {
-      return refused.what();
+  // Like the user of the dialogue, who tries twice.
+  const auto measure = [&](auto step) -> std::string {
+    std::string refusal;
+    for (int tries = 0; tries < 2; ++tries) {
+      try {
+        append(result.heard, std::invoke(step, calibrator));
+        return "";
+      } catch (const CalibrationRefused& refused) {
+        refusal = refused.what();
+      }
     }
-    return "";
+    append(result.heard, refusal);
+    append(result.left_out, refusal);
+    return refusal;
   };
   for (const auto step : {&Calibrator::measure_polarity, &Calibrator::measure_timing})
-    if (result.refusal.empty()) result.refusal = refusal_of(step);
+    if (result.refusal.empty()) result.refusal = measure(step);
   if (result.refusal.empty()) {
-    result.handle_refused = refusal_of(&Calibrator::measure_handle);
-    std::string springs;  // the dialogue's sentence
-    if (bench.ability.spring) refusal_of([&](Calibrator& c) { springs = c.measure_springs(); });
+    measure(&Calibrator::measure_strength);
+    measure(&Calibrator::measure_handle);
+    if (bench.ability.spring) measure(&Calibrator::measure_springs);
     const std::string& refused = calibrator.calibration().springs_refused;
-    if (!refused.empty()) CHECK(springs.starts_with(refused + ", so springs are not used"));
+    if (!refused.empty()) CHECK(result.heard.find(refused + ", so springs are not used") != std::string::npos);
+    append(result.left_out, refused);
+    append(result.left_out, calibrator.calibration().dampers_refused);
   }
   result.seconds = bench.time() - begin;
   result.found = calibrator.calibration();
@@ -97,7 +102,8 @@ Driven drive_through_gate(const EmulatedStickConfig& bare, const DeviceCalibrati
   const Gate gate = stick_gate("six_speed_r_left_up", config);
   const dvec2 start = rest_position(gate, kNeutralGear);
   ScriptedHandConfig script = touring_hand(start);
-  script.effort_limit = 8.0;  // [N] a gentle hand, because the stick has only 20 N
+  // [N] a gentle hand, because the stick has only 20 N, or less
+  script.effort_limit = std::min(8.0, 0.4 * spec_of(known, 0.001).max_force.x);
   ScriptedHand hand(script, shift_strokes(gate, start, tour_order(gate)), config.plant_period);
   StickLoop run(config, known, {}, gate, hand);
   run.stick.logs = false;
@@ -214,7 +220,7 @@ void check_stick(const EmulatedStickConfig& config, const std::string& name, con
   const Driven driven = drive_through_gate(config, calibrated.found);
   const DeviceCalibration& found = calibrated.found;
   const bool has_gap = found.timing.restart_gap > 0.0, has_own_spring = found.select.own_spring > 0.0;
-  const bool has_sentence = !sentences(calibrated).empty() || !driven.problems.empty() || has_gap || has_own_spring;
+  const bool has_sentence = !calibrated.left_out.empty() || !driven.problems.empty() || has_gap || has_own_spring;
   CHECK(has_gap == (config.habits.restart_gap > 0.0));
   CHECK(has_own_spring == (config.habits.auto_centre == AutoCentre::while_on));
   CHECK(driven.gears == 7);
@@ -222,10 +228,10 @@ void check_stick(const EmulatedStickConfig& config, const std::string& name, con
     CHECK(has_sentence);
     return;
   }
-  CHECK_MESSAGE(driven.wrong < 0.05, name, ": wrong for ", driven.wrong, " s, ", sentences(calibrated));
+  CHECK_MESSAGE(driven.wrong < 0.05, name, ": wrong for ", driven.wrong, " s, ", calibrated.left_out);
   CHECK_MESSAGE((driven.silent < 0.05 || has_sentence), name, ": silent for ", driven.silent, " s");
   CHECK_MESSAGE((driven.rms < kMaxRms || has_sentence), name, ": rms ", driven.rms, " N");
-  CHECK_MESSAGE(driven.rms < 2.0 * kMaxRms, name, ": rms ", driven.rms, " N, ", sentences(calibrated));
+  CHECK_MESSAGE(driven.rms < 2.0 * kMaxRms, name, ": rms ", driven.rms, " N, ", calibrated.left_out);
 }
 
 }  // namespace
@@ -247,6 +253,7 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
       {"Fino", "", kWrongBand},
       {"adapt-ffb-joy 0.5", "", kNoBand},
       {"adapt-ffb-joy 0.4", "", kNoBand},
+      {"adapt-ffb-joy 0.4, fixed", "the stick does not change a force while it acts", ""},
       {"SunFFB", "", ""},
       {"AFFBWheel", kOneMotor, ""},
       {"Arduino-FFB-wheel, one motor", kOneMotor, ""},
@@ -270,13 +277,13 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
     CHECK(calibrated.seconds < kMaxDialogue);
     table += std::string(profile.name) + " | " + std::to_string(calibrated.seconds) + " | ";
     if (!calibrated.refusal.empty()) {
-      table += "- | - | - | - | " + sentences(calibrated) + '\n';
+      table += "- | - | - | - | " + calibrated.left_out + '\n';
       continue;
     }
     const Driven driven = drive_through_gate(config, calibrated.found);
     const Driven believing = drive_through_gate(config, believed_calibration(config, calibrated.found));
     table += std::to_string(driven.gears) + " | " + std::to_string(driven.rms) + " | " + std::to_string(driven.worst) +
-             " | " + std::to_string(believing.rms) + " | " + sentences(calibrated) + '\n';
+             " | " + std::to_string(believing.rms) + " | " + calibrated.left_out + '\n';
     CHECK(driven.gears == 7);
     CHECK(driven.rms < kMaxRms);
     CHECK(driven.wrong == 0.0);

@@ -88,10 +88,22 @@ double condition_force(const AxisCondition& condition, double deflection, double
   return 0.0;
 }
 
+namespace {
+
+// adapt 0.4: int16_t v = value; (((v * gain) / 256) >> 2) & 0x7f, with the int of 16 bits of an AVR
+double strength_with_jump(double magnitude, double gain) noexcept {
+  const auto product = static_cast<std::int16_t>(std::lround(255.0 * std::abs(magnitude)) * std::lround(255.0 * gain));
+  const double strength = static_cast<double>(((product / 256) >> 2) & 0x7f) / 127.0;
+  return magnitude < 0.0 ? -strength : strength;
+}
+
+}  // namespace
+
 void add_constant(const DeviceEffect& effect, const StickHabits& habits, glm::dvec2& sum) noexcept {
   const EffectSettings& settings = effect.settings;
   const double gain = habits.constant_ignores_gain ? (settings.gain > 0.0 ? 1.0 : 0.0) : settings.gain;
-  const double force = gain * (effect.sign_dropped ? std::abs(effect.magnitude) : effect.magnitude);
+  const double magnitude = effect.sign_dropped ? std::abs(effect.magnitude) : effect.magnitude;
+  const double force = habits.jumps_at_half ? strength_with_jump(magnitude, gain) : gain * magnitude;
   if (habits.constant != ConstantLaw::rotates_sum) {
     sum += force * push_direction(settings, habits.constant);
     return;

@@ -131,7 +131,10 @@ void StickFirmware::set_constant(std::span<const std::uint8_t> report) {
       if (DeviceEffect* effect = effects_.find(i)) fetch_parameters(*effect);
     }
   } else if (DeviceEffect* effect = effects_.find(report[1])) {
-    effect->magnitude = magnitude;
+    const bool is_update = effect->settings.is_set;
+    if (is_update && habits_.constant_update == ConstantUpdate::nothing) return;
+    effect->magnitude =
+        is_update && habits_.constant_update == ConstantUpdate::strength ? std::abs(magnitude) : magnitude;
     effect->sign_dropped = false;
   }
 }

@@ -53,6 +53,14 @@ enum class DeadBandLaw : std::uint8_t {
   shifts_centre,  // the centre moves to the upper end of the dead band, and there is no dead band [stm]
 };
 
+// What a new constant force changes after the effect was first set.
+enum class ConstantUpdate : std::uint8_t {
+  all,
+  strength,  // the sign stays positive; the strength is followed [adapt 0.4, if the stick obeys the parameter that is
+             // written to it]
+  nothing    // strength and sign stay as they were first told [adapt 0.4, if it does not]
+};
+
 enum class AutoCentre : std::uint8_t {
   none,
   after_reset,  // on at power-on and after a reset, until stop-all [adapt]
@@ -74,6 +82,10 @@ struct StickHabits {
   DeadBandLaw dead_band = DeadBandLaw::honoured;
   AutoCentre auto_centre = AutoCentre::none;
   double centring_slope = 0.4;  // [1] of `auto_centre`: force at full deflection; limited to 0.3 of the full force
+  ConstantUpdate constant_update = ConstantUpdate::all;
+  // Strength in 7 bits from a product in 16 bits that overflows at half force: 128 of 255 gives 31 of 127, but 129 gives
+  // 96 [adapt 0.4, CalcGain]
+  bool jumps_at_half = false;
   bool drops_sign = false;      // setting an effect reverses a negative constant force until it is sent again [adapt]
   bool constant_ignores_gain = false;  // [library, fino]
   bool ignores_device_gain = false;    // [library, fino, br, pico, stm]

@@ -78,8 +78,12 @@ StickProfile adapt_ffb_joy_0_5_stick() {
   return profile;
 }
 
-StickProfile adapt_ffb_joy_0_4_stick() {
-  StickProfile profile = adapt_ffb_joy_stick("adapt-ffb-joy 0.4");
+// The firmware writes the strength of a constant force that plays to the stick's parameter 74h, never to the magnitude at
+// 68h, and its sign to 7Ch. Whether the stick obeys 74h is not known.
+StickProfile adapt_ffb_joy_0_4_stick(const char* name, ConstantUpdate update) {
+  StickProfile profile = adapt_ffb_joy_stick(name);
+  profile.habits.constant_update = update;
+  profile.habits.jumps_at_half = true;
   profile.habits.stop_all_erases = true;
   profile.habits.ignores_device_gain = true;
   profile.habits.ignores_actuators = true;
@@ -150,7 +154,8 @@ std::span<const StickProfile> stick_profiles() {
       arduino_stick("Arduino library, hat", StickFamily::arduino_hat),
       fino_stick(),
       adapt_ffb_joy_0_5_stick(),
-      adapt_ffb_joy_0_4_stick(),
+      adapt_ffb_joy_0_4_stick("adapt-ffb-joy 0.4", ConstantUpdate::strength),
+      adapt_ffb_joy_0_4_stick("adapt-ffb-joy 0.4, fixed", ConstantUpdate::nothing),
       sunffb_stick(),
       affbwheel_stick(),
       brwheel_stick("Arduino-FFB-wheel, one motor", 1),

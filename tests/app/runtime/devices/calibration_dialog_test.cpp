@@ -123,7 +123,7 @@ TEST_CASE("the calibration matches the user's actions and answers; every step is
   CHECK(found.press_button == 3);  // the user pressed the button of bit 2, which is number 3
   CHECK(found.lift_button == 0);
   CHECK(found.stop_button == 0);
-  CHECK(rig.saved.size() == 6);  // saved once per step: range, numbers, polarity, timing, handle, springs
+  CHECK(rig.saved.size() == 7);  // saved once per step: range, numbers, polarity, timing, strength, handle, springs
   CHECK(rig.saved.front().has_stops());
   CHECK_FALSE(rig.saved.front().has_travel());
 }
@@ -194,14 +194,14 @@ TEST_CASE("an interrupted calibration continues with the first missing step and 
   Rig second;
   const DeviceCalibration found = second.run(first.saved.back());
   CHECK(missing_steps(found, true).empty());
-  CHECK(second.asked.size() == 3);  // the questions are about timing, handle and springs
+  CHECK(second.asked.size() == 4);  // the questions are about timing, strength, handle and springs
   CHECK(second.asked.front().find("how fast the stick responds") != std::string::npos);
   CHECK(found.press_button == 3);
 }
 
 TEST_CASE("every step may be left out, and the question says what that costs") {
   for (const char* left_out : {"RIGHT", "knob down", "along all its stops", "left stop", "maximum force", "forces push",
-                               "how fast", "how heavy", "springs and dampers"}) {
+                               "how fast", "how strong", "how heavy", "springs and dampers"}) {
     CAPTURE(left_out);
     Rig rig;
     CalibrationDialog dialog;
@@ -218,6 +218,7 @@ TEST_CASE("every step may be left out, and the question says what that costs") {
     CHECK_FALSE(rig.has_printed("Rejected"));
     CHECK(calibrator.calibration().has_springs() ==
           (std::string(left_out) == "knob down" || std::string(left_out) == "how fast" ||
+           std::string(left_out) == "how strong" ||
            std::string(left_out) == "how heavy"));
   }
 }
