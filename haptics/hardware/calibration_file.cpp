@@ -22,7 +22,7 @@ namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
 constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0},
-    kDeadBand{0.0, 10.0}, kMagnitude{0.01, 1.0}, kSlope{0.01, 10.0};
+    kDeadBand{0.0, 10.0}, kMagnitude{0.01, 1.0}, kSlope{0.01, 10.0}, kCrossTalk{0.0, 10.0}, kEffects{1.0, 4.0};
 constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] smallest valid values; 0 means not known
 
 using AxisName = std::pair<std::string_view, int>;  // name and usage ID on the HID Generic Desktop page
@@ -90,6 +90,9 @@ void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
     axis.constant_limit = table.number("constant_limit", kMagnitude);
     axis.constant_slope = table.number("constant_slope", kSlope);
   }
+  if (table.has("constant_cross_talk")) axis.constant_cross_talk = table.number("constant_cross_talk", kCrossTalk);
+  if (table.has("spring_cross_talk")) axis.spring_cross_talk = table.number("spring_cross_talk", kCrossTalk);
+  if (table.has("damper_cross_talk")) axis.damper_cross_talk = table.number("damper_cross_talk", kCrossTalk);
   read_handle(table.table("handle"), axis.handle);
   table.reject_unknown_keys();
 }
@@ -129,6 +132,8 @@ constexpr StickStyle kOldStyle{AxisStyle::both, AxisStyle::bits};  // of files f
 void read_effects(const TomlTable& table, DeviceCalibration& calibration) {
   calibration.style = {read_style(table, "constants_by", kStyles), read_style(table, "conditions_by", kStyles)};
   if (table.has("signs_by")) calibration.style.signs = read_style(table, "signs_by", kSigns);
+  calibration.holds_spring = table.flag_or("holds_spring", false);
+  if (table.has("at_once")) read_integer(table, "at_once", calibration.effects_at_once, kEffects);
   if (table.has("springs_refused")) calibration.springs_refused = table.text("springs_refused");
   if (table.has("dampers_refused")) calibration.dampers_refused = table.text("dampers_refused");
   table.reject_unknown_keys();
@@ -202,6 +207,12 @@ void put_axis(CommentedText& out, const std::string& section, const LeverAxisCal
     out.put("constant_limit", axis.constant_limit, once("forces grow evenly up to this magnitude"));
     out.put("constant_slope", axis.constant_slope, once("measured force per magnitude there, over full_force_n"));
   }
+  const auto put_cross_talk = [&](std::string_view key, double value) {
+    if (value >= 0.0) out.put(key, value, once("motion of the other axis over that of this one"));
+  };
+  put_cross_talk("constant_cross_talk", axis.constant_cross_talk);
+  put_cross_talk("spring_cross_talk", axis.spring_cross_talk);
+  put_cross_talk("damper_cross_talk", axis.damper_cross_talk);
   out.section(section + ".handle", once("handle without a hand"));
   out.put("mass_kg", axis.handle.mass, once("0: not measured"));
   out.put("damping_n_s_per_m", axis.handle.damping, "");
@@ -263,6 +274,10 @@ std::string calibration_text(const DeviceCalibration& calibration) {
   out.put("conditions_by", toml_string(style_name(calibration.style.conditions, kStyles)), "");
   if (calibration.style.signs != SignStyle::magnitude)
     out.put("signs_by", toml_string(style_name(calibration.style.signs, kSigns)), "of constant forces");
+  if (calibration.holds_spring)
+    out.put("holds_spring", "true", "a spring without a force keeps the stick from centring by itself");
+  if (calibration.effects_at_once > 0)
+    out.put("at_once", calibration.effects_at_once, "so many were found to act at the same time");
   if (!calibration.springs_refused.empty())
     out.put("springs_refused", toml_string(calibration.springs_refused), "so springs are not used");
   if (!calibration.dampers_refused.empty())

@@ -68,11 +68,12 @@ std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration,
   std::vector<CalibrationStep> missing;
   if (!calibration.has_stops()) missing.push_back(CalibrationStep::range);
   if (!calibration.has_travel() || !calibration.has_force()) missing.push_back(CalibrationStep::numbers);
-  if (!calibration.has_polarity()) missing.push_back(CalibrationStep::polarity);
+  if (!calibration.has_polarity() || calibration.effects_at_once == 0) missing.push_back(CalibrationStep::polarity);
   if (!calibration.has_timing()) missing.push_back(CalibrationStep::timing);
   if (!calibration.has_strength()) missing.push_back(CalibrationStep::strength);
   if (!calibration.has_handle()) missing.push_back(CalibrationStep::handle);
-  if (springs && !calibration.has_springs()) missing.push_back(CalibrationStep::springs);
+  const bool has_cross_talk = calibration.select.spring_cross_talk >= 0.0 && calibration.shift.spring_cross_talk >= 0.0;
+  if (springs && (!calibration.has_springs() || !has_cross_talk)) missing.push_back(CalibrationStep::springs);
   return missing;
 }
 

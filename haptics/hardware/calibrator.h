@@ -83,30 +83,44 @@ class Calibrator {
   static LeverAxisCalibration range_of(const std::string& name, const FoundAxis& found,
                                        const std::vector<double>& positions, double centre, double range);
   struct Signs {
-    std::array<int, 2> sign{};  // select, shift
-    double magnitude = 0.0;     // [1] that moved both axes
+    std::array<int, 2> sign{};           // select, shift
+    double magnitude = 0.0;              // [1] that moved both axes
+    std::array<double, 2> cross_talk{};  // as in LeverAxisCalibration
   };
   struct Spring {
     int sign = 0;
     double stiffness = 0.0;  // [N/m]
     double dead_band = 0.0;  // [1]
+    double cross_talk = 0.0;
   };
 
   std::array<AxisPlace, 2> places() const { return {axis_place(calibration_.select), axis_place(calibration_.shift)}; }
+  LeverAxisCalibration& axis_of(std::size_t i) { return i == 0 ? calibration_.select : calibration_.shift; }
+  const LeverAxisCalibration& axis_of(std::size_t i) const { return i == 0 ? calibration_.select : calibration_.shift; }
+  StickCommand idle_command() const noexcept;
+  StickCommand only(std::size_t motor) const noexcept;
+  StickCommand with_weak(bool damper) const noexcept;
   void apply(StickStyle style);
   Signs constant_signs();
   Signs constant_signs_by(StickStyle style);
   bool keeps_forces();
-  int constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name, double& magnitude) const;
+  int constant_sign(StickRig& rig, std::size_t axis, Signs& found) const;
+  bool acts_beside(StickRig& rig, const AxisPlace& axis, const StickCommand& fewer, const StickCommand& more) const;
   static void require_motors(const std::array<int, 2>& sign);
   void check_together(StickRig& rig, const Signs& found) const;
-  double push(StickRig& rig, const AxisPlace& place, const StickCommand& idle, const StickCommand& command) const;
+  struct Motion {
+    double moved = 0.0, other = 0.0;  // [1] of the pushed axis and of the other one, fractions of their ranges
+  };
+  Motion push(StickRig& rig, const AxisPlace& place, const StickCommand& idle, const StickCommand& command) const;
+  static double cross_talk(const Motion& there, const Motion& back) noexcept;
+  static void check_cross_talk(const char* effect, std::size_t axis, double cross_talk);
   std::string measure_springs_anew();
   std::string measure_spring_strengths();
   std::array<Spring, 2> find_springs();
   std::array<Spring, 2> springs_twice(StickStyle style);
   std::array<Spring, 2> springs_by(StickStyle style);
-  int spring_sign(StickRig& rig, const AxisPlace& place) const;
+  Spring spring_sign(StickRig& rig, const AxisPlace& place) const;
+  Motion pull(StickRig& rig, const AxisPlace& place, double coefficient, double offset) const;
   void check_springs_together(StickRig& rig, const std::array<Spring, 2>& springs) const;
   double dead_band(StickRig& rig, const LeverAxisCalibration& axis, const Spring& spring) const;
   DeviceTiming measure_intervals(StickRig& rig) const;
@@ -120,20 +134,24 @@ class Calibrator {
   Pulse pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const;
   std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double& magnitude) const;
   double restart_gap(StickRig& rig, const DeviceTiming& timing) const;
-  double distance_pushed(StickRig& rig, const AxisPlace& place, bool alone, double restart_interval) const;
+  Motion distance_pushed(StickRig& rig, const AxisPlace& place, StickCommand beside) const;
   double own_share(StickRig& rig, const LeverAxisCalibration& axis) const;
-  double distance_returned(StickRig& rig, const AxisPlace& place, bool motors) const;
+  double distance_returned(StickRig& rig, const AxisPlace& place, const StickCommand& under) const;
+  AxisModel handle_of(const PulseFit& found, std::size_t axis) const;
+  bool is_stiff(const PulseFit& found, std::size_t axis) const;
+  bool spring_helps(StickRig& rig) const;
   PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper = 0.0) const;
   static PulseFit fit_of(std::span<const Pulse> pulses, const std::string& name);
   static PulseFit validated(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
   double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis, int sign) const;
   std::string measure_dampers();
+  double damper_cross_talk(StickRig& rig, std::size_t axis, const DeviceCalibration& found) const;
   double damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper) const;
 
   PidDriver& driver_;
   CalibrationTick tick_;
   DeviceCalibration calibration_;
-  std::array<FoundAxis, 2> found_{};               // select, shift
+  std::array<FoundAxis, 2> found_{};                // select, shift
   std::array<std::optional<PulseFit>, 2> known_{};  // the lever's motion, until the handle is measured
 };
 

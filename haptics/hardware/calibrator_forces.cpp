@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -44,16 +45,21 @@ constexpr double kDamper = 0.5;            // [1] damper coefficient in the meas
 constexpr double kMaxHandleSpringForce = 0.3;
 constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are assumed to be mechanical
 constexpr double kMinOwnShare = 0.25;        // [1] of the handle's stiffness
-constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000;  // [ns]
-constexpr double kMinGap = 0.0003;                                          // [s] shorter gaps are within the noise
+constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000, kPeakTime = 100'000'000;  // [ns]
+constexpr double kMinGap = 0.0003;   // [s] shorter gaps are within the noise
 constexpr double kMinBraking = 0.3;  // [N s/m] smallest damping whose sign can be determined
 
-constexpr std::array kLevels{0.05, 0.2, 0.6, 1.0};      // [1] magnitudes of constant forces that are compared
-constexpr std::array kLowerLevels{0.5, 0.4, 0.3};       // [1] tried if the force at 60 % is wrong
-constexpr double kEven = 0.15;                          // [1] largest difference of the force per magnitude
-constexpr double kDoublePushMotion = 0.04;              // [1] of a push and a push back, fraction of the axis's range
+constexpr int kBesidePushes = 5;
+constexpr double kOften = 0.02, kOftenOutputs = 12.0;  // [s]; [1] output intervals: of renewals
+constexpr double kBeside = 0.8;  // [1] least distance pushed beside more effects, over that beside fewer
+constexpr double kWeak = 0.01, kWeakBand = 0.5;     // [1] of springs and dampers that only have to play
+constexpr double kMaxCrossTalk = 0.12;              // [1]
+constexpr std::array kLevels{0.05, 0.2, 0.6, 1.0};  // [1] magnitudes of constant forces that are compared
+constexpr std::array kLowerLevels{0.5, 0.4, 0.3};   // [1] tried if the force at 60 % is wrong
+constexpr double kEven = 0.15;                      // [1] largest difference of the force per magnitude
+constexpr double kDoublePushMotion = 0.04;          // [1] of a push and a push back, fraction of the axis's range
 constexpr double kMinPushTime = 0.003, kMaxPushTime = 0.04;  // [s]
-constexpr std::int64_t kDoubleCoastTime = 200'000'000;  // [ns]
+constexpr std::int64_t kDoubleCoastTime = 200'000'000;       // [ns]
 
 constexpr std::array kNames{"select", "shift"};
 
@@ -67,12 +73,6 @@ class NoMotion : public EffectsRefused {
 // [s] often enough to show a gap, and seldom enough to leave the force three of four outputs
 double restart_interval(const DeviceTiming& timing) noexcept {
   return std::max(0.004, 4.0 * timing.output_interval);
-}
-
-StickCommand idle_command() noexcept {
-  StickCommand command;
-  command.enabled = true;
-  return command;
 }
 
 std::string newtons_per_metre(double stiffness) {
@@ -114,6 +114,29 @@ Calibrator::AxisPlace Calibrator::axis_place(const LeverAxisCalibration& axis) c
           axis.high > axis.low ? 1.0 : -1.0};
 }
 
+// Switches the motors on, without a force.
+StickCommand Calibrator::idle_command() const noexcept {
+  StickCommand command;
+  command.enabled = true;
+  command.holds_spring = calibration_.holds_spring;
+  return command;
+}
+
+// A command with which only one constant force plays.
+StickCommand Calibrator::only(std::size_t motor) const noexcept {
+  StickCommand command = idle_command();
+  command.pushes[1 - motor] = false;
+  return command;
+}
+
+// A command with which a spring plays, too, and perhaps a damper, but they hardly make a force.
+StickCommand Calibrator::with_weak(bool damper) const noexcept {
+  StickCommand command = idle_command();
+  command.spring.fill({0.0, kWeakBand, kWeak, kWeak});
+  if (damper) command.damper.fill(kWeak);
+  return command;
+}
+
 // Sends the effects' settings again, if the style differs, and waits until that is done. The motors stay off.
 void Calibrator::apply(StickStyle style) {
   driver_.set_style(style);
@@ -127,6 +150,9 @@ std::string Calibrator::measure_polarity() {
   const Signs found = constant_signs();
   calibration_.select.constant_sign = found.sign[0];
   calibration_.shift.constant_sign = found.sign[1];
+  calibration_.select.constant_cross_talk = found.cross_talk[0];
+  calibration_.shift.constant_cross_talk = found.cross_talk[1];
+  calibration_.effects_at_once = std::max(calibration_.effects_at_once, 2);
   return std::string("in select, a positive force pushes ") + (found.sign[0] > 0 ? "right" : "left") +
          "; in shift, a positive force pushes " + (found.sign[1] > 0 ? "forward" : "back");
 }
@@ -158,9 +184,9 @@ Calibrator::Signs Calibrator::constant_signs_by(StickStyle style) {
   apply(style);
   StickRig rig(driver_, tick_);
   Signs found;
-  const std::array<AxisPlace, 2> place = places();
-  for (std::size_t i = 0; i < 2; ++i) found.sign[i] = constant_sign(rig, place[i], kNames[i], found.magnitude);
+  for (std::size_t i = 0; i < 2; ++i) found.sign[i] = constant_sign(rig, i, found);
   require_motors(found.sign);
+  for (std::size_t i = 0; i < 2; ++i) check_cross_talk("force", i, found.cross_talk[i]);
   check_together(rig, found);
   calibration_.style = style;
   return found;
@@ -179,21 +205,23 @@ bool Calibrator::keeps_forces() {
 }
 
 // Finds the sign of the only constant force that plays; 0 if the axis does not move. Pushes the lever in both
-// directions, with the smallest of three forces that moves it, and stores the largest such force in `largest`.
-int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name, double& largest) const {
+// directions, with the smallest of three forces that moves it.
+int Calibrator::constant_sign(StickRig& rig, std::size_t axis, Signs& found) const {
+  const AxisPlace place = places()[axis];
   StickCommand idle = idle_command();
   idle.pushes[1 - place.motor] = false;
   for (const double magnitude : {0.25 * kCautiousForce, 0.5 * kCautiousForce, kCautiousForce}) {
     StickCommand command = idle;
     command.constant[place.motor] = magnitude;
-    const double there = push(rig, place, idle, command);
-    if (std::abs(there) < kMinMoved) continue;
+    const Motion there = push(rig, place, idle, command);
+    if (std::abs(there.moved) < kMinMoved) continue;
     command.constant[place.motor] = -magnitude;
-    const double back = push(rig, place, idle, command);
-    if (std::abs(back) < kMinMoved || (there > 0.0) == (back > 0.0))
-      throw OneSided(name + " did not move in both directions. Take your hands off the lever");
-    largest = std::max(largest, magnitude);
-    return there > 0.0 ? 1 : -1;
+    const Motion back = push(rig, place, idle, command);
+    if (std::abs(back.moved) < kMinMoved || (there.moved > 0.0) == (back.moved > 0.0))
+      throw OneSided(std::string(kNames[axis]) + " did not move in both directions. Take your hands off the lever");
+    found.magnitude = std::max(found.magnitude, magnitude);
+    found.cross_talk[axis] = cross_talk(there, back);
+    return there.moved > 0.0 ? 1 : -1;
   }
   return 0;
 }
@@ -201,7 +229,7 @@ int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::
 void Calibrator::require_motors(const std::array<int, 2>& sign) {
   if (sign[0] == 0 && sign[1] == 0)
     throw NoMotion("the lever does not move with " + number_text(100.0 * kCautiousForce, 0) +
-                         " % of the full force. Check that the stick has power and can move freely");
+                   " % of the full force. Check that the stick has power and can move freely");
   for (std::size_t i = 0; i < 2; ++i) {
     if (sign[i] == 0)
       throw EffectsRefused(std::string("the stick has a motor for ") + kNames[1 - i] + ", but none for " + kNames[i] +
@@ -213,13 +241,8 @@ void Calibrator::require_motors(const std::array<int, 2>& sign) {
 void Calibrator::check_together(StickRig& rig, const Signs& found) const {
   const std::array<AxisPlace, 2> place = places();
   for (const AxisPlace& axis : place) {
-    double alone = 0.0,
-           beside = 0.0;  // [counts] of several pushes, because effects are renewed at some time in between
-    for (int i = 0; i < 4; ++i) {
-      alone += distance_pushed(rig, axis, true, 0.0);
-      beside += distance_pushed(rig, axis, false, 0.0);
-    }
-    if (beside < 0.8 * alone) throw EffectsRefused("the stick renders one force at a time, and a lever needs two");
+    if (!acts_beside(rig, axis, only(axis.motor), idle_command()))
+      throw EffectsRefused("the stick renders one force at a time, and a lever needs two");
   }
   for (const double direction : {1.0, -1.0}) {
     StickCommand command = idle_command();
@@ -242,12 +265,45 @@ void Calibrator::check_together(StickRig& rig, const Signs& found) const {
   }
 }
 
-// Applies the command to the lever at rest. Returns the motion to the right or forward [1], as a fraction of the axis's
-// range.
-double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickCommand& idle,
-                        const StickCommand& command) const {
+// True if a force acts as well beside more effects as beside fewer. A stick that plays only some of its effects stops
+// one at each renewal of another. So the effects are renewed often, or, before the stick's timing is known, the weakest
+// push of several at different times after a renewal is taken. One touch refuses nothing.
+bool Calibrator::acts_beside(StickRig& rig, const AxisPlace& axis, const StickCommand& fewer,
+                             const StickCommand& more) const {
+  const DeviceTiming& timing = calibration_.timing;
+  const double interval = calibration_.has_timing() ? std::max(kOften, kOftenOutputs * timing.output_interval) : 0.0;
+  const int pushes = interval > 0.0 ? 2 : kBesidePushes;
+  const auto weakest = [&](StickCommand beside) {
+    beside.restart_interval = interval;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < pushes; ++i) {
+      const std::int64_t wait = static_cast<std::int64_t>(1e9 * kRenewAfter) * i / pushes;
+      for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + wait;) rig.step(beside);
+      least = std::min(least, distance_pushed(rig, axis, beside).moved);
+    }
+    return least;
+  };
+  const double alone = weakest(fewer);
+  return weakest(more) >= kBeside * alone || weakest(more) >= kBeside * alone;
+}
+
+void Calibrator::check_cross_talk(const char* effect, std::size_t axis, double cross_talk) {
+  if (cross_talk > kMaxCrossTalk)
+    throw EffectsRefused(std::string("a ") + effect + " along " + kNames[axis] + " also acts along " +
+                         kNames[1 - axis] + ", with " + number_text(100.0 * cross_talk, 0) + " % of its strength");
+}
+
+// The motion of the other axis over that of the pushed one, from pushes in both directions, so that a slow drift cancels
+// out.
+double Calibrator::cross_talk(const Motion& there, const Motion& back) noexcept {
+  return std::abs((there.other - back.other) / (there.moved - back.moved));
+}
+
+// Applies the command to the lever at rest. The motion is positive to the right or forward.
+Calibrator::Motion Calibrator::push(StickRig& rig, const AxisPlace& place, const StickCommand& idle,
+                                    const StickCommand& command) const {
   const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
-  const double from = rig.rest(place.report, idle), other_from = rig.position(other);
+  const double other_from = rig.rest(other, idle), from = rig.rest(place.report, idle);
   const std::int64_t begin = rig.latest().now_ns;
   double moved = 0.0, other_moved = 0.0;
   while (std::abs(moved) < kMoved && rig.latest().now_ns - begin < kPushTime) {
@@ -256,12 +312,12 @@ double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickComman
     other_moved = (rig.position(other) - other_from) / rig.range(other);
     if (std::abs(other_moved) > kMoved) {
       rig.step(idle);
-      if (std::abs(moved) < kMinMoved) return 0.0;  // it moves the other axis instead
+      if (std::abs(moved) < kMinMoved) return {};  // it moves the other axis instead
       throw EffectsRefused("a force along one axis also moves the other axis");
     }
   }
   rig.step(idle);
-  return moved * place.sign;
+  return {moved * place.sign, other_moved};
 }
 
 std::string Calibrator::measure_timing() {
@@ -288,28 +344,32 @@ std::string Calibrator::measure_timing() {
 // Compares how far a force pushes the lever with and without frequent renewals.
 double Calibrator::restart_gap(StickRig& rig, const DeviceTiming& timing) const {
   const AxisPlace place = axis_place(calibration_.select);
-  const double steady = distance_pushed(rig, place, true, 0.0);
-  const double restarted = distance_pushed(rig, place, true, restart_interval(timing));
   const double interval = restart_interval(timing);
+  StickCommand beside = only(place.motor);
+  const double steady = distance_pushed(rig, place, beside).moved;
+  beside.restart_interval = interval;
+  const double restarted = distance_pushed(rig, place, beside).moved;
   const double gap = steady > 0.0 ? (1.0 - restarted / steady) * interval : 0.0;
   return gap < kMinGap ? 0.0 : std::min(gap, kRenewAfter);
 }
 
-// [counts] that a small force pushes the lever in kPushedTime. `alone`: the other axis's constant force does not play.
-double Calibrator::distance_pushed(StickRig& rig, const AxisPlace& place, bool alone, double restart_interval) const {
-  StickCommand command = idle_command();
-  command.pushes[1 - place.motor] = !alone;
-  const double from = rig.rest(place.report, command);
-  command.constant[place.motor] = 0.5 * kCautiousForce;
-  command.restart_interval = restart_interval;
+// How far a small force of kPushedTime pushes the lever, and the other axis, beside the effects of another command.
+Calibrator::Motion Calibrator::distance_pushed(StickRig& rig, const AxisPlace& place, StickCommand command) const {
+  const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
+  StickCommand undamped = command;  // under a damper, it would take seconds to come to rest
+  undamped.damper = {};
+  const double other_from = rig.rest(other, undamped), from = rig.rest(place.report, undamped);
+  for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kSettingTime;) rig.step(command);
   const std::int64_t begin = rig.latest().now_ns;
-  while (rig.latest().now_ns - begin < kPushedTime) {
+  Motion farthest;  // at the peaks, because readings may be rare
+  for (std::int64_t time = 0; time < kPushedTime + kPeakTime; time = rig.latest().now_ns - begin) {
+    command.constant[place.motor] = time < kPushedTime ? 0.5 * kCautiousForce : 0.0;
     rig.step(command);
+    farthest.moved = std::max(farthest.moved, std::abs(rig.position(place.report) - from) / rig.range(place.report));
+    farthest.other = std::max(farthest.other, std::abs(rig.position(other) - other_from) / rig.range(other));
     rig.watch_runaway(place.report, from);
   }
-  const double pushed = std::abs(rig.position(place.report) - from);
-  rig.step(idle_command());
-  return pushed;
+  return farthest;
 }
 
 // Measures how often the stick sends readings and accepts forces. Meanwhile, moves the lever and changes the forces of
@@ -441,12 +501,15 @@ std::string Calibrator::measure_strength() {
     axis.constant_slope = found[i].slope;
     sentence += (i == 0 ? "in " : "; in ") + std::string(kNames[i]) + ", magnitudes of 5, 20, 60 and 100 % give ";
     for (std::size_t level = 0; level < kLevels.size(); ++level)
-      sentence += (level == 0 ? "" : level + 1 < kLevels.size() ? ", " : " and ") +
+      sentence += (level == 0                   ? ""
+                   : level + 1 < kLevels.size() ? ", "
+                                                : " and ") +
                   number_text(100.0 * found[i].measured[level], 0);
     sentence += " % of the full force";
     if (found[i].limit < 1.0)
-      sentence += ", so only magnitudes up to " + number_text(100.0 * found[i].limit, 0) + " % are used, and no force exceeds " +
-                  number_text(100.0 * found[i].limit * found[i].slope, 0) + " % of the full one";
+      sentence += ", so only magnitudes up to " + number_text(100.0 * found[i].limit, 0) +
+                  " % are used, and no force exceeds " + number_text(100.0 * found[i].limit * found[i].slope, 0) +
+                  " % of the full one";
   }
   return sentence;
 }
@@ -476,7 +539,8 @@ double Calibrator::gain_at(StickRig& rig, std::size_t axis, double magnitude) {
     const double there = gain_of(pair[0], *known_[axis]), back = gain_of(pair[1], *known_[axis]);
     if (std::abs(there - back) < kEven * std::abs(there + back)) return 0.5 * (there + back);
   }
-  throw CalibrationRefused(std::string(kNames[axis]) + " is not pushed equally far in both directions. Take your hands off the lever");
+  throw CalibrationRefused(std::string(kNames[axis]) +
+                           " is not pushed equally far in both directions. Take your hands off the lever");
 }
 
 // A push and a push back of the same length, so that the lever comes to rest soon. The length is chosen by the motion
@@ -496,10 +560,12 @@ Pulse Calibrator::double_push(StickRig& rig, std::size_t axis, double magnitude)
     const StickRig::Tick& tick = rig.step(command);
     const double now_sent = tick.state.sent[place.motor];
     if (now_sent != sent && first_ns == 0) first_ns = tick.state.sent_ns;
-    if (now_sent != sent) measured.steps.push_back({1e-9 * static_cast<double>(tick.state.sent_ns - first_ns), now_sent});
+    if (now_sent != sent)
+      measured.steps.push_back({1e-9 * static_cast<double>(tick.state.sent_ns - first_ns), now_sent});
     sent = now_sent;
     if (first_ns != 0 && tick.fresh)
-      measured.samples.push_back({1e-9 * static_cast<double>(tick.state.time_ns - first_ns), rig.position(place.report) - from});
+      measured.samples.push_back(
+          {1e-9 * static_cast<double>(tick.state.time_ns - first_ns), rig.position(place.report) - from});
     rig.watch_runaway(place.report, from);
   }
   return measured;
@@ -510,58 +576,85 @@ std::string Calibrator::measure_handle() {
   if (!calibration_.has_range() || !calibration_.has_force())
     throw CalibrationRefused("the lever's travel and full force are not known yet. Enter these numbers first");
   StickRig rig(driver_, tick_);
+  calibration_.holds_spring = false;
+  std::array<PulseFit, 2> found;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::optional<PulseFit> known = std::exchange(known_[i], std::nullopt);
+    found[i] = known ? *known : fit(rig, axis_of(i), kNames[i]);
+  }
+  calibration_.holds_spring = (is_stiff(found[0], 0) || is_stiff(found[1], 1)) && spring_helps(rig);
+  for (std::size_t i = 0; calibration_.holds_spring && i < 2; ++i) found[i] = fit(rig, axis_of(i), kNames[i]);
   std::array<AxisModel, 2> handle;
   std::array<double, 2> own_spring{};
   std::string sentence;
-  for (const bool select : {true, false}) {
-    const LeverAxisCalibration& axis = select ? calibration_.select : calibration_.shift;
-    const std::optional<PulseFit> known = std::exchange(known_[select ? 0 : 1], std::nullopt);
-    const PulseFit found = known ? *known : fit(rig, axis, select ? "select" : "shift");
-    const double metre = axis.travel / std::abs(axis.high - axis.low);  // [m] per count
-    const double mass = axis.force_per_magnitude() / (std::abs(found.gain) * metre);
-    if (!(mass >= 0.005 && mass <= 20.0))
-      throw CalibrationRefused("a handle of " + number_text(mass, 4) +
-                               " kg is not plausible. Check the full force and the travel");
-    // [N] force of the handle's spring at a stop, and the part of it that motors make
-    const double stop_force = 0.5 * found.stiffness * mass * axis.travel;
-    const bool is_stiff = stop_force > kMinOwnSpringForce * axis.full_force;
-    const double share = is_stiff ? own_share(rig, axis) : 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    handle[i] = handle_of(found[i], i);
+    const LeverAxisCalibration& axis = axis_of(i);
+    const double share = is_stiff(found[i], i) ? own_share(rig, axis) : 0.0;
+    const double stop_force = 0.5 * handle[i].stiffness * axis.travel;  // [N] of the handle's spring at a stop
     if ((1.0 - share) * stop_force > kMaxHandleSpringForce * axis.full_force)
-      throw CalibrationRefused((select ? "select has a spring of " : "shift has a spring of ") +
-                               newtons_per_metre(found.stiffness * mass) +
+      throw CalibrationRefused(std::string(kNames[i]) + " has a spring of " + newtons_per_metre(handle[i].stiffness) +
                                ", too stiff for the motors. Take your hands off the lever, or make the stick's own "
                                "centring weaker in its own software");
-    handle[select ? 0 : 1] = {mass, found.damping * mass, found.stiffness * mass};
-    own_spring[select ? 0 : 1] = share * found.stiffness * mass;
-    sentence += (select ? "select has " : "; shift has ") + number_text(mass, 3) + " kg, " +
-                number_text(found.damping * mass, 2) + " N s/m, " + newtons_per_metre(found.stiffness * mass);
+    own_spring[i] = share * handle[i].stiffness;
+    sentence += (i == 0 ? "" : "; ") + std::string(kNames[i]) + " has " + number_text(handle[i].mass, 3) + " kg, " +
+                number_text(handle[i].damping, 2) + " N s/m, " + newtons_per_metre(handle[i].stiffness);
   }
-  calibration_.select.handle = handle[0];
-  calibration_.shift.handle = handle[1];
-  calibration_.select.own_spring = own_spring[0];
-  calibration_.shift.own_spring = own_spring[1];
+  for (std::size_t i = 0; i < 2; ++i) {
+    axis_of(i).handle = handle[i];
+    axis_of(i).own_spring = own_spring[i];
+  }
+  if (calibration_.holds_spring)
+    sentence += "; the stick pulls to its centre by itself unless a spring plays, so a spring without a force plays";
   if (own_spring[0] == 0.0 && own_spring[1] == 0.0) return sentence;
   return sentence + "; the stick pulls to its centre by itself, with " + newtons_per_metre(own_spring[0]) + " and " +
          newtons_per_metre(own_spring[1]) +
          " while its motors are on, so gates feel wrong by that much. Look for a setting in the stick's own software";
 }
 
+AxisModel Calibrator::handle_of(const PulseFit& found, std::size_t i) const {
+  const LeverAxisCalibration& axis = axis_of(i);
+  const double metre = axis.travel / std::abs(axis.high - axis.low);  // [m] per count
+  const double mass = axis.force_per_magnitude() / (std::abs(found.gain) * metre);
+  if (!(mass >= 0.005 && mass <= 20.0))
+    throw CalibrationRefused("a handle of " + number_text(mass, 4) +
+                             " kg is not plausible. Check the full force and the travel");
+  return {mass, found.damping * mass, found.stiffness * mass};
+}
+
+// True if the handle's spring is so strong that motors may make it.
+bool Calibrator::is_stiff(const PulseFit& found, std::size_t axis) const {
+  return 0.5 * handle_of(found, axis).stiffness * axis_of(axis).travel > kMinOwnSpringForce * axis_of(axis).full_force;
+}
+
+// True if the lever returns to its centre less far while a spring without a force plays.
+bool Calibrator::spring_helps(StickRig& rig) const {
+  StickCommand held = idle_command();
+  held.holds_spring = true;
+  for (const AxisPlace& place : places()) {
+    const double alone = distance_returned(rig, place, idle_command()), beside = distance_returned(rig, place, held);
+    if (alone > 0.0 && 1.0 - beside / alone > kMinOwnShare) return true;
+  }
+  return false;
+}
+
 // Share of the handle's stiffness that disappears with the motors: deflects the lever and compares how it returns with
 // the motors on, without a force, and with the motors off.
 double Calibrator::own_share(StickRig& rig, const LeverAxisCalibration& axis) const {
   const AxisPlace place = axis_place(axis);
-  const double on = distance_returned(rig, place, true), off = distance_returned(rig, place, false);
+  const double on = distance_returned(rig, place, idle_command()), off = distance_returned(rig, place, {});
   const double share = on > 0.0 ? std::clamp(1.0 - off / on, 0.0, 1.0) : 0.0;
   return share < kMinOwnShare ? 0.0 : share;
 }
 
-// [counts] that the lever returns in kReturnTime after a constant force ended.
-double Calibrator::distance_returned(StickRig& rig, const AxisPlace& place, bool motors) const {
-  StickCommand command = idle_command();
+// [counts] that the lever returns in kReturnTime after a constant force ended, under this command.
+double Calibrator::distance_returned(StickRig& rig, const AxisPlace& place, const StickCommand& under) const {
+  StickCommand command = under;
+  command.enabled = true;
   command.constant[place.motor] = kCautiousForce;
   const double from = rig.rest(place.report, command);
   const std::int64_t begin = rig.latest().now_ns;
-  while (rig.latest().now_ns - begin < kReturnTime) rig.step(motors ? idle_command() : StickCommand{});
+  while (rig.latest().now_ns - begin < kReturnTime) rig.step(under);
   return std::abs(rig.position(place.report) - from);
 }
 
@@ -582,9 +675,11 @@ std::string Calibrator::measure_springs_anew() {
   for (LeverAxisCalibration* axis : {&calibration_.select, &calibration_.shift}) {
     axis->spring_sign = axis->damper_sign = 0;
     axis->spring_stiffness = axis->spring_dead_band = axis->damper_strength = 0.0;
+    axis->spring_cross_talk = axis->damper_cross_talk = -1.0;
   }
   calibration_.springs_refused.clear();
   calibration_.dampers_refused.clear();
+  calibration_.effects_at_once = std::min(calibration_.effects_at_once, 2);
   std::string sentence;
   try {
     sentence = measure_spring_strengths();
@@ -609,7 +704,9 @@ std::string Calibrator::measure_spring_strengths() {
     axis->spring_sign = spring.sign;
     axis->spring_stiffness = spring.stiffness;
     axis->spring_dead_band = spring.dead_band;
+    axis->spring_cross_talk = spring.cross_talk;
   }
+  calibration_.effects_at_once = 3;
   const bool useful = std::min(found[0].stiffness, found[1].stiffness) >= kMinSpring;
   return "springs of up to " + newtons_per_metre(found[0].stiffness) + " in select and " +
          newtons_per_metre(found[1].stiffness) + " in shift" + (useful ? "" : ", too weak to be used");
@@ -617,11 +714,18 @@ std::string Calibrator::measure_spring_strengths() {
 
 // Tries each way of naming an axis until the springs of both axes pull to their centres and keep their dead bands.
 std::array<Calibrator::Spring, 2> Calibrator::find_springs() {
+  {
+    StickRig rig(driver_, tick_);
+    if (!acts_beside(rig, places()[0], idle_command(), with_weak(false)))
+      throw EffectsRefused("the stick renders only two effects at a time, and a spring would be the third");
+  }
   std::string reason;
   for (const AxisStyle style : {AxisStyle::bits, AxisStyle::direction}) {
     try {
-      const std::array<Spring, 2> found = springs_twice({calibration_.style.constants, style});
-      calibration_.style.conditions = style;
+      StickStyle tried = calibration_.style;
+      tried.conditions = style;
+      const std::array<Spring, 2> found = springs_twice(tried);
+      calibration_.style = tried;
       return found;
     } catch (const EffectsRefused& refused) {
       if (reason.empty()) reason = refused.what();
@@ -647,7 +751,8 @@ std::array<Calibrator::Spring, 2> Calibrator::springs_by(StickStyle style) {
   std::array<Spring, 2> found;
   for (std::size_t i = 0; i < 2; ++i) {
     const LeverAxisCalibration& axis = i == 0 ? calibration_.select : calibration_.shift;
-    found[i].sign = spring_sign(rig, axis_place(axis));
+    found[i] = spring_sign(rig, axis_place(axis));
+    check_cross_talk("spring", i, found[i].cross_talk);
     found[i].stiffness = spring_stiffness(rig, axis, found[i].sign);
     found[i].dead_band = dead_band(rig, axis, found[i]);
   }
@@ -655,26 +760,34 @@ std::array<Calibrator::Spring, 2> Calibrator::springs_by(StickStyle style) {
   return found;
 }
 
-// Commands a spring whose centre is kSpringOffset away from the lever. Returns +1 if the spring pulls the lever to the
-// centre, -1 if it pushes the lever away. The spring's saturation limits the force.
-int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
+// Finds a spring's sign and cross-talk: +1 if it pulls the lever to its centre, -1 if it pushes the lever away. The
+// spring's saturation limits the force.
+Calibrator::Spring Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
   const PidSetCondition& set = driver_.layout().set_condition;
   const bool is_capped = set.positive_saturation.exists();
   // Saturations may be ignored, and springs are up to four times as strong as commanded, so weak ones are tried first.
   for (const double coefficient : {0.02, 0.1, 0.4, 1.0}) {
     if (!is_capped && coefficient * kSpringOffset > kCautiousForce) break;
-    rig.rest(place.report, idle_command());
-    const double here = rig.deflection(place.report), offset = here < 0.0 ? kSpringOffset : -kSpringOffset;
-    StickCommand command = idle_command();
-    command.spring[place.motor] = {here + offset, 0.0, coefficient, kCautiousForce};
-    const double moved = push(rig, place, idle_command(), command) * place.sign;  // positive if the counts rise
-    if (std::abs(moved) < kMinMoved) continue;
-    const int sign = (moved > 0.0) == (offset > 0.0) ? 1 : -1;
-    if (sign < 0 && set.positive_coefficient.min >= set.positive_coefficient.zero)
+    const Motion there = pull(rig, place, coefficient, kSpringOffset);
+    if (std::abs(there.moved) < kMinMoved) continue;
+    Spring found;
+    found.sign = there.moved > 0.0 ? 1 : -1;
+    if (found.sign < 0 && set.positive_coefficient.min >= set.positive_coefficient.zero)
       throw EffectsRefused("the stick's springs push away from their centre and cannot be inverted");
-    return sign;
+    found.cross_talk = cross_talk(there, pull(rig, place, coefficient, -kSpringOffset));
+    return found;
   }
   throw EffectsRefused("the stick's springs do not move the lever");
+}
+
+// Commands a spring whose centre is `offset` away from the lever. The motion is positive if the counts rise.
+Calibrator::Motion Calibrator::pull(StickRig& rig, const AxisPlace& place, double coefficient, double offset) const {
+  rig.rest(place.report, idle_command());
+  StickCommand command = idle_command();
+  command.spring[place.motor] = {rig.deflection(place.report) + offset, 0.0, coefficient, kCautiousForce};
+  Motion motion = push(rig, place, idle_command(), command);
+  motion.moved *= place.sign;
+  return motion;
 }
 
 // Some sticks use the spring of one axis on the other unless both are set.
@@ -738,6 +851,8 @@ std::string Calibrator::measure_dampers() {
   DeviceCalibration found = calibration_;
   if (!found.has_handle()) return "the dampers were not measured, because the handle has not been measured yet";
   StickRig rig(driver_, tick_);
+  if (!acts_beside(rig, places()[0], with_weak(false), with_weak(true)))
+    throw EffectsRefused("the stick renders only three effects at a time, and a damper would be the fourth");
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
     const double braking = damping_by(rig, *axis, name, kCautiousForce);
@@ -747,10 +862,31 @@ std::string Calibrator::measure_dampers() {
     if (axis->damper_strength <= 0.0)
       throw EffectsRefused("the damper of " + name + " accelerates the lever with either sign instead of braking it");
   }
+  for (std::size_t i = 0; i < 2; ++i) {
+    double& cross_talk = i == 0 ? found.select.damper_cross_talk : found.shift.damper_cross_talk;
+    cross_talk = damper_cross_talk(rig, i, found);
+    check_cross_talk("damper", i, cross_talk);
+  }
+  found.effects_at_once = 4;
   calibration_ = found;
   return "dampers of up to " + number_text(found.select.damper_strength, 1) + " N s/m in select and " +
          number_text(found.shift.damper_strength, 1) + " N s/m in shift" +
          (found.select.damper_sign * found.shift.damper_sign > 0 ? "" : ", with opposite signs");
+}
+
+// How much the damper of one axis brakes or pushes the other one, over how much it brakes its own: pushes each with the
+// damper and without.
+double Calibrator::damper_cross_talk(StickRig& rig, std::size_t axis, const DeviceCalibration& found) const {
+  const std::array<AxisPlace, 2> place = places();
+  StickCommand damped = idle_command();
+  damped.damper[place[axis].motor] = kDamper * (axis == 0 ? found.select : found.shift).damper_sign;
+  std::array<double, 2> braked{}, pushed{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Motion free = distance_pushed(rig, place[i], idle_command()), slow = distance_pushed(rig, place[i], damped);
+    braked[i] = (free.moved - slow.moved) / free.moved;
+    pushed[i] = (slow.other - free.other) / free.moved;
+  }
+  return std::max(std::abs(braked[1 - axis]), pushed[axis]) / std::abs(braked[axis]);
 }
 
 // Damping [N s/m] that a damper of coefficient `damper` adds to the handle's own damping.

@@ -34,6 +34,9 @@ struct LeverAxisCalibration {
   double constant_limit = 0.0;
   double constant_slope = 1.0;  // [1] measured force per magnitude up to the limit, over full_force
 
+  // [1] motion of the other axis over that of this one, by each family of effects; -1: not measured
+  double constant_cross_talk = -1.0, spring_cross_talk = -1.0, damper_cross_talk = -1.0;
+
   double force_per_magnitude() const noexcept { return full_force * constant_slope; }  // [N]
   double max_magnitude() const noexcept { return constant_limit > 0.0 ? constant_limit : 1.0; }
 };
@@ -54,6 +57,8 @@ struct DeviceCalibration {
   DeviceTiming timing;
   StickStyle style;
   std::string springs_refused, dampers_refused;  // why they measured wrong and are not used; empty: they did not
+  bool holds_spring = false;                     // a spring without a force keeps the stick from centring by itself
+  int effects_at_once = 0;                       // so many effects act at the same time, or more; 0: not measured
   int press_button = 0, lift_button = 0, stop_button = 0;  // button numbers from 1; 0: none
 
   bool has_stops() const noexcept { return select.low != select.high && shift.low != shift.high; }

@@ -207,6 +207,7 @@ void PidLever::damp_in_walls() noexcept {
 // Sends the command. If the session has changed in this cycle (halted_), the loop computed the command for the old
 // session, so an empty command is sent instead.
 void PidLever::send() noexcept {
+  command_.holds_spring = calibration_.holds_spring;
   if (halted_) command_ = {};
   driver_.command(command_);
 }

@@ -57,15 +57,15 @@ class PidLever final : public HapticDevice {
  private:
   struct Axis {
     LeverAxisMap map;
-    std::size_t report = 0;   // index of the axis in the report
-    std::size_t motor = 0;    // index of the motor in the driver: X, Y
-    double full_force = 0.0;  // [N] of motor and springs together; 0: no motor, or its force is not known
+    std::size_t report = 0;      // index of the axis in the report
+    std::size_t motor = 0;       // index of the motor in the driver: X, Y
+    double full_force = 0.0;     // [N] of motor and springs together; 0: no motor, or its force is not known
     double per_magnitude = 0.0;  // [N] constant force per magnitude
     double limit = 1.0;          // [1] largest magnitude
-    double sign = 0.0;        // sign of constant forces: +1, -1, or 0 if there is no motor
-    double spring = 0.0;      // signed spring coefficient of the device walls; 0: no device walls
-    double dead_band = 1.0;   // [1] measured width of a spring's dead band over the commanded one
-    double damper = 0.0;      // signed damper coefficient of the device walls; 0: none
+    double sign = 0.0;           // sign of constant forces: +1, -1, or 0 if there is no motor
+    double spring = 0.0;         // signed spring coefficient of the device walls; 0: no device walls
+    double dead_band = 1.0;      // [1] measured width of a spring's dead band over the commanded one
+    double damper = 0.0;         // signed damper coefficient of the device walls; 0: none
   };
 
   Axis make_axis(const LeverAxisCalibration& calibration, bool drives) const;

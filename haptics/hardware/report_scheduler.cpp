@@ -126,7 +126,7 @@ bool ReportScheduler::is_wanted(std::size_t effect) const noexcept {
   if (effect_[effect].block == kNoBlock) return false;
   switch (static_cast<StickEffect>(effect)) {
     case StickEffect::spring:
-      return command_.spring[0].coefficient != 0.0 || command_.spring[1].coefficient != 0.0;
+      return command_.holds_spring || command_.spring[0].coefficient != 0.0 || command_.spring[1].coefficient != 0.0;
     case StickEffect::damper:
       // Once started, a damper keeps playing, even with coefficient 0, because starting it again takes three reports,
       // which is too long at a contact.
@@ -292,8 +292,7 @@ bool ReportScheduler::has_wrong_direction(std::size_t value, const PidCondition&
 bool ReportScheduler::reverse(std::size_t value) noexcept {
   if (encode(value, kZero) != value_[value].sent) return false;
   const auto effect = static_cast<StickEffect>(value);
-  PidEffectSettings settings =
-      settings_of(effect, effect_[value].block, style_, finite_ ? kEffectDuration : kForever);
+  PidEffectSettings settings = settings_of(effect, effect_[value].block, style_, finite_ ? kEffectDuration : kForever);
   settings.is_reversed = !effect_[value].is_reversed;
   sent_ = {Sent::Kind::reverse, value, {}, encode_set_effect(pid_, settings)};
   return true;

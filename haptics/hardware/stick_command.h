@@ -18,6 +18,7 @@ struct StickCommand {
   std::array<double, 2> damper{};     // [1] -1 to 1, fraction of the maximum coefficient; 0: none
   double restart_interval = 0.0;      // [s] 0: renewals as needed; otherwise every effect is started again this often
   std::array<bool, 2> pushes{true, true};  // false: the axis's constant force does not even play
+  bool holds_spring = false;  // the spring plays even without a force, so that the stick does not centre by itself
   bool operator==(const StickCommand&) const = default;
 };
 

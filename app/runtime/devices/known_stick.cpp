@@ -82,9 +82,8 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
     return axis.constant_limit == 0.0 ? std::string("not measured")
                                       : fmt::format("up to {:.0f} % of the magnitude", 100.0 * axis.constant_limit);
   });
-  per_axis("largest force", [](const auto& axis) {
-    return fmt::format("{:.3g} N", axis.max_magnitude() * axis.force_per_magnitude());
-  });
+  per_axis("largest force",
+           [](const auto& axis) { return fmt::format("{:.3g} N", axis.max_magnitude() * axis.force_per_magnitude()); });
   per_axis("handle", [](const auto& axis) {
     return axis.handle.mass == 0.0 ? std::string("not measured")
                                    : fmt::format("{:.3f} kg, {:.1f} N s/m, {:.0f} N/m", axis.handle.mass,
@@ -113,6 +112,17 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
                  : fmt::format("{:.1f} N s/m, {}", axis.damper_strength, axis.damper_sign > 0 ? "brakes" : "inverted");
     });
   }
+  using Axis = haptics::LeverAxisCalibration;
+  const auto add_cross_talk = [&](const char* what, double Axis::*cross_talk) {
+    per_axis(what, [&](const auto& axis) {
+      return axis.*cross_talk < 0.0 ? std::string("not measured") : fmt::format("{:.0f} %", 100.0 * axis.*cross_talk);
+    });
+  };
+  add_cross_talk("cross-talk", &Axis::constant_cross_talk);
+  if (calibration.springs_refused.empty()) add_cross_talk("  of springs", &Axis::spring_cross_talk);
+  if (calibration.dampers_refused.empty()) add_cross_talk("  of dampers", &Axis::damper_cross_talk);
+  rows.push_back(calibration.effects_at_once == 0 ? std::string("  effects at once   not measured")
+                                                  : fmt::format("  effects at once   {}", calibration.effects_at_once));
   const haptics::DeviceTiming& timing = calibration.timing;
   if (!calibration.has_timing()) {
     rows.push_back("  timing            not measured");

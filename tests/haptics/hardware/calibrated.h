@@ -43,7 +43,11 @@ inline haptics::DeviceCalibration calibration_of(const EmulatedStickConfig& stic
                  stick.damper_sign.y,
                  stick.full_force,
                  1.0};
-  known.select.constant_limit = known.shift.constant_limit = 1.0;
+  for (haptics::LeverAxisCalibration* axis : {&known.select, &known.shift}) {
+    axis->constant_limit = 1.0;
+    axis->constant_cross_talk = axis->spring_cross_talk = axis->damper_cross_talk = 0.0;
+  }
+  known.effects_at_once = 4;
   known.timing = {stick.input_interval, 0.001, stick.delay, 0.0};
   known.press_button = 1;
   known.lift_button = 2;

@@ -42,6 +42,8 @@ class RandomCalibration {
     made.timing = {between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0)};
     made.style = {static_cast<AxisStyle>(chance_() % 3), static_cast<AxisStyle>(chance_() % 3),
                   static_cast<SignStyle>(chance_() % 2)};
+    made.holds_spring = flag();
+    if (flag()) made.effects_at_once = 1 + static_cast<int>(chance_() % 4);
     if (flag()) made.springs_refused = "springs \"" + std::to_string(chance_());
     if (flag()) made.dampers_refused = "dampers # " + std::to_string(chance_());
     made.press_button = static_cast<int>(chance_() % 65);
@@ -67,6 +69,8 @@ class RandomCalibration {
     axis.spring_dead_band = between(0.0, 10.0);
     axis.own_spring = between(0.0, 1e5);
     axis.damper_sign = sign();
+    for (double* fraction : {&axis.constant_cross_talk, &axis.spring_cross_talk, &axis.damper_cross_talk})
+      if (flag()) *fraction = between(0.0, 10.0);
     if (flag()) {
       axis.constant_limit = between(0.01, 1.0);
       axis.constant_slope = between(0.01, 10.0);
@@ -87,7 +91,9 @@ bool same(const LeverAxisCalibration& a, const LeverAxisCalibration& b) {
          a.full_force == b.full_force && a.constant_sign == b.constant_sign && a.spring_sign == b.spring_sign &&
          a.spring_stiffness == b.spring_stiffness && a.spring_dead_band == b.spring_dead_band &&
          a.own_spring == b.own_spring && a.damper_sign == b.damper_sign && a.damper_strength == b.damper_strength &&
-         a.constant_limit == b.constant_limit && a.constant_slope == b.constant_slope && same(a.handle, b.handle);
+         a.constant_cross_talk == b.constant_cross_talk && a.spring_cross_talk == b.spring_cross_talk &&
+         a.damper_cross_talk == b.damper_cross_talk && a.constant_limit == b.constant_limit &&
+         a.constant_slope == b.constant_slope && same(a.handle, b.handle);
 }
 
 bool same(const DeviceTiming& a, const DeviceTiming& b) {
@@ -96,10 +102,11 @@ bool same(const DeviceTiming& a, const DeviceTiming& b) {
 }
 
 bool same(const DeviceCalibration& a, const DeviceCalibration& b) {
-  return a.style == b.style && a.springs_refused == b.springs_refused && a.dampers_refused == b.dampers_refused &&
-         a.vendor == b.vendor && a.product == b.product && a.serial == b.serial && a.name == b.name &&
-         same(a.select, b.select) && same(a.shift, b.shift) && same(a.timing, b.timing) &&
-         a.press_button == b.press_button && a.lift_button == b.lift_button && a.stop_button == b.stop_button;
+  return a.style == b.style && a.effects_at_once == b.effects_at_once && a.holds_spring == b.holds_spring &&
+         a.springs_refused == b.springs_refused && a.dampers_refused == b.dampers_refused && a.vendor == b.vendor &&
+         a.product == b.product && a.serial == b.serial && a.name == b.name && same(a.select, b.select) &&
+         same(a.shift, b.shift) && same(a.timing, b.timing) && a.press_button == b.press_button &&
+         a.lift_button == b.lift_button && a.stop_button == b.stop_button;
 }
 
 // Calibration of the paper's joystick as a stick with 140 mm travel, 20 N of force and the given timing.

@@ -144,94 +144,135 @@ DeviceCalibration believed_calibration(const EmulatedStickConfig& config, const 
 
 struct Habit {
   const char* name;
-  std::function<void(StickHabits&)> give;
-  const char* refusal = "";  // beginning of the sentence if the stick cannot be used
+  std::function<void(EmulatedStickConfig&)> give;
+  // What the dialogue or the driver says about that which the habit breaks; "": nothing is felt, and nothing left out
+  const char* words = "";
 };
 constexpr const char* kOneMotor = "the stick has a motor for select, but none for shift";
+constexpr const char* kOneForce = "the stick renders one force at a time";
 
 const std::vector<Habit>& habits() {
+  using Config = EmulatedStickConfig;
   static const std::vector<Habit> all{
-      {"constants by the first angle", [](StickHabits& h) { h.constant = ConstantLaw::first_angle; }},
-      {"constants by axes byte 4", [](StickHabits& h) { h.constant = ConstantLaw::equal_to_4; }},
-      {"constants on X only", [](StickHabits& h) { h.constant = ConstantLaw::x_only; }, kOneMotor},
-      {"constants rotate their sum", [](StickHabits& h) { h.constant = ConstantLaw::rotates_sum; },
-       "the stick renders one force at a time"},
-      {"constants need axis bits", [](StickHabits& h) { h.constant = ConstantLaw::no_bit_alone; }},
-      {"conditions of the board", [](StickHabits& h) { h.condition = ConditionLaw::board; }},
-      {"conditions are counted", [](StickHabits& h) { h.condition = ConditionLaw::counted; }},
-      {"conditions by axes byte 4", [](StickHabits& h) { h.condition = ConditionLaw::exactly_4; }},
-      {"conditions on X only", [](StickHabits& h) { h.condition = ConditionLaw::x_only; }},
-      {"conditions along the direction", [](StickHabits& h) { h.condition = ConditionLaw::along_direction; }},
-      {"conditions times the direction", [](StickHabits& h) { h.condition = ConditionLaw::times_direction; }},
-      {"conditions on both axes", [](StickHabits& h) { h.condition = ConditionLaw::both_axes; }},
-      {"no conditions", [](StickHabits& h) { h.condition = ConditionLaw::never; }},
-      {"dead band ignored", [](StickHabits& h) { h.dead_band = DeadBandLaw::ignored; }},
-      {"dead band in counts", [](StickHabits& h) { h.dead_band = DeadBandLaw::raw_counts; }},
-      {"dead band narrow", [](StickHabits& h) { h.dead_band = DeadBandLaw::narrow; }},
-      {"dead band wide", [](StickHabits& h) { h.dead_band = DeadBandLaw::wide; }},
-      {"one spring at a time", [](StickHabits& h) { h.condition = ConditionLaw::last_set; }},
-      {"dead band shifts the centre", [](StickHabits& h) { h.dead_band = DeadBandLaw::shifts_centre; }},
-      {"auto-centre after reset", [](StickHabits& h) { h.auto_centre = AutoCentre::after_reset; }},
-      {"auto-centre always", [](StickHabits& h) { h.auto_centre = AutoCentre::always; }},
-      {"auto-centre while on", [](StickHabits& h) { h.auto_centre = AutoCentre::while_on; }},
-      {"auto-centre when off", [](StickHabits& h) { h.auto_centre = AutoCentre::when_off; }},
-      {"drops the sign", [](StickHabits& h) { h.drops_sign = true; }},
-      {"constants ignore gain", [](StickHabits& h) { h.constant_ignores_gain = true; }},
-      {"ignores device gain", [](StickHabits& h) { h.ignores_device_gain = true; }},
-      {"one motor", [](StickHabits& h) { h.motors = 1; }, kOneMotor},
-      {"trigger none is FFh", [](StickHabits& h) { h.trigger_none_is_ff = true; }},
-      {"one effect at a time", [](StickHabits& h) { h.one_effect = true; }, "the stick renders one force at a time"},
-      {"silence after each start", [](StickHabits& h) { h.restart_gap = 0.001; }},
-      {"stopped blocks are free", [](StickHabits& h) { h.stopped_is_free = true; }},
-      {"mute until stop-all", [](StickHabits& h) { h.mute_until_stop_all = true; }},
-      {"off until enabled", [](StickHabits& h) { h.off_until_enabled = true; }},
-      {"ignores actuators", [](StickHabits& h) { h.ignores_actuators = true; }},
-      {"stop-all erases", [](StickHabits& h) { h.stop_all_erases = true; }},
-      {"ignores stop-all", [](StickHabits& h) { h.ignores_stop_all = true; }},
-      {"tests bits of controls", [](StickHabits& h) { h.control_tests_bits = true; }},
-      {"answers late", [](StickHabits& h) { h.late_loads = 20; }},
-      {"short features", [](StickHabits& h) { h.short_features = 1; }},
-      {"answers once", [](StickHabits& h) { h.load_answers_once = true; }},
-      {"first create fails", [](StickHabits& h) { h.first_create_fails = true; }},
-      {"pool said to be the driver's", [](StickHabits& h) { h.pool_by_driver_flag = true; }},
-      {"reading the pool frees all", [](StickHabits& h) { h.pool_read_frees_all = true; }},
-      {"reports no state", [](StickHabits& h) { h.state_sent = StateSent::never; }},
-      {"reports its state at settings", [](StickHabits& h) { h.state_sent = StateSent::at_setting; }},
-      {"says no safety switch", [](StickHabits& h) { h.says_no_safety_switch = true; }},
-      {"says no power", [](StickHabits& h) { h.says_no_power = true; }},
-      {"says no actuators", [](StickHabits& h) { h.says_no_actuators = true; }},
-      {"longer reports", [](StickHabits& h) { h.longer_input = 3; }},
-      {"shorter reports", [](StickHabits& h) { h.longer_input = -1; }},
+      {"constants by the first angle", [](Config& c) { c.habits.constant = ConstantLaw::first_angle; }},
+      {"constants by axes byte 4", [](Config& c) { c.habits.constant = ConstantLaw::equal_to_4; }},
+      {"constants on X only", [](Config& c) { c.habits.constant = ConstantLaw::x_only; }, kOneMotor},
+      {"constants rotate their sum", [](Config& c) { c.habits.constant = ConstantLaw::rotates_sum; }, kOneForce},
+      {"constants need axis bits", [](Config& c) { c.habits.constant = ConstantLaw::no_bit_alone; }},
+      {"constants keep their sign", [](Config& c) { c.habits.constant_update = ConstantUpdate::strength; }},
+      {"constants keep all", [](Config& c) { c.habits.constant_update = ConstantUpdate::nothing; },
+       "the stick does not change a force while it acts"},
+      {"constants jump at half force", [](Config& c) { c.habits.jumps_at_half = true; },
+       "so only magnitudes up to 50 % are used"},
+      {"constants inverted on X", [](Config& c) { c.constant_sign.x = -1; }},
+      {"constants inverted on Y", [](Config& c) { c.constant_sign.y = -1; }},
+      {"springs inverted on X", [](Config& c) { c.spring_sign.x = -1; }},
+      {"springs inverted on Y", [](Config& c) { c.spring_sign.y = -1; }},
+      {"dampers inverted on X", [](Config& c) { c.damper_sign.x = -1; }},
+      {"dampers inverted on Y", [](Config& c) { c.damper_sign.y = -1; }},
+      {"constants cross the axes", [](Config& c) { c.habits.cross_talk.constant = 0.3; },
+       "a force along select also acts along shift"},
+      {"springs cross the axes", [](Config& c) { c.habits.cross_talk.spring = 0.3; },
+       "a spring along select also acts along shift"},
+      {"dampers cross the axes", [](Config& c) { c.habits.cross_talk.damper = 0.3; },
+       "a damper along select also acts along shift"},
+      {"conditions of the board", [](Config& c) { c.habits.condition = ConditionLaw::board; }},
+      {"conditions are counted", [](Config& c) { c.habits.condition = ConditionLaw::counted; }},
+      {"conditions by axes byte 4", [](Config& c) { c.habits.condition = ConditionLaw::exactly_4; }},
+      {"conditions on X only", [](Config& c) { c.habits.condition = ConditionLaw::x_only; }, "springs do not move"},
+      {"conditions along the direction", [](Config& c) { c.habits.condition = ConditionLaw::along_direction; }},
+      {"conditions times the direction", [](Config& c) { c.habits.condition = ConditionLaw::times_direction; }},
+      {"conditions on both axes", [](Config& c) { c.habits.condition = ConditionLaw::both_axes; }},
+      {"no conditions", [](Config& c) { c.habits.condition = ConditionLaw::never; }, "springs do not move the lever"},
+      {"one spring at a time", [](Config& c) { c.habits.condition = ConditionLaw::last_set; },
+       "the springs of both axes at the same time"},
+      {"dead band ignored", [](Config& c) { c.habits.dead_band = DeadBandLaw::ignored; }, "inside their dead band"},
+      {"dead band in counts", [](Config& c) { c.habits.dead_band = DeadBandLaw::raw_counts; }, "keep their dead band"},
+      {"dead band narrow", [](Config& c) { c.habits.dead_band = DeadBandLaw::narrow; }},
+      {"dead band wide", [](Config& c) { c.habits.dead_band = DeadBandLaw::wide; }},
+      {"dead band shifts the centre", [](Config& c) { c.habits.dead_band = DeadBandLaw::shifts_centre; },
+       "inside their dead band"},
+      {"saturation ignored", [](Config& c) { c.habits.ignores_saturation = true; }},
+      {"dampers do nothing", [](Config& c) { c.habits.damper = DamperLaw::nothing; }, "dampers do not brake"},
+      {"dampers are full", [](Config& c) { c.habits.damper = DamperLaw::full; }, "damper"},
+      {"dampers are springs", [](Config& c) { c.habits.damper = DamperLaw::is_spring; }, "dampers do not brake"},
+      {"auto-centre after reset", [](Config& c) { c.habits.auto_centre = AutoCentre::after_reset; }},
+      {"auto-centre always", [](Config& c) { c.habits.auto_centre = AutoCentre::always; }, "too stiff for the motors"},
+      {"auto-centre without a spring", [](Config& c) { c.habits.auto_centre = AutoCentre::until_spring; }},
+      {"auto-centre while on", [](Config& c) { c.habits.auto_centre = AutoCentre::while_on; },
+       "pulls to its centre by itself"},
+      {"auto-centre when off", [](Config& c) { c.habits.auto_centre = AutoCentre::when_off; }},
+      {"drops the sign", [](Config& c) { c.habits.drops_sign = true; }},
+      {"constants ignore gain", [](Config& c) { c.habits.constant_ignores_gain = true; }},
+      {"ignores device gain", [](Config& c) { c.habits.ignores_device_gain = true; }},
+      {"one motor", [](Config& c) { c.habits.motors = 1; }, kOneMotor},
+      {"trigger none is FFh", [](Config& c) { c.habits.trigger_none_is_ff = true; }},
+      {"one effect at a time", [](Config& c) { c.habits.effects_at_once = 1; }, kOneForce},
+      {"two effects at a time", [](Config& c) { c.habits.effects_at_once = 2; }, "only two effects at a time"},
+      {"three effects at a time", [](Config& c) { c.habits.effects_at_once = 3; }, "only three effects at a time"},
+      {"silence after each start", [](Config& c) { c.habits.restart_gap = 0.001; }, "each renewal interrupts a force"},
+      {"stopped blocks are free", [](Config& c) { c.habits.stopped_is_free = true; }},
+      {"mute until stop-all", [](Config& c) { c.habits.mute_until_stop_all = true; }},
+      {"off until enabled", [](Config& c) { c.habits.off_until_enabled = true; }},
+      {"off, but says on",
+       [](Config& c) {
+         c.habits.off_until_enabled = true;
+         c.habits.says_actuators = true;
+       }},
+      {"ignores actuators", [](Config& c) { c.habits.ignores_actuators = true; }},
+      {"stop-all erases", [](Config& c) { c.habits.stop_all_erases = true; }},
+      {"ignores stop-all", [](Config& c) { c.habits.ignores_stop_all = true; }},
+      {"tests bits of controls", [](Config& c) { c.habits.control_tests_bits = true; }},
+      {"forces 4 ms late", [](Config& c) { c.delay = 0.004; }},
+      {"readings every 4 ms", [](Config& c) { c.input_interval = 0.004; }},
+      {"readings every 8 ms", [](Config& c) { c.input_interval = 0.008; }},
+      {"pool managed by the driver", [](Config& c) { c.family = StickFamily::saitek; }},
+      {"answers late", [](Config& c) { c.habits.late_loads = 20; }},
+      {"short features", [](Config& c) { c.habits.short_features = 1; }},
+      {"answers once", [](Config& c) { c.habits.load_answers_once = true; }},
+      {"first create fails", [](Config& c) { c.habits.first_create_fails = true; }},
+      {"pool said to be the driver's", [](Config& c) { c.habits.pool_by_driver_flag = true; }},
+      {"reading the pool frees all", [](Config& c) { c.habits.pool_read_frees_all = true; }},
+      {"reports no state", [](Config& c) { c.habits.state_sent = StateSent::never; }},
+      {"reports its state at settings", [](Config& c) { c.habits.state_sent = StateSent::at_setting; }},
+      {"says no safety switch", [](Config& c) { c.habits.says_no_safety_switch = true; }},
+      {"says no power", [](Config& c) { c.habits.says_no_power = true; }},
+      {"says no actuators", [](Config& c) { c.habits.says_no_actuators = true; }},
+      {"longer reports", [](Config& c) { c.habits.longer_input = 3; }},
+      {"shorter reports", [](Config& c) { c.habits.longer_input = -1; }},
   };
   return all;
 }
 
-// Calibrates and drives a stick. Fails if the dialogue does not end, if a force has the wrong sign, or if the stick is
-// silent or makes other forces without a sentence.
-void check_stick(const EmulatedStickConfig& config, const std::string& name, const Habit* alone = nullptr) {
+// Calibrates and drives a stick. Fails if the dialogue does not end, if a force has the wrong sign, or if something is
+// left out, silent or wrong and no sentence names what one of the habits breaks.
+void check_stick(const EmulatedStickConfig& config, const std::string& name, const std::vector<Habit>& given) {
   CAPTURE(name);
   const Calibrated calibrated = calibrate_stick(config);
   CHECK(calibrated.seconds < kMaxDialogue);
-  if (alone != nullptr) {
-    CHECK_MESSAGE(calibrated.refusal.starts_with(alone->refusal), name, ": ", calibrated.refusal);
-    CHECK_MESSAGE(calibrated.refusal.empty() == std::string(alone->refusal).empty(), name, ": ", calibrated.refusal);
-  }
+  Driven driven;
+  std::string said = calibrated.heard;
+  if (calibrated.refusal.empty()) driven = drive_through_gate(config, calibrated.found);
+  for (const std::string& problem : driven.problems) append(said, problem);
+  CAPTURE(said);
+  const auto names = [&](const Habit& habit) { return *habit.words != '\0' && said.find(habit.words) != said.npos; };
+  const bool is_named = std::any_of(given.begin(), given.end(), names);
+  if (given.size() == 1) CHECK(is_named == (*given.front().words != '\0'));
+  CHECK((calibrated.left_out.empty() || is_named));
   if (!calibrated.refusal.empty()) return;
-  const Driven driven = drive_through_gate(config, calibrated.found);
   const DeviceCalibration& found = calibrated.found;
-  const bool has_gap = found.timing.restart_gap > 0.0, has_own_spring = found.select.own_spring > 0.0;
-  const bool has_sentence = !calibrated.left_out.empty() || !driven.problems.empty() || has_gap || has_own_spring;
-  CHECK(has_gap == (config.habits.restart_gap > 0.0));
+  const bool has_own_spring = found.select.own_spring > 0.0;
+  CHECK((found.timing.restart_gap > 0.0) == (config.habits.restart_gap > 0.0));
   CHECK(has_own_spring == (config.habits.auto_centre == AutoCentre::while_on));
   CHECK(driven.gears == 7);
   if (has_own_spring || config.habits.auto_centre == AutoCentre::always) {  // a force that nothing can switch off
-    CHECK(has_sentence);
+    CHECK(is_named);
     return;
   }
-  CHECK_MESSAGE(driven.wrong < 0.05, name, ": wrong for ", driven.wrong, " s, ", calibrated.left_out);
-  CHECK_MESSAGE((driven.silent < 0.05 || has_sentence), name, ": silent for ", driven.silent, " s");
-  CHECK_MESSAGE((driven.rms < kMaxRms || has_sentence), name, ": rms ", driven.rms, " N");
-  CHECK_MESSAGE(driven.rms < 2.0 * kMaxRms, name, ": rms ", driven.rms, " N, ", calibrated.left_out);
+  CHECK(driven.wrong < 0.05);
+  CHECK((driven.silent < 0.05 || is_named));
+  CHECK((driven.rms < kMaxRms || is_named));
+  CHECK(driven.rms < 2.0 * kMaxRms);
 }
 
 }  // namespace
@@ -245,6 +286,7 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
   const std::vector<Expected> expected{
       {"PID 1.0", "", ""},
       {"SideWinder FF2", "", ""},
+      {"PID 1.0, centres itself", "", ""},
       {"OpenFFBoard", "", ""},
       {"OpenFFBoard, 32-bit", "", ""},
       {"OpenFFBoard, one motor", kOneMotor, ""},
@@ -294,11 +336,13 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
   MESSAGE(table);
 }
 
-TEST_CASE("every habit alone: the dialogue ends, no force has the wrong sign, no silence without a sentence") {
+TEST_CASE("every habit alone: the dialogue ends, no force has the wrong sign, what is broken is named") {
+  std::mt19937 chance(4);
   for (const Habit& habit : habits()) {
+    if (!is_full_campaign() && chance() % 3 != 0) continue;
     EmulatedStickConfig config;
-    habit.give(config.habits);
-    check_stick(config, habit.name, &habit);
+    habit.give(config);
+    check_stick(config, habit.name, {habit});
   }
 }
 
@@ -306,12 +350,13 @@ TEST_CASE("random pairs of habits on any family") {
   constexpr StickFamily kFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy,
                                        StickFamily::arduino, StickFamily::sunffb};
   std::mt19937 chance(35);
-  for (int pair = 0; pair < (is_full_campaign() ? 200 : 20); ++pair) {
+  for (int pair = 0; pair < (is_full_campaign() ? 200 : 15); ++pair) {
     EmulatedStickConfig config;
     config.family = kFamilies[chance() % std::size(kFamilies)];
     const Habit &first = habits()[chance() % habits().size()], &second = habits()[chance() % habits().size()];
-    first.give(config.habits);
-    second.give(config.habits);
-    check_stick(config, std::string(to_string(config.family)) + ", " + first.name + ", " + second.name);
+    first.give(config);
+    second.give(config);
+    check_stick(config, std::string(to_string(config.family)) + ", " + first.name + ", " + second.name,
+                {first, second});
   }
 }

@@ -3,6 +3,7 @@
 #include "tests/support/stick/device_effects.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tests/support/stick/force_laws.h"
@@ -11,6 +12,24 @@ namespace gearshift::test {
 namespace {
 
 constexpr int kEndlessLoops = 255;
+constexpr double kSpringLike = 4.0;  // [1] speed that a deflection of 1 is taken for, with DamperLaw::is_spring
+
+// What the firmware takes for the lever's speed.
+glm::dvec2 damper_input(const DeviceMotion& motion, DamperLaw law) noexcept {
+  constexpr double kInfinity = 1e9, kStill = 1e-4;
+  const auto full = [](double speed) { return std::abs(speed) < kStill ? 0.0 : std::copysign(kInfinity, speed); };
+  switch (law) {
+    case DamperLaw::nothing:
+      return glm::dvec2(0.0);
+    case DamperLaw::full:
+      return {full(motion.speed.x), full(motion.speed.y)};
+    case DamperLaw::is_spring:
+      return kSpringLike * motion.deflection;
+    case DamperLaw::brakes:
+      break;
+  }
+  return motion.speed;
+}
 
 }  // namespace
 
@@ -71,6 +90,14 @@ void DeviceEffects::stop_all() noexcept {
   for (DeviceEffect& effect : effects_) effect.playing = false;
 }
 
+void DeviceEffects::stop_oldest() noexcept {
+  DeviceEffect* oldest = nullptr;
+  for (DeviceEffect& effect : effects_) {
+    if (effect.playing && (oldest == nullptr || effect.start_ns < oldest->start_ns)) oldest = &effect;
+  }
+  if (oldest != nullptr) oldest->playing = false;
+}
+
 void DeviceEffects::forget_all() noexcept {
   for (DeviceEffect& effect : effects_) {
     const bool in_use = effect.in_use;
@@ -102,6 +129,11 @@ int DeviceEffects::playing() const noexcept {
   return static_cast<int>(std::count_if(effects_.begin(), effects_.end(), [](const auto& e) { return e.playing; }));
 }
 
+bool DeviceEffects::plays(EffectKind kind) const noexcept {
+  return std::any_of(effects_.begin(), effects_.end(),
+                     [kind](const DeviceEffect& e) { return e.playing && e.settings.kind == kind; });
+}
+
 EffectForces DeviceEffects::forces(const DeviceMotion& motion, const StickHabits& habits,
                                    std::int64_t now_ns) const noexcept {
   const auto gap_ns = static_cast<std::int64_t>(1e9 * habits.restart_gap);
@@ -113,7 +145,7 @@ EffectForces DeviceEffects::forces(const DeviceMotion& motion, const StickHabits
     } else if (effect.settings.kind == EffectKind::spring) {
       forces.spring += condition_forces(effect, habits, motion.deflection, motion.spring_slope);
     } else if (effect.settings.kind == EffectKind::damper) {
-      forces.damper += condition_forces(effect, habits, motion.speed, 1.0);
+      forces.damper += condition_forces(effect, habits, damper_input(motion, habits.damper), 1.0);
     }
   }
   return forces;

@@ -77,12 +77,14 @@ class DeviceEffects {
   // With `loops` = 255, the effect is endless. An effect that is already playing starts again.
   void start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept;
   void stop_all() noexcept;
-  void forget_all() noexcept;  // blocks stay in use, but without settings
+  void stop_oldest() noexcept;  // of the effects that play, that which was started first
+  void forget_all() noexcept;   // blocks stay in use, but without settings
   // Ends the effects whose time is over and returns the numbers of their blocks.
   std::vector<int> expire(std::int64_t now_ns);
   // Delays the start and the end of all playing effects by `by_ns`, the duration of a pause.
   void postpone(std::int64_t by_ns) noexcept;
   int playing() const noexcept;
+  bool plays(EffectKind kind) const noexcept;
 
   EffectForces forces(const DeviceMotion& motion, const StickHabits& habits, std::int64_t now_ns) const noexcept;
 

@@ -40,6 +40,10 @@ glm::dvec2 angles_of(const SetEffectBytes& bytes, std::span<const std::uint8_t> 
   return {angle(bytes.direction_x), angle(bytes.direction_y.bytes > 0 ? bytes.direction_y : bytes.direction_x)};
 }
 
+glm::dvec2 swapped(glm::dvec2 v) noexcept {
+  return {v.y, v.x};
+}
+
 // Index in a family's list of numbers, plus 1; 0: not in the list.
 template <std::size_t N>
 int ordinal_of(const std::array<std::uint8_t, N>& numbers, int number) noexcept {
@@ -198,6 +202,7 @@ AxisCondition StickFirmware::read_condition(std::span<const std::uint8_t> report
   condition.positive_saturation = std::clamp(fraction(bytes.positive_saturation, 1.0), 0.0, 1.0);
   condition.negative_saturation =
       std::clamp(fraction(bytes.negative_saturation, condition.positive_saturation), 0.0, 1.0);
+  if (habits_.ignores_saturation) condition.positive_saturation = condition.negative_saturation = 1.0;
   return condition;
 }
 
@@ -221,8 +226,10 @@ void StickFirmware::operate(std::span<const std::uint8_t> report, std::int64_t n
   DeviceEffect* effect = effect_at(report[1]);
   const int operation = ordinal_of(family_.operations, report[2]);
   if (effect == nullptr || operation == 0) return;
-  if (operation == start_solo || (operation == start_effect && habits_.one_effect && !effect->playing))
-    effects_.stop_all();
+  if (operation == start_solo) effects_.stop_all();
+  const int limit = habits_.effects_at_once;
+  while (operation == start_effect && limit > 0 && !effect->playing && effects_.playing() >= limit)
+    effects_.stop_oldest();
   if (operation == stop_effect) {
     effect->playing = false;
   } else {
@@ -347,7 +354,8 @@ StickReport StickFirmware::state() const {
   if (bytes.size == 0) return {};
   const auto bit = [](bool value, int position) { return static_cast<std::uint8_t>(value ? 1 << position : 0); };
   auto flags = static_cast<std::uint8_t>(
-      bit(paused_, bytes.paused) | bit(actuators_ && !habits_.says_no_actuators, bytes.actuators) |
+      bit(paused_, bytes.paused) |
+      bit((actuators_ && !habits_.says_no_actuators) || habits_.says_actuators, bytes.actuators) |
       bit(!habits_.says_no_safety_switch, bytes.safety_switch) | bit(!habits_.says_no_power, bytes.power));
   if (bytes.playing >= 0) flags = static_cast<std::uint8_t>(flags | bit(playing() > 0, bytes.playing));
   StickReport report(bytes.size, 0);
@@ -396,6 +404,9 @@ EffectForces StickFirmware::forces(const DeviceMotion& motion, std::int64_t now_
   forces.constant *= gain_;
   forces.spring *= gain_;
   forces.damper *= gain_;
+  forces.constant += habits_.cross_talk.constant * swapped(forces.constant);
+  forces.spring += habits_.cross_talk.spring * swapped(forces.spring);
+  forces.damper += habits_.cross_talk.damper * swapped(forces.damper);
   forces.spring += centring_force(motion);
   if (habits_.motors == 1) forces.constant.y = forces.spring.y = forces.damper.y = 0.0;
   return forces;
@@ -404,8 +415,9 @@ EffectForces StickFirmware::forces(const DeviceMotion& motion, std::int64_t now_
 glm::dvec2 StickFirmware::centring_force(const DeviceMotion& motion) const noexcept {
   const AutoCentre kind = habits_.auto_centre;
   const bool idles = kind == AutoCentre::when_off;
-  const bool is_on =
-      idles ? !actuators_ : centres_ || kind == AutoCentre::always || (kind == AutoCentre::while_on && actuators_);
+  const bool is_on = idles ? !actuators_
+                           : centres_ || (kind == AutoCentre::until_spring && !effects_.plays(EffectKind::spring)) ||
+                                 kind == AutoCentre::always || (kind == AutoCentre::while_on && actuators_);
   if (!is_on) return glm::dvec2(0.0);
   const double slope = idles ? kIdleSlope : habits_.centring_slope, limit = idles ? kIdleLimit : kCentringLimit;
   return -glm::clamp(slope * motion.deflection, -limit, limit);

@@ -63,10 +63,11 @@ enum class ConstantUpdate : std::uint8_t {
 
 enum class AutoCentre : std::uint8_t {
   none,
-  after_reset,  // on at power-on and after a reset, until stop-all [adapt]
-  always,       // [FFBeast: its manual; VPforce Rhino, until the host plays a spring]
-  while_on,     // while the actuators are on
-  when_off      // while the actuators are off [board]: slope 1.77, limit 0.136
+  after_reset,   // on at power-on and after a reset, until stop-all [adapt]
+  always,        // [FFBeast: its manual]
+  until_spring,  // unless a spring of the host plays [VPforce Rhino: its manual]
+  while_on,      // while the actuators are on
+  when_off       // while the actuators are off [board]: slope 1.77, limit 0.136
 };
 
 enum class StateSent : std::uint8_t {
@@ -75,25 +76,40 @@ enum class StateSent : std::uint8_t {
   at_setting  // when an effect is created or set [board]
 };
 
+// [1] fraction of the force along one axis that also acts along the other.
+struct CrossTalk {
+  double constant = 0.0, spring = 0.0, damper = 0.0;
+};
+
+enum class DamperLaw : std::uint8_t {
+  brakes,
+  nothing,   // the highest speed that a sketch leaves at 0 gives NaN [library]
+  full,      // it gives infinity, so that any motion meets the full force [library]
+  is_spring  // the speed is the position over the time step [stm]
+};
+
 struct StickHabits {
   // Forces
   ConstantLaw constant = ConstantLaw::pid;
   ConditionLaw condition = ConditionLaw::per_axis;
   DeadBandLaw dead_band = DeadBandLaw::honoured;
+  DamperLaw damper = DamperLaw::brakes;
+  bool ignores_saturation = false;  // of conditions [br, adapt]
   AutoCentre auto_centre = AutoCentre::none;
   double centring_slope = 0.4;  // [1] of `auto_centre`: force at full deflection; limited to 0.3 of the full force
   ConstantUpdate constant_update = ConstantUpdate::all;
   // Strength in 7 bits from a product in 16 bits that overflows at half force: 128 of 255 gives 31 of 127, but 129 gives
   // 96 [adapt 0.4, CalcGain]
   bool jumps_at_half = false;
-  bool drops_sign = false;      // setting an effect reverses a negative constant force until it is sent again [adapt]
+  bool drops_sign = false;  // setting an effect reverses a negative constant force until it is sent again [adapt]
   bool constant_ignores_gain = false;  // [library, fino]
   bool ignores_device_gain = false;    // [library, fino, br, pico, stm]
+  CrossTalk cross_talk;                // of each family of effects
   int motors = 2;                      // 1: Y makes no force [affb, pico, wheels on boards]
 
   // Effects
   bool trigger_none_is_ff = false;   // trigger button 0 is the first button, FFh is none [adapt, sun]
-  bool one_effect = false;           // starting an effect stops the others
+  int effects_at_once = 0;           // starting one more stops that which was started first; 0: no limit [../facts]
   double restart_gap = 0.0;          // [s] silence after each start
   bool stopped_is_free = false;      // a stopped block may be given to another effect [library, fino, affb]
   bool mute_until_stop_all = false;  // after power-on and reset [fino]
@@ -114,6 +130,7 @@ struct StickHabits {
   bool says_no_safety_switch = false;  // the bit is never set [board]
   bool says_no_power = false;          // the bit is never set
   bool says_no_actuators = false;      // the bit is never set
+  bool says_actuators = false;         // the bit is always set [sun, after a reset]
   int longer_input = 0;                // [bytes] lever reports are longer (or shorter) than declared
 };
 

@@ -13,6 +13,13 @@ StickProfile sidewinder_ff2_stick() {
   return profile;
 }
 
+// Its own descriptor is not known.
+StickProfile rhino_like_stick() {
+  StickProfile profile{"PID 1.0, centres itself", StickFamily::sidewinder, {}};
+  profile.habits.auto_centre = AutoCentre::until_spring;
+  return profile;
+}
+
 StickProfile openffboard_stick(const char* name, StickFamily family) {
   StickProfile profile{name, family, {}};
   profile.habits.condition = ConditionLaw::board;
@@ -147,6 +154,7 @@ std::span<const StickProfile> stick_profiles() {
   static const std::vector<StickProfile> profiles{
       {"PID 1.0", StickFamily::sidewinder, {}},
       sidewinder_ff2_stick(),
+      rhino_like_stick(),
       openffboard_stick("OpenFFBoard", StickFamily::openffboard),
       openffboard_stick("OpenFFBoard, 32-bit", StickFamily::openffboard_32bit),
       openffboard_wheel_stick(),

@@ -218,8 +218,7 @@ TEST_CASE("every step may be left out, and the question says what that costs") {
     CHECK_FALSE(rig.has_printed("Rejected"));
     CHECK(calibrator.calibration().has_springs() ==
           (std::string(left_out) == "knob down" || std::string(left_out) == "how fast" ||
-           std::string(left_out) == "how strong" ||
-           std::string(left_out) == "how heavy"));
+           std::string(left_out) == "how strong" || std::string(left_out) == "how heavy"));
   }
 }
 
