@@ -144,6 +144,7 @@ class Calibrator {
   static PulseFit fit_of(std::span<const Pulse> pulses, const std::string& name);
   static PulseFit validated(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
   double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis, int sign) const;
+  std::string measure_dampers_twice();
   std::string measure_dampers();
   double damper_cross_talk(StickRig& rig, std::size_t axis, const DeviceCalibration& found) const;
   double damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper) const;

@@ -46,8 +46,9 @@ constexpr double kMaxHandleSpringForce = 0.3;
 constexpr double kMinOwnSpringForce = 0.05;  // [1] weaker springs at a stop are assumed to be mechanical
 constexpr double kMinOwnShare = 0.25;        // [1] of the handle's stiffness
 constexpr std::int64_t kReturnTime = 60'000'000, kPushedTime = 50'000'000, kPeakTime = 100'000'000;  // [ns]
-constexpr double kMinGap = 0.0003;   // [s] shorter gaps are within the noise
-constexpr double kMinBraking = 0.3;  // [N s/m] smallest damping whose sign can be determined
+constexpr std::int64_t kOffTime = 100'000'000;  // [ns] for all effects to be stopped
+constexpr double kMinGap = 0.0003;              // [s] shorter gaps are within the noise
+constexpr double kMinBraking = 0.3;             // [N s/m] smallest damping whose sign can be determined
 
 constexpr int kBesidePushes = 5;
 constexpr double kOften = 0.02, kOftenOutputs = 12.0;  // [s]; [1] output intervals: of renewals
@@ -266,8 +267,9 @@ void Calibrator::check_together(StickRig& rig, const Signs& found) const {
 }
 
 // True if a force acts as well beside more effects as beside fewer. A stick that plays only some of its effects stops
-// one at each renewal of another. So the effects are renewed often, or, before the stick's timing is known, the weakest
-// push of several at different times after a renewal is taken. One touch refuses nothing.
+// one at each renewal of another. So all effects are started one after the other and renewed often, so that the first is
+// stopped soon after each renewal; before the stick's timing is known, the weakest push of several at different times
+// after a renewal is taken. One touch refuses nothing.
 bool Calibrator::acts_beside(StickRig& rig, const AxisPlace& axis, const StickCommand& fewer,
                              const StickCommand& more) const {
   const DeviceTiming& timing = calibration_.timing;
@@ -276,6 +278,7 @@ bool Calibrator::acts_beside(StickRig& rig, const AxisPlace& axis, const StickCo
   const auto weakest = [&](StickCommand beside) {
     beside.restart_interval = interval;
     double least = std::numeric_limits<double>::infinity();
+    for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kOffTime;) rig.step();
     for (int i = 0; i < pushes; ++i) {
       const std::int64_t wait = static_cast<std::int64_t>(1e9 * kRenewAfter) * i / pushes;
       for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + wait;) rig.step(beside);
@@ -356,8 +359,9 @@ double Calibrator::restart_gap(StickRig& rig, const DeviceTiming& timing) const 
 // How far a small force of kPushedTime pushes the lever, and the other axis, beside the effects of another command.
 Calibrator::Motion Calibrator::distance_pushed(StickRig& rig, const AxisPlace& place, StickCommand command) const {
   const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
-  StickCommand undamped = command;  // under a damper, it would take seconds to come to rest
-  undamped.damper = {};
+  StickCommand undamped = command;
+  const bool is_damped = std::max(std::abs(command.damper[0]), std::abs(command.damper[1])) > kWeak;
+  if (is_damped) undamped.damper = {};  // under a damper, it would take seconds to come to rest
   const double other_from = rig.rest(other, undamped), from = rig.rest(place.report, undamped);
   for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kSettingTime;) rig.step(command);
   const std::int64_t begin = rig.latest().now_ns;
@@ -690,7 +694,7 @@ std::string Calibrator::measure_springs_anew() {
   }
   if (!driver_.layout().has_effect(PidEffect::damper)) return sentence;
   try {
-    return sentence + "; " + measure_dampers();
+    return sentence + "; " + measure_dampers_twice();
   } catch (const EffectsRefused& refused) {
     calibration_.dampers_refused = refused.what();
     return sentence + "; " + refused.what() + ", so dampers are not used";
@@ -844,6 +848,19 @@ double Calibrator::dead_band(StickRig& rig, const LeverAxisCalibration& axis, co
   if (mean < kMinBandRatio || mean > kMaxBandRatio || skew > kMaxBandSkew)
     throw EffectsRefused("the stick's springs do not keep their dead band");
   return mean;
+}
+
+// A damper that drives the lever away looks like a hand, so it is refused only if that happens twice.
+std::string Calibrator::measure_dampers_twice() {
+  try {
+    return measure_dampers();
+  } catch (const Runaway&) {
+    try {
+      return measure_dampers();
+    } catch (const Runaway&) {
+      throw EffectsRefused("the stick's dampers drive the lever away");
+    }
+  }
 }
 
 // Measures the sign of each damper first, with the small coefficient kCautiousForce, and then its strength.

@@ -68,7 +68,7 @@ double StickRig::rest(std::size_t axis, const StickCommand& command) {
 
 void StickRig::watch_runaway(std::size_t axis, double from) const {
   if (std::abs(position(axis) - from) > kMaxRunaway * range(axis))
-    throw CalibrationRefused("the lever moved too far, so its motors were switched off");
+    throw Runaway("the lever moved too far, so its motors were switched off");
 }
 
 }  // namespace gearshift::haptics

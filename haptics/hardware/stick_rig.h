@@ -23,6 +23,12 @@ class EffectsRefused : public CalibrationRefused {
   using CalibrationRefused::CalibrationRefused;
 };
 
+// Thrown if the lever moves further than a measurement may move it.
+class Runaway : public CalibrationRefused {
+ public:
+  using CalibrationRefused::CalibrationRefused;
+};
+
 // Blocks until the next tick, about every millisecond, and returns the time on the driver's clock [ns].
 using CalibrationTick = std::function<std::int64_t()>;
 
@@ -53,7 +59,7 @@ class StickRig {
   // the axis does not come to rest.
   double rest(std::size_t axis, const StickCommand& command = {});
 
-  // Throws CalibrationRefused if the axis is further from `from` [counts] than a measurement may move it.
+  // Throws Runaway if the axis is further from `from` [counts] than a measurement may move it.
   void watch_runaway(std::size_t axis, double from) const;
 
  private:

@@ -147,6 +147,7 @@ struct Habit {
   std::function<void(EmulatedStickConfig&)> give;
   // What the dialogue or the driver says about that which the habit breaks; "": nothing is felt, and nothing left out
   const char* words = "";
+  const char* elsewhere = "";  // the same beside other habits or on other families
 };
 constexpr const char* kOneMotor = "the stick has a motor for select, but none for shift";
 constexpr const char* kOneForce = "the stick renders one force at a time";
@@ -195,7 +196,7 @@ const std::vector<Habit>& habits() {
       {"saturation ignored", [](Config& c) { c.habits.ignores_saturation = true; }},
       {"dampers do nothing", [](Config& c) { c.habits.damper = DamperLaw::nothing; }, "dampers do not brake"},
       {"dampers are full", [](Config& c) { c.habits.damper = DamperLaw::full; }, "damper"},
-      {"dampers are springs", [](Config& c) { c.habits.damper = DamperLaw::is_spring; }, "dampers do not brake"},
+      {"dampers are springs", [](Config& c) { c.habits.damper = DamperLaw::is_spring; }, "the stick's dampers"},
       {"auto-centre after reset", [](Config& c) { c.habits.auto_centre = AutoCentre::after_reset; }},
       {"auto-centre always", [](Config& c) { c.habits.auto_centre = AutoCentre::always; }, "too stiff for the motors"},
       {"auto-centre without a spring", [](Config& c) { c.habits.auto_centre = AutoCentre::until_spring; }},
@@ -239,7 +240,7 @@ const std::vector<Habit>& habits() {
       {"says no power", [](Config& c) { c.habits.says_no_power = true; }},
       {"says no actuators", [](Config& c) { c.habits.says_no_actuators = true; }},
       {"longer reports", [](Config& c) { c.habits.longer_input = 3; }},
-      {"shorter reports", [](Config& c) { c.habits.longer_input = -1; }},
+      {"shorter reports", [](Config& c) { c.habits.longer_input = -1; }, "", "the stick sends no position"},
   };
   return all;
 }
@@ -255,7 +256,10 @@ void check_stick(const EmulatedStickConfig& config, const std::string& name, con
   if (calibrated.refusal.empty()) driven = drive_through_gate(config, calibrated.found);
   for (const std::string& problem : driven.problems) append(said, problem);
   CAPTURE(said);
-  const auto names = [&](const Habit& habit) { return *habit.words != '\0' && said.find(habit.words) != said.npos; };
+  const auto says = [&](const char* words) { return *words != '\0' && said.find(words) != said.npos; };
+  const auto names = [&](const Habit& habit) {
+    return says(habit.words) || (given.size() > 1 && says(habit.elsewhere));
+  };
   const bool is_named = std::any_of(given.begin(), given.end(), names);
   if (given.size() == 1) CHECK(is_named == (*given.front().words != '\0'));
   CHECK((calibrated.left_out.empty() || is_named));

@@ -286,7 +286,7 @@ void StickFirmware::stop_all_effects() noexcept {
 
 void StickFirmware::control_by_switch(int number) {
   if (number == reset_all) reset();
-  if (number == stop_all) centres_ = false;
+  if (number == stop_all) centres_ = mute_ = false;
   actuators_ = number == enable_actuators || number == continue_all;
 }
 
