@@ -22,7 +22,7 @@ namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
 constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0},
-    kDeadBand{0.0, 10.0}, kMagnitude{0.01, 1.0}, kSlope{0.01, 10.0}, kCrossTalk{0.0, 10.0}, kEffects{1.0, 4.0};
+    kDeadBand{0.0, 10.0}, kMagnitude{0.0, 1.0}, kSlope{0.01, 10.0}, kCrossTalk{0.0, 10.0}, kEffects{1.0, 4.0};
 constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] smallest valid values; 0 means not known
 
 using AxisName = std::pair<std::string_view, int>;  // name and usage ID on the HID Generic Desktop page
@@ -132,6 +132,7 @@ constexpr StickStyle kOldStyle{AxisStyle::both, AxisStyle::bits};  // of files f
 void read_effects(const TomlTable& table, DeviceCalibration& calibration) {
   calibration.style = {read_style(table, "constants_by", kStyles), read_style(table, "conditions_by", kStyles)};
   if (table.has("signs_by")) calibration.style.signs = read_style(table, "signs_by", kSigns);
+  calibration.select_by_position = table.flag_or("select_by_position", false);
   calibration.holds_spring = table.flag_or("holds_spring", false);
   if (table.has("at_once")) read_integer(table, "at_once", calibration.effects_at_once, kEffects);
   if (table.has("springs_refused")) calibration.springs_refused = table.text("springs_refused");
@@ -274,6 +275,7 @@ std::string calibration_text(const DeviceCalibration& calibration) {
   out.put("conditions_by", toml_string(style_name(calibration.style.conditions, kStyles)), "");
   if (calibration.style.signs != SignStyle::magnitude)
     out.put("signs_by", toml_string(style_name(calibration.style.signs, kSigns)), "of constant forces");
+  if (calibration.select_by_position) out.put("select_by_position", "true", "select has no motor");
   if (calibration.holds_spring)
     out.put("holds_spring", "true", "a spring without a force keeps the stick from centring by itself");
   if (calibration.effects_at_once > 0)

@@ -73,7 +73,8 @@ std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration,
   if (!calibration.has_strength()) missing.push_back(CalibrationStep::strength);
   if (!calibration.has_handle()) missing.push_back(CalibrationStep::handle);
   const bool has_cross_talk = calibration.select.spring_cross_talk >= 0.0 && calibration.shift.spring_cross_talk >= 0.0;
-  if (springs && (!calibration.has_springs() || !has_cross_talk)) missing.push_back(CalibrationStep::springs);
+  if (springs && !calibration.select_by_position && (!calibration.has_springs() || !has_cross_talk))
+    missing.push_back(CalibrationStep::springs);
   return missing;
 }
 

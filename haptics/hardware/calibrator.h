@@ -86,6 +86,8 @@ class Calibrator {
     std::array<int, 2> sign{};           // select, shift
     double magnitude = 0.0;              // [1] that moved both axes
     std::array<double, 2> cross_talk{};  // as in LeverAxisCalibration
+    StickStyle style;
+    std::string only_shift;  // why only shift's forces can be used; empty: both can
   };
   struct Spring {
     int sign = 0;
@@ -97,16 +99,17 @@ class Calibrator {
   std::array<AxisPlace, 2> places() const { return {axis_place(calibration_.select), axis_place(calibration_.shift)}; }
   LeverAxisCalibration& axis_of(std::size_t i) { return i == 0 ? calibration_.select : calibration_.shift; }
   const LeverAxisCalibration& axis_of(std::size_t i) const { return i == 0 ? calibration_.select : calibration_.shift; }
-  StickCommand idle_command() const noexcept;
-  StickCommand only(std::size_t motor) const noexcept;
-  StickCommand with_weak(bool damper) const noexcept;
+  StickCommand idle_command() const;
+  StickCommand only(std::size_t motor) const;
+  StickCommand with_weak(bool damper) const;
   void apply(StickStyle style);
   Signs constant_signs();
   Signs constant_signs_by(StickStyle style);
   bool keeps_forces();
   int constant_sign(StickRig& rig, std::size_t axis, Signs& found) const;
   bool acts_beside(StickRig& rig, const AxisPlace& axis, const StickCommand& fewer, const StickCommand& more) const;
-  static void require_motors(const std::array<int, 2>& sign);
+  // Indices of the axes whose motors are used: select and shift, or shift only.
+  std::span<const std::size_t> motors() const noexcept;
   void check_together(StickRig& rig, const Signs& found) const;
   struct Motion {
     double moved = 0.0, other = 0.0;  // [1] of the pushed axis and of the other one, fractions of their ranges

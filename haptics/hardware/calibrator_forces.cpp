@@ -116,22 +116,28 @@ Calibrator::AxisPlace Calibrator::axis_place(const LeverAxisCalibration& axis) c
 }
 
 // Switches the motors on, without a force.
-StickCommand Calibrator::idle_command() const noexcept {
+StickCommand Calibrator::idle_command() const {
   StickCommand command;
   command.enabled = true;
   command.holds_spring = calibration_.holds_spring;
+  if (calibration_.select_by_position) command.pushes[places()[0].motor] = false;
   return command;
 }
 
+std::span<const std::size_t> Calibrator::motors() const noexcept {
+  static constexpr std::array<std::size_t, 2> kBoth{0, 1};
+  return std::span(kBoth).subspan(calibration_.select_by_position ? 1 : 0);
+}
+
 // A command with which only one constant force plays.
-StickCommand Calibrator::only(std::size_t motor) const noexcept {
+StickCommand Calibrator::only(std::size_t motor) const {
   StickCommand command = idle_command();
   command.pushes[1 - motor] = false;
   return command;
 }
 
 // A command with which a spring plays, too, and perhaps a damper, but they hardly make a force.
-StickCommand Calibrator::with_weak(bool damper) const noexcept {
+StickCommand Calibrator::with_weak(bool damper) const {
   StickCommand command = idle_command();
   command.spring.fill({0.0, kWeakBand, kWeak, kWeak});
   if (damper) command.damper.fill(kWeak);
@@ -148,14 +154,21 @@ void Calibrator::apply(StickStyle style) {
 
 std::string Calibrator::measure_polarity() {
   require_range();
+  calibration_.select_by_position = false;
   const Signs found = constant_signs();
-  calibration_.select.constant_sign = found.sign[0];
+  calibration_.style = found.style;
+  calibration_.select_by_position = !found.only_shift.empty();
+  calibration_.select.constant_sign = calibration_.select_by_position ? 0 : found.sign[0];
   calibration_.shift.constant_sign = found.sign[1];
   calibration_.select.constant_cross_talk = found.cross_talk[0];
   calibration_.shift.constant_cross_talk = found.cross_talk[1];
-  calibration_.effects_at_once = std::max(calibration_.effects_at_once, 2);
-  return std::string("in select, a positive force pushes ") + (found.sign[0] > 0 ? "right" : "left") +
-         "; in shift, a positive force pushes " + (found.sign[1] > 0 ? "forward" : "back");
+  calibration_.effects_at_once = calibration_.select_by_position ? 1 : std::max(calibration_.effects_at_once, 2);
+  const std::string shift =
+      std::string("in shift, a positive force pushes ") + (found.sign[1] > 0 ? "forward" : "back");
+  if (calibration_.select_by_position)
+    return shift + "; " + found.only_shift +
+           ", so only forces along shift are used: walls of select are not felt, and the position chooses the slot";
+  return std::string("in select, a positive force pushes ") + (found.sign[0] > 0 ? "right" : "left") + "; " + shift;
 }
 
 // Tries each way of naming an axis until the constant forces move the right axes, alone and together. If a force does
@@ -163,17 +176,24 @@ std::string Calibrator::measure_polarity() {
 Calibrator::Signs Calibrator::constant_signs() {
   std::string reason;
   bool keeps_sign = false, moves = true;
+  std::optional<Signs> shift_only;
   for (const SignStyle signs : {SignStyle::magnitude, SignStyle::direction}) {
     if (signs == SignStyle::direction && (!keeps_sign || !driver_.layout().set_effect.direction[0].exists())) break;
     for (const AxisStyle style : {AxisStyle::direction, AxisStyle::both, AxisStyle::bits}) {
       try {
-        return constant_signs_by({style, calibration_.style.conditions, signs});
+        const Signs found = constant_signs_by({style, calibration_.style.conditions, signs});
+        if (found.only_shift.empty()) return found;
+        if (!shift_only) shift_only = found;
       } catch (const EffectsRefused& refused) {
         keeps_sign = keeps_sign || dynamic_cast<const OneSided*>(&refused) != nullptr;
         if (reason.empty()) moves = dynamic_cast<const NoMotion*>(&refused) == nullptr;
         if (reason.empty()) reason = refused.what();
       }
     }
+  }
+  if (shift_only) {
+    apply(shift_only->style);
+    return *shift_only;
   }
   if (!moves && keeps_forces())
     reason = "the stick does not change a force while it acts, and a lever needs forces that change";
@@ -185,11 +205,23 @@ Calibrator::Signs Calibrator::constant_signs_by(StickStyle style) {
   apply(style);
   StickRig rig(driver_, tick_);
   Signs found;
+  found.style = style;
   for (std::size_t i = 0; i < 2; ++i) found.sign[i] = constant_sign(rig, i, found);
-  require_motors(found.sign);
+  if (found.sign[0] == 0 && found.sign[1] == 0)
+    throw NoMotion("the lever does not move with " + number_text(100.0 * kCautiousForce, 0) +
+                   " % of the full force. Check that the stick has power and can move freely");
+  if (found.sign[1] == 0)
+    throw EffectsRefused(
+        "the stick has a motor for select, but none for shift, and a lever needs one there. Calibrate it again with "
+        "--again, and when you are asked to push forward, move the axis that has the motor");
   for (std::size_t i = 0; i < 2; ++i) check_cross_talk("force", i, found.cross_talk[i]);
-  check_together(rig, found);
-  calibration_.style = style;
+  if (found.sign[0] == 0)
+    found.only_shift = "the stick has a motor for shift, but none for select";
+  else if (!acts_beside(rig, places()[0], only(places()[0].motor), idle_command()) ||
+           !acts_beside(rig, places()[1], only(places()[1].motor), idle_command()))
+    found.only_shift = "the stick renders one force at a time";
+  else
+    check_together(rig, found);
   return found;
 }
 
@@ -227,24 +259,9 @@ int Calibrator::constant_sign(StickRig& rig, std::size_t axis, Signs& found) con
   return 0;
 }
 
-void Calibrator::require_motors(const std::array<int, 2>& sign) {
-  if (sign[0] == 0 && sign[1] == 0)
-    throw NoMotion("the lever does not move with " + number_text(100.0 * kCautiousForce, 0) +
-                   " % of the full force. Check that the stick has power and can move freely");
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (sign[i] == 0)
-      throw EffectsRefused(std::string("the stick has a motor for ") + kNames[1 - i] + ", but none for " + kNames[i] +
-                           ", and a lever needs both");
-  }
-}
-
-// Some sticks render one force at a time, or mix the forces of the two axes.
+// Some sticks mix the forces of the two axes.
 void Calibrator::check_together(StickRig& rig, const Signs& found) const {
   const std::array<AxisPlace, 2> place = places();
-  for (const AxisPlace& axis : place) {
-    if (!acts_beside(rig, axis, only(axis.motor), idle_command()))
-      throw EffectsRefused("the stick renders one force at a time, and a lever needs two");
-  }
   for (const double direction : {1.0, -1.0}) {
     StickCommand command = idle_command();
     std::array<double, 2> from{}, moved{};
@@ -327,8 +344,8 @@ std::string Calibrator::measure_timing() {
   require_polarity();
   StickRig rig(driver_, tick_);
   DeviceTiming timing = measure_intervals(rig);
-  for (std::size_t i = 0; i < 2; ++i) {
-    known_[i] = fit(rig, i == 0 ? calibration_.select : calibration_.shift, kNames[i]);
+  for (const std::size_t i : motors()) {
+    known_[i] = fit(rig, axis_of(i), kNames[i]);
     timing.delay = std::max({timing.delay, known_[i]->delay, 0.0});
   }
   timing.restart_gap = restart_gap(rig, timing);
@@ -346,7 +363,7 @@ std::string Calibrator::measure_timing() {
 
 // Compares how far a force pushes the lever with and without frequent renewals.
 double Calibrator::restart_gap(StickRig& rig, const DeviceTiming& timing) const {
-  const AxisPlace place = axis_place(calibration_.select);
+  const AxisPlace place = axis_place(axis_of(motors().front()));
   const double interval = restart_interval(timing);
   StickCommand beside = only(place.motor);
   const double steady = distance_pushed(rig, place, beside).moved;
@@ -497,13 +514,14 @@ PulseFit Calibrator::validated(const PulseFit& found, const LeverAxisCalibration
 std::string Calibrator::measure_strength() {
   require_polarity();
   StickRig rig(driver_, tick_);
-  const std::array<Strength, 2> found{strength(rig, 0), strength(rig, 1)};
+  std::array<Strength, 2> found;
+  for (const std::size_t i : motors()) found[i] = strength(rig, i);
   std::string sentence;
-  for (std::size_t i = 0; i < 2; ++i) {
-    LeverAxisCalibration& axis = i == 0 ? calibration_.select : calibration_.shift;
-    axis.constant_limit = found[i].limit;
-    axis.constant_slope = found[i].slope;
-    sentence += (i == 0 ? "in " : "; in ") + std::string(kNames[i]) + ", magnitudes of 5, 20, 60 and 100 % give ";
+  for (const std::size_t i : motors()) {
+    axis_of(i).constant_limit = found[i].limit;
+    axis_of(i).constant_slope = found[i].slope;
+    sentence +=
+        (sentence.empty() ? "in " : "; in ") + std::string(kNames[i]) + ", magnitudes of 5, 20, 60 and 100 % give ";
     for (std::size_t level = 0; level < kLevels.size(); ++level)
       sentence += (level == 0                   ? ""
                    : level + 1 < kLevels.size() ? ", "
@@ -520,7 +538,7 @@ std::string Calibrator::measure_strength() {
 
 // The largest magnitude up to which the force is even, and the force there.
 Calibrator::Strength Calibrator::strength(StickRig& rig, std::size_t axis) {
-  if (!known_[axis]) known_[axis] = fit(rig, axis == 0 ? calibration_.select : calibration_.shift, kNames[axis]);
+  if (!known_[axis]) known_[axis] = fit(rig, axis_of(axis), kNames[axis]);
   std::array<double, kLevels.size()> gain{};
   for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = gain_at(rig, axis, kLevels[i]);
   const double weak = gain[1], full = gain.back();
@@ -582,16 +600,19 @@ std::string Calibrator::measure_handle() {
   StickRig rig(driver_, tick_);
   calibration_.holds_spring = false;
   std::array<PulseFit, 2> found;
-  for (std::size_t i = 0; i < 2; ++i) {
+  bool stiff = false;
+  for (const std::size_t i : motors()) {
     const std::optional<PulseFit> known = std::exchange(known_[i], std::nullopt);
     found[i] = known ? *known : fit(rig, axis_of(i), kNames[i]);
+    stiff = stiff || is_stiff(found[i], i);
   }
-  calibration_.holds_spring = (is_stiff(found[0], 0) || is_stiff(found[1], 1)) && spring_helps(rig);
-  for (std::size_t i = 0; calibration_.holds_spring && i < 2; ++i) found[i] = fit(rig, axis_of(i), kNames[i]);
+  calibration_.holds_spring = stiff && spring_helps(rig);
+  for (const std::size_t i : motors())
+    if (calibration_.holds_spring) found[i] = fit(rig, axis_of(i), kNames[i]);
   std::array<AxisModel, 2> handle;
   std::array<double, 2> own_spring{};
   std::string sentence;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (const std::size_t i : motors()) {
     handle[i] = handle_of(found[i], i);
     const LeverAxisCalibration& axis = axis_of(i);
     const double share = is_stiff(found[i], i) ? own_share(rig, axis) : 0.0;
@@ -601,10 +622,10 @@ std::string Calibrator::measure_handle() {
                                ", too stiff for the motors. Take your hands off the lever, or make the stick's own "
                                "centring weaker in its own software");
     own_spring[i] = share * handle[i].stiffness;
-    sentence += (i == 0 ? "" : "; ") + std::string(kNames[i]) + " has " + number_text(handle[i].mass, 3) + " kg, " +
-                number_text(handle[i].damping, 2) + " N s/m, " + newtons_per_metre(handle[i].stiffness);
+    sentence += (sentence.empty() ? "" : "; ") + std::string(kNames[i]) + " has " + number_text(handle[i].mass, 3) +
+                " kg, " + number_text(handle[i].damping, 2) + " N s/m, " + newtons_per_metre(handle[i].stiffness);
   }
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (const std::size_t i : motors()) {
     axis_of(i).handle = handle[i];
     axis_of(i).own_spring = own_spring[i];
   }
@@ -631,11 +652,13 @@ bool Calibrator::is_stiff(const PulseFit& found, std::size_t axis) const {
   return 0.5 * handle_of(found, axis).stiffness * axis_of(axis).travel > kMinOwnSpringForce * axis_of(axis).full_force;
 }
 
-// True if the lever returns to its centre less far while a spring without a force plays.
+// True if the lever returns to its centre less far while a spring without a force plays, and forces act beside it.
 bool Calibrator::spring_helps(StickRig& rig) const {
   StickCommand held = idle_command();
   held.holds_spring = true;
-  for (const AxisPlace& place : places()) {
+  for (const std::size_t i : motors()) {
+    const AxisPlace place = places()[i];
+    if (!acts_beside(rig, place, idle_command(), held)) return false;
     const double alone = distance_returned(rig, place, idle_command()), beside = distance_returned(rig, place, held);
     if (alone > 0.0 && 1.0 - beside / alone > kMinOwnShare) return true;
   }
@@ -686,6 +709,7 @@ std::string Calibrator::measure_springs_anew() {
   calibration_.effects_at_once = std::min(calibration_.effects_at_once, 2);
   std::string sentence;
   try {
+    if (calibration_.select_by_position) throw EffectsRefused("springs need forces along both axes");
     sentence = measure_spring_strengths();
   } catch (const EffectsRefused& refused) {
     calibration_.springs_refused = refused.what();

@@ -61,6 +61,7 @@ DeviceSpec spec_of(const DeviceCalibration& calibration, double period) {
   const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
   DeviceSpec spec;
   spec.max_force = calibration.has_polarity() ? glm::dvec2{max_force_of(select), max_force_of(shift)} : glm::dvec2{0.0};
+  if (calibration.select_by_position) spec.max_force.x = 0.0;
   spec.continuous_force = spec.max_force;  // not below max_force, because the firmware protects the motors
   spec.workspace = 0.5 * glm::dvec2{select.travel, shift.travel};
   spec.position_step = std::max(step_of(select), step_of(shift));

@@ -57,6 +57,7 @@ struct DeviceCalibration {
   DeviceTiming timing;
   StickStyle style;
   std::string springs_refused, dampers_refused;  // why they measured wrong and are not used; empty: they did not
+  bool select_by_position = false;               // select has no motor: forces act along shift only
   bool holds_spring = false;                     // a spring without a force keeps the stick from centring by itself
   int effects_at_once = 0;                       // so many effects act at the same time, or more; 0: not measured
   int press_button = 0, lift_button = 0, stop_button = 0;  // button numbers from 1; 0: none
@@ -65,11 +66,17 @@ struct DeviceCalibration {
   bool has_travel() const noexcept { return select.travel > 0.0 && shift.travel > 0.0; }
   bool has_range() const noexcept { return has_stops() && has_travel(); }
   bool has_force() const noexcept { return select.full_force > 0.0 && shift.full_force > 0.0; }
-  bool has_polarity() const noexcept { return select.constant_sign != 0 && shift.constant_sign != 0; }
-  bool has_strength() const noexcept { return select.constant_limit > 0.0 && shift.constant_limit > 0.0; }
+  bool has_polarity() const noexcept {
+    return shift.constant_sign != 0 && (select.constant_sign != 0 || select_by_position);
+  }
+  bool has_strength() const noexcept {
+    return shift.constant_limit > 0.0 && (select.constant_limit > 0.0 || select_by_position);
+  }
   bool has_timing() const noexcept { return timing.input_interval > 0.0; }
   bool has_springs() const noexcept { return select.spring_dead_band > 0.0 && shift.spring_dead_band > 0.0; }
-  bool has_handle() const noexcept { return select.handle.mass > 0.0 && shift.handle.mass > 0.0; }
+  bool has_handle() const noexcept {
+    return shift.handle.mass > 0.0 && (select.handle.mass > 0.0 || select_by_position);
+  }
 };
 
 // Values for a stick that was not measured. They are on the safe side: a slow stick with a light, lightly damped

@@ -66,7 +66,8 @@ PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, doub
   if (!has_motors)
     spec_.max_force = spec_.continuous_force = spec_.device_wall_stiffness = spec_.device_wall_damping =
         glm::dvec2(0.0);
-  axis_ = {make_axis(calibration.select, drives()), make_axis(calibration.shift, drives())};
+  axis_ = {make_axis(calibration.select, drives() && !calibration.select_by_position),
+           make_axis(calibration.shift, drives())};
   if (axis_[0].spring == 0.0 || axis_[1].spring == 0.0) {
     spec_.device_wall_stiffness = glm::dvec2(0.0);
     axis_[0].spring = axis_[1].spring = 0.0;
@@ -208,6 +209,7 @@ void PidLever::damp_in_walls() noexcept {
 // session, so an empty command is sent instead.
 void PidLever::send() noexcept {
   command_.holds_spring = calibration_.holds_spring;
+  if (calibration_.select_by_position) command_.pushes[1 - axis_[1].motor] = false;
   if (halted_) command_ = {};
   driver_.command(command_);
 }

@@ -76,7 +76,7 @@ class PidLever final : public HapticDevice {
   bool is_stop_pressed(const LeverCounts& counts) noexcept;
   void damp_in_walls() noexcept;
   void send() noexcept;
-  bool drives() const noexcept { return spec_.max_force.x > 0.0 && spec_.max_force.y > 0.0; }
+  bool drives() const noexcept { return spec_.max_force.y > 0.0; }
 
   DeviceCalibration calibration_;
   PidDriver& driver_;

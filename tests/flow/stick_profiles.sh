@@ -36,7 +36,7 @@ write_calibration 06a3_ffb5 0x06a3 0xffb5 "" 0 2048 4096
 
 # One motor: the step is left out after three tries, and the program says what is missing.
 calibrate AFFBWheel 2341:8037
-shows "Rejected: the stick has a motor for select, but none for shift, and a lever needs both"
+shows "Rejected: the stick has a motor for select, but none for shift, and a lever needs one there"
 shows "This step is left out: the stick cannot be used"
 shows "Still missing: delay, force direction"
 ends_with 1

@@ -27,9 +27,9 @@ within() { # takes seconds and a command; repeats the command until it succeeds,
 # With "complete", it has all values, as a calibration measures them when program and emulation share two cores.
 write_calibration() { # takes file name, vendor, product, serial, low, rest, high, and "complete" or nothing
   local travel=0 force=0 select=0 shift=0 spring=0 spring_force=0 band=0 damper_force=0 mass=0 damping=0 stiffness=0
-  local interval=0 delay=0 jitter=0
+  local interval=0 delay=0 jitter=0 limit=0
   [ "${8:-}" = complete ] && travel=0.14 force=20 select=-1 shift=1 spring=1 spring_force=350 band=1 damper_force=20 \
-    mass=0.09 damping=3 stiffness=15 interval=0.001 delay=0.001 jitter=0.004
+    mass=0.09 damping=3 stiffness=15 interval=0.001 delay=0.001 jitter=0.004 limit=1
   cat >"$sticks/$1.toml" <<END
 vendor = $2
 product = $3
@@ -47,6 +47,8 @@ spring_stiffness_n_per_m = $spring_force
 damper_sign = $spring
 damper_n_s_per_m = $damper_force
 spring_dead_band = $band
+constant_limit = $limit
+constant_slope = 1
 [select.handle]
 mass_kg = $mass
 damping_n_s_per_m = $damping
@@ -64,6 +66,8 @@ spring_stiffness_n_per_m = $spring_force
 damper_sign = $spring
 damper_n_s_per_m = $damper_force
 spring_dead_band = $band
+constant_limit = $limit
+constant_slope = 1
 [shift.handle]
 mass_kg = $mass
 damping_n_s_per_m = $damping

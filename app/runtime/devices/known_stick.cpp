@@ -76,7 +76,8 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
   };
   add("", "select", "shift");
   per_axis("full force", [](const auto& axis) { return fmt::format("{:.3g} N", axis.full_force); });
-  add("positive force", sign(select.constant_sign, "pushes right", "pushes left"),
+  add("positive force",
+      calibration.select_by_position ? "not used" : sign(select.constant_sign, "pushes right", "pushes left"),
       sign(shift.constant_sign, "pushes forward", "pushes back"));
   per_axis("even forces", [](const auto& axis) {
     return axis.constant_limit == 0.0 ? std::string("not measured")

@@ -22,6 +22,18 @@ haptics::PortOpener with_descriptor_check(haptics::PortOpener open, const KnownS
   };
 }
 
+// What a calibration of an older version did not measure, and what that costs.
+std::string describe_unmeasured(const haptics::DeviceCalibration& known) {
+  std::string parts;
+  const auto add = [&parts](bool lacks, const char* part) {
+    if (lacks) parts += (parts.empty() ? "" : ", and ") + std::string(part);
+  };
+  add(known.has_polarity() && !known.has_strength(), "the strength of forces, so they may be too strong or too weak");
+  add(known.select.spring_sign != 0 && !known.has_springs() && known.springs_refused.empty(),
+      "the springs' dead band, so springs are not used and walls are softer");
+  return parts;
+}
+
 }  // namespace
 
 StickLever::StickLever(const KnownStick& stick, haptics::PortOpener open)
@@ -29,8 +41,7 @@ StickLever::StickLever(const KnownStick& stick, haptics::PortOpener open)
       idle_(stick.report_descriptor),
       driver_(stick.report_descriptor, stick.calibration.style),
       connection_(driver_, with_descriptor_check(std::move(open), stick), kTickNs),
-      has_old_springs_(stick.calibration.select.spring_sign != 0 && !stick.calibration.has_springs() &&
-                       stick.calibration.springs_refused.empty()) {}
+      unmeasured_(describe_unmeasured(stick.calibration)) {}
 
 StickLever::~StickLever() = default;
 
@@ -43,12 +54,10 @@ std::unique_ptr<haptics::HapticDevice> StickLever::detached_lever(double period)
 }
 
 std::optional<std::string> StickLever::take_message() {
-  if (std::exchange(has_old_springs_, false)) {
+  if (const std::string unmeasured = std::exchange(unmeasured_, {}); !unmeasured.empty()) {
     const haptics::HidIdentity identity = identity_of(stick_.calibration);
-    return fmt::format(
-        "the springs of {} were calibrated without their dead band, so they are not used and walls are softer; run: "
-        "gearshift devices --calibrate {}",
-        stick_name(identity), stick_id(identity));
+    return fmt::format("the calibration of {} lacks {}; run: gearshift devices --calibrate {}", stick_name(identity),
+                       unmeasured, stick_id(identity));
   }
   const std::optional<haptics::PidAbility> ability = connection_.ability();
   if (ability && notes_reported_ < ability->notes.size()) return ability->notes[notes_reported_++];

@@ -48,7 +48,7 @@ class StickLever {
   haptics::PidDriver driver_;
   haptics::StickConnection connection_;
   haptics::StopButton stop_;
-  bool has_old_springs_;            // take_message() has to say that the calibration is from an older version
+  std::string unmeasured_;          // what the calibration, from an older version or left out, does not contain
   std::size_t notes_reported_ = 0;  // number of PidAbility::notes that take_message() has returned
 };
 

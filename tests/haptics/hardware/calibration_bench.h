@@ -35,11 +35,13 @@ struct CalibrationBench : StickBench {
   }
   void hands_off() { person.target_position = nullptr; }
 
-  void find_axes() {
-    move_along([](double t) { return glm::dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
-    calibrator.find_axis(true, 2.0);
-    move_along([](double t) { return glm::dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
-    calibrator.find_axis(false, 2.0);
+  // `is_swapped`: the user moves the stick forward when asked for the right, and right when asked for forward.
+  void find_axes(bool is_swapped = false) {
+    for (const bool is_select : {true, false}) {
+      const glm::dvec2 way = is_select != is_swapped ? glm::dvec2(0.060, 0.0) : glm::dvec2(0.0, 0.060);
+      move_along([way](double t) { return t < 0.6 ? glm::dvec2(0.0) : way; });
+      calibrator.find_axis(is_select, 2.0);
+    }
   }
   std::string measure_all_stops() {
     move_along([](double t) { return 0.090 * glm::dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });

@@ -43,6 +43,7 @@ class RandomCalibration {
     made.style = {static_cast<AxisStyle>(chance_() % 3), static_cast<AxisStyle>(chance_() % 3),
                   static_cast<SignStyle>(chance_() % 2)};
     made.holds_spring = flag();
+    made.select_by_position = flag();
     if (flag()) made.effects_at_once = 1 + static_cast<int>(chance_() % 4);
     if (flag()) made.springs_refused = "springs \"" + std::to_string(chance_());
     if (flag()) made.dampers_refused = "dampers # " + std::to_string(chance_());
@@ -103,10 +104,11 @@ bool same(const DeviceTiming& a, const DeviceTiming& b) {
 
 bool same(const DeviceCalibration& a, const DeviceCalibration& b) {
   return a.style == b.style && a.effects_at_once == b.effects_at_once && a.holds_spring == b.holds_spring &&
-         a.springs_refused == b.springs_refused && a.dampers_refused == b.dampers_refused && a.vendor == b.vendor &&
-         a.product == b.product && a.serial == b.serial && a.name == b.name && same(a.select, b.select) &&
-         same(a.shift, b.shift) && same(a.timing, b.timing) && a.press_button == b.press_button &&
-         a.lift_button == b.lift_button && a.stop_button == b.stop_button;
+         a.select_by_position == b.select_by_position && a.springs_refused == b.springs_refused &&
+         a.dampers_refused == b.dampers_refused && a.vendor == b.vendor && a.product == b.product &&
+         a.serial == b.serial && a.name == b.name && same(a.select, b.select) && same(a.shift, b.shift) &&
+         same(a.timing, b.timing) && a.press_button == b.press_button && a.lift_button == b.lift_button &&
+         a.stop_button == b.stop_button;
 }
 
 // Calibration of the paper's joystick as a stick with 140 mm travel, 20 N of force and the given timing.

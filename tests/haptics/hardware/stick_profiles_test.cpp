@@ -40,12 +40,12 @@ void append(std::string& all, const std::string& sentence) {
   if (!sentence.empty()) all += (all.empty() ? "" : "; ") + sentence;
 }
 
-Calibrated calibrate_stick(const EmulatedStickConfig& config) {
+Calibrated calibrate_stick(const EmulatedStickConfig& config, bool is_swapped = false) {
   Calibrated result;
   CalibrationBench bench(config);
   Calibrator& calibrator = bench.calibrator;
   try {
-    bench.find_axes();
+    bench.find_axes(is_swapped);
     bench.measure_all_stops();
   } catch (const CalibrationRefused& refused) {  // the reports end before Y
     result.refusal = result.left_out = result.heard = refused.what();
@@ -72,6 +72,8 @@ Calibrated calibrate_stick(const EmulatedStickConfig& config) {
   };
   for (const auto step : {&Calibrator::measure_polarity, &Calibrator::measure_timing})
     if (result.refusal.empty()) result.refusal = measure(step);
+  if (calibrator.calibration().select_by_position)
+    append(result.left_out, result.heard.substr(0, result.heard.find("; a reading")));
   if (result.refusal.empty()) {
     measure(&Calibrator::measure_strength);
     measure(&Calibrator::measure_handle);
@@ -88,6 +90,24 @@ Calibrated calibrate_stick(const EmulatedStickConfig& config) {
   return result;
 }
 
+dvec2 swapped(dvec2 v) {
+  return {v.y, v.x};
+}
+
+// The lever's right is the stick's forward, and the other way round: a hand that is told of the gate moves the stick.
+class SwappedHand final : public HandDriver {
+ public:
+  explicit SwappedHand(HandDriver& hand) : hand_(hand) {}
+  HandTarget next(double time, dvec2 lever) noexcept override {
+    HandTarget target = hand_.next(time, swapped(lever));
+    for (dvec2* vector : {&target.position, &target.velocity, &target.push}) *vector = swapped(*vector);
+    return target;
+  }
+
+ private:
+  HandDriver& hand_;
+};
+
 struct Driven {
   std::size_t gears = 0;
   double rms = 0.0, worst = 0.0;  // [N] force believed minus force made
@@ -96,16 +116,17 @@ struct Driven {
   std::vector<std::string> problems;
 };
 
-Driven drive_through_gate(const EmulatedStickConfig& bare, const DeviceCalibration& known) {
+Driven drive_through_gate(const EmulatedStickConfig& bare, const DeviceCalibration& known, bool is_swapped = false) {
   EmulatedStickConfig config = bare;
   config.lever.hand = kGripHand;
   const Gate gate = stick_gate("six_speed_r_left_up", config);
   const dvec2 start = rest_position(gate, kNeutralGear);
   ScriptedHandConfig script = touring_hand(start);
   // [N] a gentle hand, because the stick has only 20 N, or less
-  script.effort_limit = std::min(8.0, 0.4 * spec_of(known, 0.001).max_force.x);
+  script.effort_limit = std::min(8.0, 0.4 * spec_of(known, 0.001).max_force.y);
   ScriptedHand hand(script, shift_strokes(gate, start, tour_order(gate)), config.plant_period);
-  StickLoop run(config, known, {}, gate, hand);
+  SwappedHand other_hand(hand);
+  StickLoop run(config, known, {}, gate, is_swapped ? static_cast<HandDriver&>(other_hand) : hand);
   run.stick.logs = false;
   run.loop.arm();
   Driven result;
@@ -113,7 +134,7 @@ Driven drive_through_gate(const EmulatedStickConfig& bare, const DeviceCalibrati
   long count = 0;
   for (; run.time() < hand.duration(); ++count) {
     run.cycle();
-    const dvec2 made = run.stick.force(), believed = -run.loop.snapshot().f_a;
+    const dvec2 made = is_swapped ? swapped(run.stick.force()) : run.stick.force(), believed = -run.loop.snapshot().f_a;
     const double error = glm::length(believed - made);
     sum += error * error;
     result.worst = std::max(result.worst, error);
@@ -177,7 +198,8 @@ const std::vector<Habit>& habits() {
        "a spring along select also acts along shift"},
       {"dampers cross the axes", [](Config& c) { c.habits.cross_talk.damper = 0.3; },
        "a damper along select also acts along shift"},
-      {"conditions of the board", [](Config& c) { c.habits.condition = ConditionLaw::board; }},
+      {"conditions of the board", [](Config& c) { c.habits.condition = ConditionLaw::board; }, "",
+       "a spring along select also acts along shift"},
       {"conditions are counted", [](Config& c) { c.habits.condition = ConditionLaw::counted; }},
       {"conditions by axes byte 4", [](Config& c) { c.habits.condition = ConditionLaw::exactly_4; }},
       {"conditions on X only", [](Config& c) { c.habits.condition = ConditionLaw::x_only; }, "springs do not move"},
@@ -199,7 +221,8 @@ const std::vector<Habit>& habits() {
       {"dampers are springs", [](Config& c) { c.habits.damper = DamperLaw::is_spring; }, "the stick's dampers"},
       {"auto-centre after reset", [](Config& c) { c.habits.auto_centre = AutoCentre::after_reset; }},
       {"auto-centre always", [](Config& c) { c.habits.auto_centre = AutoCentre::always; }, "too stiff for the motors"},
-      {"auto-centre without a spring", [](Config& c) { c.habits.auto_centre = AutoCentre::until_spring; }},
+      {"auto-centre without a spring", [](Config& c) { c.habits.auto_centre = AutoCentre::until_spring; }, "",
+       "make the stick's own centring weaker"},
       {"auto-centre while on", [](Config& c) { c.habits.auto_centre = AutoCentre::while_on; },
        "pulls to its centre by itself"},
       {"auto-centre when off", [](Config& c) { c.habits.auto_centre = AutoCentre::when_off; }},
@@ -207,6 +230,8 @@ const std::vector<Habit>& habits() {
       {"constants ignore gain", [](Config& c) { c.habits.constant_ignores_gain = true; }},
       {"ignores device gain", [](Config& c) { c.habits.ignores_device_gain = true; }},
       {"one motor", [](Config& c) { c.habits.motors = 1; }, kOneMotor},
+      {"one motor, for shift", [](Config& c) { c.habits.only_y_pushes = true; },
+       "the stick has a motor for shift, but none for select, so only forces along shift are used"},
       {"trigger none is FFh", [](Config& c) { c.habits.trigger_none_is_ff = true; }},
       {"one effect at a time", [](Config& c) { c.habits.effects_at_once = 1; }, kOneForce},
       {"two effects at a time", [](Config& c) { c.habits.effects_at_once = 2; }, "only two effects at a time"},
@@ -269,7 +294,10 @@ void check_stick(const EmulatedStickConfig& config, const std::string& name, con
   CHECK((found.timing.restart_gap > 0.0) == (config.habits.restart_gap > 0.0));
   CHECK(has_own_spring == (config.habits.auto_centre == AutoCentre::while_on));
   CHECK(driven.gears == 7);
-  if (has_own_spring || config.habits.auto_centre == AutoCentre::always) {  // a force that nothing can switch off
+  const AutoCentre centring = config.habits.auto_centre;
+  const bool is_alone = config.habits.effects_at_once == 1;  // no spring can play beside a force
+  // Forces that nothing can switch off.
+  if (has_own_spring || centring == AutoCentre::always || (centring == AutoCentre::until_spring && is_alone)) {
     CHECK(is_named);
     return;
   }
@@ -303,7 +331,7 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
       {"SunFFB", "", ""},
       {"AFFBWheel", kOneMotor, ""},
       {"Arduino-FFB-wheel, one motor", kOneMotor, ""},
-      {"Arduino-FFB-wheel, two motors", "the stick renders one force at a time", ""},
+      {"Arduino-FFB-wheel, two motors", "", "springs need forces along both axes"},
       {"STM32_FFBJoystick", "", "the stick's springs push inside their dead band"},
       {"Cyborg Evo Force", "", ""},
       {"vJoy", "", ""},
@@ -338,6 +366,25 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
     if (*expected[i].springs != '\0') CHECK(believing.rms > 2.0 * kMaxRms);
   }
   MESSAGE(table);
+}
+
+TEST_CASE("a stick whose only motor moves X drives the gate's shift axis, if X is named as that") {
+  for (const StickProfile& profile : stick_profiles()) {
+    if (profile.habits.motors == 2) continue;
+    CAPTURE(std::string(profile.name));
+    const EmulatedStickConfig config = config_of(profile);
+    const Calibrated calibrated = calibrate_stick(config, true);
+    CHECK(calibrated.refusal == "");
+    CHECK(calibrated.found.select_by_position);
+    CHECK(calibrated.heard.find(
+              "the stick has a motor for shift, but none for select, so only forces along shift are used: "
+              "walls of select are not felt, and the position chooses the slot") != std::string::npos);
+    const Driven driven = drive_through_gate(config, calibrated.found, true);
+    CHECK(driven.gears == 7);
+    CHECK(driven.rms < kMaxRms);
+    CHECK(driven.wrong == 0.0);
+    CHECK(driven.problems.empty());
+  }
 }
 
 TEST_CASE("every habit alone: the dialogue ends, no force has the wrong sign, what is broken is named") {

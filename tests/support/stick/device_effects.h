@@ -52,6 +52,7 @@ struct DeviceEffect {
 
 struct EffectForces {
   glm::dvec2 constant{0.0}, spring{0.0}, damper{0.0};
+  glm::dvec2 centring{0.0};  // of the stick itself
 };
 
 // Motion of the lever, from which conditions compute their forces.

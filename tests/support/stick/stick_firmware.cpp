@@ -407,8 +407,9 @@ EffectForces StickFirmware::forces(const DeviceMotion& motion, std::int64_t now_
   forces.constant += habits_.cross_talk.constant * swapped(forces.constant);
   forces.spring += habits_.cross_talk.spring * swapped(forces.spring);
   forces.damper += habits_.cross_talk.damper * swapped(forces.damper);
-  forces.spring += centring_force(motion);
-  if (habits_.motors == 1) forces.constant.y = forces.spring.y = forces.damper.y = 0.0;
+  forces.centring = centring_force(motion);
+  if (habits_.motors == 1) forces.constant.y = forces.spring.y = forces.damper.y = forces.centring.y = 0.0;
+  if (habits_.only_y_pushes) forces.constant.x = forces.spring.x = forces.damper.x = forces.centring.x = 0.0;
   return forces;
 }
 

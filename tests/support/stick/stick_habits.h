@@ -105,6 +105,7 @@ struct StickHabits {
   bool constant_ignores_gain = false;  // [library, fino]
   bool ignores_device_gain = false;    // [library, fino, br, pico, stm]
   CrossTalk cross_talk;                // of each family of effects
+  bool only_y_pushes = false;          // X has no motor
   int motors = 2;                      // 1: Y makes no force [affb, pico, wheels on boards]
 
   // Effects

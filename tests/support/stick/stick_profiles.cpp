@@ -51,6 +51,7 @@ StickProfile arduino_stick(const char* name, StickFamily family) {
   profile.habits.constant = ConstantLaw::equal_to_4;
   profile.habits.condition = ConditionLaw::counted;
   profile.habits.dead_band = DeadBandLaw::raw_counts;
+  profile.habits.damper = DamperLaw::nothing;
   profile.habits.constant_ignores_gain = true;
   return profile;
 }
@@ -102,6 +103,7 @@ StickProfile sunffb_stick() {
   profile.habits.condition = ConditionLaw::times_direction;
   profile.habits.trigger_none_is_ff = true;
   profile.habits.off_until_enabled = true;
+  profile.habits.says_actuators = true;
   return profile;
 }
 
@@ -121,6 +123,7 @@ StickProfile brwheel_stick(const char* name, int motors) {
   profile.habits.dead_band = DeadBandLaw::ignored;
   profile.habits.stopped_is_free = false;
   profile.habits.ignores_stop_all = true;
+  profile.habits.ignores_saturation = true;
   profile.habits.motors = motors;
   return profile;
 }
@@ -130,6 +133,7 @@ StickProfile stm32_stick() {
   profile.habits.constant = ConstantLaw::equal_to_4;
   profile.habits.condition = ConditionLaw::counted;
   profile.habits.dead_band = DeadBandLaw::shifts_centre;
+  profile.habits.damper = DamperLaw::is_spring;
   profile.habits.control_tests_bits = true;
   profile.habits.state_sent = StateSent::at_changes;
   return profile;

@@ -140,7 +140,7 @@ void EmulatedStick::State::apply_force() {
   const glm::dvec2 constant = glm::dvec2(config.constant_sign) * effect_forces.constant;
   const glm::dvec2 spring = glm::dvec2(config.spring_sign) * effect_forces.spring;
   const glm::dvec2 damper = glm::dvec2(config.damper_sign) * effect_forces.damper;
-  force = config.full_force * flip_y(glm::clamp(constant + spring + damper, -1.0, 1.0));
+  force = config.full_force * flip_y(glm::clamp(constant + spring + damper + effect_forces.centring, -1.0, 1.0));
   if (faults.reversed) force = -force;
   lever.write(force);
 }

@@ -38,6 +38,7 @@ inline haptics::DeviceCalibration sidewinder_calibration() {
   known.select = {
       0x30, -512.0, -0.5, 511.0, 2.0 * truth.half_travel, truth.full_force, -1, 0, 0.0, haptics::kPaperAxisX};
   known.shift = {0x31, 511.0, -0.5, -512.0, 2.0 * truth.half_travel, truth.full_force, 1, 0, 0.0, haptics::kPaperAxisY};
+  known.select.constant_limit = known.shift.constant_limit = 1.0;
   known.timing = {0.001, 0.001, 0.0, 0.001};
   return known;
 }

@@ -36,6 +36,22 @@ TEST_CASE("a stick whose reports differ from its calibration is not driven, and 
   CHECK_FALSE(held.lever->connected());
 }
 
+TEST_CASE("a calibration of an older version is used, and a message says what it lacks and what that costs") {
+  DeviceCalibration old = sidewinder_calibration();
+  old.select.constant_limit = 0.0;
+  old.select.spring_sign = old.shift.spring_sign = 1;
+  EmulatedStickConfig config;
+  IdleHand idle_hand;
+  HeldStick held(KnownStick{old, EmulatedStick(config, idle_hand).report_descriptor()});
+  CHECK(
+      held.lever->take_message() ==
+      "the calibration of SideWinder lacks the strength of forces, so they may be too strong or too weak, and the "
+      "springs' dead band, so springs are not used and walls are softer; run: gearshift devices --calibrate 045e:001b");
+  CHECK(held.lever->lever(1e-3)->spec().max_force == glm::dvec2(20.0));
+  HeldStick whole;
+  CHECK_FALSE(whole.lever->take_message().has_value());
+}
+
 TEST_CASE("a detached lever has the stick's limits, and commands to it move nothing") {
   HeldStick held;
   REQUIRE(becomes_true([&] { return held.lever->connected(); }));
