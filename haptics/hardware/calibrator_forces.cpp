@@ -54,12 +54,14 @@ constexpr int kBesidePushes = 5;
 constexpr double kOften = 0.02, kOftenOutputs = 12.0;  // [s]; [1] output intervals: of renewals
 constexpr double kBeside = 0.8;  // [1] least distance pushed beside more effects, over that beside fewer
 constexpr double kWeak = 0.01, kWeakBand = 0.5;     // [1] of springs and dampers that only have to play
+constexpr int kCrossTalkTries = 3;                  // of dampers, because one touch or a late cycle refuses nothing
 constexpr double kMaxCrossTalk = 0.12;              // [1]
 constexpr std::array kLevels{0.05, 0.2, 0.6, 1.0};  // [1] magnitudes of constant forces that are compared
 constexpr std::array kLowerLevels{0.5, 0.4, 0.3};   // [1] tried if the force at 60 % is wrong
 constexpr double kEven = 0.15;                      // [1] largest difference of the force per magnitude
-constexpr double kDoublePushMotion = 0.04;          // [1] of a push and a push back, fraction of the axis's range
-constexpr double kMinPushTime = 0.003, kMaxPushTime = 0.04;  // [s]
+constexpr double kSameGain = 0.04;          // [1] difference of two pushes over their sum, if a third is not needed
+constexpr double kDoublePushMotion = 0.10;  // [1] of a push and a push back, fraction of the axis's range
+constexpr double kMinPushTime = 0.006, kMaxPushTime = 0.04;  // [s]
 constexpr std::int64_t kDoubleCoastTime = 200'000'000;       // [ns]
 
 constexpr std::array kNames{"select", "shift"};
@@ -291,8 +293,7 @@ bool Calibrator::acts_beside(StickRig& rig, const AxisPlace& axis, const StickCo
                              const StickCommand& more) const {
   const DeviceTiming& timing = calibration_.timing;
   const double interval = calibration_.has_timing() ? std::max(kOften, kOftenOutputs * timing.output_interval) : 0.0;
-  const int pushes = interval > 0.0 ? 2 : kBesidePushes;
-  const auto weakest = [&](StickCommand beside) {
+  const auto weakest = [&](StickCommand beside, int pushes) {
     beside.restart_interval = interval;
     double least = std::numeric_limits<double>::infinity();
     for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kOffTime;) rig.step();
@@ -303,8 +304,9 @@ bool Calibrator::acts_beside(StickRig& rig, const AxisPlace& axis, const StickCo
     }
     return least;
   };
-  const double alone = weakest(fewer);
-  return weakest(more) >= kBeside * alone || weakest(more) >= kBeside * alone;
+  const int pushes = interval > 0.0 ? 2 : kBesidePushes;
+  const double alone = weakest(fewer, 2);
+  return weakest(more, pushes) >= kBeside * alone || weakest(more, pushes) >= kBeside * alone;
 }
 
 void Calibrator::check_cross_talk(const char* effect, std::size_t axis, double cross_talk) {
@@ -323,7 +325,7 @@ double Calibrator::cross_talk(const Motion& there, const Motion& back) noexcept 
 Calibrator::Motion Calibrator::push(StickRig& rig, const AxisPlace& place, const StickCommand& idle,
                                     const StickCommand& command) const {
   const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
-  const double other_from = rig.rest(other, idle), from = rig.rest(place.report, idle);
+  const double from = rig.rest(place.report, idle, other), other_from = rig.position(other);
   const std::int64_t begin = rig.latest().now_ns;
   double moved = 0.0, other_moved = 0.0;
   while (std::abs(moved) < kMoved && rig.latest().now_ns - begin < kPushTime) {
@@ -379,7 +381,7 @@ Calibrator::Motion Calibrator::distance_pushed(StickRig& rig, const AxisPlace& p
   StickCommand undamped = command;
   const bool is_damped = std::max(std::abs(command.damper[0]), std::abs(command.damper[1])) > kWeak;
   if (is_damped) undamped.damper = {};  // under a damper, it would take seconds to come to rest
-  const double other_from = rig.rest(other, undamped), from = rig.rest(place.report, undamped);
+  const double from = rig.rest(place.report, undamped, other), other_from = rig.position(other);
   for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kSettingTime;) rig.step(command);
   const std::int64_t begin = rig.latest().now_ns;
   Motion farthest;  // at the peaks, because readings may be rare
@@ -553,13 +555,19 @@ Calibrator::Strength Calibrator::strength(StickRig& rig, std::size_t axis) {
   return found;
 }
 
-// Acceleration per magnitude [counts/s^2] at this magnitude, the mean of both directions.
+// Acceleration per magnitude [counts/s^2] at this magnitude, the mean of both directions. As the pushes are short, a late
+// report spoils one; so they are repeated until the medians of the two directions agree.
 double Calibrator::gain_at(StickRig& rig, std::size_t axis, double magnitude) {
+  std::array<std::vector<double>, 2> gains;
   for (std::size_t tries = 0; tries < kMaxPairs; ++tries) {
-    const std::array<Pulse, 2> pair{double_push(rig, axis, magnitude), double_push(rig, axis, -magnitude)};
-    rig.step();  // switches the motors off, because a command would expire during the fit
-    const double there = gain_of(pair[0], *known_[axis]), back = gain_of(pair[1], *known_[axis]);
-    if (std::abs(there - back) < kEven * std::abs(there + back)) return 0.5 * (there + back);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Pulse pushed = double_push(rig, axis, i == 0 ? magnitude : -magnitude);
+      rig.step();  // switches the motors off, because a command would expire during the fit
+      gains[i].push_back(gain_of(pushed, *known_[axis]));
+    }
+    const double there = quantile(gains[0], 0.5), back = quantile(gains[1], 0.5);
+    const double tolerance = tries == 0 ? kSameGain : kEven;
+    if (tries != 1 && std::abs(there - back) < tolerance * std::abs(there + back)) return 0.5 * (there + back);
   }
   throw CalibrationRefused(std::string(kNames[axis]) +
                            " is not pushed equally far in both directions. Take your hands off the lever");
@@ -906,6 +914,8 @@ std::string Calibrator::measure_dampers() {
   for (std::size_t i = 0; i < 2; ++i) {
     double& cross_talk = i == 0 ? found.select.damper_cross_talk : found.shift.damper_cross_talk;
     cross_talk = damper_cross_talk(rig, i, found);
+    for (int tries = 1; cross_talk > kMaxCrossTalk && tries < kCrossTalkTries; ++tries)
+      cross_talk = std::min(cross_talk, damper_cross_talk(rig, i, found));
     check_cross_talk("damper", i, cross_talk);
   }
   found.effects_at_once = 4;

@@ -1,6 +1,7 @@
 #include "haptics/hardware/stick_rig.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gearshift::haptics {
@@ -44,22 +45,27 @@ double StickRig::deflection(std::size_t axis) const noexcept {
   return (position(axis) - 0.5 * static_cast<double>(field.max + field.min)) / (0.5 * range(axis));
 }
 
-double StickRig::rest(std::size_t axis, const StickCommand& command) {
+double StickRig::rest(std::size_t axis, const StickCommand& command, std::size_t also) {
+  const std::array axes{axis, also};
   const std::int64_t begin = step(command).now_ns;
   std::int64_t still_since = begin;
-  double lowest = position(axis), highest = lowest, sum = 0.0;
+  std::array<double, 2> lowest{position(axis), position(also)}, highest = lowest;
+  double sum = 0.0;
   for (long count = 0; latest_.now_ns - begin < kMaxRestTime; step(command)) {
-    const double here = position(axis);
-    const bool is_strict = latest_.now_ns - begin < kStrictStillTime;
-    lowest = std::min(lowest, here);
-    highest = std::max(highest, here);
-    if (highest - lowest > std::max(kMinStill, (is_strict ? kStill : kRelaxedStill) * range(axis))) {
+    const double still = latest_.now_ns - begin < kStrictStillTime ? kStill : kRelaxedStill;
+    bool moves = false;
+    for (std::size_t i = 0; i < 2; ++i) {
+      lowest[i] = std::min(lowest[i], position(axes[i]));
+      highest[i] = std::max(highest[i], position(axes[i]));
+      moves = moves || highest[i] - lowest[i] > std::max(kMinStill, still * range(axes[i]));
+    }
+    if (moves) {
       still_since = latest_.now_ns;
-      lowest = highest = here;
+      lowest = highest = {position(axis), position(also)};
       sum = 0.0;
       count = 0;
     }
-    sum += here;
+    sum += position(axis);
     ++count;
     if (latest_.now_ns - still_since >= kStillTime) return sum / static_cast<double>(count);
   }

@@ -55,9 +55,10 @@ class StickRig {
   double range(std::size_t axis) const noexcept;       // [counts] width of the axis's logical range
   double deflection(std::size_t axis) const noexcept;  // [1] -1 to 1, from end to end of the logical range
 
-  // Repeats the command until the axis is still and returns its mean position [counts]. Throws CalibrationRefused if
-  // the axis does not come to rest.
-  double rest(std::size_t axis, const StickCommand& command = {});
+  // Repeats the command until the axis is still and returns its mean position [counts]; `also`: another axis that must
+  // be still, too. Throws CalibrationRefused if they do not come to rest.
+  double rest(std::size_t axis, const StickCommand& command = {}) { return rest(axis, command, axis); }
+  double rest(std::size_t axis, const StickCommand& command, std::size_t also);
 
   // Throws Runaway if the axis is further from `from` [counts] than a measurement may move it.
   void watch_runaway(std::size_t axis, double from) const;

@@ -10,7 +10,7 @@ mkdir -p "$sticks"
 running=()
 end_all() { kill "${running[@]}" 2>/dev/null; }
 
-with_stick() { timeout 120 umockdev-wrapper "$emulator" "$@"; } # arguments: OPTIONS -- COMMAND
+with_stick() { timeout 240 umockdev-wrapper "$emulator" "$@"; } # arguments: OPTIONS -- COMMAND
 # Takes a pattern, the name of a log, and the minimum number of matching lines (default 1).
 printed() { [ "$(cat "$2.txt" 2>/dev/null | grep -c -- "$1")" -ge "${3:-1}" ]; }
 within() { # takes seconds and a command; repeats the command until it succeeds, for at most this time
