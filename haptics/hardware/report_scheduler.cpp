@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::int64_t kDuration = static_cast<std::int64_t>(1e9 * kEffectDuration);  // [ns]
 constexpr std::int64_t kRenew = static_cast<std::int64_t>(1e9 * kRenewAfter);         // [ns]
+// [ns] Some firmware ends an endless effect after 32 or 65 s: all ones of 15 or 16 bits in milliseconds.
+constexpr std::int64_t kEndlessRenew = 20'000'000'000;
 constexpr std::int64_t kReportLag = 50'000'000;  // [ns] longest delay of a state report
 constexpr int kOnce = 1;                         // loop count
 
@@ -238,10 +240,11 @@ bool ReportScheduler::start_if_wanted() noexcept {
 }
 
 bool ReportScheduler::renew_if_due(std::int64_t now_ns) noexcept {
-  if (!finite_) return false;
   for (std::size_t i = 0; i < kStickEffects; ++i) {
     const auto interval_ns = static_cast<std::int64_t>(1e9 * command_.restart_interval);
-    const std::int64_t due_ns = interval_ns > 0 ? effect_[i].started_ns + interval_ns : effect_[i].renew_ns;
+    const std::int64_t due_ns = interval_ns > 0 ? effect_[i].started_ns + interval_ns
+                                : finite_       ? effect_[i].renew_ns
+                                                : effect_[i].started_ns + kEndlessRenew;
     const bool due = effect_[i].playing && is_wanted(i) && now_ns >= due_ns;
     if (due && operate(i, PidOperation::start)) return true;
   }

@@ -41,6 +41,23 @@ std::vector<std::uint8_t> without_pid() {  // a joystick with X and Y, but witho
 
 }  // namespace
 
+TEST_CASE("a stick that refuses durations and ends an endless effect after 65 s is never silent") {
+  EmulatedStickConfig config;
+  config.finite_refused = true;
+  config.habits.ones_are_finite = true;
+  config.habits.state_sent = StateSent::never;
+  StillHand hand;
+  StickBench bench(config, hand);
+  bench.prepare();
+  CHECK_FALSE(bench.ability.finite);
+  bench.stick.logs = false;
+  bench.tick_for(1.0, pushing(0.1, 0.0));
+  for (int second = 0; second < 140; ++second) {
+    bench.tick_for(1.0, pushing(0.1, 0.0));
+    if (glm::length(bench.stick.force()) == 0.0) FAIL_CHECK("silent after " << second << " s");
+  }
+}
+
 TEST_CASE("a device that is no stick, has no forces or no valid descriptor is refused in one sentence") {
   CHECK_THROWS_WITH_AS(PidDriver{without_pid()},
                        "this stick has no force feedback, because its descriptor has no force reports (PID class)",

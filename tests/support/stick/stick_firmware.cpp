@@ -163,8 +163,9 @@ void StickFirmware::set_effect(std::span<const std::uint8_t> report) {
   if (effect == nullptr) return;
   const SetEffectBytes& bytes = family_.set_effect;
   const std::int64_t duration = read_number(report, bytes.duration);
-  const bool finite = duration > 0 && duration < kEndlessDuration;
-  if (finite && finite_refused_) {
+  const bool is_ones = habits_.ones_are_finite && duration == 0xffff;
+  const bool finite = (duration > 0 && duration < kEndlessDuration) || is_ones;
+  if (finite && !is_ones && finite_refused_) {
     load_block_ = report[1];
     load_status_ = BlockStatus::error;
     return;

@@ -12,6 +12,10 @@
 //   [stm]      billydragon/STM32_FFBJoystick 586a7c5
 //   [sun]      sunwj/SunFFBJoystick b5a6f09
 //   [vjoy]     njz3/vJoy 02a337b
+//
+// Not modelled, because no report of our driver reaches it: what a duration of 0 or 7FFFh means (ours are 300 ms, or all
+// ones for a stick that refuses a duration); that freeing a block mutes the others until the next start [br] (blocks are
+// freed only before a reset); effects that sum beyond 8 bits [library] (the wrap is in the sketch, not the library).
 #pragma once
 
 #include <cstdint>
@@ -110,6 +114,7 @@ struct StickHabits {
 
   // Effects
   bool trigger_none_is_ff = false;   // trigger button 0 is the first button, FFh is none [adapt, sun]
+  bool ones_are_finite = false;      // a duration of all ones ends after 65.535 s [AccuForce, T150: Linux' hid-pidff]
   int effects_at_once = 0;           // starting one more stops that which was started first; 0: no limit [../facts]
   double restart_gap = 0.0;          // [s] silence after each start
   bool stopped_is_free = false;      // a stopped block may be given to another effect [library, fino, affb]
