@@ -384,12 +384,12 @@ Calibrator::Motion Calibrator::distance_pushed(StickRig& rig, const AxisPlace& p
   const double from = rig.rest(place.report, undamped, other), other_from = rig.position(other);
   for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kSettingTime;) rig.step(command);
   const std::int64_t begin = rig.latest().now_ns;
-  Motion farthest;  // at the peaks, because readings may be rare
+  Motion farthest;  // at the peak, because readings may be rare; of the other axis, the last
   for (std::int64_t time = 0; time < kPushedTime + kPeakTime; time = rig.latest().now_ns - begin) {
     command.constant[place.motor] = time < kPushedTime ? 0.5 * kCautiousForce : 0.0;
     rig.step(command);
     farthest.moved = std::max(farthest.moved, std::abs(rig.position(place.report) - from) / rig.range(place.report));
-    farthest.other = std::max(farthest.other, std::abs(rig.position(other) - other_from) / rig.range(other));
+    farthest.other = (rig.position(other) - other_from) / rig.range(other);
     rig.watch_runaway(place.report, from);
   }
   return farthest;
@@ -684,8 +684,7 @@ double Calibrator::own_share(StickRig& rig, const LeverAxisCalibration& axis) co
 
 // [counts] that the lever returns in kReturnTime after a constant force ended, under this command.
 double Calibrator::distance_returned(StickRig& rig, const AxisPlace& place, const StickCommand& under) const {
-  StickCommand command = under;
-  command.enabled = true;
+  StickCommand command = under.enabled ? under : idle_command();
   command.constant[place.motor] = kCautiousForce;
   const double from = rig.rest(place.report, command);
   const std::int64_t begin = rig.latest().now_ns;
@@ -935,7 +934,7 @@ double Calibrator::damper_cross_talk(StickRig& rig, std::size_t axis, const Devi
   for (std::size_t i = 0; i < 2; ++i) {
     const Motion free = distance_pushed(rig, place[i], idle_command()), slow = distance_pushed(rig, place[i], damped);
     braked[i] = (free.moved - slow.moved) / free.moved;
-    pushed[i] = (slow.other - free.other) / free.moved;
+    pushed[i] = std::abs(slow.other - free.other) / free.moved;
   }
   return std::max(std::abs(braked[1 - axis]), pushed[axis]) / std::abs(braked[axis]);
 }

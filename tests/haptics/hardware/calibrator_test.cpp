@@ -197,6 +197,49 @@ TEST_CASE("forces that do not grow evenly are used up to where they do, and the 
   CHECK(spec_of(whole, 0.001).max_force == dvec2(20.0));
 }
 
+TEST_CASE("cross-talk of each family of effects and the number of effects that act at once are measured") {
+  EmulatedStickConfig config = config_of(StickFamily::openffboard);
+  config.habits.cross_talk = {0.04, 0.06, 0.08};
+  const auto calibrated = [&] {
+    CalibrationBench bench(config, unmeasured_calibration(config));
+    for (const auto step : {&Calibrator::measure_polarity, &Calibrator::measure_timing, &Calibrator::measure_handle,
+                            &Calibrator::measure_springs})
+      std::invoke(step, bench.calibrator);
+    return bench.calibrator.calibration();
+  };
+  const DeviceCalibration found = calibrated();
+  for (const LeverAxisCalibration& axis : {found.select, found.shift}) {
+    CHECK(std::abs(axis.constant_cross_talk - 0.04) < 0.02);
+    CHECK(std::abs(axis.spring_cross_talk - 0.06) < 0.02);
+    CHECK(std::abs(axis.damper_cross_talk - 0.08) < 0.03);
+  }
+  CHECK(found.effects_at_once == 4);
+
+  config.habits.cross_talk = {0.0, 0.3, 0.0};
+  CHECK(calibrated().springs_refused.find("a spring along select also acts along shift, with ") == 0);
+  config.habits.cross_talk = {0.0, 0.0, 0.3};
+  CHECK(calibrated().dampers_refused.find("a damper along select also acts along shift, with ") == 0);
+  config.habits.cross_talk = {0.3, 0.0, 0.0};
+  CHECK_THROWS_AS(calibrated(), CalibrationRefused);
+
+  config.habits.cross_talk = {};
+  for (const int limit : {1, 2, 3}) {
+    config.habits.effects_at_once = limit;
+    CAPTURE(limit);
+    CHECK(calibrated().effects_at_once == limit);
+  }
+}
+
+TEST_CASE("a stick that centres itself unless a spring plays gets one without a force, and its handle is right") {
+  EmulatedStickConfig config = config_of(StickFamily::openffboard);
+  config.habits.auto_centre = AutoCentre::until_spring;
+  CalibrationBench bench(config, unmeasured_calibration(config));
+  bench.calibrator.measure_polarity();
+  CHECK(bench.calibrator.measure_handle().find("a spring without a force plays") != std::string::npos);
+  CHECK(bench.calibrator.calibration().holds_spring);
+  CHECK(std::abs(bench.calibrator.calibration().select.handle.stiffness - config.lever.axis_x.stiffness) < 4.0);
+}
+
 TEST_CASE("a stick that keeps the sign of a force that plays is driven by directions; one that keeps all is refused") {
   EmulatedStickConfig config = config_of(StickFamily::adapt_ffb_joy);
   config.habits.constant_update = ConstantUpdate::strength;

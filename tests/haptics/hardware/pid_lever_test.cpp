@@ -69,6 +69,29 @@ TEST_CASE("counts to metres: linear on either side of the centre, and beyond the
   CHECK(falling.deflection(0.05) == doctest::Approx(-1.0));
 }
 
+TEST_CASE("forces are used up to the measured magnitude, and without a motor for select along shift only") {
+  StillHand hand;
+  const EmulatedStickConfig config = held_fast(StickFamily::openffboard);
+  DeviceCalibration known = calibration_of(config);
+  for (LeverAxisCalibration* axis : {&known.select, &known.shift}) {
+    axis->constant_limit = 0.5;
+    axis->constant_slope = 0.8;  // 8 N at half magnitude, of 20 N
+  }
+  LeverBench bench(config, known, hand);
+  CHECK(bench.lever.spec().max_force == dvec2(8.0));
+  bench.cycle({4.0, 100.0}, 30);
+  CHECK(std::abs(bench.driver.state().sent[0]) == doctest::Approx(0.25).epsilon(0.001));
+  CHECK(std::abs(bench.driver.state().sent[1]) == doctest::Approx(0.5).epsilon(0.001));
+
+  known.select_by_position = true;
+  LeverBench shift(config, known, hand);
+  CHECK(shift.lever.spec().max_force == dvec2(0.0, 8.0));
+  shift.cycle({4.0, 4.0}, 30);
+  CHECK(shift.driver.state().sent[0] == 0.0);
+  CHECK(std::abs(shift.driver.state().sent[1]) == doctest::Approx(0.25).epsilon(0.001));
+  CHECK(shift.stick.playing() == 1);
+}
+
 TEST_CASE("an unusable calibration is refused in one sentence") {
   StillHand hand;
   StickBench bench(held_fast(StickFamily::vjoy), hand);

@@ -348,6 +348,7 @@ TEST_CASE("each profile: calibration, gears, force error, and what is not used")
     CHECK(calibrated.refusal.empty() == std::string(expected[i].refusal).empty());
     CHECK(calibrated.found.springs_refused.starts_with(expected[i].springs));
     CHECK(calibrated.found.springs_refused.empty() == std::string(expected[i].springs).empty());
+    CHECK(calibrated.left_out.empty() == (*expected[i].refusal == '\0' && *expected[i].springs == '\0'));
     CHECK(calibrated.seconds < kMaxDialogue);
     table += std::string(profile.name) + " | " + std::to_string(calibrated.seconds) + " | ";
     if (!calibrated.refusal.empty()) {
