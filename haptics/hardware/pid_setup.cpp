@@ -10,8 +10,10 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr int kBlockLoadPolls = 60;                 // as in Linux
-constexpr std::chrono::milliseconds kPollPause{1};  // between two polls
+constexpr int kBlockLoadPolls = 60;                       // as in Linux
+constexpr std::chrono::milliseconds kPollPause{1};        // between two polls
+constexpr std::chrono::milliseconds kMaxSilencing{1000};  // for reports that switch the motors off
+constexpr std::chrono::milliseconds kRetryPause{5};       // between two rounds of them
 
 constexpr const char* kEndless =
     "the stick's effects do not end by themselves; if this program crashes, unplug the stick to stop the last force";
@@ -181,6 +183,42 @@ class StickSetup {
   int implicit_blocks_ = 0;  // blocks numbered by this program, for a device without Create or Block Load
 };
 
+// Sends the last reports, some of which may be lost.
+class Silencer {
+ public:
+  explicit Silencer(HidPort& port) noexcept : port_(port) {}
+
+  bool send(const HidBytes& report) noexcept {  // true if it was accepted, or if there is none
+    if (report.size == 0) return true;
+    if (is_gone_) return false;
+    try {
+      port_.send(report);
+      return true;
+    } catch (const HidDisconnected&) {
+      is_gone_ = true;
+    } catch (...) {
+    }
+    return false;
+  }
+
+  // Repeats the reports until each was accepted, the stick is gone, or the time is over. A stick may refuse one of them
+  // for good, so all are tried in turn. Returns false if one was not accepted.
+  bool send_surely(std::vector<HidBytes> reports) noexcept {
+    for (;;) {
+      std::erase_if(reports, [&](const HidBytes& report) { return send(report); });
+      if (reports.empty()) return true;
+      if (is_gone_ || Clock::now() > end_) return false;
+      std::this_thread::sleep_for(kRetryPause);
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  HidPort& port_;
+  Clock::time_point end_ = Clock::now() + kMaxSilencing;
+  bool is_gone_ = false;
+};
+
 }  // namespace
 
 PreparedStick prepare_stick(HidPort& port, const PidLayout& pid, StickStyle style) {
@@ -196,24 +234,16 @@ PreparedStick prepare_stick(HidPort& port, const PidLayout& pid, StickStyle styl
 }
 
 void silence_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept {
-  bool disconnected = false;
-  const auto send = [&](const HidBytes& report) {
-    if (disconnected || report.size == 0) return;
-    try {
-      port.send(report);
-    } catch (const HidDisconnected&) {
-      disconnected = true;
-    } catch (...) {
-      return;  // the next report may still succeed
-    }
-  };
-  for (const int block : blocks) send(encode_operation(pid, block, PidOperation::stop, 0));
-  send(encode_control(pid, PidControl::stop_all));
-  send(encode_control(pid, PidControl::disable_actuators));
-  for (const int block : blocks) send(encode_block_free(pid, block));
-  send(encode_control(pid, PidControl::reset));
-  send(encode_control(pid, PidControl::stop_all));
-  send(encode_control(pid, PidControl::disable_actuators));
+  Silencer silencer(port);
+  std::vector<HidBytes> off;
+  for (const int block : blocks) off.push_back(encode_operation(pid, block, PidOperation::stop, 0));
+  off.push_back(encode_control(pid, PidControl::stop_all));
+  off.push_back(encode_control(pid, PidControl::disable_actuators));
+  // A reset switches the actuators on, so it is sent only to a stick that accepts outputs.
+  if (!silencer.send_surely(off)) return;
+  for (const int block : blocks) silencer.send(encode_block_free(pid, block));
+  silencer.send(encode_control(pid, PidControl::reset));
+  silencer.send_surely({encode_control(pid, PidControl::stop_all), encode_control(pid, PidControl::disable_actuators)});
 }
 
 }  // namespace gearshift::haptics

@@ -36,7 +36,7 @@ struct PreparedStick {
 // motors are switched off before HidError is thrown.
 PreparedStick prepare_stick(HidPort& port, const PidLayout& pid, StickStyle style = {});
 
-// Best effort: a report that fails is skipped.
+// Repeats the reports that switch the motors off until the stick has accepted them, for about a second at most.
 void silence_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept;
 
 }  // namespace gearshift::haptics

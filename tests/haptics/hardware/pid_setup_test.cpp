@@ -4,6 +4,7 @@
 // means GET_REPORT(feature) and `out` means an output report. The report ID comes first; numbers are little-endian.
 #include "haptics/hardware/pid_setup.h"
 
+#include <chrono>
 #include <deque>
 #include <string>
 #include <vector>
@@ -368,4 +369,55 @@ TEST_CASE("unplugged at any moment of the setup: HidDisconnected, and nothing mo
   disconnected.disconnect_after = 0;
   silence_stick(disconnected, pid, {1, 2, 3, 4});
   CHECK(disconnected.disconnect_after == -1);
+}
+
+namespace {
+
+// Loses the first reports.
+class LossyPort final : public StickPort {
+ public:
+  using StickPort::StickPort;
+  void send(const HidBytes& report) override {
+    ++sent;
+    if (losses-- > 0) throw HidError("the stick did not answer");
+    StickPort::send(report);
+  }
+  int losses = 0, sent = 0;
+};
+
+}  // namespace
+
+TEST_CASE("the last reports are lost: repeated until the motors are off, for a second at most") {
+  for (const StickFamily family : kStickFamilies) {
+    for (const int losses : {0, 1, 3, 6, 7, 12, 13, 40}) {
+      CAPTURE(name_of(family));
+      CAPTURE(losses);
+      EmulatedStickConfig config;
+      config.family = family;
+      StillHand hand;
+      StickBench bench(config, hand);
+      bench.prepare();
+      bench.tick_for(0.2, pushing(0.5, 0.5));
+      REQUIRE(bench.stick.actuators_on());
+      LossyPort port(bench.stick, bench.mutex, bench.plugged);
+      port.losses = losses;
+      bench.driver.finish(port);
+      CHECK_FALSE(bench.stick.actuators_on());
+      CHECK(bench.stick.force() == glm::dvec2(0.0));
+    }
+  }
+  EmulatedStickConfig config;
+  StillHand hand;
+  StickBench bench(config, hand);
+  bench.prepare();
+  LossyPort deaf(bench.stick, bench.mutex, bench.plugged);
+  deaf.losses = 1'000'000;
+  const auto begin = std::chrono::steady_clock::now();
+  bench.driver.finish(deaf);
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(1300));
+  CHECK(deaf.sent > 100);
+  LossyPort gone(bench.stick, bench.mutex, bench.plugged);
+  bench.plugged = false;
+  bench.driver.finish(gone);
+  CHECK(gone.sent == 1);
 }
