@@ -146,12 +146,14 @@ StickCommand Calibrator::with_weak(bool damper) const {
   return command;
 }
 
-// Sends the effects' settings again, if the style differs, and waits until that is done. The motors stay off.
+// Sends the effects' settings again, if the style differs, and waits until the stick reports that its motors are off
+// afterwards. Some sticks report no state, so the wait ends after kStyleTime. The motors stay off.
 void Calibrator::apply(StickStyle style) {
   driver_.set_style(style);
   StickRig rig(driver_, tick_);
   const std::int64_t begin = rig.step().now_ns;
-  while (rig.step().now_ns - begin < kStyleTime) continue;
+  const auto is_set = [&](const StickState& state) { return state.style == style && state.off_ns > state.style_ns; };
+  while (!is_set(rig.step().state) && rig.latest().now_ns - begin < kStyleTime) continue;
 }
 
 std::string Calibrator::measure_polarity() {

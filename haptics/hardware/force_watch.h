@@ -1,13 +1,21 @@
-// Notices a stick whose forces act in the other direction than calibrated, from the motion that follows a force.
+// Notices a stick that drives otherwise than calibrated, from the motion that follows its forces.
 //
-// The handle moves by m a + b v + k x = u + h, with u the force that the stick is believed to make and h the hand's
-// unknown force. Where u changes faster than a hand can, the left side follows u: by m / (m + hand's mass), and never
-// against it. So both sides are filtered alike to what is fast, and compared over the last half second: a reversed force
-// has a negative correlation, and a slope of about -m / (m + hand's mass). A hand that presses into a wall may give the one
-// but not the other. Samples at the stops are ignored. A missing force cannot be noticed.
+// Explanations of the readings compete: the forces act as calibrated, reversed or not at all, and one of several hands
+// holds the lever. Each pair is a Kalman filter of position, speed and the hand's wandering force, and predicts every
+// reading. A fault is found if a wrong stick with some hand predicts the readings clearly better than a right stick
+// with any hand.
+//
+// A handle of mass m in a hand of mass M moves by (m + M) a = g u, so readings show only g / (m + M). A reversed stick
+// (g < 0) shows with every hand; a silent one only against the heaviest hand assumed here. Half the strength cannot be
+// noticed, because a hand heavier by m + M looks the same, nor can twice, unless the hand is lighter than the handle.
+//
+// This work is based on:
+// D. T. Magill. Optimal Adaptive Estimation of Sampled Stochastic Processes. 1965
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include <glm/vec2.hpp>
 
@@ -15,45 +23,70 @@
 
 namespace gearshift::haptics {
 
+enum class ForceFault : std::uint8_t { none, reversed, silent };
+
+// The forces that the stick is believed to make on one axis: a constant one, and a spring and a damper outside of a
+// dead band.
+struct AxisForces {
+  double constant = 0.0;         // [N]
+  double low = 0.0, high = 0.0;  // [m] the spring's dead band
+  double stiffness = 0.0;        // [N/m] of the spring
+  double damping = 0.0;          // [N s/m] everywhere
+  bool operator==(const AxisForces&) const = default;
+};
+using StickForces = std::array<AxisForces, 2>;  // select, shift
+
 class ForceWatch {
  public:
-  // `lag` [s]: typical time from a force to the reading that shows it; `interval` [s]: typical time between readings
-  ForceWatch(const DeviceSpec& spec, double lag, double interval) noexcept;
+  // `lag` [s]: from a force's output to the reading that shows it
+  ForceWatch(const DeviceSpec& spec, double lag) noexcept;
 
-  // Call it with each new reading: `position` [m], `force` [N] as believed, `seconds` since the last reading. Real-time
-  // safe.
-  void update(glm::dvec2 position, glm::dvec2 force, double seconds) noexcept;
-  void reset() noexcept;  // when the motors were off
+  // Real-time safe.
+  void on_output(const StickForces& forces, std::int64_t time_ns) noexcept;
+  void on_reading(glm::dvec2 position, std::int64_t time_ns) noexcept;  // [m]
+  void reset() noexcept;                                                // when the motors were off
 
-  bool is_reversed() const noexcept;
-  // 0 while the force has not changed enough.
-  double correlation(int axis) const noexcept;  // [1] -1 to 1
-  double slope(int axis) const noexcept;        // [1] left side over u
+  // The best explained fault. `is_doubtful`: the stick says that it makes no forces. That may not be true, and counts
+  // only until its forces were seen.
+  ForceFault fault(bool is_doubtful = false) const noexcept;
+  // [nat] log likelihood of a fault, less that of a stick without fault.
+  double evidence(int axis, ForceFault fault) const noexcept;
 
  private:
-  // Second-order low pass: its states are the smoothed value and its first two derivatives.
-  struct Smooth {
-    double value = 0.0, rate = 0.0, acceleration = 0.0;
-    void update(double input, double frequency, double seconds) noexcept;
+  static constexpr std::size_t kHands = 13, kExplanations = 4;
+  struct Estimate {
+    double position = 0.0, speed = 0.0, hand = 0.0;  // [m] [m/s] [N]
+    double likelihood = 0.0;                         // [nat] logarithm, fading
+  };
+  struct Covariance {  // of an estimate, the same for all explanations with the same hand
+    double xx = 0.0, xv = 0.0, xh = 0.0, vv = 0.0, vh = 0.0, hh = 0.0;
   };
   struct Axis {
     AxisModel handle;
-    double reach = 0.0;  // [m]
-    Smooth position, force;
-    std::array<double, kMaxLoopDelay + 1> delayed{};  // [N] forces of the last readings
-    double slow_motion = 0.0, slow_force = 0.0;       // [N] low-passed, to be subtracted
-    // [N^2 s] averages of the fast parts: u u, the left side squared, and their product
-    double force_power = 0.0, motion_power = 0.0, product = 0.0;
-    double reversed_time = 0.0;  // [s] for which it looks reversed
+    double reach = 0.0;      // [m]
+    double max_force = 0.0;  // [N]
+    std::array<Covariance, kHands> covariance{};
+    std::array<std::array<Estimate, kHands>, kExplanations> estimate{};
+  };
+  struct Output {
+    StickForces forces;
+    std::int64_t time_ns = 0;
   };
 
-  void update(Axis& axis, double position, double force, double seconds) noexcept;
-  static bool looks_reversed(const Axis& axis) noexcept;
+  static void place(Axis& axis, double position) noexcept;
+  static void predict(Axis& axis, const AxisForces& forces, double seconds) noexcept;
+  void correct(Axis& axis, double position, double speed, double seconds) const noexcept;
+  const Output& output_at(std::int64_t time_ns) const noexcept;
 
-  double smoothing_;  // [rad/s] corner frequency of the low pass
-  std::size_t delay_, at_ = 0;
-  bool has_started_ = false;
   std::array<Axis, 2> axis_;
+  double count_variance_;  // [m^2] of positions, from their resolution
+  std::int64_t lag_ns_;
+  std::array<Output, 128> outputs_{};  // a ring
+  std::size_t newest_ = 0;
+  bool has_reading_ = false;
+  bool drives_ = false;       // its forces were seen
+  glm::dvec2 position_{0.0};  // newest
+  std::int64_t time_ns_ = 0;  // of the newest reading
 };
 
 }  // namespace gearshift::haptics

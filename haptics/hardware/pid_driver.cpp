@@ -36,6 +36,11 @@ std::array<std::size_t, 2> stick_axes(const LeverReport& lever) {
   return found;
 }
 
+StickProblem problem_of(StickFault fault) noexcept {
+  if (fault == StickFault::no_power) return StickProblem::no_power;
+  return fault == StickFault::safety_switch ? StickProblem::safety_switch : StickProblem::switched_off;
+}
+
 // False if the command contains a NaN or an infinity.
 bool is_number(const StickCommand& command) noexcept {
   bool finite = std::isfinite(command.constant[0]) && std::isfinite(command.constant[1]);
@@ -83,6 +88,8 @@ PidAbility PidDriver::prepare(HidPort& port) {
   driven_ = unarrived_ = false;
   arrivals_ = {};
   prepared_ = true;
+  state_.style = style;
+  state_.style_ns = state_.off_ns = 0;
   ++state_.session;
   publish();
   return std::move(prepared.ability);
@@ -140,8 +147,13 @@ bool PidDriver::is_length_right(std::size_t size) noexcept {
 void PidDriver::on_lever_report(const LeverCounts& counts, std::int64_t time_ns) noexcept {
   watch_.update(counts, scheduler_.force(), scheduler_.spring(), time_ns);
   if (watch_.jump() > 0.0) problems_.raise(StickProblem::position_jump, std::lround(100.0 * watch_.jump()));
-  if (watch_.is_frozen()) return problems_.raise(StickProblem::frozen, std::lround(kFrozenTime));
-  if (watch_.is_faded_out()) {
+  const StickFault doubt = scheduler_.doubt();
+  if (doubt != StickFault::none && (watch_.is_frozen() || watch_.is_faded_out())) {
+    problems_.raise_again(problem_of(doubt));  // a better reason than a dead sensor
+    end_session();
+  } else if (watch_.is_frozen()) {
+    return problems_.raise(StickProblem::frozen, std::lround(kFrozenTime));
+  } else if (watch_.is_faded_out()) {
     problems_.raise(StickProblem::faded_out, std::lround(kFrozenTime + kFadeOutTime));
     end_session();
   }
@@ -153,22 +165,14 @@ void PidDriver::on_lever_report(const LeverCounts& counts, std::int64_t time_ns)
 
 // After any fault except effect_stopped, the motors stay off until the user arms the lever again.
 void PidDriver::on_state_report(const PidStatus& status, std::int64_t time_ns) noexcept {
-  switch (scheduler_.on_report(status, time_ns)) {
-    case StickFault::none:
-      return;
-    case StickFault::effect_stopped:
-      problems_.raise(StickProblem::effect_stopped);
-      return publish();
-    case StickFault::switched_off:
-      problems_.raise(StickProblem::switched_off);
-      break;
-    case StickFault::no_power:
-      problems_.raise(StickProblem::no_power);
-      break;
-    case StickFault::safety_switch:
-      problems_.raise(StickProblem::safety_switch);
-      break;
+  if (!status.actuators_enabled && pid_.state.actuators_enabled.exists()) state_.off_ns = time_ns;
+  const StickFault fault = scheduler_.on_report(status, time_ns);
+  if (fault == StickFault::none) return publish();
+  if (fault == StickFault::effect_stopped) {
+    problems_.raise(StickProblem::effect_stopped);
+    return publish();
   }
+  problems_.raise_again(problem_of(fault));
   end_session();
 }
 
@@ -227,6 +231,8 @@ void PidDriver::on_sent(std::int64_t time_ns) noexcept {
   unarrived_ = false;
   scheduler_.arrived(time_ns);
   watch_slowness(time_ns);
+  if (scheduler_.style() != state_.style) state_.style_ns = time_ns;
+  state_.style = scheduler_.style();
   state_.sent_ns = time_ns;
   ++state_.outputs;
   publish();
@@ -250,6 +256,8 @@ void PidDriver::watch_slowness(std::int64_t now_ns) noexcept {
 void PidDriver::publish() noexcept {
   state_.sent = scheduler_.force();
   state_.spring = scheduler_.spring();
+  state_.damper = scheduler_.damper();
+  state_.doubt = scheduler_.doubt();
   state_.actuators = scheduler_.drives();
   states_.write(state_);
 }

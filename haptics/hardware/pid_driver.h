@@ -43,11 +43,16 @@ struct StickState {
   std::uint64_t sequence = 0;  // number of accepted lever reports
   std::int64_t time_ns = 0;    // [ns] CLOCK_MONOTONIC, arrival of the newest lever report
   LeverCounts counts;
-  std::array<double, 2> sent{};       // [1] constant forces that the device renders now
-  std::array<PidSpring, 2> spring{};  // springs that the device renders now
-  std::int64_t sent_ns = 0;           // [ns] when the last output arrived
-  std::uint64_t outputs = 0;          // number of outputs that have arrived
-  bool actuators = false;             // the actuators are on and an effect is playing, as far as is known
+  std::array<double, 2> sent{};         // [1] constant forces that the device renders now
+  std::array<PidSpring, 2> spring{};    // springs that the device renders now
+  std::array<double, 2> damper{};       // [1] and dampers, fractions of the maximum coefficient
+  StickFault doubt = StickFault::none;  // what its state report says; firmware may never set these bits
+  std::int64_t sent_ns = 0;             // [ns] when the last output arrived
+  std::uint64_t outputs = 0;            // number of outputs that have arrived
+  StickStyle style;                     // whose settings have arrived
+  std::int64_t style_ns = 0;            // [ns] when they had
+  std::int64_t off_ns = 0;              // [ns] newest state report that the actuators are off; 0: none
+  bool actuators = false;               // the actuators are on and an effect is playing, as far as is known
 };
 
 class PidDriver final : public HidStream {
@@ -68,7 +73,7 @@ class PidDriver final : public HidStream {
   // Port's thread.
   PidAbility prepare(HidPort& port);  // throws HidDisconnected, or HidError if the device cannot make a constant force
   StreamConfig stream_config(std::int64_t tick_ns) const noexcept;
-  void finish(HidPort& port) noexcept;  // a report that fails is skipped
+  void finish(HidPort& port) noexcept;  // see silence_stick()
   void on_input(std::span<const std::uint8_t> report, std::int64_t time_ns) noexcept override;
   HidBytes next_output(std::int64_t now_ns) noexcept override;
   void on_sent(std::int64_t time_ns) noexcept override;

@@ -30,6 +30,18 @@ const DeviceTiming& timing_of(const DeviceCalibration& calibration) noexcept {
   return calibration.has_timing() ? calibration.timing : kUnmeasuredTiming;
 }
 
+ForceWatch watch_of(const DeviceCalibration& calibration, DeviceSpec spec) noexcept {
+  spec.axis_x.stiffness += calibration.select.own_spring;
+  spec.axis_y.stiffness += calibration.shift.own_spring;
+  return {spec, calibration.timing.delay};
+}
+
+StickProblem problem_of(ForceFault fault, StickFault doubt) noexcept {
+  if (fault != ForceFault::silent) return StickProblem::reversed;
+  if (doubt == StickFault::no_power) return StickProblem::no_power;
+  return doubt == StickFault::safety_switch ? StickProblem::safety_switch : StickProblem::silent;
+}
+
 }  // namespace
 
 LeverAxisMap::LeverAxisMap(const LeverAxisCalibration& axis, const BitField& field) noexcept
@@ -52,13 +64,16 @@ double LeverAxisMap::deflection(double metres) const noexcept {
   return std::clamp((counts(metres) - middle_) / half_range_, -1.0, 1.0);
 }
 
+double LeverAxisMap::position(double deflection) const noexcept {
+  return metres(middle_ + deflection * half_range_);
+}
+
 PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, double period, StopButton* stop)
     : calibration_(with_range(calibration)),
       driver_(driver),
       spec_(spec_of(calibration, period)),
       session_(driver.state().session),
-      watch_(spec_, timing_of(calibration).delay + 0.5 * timing_of(calibration).input_interval,
-             timing_of(calibration).input_interval),
+      watch_(watch_of(calibration, spec_)),
       stop_(stop != nullptr ? *stop : own_stop_) {
   driver.set_style(calibration.style);
   driver.expect_answer(answer_time(timing_of(calibration)));
@@ -91,6 +106,8 @@ PidLever::Axis PidLever::make_axis(const LeverAxisCalibration& calibration, bool
   axis.spring = coefficient(PidEffect::spring, calibration.spring_sign, usable_wall_stiffness(spec_),
                             calibration.spring_stiffness);
   if (calibration.spring_dead_band > 0.0) axis.dead_band = calibration.spring_dead_band;
+  axis.spring_strength = calibration.spring_sign * calibration.spring_stiffness;
+  axis.damper_strength = calibration.damper_sign * calibration.damper_strength;
   axis.damper =
       coefficient(PidEffect::damper, calibration.damper_sign, usable_wall_damping(spec_), calibration.damper_strength);
   return axis;
@@ -122,8 +139,8 @@ LeverReading PidLever::read(std::int64_t) noexcept {
   reading.pressed_down = has_button(state.counts, calibration_.press_button);
   reading.lifted = has_button(state.counts, calibration_.lift_button);
   reading.stop = (state.sequence > 0 && is_stop_pressed(state.counts)) || halted_;
-  if (pushes_the_wrong_way(state, reading)) {
-    driver_.report(StickProblem::reversed);
+  if (drives_otherwise(state, reading)) {
+    driver_.report(problem_of(watch_.fault(state.doubt != StickFault::none), state.doubt));
     release();
     watch_.reset();
     reading.stop = true;
@@ -131,16 +148,28 @@ LeverReading PidLever::read(std::int64_t) noexcept {
   return reading;
 }
 
-bool PidLever::pushes_the_wrong_way(const StickState& state, const LeverReading& reading) noexcept {
-  if (!state.actuators) {
+bool PidLever::drives_otherwise(const StickState& state, const LeverReading& reading) noexcept {
+  // With a wrong delay, forces and motion do not belong together.
+  if (!state.actuators || state.sequence == 0 || !calibration_.has_timing()) {
     watch_.reset();
     return false;
   }
-  if (reading.sequence == watched_sequence_) return false;
-  watch_.update(reading.position, reading.actuator_force, 1e-9 * static_cast<double>(reading.time_ns - watched_ns_));
-  watched_sequence_ = reading.sequence;
-  watched_ns_ = reading.time_ns;
-  return watch_.is_reversed();
+  watch_.on_output(forces_of(state), state.sent_ns);
+  watch_.on_reading(reading.position, reading.time_ns);
+  return watch_.fault(state.doubt != StickFault::none) != ForceFault::none;
+}
+
+StickForces PidLever::forces_of(const StickState& state) const noexcept {
+  StickForces forces;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Axis& axis = axis_[i];
+    const PidSpring& spring = state.spring[axis.motor];
+    const double half_width = axis.dead_band * spring.dead_band;
+    const double a = axis.map.position(spring.centre - half_width), b = axis.map.position(spring.centre + half_width);
+    forces[i] = {axis.sign * state.sent[axis.motor] * axis.per_magnitude, std::min(a, b), std::max(a, b),
+                 axis.spring_strength * spring.coefficient, axis.damper_strength * state.damper[axis.motor]};
+  }
+  return forces;
 }
 
 glm::dvec2 PidLever::motor_force(const StickState& state, glm::dvec2 position) const noexcept {

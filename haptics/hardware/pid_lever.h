@@ -21,7 +21,8 @@ class LeverAxisMap {
 
   double metres(double counts) const noexcept;  // linear on each side of the centre, also beyond the stops
   double counts(double metres) const noexcept;
-  double deflection(double metres) const noexcept;  // [1] -1 to 1 from end to end of the logical range, clamped
+  double deflection(double metres) const noexcept;    // [1] -1 to 1 from end to end of the logical range, clamped
+  double position(double deflection) const noexcept;  // [m]
 
  private:
   double centre_ = 0.0, middle_ = 0.0, half_range_ = 1.0;  // [counts]
@@ -57,22 +58,25 @@ class PidLever final : public HapticDevice {
  private:
   struct Axis {
     LeverAxisMap map;
-    std::size_t report = 0;      // index of the axis in the report
-    std::size_t motor = 0;       // index of the motor in the driver: X, Y
-    double full_force = 0.0;     // [N] of motor and springs together; 0: no motor, or its force is not known
-    double per_magnitude = 0.0;  // [N] constant force per magnitude
-    double limit = 1.0;          // [1] largest magnitude
-    double sign = 0.0;           // sign of constant forces: +1, -1, or 0 if there is no motor
-    double spring = 0.0;         // signed spring coefficient of the device walls; 0: no device walls
-    double dead_band = 1.0;      // [1] measured width of a spring's dead band over the commanded one
-    double damper = 0.0;         // signed damper coefficient of the device walls; 0: none
+    std::size_t report = 0;        // index of the axis in the report
+    std::size_t motor = 0;         // index of the motor in the driver: X, Y
+    double full_force = 0.0;       // [N] of motor and springs together; 0: no motor, or its force is not known
+    double per_magnitude = 0.0;    // [N] constant force per magnitude
+    double limit = 1.0;            // [1] largest magnitude
+    double sign = 0.0;             // sign of constant forces: +1, -1, or 0 if there is no motor
+    double spring = 0.0;           // signed spring coefficient of the device walls; 0: no device walls
+    double spring_strength = 0.0;  // [N/m] signed, at the maximum coefficient
+    double damper_strength = 0.0;  // [N s/m] signed, at the maximum coefficient
+    double dead_band = 1.0;        // [1] measured width of a spring's dead band over the commanded one
+    double damper = 0.0;           // signed damper coefficient of the device walls; 0: none
   };
 
   Axis make_axis(const LeverAxisCalibration& calibration, bool drives) const;
   double coefficient(PidEffect effect, int sign, double wanted, double strongest) const noexcept;
+  StickForces forces_of(const StickState& state) const noexcept;
   glm::dvec2 motor_force(const StickState& state, glm::dvec2 position) const noexcept;
   bool has_button(const LeverCounts& counts, int button) const noexcept;
-  bool pushes_the_wrong_way(const StickState& state, const LeverReading& reading) noexcept;
+  bool drives_otherwise(const StickState& state, const LeverReading& reading) noexcept;
   bool is_stop_pressed(const LeverCounts& counts) noexcept;
   void damp_in_walls() noexcept;
   void send() noexcept;
@@ -88,8 +92,6 @@ class PidLever final : public HapticDevice {
   std::uint64_t session_;     // session of the last state
   bool halted_ = false;       // the session changed in this cycle
   ForceWatch watch_;
-  std::uint64_t watched_sequence_ = 0;  // newest reading given to watch_
-  std::int64_t watched_ns_ = 0;         // and its time
   StopButton own_stop_;
   StopButton& stop_;
 };

@@ -83,6 +83,7 @@ void ReportScheduler::begin(const StickBlocks& blocks, bool finite, StickStyle s
   style_ = wanted_style_ = style;
   settings_sent_ = 0;
   said_power_ = said_safety_switch_ = said_actuators_ = false;
+  doubt_ = StickFault::none;
   on_ = !has_switch();
   sent_ = {};
   for (std::size_t i = 0; i < kStickEffects; ++i) {
@@ -121,6 +122,11 @@ std::array<PidSpring, 2> ReportScheduler::spring() const noexcept {
     spring[i] = {current.centre, current.dead_band, current.coefficient, current.saturation};
   }
   return spring;
+}
+
+std::array<double, 2> ReportScheduler::damper() const noexcept {
+  if (!on_ || !effect_[static_cast<std::size_t>(StickEffect::damper)].playing) return {};
+  return {value_[4].current.coefficient, value_[5].current.coefficient};
 }
 
 // True if the effect should play. Constant forces always play, so that the first force needs only one report.
@@ -363,11 +369,18 @@ StickFault ReportScheduler::on_report(const PidStatus& status, std::int64_t now_
   said_power_ = said_power_ || status.actuator_power;
   said_safety_switch_ = said_safety_switch_ || status.safety_switch;
   said_actuators_ = said_actuators_ || status.actuators_enabled;
+  const StickFault doubted = doubt_;
+  doubt_ = !status.actuator_power  ? StickFault::no_power
+           : !status.safety_switch ? StickFault::safety_switch
+                                   : StickFault::none;
   if (!command_.enabled) return StickFault::none;
   if (said_power_ && !status.actuator_power) return StickFault::no_power;
   if (said_safety_switch_ && !status.safety_switch) return StickFault::safety_switch;
+  // Power that comes back would bring back a force without a person. Some firmware may say it at each switching on.
+  const bool was_on = on_ && now_ns - switched_on_ns_ > kReportLag;
+  if (doubted != StickFault::none && doubt_ == StickFault::none && was_on) return doubted;
   const bool is_off = said_actuators_ && !status.actuators_enabled;
-  if (is_off && has_switch() && on_ && now_ns - switched_on_ns_ > kReportLag) {
+  if (is_off && has_switch() && was_on) {
     on_ = false;
     return StickFault::switched_off;
   }

@@ -73,11 +73,15 @@ class ReportScheduler {
   // report counts as lost and is scheduled again.
   HidBytes next(std::int64_t now_ns) noexcept;
   void arrived(std::int64_t now_ns) noexcept;
+  StickStyle style() const noexcept { return style_; }  // whose settings have been sent
   StickFault on_report(const PidStatus& status, std::int64_t now_ns) noexcept;
 
-  // Forces and springs that the device renders now.
+  // Forces, springs and dampers that the device renders now.
   std::array<double, 2> force() const noexcept;      // [1] constant forces
   std::array<PidSpring, 2> spring() const noexcept;  // coefficient 0: none
+  std::array<double, 2> damper() const noexcept;     // [1] coefficients
+  // What the newest state report says, if any: a reason why a stick may be silent.
+  StickFault doubt() const noexcept { return doubt_; }
   bool drives() const noexcept;  // the actuators are on and an effect is playing, as far as is known
 
  private:
@@ -139,8 +143,9 @@ class ReportScheduler {
   bool finite_ = true;
   StickStyle style_, wanted_style_;
   std::size_t settings_sent_ = 0;  // reports of the wanted style
-  // A device that never set a bit of its state report does not use it.
+  // A device that never set a bit of its state report may not use it.
   bool said_power_ = false, said_safety_switch_ = false, said_actuators_ = false;
+  StickFault doubt_ = StickFault::none;
   bool on_ = false;  // actuators
   std::int64_t switched_on_ns_ = 0;
   std::array<Effect, kStickEffects> effect_{};

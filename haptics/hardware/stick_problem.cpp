@@ -31,9 +31,14 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
     case StickProblem::effect_stopped:
       return "the stick stopped an effect by itself; the effect was started again";
     case StickProblem::no_power:
-      return "the stick reports that its motors have no power; check its power supply";
+      return "the stick reported that its motors have no power, so they are off; check its power supply, then turn "
+             "them "
+             "on "
+             "again";
     case StickProblem::safety_switch:
-      return "the stick reports that its safety switch is open, so it produces no force";
+      return "the stick reported that its safety switch is open, so its motors are off; close the switch, then turn "
+             "them "
+             "on again";
     case StickProblem::output_stuck:
       return "the stick accepts no output; its last force ends by itself";
     case StickProblem::slow_output:
@@ -42,6 +47,9 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
     case StickProblem::reversed:
       return "the stick pushes the other way than when it was calibrated; the motors are off until you turn them on "
              "again; run: gearshift devices --calibrate";
+    case StickProblem::silent:
+      return "the lever does not follow the stick's forces; the motors are off until you turn them on again; check the "
+             "stick's power supply and its safety switch, or run: gearshift devices --calibrate";
     case StickProblem::no_commands:
       break;
   }

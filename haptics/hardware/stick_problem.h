@@ -24,9 +24,10 @@ enum class StickProblem : std::uint8_t {
   output_stuck,   // an output report does not complete
   slow_output,    // [ms] time per output, [ms] answer time from the calibration
   reversed,       // its forces move the lever against their direction
+  silent,         // the lever does not follow its forces
   no_commands     // [ms] time without a command, because the haptic side is late or dead
 };
-inline constexpr std::size_t kStickProblems = 13;
+inline constexpr std::size_t kStickProblems = 14;
 
 class StickProblems {
  public:

@@ -1,16 +1,23 @@
-// Tests of ForceWatch: a mass that a hand holds, in closed form, and sticks whose forces turn round.
+// Tests of ForceWatch: a mass that a hand holds, in closed form, and sticks that drive otherwise than calibrated.
 #include "haptics/hardware/force_watch.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <random>
+#include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "haptics/files/number_text.h"
 #include "haptics/loop/shift_script.h"
 #include "tests/haptics/device/still_hand.h"
+#include "tests/haptics/hardware/random_hand.h"
 #include "tests/haptics/hardware/stick_loop.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift::haptics;
 using namespace gearshift::test;
@@ -18,158 +25,223 @@ using glm::dvec2;
 
 namespace {
 
-EmulatedStickConfig held_stick(const HandImpedance& hand) {
+constexpr double kIntervals[] = {0.001, 0.002, 0.004, 0.008};  // [s] between readings
+
+EmulatedStickConfig held_stick(const HandImpedance& hand, double interval = 0.001) {
   EmulatedStickConfig config;
   config.family = StickFamily::openffboard;
   config.lever.hand = hand;
+  config.input_interval = interval;
   return config;
 }
 
-// A tour through the gate, with the lowest slope of both axes.
-struct Watched {
-  Watched(const EmulatedStickConfig& stick_config, double delay)
-      : config(stick_config),
+bool is_watch(const std::string& problem) {
+  return problem.starts_with("the stick pushes the other way") || problem.starts_with("the lever does not follow");
+}
+
+// A stick in a random hand.
+struct RandomDrive {
+  RandomDrive(StickFamily family, double interval, unsigned seed)
+      : config(config_of(family, interval, seed)),
         gate(stick_gate("six_speed_r_left_up", config)),
-        start(rest_position(gate, kNeutralGear)),
-        hand(script(), shift_strokes(gate, start, tour_order(gate)), config.plant_period),
-        run((config.delay = delay, config), calibration_of(config), HapticConfig{}, gate, hand),
-        watch(run.lever.spec(), delay + 0.0005, 0.001) {
+        hand(100 * seed + static_cast<unsigned>(family), places()),
+        run(config, calibration_of(config), HapticConfig{}, gate, hand) {
     run.stick.logs = false;
     run.loop.arm();
   }
-  ScriptedHandConfig script() const {
-    ScriptedHandConfig made = touring_hand(start);
-    made.effort_limit = 8.0;
+  static EmulatedStickConfig config_of(StickFamily family, double interval, unsigned seed) {
+    EmulatedStickConfig made = held_stick(kBareHand, interval);
+    made.family = family;
+    made.delay = std::vector{0.0, 0.001, 0.003, 0.005}[seed % 4];
     return made;
   }
-  void cycle() {
-    run.cycle();
-    if (!run.stick.actuators_on()) return watch.reset();
-    watch.update(run.loop.snapshot().lever, -run.loop.snapshot().f_a, 0.001);
-    for (int i = 0; i < 2; ++i) {
-      if (watch.slope(i) < lowest) {
-        lowest = watch.slope(i);
-        correlation = watch.correlation(i);
-      }
-    }
+  std::vector<dvec2> places() const {
+    std::vector<dvec2> all{{0.02, 0.0}, {-0.02, 0.01}, rest_position(gate, kNeutralGear)};
+    for (const int gear : tour_order(gate)) all.push_back(rest_position(gate, gear));
+    return all;
   }
-  double duration() const { return hand.duration(); }
+  bool is_off() const {
+    const GuardState guard = run.loop.snapshot().guard;
+    return !run.stick.actuators_on() && (guard == GuardState::released || guard == GuardState::damped);
+  }
 
   EmulatedStickConfig config;
   Gate gate;
-  dvec2 start;
-  ScriptedHand hand;
+  RandomHand hand;
   StickLoop run;
-  ForceWatch watch;
-  double lowest = 0.0, correlation = 0.0;  // lowest slope, and the correlation then
 };
+
+struct Wrong {
+  const char* name;
+  dvec2 constants, conditions;
+  bool is_noticed;  // false: physically no difference from another hand
+};
+const std::vector<Wrong>& wrongs() {
+  static const std::vector<Wrong> all{{"reversed", {-1.0, -1.0}, {-1.0, -1.0}, true},
+                                      {"reversed in select", {-1.0, 1.0}, {-1.0, 1.0}, true},
+                                      {"reversed in shift", {1.0, -1.0}, {1.0, -1.0}, true},
+                                      {"springs reversed", {1.0, 1.0}, {-1.0, -1.0}, true},
+                                      {"silent", {0.0, 0.0}, {0.0, 0.0}, true},
+                                      {"silent in select", {0.0, 1.0}, {0.0, 1.0}, true},
+                                      {"silent in shift", {1.0, 0.0}, {1.0, 0.0}, true},
+                                      {"half", {0.5, 0.5}, {0.5, 0.5}, false},
+                                      {"double", {2.0, 2.0}, {2.0, 2.0}, false}};
+  return all;
+}
 
 }  // namespace
 
-// A force u = sin(w t) on the mass m + M, of which the watch knows m: m a = u m / (m + M), in phase with u, with slope m / (m + M).
-TEST_CASE("motion that a force causes follows it, by the share of the known mass") {
+// A force u = 5 sin(w t) on the mass m + M: x = -u / (w^2 (m + M)).
+TEST_CASE("motion that a force causes: right, reversed and silent forces on a mass in closed form") {
   constexpr double kMass = 0.1, kPeriod = 0.001;
   DeviceSpec spec;
   spec.workspace = dvec2(1.0);
   spec.axis_x = {kMass, 0.0, 0.0};
   spec.axis_y = {2.0 * kMass, 0.0, 0.0};
   for (const double hand : {0.0, 0.5, 2.5}) {
-    for (const double sign : {1.0, -1.0}) {
-      for (const double frequency : {8.0, 15.0, 30.0}) {
-        CAPTURE(hand);
-        CAPTURE(sign);
-        CAPTURE(frequency);
-        ForceWatch watch(spec, 0.0, kPeriod);
-        const double rate = 2.0 * std::numbers::pi * frequency;
-        for (int i = 0; i < 3000; ++i) {
-          const double u = 5.0 * std::sin(rate * kPeriod * i), scale = -sign / (rate * rate);
-          watch.update(scale * u * dvec2(1.0 / (kMass + hand), 1.0 / (2.0 * kMass + hand)), dvec2(u), kPeriod);
+    for (const double interval : kIntervals) {
+      for (const double frequency : {15.0, 25.0}) {
+        for (const double factor : {1.0, -1.0, 0.0}) {
+          CAPTURE(hand);
+          CAPTURE(interval);
+          CAPTURE(frequency);
+          CAPTURE(factor);
+          ForceWatch watch(spec, 0.0);
+          const double rate = 2.0 * std::numbers::pi * frequency;
+          const int every = static_cast<int>(std::lround(interval / kPeriod));
+          for (int i = 0; i < 5000; ++i) {
+            const double u = 5.0 * std::sin(rate * kPeriod * i), scale = -factor / (rate * rate);
+            if (i % every == 0)
+              watch.on_reading(scale * u * dvec2(1.0 / (kMass + hand), 1.0 / (2.0 * kMass + hand)),
+                               std::int64_t{1'000'000} * i);
+            StickForces forces;
+            forces[0].constant = forces[1].constant = u;
+            watch.on_output(forces, std::int64_t{1'000'000} * i);
+          }
+          CHECK(watch.fault() == (factor < 0.0 ? ForceFault::reversed : ForceFault::none));
+          CHECK(watch.evidence(0, ForceFault::reversed) * factor <= 0.0);
+          // No motion at all may be a hand that is heavier than any.
+          CHECK((watch.evidence(0, ForceFault::silent) > (factor == 0.0 ? 3.0 : -1e9)));
+          if (factor > 0.0) CHECK(watch.evidence(0, ForceFault::silent) < -3.0);
         }
-        CHECK(watch.correlation(0) == doctest::Approx(sign).epsilon(0.05));
-        CHECK(watch.slope(0) == doctest::Approx(sign * kMass / (kMass + hand)).epsilon(0.05));
-        CHECK(watch.slope(1) == doctest::Approx(sign * 2.0 * kMass / (2.0 * kMass + hand)).epsilon(0.05));
       }
     }
   }
 }
 
-TEST_CASE("no false alarm on a tour, with any hand and delay") {
+TEST_CASE("no false alarm on a tour, with any hand, delay and interval") {
   for (const HandImpedance& hand :
        {kGripHand, kArmHand, HandImpedance{0.02, 2.0, 100.0}, HandImpedance{2.5, 20.0, 1500.0}}) {
     for (const double delay : {0.0, 0.002, 0.005}) {
-      CAPTURE(hand.mass);
-      CAPTURE(delay);
-      Watched tour(held_stick(hand), delay);
-      while (tour.run.time() < tour.duration()) tour.cycle();
-      CHECK(tour.lowest > -0.04);
-      MESSAGE("hand of ", hand.mass, " kg, delay ", 1e3 * delay, " ms: lowest slope ", tour.lowest, ", correlation ",
-              tour.correlation);
-      CHECK(tour.run.problems().empty());
+      for (const double interval : kIntervals) {
+        CAPTURE(hand.mass);
+        CAPTURE(delay);
+        CAPTURE(interval);
+        EmulatedStickConfig config = held_stick(hand, interval);
+        config.delay = delay;
+        const Gate gate = stick_gate("six_speed_r_left_up", config);
+        const dvec2 start = rest_position(gate, kNeutralGear);
+        ScriptedHandConfig script = touring_hand(start);
+        script.effort_limit = 8.0;
+        ScriptedHand driver(script, shift_strokes(gate, start, tour_order(gate)), config.plant_period);
+        StickLoop run(config, calibration_of(config), HapticConfig{}, gate, driver);
+        run.stick.logs = false;
+        run.loop.arm();
+        run.cycle_for(driver.duration());
+        CHECK(run.problems().empty());
+        CHECK(run.stick.actuators_on());
+      }
     }
   }
 }
 
 // Found in real time: a hand that presses on through a wall speeds up while the wall's force grows against it.
 TEST_CASE("no false alarm when a hand presses into a wall, slowly or fast") {
-  double lowest = 0.0;
   for (const HandImpedance& grip :
        {kGripHand, kArmHand, HandImpedance{0.02, 2.0, 100.0}, HandImpedance{2.5, 20.0, 1500.0}}) {
     for (const double speed : {0.05, 0.1, 0.2, 0.5}) {  // [m/s]
-      for (const double delay : {0.0, 0.003, 0.006}) {
+      // Bound: an arm that turns abruptly six times a second dwarfs the stick's forces.
+      if (grip.mass > 1.0 && speed > 0.2) continue;
+      for (const double interval : kIntervals) {
         CAPTURE(grip.mass);
         CAPTURE(speed);
-        CAPTURE(delay);
-        EmulatedStickConfig config = held_stick(grip);
-        config.delay = delay;
+        CAPTURE(interval);
+        EmulatedStickConfig config = held_stick(grip, interval);
+        config.delay = 0.003;
         StillHand hand(hand_at({0.012, 0.0}));
         StickLoop run(config, calibration_of(config), HapticConfig{}, stick_gate("six_speed_r_left_up", config), hand);
         run.stick.logs = false;
-        ForceWatch watch(run.lever.spec(), delay + 0.0005, 0.001);
         run.loop.arm();
         run.cycle_for(0.7);
         for (int ms = 0; ms < 2000; ++ms) {
           const double turn = std::fmod(0.001 * speed * ms, 0.080);
           hand.target = hand_at({0.012, turn < 0.040 ? turn : 0.080 - turn});
           run.cycle();
-          watch.update(run.loop.snapshot().lever, -run.loop.snapshot().f_a, 0.001);
-          lowest = std::min({lowest, watch.slope(0), watch.slope(1)});
-          CHECK_FALSE(watch.is_reversed());
         }
         CHECK(run.problems().empty());
       }
     }
   }
-  MESSAGE("lowest slope ", lowest);
 }
 
-TEST_CASE("a stick whose forces turn round is switched off, and a message is shown each time") {
-  std::string table = "readings every ms | turned at s | off after ms\n";
-  for (const double interval : {0.001, 0.004, 0.008}) {
-    for (const double turns_at : {0.8, 2.0, 3.0, 4.5}) {
-      CAPTURE(interval);
-      CAPTURE(turns_at);
-      EmulatedStickConfig config = held_stick(kGripHand);
-      config.input_interval = interval;
-      Watched tour(config, 0.0);
-      double off_at = 0.0;
-      while (tour.run.time() < turns_at + 3.0) {
-        tour.run.stick.faults.reversed = tour.run.time() >= turns_at;
-        tour.cycle();
-        if (off_at == 0.0 && tour.run.time() > turns_at && !tour.run.stick.actuators_on()) off_at = tour.run.time();
+TEST_CASE("random hands that reach, hold, push, strike and let go: no false alarm") {
+  std::string table = "readings every ms | hours | alarms\n";
+  for (const double interval : kIntervals) {
+    double hours = 0.0;
+    int alarms = 0;
+    for (unsigned seed = 0; seed < (is_full_campaign() ? 60U : 3U); ++seed) {
+      for (const StickFamily family : kStickFamilies) {
+        RandomDrive drive(family, interval, seed);
+        while (drive.run.time() < 60.0) {
+          drive.run.cycle();
+          if (!drive.is_off()) continue;
+          for (const std::string& problem : drive.run.problems()) alarms += is_watch(problem) ? 1 : 0;
+          drive.run.loop.arm();
+          drive.run.cycle_for(0.6);
+        }
+        hours += drive.run.time() / 3600.0;
       }
-      table += std::to_string(1e3 * interval) + " | " + std::to_string(turns_at) + " | " +
-               (off_at > 0.0 ? std::to_string(1e3 * (off_at - turns_at)) : "not within 3 s") + '\n';
-      CHECK((off_at > 0.0 || interval > 0.001));
-      if (off_at == 0.0) continue;
-      const auto problems = tour.run.problems();
-      REQUIRE(problems.size() == 1);
-      CHECK(problems[0].starts_with("the stick pushes the other way than when it was calibrated"));
-      CHECK(tour.run.stick.force() == dvec2(0.0));
-      tour.run.loop.arm();  // the person tries again, and the message is repeated
-      tour.run.cycle_for(0.2);
-      REQUIRE(tour.run.stick.actuators_on());
-      for (int ms = 0; ms < 4000 && tour.run.stick.actuators_on(); ++ms) tour.cycle();
-      CHECK(tour.run.problems().empty() == tour.run.stick.actuators_on());
+    }
+    CHECK(alarms == 0);
+    table += number_text(1e3 * interval, 0) + " | " + number_text(hours, 2) + " | " + std::to_string(alarms) + '\n';
+  }
+  MESSAGE(table);
+}
+
+TEST_CASE("a stick that drives otherwise than calibrated is switched off in a random hand, with a sentence") {
+  std::string table = "wrong | family | readings every ms | noticed within 20 s | median s | worst s\n";
+  const unsigned seeds = is_full_campaign() ? 12 : 4;
+  for (const Wrong& wrong : wrongs()) {
+    for (const StickFamily family : kStickFamilies) {
+      for (const double interval : kIntervals) {
+        std::vector<double> times;
+        for (unsigned seed = 0; seed < seeds; ++seed) {
+          RandomDrive drive(family, interval, seed);
+          drive.run.cycle_for(2.0);
+          drive.run.problems();
+          drive.run.stick.faults.constants = wrong.constants;
+          drive.run.stick.faults.conditions = wrong.conditions;
+          while (drive.run.time() < 22.0 && !drive.is_off()) drive.run.cycle();
+          if (!drive.is_off()) continue;
+          times.push_back(drive.run.time() - 2.0);
+          drive.run.cycle_for(0.01);
+          CHECK(drive.run.stick.force() == dvec2(0.0));
+          drive.run.cycle_for(0.5);
+          CHECK_FALSE(drive.run.stick.actuators_on());  // until a person arms it
+        }
+        std::sort(times.begin(), times.end());
+        table +=
+            std::string(wrong.name) + " | " + name_of(family) + " | " + number_text(1e3 * interval, 0) + " | " +
+            std::to_string(times.size()) + " of " + std::to_string(seeds) + " | " +
+            (times.empty() ? "- | -" : number_text(times[times.size() / 2], 2) + " | " + number_text(times.back(), 2)) +
+            '\n';
+        CAPTURE(std::string(wrong.name));
+        CAPTURE(name_of(family));
+        CAPTURE(interval);
+        if (std::string(wrong.name) == "reversed") CHECK(times.size() == seeds);
+        if (std::string(wrong.name) == "silent" && interval < 0.002) CHECK(2 * times.size() >= seeds);
+        if (!wrong.is_noticed) CHECK(2 * times.size() <= seeds);  // where this fails, force_watch.h says too little
+      }
     }
   }
   MESSAGE(table);

@@ -514,3 +514,33 @@ TEST_CASE("finish() switches the motors off, and later commands drive nothing") 
     CHECK(bench.lines().empty());
   }
 }
+
+TEST_CASE("a stick that reports its state confirms a change of style; another does not") {
+  std::string table = "family, state | confirmed after ms\n";
+  for (const StickFamily family : kStickFamilies) {
+    for (const StateSent sent : {StateSent::at_changes, StateSent::at_setting, StateSent::never}) {
+      CAPTURE(name_of(family));
+      StillHand hand;
+      EmulatedStickConfig config = held(family);
+      config.habits.state_sent = sent;
+      StickBench bench(config, hand);
+      bench.prepare();
+      bench.tick_for(0.1, {});
+      const StickStyle style{AxisStyle::both, AxisStyle::direction};
+      const auto is_confirmed = [&] {
+        const StickState state = bench.driver.state();
+        return state.style == style && state.off_ns > state.style_ns;
+      };
+      CHECK_FALSE(is_confirmed());
+      bench.driver.set_style(style);
+      const double begin = bench.time();
+      while (!is_confirmed() && bench.time() < begin + 0.25) bench.tick({});
+      const double passed = bench.time() - begin;
+      table += name_of(family) + ", " + std::to_string(static_cast<int>(sent)) + " | " +
+               std::to_string(static_cast<int>(1e3 * passed + 0.5)) + '\n';
+      if (sent == StateSent::never) CHECK(passed >= 0.25);
+      if (sent == StateSent::at_changes && family == StickFamily::sidewinder) CHECK(passed < 0.05);
+    }
+  }
+  MESSAGE(table);
+}

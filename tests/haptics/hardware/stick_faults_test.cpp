@@ -1,5 +1,6 @@
 // Tests of faults while the user holds the lever: how soon the motors are off, and what switches them on again.
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -328,4 +329,101 @@ TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration
   MESSAGE("peak to peak at the wall: ", 1e3 * honest, " mm, and ", 1e3 * boasting, " mm with an unknown delay");
   CHECK(honest < 1e-4);
   CHECK(boasting > 1e-3);
+}
+
+// A force comes back by a person only: whatever ended the forces, and although its cause is gone.
+TEST_CASE("no power, an open switch or a replugged stick: one sentence, and no force until a person arms it again") {
+  struct Cause {
+    const char* name;
+    bool from_start;
+    std::function<void(StickLoop&)> begin, end;
+    const char* sentence;    // "": the connection says it
+    double patience = 15.0;  // [s] until the cause ends
+  };
+  const auto power = [](bool lost) { return [lost](StickLoop& run) { run.stick.faults.no_power = lost; }; };
+  const auto opening = [](bool open) { return [open](StickLoop& run) { run.stick.faults.open_switch = open; }; };
+  const auto unplug = [](StickLoop& run) { run.stick.unplug(); };
+  const auto replug = [](StickLoop& run) { run.prepare(); };
+  const auto disable = [](StickLoop& run) { run.stick.output(std::vector<std::uint8_t>{0x0c, 0x02}); };
+  const auto nothing = [](StickLoop&) {};
+  const char* const no_power =
+      "the stick reported that its motors have no power, so they are off; check its power supply, "
+      "then turn them on again";
+  const char* const open_switch =
+      "the stick reported that its safety switch is open, so its motors are off; close the "
+      "switch, then turn them on again";
+  const Cause causes[] = {
+      {"no power from the start", true, power(true), power(false), no_power},
+      {"open switch from the start", true, opening(true), opening(false), open_switch},
+      {"power back before it was noticed", true, power(true), power(false), no_power, 0.0},
+      {"switch closed before it was noticed", true, opening(true), opening(false), open_switch, 0.0},
+      {"power lost", false, power(true), power(false), no_power},
+      {"switch opened", false, opening(true), opening(false), open_switch},
+      {"switched off by itself", false, disable, nothing,
+       "the stick switched its motors off by itself; they stay off until you turn them on again"},
+      {"replugged", false, unplug, replug, ""},
+  };
+  std::string table = "cause | family | off after s | force without a person N | armed again N\n";
+  for (const Cause& cause : causes) {
+    for (const StickFamily family : {StickFamily::sidewinder, StickFamily::openffboard}) {
+      CAPTURE(std::string(cause.name));
+      CAPTURE(name_of(family));
+      const EmulatedStickConfig config = gripped(family);
+      const Gate gate = stick_gate("six_speed_r_left_up", config);
+      StillHand hand(hand_at({0.012, 0.0}));
+      StickLoop run(config, calibration_of(config), HapticConfig{}, gate, hand);
+      if (cause.from_start) {
+        run.stick.unplug();
+        cause.begin(run);
+        run.stick.advance(run.now_ns += 10'000'000);
+        run.prepare();
+      }
+      run.cycle_for(0.1);
+      // The hand presses into the wall again and again, as a person does who feels none.
+      const auto cycle = [&] {
+        hand.target = hand_at({0.012, std::fmod(run.time(), 0.8) < 0.4 ? 0.020 : 0.0});
+        run.cycle();
+      };
+      const auto strongest = [&](double seconds) {
+        double force = 0.0;
+        for (const double end = run.time() + seconds; run.time() < end;) {
+          cycle();
+          force = std::max(force, glm::length(run.stick.force()));
+        }
+        return force;
+      };
+      run.loop.arm();
+      if (!cause.from_start) {
+        REQUIRE(strongest(1.5) > 3.0);
+        cause.begin(run);
+      }
+      const double begin = run.time();
+      const auto is_off = [&] {
+        return !run.stick.actuators_on() && run.loop.snapshot().guard != GuardState::armed &&
+               run.loop.snapshot().guard != GuardState::ramping;
+      };
+      if (*cause.sentence != '\0') strongest(0.001);
+      while (run.time() < begin + cause.patience && !is_off() && *cause.sentence != '\0') cycle();
+      const double off_after = run.time() - begin;
+      strongest(0.05);
+      CHECK((off_after < 15.0 || cause.patience == 0.0));
+      if (cause.patience == 0.0) {
+        strongest(0.2);
+        cause.end(run);
+      }
+      double alone = cause.patience == 0.0 ? strongest(0.05) : 0.0;
+      const std::vector<std::string> problems = run.problems();
+      if (*cause.sentence != '\0') CHECK(problems == std::vector<std::string>{cause.sentence});
+      if (cause.patience > 0.0) cause.end(run);
+      alone = std::max(alone, strongest(3.0));
+      CHECK(alone == 0.0);
+      CHECK_FALSE(run.stick.actuators_on());
+      run.loop.arm();
+      const double armed = strongest(1.5);
+      CHECK(armed > 3.0);
+      table += std::string(cause.name) + " | " + name_of(family) + " | " + number_text(off_after, 3) + " | " +
+               number_text(alone, 1) + " | " + number_text(armed, 1) + '\n';
+    }
+  }
+  MESSAGE(table);
 }

@@ -63,10 +63,13 @@ struct EmulatedStickConfig {
 
 // Faults of the stick. Each fault is active while its value is set.
 struct EmulatedFaults {
-  bool jump = false;             // every 50th report is off by 60 % of the full deflection
-  bool wrong_length = false;     // lever reports lack their last byte
-  bool stuck = false;            // sends one lever report again and again
-  bool reversed = false;         // all forces act in the other direction
+  bool jump = false;          // every 50th report is off by 60 % of the full deflection
+  bool wrong_length = false;  // lever reports lack their last byte
+  bool stuck = false;         // sends one lever report again and again
+  // [1] Effects act so many times as strongly as they should, per axis (select, shift): -1 reversed, 0 silent.
+  glm::dvec2 constants{1.0}, conditions{1.0};
+  bool no_power = false;         // the motors have no power supply, as the state report says
+  bool open_switch = false;      // the safety switch is open, as the state report says
   bool silent = false;           // sends no lever reports, not even with GET_REPORT
   bool refuses_effects = false;  // creating an effect fails with the block load status "error"
   bool pool_full = false;        // creating an effect fails with the block load status "full"

@@ -357,7 +357,8 @@ StickReport StickFirmware::state() const {
   auto flags = static_cast<std::uint8_t>(
       bit(paused_, bytes.paused) |
       bit((actuators_ && !habits_.says_no_actuators) || habits_.says_actuators, bytes.actuators) |
-      bit(!habits_.says_no_safety_switch, bytes.safety_switch) | bit(!habits_.says_no_power, bytes.power));
+      bit(is_switch_closed_ && !habits_.says_no_safety_switch, bytes.safety_switch) |
+      bit(has_power_ && !habits_.says_no_power, bytes.power));
   if (bytes.playing >= 0) flags = static_cast<std::uint8_t>(flags | bit(playing() > 0, bytes.playing));
   StickReport report(bytes.size, 0);
   report[0] = bytes.id;
@@ -387,6 +388,13 @@ std::optional<StickReport> StickFirmware::take_state() {
   return report;
 }
 
+void StickFirmware::set_supply(bool has_power, bool is_switch_closed) {
+  if (has_power == has_power_ && is_switch_closed == is_switch_closed_) return;
+  has_power_ = has_power;
+  is_switch_closed_ = is_switch_closed;
+  queue_state(state_block_);
+}
+
 void StickFirmware::set_clock(std::int64_t now_ns) noexcept {
   effects_.postpone(now_ns - now_ns_);
   now_ns_ = now_ns;
@@ -401,6 +409,7 @@ void StickFirmware::advance(std::int64_t now_ns) {
 EffectForces StickFirmware::forces(const DeviceMotion& motion, std::int64_t now_ns) const noexcept {
   EffectForces forces;
   const bool off = !actuators_ && !habits_.ignores_actuators;
+  if (!has_power_ || !is_switch_closed_) return forces;
   if (!off && !paused_ && !mute_) forces = effects_.forces(motion, habits_, now_ns);
   forces.constant *= gain_;
   forces.spring *= gain_;

@@ -31,8 +31,9 @@ class StickFirmware {
   StickReport state() const;                // the state as an input report; empty: the family has none
   std::optional<StickReport> take_state();  // the next queued state report; empty: none
 
-  void set_clock(std::int64_t now_ns) noexcept;  // sets the time, but no time passes for the effects
-  void advance(std::int64_t now_ns);             // ends effects whose time is over
+  void set_clock(std::int64_t now_ns) noexcept;            // sets the time, but no time passes for the effects
+  void advance(std::int64_t now_ns);                       // ends effects whose time is over
+  void set_supply(bool has_power, bool is_switch_closed);  // both are needed for forces
   EffectForces forces(const DeviceMotion& motion, std::int64_t now_ns) const noexcept;
 
   bool actuators() const noexcept { return actuators_; }
@@ -77,6 +78,7 @@ class StickFirmware {
   bool finite_refused_;
   DeviceEffects effects_;
   bool actuators_ = false, paused_ = false;
+  bool has_power_ = true, is_switch_closed_ = true;
   bool centres_ = false;  // the auto-centre spring is on
   bool mute_ = false;     // StickHabits::mute_until_stop_all
   bool was_created_ = false;

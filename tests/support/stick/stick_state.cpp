@@ -109,6 +109,7 @@ void EmulatedStick::State::step() {
   plant_ns += period_ns;
   apply_due_outputs();
   firmware.advance(plant_ns);
+  firmware.set_supply(!faults.no_power, !faults.open_switch);
   apply_force();
   if (plant_ns - sample_ns_ < interval_ns) return;
   sample_ns_ += interval_ns * ((plant_ns - sample_ns_) / interval_ns);
@@ -137,11 +138,10 @@ DeviceMotion EmulatedStick::State::motion() const {
 // Applies the force of the effects to the simulated lever.
 void EmulatedStick::State::apply_force() {
   const EffectForces effect_forces = firmware.forces(motion(), plant_ns);
-  const glm::dvec2 constant = glm::dvec2(config.constant_sign) * effect_forces.constant;
-  const glm::dvec2 spring = glm::dvec2(config.spring_sign) * effect_forces.spring;
-  const glm::dvec2 damper = glm::dvec2(config.damper_sign) * effect_forces.damper;
+  const glm::dvec2 constant = faults.constants * glm::dvec2(config.constant_sign) * effect_forces.constant;
+  const glm::dvec2 spring = faults.conditions * glm::dvec2(config.spring_sign) * effect_forces.spring;
+  const glm::dvec2 damper = faults.conditions * glm::dvec2(config.damper_sign) * effect_forces.damper;
   force = config.full_force * flip_y(glm::clamp(constant + spring + damper + effect_forces.centring, -1.0, 1.0));
-  if (faults.reversed) force = -force;
   lever.write(force);
 }
 
