@@ -55,3 +55,23 @@ TEST_CASE("the port's side takes no lock and allocates nothing") {
   INFO(proof.verdict());
   CHECK(proof.clean());
 }
+
+TEST_CASE("the watch of forces allocates nothing, takes no lock and makes no system call") {
+  DeviceSpec spec;
+  spec.workspace = glm::dvec2(1.0);
+  ForceWatch watch(spec, 0.001);
+  StickForces forces;
+  const RealtimeProof proof = prove_realtime(
+      [&] {
+        for (int i = 0; i < 1000; ++i) {
+          const std::int64_t now = std::int64_t{1'000'000} * i;
+          forces[0].constant = 0.01 * (i % 100);
+          watch.on_output(forces, now);
+          watch.on_reading({1e-5 * (i % 50), 0.0}, now);
+          static_cast<void>(watch.fault());
+        }
+      },
+      -1);
+  INFO(proof.verdict());
+  CHECK(proof.clean());
+}
