@@ -39,17 +39,17 @@ constexpr std::size_t kRight = 0, kSilent = 2;
 
 // [nat] A silent stick is harmless, so it may be found later.
 constexpr double kMinReversed = 20.0, kMinSilent = 30.0, kMinDoubtful = 6.0, kMinDriving = 10.0;
-constexpr double kMemory = 1.5;                // [s] of telling motion; readings that tell nothing are not counted
-constexpr double kTelling = 400.0;             // [1/s] squared difference between right and silent, over the variance
-constexpr double kMaxSurprise = 25.0;          // [1] squared error over its variance: a single reading proves little
-constexpr double kMaxReach = 0.95;             // [1] of the way to a stop
-constexpr double kMaxStep = 0.001;             // [s]
-constexpr std::int64_t kMaxGap = 100'000'000;  // [ns] between readings
-constexpr double kPositionNoise = 30e-6;       // [m]
-constexpr double kTimeNoise = 300e-6;          // [s] of readings and outputs
-constexpr double kSpeedNoise = 0.2;            // [m/s / sqrt(s)] forces that the handle's model lacks
-constexpr double kFirstSpeed = 0.1;            // [m/s] standard deviations at the start
-constexpr double kFirstForce = 10.0;           // [N]
+constexpr double kMemory = 1.5;                  // [s] of telling motion; readings that tell nothing are not counted
+constexpr double kTelling = 400.0;               // [1/s] squared difference between right and silent, over the variance
+constexpr double kMaxSurprise = 25.0;            // [1] squared error over its variance: a single reading proves little
+constexpr double kMaxReach = 0.95;               // [1] of the way to a stop
+constexpr double kMaxStep = 0.001;               // [s]
+constexpr std::int64_t kMaxGap = 100'000'000;    // [ns] between readings
+constexpr double kPositionNoise = 30e-6;         // [m]
+constexpr double kTimeNoise = 300e-6;            // [s] of readings and outputs
+constexpr double kSpeedNoise = 0.2;              // [m/s / sqrt(s)] forces that the handle's model lacks
+constexpr double kFirstSpeed = 0.1;              // [m/s] standard deviations at the start
+constexpr double kInitialForceDeviation = 10.0;  // [N]
 
 constexpr double squared(double value) noexcept {
   return value * value;
@@ -120,7 +120,7 @@ void ForceWatch::place(Axis& axis, double position) noexcept {
   for (auto& estimates : axis.estimate) {
     for (Estimate& estimate : estimates) estimate = {position, 0.0, 0.0, estimate.likelihood};
   }
-  axis.covariance.fill({squared(kPositionNoise), 0.0, 0.0, squared(kFirstSpeed), 0.0, squared(kFirstForce)});
+  axis.covariance.fill({squared(kPositionNoise), 0.0, 0.0, squared(kFirstSpeed), 0.0, squared(kInitialForceDeviation)});
 }
 
 // Per step: x += v dt, v += (u - b v - k x + h) dt / m, with the mass, damping and stiffness of handle and hand.

@@ -107,7 +107,14 @@ TEST_CASE("impossible values in the file are read as possible ones, or not at al
     }
     std::string text;
     const auto spoil = [&](const std::string& table, const std::string& field, const std::string& where) {
-      text.append("UPDATE ").append(table).append(" SET ").append(field).append(" = ").append(value).append(where).append(";");
+      text.append("UPDATE ")
+          .append(table)
+          .append(" SET ")
+          .append(field)
+          .append(" = ")
+          .append(value)
+          .append(where)
+          .append(";");
     };
     each_field(LessonResult(), [&](const RecordField& field, const auto&) { spoil("lesson_run", field.name, ""); });
     each_field(ShiftRecord(), [&](const RecordField& field, const auto&) {
