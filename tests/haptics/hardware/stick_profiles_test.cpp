@@ -391,7 +391,7 @@ TEST_CASE("a stick whose only motor moves X drives the gate's shift axis, if X i
 TEST_CASE("every habit alone: the dialogue ends, no force has the wrong sign, what is broken is named") {
   std::mt19937 chance(4);
   for (const Habit& habit : habits()) {
-    if (!is_full_campaign() && chance() % 3 != 0) continue;
+    if (chance() % 12 >= campaign_size(12, 4)) continue;
     EmulatedStickConfig config;
     habit.give(config);
     check_stick(config, habit.name, {habit});
@@ -402,7 +402,7 @@ TEST_CASE("random pairs of habits on any family") {
   constexpr StickFamily kFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy,
                                        StickFamily::arduino, StickFamily::sunffb};
   std::mt19937 chance(35);
-  for (int pair = 0; pair < (is_full_campaign() ? 200 : 15); ++pair) {
+  for (unsigned pair = 0; pair < campaign_size(200, 15); ++pair) {
     EmulatedStickConfig config;
     config.family = kFamilies[chance() % std::size(kFamilies)];
     const Habit &first = habits()[chance() % habits().size()], &second = habits()[chance() % habits().size()];
