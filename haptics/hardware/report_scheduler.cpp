@@ -82,6 +82,7 @@ void ReportScheduler::begin(const StickBlocks& blocks, bool finite, StickStyle s
   finite_ = finite;
   style_ = wanted_style_ = style;
   settings_sent_ = 0;
+  is_style_mixed_ = false;
   said_power_ = said_safety_switch_ = said_actuators_ = false;
   doubt_ = StickFault::none;
   on_ = !has_switch();
@@ -94,7 +95,9 @@ void ReportScheduler::begin(const StickBlocks& blocks, bool finite, StickStyle s
 }
 
 void ReportScheduler::set_style(StickStyle style) noexcept {
-  if (style != wanted_style_) settings_sent_ = 0;
+  if (style == wanted_style_) return;
+  is_style_mixed_ = is_style_mixed_ || settings_sent_ > 0;
+  settings_sent_ = 0;
   wanted_style_ = style;
 }
 
@@ -172,7 +175,7 @@ HidBytes ReportScheduler::encode(std::size_t value, const PidCondition& setting)
 HidBytes ReportScheduler::next(std::int64_t now_ns) noexcept {
   sent_ = {};
   expire(now_ns);
-  if (released_ || !command_.enabled || wanted_style_ != style_) {
+  if (released_ || !command_.enabled || lacks_style()) {
     next_off();
     if (sent_.report.size > 0) return sent_.report;
     released_ = false;
@@ -185,7 +188,7 @@ HidBytes ReportScheduler::next(std::int64_t now_ns) noexcept {
 // Sends the next report that gives the effects the wanted style. Some firmware switches its actuators on when an effect
 // is set, so they are switched off afterwards.
 bool ReportScheduler::send_setting() noexcept {
-  if (wanted_style_ == style_) return false;
+  if (!lacks_style()) return false;
   std::size_t passed = 0;
   for (std::size_t i = 0; i < kStickEffects; ++i) {
     if (effect_[i].block == kNoBlock) continue;
@@ -198,6 +201,7 @@ bool ReportScheduler::send_setting() noexcept {
     passed += reports.all().size();
   }
   style_ = wanted_style_;
+  is_style_mixed_ = false;
   for (Effect& effect : effect_) effect.is_reversed = false;
   settings_sent_ = 0;
   return has_switch() && control(PidControl::disable_actuators, Sent::Kind::off);

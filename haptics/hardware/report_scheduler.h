@@ -123,6 +123,7 @@ class ReportScheduler {
   HidBytes encode(std::size_t value, const PidCondition& setting) const noexcept;
 
   void expire(std::int64_t now_ns) noexcept;
+  bool lacks_style() const noexcept { return is_style_mixed_ || wanted_style_ != style_; }
   bool send_setting() noexcept;
   bool has_wrong_direction(std::size_t value, const PidCondition& setting) const noexcept;
   bool reverse(std::size_t value) noexcept;
@@ -143,6 +144,7 @@ class ReportScheduler {
   bool finite_ = true;
   StickStyle style_, wanted_style_;
   std::size_t settings_sent_ = 0;  // reports of the wanted style
+  bool is_style_mixed_ = false;    // the stick has some settings of a style that was not sent whole
   // A device that never set a bit of its state report may not use it.
   bool said_power_ = false, said_safety_switch_ = false, said_actuators_ = false;
   StickFault doubt_ = StickFault::none;

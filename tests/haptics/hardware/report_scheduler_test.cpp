@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -102,6 +104,32 @@ TEST_CASE("signs by direction: no magnitude is negative, and a force is zero whi
       if (i > 20) CHECK(std::abs(direction * magnitude - wanted) < 0.12);
     }
     CHECK(turned == 12);  // the sine's zeros
+  }
+}
+
+TEST_CASE("a style that is taken back before it was sent whole leaves nothing of it on the stick") {
+  const StickStyle first{}, second{AxisStyle::direction, AxisStyle::bits, SignStyle::direction};
+  for (int sent = 0; sent < 10; ++sent) {
+    CAPTURE(sent);
+    Wire wire(StickFamily::vjoy);
+    std::map<std::vector<std::uint8_t>, std::vector<std::uint8_t>> settings;  // newest, by report and effect
+    const auto tick = [&] {
+      const HidBytes report = wire.tick({});
+      const std::span<const std::uint8_t> bytes = report.view();
+      const bool is_setting =
+          report.size > 1 && (report.id() == wire.pid.set_effect.id || report.id() == wire.pid.set_condition.id);
+      if (is_setting) settings[{bytes[0], bytes[1]}] = {bytes.begin(), bytes.end()};
+    };
+    const auto send = [&](StickStyle style, int ticks) {
+      wire.stream.set_style(style);
+      for (int i = 0; i < ticks; ++i) tick();
+    };
+    send(second, 50);
+    send(first, 50);
+    const auto whole = settings;
+    send(second, sent);
+    send(first, 50);
+    CHECK(settings == whole);
   }
 }
 
