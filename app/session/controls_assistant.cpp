@@ -14,21 +14,22 @@
 namespace gearshift::session {
 namespace {
 
-std::string shifter_request(int gear, const haptics::Gate& gate) {
-  const char* name = haptics::gear_name(gear);
-  if (gear != haptics::kNeutralGear && haptics::slot_of_gear(gate, gear) == haptics::kNoSlot)
+std::string shift_request(const ui::DriverInput::MissedGear& missed, const haptics::Gate& gate) {
+  const char* name = haptics::gear_name(missed.gear);
+  if (missed.gear != haptics::kNeutralGear && haptics::slot_of_gear(gate, missed.gear) == haptics::kNoSlot)
     return fmt::format("This gearbox has no gear {}.", name);
-  return fmt::format("Your shifter is in {}, but the lever is not. Press the clutch, or shift to neutral and back.",
-                     name);
+  return missed.of_shifter ? fmt::format("Your shifter is in {}, but the lever is not. Press the clutch.", name)
+                           : fmt::format("The lever did not reach {}. Press the clutch.", name);
 }
 
 }  // namespace
 
-ControlsAssistant::ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file)
-    : driver_(driver), own_file_(std::move(own_file)) {}
+ControlsAssistant::ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file, ui::Bindings shipped)
+    : driver_(driver), own_file_(std::move(own_file)), shipped_(std::move(shipped)) {}
 
 void ControlsAssistant::update(const std::vector<engine::Controller>& controllers, double seconds) {
   controllers_ = ui::controllers_to_set_up(controllers);
+  problems_ = ui::describe_bound(driver_.bindings(), controllers);
   unbound_.clear();
   for (const engine::Controller* one : ui::unbound_controllers(driver_.bindings(), controllers))
     if (one->can_be_read) unbound_.push_back(haptics::printable(one->name));
@@ -40,7 +41,7 @@ void ControlsAssistant::update(const std::vector<engine::Controller>& controller
 std::string ControlsAssistant::apply(const ui::ControlsCommand& command) {
   if (std::holds_alternative<ui::StartControls>(command)) {
     before_ = driver_.bindings();
-    setup_.emplace(before_);
+    setup_.emplace(before_, shipped_);
     is_tried_ = false;
   } else if (std::holds_alternative<ui::DeclineControls>(command)) {
     declined_.insert(unbound_.begin(), unbound_.end());
@@ -90,9 +91,13 @@ ui::ControlsView ControlsAssistant::view(const haptics::Gate& gate, bool offers)
   const auto wanted = std::find_if(unbound_.begin(), unbound_.end(),
                                    [this](const std::string& name) { return !declined_.contains(name); });
   if (offers && wanted != unbound_.end()) offer_ = *wanted;
-  const std::optional<int> missed = setup_ ? std::nullopt : driver_.missed_gear();
-  request_ = missed ? shifter_request(*missed, gate) : std::string();
-  return {setup_ ? &*setup_ : nullptr, controllers_, offer_, request_};
+  request_.clear();
+  if (setup_) return {&*setup_, controllers_, {}, {}};
+  if (const auto missed = driver_.missed_gear())
+    request_ = shift_request(*missed, gate);
+  else if (!problems_.empty())
+    request_ = problems_.front();
+  return {nullptr, controllers_, offer_, request_};
 }
 
 }  // namespace gearshift::session

@@ -15,11 +15,14 @@ namespace gearshift::session {
 
 class ControlsAssistant {
  public:
-  // `own_file`: the user's bindings, written when the user saves; empty if the user has no folder for them.
-  ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file);
+  // `own_file`: the user's bindings, written when the user saves; empty if the user has no folder for them. `shipped`: see
+  // ui::ControlsSetup.
+  ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file, ui::Bindings shipped);
 
-  void update(const std::vector<engine::Controller>& controllers, double seconds);  // call once per frame
-  // True while the driver must not follow the controllers, because the user moves them to answer.
+  // Call once per frame, with the controllers that are plugged in, without the one that is used as a force-feedback
+  // stick.
+  void update(const std::vector<engine::Controller>& controllers, double seconds);
+  // True while the driver must not follow the controllers that can be set up, because the user moves them to answer.
   bool hides_controllers() const { return setup_ && !setup_->is_over(); }
 
   // Returns a message for the user; empty if there is none.
@@ -36,12 +39,14 @@ class ControlsAssistant {
 
   ui::DriverInput& driver_;
   std::filesystem::path own_file_;
+  ui::Bindings shipped_;
   std::optional<ui::ControlsSetup> setup_;
   ui::Bindings before_;    // bindings before the set-up
   bool is_tried_ = false;  // the driver uses the new bindings
   std::vector<engine::Controller> controllers_;
-  std::vector<std::string> unbound_;  // names of controllers without effect
-  std::set<std::string> declined_;    // those of them that the user does not want to set up in this session
+  std::vector<std::string> unbound_;   // names of controllers without effect
+  std::vector<std::string> problems_;  // sentences about controllers that the bindings name
+  std::set<std::string> declined_;     // those of them that the user does not want to set up in this session
   std::string offer_, request_;
 };
 

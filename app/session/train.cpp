@@ -68,7 +68,7 @@ class WindowTrainer {
         session_(setup.choice),
         shared_(setup.bindings),
         input_(shared_.driver()),
-        controls_(input_, setup.own_bindings),
+        controls_(input_, setup.own_bindings, setup.shipped_bindings),
         look_(setup.choice.camera, setup.choice.drive),
         last_frame_(Clock::now()) {
     panel_.set_visible(setup.panel);
@@ -195,23 +195,27 @@ class WindowTrainer {
   }
 
   void poll() {
-    input_.feel(session_.runtime().snapshot().lever);
+    const haptics::HapticSnapshot& felt = session_.runtime().snapshot();
+    input_.feel(felt.lever, felt.gear);
     session_.set_mouse_leads(input_.mouse_moves_lever());
     const engine::WindowInput& polled = window_.poll();
     if (wears() && headset_->take_opened()) panel_.set_visible(true);
     pointer_ = pointer_at_panel();
     pointing_.follow(polled, input_.mouse_moves_lever(), pointer_, panel_size(), seconds_);
-    controls_.update(polled.controllers, seconds_);
+    // The stick that is the lever may be listed, too, until the program has opened it.
+    std::vector<engine::Controller> controllers = polled.controllers;
+    std::erase_if(controllers, [this](const auto& one) { return one.id == setup_.stick_id; });
+    controls_.update(controllers, seconds_);
     engine::WindowInput without_controllers;
     if (controls_.hides_controllers()) {
       without_controllers = polled;
-      without_controllers.controllers.clear();
+      std::erase_if(without_controllers.controllers, ui::can_be_set_up);
     }
     shared_.update(
         controls_.hides_controllers() ? without_controllers : polled, seconds_,
         [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_, pointing_.pointer());
     if (setup_.choice.stick) input_.release_mouse();
-    if (!setup_.choice.stick) report_controllers(polled.controllers);
+    report_controllers(controllers);
     update_key_labels();
     look_.turn(shared_.turned());
   }
@@ -228,11 +232,14 @@ class WindowTrainer {
     if (!message.empty()) report_message(message);
   }
 
+  // On the console; in the window, card and note show them.
   void report_controllers(const std::vector<engine::Controller>& controllers) {
-    std::vector<std::string> sentences = ui::describe_controllers(input_.bindings(), controllers);
+    std::vector<std::string> sentences = ui::describe_bound(input_.bindings(), controllers);
+    for (std::string& sentence : ui::describe_unbound(input_.bindings(), controllers))
+      sentences.push_back(std::move(sentence));
     for (const std::string& sentence : sentences) {
       const bool is_known = std::find(reported_.begin(), reported_.end(), sentence) != reported_.end();
-      if (!is_known) report_message(sentence);
+      if (!is_known) base::print_message("{}", haptics::printable(sentence));
     }
     reported_ = std::move(sentences);
   }
@@ -356,7 +363,7 @@ class WindowTrainer {
         {static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)), scale});
     session_.set_headset(wears() ? std::optional(headset_->report()) : std::nullopt);
     ui::PanelInput input = session_.panel_input();
-    input.controls = controls_.view(session_.runtime().gate(), !setup_.choice.stick && !input.is_automatic_hand);
+    input.controls = controls_.view(session_.runtime().gate(), !input.is_automatic_hand);
     health_ = input.health;
     const ui::PanelCommands commands = panel_.draw(input);
     ui_.end();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "app/cabin/view/cabin_view.h"
 #include "app/session/learner_headset.h"
@@ -15,8 +16,9 @@ struct TrainSetup {
   SessionChoice choice;
   cabin::ViewConfig view;
   ui::Bindings bindings;
-  std::filesystem::path
-      own_bindings;  // the user's file, written when controllers are set up; empty: there is no folder
+  ui::Bindings shipped_bindings;
+  std::filesystem::path own_bindings;  // file written when controllers are set up; empty: the user has no folder
+  std::string stick_id;                // USB id of the force-feedback stick, as Controller::id; empty: none
   bool panel = true;
   std::optional<HeadsetSetup> headset;  // empty: desktop only
   std::filesystem::path replay;         // recording to replay; empty: none

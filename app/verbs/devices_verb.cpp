@@ -24,6 +24,7 @@
 #include "app/verbs/verbs.h"
 #include "engine/window/controllers.h"
 #include "haptics/files/printable.h"
+#include "haptics/files/text_file.h"
 
 namespace gearshift::verbs {
 namespace {
@@ -121,7 +122,7 @@ void print_controllers(const std::vector<engine::Controller>& controllers) {
                     one.can_be_read ? std::to_string(one.buttons.size()) : "?",
                     !one.can_be_read ? "no permission"
                     : one.gamepad    ? "game pad"
-                                     : "set up by --calibrate"});
+                                     : "set up by --calibrate NAME"});
   print_rows(rows);
 }
 
@@ -138,6 +139,15 @@ void print_rule(const std::vector<runtime::ListedStick>& sticks, const std::vect
       "  sudo udevadm control --reload\n"
       "Then unplug the device and plug it in again.\n",
       rule);
+  const std::string listed = haptics::read_text_file(rule);
+  for (const engine::Controller& one : controllers) {
+    const std::string vendor = one.id.substr(0, 4), product = one.id.substr(one.id.size() - 4);
+    const std::string line =
+        fmt::format("ATTRS{{idVendor}}==\"{}\", ATTRS{{idProduct}}==\"{}\", TAG+=\"uaccess\"", vendor, product);
+    if (!one.can_be_read && listed.find(line) == std::string::npos)
+      base::print_out("Before that, add this line at the rule's end for {}:\n  SUBSYSTEM==\"input\", {}\n",
+                      haptics::printable(one.name), line);
+  }
 }
 
 int list_devices(bool as_json) {

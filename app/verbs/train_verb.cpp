@@ -93,7 +93,11 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
   setup.bindings = ui::read_bindings(session::bindings_file(arguments.bindings, config_folder()));
-  if (const std::filesystem::path folder = config_folder(); !folder.empty())
+  setup.shipped_bindings = ui::read_bindings(base::find_asset("bindings", "default"));
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(arguments.bindings, ignored))
+    setup.own_bindings = arguments.bindings;  // a file that the user has named
+  else if (const std::filesystem::path folder = config_folder(); !folder.empty())
     setup.own_bindings = ui::user_bindings_file(folder, std::string(session::kOwnBindings));
   setup.choice.pedal_timing = setup.bindings.pedal_timing;
   // In stereo each eye has only half of the picture's width. That is too narrow for the panel.
@@ -147,6 +151,7 @@ std::shared_ptr<runtime::StickLever> held_stick(const TrainArguments& arguments)
 int run_train(const TrainArguments& arguments) {
   session::TrainSetup setup = make_setup(arguments);
   setup.choice.stick = held_stick(arguments);
+  if (setup.choice.stick) setup.stick_id = setup.choice.stick->id();
   if (!arguments.offscreen.empty()) {
     setup.choice.clock = runtime::RuntimeClock::virtual_time;
     setup.choice.sound = engine::SoundOutput::none;

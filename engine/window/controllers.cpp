@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -102,12 +103,30 @@ float centred(const input_absinfo& axis) {
                        : 2.0f * (static_cast<float>(axis.value) - static_cast<float>(axis.minimum)) / range - 1.0f;
 }
 
+// What GLFW's joystick numbers stand for. GLFW reads a device's events whenever it is asked about it, and writes out of
+// bounds at the event of a key below BTN_MISC (glfw issues 2455 and 2856; GLFW 3.4 aborts). Keyboards that declare an axis
+// count as joysticks, so a device that is no game pad is asked only once, right after it was opened.
+enum class Kind : unsigned char { unknown, gamepad, other };
+std::array<Kind, GLFW_JOYSTICK_LAST + 1> kinds{};
+int kinds_since = 0;  // glfw_starts() for which they hold
+
+bool is_gamepad(int id) {
+  Kind& kind = kinds[static_cast<std::size_t>(id)];
+  if (kind == Kind::unknown && glfwJoystickPresent(id) == GLFW_TRUE)
+    kind = glfwJoystickIsGamepad(id) == GLFW_TRUE ? Kind::gamepad : Kind::other;
+  return kind == Kind::gamepad;
+}
+
 // Adds the state of the game pads that GLFW knows to their controllers.
 void add_gamepads(std::vector<Controller>& controllers) {
   if (!glfw_is_in_use()) return;
+  if (std::exchange(kinds_since, glfw_starts()) != glfw_starts()) {
+    kinds = {};
+    glfwSetJoystickCallback([](int id, int) { kinds[static_cast<std::size_t>(id)] = Kind::unknown; });
+  }
   for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
     GLFWgamepadstate mapped;
-    if (glfwGetGamepadState(id, &mapped) == GLFW_FALSE) continue;
+    if (!is_gamepad(id) || glfwGetGamepadState(id, &mapped) == GLFW_FALSE) continue;
     const char* name = glfwGetJoystickName(id);
     const char* guid = glfwGetJoystickGUID(id);
     if (name == nullptr || guid == nullptr) continue;  // the pad was just unplugged
@@ -201,15 +220,19 @@ bool Controllers::is_outdated() const {
   if (stat(kDeviceFiles, &folder) != 0) return !nodes_.empty();
   if (folder.st_mtim.tv_sec != changed_.tv_sec || folder.st_mtim.tv_nsec != changed_.tv_nsec) return true;
   if (std::any_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return node->is_gone; })) return true;
-  const bool lacks_permission =
-      std::any_of(nodes_.begin(), nodes_.end(), [](const auto& node) { return !node->state.can_be_read; });
-  return lacks_permission && std::chrono::steady_clock::now() - scanned_ > kRetry;
+  // A device may have appeared in the clock tick of the last scan.
+  const bool may_change = !is_settled_ || std::any_of(nodes_.begin(), nodes_.end(),
+                                                      [](const auto& node) { return !node->state.can_be_read; });
+  return may_change && std::chrono::steady_clock::now() - scanned_ > kRetry;
 }
 
 // Finds the controllers by their entries in /sys, which every user may read, and opens the new ones.
 void Controllers::scan() {
   struct stat folder {};
-  changed_ = stat(kDeviceFiles, &folder) == 0 ? folder.st_mtim : timespec{};
+  const timespec changed = stat(kDeviceFiles, &folder) == 0 ? folder.st_mtim : timespec{};
+  is_settled_ = changed.tv_sec == changed_.tv_sec && changed.tv_nsec == changed_.tv_nsec;
+  changed_ = changed;
+  const bool is_first = scanned_ == std::chrono::steady_clock::time_point();
   scanned_ = std::chrono::steady_clock::now();
   std::vector<std::unique_ptr<Node>> present;
   std::error_code error;
@@ -219,9 +242,10 @@ void Controllers::scan() {
     const auto known = std::find_if(nodes_.begin(), nodes_.end(),
                                     [&](const auto& node) { return node && node->file == file && !node->is_gone; });
     present.push_back(known != nodes_.end() ? std::move(*known) : std::make_unique<Node>(entry.path()));
+    if (is_first) present.back()->found -= grant_delay_;  // it was there before the program
     if (!present.back()->state.can_be_read) present.back()->open_file();
   }
-  // In the order in which they were plugged in.
+  // In the order of the kernel's numbers.
   std::sort(present.begin(), present.end(), [](const auto& a, const auto& b) {
     return std::pair(a->file.size(), a->file) < std::pair(b->file.size(), b->file);
   });
@@ -238,9 +262,7 @@ const std::vector<Controller>& Controllers::poll() {
     if (!node->is_gone && (node->state.can_be_read || is_denied)) controllers_.push_back(node->state);
   }
   add_gamepads(controllers_);
-  const bool has_original = std::any_of(controllers_.begin(), controllers_.end(),
-                                        [](const Controller& one) { return one.gamepad && one.id != kSteamCopy; });
-  if (has_original) std::erase_if(controllers_, [](const Controller& one) { return one.id == kSteamCopy; });
+  if (controllers_.size() > 1) std::erase_if(controllers_, [](const Controller& one) { return one.id == kSteamCopy; });
   return controllers_;
 }
 

@@ -52,7 +52,8 @@ class Controllers {
   std::chrono::milliseconds grant_delay_;
   std::vector<std::unique_ptr<Node>> nodes_;
   std::vector<Controller> controllers_;
-  timespec changed_{};  // last change of the folder of device files at the last scan
+  timespec changed_{};       // last change of the folder of device files at the last scan
+  bool is_settled_ = false;  // it had not changed since the scan before
   std::chrono::steady_clock::time_point scanned_;
 };
 

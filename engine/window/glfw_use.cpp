@@ -10,7 +10,9 @@
 namespace gearshift::engine {
 namespace {
 
-int users = 0;  // no lock is needed, because GLFW is used from one thread only
+// No lock is needed, because GLFW is used from one thread only.
+int users = 0;
+int starts = 0;
 
 }  // namespace
 
@@ -22,7 +24,7 @@ GlfwUse::GlfwUse() {
   if (users == 0 && glfwInit() == GLFW_FALSE) {
     throw std::runtime_error(fmt::format("There is no display for a window ({}).", glfw_error()));
   }
-  ++users;
+  if (users++ == 0) ++starts;
 }
 
 GlfwUse::~GlfwUse() {
@@ -31,6 +33,10 @@ GlfwUse::~GlfwUse() {
 
 bool glfw_is_in_use() noexcept {
   return users > 0;
+}
+
+int glfw_starts() noexcept {
+  return starts;
 }
 
 std::string glfw_error() {

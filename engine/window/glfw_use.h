@@ -14,6 +14,7 @@ class GlfwUse {
 };
 
 bool glfw_is_in_use() noexcept;
+int glfw_starts() noexcept;  // number of initialisations so far
 
 // Returns the text of GLFW's last error and clears the error. The text is never empty.
 std::string glfw_error();

@@ -35,6 +35,7 @@ class StickLever {
 
   const haptics::DeviceCalibration& calibration() const noexcept { return stick_.calibration; }
   std::string name() const { return stick_name(identity_of(stick_.calibration)); }
+  std::string id() const { return stick_id(identity_of(stick_.calibration)); }                     // "046d:c24f"
   double answer_time() const noexcept { return haptics::answer_time(stick_.calibration.timing); }  // [s] worst case
   bool connected() const noexcept { return connection_.connected(); }
 

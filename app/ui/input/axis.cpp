@@ -32,11 +32,12 @@ bool matches_stick(const engine::Controller& controller, std::string_view stick)
   return at != name.end() || controller.id == stick || controller.guid == stick;
 }
 
-bool is_named(const engine::Controller& controller, const ControllerName& name,
-              const std::vector<engine::Controller>& all) {
-  if (matches_stick(controller, name.stick)) return true;
-  return !name.id.empty() && controller.id == name.id &&
-         std::none_of(all.begin(), all.end(), [&](const auto& one) { return matches_stick(one, name.stick); });
+bool overlap(const AxisBinding& a, const AxisBinding& b) {
+  if (a.of.stick != b.of.stick || a.which != b.which || a.axis != b.axis) return false;
+  const auto start = [](const AxisBinding& axis) { return axis.from + axis.dead_zone * (axis.to - axis.from); };
+  const auto [a_low, a_high] = std::minmax({start(a), a.to});
+  const auto [b_low, b_high] = std::minmax({start(b), b.to});
+  return a_low < b_high && b_low < a_high;
 }
 
 double centre_of(const AxisBinding& axis) noexcept {

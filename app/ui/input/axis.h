@@ -26,7 +26,12 @@ struct AxisBinding {
   double dead_zone = 0.0;  // [1] 0 to 0.9: fraction ignored around a lever's rest position or at a pedal's start
   double end_zone = 0.0;   // [1] 0 to 0.9: fraction at the end that counts as full; dead_zone + end_zone <= 0.95
   std::optional<double> centre{};  // raw value of a lever at rest, between `from` and `to`; default: midway
+  bool operator==(const AxisBinding&) const = default;
 };
+
+// True if both bindings use the same part of the same axis. Two pedals may share an axis, each using one half; their
+// dead zones may overlap, because the measured rest of one may be a count beyond that of the other.
+bool overlap(const AxisBinding& a, const AxisBinding& b);
 
 // Returns a name that finds this controller again and can be written to a file.
 ControllerName name_of(const engine::Controller& controller);
@@ -34,11 +39,6 @@ ControllerName name_of(const engine::Controller& controller);
 // Returns true if the controller's name contains `stick` (ignoring case), or its USB id or GUID equals `stick`. False
 // if `stick` is empty.
 bool matches_stick(const engine::Controller& controller, std::string_view stick);
-
-// Returns true if the name stands for this controller: `stick` matches, or, if `stick` matches none of `all`, the USB
-// id does.
-bool is_named(const engine::Controller& controller, const ControllerName& name,
-              const std::vector<engine::Controller>& all);
 
 double centre_of(const AxisBinding& axis) noexcept;
 double lever_value(const AxisBinding& axis, double raw) noexcept;  // -1: left or back, 1: right or forward

@@ -61,6 +61,8 @@ void AxisDetector::record_move(const std::vector<engine::Controller>& sticks) {
       const double raw = sticks[s].axes[a];
       range.now = raw;
       if (!range.is_reported && raw == range.first) continue;
+      // A jump is the first report; a small change is motion from a value that was reported before.
+      if (!range.is_reported && std::abs(raw - range.first) > kMinMove) range.first = raw;
       if (!range.is_reported) range.low = range.high = raw;
       range.is_reported = true;
       if (raw < range.low) range.low_at = frames_, range.low = raw;

@@ -87,16 +87,6 @@ struct BoundAxis {
   AxisBinding axis;
 };
 
-// True if both bindings use the same part of the same axis. Two pedals may share an axis, each using one half; their
-// dead zones may overlap, because the measured rest of one may be a count beyond that of the other.
-bool overlap(const AxisBinding& a, const AxisBinding& b) {
-  if (a.of.stick != b.of.stick || a.which != b.which || a.axis != b.axis) return false;
-  const auto start = [](const AxisBinding& axis) { return axis.from + axis.dead_zone * (axis.to - axis.from); };
-  const auto [a_low, a_high] = std::minmax({start(a), a.to});
-  const auto [b_low, b_high] = std::minmax({start(b), b.to});
-  return a_low < b_high && b_low < a_high;
-}
-
 void read_centre(const haptics::TomlTable& table, AxisBinding& read) {
   if (!table.has("centre")) return;
   read.centre = table.number("centre", {-1.0, 1.0});
@@ -168,8 +158,10 @@ void read_buttons(const haptics::TomlTable& root, Bindings& bindings) {
   for (const haptics::TomlTable& table : root.tables("controller")) {
     ControllerButtons controller;
     controller.of = {table.text("stick"), read_name(table).id};
-    const bool is_twice = std::any_of(bindings.controllers.begin(), bindings.controllers.end(),
-                                      [&](const auto& other) { return other.of.stick == controller.of.stick; });
+    controller.which = read_integer(table, "pad", kMaxControllers - 1);
+    const bool is_twice = std::any_of(bindings.controllers.begin(), bindings.controllers.end(), [&](const auto& other) {
+      return other.of.stick == controller.of.stick && other.which == controller.which;
+    });
     if (is_twice) table.fail("stick", "has another [[controller]] already");
     CodeReader reader(table, button_of, fmt::format("a button number from 0 to {}", kMaxButtons - 1));
     controller.actions = reader.actions();

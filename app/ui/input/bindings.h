@@ -67,10 +67,11 @@ std::string gear_key(int gear);
 
 // The buttons of one controller.
 struct ControllerButtons {
-  ControllerName of;
-  std::map<Action, std::vector<int>> actions;
+  ControllerName of{};
+  int which = 0;  // index among the controllers of this name, as AxisBinding::which
+  std::map<Action, std::vector<int>> actions{};
   // Buttons that are held while the controller's own lever is in a gear. Some shifters also have one for neutral.
-  std::map<int, std::vector<int>> gears;
+  std::map<int, std::vector<int>> gears{};
 };
 
 struct Bindings {

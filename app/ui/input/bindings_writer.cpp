@@ -60,7 +60,8 @@ std::string bindings_text(const Bindings& bindings) {
   for (const AxisInfo& info : kAxes) text += axis_text(info.key, bindings.*info.axis);
   const auto number = [](int button) { return std::to_string(button); };
   for (const ControllerButtons& controller : bindings.controllers) {
-    text += "\n[[controller]]\n" + name_text(controller.of) + actions_text(controller.actions, number);
+    text += "\n[[controller]]\n" + name_text(controller.of) + line("pad", std::to_string(controller.which)) +
+            actions_text(controller.actions, number);
     for (const auto& [gear, buttons] : controller.gears) text += line(gear_key(gear), list_text(buttons, number));
   }
   text += "\n[lever]\n" + line("mode", bindings.lever_mode == LeverMode::moves ? "\"moves\"" : "\"places\"") +

@@ -13,6 +13,9 @@ namespace {
 
 using engine::Controller;
 
+constexpr const char* kNoId = "0000:0000";  // of some makers' devices
+constexpr int kMaxOldButtons = 80;          // of a joystick, before Linux 6.15
+
 // A controller that the bindings name, and what it moves.
 struct NamedController {
   ControllerName of;
@@ -54,18 +57,41 @@ std::vector<NamedController> named_controllers(const Bindings& bindings) {
   return named;
 }
 
+bool is_exactly(const Controller& one, std::string_view stick) {
+  return !stick.empty() && (one.name == stick || one.id == stick || one.guid == stick);
+}
+
+std::vector<const Controller*> find(const std::vector<NamedController>& named, const ControllerName& name,
+                                    const std::vector<Controller>& all) {
+  std::vector<const Controller*> exact, partial, same_id;
+  for (const Controller& one : all) {
+    const auto another = [&](const auto& matches) {
+      return std::any_of(named.begin(), named.end(), [&](const NamedController& other) {
+        return other.of.stick != name.stick && matches(one, other.of.stick);
+      });
+    };
+    if (is_exactly(one, name.stick)) exact.push_back(&one);
+    if (matches_stick(one, name.stick) && !another(is_exactly)) partial.push_back(&one);
+    if (one.id == name.id && name.id != kNoId && !another(matches_stick)) same_id.push_back(&one);
+  }
+  if (!exact.empty()) return exact;
+  if (!partial.empty() || same_id.size() != 1) return partial;
+  return same_id;
+}
+
 bool is_named(const Controller& controller, const std::vector<NamedController>& named,
               const std::vector<Controller>& all) {
-  return std::any_of(named.begin(), named.end(),
-                     [&](const auto& one) { return ui::is_named(controller, one.of, all); });
+  return std::any_of(named.begin(), named.end(), [&](const NamedController& one) {
+    const std::vector<const Controller*> found = find(named, one.of, all);
+    return std::find(found.begin(), found.end(), &controller) != found.end();
+  });
 }
 
 // What the user should know about a named controller; empty if everything is as expected.
-std::string describe(const NamedController& named, const std::vector<Controller>& all) {
+std::string describe(const Bindings& bindings, const NamedController& named, const std::vector<Controller>& all) {
   const std::string stick = haptics::printable(named.of.stick);
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const auto& one) { return ui::is_named(one, named.of, all); });
-  if (found == all.end())
+  const Controller* found = find_controller(bindings, named.of, 0, all);
+  if (found == nullptr)
     return fmt::format("{} is not plugged in, so these have no effect: {}. Plug it in, or set up another controller.",
                        stick, fmt::join(named.controls, ", "));
   const std::string name = haptics::printable(found->name);
@@ -76,10 +102,10 @@ std::string describe(const NamedController& named, const std::vector<Controller>
                        name);
   const auto buttons = static_cast<int>(found->buttons.size());
   if (named.last_button >= buttons)
-    return fmt::format(
-        "{} reports {} buttons, so its button {} has no effect. Linux before 6.15 reports at most 80; a shifter on its "
-        "own USB cable has fewer.",
-        name, buttons, named.last_button);
+    return fmt::format("{} reports {} buttons, so its button {} has no effect. {}", name, buttons, named.last_button,
+                       buttons == kMaxOldButtons
+                           ? "Linux before 6.15 reports at most 80; a shifter on its own USB cable has fewer."
+                           : "If it is in another mode, set it up again.");
   return {};
 }
 
@@ -101,13 +127,22 @@ std::optional<double> raw_value(const Bindings& bindings, const AxisBinding& axi
                ? std::optional<double>(pads[which]->gamepad->axes[index])
                : std::nullopt;
   }
-  std::size_t before = which;
-  for (const Controller& one : all) {
-    if (!is_named(one, axis.of, all) || before-- > 0) continue;
-    return index < one.axes.size() && std::isfinite(one.axes[index]) ? std::optional<double>(one.axes[index])
-                                                                     : std::nullopt;
-  }
-  return std::nullopt;
+  const Controller* one = find_controller(bindings, axis.of, axis.which, all);
+  return one != nullptr && index < one->axes.size() && std::isfinite(one->axes[index])
+             ? std::optional<double>(one->axes[index])
+             : std::nullopt;
+}
+
+std::vector<const Controller*> find_controllers(const Bindings& bindings, const ControllerName& name,
+                                                const std::vector<Controller>& all) {
+  return find(named_controllers(bindings), name, all);
+}
+
+const Controller* find_controller(const Bindings& bindings, const ControllerName& name, int which,
+                                  const std::vector<Controller>& all) {
+  const std::vector<const Controller*> found = find_controllers(bindings, name, all);
+  const auto index = static_cast<std::size_t>(which);
+  return index < found.size() ? found[index] : nullptr;
 }
 
 std::vector<const Controller*> unbound_controllers(const Bindings& bindings, const std::vector<Controller>& all) {
@@ -118,15 +153,23 @@ std::vector<const Controller*> unbound_controllers(const Bindings& bindings, con
   return unbound;
 }
 
-std::vector<std::string> describe_controllers(const Bindings& bindings, const std::vector<Controller>& all) {
+std::vector<std::string> describe_bound(const Bindings& bindings, const std::vector<Controller>& all) {
   std::vector<std::string> sentences;
   for (const NamedController& named : named_controllers(bindings))
-    if (std::string sentence = describe(named, all); !sentence.empty()) sentences.push_back(std::move(sentence));
+    if (std::string sentence = describe(bindings, named, all); !sentence.empty())
+      sentences.push_back(std::move(sentence));
+  return sentences;
+}
+
+std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<Controller>& all) {
+  std::vector<std::string> sentences;
   for (const Controller* one : unbound_controllers(bindings, all)) {
     const std::string name = haptics::printable(one->name);
     sentences.push_back(
         one->can_be_read
-            ? fmt::format("{} was found. It has no effect until you set it up: gearshift devices --calibrate", name)
+            ? fmt::format("{0} was found. It has no effect until you set it up, here or by: gearshift devices "
+                          "--calibrate \"{0}\"",
+                          name)
             : fmt::format("This user may not read {}. \"gearshift devices\" shows how to allow it.", name));
   }
   return sentences;

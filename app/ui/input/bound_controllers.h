@@ -13,6 +13,16 @@ namespace gearshift::ui {
 std::vector<const engine::Controller*> free_gamepads(const Bindings& bindings,
                                                      const std::vector<engine::Controller>& all);
 
+// Returns the controllers of this name: those whose name, USB id or GUID is exactly this; else those whose name contains
+// it; else, if it appears under another name today, the only one with its USB id. Another name of the bindings that fits
+// a controller exactly, or that fits at all in the last case, keeps it.
+std::vector<const engine::Controller*> find_controllers(const Bindings& bindings, const ControllerName& name,
+                                                        const std::vector<engine::Controller>& all);
+
+// Returns the n-th of them; null if it is not plugged in.
+const engine::Controller* find_controller(const Bindings& bindings, const ControllerName& name, int which,
+                                          const std::vector<engine::Controller>& all);
+
 // Returns the raw value of the axis; empty if its controller is not plugged in or has no such axis.
 std::optional<double> raw_value(const Bindings& bindings, const AxisBinding& axis,
                                 const std::vector<engine::Controller>& all);
@@ -22,7 +32,9 @@ std::vector<const engine::Controller*> unbound_controllers(const Bindings& bindi
                                                            const std::vector<engine::Controller>& all);
 
 // Sentences about controllers that the bindings name but that are absent, have another name today, may not be read, or
-// have too few buttons; and about controllers that move nothing yet.
-std::vector<std::string> describe_controllers(const Bindings& bindings, const std::vector<engine::Controller>& all);
+// have too few buttons.
+std::vector<std::string> describe_bound(const Bindings& bindings, const std::vector<engine::Controller>& all);
+// Sentences about controllers that have no effect yet.
+std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<engine::Controller>& all);
 
 }  // namespace gearshift::ui

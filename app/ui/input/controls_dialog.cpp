@@ -57,7 +57,7 @@ int calibrate_controllers(const std::filesystem::path& file, const std::filesyst
   const base::StopSignals signals;
   base::LineReader answers(descriptor);
   engine::Controllers controllers;
-  ControlsSetup setup(starting_bindings(file, defaults, again));
+  ControlsSetup setup(starting_bindings(file, defaults, again), read_bindings(defaults));
   std::string shown;
   while (!setup.is_over()) {
     const std::string question =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -46,15 +47,17 @@ void erase_action(Bindings& bindings, Action action) {
 
 }  // namespace
 
+bool can_be_set_up(const engine::Controller& controller) {
+  return controller.can_be_read && (!controller.gamepad || controller.id == kGenericEncoder);
+}
+
 std::vector<engine::Controller> controllers_to_set_up(const std::vector<engine::Controller>& all) {
   std::vector<engine::Controller> some;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [](const engine::Controller& one) {
-    return one.can_be_read && (!one.gamepad || one.id == kGenericEncoder);
-  });
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some), can_be_set_up);
   return some;
 }
 
-ControlsSetup::ControlsSetup(Bindings start) : bindings_(std::move(start)) {
+ControlsSetup::ControlsSetup(Bindings start, const Bindings& shipped) : bindings_(std::move(start)), shipped_(shipped) {
   for (const AxisInfo& axis : kAxes)
     if (!axis.is_lever) steps_.push_back({Kind::axis, &axis});
   steps_.push_back({Kind::shifting});
@@ -80,6 +83,7 @@ void ControlsSetup::begin_step() {
   pressed_.clear();
   is_resting_ = false;
   if (is_over()) {
+    finish();
     prompt_ = "Try every control. Then save.";
     return;
   }
@@ -122,9 +126,12 @@ void ControlsSetup::frame(const std::vector<engine::Controller>& all, double sec
   if (is_over()) return;
   const std::vector<engine::Controller> controllers = controllers_to_set_up(all);
   Buttons down;
-  for (const engine::Controller& one : controllers)
+  std::map<std::string, int> equal;  // number of controllers so far, by name
+  for (const engine::Controller& one : controllers) {
+    const int which = equal[name_of(one).stick]++;
     for (std::size_t i = 0; i < one.buttons.size(); ++i)
-      if (one.buttons[i] != 0) down.insert({name_of(one), static_cast<int>(i)});
+      if (one.buttons[i] != 0) down.insert({name_of(one), which, static_cast<int>(i)});
+  }
   std::set_difference(down.begin(), down.end(), down_.begin(), down_.end(), std::inserter(pressed_, pressed_.end()));
   down_ = std::move(down);
   if (detector_ && is_resting()) {
@@ -171,18 +178,17 @@ void ControlsSetup::answer(Answer answer) {
 void ControlsSetup::choose_shifting(Answer answer) {
   steps_.resize(step_ + 1);
   for (const AxisInfo& info : kAxes)
-    if (std::optional<AxisBinding>& axis = bindings_.*info.axis; info.is_lever && axis && !axis->of.stick.empty())
-      axis.reset();
-  if (answer != Answer::other) erase_gears(bindings_);
+    if (info.is_lever) bindings_.*info.axis = shipped_.*info.axis;
+  bindings_.lever_mode = shipped_.lever_mode;
+  erase_gears(bindings_);
+  for (const Action action : {Action::shift_up, Action::shift_down}) erase_action(bindings_, action);
   if (answer == Answer::gear_buttons) {
     steps_.push_back({Kind::neutral});
     for (int gear = 1; gear <= kMaxSetupGear; ++gear) steps_.push_back({Kind::gear, nullptr, gear});
     steps_.push_back({Kind::gear, nullptr, haptics::kReverseGear});
   } else if (answer == Answer::two_buttons) {
-    for (const Action action : {Action::shift_up, Action::shift_down}) {
-      erase_action(bindings_, action);
+    for (const Action action : {Action::shift_up, Action::shift_down})
       steps_.push_back({Kind::direction, nullptr, haptics::kNeutralGear, action});
-    }
   } else if (answer == Answer::lever) {
     for (const AxisInfo& axis : kAxes)
       if (axis.is_lever) steps_.push_back({Kind::axis, &axis});
@@ -196,13 +202,22 @@ void ControlsSetup::finish_axis() {
   const AxisInfo& info = *steps_[step_].axis;
   try {
     const AxisBinding found = detector_->result();
+    for (const AxisInfo& other : kAxes) {
+      std::optional<AxisBinding>& bound = bindings_.*other.axis;
+      if (&other == &info || other.axis == info.axis || !bound || !overlap(*bound, found)) continue;
+      const bool is_of_this_run = bound != before_.front().*other.axis;
+      if (is_of_this_run) return repeat(fmt::format("This axis is bound to another control already ({}).", other.help));
+      bound.reset();
+    }
     bindings_.*info.axis = found;
+    if (info.axis == &Bindings::hand_brake) erase_action(bindings_, Action::hand_brake_hold);
     next(
         fmt::format("Found: {}, from {:.2f} to {:.2f}.", describe(found.of, "axis", found.axis), found.from, found.to));
   } catch (const std::invalid_argument& refused) {
     if (info.axis != &Bindings::hand_brake || pressed_.size() != 1) return repeat(refused.what());
     const Button button = *pressed_.begin();
     erase_action(bindings_, Action::hand_brake_hold);
+    bindings_.hand_brake.reset();
     bind(button, Action::hand_brake_hold);
     next(fmt::format("Found: {}.", describe(button.of, "button", button.number)));
   }
@@ -216,12 +231,12 @@ void ControlsSetup::finish_gear() {
   const Button button = *held.begin();
   for (const ControllerButtons& one : bindings_.controllers)
     for (const auto& [gear, buttons] : one.gears)
-      if (one.of == button.of && std::find(buttons.begin(), buttons.end(), button.number) != buttons.end())
+      if (button.is_on(one) && std::find(buttons.begin(), buttons.end(), button.number) != buttons.end())
         return repeat(fmt::format("This button is {} already.", gear_text(gear)));
   bind_gear(button, steps_[step_].gear);
   // Some shifters also hold a button in neutral.
   for (const Button& one : neutral_)
-    if (one.of == button.of && !down_.contains(one)) bind_gear(one, haptics::kNeutralGear);
+    if (one.of == button.of && one.which == button.which && !down_.contains(one)) bind_gear(one, haptics::kNeutralGear);
   next(fmt::format("Found: {}.", describe(button.of, "button", button.number)));
 }
 
@@ -233,16 +248,22 @@ void ControlsSetup::finish_direction() {
   next(fmt::format("Found: {}.", describe(button.of, "button", button.number)));
 }
 
-ControllerButtons& ControlsSetup::buttons_of(const ControllerName& name) {
+// Controllers whose last button was bound to something else are no longer named.
+void ControlsSetup::finish() {
+  std::erase_if(bindings_.controllers,
+                [](const ControllerButtons& one) { return one.actions.empty() && one.gears.empty(); });
+}
+
+ControllerButtons& ControlsSetup::buttons_of(const Button& button) {
   const auto known = std::find_if(bindings_.controllers.begin(), bindings_.controllers.end(),
-                                  [&](const auto& one) { return one.of.stick == name.stick; });
-  return known != bindings_.controllers.end() ? *known
-                                              : bindings_.controllers.emplace_back(ControllerButtons{name, {}, {}});
+                                  [&](const auto& one) { return button.is_on(one); });
+  if (known != bindings_.controllers.end()) return *known;
+  return bindings_.controllers.emplace_back(ControllerButtons{button.of, button.which, {}, {}});
 }
 
 // A button has one meaning, so its old one ends.
 void ControlsSetup::release_button(const Button& button) {
-  ControllerButtons& one = buttons_of(button.of);
+  ControllerButtons& one = buttons_of(button);
   const auto release = [&](auto& bound) {
     for (auto& [meaning, buttons] : bound) std::erase(buttons, button.number);
     std::erase_if(bound, [](const auto& entry) { return entry.second.empty(); });
@@ -253,12 +274,12 @@ void ControlsSetup::release_button(const Button& button) {
 
 void ControlsSetup::bind(const Button& button, Action action) {
   release_button(button);
-  buttons_of(button.of).actions[action] = {button.number};
+  buttons_of(button).actions[action] = {button.number};
 }
 
 void ControlsSetup::bind_gear(const Button& button, int gear) {
   release_button(button);
-  buttons_of(button.of).gears[gear] = {button.number};
+  buttons_of(button).gears[gear] = {button.number};
 }
 
 }  // namespace gearshift::ui

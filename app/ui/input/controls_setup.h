@@ -1,7 +1,7 @@
 // Asks the user to move each pedal, lever and shifter once, and binds what moved: the steps of this dialogue, without
 // clock, screen and devices. The window's card (ui/panel/controls_card.h) and the terminal (controls_dialog.h) show it.
 //
-//   ControlsSetup setup(bindings);
+//   ControlsSetup setup(bindings, shipped);
 //   while (!setup.is_over()) {
 //     show setup.prompt(), setup.note() and setup.choices()
 //     setup.frame(controllers, seconds);     each frame
@@ -32,7 +32,8 @@ class ControlsSetup {
     const char* label;
   };
 
-  explicit ControlsSetup(Bindings start);
+  // `shipped`: the bindings that game pads get back where another way of shifting replaces the lever's axes.
+  ControlsSetup(Bindings start, const Bindings& shipped);
 
   void frame(const std::vector<engine::Controller>& controllers, double seconds);
   // `answer` is one of choices(). Ignored while is_resting().
@@ -61,11 +62,12 @@ class ControlsSetup {
   };
   struct Button {
     ControllerName of;
-    int number = 0;
+    int which = 0, number = 0;  // as ControllerButtons::which; the button
     auto operator<=>(const Button& other) const {
-      return std::tie(of.stick, number) <=> std::tie(other.of.stick, other.number);
+      return std::tie(of.stick, which, number) <=> std::tie(other.of.stick, other.which, other.number);
     }
-    bool operator==(const Button& other) const { return of.stick == other.of.stick && number == other.number; }
+    bool operator==(const Button& other) const { return (*this <=> other) == 0; }
+    bool is_on(const ControllerButtons& one) const { return one.of.stick == of.stick && one.which == which; }
   };
   using Buttons = std::set<Button>;
 
@@ -78,10 +80,11 @@ class ControlsSetup {
   void finish_direction();
   void bind(const Button& button, Action action);
   void bind_gear(const Button& button, int gear);
-  ControllerButtons& buttons_of(const ControllerName& name);
+  void finish();
+  ControllerButtons& buttons_of(const Button& button);
   void release_button(const Button& button);
 
-  Bindings bindings_;
+  Bindings bindings_, shipped_;
   std::vector<Step> steps_;
   std::size_t step_ = 0;
   std::vector<Bindings> before_;  // the bindings before each step, for Answer::back
@@ -93,8 +96,9 @@ class ControlsSetup {
   Buttons down_, neutral_, pressed_;  // held now; held in neutral; pressed during this step
 };
 
-// Returns the controllers that the user can set up: all except game pads, whose controls are known. (An encoder that is
+// True for a controller that the user can set up: all except game pads, whose controls are known. (An encoder that is
 // built into pads, shifters and handbrakes alike counts as unknown.)
+bool can_be_set_up(const engine::Controller& controller);
 std::vector<engine::Controller> controllers_to_set_up(const std::vector<engine::Controller>& all);
 
 }  // namespace gearshift::ui

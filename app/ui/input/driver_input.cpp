@@ -31,21 +31,15 @@ constexpr double kMaxKeyLead = 0.05;  // [m] maximum lead of the hand over the l
 constexpr double kRestDelay = 0.3;    // [s] time from the release of keys or stick until kRestLead applies
 constexpr double kRestLead = 0.005;   // [m] maximum lead after kRestDelay: 2.5 N, enough to hold the lever off centre
 
-bool is_plugged(const ControllerName& name, const std::vector<engine::Controller>& all) {
-  return std::any_of(all.begin(), all.end(), [&](const auto& one) { return is_named(one, name, all); });
-}
-
-bool is_button_down(const ControllerName& name, int button, const std::vector<engine::Controller>& all) {
+bool is_down(const engine::Controller& controller, int button) {
   const auto index = static_cast<std::size_t>(button);
-  return std::any_of(all.begin(), all.end(), [&](const engine::Controller& one) {
-    return is_named(one, name, all) && index < one.buttons.size() && one.buttons[index] != 0;
-  });
+  return index < controller.buttons.size() && controller.buttons[index] != 0;
 }
 
-std::optional<int> held_gear(const ControllerButtons& shifter, const std::vector<engine::Controller>& all) {
+std::optional<int> held_gear(const ControllerButtons& shifter, const engine::Controller& controller) {
   for (const auto& [gear, buttons] : shifter.gears)
     for (const int button : buttons)
-      if (is_button_down(shifter.of, button, all)) return gear;
+      if (is_down(controller, button)) return gear;
   return std::nullopt;
 }
 
@@ -87,9 +81,9 @@ void DriverInput::update(const engine::WindowInput& input, double seconds, bool 
   update_keys(input, ui_has_keys);
   update_buttons(input);
   update_mouse(input, ui_has_mouse);
-  follow_shifters(input);
   move_hand(input, seconds);
   read_pedals(input);
+  retry_gear();
 }
 
 // Applies the frame's key events. release() takes effect in the next update(), so a key that is pressed and released
@@ -121,47 +115,62 @@ void DriverInput::update_buttons(const engine::WindowInput& input) {
   const Bindings& bindings = config_.bindings;
   const std::vector<const engine::Controller*> pads = free_gamepads(bindings, input.controllers);
   for (const auto& [action, buttons] : bindings.pad_buttons)
-    for (const int button : buttons)
-      set_button({kGamepads, button}, std::any_of(pads.begin(), pads.end(), [&](const engine::Controller* pad) {
-                   return pad->gamepad->buttons[static_cast<std::size_t>(button)] != 0;
-                 }));
-  for (std::size_t i = 0; i < bindings.controllers.size(); ++i)
-    for (const auto& [action, buttons] : bindings.controllers[i].actions)
-      for (const int button : buttons)
-        set_button({static_cast<int>(i), button},
-                   is_button_down(bindings.controllers[i].of, button, input.controllers));
-}
-
-void DriverInput::set_button(Source source, bool down) {
-  if (down)
-    press(source, false, false);
-  else
-    release(source);
-}
-
-// Moves the hand when a shifter's own lever has moved.
-void DriverInput::follow_shifters(const engine::WindowInput& input) {
-  const std::vector<ControllerButtons>& controllers = config_.bindings.controllers;
-  shifters_.resize(controllers.size());
-  for (std::size_t i = 0; i < controllers.size(); ++i) {
-    ShifterState& last = shifters_[i];
-    if (!is_plugged(controllers[i].of, input.controllers)) {
-      last = {};
-      continue;
+    for (const int button : buttons) {
+      const bool down = std::any_of(pads.begin(), pads.end(), [&](const engine::Controller* pad) {
+        return pad->gamepad->buttons[static_cast<std::size_t>(button)] != 0;
+      });
+      set_button({kGamepads, button}, down, !has_pads_);
     }
-    std::optional<int> gear = held_gear(controllers[i], input.controllers);
-    if (!gear && last.gear) gear = haptics::kNeutralGear;
-    if (last.is_seen && gear && gear != last.gear) gear_hand_.shift_to(*gear, lever_);
-    last = {true, gear};
+  has_pads_ = !pads.empty();
+  shifters_.resize(bindings.controllers.size());
+  for (std::size_t i = 0; i < bindings.controllers.size(); ++i) {
+    const ControllerButtons& bound = bindings.controllers[i];
+    const engine::Controller* one = find_controller(bindings, bound.of, bound.which, input.controllers);
+    for (const auto& [action, buttons] : bound.actions)
+      for (const int button : buttons)
+        set_button({static_cast<int>(i), button}, one != nullptr && is_down(*one, button), !shifters_[i].is_seen);
+    follow_shifter(bound, one, shifters_[i]);
   }
 }
 
-std::optional<int> DriverInput::missed_gear() const {
+void DriverInput::set_button(Source source, bool down, bool is_new) {
+  if (!down) return release(source);
+  if (is_new) down_.insert(source);
+  press(source, false, false);
+}
+
+// Moves the hand when a shifter's own lever has moved. `one`: null if it is not plugged in.
+void DriverInput::follow_shifter(const ControllerButtons& bound, const engine::Controller* one, ShifterState& last) {
+  if (one == nullptr) {
+    if (last.gear && is_gear_of_shifter_) gear_hand_.release();
+    last = {};
+    return;
+  }
+  std::optional<int> gear = held_gear(bound, *one);
+  if (!gear && last.gear) gear = haptics::kNeutralGear;
+  if (last.is_seen && gear && gear != last.gear) {
+    gear_hand_.shift_to(*gear, lever_);
+    is_gear_of_shifter_ = true;
+  }
+  last = {true, gear};
+}
+
+// With the clutch pressed, what held the lever may let go.
+void DriverInput::retry_gear() {
+  const bool is_down = controls_.pedals.clutch > 0.5 || is_held(Action::clutch);
+  const bool is_pressed = is_down && !was_clutch_down_;
+  was_clutch_down_ = is_down;
+  if (const std::optional<MissedGear> missed = missed_gear(); missed && is_pressed)
+    gear_hand_.shift_to(missed->gear, lever_);
+}
+
+std::optional<DriverInput::MissedGear> DriverInput::missed_gear() const {
   if (gear_hand_.is_moving()) return std::nullopt;
-  std::optional<int> wanted = gear_hand_.is_active() ? std::optional(gear_hand_.selected_gear()) : std::nullopt;
+  std::optional<MissedGear> wanted;
+  if (gear_hand_.is_active()) wanted = {gear_hand_.selected_gear(), is_gear_of_shifter_};
   for (const ShifterState& shifter : shifters_)
-    if (shifter.gear && *shifter.gear != haptics::kNeutralGear) wanted = shifter.gear;
-  return wanted != gear_hand_.gear_of(lever_) ? wanted : std::nullopt;
+    if (shifter.gear && *shifter.gear != haptics::kNeutralGear) wanted = {*shifter.gear, true};
+  return wanted && wanted->gear != engaged_ ? wanted : std::nullopt;
 }
 
 const std::map<Action, std::vector<int>>& DriverInput::bound_on(int device) const {
@@ -191,8 +200,10 @@ void DriverInput::trigger(Action action) {
   pressed_.push_back(action);
   if (action == Action::grab_mouse) mouse_moves_lever_ = !mouse_moves_lever_;
   if (action == Action::hand_brake) hand_brake_switch_ = controls_.pedals.hand_brake > 0.5 ? 0.0 : 1.0;
-  if (action == Action::shift_up) gear_hand_.shift_by(1, lever_);
-  if (action == Action::shift_down) gear_hand_.shift_by(-1, lever_);
+  if (action == Action::shift_up || action == Action::shift_down) {
+    gear_hand_.shift_by(action == Action::shift_up ? 1 : -1, engaged_, lever_);
+    is_gear_of_shifter_ = false;
+  }
   if (action == Action::ignition) controls_.ignition = !controls_.ignition;
 }
 
@@ -244,7 +255,7 @@ void DriverInput::move_hand(const engine::WindowInput& input, double seconds) {
                           (!moves && at != glm::dvec2(0.0));
   if (takes_over) gear_hand_.release();
   if (gear_hand_.is_active()) {
-    hand_ = gear_hand_.next(seconds, lever_);
+    hand_ = gear_hand_.next(seconds, lever_, engaged_);
     aim_ = hand_.position;
     since_key_motion_ = kRestDelay;
   } else {
@@ -322,9 +333,9 @@ void DriverInput::rebind(const Bindings& bindings) {
   config_.bindings = bindings;
   watch_ = {};
   shifters_.clear();
-  down_.clear();
-  newly_down_.clear();
-  released_.clear();
+  has_pads_ = false;
+  for (std::set<Source>* sources : {&down_, &newly_down_, &released_})
+    std::erase_if(*sources, [](const Source& source) { return source.device != kKeyboard; });
 }
 
 void DriverInput::set_car(bool ignition, double hand_brake) {

@@ -8,7 +8,10 @@
 //           that it does not push on the lever permanently.
 //   gears   A controller's gear buttons move the hand to the gear whose button is held. None held stands for neutral,
 //           but only after one of them was held, and nothing moves before the shifter is moved. Keys, mouse or a stick
-//           take the hand over when they move it.
+//           take the hand over when they move it. If something holds the lever, such as a synchroniser, the hand gives
+//           up, and tries again when the clutch is pressed.
+//   buttons A button that is down when its controller appears, or when the bindings change, performs no action before it
+//           is released.
 //   handbrake  Applied as far as its axis, or while `hand_brake_hold` is held, or from one press of `hand_brake` to the
 //           next. A lesson may start with the handbrake on; the first use of axis or `hand_brake_hold` takes it over.
 //   pedals  The held pedal keys go to the car, which moves its pedals, see vehicle::KeyboardPedals. A pedal axis
@@ -69,13 +72,18 @@ class DriverInput {
   void recentre(glm::dvec2 lever);  // puts the hand at the lever, without a push
   void set_gate(const haptics::Gate& gate, const haptics::DeviceSpec& device);  // call when one of them changes
   void rebind(const Bindings& bindings);
-  void feel(glm::dvec2 lever) noexcept { lever_ = lever; }  // [m] lever point; call once per frame, before update()
+  // [m] lever point, and the engaged gear; call once per frame, before update()
+  void feel(glm::dvec2 lever, int engaged = haptics::kNeutralGear) noexcept { lever_ = lever, engaged_ = engaged; }
   void release_mouse() noexcept { mouse_moves_lever_ = mouse_moved_lever_ = false; }
   void set_car(bool ignition, double hand_brake);  // call at the start of a lesson; hand_brake [1]: 0 to 1
   const Bindings& bindings() const noexcept { return config_.bindings; }
   // The gear that a shifter is in or a button has selected, if the lever is not in it: the gate does not have the gear,
   // or something holds the lever, for example a synchroniser. Empty otherwise.
-  std::optional<int> missed_gear() const;
+  struct MissedGear {
+    int gear = 0;
+    bool of_shifter = false;  // a shifter is in this gear; otherwise a button for one gear up or down has selected it
+  };
+  std::optional<MissedGear> missed_gear() const;
 
  private:
   struct AxisWatch {
@@ -97,8 +105,9 @@ class DriverInput {
   void update_keys(const engine::WindowInput& input, bool ui_has_keys);
   bool is_chord(const engine::KeyEvent& key) const;
   void update_buttons(const engine::WindowInput& input);
-  void set_button(Source source, bool down);
-  void follow_shifters(const engine::WindowInput& input);
+  void set_button(Source source, bool down, bool is_new);
+  void follow_shifter(const ControllerButtons& bound, const engine::Controller* one, ShifterState& last);
+  void retry_gear();
   const std::map<Action, std::vector<int>>& bound_on(int device) const;
   void update_mouse(const engine::WindowInput& input, bool ui_has_mouse);
   void press(Source source, bool ui_has_keys, bool chord);
@@ -125,6 +134,7 @@ class DriverInput {
   InputConfig config_;
   glm::dvec2 aim_{0.0};            // [m] target of the hand; the part beyond reach becomes a push
   glm::dvec2 lever_{0.0};          // [m] lever point
+  int engaged_ = 0;                // engaged gear
   double since_key_motion_ = 1.0;  // [s] time since a key or stick moved the hand, at most kRestDelay
   haptics::HandTarget hand_;
   haptics::DriverControls controls_;
@@ -139,7 +149,10 @@ class DriverInput {
   std::array<AxisWatch, std::size(kAxes)> watch_;  // in the order of kAxes
   std::optional<haptics::Gate> gate_;
   GearHand gear_hand_;
-  std::vector<ShifterState> shifters_;    // of Bindings::controllers
+  std::vector<ShifterState> shifters_;  // of Bindings::controllers
+  bool has_pads_ = false;               // in the last frame
+  bool is_gear_of_shifter_ = false;     // the gear that gear_hand_ moves to
+  bool was_clutch_down_ = false;
   double hand_brake_switch_ = 0.0;        // [1] as pressed by the action hand_brake or set by the lesson
   std::array<bool, 2> stick_controls_{};  // select, shift
 };

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <utility>
 
-#include "haptics/gate/gate_feel.h"
+#include <glm/geometric.hpp>
+
 #include "haptics/loop/shift_script.h"
 
 namespace gearshift::ui {
@@ -14,7 +15,9 @@ constexpr double kPeriod = 1e-3;       // [s] step of the scripted hand, whose e
 constexpr double kPace = 0.6;          // [m/s] the shifter's own lever has already arrived, so the hand hurries
 constexpr double kReaction = 0.03;     // [s] added to each stroke
 constexpr double kNeutralDelay = 0.3;  // [s] a shift through neutral takes less; then the lever stays in its column
-constexpr double kRestAfter = 0.2;     // [s] after the end of the movement, if the lever is in the gear
+constexpr double kCornerTolerance = 0.004;  // [m] distance at which the lever counts as arrived at a stroke's end
+constexpr double kCornerWait = 0.4;         // [s] longest wait for it; a wall may keep the lever away
+constexpr double kRestAfter = 0.2;          // [s] after the end of the movement, if the lever is in the gear
 constexpr double kMissedAfter =
     0.7;  // [s] after the end of the movement; a synchroniser needs less with the clutch open
 
@@ -36,38 +39,48 @@ void GearHand::shift_to(int gear, glm::dvec2 lever) {
   gear_ = gear;
   time_ = 0.0;
   is_resting_ = false;
+  waited_ = 0.0;
+  corners_.clear();
   const bool exists = is_neutral || haptics::slot_of_gear(*gate_, gear) != haptics::kNoSlot;
-  hand_.emplace(
-      haptics::touring_hand(lever),
-      exists ? haptics::shift_strokes(*gate_, lever, std::array{gear}, style) : std::vector<haptics::HandStroke>{},
-      kPeriod);
+  std::vector<haptics::HandStroke> strokes;
+  if (exists) strokes = haptics::shift_strokes(*gate_, lever, std::array{gear}, style);
+  double end = 0.0;
+  for (const haptics::HandStroke& stroke : strokes) {
+    corners_.push_back({end + stroke.duration, stroke.to});
+    end += stroke.duration + stroke.dwell;
+  }
+  hand_.emplace(haptics::touring_hand(lever), std::move(strokes), kPeriod);
 }
 
-void GearHand::shift_by(int gears, glm::dvec2 lever) {
+void GearHand::shift_by(int gears, int engaged, glm::dvec2 lever) {
   if (!gate_) return;
-  const int from = is_active() ? gear_ : gear_of(lever);
+  const int from = is_moving() ? gear_ : engaged;
   const int to = from + gears;
   const bool exists = to == haptics::kNeutralGear || haptics::slot_of_gear(*gate_, to) != haptics::kNoSlot;
   if (exists) shift_to(to, lever);
 }
 
-haptics::HandTarget GearHand::next(double seconds, glm::dvec2 lever) {
-  is_resting_ = is_resting_ || (time_ > hand_->duration() + kRestAfter && gear_of(lever) == gear_);
-  if (is_resting_) {
+haptics::HandTarget GearHand::next(double seconds, glm::dvec2 lever, int engaged) {
+  is_resting_ = is_resting_ || (time_ > hand_->duration() + kRestAfter && engaged == gear_);
+  if (is_resting_ || !is_moving()) {
     haptics::HandTarget rest;
     rest.position = lever;
     return rest;
   }
+  double end = time_ + seconds;
+  if (!corners_.empty() && end >= corners_.front().end) {
+    waited_ += seconds;
+    const bool has_arrived = glm::distance(lever, corners_.front().at) < kCornerTolerance;
+    if (time_ >= corners_.front().end - kPeriod && (has_arrived || waited_ > kCornerWait)) {
+      corners_.erase(corners_.begin());
+      waited_ = 0.0;
+    } else {
+      end = corners_.front().end;
+    }
+  }
   haptics::HandTarget target = hand_->next(time_, lever);
-  for (const double end = time_ + seconds; time_ + kPeriod <= end;) target = hand_->next(time_ += kPeriod, lever);
+  while (time_ + kPeriod <= end) target = hand_->next(time_ += kPeriod, lever);
   return target;
-}
-
-int GearHand::gear_of(glm::dvec2 lever) const {
-  const int index = gate_ ? haptics::slot_at(*gate_, lever) : haptics::kNoSlot;
-  if (index == haptics::kNoSlot) return haptics::kNeutralGear;
-  const haptics::Slot& slot = haptics::slot_of(*gate_, index);
-  return std::abs(lever.y) >= slot.engage_depth ? slot.gear : haptics::kNeutralGear;
 }
 
 bool GearHand::is_moving() const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -19,14 +20,16 @@ class GearHand {
   // Begins to move from the lever point `lever` [m] to the gear, and presses the knob or lifts the ring on the way if
   // the gate requires it. Does nothing before set_gate().
   void shift_to(int gear, glm::dvec2 lever);
-  // Like shift_to(), for the gear that follows the present one in the order R N 1 2 3 ...
-  void shift_by(int gears, glm::dvec2 lever);
+  // Like shift_to(), for the gear that follows the engaged one in the order R N 1 2 3 ...
+  void shift_by(int gears, int engaged, glm::dvec2 lever);
   void release() noexcept { hand_.reset(); }  // something else moves the hand
 
   bool is_active() const noexcept { return hand_.has_value(); }
-  haptics::HandTarget next(double seconds, glm::dvec2 lever);  // call once per frame while active
-  // The gear in which the lever is; neutral before set_gate().
-  int gear_of(glm::dvec2 lever) const;
+  // Call once per frame while active. At the end of each stroke the hand waits for the lever: with few frames per second
+  // it would otherwise cut the corner into another gear.
+  // `engaged`: the engaged gear. If the gear is not engaged in time, the hand gives up:
+  // it no longer pushes.
+  haptics::HandTarget next(double seconds, glm::dvec2 lever, int engaged);
   bool is_moving() const;  // the lever may still arrive in the selected gear
   int selected_gear() const noexcept { return gear_; }
 
@@ -36,6 +39,12 @@ class GearHand {
   int gear_ = haptics::kNeutralGear;  // selected
   double time_ = 0.0;                 // [s] since shift_to()
   bool is_resting_ = false;           // the lever has arrived
+  struct Corner {
+    double end = 0.0;  // [s] time of the stroke's end
+    glm::dvec2 at{0.0};
+  };
+  std::vector<Corner> corners_;  // ends of the strokes that have not ended
+  double waited_ = 0.0;          // [s] at the first of them
 };
 
 }  // namespace gearshift::ui

@@ -14,6 +14,7 @@ namespace gearshift::ui {
 namespace {
 
 constexpr float kCardWidth = 44.0f, kPictureSize = 7.0f, kLampSize = 0.75f;  // [em]
+constexpr float kMaxListHeight = 13.0f;                                      // [em]
 constexpr float kMaxPedalAngle = 0.6f;                                       // [rad] drawn travel of a pedal
 
 // Where the axis is between its first value (0) and its end in this step (1).
@@ -147,19 +148,24 @@ void draw_choices(Controls& controls, const ControlsSetup& setup, PanelCommands&
   if (controls.button("setup_cancel", "Cancel")) out.push_back(CancelControls{});
 }
 
-void draw_step(Controls& controls, const PanelInput& input, PanelCommands& out) {
+// `height` [px]: room for the whole card.
+void draw_step(Controls& controls, const PanelInput& input, float height, PanelCommands& out) {
   const ControlsSetup& setup = *input.controls.setup;
   put(setup.is_over() ? "Set up controls"
                       : fmt::format("Set up controls: step {} of {}", setup.step() + 1, setup.steps()),
       ink::kSoft, engine::UiFont::small);
   put_wrapped(setup.prompt(), ink::kText, engine::UiFont::title);
   if (!setup.note().empty()) put_wrapped(setup.note(), ink::kSoft, engine::UiFont::body);
+  // The answers come first, so that they are visible in a low window; what does not fit below them is scrolled or left out.
+  draw_choices(controls, setup, out);
+  const float em = engine::ui_em();
+  const float left = height - (ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y);
+  if (left < kPictureSize * em) return;
   draw_picture(setup, input.gate);
   ImGui::SameLine();
-  ImGui::BeginGroup();
-  for (const engine::Controller& one : input.controls.controllers) draw_controller(one);
-  ImGui::EndGroup();
-  draw_choices(controls, setup, out);
+  if (ImGui::BeginChild("controllers", {0.0f, std::min(left, kMaxListHeight * em)}))
+    for (const engine::Controller& one : input.controls.controllers) draw_controller(one);
+  ImGui::EndChild();
 }
 
 void draw_offer(Controls& controls, std::string_view name, PanelCommands& out) {
@@ -181,7 +187,7 @@ double draw_controls_card(Controls& controls, const PanelInput& input, const Con
   double top = room.max.y;
   if (begin_at_bottom("Controls", room, ImGuiWindowFlags_AlwaysAutoResize)) {
     if (view.setup != nullptr)
-      draw_step(controls, input, out);
+      draw_step(controls, input, static_cast<float>(room.max.y - room.min.y) - kBottomMargin * engine::ui_em(), out);
     else
       draw_offer(controls, view.offer, out);
     top = static_cast<double>(ImGui::GetWindowPos().y);

@@ -25,7 +25,7 @@ const Bindings& shipped_bindings() {
 }
 
 struct ControlsDesk {
-  explicit ControlsDesk(const std::filesystem::path& own_file) : assistant(driver, own_file) {}
+  explicit ControlsDesk(const std::filesystem::path& own_file) : assistant(driver, own_file, shipped_bindings()) {}
 
   void frame() {
     assistant.update(all, 0.01);
@@ -125,13 +125,13 @@ TEST_CASE("a shifter in a gear that the gate lacks, and one whose gear the lever
   const TempFolder folder;
   ControlsDesk desk(folder / "own.toml");
   Bindings bindings = shipped_bindings();
-  bindings.controllers = {{{"Box", ""}, {}, {{3, {0}}, {6, {1}}}}};
+  bindings.controllers = {{{"Box", ""}, 0, {}, {{3, {0}}, {6, {1}}}}};
   desk.driver.rebind(bindings);
   desk.driver.set_gate(paper_gate(), DeviceSpec{});
   desk.all[1].buttons[0] = 1;
   desk.frame();
   CHECK(desk.assistant.view(paper_gate(), true).request ==
-        "Your shifter is in 3, but the lever is not. Press the clutch, or shift to neutral and back.");
+        "Your shifter is in 3, but the lever is not. Press the clutch.");
   desk.all[1].buttons = {0, 1, 0, 0};
   for (int i = 0; i < 300; ++i) desk.frame();
   CHECK(desk.assistant.view(paper_gate(), true).request == "This gearbox has no gear 6.");

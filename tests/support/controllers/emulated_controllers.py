@@ -133,8 +133,7 @@ def run(devices, command):
 
 class Plug:
     """Sends a device's events, beneath run(). Programs read them from a pipe in the place of the device file. Create it
-    before the program that reads it, and read nothing from GLFW's pads after a SYN_REPORT: it asks for all axes again,
-    and umockdev answers with the initial values. So no SYN_REPORT is sent."""
+    before the program that reads it. The program's own reader takes all of them, so GLFW sees no event of a pad."""
 
     def __init__(self, name):
         self.device = DEVICES[name]

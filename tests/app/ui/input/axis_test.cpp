@@ -73,7 +73,7 @@ TEST_CASE("a stick's name matches in any case, also in a Turkish locale, because
   CHECK(matches_stick(controller("Sidewinder", {}), "SIDE"));
 }
 
-TEST_CASE("a controller is named by part of its name in any case, its USB id or its GUID; a renamed one by its id") {
+TEST_CASE("a controller is named by part of its name in any case, its USB id or its GUID") {
   Controller stick = controller("Thrustmaster T.16000M", {}, 0, "044f:b10a");
   stick.guid = "030000004f0400000ab1000000010000";
   CHECK_FALSE(matches_stick(stick, ""));
@@ -82,12 +82,39 @@ TEST_CASE("a controller is named by part of its name in any case, its USB id or 
   CHECK(matches_stick(stick, "030000004f0400000ab1000000010000"));
   CHECK_FALSE(matches_stick(stick, "030000004f04"));
   CHECK_FALSE(matches_stick(stick, "T16000M"));
-  Controller renamed = stick;
-  renamed.name = "T16000M by another driver";
-  const ControllerName name{"T.16000M", "044f:b10a"};
-  CHECK(is_named(renamed, name, {renamed}));
-  CHECK_FALSE(is_named(renamed, name, {renamed, stick}));  // the one with the name counts
-  CHECK_FALSE(is_named(renamed, {"T.16000M", ""}, {renamed}));
+}
+
+// Many boards share an id: Arduino's Leonardo has 2341:8036 in shifters, pedals and handbrakes alike.
+TEST_CASE("a controller with another name today is found by its USB id, if nothing else may be meant") {
+  const Controller brake = controller("My brake", {0.1f}, 0, "2341:8036");
+  Controller renamed = brake, shifter = brake;
+  renamed.name = "Arduino Leonardo";
+  shifter.name = "Shifter";
+  const ControllerName name{"My brake", "2341:8036"};
+  Bindings bindings;
+  const auto found = [&](const std::vector<Controller>& all) {
+    const Controller* one = find_controller(bindings, name, 0, all);
+    return one == nullptr ? std::string() : one->name;
+  };
+  CHECK(found({renamed}) == "Arduino Leonardo");
+  CHECK(found({renamed, brake}) == "My brake");  // the name counts
+  CHECK(found({renamed, shifter}).empty());      // which of them is not known
+  bindings.controllers = {{{"Shifter", "2341:8036"}, 0, {}, {{1, {0}}}}};
+  CHECK(found({shifter}).empty());  // the shifter is named itself
+  CHECK(found({renamed, shifter}) == "Arduino Leonardo");
+  renamed.id = "0000:0000";
+  CHECK(find_controller({}, {"My brake", "0000:0000"}, 0, {renamed}) == nullptr);
+}
+
+TEST_CASE("a name that is exactly a controller's does not reach another one whose name contains it") {
+  const Controller box = controller("Button Box", {0.0f}), second = controller("Button Box 2", {0.0f});
+  Bindings bindings;
+  bindings.controllers = {{{"Button Box", ""}, 0, {{Action::quit, {0}}}, {}},
+                          {{"Button Box 2", ""}, 0, {}, {{1, {0}}}}};
+  const std::vector<Controller> both{second, box}, only_second{second};
+  CHECK(find_controllers(bindings, {"Button Box", ""}, both) == std::vector<const Controller*>{&both[1]});
+  CHECK(find_controllers(bindings, {"Button Box", ""}, only_second).empty());
+  CHECK(find_controllers({}, {"button box", ""}, both).size() == 2);
 }
 
 TEST_CASE("an axis belongs to the n-th controller of its name, or to any game pad that the bindings do not name") {
@@ -103,6 +130,6 @@ TEST_CASE("an axis belongs to the n-th controller of its name, or to any game pa
   CHECK_FALSE(raw({.of = {"pedals", ""}, .which = 1, .axis = 1}));
   CHECK_FALSE(raw({.of = {"pedals", ""}, .which = 2}));
   CHECK(raw({.axis = 1}) == 0.4f);
-  bindings.controllers = {{{"a pad", ""}, {}, {}}};  // a shifter whose encoder GLFW takes for a pad (0079:0006)
+  bindings.controllers = {{{"a pad", ""}, 0, {}, {}}};  // a shifter whose encoder GLFW takes for a pad (0079:0006)
   CHECK_FALSE(raw({.axis = 1}));
 }

@@ -202,18 +202,24 @@ TEST_CASE("controllers that are absent, renamed, unreadable, too small or not se
   Controller renamed = controller("Foot controls", {0.0f}, 0, "30b7:1003"), closed = pedals;
   closed.can_be_read = false;
   using Sentences = std::vector<std::string>;
-  CHECK(describe_controllers(bindings, {pad, pedals, base}).empty());
-  CHECK(describe_controllers(bindings, {pad, wheel, base}) ==
+  const auto described = [&](const std::vector<Controller>& all) {
+    Sentences sentences = describe_bound(bindings, all), others = describe_unbound(bindings, all);
+    sentences.insert(sentences.end(), others.begin(), others.end());
+    return sentences;
+  };
+  CHECK(described({pad, pedals, base}).empty());
+  CHECK(described({pad, wheel, base}) ==
         Sentences{"Pedals is not plugged in, so these have no effect: brake, throttle. Plug it in, or set up another "
                   "controller.",
-                  "Wheel was found. It has no effect until you set it up: gearshift devices --calibrate"});
-  CHECK(describe_controllers(bindings, {renamed, base}) ==
+                  "Wheel was found. It has no effect until you set it up, here or by: gearshift devices --calibrate "
+                  "\"Wheel\""});
+  CHECK(described({renamed, base}) ==
         Sentences{
             "Pedals is called Foot controls today. If its pedals or buttons have changed places, set it up again."});
-  CHECK(describe_controllers(bindings, {closed, base}) ==
+  CHECK(described({closed, base}) ==
         Sentences{"This user may not read Acme Pedals. \"gearshift devices\" shows how to allow it."});
   CHECK(
-      describe_controllers(bindings, {pedals, old}) ==
+      described({pedals, old}) ==
       Sentences{"Gudsen R9 Base reports 80 buttons, so its button 113 has no effect. Linux before 6.15 reports at most "
                 "80; a shifter on its own USB cable has fewer."});
 }
@@ -268,8 +274,8 @@ TEST_CASE("the shipped bindings include a pad's stop button") {
 TEST_CASE("bindings that are written and read again are equal: the shipped ones and complete ones") {
   Bindings full = read_bindings(shipped);
   full.controllers = {
-      {{"a \"quoted\" \\ stick", "1234:abcd"}, {{Action::arm, {3, 12}}}, {{kReverseGear, {0}}, {1, {1}}}},
-      {{"Another", ""}, {}, {}}};
+      {{"a \"quoted\" \\ stick", "1234:abcd"}, 1, {{Action::arm, {3, 12}}}, {{kReverseGear, {0}}, {1, {1}}}},
+      {{"Another", ""}, 0, {}, {}}};
   full.lever_select->of = {"Stick", "046d:c24f"};
   full.lever_select->centre = 0.1234567890123456;
   full.lever_select->end_zone = 1.0 / 3.0;
@@ -289,6 +295,7 @@ TEST_CASE("bindings that are written and read again are equal: the shipped ones 
     REQUIRE(back.controllers.size() == bindings.controllers.size());
     for (std::size_t i = 0; i < back.controllers.size(); ++i) {
       CHECK(back.controllers[i].of == bindings.controllers[i].of);
+      CHECK(back.controllers[i].which == bindings.controllers[i].which);
       CHECK(back.controllers[i].actions == bindings.controllers[i].actions);
       CHECK(back.controllers[i].gears == bindings.controllers[i].gears);
     }

@@ -28,7 +28,8 @@ bool has(const std::string& text, const char* words) {
 // A user with a Logitech G29 (three pedals, 1 released and -1 pressed; gears 1 to 6 on buttons 12 to 17, reverse on 18;
 // paddles 4 and 5), an analog lever and a handbrake that is a button. Its first report moves all pedals.
 struct Person {
-  explicit Person(Bindings start = {}) : setup(std::move(start)) {
+  explicit Person(Bindings start = {})
+      : setup(std::move(start), read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml")) {
     devices[0].buttons[22] = 1;  // a rotary switch that is always on
     frame(5);
     devices[0].axes = {0.0f, 1.0f, 1.0f, 1.0f};  // the first report
@@ -214,4 +215,68 @@ TEST_CASE("starting over begins with the shipped bindings, and does not change t
   CHECK(starting_bindings(own, defaults, false).clutch->of.stick == "Pedals");
   CHECK_FALSE(starting_bindings(own, defaults, true).clutch);
   CHECK(read_bindings(own).clutch->of.stick == "Pedals");
+}
+
+TEST_CASE("an axis that is bound to another control in this run is refused; an older binding of it ends") {
+  Bindings start;
+  start.brake = AxisBinding{.of = {"Logitech G29", ""}, .axis = 1, .from = 1.0, .to = -1.0};
+  Person person(start);
+  person.pedal(1);
+  person.say(Answer::done);  // the clutch
+  CHECK(person.setup.bindings().clutch);
+  CHECK_FALSE(person.setup.bindings().brake);
+  person.pedal(1);
+  person.say(Answer::done);  // the brake
+  CHECK(person.setup.note() == "This axis is bound to another control already (clutch). Try again.");
+}
+
+TEST_CASE("each way of shifting replaces the others, and gives a game pad its lever back") {
+  Bindings start;
+  start.lever_mode = LeverMode::places;
+  start.lever_select = AxisBinding{.of = {"Old lever", ""}};
+  start.controllers = {{{"Old Shifter", ""}, 0, {{Action::shift_up, {1}}}, {{1, {0}}}}};
+  Person person(start);
+  person.go_through(
+      [&](const std::string& prompt) { return has(prompt, "How do you shift") ? Answer::other : Answer::skip; });
+  const Bindings& bindings = person.setup.bindings();
+  CHECK(bindings.lever_select->of.stick.empty());
+  CHECK(bindings.lever_mode == LeverMode::moves);
+  CHECK(bindings.controllers.empty());  // it has no button left, so it is not missed when it is unplugged
+}
+
+TEST_CASE("two equal devices keep their own buttons; one kind of handbrake replaces the other") {
+  Bindings start;
+  start.hand_brake = AxisBinding{.of = {"Old handbrake", ""}};
+  Person person(start);
+  person.devices.push_back(controller("Box", {}, 4, "b"));
+  person.setup = ControlsSetup(start, {});
+  person.frame(5);
+  person.go_through([&](const std::string& prompt) {
+    if (has(prompt, "HANDBRAKE")) return person.press(4, 0), Answer::done;
+    if (has(prompt, "How do you shift")) return Answer::gear_buttons;
+    if (has(prompt, "NEUTRAL")) return Answer::done;
+    if (!has(prompt, "gear 1 ")) return Answer::skip;
+    person.devices[2].buttons[0] = 1;
+    person.frame(5);
+    return Answer::done;
+  });
+  const std::vector<ControllerButtons>& boxes = person.setup.bindings().controllers;
+  CHECK_FALSE(person.setup.bindings().hand_brake);
+  REQUIRE(boxes.size() == 2);
+  CHECK(boxes[0].which == 1);
+  CHECK(boxes[0].actions.at(Action::hand_brake_hold) == std::vector{0});
+  CHECK(boxes[1].which == 0);
+  CHECK(boxes[1].gears.at(1) == std::vector{0});
+}
+
+TEST_CASE("for the picture, a control's rest is where its first report was, not what the kernel held before") {
+  AxisDetector detector(AxisDetector::Control::pedal);
+  std::vector<Controller> all{controller("Wheel", {-1.0f})};
+  detector.record_move(all);
+  for (const float raw : {1.0f, 0.5f, -0.5f}) {
+    all[0].axes[0] = raw;
+    detector.record_move(all);
+  }
+  REQUIRE(detector.moving());
+  CHECK(detector.moving()->rest == 1.0);
 }

@@ -230,6 +230,8 @@ TEST_CASE("a key pressed and released between two frames counts for one frame, a
 
 TEST_CASE("one-shot actions are listed in order, once per press; held actions are never listed") {
   Driver d;
+  d.input.controllers = {gamepad({})};
+  d.frame();
   d.key(GLFW_KEY_F11, true);
   d.key(GLFW_KEY_D, true);
   d.key(GLFW_KEY_SPACE, true);
@@ -492,6 +494,8 @@ TEST_CASE("a pad's stop button always works, even if the window does not have th
   custom.pad_buttons = {{Action::stop, {1}}};
   DriverInput driver({custom, {0.06, 0.05}});
   WindowInput input;
+  input.controllers = {gamepad({})};
+  driver.update(input, kFrame, true, true);
   input.controllers = {gamepad({}, {0, 1})};
   driver.update(input, kFrame, true, true);
   CHECK(driver.pressed() == std::vector{Action::stop});
@@ -511,7 +515,7 @@ TEST_CASE("axes and buttons bound by a stick's name follow that stick to any por
   custom.lever_select.reset();
   custom.lever_shift.reset();
   custom.pad_buttons.clear();
-  custom.controllers = {{{"Wheel", ""}, {{Action::starter, {0}}}, {}}};
+  custom.controllers = {{{"Wheel", ""}, 0, {{Action::starter, {0}}}, {}}};
   const auto drive = [&](const std::vector<std::size_t>& order) {
     std::vector<Controller> all{controller("Acme Pedals", {0.25f}, 1), controller("Some Wheel", {0.5f}, 1),
                                 controller("PEDALS two", {0.75f}, 1)};
@@ -650,7 +654,7 @@ TEST_CASE(
 TEST_CASE("the handbrake follows its axis, a held button and a switch; a pull takes it over from the lesson") {
   Bindings custom = bindings();
   custom.hand_brake = AxisBinding{.of = {"Handbrake", ""}};
-  custom.controllers = {{{"Box", ""}, {{Action::hand_brake_hold, {0}}, {Action::hand_brake, {1}}}, {}}};
+  custom.controllers = {{{"Box", ""}, 0, {{Action::hand_brake_hold, {0}}, {Action::hand_brake, {1}}}, {}}};
   Driver d;
   d.driver = DriverInput({custom, {0.06, 0.05}});
   d.input.controllers = {controller("Handbrake", {-1.0f}), controller("Box", {}, 2)};
@@ -683,13 +687,19 @@ TEST_CASE("the handbrake follows its axis, a held button and a switch; a pull ta
   CHECK(press(1, true) == 0.0);
 }
 
-TEST_CASE("after new bindings nothing that was held stays held") {
+TEST_CASE("after new bindings, keys that are held stay held, and their release counts") {
   Driver d;
   d.key(GLFW_KEY_D, true);
   d.key(GLFW_KEY_X, true);
   d.frame();
   CHECK(d.driver.hand().pressed_down);
   d.driver.rebind(bindings());
+  d.frame();
+  CHECK(d.driver.hand().pressed_down);
+  CHECK(d.driver.pedal_keys().throttle);
+  d.key(GLFW_KEY_D, false);
+  d.key(GLFW_KEY_X, false);
+  d.frame();
   d.frame();
   CHECK_FALSE(d.driver.hand().pressed_down);
   CHECK_FALSE(d.driver.pedal_keys().throttle);

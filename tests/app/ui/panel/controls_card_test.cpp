@@ -58,7 +58,7 @@ TEST_CASE(
 TEST_CASE("each step shows its prompt, what was found and only its own answers, in place of the lesson") {
   PanelRig rig;
   std::vector<engine::Controller> all = desk();
-  ControlsSetup setup({});
+  ControlsSetup setup({}, {});
   rig.input.controls = {&setup, all, {}, {}};
   const auto answers = [&] {
     settle(rig);
@@ -94,7 +94,7 @@ TEST_CASE("each step shows its prompt, what was found and only its own answers, 
 TEST_CASE("the picture moves with the control, and lamps show the buttons that are held") {
   PanelRig rig;
   std::vector<engine::Controller> all = desk();
-  ControlsSetup setup({});
+  ControlsSetup setup({}, {});
   const auto frame = [&] {
     setup.frame(all, 0.01);
     rig.input.controls = {&setup, all, {}, {}};
@@ -114,21 +114,31 @@ TEST_CASE("the picture moves with the control, and lamps show the buttons that a
   CHECK(drawn_in(ui::ink::kGood).size() > lamps);
 }
 
-TEST_CASE("in the smallest window no answer leaves the screen") {
-  PanelRig rig;
-  rig.screen.width = 640.0f;
-  rig.screen.height = 400.0f;
-  std::vector<engine::Controller> all = desk();
-  ControlsSetup setup({});
-  for (int i = 0; i < 4; ++i) setup.answer(ControlsSetup::Answer::skip);
-  rig.input.controls = {&setup, all, {}, {}};
-  rig.panel.set_visible(false);
-  settle(rig);
-  for (const char* name :
-       {"setup_gears", "setup_paddles", "setup_lever", "setup_other", "setup_back", "setup_cancel"}) {
-    const ControlRect r = rig.rect(name);
-    CHECK(r.min.x >= 0.0);
-    CHECK(r.max.x <= 640.0);
-    CHECK(r.max.y <= 400.0);
+TEST_CASE("in the smallest window no answer leaves the screen, with the panel shown and hidden and many controllers") {
+  for (const bool visible : {true, false}) {
+    PanelRig rig;
+    rig.screen.width = 640.0f;
+    rig.screen.height = 400.0f;
+    std::vector<engine::Controller> all = desk();
+    for (int i = 0; i < 4; ++i) all.push_back(controller("Another box with a rather long name", {0.0f, 0.0f}, 60));
+    ControlsSetup setup({}, {});
+    rig.panel.set_visible(visible);
+    const auto check = [&](std::initializer_list<const char*> names) {
+      rig.input.controls = {&setup, all, {}, {}};
+      settle(rig);
+      for (const char* name : names) {
+        CAPTURE(name);
+        CAPTURE(visible);
+        const ControlRect r = rig.rect(name);
+        CHECK(r.min.x >= 0.0);
+        CHECK(r.min.y >= 0.0);
+        CHECK(r.max.x <= 640.0);
+        CHECK(r.max.y <= 400.0);
+      }
+    };
+    check({"setup_done", "setup_skip", "setup_cancel"});
+    CHECK(shows("Press the CLUTCH"));
+    for (int i = 0; i < 4; ++i) setup.answer(ControlsSetup::Answer::skip);
+    check({"setup_gears", "setup_paddles", "setup_lever", "setup_other", "setup_back", "setup_cancel"});
   }
 }
