@@ -103,7 +103,7 @@ float centred(const input_absinfo& axis) {
                        : 2.0f * (static_cast<float>(axis.value) - static_cast<float>(axis.minimum)) / range - 1.0f;
 }
 
-// What GLFW's joystick numbers stand for. GLFW reads a device's events whenever it is asked about it, and writes out of
+// The kind of device behind each of GLFW's joystick numbers. GLFW reads a device's events whenever it is asked about it, and writes out of
 // bounds at the event of a key below BTN_MISC (glfw issues 2455 and 2856; GLFW 3.4 aborts). Keyboards that declare an axis
 // count as joysticks, so a device that is no game pad is asked only once, right after it was opened.
 enum class Kind : unsigned char { unknown, gamepad, other };

@@ -80,7 +80,7 @@ class ReportScheduler {
   std::array<double, 2> force() const noexcept;      // [1] constant forces
   std::array<PidSpring, 2> spring() const noexcept;  // coefficient 0: none
   std::array<double, 2> damper() const noexcept;     // [1] coefficients
-  // What the newest state report says, if any: a reason why a stick may be silent.
+  // A reason, from the newest state report, why the stick may be silent.
   StickFault doubt() const noexcept { return doubt_; }
   bool drives() const noexcept;  // the actuators are on and an effect is playing, as far as is known
 

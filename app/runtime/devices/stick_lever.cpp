@@ -22,7 +22,7 @@ haptics::PortOpener with_descriptor_check(haptics::PortOpener open, const KnownS
   };
 }
 
-// What a calibration of an older version did not measure, and what that costs.
+// Lists what a calibration of an older version did not measure, and what that costs.
 std::string describe_unmeasured(const haptics::DeviceCalibration& known) {
   std::string parts;
   const auto add = [&parts](bool lacks, const char* part) {

@@ -87,7 +87,7 @@ bool is_named(const Controller& controller, const std::vector<NamedController>& 
   });
 }
 
-// What the user should know about a named controller; empty if everything is as expected.
+// Describes what is wrong with a named controller; empty if everything is as expected.
 std::string describe(const Bindings& bindings, const NamedController& named, const std::vector<Controller>& all) {
   const std::string stick = haptics::printable(named.of.stick);
   const Controller* found = find_controller(bindings, named.of, 0, all);

@@ -18,8 +18,7 @@ constexpr double kNeutralDelay = 0.3;  // [s] a shift through neutral takes less
 constexpr double kCornerTolerance = 0.004;  // [m] distance at which the lever counts as arrived at a stroke's end
 constexpr double kCornerWait = 0.4;         // [s] longest wait for it; a wall may keep the lever away
 constexpr double kRestAfter = 0.2;          // [s] after the end of the movement, if the lever is in the gear
-constexpr double kMissedAfter =
-    0.7;  // [s] after the end of the movement; a synchroniser needs less with the clutch open
+constexpr double kMissedAfter = 0.7;        // [s] after its end; a synchroniser needs less with the clutch open
 
 }  // namespace
 
@@ -74,9 +73,8 @@ haptics::HandTarget GearHand::next(double seconds, glm::dvec2 lever, int engaged
     if (time_ >= corners_.front().end - kPeriod && (has_arrived || waited_ > kCornerWait)) {
       corners_.erase(corners_.begin());
       waited_ = 0.0;
-    } else {
-      end = corners_.front().end;
     }
+    if (!corners_.empty()) end = std::min(end, corners_.front().end);
   }
   haptics::HandTarget target = hand_->next(time_, lever);
   while (time_ + kPeriod <= end) target = hand_->next(time_ += kPeriod, lever);

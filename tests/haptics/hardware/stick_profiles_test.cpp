@@ -166,7 +166,7 @@ DeviceCalibration believed_calibration(const EmulatedStickConfig& config, const 
 struct Habit {
   const char* name;
   std::function<void(EmulatedStickConfig&)> give;
-  // What the dialogue or the driver says about that which the habit breaks; "": nothing is felt, and nothing left out
+  // Words with which dialogue or driver name what the habit breaks; "": nothing is felt, and nothing left out
   const char* words = "";
   const char* elsewhere = "";  // the same beside other habits or on other families
 };

@@ -14,7 +14,7 @@ namespace {
 constexpr int kEndlessLoops = 255;
 constexpr double kSpringLike = 4.0;  // [1] speed that a deflection of 1 is taken for, with DamperLaw::is_spring
 
-// What the firmware takes for the lever's speed.
+// The lever's speed as the firmware computes it.
 glm::dvec2 damper_input(const DeviceMotion& motion, DamperLaw law) noexcept {
   constexpr double kInfinity = 1e9, kStill = 1e-4;
   const auto full = [](double speed) { return std::abs(speed) < kStill ? 0.0 : std::copysign(kInfinity, speed); };

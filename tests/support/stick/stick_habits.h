@@ -57,7 +57,7 @@ enum class DeadBandLaw : std::uint8_t {
   shifts_centre,  // the centre moves to the upper end of the dead band, and there is no dead band [stm]
 };
 
-// What a new constant force changes after the effect was first set.
+// The part of a constant force that the firmware still changes after the effect was first set.
 enum class ConstantUpdate : std::uint8_t {
   all,
   strength,  // the sign stays positive; the strength is followed [adapt 0.4, if the stick obeys the parameter that is
