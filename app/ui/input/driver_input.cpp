@@ -36,11 +36,11 @@ bool is_down(const engine::Controller& controller, int button) {
   return index < controller.buttons.size() && controller.buttons[index] != 0;
 }
 
-std::optional<int> held_gear(const ControllerButtons& shifter, const engine::Controller& controller) {
+int held_gear(const ControllerButtons& shifter, const engine::Controller& controller) {
   for (const auto& [gear, buttons] : shifter.gears)
     for (const int button : buttons)
       if (is_down(controller, button)) return gear;
-  return std::nullopt;
+  return haptics::kNeutralGear;
 }
 
 // Where to aim if a lever that stays in place is in a gear: at the gear's rest position. At the lever's own end the hand
@@ -128,7 +128,7 @@ void DriverInput::update_buttons(const engine::WindowInput& input) {
     const engine::Controller* one = find_controller(bindings, bound.of, bound.which, input.controllers);
     for (const auto& [action, buttons] : bound.actions)
       for (const int button : buttons)
-        set_button({static_cast<int>(i), button}, one != nullptr && is_down(*one, button), !shifters_[i].is_seen);
+        set_button({static_cast<int>(i), button}, one != nullptr && is_down(*one, button), !shifters_[i]);
     follow_shifter(bound, one, shifters_[i]);
   }
 }
@@ -139,20 +139,21 @@ void DriverInput::set_button(Source source, bool down, bool is_new) {
   press(source, false, false);
 }
 
-// Moves the hand when a shifter's own lever has moved. `one`: null if it is not plugged in.
-void DriverInput::follow_shifter(const ControllerButtons& bound, const engine::Controller* one, ShifterState& last) {
+// Moves the hand when a shifter's own lever has moved. `one`: null if it is not plugged in. `last`: the shifter's gear in
+// the last frame; empty if it was not plugged in.
+void DriverInput::follow_shifter(const ControllerButtons& bound, const engine::Controller* one,
+                                 std::optional<int>& last) {
   if (one == nullptr) {
-    if (last.gear && is_gear_of_shifter_) gear_hand_.release();
-    last = {};
+    if (last && is_gear_of_shifter_) gear_hand_.release();
+    last.reset();
     return;
   }
-  std::optional<int> gear = held_gear(bound, *one);
-  if (!gear && last.gear) gear = haptics::kNeutralGear;
-  if (last.is_seen && gear && gear != last.gear) {
-    gear_hand_.shift_to(*gear, lever_);
+  const int gear = held_gear(bound, *one);
+  if (last && gear != *last) {
+    gear_hand_.shift_to(gear, lever_);
     is_gear_of_shifter_ = true;
   }
-  last = {true, gear};
+  last = gear;
 }
 
 // With the clutch pressed, what held the lever may let go.
@@ -168,8 +169,8 @@ std::optional<DriverInput::MissedGear> DriverInput::missed_gear() const {
   if (gear_hand_.is_moving()) return std::nullopt;
   std::optional<MissedGear> wanted;
   if (gear_hand_.is_active()) wanted = {gear_hand_.selected_gear(), is_gear_of_shifter_};
-  for (const ShifterState& shifter : shifters_)
-    if (shifter.gear && *shifter.gear != haptics::kNeutralGear) wanted = {*shifter.gear, true};
+  for (const std::optional<int>& gear : shifters_)
+    if (gear.value_or(haptics::kNeutralGear) != haptics::kNeutralGear) wanted = {*gear, true};
   return wanted && wanted->gear != engaged_ ? wanted : std::nullopt;
 }
 

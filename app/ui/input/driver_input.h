@@ -6,8 +6,8 @@
 //           becomes a push on the lever. With keys, or with a stick that sets the speed, the hand leads the
 //           lever by at most 5 cm. 0.3 s after their release the hand moves back to at most 5 mm from the lever, so
 //           that it does not push on the lever permanently.
-//   gears   A controller's gear buttons move the hand to the gear whose button is held. None held stands for neutral,
-//           but only after one of them was held, and nothing moves before the shifter is moved. Keys, mouse or a stick
+//   gears   A controller's gear buttons move the hand to the gear whose button is held. None held stands for neutral.
+//           Where the shifter is at the start moves nothing, only its changes do. Keys, mouse or a stick
 //           take the hand over when they move it. If something holds the lever, such as a synchroniser, the hand gives
 //           up, and tries again when the clutch is pressed.
 //   buttons A button that is down when its controller appears, or when the bindings change, performs no action before it
@@ -91,10 +91,6 @@ class DriverInput {
     bool is_reported = false;  // `first` is from a report
     bool moved = false;
   };
-  struct ShifterState {
-    bool is_seen = false;
-    std::optional<int> gear;  // empty until a gear button was held
-  };
   struct Source {            // a key or button
     int device = kKeyboard;  // kKeyboard, kGamepads, or an index in Bindings::controllers
     int code = 0;
@@ -106,7 +102,7 @@ class DriverInput {
   bool is_chord(const engine::KeyEvent& key) const;
   void update_buttons(const engine::WindowInput& input);
   void set_button(Source source, bool down, bool is_new);
-  void follow_shifter(const ControllerButtons& bound, const engine::Controller* one, ShifterState& last);
+  void follow_shifter(const ControllerButtons& bound, const engine::Controller* one, std::optional<int>& last);
   void retry_gear();
   const std::map<Action, std::vector<int>>& bound_on(int device) const;
   void update_mouse(const engine::WindowInput& input, bool ui_has_mouse);
@@ -149,9 +145,9 @@ class DriverInput {
   std::array<AxisWatch, std::size(kAxes)> watch_;  // in the order of kAxes
   std::optional<haptics::Gate> gate_;
   GearHand gear_hand_;
-  std::vector<ShifterState> shifters_;  // of Bindings::controllers
-  bool has_pads_ = false;               // in the last frame
-  bool is_gear_of_shifter_ = false;     // the gear that gear_hand_ moves to
+  std::vector<std::optional<int>> shifters_;  // gear of each of Bindings::controllers; empty: not plugged in
+  bool has_pads_ = false;                     // in the last frame
+  bool is_gear_of_shifter_ = false;           // the gear that gear_hand_ moves to
   bool was_clutch_down_ = false;
   double hand_brake_switch_ = 0.0;        // [1] as pressed by the action hand_brake or set by the lesson
   std::array<bool, 2> stick_controls_{};  // select, shift

@@ -179,7 +179,7 @@ TEST_CASE("at 5 to 144 frames per second the lever takes no other gear on its wa
   }
 }
 
-TEST_CASE("no button held means neutral only after a gear was seen: at the start the shifter's place is unknown") {
+TEST_CASE("a shifter that is in neutral from the start does not pull the lever back from where keys have moved it") {
   ShifterDesk desk(paper_gate());
   desk.input.keys = {{GLFW_KEY_LEFT, true, false, false, false}};
   desk.run(0.1);
