@@ -1,18 +1,29 @@
 #!/usr/bin/env bash
 # Calibrates emulated force-feedback sticks through the real libusb, with the answers of a user. The measured values
 # must be the true ones. An invalid answer must repeat the question. Earlier measurements must stay if the user gives up
-# or the stick is unplugged. Tests one family of sticks; with ./test --full, all families.
+# or the stick is unplugged. Tests one family of sticks, whose springs the user leaves out because they take most of the
+# time; with ./test --full, all families, with springs.
 # Usage: calibrate.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
 needs_machine=yes
 source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
 write_calibrations
 
-# Calibrates a stick. The input has the numbers that the program asks for, some of them invalid, and then an Enter for
-# each measurement. The extra Enters are for measurements that the program rejects and repeats on a busy machine.
+# The answers of a user: the numbers that the program asks for, some of them invalid, and then one for each
+# measurement, also for those that the program rejects and repeats on a busy machine.
+answers() { # takes the family
+  printf 'far\n5000\n140 mm\n140\n20\nwhat\n'
+  local given=1 # "what"
+  until printed "^Calibrated: \|^Still missing: " "calibrate_$1" || [ $SECONDS -gt 240 ]; do
+    if printed "\[Enter to start" "calibrate_$1" $((given + 1)); then
+      given=$((given + 1))
+      if tail -n 1 "calibrate_$1.txt" | grep -q "springs and dampers" && ! is_full_run; then echo "-"; else echo; fi
+    fi
+    sleep 0.1
+  done
+}
 calibrate() {
-  printf 'far\n5000\n140 mm\n140\n20\nwhat\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n' |
-    with_stick --family "$1" -- "$gearshift" devices --calibrate "${name[$1]}" >"calibrate_$1.txt" 2>"calibrate_$1.err"
+  answers "$1" | with_stick --family "$1" -- "$gearshift" devices --calibrate "${name[$1]}" >"calibrate_$1.txt" 2>"calibrate_$1.err"
 }
 calibrated=sidewinder # only one family, because each takes most of a minute
 is_full_run && calibrated=$families
@@ -49,6 +60,7 @@ wait
 running=()
 for family in $calibrated; do
   check "$family is calibrated" grep -q "^Calibrated: " calibrate_$family.txt
+  is_full_run || check "springs that were left out are shown" grep -q "^  springs  *not measured  " calibrate_$family.txt
   check "invalid answers are asked again" grep -q 'Rejected: "5000" is not a number from 20 to 500 mm' calibrate_$family.txt
   check "hands off is printed before the motors move" grep -q "^HANDS OFF" calibrate_$family.txt
   check "its forces push left and forward, as PID 1.0 says" grep -q "a positive force pushes left.*a positive force pushes forward" calibrate_$family.txt
@@ -58,9 +70,11 @@ done
 # real time on a machine that may be busy.
 measured() { grep -l "^travel_m = 0.14" "$sticks"/*.toml; }
 check "the measurements are correct" python3 - $(measured) <<'END'
-import pathlib, re, sys
+import os, pathlib, re, sys
 allowed = {"mass_kg": (0.08, 0.11), "damping_n_s_per_m": (2, 5), "stiffness_n_per_m": (0, 40),
            "spring_stiffness_n_per_m": (330, 450), "damper_n_s_per_m": (14, 30), "damper_sign": (1, 1)}
+if not os.environ.get("GEARSHIFT_FULL"):
+    allowed |= {"spring_stiffness_n_per_m": (0, 0), "damper_n_s_per_m": (0, 0), "damper_sign": (0, 0)}
 assert sys.argv[1:]
 for file in map(pathlib.Path, sys.argv[1:]):
     for key, value in re.findall(r"^(\w+) = ([-\d.e]+)", file.read_text(), re.M):

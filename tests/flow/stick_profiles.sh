@@ -19,10 +19,10 @@ for profile in "OpenFFBoard, 32-bit" "OpenFFBoard, one motor" "Arduino library" 
   check "$profile is listed" lists "$profile"
 done
 
-# The answers of a user: three numbers, and Enter for everything else.
-calibrate() { # profile, id of the stick
+# The answers of a user: three numbers, and Enter for everything else but what is given.
+calibrate() { # profile, id of the stick, answers after the numbers
   profile=$1
-  printf '140\n140\n20\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n' |
+  printf "140\n140\n20\n${3:-}\n\n\n\n\n\n\n\n\n\n\n\n\n\n" |
     with_stick --family "$1" -- "$gearshift" devices --calibrate "$2" >calibrated.txt 2>calibrated.err
   code=$?
 }
@@ -34,10 +34,10 @@ write_calibration 2341_8037_HIDEM 0x2341 0x8037 HIDEM -32768 -0.5 32767
 write_calibration 03eb_204e 0x03eb 0x204e "" -512 -0.5 511
 write_calibration 06a3_ffb5 0x06a3 0xffb5 "" 0 2048 4096
 
-# One motor: the step is left out after three tries, and the program says what is missing.
-calibrate AFFBWheel 2341:8037
+# One motor: the user leaves the step out after a try, and the program says what is missing.
+calibrate AFFBWheel 2341:8037 '\n-\n'
 shows "Rejected: the stick has a motor for select, but none for shift, and a lever needs one there"
-shows "This step is left out: the stick cannot be used"
+shows "to leave it out: then the stick cannot be used"
 shows "Still missing: delay, force direction"
 ends_with 1
 if is_full_run; then

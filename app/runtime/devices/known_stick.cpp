@@ -68,7 +68,7 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
   const haptics::LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
   std::vector<std::string> rows;
   const auto add = [&rows](const char* what, const std::string& left, const std::string& right) {
-    rows.push_back(fmt::format("  {:<18}{:<26}{}", what, left, right));
+    rows.push_back(fmt::format("  {:<18}{:<36}{}", what, left, right));
   };
   const auto per_axis = [&](const char* what, const auto& text) { add(what, text(select), text(shift)); };
   const auto sign = [](int value, const char* positive, const char* negative) {
@@ -101,8 +101,10 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
                  ? std::string("not measured")
                  : fmt::format("{:.0f} N/m, {}", axis.spring_stiffness, axis.spring_sign > 0 ? "pulls" : "inverted");
     });
-    per_axis("dead band",
-             [](const auto& axis) { return fmt::format("{:.0f} % of the commanded", 100.0 * axis.spring_dead_band); });
+    per_axis("dead band", [](const auto& axis) {
+      return axis.spring_dead_band == 0.0 ? std::string("not measured")
+                                          : fmt::format("{:.0f} % of the commanded", 100.0 * axis.spring_dead_band);
+    });
   }
   if (!calibration.dampers_refused.empty()) {
     rows.push_back("  dampers           not used: " + calibration.dampers_refused);

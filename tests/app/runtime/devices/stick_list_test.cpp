@@ -2,6 +2,7 @@
 #include "app/runtime/devices/stick_list.h"
 
 #include <fstream>
+#include <regex>
 
 #include <doctest/doctest.h>
 
@@ -77,6 +78,25 @@ TEST_CASE("a descriptor that cannot be parsed affects only its own device") {
   REQUIRE(sticks.size() == 2);
   CHECK(sticks[0].problem.starts_with("SideWinder Force Feedback 2 Joystick: "));
   CHECK(sticks[1].problem.empty());
+}
+
+TEST_CASE("the table of a calibration separates its columns, and says what was not measured") {
+  DeviceCalibration calibration;
+  for (LeverAxisCalibration* axis : {&calibration.select, &calibration.shift}) {
+    axis->handle = {10.123, 123.4, 12345.0};
+    axis->constant_limit = 1.0;
+  }
+  std::string table;
+  for (const std::string& row : calibration_table(calibration)) {
+    CHECK(row.size() < 100);
+    table += row + "\n";
+  }
+  const auto shows = [&table](const char* pattern) { return std::regex_search(table, std::regex(pattern)); };
+  INFO(table);
+  CHECK(shows("\n  handle  +10.123 kg, 123.4 N s/m, 12345 N/m  +10.123 kg"));
+  CHECK(shows("\n  even forces  +up to 100 % of the magnitude  +up to 100 %"));
+  CHECK(shows("\n  springs  +not measured  +not measured\n"));
+  CHECK(shows("\n  dead band  +not measured  +not measured\n"));
 }
 
 TEST_CASE("how an unfinished, a complete and a damaged calibration are described") {
