@@ -101,7 +101,7 @@ class Calibrator {
   const LeverAxisCalibration& axis_of(std::size_t i) const { return i == 0 ? calibration_.select : calibration_.shift; }
   StickCommand idle_command() const;
   StickCommand only(std::size_t motor) const;
-  StickCommand with_weak(bool damper) const;
+  StickCommand with_weak(bool spring, bool damper) const;
   void apply(StickStyle style);
   Signs constant_signs();
   Signs constant_signs_by(StickStyle style);
@@ -137,7 +137,8 @@ class Calibrator {
   Pulse pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const;
   std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double& magnitude) const;
   double restart_gap(StickRig& rig, const DeviceTiming& timing) const;
-  Motion distance_pushed(StickRig& rig, const AxisPlace& place, StickCommand beside) const;
+  Motion distance_pushed(StickRig& rig, const AxisPlace& place, StickCommand beside,
+                         const StickCommand* before = nullptr) const;
   double own_share(StickRig& rig, const LeverAxisCalibration& axis) const;
   double distance_returned(StickRig& rig, const AxisPlace& place, const StickCommand& under) const;
   AxisModel handle_of(const PulseFit& found, std::size_t axis) const;
@@ -147,8 +148,10 @@ class Calibrator {
   static PulseFit fit_of(std::span<const Pulse> pulses, const std::string& name);
   static PulseFit validated(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
   double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis, int sign) const;
+  std::string find_dampers();
   std::string measure_dampers_twice();
   std::string measure_dampers();
+  void check_dampers_together(StickRig& rig, const DeviceCalibration& found) const;
   double damper_cross_talk(StickRig& rig, std::size_t axis, const DeviceCalibration& found) const;
   double damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper) const;
 

@@ -138,10 +138,10 @@ StickCommand Calibrator::only(std::size_t motor) const {
   return command;
 }
 
-// A command with which a spring plays, too, and perhaps a damper, but they hardly make a force.
-StickCommand Calibrator::with_weak(bool damper) const {
+// A command with which a spring or a damper plays, too, but hardly makes a force.
+StickCommand Calibrator::with_weak(bool spring, bool damper) const {
   StickCommand command = idle_command();
-  command.spring.fill({0.0, kWeakBand, kWeak, kWeak});
+  if (spring) command.spring.fill({0.0, kWeakBand, kWeak, kWeak});
   if (damper) command.damper.fill(kWeak);
   return command;
 }
@@ -377,14 +377,19 @@ double Calibrator::restart_gap(StickRig& rig, const DeviceTiming& timing) const 
   return gap < kMinGap ? 0.0 : std::min(gap, kRenewAfter);
 }
 
-// How far a small force of kPushedTime pushes the lever, and the other axis, beside the effects of another command.
-Calibrator::Motion Calibrator::distance_pushed(StickRig& rig, const AxisPlace& place, StickCommand command) const {
+// How far a small force of kPushedTime pushes the lever, and the other axis, beside the effects of another command;
+// `before`: a command that is sent first.
+Calibrator::Motion Calibrator::distance_pushed(StickRig& rig, const AxisPlace& place, StickCommand command,
+                                               const StickCommand* before) const {
   const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
   StickCommand undamped = command;
   const bool is_damped = std::max(std::abs(command.damper[0]), std::abs(command.damper[1])) > kWeak;
   if (is_damped) undamped.damper = {};  // under a damper, it would take seconds to come to rest
   const double from = rig.rest(place.report, undamped, other), other_from = rig.position(other);
-  for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kSettingTime;) rig.step(command);
+  for (const StickCommand* setting : {before, static_cast<const StickCommand*>(&command)}) {
+    const std::int64_t now = rig.latest().now_ns;
+    while (setting != nullptr && rig.latest().now_ns < now + kSettingTime) rig.step(*setting);
+  }
   const std::int64_t begin = rig.latest().now_ns;
   Motion farthest;  // at the peak, because readings may be rare; of the other axis, the last
   for (std::int64_t time = 0; time < kPushedTime + kPeakTime; time = rig.latest().now_ns - begin) {
@@ -722,12 +727,13 @@ std::string Calibrator::measure_springs_anew() {
     sentence = measure_spring_strengths();
   } catch (const EffectsRefused& refused) {
     calibration_.springs_refused = refused.what();
-    return calibration_.springs_refused +
-           ", so springs are not used, and walls are as soft as the stick's delay makes them";
+    sentence = calibration_.springs_refused +
+               ", so springs are not used, and walls are as soft as the stick's delay makes them";
   }
   if (!driver_.layout().has_effect(PidEffect::damper)) return sentence;
   try {
-    return sentence + "; " + measure_dampers_twice();
+    if (calibration_.select_by_position) throw EffectsRefused("dampers need forces along both axes");
+    return sentence + "; " + find_dampers();
   } catch (const EffectsRefused& refused) {
     calibration_.dampers_refused = refused.what();
     return sentence + "; " + refused.what() + ", so dampers are not used";
@@ -753,7 +759,7 @@ std::string Calibrator::measure_spring_strengths() {
 std::array<Calibrator::Spring, 2> Calibrator::find_springs() {
   {
     StickRig rig(driver_, tick_);
-    if (!acts_beside(rig, places()[0], idle_command(), with_weak(false)))
+    if (!acts_beside(rig, places()[0], idle_command(), with_weak(true, false)))
       throw EffectsRefused("the stick renders only two effects at a time, and a spring would be the third");
   }
   std::string reason;
@@ -883,6 +889,25 @@ double Calibrator::dead_band(StickRig& rig, const LeverAxisCalibration& axis, co
   return mean;
 }
 
+// How the dampers name an axis is known from the springs; without springs, each way is tried.
+std::string Calibrator::find_dampers() {
+  if (calibration_.springs_refused.empty()) return measure_dampers_twice();
+  const StickStyle known = calibration_.style;
+  std::string reason;
+  for (const AxisStyle style : {AxisStyle::bits, AxisStyle::direction}) {
+    try {
+      calibration_.style.conditions = style;
+      apply(calibration_.style);
+      return measure_dampers_twice();
+    } catch (const EffectsRefused& refused) {
+      if (reason.empty()) reason = refused.what();
+    }
+  }
+  calibration_.style = known;
+  driver_.set_style(known);
+  throw EffectsRefused(reason);
+}
+
 // A damper that drives the lever away looks like a hand, so it is refused only if that happens twice.
 std::string Calibrator::measure_dampers_twice() {
   try {
@@ -901,8 +926,11 @@ std::string Calibrator::measure_dampers() {
   DeviceCalibration found = calibration_;
   if (!found.has_handle()) return "the dampers were not measured, because the handle has not been measured yet";
   StickRig rig(driver_, tick_);
-  if (!acts_beside(rig, places()[0], with_weak(false), with_weak(true)))
-    throw EffectsRefused("the stick renders only three effects at a time, and a damper would be the fourth");
+  const bool has_spring = calibration_.springs_refused.empty();
+  if (!acts_beside(rig, places()[0], with_weak(has_spring, false), with_weak(has_spring, true)))
+    throw EffectsRefused(has_spring
+                             ? "the stick renders only three effects at a time, and a damper would be the fourth"
+                             : "the stick renders only two effects at a time, and a damper would be the third");
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
     const double braking = damping_by(rig, *axis, name, kCautiousForce);
@@ -919,7 +947,8 @@ std::string Calibrator::measure_dampers() {
       cross_talk = std::min(cross_talk, damper_cross_talk(rig, i, found));
     check_cross_talk("damper", i, cross_talk);
   }
-  found.effects_at_once = 4;
+  check_dampers_together(rig, found);
+  found.effects_at_once = has_spring ? 4 : 3;
   calibration_ = found;
   return "dampers of up to " + number_text(found.select.damper_strength, 1) + " N s/m in select and " +
          number_text(found.shift.damper_strength, 1) + " N s/m in shift" +
@@ -939,6 +968,25 @@ double Calibrator::damper_cross_talk(StickRig& rig, std::size_t axis, const Devi
     pushed[i] = std::abs(slow.other - free.other) / free.moved;
   }
   return std::max(std::abs(braked[1 - axis]), pushed[axis]) / std::abs(braked[axis]);
+}
+
+// Some sticks use the damper of only that axis which was set last.
+void Calibrator::check_dampers_together(StickRig& rig, const DeviceCalibration& found) const {
+  const std::array<AxisPlace, 2> place = places();
+  StickCommand both = idle_command();
+  for (std::size_t i = 0; i < 2; ++i)
+    both.damper[place[i].motor] = kDamper * (i == 0 ? found.select : found.shift).damper_sign;
+  for (std::size_t i = 0; i < 2; ++i) {
+    StickCommand alone = both;
+    alone.damper[place[1 - i].motor] = 0.0;
+    const double free = distance_pushed(rig, place[i], idle_command()).moved;
+    const auto braked = [&](const StickCommand& damped) {
+      return free - distance_pushed(rig, place[i], damped, &alone).moved;
+    };
+    const double least = 0.5 * braked(alone);
+    if (braked(both) < least && braked(both) < least)  // one touch refuses nothing
+      throw EffectsRefused("the stick does not render the dampers of both axes at the same time");
+  }
 }
 
 // Damping [N s/m] that a damper of coefficient `damper` adds to the handle's own damping.

@@ -230,6 +230,54 @@ TEST_CASE("cross-talk of each family of effects and the number of effects that a
   }
 }
 
+TEST_CASE("where springs are refused, dampers are still measured and used, if those of both axes act together") {
+  EmulatedStickConfig config = config_of(StickFamily::openffboard);
+  config.habits.dead_band = DeadBandLaw::ignored;
+  const auto calibrated = [&] {
+    CalibrationBench bench(config, unmeasured_calibration(config));
+    for (const auto step : {&Calibrator::measure_polarity, &Calibrator::measure_timing, &Calibrator::measure_handle})
+      std::invoke(step, bench.calibrator);
+    const std::string sentence = bench.calibrator.measure_springs();
+    return std::pair{sentence, bench.calibrator.calibration()};
+  };
+  const auto [sentence, found] = calibrated();
+  CHECK(found.springs_refused == "the stick's springs push inside their dead band");
+  CHECK(sentence.find("so springs are not used") != std::string::npos);
+  CHECK(sentence.find("; dampers of up to 2") != std::string::npos);
+  CHECK(found.dampers_refused.empty());
+  CHECK(found.effects_at_once == 3);
+  for (const LeverAxisCalibration& axis : {found.select, found.shift}) {
+    CHECK(axis.damper_sign == 1);
+    CHECK(axis.damper_strength == doctest::Approx(2.0 * sampled_damper(axis.handle, 10.0)).epsilon(0.06));
+  }
+  CHECK(usable_wall_stiffness(spec_of(found, 0.001)) == 0.0);
+  CHECK(usable_wall_damping(spec_of(found, 0.001)) > 15.0);
+
+  // On a late stick, where the loop itself damps little.
+  EmulatedStickConfig gripped = config;
+  gripped.lever.hand = kGripHand;
+  gripped.delay = 0.005;
+  DeviceCalibration late = found;
+  late.timing.delay = 0.005;
+  StillHand hand(hand_at({0.012, 0.0}));
+  StickLoop run(gripped, late, HapticConfig{}, stick_gate("six_speed_r_left_up", gripped), hand);
+  run.loop.arm();
+  run.cycle_for(0.7);
+  CHECK(run.driver.state().damper[1] == 0.0);
+  hand.target = hand_at({0.012, 0.020});
+  run.cycle_for(0.5);
+  CHECK(run.driver.state().damper[1] > 0.2);
+  CHECK(run.loop.admitted().tuning.wall_damping == 10.0);
+  CHECK(run.problems().empty());
+
+  config.habits.effects_at_once = 2;
+  CHECK(calibrated().second.dampers_refused.find("the stick renders only two effects at a time") == 0);
+  config.habits.effects_at_once = 0;
+  config.habits.condition = ConditionLaw::last_set;
+  CHECK(calibrated().second.dampers_refused ==
+        "the stick does not render the dampers of both axes at the same time");
+}
+
 TEST_CASE("a stick that centres itself unless a spring plays gets one without a force, and its handle is right") {
   EmulatedStickConfig config = config_of(StickFamily::openffboard);
   config.habits.auto_centre = AutoCentre::until_spring;
