@@ -180,13 +180,18 @@ LeverAxisCalibration Calibrator::range_of(const std::string& name, const FoundAx
   return axis;
 }
 
-std::string Calibrator::set_numbers(double select_travel, double shift_travel, double full_force) {
-  calibration_.select.travel = require_within(select_travel, 0.02, 0.5, "a travel", "m");
-  calibration_.shift.travel = require_within(shift_travel, 0.02, 0.5, "a travel", "m");
-  require_within(full_force, 0.5, 100.0, "a full force", "N");
-  calibration_.select.full_force = calibration_.shift.full_force = full_force;
-  return "travel " + millimetres_text(select_travel) + " and " + millimetres_text(shift_travel) + ", full force " +
-         number_text(full_force, 2) + " N";
+std::string Calibrator::set_numbers(glm::dvec2 travel, glm::dvec2 full_force) {
+  for (int i = 0; i < 2; ++i) {
+    require_within(travel[i], 0.02, 0.5, "a travel", "m");
+    require_within(full_force[i], 0.5, 100.0, "a full force", "N");
+  }
+  calibration_.select.travel = travel.x;
+  calibration_.shift.travel = travel.y;
+  calibration_.select.full_force = full_force.x;
+  calibration_.shift.full_force = full_force.y;
+  const std::string shift_force = full_force.x == full_force.y ? "" : " and " + number_text(full_force.y, 2) + " N";
+  return "travel " + millimetres_text(travel.x) + " and " + millimetres_text(travel.y) + ", full force " +
+         number_text(full_force.x, 2) + " N" + shift_force;
 }
 
 std::string Calibrator::find_button(LeverButton button, double seconds) {

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "haptics/hardware/device_calibration.h"
 #include "haptics/hardware/pid_driver.h"
 #include "haptics/hardware/pulse_response.h"
@@ -47,9 +49,9 @@ class Calibrator {
   // Measures each axis's counts at both stops and at rest. The user moves the lever to all its stops, then releases it
   // for the last second. Call find_axis() for both axes first.
   std::string measure_range(double seconds);
-  // Stores each axis's travel at the knob between the stops (0.02 to 0.5 m) and the force at the knob at full magnitude
+  // Stores each axis's travel at the knob between the stops (0.02 to 0.5 m) and its force at the knob at full magnitude
   // (0.5 to 100 N).
-  std::string set_numbers(double select_travel, double shift_travel, double full_force);
+  std::string set_numbers(glm::dvec2 travel, glm::dvec2 full_force);
   // Waits up to `seconds` for a button press and stores the button's number. Ignores buttons already held at the start.
   std::string find_button(LeverButton button, double seconds);
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <glm/vec2.hpp>
 
 #include "haptics/files/printable.h"
 
@@ -160,33 +161,41 @@ class DialogRunner {
         cost, [&] { return calibrator_.find_button(button, times_.button); });
   }
 
-  // Empty if the number is left out.
-  std::optional<double> ask_number(const std::string& question, double min, double max, std::string_view unit) {
+  // Repeats the question until it is answered with a number, or with two if `may_differ`: one for each axis. Empty if it
+  // is left out.
+  std::optional<glm::dvec2> ask_numbers(const std::string& question, double min, double max, std::string_view unit,
+                                        bool may_differ = false) {
+    const auto is_within = [&](double number) { return number >= min && number <= max; };
     for (;;) {
       const std::string answer = dialog_.ask(fmt::format(
           "{} [{:g} to {:g} {}, - to leave it out: then the stick cannot be used]", question, min, max, unit));
       if (answer == "-") return std::nullopt;
-      const std::optional<double> number = number_of(answer, unit);
-      if (number && *number >= min && *number <= max) return *number;
-      dialog_.print(fmt::format("  Rejected: \"{}\" is not a number from {:g} to {:g} {}. Try again.",
-                                haptics::printable(answer), min, max, unit));
+      if (const std::optional<double> one = number_of(answer, unit); one && is_within(*one)) return glm::dvec2(*one);
+      for (std::size_t space = answer.find(' '); may_differ && space != answer.npos; space = answer.find(' ', space + 1)) {
+        const std::optional<double> select = number_of(std::string_view(answer).substr(0, space), unit),
+                                    shift = number_of(std::string_view(answer).substr(space), unit);
+        if (select && shift && is_within(*select) && is_within(*shift)) return glm::dvec2(*select, *shift);
+      }
+      dialog_.print(fmt::format("  Rejected: \"{}\" is not {} from {:g} to {:g} {}. Try again.",
+                                haptics::printable(answer), may_differ ? "one or two numbers" : "a number", min, max,
+                                unit));
     }
-    return std::nullopt;
   }
 
   void run_numbers() {
-    const std::optional<double> select =
-        ask_number("How far does the knob travel from the left stop to the right stop?", 20, 500, "mm");
+    const std::optional<glm::dvec2> select =
+        ask_numbers("How far does the knob travel from the left stop to the right stop?", 20, 500, "mm");
     if (!select) return;
-    const std::optional<double> shift =
-        ask_number("How far does the knob travel from the back stop to the forward stop?", 20, 500, "mm");
+    const std::optional<glm::dvec2> shift =
+        ask_numbers("How far does the knob travel from the back stop to the forward stop?", 20, 500, "mm");
     if (!shift) return;
-    const std::optional<double> force = ask_number(
+    const std::optional<glm::dvec2> force = ask_numbers(
         "What is the stick's maximum force at the knob? Take the value from the data sheet (torque divided by lever "
-        "length), or measure it with a spring scale.",
-        0.5, 100, "N");
+        "length), or measure it with a spring scale. If it differs, type that to the right and then that forward, "
+        "for example \"20 15\".",
+        0.5, 100, "N", true);
     if (!force) return;
-    dialog_.print("  Saved: " + calibrator_.set_numbers(1e-3 * *select, 1e-3 * *shift, *force) + ".");
+    dialog_.print("  Saved: " + calibrator_.set_numbers(1e-3 * glm::dvec2(select->x, shift->x), *force) + ".");
     save();
   }
 

@@ -82,7 +82,7 @@ TEST_CASE(
 
       bench.find_axes();
       bench.measure_all_stops();
-      calibrator.set_numbers(0.14, 0.14, 20.0);
+      calibrator.set_numbers(dvec2(0.14), dvec2(20.0));
       bench.hands_off();
       bench.strongest = 0.0;
       calibrator.measure_polarity();
@@ -278,6 +278,27 @@ TEST_CASE("where springs are refused, dampers are still measured and used, if th
         "the stick does not render the dampers of both axes at the same time");
 }
 
+TEST_CASE("motors of different strength: with the force of each axis, masses, springs and dampers are right") {
+  EmulatedStickConfig config = config_of(StickFamily::openffboard);
+  for (const double said : {15.0, 20.0}) {
+    DeviceCalibration known = unmeasured_calibration(config);
+    CalibrationBench bench(config, known);
+    bench.stick.faults.constants.y = bench.stick.faults.conditions.y = 0.75;
+    bench.calibrator.set_numbers(dvec2(0.14), {20.0, said});
+    for (const auto step : {&Calibrator::measure_polarity, &Calibrator::measure_timing, &Calibrator::measure_handle,
+                            &Calibrator::measure_springs})
+      std::invoke(step, bench.calibrator);
+    const LeverAxisCalibration& shift = bench.calibrator.calibration().shift;
+    const double error = said / 15.0;  // negative control
+    CHECK(bench.calibrator.calibration().select.full_force == 20.0);
+    CHECK(shift.full_force == said);
+    CHECK(shift.handle.mass == doctest::Approx(error * config.lever.axis_y.mass).epsilon(0.05));
+    CHECK(shift.spring_stiffness == doctest::Approx(error * 300.0).epsilon(0.05));
+    CHECK(shift.damper_strength ==
+          doctest::Approx(error * 2.0 * sampled_damper(config.lever.axis_y, 7.5)).epsilon(0.05));
+  }
+}
+
 TEST_CASE("a stick that centres itself unless a spring plays gets one without a force, and its handle is right") {
   EmulatedStickConfig config = config_of(StickFamily::openffboard);
   config.habits.auto_centre = AutoCentre::until_spring;
@@ -431,11 +452,11 @@ TEST_CASE("invalid input while a person moves the lever is refused and changes n
         "the lever does not come to rest. Take your hands off the lever");
   CHECK_FALSE(calibrator.calibration().has_stops());
 
-  CHECK(refusal([&] { calibrator.set_numbers(0.01, 0.1, 20.0); }) ==
+  CHECK(refusal([&] { calibrator.set_numbers({0.01, 0.1}, dvec2(20.0)); }) ==
         "a travel of 0.01 m is not possible; it must be between 0.02 and 0.5 m");
-  CHECK(refusal([&] { calibrator.set_numbers(0.1, 0.1, 500.0); }) ==
+  CHECK(refusal([&] { calibrator.set_numbers(dvec2(0.1), {20.0, 500.0}); }) ==
         "a full force of 500 N is not possible; it must be between 0.5 and 100 N");
-  CHECK(refusal([&] { calibrator.set_numbers(0.1, std::nan(""), 20.0); }).find("a travel of nan m") == 0);
+  CHECK(refusal([&] { calibrator.set_numbers({0.1, std::nan("")}, dvec2(20.0)); }).find("a travel of nan m") == 0);
   CHECK_FALSE(calibrator.calibration().has_force());
 }
 

@@ -52,7 +52,7 @@ Calibrated calibrate_stick(const EmulatedStickConfig& config, bool is_swapped = 
     CHECK(bench.problems().size() == 1);
     return result;
   }
-  calibrator.set_numbers(0.14, 0.14, 20.0);
+  calibrator.set_numbers(dvec2(0.14), dvec2(20.0));
   bench.hands_off();
   const double begin = bench.time();
   // Like the user of the dialogue, who tries twice.

@@ -128,6 +128,38 @@ TEST_CASE("the calibration matches the user's actions and answers; every step is
   CHECK_FALSE(rig.saved.front().has_travel());
 }
 
+TEST_CASE("one full force, or one for each axis") {
+  using Pair = std::pair<double, double>;
+  const auto forces = [](std::deque<std::string> answers) {
+    Rig rig;
+    DeviceCalibration known;
+    known.select = {0x30, -512.0, -0.5, 511.0};
+    known.shift = {0x31, 511.0, -0.5, -512.0};
+    CalibrationDialog dialog;
+    dialog.print = [&](const std::string& line) { rig.printed.push_back(line); };
+    dialog.save = [](const DeviceCalibration&) {};
+    dialog.ask = [&](const std::string& question) -> std::string {
+      if (question.find("knob travel") != std::string::npos) return "140";
+      if (question.find("maximum force") == std::string::npos || answers.empty()) return "-";
+      const std::string answer = answers.front();
+      answers.pop_front();
+      return answer;
+    };
+    Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, known);
+    calibrate(calibrator, true, dialog);
+    CHECK(rig.has_printed("is not one or two numbers from 0.5 to 100 N") == !answers.empty());
+    return Pair{calibrator.calibration().select.full_force, calibrator.calibration().shift.full_force};
+  };
+  CHECK(forces({"20"}) == Pair(20.0, 20.0));
+  CHECK(forces({"20 N"}) == Pair(20.0, 20.0));
+  CHECK(forces({"20 15"}) == Pair(20.0, 15.0));
+  CHECK(forces({" 20 N  15N "}) == Pair(20.0, 15.0));
+  for (const char* nonsense : {"20 15 10", "20 200", "20 x", "20,15", "0 15"}) {
+    CAPTURE(std::string(nonsense));
+    CHECK(forces({nonsense, "-", "not asked"}) == Pair(0.0, 0.0));
+  }
+}
+
 TEST_CASE("no motor moves before the user was told to let go of the stick") {
   Rig rig;
   bool moved = false, warned = false;
