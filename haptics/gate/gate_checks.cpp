@@ -55,10 +55,10 @@ void check_widths(const GateLayout& layout) {
 
 void check_column_count(const GateLayout& layout) {
   const std::size_t count = layout.columns.size();
-  if (count < 2 || count > kMaxColumns) {
+  if (count < 1 || count > kMaxColumns) {
     const int line = count > kMaxColumns ? layout.columns[kMaxColumns].line : layout.lines.gate;
     fail(layout, line,
-         "a gate must have between 2 and " + std::to_string(kMaxColumns) + " columns, but this one has " +
+         "a gate must have between 1 and " + std::to_string(kMaxColumns) + " columns, but this one has " +
              std::to_string(count));
   }
   if (layout.neutral_column < 0 || layout.neutral_column >= static_cast<int>(count)) {
@@ -104,8 +104,6 @@ void check_junctions(const GateLayout& layout) {
   }
 }
 
-// When this is called, at least two columns are known to have different gears. Only one of these gears can be reverse,
-// so at least one is a forward gear.
 void check_gears(const GateLayout& layout) {
   constexpr std::size_t kGears = kMaxGear - kReverseGear + 1;
   const auto at = [](int gear) {
@@ -130,6 +128,7 @@ void check_gears(const GateLayout& layout) {
       highest = std::max(highest, slot.gear);
     }
   }
+  if (highest < 1) fail(layout, layout.columns.front().line, "a gate must have a forward gear");
   for (int gear = 1; gear < highest; ++gear) {
     if (!is_present[at(gear)]) {
       fail(layout, line_of[at(highest)],

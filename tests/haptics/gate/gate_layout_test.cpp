@@ -75,7 +75,6 @@ constexpr Hostile kHostile[] = {
     {"not_utf8", ":1: not valid TOML: "},
     {"number_for_a_gear", ":14: forward = 1: must be text in quotes"},
     {"number_past_double", ":10: not valid TOML: "},
-    {"one_column", ":3: a gate must have between 2 and 8 columns, but this one has 1"},
     {"out_of_range", ":10: lock_force_n = 60: must be between 1 and 25"},
     {"outside_corner",
      ":12: the column at -64 mm has its wall at 69 mm, outside the workspace, which is narrower at its "
@@ -87,6 +86,7 @@ constexpr Hostile kHostile[] = {
     {"overlapping_columns",
      ":23: the column at 19.9 mm overlaps the previous one, because slots of this width and chamfer "
      "need 20 mm from centre to centre, but have 19.9 mm"},
+    {"reverse_only", ":12: a gate must have a forward gear"},
     {"same_column_twice", ":23: the column at 0 mm is not to the right of the previous one"},
     {"slot_too_short", ":6: slot_length_mm is too short; with this aisle and chamfer it must be at least 20 mm"},
     {"slot_too_short_for_its_feel", ":6: slot_length_mm is too short; below 38.1 mm"},
@@ -94,7 +94,7 @@ constexpr Hostile kHostile[] = {
     {"speed_of_a_lift_ring", ":32: close_above_kmh is not a known key; known keys: gear, kind"},
     {"speeds_in_reverse", ":29: open_below_kmh must be smaller than close_above_kmh"},
     {"text_for_a_number", ":5: slot_width_mm = \"10 mm\": must be a number between 4 and 30"},
-    {"too_many_columns", ":44: a gate must have between 2 and 8 columns, but this one has 9"},
+    {"too_many_columns", ":44: a gate must have between 1 and 8 columns, but this one has 9"},
     {"too_many_lockouts", ":95: a gate can have at most 16 lockouts"},
     {"two_neutrals", ":27: neutral = true: only one column can be neutral, but the column on line 21 already is"},
     {"unknown_gear", ":14: forward = \"10\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},

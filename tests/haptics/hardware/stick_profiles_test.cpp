@@ -116,10 +116,10 @@ struct Driven {
   std::vector<std::string> problems;
 };
 
-Driven drive_through_gate(const EmulatedStickConfig& bare, const DeviceCalibration& known, bool is_swapped = false) {
+Driven drive_through(const Gate& gate, const EmulatedStickConfig& bare, const DeviceCalibration& known,
+                     bool is_swapped = false) {
   EmulatedStickConfig config = bare;
   config.lever.hand = kGripHand;
-  const Gate gate = stick_gate("six_speed_r_left_up", config);
   const dvec2 start = rest_position(gate, kNeutralGear);
   ScriptedHandConfig script = touring_hand(start);
   // [N] a gentle hand, because the stick has only 20 N, or less
@@ -146,6 +146,18 @@ Driven drive_through_gate(const EmulatedStickConfig& bare, const DeviceCalibrati
   result.gears = run.gears().size();
   result.problems = run.problems();
   return result;
+}
+
+Driven drive_through_gate(const EmulatedStickConfig& config, const DeviceCalibration& known, bool is_swapped = false) {
+  return drive_through(stick_gate("six_speed_r_left_up", config), config, known, is_swapped);
+}
+
+// A lever that moves forward and back only.
+Gate straight_gate(const EmulatedStickConfig& config) {
+  return compile_gate(parse_gate_layout("name = \"Straight\"\n[gate]\n[feel]\n[[column]]\nposition_mm = 0\n"
+                                        "forward = \"1\"\nback = \"2\"\nneutral = true\n",
+                                        "straight.toml"),
+                      dvec2(config.half_travel));
 }
 
 // Returns the calibration that a program would assume if it believed the descriptor.
@@ -386,6 +398,28 @@ TEST_CASE("a stick whose only motor moves X drives the gate's shift axis, if X i
     CHECK(driven.wrong == 0.0);
     CHECK(driven.problems.empty());
   }
+}
+
+TEST_CASE("a lever that moves forward and back only: with one motor and with two") {
+  std::string table = "stick | gears | rms N | worst N\n";
+  for (const int motors : {1, 2}) {
+    CAPTURE(motors);
+    EmulatedStickConfig config;
+    config.family = StickFamily::openffboard;
+    config.habits.motors = motors;
+    const bool is_swapped = motors == 1;  // the only motor moves X
+    const Calibrated calibrated = calibrate_stick(config, is_swapped);
+    CHECK(calibrated.refusal == "");
+    CHECK(calibrated.found.select_by_position == is_swapped);
+    const Driven driven = drive_through(straight_gate(config), config, calibrated.found, is_swapped);
+    CHECK(driven.gears == 2);
+    CHECK(driven.rms < kMaxRms);
+    CHECK(driven.wrong == 0.0);
+    CHECK(driven.problems.empty());
+    table += std::to_string(motors) + " | " + std::to_string(driven.gears) + " | " + std::to_string(driven.rms) + " | " +
+             std::to_string(driven.worst) + '\n';
+  }
+  MESSAGE(table);
 }
 
 TEST_CASE("every habit alone: the dialogue ends, no force has the wrong sign, what is broken is named") {
