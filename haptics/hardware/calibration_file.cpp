@@ -22,7 +22,7 @@ namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
 constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0},
-    kDeadBand{0.0, 10.0}, kMagnitude{0.0, 1.0}, kSlope{0.01, 10.0}, kCrossTalk{0.0, 10.0}, kEffects{1.0, 4.0};
+    kDeadBand{0.0, 10.0}, kMagnitude{0.0, 1.0}, kSlope{0.01, 10.0}, kCrossTalk{0.0, 10.0}, kCoupling{-0.9, 0.9}, kEffects{1.0, 4.0};
 constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] smallest valid values; 0 means not known
 
 using AxisName = std::pair<std::string_view, int>;  // name and usage ID on the HID Generic Desktop page
@@ -90,6 +90,7 @@ void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
     axis.constant_limit = table.number("constant_limit", kMagnitude);
     axis.constant_slope = table.number("constant_slope", kSlope);
   }
+  if (table.has("constant_coupling")) axis.constant_coupling = table.number("constant_coupling", kCoupling);
   if (table.has("constant_cross_talk")) axis.constant_cross_talk = table.number("constant_cross_talk", kCrossTalk);
   if (table.has("spring_cross_talk")) axis.spring_cross_talk = table.number("spring_cross_talk", kCrossTalk);
   if (table.has("damper_cross_talk")) axis.damper_cross_talk = table.number("damper_cross_talk", kCrossTalk);
@@ -208,6 +209,8 @@ void put_axis(CommentedText& out, const std::string& section, const LeverAxisCal
     out.put("constant_limit", axis.constant_limit, once("forces grow evenly up to this magnitude"));
     out.put("constant_slope", axis.constant_slope, once("measured force per magnitude there, over full_force_n"));
   }
+  if (axis.constant_coupling != 0.0)
+    out.put("constant_coupling", axis.constant_coupling, once("motion of the other axis by a force, cancelled"));
   const auto put_cross_talk = [&](std::string_view key, double value) {
     if (value >= 0.0) out.put(key, value, once("motion of the other axis over that of this one"));
   };

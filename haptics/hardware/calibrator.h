@@ -87,9 +87,12 @@ class Calibrator {
   struct Signs {
     std::array<int, 2> sign{};           // select, shift
     double magnitude = 0.0;              // [1] that moved both axes
-    std::array<double, 2> cross_talk{};  // as in LeverAxisCalibration
+    std::array<double, 2> cross_talk{}, coupling{};  // as in LeverAxisCalibration
     StickStyle style;
     std::string only_shift;  // why only shift's forces can be used; empty: both can
+  };
+  struct Motion {
+    double moved = 0.0, other = 0.0;  // [1] of the pushed axis and of the other one, fractions of their ranges
   };
   struct Spring {
     int sign = 0;
@@ -113,9 +116,8 @@ class Calibrator {
   // Indices of the axes whose motors are used: select and shift, or shift only.
   std::span<const std::size_t> motors() const noexcept;
   void check_together(StickRig& rig, const Signs& found) const;
-  struct Motion {
-    double moved = 0.0, other = 0.0;  // [1] of the pushed axis and of the other one, fractions of their ranges
-  };
+  void cancel_cross_talk(StickRig& rig, Signs& found) const;
+  double coupling(std::size_t axis, const Motion& there, const Motion& back) const;
   Motion push(StickRig& rig, const AxisPlace& place, const StickCommand& idle, const StickCommand& command) const;
   static double cross_talk(const Motion& there, const Motion& back) noexcept;
   static void check_cross_talk(const char* effect, std::size_t axis, double cross_talk);

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <glm/matrix.hpp>
+
 #include "haptics/files/number_text.h"
 #include "haptics/hardware/calibrator.h"
 #include "haptics/hardware/pid_lever.h"
@@ -56,6 +58,7 @@ constexpr double kBeside = 0.8;  // [1] least distance pushed beside more effect
 constexpr double kWeak = 0.01, kWeakBand = 0.5;     // [1] of springs and dampers that only have to play
 constexpr int kCrossTalkTries = 3;                  // of dampers, because one touch or a late cycle refuses nothing
 constexpr double kMaxCrossTalk = 0.12;              // [1]
+constexpr double kMaxCoupling = 0.6;                // [1] stronger cross-talk would leave little force if cancelled
 constexpr std::array kLevels{0.05, 0.2, 0.6, 1.0};  // [1] magnitudes of constant forces that are compared
 constexpr std::array kLowerLevels{0.5, 0.4, 0.3};   // [1] tried if the force at 60 % is wrong
 constexpr double kEven = 0.15;                      // [1] largest difference of the force per magnitude
@@ -164,6 +167,8 @@ std::string Calibrator::measure_polarity() {
   calibration_.select_by_position = !found.only_shift.empty();
   calibration_.select.constant_sign = calibration_.select_by_position ? 0 : found.sign[0];
   calibration_.shift.constant_sign = found.sign[1];
+  calibration_.select.constant_coupling = calibration_.select_by_position ? 0.0 : found.coupling[0];
+  calibration_.shift.constant_coupling = calibration_.select_by_position ? 0.0 : found.coupling[1];
   calibration_.select.constant_cross_talk = found.cross_talk[0];
   calibration_.shift.constant_cross_talk = found.cross_talk[1];
   calibration_.effects_at_once = calibration_.select_by_position ? 1 : std::max(calibration_.effects_at_once, 2);
@@ -172,7 +177,15 @@ std::string Calibrator::measure_polarity() {
   if (calibration_.select_by_position)
     return shift + "; " + found.only_shift +
            ", so only forces along shift are used: walls of select are not felt, and the position chooses the slot";
-  return std::string("in select, a positive force pushes ") + (found.sign[0] > 0 ? "right" : "left") + "; " + shift;
+  const auto percent = [](double fraction) { return number_text(100.0 * std::abs(fraction), 0) + " %"; };
+  const std::string cancelled =
+      found.coupling == std::array{0.0, 0.0}
+          ? ""
+          : "; each force also acts along the other axis, with " + percent(found.coupling[0]) + " and " +
+                percent(found.coupling[1]) + " of its strength, which is cancelled, but " +
+                percent(found.cross_talk[0]) + " and " + percent(found.cross_talk[1]) + " remain";
+  return std::string("in select, a positive force pushes ") + (found.sign[0] > 0 ? "right" : "left") + "; " + shift +
+         cancelled;
 }
 
 // Tries each way of naming an axis until the constant forces move the right axes, alone and together. If a force does
@@ -180,14 +193,19 @@ std::string Calibrator::measure_polarity() {
 Calibrator::Signs Calibrator::constant_signs() {
   std::string reason;
   bool keeps_sign = false, moves = true;
-  std::optional<Signs> shift_only;
+  std::optional<Signs> shift_only, coupled;
   for (const SignStyle signs : {SignStyle::magnitude, SignStyle::direction}) {
     if (signs == SignStyle::direction && (!keeps_sign || !driver_.layout().set_effect.direction[0].exists())) break;
     for (const AxisStyle style : {AxisStyle::direction, AxisStyle::both, AxisStyle::bits}) {
       try {
         const Signs found = constant_signs_by({style, calibration_.style.conditions, signs});
-        if (found.only_shift.empty()) return found;
-        if (!shift_only) shift_only = found;
+        if (!found.only_shift.empty()) {
+          if (!shift_only) shift_only = found;
+        } else if (found.coupling == std::array{0.0, 0.0}) {
+          return found;
+        } else if (!coupled) {
+          coupled = found;
+        }
       } catch (const EffectsRefused& refused) {
         keeps_sign = keeps_sign || dynamic_cast<const OneSided*>(&refused) != nullptr;
         if (reason.empty()) moves = dynamic_cast<const NoMotion*>(&refused) == nullptr;
@@ -195,9 +213,10 @@ Calibrator::Signs Calibrator::constant_signs() {
       }
     }
   }
-  if (shift_only) {
-    apply(shift_only->style);
-    return *shift_only;
+  for (const std::optional<Signs>& second_best : {coupled, shift_only}) {
+    if (!second_best) continue;
+    apply(second_best->style);
+    return *second_best;
   }
   if (!moves && keeps_forces())
     reason = "the stick does not change a force while it acts, and a lever needs forces that change";
@@ -218,6 +237,7 @@ Calibrator::Signs Calibrator::constant_signs_by(StickStyle style) {
     throw EffectsRefused(
         "the stick has a motor for select, but none for shift, and a lever needs one there. Calibrate it again with "
         "--again, and when you are asked to push forward, move the axis that has the motor");
+  cancel_cross_talk(rig, found);
   for (std::size_t i = 0; i < 2; ++i) check_cross_talk("force", i, found.cross_talk[i]);
   if (found.sign[0] == 0)
     found.only_shift = "the stick has a motor for shift, but none for select";
@@ -258,9 +278,45 @@ int Calibrator::constant_sign(StickRig& rig, std::size_t axis, Signs& found) con
       throw OneSided(std::string(kNames[axis]) + " did not move in both directions. Take your hands off the lever");
     found.magnitude = std::max(found.magnitude, magnitude);
     found.cross_talk[axis] = cross_talk(there, back);
+    found.coupling[axis] = coupling(axis, there, back);
     return there.moved > 0.0 ? 1 : -1;
   }
   return 0;
+}
+
+// If a force also moves the other axis, tries whether forces along both axes can move one only. The axes are assumed to be
+// equally heavy until the handle is measured.
+void Calibrator::cancel_cross_talk(StickRig& rig, Signs& found) const {
+  const double strongest = std::max(found.cross_talk[0], found.cross_talk[1]);
+  if (found.sign[0] == 0 || found.sign[1] == 0 || strongest <= kMaxCrossTalk || strongest > kMaxCoupling) {
+    found.coupling = {};
+    return;
+  }
+  const std::array<AxisPlace, 2> place = places();
+  const glm::dmat2 coupled(1.0, found.coupling[0], found.coupling[1], 1.0), inverse = glm::inverse(coupled);
+  const double magnitude = std::min(found.magnitude, kCautiousForce * glm::determinant(coupled));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto pushed = [&](double direction) {
+      StickCommand command = idle_command();
+      for (std::size_t j = 0; j < 2; ++j)
+        command.constant[place[j].motor] =
+            direction * magnitude * found.sign[j] * inverse[static_cast<int>(i)][static_cast<int>(j)];
+      return push(rig, place[i], idle_command(), command);
+    };
+    const Motion there = pushed(1.0), back = pushed(-1.0);
+    if (std::abs(there.moved - back.moved) > kMinMoved) found.cross_talk[i] = cross_talk(there, back);
+  }
+}
+
+// With sign, and in metres.
+double Calibrator::coupling(std::size_t axis, const Motion& there, const Motion& back) const {
+  const auto travel = [&](std::size_t i) {
+    const LeverAxisCalibration& one = axis_of(i);
+    const BitField& field = driver_.lever_report().axes[axis_place(one).report].field;
+    return one.travel * static_cast<double>(field.max - field.min) / std::abs(one.high - one.low);
+  };
+  const double ratio = places()[1 - axis].sign * (there.other - back.other) / (there.moved - back.moved);
+  return calibration_.has_travel() ? ratio * travel(1 - axis) / travel(axis) : ratio;
 }
 
 // Some sticks mix the forces of the two axes.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <glm/matrix.hpp>
+
 #include "haptics/files/number_text.h"
 
 namespace gearshift::haptics {
@@ -35,6 +37,17 @@ double max_force_of(const LeverAxisCalibration& axis) noexcept {
   return axis.force_per_magnitude() * axis.max_magnitude();
 }
 
+// The part of the motors' force that is left for the knob, whatever its direction, if they also cancel their coupling.
+double uncoupled_part(const DeviceCalibration& calibration, glm::dvec2 max_force) noexcept {
+  const glm::dmat2 inverse = glm::inverse(force_coupling(calibration));
+  double part = 1.0;
+  for (int i = 0; i < 2; ++i) {
+    const double needed = std::abs(inverse[0][i]) * max_force.x + std::abs(inverse[1][i]) * max_force.y;
+    if (needed > 0.0) part = std::min(part, max_force[i] / needed);
+  }
+  return part;
+}
+
 double usable_stiffness_of(const LeverAxisCalibration& axis) noexcept {
   const bool is_usable = axis.spring_sign != 0 && axis.spring_stiffness >= kMinSpring && axis.spring_dead_band > 0.0;
   return is_usable ? axis.spring_stiffness : 0.0;
@@ -50,6 +63,15 @@ double answer_time(const DeviceTiming& timing) noexcept {
   return timing.input_interval + timing.jitter + timing.output_interval + timing.delay;
 }
 
+// An axis that moves more than the other one by the same force is lighter.
+glm::dmat2 force_coupling(const DeviceCalibration& calibration) noexcept {
+  const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
+  const double mass_ratio = calibration.has_handle() && !calibration.select_by_position
+                                ? shift.handle.mass / select.handle.mass
+                                : 1.0;
+  return {1.0, select.constant_coupling * mass_ratio, shift.constant_coupling / mass_ratio, 1.0};
+}
+
 int delay_cycles(const DeviceTiming& timing, double period) {
   const double answer = answer_time(timing);
   const double cycles = std::max(0.0, std::ceil(answer / period - kRounding) - 1.0);
@@ -62,6 +84,7 @@ DeviceSpec spec_of(const DeviceCalibration& calibration, double period) {
   DeviceSpec spec;
   spec.max_force = calibration.has_polarity() ? glm::dvec2{max_force_of(select), max_force_of(shift)} : glm::dvec2{0.0};
   if (calibration.select_by_position) spec.max_force.x = 0.0;
+  spec.max_force *= uncoupled_part(calibration, spec.max_force);
   spec.continuous_force = spec.max_force;  // not below max_force, because the firmware protects the motors
   spec.workspace = 0.5 * glm::dvec2{select.travel, shift.travel};
   spec.position_step = std::max(step_of(select), step_of(shift));

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include <glm/mat2x2.hpp>
+
 #include "haptics/device/haptic_device.h"
 #include "haptics/hardware/report_scheduler.h"
 #include "haptics/hid/hid_port.h"
@@ -34,7 +36,10 @@ struct LeverAxisCalibration {
   double constant_limit = 0.0;
   double constant_slope = 1.0;  // [1] measured force per magnitude up to the limit, over full_force
 
-  // [1] motion of the other axis over that of this one, by each family of effects; -1: not measured
+  // [1] with sign: motion of the other axis over that of this one, by a constant force. A lever cancels it
+  // (force_coupling).
+  double constant_coupling = 0.0;
+  // [1] motion of the other axis over that of this one, by each family of effects, after that; -1: not measured
   double constant_cross_talk = -1.0, spring_cross_talk = -1.0, damper_cross_talk = -1.0;
 
   double force_per_magnitude() const noexcept { return full_force * constant_slope; }  // [N]
@@ -95,6 +100,9 @@ double answer_time(const DeviceTiming& timing) noexcept;
 // Throws std::invalid_argument if the delay is longer than the loop supports; the message names a rate that would work,
 // if there is one.
 int delay_cycles(const DeviceTiming& timing, double period);
+
+// Forces at the knob from the forces that the motors of select and shift were commanded to make [N].
+glm::dmat2 force_coupling(const DeviceCalibration& calibration) noexcept;
 
 // The device's properties for the loop. Until the polarity is measured, max_force is 0. Throws as delay_cycles() does.
 DeviceSpec spec_of(const DeviceCalibration& calibration, double period);

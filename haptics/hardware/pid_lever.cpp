@@ -6,6 +6,7 @@
 #include <string>
 
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 
 #include "haptics/joystick/finite.h"
 
@@ -72,6 +73,8 @@ PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, doub
     : calibration_(with_range(calibration)),
       driver_(driver),
       spec_(spec_of(calibration, period)),
+      coupling_(force_coupling(calibration)),
+      uncoupling_(glm::inverse(coupling_)),
       session_(driver.state().session),
       watch_(watch_of(calibration, spec_)),
       stop_(stop != nullptr ? *stop : own_stop_) {
@@ -159,14 +162,20 @@ bool PidLever::drives_otherwise(const StickState& state, const LeverReading& rea
   return watch_.fault(state.doubt != StickFault::none) != ForceFault::none;
 }
 
+glm::dvec2 PidLever::constant_force(const StickState& state) const noexcept {
+  const auto force = [&](const Axis& axis) { return axis.sign * state.sent[axis.motor] * axis.per_magnitude; };
+  return coupling_ * glm::dvec2(force(axis_[0]), force(axis_[1]));
+}
+
 StickForces PidLever::forces_of(const StickState& state) const noexcept {
   StickForces forces;
+  const glm::dvec2 constant = constant_force(state);
   for (std::size_t i = 0; i < 2; ++i) {
     const Axis& axis = axis_[i];
     const PidSpring& spring = state.spring[axis.motor];
     const double half_width = axis.dead_band * spring.dead_band;
     const double a = axis.map.position(spring.centre - half_width), b = axis.map.position(spring.centre + half_width);
-    forces[i] = {axis.sign * state.sent[axis.motor] * axis.per_magnitude, std::min(a, b), std::max(a, b),
+    forces[i] = {constant[static_cast<int>(i)], std::min(a, b), std::max(a, b),
                  axis.spring_strength * spring.coefficient, axis.damper_strength * state.damper[axis.motor]};
   }
   return forces;
@@ -175,13 +184,12 @@ StickForces PidLever::forces_of(const StickState& state) const noexcept {
 glm::dvec2 PidLever::motor_force(const StickState& state, glm::dvec2 position) const noexcept {
   glm::dvec2 force{0.0};
   if (!state.actuators) return force;
-  const glm::dvec2 depth = position - glm::clamp(position, walls_.low, walls_.high);
+  const glm::dvec2 depth = position - glm::clamp(position, walls_.low, walls_.high), constant = constant_force(state);
   for (int i = 0; i < 2; ++i) {
     const Axis& axis = axis_[static_cast<std::size_t>(i)];
     const bool has_wall = axis.spring != 0.0 && state.spring[axis.motor].coefficient != 0.0;
     const double wall = has_wall ? walls_.stiffness_fraction * spec_.device_wall_stiffness[i] * depth[i] : 0.0;
-    force[i] =
-        std::clamp(axis.sign * state.sent[axis.motor] * axis.per_magnitude - wall, -axis.full_force, axis.full_force);
+    force[i] = std::clamp(constant[i] - wall, -axis.full_force, axis.full_force);
   }
   return force;
 }
@@ -198,11 +206,12 @@ bool PidLever::is_stop_pressed(const LeverCounts& counts) noexcept {
 
 void PidLever::write(glm::dvec2 force) noexcept {
   if (!drives() || !is_finite(force)) force = glm::dvec2(0.0);
+  const glm::dvec2 pushed = uncoupling_ * force;
   for (int i = 0; i < 2; ++i) {
     const Axis& axis = axis_[static_cast<std::size_t>(i)];
     if (axis.full_force == 0.0) continue;
-    command_.constant[axis.motor] = axis.sign * std::clamp(force[i] / axis.per_magnitude, -axis.limit, axis.limit);
-    if (force[i] != 0.0) command_.enabled = true;
+    command_.constant[axis.motor] = axis.sign * std::clamp(pushed[i] / axis.per_magnitude, -axis.limit, axis.limit);
+    if (pushed[i] != 0.0) command_.enabled = true;
   }
   damp_in_walls();
   send();

@@ -73,6 +73,7 @@ class PidLever final : public HapticDevice {
 
   Axis make_axis(const LeverAxisCalibration& calibration, bool drives) const;
   double coefficient(PidEffect effect, int sign, double wanted, double strongest) const noexcept;
+  glm::dvec2 constant_force(const StickState& state) const noexcept;  // [N]
   StickForces forces_of(const StickState& state) const noexcept;
   glm::dvec2 motor_force(const StickState& state, glm::dvec2 position) const noexcept;
   bool has_button(const LeverCounts& counts, int button) const noexcept;
@@ -86,6 +87,7 @@ class PidLever final : public HapticDevice {
   PidDriver& driver_;
   DeviceSpec spec_;
   std::array<Axis, 2> axis_;  // select, shift
+  glm::dmat2 coupling_, uncoupling_;  // force_coupling() and its inverse
   StickCommand command_;
   LeverWalls walls_;
   glm::dvec2 position_{0.0};  // [m] newest

@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "haptics/files/number_text.h"
 #include "tests/haptics/device/still_hand.h"
 #include "tests/haptics/hardware/calibrated.h"
 #include "tests/haptics/hardware/calibration_bench.h"
@@ -219,7 +220,7 @@ TEST_CASE("cross-talk of each family of effects and the number of effects that a
   CHECK(calibrated().springs_refused.find("a spring along select also acts along shift, with ") == 0);
   config.habits.cross_talk = {0.0, 0.0, 0.3};
   CHECK(calibrated().dampers_refused.find("a damper along select also acts along shift, with ") == 0);
-  config.habits.cross_talk = {0.3, 0.0, 0.0};
+  config.habits.cross_talk = {0.8, 0.0, 0.0};
   CHECK_THROWS_AS(calibrated(), CalibrationRefused);
 
   config.habits.cross_talk = {};
@@ -228,6 +229,52 @@ TEST_CASE("cross-talk of each family of effects and the number of effects that a
     CAPTURE(limit);
     CHECK(calibrated().effects_at_once == limit);
   }
+}
+
+// A motor of 20 N that also pushes the other axis with a fraction c leaves 20 (1 - c) N in the worst direction.
+TEST_CASE("cross-talk of forces is cancelled, and what remains is small") {
+  std::string table = "cross-talk | remains | largest force N | not cancelled: rms N | cancelled: rms N\n";
+  for (const double cross_talk : {0.15, 0.3, 0.5}) {
+    CAPTURE(cross_talk);
+    EmulatedStickConfig config = config_of(StickFamily::openffboard);
+    config.habits.cross_talk.constant = cross_talk;
+    CalibrationBench bench(config, unmeasured_calibration(config));
+    CHECK(bench.calibrator.measure_polarity().find("which is cancelled") != std::string::npos);
+    bench.calibrator.measure_timing();
+    bench.calibrator.measure_handle();
+    const DeviceCalibration& found = bench.calibrator.calibration();
+    const glm::dmat2 coupling = force_coupling(found);
+    CHECK(coupling[0][1] == doctest::Approx(-cross_talk).epsilon(0.06));  // the stick's Y is the lever's back
+    CHECK(coupling[1][0] == doctest::Approx(-cross_talk).epsilon(0.06));
+    CHECK(std::max(found.select.constant_cross_talk, found.shift.constant_cross_talk) < 0.1);
+    CHECK(spec_of(found, 0.001).max_force.x == doctest::Approx(20.0 * (1.0 - cross_talk)).epsilon(0.05));
+    const auto rms = [&](const DeviceCalibration& known) {
+      EmulatedStickConfig gripped = config;
+      gripped.lever.hand = kGripHand;
+      StillHand hand;
+      StickLoop run(gripped, known, HapticConfig{}, stick_gate("six_speed_r_left_up", gripped), hand);
+      run.loop.arm();
+      run.cycle_for(0.7);
+      double sum = 0.0;
+      for (int ms = 0; ms < 2000; ++ms) {
+        hand.target = hand_at({0.02 * std::sin(0.003 * ms), 0.012 * std::sin(0.005 * ms)});
+        const dvec2 error = -run.cycle().f_a - run.stick.force();
+        sum += glm::dot(error, error) / 2000.0;
+      }
+      CHECK(run.problems().empty());
+      return std::sqrt(sum);
+    };
+    DeviceCalibration coupled = found;
+    coupled.select.constant_coupling = coupled.shift.constant_coupling = 0.0;
+    const double before = rms(coupled), after = rms(found);
+    CHECK(before > 2.0 * after);
+    CHECK(after < 0.5);
+    table += number_text(cross_talk, 2) + " | " + number_text(found.select.constant_cross_talk, 3) + ", " +
+             number_text(found.shift.constant_cross_talk, 3) + " | " +
+             number_text(spec_of(found, 0.001).max_force.x, 1) + " | " + number_text(before, 2) + " | " +
+             number_text(after, 2) + '\n';
+  }
+  MESSAGE(table);
 }
 
 TEST_CASE("where springs are refused, dampers are still measured and used, if those of both axes act together") {

@@ -72,6 +72,7 @@ class RandomCalibration {
     axis.damper_sign = sign();
     for (double* fraction : {&axis.constant_cross_talk, &axis.spring_cross_talk, &axis.damper_cross_talk})
       if (flag()) *fraction = between(0.0, 10.0);
+    if (flag()) axis.constant_coupling = between(-0.9, 0.9);
     if (flag()) {
       axis.constant_limit = between(0.01, 1.0);
       axis.constant_slope = between(0.01, 10.0);
@@ -94,7 +95,7 @@ bool same(const LeverAxisCalibration& a, const LeverAxisCalibration& b) {
          a.own_spring == b.own_spring && a.damper_sign == b.damper_sign && a.damper_strength == b.damper_strength &&
          a.constant_cross_talk == b.constant_cross_talk && a.spring_cross_talk == b.spring_cross_talk &&
          a.damper_cross_talk == b.damper_cross_talk && a.constant_limit == b.constant_limit &&
-         a.constant_slope == b.constant_slope && same(a.handle, b.handle);
+         a.constant_slope == b.constant_slope && a.constant_coupling == b.constant_coupling && same(a.handle, b.handle);
 }
 
 bool same(const DeviceTiming& a, const DeviceTiming& b) {

@@ -204,7 +204,7 @@ const std::vector<Habit>& habits() {
       {"springs inverted on Y", [](Config& c) { c.spring_sign.y = -1; }},
       {"dampers inverted on X", [](Config& c) { c.damper_sign.x = -1; }},
       {"dampers inverted on Y", [](Config& c) { c.damper_sign.y = -1; }},
-      {"constants cross the axes", [](Config& c) { c.habits.cross_talk.constant = 0.3; },
+      {"constants cross the axes", [](Config& c) { c.habits.cross_talk.constant = 0.3; }, "which is cancelled",
        "a force along select also acts along shift"},
       {"springs cross the axes", [](Config& c) { c.habits.cross_talk.spring = 0.3; },
        "a spring along select also acts along shift"},
