@@ -22,7 +22,8 @@ namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
 constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0},
-    kDeadBand{0.0, 10.0}, kMagnitude{0.0, 1.0}, kSlope{0.01, 10.0}, kCrossTalk{0.0, 10.0}, kCoupling{-0.9, 0.9}, kEffects{1.0, 4.0};
+    kDeadBand{0.0, 10.0}, kMagnitude{0.0, 1.0}, kSlope{0.01, 10.0}, kCrossTalk{0.0, 10.0}, kCoupling{-0.9, 0.9},
+    kEffects{1.0, 4.0};
 constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] smallest valid values; 0 means not known
 
 using AxisName = std::pair<std::string_view, int>;  // name and usage ID on the HID Generic Desktop page
@@ -207,16 +208,16 @@ void put_axis(CommentedText& out, const std::string& section, const LeverAxisCal
   out.put("own_spring_n_per_m", axis.own_spring, once("centring by its motors; 0: none"));
   if (axis.constant_limit > 0.0) {
     out.put("constant_limit", axis.constant_limit, once("forces grow evenly up to this magnitude"));
-    out.put("constant_slope", axis.constant_slope, once("measured force per magnitude there, over full_force_n"));
+    out.put("constant_slope", axis.constant_slope, once("force per magnitude, over full_force_n"));
   }
   if (axis.constant_coupling != 0.0)
     out.put("constant_coupling", axis.constant_coupling, once("motion of the other axis by a force, cancelled"));
-  const auto put_cross_talk = [&](std::string_view key, double value) {
-    if (value >= 0.0) out.put(key, value, once("motion of the other axis over that of this one"));
+  const auto put_cross_talk = [&](std::string_view key, double value, std::string_view comment) {
+    if (value >= 0.0) out.put(key, value, once(comment));
   };
-  put_cross_talk("constant_cross_talk", axis.constant_cross_talk);
-  put_cross_talk("spring_cross_talk", axis.spring_cross_talk);
-  put_cross_talk("damper_cross_talk", axis.damper_cross_talk);
+  put_cross_talk("constant_cross_talk", axis.constant_cross_talk, "motion of the other axis over this one's");
+  put_cross_talk("spring_cross_talk", axis.spring_cross_talk, "");
+  put_cross_talk("damper_cross_talk", axis.damper_cross_talk, "");
   out.section(section + ".handle", once("handle without a hand"));
   out.put("mass_kg", axis.handle.mass, once("0: not measured"));
   out.put("damping_n_s_per_m", axis.handle.damping, "");
@@ -281,8 +282,7 @@ std::string calibration_text(const DeviceCalibration& calibration) {
   if (calibration.select_by_position) out.put("select_by_position", "true", "select has no motor");
   if (calibration.holds_spring)
     out.put("holds_spring", "true", "a spring without a force keeps the stick from centring by itself");
-  if (calibration.effects_at_once > 0)
-    out.put("at_once", calibration.effects_at_once, "so many were found to act at the same time");
+  if (calibration.effects_at_once > 0) out.put("at_once", calibration.effects_at_once, "so many act at the same time");
   if (!calibration.springs_refused.empty())
     out.put("springs_refused", toml_string(calibration.springs_refused), "so springs are not used");
   if (!calibration.dampers_refused.empty())

@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 
 #include "haptics/files/file_error.h"
+#include "haptics/hardware/calibrator.h"
 #include "haptics/loop/haptic_config.h"
 #include "tests/support/gates.h"
 #include "tests/support/temp_folder.h"
@@ -280,6 +281,13 @@ TEST_CASE("the builder's guide shows a calibration exactly as the program writes
   CHECK(known->select.handle.mass == 0.2483);
   CHECK(known->timing.output_interval == 0.001131);
   CHECK(known->lift_button == 2);
+  CHECK(missing_steps(*known, true).empty());  // so it has the key of every measurement
+  for (const char* key :
+       {"constant_coupling", "signs_by", "select_by_position", "holds_spring", "springs_refused", "dampers_refused"}) {
+    CAPTURE(key);
+    CHECK(shown.find(key) == std::string::npos);
+    CHECK(page.find('`' + std::string(key) + '`') != std::string::npos);
+  }
 }
 
 // At 1 kHz with three samples of delay and no wall damping, the exact limit of the wall stiffness is 873 N/m (X axis).
