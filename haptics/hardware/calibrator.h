@@ -85,8 +85,8 @@ class Calibrator {
   static LeverAxisCalibration range_of(const std::string& name, const FoundAxis& found,
                                        const std::vector<double>& positions, double centre, double range);
   struct Signs {
-    std::array<int, 2> sign{};           // select, shift
-    double magnitude = 0.0;              // [1] that moved both axes
+    std::array<int, 2> sign{};                       // select, shift
+    double magnitude = 0.0;                          // [1] that moved both axes
     std::array<double, 2> cross_talk{}, coupling{};  // as in LeverAxisCalibration
     StickStyle style;
     std::string only_shift;  // why only shift's forces can be used; empty: both can

@@ -178,12 +178,12 @@ std::string Calibrator::measure_polarity() {
     return shift + "; " + found.only_shift +
            ", so only forces along shift are used: walls of select are not felt, and the position chooses the slot";
   const auto percent = [](double fraction) { return number_text(100.0 * std::abs(fraction), 0) + " %"; };
-  const std::string cancelled =
-      found.coupling == std::array{0.0, 0.0}
-          ? ""
-          : "; each force also acts along the other axis, with " + percent(found.coupling[0]) + " and " +
-                percent(found.coupling[1]) + " of its strength, which is cancelled, but " +
-                percent(found.cross_talk[0]) + " and " + percent(found.cross_talk[1]) + " remain";
+  const std::string cancelled = found.coupling == std::array{0.0, 0.0}
+                                    ? ""
+                                    : "; each force also acts along the other axis, with " +
+                                          percent(found.coupling[0]) + " and " + percent(found.coupling[1]) +
+                                          " of its strength, which is cancelled, but " + percent(found.cross_talk[0]) +
+                                          " and " + percent(found.cross_talk[1]) + " remain";
   return std::string("in select, a positive force pushes ") + (found.sign[0] > 0 ? "right" : "left") + "; " + shift +
          cancelled;
 }
@@ -984,9 +984,8 @@ std::string Calibrator::measure_dampers() {
   StickRig rig(driver_, tick_);
   const bool has_spring = calibration_.springs_refused.empty();
   if (!acts_beside(rig, places()[0], with_weak(has_spring, false), with_weak(has_spring, true)))
-    throw EffectsRefused(has_spring
-                             ? "the stick renders only three effects at a time, and a damper would be the fourth"
-                             : "the stick renders only two effects at a time, and a damper would be the third");
+    throw EffectsRefused(has_spring ? "the stick renders only three effects at a time, and a damper would be the fourth"
+                                    : "the stick renders only two effects at a time, and a damper would be the third");
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
     const double braking = damping_by(rig, *axis, name, kCautiousForce);

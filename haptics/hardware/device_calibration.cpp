@@ -66,9 +66,8 @@ double answer_time(const DeviceTiming& timing) noexcept {
 // An axis that moves more than the other one by the same force is lighter.
 glm::dmat2 force_coupling(const DeviceCalibration& calibration) noexcept {
   const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
-  const double mass_ratio = calibration.has_handle() && !calibration.select_by_position
-                                ? shift.handle.mass / select.handle.mass
-                                : 1.0;
+  const double mass_ratio =
+      calibration.has_handle() && !calibration.select_by_position ? shift.handle.mass / select.handle.mass : 1.0;
   return {1.0, select.constant_coupling * mass_ratio, shift.constant_coupling / mass_ratio, 1.0};
 }
 

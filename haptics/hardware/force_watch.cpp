@@ -37,8 +37,9 @@ constexpr std::array<Explanation, 4> kAnyStick{{{ForceFault::none, 1.0, 1.0},
                                                 {ForceFault::reversed, 1.0, -1.0}}};
 constexpr std::size_t kRight = 0, kSilent = 2;
 
-// [nat] A silent stick is harmless, so it may be found later.
-constexpr double kMinReversed = 20.0, kMinSilent = 30.0, kMinDoubtful = 6.0, kMinDriving = 10.0;
+// [nat] Large, because a heavy hand behind a springy grip is none of the hands above. A silent stick is harmless, so it may
+// be found later.
+constexpr double kMinReversed = 24.0, kMinSilent = 90.0, kMinDoubtful = 6.0, kMinDriving = 10.0;
 constexpr double kMemory = 1.5;                  // [s] of telling motion; readings that tell nothing are not counted
 constexpr double kTelling = 400.0;               // [1/s] squared difference between right and silent, over the variance
 constexpr double kMaxSurprise = 25.0;            // [1] squared error over its variance: a single reading proves little
@@ -191,11 +192,14 @@ double ForceWatch::evidence(int axis, ForceFault fault) const noexcept {
 }
 
 ForceFault ForceWatch::fault(bool is_doubtful) const noexcept {
-  const double reversed = std::max(evidence(0, ForceFault::reversed), evidence(1, ForceFault::reversed));
-  const double silent = std::max(evidence(0, ForceFault::silent), evidence(1, ForceFault::silent));
-  if (silent > reversed)
-    return silent > (is_doubtful && !drives_ ? kMinDoubtful : kMinSilent) ? ForceFault::silent : ForceFault::none;
-  return reversed > kMinReversed ? ForceFault::reversed : ForceFault::none;
+  double silent = 0.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double reversed = evidence(axis, ForceFault::reversed);
+    if (reversed > std::max(kMinReversed, evidence(axis, ForceFault::silent))) return ForceFault::reversed;
+    // Both motors have the same power supply, so an axis that drives outweighs one that only seems to be silent.
+    silent += evidence(axis, ForceFault::silent);
+  }
+  return silent > (is_doubtful && !drives_ ? kMinDoubtful : kMinSilent) ? ForceFault::silent : ForceFault::none;
 }
 
 }  // namespace gearshift::haptics

@@ -9,6 +9,11 @@
 // (g < 0) shows with every hand; a silent one only against the heaviest hand assumed here. Half the strength cannot be
 // noticed, because a hand heavier by m + M looks the same, nor can twice, unless the hand is lighter than the handle.
 //
+// In hands that it was not tuned with (force_watch_test.cpp), of 144 reversed sticks 133 were off within 20 s, 101 of them
+// by this watch, but of 144 silent ones only 13: a hand that rests gives no evidence, and one that is stronger than the
+// stick moves it alike with and without forces. So PidLever also asks whether a full force was felt: in 128 of the 144.
+// There were 5 false alarms in 12 hours: a heavy hand that strikes a wall behind a springy grip is none of those assumed.
+//
 // This work is based on:
 // D. T. Magill. Optimal Adaptive Estimation of Sampled Stochastic Processes. 1965
 #pragma once

@@ -79,12 +79,13 @@ class PidDriver final : public HidStream {
   void on_sent(std::int64_t time_ns) noexcept override;
   bool should_end() const noexcept override { return end_.load(std::memory_order_relaxed); }
 
-  // The haptic thread or a calibration calls the next four functions, on one thread only. They are real-time safe;
+  // The haptic thread or a calibration calls the next five functions, on one thread only. They are real-time safe;
   // command() and release() write to an eventfd. A command expires after kCommandSilence, so it must be repeated every
   // cycle.
   StickState state() noexcept;
   void command(const StickCommand& command) noexcept;
   void report(StickProblem problem) noexcept { problems_.raise_again(problem); }
+  void report_once(StickProblem problem, std::int64_t detail) noexcept { problems_.raise(problem, detail); }
   void release() noexcept;  // switches the motors off before anything else is sent; a later command() may enable them
 
   // Sets the calibrated answer time [s]. May be called on any thread. The motors are switched off if most outputs take

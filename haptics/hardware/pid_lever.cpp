@@ -13,6 +13,10 @@
 namespace gearshift::haptics {
 namespace {
 
+constexpr double kNearlyFull = 0.9;    // [1] of the full force
+constexpr double kFarAgainst = 0.006;  // [m]
+constexpr double kStrong = 10.0;       // [N] a hand often overpowers a weaker stick
+
 std::size_t index_of(const LeverReport& report, int usage) {
   for (std::size_t i = 0; i < report.axes.size(); ++i) {
     if (report.axes[i].usage.page == kGenericDesktop && report.axes[i].usage.id == usage) return i;
@@ -137,8 +141,9 @@ LeverReading PidLever::read(std::int64_t) noexcept {
   reading.sequence = state.sequence;
   reading.time_ns = state.time_ns;
   if (state.sequence > 0) reading.position = {position_of(axis_[0]), position_of(axis_[1])};
-  position_ = reading.position;
   reading.actuator_force = motor_force(state, reading.position);
+  if (state.doubt == StickFault::none) watch_full_force(reading.position - position_, reading.actuator_force);
+  position_ = reading.position;
   reading.pressed_down = has_button(state.counts, calibration_.press_button);
   reading.lifted = has_button(state.counts, calibration_.lift_button);
   reading.stop = (state.sequence > 0 && is_stop_pressed(state.counts)) || halted_;
@@ -165,6 +170,17 @@ bool PidLever::drives_otherwise(const StickState& state, const LeverReading& rea
 glm::dvec2 PidLever::constant_force(const StickState& state) const noexcept {
   const auto force = [&](const Axis& axis) { return axis.sign * state.sent[axis.motor] * axis.per_magnitude; };
   return coupling_ * glm::dvec2(force(axis_[0]), force(axis_[1]));
+}
+
+// A stick without power may not say so, and a hand that is stronger than the stick moves the lever in the same way, so this
+// only asks whether the force was felt.
+void PidLever::watch_full_force(glm::dvec2 moved, glm::dvec2 force) noexcept {
+  for (int i = 0; i < 2; ++i) {
+    const bool is_full = spec_.max_force[i] >= kStrong && std::abs(force[i]) > kNearlyFull * spec_.max_force[i];
+    if (!is_full) against_[i] = 0.0;
+    if (is_full && moved[i] * force[i] < 0.0) against_[i] += std::abs(moved[i]);
+    if (against_[i] > kFarAgainst) driver_.report_once(StickProblem::overpowered, std::lround(1e3 * against_[i]));
+  }
 }
 
 StickForces PidLever::forces_of(const StickState& state) const noexcept {

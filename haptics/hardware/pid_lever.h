@@ -78,6 +78,7 @@ class PidLever final : public HapticDevice {
   glm::dvec2 motor_force(const StickState& state, glm::dvec2 position) const noexcept;
   bool has_button(const LeverCounts& counts, int button) const noexcept;
   bool drives_otherwise(const StickState& state, const LeverReading& reading) noexcept;
+  void watch_full_force(glm::dvec2 moved, glm::dvec2 force) noexcept;
   bool is_stop_pressed(const LeverCounts& counts) noexcept;
   void damp_in_walls() noexcept;
   void send() noexcept;
@@ -86,11 +87,12 @@ class PidLever final : public HapticDevice {
   DeviceCalibration calibration_;
   PidDriver& driver_;
   DeviceSpec spec_;
-  std::array<Axis, 2> axis_;  // select, shift
+  std::array<Axis, 2> axis_;          // select, shift
   glm::dmat2 coupling_, uncoupling_;  // force_coupling() and its inverse
   StickCommand command_;
   LeverWalls walls_;
   glm::dvec2 position_{0.0};  // [m] newest
+  glm::dvec2 against_{0.0};   // [m] that the lever moved against nearly the full force, without a pause
   std::uint64_t session_;     // session of the last state
   bool halted_ = false;       // the session changed in this cycle
   ForceWatch watch_;

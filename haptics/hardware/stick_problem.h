@@ -25,9 +25,10 @@ enum class StickProblem : std::uint8_t {
   slow_output,    // [ms] time per output, [ms] answer time from the calibration
   reversed,       // its forces move the lever against their direction
   silent,         // the lever does not follow its forces
+  overpowered,    // [mm] that the lever moved against nearly the full force; the motors stay on
   no_commands     // [ms] time without a command, because the haptic side is late or dead
 };
-inline constexpr std::size_t kStickProblems = 14;
+inline constexpr std::size_t kStickProblems = 15;
 
 class StickProblems {
  public:

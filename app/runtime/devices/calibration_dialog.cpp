@@ -171,7 +171,8 @@ class DialogRunner {
           "{} [{:g} to {:g} {}, - to leave it out: then the stick cannot be used]", question, min, max, unit));
       if (answer == "-") return std::nullopt;
       if (const std::optional<double> one = number_of(answer, unit); one && is_within(*one)) return glm::dvec2(*one);
-      for (std::size_t space = answer.find(' '); may_differ && space != answer.npos; space = answer.find(' ', space + 1)) {
+      for (std::size_t space = answer.find(' '); may_differ && space != answer.npos;
+           space = answer.find(' ', space + 1)) {
         const std::optional<double> select = number_of(std::string_view(answer).substr(0, space), unit),
                                     shift = number_of(std::string_view(answer).substr(space), unit);
         if (select && shift && is_within(*select) && is_within(*shift)) return glm::dvec2(*select, *shift);

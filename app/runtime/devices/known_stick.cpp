@@ -122,7 +122,8 @@ std::vector<std::string> calibration_table(const haptics::DeviceCalibration& cal
     });
   };
   if (select.constant_coupling != 0.0 || shift.constant_coupling != 0.0)
-    per_axis("coupling", [](const auto& axis) { return fmt::format("{:.0f} %, cancelled", 100.0 * axis.constant_coupling); });
+    per_axis("coupling",
+             [](const auto& axis) { return fmt::format("{:.0f} %, cancelled", 100.0 * axis.constant_coupling); });
   add_cross_talk("cross-talk", &Axis::constant_cross_talk);
   if (calibration.springs_refused.empty()) add_cross_talk("  of springs", &Axis::spring_cross_talk);
   if (calibration.dampers_refused.empty()) add_cross_talk("  of dampers", &Axis::damper_cross_talk);

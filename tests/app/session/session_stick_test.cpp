@@ -47,7 +47,9 @@ struct HeldRig {
   HeldStick held;
   std::unique_ptr<Session> session;
 
-  explicit HeldRig(const std::string& lesson = std::string(kNoLesson), double delay = 0.0) : held(late_by(delay)) {
+  explicit HeldRig(const std::string& lesson = std::string(kNoLesson), double delay = 0.0,
+                   const EmulatedStickConfig& stick = HeldStick::config())
+      : held(late_by(delay), stick) {
     SessionChoice choice;
     choice.stick = held.lever;
     choice.lesson = lesson;
@@ -214,6 +216,29 @@ TEST_CASE("the message that the stick's delay makes the walls softer is shown un
   CHECK(rig.says(" N/m"));
   rig.arm();
   CHECK(rig.session->message().empty());
+}
+
+// The driver's own tests are in stick_faults_test.cpp. Here, a person presses against walls that are not there.
+TEST_CASE("a stick without power says so on the screen, whether it reports its state or not") {
+  for (const bool tells_state : {true, false}) {
+    CAPTURE(tells_state);
+    EmulatedStickConfig stick = HeldStick::config();
+    if (!tells_state) stick.habits.state_sent = StateSent::never;
+    HeldRig rig(std::string(kNoLesson), 0.0, stick);
+    {
+      const std::lock_guard lock(rig.held.mutex);
+      rig.held.stick.faults.no_power = true;
+    }
+    rig.arm();
+    int frame = 0;
+    CHECK(rig.becomes_true([&] {
+      rig.held.hand.go({0.012, ++frame / 80 % 2 == 0 ? 0.0 : 0.020});  // turns every 0.4 s
+      return rig.says("power supply");
+    }));
+    CHECK(
+        rig.says(tells_state ? "the stick reported that its motors have no power" : "against the stick's full force"));
+    CHECK(rig.held.force() == 0.0);
+  }
 }
 
 TEST_CASE("the lever follows the stick, and the mouse has no effect") {

@@ -321,8 +321,7 @@ TEST_CASE("where springs are refused, dampers are still measured and used, if th
   CHECK(calibrated().second.dampers_refused.find("the stick renders only two effects at a time") == 0);
   config.habits.effects_at_once = 0;
   config.habits.condition = ConditionLaw::last_set;
-  CHECK(calibrated().second.dampers_refused ==
-        "the stick does not render the dampers of both axes at the same time");
+  CHECK(calibrated().second.dampers_refused == "the stick does not render the dampers of both axes at the same time");
 }
 
 TEST_CASE("motors of different strength: with the force of each axis, masses, springs and dampers are right") {
@@ -499,10 +498,12 @@ TEST_CASE("invalid input while a person moves the lever is refused and changes n
         "the lever does not come to rest. Take your hands off the lever");
   CHECK_FALSE(calibrator.calibration().has_stops());
 
-  CHECK(refusal([&] { calibrator.set_numbers({0.01, 0.1}, dvec2(20.0)); }) ==
-        "a travel of 0.01 m is not possible; it must be between 0.02 and 0.5 m");
-  CHECK(refusal([&] { calibrator.set_numbers(dvec2(0.1), {20.0, 500.0}); }) ==
-        "a full force of 500 N is not possible; it must be between 0.5 and 100 N");
+  CHECK(refusal([&] {
+          calibrator.set_numbers({0.01, 0.1}, dvec2(20.0));
+        }) == "a travel of 0.01 m is not possible; it must be between 0.02 and 0.5 m");
+  CHECK(refusal([&] {
+          calibrator.set_numbers(dvec2(0.1), {20.0, 500.0});
+        }) == "a full force of 500 N is not possible; it must be between 0.5 and 100 N");
   CHECK(refusal([&] { calibrator.set_numbers({0.1, std::nan("")}, dvec2(20.0)); }).find("a travel of nan m") == 0);
   CHECK_FALSE(calibrator.calibration().has_force());
 }

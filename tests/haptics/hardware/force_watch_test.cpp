@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <span>
@@ -36,17 +37,25 @@ EmulatedStickConfig held_stick(const HandImpedance& hand, double interval = 0.00
   return config;
 }
 
+bool asks_for_power(const std::string& problem) {
+  return problem.find("if you did not feel that, check") != std::string::npos;
+}
+
 bool is_watch(const std::string& problem) {
   return problem.starts_with("the stick pushes the other way") || problem.starts_with("the lever does not follow");
 }
+
+// The watch was tuned with RandomHand and seeds below 100. ReflexHand and its seeds are an independent sample: after a
+// change because of them, draw other ones.
+constexpr unsigned kFirstIndependentSeed = 3'000'000;
 
 // A stick in a random hand.
 struct RandomDrive {
   RandomDrive(StickFamily family, double interval, unsigned seed)
       : config(config_of(family, interval, seed)),
         gate(stick_gate("six_speed_r_left_up", config)),
-        hand(100 * seed + static_cast<unsigned>(family), places()),
-        run(config, calibration_of(config), HapticConfig{}, gate, hand) {
+        hand(hand_of(100 * seed + static_cast<unsigned>(family), seed >= kFirstIndependentSeed)),
+        run(config, calibration_of(config), HapticConfig{}, gate, *hand) {
     run.stick.logs = false;
     run.loop.arm();
   }
@@ -55,6 +64,10 @@ struct RandomDrive {
     made.family = family;
     made.delay = std::vector{0.0, 0.001, 0.003, 0.005}[seed % 4];
     return made;
+  }
+  std::unique_ptr<HandDriver> hand_of(unsigned seed, bool is_independent) const {
+    if (is_independent) return std::make_unique<ReflexHand>(seed, places());
+    return std::make_unique<RandomHand>(seed, places());
   }
   std::vector<dvec2> places() const {
     std::vector<dvec2> all{{0.02, 0.0}, {-0.02, 0.01}, rest_position(gate, kNeutralGear)};
@@ -68,7 +81,7 @@ struct RandomDrive {
 
   EmulatedStickConfig config;
   Gate gate;
-  RandomHand hand;
+  std::unique_ptr<HandDriver> hand;
   StickLoop run;
 };
 
@@ -179,55 +192,65 @@ TEST_CASE("no false alarm when a hand presses into a wall, slowly or fast") {
           hand.target = hand_at({0.012, turn < 0.040 ? turn : 0.080 - turn});
           run.cycle();
         }
-        CHECK(run.problems().empty());
+        // A hand that is stronger than the stick is only asked whether it felt the force.
+        for (const std::string& problem : run.problems()) CHECK_FALSE(is_watch(problem));
+        CHECK(run.stick.actuators_on());
       }
     }
   }
 }
 
-TEST_CASE("random hands that reach, hold, push, strike and let go: no false alarm") {
-  std::string table = "readings every ms | hours | alarms\n";
-  for (const double interval : std::span(kIntervals).first(campaign_size(4, 4))) {
-    double hours = 0.0;
-    int alarms = 0;
-    for (unsigned seed = 0; seed < campaign_size(60, 2); ++seed) {
-      for (const StickFamily family : kStickFamilies) {
-        RandomDrive drive(family, interval, seed);
-        while (drive.run.time() < 60.0) {
-          drive.run.cycle();
-          if (!drive.is_off()) continue;
-          for (const std::string& problem : drive.run.problems()) alarms += is_watch(problem) ? 1 : 0;
-          drive.run.loop.arm();
-          drive.run.cycle_for(0.6);
+TEST_CASE(
+    "random hands that reach, hold, push, strike and let go: few false alarms, or none with hands of the tuning") {
+  std::string table = "hands | readings every ms | hours | alarms\n";
+  for (const unsigned first : {0U, kFirstIndependentSeed}) {
+    for (const double interval : kIntervals) {
+      double hours = 0.0;
+      int alarms = 0;
+      for (unsigned seed = first; seed < first + campaign_size(60, 1); ++seed) {
+        for (const StickFamily family : kStickFamilies) {
+          RandomDrive drive(family, interval, seed);
+          while (drive.run.time() < 60.0) {
+            drive.run.cycle();
+            if (!drive.is_off()) continue;
+            for (const std::string& problem : drive.run.problems()) alarms += is_watch(problem) ? 1 : 0;
+            drive.run.loop.arm();
+            drive.run.cycle_for(0.6);
+          }
+          hours += drive.run.time() / 3600.0;
         }
-        hours += drive.run.time() / 3600.0;
       }
+      CHECK(alarms <= (first == 0 ? 0.0 : 1.0 + hours));  // force_watch.h names the bound
+      table += std::string(first == 0 ? "tuned with" : "independent") + " | " + number_text(1e3 * interval, 0) + " | " +
+               number_text(hours, 2) + " | " + std::to_string(alarms) + '\n';
     }
-    CHECK(alarms == 0);
-    table += number_text(1e3 * interval, 0) + " | " + number_text(hours, 2) + " | " + std::to_string(alarms) + '\n';
   }
   MESSAGE(table);
 }
 
 TEST_CASE("a stick that drives otherwise than calibrated is switched off in a random hand, with a sentence") {
-  std::string table = "wrong | family | readings every ms | stopped within 20 s | by the watch | median s | worst s\n";
+  std::string table =
+      "wrong | family | readings every ms | stopped within 20 s | by the watch | asked for its power | median s | "
+      "worst s\n";
   const unsigned seeds = is_full_campaign() ? 12 : 1, intervals = campaign_size(4, 4);
   for (const Wrong& wrong : wrongs()) {
+    unsigned all = 0, all_stopped = 0, all_asked = 0;
     for (const StickFamily family : kStickFamilies) {
       for (const double interval : std::span(kIntervals).first(intervals)) {
         std::vector<double> times;
-        int by_watch = 0;  // the others: the guard's limits on chatter, speed and plausible readings
-        for (unsigned seed = 0; seed < seeds; ++seed) {
-          RandomDrive drive(family, interval, seed);
+        int asked = 0, by_watch = 0;  // the others: the guard's limits on chatter, speed and plausible readings
+        for (unsigned i = 0; i < seeds; ++i) {
+          RandomDrive drive(family, interval, kFirstIndependentSeed + i);
           drive.run.cycle_for(2.0);
           drive.run.problems();
           drive.run.stick.faults.constants = wrong.constants;
           drive.run.stick.faults.conditions = wrong.conditions;
           while (drive.run.time() < 22.0 && !drive.is_off()) drive.run.cycle();
-          if (!drive.is_off()) continue;
-          times.push_back(drive.run.time() - 2.0);
           drive.run.cycle_for(0.01);
           const std::vector<std::string> problems = drive.run.problems();
+          asked += std::any_of(problems.begin(), problems.end(), asks_for_power) ? 1 : 0;
+          if (!drive.is_off()) continue;
+          times.push_back(drive.run.time() - 2.01);
           by_watch += std::any_of(problems.begin(), problems.end(), is_watch) ? 1 : 0;
           CHECK(drive.run.stick.force() == dvec2(0.0));
           drive.run.cycle_for(0.5);
@@ -237,17 +260,24 @@ TEST_CASE("a stick that drives otherwise than calibrated is switched off in a ra
         table +=
             std::string(wrong.name) + " | " + name_of(family) + " | " + number_text(1e3 * interval, 0) + " | " +
             std::to_string(times.size()) + " of " + std::to_string(seeds) + " | " + std::to_string(by_watch) + " | " +
+            std::to_string(asked) + " | " +
             (times.empty() ? "- | -" : number_text(times[times.size() / 2], 2) + " | " + number_text(times.back(), 2)) +
             '\n';
         CAPTURE(std::string(wrong.name));
         CAPTURE(name_of(family));
         CAPTURE(interval);
-        if (std::string(wrong.name) == "reversed") CHECK(times.size() == seeds);
-        if (!is_full_campaign()) continue;  // one hand is no sample
-        if (std::string(wrong.name) == "silent" && interval < 0.002) CHECK(2 * times.size() >= seeds);
+        all += seeds;
+        all_stopped += static_cast<unsigned>(times.size());
+        all_asked += static_cast<unsigned>(asked);
+        if (!is_full_campaign()) continue;                        // one hand is no sample
         if (!wrong.is_noticed) CHECK(2 * times.size() <= seeds);  // where this fails, force_watch.h says too little
       }
     }
+    table += std::string(wrong.name) + " | all | all | " + std::to_string(all_stopped) + " of " + std::to_string(all) +
+             " | - | " + std::to_string(all_asked) + " | - | -\n";
+    CAPTURE(std::string(wrong.name));
+    if (std::string(wrong.name) == "reversed") CHECK(10 * all_stopped >= 8 * all);
+    if (std::string(wrong.name) == "silent") CHECK(10 * all_asked >= 7 * all);
   }
   MESSAGE(table);
 }

@@ -427,3 +427,35 @@ TEST_CASE("no power, an open switch or a replugged stick: one sentence, and no f
   }
   MESSAGE(table);
 }
+
+// From the motion alone, a stick without power is the same as a hand that is stronger than the stick.
+TEST_CASE("a stick that reports no state and has no power: a person who feels no wall is asked to check its power") {
+  std::string table = "family | power | sentence after s\n";
+  for (const StickFamily family : kStickFamilies) {
+    for (const double lost_after : {0.0, 2.0, 1e9}) {  // [s] the last one never
+      CAPTURE(name_of(family));
+      CAPTURE(lost_after);
+      EmulatedStickConfig config = gripped(family);
+      config.habits.state_sent = StateSent::never;
+      StillHand hand(hand_at({0.012, 0.0}));
+      StickLoop run(config, hand);
+      run.loop.arm();
+      double said_after = -1.0;
+      while (run.time() < 8.0 && said_after < 0.0) {
+        run.stick.faults.no_power = run.time() >= lost_after;
+        hand.target = hand_at({0.012, std::fmod(run.time(), 0.8) < 0.4 ? 0.020 : 0.0});
+        run.cycle();
+        const std::vector<std::string> problems = run.problems();
+        if (problems.empty()) continue;
+        said_after = run.time() - lost_after;
+        CHECK(problems == std::vector<std::string>{
+                              "the lever moved by 6 mm against the stick's full force; if you did not feel that, "
+                              "check the stick's power supply and its safety switch"});
+      }
+      CHECK((said_after >= 0.0) == (lost_after < 8.0));
+      table += name_of(family) + " | " + (lost_after > 8.0 ? "always" : "until " + number_text(lost_after, 0) + " s") +
+               " | " + number_text(said_after, 2) + '\n';
+    }
+  }
+  MESSAGE(table);
+}

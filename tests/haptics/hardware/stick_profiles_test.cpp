@@ -416,8 +416,8 @@ TEST_CASE("a lever that moves forward and back only: with one motor and with two
     CHECK(driven.rms < kMaxRms);
     CHECK(driven.wrong == 0.0);
     CHECK(driven.problems.empty());
-    table += std::to_string(motors) + " | " + std::to_string(driven.gears) + " | " + std::to_string(driven.rms) + " | " +
-             std::to_string(driven.worst) + '\n';
+    table += std::to_string(motors) + " | " + std::to_string(driven.gears) + " | " + std::to_string(driven.rms) +
+             " | " + std::to_string(driven.worst) + '\n';
   }
   MESSAGE(table);
 }

@@ -145,7 +145,8 @@ TEST_CASE("one full force, or one for each axis") {
       answers.pop_front();
       return answer;
     };
-    Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, known);
+    Calibrator calibrator(
+        rig.driver, [&] { return rig.tick(); }, known);
     calibrate(calibrator, true, dialog);
     CHECK(rig.has_printed("is not one or two numbers from 0.5 to 100 N") == !answers.empty());
     return Pair{calibrator.calibration().select.full_force, calibrator.calibration().shift.full_force};

@@ -45,7 +45,7 @@ inline haptics::DeviceCalibration sidewinder_calibration() {
 
 struct HeldStick {
   PersonsHand hand;
-  EmulatedStick stick{config(), hand};
+  EmulatedStick stick;
   std::mutex mutex;  // guards the stick
   std::atomic<bool> plugged{true};
   std::shared_ptr<runtime::StickLever> lever;
@@ -53,7 +53,8 @@ struct HeldStick {
   HeldStick()
       : HeldStick(
             runtime::KnownStick{sidewinder_calibration(), EmulatedStick(config(), idle_hand()).report_descriptor()}) {}
-  explicit HeldStick(const runtime::KnownStick& known) {
+  explicit HeldStick(const runtime::KnownStick& known, const EmulatedStickConfig& emulated = config())
+      : stick(emulated, hand) {
     stick.logs = false;
     lever = std::make_shared<runtime::StickLever>(known, [this]() -> std::unique_ptr<haptics::HidPort> {
       if (!plugged) throw haptics::HidDisconnected("The stick is not plugged in");
@@ -77,12 +78,13 @@ struct HeldStick {
   }
   void plug_in() { plugged = true; }
 
- private:
   static EmulatedStickConfig config() {
     EmulatedStickConfig config;
     config.lever.hand = haptics::kGripHand;
     return config;
   }
+
+ private:
   static haptics::HandDriver& idle_hand() {
     static haptics::IdleHand hand;
     return hand;
