@@ -4,6 +4,9 @@
 #include <utility>
 #include <variant>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <fmt/format.h>
 
 #include "app/ui/input/bound_controllers.h"
@@ -35,13 +38,21 @@ void ControlsAssistant::update(const std::vector<engine::Controller>& controller
     if (one->can_be_read) unbound_.push_back(haptics::printable(one->name));
   if (!setup_) return;
   setup_->frame(controllers, seconds);
-  if (setup_->is_over() && !std::exchange(is_tried_, true)) driver_.rebind(setup_->bindings());
+  const bool was_tried = std::exchange(is_tried_, setup_->is_over());
+  if (is_tried_ && !was_tried) driver_.rebind(setup_->bindings());
 }
 
-std::string ControlsAssistant::apply(const ui::ControlsCommand& command) {
+std::string ControlsAssistant::take(engine::WindowInput& input, bool uses_escape) {
+  if (!setup_->is_over()) std::erase_if(input.controllers, ui::can_be_set_up);
+  const auto is_escape = [](const engine::KeyEvent& key) { return key.down && key.key == GLFW_KEY_ESCAPE; };
+  const bool cancels = !uses_escape && std::erase_if(input.keys, is_escape) > 0;
+  return cancels ? cancel() : std::string();
+}
+
+std::string ControlsAssistant::apply(const ui::ControlsCommand& command, const haptics::Gate& gate) {
   if (std::holds_alternative<ui::StartControls>(command)) {
     before_ = driver_.bindings();
-    setup_.emplace(before_, shipped_);
+    setup_.emplace(before_, shipped_, ui::gears_to_set_up(gate));
     is_tried_ = false;
   } else if (std::holds_alternative<ui::DeclineControls>(command)) {
     declined_.insert(unbound_.begin(), unbound_.end());
@@ -50,7 +61,7 @@ std::string ControlsAssistant::apply(const ui::ControlsCommand& command) {
   } else if (const auto* answer = std::get_if<ui::AnswerControls>(&command)) {
     setup_->answer(answer->answer);
   } else if (std::holds_alternative<ui::CancelControls>(command)) {
-    end(before_);
+    return cancel();
   } else {
     return save();
   }
@@ -79,6 +90,11 @@ std::string ControlsAssistant::save() {
     return fmt::format("{} The controls apply to this session only.", error.what());
   }
   return fmt::format("Saved: {}", own_file_.string());
+}
+
+std::string ControlsAssistant::cancel() {
+  end(before_);
+  return "Cancelled: the controls are as before.";
 }
 
 void ControlsAssistant::end(const ui::Bindings& bindings) {

@@ -22,11 +22,14 @@ class ControlsAssistant {
   // Call once per frame, with the controllers that are plugged in, without the one that is used as a force-feedback
   // stick.
   void update(const std::vector<engine::Controller>& controllers, double seconds);
-  // True while the driver must not follow the controllers that can be set up, because the user moves them to answer.
-  bool hides_controllers() const { return setup_ && !setup_->is_over(); }
+  bool is_setting_up() const { return setup_.has_value(); }
+  // Call while setting up. Removes from the window's input what must not reach the driver: the controllers with which
+  // the user answers, and Escape, which cancels, unless it has another use now (`uses_escape`). Returns a message for
+  // the user; empty if there is none.
+  std::string take(engine::WindowInput& input, bool uses_escape);
 
-  // Returns a message for the user; empty if there is none.
-  std::string apply(const ui::ControlsCommand& command);
+  // `gate`: the one in force, whose gears the set-up asks for. Returns a message like take().
+  std::string apply(const ui::ControlsCommand& command, const haptics::Gate& gate);
   // The Enter key. Returns false if nothing is being set up.
   bool press_enter(std::string& message);
 
@@ -35,6 +38,7 @@ class ControlsAssistant {
 
  private:
   std::string save();
+  std::string cancel();
   void end(const ui::Bindings& bindings);
 
   ui::DriverInput& driver_;

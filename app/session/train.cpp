@@ -206,14 +206,15 @@ class WindowTrainer {
     std::vector<engine::Controller> controllers = polled.controllers;
     std::erase_if(controllers, [this](const auto& one) { return one.id == setup_.stick_id; });
     controls_.update(controllers, seconds_);
-    engine::WindowInput without_controllers;
-    if (controls_.hides_controllers()) {
-      without_controllers = polled;
-      std::erase_if(without_controllers.controllers, ui::can_be_set_up);
+    engine::WindowInput left;
+    const bool is_setting_up = controls_.is_setting_up();
+    if (is_setting_up) {
+      left = polled;
+      report(controls_.take(left, panel_.has_keyboard() || input_.mouse_moves_lever()));
     }
     shared_.update(
-        controls_.hides_controllers() ? without_controllers : polled, seconds_,
-        [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_, pointing_.pointer());
+        is_setting_up ? left : polled, seconds_, [this](glm::dvec2 at) { return mouse_at_panel(at); }, panel_, ui_,
+        pointing_.pointer());
     if (setup_.choice.stick) input_.release_mouse();
     report_controllers(controllers);
     update_key_labels();
@@ -373,7 +374,8 @@ class WindowTrainer {
       if (std::holds_alternative<ui::ResetView>(command)) look_.recentre();
       const auto* seat = std::get_if<ui::HeadsetCommand>(&command);
       if (seat && wears()) headset_->apply(*seat, bound);
-      if (const auto* controls = std::get_if<ui::ControlsCommand>(&command)) report(controls_.apply(*controls));
+      if (const auto* controls = std::get_if<ui::ControlsCommand>(&command))
+        report(controls_.apply(*controls, session_.runtime().gate()));
     }
     session_.apply(commands);
   }

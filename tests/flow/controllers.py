@@ -297,7 +297,7 @@ def calibration_in_a_terminal(plugs, folder):
         say("")
         until("Found: button")
         wheel.button(11 + gear, False)
-    for prompt in ("gear 3", "gear 4", "gear 5", "gear 6", "gear 7", "REVERSE"):
+    for prompt in ("gear 3", "gear 4", "gear 5", "gear 6", "REVERSE"):
         until(prompt)
         say("-")
     until("Saved")

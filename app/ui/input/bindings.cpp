@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -198,6 +199,25 @@ std::string joined(const std::vector<int>& codes, const std::function<std::strin
   return list;
 }
 
+// USB id of the first game pad; empty if there is none.
+std::string_view id_of_pads(const Bindings& bindings, const std::vector<engine::Controller>& all) {
+  const std::vector<const engine::Controller*> pads = free_gamepads(bindings, all);
+  return pads.empty() ? std::string_view() : std::string_view(pads.front()->id);
+}
+
+std::string pad_label(int button, std::string_view pad_id) {
+  return "Pad " + pad_button_label(button, pad_id);
+}
+
+std::string button_label(const ControllerName& of, int button) {
+  return fmt::format("{} button {}", of.stick, button);
+}
+
+std::string axis_label(const AxisBinding& axis, std::string_view pad_id) {
+  return axis.of.stick.empty() ? "Pad " + pad_axis_label(axis.axis, pad_id)
+                               : fmt::format("{} axis {}", axis.of.stick, axis.axis);
+}
+
 }  // namespace
 
 Bindings read_bindings(const std::filesystem::path& file) {
@@ -231,6 +251,29 @@ std::vector<DrivingKey> driving_keys(const Bindings& bindings) {
   return keys;
 }
 
+std::vector<std::string> bound_inputs(const Bindings& bindings, Action action,
+                                      const std::vector<engine::Controller>& all) {
+  std::vector<std::string> inputs;
+  const auto add = [&](const std::map<Action, std::vector<int>>& bound, const auto& name) {
+    if (const auto codes = bound.find(action); codes != bound.end())
+      std::transform(codes->second.begin(), codes->second.end(), std::back_inserter(inputs), name);
+  };
+  add(bindings.keys, key_label);
+  add(bindings.pad_buttons, [id = id_of_pads(bindings, all)](int button) { return pad_label(button, id); });
+  for (const ControllerButtons& one : bindings.controllers)
+    add(one.actions, [&one](int button) { return button_label(one.of, button); });
+  return inputs;
+}
+
+std::vector<std::string> bound_inputs(const Bindings& bindings, const AxisInfo& control,
+                                      const std::vector<engine::Controller>& all) {
+  std::vector<std::string> inputs;
+  if (const auto& axis = bindings.*control.axis) inputs.push_back(axis_label(*axis, id_of_pads(bindings, all)));
+  for (const std::optional<Action>& action : control.actions)
+    if (action) std::ranges::move(bound_inputs(bindings, *action, all), std::back_inserter(inputs));
+  return inputs;
+}
+
 std::string help_text(const Bindings& bindings, const std::vector<engine::Controller>& all) {
   std::string text;
   const auto line = [&text](const std::string& control, std::string_view action) {
@@ -241,23 +284,19 @@ std::string help_text(const Bindings& bindings, const std::vector<engine::Contro
       if (const auto codes = bound.find(action.action); codes != bound.end())
         line(joined(codes->second, name), action.help);
   };
-  const std::vector<const engine::Controller*> pads = free_gamepads(bindings, all);
-  const std::string_view maker = pads.empty() ? std::string_view() : std::string_view(pads.front()->id).substr(0, 4);
+  const std::string_view pad_id = id_of_pads(bindings, all);
   lines(bindings.keys, key_label);
   line("Mouse", "move the lever (click the cabin first)");
-  lines(bindings.pad_buttons, [&](int button) { return "Pad " + pad_button_label(button, maker); });
+  lines(bindings.pad_buttons, [&](int button) { return pad_label(button, pad_id); });
   for (const ControllerButtons& controller : bindings.controllers) {
-    const auto name = [&](int button) { return fmt::format("{} button {}", controller.of.stick, button); };
+    const auto name = [&](int button) { return button_label(controller.of, button); };
     lines(controller.actions, name);
     for (const auto& [gear, buttons] : controller.gears)
       line(joined(buttons, name),
            gear == haptics::kNeutralGear ? "neutral" : std::string("gear ") + haptics::gear_name(gear));
   }
   for (const AxisInfo& info : kAxes)
-    if (const auto& axis = bindings.*info.axis)
-      line(axis->of.stick.empty() ? "Pad " + pad_axis_label(axis->axis, maker)
-                                  : fmt::format("{} axis {}", axis->of.stick, axis->axis),
-           info.help);
+    if (const auto& axis = bindings.*info.axis) line(axis_label(*axis, pad_id), info.help);
   return text;
 }
 

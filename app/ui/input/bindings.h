@@ -2,6 +2,7 @@
 // action that is missing from the file is not bound. Only `stop` must have a key.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -93,16 +94,44 @@ struct AxisInfo {
   bool is_lever;          // otherwise a pedal, or the handbrake
   std::string_view help;  // text in the help window
   std::string_view prompt;
+  std::array<std::optional<Action>, 2> actions{};  // by which keys and buttons move the same control
 };
-inline constexpr AxisInfo kAxes[] = {
-    {"clutch", &Bindings::clutch, false, "clutch", "Press the CLUTCH pedal all the way down, then release it."},
-    {"brake", &Bindings::brake, false, "brake", "Press the BRAKE pedal all the way down, then release it."},
-    {"throttle", &Bindings::throttle, false, "throttle", "Press the THROTTLE pedal all the way down, then release it."},
-    {"hand_brake", &Bindings::hand_brake, false, "handbrake", "Pull the HANDBRAKE all the way, then release it."},
-    {"lever_select", &Bindings::lever_select, true, "move the lever sideways",
-     "Move the LEVER to the left, then to the right, and let go."},
-    {"lever_shift", &Bindings::lever_shift, true, "move the lever forward and back",
-     "Move the LEVER back, then forward, and let go."}};
+inline constexpr AxisInfo kAxes[] = {{"clutch",
+                                      &Bindings::clutch,
+                                      false,
+                                      "clutch",
+                                      "Press the CLUTCH pedal all the way down, then release it.",
+                                      {Action::clutch}},
+                                     {"brake",
+                                      &Bindings::brake,
+                                      false,
+                                      "brake",
+                                      "Press the BRAKE pedal all the way down, then release it.",
+                                      {Action::brake}},
+                                     {"throttle",
+                                      &Bindings::throttle,
+                                      false,
+                                      "throttle",
+                                      "Press the THROTTLE pedal all the way down, then release it.",
+                                      {Action::throttle, Action::throttle_light}},
+                                     {"hand_brake",
+                                      &Bindings::hand_brake,
+                                      false,
+                                      "handbrake",
+                                      "Pull the HANDBRAKE all the way, then release it.",
+                                      {Action::hand_brake_hold, Action::hand_brake}},
+                                     {"lever_select",
+                                      &Bindings::lever_select,
+                                      true,
+                                      "move the lever sideways",
+                                      "Move the LEVER to the left, then to the right, and let go.",
+                                      {Action::lever_left, Action::lever_right}},
+                                     {"lever_shift",
+                                      &Bindings::lever_shift,
+                                      true,
+                                      "move the lever forward and back",
+                                      "Move the LEVER back, then forward, and let go.",
+                                      {Action::lever_forward, Action::lever_back}}};
 
 // Throws FileError, which names file, line, key, value and allowed range. Each key and each button may have only one
 // action; ranges of an axis that are bound to different actions must not overlap.
@@ -117,8 +146,15 @@ std::string bindings_text(const Bindings& bindings);
 // std::invalid_argument with one sentence if the name cannot be a file name.
 std::filesystem::path user_bindings_file(const std::filesystem::path& config_folder, const std::string& name);
 
+// Names of the keys, buttons and axes that are bound to an action or move a control: "A", "Pad LB", "G29 axis 1". Game
+// pads have the names that are printed on the first of them.
+std::vector<std::string> bound_inputs(const Bindings& bindings, Action action,
+                                      const std::vector<engine::Controller>& all);
+std::vector<std::string> bound_inputs(const Bindings& bindings, const AxisInfo& control,
+                                      const std::vector<engine::Controller>& all);
+
 // Returns the text of the help window (F1): one line per bound action, then lines for mouse and controllers. A tab
-// separates the input from the action. The buttons of game pads have the names that are printed on the first of them.
+// separates the input from the action.
 std::string help_text(const Bindings& bindings, const std::vector<engine::Controller>& all);
 
 // A driving action and the first key bound to it, for example "clutch" and "A".

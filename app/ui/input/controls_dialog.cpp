@@ -23,8 +23,10 @@ constexpr double kFrame = 0.01;  // [s]
 
 std::string choices_text(const ControlsSetup& setup) {
   std::string text;
-  for (const ControlsSetup::Choice& choice : setup.choices())
+  for (const ControlsSetup::Choice& choice : setup.choices()) {
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", *choice.key == '\0' ? "Enter" : choice.key, choice.label);
+    if (choice.answer == ControlsSetup::Answer::skip) text += fmt::format(" ({})", setup.if_skipped());
+  }
   return text;
 }
 
@@ -57,7 +59,7 @@ int calibrate_controllers(const std::filesystem::path& file, const std::filesyst
   const base::StopSignals signals;
   base::LineReader answers(descriptor);
   engine::Controllers controllers;
-  ControlsSetup setup(starting_bindings(file, defaults, again), read_bindings(defaults));
+  ControlsSetup setup(starting_bindings(file, defaults, again), read_bindings(defaults), gears_to_set_up());
   std::string shown;
   while (!setup.is_over()) {
     const std::string question =

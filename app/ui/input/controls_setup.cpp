@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "app/ui/input/bound_controllers.h"
 #include "haptics/files/printable.h"
 
 namespace gearshift::ui {
 namespace {
 
-constexpr double kRestTime = 1.0;  // [s]
-constexpr int kMaxSetupGear = 7;
+constexpr double kRestTime = 1.0;   // [s]
+constexpr int kMaxShippedGear = 6;  // of the shipped gates
 // DragonRise's encoder: GLFW's table has it as a pad, SDL has dropped it because makers wire it in different ways.
 constexpr const char* kGenericEncoder = "0079:0006";
 
@@ -21,6 +23,11 @@ using Choice = ControlsSetup::Choice;
 using Answer = ControlsSetup::Answer;
 
 constexpr Choice kDoneOrSkip[] = {{Answer::done, "", "Done"}, {Answer::skip, "-", "Skip"}, {Answer::back, "b", "Back"}};
+constexpr Choice kDone[] = {{Answer::done, "", "Done"}, {Answer::back, "b", "Back"}};
+constexpr Choice kBack[] = {{Answer::back, "b", "Back"}};
+constexpr Choice kHandBrakes[] = {{Answer::held, "1", "On while it is down"},
+                                  {Answer::toggled, "2", "On or off at each press"},
+                                  {Answer::back, "b", "Back"}};
 constexpr Choice kShifting[] = {{Answer::gear_buttons, "1", "A shifter with gears"},
                                 {Answer::two_buttons, "2", "Paddles or a sequential shifter"},
                                 {Answer::lever, "3", "A lever with axes"},
@@ -37,12 +44,17 @@ std::string gear_text(int gear) {
   return gear == haptics::kReverseGear ? "REVERSE" : fmt::format("gear {}", gear);
 }
 
-void erase_gears(Bindings& bindings) {
-  for (ControllerButtons& one : bindings.controllers) one.gears.clear();
-}
-
 void erase_action(Bindings& bindings, Action action) {
   for (ControllerButtons& one : bindings.controllers) one.actions.erase(action);
+}
+
+void erase_gear(Bindings& bindings, int gear) {
+  for (ControllerButtons& one : bindings.controllers) one.gears.erase(gear);
+}
+
+void erase_hand_brake(Bindings& bindings) {
+  bindings.hand_brake.reset();
+  for (const Action action : {Action::hand_brake_hold, Action::hand_brake}) erase_action(bindings, action);
 }
 
 }  // namespace
@@ -57,7 +69,23 @@ std::vector<engine::Controller> controllers_to_set_up(const std::vector<engine::
   return some;
 }
 
-ControlsSetup::ControlsSetup(Bindings start, const Bindings& shipped) : bindings_(std::move(start)), shipped_(shipped) {
+std::vector<int> gears_to_set_up(const haptics::Gate& gate) {
+  std::vector<int> gears;
+  for (int gear = 1; gear <= haptics::kMaxGear; ++gear)
+    if (haptics::slot_of_gear(gate, gear) != haptics::kNoSlot) gears.push_back(gear);
+  if (haptics::slot_of_gear(gate, haptics::kReverseGear) != haptics::kNoSlot) gears.push_back(haptics::kReverseGear);
+  return gears;
+}
+
+std::vector<int> gears_to_set_up() {
+  std::vector<int> gears(kMaxShippedGear);
+  std::iota(gears.begin(), gears.end(), 1);
+  gears.push_back(haptics::kReverseGear);
+  return gears;
+}
+
+ControlsSetup::ControlsSetup(Bindings start, const Bindings& shipped, std::vector<int> gears)
+    : bindings_(std::move(start)), shipped_(shipped), gears_(std::move(gears)) {
   for (const AxisInfo& axis : kAxes)
     if (!axis.is_lever) steps_.push_back({Kind::axis, &axis});
   steps_.push_back({Kind::shifting});
@@ -65,10 +93,44 @@ ControlsSetup::ControlsSetup(Bindings start, const Bindings& shipped) : bindings
 }
 
 std::span<const Choice> ControlsSetup::choices() const noexcept {
+  if (is_over()) return kBack;
+  switch (steps_[step_].kind) {
+    case Kind::shifting:
+      return kShifting;
+    case Kind::lever_mode:
+      return kLeverModes;
+    case Kind::hand_brake_button:
+      return kHandBrakes;
+    case Kind::neutral:
+      return kDone;
+    default:
+      return std::span(kDoneOrSkip).first(step_ == 0 ? 2 : 3);
+  }
+}
+
+std::string ControlsSetup::if_skipped() const {
   if (is_over()) return {};
-  if (steps_[step_].kind == Kind::shifting) return kShifting;
-  if (steps_[step_].kind == Kind::lever_mode) return kLeverModes;
-  return std::span(kDoneOrSkip).first(step_ == 0 ? 2 : 3);
+  const Step& now = steps_[step_];
+  std::string use;
+  std::vector<std::string> inputs;
+  if (now.kind == Kind::axis) {
+    use = now.axis->is_lever ? std::string(now.axis->help) : fmt::format("use the {}", now.axis->help);
+    inputs = bound_inputs(bindings_, *now.axis, all_);
+    if (now.axis->is_lever) inputs.emplace_back("the mouse");
+  } else if (now.kind == Kind::direction) {
+    use = now.action == Action::shift_up ? "shift one gear up" : "shift one gear down";
+    inputs = bound_inputs(bindings_, now.action, all_);
+  } else if (now.kind == Kind::gear) {
+    use = fmt::format("shift into {}", gear_text(now.gear));
+    for (const ControllerButtons& one : bindings_.controllers)
+      if (const auto bound = one.gears.find(now.gear); bound != one.gears.end())
+        for (const int button : bound->second) inputs.push_back(describe(one.of, "button", button));
+    if (inputs.empty()) return fmt::format("in {} the shifter counts as in neutral", gear_text(now.gear));
+  } else {
+    return {};
+  }
+  return inputs.empty() ? fmt::format("you cannot {} until something is bound to it", use)
+                        : fmt::format("you still {} with {}", use, fmt::join(inputs, ", "));
 }
 
 std::optional<int> ControlsSetup::gear() const noexcept {
@@ -87,11 +149,16 @@ void ControlsSetup::begin_step() {
     prompt_ = "Try every control. Then save.";
     return;
   }
-  const Step& now = steps_[step_];
+  const Step now = steps_[step_];
+  if (now.axis != nullptr && now.axis->axis == &Bindings::hand_brake)  // asked again, what it was does not count
+    std::erase_if(steps_, [](const Step& step) { return step.kind == Kind::hand_brake_button; });
   switch (now.kind) {
     case Kind::axis:
       detector_.emplace(now.axis->is_lever ? AxisDetector::Control::lever : AxisDetector::Control::pedal);
       prompt_ = now.axis->prompt;
+      break;
+    case Kind::hand_brake_button:
+      prompt_ = "What does the button do to the handbrake?";
       break;
     case Kind::shifting:
       prompt_ = "How do you shift?";
@@ -120,10 +187,14 @@ void ControlsSetup::next(const std::string& found) {
   ++step_;
   begin_step();
   note_ = found;
+  const bool has_gears = std::any_of(steps_.begin(), steps_.end(), [](const Step& s) { return s.kind == Kind::gear; });
+  if (is_over() && has_gears && std::find(gears_.begin(), gears_.end(), kMaxShippedGear) == gears_.end())
+    note_ += " For a car with more gears, choose it and set up again: Skip keeps what is bound.";
 }
 
 void ControlsSetup::frame(const std::vector<engine::Controller>& all, double seconds) {
   if (is_over()) return;
+  all_ = all;
   const std::vector<engine::Controller> controllers = controllers_to_set_up(all);
   Buttons down;
   std::map<std::string, int> equal;  // number of controllers so far, by name
@@ -145,14 +216,19 @@ void ControlsSetup::frame(const std::vector<engine::Controller>& all, double sec
 }
 
 void ControlsSetup::answer(Answer answer) {
-  if (is_over() || is_resting()) return;
-  const Step now = steps_[step_];
+  if (is_resting()) return;
   if (answer == Answer::back && step_ > 0) {
     bindings_ = before_[--step_];
     note_.clear();
     begin_step();
-  } else if (answer == Answer::skip) {
-    next("Skipped: it stays as it was.");
+    return;
+  }
+  if (is_over()) return;
+  const Step now = steps_[step_];
+  if (answer == Answer::skip) {
+    next(fmt::format("Skipped: {}.", if_skipped()));
+  } else if (now.kind == Kind::hand_brake_button) {
+    choose_hand_brake(answer);
   } else if (now.kind == Kind::shifting) {
     choose_shifting(answer);
   } else if (now.kind == Kind::lever_mode) {
@@ -166,6 +242,7 @@ void ControlsSetup::answer(Answer answer) {
     note_.clear();
   } else if (now.kind == Kind::neutral) {
     neutral_ = down_;
+    erase_gear(bindings_, haptics::kNeutralGear);
     next({});
   } else if (now.kind == Kind::gear) {
     finish_gear();
@@ -174,18 +251,32 @@ void ControlsSetup::answer(Answer answer) {
   }
 }
 
-// Adds the steps that the way of shifting needs, and removes what other ways have bound.
+// Removes what other ways of shifting have bound. What this way has on a controller that is plugged in stays until the
+// user has moved something else, so that single gears can be added.
+void ControlsSetup::erase_shifting_except(Answer way) {
+  const Bindings before = bindings_;
+  const auto keeps = [&](Answer answer, const ControllerName& of, int which) {
+    return way == answer && (of.stick.empty() || find_controller(before, of, which, all_) != nullptr);
+  };
+  for (const AxisInfo& info : kAxes) {
+    std::optional<AxisBinding>& axis = bindings_.*info.axis;
+    if (info.is_lever && axis && !keeps(Answer::lever, axis->of, axis->which)) axis = shipped_.*info.axis;
+  }
+  if (way != Answer::lever) bindings_.lever_mode = shipped_.lever_mode;
+  for (ControllerButtons& one : bindings_.controllers) {
+    if (!keeps(Answer::gear_buttons, one.of, one.which)) one.gears.clear();
+    if (keeps(Answer::two_buttons, one.of, one.which)) continue;
+    for (const Action action : {Action::shift_up, Action::shift_down}) one.actions.erase(action);
+  }
+}
+
+// Adds the steps that the way of shifting needs.
 void ControlsSetup::choose_shifting(Answer answer) {
   steps_.resize(step_ + 1);
-  for (const AxisInfo& info : kAxes)
-    if (info.is_lever) bindings_.*info.axis = shipped_.*info.axis;
-  bindings_.lever_mode = shipped_.lever_mode;
-  erase_gears(bindings_);
-  for (const Action action : {Action::shift_up, Action::shift_down}) erase_action(bindings_, action);
+  erase_shifting_except(answer);
   if (answer == Answer::gear_buttons) {
     steps_.push_back({Kind::neutral});
-    for (int gear = 1; gear <= kMaxSetupGear; ++gear) steps_.push_back({Kind::gear, nullptr, gear});
-    steps_.push_back({Kind::gear, nullptr, haptics::kReverseGear});
+    for (const int gear : gears_) steps_.push_back({Kind::gear, nullptr, gear});
   } else if (answer == Answer::two_buttons) {
     for (const Action action : {Action::shift_up, Action::shift_down})
       steps_.push_back({Kind::direction, nullptr, haptics::kNeutralGear, action});
@@ -193,6 +284,15 @@ void ControlsSetup::choose_shifting(Answer answer) {
     for (const AxisInfo& axis : kAxes)
       if (axis.is_lever) steps_.push_back({Kind::axis, &axis});
     steps_.push_back({Kind::lever_mode});
+  }
+  next({});
+}
+
+// `hand_brake_`, which is bound as held, may also be one that switches.
+void ControlsSetup::choose_hand_brake(Answer answer) {
+  if (answer == Answer::toggled) {
+    erase_action(bindings_, Action::hand_brake_hold);
+    bind(*hand_brake_, Action::hand_brake);
   }
   next({});
 }
@@ -205,22 +305,50 @@ void ControlsSetup::finish_axis() {
     for (const AxisInfo& other : kAxes) {
       std::optional<AxisBinding>& bound = bindings_.*other.axis;
       if (&other == &info || other.axis == info.axis || !bound || !overlap(*bound, found)) continue;
-      const bool is_of_this_run = bound != before_.front().*other.axis;
-      if (is_of_this_run) return repeat(fmt::format("This axis is bound to another control already ({}).", other.help));
+      if (was_asked([&](const Step& step) { return step.axis == &other; }))
+        return repeat(fmt::format("This axis is bound to another control already ({}).", other.help));
       bound.reset();
     }
+    if (info.axis == &Bindings::hand_brake) erase_hand_brake(bindings_);
     bindings_.*info.axis = found;
-    if (info.axis == &Bindings::hand_brake) erase_action(bindings_, Action::hand_brake_hold);
     next(
         fmt::format("Found: {}, from {:.2f} to {:.2f}.", describe(found.of, "axis", found.axis), found.from, found.to));
   } catch (const std::invalid_argument& refused) {
     if (info.axis != &Bindings::hand_brake || pressed_.size() != 1) return repeat(refused.what());
-    const Button button = *pressed_.begin();
-    erase_action(bindings_, Action::hand_brake_hold);
-    bindings_.hand_brake.reset();
-    bind(button, Action::hand_brake_hold);
-    next(fmt::format("Found: {}.", describe(button.of, "button", button.number)));
+    hand_brake_ = *pressed_.begin();
+    erase_hand_brake(bindings_);
+    bind(*hand_brake_, Action::hand_brake_hold);
+    steps_.insert(steps_.begin() + static_cast<std::ptrdiff_t>(step_) + 1, {Kind::hand_brake_button});
+    next(fmt::format("Found: {}.", describe(hand_brake_->of, "button", hand_brake_->number)));
   }
+}
+
+bool ControlsSetup::was_asked(const std::function<bool(const Step&)>& about) const {
+  return std::any_of(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(step_), about);
+}
+
+// What a button means since this run, or what a skipped step has left to it. Empty if it is free.
+std::string ControlsSetup::meaning_in_this_run(const Button& button) const {
+  const auto has = [&](const std::vector<int>& buttons) {
+    return std::find(buttons.begin(), buttons.end(), button.number) != buttons.end();
+  };
+  for (const ControllerButtons& one : bindings_.controllers) {
+    if (!button.is_on(one)) continue;
+    for (const auto& [action, buttons] : one.actions) {
+      const bool is_hand_brake = action == Action::hand_brake || action == Action::hand_brake_hold;
+      if (has(buttons) && is_hand_brake) return "handbrake";
+      if (has(buttons) && was_asked([&](const Step& s) { return s.kind == Kind::direction && s.action == action; }))
+        return "one gear up";
+    }
+    for (const auto& [gear, buttons] : one.gears)
+      if (has(buttons) && was_asked([&](const Step& s) { return s.kind == Kind::gear && s.gear == gear; }))
+        return gear_text(gear);
+  }
+  return {};
+}
+
+void ControlsSetup::refuse_button(const std::string& other) {
+  repeat(fmt::format("This button is bound already ({}).", other));
 }
 
 void ControlsSetup::finish_gear() {
@@ -229,10 +357,7 @@ void ControlsSetup::finish_gear() {
   if (held.empty()) return repeat("No button of a shifter is held in this gear.");
   if (held.size() > 1) return repeat("Several buttons are held. Touch only the shifter.");
   const Button button = *held.begin();
-  for (const ControllerButtons& one : bindings_.controllers)
-    for (const auto& [gear, buttons] : one.gears)
-      if (button.is_on(one) && std::find(buttons.begin(), buttons.end(), button.number) != buttons.end())
-        return repeat(fmt::format("This button is {} already.", gear_text(gear)));
+  if (const std::string other = meaning_in_this_run(button); !other.empty()) return refuse_button(other);
   bind_gear(button, steps_[step_].gear);
   // Some shifters also hold a button in neutral.
   for (const Button& one : neutral_)
@@ -244,6 +369,8 @@ void ControlsSetup::finish_direction() {
   if (pressed_.empty()) return repeat("No button was pressed.");
   if (pressed_.size() > 1) return repeat("Several buttons were pressed. Press only one.");
   const Button button = *pressed_.begin();
+  if (const std::string other = meaning_in_this_run(button); !other.empty()) return refuse_button(other);
+  erase_action(bindings_, steps_[step_].action);
   bind(button, steps_[step_].action);
   next(fmt::format("Found: {}.", describe(button.of, "button", button.number)));
 }
@@ -278,6 +405,7 @@ void ControlsSetup::bind(const Button& button, Action action) {
 }
 
 void ControlsSetup::bind_gear(const Button& button, int gear) {
+  erase_gear(bindings_, gear);
   release_button(button);
   buttons_of(button).gears[gear] = {button.number};
 }

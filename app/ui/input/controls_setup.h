@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <set>
 #include <span>
@@ -20,20 +21,22 @@
 
 #include "app/ui/input/axis_detector.h"
 #include "app/ui/input/bindings.h"
+#include "haptics/gate/gate.h"
 
 namespace gearshift::ui {
 
 class ControlsSetup {
  public:
-  enum class Answer { done, skip, back, gear_buttons, two_buttons, lever, other, stays, returns };
+  enum class Answer { done, skip, back, gear_buttons, two_buttons, lever, other, stays, returns, held, toggled };
   struct Choice {
     Answer answer;
     const char* key;  // what to type in a terminal; "" stands for Enter
     const char* label;
   };
 
-  // `shipped`: the bindings that game pads get back where another way of shifting replaces the lever's axes.
-  ControlsSetup(Bindings start, const Bindings& shipped);
+  // `shipped`: the bindings that game pads get back where another way of shifting replaces the lever's axes. `gears`: the
+  // gears that a shifter with a button per gear is asked for, in order.
+  ControlsSetup(Bindings start, const Bindings& shipped, std::vector<int> gears);
 
   void frame(const std::vector<engine::Controller>& controllers, double seconds);
   // `answer` is one of choices(). Ignored while is_resting().
@@ -42,6 +45,8 @@ class ControlsSetup {
   const std::string& prompt() const noexcept { return prompt_; }
   const std::string& note() const noexcept { return note_; }  // what was found, or why the step is asked again
   std::span<const Choice> choices() const noexcept;
+  // The consequence of Answer::skip: "you still use the clutch with A". Empty if the step cannot be skipped.
+  std::string if_skipped() const;
   bool is_resting() const noexcept { return is_resting_; }  // measures a released control
   std::size_t step() const noexcept { return step_; }
   std::size_t steps() const noexcept { return steps_.size(); }
@@ -53,7 +58,7 @@ class ControlsSetup {
   const Bindings& bindings() const noexcept { return bindings_; }
 
  private:
-  enum class Kind { axis, shifting, neutral, gear, direction, lever_mode };
+  enum class Kind { axis, hand_brake_button, shifting, neutral, gear, direction, lever_mode };
   struct Step {
     Kind kind = Kind::axis;
     const AxisInfo* axis = nullptr;    // Kind::axis
@@ -75,9 +80,14 @@ class ControlsSetup {
   void repeat(const std::string& reason);
   void next(const std::string& found);
   void choose_shifting(Answer answer);
+  void erase_shifting_except(Answer way);
+  void choose_hand_brake(Answer answer);
   void finish_axis();
   void finish_gear();
   void finish_direction();
+  bool was_asked(const std::function<bool(const Step&)>& about) const;  // in an earlier step
+  std::string meaning_in_this_run(const Button& button) const;
+  void refuse_button(const std::string& other);
   void bind(const Button& button, Action action);
   void bind_gear(const Button& button, int gear);
   void finish();
@@ -85,6 +95,7 @@ class ControlsSetup {
   void release_button(const Button& button);
 
   Bindings bindings_, shipped_;
+  std::vector<int> gears_;
   std::vector<Step> steps_;
   std::size_t step_ = 0;
   std::vector<Bindings> before_;  // the bindings before each step, for Answer::back
@@ -93,12 +104,19 @@ class ControlsSetup {
   bool is_resting_ = false;
   double rest_time_ = 0.0;  // [s] and number of frames measured at rest
   int rest_frames_ = 0;
-  Buttons down_, neutral_, pressed_;  // held now; held in neutral; pressed during this step
+  std::vector<engine::Controller> all_;  // controllers of the last frame
+  Buttons down_, neutral_, pressed_;     // held now; held in neutral; pressed during this step
+  std::optional<Button> hand_brake_;     // found in this run
 };
 
 // True for a controller that the user can set up: all except game pads, whose controls are known. (An encoder that is
 // built into pads, shifters and handbrakes alike counts as unknown.)
 bool can_be_set_up(const engine::Controller& controller);
 std::vector<engine::Controller> controllers_to_set_up(const std::vector<engine::Controller>& all);
+
+// The gears of a gate in the order in which the set-up asks for them: 1, 2, ..., reverse.
+std::vector<int> gears_to_set_up(const haptics::Gate& gate);
+// Those of all shipped gates together.
+std::vector<int> gears_to_set_up();
 
 }  // namespace gearshift::ui

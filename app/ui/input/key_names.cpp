@@ -68,7 +68,7 @@ constexpr std::array kNamedKeys{NamedKey{GLFW_KEY_SPACE, "Space"},
                                 NamedKey{GLFW_KEY_RIGHT_SUPER, "Right Super"},
                                 NamedKey{GLFW_KEY_MENU, "Menu"}};
 
-constexpr std::string_view kSonyVendor = "054c";
+constexpr std::string_view kSonyVendor = "054c:";
 
 template <std::size_t n>
 std::optional<int> index_of(const std::string_view (&names)[n], std::string_view name) {
@@ -120,16 +120,16 @@ std::optional<int> pad_axis_of(std::string_view name) {
   return index_of(kPadAxes, name);
 }
 
-std::string pad_button_label(int button, std::string_view maker) {
+std::string pad_button_label(int button, std::string_view id) {
   constexpr const char* kXbox[] = {"A",     "B",  "X",  "Y",        "LB",          "RB",         "Back",      "Start",
                                    "Guide", "LS", "RS", "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
   constexpr const char* kSony[] = {"Cross", "Circle",   "Square",      "Triangle",   "L1",
                                    "R1",    "Create",   "Options",     "PS",         "L3",
                                    "R3",    "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
-  return (maker == kSonyVendor ? kSony : kXbox)[button];
+  return (id.starts_with(kSonyVendor) ? kSony : kXbox)[button];
 }
 
-std::string pad_axis_label(int axis, std::string_view maker) {
+std::string pad_axis_label(int axis, std::string_view id) {
   constexpr const char* kXbox[] = {"left stick, left and right",
                                    "left stick, up and down",
                                    "right stick, left and right",
@@ -137,7 +137,7 @@ std::string pad_axis_label(int axis, std::string_view maker) {
                                    "LT",
                                    "RT"};
   const bool is_trigger = axis >= 4;
-  return maker == kSonyVendor && is_trigger ? (axis == 4 ? "L2" : "R2") : kXbox[axis];
+  return id.starts_with(kSonyVendor) && is_trigger ? (axis == 4 ? "L2" : "R2") : kXbox[axis];
 }
 
 std::optional<int> key_of(std::string_view name) {

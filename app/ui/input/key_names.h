@@ -23,9 +23,9 @@ inline constexpr std::string_view kPadAxes[] = {"left_x", "left_y", "right_x", "
 std::optional<int> pad_button_of(std::string_view name);
 std::optional<int> pad_axis_of(std::string_view name);
 
-// The names that are printed on the pad: "RB" and "LT", or "R1" and "L2" on Sony's. `maker`: USB vendor in four
-// hexadecimal digits; the names of an Xbox pad if it is not known.
-std::string pad_button_label(int button, std::string_view maker);
-std::string pad_axis_label(int axis, std::string_view maker);
+// The names that are printed on the pad: "RB" and "LT", or "R1" and "L2" on Sony's. `id`: the pad's USB id; the
+// names of an Xbox pad if the maker is another.
+std::string pad_button_label(int button, std::string_view id);
+std::string pad_axis_label(int axis, std::string_view id);
 
 }  // namespace gearshift::ui

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -124,28 +125,29 @@ void draw_controller(const engine::Controller& one) {
 
 // Name of each choice's button in Controls.
 const char* name_of(ControlsSetup::Answer answer) {
-  constexpr std::array kNames{"setup_done",  "setup_skip",  "setup_back",  "setup_gears",  "setup_paddles",
-                              "setup_lever", "setup_other", "setup_stays", "setup_returns"};
+  constexpr std::array kNames{"setup_done",    "setup_skip",  "setup_back",   "setup_gears",
+                              "setup_paddles", "setup_lever", "setup_other",  "setup_stays",
+                              "setup_returns", "setup_held",  "setup_toggled"};
   return kNames[static_cast<std::size_t>(answer)];
 }
 
 void draw_choices(Controls& controls, const ControlsSetup& setup, PanelCommands& out) {
-  if (setup.is_over()) {
-    if (controls.button("setup_save", "Save (Enter)", {0.0f, 0.0f}, ink::kPrimary)) out.push_back(SaveControls{});
-    same_line_if_fits(button_width("Cancel"));
-  } else if (!setup.is_resting()) {
-    bool is_first = true;
+  bool is_first = true;
+  const auto is_clicked = [&](const char* name, const std::string& label, ImU32 colour) {
+    if (!std::exchange(is_first, false)) same_line_if_fits(button_width(label));
+    return controls.button(name, label.c_str(), {0.0f, 0.0f}, colour);
+  };
+  if (setup.is_over() && is_clicked("setup_save", "Save (Enter)", ink::kPrimary)) out.push_back(SaveControls{});
+  if (!setup.is_resting())
     for (const ControlsSetup::Choice& choice : setup.choices()) {
       const bool is_done = choice.answer == ControlsSetup::Answer::done;
       const std::string label = is_done ? fmt::format("{} (Enter)", choice.label) : choice.label;
-      if (!is_first) same_line_if_fits(button_width(label));
-      is_first = false;
-      if (controls.button(name_of(choice.answer), label.c_str(), {0.0f, 0.0f}, is_done ? ink::kPrimary : ink::kRaised))
+      if (is_clicked(name_of(choice.answer), label, is_done ? ink::kPrimary : ink::kRaised))
         out.push_back(AnswerControls{choice.answer});
     }
-    same_line_if_fits(button_width("Cancel"));
-  }
-  if (controls.button("setup_cancel", "Cancel")) out.push_back(CancelControls{});
+  if (is_clicked("setup_cancel", "Cancel (Esc)", ink::kRaised)) out.push_back(CancelControls{});
+  const std::string if_skipped = setup.is_resting() ? std::string() : setup.if_skipped();
+  if (!if_skipped.empty()) put_wrapped(fmt::format("Skip: {}.", if_skipped), ink::kSoft, engine::UiFont::small);
 }
 
 // `height` [px]: room for the whole card.

@@ -3,7 +3,11 @@
 
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 
 #include <doctest/doctest.h>
 
@@ -30,7 +34,9 @@ struct ControlsDesk {
   void frame() {
     assistant.update(all, 0.01);
     WindowInput input;
-    input.controllers = assistant.hides_controllers() ? std::vector<Controller>{} : all;
+    input.controllers = all;
+    input.keys = std::exchange(keys, {});
+    if (assistant.is_setting_up()) message = assistant.take(input, driver.mouse_moves_lever());
     driver.update(input, 0.01, false, false);
   }
   void press_clutch() {
@@ -40,18 +46,35 @@ struct ControlsDesk {
     }
   }
   std::string enter() {
-    std::string message;
-    CHECK(assistant.press_enter(message));
+    std::string news;
+    CHECK(assistant.press_enter(news));
     for (int i = 0; i < 200; ++i) frame();
-    return message;
+    return news;
   }
+  void press(int key) {
+    keys = {{key, true, false, false, false}};
+    frame();
+    keys = {{key, false, false, false, false}};
+    frame();
+  }
+  std::string apply(const ControlsCommand& command) { return assistant.apply(command, paper_gate()); }
   std::string offer() { return std::string(assistant.view(paper_gate(), true).offer); }
 
   std::vector<Controller> all{controller("Logitech G29", {0.0f, 1.0f}, 25, "046d:c24f"), controller("Box", {}, 4),
                               gamepad({})};
   DriverInput driver{{shipped_bindings()}};
+  std::vector<KeyEvent> keys;
+  std::string message;
   ControlsAssistant assistant;
 };
+
+// True if the driver does not get the controllers that can be set up.
+bool hides(ControlsDesk& desk) {
+  WindowInput input;
+  input.controllers = desk.all;
+  (void)desk.assistant.take(input, true);
+  return input.controllers.size() == 1;
+}
 
 }  // namespace
 
@@ -60,17 +83,17 @@ TEST_CASE("a wheel is set up and saved: meanwhile it does not drive, at the end 
   ControlsDesk desk(folder / "bindings" / "own.toml");
   desk.frame();
   CHECK(desk.offer() == "Logitech G29");
-  CHECK(desk.assistant.apply(StartControls{}).empty());
-  CHECK(desk.assistant.hides_controllers());
+  CHECK(desk.apply(StartControls{}).empty());
+  CHECK(hides(desk));
   CHECK(desk.assistant.view(paper_gate(), true).setup != nullptr);
   for (int i = 0; i < 5; ++i) desk.frame();
   desk.press_clutch();
   CHECK(desk.enter().empty());
   CHECK(desk.driver.controls().pedals.clutch == 0.0);
-  for (int i = 0; i < 3; ++i) (void)desk.assistant.apply(AnswerControls{ControlsSetup::Answer::skip});
-  (void)desk.assistant.apply(AnswerControls{ControlsSetup::Answer::other});
+  for (int i = 0; i < 3; ++i) (void)desk.apply(AnswerControls{ControlsSetup::Answer::skip});
+  (void)desk.apply(AnswerControls{ControlsSetup::Answer::other});
   desk.frame();
-  CHECK_FALSE(desk.assistant.hides_controllers());
+  CHECK_FALSE(hides(desk));
   desk.all[0].axes[1] = 0.5f;
   desk.frame();
   desk.all[0].axes[1] = -1.0f;
@@ -78,8 +101,7 @@ TEST_CASE("a wheel is set up and saved: meanwhile it does not drive, at the end 
   CHECK(desk.driver.controls().pedals.clutch == 1.0);
   CHECK(desk.enter() == "Saved: " + (folder / "bindings" / "own.toml").string());
   CHECK(read_bindings(folder / "bindings" / "own.toml").clutch->of.stick == "Logitech G29");
-  std::string message;
-  CHECK_FALSE(desk.assistant.press_enter(message));
+  CHECK_FALSE(desk.assistant.press_enter(desk.message));
   CHECK(desk.offer() == "Box");
 }
 
@@ -87,14 +109,14 @@ TEST_CASE("after cancelling the old bindings apply; a declined controller is not
   const TempFolder folder;
   ControlsDesk desk(folder / "own.toml");
   desk.frame();
-  (void)desk.assistant.apply(StartControls{});
+  (void)desk.apply(StartControls{});
   desk.frame();
   desk.press_clutch();
   desk.enter();
-  (void)desk.assistant.apply(CancelControls{});
+  (void)desk.apply(CancelControls{});
   CHECK_FALSE(desk.driver.bindings().clutch);
   CHECK_FALSE(std::filesystem::exists(folder / "own.toml"));
-  (void)desk.assistant.apply(DeclineControls{});
+  (void)desk.apply(DeclineControls{});
   desk.frame();
   CHECK(desk.offer().empty());
   desk.all.push_back(controller("Pedals", {0.0f}));  // another one, plugged in later
@@ -109,13 +131,13 @@ TEST_CASE("bindings that cannot be saved apply to this session, and the reason i
   for (const std::filesystem::path& file : {std::filesystem::path(), folder / "file" / "own.toml"}) {
     ControlsDesk desk(file);
     desk.frame();
-    (void)desk.assistant.apply(StartControls{});
+    (void)desk.apply(StartControls{});
     desk.frame();
     desk.press_clutch();
     desk.enter();
-    for (int i = 0; i < 3; ++i) (void)desk.assistant.apply(AnswerControls{ControlsSetup::Answer::skip});
-    (void)desk.assistant.apply(AnswerControls{ControlsSetup::Answer::other});
-    const std::string message = desk.assistant.apply(SaveControls{});
+    for (int i = 0; i < 3; ++i) (void)desk.apply(AnswerControls{ControlsSetup::Answer::skip});
+    (void)desk.apply(AnswerControls{ControlsSetup::Answer::other});
+    const std::string message = desk.apply(SaveControls{});
     CHECK(message.find("session only.") != std::string::npos);
     CHECK(desk.driver.bindings().clutch);
   }
@@ -135,4 +157,59 @@ TEST_CASE("a shifter in a gear that the gate lacks, and one whose gear the lever
   desk.all[1].buttons = {0, 1, 0, 0};
   for (int i = 0; i < 300; ++i) desk.frame();
   CHECK(desk.assistant.view(paper_gate(), true).request == "This gearbox has no gear 6.");
+}
+
+TEST_CASE("Escape cancels as the button does, but first releases the mouse; the driver does not get it") {
+  const TempFolder folder;
+  ControlsDesk desk(folder / "own.toml");
+  desk.frame();
+  (void)desk.apply(StartControls{});
+  desk.press(GLFW_KEY_G);  // captures the mouse
+  CHECK(desk.driver.mouse_moves_lever());
+  desk.press(GLFW_KEY_ESCAPE);
+  CHECK_FALSE(desk.driver.mouse_moves_lever());
+  CHECK(desk.assistant.is_setting_up());
+  CHECK(desk.message.empty());
+  desk.keys = {{GLFW_KEY_ESCAPE, true, false, false, false}};
+  desk.frame();
+  CHECK_FALSE(desk.assistant.is_setting_up());
+  CHECK(desk.message == "Cancelled: the controls are as before.");
+  CHECK_FALSE(desk.driver.mouse_moves_lever());  // the same key captures the mouse at other times
+}
+
+TEST_CASE("from trying everything, Back returns to the last step, and its new answer is tried again") {
+  const TempFolder folder;
+  ControlsDesk desk(folder / "own.toml");
+  desk.frame();
+  (void)desk.apply(StartControls{});
+  for (int i = 0; i < 4; ++i) (void)desk.apply(AnswerControls{ControlsSetup::Answer::skip});
+  (void)desk.apply(AnswerControls{ControlsSetup::Answer::two_buttons});
+  (void)desk.apply(AnswerControls{ControlsSetup::Answer::skip});
+  const auto shift_down_by = [&](std::size_t button) {
+    for (const bool down : {true, false}) {
+      desk.all[1].buttons[button] = down;
+      desk.frame();
+    }
+    desk.enter();
+  };
+  desk.frame();
+  shift_down_by(0);
+  CHECK_FALSE(hides(desk));
+  CHECK(desk.driver.bindings().controllers.at(0).actions.at(Action::shift_down) == std::vector{0});
+  (void)desk.apply(AnswerControls{ControlsSetup::Answer::back});
+  CHECK(hides(desk));
+  desk.frame();
+  shift_down_by(3);
+  CHECK(desk.driver.bindings().controllers.at(0).actions.at(Action::shift_down) == std::vector{3});
+}
+
+TEST_CASE("the gears of the gate in force are asked for") {
+  const TempFolder folder;
+  ControlsDesk desk(folder / "own.toml");
+  desk.frame();
+  (void)desk.assistant.apply(StartControls{}, shipped_gate("four_speed"));
+  for (int i = 0; i < 4; ++i) (void)desk.apply(AnswerControls{ControlsSetup::Answer::skip});
+  (void)desk.apply(AnswerControls{ControlsSetup::Answer::gear_buttons});
+  const auto* setup = desk.assistant.view(paper_gate(), true).setup;
+  CHECK(setup->steps() == 5 + 1 + 4 + 1);  // neutral, four gears, reverse
 }

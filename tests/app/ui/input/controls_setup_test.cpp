@@ -1,6 +1,7 @@
 // Setting up pedals, levers and shifters. A simulated user moves what the prompt asks for.
 #include "app/ui/input/controls_setup.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include "app/ui/input/controls_dialog.h"
 #include "tests/support/controllers.h"
+#include "tests/support/gates.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::engine;
@@ -29,7 +31,7 @@ bool has(const std::string& text, const char* words) {
 // paddles 4 and 5), an analog lever and a handbrake that is a button. Its first report moves all pedals.
 struct Person {
   explicit Person(Bindings start = {})
-      : setup(std::move(start), read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml")) {
+      : setup(std::move(start), read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml"), gears_to_set_up()) {
     devices[0].buttons[22] = 1;  // a rotary switch that is always on
     frame(5);
     devices[0].axes = {0.0f, 1.0f, 1.0f, 1.0f};  // the first report
@@ -86,6 +88,7 @@ Answer does_pedals(Person& person, const std::string& prompt) {
   if (has(prompt, "THROTTLE")) person.pedal(2);
   if (has(prompt, "BRAKE pedal")) person.pedal(3);
   if (has(prompt, "HANDBRAKE")) person.press(2, 1);
+  if (has(prompt, "What does the button")) return Answer::held;
   return Answer::done;
 }
 
@@ -98,7 +101,6 @@ TEST_CASE("a wheel with a shifter is set up: each pedal, a handbrake button and 
     if (has(prompt, "NEUTRAL")) person.hold(-1);
     for (int gear = 1; gear <= 6; ++gear)
       if (has(prompt, ("gear " + std::to_string(gear) + " and").c_str())) person.hold(11 + gear);
-    if (has(prompt, "gear 7")) return Answer::skip;
     if (has(prompt, "REVERSE")) person.hold(18);
     return does_pedals(person, prompt);
   });
@@ -179,7 +181,7 @@ TEST_CASE(
   person.hold(12);
   person.say(Answer::done);
   person.say(Answer::done);  // gear 2, but the shifter is still in gear 1
-  CHECK(person.setup.note() == "This button is gear 1 already. Try again.");
+  CHECK(person.setup.note() == "This button is bound already (gear 1). Try again.");
   person.devices[0].buttons[13] = 1;
   person.frame(5);
   person.say(Answer::done);
@@ -249,10 +251,11 @@ TEST_CASE("two equal devices keep their own buttons; one kind of handbrake repla
   start.hand_brake = AxisBinding{.of = {"Old handbrake", ""}};
   Person person(start);
   person.devices.push_back(controller("Box", {}, 4, "b"));
-  person.setup = ControlsSetup(start, {});
+  person.setup = ControlsSetup(start, {}, gears_to_set_up());
   person.frame(5);
   person.go_through([&](const std::string& prompt) {
     if (has(prompt, "HANDBRAKE")) return person.press(4, 0), Answer::done;
+    if (has(prompt, "What does the button")) return Answer::held;
     if (has(prompt, "How do you shift")) return Answer::gear_buttons;
     if (has(prompt, "NEUTRAL")) return Answer::done;
     if (!has(prompt, "gear 1 ")) return Answer::skip;
@@ -279,4 +282,122 @@ TEST_CASE("for the picture, a control's rest is where its first report was, not 
   }
   REQUIRE(detector.moving());
   CHECK(detector.moving()->rest == 1.0);
+}
+
+TEST_CASE(
+    "before and after skipping, the consequence is said: with what the control still works, or that it does not") {
+  Bindings start = read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml");
+  start.clutch = AxisBinding{.of = {"Old pedals", ""}, .axis = 2};
+  start.pad_buttons.clear();
+  Person person(start);
+  const auto skip = [&] {
+    const std::string consequence = person.setup.if_skipped();
+    person.say(Answer::skip);
+    CHECK(person.setup.note() == "Skipped: " + consequence + ".");
+    return consequence;
+  };
+  CHECK(skip() == "you still use the clutch with Old pedals axis 2, A");
+  CHECK(skip() == "you still use the brake with Pad LT, S");
+  CHECK(skip() == "you still use the throttle with Pad RT, D, F");
+  CHECK(skip() == "you still use the handbrake with B, H");
+  CHECK(person.setup.if_skipped().empty());  // the way of shifting has to be chosen
+  person.say(Answer::lever);
+  CHECK(skip() == "you still move the lever sideways with Pad right stick, left and right, Left, Right, the mouse");
+  person.say(Answer::back);
+  person.say(Answer::back);
+  person.say(Answer::two_buttons);
+  CHECK(skip() == "you still shift one gear up with Page Up");
+
+  Person bare;  // nothing is bound
+  CHECK(bare.setup.if_skipped() == "you cannot use the clutch until something is bound to it");
+  for (int i = 0; i < 4; ++i) bare.say(Answer::skip);
+  bare.say(Answer::gear_buttons);
+  bare.say(Answer::done);
+  CHECK(bare.setup.if_skipped() == "in gear 1 the shifter counts as in neutral");
+}
+
+TEST_CASE("a shifter is asked for the gears of the gate; set up again, it keeps the gears that are skipped") {
+  for (const std::string& name : shipped_names()) {
+    const std::vector<int> gears = gears_to_set_up(shipped_gate(name)), all = gears_to_set_up();
+    CHECK(gears.back() == kReverseGear);
+    CHECK(std::includes(all.rbegin(), all.rend(), gears.rbegin(), gears.rend(), std::greater<>()));
+  }
+  CHECK(gears_to_set_up(shipped_gate("four_speed")) == std::vector{1, 2, 3, 4, kReverseGear});
+
+  Person person;
+  const auto answers = [&](const std::vector<int>& gears) {
+    return [&person, gears](const std::string& prompt) {
+      if (has(prompt, "How do you shift")) return Answer::gear_buttons;
+      if (has(prompt, "NEUTRAL")) return person.hold(-1), Answer::done;
+      for (const int gear : gears)
+        if (has(prompt, ("gear " + std::to_string(gear) + " and").c_str())) return person.hold(11 + gear), Answer::done;
+      return Answer::skip;
+    };
+  };
+  const auto start = [&](const std::string& gate) {
+    person.setup = ControlsSetup(person.setup.bindings(), {}, gears_to_set_up(shipped_gate(gate)));
+    person.frame(5);
+  };
+  start("four_speed");
+  person.go_through(answers({1, 2, 3, 4}));
+  CHECK(has(person.setup.note(), "For a car with more gears, choose it and set up again: Skip keeps what is bound."));
+  start("six_speed_r_left_up");
+  person.go_through(answers({5, 6}));
+  CHECK_FALSE(has(person.setup.note(), "more gears"));
+  using Gears = std::map<int, std::vector<int>>;
+  CHECK(person.setup.bindings().controllers.at(0).gears ==
+        Gears{{1, {12}}, {2, {13}}, {3, {14}}, {4, {15}}, {5, {16}}, {6, {17}}});
+  // A skipped gear keeps its button; one that is not asked gives it up.
+  start("four_speed");
+  person.go_through([&](const std::string& prompt) {
+    if (!has(prompt, "gear 2 ")) return answers({})(prompt);
+    person.hold(12);
+    if (has(person.setup.note(), "Skipped")) return Answer::done;
+    CHECK(person.setup.note() == "This button is bound already (gear 1). Try again.");
+    person.hold(17);
+    return Answer::done;
+  });
+  CHECK(person.setup.bindings().controllers.at(0).gears ==
+        Gears{{1, {12}}, {2, {17}}, {3, {14}}, {4, {15}}, {5, {16}}});
+  // The gears of a shifter that is not plugged in are forgotten.
+  person.devices.erase(person.devices.begin());
+  start("four_speed");
+  person.go_through([&](const std::string& prompt) {
+    return has(prompt, "How do you shift") ? Answer::gear_buttons
+           : has(prompt, "NEUTRAL")        ? Answer::done
+                                           : Answer::skip;
+  });
+  CHECK(person.setup.bindings().controllers.empty());
+}
+
+TEST_CASE("a handbrake button is on while it is down, or switches at each press; no other control may take it") {
+  for (const Answer answer : {Answer::held, Answer::toggled}) {
+    Bindings start;
+    start.controllers = {{{"Box", ""}, 0, {{Action::hand_brake_hold, {0}}, {Action::hand_brake, {3}}}, {}}};
+    Person person(start);
+    for (int i = 0; i < 3; ++i) person.say(Answer::skip);
+    person.press(2, 1);
+    person.say(Answer::done);
+    CHECK(person.setup.choices().front().answer == Answer::held);
+    person.say(answer);
+    const auto& actions = person.setup.bindings().controllers.at(0).actions;
+    const Action bound = answer == Answer::held ? Action::hand_brake_hold : Action::hand_brake;
+    CHECK(actions == std::map<Action, std::vector<int>>{{bound, {1}}});
+    person.say(Answer::two_buttons);
+    person.press(2, 1);
+    person.say(Answer::done);
+    CHECK(person.setup.note() == "This button is bound already (handbrake). Try again.");
+    person.press(2, 2);
+    person.say(Answer::done);
+    person.press(2, 2);
+    person.say(Answer::done);
+    CHECK(person.setup.note() == "This button is bound already (one gear up). Try again.");
+    // Back to the handbrake, which is an axis now: its button is not asked about.
+    for (int i = 0; i < 4; ++i) person.say(Answer::back);
+    CHECK(has(person.setup.prompt(), "HANDBRAKE"));
+    person.pedal(1);
+    person.say(Answer::done);
+    CHECK(has(person.setup.prompt(), "How do you shift"));
+    CHECK(person.setup.bindings().controllers.at(0).actions.empty());
+  }
 }

@@ -58,13 +58,14 @@ TEST_CASE(
 TEST_CASE("each step shows its prompt, what was found and only its own answers, in place of the lesson") {
   PanelRig rig;
   std::vector<engine::Controller> all = desk();
-  ControlsSetup setup({}, {});
+  ControlsSetup setup({}, {}, gears_to_set_up());
   rig.input.controls = {&setup, all, {}, {}};
   const auto answers = [&] {
     settle(rig);
     std::vector<std::string> found;
-    for (const char* name : {"setup_done", "setup_skip", "setup_back", "setup_gears", "setup_paddles", "setup_lever",
-                             "setup_other", "setup_stays", "setup_returns", "setup_save", "setup_cancel"})
+    for (const char* name :
+         {"setup_done", "setup_skip", "setup_back", "setup_gears", "setup_paddles", "setup_lever", "setup_other",
+          "setup_stays", "setup_returns", "setup_held", "setup_toggled", "setup_save", "setup_cancel"})
       if (rig.panel.control_rect(name)) found.emplace_back(name);
     return found;
   };
@@ -77,7 +78,17 @@ TEST_CASE("each step shows its prompt, what was found and only its own answers, 
   CHECK(answers() == Names{"setup_done", "setup_skip", "setup_cancel"});
   CHECK(shows("Press the CLUTCH pedal"));
   CHECK(shows("step 1 of 5"));
-  for (int i = 0; i < 4; ++i) give("setup_skip");
+  CHECK(shows("Skip: you cannot use the clutch until something is bound to it."));
+  for (int i = 0; i < 3; ++i) give("setup_skip");
+  for (const bool down : {false, true}) {
+    all[0].buttons[3] = down;
+    setup.frame(all, 0.01);
+  }
+  give("setup_done");
+  setup.frame(all, 2.0);
+  for (int i = 0; i < AxisDetector::kMinRestFrames; ++i) setup.frame(all, 0.1);
+  CHECK(answers() == Names{"setup_back", "setup_held", "setup_toggled", "setup_cancel"});
+  give("setup_toggled");
   CHECK(answers() == Names{"setup_back", "setup_gears", "setup_paddles", "setup_lever", "setup_other", "setup_cancel"});
   give("setup_lever");
   CHECK(answers() == Names{"setup_done", "setup_skip", "setup_back", "setup_cancel"});
@@ -86,7 +97,11 @@ TEST_CASE("each step shows its prompt, what was found and only its own answers, 
   give("setup_skip");
   CHECK(answers() == Names{"setup_back", "setup_stays", "setup_returns", "setup_cancel"});
   give("setup_stays");
-  CHECK(answers() == Names{"setup_save", "setup_cancel"});
+  CHECK(answers() == Names{"setup_back", "setup_save", "setup_cancel"});
+  give("setup_back");
+  CHECK(answers() == Names{"setup_back", "setup_stays", "setup_returns", "setup_cancel"});
+  give("setup_stays");
+  settle(rig);
   CHECK(has<SaveControls>(rig.click("setup_save")));
   CHECK(has<CancelControls>(rig.click("setup_cancel")));
 }
@@ -94,7 +109,7 @@ TEST_CASE("each step shows its prompt, what was found and only its own answers, 
 TEST_CASE("the picture moves with the control, and lamps show the buttons that are held") {
   PanelRig rig;
   std::vector<engine::Controller> all = desk();
-  ControlsSetup setup({}, {});
+  ControlsSetup setup({}, {}, gears_to_set_up());
   const auto frame = [&] {
     setup.frame(all, 0.01);
     rig.input.controls = {&setup, all, {}, {}};
@@ -121,7 +136,7 @@ TEST_CASE("in the smallest window no answer leaves the screen, with the panel sh
     rig.screen.height = 400.0f;
     std::vector<engine::Controller> all = desk();
     for (int i = 0; i < 4; ++i) all.push_back(controller("Another box with a rather long name", {0.0f, 0.0f}, 60));
-    ControlsSetup setup({}, {});
+    ControlsSetup setup({}, {}, gears_to_set_up());
     rig.panel.set_visible(visible);
     const auto check = [&](std::initializer_list<const char*> names) {
       rig.input.controls = {&setup, all, {}, {}};
