@@ -1,6 +1,6 @@
 #include "app/session/controls_assistant.h"
 
-#include <algorithm>
+#include <fstream>
 #include <utility>
 #include <variant>
 
@@ -13,6 +13,8 @@
 #include "app/ui/input/controls_dialog.h"
 #include "haptics/files/file_error.h"
 #include "haptics/files/printable.h"
+#include "haptics/files/text_file.h"
+#include "haptics/files/verified_file.h"
 
 namespace gearshift::session {
 namespace {
@@ -25,10 +27,23 @@ std::string shift_request(const ui::DriverInput::MissedGear& missed, const hapti
                            : fmt::format("The lever did not reach {}. Press the clutch.", name);
 }
 
+// One name per line. Empty if there is no such file.
+std::set<std::string> read_names(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::set<std::string> names;
+  for (std::string name; std::getline(stream, name);) names.insert(name);
+  return names;
+}
+
 }  // namespace
 
-ControlsAssistant::ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file, ui::Bindings shipped)
-    : driver_(driver), own_file_(std::move(own_file)), shipped_(std::move(shipped)) {}
+ControlsAssistant::ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file,
+                                     std::filesystem::path declined_file, ui::Bindings shipped)
+    : driver_(driver),
+      own_file_(std::move(own_file)),
+      declined_file_(std::move(declined_file)),
+      shipped_(std::move(shipped)),
+      declined_(read_names(declined_file_)) {}
 
 void ControlsAssistant::update(const std::vector<engine::Controller>& controllers, double seconds) {
   controllers_ = ui::controllers_to_set_up(controllers);
@@ -36,10 +51,37 @@ void ControlsAssistant::update(const std::vector<engine::Controller>& controller
   unbound_.clear();
   for (const engine::Controller* one : ui::unbound_controllers(driver_.bindings(), controllers))
     if (one->can_be_read) unbound_.push_back(haptics::printable(one->name));
+  forget_replugged();
   if (!setup_) return;
   setup_->frame(controllers, seconds);
   const bool was_tried = std::exchange(is_tried_, setup_->is_over());
   if (is_tried_ && !was_tried) driver_.rebind(setup_->bindings());
+}
+
+// A controller that is plugged in while the program runs is offered, also if it was declined before.
+void ControlsAssistant::forget_replugged() {
+  std::set<std::string> present;
+  for (const engine::Controller& one : controllers_) present.insert(haptics::printable(one.name));
+  for (const std::string& name : present)
+    if (present_ && !present_->contains(name)) declined_.erase(name);
+  present_ = std::move(present);
+}
+
+// If the file cannot be written, the answer applies to this session.
+std::string ControlsAssistant::decline() {
+  declined_.insert(unbound_.begin(), unbound_.end());
+  if (declined_file_.empty()) return {};
+  std::set<std::string> names = read_names(declined_file_);
+  names.insert(unbound_.begin(), unbound_.end());
+  try {
+    std::error_code ignored;  // ignored, because the write below reports the failure
+    std::filesystem::create_directories(declined_file_.parent_path(), ignored);
+    haptics::write_verified_file(declined_file_, fmt::format("{}\n", fmt::join(names, "\n")),
+                                 [](const auto& written) { (void)haptics::read_text_file(written); });
+  } catch (const haptics::FileError& error) {
+    return fmt::format("{} The controllers will be offered again at the next start.", error.what());
+  }
+  return {};
 }
 
 std::string ControlsAssistant::take(engine::WindowInput& input, bool uses_escape) {
@@ -55,7 +97,7 @@ std::string ControlsAssistant::apply(const ui::ControlsCommand& command, const h
     setup_.emplace(before_, shipped_, ui::gears_to_set_up(gate));
     is_tried_ = false;
   } else if (std::holds_alternative<ui::DeclineControls>(command)) {
-    declined_.insert(unbound_.begin(), unbound_.end());
+    return decline();
   } else if (!setup_) {
     return {};
   } else if (const auto* answer = std::get_if<ui::AnswerControls>(&command)) {
@@ -103,17 +145,16 @@ void ControlsAssistant::end(const ui::Bindings& bindings) {
 }
 
 ui::ControlsView ControlsAssistant::view(const haptics::Gate& gate, bool offers) {
-  offer_.clear();
-  const auto wanted = std::find_if(unbound_.begin(), unbound_.end(),
-                                   [this](const std::string& name) { return !declined_.contains(name); });
-  if (offers && wanted != unbound_.end()) offer_ = *wanted;
+  offers_.clear();
+  for (const std::string& name : unbound_)
+    if (offers && !declined_.contains(name)) offers_.push_back(name);
   request_.clear();
   if (setup_) return {&*setup_, controllers_, {}, {}};
   if (const auto missed = driver_.missed_gear())
     request_ = shift_request(*missed, gate);
   else if (!problems_.empty())
     request_ = problems_.front();
-  return {nullptr, controllers_, offer_, request_};
+  return {nullptr, controllers_, offers_, request_};
 }
 
 }  // namespace gearshift::session

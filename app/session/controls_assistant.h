@@ -15,9 +15,11 @@ namespace gearshift::session {
 
 class ControlsAssistant {
  public:
-  // `own_file`: the user's bindings, written when the user saves; empty if the user has no folder for them. `shipped`: see
+  // `own_file`: the user's bindings, written when the user saves. `declined_file`: names of the controllers that the user
+  // does not want to set up, one per line. Both are empty if the user has no folder for them. `shipped`: see
   // ui::ControlsSetup.
-  ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file, ui::Bindings shipped);
+  ControlsAssistant(ui::DriverInput& driver, std::filesystem::path own_file, std::filesystem::path declined_file,
+                    ui::Bindings shipped);
 
   // Call once per frame, with the controllers that are plugged in, without the one that is used as a force-feedback
   // stick.
@@ -37,21 +39,25 @@ class ControlsAssistant {
   ui::ControlsView view(const haptics::Gate& gate, bool offers);
 
  private:
+  void forget_replugged();
+  std::string decline();
   std::string save();
   std::string cancel();
   void end(const ui::Bindings& bindings);
 
   ui::DriverInput& driver_;
-  std::filesystem::path own_file_;
+  std::filesystem::path own_file_, declined_file_;
   ui::Bindings shipped_;
   std::optional<ui::ControlsSetup> setup_;
   ui::Bindings before_;    // bindings before the set-up
   bool is_tried_ = false;  // the driver uses the new bindings
   std::vector<engine::Controller> controllers_;
-  std::vector<std::string> unbound_;   // names of controllers without effect
-  std::vector<std::string> problems_;  // sentences about controllers that the bindings name
-  std::set<std::string> declined_;     // those of them that the user does not want to set up in this session
-  std::string offer_, request_;
+  std::vector<std::string> unbound_;              // names of controllers without effect
+  std::vector<std::string> problems_;             // sentences about controllers that the bindings name
+  std::set<std::string> declined_;                // names of controllers that are not offered
+  std::optional<std::set<std::string>> present_;  // names of all controllers in the last frame
+  std::vector<std::string> offers_;
+  std::string request_;
 };
 
 }  // namespace gearshift::session

@@ -68,7 +68,7 @@ class WindowTrainer {
         session_(setup.choice),
         shared_(setup.bindings),
         input_(shared_.driver()),
-        controls_(input_, setup.own_bindings, setup.shipped_bindings),
+        controls_(input_, setup.own_bindings, setup.declined_controllers, setup.shipped_bindings),
         look_(setup.choice.camera, setup.choice.drive),
         last_frame_(Clock::now()) {
     panel_.set_visible(setup.panel);

@@ -18,7 +18,8 @@ struct TrainSetup {
   ui::Bindings bindings;
   ui::Bindings shipped_bindings;
   std::filesystem::path own_bindings;  // file written when controllers are set up; empty: the user has no folder
-  std::string stick_id;                // USB id of the force-feedback stick, as Controller::id; empty: none
+  std::filesystem::path declined_controllers;  // file with the controllers not to offer for setting up; empty: none
+  std::string stick_id;                        // USB id of the force-feedback stick, as Controller::id; empty: none
   bool panel = true;
   std::optional<HeadsetSetup> headset;  // empty: desktop only
   std::filesystem::path replay;         // recording to replay; empty: none

@@ -92,13 +92,15 @@ session::TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.height = size.height;
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
-  setup.bindings = ui::read_bindings(session::bindings_file(arguments.bindings, config_folder()));
+  const std::filesystem::path folder = config_folder();
+  setup.bindings = ui::read_bindings(session::bindings_file(arguments.bindings, folder));
   setup.shipped_bindings = ui::read_bindings(base::find_asset("bindings", "default"));
   std::error_code ignored;
   if (std::filesystem::is_regular_file(arguments.bindings, ignored))
     setup.own_bindings = arguments.bindings;  // a file that the user has named
-  else if (const std::filesystem::path folder = config_folder(); !folder.empty())
+  else if (!folder.empty())
     setup.own_bindings = ui::user_bindings_file(folder, std::string(session::kOwnBindings));
+  if (!folder.empty()) setup.declined_controllers = folder / "declined_controllers.txt";
   setup.choice.pedal_timing = setup.bindings.pedal_timing;
   // In stereo each eye has only half of the picture's width. That is too narrow for the panel.
   setup.panel = !arguments.no_panel && !arguments.stereo;

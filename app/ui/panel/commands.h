@@ -117,7 +117,7 @@ using HeadsetCommand =
 
 // Setting up controllers without force feedback.
 struct StartControls {};
-struct DeclineControls {};  // of the offered controller, for this session
+struct DeclineControls {};  // of the offered controllers
 struct AnswerControls {
   ControlsSetup::Answer answer;
 };

@@ -170,10 +170,14 @@ void draw_step(Controls& controls, const PanelInput& input, float height, PanelC
   ImGui::EndChild();
 }
 
-void draw_offer(Controls& controls, std::string_view name, PanelCommands& out) {
-  put_wrapped(fmt::format("{} was found. It has no effect until you set it up.", name), ink::kText,
-              engine::UiFont::body);
-  if (controls.button("setup_begin", "Set it up (about a minute)", {0.0f, 0.0f}, ink::kPrimary))
+void draw_offer(Controls& controls, std::span<const std::string> names, PanelCommands& out) {
+  const std::string list = fmt::format("{}", fmt::join(names, ", "));
+  const bool is_one = names.size() == 1;
+  put_wrapped(is_one ? fmt::format("{} was found. It has no effect until you set it up.", list)
+                     : fmt::format("{} were found. They have no effect until you set them up.", list),
+              ink::kText, engine::UiFont::body);
+  if (controls.button("setup_begin", is_one ? "Set it up (about a minute)" : "Set them up (a few minutes)",
+                      {0.0f, 0.0f}, ink::kPrimary))
     out.push_back(StartControls{});
   same_line_if_fits(button_width("Not now"));
   if (controls.button("setup_decline", "Not now")) out.push_back(DeclineControls{});
@@ -183,7 +187,7 @@ void draw_offer(Controls& controls, std::string_view name, PanelCommands& out) {
 
 double draw_controls_card(Controls& controls, const PanelInput& input, const ControlRect& room, PanelCommands& out) {
   const ControlsView& view = input.controls;
-  if (view.setup == nullptr && view.offer.empty()) return room.max.y;
+  if (view.setup == nullptr && view.offers.empty()) return room.max.y;
   const float width = bottom_width(room, kCardWidth);
   ImGui::SetNextWindowSize({width, 0.0f});
   double top = room.max.y;
@@ -191,7 +195,7 @@ double draw_controls_card(Controls& controls, const PanelInput& input, const Con
     if (view.setup != nullptr)
       draw_step(controls, input, static_cast<float>(room.max.y - room.min.y) - kBottomMargin * engine::ui_em(), out);
     else
-      draw_offer(controls, view.offer, out);
+      draw_offer(controls, view.offers, out);
     top = static_cast<double>(ImGui::GetWindowPos().y);
   }
   ImGui::End();

@@ -34,7 +34,7 @@ struct StickView {
 struct ControlsView {
   const ControlsSetup* setup = nullptr;                  // being done; null: none
   std::span<const engine::Controller> controllers = {};  // that can be set up
-  std::string_view offer = {};                           // name of a controller that has no effect yet; empty: none
+  std::span<const std::string> offers = {};              // names of controllers that have no effect yet
   std::string_view request = {};                         // what to do with a shifter; empty: nothing
 };
 

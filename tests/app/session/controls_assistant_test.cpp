@@ -29,7 +29,8 @@ const Bindings& shipped_bindings() {
 }
 
 struct ControlsDesk {
-  explicit ControlsDesk(const std::filesystem::path& own_file) : assistant(driver, own_file, shipped_bindings()) {}
+  explicit ControlsDesk(const std::filesystem::path& own_file, const std::filesystem::path& declined_file = {})
+      : assistant(driver, own_file, declined_file, shipped_bindings()) {}
 
   void frame() {
     assistant.update(all, 0.01);
@@ -58,7 +59,11 @@ struct ControlsDesk {
     frame();
   }
   std::string apply(const ControlsCommand& command) { return assistant.apply(command, paper_gate()); }
-  std::string offer() { return std::string(assistant.view(paper_gate(), true).offer); }
+  using Names = std::vector<std::string>;
+  Names offers() {
+    const auto offered = assistant.view(paper_gate(), true).offers;
+    return {offered.begin(), offered.end()};
+  }
 
   std::vector<Controller> all{controller("Logitech G29", {0.0f, 1.0f}, 25, "046d:c24f"), controller("Box", {}, 4),
                               gamepad({})};
@@ -82,7 +87,7 @@ TEST_CASE("a wheel is set up and saved: meanwhile it does not drive, at the end 
   const TempFolder folder;
   ControlsDesk desk(folder / "bindings" / "own.toml");
   desk.frame();
-  CHECK(desk.offer() == "Logitech G29");
+  CHECK(desk.offers() == ControlsDesk::Names{"Logitech G29", "Box"});
   CHECK(desk.apply(StartControls{}).empty());
   CHECK(hides(desk));
   CHECK(desk.assistant.view(paper_gate(), true).setup != nullptr);
@@ -102,7 +107,7 @@ TEST_CASE("a wheel is set up and saved: meanwhile it does not drive, at the end 
   CHECK(desk.enter() == "Saved: " + (folder / "bindings" / "own.toml").string());
   CHECK(read_bindings(folder / "bindings" / "own.toml").clutch->of.stick == "Logitech G29");
   CHECK_FALSE(desk.assistant.press_enter(desk.message));
-  CHECK(desk.offer() == "Box");
+  CHECK(desk.offers() == ControlsDesk::Names{"Box"});
 }
 
 TEST_CASE("after cancelling the old bindings apply; a declined controller is not offered again") {
@@ -118,11 +123,11 @@ TEST_CASE("after cancelling the old bindings apply; a declined controller is not
   CHECK_FALSE(std::filesystem::exists(folder / "own.toml"));
   (void)desk.apply(DeclineControls{});
   desk.frame();
-  CHECK(desk.offer().empty());
+  CHECK(desk.offers().empty());
   desk.all.push_back(controller("Pedals", {0.0f}));  // another one, plugged in later
   desk.frame();
-  CHECK(desk.offer() == "Pedals");
-  CHECK(desk.assistant.view(paper_gate(), false).offer.empty());  // not while a simulated driver drives
+  CHECK(desk.offers() == ControlsDesk::Names{"Pedals"});
+  CHECK(desk.assistant.view(paper_gate(), false).offers.empty());  // not while a simulated driver drives
 }
 
 TEST_CASE("bindings that cannot be saved apply to this session, and the reason is said") {
@@ -212,4 +217,47 @@ TEST_CASE("the gears of the gate in force are asked for") {
   (void)desk.apply(AnswerControls{ControlsSetup::Answer::gear_buttons});
   const auto* setup = desk.assistant.view(paper_gate(), true).setup;
   CHECK(setup->steps() == 5 + 1 + 4 + 1);  // neutral, four gears, reverse
+}
+
+TEST_CASE("controllers that are declined are not offered at the next start, but when they are plugged in again") {
+  const TempFolder folder;
+  const std::filesystem::path file = folder / "new" / "declined_controllers.txt";
+  using Names = ControlsDesk::Names;
+  {
+    ControlsDesk desk(folder / "own.toml", file);
+    desk.frame();
+    CHECK(desk.offers() == Names{"Logitech G29", "Box"});
+    CHECK(desk.apply(DeclineControls{}).empty());
+    CHECK(desk.offers().empty());
+  }
+  ControlsDesk desk(folder / "own.toml", file);
+  desk.all.push_back(controller("Pedals", {0.0f}));
+  desk.frame();
+  CHECK(desk.offers() == Names{"Pedals"});
+  (void)desk.apply(DeclineControls{});
+  desk.frame();
+  CHECK(desk.offers().empty());
+  const std::vector<Controller> all = std::exchange(desk.all, {desk.all[0]});
+  desk.frame();
+  desk.all = all;
+  desk.frame();
+  CHECK(desk.offers() == Names{"Box", "Pedals"});  // plugged in again
+  (void)desk.apply(StartControls{});               // the panel's button works at any time
+  CHECK(desk.assistant.is_setting_up());
+
+  ControlsDesk later(folder / "own.toml", file);
+  later.all = all;
+  later.frame();
+  CHECK(later.offers().empty());
+}
+
+TEST_CASE("if the answer cannot be saved, it is said and holds for this session") {
+  const TempFolder folder;
+  std::ofstream(folder / "file") << "not a folder";
+  ControlsDesk desk(folder / "own.toml", folder / "file" / "declined_controllers.txt");
+  desk.frame();
+  const std::string message = desk.apply(DeclineControls{});
+  CHECK(message.find("The controllers will be offered again at the next start.") != std::string::npos);
+  desk.frame();
+  CHECK(desk.offers().empty());
 }

@@ -40,7 +40,8 @@ TEST_CASE(
   CHECK_FALSE(rig.panel.control_rect("setup_begin"));
   CHECK_FALSE(rig.panel.control_rect("controls_setup"));
   const std::vector<engine::Controller> all = desk();
-  rig.input.controls = {nullptr, all, "Logitech G29", {}};
+  std::vector<std::string> offers{"Logitech G29"};
+  rig.input.controls = {nullptr, all, offers, {}};
   for (const bool visible : {true, false}) {
     rig.panel.set_visible(visible);
     settle(rig);
@@ -49,7 +50,11 @@ TEST_CASE(
     CHECK(has<DeclineControls>(rig.click("setup_decline")));
   }
   rig.panel.set_visible(true);
-  rig.input.controls.offer = {};
+  offers.emplace_back("Handbrake");
+  rig.input.controls.offers = offers;
+  settle(rig);
+  CHECK(shows("Logitech G29, Handbrake were found. They have no effect until you set them up."));
+  rig.input.controls.offers = {};
   settle(rig);
   CHECK_FALSE(rig.panel.control_rect("setup_begin"));
   CHECK(has<StartControls>(rig.click("controls_setup")));  // it can be done again at any time
