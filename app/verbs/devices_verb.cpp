@@ -21,6 +21,7 @@
 #include "app/runtime/devices/stick_list.h"
 #include "app/session/bindings_file.h"
 #include "app/ui/input/controls_dialog.h"
+#include "app/ui/input/controls_setup.h"
 #include "app/verbs/verbs.h"
 #include "engine/window/controllers.h"
 #include "haptics/files/printable.h"
@@ -31,8 +32,10 @@ namespace {
 
 using DeviceJson = nlohmann::ordered_json;
 
+constexpr std::size_t kLeverAxes = 2;
+
 struct DevicesArguments {
-  bool json = false, again = false;
+  bool json = false, again = false, controls = false;
   std::string calibrate;
 };
 
@@ -122,7 +125,7 @@ void print_controllers(const std::vector<engine::Controller>& controllers) {
                     one.can_be_read ? std::to_string(one.buttons.size()) : "?",
                     !one.can_be_read ? "no permission"
                     : one.gamepad    ? "game pad"
-                                     : "set up by --calibrate NAME"});
+                                     : "set up by --controls"});
   print_rows(rows);
 }
 
@@ -171,6 +174,15 @@ int list_devices(bool as_json) {
   return 0;
 }
 
+int set_up_controls(bool again) {
+  if (ui::controllers_to_set_up(engine::list_controllers()).empty())
+    throw std::runtime_error(
+        "no wheel, pedals, lever or shifter that needs setting up is plugged in; game pads work without it");
+  const std::filesystem::path file =
+      ui::user_bindings_file(base::user_config_folder(), std::string(session::kOwnBindings));
+  return ui::calibrate_controllers(file, base::find_asset("bindings", "default"), again, STDIN_FILENO);
+}
+
 // Calibrates the wanted device. Measures a force-feedback stick; for other controllers, asks the user to move each
 // control.
 int calibrate(const std::string& wanted, bool again) {
@@ -183,13 +195,19 @@ int calibrate(const std::string& wanted, bool again) {
   const std::string name = stick == nullptr ? wanted : stick->identity.name;
   const bool is_controller = std::any_of(controllers.begin(), controllers.end(),
                                          [&](const auto& one) { return ui::matches_stick(one, name); });
-  if (!is_controller) return runtime::calibrate_stick(wanted, calibrations_folder(), again, STDIN_FILENO);
-  const std::filesystem::path file =
-      ui::user_bindings_file(base::user_config_folder(), std::string(session::kOwnBindings));
-  return ui::calibrate_controllers(file, base::find_asset("bindings", "default"), again, STDIN_FILENO);
+  if (is_controller) return set_up_controls(again);
+  if (stick != nullptr && stick->axes > kLeverAxes)
+    base::print_line(fmt::format(
+        "{} has {} axes. Two are calibrated here, as the lever with forces. To use the device without forces, "
+        "for pedals and gears, stop and run: gearshift devices --controls",
+        runtime::stick_name(stick->identity), stick->axes));
+  return runtime::calibrate_stick(wanted, calibrations_folder(), again, STDIN_FILENO);
 }
 
 int run_devices(const DevicesArguments& arguments) {
+  if (arguments.again && arguments.calibrate.empty() && !arguments.controls)
+    throw CLI::ValidationError("--again requires --calibrate or --controls");
+  if (arguments.controls) return set_up_controls(arguments.again);
   return arguments.calibrate.empty() ? list_devices(arguments.json) : calibrate(arguments.calibrate, arguments.again);
 }
 
@@ -201,7 +219,8 @@ void add_devices_verb(CLI::App& app, VerbAction& action) {
   verb->footer(
       "Examples:\n"
       "  gearshift devices\n"
-      "  gearshift devices --calibrate NAME    guides you step by step; NAME: any part of the stick's name\n");
+      "  gearshift devices --calibrate NAME    guides you step by step; NAME: any part of the stick's name\n"
+      "  gearshift devices --controls          sets up pedals, levers and shifters, without forces\n");
   CLI::Option* json = verb->add_flag("--json", arguments->json, "print the list as JSON");
   CLI::Option* calibrate =
       verb->add_option(
@@ -210,7 +229,10 @@ void add_devices_verb(CLI::App& app, VerbAction& action) {
           ->type_name("NAME")
           ->check([](const std::string& name) { return name.empty() ? "the stick's name must not be empty" : ""; })
           ->excludes(json);
-  verb->add_flag("--again", arguments->again, "calibrate from scratch")->needs(calibrate);
+  verb->add_flag("--controls", arguments->controls, "set up pedals, levers and shifters, without forces, step by step")
+      ->excludes(json)
+      ->excludes(calibrate);
+  verb->add_flag("--again", arguments->again, "start from scratch")->excludes(json);
   verb->callback([arguments, &action] { action = [arguments] { return run_devices(*arguments); }; });
 }
 

@@ -34,6 +34,9 @@ again() { # takes the name for the output and options of the emulator; stdin is 
   XDG_CONFIG_HOME=$work/another with_stick --family vjoy "${@:2}" -- \
     "$gearshift" devices --calibrate "${id[vjoy]}" --again >"$1.txt" 2>"$1.err"
 }
+has_pedals() { # the sentence that its other axes are set up in another way
+  grep -q "vJoy.* has 8 axes. Two are calibrated here.* run: gearshift devices --controls" again.txt
+}
 pushes_nothing() {
   echo | again again
   printed "Rejected: no axis moved" again && printed "Still missing: range" again
@@ -53,6 +56,7 @@ mkdir -p "$elsewhere"
 (sticks=$elsewhere; write_calibrations complete)
 cp -r "$elsewhere" measured_before
 check "a user who pushes nothing gets a message with the missing steps" pushes_nothing
+check "and how to use the axes that are not the lever's" has_pedals
 check "unplugging and reconnecting the stick is reported" pulled_out
 check "earlier measurements are saved" diff -r measured_before "$elsewhere"
 

@@ -254,6 +254,10 @@ def renamed_device_works(plugs, folder):
 
 def calibration_in_a_terminal(plugs, folder):
     home = {**os.environ, **homes(folder)}
+    closed = subprocess.run([gearshift, "devices", "--controls"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                            env=home)
+    check("without a name and without an answer, the first question is asked",
+          closed.returncode == 1 and re.search("CLUTCH.*you still use the clutch with A", closed.stdout) is not None)
     dialog = subprocess.Popen([gearshift, "devices", "--calibrate", "G29"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                               text=True, env=home)
     wheel, said = plugs["g29"], []

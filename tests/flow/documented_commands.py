@@ -49,6 +49,7 @@ ELSEWHERE = {
     r"gearshift tour .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh", "tour --device"),
     r"gearshift .*--device ": ("the same, and a window", "tests/flow/headset_stick.sh", "--device ffboard"),
     r"gearshift devices --calibrate": ("wants a stick and a person", "tests/flow/calibrate.sh", "devices --calibrate"),
+    r"gearshift devices --controls": ("wants pedals and a person", "tests/flow/controllers.py", "--controls"),
     r"gearshift train.* --xr": ("wants a headset", "tests/flow/no_headset.sh", "--xr --silent"),
     r"gearshift demo ": ("takes minutes on a busy machine", "tests/flow/demo.sh", '"$gearshift" demo'),
     r"gearshift reproduce --out \S+$": ("takes long", "tests/flow/reproduce.sh", '"$gearshift" reproduce'),

@@ -196,7 +196,9 @@ refuse 1 "zeros.trace" replay zeros.trace
 refuse 1 "newer" replay newer.trace
 refuse 1 "empty" replay empty
 refuse 1 "folder" replay folder
-refuse 2 "--again" devices --again
+refuse 2 "--again requires --calibrate or --controls" devices --again
+refuse 2 "--controls" devices --controls --calibrate stick
+refuse 1 "no wheel, pedals, lever or shifter that needs setting up is plugged in" devices --controls
 refuse 2 "--calibrate" devices --json --calibrate stick
 refuse 2 "--seconds" tour --out t --seconds 5
 refuse 2 "--seconds" tour --out t --device stick --seconds 0

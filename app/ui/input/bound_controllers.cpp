@@ -167,9 +167,8 @@ std::vector<std::string> describe_unbound(const Bindings& bindings, const std::v
     const std::string name = haptics::printable(one->name);
     sentences.push_back(
         one->can_be_read
-            ? fmt::format("{0} was found. It has no effect until you set it up, here or by: gearshift devices "
-                          "--calibrate \"{0}\"",
-                          name)
+            ? fmt::format(
+                  "{} was found. It has no effect until you set it up, here or by: gearshift devices --controls", name)
             : fmt::format("This user may not read {}. \"gearshift devices\" shows how to allow it.", name));
   }
   return sentences;

@@ -14,7 +14,7 @@ Bindings starting_bindings(const std::filesystem::path& file, const std::filesys
 // Writes the bindings and creates their folder. Throws FileError.
 void save_bindings(const Bindings& bindings, const std::filesystem::path& file);
 
-// Implements `devices --calibrate` for controllers without force feedback. `file` is replaced only at the end.
+// Implements `devices --controls`. `file` is replaced only at the end.
 // `answers`: the file descriptor from which the user's answers are read. Returns the exit code. Throws FileError.
 int calibrate_controllers(const std::filesystem::path& file, const std::filesystem::path& defaults, bool again,
                           int answers);

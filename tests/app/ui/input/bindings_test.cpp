@@ -211,8 +211,7 @@ TEST_CASE("controllers that are absent, renamed, unreadable, too small or not se
   CHECK(described({pad, wheel, base}) ==
         Sentences{"Pedals is not plugged in, so these have no effect: brake, throttle. Plug it in, or set up another "
                   "controller.",
-                  "Wheel was found. It has no effect until you set it up, here or by: gearshift devices --calibrate "
-                  "\"Wheel\""});
+                  "Wheel was found. It has no effect until you set it up, here or by: gearshift devices --controls"});
   CHECK(described({renamed, base}) ==
         Sentences{
             "Pedals is called Foot controls today. If its pedals or buttons have changed places, set it up again."});
