@@ -237,6 +237,28 @@ def everything_set_up_works(plugs, folder):
           [round(value, 1) for value in changes(hand_brake)] == [0.0, 0.5, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0])
 
 
+def pad_drives_at_once(plugs, folder):
+    trainer = Trainer(folder, RECORDED_BY_BOX)
+    pad = plugs["pad"]
+    tap(plugs["box"], 0)
+    trainer.wait_for("recording to")
+    for value in (64, 192, 0):  # the right trigger, which GLFW calls the sixth axis
+        pad.axis(emulated.ABS_RZ, value)
+        time.sleep(0.3)
+    tap(pad, 0)  # A
+    pad.axis(emulated.ABS_RX, 32767)  # the right stick
+    trainer.wait_for("recording to")
+    time.sleep(1.0)
+    tap(plugs["box"], 0)
+    tap(plugs["box"], 1)
+    trainer.process.wait(timeout=30)
+    rows = trainer.recording()
+    check("the throttle follows the pad's trigger",
+          [round(value, 2) for value in changes(values(rows, "throttle"))] == [0.0, 0.25, 0.75, 0.0])
+    check("A pulls the handbrake", changes(values(rows, "hand_brake")) == [0.0, 1.0])
+    check("the stick moves the lever to the right", max(values(rows, "lever_x_mm")) > 10)
+
+
 def renamed_device_works(plugs, folder):
     bindings = SET_UP.replace('stick = "Logitech G29"', 'stick = "G29 Racing Wheel"\nid = "046d:c24f"')
     trainer = Trainer(folder, bindings)
@@ -347,7 +369,7 @@ def labels_follow_the_layout(plugs, folder):
     trainer.end()
 
 
-SCENARIOS = [devices_are_listed, unknown_devices_do_nothing, everything_set_up_works, renamed_device_works,
+SCENARIOS = [devices_are_listed, unknown_devices_do_nothing, everything_set_up_works, pad_drives_at_once, renamed_device_works,
              calibration_in_a_terminal, labels_follow_the_layout]
 
 

@@ -8,9 +8,11 @@ The program that run() starts sees /dev/input and /sys as if the devices were pl
 
     plug = Plug("g29"); plug.key(plug.BUTTONS[12], 1); plug.axis(ABS_Z, 0)
 """
+import ctypes
 import os
 import struct
 import subprocess
+import threading
 
 EV_SYN, EV_KEY, EV_ABS = 0, 1, 3
 (ABS_X, ABS_Y, ABS_Z, ABS_RX, ABS_RY, ABS_RZ, ABS_THROTTLE, ABS_HAT0X, ABS_HAT0Y, ABS_VOLUME) = (
@@ -132,22 +134,54 @@ def run(devices, command):
 
 
 class Plug:
-    """Sends a device's events, beneath run(). Programs read them from a pipe in the place of the device file. Create it
-    before the program that reads it. The program's own reader takes all of them, so GLFW sees no event of a pad."""
+    """Sends a device's events, beneath run(). A program reads them from a pipe in the place of the device file. Like the
+    kernel, it gives all events to every reader: as soon as a pipe is opened, another takes its place for the next reader.
+    Create it before the program that reads it."""
+
+    IN_OPEN = 0x20
+    libc = ctypes.CDLL(None, use_errno=True)
+    inotify = None
+    watched = {}  # by inotify's number of the pipe
 
     def __init__(self, name):
         self.device = DEVICES[name]
         self.path = f"{os.environ['UMOCKDEV_DIR']}/dev/input/{self.device.file}"
-        os.unlink(self.path)
-        self.pipe = None
+        self.pipes = []
         if not self.device.opens:
+            os.unlink(self.path)
             os.mkdir(self.path)  # at each open() that fails, umockdev leaks a socket; so libevdev fails instead
             return
-        os.mkfifo(self.path, 0o600)
-        self.pipe = os.open(self.path, os.O_RDWR | os.O_NONBLOCK)
+        if Plug.inotify is None:
+            Plug.inotify = self.libc.inotify_init1(os.O_CLOEXEC)
+            threading.Thread(target=Plug.follow_readers, daemon=True).start()
+        self.renew()
+
+    def renew(self):
+        """Puts a new pipe in the place of the device file. GLFW would take a deleted file for an unplugged device."""
+        made = f"{os.environ['UMOCKDEV_DIR']}/{self.device.file}"
+        os.mkfifo(made, 0o600)
+        self.pipes.append(os.open(made, os.O_RDWR | os.O_NONBLOCK))
+        Plug.watched[self.libc.inotify_add_watch(Plug.inotify, made.encode(), Plug.IN_OPEN)] = self
+        os.rename(made, self.path)
+
+    @staticmethod
+    def follow_readers():
+        while True:
+            data = os.read(Plug.inotify, 4096)
+            while data:
+                number, _, _, length = struct.unpack_from("iIII", data)
+                data = data[16 + length:]
+                plug = Plug.watched.pop(number, None)
+                if plug:
+                    plug.renew()
 
     def send(self, kind, code, value):
-        os.write(self.pipe, struct.pack("<qqHHi", 0, 0, kind, code, value))
+        for pipe in list(self.pipes):
+            try:
+                os.write(pipe, struct.pack("<qqHHi", 0, 0, kind, code, value))
+            except BlockingIOError:  # nobody has read it for long
+                self.pipes.remove(pipe)
+                os.close(pipe)
 
     def button(self, number, down=True):
         self.send(EV_KEY, self.device.keys[number], int(down))
@@ -156,5 +190,6 @@ class Plug:
         self.send(EV_ABS, code, value)
 
     def unplug(self):
+        Plug.watched = {number: plug for number, plug in Plug.watched.items() if plug is not self}
         os.unlink(self.path)
         os.unlink(f"{os.environ['UMOCKDEV_DIR']}/sys/class/input/{self.device.file}")
