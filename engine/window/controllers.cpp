@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -103,40 +104,59 @@ float centred(const input_absinfo& axis) {
                        : 2.0f * (static_cast<float>(axis.value) - static_cast<float>(axis.minimum)) / range - 1.0f;
 }
 
-// The kind of device behind each of GLFW's joystick numbers. GLFW reads a device's events whenever it is asked about it, and writes out of
+// The device behind each of GLFW's joystick numbers. GLFW reads a device's events whenever it is asked about it, and writes out of
 // bounds at the event of a key below BTN_MISC (glfw issues 2455 and 2856; GLFW 3.4 aborts). Keyboards that declare an axis
 // count as joysticks, so a device that is no game pad is asked only once, right after it was opened.
-enum class Kind : unsigned char { unknown, gamepad, other };
-std::array<Kind, GLFW_JOYSTICK_LAST + 1> kinds{};
-int kinds_since = 0;  // glfw_starts() for which they hold
+struct Joystick {
+  enum class Kind : unsigned char { unknown, gamepad, other } kind = Kind::unknown;
+  std::string file;  // of its controller; empty: not known yet
+};
+std::array<Joystick, GLFW_JOYSTICK_LAST + 1> joysticks;
+int joysticks_since = 0;  // glfw_starts() for which they hold
 
 bool is_gamepad(int id) {
-  Kind& kind = kinds[static_cast<std::size_t>(id)];
+  using Kind = Joystick::Kind;
+  Kind& kind = joysticks[static_cast<std::size_t>(id)].kind;
   if (kind == Kind::unknown && glfwJoystickPresent(id) == GLFW_TRUE)
     kind = glfwJoystickIsGamepad(id) == GLFW_TRUE ? Kind::gamepad : Kind::other;
   return kind == Kind::gamepad;
 }
 
+// Returns the controller of GLFW's joystick; null if it is not found yet. GLFW does not say which device file it has
+// opened. It gives equal devices that are present at its start their numbers in the alphabetical order of their files, and a
+// device that is plugged in later the first free number.
+Controller* controller_of(int id, std::vector<Controller>& controllers) {
+  const char* name = glfwGetJoystickName(id);
+  const char* guid = glfwGetJoystickGUID(id);
+  if (name == nullptr || guid == nullptr) return nullptr;  // the pad was just unplugged
+  Joystick& joystick = joysticks[static_cast<std::size_t>(id)];
+  Controller* found = nullptr;
+  for (Controller& one : controllers) {
+    if (one.name != name || one.guid != guid) continue;
+    if (one.file == joystick.file) return &one;
+    const bool is_taken =
+        std::any_of(joysticks.begin(), joysticks.end(), [&](const Joystick& j) { return j.file == one.file; });
+    if (!is_taken && (found == nullptr || one.file < found->file)) found = &one;
+  }
+  if (found != nullptr) joystick.file = found->file;
+  return found;
+}
+
 // Adds the state of the game pads that GLFW knows to their controllers.
 void add_gamepads(std::vector<Controller>& controllers) {
   if (!glfw_is_in_use()) return;
-  if (std::exchange(kinds_since, glfw_starts()) != glfw_starts()) {
-    kinds = {};
-    glfwSetJoystickCallback([](int id, int) { kinds[static_cast<std::size_t>(id)] = Kind::unknown; });
+  if (std::exchange(joysticks_since, glfw_starts()) != glfw_starts()) {
+    joysticks = {};
+    glfwSetJoystickCallback([](int id, int) { joysticks[static_cast<std::size_t>(id)] = {}; });
   }
   for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
     GLFWgamepadstate mapped;
     if (!is_gamepad(id) || glfwGetGamepadState(id, &mapped) == GLFW_FALSE) continue;
-    const char* name = glfwGetJoystickName(id);
-    const char* guid = glfwGetJoystickGUID(id);
-    if (name == nullptr || guid == nullptr) continue;  // the pad was just unplugged
-    const auto same = std::find_if(controllers.begin(), controllers.end(), [&](const Controller& one) {
-      return one.name == name && one.guid == guid && !one.gamepad;
-    });
-    if (same == controllers.end()) continue;
-    same->gamepad.emplace();
-    std::copy(std::begin(mapped.axes), std::end(mapped.axes), same->gamepad->axes.begin());
-    std::copy(std::begin(mapped.buttons), std::end(mapped.buttons), same->gamepad->buttons.begin());
+    Controller* pad = controller_of(id, controllers);
+    if (pad == nullptr) continue;
+    pad->gamepad.emplace();
+    std::copy(std::begin(mapped.axes), std::end(mapped.axes), pad->gamepad->axes.begin());
+    std::copy(std::begin(mapped.buttons), std::end(mapped.buttons), pad->gamepad->buttons.begin());
   }
 }
 
@@ -144,8 +164,10 @@ void add_gamepads(std::vector<Controller>& controllers) {
 
 // A device file of a controller.
 struct Controllers::Node {
-  explicit Node(const fs::path& sysfs) : file(sysfs.filename()), found(std::chrono::steady_clock::now()) {
+  explicit Node(const fs::path& sysfs) : found(std::chrono::steady_clock::now()) {
     const fs::path input = sysfs / "device";
+    place = sysfs_text(input / "phys") + " " + sysfs_text(input / "uniq");
+    state.file = sysfs.filename();
     state.name = sysfs_text(input / "name");
     state.id = sysfs_text(input / "id/vendor") + ":" + sysfs_text(input / "id/product");
     state.guid = guid_of(input, state.name);
@@ -159,7 +181,7 @@ struct Controllers::Node {
   void close_file();
   void read();
 
-  std::string file;  // "event5"
+  std::string place;  // USB port, or the addresses of Bluetooth's host and device
   std::chrono::steady_clock::time_point found;
   Controller state;
   int descriptor = -1;
@@ -169,7 +191,7 @@ struct Controllers::Node {
 };
 
 void Controllers::Node::open_file() {
-  descriptor = ::open((fs::path(kDeviceFiles) / file).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  descriptor = ::open((fs::path(kDeviceFiles) / state.file).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0 || libevdev_new_from_fd(descriptor, &device) < 0) return close_file();
   state.can_be_read = true;
   const auto has = [this](unsigned type, unsigned code) { return libevdev_has_event_code(device, type, code) != 0; };
@@ -239,16 +261,17 @@ void Controllers::scan() {
   for (const fs::directory_entry& entry : fs::directory_iterator("/sys/class/input", error)) {
     const std::string file = entry.path().filename();
     if (!file.starts_with("event") || !is_controller(entry.path() / "device")) continue;
-    const auto known = std::find_if(nodes_.begin(), nodes_.end(),
-                                    [&](const auto& node) { return node && node->file == file && !node->is_gone; });
+    const auto known = std::find_if(nodes_.begin(), nodes_.end(), [&](const auto& node) {
+      return node && node->state.file == file && !node->is_gone;
+    });
     present.push_back(known != nodes_.end() ? std::move(*known) : std::make_unique<Node>(entry.path()));
     if (is_first) present.back()->found -= grant_delay_;  // it was there before the program
     if (!present.back()->state.can_be_read) present.back()->open_file();
   }
-  // In the order of the kernel's numbers.
-  std::sort(present.begin(), present.end(), [](const auto& a, const auto& b) {
-    return std::pair(a->file.size(), a->file) < std::pair(b->file.size(), b->file);
-  });
+  const auto place = [](const auto& node) {
+    return std::tuple(node->place, node->state.file.size(), node->state.file);
+  };
+  std::sort(present.begin(), present.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
   nodes_ = std::move(present);
 }
 

@@ -24,6 +24,7 @@ struct Controller {
   std::string name;
   std::string id;                      // "046d:c24f": USB vendor and product
   std::string guid;                    // identifies the model, as GLFW and SDL write it
+  std::string file;                    // "event5": name of the device file
   std::vector<float> axes;             // [-1, 1] in the order of the kernel's codes
   std::vector<unsigned char> buttons;  // 0 or 1, in the order of the kernel's codes; then up, right, down, left per hat
   std::optional<Gamepad> gamepad;      // if GLFW knows the model as a game pad
@@ -39,7 +40,8 @@ class Controllers {
   Controllers(const Controllers&) = delete;
   Controllers& operator=(const Controllers&) = delete;
 
-  // Returns the controllers that are plugged in now. Passes over devices that only look like controllers: keyboards,
+  // Returns the controllers that are plugged in now, in the order of their ports, so that equal ones keep their order. Passes
+  // over devices that only look like controllers: keyboards,
   // mice, touchpads, motion sensors, and Steam's copy of another controller. Marks game pads only while GLFW is in use.
   const std::vector<Controller>& poll();
 

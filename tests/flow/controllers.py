@@ -132,7 +132,7 @@ def devices_are_listed(plugs, folder):
     names = {one["name"]: one for one in listed}
     known = [device.name for device in emulated.DEVICES.values()]
     ghosts = [known[0], known[1]]
-    check("all controllers are listed in the order of plugging in; a keyboard and motion sensors are not",
+    check("all controllers are listed in the order of their ports; a keyboard and motion sensors are not",
           [one["name"] for one in listed] == [name for name in known if name not in ghosts])
     check("a shifter without axes and pedals without buttons have what they report",
           (names[plugs["shifter"].device.name]["buttons"], names[plugs["pedals"].device.name]["axes"]) == (10, 3))
@@ -274,6 +274,40 @@ def renamed_device_works(plugs, folder):
     check("the throttle of a renamed wheel works", max(values(trainer.recording(), "throttle")) > 0.7)
 
 
+# Two boxes and two pads of the same name.
+TWINS = """
+[keys]
+stop = "Space"
+[pad_axes.throttle]
+axis = "rt"
+[pad_axes.brake]
+axis = "rt"
+pad = 1
+[[controller]]
+stick = "Button Box"
+record = "0"
+[[controller]]
+stick = "Button Box"
+pad = 1
+quit = "1"
+"""
+
+
+def equal_devices_are_told_apart_by_their_ports(plugs, folder):
+    trainer = Trainer(folder, TWINS)
+    tap(plugs["box2"], 0)
+    trainer.wait_for("recording to")
+    for name, value in (("pad", 64), ("pad2", 128)):
+        plugs[name].axis(emulated.ABS_RZ, value)
+        time.sleep(0.3)
+    tap(plugs["box2"], 0)
+    tap(plugs["box"], 1)
+    check("the button of the second box quits", trainer.process.wait(timeout=30) == 0)
+    rows = trainer.recording()
+    check("the first pad is the throttle, the second the brake",
+          [round(max(values(rows, name)), 2) for name in ("throttle", "brake")] == [0.25, 0.5])
+
+
 def calibration_in_a_terminal(plugs, folder):
     home = {**os.environ, **homes(folder)}
     closed = subprocess.run([gearshift, "devices", "--controls"], stdin=subprocess.DEVNULL, capture_output=True, text=True,
@@ -370,13 +404,19 @@ def labels_follow_the_layout(plugs, folder):
 
 
 SCENARIOS = [devices_are_listed, unknown_devices_do_nothing, everything_set_up_works, pad_drives_at_once, renamed_device_works,
-             calibration_in_a_terminal, labels_follow_the_layout]
+             equal_devices_are_told_apart_by_their_ports, calibration_in_a_terminal, labels_follow_the_layout]
+
+
+def names(scenario):
+    """The devices that are plugged in."""
+    twins = emulated.TWINS if scenario is equal_devices_are_told_apart_by_their_ports else {}
+    return [*emulated.DEVICES, *twins]
 
 
 def inside():
     """Runs beneath umockdev, with its own emulated devices."""
     scenario = next(one for one in SCENARIOS if one.__name__ == sys.argv[4])
-    plugs = {name: emulated.Plug(name) for name in emulated.DEVICES}
+    plugs = {name: emulated.Plug(name) for name in names(scenario)}
     with tempfile.TemporaryDirectory() as folder:
         try:
             scenario(plugs, folder)
@@ -392,7 +432,7 @@ def main():
     for scenario in [one for one in SCENARIOS if not wanted or one.__name__ in wanted]:
         with tempfile.TemporaryDirectory() as folder:
             command = [sys.executable, __file__, gearshift, sources, "--inside", scenario.__name__]
-            if emulated.run(emulated.write(folder), command) != 0:
+            if emulated.run(emulated.write(folder, names(scenario)), command) != 0:
                 failed.append(scenario.__name__)
     print("FAILED: " + ", ".join(failed) if failed else "all passed")
     return 1 if failed else 0

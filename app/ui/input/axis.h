@@ -19,7 +19,7 @@ struct ControllerName {
 
 struct AxisBinding {
   ControllerName of{};
-  int which = 0;           // index among the controllers of this name; 0: the first one plugged in
+  int which = 0;           // index among the controllers of this name, in the order of engine::Controllers
   int axis = 0;            // of any game pad: index in Gamepad::axes; of a named controller: index in Controller::axes
   double from = -1.0;      // raw value of a released pedal, or of a lever at its left or back end
   double to = 1.0;         // raw value of a fully pressed pedal, or of a lever at its right or forward end

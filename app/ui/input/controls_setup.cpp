@@ -36,8 +36,13 @@ constexpr Choice kShifting[] = {{Answer::gear_buttons, "1", "A shifter with gear
 constexpr Choice kLeverModes[] = {
     {Answer::stays, "y", "It stays"}, {Answer::returns, "n", "It springs back"}, {Answer::back, "b", "Back"}};
 
-std::string describe(const ControllerName& of, const char* kind, int number) {
-  return fmt::format("{} {} of {}", kind, number, haptics::printable(of.stick));
+// `all`: the controllers that are plugged in, of which several may be equal.
+std::string describe(const ControllerName& of, int which, const char* kind, int number,
+                     const std::vector<engine::Controller>& all) {
+  const std::string text = fmt::format("{} {} of {}", kind, number, haptics::printable(of.stick));
+  const auto count = std::count_if(all.begin(), all.end(),
+                                   [&](const engine::Controller& one) { return name_of(one).stick == of.stick; });
+  return count < 2 ? text : fmt::format("{}, number {} of {} in the order of their ports", text, which + 1, count);
 }
 
 std::string gear_text(int gear) {
@@ -124,7 +129,7 @@ std::string ControlsSetup::if_skipped() const {
     use = fmt::format("shift into {}", gear_text(now.gear));
     for (const ControllerButtons& one : bindings_.controllers)
       if (const auto bound = one.gears.find(now.gear); bound != one.gears.end())
-        for (const int button : bound->second) inputs.push_back(describe(one.of, "button", button));
+        for (const int button : bound->second) inputs.push_back(describe(one.of, one.which, "button", button, all_));
     if (inputs.empty()) return fmt::format("in {} the shifter counts as in neutral", gear_text(now.gear));
   } else {
     return {};
@@ -311,15 +316,15 @@ void ControlsSetup::finish_axis() {
     }
     if (info.axis == &Bindings::hand_brake) erase_hand_brake(bindings_);
     bindings_.*info.axis = found;
-    next(
-        fmt::format("Found: {}, from {:.2f} to {:.2f}.", describe(found.of, "axis", found.axis), found.from, found.to));
+    next(fmt::format("Found: {}, from {:.2f} to {:.2f}.", describe(found.of, found.which, "axis", found.axis, all_),
+                     found.from, found.to));
   } catch (const std::invalid_argument& refused) {
     if (info.axis != &Bindings::hand_brake || pressed_.size() != 1) return repeat(refused.what());
     hand_brake_ = *pressed_.begin();
     erase_hand_brake(bindings_);
     bind(*hand_brake_, Action::hand_brake_hold);
     steps_.insert(steps_.begin() + static_cast<std::ptrdiff_t>(step_) + 1, {Kind::hand_brake_button});
-    next(fmt::format("Found: {}.", describe(hand_brake_->of, "button", hand_brake_->number)));
+    next(fmt::format("Found: {}.", describe(hand_brake_->of, hand_brake_->which, "button", hand_brake_->number, all_)));
   }
 }
 
@@ -362,7 +367,7 @@ void ControlsSetup::finish_gear() {
   // Some shifters also hold a button in neutral.
   for (const Button& one : neutral_)
     if (one.of == button.of && one.which == button.which && !down_.contains(one)) bind_gear(one, haptics::kNeutralGear);
-  next(fmt::format("Found: {}.", describe(button.of, "button", button.number)));
+  next(fmt::format("Found: {}.", describe(button.of, button.which, "button", button.number, all_)));
 }
 
 void ControlsSetup::finish_direction() {
@@ -372,7 +377,7 @@ void ControlsSetup::finish_direction() {
   if (const std::string other = meaning_in_this_run(button); !other.empty()) return refuse_button(other);
   erase_action(bindings_, steps_[step_].action);
   bind(button, steps_[step_].action);
-  next(fmt::format("Found: {}.", describe(button.of, "button", button.number)));
+  next(fmt::format("Found: {}.", describe(button.of, button.which, "button", button.number, all_)));
 }
 
 // Controllers whose last button was bound to something else are no longer named.

@@ -1,7 +1,7 @@
 """Emulated kernel input devices (evdev) beneath umockdev, without force feedback: what real devices report, and devices
 that only look like controllers. Axes and buttons by the kernel's codes; values as before the first report.
 
-    devices = write(folder)                      # the files of all devices of DEVICES
+    devices = write(folder, names)               # the files of these devices of DEVICES and TWINS
     run(devices, [program, argument, ...])       # runs the program with these devices
 
 The program that run() starts sees /dev/input and /sys as if the devices were plugged in. It may send their events itself:
@@ -22,10 +22,11 @@ USB = 3
 
 
 class Device:
-    def __init__(self, number, name, vendor, product, keys, axes, properties=0, opens=True):
+    def __init__(self, number, name, vendor, product, keys, axes, properties=0, opens=True, port=None):
         self.number, self.name, self.vendor, self.product = number, name, vendor, product
         self.keys, self.axes, self.properties, self.opens = sorted(keys), axes, properties, opens
         self.file = f"event{number}"
+        self.place = f"usb-0000:00:14.0-{port or number}/input0"
 
 
 def joystick_buttons(count):
@@ -62,6 +63,10 @@ DEVICES = {
     "closed": Device(9, "Thrustmaster T-Pedals", 0x044f, 0xb678, [], {ABS_X: WORD, ABS_Y: WORD, ABS_Z: WORD},
                      opens=False),
 }
+# Devices that equal one of the above. Of the boxes, the one that was plugged in last is at the first port; of the pads, the
+# one that was plugged in first. GLFW sorts event10 before event8.
+TWINS = {"pad2": Device(10, DEVICES["pad"].name, 0x045e, 0x028e, XPAD, DEVICES["pad"].axes, port=9),
+         "box2": Device(11, "Button Box", 0x1209, 0x0001, joystick_buttons(32), {}, port=1)}
 NO_ANSWERS = "@DEV /dev/input/event9\nEVIOCGVERSION 0 01000100\n"  # libevdev asks for more and fails
 HELD_AT_START = {"shifter": [joystick_buttons(10)[2]]}
 
@@ -89,7 +94,7 @@ def description(device):
     parent = f"/devices/emulated/input/input{device.number}"
     return "\n".join([
         f"P: {parent}", "E: SUBSYSTEM=input", f"A: name={device.name}", f"A: properties={device.properties:x}",
-        f"A: id/bustype={USB:04x}", f"A: id/vendor={device.vendor:04x}", f"A: id/product={device.product:04x}",
+        f"A: phys={device.place}", f"A: id/bustype={USB:04x}", f"A: id/vendor={device.vendor:04x}", f"A: id/product={device.product:04x}",
         "A: id/version=0114", f"A: capabilities/ev={sysfs_bits(types)}", f"A: capabilities/key={sysfs_bits(device.keys)}",
         f"A: capabilities/abs={sysfs_bits(device.axes)}", "", f"P: {parent}/{device.file}",
         f"N: input/{device.file}", f"E: DEVNAME=/dev/input/{device.file}", "E: SUBSYSTEM=input",
@@ -107,7 +112,7 @@ def answers(name, device):
     properties = [i for i in range(8) if device.properties >> i & 1]
     lines = [f"@DEV /dev/input/{device.file}", line("EVIOCGVERSION", struct.pack("<i", 0x010001)),
              line("EVIOCGID", struct.pack("<4H", USB, device.vendor, device.product, 0x114)),
-             line("EVIOCGNAME", text), line("EVIOCGNAME", text[:255]), line("EVIOCGPHYS", bytes(255)),
+             line("EVIOCGNAME", text), line("EVIOCGNAME", text[:255]), line("EVIOCGPHYS", device.place.encode().ljust(255, b"\0")),
              line("EVIOCGUNIQ", bytes(255)), line("EVIOCGPROP", bits(properties, 8)), line("EVIOCGBIT(0)", bits(types, 4)),
              line("EVIOCGBIT(0)", bits(types, 8)), line("EVIOCGBIT(1)", bits(device.keys, 96)),
              line("EVIOCGBIT(3)", bits(device.axes, 8)), line("EVIOCGKEY", bits(HELD_AT_START.get(name, []), 96))]
@@ -118,12 +123,13 @@ def answers(name, device):
 
 
 def write(folder, names=tuple(DEVICES)):
-    for name in names:
+    devices = {name: (DEVICES | TWINS)[name] for name in names}
+    for name, device in devices.items():
         with open(f"{folder}/{name}.umockdev", "w") as file:
-            file.write(description(DEVICES[name]))
+            file.write(description(device))
         with open(f"{folder}/{name}.ioctl", "w") as file:
-            file.write(answers(name, DEVICES[name]) if DEVICES[name].opens else NO_ANSWERS)
-    return [(f"{folder}/{name}", DEVICES[name]) for name in names]
+            file.write(answers(name, device) if device.opens else NO_ANSWERS)
+    return [(f"{folder}/{name}", device) for name, device in devices.items()]
 
 
 def run(devices, command):
@@ -144,7 +150,7 @@ class Plug:
     watched = {}  # by inotify's number of the pipe
 
     def __init__(self, name):
-        self.device = DEVICES[name]
+        self.device = (DEVICES | TWINS)[name]
         self.path = f"{os.environ['UMOCKDEV_DIR']}/dev/input/{self.device.file}"
         self.pipes = []
         if not self.device.opens:
@@ -158,7 +164,7 @@ class Plug:
 
     def renew(self):
         """Puts a new pipe in the place of the device file. GLFW would take a deleted file for an unplugged device."""
-        made = f"{os.environ['UMOCKDEV_DIR']}/{self.device.file}"
+        made = f"{os.environ['UMOCKDEV_DIR']}/next_{self.device.file}"
         os.mkfifo(made, 0o600)
         self.pipes.append(os.open(made, os.O_RDWR | os.O_NONBLOCK))
         Plug.watched[self.libc.inotify_add_watch(Plug.inotify, made.encode(), Plug.IN_OPEN)] = self

@@ -255,7 +255,10 @@ TEST_CASE("two equal devices keep their own buttons; one kind of handbrake repla
   person.frame(5);
   person.go_through([&](const std::string& prompt) {
     if (has(prompt, "HANDBRAKE")) return person.press(4, 0), Answer::done;
-    if (has(prompt, "What does the button")) return Answer::held;
+    if (has(prompt, "What does the button")) {
+      CHECK(person.setup.note() == "Found: button 0 of Box, number 2 of 2 in the order of their ports.");
+      return Answer::held;
+    }
     if (has(prompt, "How do you shift")) return Answer::gear_buttons;
     if (has(prompt, "NEUTRAL")) return Answer::done;
     if (!has(prompt, "gear 1 ")) return Answer::skip;
