@@ -69,6 +69,8 @@ constexpr std::array kNamedKeys{NamedKey{GLFW_KEY_SPACE, "Space"},
                                 NamedKey{GLFW_KEY_MENU, "Menu"}};
 
 constexpr std::string_view kSonyVendor = "054c:";
+constexpr std::string_view kDualShock3 = "054c:0268", kDualSense = "054c:0ce6", kDualSenseEdge = "054c:0df2";
+constexpr int kBackButton = 6, kStartButton = 7;
 
 template <std::size_t n>
 std::optional<int> index_of(const std::string_view (&names)[n], std::string_view name) {
@@ -124,9 +126,13 @@ std::string pad_button_label(int button, std::string_view id) {
   constexpr const char* kXbox[] = {"A",     "B",  "X",  "Y",        "LB",          "RB",         "Back",      "Start",
                                    "Guide", "LS", "RS", "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
   constexpr const char* kSony[] = {"Cross", "Circle",   "Square",      "Triangle",   "L1",
-                                   "R1",    "Create",   "Options",     "PS",         "L3",
+                                   "R1",    "Share",    "Options",     "PS",         "L3",
                                    "R3",    "D-pad up", "D-pad right", "D-pad down", "D-pad left"};
-  return (id.starts_with(kSonyVendor) ? kSony : kXbox)[button];
+  if (!id.starts_with(kSonyVendor)) return kXbox[button];
+  if (button == kBackButton && (id == kDualSense || id == kDualSenseEdge)) return "Create";
+  if (id == kDualShock3 && button == kBackButton) return "Select";
+  if (id == kDualShock3 && button == kStartButton) return "Start";
+  return kSony[button];
 }
 
 std::string pad_axis_label(int axis, std::string_view id) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -340,5 +341,14 @@ TEST_CASE("the help lists every bound key with its action") {
   CHECK(help_text(bindings, {sony}).find("Pad R2\tthrottle\n") != std::string::npos);
   CHECK(help_text(bindings, {sony}).find("Pad Circle\tstop (turn forces off)\n") != std::string::npos);
   CHECK(help_text(bindings, {gamepad({})}).find("Pad B\tstop (turn forces off)\n") != std::string::npos);
+  for (const auto& [id, label] : {std::pair{"054c:0ce6", "Create"},
+                                  {"054c:0df2", "Create"},
+                                  {"054c:09cc", "Share"},
+                                  {"054c:05c4", "Share"},
+                                  {"054c:0ba0", "Share"},
+                                  {"054c:0268", "Select"}}) {
+    sony.id = id;
+    CHECK(help_text(bindings, {sony}).find("Pad " + std::string(label) + "\tnext camera\n") != std::string::npos);
+  }
   CHECK(std::count(help.begin(), help.end(), '\t') == std::count(help.begin(), help.end(), '\n'));
 }

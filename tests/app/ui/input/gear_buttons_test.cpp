@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/ui/input/driver_input.h"
+#include "app/ui/input/gear_hand.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/device/smoothed_hand.h"
 #include "haptics/loop/haptic_loop.h"
@@ -176,6 +177,26 @@ TEST_CASE("at 5 to 144 frames per second the lever takes no other gear on its wa
       passed.erase(gear);
       CHECK(passed.empty());
     }
+  }
+}
+
+TEST_CASE("the hand stops at every corner of its way, also where a frame is longer than a stroke") {
+  const Gate gate = shipped_gate("six_speed_r_left_up");
+  for (const int to : {6, kReverseGear, kNeutralGear}) {
+    GearHand hand;
+    hand.set_gate(gate);
+    const dvec2 start = rest_position(gate, 1), end = rest_position(gate, to);
+    hand.shift_to(to, start);
+    std::vector<dvec2> way{start};
+    for (int i = 0; i < 20; ++i) way.push_back(hand.next(1.5, way.back(), kNeutralGear).position);
+    // Between two frames, the lever moves in a straight line: along the slot, along the aisle, along the other slot.
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      CAPTURE(to);
+      CAPTURE(i);
+      const dvec2 moved = glm::abs(way[i] - way[i - 1]);
+      CHECK(std::min(moved.x, moved.y) < 1e-3);
+    }
+    CHECK(glm::distance(way.back(), end) < 1e-3);
   }
 }
 
