@@ -15,12 +15,19 @@ constexpr const char* kBold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.
 // Letters in the font atlas: Latin-1, dashes and ellipsis, arrows, comparisons. Each pair is the first and last code
 // point of a range; 0 ends the list.
 constexpr ImWchar kLetters[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x2193, 0x2264, 0x2265, 0};
+// The regular fonts, in which keys are named, also have the first Latin extension, Greek and Cyrillic.
+constexpr ImWchar kKeyLetters[] = {0x20, 0x17f, 0x384, 0x45f, 0x2010, 0x2026, 0x2190, 0x2193, 0x2264, 0x2265, 0};
 
 struct FontFile {
   const char* path;
   float size;  // [px] at scale 1, including line spacing
+  const ImWchar* letters;
 };
-constexpr FontFile kFonts[] = {{kRegular, 15.0f}, {kRegular, 13.0f}, {kBold, 16.0f}, {kBold, 22.0f}, {kBold, 42.0f}};
+constexpr FontFile kFonts[] = {{kRegular, 15.0f, kKeyLetters},
+                               {kRegular, 13.0f, kKeyLetters},
+                               {kBold, 16.0f, kLetters},
+                               {kBold, 22.0f, kLetters},
+                               {kBold, 42.0f, kLetters}};
 
 void load_font(const FontFile& font, float scale) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
@@ -29,7 +36,7 @@ void load_font(const FontFile& font, float scale) {
   config.SizePixels = std::round(font.size * scale);
   std::error_code ignored;
   if (std::filesystem::is_regular_file(font.path, ignored)) {
-    atlas.AddFontFromFileTTF(font.path, config.SizePixels, &config, kLetters);
+    atlas.AddFontFromFileTTF(font.path, config.SizePixels, &config, font.letters);
   } else {
     atlas.AddFontDefault(&config);
   }

@@ -64,25 +64,6 @@ bool has_display() {
   }
 }
 
-std::string printed_key(int key) {
-  const bool is_keypad = key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_EQUAL;
-  const char* name = !glfw_is_in_use() || is_keypad ? nullptr : glfwGetKeyName(key, 0);
-  if (name == nullptr) return {};
-  std::string text = name;
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (text.size() == 1 && byte(0) > ' ' && byte(0) < 0x7f) {
-    if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
-    return text;
-  }
-  // U+00A1 to U+00FF in UTF-8 start with c2 or c3. A small letter is U+0020 above its capital, except the division
-  // sign and y with diaeresis.
-  const bool is_latin = text.size() == 2 && ((byte(0) == 0xc2 && byte(1) > 0xa0) || byte(0) == 0xc3);
-  if (!is_latin) return {};
-  if (byte(0) == 0xc3 && byte(1) >= 0xa0 && byte(1) != 0xb7 && byte(1) != 0xbf)
-    text[1] = static_cast<char>(byte(1) - 0x20);
-  return text;
-}
-
 struct Window::State {
   State(int width, int height, const std::string& title);
   ~State() { glfwDestroyWindow(window); }

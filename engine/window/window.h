@@ -21,8 +21,8 @@ namespace gearshift::engine {
 bool has_display();
 
 // Text printed on the key by the user's keyboard layout, in capitals: "Q" for GLFW_KEY_A on a French keyboard. Empty if
-// the layout gives the key no character (Left Shift, F1), for keys of the keypad, for characters outside Latin-1, which
-// the panel's font lacks, and before GLFW is in use. Call on the thread that uses GLFW.
+// the layout gives the key no character (Left Shift, F1), for keys of the keypad, for characters that the panel's font lacks, and
+// before GLFW is in use. Call on the thread that uses GLFW.
 std::string printed_key(int key);
 
 // A key that went down or up; auto-repeat produces no event.
