@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -214,11 +215,13 @@ void Controllers::Node::close_file() {
 void Controllers::Node::read() {
   if (device == nullptr) return;
   input_event event;
+  std::set<unsigned> newly_down;  // also those that were released since
   int result = LIBEVDEV_READ_STATUS_SUCCESS;
   while (result >= 0) {
     // After an overflow of the kernel's queue (LIBEVDEV_READ_STATUS_SYNC), libevdev asks for the present state.
     const bool overflowed = result == LIBEVDEV_READ_STATUS_SYNC;
     result = libevdev_next_event(device, overflowed ? LIBEVDEV_READ_FLAG_SYNC : LIBEVDEV_READ_FLAG_NORMAL, &event);
+    if (result >= 0 && event.type == EV_KEY && event.value != 0) newly_down.insert(event.code);
     if (overflowed && result == -EAGAIN) result = LIBEVDEV_READ_STATUS_SUCCESS;
   }
   is_gone = result != -EAGAIN;
@@ -226,7 +229,7 @@ void Controllers::Node::read() {
   state.buttons.clear();
   for (const unsigned code : axes) state.axes.push_back(centred(*libevdev_get_abs_info(device, code)));
   for (const unsigned code : buttons)
-    state.buttons.push_back(libevdev_get_event_value(device, EV_KEY, code) != 0 ? 1 : 0);
+    state.buttons.push_back(newly_down.contains(code) || libevdev_get_event_value(device, EV_KEY, code) != 0 ? 1 : 0);
   for (const unsigned code : hats) {
     const int x = libevdev_get_event_value(device, EV_ABS, code);
     const int y = libevdev_get_event_value(device, EV_ABS, code + 1);

@@ -22,13 +22,15 @@ struct Gamepad {
 
 struct Controller {
   std::string name;
-  std::string id;                      // "046d:c24f": USB vendor and product
-  std::string guid;                    // identifies the model, as GLFW and SDL write it
-  std::string file;                    // "event5": name of the device file
-  std::vector<float> axes;             // [-1, 1] in the order of the kernel's codes
-  std::vector<unsigned char> buttons;  // 0 or 1, in the order of the kernel's codes; then up, right, down, left per hat
-  std::optional<Gamepad> gamepad;      // if GLFW knows the model as a game pad
-  bool can_be_read = true;             // false: the user lacks permission; there are no axes and no buttons
+  std::string id;           // "046d:c24f": USB vendor and product
+  std::string guid;         // identifies the model, as GLFW and SDL write it
+  std::string file;         // "event5": name of the device file
+  std::vector<float> axes;  // [-1, 1] in the order of the kernel's codes
+  // 0 or 1, in the order of the kernel's codes, then up, right, down, left per hat. A button that was pressed and released
+  // since the last poll is 1.
+  std::vector<unsigned char> buttons;
+  std::optional<Gamepad> gamepad;  // if GLFW knows the model as a game pad
+  bool can_be_read = true;         // false: the user lacks permission; there are no axes and no buttons
 };
 
 class Controllers {

@@ -131,8 +131,8 @@ def devices_are_listed(plugs, folder):
                                        env={**os.environ, **homes(folder)}).stdout)["controllers"]
     names = {one["name"]: one for one in listed}
     known = [device.name for device in emulated.DEVICES.values()]
-    ghosts = [known[0], known[1]]
-    check("all controllers are listed in the order of their ports; a keyboard and motion sensors are not",
+    ghosts = [emulated.DEVICES[name].name for name in ("keyboard", "sensors", "steam")]
+    check("all controllers are listed in the order of their ports; a keyboard, motion sensors and Steam's copy are not",
           [one["name"] for one in listed] == [name for name in known if name not in ghosts])
     check("a shifter without axes and pedals without buttons have what they report",
           (names[plugs["shifter"].device.name]["buttons"], names[plugs["pedals"].device.name]["axes"]) == (10, 3))
@@ -171,6 +171,8 @@ def unknown_devices_do_nothing(plugs, folder):
             plugs["g29"].axis(code, value)
         time.sleep(0.1)
     plugs["keyboard"].button(30)
+    plugs["steam"].axis(emulated.ABS_RZ, 255)
+    plugs["steam"].axis(emulated.ABS_RX, 32767)
     time.sleep(1.0)
     text = trainer.text()
     for name in (G29, SHIFTER, PEDALS, HANDBRAKE):
@@ -226,8 +228,9 @@ def everything_set_up_works(plugs, folder):
     trainer.wait_for("recorded|saved|Saved|written", 1)
     shifter.unplug()
     trainer.wait_for("ClubSport USB Shifter is not plugged in, so these have no effect: gears")
-    tap(box, 1)  # quit
-    check("a button of another device quits", trainer.process.wait(timeout=30) == 0)
+    box.button(1)
+    box.button(1, False)
+    check("a button of another device quits, even if it is pressed and released between two frames", trainer.process.wait(timeout=30) == 0)
     rows = trainer.recording()
     throttle, clutch, brake, hand_brake = (values(rows, name) for name in ("throttle", "clutch", "brake", "hand_brake"))
     check("the throttle goes to three quarters", abs(max(throttle) - (255 - 64) / 255) < 0.01)
@@ -235,6 +238,75 @@ def everything_set_up_works(plugs, folder):
     check("the brake, which is a pad's trigger that nobody touches, stays up", max(brake) == 0.0)
     check("the handbrake follows its axis to a half and to the end, then two presses of a held button and of a switch",
           [round(value, 1) for value in changes(hand_brake)] == [0.0, 0.5, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0])
+
+
+# A wheel's hat as buttons (up, right, down, left after its 25 buttons), and the shifter that is in gear 2 at the start.
+HAT = """
+[keys]
+stop = "Space"
+[[controller]]
+stick = "Logitech G29"
+record = "25"
+hand_brake_hold = "26"
+clutch = "27"
+quit = "28"
+[[controller]]
+stick = "ClubSport USB Shifter"
+gear_2 = "2"
+gear_3 = "3"
+"""
+
+
+def hats_and_lost_events(plugs, folder):
+    trainer = Trainer(folder, HAT)
+    wheel, shifter = plugs["g29"], plugs["shifter"]
+
+    def hat(code, value):
+        wheel.axis(code, value)
+        time.sleep(0.3)
+        wheel.axis(code, 0)
+        time.sleep(0.3)
+
+    hat(emulated.ABS_HAT0Y, -1)
+    trainer.wait_for("recording to")
+    hat(emulated.ABS_HAT0X, 1)
+    wheel.axis(emulated.ABS_HAT0Y, 1)
+    time.sleep(0.3)
+    shifter.button(2, False)
+    time.sleep(0.3)
+    check("a released shifter moves nothing", "engaged" not in trainer.text())
+    shifter.lose_events()
+    trainer.wait_for(" 2 engaged")  # the state is read again
+    hat(emulated.ABS_HAT0Y, -1)
+    hat(emulated.ABS_HAT0X, -1)
+    check("the hat's left direction quits", trainer.process.wait(timeout=30) == 0)
+    rows = trainer.recording()
+    check("its right direction pulls the handbrake", changes(values(rows, "hand_brake")) == [0.0, 1.0, 0.0])
+    check("its lower direction presses the clutch", max(values(rows, "clutch")) == 1.0)
+
+
+def access_is_granted_late(plugs, folder):
+    late, later = plugs["handbrake"], plugs["pedals"]
+    late.unplug()
+    later.unplug()
+    trainer = Trainer(folder)
+    late.plug_in_denied()
+    time.sleep(1.0)  # udev needs some time to grant the access
+    late.renew()
+    trainer.wait_for("USB Handbrake was found")
+    check("until then nothing is said", "may not read FANATEC" not in trainer.text())
+    later.plug_in_denied()
+    trainer.wait_for("This user may not read Heusinkveld")
+    later.renew()
+    trainer.wait_for("Pedals Ultimate was found")
+    trainer.end()
+
+
+def steams_copy_works_alone(plugs, folder):
+    listed = json.loads(subprocess.run([gearshift, "devices", "--json"], check=True, capture_output=True, text=True,
+                                       env={**os.environ, **homes(folder)}).stdout)["controllers"]
+    check("Steam's copy is listed where there is no other controller",
+          [one["name"] for one in listed] == [plugs["steam"].device.name])
 
 
 def pad_drives_at_once(plugs, folder):
@@ -403,12 +475,16 @@ def labels_follow_the_layout(plugs, folder):
     trainer.end()
 
 
-SCENARIOS = [devices_are_listed, unknown_devices_do_nothing, everything_set_up_works, pad_drives_at_once, renamed_device_works,
+SCENARIOS = [devices_are_listed, steams_copy_works_alone, unknown_devices_do_nothing, everything_set_up_works,
+             hats_and_lost_events, access_is_granted_late, pad_drives_at_once, renamed_device_works,
              equal_devices_are_told_apart_by_their_ports, calibration_in_a_terminal, labels_follow_the_layout]
+
 
 
 def names(scenario):
     """The devices that are plugged in."""
+    if scenario is steams_copy_works_alone:
+        return ["steam"]
     twins = emulated.TWINS if scenario is equal_devices_are_told_apart_by_their_ports else {}
     return [*emulated.DEVICES, *twins]
 

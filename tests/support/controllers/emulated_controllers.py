@@ -15,6 +15,7 @@ import subprocess
 import threading
 
 EV_SYN, EV_KEY, EV_ABS = 0, 1, 3
+SYN_REPORT, SYN_DROPPED = 0, 3
 (ABS_X, ABS_Y, ABS_Z, ABS_RX, ABS_RY, ABS_RZ, ABS_THROTTLE, ABS_HAT0X, ABS_HAT0Y, ABS_VOLUME) = (
     0, 1, 2, 3, 4, 5, 6, 0x10, 0x11, 0x20)
 BTN_JOYSTICK, BTN_GAMEPAD, BTN_TRIGGER_HAPPY = 0x120, 0x130, 0x2c0
@@ -59,6 +60,9 @@ DEVICES = {
     # xpad: GLFW and SDL know the model.
     "pad": Device(8, "Microsoft X-Box 360 pad", 0x045e, 0x028e, XPAD,
                   {ABS_X: SIGNED, ABS_Y: SIGNED, ABS_Z: BYTE, ABS_RX: SIGNED, ABS_RY: SIGNED, ABS_RZ: BYTE, **HATS}),
+    # Steam's copy of another controller.
+    "steam": Device(12, "Microsoft X-Box 360 pad 0", 0x28de, 0x11ff, XPAD,
+                    {ABS_X: SIGNED, ABS_Y: SIGNED, ABS_Z: BYTE, ABS_RX: SIGNED, ABS_RY: SIGNED, ABS_RZ: BYTE, **HATS}),
     # The device file of a set of pedals that this user may not open.
     "closed": Device(9, "Thrustmaster T-Pedals", 0x044f, 0xb678, [], {ABS_X: WORD, ABS_Y: WORD, ABS_Z: WORD},
                      opens=False),
@@ -195,7 +199,19 @@ class Plug:
     def axis(self, code, value):
         self.send(EV_ABS, code, value)
 
+    def lose_events(self):
+        """The kernel's queue has overflowed: the reader has to ask for the state, which is answered as at the start."""
+        self.send(EV_SYN, SYN_DROPPED, 0)
+        self.send(EV_SYN, SYN_REPORT, 0)
+
+    def entry(self, prefix=""):
+        return f"{os.environ['UMOCKDEV_DIR']}/sys/class/input/{prefix}{self.device.file}"
+
     def unplug(self):
         Plug.watched = {number: plug for number, plug in Plug.watched.items() if plug is not self}
         os.unlink(self.path)
-        os.unlink(f"{os.environ['UMOCKDEV_DIR']}/sys/class/input/{self.device.file}")
+        os.rename(self.entry(), self.entry("unplugged_"))
+
+    def plug_in_denied(self):
+        """The user may not open the device, until renew()."""
+        os.rename(self.entry("unplugged_"), self.entry())
