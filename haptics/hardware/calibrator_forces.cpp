@@ -198,7 +198,7 @@ Calibrator::Signs Calibrator::constant_signs() {
     if (signs == SignStyle::direction && (!keeps_sign || !driver_.layout().set_effect.direction[0].exists())) break;
     for (const AxisStyle style : {AxisStyle::direction, AxisStyle::both, AxisStyle::bits}) {
       try {
-        const Signs found = constant_signs_by({style, calibration_.style.conditions, signs});
+        Signs found = constant_signs_by({style, calibration_.style.conditions, signs});
         if (!found.only_shift.empty()) {
           if (!shift_only) shift_only = found;
         } else if (found.coupling == std::array{0.0, 0.0}) {

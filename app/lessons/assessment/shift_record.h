@@ -25,7 +25,10 @@ constexpr std::string_view to_string(ShiftStep step) noexcept {
 }
 inline std::string format_steps(const std::vector<ShiftStep>& steps) {  // "throttle_off clutch_down neutral"
   std::string text;
-  for (const ShiftStep step : steps) text += (text.empty() ? "" : " ") + std::string(to_string(step));
+  for (const ShiftStep step : steps) {
+    if (!text.empty()) text += ' ';
+    text += to_string(step);
+  }
   return text;
 }
 

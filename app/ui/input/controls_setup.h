@@ -10,6 +10,7 @@
 //   use setup.bindings()
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -71,7 +72,7 @@ class ControlsSetup {
     auto operator<=>(const Button& other) const {
       return std::tie(of.stick, which, number) <=> std::tie(other.of.stick, other.which, other.number);
     }
-    bool operator==(const Button& other) const { return (*this <=> other) == 0; }
+    bool operator==(const Button& other) const { return std::is_eq(*this <=> other); }
     bool is_on(const ControllerButtons& one) const { return one.of.stick == of.stick && one.which == which; }
   };
   using Buttons = std::set<Button>;

@@ -26,12 +26,12 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "app/ui/input/bindings.h"
@@ -94,7 +94,7 @@ class DriverInput {
   struct Source {            // a key or button
     int device = kKeyboard;  // kKeyboard, kGamepads, or an index in Bindings::controllers
     int code = 0;
-    auto operator<=>(const Source&) const = default;
+    bool operator<(const Source& other) const { return std::tie(device, code) < std::tie(other.device, other.code); }
   };
   static constexpr int kKeyboard = -2, kGamepads = -1;
 

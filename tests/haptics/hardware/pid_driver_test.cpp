@@ -537,7 +537,7 @@ TEST_CASE("a stick that reports its state confirms a change of style; another do
       while (!is_confirmed() && bench.time() < begin + 0.25) bench.tick({});
       const double passed = bench.time() - begin;
       table += name_of(family) + ", " + std::to_string(static_cast<int>(sent)) + " | " +
-               std::to_string(static_cast<int>(1e3 * passed + 0.5)) + '\n';
+               std::to_string(std::lround(1e3 * passed)) + '\n';
       if (sent == StateSent::never) CHECK(passed >= 0.25);
       if (sent == StateSent::at_changes && family == StickFamily::sidewinder) CHECK(passed < 0.05);
     }

@@ -169,7 +169,8 @@ StickReport EmulatedStick::State::lever_report(double error) const {
   if (bytes.hat_at != 0) report[bytes.hat_at] = kHatCentred;
   const std::uint64_t hand = (reading_.pressed_down ? 1U : 0U) | (reading_.lifted ? 2U : 0U);
   report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // buttons 1 to 8, which all families have
-  report.resize(static_cast<std::size_t>(static_cast<int>(bytes.size) + config.habits.longer_input));
+  const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(bytes.size) + config.habits.longer_input;
+  report.resize(static_cast<std::size_t>(size));
   return report;
 }
 
