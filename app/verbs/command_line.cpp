@@ -13,6 +13,7 @@ void add_verbs(CLI::App& app, VerbAction& action) {
   add_gate_verb(app, action);
   add_identify_verb(app, action);
   add_stability_verb(app, action);
+  add_contact_verb(app, action);
   add_reproduce_verb(app, action);
   add_replay_verb(app, action);
   add_report_verb(app, action);

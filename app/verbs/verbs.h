@@ -29,6 +29,7 @@ void add_lesson_verb(CLI::App& app, VerbAction& action);
 void add_tour_verb(CLI::App& app, VerbAction& action);
 void add_identify_verb(CLI::App& app, VerbAction& action);
 void add_stability_verb(CLI::App& app, VerbAction& action);
+void add_contact_verb(CLI::App& app, VerbAction& action);
 void add_reproduce_verb(CLI::App& app, VerbAction& action);
 void add_replay_verb(CLI::App& app, VerbAction& action);
 void add_report_verb(CLI::App& app, VerbAction& action);

@@ -38,11 +38,12 @@ class ContactCycle {
   // The observer models only the handle. The simulated lever has the impedance of handle and hand together.
   ContactCycle(const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period)
       : law_(law),
-        wall_{law.stiffness, std::max(law.damping, kMinObserverDamping), period, law.delay, law.hold},
+        wall_{law.stiffness, law.damping, period, law.delay, law.hold},
         period_(period),
         horizon_(law.hold == ContactHold::zero_order ? 0.0 : period * (1 + 2 * law.delay)),
         plant_({handle.mass + hand.mass, handle.damping + hand.damping, handle.stiffness + hand.stiffness}, period),
-        observer_(handle, observer_bandwidth(period), period),
+        observer_(handle, period),
+        gain_(observer_gain(handle, observer_bandwidth(period), period)),
         force_scale_((handle.mass + hand.mass) / (period * period)) {
     const bool uses_smooth = law.free_damping > 0.0;
     const bool is_observed = law.hold == ContactHold::observer;
@@ -105,7 +106,7 @@ class ContactCycle {
   double observed_force(std::span<double> estimate, std::span<const double> queue, double position,
                         double other_force) const {
     const AxisEstimate before{estimate[0], estimate[1], estimate[2]};
-    const AxisEstimate now = observer_.correct(observer_.predict(before, queue.front()), position);
+    const AxisEstimate now = AxisObserver::correct(observer_.predict(before, queue.front()), gain_, position);
     estimate[0] = now.position;
     estimate[1] = now.velocity;
     estimate[2] = now.hand;
@@ -131,6 +132,7 @@ class ContactCycle {
   double horizon_;  // [s] the position is predicted to the middle of this time span
   AxisStepper plant_;
   AxisObserver observer_;
+  ObserverGain gain_;
   double force_scale_;  // [N] force that moves the lever by about one metre per period
   std::size_t past_size_ = 0, smooth_size_ = 0, estimate_size_ = 0, queue_size_ = 0;
   double blend_ = 0.0;  // [1] weight of the newest velocity in the smooth velocity

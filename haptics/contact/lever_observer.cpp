@@ -15,6 +15,7 @@ using glm::dvec3;
 
 constexpr std::int64_t kMaxSkippedCycles = 10;  // [cycles] longest gap that is simulated in full
 constexpr int kMaxBlindCycles = 10;             // [cycles] the observer restarts after this many without a sample
+constexpr double kIntervalShare = 0.05;         // [1] of a new interval in the mean
 
 // Transition matrix of (position, velocity, hand force) over one period: the columns are the images of the unit states.
 dmat3 transition(const AxisStepper& stepper) noexcept {
@@ -35,9 +36,9 @@ dvec3 correction_gain(const dmat3& a, double pole) noexcept {
 
 }  // namespace
 
-AxisObserver::AxisObserver(const AxisModel& axis, double bandwidth, double period) noexcept : stepper_(axis, period) {
-  const dvec3 gain = correction_gain(transition(stepper_), std::exp(-bandwidth * period));
-  gain_ = {gain.x, gain.y, gain.z};
+ObserverGain observer_gain(const AxisModel& axis, double bandwidth, double interval) noexcept {
+  const dvec3 gain = correction_gain(transition(AxisStepper(axis, interval)), std::exp(-bandwidth * interval));
+  return {gain.x, gain.y, gain.z};
 }
 
 AxisEstimate AxisObserver::predict(const AxisEstimate& estimate, double force) const noexcept {
@@ -45,19 +46,26 @@ AxisEstimate AxisObserver::predict(const AxisEstimate& estimate, double force) c
   return {next.position, next.velocity, estimate.hand};
 }
 
-AxisEstimate AxisObserver::correct(AxisEstimate predicted, double position) const noexcept {
+AxisEstimate AxisObserver::correct(const AxisEstimate& predicted, const ObserverGain& gain, double position) noexcept {
   const double error = position - predicted.position;
-  return {predicted.position + gain_[0] * error, predicted.velocity + gain_[1] * error,
-          predicted.hand + gain_[2] * error};
+  return {predicted.position + gain[0] * error, predicted.velocity + gain[1] * error, predicted.hand + gain[2] * error};
+}
+
+LeverObserver::Axis::Axis(const AxisModel& model, double period) noexcept : observer(model, period) {
+  for (std::size_t i = 0; i < gain.size(); ++i) {
+    const double interval = static_cast<double>(i + 1) * period;
+    gain[i] = observer_gain(model, observer_bandwidth(interval), interval);
+  }
 }
 
 LeverObserver::LeverObserver(const DeviceSpec& spec, double period) noexcept
-    : axis_{Axis{AxisObserver(spec.axis_x, observer_bandwidth(period), period), {}},
-            Axis{AxisObserver(spec.axis_y, observer_bandwidth(period), period), {}}},
-      delay_(static_cast<std::size_t>(spec.delay)) {}
+    : axis_{Axis(spec.axis_x, period), Axis(spec.axis_y, period)},
+      spec_delay_(static_cast<std::size_t>(spec.delay)),
+      delay_(spec_delay_) {}
 
 ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 commanded, std::int64_t skipped) noexcept {
   for (std::int64_t n = std::min(skipped, kMaxSkippedCycles); n >= 0; --n) advance_period(commanded);
+  track_interval(motion.fresh);
   ObservedMotion out;
   for (int i = 0; i < 2; ++i) {
     Axis& axis = axis_[static_cast<std::size_t>(i)];
@@ -69,6 +77,15 @@ ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 comma
   blind_cycles_ = motion.fresh ? 0 : std::min(blind_cycles_ + 1, kMaxBlindCycles);
   started_ = motion.fresh || (started_ && blind_cycles_ < kMaxBlindCycles);
   return out;
+}
+
+// The device's delay includes the wait for its next sample. The observer predicts from sample to sample, so commands act
+// earlier for it by this wait.
+void LeverObserver::track_interval(bool is_fresh) noexcept {
+  if (!is_fresh || !started_) return;
+  mean_interval_ += kIntervalShare * (1.0 + blind_cycles_ - mean_interval_);
+  interval_ = std::min(static_cast<std::size_t>(std::lround(mean_interval_)), kMaxInterval);
+  delay_ = spec_delay_ - std::min(spec_delay_, interval_ - 1);
 }
 
 // Advances the estimate by one period, under the command that was in effect during this period.
@@ -91,7 +108,7 @@ double LeverObserver::command_before(std::size_t age, int axis) const noexcept {
 AxisEstimate LeverObserver::estimate_at_effect(Axis& axis, int index, const LeverMotion& motion) noexcept {
   const double sample = motion.position[index];
   if (!started_) axis.estimate = {sample, 0.0, 0.0};
-  if (motion.fresh) axis.estimate = axis.observer.correct(axis.estimate, sample);
+  if (motion.fresh) axis.estimate = AxisObserver::correct(axis.estimate, axis.gain[interval_ - 1], sample);
   AxisEstimate ahead = axis.estimate;
   for (std::size_t age = delay_; age > 0; --age) ahead = axis.observer.predict(ahead, command_before(age - 1, index));
   return ahead;

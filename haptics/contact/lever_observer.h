@@ -6,8 +6,8 @@
 // J. Ackermann. Der Entwurf linearer Regelungssysteme im Zustandsraum. 1972
 //
 // Model of each axis: m x'' + b x' + k x = u + w, with mass m, damping b, stiffness k, known motor force u and hand
-// force w. The hand force is assumed constant. All three poles of the estimation error are at exp(-bandwidth T), with
-// period T.
+// force w. The hand force is assumed constant. All three poles of the estimation error are at exp(-bandwidth T) from
+// sample to sample, with the samples' interval T.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,9 @@
 namespace gearshift::haptics {
 
 // Decay rate [1/s] of the observer's estimation error. A higher rate amplifies encoder quantisation; a lower rate
-// cannot track a heavy hand.
-inline double observer_bandwidth(double period) noexcept {
-  return std::min(500.0, 1.25 / period);
+// cannot track a heavy hand. `interval`: between samples [s]
+inline double observer_bandwidth(double interval) noexcept {
+  return std::min(900.0, 2.5 / interval);
 }
 
 struct AxisEstimate {
@@ -35,20 +35,23 @@ struct AxisEstimate {
   double hand = 0.0;      // [N]
 };
 
+// Correction of position, velocity and hand force per metre of prediction error.
+using ObserverGain = std::array<double, 3>;
+ObserverGain observer_gain(const AxisModel& axis, double bandwidth, double interval) noexcept;  // [1/s], [s]
+
 class AxisObserver {
  public:
-  AxisObserver(const AxisModel& axis, double bandwidth, double period) noexcept;  // bandwidth [1/s], period [s]
+  AxisObserver(const AxisModel& axis, double period) noexcept : stepper_(axis, period) {}  // period [s]
 
   // Predicts the estimate one period ahead, under the motor force `force` [N].
   AxisEstimate predict(const AxisEstimate& estimate, double force) const noexcept;
   // Corrects a predicted estimate with the position sample [m] of the predicted instant.
-  AxisEstimate correct(AxisEstimate predicted, double position) const noexcept;
+  static AxisEstimate correct(const AxisEstimate& predicted, const ObserverGain& gain, double position) noexcept;
   // Displacement [m/N] at the end of a period, per newton of force held during the period.
   double compliance() const noexcept { return stepper_.step({}, 1.0).position; }
 
  private:
   AxisStepper stepper_;
-  std::array<double, 3> gain_{};  // correction of position, velocity and hand force per metre of prediction error
 };
 
 // Predicted motion during the period in which the next command acts.
@@ -67,19 +70,28 @@ class LeverObserver {
   ObservedMotion update(const LeverMotion& motion, glm::dvec2 commanded, std::int64_t skipped = 0) noexcept;
 
  private:
+  static constexpr std::size_t kMaxInterval = 10;  // [cycles] between samples
+
   struct Axis {
+    Axis(const AxisModel& model, double period) noexcept;
+
     AxisObserver observer;
+    std::array<ObserverGain, kMaxInterval> gain;  // for samples every 1, 2, ... cycles
     AxisEstimate estimate;
   };
 
   double command_before(std::size_t age, int axis) const noexcept;
   void advance_period(glm::dvec2 commanded) noexcept;
+  void track_interval(bool is_fresh) noexcept;
   AxisEstimate estimate_at_effect(Axis& axis, int index, const LeverMotion& motion) noexcept;
 
   std::array<Axis, 2> axis_;
   std::array<glm::dvec2, kMaxLoopDelay + 1> commands_{};  // [N] ring buffer of the last commands
   std::size_t newest_ = 0;                                // index of the newest command
-  std::size_t delay_;
+  std::size_t spec_delay_;      // [cycles] of the device, the wait for its next sample included
+  std::size_t delay_;           // [cycles] from a command to its effect
+  std::size_t interval_ = 1;    // [cycles] rounded mean
+  double mean_interval_ = 1.0;  // [cycles] between samples
   bool started_ = false;
   int blind_cycles_ = 0;  // [cycles] since the last fresh sample
 };

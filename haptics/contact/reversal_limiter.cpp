@@ -7,13 +7,14 @@
 namespace gearshift::haptics {
 namespace {
 
-constexpr double kReversalCounts = 4.0;       // [counts] motion back that counts as a reversal; exceeds rounding
-constexpr double kMinCount = 20e-6;           // [m] smallest encoder count assumed
-constexpr double kReversalWindow = 0.25;      // [s] six reversals within this time are chatter (10 Hz or faster)
-constexpr double kTremorWidth = 0.8e-3;       // [m] widest swing of a hand's tremor, from reversal to reversal
-constexpr double kTremorWindow = 0.2;         // [s] replaces kReversalWindow for narrow swings (12.5 Hz or faster)
-constexpr double kVibrationTimeout = 0.25;    // [s] longest time between two reversals of a vibration (2 Hz or faster)
-constexpr double kCalmTime = 0.5;             // [s] after this time without chatter the lever counts as calm
+constexpr double kReversalCounts = 4.0;     // [counts] motion back that counts as a reversal; exceeds rounding
+constexpr double kMinCount = 20e-6;         // [m] smallest encoder count assumed
+constexpr double kReversalWindow = 0.25;    // [s] six reversals within this time are chatter (10 Hz or faster)
+constexpr double kTremorWidth = 0.8e-3;     // [m] widest swing of a hand's tremor, from reversal to reversal
+constexpr double kTremorWindow = 0.2;       // [s] replaces kReversalWindow for narrow swings (12.5 Hz or faster)
+constexpr double kVibrationTimeout = 0.25;  // [s] longest time between two reversals of a vibration (2 Hz or faster)
+constexpr double kDying = 0.5;     // [1] a swing that shrinks to this fraction within six reversals dies away by itself
+constexpr double kCalmTime = 0.5;  // [s] after this time without chatter the lever counts as calm
 constexpr double kSoftening = 0.75;           // [1] each detection of chatter multiplies the stiffness by this factor
 constexpr double kFloorFactor = 0.3;          // [1] stiffness floor as a factor on m / tau^2 (see the header)
 constexpr int kMaxBounces = 3;                // up to this many detections at the floor may be one decaying bounce
@@ -44,8 +45,8 @@ bool ReversalLimiter::update(glm::dvec2 position, bool in_contact, double wanted
   time_ += period_;
   if (in_contact) last_contact_ = time_;
   track_vibration(vibration);
-  const bool chatter_x = detect_chatter(axis_[0], position.x);
-  const bool chatter_y = detect_chatter(axis_[1], position.y);
+  const bool chatter_x = detect_chatter(axis_[0], position.x, wanted);
+  const bool chatter_y = detect_chatter(axis_[1], position.y, wanted);
   const bool at_wall = time_ - last_contact_ < kReversalWindow;
   if (!at_wall || (!chatter_x && !chatter_y)) return false;
   return soften(wanted);
@@ -62,13 +63,19 @@ bool ReversalLimiter::Swing::reverses(double value, double back) noexcept {
   return true;
 }
 
-bool ReversalLimiter::detect_chatter(Axis& axis, double position) noexcept {
+// Per period, a wall of stiffness K that responds late feeds at most pi K X^2 into a swing of amplitude X, and the
+// lever's own damping b dissipates pi b w X^2 at angular frequency w. So a wall softer than b w sustains no swing.
+bool ReversalLimiter::detect_chatter(Axis& axis, double position, double wanted) noexcept {
   if (!axis.lever.reverses(position, reversal_step_) || is_forced_turn(axis)) return false;
   if (axis.lever.width < kTremorWidth) axis.narrow_time = time_;
   const double window = time_ - axis.narrow_time < kReversalWindow ? kTremorWindow : kReversalWindow;
+  axis.reversal_widths[axis.count % kReversals] = axis.lever.width;
   axis.reversal_times[axis.count++ % kReversals] = time_;
-  const double first = axis.reversal_times[axis.count % kReversals];  // [s] time of the oldest of six reversals
-  return axis.count >= kReversals && time_ - first < window;
+  const std::size_t first = axis.count % kReversals, second = (first + 1) % kReversals;  // the oldest of six
+  const double widest = std::max(axis.reversal_widths[first], axis.reversal_widths[second]);
+  const double duration = time_ - axis.reversal_times[first];
+  const bool can_sustain = wanted * duration > damping_ * std::numbers::pi * (kReversals - 1);
+  return axis.count >= kReversals && duration < window && axis.lever.width > kDying * widest && can_sustain;
 }
 
 // Computes the widest swing that the vibration can cause. Per period, a force of amplitude F at angular frequency w

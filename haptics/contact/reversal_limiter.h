@@ -16,7 +16,8 @@
 // The load may vibrate the lever on purpose, for example to simulate a stalling engine. The lever then reverses as
 // often as the vibration force and moves no further than this force can move it. Such reversals are ignored: a softer
 // wall would not calm them, and the lever needs its walls. Reversals that are more frequent or wider than the vibration
-// explains count as usual.
+// explains count as usual. A swing whose sixth width is less than half of its first dies away by itself and does not
+// count either, nor does a swing that no wall of this stiffness can sustain.
 #pragma once
 
 #include <array>
@@ -57,16 +58,17 @@ class ReversalLimiter {
   };
 
   struct Axis {
-    Swing lever;                                      // [m]
-    int pending_turns = 0;                            // vibration reversals not yet matched by a lever reversal
-    std::array<double, kReversals> reversal_times{};  // [s] times of lever reversals not explained by the vibration
+    Swing lever;                                       // [m]
+    int pending_turns = 0;                             // vibration reversals not yet matched by a lever reversal
+    std::array<double, kReversals> reversal_times{};   // [s] times of lever reversals not explained by the vibration
+    std::array<double, kReversals> reversal_widths{};  // [m] their distances from the reversal before
     std::size_t count = 0;
     double narrow_time = -1.0;  // [s] time of the last reversal as narrow as a tremor
   };
 
   void track_vibration(glm::dvec2 vibration) noexcept;
   bool is_forced_turn(Axis& axis) noexcept;
-  bool detect_chatter(Axis& axis, double position) noexcept;
+  bool detect_chatter(Axis& axis, double position, double wanted) noexcept;
   bool soften(double wanted) noexcept;
 
   double period_;

@@ -42,9 +42,11 @@ struct Coupling {
   ContactHold hold = ContactHold::half_sample;
 };
 
-// Minimum wall damping of the observer hold. With less damping, a heavy arm rings, because the observer does not know
-// the arm's mass. A higher minimum would make a bare handle hum because of encoder quantisation.
-inline constexpr double kMinObserverDamping = 50.0;  // [N s/m]
+// Wall damping [N s/m] with which the observer hold is stiffest in motion and quiet in every hand, for a handle of mass
+// `mass` [kg] and a force that acts `lag` [s] late, its own period included. Found by search (app/lab/bench/README.md).
+constexpr double observed_damping(double mass, double lag) noexcept {
+  return 0.7 * mass / lag;
+}
 
 // Wall force [N], held over one period. `begin`: depth at the start. `free_end`: depth at the end if the wall exerted
 // no force. Both depths are in [m] and positive inside the wall. `compliance`: displacement at the end per newton of

@@ -21,15 +21,14 @@ namespace {
 // haptics/loop/README.md.
 constexpr double kQuiet = 0.35;          // [1] half-sample hold: limit of stiffness*lag^2/mass and of damping*lag/mass
 constexpr double kQuietObserved = 0.58;  // [1] observer hold: limit of stiffness*lag^2/mass
-constexpr double kObservedTau = 0.0045;  // [s] longest lag at which the observer hold is preferred
+constexpr double kObservedTau = 0.0125;  // [s] longest lag at which the observer hold is preferred
 constexpr double kGainMargin = 1.1;      // [1] factor on the stiffness, a margin for plant error and jitter
 constexpr const char* kQuietLaw = "the half-sample hold is quiet only if K <= 0.35 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kObservedLaw = "the observer hold is quiet only if K <= 0.58 m / tau^2, with tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "the half-sample hold is quiet only if B <= 0.35 m / tau, with tau = (delay + 1) T";
 constexpr const char* kStableLaw = "the spectral radius of the sampled loop must be below 1 at 1.1 K";
 constexpr const char* kFreeLaw = "the spectral radius of the sampled lever must be below 1 outside the loop's walls";
-constexpr const char* kObservedDampingLaw =
-    "the observer hold needs B >= 50 N s/m, or the lever vibrates when a heavy arm holds it";
+constexpr const char* kObservedDampingLaw = "the observer hold is stiff and quiet with B = 0.7 m / tau";
 constexpr const char* kObserverLaw = "with the observer hold, the spectral radius of the loop is not below 1 at any K";
 constexpr const char* kFeelLaw = "the proxy is passive only if no gate force is stiffer than the wall";
 
@@ -64,7 +63,7 @@ ContactHold select_hold(const HapticConfig& config, const DeviceSpec& spec) noex
   if (config.contact.hold != ContactHold::automatic) return config.contact.hold;
   const double tau = lag(config, spec);
   const bool suffices = loop_stiffness(config.tuning, spec) <= kQuiet * lighter_mass(spec) / (tau * tau);
-  return suffices || spec.delay == 0 || tau > kObservedTau ? ContactHold::half_sample : ContactHold::observer;
+  return suffices || tau > kObservedTau ? ContactHold::half_sample : ContactHold::observer;
 }
 
 void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
@@ -80,14 +79,14 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   limiter.limit(tuning.wall_stiffness, stiffness, &HapticTuning::wall_stiffness, observed ? kObservedLaw : kQuietLaw);
 }
 
-// Raises the damping to the minimum of the observer hold, even with allow_unstable, because the observer hold does not
-// work with less damping.
-void raise_observed_damping(AdmittedTuning& admitted) {
+// Sets the damping of the observer hold, which does not depend on what is wanted.
+void set_observed_damping(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted) {
   double& damping = admitted.tuning.wall_damping;
-  if (admitted.hold != ContactHold::observer || damping >= kMinObserverDamping) return;
-  admitted.limits.push_back(
-      {kObservedDampingLaw, &HapticTuning::wall_damping, damping, kMinObserverDamping, kMinObserverDamping, {}});
-  damping = kMinObserverDamping;
+  const double needed = observed_damping(lighter_mass(spec), lag(config, spec));
+  if (admitted.hold != ContactHold::observer || damping == needed) return;
+  const double used = config.contact.allow_unstable ? damping : needed;
+  admitted.limits.push_back({kObservedDampingLaw, &HapticTuning::wall_damping, damping, used, needed, {}});
+  damping = used;
 }
 
 // Calls visit for every axis with every listed hand.
@@ -318,7 +317,7 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   limit_to_quiet(config, spec, out, limiter);
   limit_free_damping(config, spec, out, limiter);
   limit_damping_with_device_walls(config, spec, out, limiter);
-  raise_observed_damping(out);
+  set_observed_damping(config, spec, out);
   const StableStiffness stable = stable_stiffness(config, out, spec);
   if (stable.max == 0.0 && !config.contact.allow_unstable) {
     if (out.hold == ContactHold::observer) return fall_back_to_half_sample(config, device, gate, stable.hand);

@@ -162,9 +162,9 @@ void check_config(const HapticConfig& config);
 void check_device(const DeviceSpec& spec);
 
 // Limits the wanted tuning to what works on this device with every hand of kNamedHands, the bare handle included:
-//   quiet      Stiffness K <= 0.35 m / tau^2 (observer hold: 0.58) and damping B <= 0.35 m / tau, with the mass m of
-//              the lighter axis and the lag tau = (delay + 1) * period. The factors were found by a search over hands,
-//              impact phases, quantisation, jitter and plant error.
+//   quiet      Stiffness K <= 0.35 m / tau^2 (observer hold: 0.58) and damping B <= 0.35 m / tau (observer hold: exactly
+//              0.7), with the mass m of the lighter axis and the lag tau = (delay + 1) * period. The factors were found
+//              by a search over hands, impact phases, quantisation, jitter and plant error.
 //   stable     The spectral radius of the sampled cycle (sampled_loop.h) is below 1 on both axes: in the wall at 1.1 K
 //              with `aisle_damping`, with and without `limit_damping`; in free space with both dampings.
 //   feel       The gate's feel is no stiffer than the wall that carries the proxy.
@@ -174,7 +174,6 @@ void check_device(const DeviceSpec& spec);
 // combination of axis and hand, with and without the device's spring and damper. A TuningLimit gives the values of the
 // whole wall, and its text `law` states how much of it the device renders. Only the loop renders feel, so feel is limited to the stiffness that the laws allow the loop. The
 // observer hold does not use the device damper, because the observer would attribute the damper's force to the hand.
-// The observer hold's damping is at least kMinObserverDamping.
 //
 // With allow_unstable, limits are reported but not applied. Throws std::invalid_argument for options that need
 // allow_unstable, for allow_unstable on a real device, and if no wall of any stiffness is stable.

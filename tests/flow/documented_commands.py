@@ -53,6 +53,7 @@ ELSEWHERE = {
     r"gearshift train.* --xr": ("wants a headset", "tests/flow/no_headset.sh", "--xr --silent"),
     r"gearshift demo ": ("takes minutes on a busy machine", "tests/flow/demo.sh", '"$gearshift" demo'),
     r"gearshift reproduce --out \S+$": ("takes long", "tests/flow/reproduce.sh", '"$gearshift" reproduce'),
+    r"gearshift contact --stick": ("needs a stick", "tests/flow/devices.sh", "contact --stick"),
     r"gearshift bench --family (contact|boundary)":
         ("takes minutes; its campaign is this test's", "tests/haptics/loop/contact_goals_test.cpp", r"bench_\1"),
     r"gearshift bench --family methods": ("takes minutes", "tests/flow/bench.sh", "bench --quick --family methods"),

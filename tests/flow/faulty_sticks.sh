@@ -25,9 +25,10 @@ forces off: the motors were switched off"
   [slow]="the stick takes [0-9]* ms per output, but responded after 7 ms when it was calibrated; the motors are off until you turn them on again
 forces off: the motors were switched off"
 )
-messages_of() { # prints the output before the table, without the tour's usual lines
+# Prints the output before the table, without the tour's usual lines. The hand of some tours is stronger than the stick.
+messages_of() {
   sed '/^Five speeds/,$d' "$1.txt" | grep -v -e '^The tour visits these gears: ' -e '^The forces are off' -e '^Shift into ' -e ' engaged$' \
-    -e ' responds after '
+    -e ' responds after ' -e '^over-push: ' -e "^the lever moved by [0-9]* mm against the stick's full force; if you did not feel that"
 }
 prints_due_message() {
   [[ "$(messages_of "$1")" == ${due[$1]} ]] && return

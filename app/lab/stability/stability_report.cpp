@@ -17,8 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kExactLaw = "spectral radius of one cycle of lever, hand and wall below 1";
 
 std::string format_law(const haptics::ContactLaw& wall) {
-  if (wall.hold == haptics::ContactHold::observer)
-    return fmt::format("{} with B of at least {:g} N s/m", haptics::to_string(wall.hold), haptics::kMinObserverDamping);
+  if (wall.hold == haptics::ContactHold::observer) return haptics::to_string(wall.hold);
   return fmt::format("{}, velocity over {} sample{}", haptics::to_string(wall.hold), wall.window,
                      wall.window == 1 ? "" : "s");
 }

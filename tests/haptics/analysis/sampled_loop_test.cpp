@@ -253,7 +253,6 @@ class SimulatedWall {
   void step() {
     Coupling coupling = coupling_of(case_.law, stiffness_, case_.period);
     const bool is_observed = coupling.hold == ContactHold::observer;
-    if (is_observed) coupling.damping = std::max(coupling.damping, kMinObserverDamping);  // as in HapticLoop
     const LeverMotion motion = estimator_.update(lever_.read(now_ns_ += period_ns_));
     ObservedMotion observed = observer_.update(motion, command_);
     observed.end += observed.compliance * damping_;
@@ -407,9 +406,7 @@ TEST_CASE("the simulated lever does the same, with every hold and hand, within 1
         Case c{kPaperAxisY, named.hand, {}};
         c.law.hold = hold;
         c.law.delay = delay;
-        // [N s/m] The observer hold raises a damping of 12 to its minimum, kMinObserverDamping = 50. A damping of 80
-        // exceeds this minimum.
-        c.law.damping = hold == ContactHold::observer && delay == 3 ? 80.0 : 12.0;
+        c.law.damping = 12.0;  // [N s/m]
         c.law.window = delay == 3 ? 2 : 1;
         c.law.free_damping = delay == 1 ? 5.0 : 0.0;
         const double limit = limit_of(c);

@@ -17,7 +17,8 @@ using namespace gearshift::haptics;
 TEST_CASE("Ackermann: the error obeys (z - p)^3 = 0, p = exp(-bandwidth T), from any start (Cayley-Hamilton)") {
   for (const double period : {0.00025, 0.001, 0.005}) {
     for (const AxisModel& axis : {kPaperAxisX, AxisModel{0.1, 0.0, 0.0}, AxisModel{0.5, 0.2, 300.0}}) {
-      const AxisObserver observer(axis, 500.0, period);
+      const AxisObserver observer(axis, period);
+      const ObserverGain gain = observer_gain(axis, 500.0, period);
       const AxisStepper plant(axis, period);
       AxisState truth{0.01, 0.3};
       AxisEstimate estimate{0.0, 0.0, 4.0};
@@ -26,7 +27,7 @@ TEST_CASE("Ackermann: the error obeys (z - p)^3 = 0, p = exp(-bandwidth T), from
       for (int n = 0; n < 12; ++n) {
         const double motor = 3.0 * std::sin(0.7 * n);
         truth = plant.step(truth, motor + hand);
-        estimate = observer.correct(observer.predict(estimate, motor), truth.position);
+        estimate = AxisObserver::correct(observer.predict(estimate, motor), gain, truth.position);
         error.push_back(estimate.position - truth.position);
       }
       double scale = 0.0;
@@ -39,39 +40,45 @@ TEST_CASE("Ackermann: the error obeys (z - p)^3 = 0, p = exp(-bandwidth T), from
   }
 }
 
-TEST_CASE("with an exact model it predicts the lever at the moment when the next command acts, at any delay") {
+// The device's delay includes the wait for its next sample.
+TEST_CASE(
+    "with an exact model it predicts the lever at the moment when the next command acts, at any delay and interval") {
   constexpr double kPeriod = 0.001;
   for (int delay = 0; delay <= 8; ++delay) {
-    DeviceSpec spec;
-    spec.delay = delay;
-    LeverObserver observer(spec, kPeriod);
-    const AxisStepper x(spec.axis_x, kPeriod), y(spec.axis_y, kPeriod);
-    const auto command = [](int n) {
-      return n < 0 ? glm::dvec2{0.0} : glm::dvec2{std::sin(0.03 * n), std::cos(0.05 * n)};
-    };
-    AxisState select{0.002, 0.0}, shift{-0.001, 0.0};
-    std::vector<glm::dvec2> at, predicted_begin, predicted_end;
-    const glm::dvec2 hand{1.5, -0.7};
-    for (int n = 0; n < 400; ++n) {
+    for (const int every : {1, 2, 4, 8}) {
+      CAPTURE(delay);
+      CAPTURE(every);
+      DeviceSpec spec;
+      spec.delay = delay + every - 1;
+      LeverObserver observer(spec, kPeriod);
+      const AxisStepper x(spec.axis_x, kPeriod), y(spec.axis_y, kPeriod);
+      const auto command = [](int n) {
+        return n < 0 ? glm::dvec2{0.0} : glm::dvec2{std::sin(0.03 * n), std::cos(0.05 * n)};
+      };
+      AxisState select{0.002, 0.0}, shift{-0.001, 0.0};
+      std::vector<glm::dvec2> at, predicted_begin, predicted_end;
+      const glm::dvec2 hand{1.5, -0.7};
       LeverMotion motion;
-      motion.position = {select.position, shift.position};
-      motion.fresh = true;
-      const ObservedMotion predicted = observer.update(motion, command(n - 1));
-      at.push_back(motion.position);
-      predicted_begin.push_back(predicted.position);
-      // Predicted position at the end of the hold that starts at cycle n + delay. `predicted.end` excludes the motors,
-      // so their effect is added.
-      predicted_end.push_back(predicted.end + predicted.compliance * command(n));
-      const glm::dvec2 force = command(n - delay) + hand;
-      select = x.step(select, force.x);
-      shift = y.step(shift, force.y);
-    }
-    for (std::size_t i = 200; i < 380; ++i) {
-      const std::size_t begin = i + static_cast<std::size_t>(delay);
-      CHECK(predicted_begin[i].x == doctest::Approx(at[begin].x).epsilon(1e-9));
-      CHECK(predicted_begin[i].y == doctest::Approx(at[begin].y).epsilon(1e-9));
-      CHECK(predicted_end[i].x == doctest::Approx(at[begin + 1].x).epsilon(1e-9));
-      CHECK(predicted_end[i].y == doctest::Approx(at[begin + 1].y).epsilon(1e-9));
+      for (int n = 0; n < 1200; ++n) {
+        motion.fresh = n % every == 0;
+        if (motion.fresh) motion.position = {select.position, shift.position};
+        const ObservedMotion predicted = observer.update(motion, command(n - 1));
+        at.emplace_back(select.position, shift.position);
+        predicted_begin.push_back(predicted.position);
+        // Predicted position at the end of the hold that starts at cycle n + delay. `predicted.end` excludes the motors,
+        // so their effect is added.
+        predicted_end.push_back(predicted.end + predicted.compliance * command(n));
+        const glm::dvec2 force = command(n - delay) + hand;
+        select = x.step(select, force.x);
+        shift = y.step(shift, force.y);
+      }
+      for (std::size_t i = 1000; i < 1180; ++i) {
+        const std::size_t begin = i + static_cast<std::size_t>(delay);
+        CHECK(predicted_begin[i].x == doctest::Approx(at[begin].x).epsilon(1e-6));
+        CHECK(predicted_begin[i].y == doctest::Approx(at[begin].y).epsilon(1e-6));
+        CHECK(predicted_end[i].x == doctest::Approx(at[begin + 1].x).epsilon(1e-6));
+        CHECK(predicted_end[i].y == doctest::Approx(at[begin + 1].y).epsilon(1e-6));
+      }
     }
   }
 }

@@ -68,6 +68,40 @@ TEST_CASE("a fast rattle in a wall lowers it by a quarter, within a quarter of a
   CHECK(limiter.stiffness_fraction() == 1.0);
 }
 
+TEST_CASE("a swing that dies away by itself softens nothing; one that does not, does") {
+  // A free oscillation of ratio r per half period: the sixth swing has r^4 of the second one's width.
+  const auto softenings = [](double ratio) {
+    DeviceSpec spec = paper_spec();
+    spec.delay = 3;
+    ReversalLimiter limiter(spec, kLimiterPeriod);
+    int count = 0;
+    for (int n = 0; n < 600; ++n) {
+      const double half_periods = 2.0 * 20.0 * n * kLimiterPeriod;
+      const double x = 40.0 * kCount * std::pow(ratio, half_periods) * std::sin(std::numbers::pi * half_periods);
+      count += limiter.update({0.0, x}, true, 5000.0, {0.0, 0.0});
+    }
+    return count;
+  };
+  CHECK(softenings(0.75) == 0);  // 0.32
+  CHECK(softenings(0.82) == 0);  // 0.45
+  CHECK(softenings(0.87) > 0);   // 0.57
+  CHECK(softenings(1.0) > 0);
+}
+
+TEST_CASE("a wall that is too soft to sustain a swing is not softened for it: K < b w") {
+  DeviceSpec spec = paper_spec();
+  spec.delay = 3;
+  const double omega = 2.0 * std::numbers::pi * 20.0, bound = kPaperAxisY.damping * omega;  // 364 N/m
+  for (const double factor : {0.001, 0.9}) {
+    ReversalLimiter limiter(spec, kLimiterPeriod);
+    CHECK(count_softenings(limiter, 20.0, 2e-3, 1.0, true, factor * bound) == 0);
+    CHECK(!limiter.is_exhausted());
+  }
+  ReversalLimiter limiter(spec, kLimiterPeriod);
+  for (int n = 0; n < 4; ++n) count_softenings(limiter, 20.0, 2e-3, 0.5, true, 1.1 * bound);
+  CHECK(limiter.stiffness_fraction() < 1.0);
+}
+
 TEST_CASE("a hand's tremor, encoder quantisation and motion in free space do not soften the wall") {
   ReversalLimiter limiter(paper_spec(), kLimiterPeriod);
   CHECK(count_softenings(limiter, 8.0, 0.02, 5.0) == 0);            // 16 reversals/s, the fastest deliberate motion

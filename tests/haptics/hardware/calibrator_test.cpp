@@ -142,7 +142,7 @@ TEST_CASE(
         low = glm::min(low, run.stick.position());
         high = glm::max(high, run.stick.position());
       }
-      CHECK(glm::length(high - low) < 3e-4);  // [m] just over two position counts of the SideWinder, 137 um each
+      CHECK(glm::length(high - low) < 4.2e-4);  // [m] just over three position counts of the SideWinder, 137 um each
     }
   }
 }
@@ -307,7 +307,9 @@ TEST_CASE("where springs are refused, dampers are still measured and used, if th
   DeviceCalibration late = found;
   late.timing.delay = 0.005;
   StillHand hand(hand_at({0.012, 0.0}));
-  StickLoop run(gripped, late, HapticConfig{}, stick_gate("six_speed_r_left_up", gripped), hand);
+  HapticConfig haptics;
+  haptics.contact.hold = ContactHold::half_sample;  // the observer hold does not use the device's damper
+  StickLoop run(gripped, late, haptics, stick_gate("six_speed_r_left_up", gripped), hand);
   run.loop.arm();
   run.cycle_for(0.7);
   CHECK(run.driver.state().damper[1] == 0.0);

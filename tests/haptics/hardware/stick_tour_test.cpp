@@ -95,7 +95,7 @@ TEST_CASE("the tour with weak springs, with every polarity inverted, at 500 Hz, 
 
 // If the position changes by one count of 137 um within a millisecond, the loop computes a speed of 0.14 m/s, and its
 // wall damping makes the force jump. A device damper avoids these kicks, above all on a stick with delay.
-TEST_CASE("a device damper on a late stick: softer kicks from coarse counts, less rebound") {
+TEST_CASE("with the half-sample hold, a device damper on a late stick: softer kicks from coarse counts, less rebound") {
   struct Felt {
     double damping = 0.0;  // [N s/m] wall damping after the stability limits
     double kicks = 0.0;    // [N] RMS change of the force per millisecond while a hand moves along the wall
@@ -107,7 +107,9 @@ TEST_CASE("a device damper on a late stick: softer kicks from coarse counts, les
     DeviceCalibration known = calibration_of(config);
     if (!damps) known.select.damper_sign = known.shift.damper_sign = 0;
     StillHand hand(hand_at({0.012, 0.0}));
-    StickLoop run(config, known, HapticConfig{}, stick_gate("six_speed_r_left_up", config), hand);
+    HapticConfig haptics;
+    haptics.contact.hold = ContactHold::half_sample;  // the observer hold does not use the device's damper
+    StickLoop run(config, known, haptics, stick_gate("six_speed_r_left_up", config), hand);
     run.loop.arm();
     run.cycle_for(1.0);
     Felt result{run.loop.admitted().tuning.wall_damping};

@@ -68,7 +68,7 @@ AdmittedTuning admitted(const HapticTuning& wanted, double rate, int delay, Cont
 
 }  // namespace
 
-TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis") {
+TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau (observer 0.7), tau = (delay + 1) T") {
   HapticTuning wanted;
   wanted.wall_stiffness = 20000.0;
   wanted.wall_damping = 100.0;
@@ -78,12 +78,12 @@ TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau, tau = 
     for (const int delay : {0, 1, 3}) {
       for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
         const double tau = (delay + 1) / rate, factor = hold == ContactHold::observer ? 0.58 : 0.35;
-        const HapticTuning used = admitted(wanted, rate, delay, hold).tuning;
+        const AdmittedTuning found = admitted(wanted, rate, delay, hold);
+        const HapticTuning& used = found.tuning;
         CHECK(used.wall_stiffness <= std::min(20000.0, factor * 0.086 / (tau * tau)) * (1.0 + 1e-12));
-        // The observer hold has a wall damping of at least 50 N s/m. With a long delay this hold is
-        // not admitted, so the damping limit of the half-sample hold applies.
-        const bool observed = used.wall_damping >= 50.0 && hold == ContactHold::observer;
-        if (!observed) CHECK(used.wall_damping == doctest::Approx(std::min(100.0, 0.35 * 0.086 / tau)));
+        if (found.hold == ContactHold::observer) CHECK(used.wall_damping == doctest::Approx(0.7 * 0.086 / tau));
+        if (found.hold == ContactHold::half_sample)
+          CHECK(used.wall_damping == doctest::Approx(std::min(100.0, 0.35 * 0.086 / tau)));
         CHECK(used.aisle_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
         CHECK(used.limit_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
       }
@@ -92,16 +92,19 @@ TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau, tau = 
 }
 
 TEST_CASE(
-    "automatic: the observer is used where delay keeps the half-sample hold from the wanted stiffness, up to 4.5 ms") {
+    "automatic: the observer is used where delay or rate keep the half-sample hold from the wanted stiffness, up to "
+    "12.5 ms") {
   CHECK(admitted({}, 1000.0, 0).hold == ContactHold::half_sample);
   CHECK(admitted({}, 1000.0, 1).hold == ContactHold::half_sample);
   CHECK(admitted({}, 1000.0, 2).hold == ContactHold::observer);
   CHECK(admitted({}, 1000.0, 2).tuning.wall_stiffness == 5000.0);
-  CHECK(admitted({}, 1000.0, 2).tuning.wall_damping == 50.0);
+  CHECK(admitted({}, 1000.0, 2).tuning.wall_damping == doctest::Approx(0.7 * 0.086 / 0.003));
   CHECK(admitted({}, 1000.0, 3).hold == ContactHold::observer);
-  CHECK(admitted({}, 1000.0, 4).hold == ContactHold::half_sample);  // 5 ms
+  CHECK(admitted({}, 1000.0, 8).hold == ContactHold::observer);
   CHECK(admitted({}, 500.0, 1).hold == ContactHold::observer);
-  CHECK(admitted({}, 200.0, 0).hold == ContactHold::half_sample);
+  CHECK(admitted({}, 500.0, 0).hold == ContactHold::half_sample);
+  CHECK(admitted({}, 100.0, 0).hold == ContactHold::observer);
+  CHECK(admitted({}, 100.0, 1).hold == ContactHold::half_sample);  // 20 ms
 }
 
 TEST_CASE(

@@ -1,10 +1,11 @@
-// A wall of 5000 N/m under a push of 20 N with the shipped default configuration, at several rates and delays.
+// A wall of 5000 N/m under pushes of 4 to 30 N with the shipped default configuration, at several rates and delays: at
+// rest, in motion, and in random hands.
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "app/lab/bench/lever/contact_campaign.h"
 #include "app/lab/bench/rows/bench.h"
+#include "app/lab/contact/contact_campaign.h"
 
 namespace gearshift::lab {
 namespace {
@@ -21,7 +22,9 @@ std::string timing_label(const Setting& at) {
   return at.delay == 0 ? text : text + ", delay " + std::to_string(at.delay);
 }
 
-Campaign push_of_20(const Setting& at, int runs) {
+constexpr double kMaxRandomRipple = 0.15e-3;  // [m]
+
+Campaign pushes(const Setting& at, int runs) {
   Campaign campaign;
   campaign.contact.haptics.rate = at.rate;
   campaign.contact.lever.delay = at.delay;
@@ -30,64 +33,103 @@ Campaign push_of_20(const Setting& at, int runs) {
   return campaign;
 }
 
-void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& prefix,
-         const std::vector<HandOutcome>& outcomes) {
+// Re Z over the stiffness in use, and the damping, of a wall that a gripping hand moves.
+std::vector<RelatedFigure> in_motion(ContactCase contact) {
+  constexpr double kFrequencies[] = {2.0, 5.0, 10.0};
+  contact.lever.hand = haptics::kGripHand;
+  const double stiffness = admitted_wall(contact).tuning.wall_stiffness;
+  std::vector<RelatedFigure> figures;
+  const std::vector<DynamicStiffness> found = dynamic_stiffness(contact, kFrequencies);
+  for (const DynamicStiffness& one : found)
+    figures.push_back({"Re Z at " + std::to_string(static_cast<int>(one.frequency)) + " Hz, of K",
+                       100.0 * one.stiffness / stiffness, "%"});
+  figures.push_back({"damping at 2 Hz", found.front().damping, "N s/m"});
+  return figures;
+}
+
+void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& prefix, const Campaign& campaign) {
+  const std::vector<HandOutcome> outcomes = run_campaign(campaign);
   const HandOutcome& worst = worst_ripple(outcomes);
   double max_ripple = 0.0;
   for (const HandOutcome& outcome : outcomes) max_ripple = std::max(max_ripple, outcome.ripple_max);
-  double softest = 1e9;
-  for (const HandOutcome& outcome : outcomes) softest = std::min(softest, outcome.softest);
-  const std::vector<RelatedFigure> related{{"lowest stiffness in use", softest, "N/m"},
-                                           {"displayed", 100.0 * min_displayed(outcomes), "%"},
-                                           {"deepest", 1e3 * deepest(outcomes), "mm"},
-                                           {"force ripple", worst.force_ripple, "N"}};
+  std::vector<RelatedFigure> related{{"lowest stiffness in use", softest(outcomes), "N/m"},
+                                     {"displayed", 100.0 * min_displayed(outcomes), "%"},
+                                     {"softened", 100.0 * softened_share(outcomes, campaign.runs), "% of the runs"},
+                                     {"deepest", 1e3 * deepest(outcomes), "mm"},
+                                     {"force ripple", worst.force_ripple, "N"},
+                                     {"rms acceleration", worst.tremble, "m/s^2"}};
+  if (!campaign.contact.haptics.contact.allow_unstable)
+    for (RelatedFigure& figure : in_motion(campaign.contact)) related.push_back(std::move(figure));
   const std::string what = prefix + timing_label(at) + ": final peak-to-peak motion";
   const std::size_t first = rows.size();
   rows.push_back({"contact", what + ", p95", 1e3 * worst.ripple_p95, "mm", at.goal_p95, false,
                   "worst hand: " + worst.hand, true, related});
   if (at.shows_5000) {
-    const double displayed = min_displayed(outcomes) * softest;
+    const double displayed = min_displayed(outcomes) * softest(outcomes);
     rows.push_back({"contact", prefix + timing_label(at) + ": lowest displayed stiffness", displayed, "N/m",
-                    0.97 * 5000.0, true, "all hands, at 20 N"});
+                    0.95 * 5000.0, true, "all hands, at 4 to 30 N"});
   }
   rows.push_back({"contact", what + ", maximum", 1e3 * max_ripple, "mm", at.goal_max, false, "all hands"});
   for (std::size_t i = first; i < rows.size(); ++i) rows[i].design = Design::wall;
 }
 
+// Hands of 0.02 to 2.5 kg, each for 3 s.
+BenchRow random_hand_row(const Setting& at, int hands) {
+  Campaign campaign = pushes(at, 1);
+  campaign.contact.duration = 3.0;
+  campaign.hands = random_hands(hands, 11);
+  const std::vector<HandOutcome> outcomes = run_campaign(campaign);
+  const auto trembles = [](const HandOutcome& outcome) { return outcome.ripple_max > kMaxRandomRipple; };
+  const HandOutcome& worst = worst_ripple(outcomes);
+  return answers_design(Design::wall,
+                        {"contact",
+                         timing_label(at) + ": hands of 0.02 to 2.5 kg with a final peak-to-peak motion above 0.15 mm",
+                         static_cast<double>(std::count_if(outcomes.begin(), outcomes.end(), trembles)),
+                         "of " + std::to_string(hands),
+                         0.0,
+                         false,
+                         "worst hand: " + worst.hand,
+                         true,
+                         {{"its motion", 1e3 * worst.ripple_max, "mm"},
+                          {"softened", 100.0 * softened_share(outcomes, 1), "% of the runs"}}});
+}
+
 }  // namespace
 
 std::vector<BenchRow> bench_contact(const BenchOptions& options) {
-  // The first four settings must display 5000 N/m. The fifth, 4000 Hz, has no such goal. At the others, admit_tuning()
-  // limits the stiffness.
-  const Setting settings[] = {{2000, 0, .02, .04, true}, {1000, 0, .04, .08, true}, {500, 0, .10, .11, true},
-                              {1000, 1, .10, .11, true}, {4000, 0, .02, .04},       {1000, 2, .12, .3},
-                              {1000, 3, .12, .3},        {1000, 4, .12, .3},        {500, 1, .12, .3},
+  // The first four settings must display 5000 N/m. At others, admit_tuning() limits the stiffness.
+  const Setting settings[] = {{2000, 0, .04, .08, true}, {1000, 0, .06, .09, true}, {500, 0, .10, .12, true},
+                              {1000, 1, .10, .12, true}, {4000, 0, .04, .08},       {1000, 2, .12, .3},
+                              {1000, 3, .12, .3},        {1000, 4, .12, .3},        {1000, 8, .12, .3},
+                              {500, 1, .12, .3},         {500, 2, .12, .3},         {250, 0, .12, .3},
                               {200, 0, .12, .3},         {100, 0, .12, .3}};
-  constexpr double kCampaigns = 17.0;
+  constexpr double kCampaigns = 34.0;
   const int runs = options.quick ? 6 : 400;
   std::vector<BenchRow> rows;
   double done = 0.0;
   for (const Setting& at : settings) {
     if (options.progress) options.progress("contact", done++ / kCampaigns);
-    add(rows, at, "", run_campaign(push_of_20(at, runs)));
+    add(rows, at, "", pushes(at, runs));
+    if (options.progress) options.progress("contact", done++ / kCampaigns);
+    rows.push_back(random_hand_row(at, options.quick ? 20 : 200));
   }
   // A stick whose firmware renders part of the wall. Setting {1000, 3} above is the same stick without device walls.
   for (const double device_stiffness : {400.0, 1000.0, 3000.0}) {
     if (options.progress) options.progress("contact", done++ / kCampaigns);
     const Setting at{1000, 3, .12, .3};
-    Campaign campaign = push_of_20(at, runs);
+    Campaign campaign = pushes(at, runs);
     campaign.contact.lever.device_wall_stiffness = device_stiffness;
-    add(rows, at, "device walls of " + std::to_string(static_cast<int>(device_stiffness)) + " N/m, ",
-        run_campaign(campaign));
+    add(rows, at, "device walls of " + std::to_string(static_cast<int>(device_stiffness)) + " N/m, ", campaign);
   }
-  // Devices that are unstable with a wall of 5000 N/m. The stability check is off, so only the reversal limiter acts.
-  for (const Setting& at : {Setting{100, 0, .3, .3}, Setting{200, 0, .3, .3}, Setting{1000, 3, .3, .3}}) {
+  // Devices that are unstable with a wall of 5000 N/m. The stability check is off, so only the reversal limiter acts. It
+  // ignores a swing that dies away by itself, so these goals are wider.
+  for (const Setting& at : {Setting{100, 0, .4, .4}, Setting{200, 0, .4, .4}, Setting{1000, 3, .4, .4}}) {
     if (options.progress) options.progress("contact", done++ / kCampaigns);
-    Campaign campaign = push_of_20(at, options.quick ? 2 : 100);
+    Campaign campaign = pushes(at, options.quick ? 2 : 100);
     campaign.contact.haptics.contact.allow_unstable = true;
     campaign.contact.haptics.contact.hold = haptics::ContactHold::half_sample;
     campaign.contact.duration = 4.0;
-    add(rows, at, "unchecked 5000 N/m wall, reversal limiter only, ", run_campaign(campaign));
+    add(rows, at, "unchecked 5000 N/m wall, reversal limiter only, ", campaign);
   }
   return rows;
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "app/lab/bench/lever/contact_rig.h"
 #include "app/lab/bench/rows/bench.h"
+#include "app/lab/contact/contact_rig.h"
 
 namespace gearshift::lab {
 namespace {

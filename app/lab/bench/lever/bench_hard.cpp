@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "app/lab/bench/lever/contact_campaign.h"
 #include "app/lab/bench/lever/wall_growth.h"
 #include "app/lab/bench/rows/bench.h"
+#include "app/lab/contact/contact_campaign.h"
 #include "haptics/analysis/sampled_loop.h"
 #include "haptics/gate/plain_aisle.h"
 
@@ -28,7 +28,7 @@ void add_default(std::vector<BenchRow>& rows, double rate, int delay, bool quick
       Campaign campaign;
       campaign.contact.haptics.rate = rate;
       campaign.contact.lever.delay = delay;
-      campaign.contact.push = push;
+      campaign.least_push = campaign.most_push = push;
       campaign.contact.duration = 2.5;
       campaign.slowest = campaign.fastest = speed;
       campaign.runs = quick ? 1 : 5;

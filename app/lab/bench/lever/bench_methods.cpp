@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 
-#include "app/lab/bench/lever/contact_campaign.h"
 #include "app/lab/bench/rows/bench.h"
 #include "app/lab/bench/rows/ticks.h"
+#include "app/lab/contact/contact_campaign.h"
 #include "haptics/analysis/sampled_loop.h"
 #include "haptics/contact/lever_observer.h"
 #include "haptics/contact/virtual_coupling.h"
@@ -29,7 +29,8 @@ constexpr double kDisplayedOf = 0.97;
 struct Method {
   std::string name;
   haptics::ContactHold hold;
-  double damping;  // [N s/m] negative: use (stiffness * period) / 2, the minimum by Lin and Young's eq. (22)
+  double damping;  // [N s/m] negative: use (stiffness * period) / 2, the minimum by Lin and Young's eq. (22), or with
+                   // the observer hold its own damping
   haptics::EnergyControl control = haptics::EnergyControl::none;
 };
 
@@ -39,7 +40,10 @@ struct LoopTiming {
 };
 
 double damping_of(const Method& method, const LoopTiming& at) {
-  return method.damping >= 0.0 ? method.damping : std::min(100.0, kWanted / (2.0 * at.rate));
+  if (method.damping >= 0.0) return method.damping;
+  if (method.hold == haptics::ContactHold::observer)
+    return haptics::observed_damping(haptics::kPaperAxisY.mass, (at.delay + 1.0) / at.rate);
+  return std::min(100.0, kWanted / (2.0 * at.rate));
 }
 
 // Cost of a contact cycle for a lever that trembles in and out of a wall. [ns]
@@ -227,7 +231,7 @@ std::vector<BenchRow> bench_methods(const BenchOptions& options) {
                             {"zero-order hold, B = K T / 2, eq. (22)", haptics::ContactHold::zero_order, -1.0},
                             {"half-sample hold, B = 0", haptics::ContactHold::half_sample, 0.0},
                             {"half-sample hold, B = 10", haptics::ContactHold::half_sample, 10.0},
-                            {"observer", haptics::ContactHold::observer, haptics::kMinObserverDamping},
+                            {"observer", haptics::ContactHold::observer, -1.0},
                             {"zero-order hold with passivity control", haptics::ContactHold::zero_order, 0.0,
                              haptics::EnergyControl::passivity_controller},
                             {"zero-order hold with energy bounding", haptics::ContactHold::zero_order, 0.0,

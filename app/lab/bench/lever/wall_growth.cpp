@@ -41,8 +41,7 @@ haptics::SimulatedRunConfig rig(const haptics::AxisModel& handle, const haptics:
   config.haptics.rate = 1.0 / period;
   config.haptics.contact = {law.hold, haptics::EnergyControl::none, false, true};
   config.haptics.tuning.wall_stiffness = law.stiffness;
-  const bool observed = law.hold == haptics::ContactHold::observer;
-  config.haptics.tuning.wall_damping = observed ? std::max(law.damping, haptics::kMinObserverDamping) : law.damping;
+  config.haptics.tuning.wall_damping = law.damping;
   config.haptics.tuning.aisle_damping = law.free_damping;
   config.haptics.tuning.limit_damping = 0.0;
   config.haptics.estimator.smoothing = law.smoothing;

@@ -1,16 +1,21 @@
-#include "app/lab/bench/lever/contact_campaign.h"
+#include "app/lab/contact/contact_campaign.h"
 
 #include <algorithm>
-#include <cstddef>
+#include <cmath>
 #include <random>
 
 #include "app/lab/bench/rows/bench.h"
+#include "haptics/files/number_text.h"
 
 namespace gearshift::lab {
 namespace {
 
 double unit(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
+}
+
+double between(double low, double high, std::mt19937_64& random) {
+  return low + (high - low) * unit(random);
 }
 
 ContactCase drawn(const Campaign& campaign, const haptics::HandImpedance& hand, std::uint64_t seed,
@@ -20,37 +25,67 @@ ContactCase drawn(const Campaign& campaign, const haptics::HandImpedance& hand, 
   contact.lever.seed = seed;
   contact.lever.model_error = campaign.model_error;
   contact.lever.period_jitter = campaign.period_jitter;
-  contact.speed = campaign.slowest + (campaign.fastest - campaign.slowest) * unit(random);
+  contact.speed = between(campaign.slowest, campaign.fastest, random);
   contact.phase = unit(random);
+  contact.push = between(campaign.least_push, campaign.most_push, random);
+  contact.place = unit(random);
+  if (campaign.place) contact.place = *campaign.place;
   return contact;
 }
 
-HandOutcome run_hand(const Campaign& campaign, const haptics::NamedHand& named) {
-  std::mt19937_64 random(7);
-  HandOutcome out{std::string(named.name), 0, 0, 1e9, 0, 0, 0, 1e9, 0, 0};
-  std::vector<double> ripple, force_ripple;
+}  // namespace
+
+std::vector<ContactHand> named_hands() {
+  std::vector<ContactHand> hands;
+  for (const haptics::NamedHand& named : haptics::kNamedHands) hands.push_back({std::string(named.name), named.hand});
+  return hands;
+}
+
+std::vector<ContactHand> random_hands(int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto even_in_decades = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
+  std::vector<ContactHand> hands;
+  for (int i = 0; i < count; ++i) {
+    haptics::HandImpedance hand;
+    hand.mass = even_in_decades(0.02, 2.5);
+    hand.stiffness = even_in_decades(100.0, 1500.0);
+    hand.damping = 2.0 * between(0.1, 0.8, random) * std::sqrt(hand.stiffness * hand.mass);
+    hands.push_back({haptics::number_text(hand.mass, 3) + " kg, " + haptics::number_text(hand.damping, 1) + " N s/m, " +
+                         haptics::number_text(hand.stiffness, 0) + " N/m",
+                     hand});
+  }
+  return hands;
+}
+
+HandOutcome run_hand(const Campaign& campaign, const ContactHand& judged) {
+  std::mt19937_64 random(campaign.seed);
+  HandOutcome out;
+  out.hand = judged.name;
+  std::vector<double> ripple, force_ripple, tremble;
   for (int i = 0; i < campaign.runs; ++i) {
-    const ContactResult one = run_contact(drawn(campaign, named.hand, static_cast<std::uint64_t>(i) + 1, random));
+    const ContactResult one =
+        run_contact(drawn(campaign, judged.hand, campaign.seed + static_cast<std::uint64_t>(i), random));
     ripple.push_back(one.ripple);
     force_ripple.push_back(one.force_ripple);
+    tremble.push_back(one.tremble);
     out.displayed = std::min(out.displayed, one.displayed / one.stiffness);
     out.peak = std::max(out.peak, one.peak);
     out.force_step = std::max(out.force_step, one.force_step);
     out.softest = std::min(out.softest, one.stiffness);
     out.lowered = std::max(out.lowered, one.lowered);
+    out.softened += one.lowered > 0;
     out.stopped += one.stopped;
   }
   out.ripple_p95 = quantile(ripple, 0.95);
   out.ripple_max = quantile(ripple, 1.0);
   out.force_ripple = quantile(force_ripple, 0.95);
+  out.tremble = quantile(tremble, 0.95);
   return out;
 }
 
-}  // namespace
-
 std::vector<HandOutcome> run_campaign(const Campaign& campaign) {
   std::vector<HandOutcome> outcomes;
-  for (const haptics::NamedHand& named : haptics::kNamedHands) outcomes.push_back(run_hand(campaign, named));
+  for (const ContactHand& judged : campaign.hands) outcomes.push_back(run_hand(campaign, judged));
   return outcomes;
 }
 
@@ -71,6 +106,18 @@ double min_displayed(const std::vector<HandOutcome>& outcomes) {
   return min_ratio;
 }
 
+double softest(const std::vector<HandOutcome>& outcomes) {
+  double least = 1e9;
+  for (const HandOutcome& outcome : outcomes) least = std::min(least, outcome.softest);
+  return least;
+}
+
+double softened_share(const std::vector<HandOutcome>& outcomes, int runs) {
+  int softened = 0;
+  for (const HandOutcome& outcome : outcomes) softened += outcome.softened;
+  return static_cast<double>(softened) / (static_cast<double>(runs) * static_cast<double>(outcomes.size()));
+}
+
 ImpactEnergy run_impacts(ContactCase contact, int phases) {
   contact.push = 0.0;
   contact.duration = 0.3;
@@ -82,11 +129,13 @@ ImpactEnergy run_impacts(ContactCase contact, int phases) {
     for (int i = 0; i < phases; ++i) {
       contact.speed = speed;
       contact.phase = (i + 0.5) / phases;
+      contact.place = std::fmod(0.618034 * i, 1.0);  // spreads evenly, whatever the phase
       const ContactResult one = run_contact(contact);
       out.worst_fraction = std::max(out.worst_fraction, one.energy / one.impact);
       out.worst = std::max(out.worst, one.energy);
       out.mean_fraction += one.energy / one.impact / (4.0 * phases);
       out.restitution = std::max(out.restitution, one.restitution);
+      if (speed == 0.3) out.hardness = std::min(out.hardness, one.hardness);
       out.surplus = std::max(out.surplus, one.energy - one.damped);
     }
   }

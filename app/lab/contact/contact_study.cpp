@@ -1,0 +1,186 @@
+#include "app/lab/contact/contact_study.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/base/chart.h"
+#include "app/base/colours.h"
+#include "app/base/svg.h"
+
+namespace gearshift::lab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using glm::dvec2;
+
+constexpr std::array kFrequencies{0.5, 1.0, 2.0, 5.0, 10.0, 20.0};  // [Hz]
+constexpr int kMinPhases = 20;                                      // impacts per speed
+
+std::string describe_loop(const ContactQuestion& question) {
+  const ContactCase& contact = question.campaign.contact;
+  return fmt::format("{:g} Hz, delay {} cycle{}, jitter {:g} %, plant error {:g} %", contact.haptics.rate,
+                     contact.lever.delay, contact.lever.delay == 1 ? "" : "s", 100.0 * question.campaign.period_jitter,
+                     100.0 * question.campaign.model_error);
+}
+
+std::string describe_wall(const ContactAnswer& answer) {
+  const haptics::HapticTuning& tuning = answer.admitted.tuning;
+  return fmt::format("{:.4g} N/m and {:.3g} N s/m, {}", tuning.wall_stiffness, tuning.wall_damping,
+                     haptics::to_string(answer.admitted.hold));
+}
+
+std::string range_text(double low, double high) {
+  return low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high);
+}
+
+double most(const std::vector<HandOutcome>& hands, double HandOutcome::*figure) {
+  double found = 0.0;
+  for (const HandOutcome& hand : hands) found = std::max(found, hand.*figure);
+  return found;
+}
+
+std::string hand_table(const ContactAnswer& answer, int runs) {
+  constexpr std::size_t kMaxRows = 12;
+  std::string text = fmt::format("{:<34}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "hand", "p95 [mm]", "most [mm]", "shown [%]",
+                                 "m/s^2", "softened");
+  for (std::size_t i = 0; i < std::min(answer.hands.size(), kMaxRows); ++i) {
+    const HandOutcome& hand = answer.hands[i];
+    text += fmt::format("{:<34}{:>12.3f}{:>12.3f}{:>12.1f}{:>12.2f}{:>12}\n", hand.hand, 1e3 * hand.ripple_p95,
+                        1e3 * hand.ripple_max, 100.0 * hand.displayed, hand.tremble,
+                        fmt::format("{} of {}", hand.softened, runs));
+  }
+  if (answer.hands.size() > kMaxRows) text += fmt::format("and {} more hands\n", answer.hands.size() - kMaxRows);
+  return text;
+}
+
+// Draws one figure against frequency.
+void draw_plot(base::Svg& svg, const base::Rect& box, const ContactAnswer& answer, const base::Scale& y, double step,
+               std::string_view name, const std::function<double(const DynamicStiffness&)>& figure) {
+  const base::Chart chart(svg, box, base::Scale::decades(kFrequencies.front(), kFrequencies.back()), y, 2.6);
+  svg.rect(box, base::kFreeColour);
+  chart.x_grid();
+  chart.y_grid(step);
+  chart.x_name("frequency of the motion [Hz]");
+  chart.y_name(name);
+  std::vector<dvec2> points;
+  for (const DynamicStiffness& one : answer.dynamic) points.emplace_back(one.frequency, figure(one));
+  chart.curve(points, {base::kGearColour, 0.8});
+  for (const dvec2& point : points) svg.dot(chart.at(point.x, point.y), 0.8, base::kGearColour);
+  svg.frame(box, "none", {base::kSoftInk, 0.3});
+}
+
+}  // namespace
+
+ContactAnswer measure_contact(const ContactQuestion& question, const std::function<void(double)>& progress) {
+  const Campaign& campaign = question.campaign;
+  ContactAnswer answer;
+  answer.admitted = admitted_wall(campaign.contact);
+  const double runs = static_cast<double>(campaign.runs) * static_cast<double>(campaign.hands.size());
+  for (std::size_t i = 0; i < campaign.hands.size(); ++i) {
+    progress(0.9 * static_cast<double>(i) / static_cast<double>(campaign.hands.size()));
+    answer.hands.push_back(run_hand(campaign, campaign.hands[i]));
+    answer.stopped += answer.hands.back().stopped / runs;
+  }
+  answer.softened = softened_share(answer.hands, campaign.runs);
+  progress(0.9);
+  answer.impact = run_impacts(campaign.contact, std::max(kMinPhases, campaign.runs));
+  ContactCase gripped = campaign.contact;
+  gripped.lever.hand = haptics::kGripHand;
+  answer.dynamic = dynamic_stiffness(gripped, kFrequencies);
+  return answer;
+}
+
+std::string contact_text(const ContactQuestion& question, const ContactAnswer& answer) {
+  const Campaign& campaign = question.campaign;
+  std::string text = fmt::format("device   {}\n", question.device);
+  text += fmt::format("loop     {}\n", describe_loop(question));
+  text += fmt::format("wall     {}\n", describe_wall(answer));
+  for (const haptics::TuningLimit& limited : answer.admitted.limits)
+    text += fmt::format("         {}\n", haptics::describe(limited));
+  text +=
+      fmt::format("\nImpact at {} m/s, then a push of {} N; {} for each hand:\n",
+                  range_text(campaign.slowest, campaign.fastest), range_text(campaign.least_push, campaign.most_push),
+                  campaign.runs == 1 ? "one run" : fmt::format("{} runs", campaign.runs));
+  text += hand_table(answer, campaign.runs);
+  text +=
+      "p95, most: peak-to-peak motion of the pressed lever; shown: least mean force over mean depth and K; m/s^2: rms\n"
+      "acceleration of the pressed lever, p95\n\n";
+  const ImpactEnergy& impact = answer.impact;
+  text += fmt::format(
+      "Impacts of a free lever at 0.1 to 1 m/s: the wall {} {:.0f} % of the worst impact's energy, restitution at "
+      "most\n"
+      "{:.2f}, rate-hardness at 0.3 m/s at least {:.1f} kN/m\n\n",
+      impact.worst_fraction < 0.0 ? "takes" : "ADDS", std::abs(100.0 * impact.worst_fraction), impact.restitution,
+      1e-3 * impact.hardness);
+  text += fmt::format("{:<14}{:>12}{:>12}{:>16}\n", "moved at [Hz]", "Re Z [N/m]", "of K [%]", "Im Z/w [N s/m]");
+  for (const DynamicStiffness& one : answer.dynamic)
+    text += fmt::format("{:<14g}{:>12.0f}{:>12.1f}{:>16.1f}\n", one.frequency, one.stiffness,
+                        100.0 * one.stiffness / answer.admitted.tuning.wall_stiffness, one.damping);
+  if (answer.stopped > 0.0)
+    text += fmt::format("\nThe guard switched the forces off in {:.1f} % of the runs.\n", 100.0 * answer.stopped);
+  return text;
+}
+
+std::string contact_json(const ContactQuestion& question, const ContactAnswer& answer) {
+  const Campaign& campaign = question.campaign;
+  Json json{{"device", question.device},
+            {"rate_hz", campaign.contact.haptics.rate},
+            {"delay_cycles", campaign.contact.lever.delay},
+            {"period_jitter", campaign.period_jitter},
+            {"model_error", campaign.model_error},
+            {"push_n", {campaign.least_push, campaign.most_push}},
+            {"speed_m_per_s", {campaign.slowest, campaign.fastest}},
+            {"runs", campaign.runs},
+            {"seed", campaign.seed},
+            {"hold", haptics::file_key(answer.admitted.hold)},
+            {"k_n_per_m", answer.admitted.tuning.wall_stiffness},
+            {"b_n_s_per_m", answer.admitted.tuning.wall_damping},
+            {"ripple_p95_mm", 1e3 * most(answer.hands, &HandOutcome::ripple_p95)},
+            {"ripple_max_mm", 1e3 * most(answer.hands, &HandOutcome::ripple_max)},
+            {"peak_mm", 1e3 * most(answer.hands, &HandOutcome::peak)},
+            {"shown_fraction", min_displayed(answer.hands)},
+            {"tremble_m_per_s2", most(answer.hands, &HandOutcome::tremble)},
+            {"energy_worst_fraction", answer.impact.worst_fraction},
+            {"restitution_worst", answer.impact.restitution},
+            {"rate_hardness_n_per_m", answer.impact.hardness},
+            {"softened_fraction", answer.softened},
+            {"stopped_fraction", answer.stopped}};
+  for (const DynamicStiffness& one : answer.dynamic) {
+    json["re_z_n_per_m"][fmt::format("{:g}", one.frequency)] = one.stiffness;
+    json["damping_n_s_per_m"][fmt::format("{:g}", one.frequency)] = one.damping;
+  }
+  for (const HandOutcome& hand : answer.hands)
+    json["hands"].push_back({{"hand", hand.hand},
+                             {"ripple_p95_mm", 1e3 * hand.ripple_p95},
+                             {"ripple_max_mm", 1e3 * hand.ripple_max},
+                             {"shown_fraction", hand.displayed},
+                             {"tremble_m_per_s2", hand.tremble},
+                             {"softened", hand.softened},
+                             {"stopped", hand.stopped}});
+  return json.dump(2) + "\n";
+}
+
+std::string contact_svg(const ContactQuestion& question, const ContactAnswer& answer) {
+  base::Svg svg({0.0, 0.0, 198.0, 92.0}, 6.0);
+  svg.text({4.0, 7.5}, {4.6, base::kInk, "start", true}, "Stiffness of the wall in motion");
+  svg.text({4.0, 12.0}, {2.7, base::kSoftInk},
+           fmt::format("{}: {}; wall of {}", question.device, describe_loop(question), describe_wall(answer)));
+  const double wanted = answer.admitted.tuning.wall_stiffness;
+  double highest = 1.2, least = 0.0, largest = 1.0;
+  for (const DynamicStiffness& one : answer.dynamic) {
+    highest = std::max(highest, 1.05 * one.stiffness / wanted);
+    least = std::min(least, 1.1 * one.damping);
+    largest = std::max(largest, 1.1 * one.damping);
+  }
+  draw_plot(svg, {14.0, 24.0, 80.0, 52.0}, answer, {0.0, highest}, base::grid_step(highest, 6), "Re Z / K",
+            [wanted](const DynamicStiffness& one) { return one.stiffness / wanted; });
+  draw_plot(svg, {112.0, 24.0, 80.0, 52.0}, answer, {least, largest}, base::grid_step(largest - least, 6),
+            "damping Im Z / w [N s/m]", [](const DynamicStiffness& one) { return one.damping; });
+  return std::move(svg).finish();
+}
+
+}  // namespace gearshift::lab

@@ -1,0 +1,34 @@
+// What a wall feels like on a device (`gearshift contact`): ripple under a push, energy of impacts, stiffness in motion.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/lab/contact/contact_campaign.h"
+
+namespace gearshift::lab {
+
+struct ContactQuestion {
+  std::string device;  // display name
+  Campaign campaign;
+};
+
+struct ContactAnswer {
+  haptics::AdmittedTuning admitted;
+  std::vector<HandOutcome> hands;
+  double softened = 0.0;  // [1] share of the runs in which the reversal limiter softened the wall
+  double stopped = 0.0;   // [1] share of the runs in which the guard switched the force off
+  ImpactEnergy impact;
+  std::vector<DynamicStiffness> dynamic;  // in a gripping hand
+};
+
+// Throws std::invalid_argument if no wall can be used on this device. `progress` is called with the completed fraction.
+ContactAnswer measure_contact(const ContactQuestion& question, const std::function<void(double)>& progress);
+
+std::string contact_text(const ContactQuestion& question, const ContactAnswer& answer);
+std::string contact_json(const ContactQuestion& question, const ContactAnswer& answer);
+// A complete SVG document: Re Z over the wall's stiffness and the damping Im Z / w, against frequency.
+std::string contact_svg(const ContactQuestion& question, const ContactAnswer& answer);
+
+}  // namespace gearshift::lab
