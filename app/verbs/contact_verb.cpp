@@ -38,6 +38,8 @@ constexpr const char* kContactExamples =
     "  gearshift contact --rate 200 --push 20 --json     one push, as JSON\n"
     "  gearshift contact --stick FFBoard --svg wall.svg  a calibrated stick, with a plot\n";
 
+constexpr double kHeavyHand = 0.8;  // [kg] heavier hands swing longer
+
 struct ContactArguments {
   std::string preset = "default";
   std::string stick;
@@ -110,7 +112,6 @@ lab::ContactQuestion question_of(const ContactArguments& arguments) {
   take_wall(arguments, campaign.contact.haptics);
   if (!arguments.stick.empty()) take_stick(arguments.stick, question);
   if (arguments.delay) campaign.contact.lever.delay = *arguments.delay;
-  campaign.contact.duration = campaign.contact.haptics.rate < 500.0 ? 2.0 : 1.2;
   std::tie(campaign.least_push, campaign.most_push) = std::minmax(arguments.push.front(), arguments.push.back());
   std::tie(campaign.slowest, campaign.fastest) = std::minmax(arguments.speed.front(), arguments.speed.back());
   campaign.place = arguments.place;
@@ -118,6 +119,9 @@ lab::ContactQuestion question_of(const ContactArguments& arguments) {
   campaign.model_error = arguments.plant_error;
   campaign.seed = arguments.seed;
   campaign.hands = hands_of(arguments);
+  const auto is_heavy = [](const lab::ContactHand& hand) { return hand.hand.mass > kHeavyHand; };
+  const bool is_slow = std::any_of(campaign.hands.begin(), campaign.hands.end(), is_heavy);
+  campaign.contact.duration = is_slow ? 3.0 : campaign.contact.haptics.rate < 500.0 ? 2.0 : 1.2;
   campaign.runs = arguments.hand == "random" ? 1 : arguments.runs;
   return question;
 }
@@ -151,18 +155,18 @@ void add_device_options(CLI::App& verb, ContactArguments& arguments) {
       ->check(number_between(100.0, 4000.0));
   verb.add_option("--delay", arguments.delay, "delay until a command takes effect [cycles]; default: the device's")
       ->check(whole_number(0, haptics::kMaxSimulatedDelay));
-  verb.add_option("--jitter", arguments.jitter, "largest relative error of each period")
+  verb.add_option("--jitter", arguments.jitter, "largest relative error of each period, in the contacts with a hand")
       ->check(number_between(0.0, 0.5))
       ->capture_default_str();
   verb.add_option("--plant-error", arguments.plant_error,
-                  "largest relative error of the handle's mass, damping and stiffness")
+                  "largest relative error of the handle's mass, damping and stiffness, in the contacts with a hand")
       ->check(number_between(0.0, 0.5))
       ->capture_default_str();
 }
 
 void add_wall_options(CLI::App& verb, ContactArguments& arguments) {
   verb.add_option("--wall-stiffness", arguments.wall_stiffness, "wanted stiffness [N/m]; default: the preset's")
-      ->check(number_between(0.0, 20000.0));
+      ->check(number_between(1.0, 20000.0));
   verb.add_option("--wall-damping", arguments.wall_damping, "wanted damping [N s/m]; default: the preset's")
       ->check(number_between(0.0, 100.0));
   verb.add_option("--hold", arguments.hold, "automatic, zero_order, half_sample or observer; default: the preset's")

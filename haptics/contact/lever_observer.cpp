@@ -15,7 +15,8 @@ using glm::dvec3;
 
 constexpr std::int64_t kMaxSkippedCycles = 10;  // [cycles] longest gap that is simulated in full
 constexpr int kMaxBlindCycles = 10;             // [cycles] the observer restarts after this many without a sample
-constexpr double kIntervalShare = 0.05;         // [1] of a new interval in the mean
+constexpr double kIntervalWeight = 0.05;        // [1] of a new interval in the mean
+constexpr double kIntervalChange = 0.75;        // [cycles] smaller changes of the mean are lost readings
 
 // Transition matrix of (position, velocity, hand force) over one period: the columns are the images of the unit states.
 dmat3 transition(const AxisStepper& stepper) noexcept {
@@ -65,7 +66,7 @@ LeverObserver::LeverObserver(const DeviceSpec& spec, double period) noexcept
 
 ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 commanded, std::int64_t skipped) noexcept {
   for (std::int64_t n = std::min(skipped, kMaxSkippedCycles); n >= 0; --n) advance_period(commanded);
-  track_interval(motion.fresh);
+  track_interval(motion.fresh, skipped);
   ObservedMotion out;
   for (int i = 0; i < 2; ++i) {
     Axis& axis = axis_[static_cast<std::size_t>(i)];
@@ -81,9 +82,11 @@ ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 comma
 
 // The device's delay includes the wait for its next sample. The observer predicts from sample to sample, so commands act
 // earlier for it by this wait.
-void LeverObserver::track_interval(bool is_fresh) noexcept {
-  if (!is_fresh || !started_) return;
-  mean_interval_ += kIntervalShare * (1.0 + blind_cycles_ - mean_interval_);
+void LeverObserver::track_interval(bool is_fresh, std::int64_t skipped) noexcept {
+  if (!is_fresh || !started_ || skipped > 0) return;
+  const double interval = 1.0 + blind_cycles_;
+  mean_interval_ = mean_interval_ == 0.0 ? interval : mean_interval_ + kIntervalWeight * (interval - mean_interval_);
+  if (std::abs(mean_interval_ - static_cast<double>(interval_)) < kIntervalChange) return;
   interval_ = std::min(static_cast<std::size_t>(std::lround(mean_interval_)), kMaxInterval);
   delay_ = spec_delay_ - std::min(spec_delay_, interval_ - 1);
 }

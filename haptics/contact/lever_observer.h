@@ -82,7 +82,7 @@ class LeverObserver {
 
   double command_before(std::size_t age, int axis) const noexcept;
   void advance_period(glm::dvec2 commanded) noexcept;
-  void track_interval(bool is_fresh) noexcept;
+  void track_interval(bool is_fresh, std::int64_t skipped) noexcept;
   AxisEstimate estimate_at_effect(Axis& axis, int index, const LeverMotion& motion) noexcept;
 
   std::array<Axis, 2> axis_;
@@ -90,8 +90,8 @@ class LeverObserver {
   std::size_t newest_ = 0;                                // index of the newest command
   std::size_t spec_delay_;      // [cycles] of the device, the wait for its next sample included
   std::size_t delay_;           // [cycles] from a command to its effect
-  std::size_t interval_ = 1;    // [cycles] rounded mean
-  double mean_interval_ = 1.0;  // [cycles] between samples
+  std::size_t interval_ = 1;    // [cycles] between samples
+  double mean_interval_ = 0.0;  // [cycles] 0: not yet known
   bool started_ = false;
   int blind_cycles_ = 0;  // [cycles] since the last fresh sample
 };

@@ -41,12 +41,13 @@ void ReversalLimiter::reset() noexcept {
   for (Axis& axis : axis_) axis.count = 0;
 }
 
-bool ReversalLimiter::update(glm::dvec2 position, bool in_contact, double wanted, glm::dvec2 vibration) noexcept {
+bool ReversalLimiter::update(glm::dvec2 position, bool in_contact, double wanted, double damping,
+                             glm::dvec2 vibration) noexcept {
   time_ += period_;
   if (in_contact) last_contact_ = time_;
   track_vibration(vibration);
-  const bool chatter_x = detect_chatter(axis_[0], position.x, wanted);
-  const bool chatter_y = detect_chatter(axis_[1], position.y, wanted);
+  const bool chatter_x = detect_chatter(axis_[0], position.x, wanted, damping);
+  const bool chatter_y = detect_chatter(axis_[1], position.y, wanted, damping);
   const bool at_wall = time_ - last_contact_ < kReversalWindow;
   if (!at_wall || (!chatter_x && !chatter_y)) return false;
   return soften(wanted);
@@ -63,9 +64,10 @@ bool ReversalLimiter::Swing::reverses(double value, double back) noexcept {
   return true;
 }
 
-// Per period, a wall of stiffness K that responds late feeds at most pi K X^2 into a swing of amplitude X, and the
-// lever's own damping b dissipates pi b w X^2 at angular frequency w. So a wall softer than b w sustains no swing.
-bool ReversalLimiter::detect_chatter(Axis& axis, double position, double wanted) noexcept {
+// Per period, a wall of stiffness K and damping B that responds late feeds at most pi |K + j B w| X^2 into a swing of
+// amplitude X at angular frequency w, and the lever's own damping b dissipates pi b w X^2. So a wall of less than b w
+// sustains no swing.
+bool ReversalLimiter::detect_chatter(Axis& axis, double position, double wanted, double damping) noexcept {
   if (!axis.lever.reverses(position, reversal_step_) || is_forced_turn(axis)) return false;
   if (axis.lever.width < kTremorWidth) axis.narrow_time = time_;
   const double window = time_ - axis.narrow_time < kReversalWindow ? kTremorWindow : kReversalWindow;
@@ -74,7 +76,8 @@ bool ReversalLimiter::detect_chatter(Axis& axis, double position, double wanted)
   const std::size_t first = axis.count % kReversals, second = (first + 1) % kReversals;  // the oldest of six
   const double widest = std::max(axis.reversal_widths[first], axis.reversal_widths[second]);
   const double duration = time_ - axis.reversal_times[first];
-  const bool can_sustain = wanted * duration > damping_ * std::numbers::pi * (kReversals - 1);
+  const double omega = std::numbers::pi * (kReversals - 1) / duration;
+  const bool can_sustain = std::hypot(wanted, damping * omega) > damping_ * omega;
   return axis.count >= kReversals && duration < window && axis.lever.width > kDying * widest && can_sustain;
 }
 

@@ -16,8 +16,8 @@
 // The load may vibrate the lever on purpose, for example to simulate a stalling engine. The lever then reverses as
 // often as the vibration force and moves no further than this force can move it. Such reversals are ignored: a softer
 // wall would not calm them, and the lever needs its walls. Reversals that are more frequent or wider than the vibration
-// explains count as usual. A swing whose sixth width is less than half of its first dies away by itself and does not
-// count either, nor does a swing that no wall of this stiffness can sustain.
+// explains count as usual. A swing whose sixth width is less than half of its first or second dies away by itself and does
+// not count either, nor does a swing that no wall of this stiffness and damping can sustain.
 #pragma once
 
 #include <array>
@@ -36,10 +36,10 @@ class ReversalLimiter {
   void reset() noexcept;  // full stiffness again
 
   // Call once per cycle. `position`: accepted position of the lever [m]. `in_contact`: true if the lever is pressed
-  // into a wall. `wanted`: stiffness of this wall before softening [N/m]. `vibration`: force with which the load
+  // into a wall. `wanted`, `damping`: of this wall before softening [N/m], [N s/m]. `vibration`: force with which the load
   // vibrates the lever, independent of the lever's motion [N]. Returns true if stiffness_fraction() or is_exhausted()
   // has changed. Real-time safe.
-  bool update(glm::dvec2 position, bool in_contact, double wanted, glm::dvec2 vibration) noexcept;
+  bool update(glm::dvec2 position, bool in_contact, double wanted, double damping, glm::dvec2 vibration) noexcept;
 
   double stiffness_fraction() const noexcept { return fraction_; }  // [1] fraction of the wanted stiffness to use
   bool is_exhausted() const noexcept { return is_exhausted_; }      // chatter persists despite softening
@@ -68,7 +68,7 @@ class ReversalLimiter {
 
   void track_vibration(glm::dvec2 vibration) noexcept;
   bool is_forced_turn(Axis& axis) noexcept;
-  bool detect_chatter(Axis& axis, double position, double wanted) noexcept;
+  bool detect_chatter(Axis& axis, double position, double wanted, double damping) noexcept;
   bool soften(double wanted) noexcept;
 
   double period_;

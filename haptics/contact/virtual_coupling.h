@@ -43,7 +43,7 @@ struct Coupling {
 };
 
 // Wall damping [N s/m] with which the observer hold is stiffest in motion and quiet in every hand, for a handle of mass
-// `mass` [kg] and a force that acts `lag` [s] late, its own period included. Found by search (app/lab/bench/README.md).
+// `mass` [kg] and a force that acts `lag` [s] late, its own period included. Found by search (app/lab/contact/README.md).
 constexpr double observed_damping(double mass, double lag) noexcept {
   return 0.7 * mass / lag;
 }

@@ -58,7 +58,8 @@ double lag(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   return (spec.delay + 1.0) * period_s(config);
 }
 
-// Selects the observer hold if the half-sample hold cannot reach the wanted stiffness because of the device's delay.
+// Selects the observer hold if the half-sample hold cannot reach the wanted stiffness because of the rate or the device's
+// delay.
 ContactHold select_hold(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   if (config.contact.hold != ContactHold::automatic) return config.contact.hold;
   const double tau = lag(config, spec);
@@ -79,7 +80,7 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   limiter.limit(tuning.wall_stiffness, stiffness, &HapticTuning::wall_stiffness, observed ? kObservedLaw : kQuietLaw);
 }
 
-// Sets the damping of the observer hold, which does not depend on what is wanted.
+// Sets the damping of the observer hold, which does not depend on what is wanted, except with allow_unstable.
 void set_observed_damping(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted) {
   double& damping = admitted.tuning.wall_damping;
   const double needed = observed_damping(lighter_mass(spec), lag(config, spec));

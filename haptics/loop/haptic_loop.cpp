@@ -338,7 +338,9 @@ void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
 // `damped`.
 void HapticLoop::watch_chatter() noexcept {
   if (!config_.contact.reversal_limiter) return;
-  if (!limiter_.update(motion_.position, penetration() > 0.0, tuning_.wall_stiffness, load_output_.vibration)) return;
+  if (!limiter_.update(motion_.position, penetration() > 0.0, tuning_.wall_stiffness, tuning_.wall_damping,
+                       load_output_.vibration))
+    return;
   if (limiter_.is_exhausted()) guard_.damp();
 }
 

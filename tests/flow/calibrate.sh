@@ -75,7 +75,7 @@ done
 measured() { grep -l "^travel_m = 0.14" "$sticks"/*.toml; }
 check "the measurements are correct" python3 - $(measured) <<'END'
 import os, pathlib, re, sys
-allowed = {"mass_kg": (0.08, 0.11), "damping_n_s_per_m": (2, 5), "stiffness_n_per_m": (0, 40),
+allowed = {"mass_kg": (0.07, 0.13), "damping_n_s_per_m": (2, 5), "stiffness_n_per_m": (0, 40),
            "spring_stiffness_n_per_m": (330, 450), "damper_n_s_per_m": (14, 30), "damper_sign": (1, 1)}
 if not os.environ.get("GEARSHIFT_FULL"):
     allowed |= {"spring_stiffness_n_per_m": (0, 0), "damper_n_s_per_m": (0, 0), "damper_sign": (0, 0)}

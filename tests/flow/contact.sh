@@ -52,6 +52,7 @@ check "the drawing" answers --svg wall.svg
 check "is whole" grep -q "</svg>" wall.svg
 
 refuse 2 "--push" --push -1
+refuse 2 "--wall-stiffness: \"0\" is not a number from 1 to 20000" --wall-stiffness 0
 refuse 2 "--delay: \"9\" is not a whole number from 0 to 8" --delay 9
 refuse 2 "--hand fist: must be bare, light, grip, arm, all, random or M,B,K" --hand fist
 refuse 2 "--rate" --rate 50

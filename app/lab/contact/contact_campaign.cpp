@@ -10,6 +10,8 @@
 namespace gearshift::lab {
 namespace {
 
+constexpr std::uint64_t kSeedsPerHand = 1'000'000;
+
 double unit(std::mt19937_64& random) {
   return static_cast<double>(random() >> 11) * 0x1p-53;
 }
@@ -28,8 +30,7 @@ ContactCase drawn(const Campaign& campaign, const haptics::HandImpedance& hand, 
   contact.speed = between(campaign.slowest, campaign.fastest, random);
   contact.phase = unit(random);
   contact.push = between(campaign.least_push, campaign.most_push, random);
-  contact.place = unit(random);
-  if (campaign.place) contact.place = *campaign.place;
+  contact.place = campaign.place.value_or(unit(random));
   return contact;
 }
 
@@ -57,14 +58,15 @@ std::vector<ContactHand> random_hands(int count, std::uint64_t seed) {
   return hands;
 }
 
-HandOutcome run_hand(const Campaign& campaign, const ContactHand& judged) {
-  std::mt19937_64 random(campaign.seed);
+HandOutcome run_hand(const Campaign& campaign, std::size_t hand) {
+  const std::uint64_t seed = campaign.seed + kSeedsPerHand * hand;
+  std::mt19937_64 random(seed);
   HandOutcome out;
-  out.hand = judged.name;
+  out.hand = campaign.hands[hand].name;
   std::vector<double> ripple, force_ripple, tremble;
   for (int i = 0; i < campaign.runs; ++i) {
     const ContactResult one =
-        run_contact(drawn(campaign, judged.hand, campaign.seed + static_cast<std::uint64_t>(i), random));
+        run_contact(drawn(campaign, campaign.hands[hand].hand, seed + static_cast<std::uint64_t>(i), random));
     ripple.push_back(one.ripple);
     force_ripple.push_back(one.force_ripple);
     tremble.push_back(one.tremble);
@@ -85,7 +87,7 @@ HandOutcome run_hand(const Campaign& campaign, const ContactHand& judged) {
 
 std::vector<HandOutcome> run_campaign(const Campaign& campaign) {
   std::vector<HandOutcome> outcomes;
-  for (const ContactHand& judged : campaign.hands) outcomes.push_back(run_hand(campaign, judged));
+  for (std::size_t hand = 0; hand < campaign.hands.size(); ++hand) outcomes.push_back(run_hand(campaign, hand));
   return outcomes;
 }
 

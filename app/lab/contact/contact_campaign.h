@@ -2,6 +2,7 @@
 // results.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -47,7 +48,8 @@ struct HandOutcome {
   int stopped = 0;            // number of runs in which the guard switched the force off
 };
 
-HandOutcome run_hand(const Campaign& campaign, const ContactHand& judged);
+// Runs the contacts of the hand with this index. Each hand has other contacts.
+HandOutcome run_hand(const Campaign& campaign, std::size_t hand);
 // Returns one outcome per hand.
 std::vector<HandOutcome> run_campaign(const Campaign& campaign);
 

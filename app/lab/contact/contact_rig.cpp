@@ -146,11 +146,13 @@ haptics::AdmittedTuning admitted_wall(const ContactCase& contact) {
 
 namespace {
 
-// The same contact with the tuning that the program admits on this lever, and without the reversal limiter.
+// The same contact with the tuning that the program admits on this lever, and without what is not the wall's: the
+// reversal limiter and the damping that acts everywhere.
 ContactCase without_limiter(ContactCase contact) {
   const haptics::AdmittedTuning admitted = admitted_wall(contact);
   contact.haptics.tuning = admitted.tuning;
   contact.haptics.contact.hold = admitted.hold;
+  contact.haptics.tuning.aisle_damping = contact.haptics.tuning.limit_damping = 0.0;
   contact.haptics.contact.allow_unstable = true;
   contact.haptics.contact.reversal_limiter = false;
   return contact;
@@ -166,8 +168,8 @@ double swinging_push(const ContactCase& contact, double frequency) {
                                                 omega * (axis.damping + hand.damping)));
 }
 
-// Fits motion and motor force of a run whose hand swings. A force that is held for a period is, at low frequencies,
-// half a period late and weaker by sin(u)/u with u = omega T / 2.
+// Fits motion and motor force of a run whose hand swings. A force is recorded at the end of the period over which it was
+// held, so its wave is half a period earlier, and weaker by sin(u)/u with u = omega T / 2.
 DynamicStiffness fit_swing(haptics::SimulatedRun& run, double frequency) {
   const double omega = 2.0 * std::numbers::pi * frequency, half = 0.5 * omega * run.period();
   const double periods = std::max(kMinPeriods, std::ceil(kMinWindow * frequency)), length = periods / frequency;
@@ -223,7 +225,7 @@ ContactResult run_contact(const ContactCase& contact) {
   while (run.time() < end) {
     const haptics::HapticSnapshot& now = run.step();
     first.update(run, result);
-    // A free lever is let go at the first force, which some holds command before the wall.
+    // A free lever is let go at the first force, which the half-sample and observer holds render before the wall.
     if (contact.push == 0.0 && std::abs(now.f_a.x) > kNoForce) hand.arrived = true;
     if (!command.empty()) result.force_step = std::max(result.force_step, std::abs(now.commanded.x - command.back()));
     position.push_back(run.lever().true_position().x);

@@ -17,8 +17,10 @@ struct ContactQuestion {
 struct ContactAnswer {
   haptics::AdmittedTuning admitted;
   std::vector<HandOutcome> hands;
-  double softened = 0.0;  // [1] share of the runs in which the reversal limiter softened the wall
-  double stopped = 0.0;   // [1] share of the runs in which the guard switched the force off
+  double ripple_p95 = 0.0;  // [m]
+  double softened = 0.0;    // [1] share of the runs in which the reversal limiter softened the wall
+  double stopped = 0.0;     // [1] share of the runs in which the guard switched the force off
+  // Impacts and motion are measured without jitter, plant error and the loop's damping outside the wall.
   ImpactEnergy impact;
   std::vector<DynamicStiffness> dynamic;  // in a gripping hand
 };

@@ -22,11 +22,11 @@ DeviceSpec paper_spec() {
 // Number of times the limiter softens the wall while the lever oscillates for `seconds`. `frequency` [Hz]. `span`:
 // peak-to-peak motion [m].
 int count_softenings(ReversalLimiter& limiter, double frequency, double span, double seconds, bool in_contact = true,
-                     double wanted = 5000.0) {
+                     double wanted = 5000.0, double damping = 0.0) {
   int count = 0;
   for (int n = 0; n < static_cast<int>(seconds / kLimiterPeriod); ++n) {
     const double x = 0.5 * span * std::sin(2.0 * std::numbers::pi * frequency * n * kLimiterPeriod);
-    count += limiter.update({0.0, x}, in_contact, wanted, {0.0, 0.0});
+    count += limiter.update({0.0, x}, in_contact, wanted, damping, {0.0, 0.0});
   }
   return count;
 }
@@ -43,7 +43,8 @@ int count_softenings_vibrated(ReversalLimiter& limiter, const Vibration& vibrati
   for (int n = 0; n < static_cast<int>(seconds / kLimiterPeriod); ++n) {
     const double time = n * kLimiterPeriod;
     const double y = 0.5 * span * sine(frequency * (time - vibration.lag / vibration.frequency));
-    count += limiter.update({0.1 * y, y}, true, 5000.0, {0.0, vibration.amplitude * sine(vibration.frequency * time)});
+    count +=
+        limiter.update({0.1 * y, y}, true, 5000.0, 10.0, {0.0, vibration.amplitude * sine(vibration.frequency * time)});
   }
   return count;
 }
@@ -78,7 +79,7 @@ TEST_CASE("a swing that dies away by itself softens nothing; one that does not, 
     for (int n = 0; n < 600; ++n) {
       const double half_periods = 2.0 * 20.0 * n * kLimiterPeriod;
       const double x = 40.0 * kCount * std::pow(ratio, half_periods) * std::sin(std::numbers::pi * half_periods);
-      count += limiter.update({0.0, x}, true, 5000.0, {0.0, 0.0});
+      count += limiter.update({0.0, x}, true, 5000.0, 10.0, {0.0, 0.0});
     }
     return count;
   };
@@ -97,9 +98,11 @@ TEST_CASE("a wall that is too soft to sustain a swing is not softened for it: K 
     CHECK(count_softenings(limiter, 20.0, 2e-3, 1.0, true, factor * bound) == 0);
     CHECK(!limiter.is_exhausted());
   }
-  ReversalLimiter limiter(spec, kLimiterPeriod);
-  for (int n = 0; n < 4; ++n) count_softenings(limiter, 20.0, 2e-3, 0.5, true, 1.1 * bound);
-  CHECK(limiter.stiffness_fraction() < 1.0);
+  for (const auto& [stiffness, damping] : {std::pair{1.1 * bound, 0.0}, {0.001 * bound, 1.1 * kPaperAxisY.damping}}) {
+    ReversalLimiter limiter(spec, kLimiterPeriod);
+    for (int n = 0; n < 4; ++n) count_softenings(limiter, 20.0, 2e-3, 0.5, true, stiffness, damping);
+    CHECK(limiter.stiffness_fraction() < 1.0);
+  }
 }
 
 TEST_CASE("a hand's tremor, encoder quantisation and motion in free space do not soften the wall") {
@@ -184,7 +187,7 @@ TEST_CASE("a vibration that has ended explains no further reversals") {
   CHECK(count_softenings(limiter, 1.0, 0.0, 0.3) == 0);
   for (int n = 0; n < 400; ++n) {
     const double y = 0.001 * std::sin(2.0 * std::numbers::pi * 40.0 * n * kLimiterPeriod);
-    const bool now = limiter.update({0.0, y}, true, 5000.0, {0.0, 0.0});
-    CHECK(now == fresh.update({0.0, y}, true, 5000.0, {0.0, 0.0}));
+    const bool now = limiter.update({0.0, y}, true, 5000.0, 10.0, {0.0, 0.0});
+    CHECK(now == fresh.update({0.0, y}, true, 5000.0, 10.0, {0.0, 0.0}));
   }
 }

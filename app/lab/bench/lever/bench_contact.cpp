@@ -73,25 +73,26 @@ void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& pref
   for (std::size_t i = first; i < rows.size(); ++i) rows[i].design = Design::wall;
 }
 
-// Hands of 0.02 to 2.5 kg, each for 3 s.
+// Hands of 0.02 to 2.5 kg, each in several contacts of 3 s.
 BenchRow random_hand_row(const Setting& at, int hands) {
-  Campaign campaign = pushes(at, 1);
+  constexpr int kRuns = 3;
+  Campaign campaign = pushes(at, kRuns);
   campaign.contact.duration = 3.0;
   campaign.hands = random_hands(hands, 11);
   const std::vector<HandOutcome> outcomes = run_campaign(campaign);
   const auto trembles = [](const HandOutcome& outcome) { return outcome.ripple_max > kMaxRandomRipple; };
   const HandOutcome& worst = worst_ripple(outcomes);
-  return answers_design(Design::wall,
-                        {"contact",
-                         timing_label(at) + ": hands of 0.02 to 2.5 kg with a final peak-to-peak motion above 0.15 mm",
-                         static_cast<double>(std::count_if(outcomes.begin(), outcomes.end(), trembles)),
-                         "of " + std::to_string(hands),
-                         0.0,
-                         false,
-                         "worst hand: " + worst.hand,
-                         true,
-                         {{"its motion", 1e3 * worst.ripple_max, "mm"},
-                          {"softened", 100.0 * softened_share(outcomes, 1), "% of the runs"}}});
+  return answers_design(
+      Design::wall, {"contact",
+                     timing_label(at) + ": hands of 0.02 to 2.5 kg with a peak-to-peak motion above 0.15 mm after 3 s",
+                     static_cast<double>(std::count_if(outcomes.begin(), outcomes.end(), trembles)),
+                     "of " + std::to_string(hands),
+                     0.0,
+                     false,
+                     "worst hand: " + worst.hand,
+                     true,
+                     {{"its motion", 1e3 * worst.ripple_max, "mm"},
+                      {"softened", 100.0 * softened_share(outcomes, kRuns), "% of the runs"}}});
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ inline constexpr std::array<DesignRow, 13> kDesignRows{{
      "one sample of delay, with 95 % of the stiffness displayed; otherwise p95 at most 0.12 mm; no hand of 0.02 to "
      "2.5 kg above 0.15 mm"},
     {Design::energy, "energy", "energy that the wall adds to an impact, worst case",
-     "none at any rate and delay; with energy bounding, never more than the damping dissipated"},
+     "none at 13 rates and delays up to 12.5 ms; with energy bounding, never more than the damping dissipated"},
     {Design::delivered, "delivered", "tip force against a steady push; force along a slot", "within 3 %"},
     {Design::boundary, "boundary", "predicted stability boundary against simulated divergence, 100 random levers",
      "within 2 %"},
