@@ -28,9 +28,8 @@ namespace gearshift::verbs {
 namespace {
 
 constexpr const char* kContactHelp =
-    "Measure what a wall feels like on a device: ripple under a push, energy of impacts, stiffness in motion. "
-    "Simulates "
-    "the device with the complete haptic cycle.";
+    "Measure what a wall feels like on a device: ripple under a push, energy of impacts, stiffness in motion. The "
+    "device is simulated with the complete haptic cycle.";
 constexpr const char* kContactExamples =
     "\nExamples:\n"
     "  gearshift contact                                 the paper's lever at 1 kHz\n"

@@ -21,13 +21,13 @@ struct ContactCase {
 };
 
 struct ContactResult {
-  double peak = 0.0;         // [m] deepest penetration
-  double ripple = 0.0;       // [m] peak-to-peak motion in the last 200 ms
-  double displayed = 0.0;    // [N/m] mean motor force divided by mean penetration, in the last 50 ms
-  double delivered = 0.0;    // [N] mean motor force in the last 50 ms
-  double energy = 0.0;       // [J] work of the motors on the lever in the first contact, from the first force to the
-                             // last: also the period of the entry and forces that act late, outside the wall
-  double impact = 0.0;       // [J] kinetic energy of handle and hand at the impact
+  double peak = 0.0;       // [m] deepest penetration
+  double ripple = 0.0;     // [m] peak-to-peak motion in the last 200 ms
+  double displayed = 0.0;  // [N/m] mean motor force divided by mean penetration, in the last 50 ms
+  double delivered = 0.0;  // [N] mean motor force in the last 50 ms
+  double energy = 0.0;  // [J] work of the motors on the lever in the first contact, from the first force to the last:
+                        // with the period of the entry, and with late forces outside the wall
+  double impact = 0.0;  // [J] kinetic energy of handle and hand at the impact
   double restitution = 0.0;  // [1] speed after the contact divided by impact speed; 0: the lever stays in the wall
   double damped = 0.0;       // [J] lower bound of the handle's dissipation in the first contact
   double hardness = 0.0;     // [N/m] rate-hardness: fastest rise of the motor force in the impact over the impact speed
@@ -44,7 +44,7 @@ ContactResult run_contact(const ContactCase& contact);
 // The tuning that the program admits on this lever. Throws std::invalid_argument if it admits none.
 haptics::AdmittedTuning admitted_wall(const ContactCase& contact);
 
-// What a moving hand feels: the complex stiffness Z = -(motor force) / (position) of the wall at one frequency.
+// The wall as a moving hand feels it: its complex stiffness Z = -(motor force) / (position) at one frequency.
 struct DynamicStiffness {
   double frequency = 0.0;  // [Hz]
   double stiffness = 0.0;  // [N/m] Re Z

@@ -44,7 +44,7 @@ double most(const std::vector<HandOutcome>& hands, double HandOutcome::*figure) 
   return found;
 }
 
-// Of the worst hand; of all hands, if each has only one run. [m]
+// The ripple of the worst hand, or of all hands together if each has only one run. [m]
 double ripple_p95(const std::vector<HandOutcome>& hands, int runs) {
   if (runs > 1) return most(hands, &HandOutcome::ripple_p95);
   std::vector<double> ripple;

@@ -1,4 +1,4 @@
-// What a wall feels like on a device (`gearshift contact`): ripple under a push, energy of impacts, stiffness in motion.
+// The study behind `gearshift contact`: ripple of a wall under a push, energy of impacts, stiffness in motion.
 #pragma once
 
 #include <functional>

@@ -332,7 +332,7 @@ bool ControlsSetup::was_asked(const std::function<bool(const Step&)>& about) con
   return std::any_of(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(step_), about);
 }
 
-// What a button means since this run, or what a skipped step has left to it. Empty if it is free.
+// Describes what a button has been bound to in this run, or keeps from a skipped step. Empty if it is free.
 std::string ControlsSetup::meaning_in_this_run(const Button& button) const {
   const auto has = [&](const std::vector<int>& buttons) {
     return std::find(buttons.begin(), buttons.end(), button.number) != buttons.end();
