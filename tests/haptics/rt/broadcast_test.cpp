@@ -88,10 +88,9 @@ TEST_CASE("while one thread writes without waiting, readers of different speed s
   for (std::size_t i = 0; i < seen.size(); ++i)
     readers.emplace_back([&, i, reader = Broadcast<Message>::Reader(queue)]() mutable {
       Seen& mine = seen[i];
-      std::uint64_t number = 0;
       for (bool last = false; !last;) {
         last = is_over;
-        for (Message message; reader.pop(message); ++number) {
+        for (Message message; reader.pop(message);) {
           mine.is_whole = mine.is_whole && message.is_whole();
           ++mine.values;
           mine.is_ordered =
