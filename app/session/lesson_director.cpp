@@ -22,14 +22,6 @@ lessons::CoachConfig coach_config(const SessionChoice& choice) {
   return config;
 }
 
-// The settings in use, as text that the history saves with a lesson run.
-std::string settings_text(const SessionChoice& choice, const haptics::HapticTuning& tuning) {
-  return fmt::format(
-      "car = \"{}\"\ngate = \"{}\"\npreset = \"{}\"\nhand = \"{}\"\nwall_stiffness_n_per_m = "
-      "{}\nwall_damping_n_s_per_m = {}\n",
-      choice.car, choice.gate, choice.preset, choice.hand, tuning.wall_stiffness, tuning.wall_damping);
-}
-
 }  // namespace
 
 LessonDirector::LessonDirector(const SessionChoice& choice) : coach_(coach_config(choice)) {
@@ -65,12 +57,11 @@ bool LessonDirector::set_learner(const std::string& name) {
 
 // Discards the cycles before the trial.
 void LessonDirector::begin(LeverInForce& lever, const std::filesystem::path& recording) {
-  (void)lever.runtime().drain_cycles();
+  (void)lever.runtime().read_frame();
   error_count_ = 0;
   is_unpassable_ = false;
   const runtime::RuntimeConfig& config = lever.runtime().config();
-  coach_.begin(*config.car, lever.runtime().gate(), settings_text(lever.running(), config.preset.haptics.tuning),
-               recording);
+  coach_.begin(*config.car, lever.runtime().gate(), recording);
 }
 
 bool LessonDirector::add(std::span<const vehicle::DriveSample> cycles) {
@@ -93,7 +84,8 @@ void LessonDirector::check_still_passable() {
   is_unpassable_ = !done.passed;
 }
 
-std::string LessonDirector::make_room(DriveRecorder& recorder, std::string unsaved) {
+std::string LessonDirector::save_all(DriveRecorder& recorder) {
+  std::string unsaved = coach_.flush();
   const auto delete_unreferenced = [&] { return recorder.delete_lessons(coach_.take_unreferenced_recordings()); };
   if (delete_unreferenced() && coach_.needs_room()) unsaved = coach_.flush();
   if (!recorder.is_lesson_incomplete() || !coach_.needs_room()) return unsaved;

@@ -42,10 +42,10 @@ class LessonDirector {
   // Judges the cycles. Returns true if the trial ended in them.
   bool add(std::span<const vehicle::DriveSample> cycles);
 
-  // Call after Coach::flush() and after the lesson's recording has ended. Deletes unreferenced recordings. If results did
-  // not fit on the disk, tries again after this deletion, and once more after deleting the lesson's incomplete
-  // recording. Returns what could not be saved, as a sentence, or `unsaved` if it did not try.
-  std::string make_room(DriveRecorder& recorder, std::string unsaved);
+  // Ends a running lesson early, saves all results and deletes unreferenced recordings. If results did not fit on the
+  // disk, tries again after this deletion, and once more after deleting the lesson's incomplete recording. Returns what
+  // could not be saved, as a sentence; empty if everything was saved.
+  std::string save_all(DriveRecorder& recorder);
 
  private:
   void check_still_passable();

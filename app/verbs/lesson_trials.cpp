@@ -36,14 +36,10 @@ std::string format_points(const lessons::LessonResult& result, double points) {
 }
 
 void print_errors(const lessons::LessonResult& result) {
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < result.errors.size(); ++i) {
-    const bool costs = next < result.deductions.size() && result.deductions[next].error == i;
-    const double points = costs ? result.deductions[next++].points : 0.0;
-    const lessons::DrivingError& error = result.errors[i];
+  for (const lessons::DrivingError& error : result.errors) {
     if (error.severity == lessons::Severity::note) continue;
     base::print_out("  {:6.1f} s  {:<11}  {:4}  {}\n", error.time, lessons::to_string(error.severity),
-                    format_points(result, points), lessons::error_sentence(error));
+                    format_points(result, error.points), lessons::error_sentence(error));
   }
 }
 
@@ -108,8 +104,7 @@ class Trials {
       drive.trace = automatic_recording_path();
       if (!drive.trace.empty()) automatic_recordings_.insert(haptics::make_absolute(drive.trace).string());
     }
-    coach_.begin(drive.car, gate_, trials_.settings,
-                 drive.trace.empty() ? fs::path() : haptics::make_absolute(drive.trace));
+    coach_.begin(drive.car, gate_, drive.trace.empty() ? fs::path() : haptics::make_absolute(drive.trace));
     if (trials_.help) drive.guidance = coach_.guidance();
     printed_shifts_ = 0;
     has_printed_guidance_ = false;

@@ -16,7 +16,6 @@ struct LessonTrials {
   std::optional<lessons::LessonMode> mode;  // empty: the coach chooses the mode
   std::string learner;                      // empty: nothing is saved
   base::HistoryLocation history;            // if this is unavailable, nothing is saved and the reason is reported
-  std::string settings;                     // text that is saved with each run
   bool prints_shifts = false;               // print a line for each shift after the shift was saved
 };
 

@@ -57,16 +57,6 @@ std::string first_of(const std::string& option, const std::string& lesson, const
   return lesson.empty() ? fallback : lesson;
 }
 
-// Returns the text that is saved with a run: the gate file, the car file, and the skill and the deliberate errors of
-// the simulated driver.
-std::string settings_of(const lessons::LessonDriveConfig& drive, const LessonArguments& arguments) {
-  std::string text = fmt::format("gate = \"{}\"\ncar = \"{}\"\nsimulated_skill_error = {:g}\n", drive.gate.file,
-                                 drive.car.file, arguments.skill_error);
-  for (const std::string& key : arguments.errors)
-    text += fmt::format("simulated_fault = \"{}\"  # amount {:g}\n", key, arguments.amount);
-  return text;
-}
-
 // Throws if the recording would overwrite the history or one of the files that SQLite keeps next to it.
 void check_history(const std::string& trace, const fs::path& history) {
   if (history.empty()) return;
@@ -114,7 +104,6 @@ LessonTrials make_trials(const LessonArguments& arguments) {
   trials.learner = arguments.learner;
   if (!arguments.learner.empty()) trials.history = base::history_location(arguments.database);
   check_history(arguments.trace, trials.history.file);
-  trials.settings = settings_of(trials.drive, arguments);
   trials.prints_shifts = arguments.verbose;
   return trials;
 }

@@ -36,7 +36,7 @@ LessonResult result_of(int trial) {
   if (!result.passed) result.why = "Grade is <below> \"6\".";
   for (int i = 0; i < 3; ++i) result.shifts.push_back(shift_of(i));
   result.errors = {make_driving_error(ErrorKind::clutch_early, Severity::minor, 2.5, 0.12, 1)};
-  result.deductions = {{0, 10.0 - result.grade}};
+  result.errors[0].points = 10.0 - result.grade;
   return result;
 }
 

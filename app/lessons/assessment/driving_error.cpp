@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numbers>
 #include <variant>
 
 #include <fmt/core.h>
@@ -15,7 +14,6 @@ namespace gearshift::lessons {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
 
 constexpr double kShortStep = 3.0;  // [s] times are shown to 0.01 s if the step's time limit is shorter than this
 
@@ -27,7 +25,7 @@ struct Shown {
   int digits = 0;
 };
 constexpr Shown kWhole{1.0, 0}, kTenths{1.0, 1}, kHundredths{1.0, 2};
-constexpr Shown kInRpm{1.0 / kRpm, 0}, kInKmh{haptics::kKmhPerMps, 0}, kInKilo{1e-3, 1};
+constexpr Shown kInRpm{1.0 / haptics::kTurnPerMinute, 0}, kInKmh{haptics::kKmhPerMps, 0}, kInKilo{1e-3, 1};
 
 struct ErrorDescription {
   ErrorKind kind;
@@ -67,8 +65,8 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
      "Press the clutch all the way down before you move the lever."},
     // 70 rpm is the widest window in which the BonusFFB project counts revs as matched.
     {ErrorKind::no_clutch, "no_clutch", &E::speed_difference, kInRpm,
-     ErrorRule{70 * kRpm, 0.0, 1000 * kRpm, Severity::severe}, "shift without the clutch",
-     "You shifted without the clutch; engine and gearbox were {} rpm apart.",
+     ErrorRule{70 * haptics::kTurnPerMinute, 0.0, 1000 * haptics::kTurnPerMinute, Severity::severe},
+     "shift without the clutch", "You shifted without the clutch; engine and gearbox were {} rpm apart.",
      "Press the clutch for every gear change."},
     {ErrorKind::riding_clutch, "riding_clutch", &E::duration, kTenths, ErrorRule{2.0, 0.0, 10.0, Severity::minor},
      "rest your foot on the clutch", "You rested your foot on the clutch for {} s.",
@@ -76,11 +74,12 @@ constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
     {ErrorKind::riding_lever, "riding_lever", &E::duration, kTenths, ErrorRule{2.0, 0.0, 10.0, Severity::minor},
      "lean on the lever", "You leaned on the lever for {} s.", "Take your hand off the lever once the gear is in."},
     {ErrorKind::throttle_in_shift, "throttle_in_shift", &E::rev_rise, kInRpm,
-     ErrorRule{400 * kRpm, 0.0, 1500 * kRpm, Severity::minor}, "press the throttle during a shift",
-     "The engine revved up by {} rpm while the clutch was down.", "Release the throttle before you press the clutch."},
+     ErrorRule{400 * haptics::kTurnPerMinute, 0.0, 1500 * haptics::kTurnPerMinute, Severity::minor},
+     "press the throttle during a shift", "The engine revved up by {} rpm while the clutch was down.",
+     "Release the throttle before you press the clutch."},
     {ErrorKind::rev_mismatch, "rev_mismatch", &E::speed_difference, kInRpm,
-     ErrorRule{300 * kRpm, 0.0, 1200 * kRpm, Severity::minor}, "let the clutch up at the wrong revs",
-     "Engine and gearbox were {} rpm apart when the clutch took hold.",
+     ErrorRule{300 * haptics::kTurnPerMinute, 0.0, 1200 * haptics::kTurnPerMinute, Severity::minor},
+     "let the clutch up at the wrong revs", "Engine and gearbox were {} rpm apart when the clutch took hold.",
      "Bring the engine to the speed that the new gear needs before you let the clutch up."},
     {ErrorKind::grind, "grind", &E::heat, kTenths, ErrorRule{0.5, 0.0, 30.0, Severity::minor}, "grind a gear",
      "The gears ground ({} J).", "Press the clutch all the way down, and wait a moment before shifting into reverse."},

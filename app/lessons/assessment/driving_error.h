@@ -72,6 +72,7 @@ struct DrivingError {
   Severity severity = Severity::minor;
   double time = 0.0;        // [s] on the haptic loop's clock
   std::int64_t shift = -1;  // number of the shift in which the error was made; -1: none
+  double points = 0.0;      // [1] deducted from the grade of 10; set by grade_result()
 
   // Measured. Each kind of error sets the value that its row of the table names; others are empty.
   std::optional<double> engine_speed{};      // [rad/s] highest, at the shift, or required by the lower gear
@@ -100,6 +101,7 @@ struct DrivingError {
 constexpr void each_field(FieldsOf<DrivingError> auto&& error, auto&& visit) {
   visit(RecordField{"kind"}, error.kind);
   visit(RecordField{"severity"}, error.severity);
+  visit(RecordField{"points"}, error.points);
   visit(RecordField{"time_s"}, error.time);
   visit(RecordField{"shift"}, error.shift);
   visit(RecordField{"engine_speed_rad_per_s"}, error.engine_speed);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string>
 
 #include <fmt/core.h>
@@ -14,12 +13,6 @@ namespace {
 // Points deducted by severity. Engineering values: with a pass grade of 6, a run passes with up to eight minor errors
 // or up to two severe ones.
 constexpr std::array<double, 4> kPoints{0.0, 0.5, 2.0, 4.0};
-
-double points_of_all(std::span<const DrivingError> errors) noexcept {
-  double points = 0.0;
-  for (const DrivingError& error : errors) points += points_of(error.severity);
-  return points;
-}
 
 // True if the error is a step that took longer than the step's `within`, but less than its `fails_after`.
 bool is_within_tolerance(const Lesson& lesson, const DrivingError& error) {
@@ -61,18 +54,18 @@ double points_of(Severity severity) noexcept {
 }
 
 void grade_result(const Lesson& lesson, LessonResult& result) {
-  result.deductions.clear();
-  result.grade = 0.0;
-  if (!result.guided && result.is_complete) {
-    for (std::size_t i = 0; i < result.errors.size(); ++i) {
-      const double points = points_of(result.errors[i].severity);
-      if (points > 0.0) result.deductions.push_back({i, points});
-    }
-    const bool was_not_completed = result.end == LessonEnd::aborted || result.end == LessonEnd::out_of_time;
-    result.grade = was_not_completed ? 0.0 : std::max(0.0, kBestGrade - points_of_all(result.errors));
-  }
+  const bool counts = !result.guided && result.is_complete;
+  const bool was_not_completed = result.end == LessonEnd::aborted || result.end == LessonEnd::out_of_time;
+  for (DrivingError& error : result.errors) error.points = counts ? points_of(error.severity) : 0.0;
+  result.grade = counts && !was_not_completed ? std::max(0.0, kBestGrade - points_lost(result)) : 0.0;
   result.why = reason(lesson, result);
   result.passed = result.why.empty();
+}
+
+double points_lost(const LessonResult& result) noexcept {
+  double points = 0.0;
+  for (const DrivingError& error : result.errors) points += error.points;
+  return points;
 }
 
 bool is_graded(const LessonResult& result) noexcept {
@@ -82,7 +75,9 @@ bool is_graded(const LessonResult& result) noexcept {
 
 double run_error(const LessonResult& result) noexcept {
   if (result.end != LessonEnd::done) return 1.0;
-  return std::min(1.0, points_of_all(result.errors) / kBestGrade);
+  double points = 0.0;  // also of guided runs, whose errors cost none
+  for (const DrivingError& error : result.errors) points += points_of(error.severity);
+  return std::min(1.0, points / kBestGrade);
 }
 
 }  // namespace gearshift::lessons

@@ -29,12 +29,6 @@ constexpr LessonEnd last_value(LessonEnd) noexcept {
   return LessonEnd::left;
 }
 
-// Points deducted for one driving error.
-struct Deduction {
-  std::size_t error = 0;  // index into LessonResult::errors
-  double points = 0.0;    // [1] of 10
-};
-
 struct LessonResult {
   std::string lesson;  // key
   std::string task;
@@ -45,16 +39,15 @@ struct LessonResult {
   bool had_forces = true;   // false if the run is incomplete because the lever had no forces
   double begin = 0.0;       // [s] on the haptic loop's clock
   double duration = 0.0;    // [s]
-  double grade = 0.0;       // [1] 0 to 10: 10 minus the deductions; 0 if not finished
+  double grade = 0.0;       // [1] 0 to 10: 10 minus the errors' points; 0 if not finished
   bool passed = false;
   std::string why;  // one sentence on why the run was not passed
   std::vector<DrivingError> errors;
   std::vector<ShiftRecord> shifts;
-  std::vector<Deduction> deductions;
   double slip_energy = 0.0;  // [J] heat in the clutch during the whole lesson
 };
 
-// Errors, shifts and deductions are records of their own. `why` contains the effect of `had_forces`.
+// Errors and shifts are records of their own. `why` contains the effect of `had_forces`.
 constexpr void each_field(FieldsOf<LessonResult> auto&& result, auto&& visit) {
   visit(RecordField{"lesson"}, result.lesson);
   visit(RecordField{"task"}, result.task);

@@ -71,7 +71,7 @@ struct Coach::State {
   ForceGap forces;                        // time without forces in the trial
   bool has_saved_run = false;             // the displayed trial has a saved or pending run
   bool is_unsaved = false;                // cycles were judged since the last call of record_progress()
-  std::string settings, recording;
+  std::string recording;
 };
 
 Coach::Coach(const CoachConfig& config) : state_(std::make_unique<State>(config)) {
@@ -145,15 +145,13 @@ void Coach::dismiss_lesson() {
   view.retention = false;
 }
 
-void Coach::begin(const vehicle::CarSpec& car, const haptics::Gate& gate, const std::string& settings,
-                  const std::filesystem::path& recording) {
+void Coach::begin(const vehicle::CarSpec& car, const haptics::Gate& gate, const std::filesystem::path& recording) {
   State& state = *state_;
   if (!state.lesson) throw std::logic_error("no lesson is offered");
   state.leave();
   state.memory.reload();
   state.refresh_view();
   state.begin(car, gate);
-  state.settings = settings;
   state.recording = recording.string();
 }
 
@@ -367,7 +365,7 @@ void Coach::State::check_forces(const vehicle::DriveSample& sample) {
 }
 
 void Coach::State::record_progress() {
-  if (!memory.in_run()) memory.begin_run(run->result(), settings, recording);
+  if (!memory.in_run()) memory.begin_run(run->result(), recording);
   has_saved_run = true;
   for (const ShiftRecord& shift : run->drain_shifts()) memory.add_shift(shift);
   view.run = memory.run_number();
@@ -388,7 +386,7 @@ void Coach::State::finish_trial() {
   if (has_saved_run) memory.end_run(run->result());
   memory.reload();  // the instructor may have chosen a different lesson
   const LessonResult& result = run->result();
-  const bool finished = is_graded(result) && result.end != LessonEnd::left;
+  const bool finished = is_graded(result);
   if (finished && memory.next_lesson() == result.lesson) memory.set_next_lesson("");
   refresh_view();
   show_mode();

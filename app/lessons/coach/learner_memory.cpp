@@ -273,9 +273,9 @@ void LearnerMemory::set_next_lesson(const std::string& lesson) {
   write_now();
 }
 
-void LearnerMemory::begin_run(const LessonResult& result, const std::string& settings, const std::string& recording) {
+void LearnerMemory::begin_run(const LessonResult& result, const std::string& recording) {
   const std::int64_t now = now_();
-  PendingRun run{settings, {--last_local_id_, 0, format_utc(now), recording, result}};
+  PendingRun run{{--last_local_id_, 0, format_utc(now), recording, result}};
   run.row.result.shifts.clear();
   last_run_ = run.row.id;
   pending_.push_back({person_, now, std::move(run)});

@@ -59,7 +59,7 @@ class LearnerMemory {
   void set_next_lesson(const std::string& lesson);
 
   // Call begin_run() at the first sample of a run and end_run() at its end.
-  void begin_run(const LessonResult& result, const std::string& settings, const std::string& recording);
+  void begin_run(const LessonResult& result, const std::string& recording);
   bool in_run() const noexcept { return in_run_; }
   void add_shift(const ShiftRecord& shift);
   void end_run(const LessonResult& result);
@@ -93,7 +93,6 @@ class LearnerMemory {
 
   // Data that waits to be written.
   struct PendingRun {
-    std::string settings;
     RunRow row;
     std::size_t shifts = 0;  // number of shifts already written
     bool over = false;
@@ -120,7 +119,6 @@ class LearnerMemory {
   struct DrivingSession {
     PersonPtr owner;
     std::int64_t id = 0;
-    std::optional<std::string> settings;  // last settings written
   };
 
   static constexpr const char* kWaitsForRoom = "; new results are kept in memory until there is space";
@@ -153,7 +151,7 @@ class LearnerMemory {
   PendingWrite& current_run() noexcept;
   PendingWrite& find_or_add_comment(std::int64_t run, std::int64_t comment);
   void renumber(PendingRun& run, std::int64_t number);
-  std::int64_t session_for(const PersonPtr& owner, const std::string& settings);
+  std::int64_t session_for(const PersonPtr& owner);
   std::int64_t id_for(Person& person);
 
   static constexpr std::chrono::milliseconds kNoWait{0};  // lock timeout for a file that is known to be locked

@@ -158,7 +158,7 @@ void LearnerMemory::give_up(std::span<PendingWrite* const> failed) {
 // Writes the start of the run, then each new shift or, once the run is over, its result with all shifts.
 void LearnerMemory::write(PendingWrite& entry, PendingRun& run) {
   if (run.row.id < 0) {
-    run.row.session = session_for(entry.owner, run.settings);
+    run.row.session = session_for(entry.owner);
     renumber(run, history_->begin_run(run.row.session, run.row.result, run.row.recording));
   } else if (run.over) {
     history_->end_run(run.row.id, run.row.result);
@@ -211,13 +211,11 @@ void LearnerMemory::renumber(PendingRun& run, std::int64_t number) {
   if (last_run_ == before) last_run_ = number;
 }
 
-std::int64_t LearnerMemory::session_for(const PersonPtr& owner, const std::string& settings) {
+std::int64_t LearnerMemory::session_for(const PersonPtr& owner) {
   if (!session_ || session_->owner != owner) {
     session_.reset();
-    session_ = DrivingSession{owner, history_->begin_session(id_for(*owner), program_), std::nullopt};
+    session_ = DrivingSession{owner, history_->begin_session(id_for(*owner), program_)};
   }
-  if (session_->settings != settings) history_->add_settings(session_->id, settings);
-  session_->settings = settings;
   return session_->id;
 }
 

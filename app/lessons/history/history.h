@@ -54,9 +54,9 @@ struct CommentRow {
 struct RunRow {
   std::int64_t id = 0;
   std::int64_t session = 0;
-  std::string begun_at;   // ISO 8601, UTC
-  std::string recording;  // trace file, relative to the history's folder if inside it; may be empty
-  LessonResult result;    // with driving errors, deductions and shifts; all numbers are finite even in a damaged file
+  std::string begun_at;                // ISO 8601, UTC
+  std::string recording;               // trace file, relative to the history's folder if inside it; may be empty
+  LessonResult result;                 // with driving errors and shifts; all numbers are finite even in a damaged file
   std::vector<CommentRow> comments{};  // by the instructor, oldest first
 };
 
@@ -97,8 +97,6 @@ class History {
   void set_next_lesson(std::int64_t learner, std::string_view lesson);  // empty: as suggested
 
   std::int64_t begin_session(std::int64_t learner, std::string_view program);
-  // Adds the settings that are used from now on, as text: gate, car and preset.
-  void add_settings(std::int64_t session, std::string_view text);
 
   // Stores what is known at the start of a run: lesson, task, mode, guided. A recording below the history's folder is
   // stored with its relative path, so that the folder can be moved or copied with its recordings.
@@ -115,8 +113,6 @@ class History {
   bool delete_comment(std::int64_t comment);
 
   std::vector<RunRow> runs(std::int64_t learner);  // oldest first
-  std::vector<CommentRow> comments(std::int64_t run);
-  std::vector<std::string> settings(std::int64_t session);
 
   // Returns the absolute path of a RunRow::recording; empty for an empty path.
   std::filesystem::path recording_file(std::string_view recording) const;

@@ -15,21 +15,9 @@ bool is_gear(std::int64_t gear) noexcept {
   return gear >= haptics::kReverseGear && gear <= haptics::kMaxGear;
 }
 
-constexpr const char* kSelectComments =
-    "SELECT made_at, author, text, id, edited_at FROM comment WHERE run = ? ORDER BY id";
-
 void begin(SQLite::Statement& rows, std::int64_t run) {
   rows.reset();
   rows.bind(1, run);
-}
-
-std::vector<CommentRow> comments_in(SQLite::Statement& rows, std::int64_t run) {
-  std::vector<CommentRow> all;
-  for (begin(rows, run); rows.executeStep();) {
-    all.push_back({rows.getColumn(0).getString(), rows.getColumn(1).getString(), rows.getColumn(2).getString(),
-                   rows.getColumn(3).getInt64(), rows.getColumn(4).getString()});
-  }
-  return all;
 }
 
 // Reads shifts, driving errors and comments run by run, with prepared statements.
@@ -37,14 +25,14 @@ class RunParts {
  public:
   explicit RunParts(SQLite::Database& database)
       : shift_rows_(database, "SELECT " + column_names<ShiftRecord>() + " FROM shift WHERE run = ? ORDER BY shift"),
-        error_rows_(database, "SELECT points, " + column_names<DrivingError>() +
-                                  " FROM driving_error WHERE run = ? ORDER BY number"),
-        comment_rows_(database, kSelectComments) {}
+        error_rows_(database,
+                    "SELECT " + column_names<DrivingError>() + " FROM driving_error WHERE run = ? ORDER BY number"),
+        comment_rows_(database, "SELECT made_at, author, text, id, edited_at FROM comment WHERE run = ? ORDER BY id") {}
 
   void read(RunRow& run) {
     for (begin(shift_rows_, run.id); shift_rows_.executeStep();) read_shift(run.result);
     for (begin(error_rows_, run.id); error_rows_.executeStep();) read_error(run.result);
-    run.comments = comments_in(comment_rows_, run.id);
+    for (begin(comment_rows_, run.id); comment_rows_.executeStep();) read_comment(run.comments);
   }
 
  private:
@@ -58,17 +46,21 @@ class RunParts {
 
   // Skips an error of a kind that this version of the program does not know.
   void read_error(LessonResult& result) {
-    if (!error_kind_of(error_rows_.getColumn(1).getString())) return;
-    double points = 0.0;
+    if (!error_kind_of(error_rows_.getColumn(0).getString())) return;
     DrivingError error;
-    read_value(error_rows_, 0, points);
-    read_record(error_rows_, 1, error);
+    read_record(error_rows_, 0, error);
+    error.points = std::clamp(error.points, 0.0, kMaxPoints);
     if (!is_shift_number(error.shift)) error.shift = -1;
     for (std::optional<int>* gear : {&error.gear, &error.wanted_gear}) {
       if (!is_gear(gear->value_or(haptics::kNeutralGear))) gear->reset();
     }
-    if (points > 0.0) result.deductions.push_back({result.errors.size(), std::min(points, kMaxPoints)});
     result.errors.push_back(std::move(error));
+  }
+
+  void read_comment(std::vector<CommentRow>& comments) {
+    comments.push_back({comment_rows_.getColumn(0).getString(), comment_rows_.getColumn(1).getString(),
+                        comment_rows_.getColumn(2).getString(), comment_rows_.getColumn(3).getInt64(),
+                        comment_rows_.getColumn(4).getString()});
   }
 
   SQLite::Statement shift_rows_, error_rows_, comment_rows_;
@@ -124,23 +116,6 @@ std::vector<RunRow> History::runs(std::int64_t learner) {
       runs.push_back(std::move(run));
     }
     return runs;
-  });
-}
-
-std::vector<CommentRow> History::comments(std::int64_t run) {
-  return state_->translating_errors([&] {
-    SQLite::Statement rows = state_->query(kSelectComments);
-    return comments_in(rows, run);
-  });
-}
-
-std::vector<std::string> History::settings(std::int64_t session) {
-  return state_->translating_errors([&] {
-    std::vector<std::string> all;
-    SQLite::Statement rows = state_->query("SELECT text FROM settings WHERE session = ? ORDER BY id");
-    rows.bind(1, session);
-    while (rows.executeStep()) all.push_back(rows.getColumn(0).getString());
-    return all;
   });
 }
 

@@ -1,5 +1,3 @@
-#include <map>
-
 #include "app/lessons/history/history_state.h"
 #include "app/lessons/history/sql_binding.h"
 #include "app/lessons/history/user_text.h"
@@ -17,15 +15,12 @@ void History::State::replace_errors(std::int64_t run, const LessonResult& result
   SQLite::Statement deletion = query("DELETE FROM driving_error WHERE run = ?");
   deletion.bind(1, run);
   deletion.exec();
-  std::map<std::size_t, double> points;
-  for (const Deduction& deduction : result.deductions) points[deduction.error] += deduction.points;
   SQLite::Statement insert = query("INSERT INTO driving_error (" + column_names<DrivingError>() +
-                                   ", run, number, points) VALUES (" + placeholders<DrivingError>(3) + ")");
+                                   ", run, number) VALUES (" + placeholders<DrivingError>(2) + ")");
   for (std::size_t i = 0; i < result.errors.size(); ++i) {
     const int next = bind_record(insert, 1, result.errors[i]);
     insert.bind(next, run);
     insert.bind(next + 1, static_cast<std::int64_t>(i));
-    bind_value(insert, next + 2, points[i]);
     insert.exec();
     insert.reset();
   }
@@ -62,16 +57,6 @@ std::int64_t History::begin_session(std::int64_t learner, std::string_view progr
     insert.bind(3, std::string(program));
     insert.exec();
     return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
-  });
-}
-
-void History::add_settings(std::int64_t session, std::string_view text) {
-  state_->write([&] {
-    SQLite::Statement insert = state_->query("INSERT INTO settings (session, set_at, text) VALUES (?, ?, ?)");
-    insert.bind(1, session);
-    insert.bind(2, state_->date());
-    insert.bind(3, std::string(text));
-    insert.exec();
   });
 }
 

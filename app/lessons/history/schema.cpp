@@ -7,7 +7,7 @@ namespace gearshift::lessons {
 
 // Row numbers are never reused (AUTOINCREMENT). Otherwise a program that is still recording a run of an erased learner
 // could write into the rows of a later learner. A row in pending_erasure means that erased data may still be in the log
-// or in free pages. `points`: deducted for the error.
+// or in free pages.
 std::string schema() {
   return R"sql(
 CREATE TABLE learner (
@@ -20,11 +20,6 @@ CREATE TABLE session (
   learner INTEGER NOT NULL REFERENCES learner ON DELETE CASCADE,
   begun_at TEXT NOT NULL,
   program TEXT NOT NULL);
-CREATE TABLE settings (
-  id INTEGER PRIMARY KEY AUTOINCREMENT,
-  session INTEGER NOT NULL REFERENCES session ON DELETE CASCADE,
-  set_at TEXT NOT NULL,
-  text TEXT NOT NULL);
 CREATE TABLE lesson_run (
   id INTEGER PRIMARY KEY AUTOINCREMENT,
   session INTEGER NOT NULL REFERENCES session ON DELETE CASCADE,
@@ -40,7 +35,6 @@ CREATE TABLE shift (
 CREATE TABLE driving_error (
   run INTEGER NOT NULL REFERENCES lesson_run ON DELETE CASCADE,
   number INTEGER NOT NULL,
-  points REAL NOT NULL,
 )sql" + column_definitions<DrivingError>() +
          R"sql(,
   PRIMARY KEY (run, number));

@@ -11,13 +11,10 @@ namespace {
 
 ChosenShift with_its_errors(const RunRow& run, const ShiftRecord& shift) {
   ChosenShift chosen{run.id, run.result.lesson, run.recording, shift, {}, 0.0};
-  const std::vector<DrivingError>& errors = run.result.errors;
-  for (const DrivingError& error : errors) {
-    if (error.shift == shift.number) chosen.errors.push_back(error);
-  }
-  for (const Deduction& deduction : run.result.deductions) {
-    if (deduction.error < errors.size() && errors[deduction.error].shift == shift.number)
-      chosen.points += deduction.points;
+  for (const DrivingError& error : run.result.errors) {
+    if (error.shift != shift.number) continue;
+    chosen.errors.push_back(error);
+    chosen.points += error.points;
   }
   return chosen;
 }

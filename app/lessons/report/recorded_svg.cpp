@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -28,7 +27,6 @@ constexpr double kPixelsPerMillimetre = 3.0;
 
 constexpr double kMinForceScale = 20.0;  // [N] smallest range of the force axis
 constexpr double kMinSpeedSpan = 500.0;  // [1/min] smallest range of the speed axis
-constexpr double kPerMinute = 30.0 / std::numbers::pi;
 constexpr std::size_t kMaxParts = 400;
 constexpr const char* kPedalColour = "#8d99a6";
 constexpr const char* kThrottleColour = "#2e7d4f";
@@ -87,16 +85,17 @@ class ShiftCharts {
   void speeds(const base::Rect& box) {
     double low = 1e9, high = 0.0;
     for (const RecordedCycle& c : cycles_) {
-      low = std::min({low, kPerMinute * c.engine_speed, kPerMinute * c.shaft_speed});
-      high = std::max({high, kPerMinute * c.engine_speed, kPerMinute * c.shaft_speed});
+      low = std::min({low, c.engine_speed / haptics::kTurnPerMinute, c.shaft_speed / haptics::kTurnPerMinute});
+      high = std::max({high, c.engine_speed / haptics::kTurnPerMinute, c.shaft_speed / haptics::kTurnPerMinute});
     }
     high = std::max(high, low + kMinSpeedSpan);
     const double step = base::grid_step(high - low, 4);
     const base::Chart chart = begin(box, {step * std::floor(low / step), step * std::ceil(high / step)}, step);
     name(box, 0.0, base::kGearColour, "engine [1/min]");
     name(box, 110.0, kShaftColour, "gearbox shaft [1/min]");
-    draw(chart, {kShaftColour, 2.2}, [](const RecordedCycle& c) { return kPerMinute * c.shaft_speed; });
-    draw(chart, {base::kGearColour, 1.6}, [](const RecordedCycle& c) { return kPerMinute * c.engine_speed; });
+    draw(chart, {kShaftColour, 2.2}, [](const RecordedCycle& c) { return c.shaft_speed / haptics::kTurnPerMinute; });
+    draw(chart, {base::kGearColour, 1.6},
+         [](const RecordedCycle& c) { return c.engine_speed / haptics::kTurnPerMinute; });
   }
 
   void pedals(const base::Rect& box) {

@@ -53,12 +53,6 @@ void add_fields(base::CsvTable& table, const Record& record) {
   each_field(record, [&](const RecordField& field, const auto& value) { add_field(table, field, value); });
 }
 
-double points_off(const LessonResult& result) {
-  double points = 0.0;
-  for (const Deduction& deduction : result.deductions) points += deduction.points;
-  return points;
-}
-
 }  // namespace
 
 std::string runs_csv(const LearnerHistory& history) {
@@ -74,7 +68,7 @@ std::string runs_csv(const LearnerHistory& history) {
       const bool is_missing = std::string_view(field.name) == "grade" && !is_graded(result);
       is_missing ? void(table.text("")) : add_field(table, field, value);
     });
-    table.number(points_off(result)).number(result.shifts.size()).number(result.errors.size());
+    table.number(points_lost(result)).number(result.shifts.size()).number(result.errors.size());
     table.text(run.recording).text(comments_text(run.comments)).end();
   }
   return std::move(table).take();
@@ -97,15 +91,13 @@ std::string shifts_csv(const LearnerHistory& history) {
 
 std::string errors_csv(const LearnerHistory& history) {
   base::CsvTable table;
-  table.texts({"run", "error", "points"});
+  table.texts({"run", "error"});
   add_names<DrivingError>(table);
   table.end();
   for (const RunRow& run : history.runs) {
     const LessonResult& result = run.result;
-    std::map<std::size_t, double> points;
-    for (const Deduction& deduction : result.deductions) points[deduction.error] += deduction.points;
     for (std::size_t i = 0; i < result.errors.size(); ++i) {
-      table.number(run.id).number(i + 1).number(points[i]);
+      table.number(run.id).number(i + 1);
       add_fields(table, result.errors[i]);
       table.end();
     }

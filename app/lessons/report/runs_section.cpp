@@ -12,29 +12,19 @@
 namespace gearshift::lessons {
 namespace {
 
-double points_of_error(const LessonResult& result, std::size_t error) {
-  double points = 0.0;
-  for (const Deduction& deduction : result.deductions) {
-    if (deduction.error == error) points += deduction.points;
-  }
-  return points;
-}
-
 // Returns the points that the error cost. If it cost none, as in a guided run, returns the error's severity.
-std::string format_cost(const DrivingError& error, double points) {
-  if (points > 0.0) return fmt::format("<strong>−{:.1f}</strong>", points);
+std::string format_cost(const DrivingError& error) {
+  if (error.points > 0.0) return fmt::format("<strong>−{:.1f}</strong>", error.points);
   return title_from_key(to_string(error.severity)) + ":";
 }
 
 // Returns text such as "−2.0 The engine stalled at 350 rpm. (12.4 s into the run, shift 3)", plus advice if `advised`.
-std::string error_item(const LessonResult& result, std::size_t i, bool advised) {
-  const DrivingError& error = result.errors[i];
-  const std::string cost = format_cost(error, points_of_error(result, i));
+std::string error_item(const LessonResult& result, const DrivingError& error, bool advised) {
   const std::string shift = error.shift >= 0 ? fmt::format(", shift {}", error.shift + 1) : std::string();
   const std::string advice =
       advised ? fmt::format("<br><span class=\"soft\">{}</span>", base::html_text(error_advice(error.kind)))
               : std::string();
-  return fmt::format("<li>{} {} <span class=\"soft\">({:.1f} s into the run{})</span>{}</li>", cost,
+  return fmt::format("<li>{} {} <span class=\"soft\">({:.1f} s into the run{})</span>{}</li>", format_cost(error),
                      base::html_text(error_sentence(error)), error.time - result.begin, shift, advice);
 }
 
@@ -43,18 +33,14 @@ std::string error_list(const LessonResult& result) {
   if (result.errors.empty()) return {};
   std::string list = "<ul>";
   std::set<ErrorKind> advised;
-  for (std::size_t i = 0; i < result.errors.size(); ++i) {
-    const bool costs = points_of_error(result, i) > 0.0;
-    list += error_item(result, i, costs && advised.insert(result.errors[i].kind).second);
-  }
+  for (const DrivingError& error : result.errors)
+    list += error_item(result, error, error.points > 0.0 && advised.insert(error.kind).second);
   return list + "</ul>";
 }
 
-// If the deductions exceed the best grade, shows their sum, because the grade then does not show how many points were
-// lost.
+// If more points were lost than the best grade has, shows how many, because the grade then does not.
 std::string format_lost_points(const LessonResult& result) {
-  double points = 0.0;
-  for (const Deduction& deduction : result.deductions) points += deduction.points;
+  const double points = points_lost(result);
   if (!is_graded(result) || points <= kBestGrade) return {};
   return fmt::format("<br><span class=\"soft\">{:.1f} points lost; the lowest grade is 0</span>", points);
 }

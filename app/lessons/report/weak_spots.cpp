@@ -88,11 +88,8 @@ WeakSpot spot_of(ErrorKind kind, std::span<const LessonResult* const> results) {
     for (const DrivingError& error : result->errors) {
       if (error.kind != kind) continue;
       ++spot.by_severity[static_cast<std::size_t>(error.severity)], ++spot.count;
+      spot.points += error.points;
       if (!error.step.empty()) spot.newest_step = error;
-    }
-    for (const Deduction& deduction : result->deductions) {
-      if (deduction.error < result->errors.size() && result->errors[deduction.error].kind == kind)
-        spot.points += deduction.points;
     }
   }
   return spot;

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "app/ui/panel/driving_error_lines.h"
+#include "app/lessons/assessment/grade.h"
 #include "app/ui/panel/lesson_text.h"
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
@@ -36,20 +36,14 @@ std::string describe_resistance(const lessons::ShiftRecord& shift) {
   return words;
 }
 
-void draw_driving_error(const lessons::LessonResult& result, std::size_t index) {
-  const lessons::DrivingError& error = result.errors[index];
-  const double points = points_lost(result, index);
-  const std::string cost = points > 0.0 && is_grade_shown(result) ? fmt::format(" (-{:.1f})", points) : std::string();
-  put_wrapped(lessons::error_sentence(error) + cost, severity_colour(error.severity));
-}
-
 void draw_driving_errors(const lessons::LessonResult& result, std::int64_t shift) {
-  std::vector<std::size_t> listed;
-  for (std::size_t i = 0; i < result.errors.size(); ++i) {
-    if (result.errors[i].shift != shift) continue;
-    draw_driving_error(result, i);
-    if (needs_advice(result, i, listed)) put_advice(result.errors[i].kind);
-    listed.push_back(i);
+  ErrorKinds advised;
+  for (const lessons::DrivingError& error : result.errors) {
+    if (error.shift != shift) continue;
+    const bool costs = error.points > 0.0 && lessons::is_graded(result);
+    const std::string cost = costs ? fmt::format(" (-{:.1f})", error.points) : std::string();
+    put_wrapped(lessons::error_sentence(error) + cost, severity_colour(error.severity));
+    if (needs_advice(error, advised)) put_wrapped(lessons::error_advice(error.kind), ink::kAccent);
   }
 }
 
@@ -112,14 +106,14 @@ void HistoryView::draw_run(Controls& controls, const lessons::CoachView& coach, 
   ImGui::PopID();
   const float bottom = ImGui::GetCursorPosY();
   const std::string verdict = format_verdict(run.result);
-  const engine::UiFont font = is_grade_shown(run.result) ? engine::UiFont::title : engine::UiFont::small;
+  const engine::UiFont font = lessons::is_graded(run.result) ? engine::UiFont::title : engine::UiFont::small;
   ImGui::SetCursorPos({begin + 0.2f * em, top});
   controls.line(lesson_title(coach, run.result.lesson), width - 4.4f * em, ink::kText);
   ImGui::SetCursorPos({begin + 0.2f * em, top + 1.15f * em});
   put(format_local_time(run.begun_at), ink::kSoft, engine::UiFont::small);
   ImGui::SetCursorPos({begin + width - width_of(verdict, font) - 0.2f * em, top + 0.1f * em});
   put(verdict, verdict_colour(run.result), font);
-  if (is_grade_shown(run.result)) {
+  if (lessons::is_graded(run.result)) {
     const char* outcome = run.result.passed ? "passed" : "not passed";
     ImGui::SetCursorPos({begin + width - width_of(outcome, engine::UiFont::small) - 0.2f * em, top + 1.15f * em});
     put(outcome, verdict_colour(run.result), engine::UiFont::small);

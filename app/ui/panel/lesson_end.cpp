@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "app/ui/panel/driving_error_lines.h"
+#include "app/lessons/assessment/grade.h"
 #include "app/ui/panel/lesson_text.h"
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
@@ -19,7 +19,7 @@ constexpr float kTwoColumns = 32.0f, kLeftFraction = 0.48f;
 constexpr float kVisibleErrors = 3.0f;  // number of error lines that must be visible
 
 const char* format_outcome(const lessons::LessonResult& result) {
-  if (is_grade_shown(result)) return result.passed ? "Passed" : "Not passed";
+  if (lessons::is_graded(result)) return result.passed ? "Passed" : "Not passed";
   if (result.end == lessons::LessonEnd::left) return "Not finished";
   return result.end == lessons::LessonEnd::done ? "Completed" : "Not completed";
 }
@@ -28,7 +28,7 @@ const char* format_outcome(const lessons::LessonResult& result) {
 void draw_grade(const lessons::LessonResult& result) {
   const float em = engine::ui_em(), begin = ImGui::GetCursorPosX();
   ImGui::BeginGroup();
-  if (is_grade_shown(result)) {
+  if (lessons::is_graded(result)) {
     put(format_verdict(result), verdict_colour(result), engine::UiFont::digits);
     ImGui::SameLine(0.0f, 0.3f * em);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + engine::ui_font(engine::UiFont::digits)->FontSize - 1.5f * em);
@@ -49,29 +49,26 @@ void draw_outcome(const lessons::CoachView& coach) {
   const lessons::LessonResult& result = *coach.result;
   ImGui::BeginGroup();
   put_wrapped(coach.title, ink::kSoft, engine::UiFont::small);
-  put(format_outcome(result), is_grade_shown(result) ? verdict_colour(result) : ink::kText, engine::UiFont::prompt);
+  put(format_outcome(result), lessons::is_graded(result) ? verdict_colour(result) : ink::kText, engine::UiFont::prompt);
   if (!result.why.empty()) put_wrapped(result.why, ink::kText, engine::UiFont::body);
   ImGui::EndGroup();
 }
 
 // True for errors that cost points, and for errors that would cost points if the run were graded.
-bool is_listed(const lessons::LessonResult& result, std::size_t error) {
-  return points_lost(result, error) > 0.0 ||
-         (!is_grade_shown(result) && result.errors[error].severity != lessons::Severity::note);
+bool is_listed(const lessons::LessonResult& result, const lessons::DrivingError& error) {
+  return error.points > 0.0 || (!lessons::is_graded(result) && error.severity != lessons::Severity::note);
 }
 
-void draw_driving_error(const lessons::LessonResult& result, std::size_t index, bool with_advice) {
-  const lessons::DrivingError& error = result.errors[index];
+void draw_driving_error(const lessons::LessonResult& result, const lessons::DrivingError& error, bool with_advice) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   put(fmt::format("{:.1f} s", error.time - result.begin), ink::kSoft, engine::UiFont::small);
   ImGui::TableNextColumn();
   put_wrapped(lessons::error_sentence(error), ink::kText, engine::UiFont::small);
-  if (with_advice) put_advice(error.kind);
+  if (with_advice) put_wrapped(lessons::error_advice(error.kind), ink::kAccent);
   ImGui::TableNextColumn();
-  const double points = points_lost(result, index);
-  if (points > 0.0 && is_grade_shown(result))
-    put(fmt::format("-{:.1f}", points), severity_colour(error.severity), engine::UiFont::small);
+  if (error.points > 0.0 && lessons::is_graded(result))
+    put(fmt::format("-{:.1f}", error.points), severity_colour(error.severity), engine::UiFont::small);
 }
 
 // Returns the reason why the run ended early, which costs all points; empty if the run was completed.
@@ -79,10 +76,10 @@ std::string format_end(const lessons::LessonResult& result) {
   std::string words;
   if (result.end == lessons::LessonEnd::out_of_time) words = "Time's up";
   if (result.end == lessons::LessonEnd::aborted)
-    words = is_grade_shown(result) && !result.why.empty() ? result.why : "Stopped early";
+    words = lessons::is_graded(result) && !result.why.empty() ? result.why : "Stopped early";
   if (words.empty()) return words;
   if (words.back() == '.') words.pop_back();
-  return words + (is_grade_shown(result) ? " (0 points)." : ".");
+  return words + (lessons::is_graded(result) ? " (0 points)." : ".");
 }
 
 void draw_end(const lessons::LessonResult& result) {
@@ -96,19 +93,17 @@ void draw_end(const lessons::LessonResult& result) {
 // Lists the errors in the order in which they happened. The reason for an early end comes first, because the end of a
 // long list may not be visible.
 void draw_driving_errors(const lessons::LessonResult& result) {
-  std::vector<std::size_t> listed;
-  for (std::size_t i = 0; i < result.errors.size(); ++i)
-    if (is_listed(result, i)) listed.push_back(i);
+  const auto listed = [&](const lessons::DrivingError& error) { return is_listed(result, error); };
   const bool ended = !format_end(result).empty();
-  if ((listed.empty() && !ended) || !ImGui::BeginTable("fault", 3, ImGuiTableFlags_SizingFixedFit)) return;
+  if (!ended && std::none_of(result.errors.begin(), result.errors.end(), listed)) return;
+  if (!ImGui::BeginTable("fault", 3, ImGuiTableFlags_SizingFixedFit)) return;
   ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, 3.4f * engine::ui_em());
   ImGui::TableSetupColumn("says", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("points", ImGuiTableColumnFlags_WidthFixed, 2.2f * engine::ui_em());
   if (ended) draw_end(result);
-  std::vector<std::size_t> above;
-  for (const std::size_t error : listed) {
-    draw_driving_error(result, error, needs_advice(result, error, above));
-    above.push_back(error);
+  ErrorKinds advised;
+  for (const lessons::DrivingError& error : result.errors) {
+    if (listed(error)) draw_driving_error(result, error, needs_advice(error, advised));
   }
   ImGui::EndTable();
 }

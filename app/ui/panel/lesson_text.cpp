@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -24,10 +23,6 @@ std::string_view lesson_title(const lessons::CoachView& coach, std::string_view 
   return found == coach.lessons.end() ? key : found->title;
 }
 
-bool is_grade_shown(const lessons::LessonResult& result) {
-  return lessons::is_graded(result) && result.end != lessons::LessonEnd::left;
-}
-
 std::string format_verdict(const lessons::LessonResult& result) {
   if (result.end == lessons::LessonEnd::left) return "left early";
   if (result.end == lessons::LessonEnd::running) return "cut off";  // the program ended during the run
@@ -37,7 +32,7 @@ std::string format_verdict(const lessons::LessonResult& result) {
 }
 
 ImU32 verdict_colour(const lessons::LessonResult& result) {
-  if (!is_grade_shown(result)) return ink::kSoft;
+  if (!lessons::is_graded(result)) return ink::kSoft;
   return result.passed ? ink::kGood : ink::kBad;
 }
 
@@ -54,11 +49,12 @@ ImU32 severity_colour(lessons::Severity severity) {
   return ink::kSoft;
 }
 
-double points_lost(const lessons::LessonResult& result, std::size_t error) {
-  double points = 0.0;
-  for (const lessons::Deduction& deduction : result.deductions)
-    points += deduction.error == error ? deduction.points : 0.0;
-  return points;
+bool needs_advice(const lessons::DrivingError& error, ErrorKinds& advised) {
+  const std::size_t kind = static_cast<std::size_t>(error.kind);
+  if (error.severity == lessons::Severity::note || lessons::error_advice(error.kind).empty() || advised[kind])
+    return false;
+  advised.set(kind);
+  return true;
 }
 
 std::string format_gears(const lessons::ShiftRecord& shift) {
@@ -66,7 +62,7 @@ std::string format_gears(const lessons::ShiftRecord& shift) {
 }
 
 std::string format_rpm(double speed) {
-  return format_value(speed * 60.0 / (2.0 * std::numbers::pi), "rpm", 0);
+  return format_value(speed / haptics::kTurnPerMinute, "rpm", 0);
 }
 
 std::string format_local_time(const std::string& utc) {

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <bitset>
 #include <ctime>
 #include <string>
 #include <string_view>
@@ -14,12 +15,13 @@ namespace gearshift::ui {
 // Returns an unknown key unchanged. The text belongs to the view or is the key.
 std::string_view lesson_title(const lessons::CoachView& coach, std::string_view key);
 
-bool is_grade_shown(const lessons::LessonResult& result);         // true if the run is graded and was not left early
 std::string format_verdict(const lessons::LessonResult& result);  // "7.5", or why ungraded: "guided", "data lost"
 ImU32 verdict_colour(const lessons::LessonResult& result);
 ImU32 severity_colour(lessons::Severity severity);
 
-double points_lost(const lessons::LessonResult& result, std::size_t error);  // [1] points lost by the error, out of 10
+// True if advice is to be shown below the error: not for a note, and once per kind. Then adds the kind to `advised`.
+using ErrorKinds = std::bitset<lessons::kErrorKindCount>;
+bool needs_advice(const lessons::DrivingError& error, ErrorKinds& advised);
 
 std::string format_gears(const lessons::ShiftRecord& shift);  // "1 → 2"
 std::string format_rpm(double speed);                         // speed [rad/s]

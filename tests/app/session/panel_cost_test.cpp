@@ -76,7 +76,7 @@ void add_runs(History& history, int runs) {
   result.grade = 9.0;
   result.passed = true;
   result.errors = {make_driving_error(ErrorKind::jerk, Severity::minor, 14.2, 9.7, 0)};
-  result.deductions = {{0, 1.0}};
+  result.errors[0].points = 1.0;
   result.shifts.resize(3);
   for (int i = 0; i < 3; ++i) result.shifts[static_cast<std::size_t>(i)].number = i;
   for (int i = 0; i < runs; ++i) {

@@ -12,6 +12,7 @@
 #include "app/session/session.h"
 #include "app/vehicle/car_load.h"
 #include "haptics/loop/replay.h"
+#include "tests/app/lessons/history/sample_result.h"
 #include "tests/support/small_files.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/variable.h"
@@ -378,7 +379,8 @@ TEST_CASE("an instructor's comment is edited and deleted through the panel's com
   (void)drive_as_person(session);
   const std::int64_t run = session.coach().view().run;
   session.apply(AddComment{run, "Ms Torque", "Slower."});
-  const auto comments = [&] { return History(rig.history).comments(run); };
+  History history(rig.history);
+  const auto comments = [&] { return comments_of(history, run); };
   REQUIRE(comments().size() == 1);
   const std::int64_t comment = comments()[0].id;
   session.apply(EditComment{run, comment, "Slower at the bite point."});

@@ -29,7 +29,7 @@ TEST_CASE("every member of a record is one field with a name of its own, except 
   check_fields(lessons::ShiftRecord{});
   check_fields(lessons::DrivingError{});
   const lessons::LessonResult result;
-  check_fields(result, {&result.errors, &result.shifts, &result.deductions, &result.had_forces});
+  check_fields(result, {&result.errors, &result.shifts, &result.had_forces});
 }
 
 }  // namespace gearshift::test

@@ -67,9 +67,8 @@ struct CoachBench {
   CoachBench(const CoachBench&) = delete;
   CoachBench& operator=(const CoachBench&) = delete;
 
-  void begin(lessons::Coach& coach, const std::string& settings = "gate = paper",
-             const std::string& recording = "") const {
-    coach.begin(test_car(), known_gate(), settings, recording);
+  void begin(lessons::Coach& coach, const std::string& recording = "") const {
+    coach.begin(test_car(), known_gate(), recording);
   }
 
   // Drives the lesson once as a session does. The trial is guided if the coach decides so.

@@ -73,7 +73,7 @@ struct Deleting {
 TEST_CASE("a learner deleted during a lesson: one message, the lesson continues, nothing more is written") {
   Deleting here;
   here.coach.offer(here.bench.config.lessons[0]);
-  here.bench.begin(here.coach, "gate = paper", "/a/drive.trace");
+  here.bench.begin(here.coach, "/a/drive.trace");
   const std::vector<DriveSample> drive = bench_drive(Drive::good);
   here.coach.add(std::span(drive).first(500));
   CHECK(here.coach.view().run > 0);

@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/app/lessons/coach/coach_bench.h"
+#include "tests/app/lessons/history/sample_result.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift::lessons;
@@ -77,7 +78,7 @@ TEST_CASE("while the history is locked no frame waits for it, and afterwards eve
     Coach coach(bench.config);
     coach.set_help(false);
     coach.offer(bench.config.lessons[0]);
-    bench.begin(coach, "gate = paper", "/a/first.trace");
+    bench.begin(coach, "/a/first.trace");
     const std::vector<DriveSample> drive = bench_drive(Drive::good);
     coach.add(std::span(drive).first(500));
     const std::int64_t first = coach.view().run;
@@ -98,7 +99,7 @@ TEST_CASE("while the history is locked no frame waits for it, and afterwards eve
 
       bench.now += 100;
       in_a_frame([&] { coach.offer(bench.config.lessons[1]); });
-      in_a_frame([&] { bench.begin(coach, "gate = dog_leg", "/a/second.trace"); });
+      in_a_frame([&] { bench.begin(coach, "/a/second.trace"); });
       in_a_frame([&] { coach.add(bench_drive(Drive::pushed)); });
       CHECK(coach.view().runs.size() == 2);
       const std::int64_t second = coach.view().runs[0].id;
@@ -132,13 +133,11 @@ TEST_CASE("while the history is locked no frame waits for it, and afterwards eve
   CHECK(runs[1].session == runs[0].session);
   CHECK(runs[0].begun_at == format_utc(kSomeDay));
   CHECK(runs[1].begun_at == format_utc(kSomeDay + 200));  // the date of the drive, not the date of saving
-  History history(bench.config.history);
-  CHECK(history.settings(runs[0].session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
   for (const RunRow& run : runs) {
-    REQUIRE(history.comments(run.id).size() == 1);
-    CHECK(history.comments(run.id)[0].at == format_utc(kSomeDay + 300));
+    REQUIRE(run.comments.size() == 1);
+    CHECK(run.comments[0].at == format_utc(kSomeDay + 300));
   }
-  CHECK(history.find_learner("Ada")->next_lesson == "one");
+  CHECK(History(bench.config.history).find_learner("Ada")->next_lesson == "one");
 }
 
 TEST_CASE("a run driven while the history was locked is saved afterwards, for the learner who drove it") {
@@ -212,7 +211,8 @@ TEST_CASE("comments that were edited or deleted while the history was locked are
     CHECK(coach.view().runs[0].comments[0].text == "One!");
     CHECK(coach.view().runs[0].comments[2].text == "Four.");
   }
-  const std::vector<CommentRow> comments = History(bench.config.history).comments(run);
+  History history(bench.config.history);
+  const std::vector<CommentRow> comments = comments_of(history, run);
   REQUIRE(comments.size() == 3);
   CHECK(comments[0].text == "One!");
   CHECK(comments[0].edited_at == format_utc(kSomeDay));
@@ -275,11 +275,11 @@ TEST_CASE("recordings of runs that are missing from the history are listed once"
   {
     Coach coach(bench.config);
     coach.offer(bench.config.lessons[0]);
-    bench.begin(coach, "", "/a/known.trace");
+    bench.begin(coach, "/a/known.trace");
     const std::vector<DriveSample> drive = bench_drive(Drive::good);
     coach.add(std::span(drive).first(500));
     const LockHolder holder(bench.config.history);
-    bench.begin(coach, "", "/a/unknown.trace");
+    bench.begin(coach, "/a/unknown.trace");
     coach.add(drive);
     CHECK(coach.take_unreferenced_recordings() == std::vector<std::string>{"/a/unknown.trace"});
     CHECK(coach.take_unreferenced_recordings().empty());

@@ -11,6 +11,7 @@
 
 #include "app/lessons/history/schema.h"
 #include "tests/app/lessons/coach/coach_bench.h"
+#include "tests/app/lessons/history/sample_result.h"
 #include "tests/support/full_disk.h"
 #include "tests/support/temp_folder.h"
 
@@ -58,7 +59,7 @@ void check_lesson_continues(CoachBench& bench, Coach& coach) {
 
 }  // namespace
 
-TEST_CASE("a trial is saved as a run with settings, recording and shifts; settings are saved when they change") {
+TEST_CASE("a trial is saved as a run with its recording and shifts") {
   const TempFolder folder;
   const CoachBench bench(folder / "history.db");
   {
@@ -66,8 +67,8 @@ TEST_CASE("a trial is saved as a run with settings, recording and shifts; settin
     CHECK(coach.view().is_saving);
     CHECK(runs_in(bench.config.history).empty());
     coach.offer(bench.config.lessons[0]);
-    for (const char* settings : {"gate = paper", "gate = paper", "gate = dog_leg"}) {
-      bench.begin(coach, settings, "/a/drive.trace");
+    for (int trial = 0; trial < 3; ++trial) {
+      bench.begin(coach, "/a/drive.trace");
       coach.add(bench_drive(Drive::good, coach.guidance()));
     }
     CHECK_FALSE(coach.take_problem().has_value());
@@ -79,8 +80,6 @@ TEST_CASE("a trial is saved as a run with settings, recording and shifts; settin
   CHECK(runs[0].result.begin == doctest::Approx(99.0));  // [s] on the recording's clock
   CHECK(runs[0].result.shifts.size() == 1);
   CHECK(runs[2].session == runs[0].session);
-  History history(bench.config.history);
-  CHECK(history.settings(runs[0].session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
 }
 
 TEST_CASE("a coach destroyed during a lesson saves it as left; a killed program keeps the shifts that were finished") {
@@ -216,8 +215,9 @@ TEST_CASE("a comment belongs to its run and can be edited and deleted, with and 
     CHECK_THROWS_AS(coach.edit_comment(run, coach.view().runs[1].comments[0].id, ""), std::invalid_argument);
     CHECK_FALSE(coach.take_problem().has_value());
     if (file.empty()) continue;
-    REQUIRE(History(file).comments(run).size() == 1);
-    CHECK(History(file).comments(run)[0].text == "Fine.");
+    History history(file);
+    REQUIRE(comments_of(history, run).size() == 1);
+    CHECK(comments_of(history, run)[0].text == "Fine.");
   }
 }
 
@@ -400,14 +400,14 @@ TEST_CASE("no run refers to a lost recording: lost before its first cycle, while
     const std::vector<DriveSample> drive = bench_drive(Drive::good);
     for (const std::size_t driven : {std::size_t{0}, std::size_t{500}, drive.size()}) {
       coach.offer(bench.config.lessons[0]);
-      bench.begin(coach, "", "/a/lost.trace");
+      bench.begin(coach, "/a/lost.trace");
       coach.add(std::span(drive).first(driven));
       coach.clear_recording();
       coach.add(std::span(drive).subspan(driven));
       CHECK(coach.view().runs[0].recording.empty());
     }
     coach.offer(bench.config.lessons[0]);
-    bench.begin(coach, "", "/a/kept.trace");
+    bench.begin(coach, "/a/kept.trace");
     coach.add(drive);
     disk_is_full = true;
     coach.clear_recording();
@@ -426,7 +426,7 @@ TEST_CASE("recordings inside the history's folder are stored with relative paths
   {
     Coach coach(bench.config);
     coach.offer(bench.config.lessons[0]);
-    bench.begin(coach, "", recording);
+    bench.begin(coach, recording);
     coach.add(bench_drive(Drive::good));
     CHECK(coach.view().runs[0].recording == recording);
   }

@@ -37,7 +37,7 @@ TEST_CASE("an edited comment keeps its position, date and author, and has its la
   CHECK(rig.history->edit_comment(first, "Much calmer."));
   CHECK(rig.history->edit_comment(first, "Very calm."));
   History other(rig.file);
-  const std::vector<CommentRow> comments = other.comments(rig.run);
+  const std::vector<CommentRow> comments = comments_of(other, rig.run);
   REQUIRE(comments.size() == 2);
   CHECK(comments[0].id == first);
   CHECK(comments[0].text == "Very calm.");
@@ -47,7 +47,7 @@ TEST_CASE("an edited comment keeps its position, date and author, and has its la
   CHECK(comments[1].text == "Fine.");
   CHECK(comments[1].edited_at.empty());
   CHECK_THROWS_AS(rig.history->edit_comment(first, " "), std::invalid_argument);
-  CHECK(other.comments(rig.run)[0].text == "Very calm.");
+  CHECK(comments_of(other, rig.run)[0].text == "Very calm.");
 }
 
 TEST_CASE("a deleted comment also disappears from the file's bytes, and its number is not used again") {
@@ -58,8 +58,8 @@ TEST_CASE("a deleted comment also disappears from the file's bytes, and its numb
   CHECK(rig.history->delete_comment(deleted_id));
   CHECK_FALSE(rig.history->delete_comment(deleted_id));
   CHECK_FALSE(rig.history->edit_comment(deleted_id, "Who reads this?"));
-  REQUIRE(rig.history->comments(rig.run).size() == 1);
-  CHECK(rig.history->comments(rig.run)[0].id == other_id);
+  REQUIRE(comments_of(*rig.history, rig.run).size() == 1);
+  CHECK(comments_of(*rig.history, rig.run)[0].id == other_id);
   CHECK(rig.history->add_comment(rig.run, "Bo", "Again.") > deleted_id);
   rig.history.reset();  // closing the last connection empties the write-ahead log
   for (const auto& entry : std::filesystem::directory_iterator(rig.folder.path())) {

@@ -98,7 +98,9 @@ TEST_CASE("on a full disk either nothing is erased, or erased data stays in the 
     REQUIRE(history.find_learner("Zebediah").has_value());  // the learner must remain, so that she can be erased later
     // Adds 4 MB of data for a different learner.
     const std::int64_t session = history.begin_session(history.find_or_add_learner("Bob"), "1.0");
-    for (int i = 0; i < 4; ++i) history.add_settings(session, std::string(1'000'000, 'x'));
+    LessonResult long_reason;
+    long_reason.why = std::string(1'000'000, 'x');
+    for (int i = 0; i < 4; ++i) history.end_run(history.begin_run(session, long_reason, ""), long_reason);
   }
   // The file size limit of 2 MB leaves room for the transaction, but not for the copy of the file that VACUUM makes.
   const pid_t child = fork();

@@ -80,11 +80,6 @@ void check_same(const LessonResult& a, const LessonResult& b) {
   for (std::size_t i = 0; i < a.shifts.size(); ++i) check_same(a.shifts[i], b.shifts[i]);
   REQUIRE(a.errors.size() == b.errors.size());
   for (std::size_t i = 0; i < a.errors.size(); ++i) CHECK(fields_of(a.errors[i]) == fields_of(b.errors[i]));
-  REQUIRE(a.deductions.size() == b.deductions.size());
-  for (std::size_t i = 0; i < a.deductions.size(); ++i) {
-    CHECK(a.deductions[i].error == b.deductions[i].error);
-    CHECK(a.deductions[i].points == b.deductions[i].points);
-  }
 }
 
 bool is_refused(const std::filesystem::path& file, const std::string& with) {
@@ -111,7 +106,7 @@ void fill(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("a lesson is read back as written, with errors, shifts, settings and comments") {
+TEST_CASE("a lesson is read back as written, with errors, shifts and comments") {
   const TempFolder folder;
   const auto file = folder / "deep/down/history.db";
   std::int64_t run = 0, session = 0;
@@ -121,8 +116,6 @@ TEST_CASE("a lesson is read back as written, with errors, shifts, settings and c
     CHECK(history.find_or_add_learner("Ada Löwe") == ada);
     CHECK(history.find_or_add_learner("Bob") != ada);
     session = history.begin_session(ada, "gearshift 1.0");
-    history.add_settings(session, "gate = paper");
-    history.add_settings(session, "gate = dog_leg");
     run = history.begin_run(session, some_result(0), "drive.trace");
     history.add_shift(run, some_shift(0));
     history.end_run(run, some_result(7));
@@ -142,10 +135,9 @@ TEST_CASE("a lesson is read back as written, with errors, shifts, settings and c
   CHECK(runs[0].session == session);
   CHECK(runs[0].recording == "drive.trace");
   check_same(runs[0].result, some_result(7));
-  CHECK(history.settings(session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
-  REQUIRE(history.comments(run).size() == 1);
-  CHECK(history.comments(run)[0].author == "Instructor");
-  CHECK(history.comments(run)[0].text == "Läuft.");
+  REQUIRE(comments_of(history, run).size() == 1);
+  CHECK(comments_of(history, run)[0].author == "Instructor");
+  CHECK(comments_of(history, run)[0].text == "Läuft.");
   CHECK_THROWS_AS(history.find_or_add_learner(""), std::invalid_argument);
   CHECK_THROWS_AS(history.find_or_add_learner(std::string(101, 'x')), std::invalid_argument);
 }
@@ -153,15 +145,14 @@ TEST_CASE("a lesson is read back as written, with errors, shifts, settings and c
 TEST_CASE("every member of a record is a column") {
   CHECK(fields_of(ShiftRecord()).size() == count_members<ShiftRecord>());
   CHECK(fields_of(DrivingError()).size() == count_members<DrivingError>());
-  // Errors, shifts and deductions have tables of their own; `had_forces` shows in `why`.
-  CHECK(fields_of(LessonResult()).size() + 4 == count_members<LessonResult>());
+  // Errors and shifts have tables of their own; `had_forces` shows in `why`.
+  CHECK(fields_of(LessonResult()).size() + 3 == count_members<LessonResult>());
 }
 
 TEST_CASE("every kind of error is read back with its named values, and with nothing else") {
   const TempFolder folder;
   LessonResult result = some_result(0);
   result.errors.clear();
-  result.deductions.clear();
   for (int i = 0; i < kErrorKindCount; ++i)
     result.errors.push_back(make_driving_error(static_cast<ErrorKind>(i), Severity::minor, i, 3.0));
   result.errors[0].wanted_gear = 4;

@@ -98,7 +98,7 @@ std::string check_readable(History&& history) {
   if (!ada) return "nobody";
   const std::vector<RunRow> runs = history.runs(ada->id);
   if (runs.size() != 1 || runs[0].result.shifts.size() != 3) return "other runs";
-  const std::vector<CommentRow> comments = history.comments(runs[0].id);
+  const std::vector<CommentRow> comments = comments_of(history, runs[0].id);
   return comments.size() == 1 && comments[0].text == "Calmer." ? "" : "other comments";
 }
 

@@ -41,9 +41,19 @@ inline lessons::LessonResult some_result(int shifts) {
                    make_driving_error(lessons::ErrorKind::slow_step, lessons::Severity::note, 16.5, 4.0, 0)};
   result.errors[3].step = "Let the \"hand\" brake off.";
   result.errors[3].time_limit = 2.5;
-  result.deductions = {{0, 2.0}, {1, 0.5}};
+  result.errors[0].points = 2.0;
+  result.errors[1].points = 0.5;
   for (int i = 0; i < shifts; ++i) result.shifts.push_back(some_shift(i));
   return result;
+}
+
+// Returns the comments on the learners' run with this number.
+inline std::vector<lessons::CommentRow> comments_of(lessons::History& history, std::int64_t run) {
+  for (const lessons::LearnerRow& learner : history.learners()) {
+    for (const lessons::RunRow& row : history.runs(learner.id))
+      if (row.id == run) return row.comments;
+  }
+  return {};
 }
 
 }  // namespace gearshift::test

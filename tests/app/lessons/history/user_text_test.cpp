@@ -129,5 +129,5 @@ TEST_CASE("the history also rejects such names and comments, for any caller") {
     CHECK_THROWS_AS(history.add_comment(run, "Bo", bad), std::invalid_argument);
   }
   CHECK(history.learners().size() == 1);
-  CHECK(history.comments(run).empty());
+  CHECK(comments_of(history, run).empty());
 }

@@ -19,7 +19,7 @@ TEST_CASE("at most three worst (by points) and three best (by time) shifts, from
   const auto spoil = [&](std::size_t run, double points) {
     LessonResult& result = history.runs[run].result;
     result.errors = {make_driving_error(ErrorKind::grind, Severity::minor, 5.1, 1.0, 0)};
-    result.deductions = {{0, points}};
+    result.errors[0].points = points;
   };
   spoil(0, 0.5);
   spoil(1, 4.0);

@@ -99,7 +99,8 @@ TEST_CASE("runs, newest first: day, lesson, mode, grade, result, every error wit
   result.errors = {make_driving_error(ErrorKind::clutch_early, Severity::severe, 112.4, 0.12, 2),
                    make_driving_error(ErrorKind::stall, Severity::very_severe, 130.0, 40.0, -1),
                    make_driving_error(ErrorKind::jerk, Severity::note, 131.0, 12.5, -1)};
-  result.deductions = {{0, 2.0}, {1, 4.0}, {1, 0.5}};
+  result.errors[0].points = 2.0;
+  result.errors[1].points = 4.0 + 0.5;
   history.runs[1].comments = {{"2026-01-09T10:00:00Z", "Bo", "Calmer at the bite point."},
                               {"2026-01-10T10:00:00Z", "Di", "Better.", 2, "2026-01-11T10:00:00Z"}};
   const std::string page = page_of(history);
@@ -126,7 +127,7 @@ TEST_CASE("runs, newest first: day, lesson, mode, grade, result, every error wit
   CHECK(rows[1][6].empty());
 }
 
-TEST_CASE("an error that cost no points shows its severity; deductions beyond ten points are shown as one sum") {
+TEST_CASE("an error that cost no points shows its severity; more than ten lost points are shown as one sum") {
   LearnerHistory history = learner(2);
   LessonResult& guided = history.runs[0].result;
   guided.guided = true;
@@ -138,14 +139,16 @@ TEST_CASE("an error that cost no points shows its severity; deductions beyond te
   bad.grade = 0.0;
   bad.passed = false;
   bad.errors.assign(3, make_driving_error(ErrorKind::stall, Severity::very_severe, 1.0, 40.0, -1));
-  bad.deductions = {{0, 4.0}, {1, 4.0}, {2, 3.5}};
+  bad.errors[0].points = 4.0;
+  bad.errors[1].points = 4.0;
+  bad.errors[2].points = 3.5;
   const auto rows = table_of(page_of(history), "runs");
   CHECK(has(rows[1][6], "Severe: The engine stalled"));
   CHECK(has(rows[1][6], "Very severe: The car jerked"));
   CHECK(has(rows[1][6], "Note: The car jerked"));
   CHECK(has(rows[0][5], "11.5 points lost; the lowest grade is 0"));
   CHECK_FALSE(has(rows[1][5], "points lost"));
-  bad.deductions[2].points = 2.0;
+  bad.errors[2].points = 2.0;
   CHECK_FALSE(has(table_of(page_of(history), "runs")[0][5], "points lost"));
 }
 
@@ -317,7 +320,8 @@ TEST_CASE("the advice for a kind of error appears once, with the run, if the kin
                    make_driving_error(ErrorKind::grind, Severity::minor, 2.0, 1.0, 0),
                    make_driving_error(ErrorKind::grind, Severity::minor, 3.0, 1.0, 0),
                    make_driving_error(ErrorKind::jerk, Severity::note, 4.0, 9.0, 0)};
-  result.deductions = {{1, 0.5}, {2, 0.5}};
+  result.errors[1].points = 0.5;
+  result.errors[2].points = 0.5;
   const std::string cell = table_of(page_of(history), "runs")[0][6];
   const std::string grind(error_advice(ErrorKind::grind));
   const std::size_t at = cell.find(grind);
@@ -345,7 +349,8 @@ TEST_CASE("the counts, points and rates of weaknesses match the rows") {
   LessonResult& result = history.runs[0].result;
   result.errors = {make_driving_error(ErrorKind::grind, Severity::minor, 1.0, 1.0, 0),
                    make_driving_error(ErrorKind::grind, Severity::severe, 1.0, 1.0, 1)};
-  result.deductions = {{0, 0.5}, {1, 2.0}};
+  result.errors[0].points = 0.5;
+  result.errors[1].points = 2.0;
   const auto rows = table_of(page_of(history), "weaknesses");
   REQUIRE(rows.size() == 1);
   CHECK(std::vector<std::string>(rows[0].begin(), rows[0].begin() + 7) ==
@@ -362,7 +367,8 @@ TEST_CASE("the worst shifts by points and the best by time, with figures that ma
   bad.shifts[2].force_peak = 71.5;
   bad.errors = {make_driving_error(ErrorKind::over_push, Severity::minor, 14.0, 71.5, 1),
                 make_driving_error(ErrorKind::clutch_early, Severity::severe, 18.0, 0.12, 2)};
-  bad.deductions = {{0, 0.5}, {1, 2.0}};
+  bad.errors[0].points = 0.5;
+  bad.errors[1].points = 2.0;
   history.runs[2].result.shifts[3].end -= 0.2;
   history.runs[1].result.shifts[2].impulse = 12.34;
   const std::string page = page_of(history);

@@ -71,8 +71,8 @@ TEST_CASE("errors are counted by kind and severity, per ten shifts, earlier and 
   for (int i = 0; i < 4; ++i) history.runs.push_back(run_with(i + 1, 5, 8.0));
   const auto error = [&](std::size_t run, ErrorKind kind, Severity severity, double points) {
     LessonResult& result = history.runs[run].result;
-    if (points > 0.0) result.deductions.push_back({result.errors.size(), points});
     result.errors.push_back(make_driving_error(kind, severity, 0.0, 1.0, 0));
+    result.errors.back().points = points;
   };
   error(0, ErrorKind::stall, Severity::severe, 2.0);
   error(0, ErrorKind::grind, Severity::minor, 0.5);
