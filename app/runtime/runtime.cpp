@@ -144,7 +144,7 @@ struct Runtime::State {
   glm::dvec2 start_position() const { return haptics::rest_position(gate, config.start.gear); }
   haptics::HapticConfig running_config() const;
   haptics::TraceHeader header(const char* replay_parameters, bool armed) const;
-  bool requires_manual_arming(const CycleRecord& record) const;
+  bool requires_arming(const CycleRecord& record) const;
   void switch_to(std::unique_ptr<LoopRun> next);
   void begin();
   void cycle_once();
@@ -177,10 +177,10 @@ struct Runtime::State {
   // The members below are used only by the frame side, i.e. not by the haptic thread.
   CycleStream::Reader reader;
   CycleRecord newest;
-  std::vector<vehicle::DriveSample> cycles;  // not yet returned by drain_cycles()
+  std::vector<vehicle::DriveSample> cycles;  // not yet returned by read_frame()
   haptics::EventDetector detector;
   std::uint64_t last_read_run = 0;
-  std::vector<haptics::HapticEvent> events;  // not yet returned by drain_events()
+  std::vector<haptics::HapticEvent> events;  // not yet returned by read_frame()
   haptics::DurationHistogram lateness;
   // [ns] durations of the stages in the latest stamped cycles
   std::array<std::array<std::int64_t, 8>, kStamps> stages{};
@@ -279,9 +279,7 @@ haptics::TraceHeader Runtime::State::header(const char* replay_parameters, bool 
           config.layout.text, replay_parameters, armed};
 }
 
-// True if a fault has ended the forces, or arming was refused, and only arm() may restore them. False while the last
-// command may not have been processed: until the second cycle after it.
-bool Runtime::State::requires_manual_arming(const CycleRecord& record) const {
+bool Runtime::State::requires_arming(const CycleRecord& record) const {
   const haptics::HapticSnapshot& now = record.cycle.out;
   if (record.run == commanded_run && now.cycle < commanded_cycle + 2) return false;
   if (now.guard == haptics::GuardState::idle) return now.fault == haptics::GuardFault::stopped;
@@ -308,7 +306,7 @@ void Runtime::State::switch_to(std::unique_ptr<LoopRun> next) {
       std::this_thread::sleep_for(kPollPeriod);
   }
   run = std::move(next);
-  if (!wants_forces || !requires_manual_arming(last)) return;
+  if (!wants_forces || !requires_arming(last)) return;
   wants_forces = false;
   send(haptics::LoopCommand::stop);
 }
@@ -382,6 +380,13 @@ const haptics::AdmittedTuning& Runtime::admitted() const noexcept {
   return state_->admitted;
 }
 
+RuntimeFrame Runtime::read_frame() {
+  state_->read_records();
+  state_->update_newest();  // after the records, so that the state is not older
+  const CycleRecord& newest = state_->newest;
+  return {std::exchange(state_->cycles, {}), std::exchange(state_->events, {}), newest.cycle.out, newest.car};
+}
+
 haptics::HapticSnapshot Runtime::snapshot() {
   state_->update_newest();
   return state_->newest.cycle.out;
@@ -395,16 +400,6 @@ vehicle::VehicleState Runtime::car() {
 haptics::Pedals Runtime::keyboard() {
   state_->update_newest();
   return state_->newest.keyboard;
-}
-
-std::vector<haptics::HapticEvent> Runtime::drain_events() {
-  state_->read_records();
-  return std::exchange(state_->events, {});
-}
-
-std::vector<vehicle::DriveSample> Runtime::drain_cycles() {
-  state_->read_records();
-  return std::exchange(state_->cycles, {});
 }
 
 void Runtime::set_hand(const haptics::HandTarget& target) {
@@ -434,6 +429,11 @@ void Runtime::disarm() {
 void Runtime::stop() {
   state_->wants_forces = false;
   state_->send(haptics::LoopCommand::stop);
+}
+
+bool Runtime::requires_arming() {
+  state_->update_newest();
+  return state_->requires_arming(state_->newest);
 }
 
 LoopHealth Runtime::health() {
@@ -466,7 +466,7 @@ void Runtime::start_recording(const std::filesystem::path& file) {
   if (s.recorder) throw std::logic_error("a recording is already running; stop it first");
   std::unique_ptr<LoopRun> next = s.make_run();
   // Forces that were requested count as on even if the loop has not processed the command yet.
-  const bool armed = s.wants_forces && !s.requires_manual_arming(s.newest);
+  const bool armed = s.wants_forces && !s.requires_arming(s.newest);
   if (armed) next->loop.arm();
   s.recorder = std::make_unique<haptics::TraceRecorder>(file, s.header(next->load().replay_parameters(), armed));
   s.recorded_run = next->number;

@@ -73,6 +73,17 @@ struct LoopHealth {
   std::string not_realtime_reason;  // empty if real-time
 };
 
+// Returned by Runtime::read_frame(): what happened since the last call, in order, and the state after it.
+struct RuntimeFrame {
+  // If more than 8192 cycles were read since the last call (health() reads cycles, too), the newest are missing. If
+  // neither was called for more than 8192 cycles, the oldest are missing; LoopHealth::unseen counts only these.
+  // HapticSnapshot::cycle shows the gap.
+  std::vector<vehicle::DriveSample> cycles;
+  std::vector<haptics::HapticEvent> events;
+  haptics::HapticSnapshot lever;  // never older than the cycles
+  vehicle::VehicleState car;      // default values without a car
+};
+
 // Throws the same errors as Runtime's constructor, without running anything, and returns the gate. Used with a detached
 // lever to check a configuration while the stick is still in use by a different runtime.
 haptics::Gate check_runtime(const RuntimeConfig& config);
@@ -94,13 +105,9 @@ class Runtime {
   const haptics::AdmittedTuning& admitted() const noexcept;  // the tuning in use
 
   // The frame side: all functions below must be called by the same thread.
-  haptics::HapticSnapshot snapshot();                // newest state of the lever
-  vehicle::VehicleState car();                       // newest state of the car; default values without a car
-  std::vector<haptics::HapticEvent> drain_events();  // events since the last call, in order
-  // Returns every cycle since the last call, in order. If more than 8192 were read since then (drain_events() and
-  // health() read cycles, too), the newest are missing. If none of the three was called for more than 8192 cycles, the
-  // oldest are missing; LoopHealth::unseen counts only these. HapticSnapshot::cycle shows the gap.
-  std::vector<vehicle::DriveSample> drain_cycles();
+  RuntimeFrame read_frame();
+  haptics::HapticSnapshot snapshot();  // newest state of the lever
+  vehicle::VehicleState car();         // newest state of the car; default values without a car
   // Uses position and push of the target. Has no effect with a driver or a real lever.
   void set_hand(const haptics::HandTarget& target);
   // Without a driver, each pedal of the car is as far down as in `controls` or as `keys` have moved it, whichever is
@@ -118,6 +125,9 @@ class Runtime {
   void arm();
   void disarm();
   void stop();
+  // True if a fault has ended the forces, or arming was refused, and only arm() may restore them. False while the last
+  // command may not have been processed: until the second cycle after it.
+  bool requires_arming();
   LoopHealth health();
 
   // Starts a recording. This starts a new loop between two cycles, because a trace can be replayed only from the first

@@ -37,8 +37,8 @@ LeverInForce::Next LeverInForce::prepare(const SessionChoice& choice, const less
 
 void LeverInForce::hand_over(Next next) {
   if (!runtime_) follow(ForceCause::start);
-  if (runtime_ && has_fault()) follow(ForceCause::fault);
-  if (runtime_ && !armed_cycle_) follow(ForceCause::new_lever);
+  if (runtime_ && runtime_->requires_arming()) follow(ForceCause::fault);
+  if (runtime_ && !has_just_armed_) follow(ForceCause::new_lever);
   runtime_ = next.runtime ? std::move(next.runtime) : replace_runtime(next.config);
   is_new_ = true;
   is_car_held_ = false;
@@ -105,38 +105,29 @@ void LeverInForce::follow(ForceCause cause) {
   if (effect != ForceEffect::keep) wants_forces_ = effect == ForceEffect::on;
 }
 
-// A fault that the arming of this frame has cleared does not count. The loop processes a command at the latest in the
-// second cycle after it.
-bool LeverInForce::has_fault() {
-  const haptics::HapticSnapshot now = runtime_->snapshot();
-  if (armed_cycle_ && now.cycle < *armed_cycle_ + 2) return false;
-  const bool is_refused = now.guard == haptics::GuardState::idle && now.fault == haptics::GuardFault::stopped;
-  return is_refused || now.guard == haptics::GuardState::released || now.guard == haptics::GuardState::damped;
-}
-
 // A stick must not start to push when it is plugged in, so it cannot be armed before.
 bool LeverInForce::arm() {
   if (choice_.stick && !choice_.stick->connected()) return false;
   follow(ForceCause::user_arms);
-  armed_cycle_ = runtime_->snapshot().cycle;
+  has_just_armed_ = true;
   runtime_->arm();
   return true;
 }
 
 void LeverInForce::disarm() {
   follow(ForceCause::user_disarms);
-  armed_cycle_.reset();
+  has_just_armed_ = false;
   runtime_->disarm();
 }
 
 void LeverInForce::stop() {
   follow(ForceCause::user_stops);
-  armed_cycle_.reset();
+  has_just_armed_ = false;
   runtime_->stop();
 }
 
 std::string LeverInForce::begin_frame() {
-  armed_cycle_.reset();
+  has_just_armed_ = false;
   std::string news;
   if (!choice_.stick) return news;
   while (const std::optional<std::string> one = choice_.stick->take_message())

@@ -24,7 +24,7 @@ enum class ForceCause {
   user_arms,     // Enter, or "Forces on"; refused while the stick is not plugged in
   user_disarms,  // "Forces off"
   user_stops,    // STOP
-  fault,       // the guard ended the forces or refused to arm, since the user last armed; seen when a new lever follows
+  fault,  // the guard ended the forces or refused to arm, see Runtime::requires_arming(); seen when a new lever follows
   new_lever,   // another gate, car, hand or preset, or a lesson; not in the frame in which the user armed
   stick_lost,  // the stick was unplugged
   recording    // a recording starts or ends: Runtime::start_recording() keeps the forces
@@ -124,7 +124,6 @@ class LeverInForce {
  private:
   void hand_over_pedals(runtime::RuntimeConfig& config) const;
   void follow(ForceCause cause);
-  bool has_fault();
   void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;
   std::unique_ptr<runtime::Runtime> replace_runtime(const runtime::RuntimeConfig& config);
   std::unique_ptr<runtime::Runtime> old_runtime(runtime::RuntimeConfig config) const;
@@ -135,9 +134,8 @@ class LeverInForce {
   haptics::PedalKeys keys_;           // the user's
   std::optional<CarSwitches> switches_;
   bool is_car_held_ = false;
-  bool wants_forces_ = false;  // forces are on, or ended by a fault that was not noticed yet
-  // Number of the newest cycle when the user switched forces on in this frame; empty: not in this frame.
-  std::optional<std::uint64_t> armed_cycle_;
+  bool wants_forces_ = false;        // forces are on, or ended by a fault that was not noticed yet
+  bool has_just_armed_ = false;      // the user switched forces on in this frame
   bool is_stick_connected_ = false;  // the stick was connected in the previous frame
   bool is_new_ = false;
 };

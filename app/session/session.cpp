@@ -86,34 +86,25 @@ void Session::advance(double seconds) {
   lever_.send_controls(director_.controls());
   if (lever_.running().clock == runtime::RuntimeClock::virtual_time) lever_.runtime().advance(seconds);
   if (const std::optional<std::string> problem = recorder_.poll_problem(lever_.runtime())) message_ = *problem;
-  drain_events();
-  drain_cycles();
-  update_shown();
+  follow(lever_.runtime().read_frame());
   finish_opening();
   if (viewer_.player() != nullptr) show_replay(seconds);
 }
 
-void Session::drain_events() {
-  events_ = lever_.runtime().drain_events();
+// Judges the lesson, and takes lever, car and events for this frame's pictures and sounds.
+void Session::follow(const runtime::RuntimeFrame& frame) {
+  events_ = frame.events;
   for (haptics::HapticEvent& event : events_) event.time_ns -= start_ns_;
-}
-
-void Session::drain_cycles() {
-  const std::vector<vehicle::DriveSample> cycles = lever_.runtime().drain_cycles();
-  if (!cycles.empty()) newest_controls_ = cycles.back().controls;
-  if (director_.add(cycles)) end_lesson();
+  if (!frame.cycles.empty()) newest_controls_ = frame.cycles.back().controls;
+  if (director_.add(frame.cycles)) end_lesson();
   if (const std::optional<std::string> problem = director_.coach().take_problem()) message_ = *problem;
-  history_ = plot_samples(cycles);
-}
-
-// Call after drain_cycles(), so that the displayed state is not older than the history.
-void Session::update_shown() {
-  shown_ = lever_.runtime().snapshot();
+  history_ = plot_samples(frame.cycles);
+  newest_ns_ = frame.lever.time_ns;
+  shown_ = frame.lever;
+  const runtime::RuntimeConfig& config = lever_.runtime().config();
   const double apart = glm::distance(shown_.lever, shown_.proxy) + visual_offset_;
-  if (visual_offset_ > 0.0 && apart > lever_.runtime().config().preset.haptics.ghost_offset)
-    shown_.flags |= haptics::kFlagGhost;
-  newest_ns_ = shown_.time_ns;
-  car_ = lever_.runtime().config().car ? lever_.runtime().car() : standing_car(newest_controls_, shown_.gear);
+  if (visual_offset_ > 0.0 && apart > config.preset.haptics.ghost_offset) shown_.flags |= haptics::kFlagGhost;
+  car_ = config.car ? frame.car : standing_car(newest_controls_, shown_.gear);
 }
 
 void Session::update_cabin() {

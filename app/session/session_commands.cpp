@@ -270,9 +270,8 @@ void Session::end_lesson() {
 }
 
 std::string Session::save_and_stop() {
-  std::string unsaved = director_.coach().flush();
   end_lesson_recording();
-  return director_.make_room(recorder_, std::move(unsaved));
+  return director_.save_all(recorder_);
 }
 
 void Session::open_last_recording() {

@@ -131,12 +131,13 @@ class HeldDrive {
   void ask_to_plug_in() { output_(fmt::format("{} is not connected. Plug it in.", stick_.name())); }
 
   void follow_lever() {
-    for (const vehicle::DriveSample& cycle : runtime_.drain_cycles()) {
+    const runtime::RuntimeFrame frame = runtime_.read_frame();
+    for (const vehicle::DriveSample& cycle : frame.cycles) {
       if (cycle.lever.time_ns < begin_ns_) continue;
       measure(cycle.lever, result_);
       result_.duration = seconds_at(cycle.lever.time_ns);
     }
-    for (const haptics::HapticEvent& event : runtime_.drain_events())
+    for (const haptics::HapticEvent& event : frame.events)
       if (event.time_ns >= begin_ns_) handle_event(event);
   }
 

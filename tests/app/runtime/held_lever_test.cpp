@@ -109,7 +109,7 @@ TEST_CASE("the user's hand shifts through every gear, as on the simulated lever"
   runtime.arm();
   runtime.advance(stick.hand.duration());
   std::vector<int> gears;
-  add_gears(runtime.drain_events(), gears);
+  add_gears(runtime.read_frame().events, gears);
   CHECK(gears == kPaperTour);
   CHECK(stick.strongest > 5.0);
 }

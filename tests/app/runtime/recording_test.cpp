@@ -111,12 +111,12 @@ TEST_CASE("consecutive recordings are complete, and each begins with an event fo
   LeadingPerson person(runtime, [&] { runtime.advance(LeadingPerson::kFrame); });
   person.shift_to(5);
   for (const char* name : {"a.trace", "b.trace"}) {
-    runtime.drain_events();
+    (void)runtime.read_frame();
     runtime.start_recording(folder / name);
     person.wait(60);
     CHECK_FALSE(runtime.stop_recording());
     gears.clear();
-    add_gears(runtime.drain_events(), gears);
+    add_gears(runtime.read_frame().events, gears);
     CHECK(gears == std::vector{5});
     const Trace trace = read_trace(folder / name);
     CHECK(trace.samples.size() == 1000);
@@ -136,7 +136,7 @@ TEST_CASE("the begin of a recording loses or reorders no event, and does not res
   runtime.start_recording(folder / "drive.trace");
   person.shift_to(3);
   CHECK(runtime.time() > before + 0.5);
-  const std::vector<HapticEvent> events = runtime.drain_events();
+  const std::vector<HapticEvent> events = runtime.read_frame().events;
   std::vector<int> gears;
   add_gears(events, gears);
   CHECK(gears == std::vector{1, 2, 2, 3});
@@ -189,7 +189,7 @@ TEST_CASE("a fault while the file is being opened persists: the recording's loop
   runtime.arm();
   std::this_thread::sleep_for(std::chrono::milliseconds(800));
   REQUIRE(runtime.snapshot().guard == GuardState::running);
-  (void)runtime.drain_events();
+  (void)runtime.read_frame();
 
   std::thread other([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -203,7 +203,7 @@ TEST_CASE("a fault while the file is being opened persists: the recording's loop
   runtime.start_recording(pipe);
   std::this_thread::sleep_for(std::chrono::milliseconds(800));
   const HapticSnapshot now = runtime.snapshot();
-  const std::vector<HapticEvent> events = runtime.drain_events();
+  const std::vector<HapticEvent> events = runtime.read_frame().events;
   (void)runtime.stop_recording();
   other.join();
   const bool fell = std::any_of(events.begin(), events.end(), [](const HapticEvent& event) {

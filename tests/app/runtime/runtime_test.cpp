@@ -37,7 +37,7 @@ TEST_CASE("moved at 60 frames per second through any shipped gate, the gears eng
     std::vector<int> gears;
     LeadingPerson person(runtime, [&] {
       runtime.advance(LeadingPerson::kFrame);
-      add_gears(runtime.drain_events(), gears);
+      add_gears(runtime.read_frame().events, gears);
     });
     const std::vector<int> wanted = tour_order(runtime.gate());
     for (const int gear : wanted) {
@@ -173,20 +173,20 @@ TEST_CASE("the virtual clock advances by whole cycles and carries the remainder"
   runtime.advance(std::numeric_limits<double>::quiet_NaN());
   runtime.advance(std::numeric_limits<double>::infinity());
   CHECK(runtime.time() == doctest::Approx(1.001).epsilon(1e-12));
-  CHECK(runtime.drain_cycles().size() == 1001);
+  CHECK(runtime.read_frame().cycles.size() == 1001);
 }
 
 TEST_CASE("every cycle since the last call is returned once, in order") {
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.advance(0.25);
-  const std::vector<DriveSample> first = runtime.drain_cycles();
+  const std::vector<DriveSample> first = runtime.read_frame().cycles;
   (void)runtime.health();  // health() must not consume cycles
   DriverControls controls;
   controls.pedals.clutch = 0.25;
   runtime.set_controls(controls);
   runtime.advance(3.0);
   (void)runtime.health();
-  const std::vector<DriveSample> second = runtime.drain_cycles();
+  const std::vector<DriveSample> second = runtime.read_frame().cycles;
   CHECK(first.size() == 250);
   CHECK(second.size() == 3000);
   std::uint64_t next = 0;
@@ -196,20 +196,20 @@ TEST_CASE("every cycle since the last call is returned once, in order") {
       CHECK(sample.controls.pedals.clutch == (part == &first ? 0.0 : 0.25));
     }
   CHECK(second.back().lever.time_ns == runtime.snapshot().time_ns);
-  CHECK(runtime.drain_cycles().empty());
+  CHECK(runtime.read_frame().cycles.empty());
 }
 
 TEST_CASE("after too long a pause the first 8192 cycles are kept, and the gap is visible") {
   Runtime runtime(runtime_config(RuntimeClock::virtual_time));
   runtime.advance(0.5);
-  CHECK(runtime.drain_cycles().size() == 500);
+  CHECK(runtime.read_frame().cycles.size() == 500);
   runtime.advance(20.0);
-  const std::vector<DriveSample> cycles = runtime.drain_cycles();
+  const std::vector<DriveSample> cycles = runtime.read_frame().cycles;
   REQUIRE(cycles.size() == 8192);
   CHECK(cycles.front().lever.cycle == 500);
   CHECK(cycles.back().lever.cycle == 500 + 8191);
   runtime.advance(0.001);
-  const std::vector<DriveSample> next = runtime.drain_cycles();
+  const std::vector<DriveSample> next = runtime.read_frame().cycles;
   REQUIRE(next.size() == 1);
   CHECK(next[0].lever.cycle == 20'500);
 }

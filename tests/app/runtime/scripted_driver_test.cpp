@@ -107,7 +107,7 @@ TEST_CASE("on the virtual clock the driver gets every cycle once, and its action
   runtime.arm();
   for (int i = 0; i < 300; ++i) runtime.advance(1.0 / 60.0);
   const std::vector<DriveSample> expected = driven_without_runtime(config, runtime.gate(), 5000);
-  const std::vector<DriveSample> cycles = runtime.drain_cycles();
+  const std::vector<DriveSample> cycles = runtime.read_frame().cycles;
   REQUIRE(driven->size() == 5000);
   REQUIRE(cycles.size() == 5000);
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -133,10 +133,10 @@ TEST_CASE("the driver controls hand and pedals, the instructor road and guidance
   idle_hand.position = {0.03, 0.03};
   runtime.set_hand(idle_hand);
   runtime.advance(0.005);
-  CHECK(runtime.drain_cycles().back().lever.lever.x < 0.01);
+  CHECK(runtime.read_frame().cycles.back().lever.lever.x < 0.01);
   runtime.set_controls(instructor);
   runtime.advance(0.002);
-  for (const DriveSample& now : runtime.drain_cycles()) {
+  for (const DriveSample& now : runtime.read_frame().cycles) {
     CHECK(now.controls.slope == 0.02);
     CHECK(now.controls.guidance == 0.4);
     CHECK(now.controls.guided_gear == 3);
@@ -156,7 +156,7 @@ TEST_CASE("a driver shifts through the gears on either clock") {
     const std::vector<int> first_three{1, 2, 3};
     CHECK(becomes_true([&] {
       if (clock == RuntimeClock::virtual_time) runtime.advance(0.02);
-      add_gears(runtime.drain_events(), gears);
+      add_gears(runtime.read_frame().events, gears);
       return gears == first_three;
     }));
   }
@@ -211,7 +211,7 @@ TEST_CASE(
         runtime.set_controls(instructor);
         runtime.set_hand({});
         sleep_ms(3);
-        (void)runtime.drain_cycles();
+        (void)runtime.read_frame();
       }
       CHECK_FALSE(runtime.stop_recording());
     }
@@ -246,7 +246,7 @@ TEST_CASE("a sleeping driver blocks neither lever nor instructor, and the runtim
   runtime.set_controls(instructor);
   bool is_combined = false;
   CHECK(becomes_true([&] {
-    for (const DriveSample& now : runtime.drain_cycles())
+    for (const DriveSample& now : runtime.read_frame().cycles)
       is_combined = is_combined || (now.controls.guidance == 0.6 && now.controls.pedals.throttle != 0.0);
     return is_combined;
   }));

@@ -56,12 +56,12 @@ double clutch_at(double time) {
 std::vector<double> clutch_driven(Session& session, double frames_per_second) {
   std::vector<double> path;
   const double frame = 1.0 / frames_per_second;
-  (void)session.runtime().drain_cycles();
+  (void)session.runtime().read_frame();
   for (int i = 0; i * frame < 2.0; ++i) {
     session.lever().set_driver({}, {}, {.clutch = i * frame < 0.5 - 1e-9});
     session.lever().send_controls({});
     session.runtime().advance(frame);
-    for (const DriveSample& cycle : session.runtime().drain_cycles()) path.push_back(cycle.controls.pedals.clutch);
+    for (const DriveSample& cycle : session.runtime().read_frame().cycles) path.push_back(cycle.controls.pedals.clutch);
   }
   return path;
 }
@@ -106,7 +106,7 @@ TEST_CASE("on the real clock a pedal moves even while no frame is drawn") {
   session.advance(0.0);
   std::set<double> brakes;
   std::this_thread::sleep_for(std::chrono::milliseconds(400));  // no frame is drawn in this time
-  for (const DriveSample& cycle : session.runtime().drain_cycles()) brakes.insert(cycle.controls.pedals.brake);
+  for (const DriveSample& cycle : session.runtime().read_frame().cycles) brakes.insert(cycle.controls.pedals.brake);
   CHECK(brakes.size() > 20);  // if the pedal moved once per frame, there would be one or two positions
   CHECK(*brakes.rbegin() == 1.0);
 }
