@@ -9,13 +9,12 @@
 namespace gearshift::demo {
 namespace {
 
-constexpr double kRpm = 60.0 / 6.283185307179586;  // [rpm] per rad/s
-constexpr double kRestDelay = 0.25;                // [s] delay after a gear engages: the lever is at rest
-constexpr double kHandDelay = 0.05;                // [s] delay after a gear engages: the hand still holds the knob
-constexpr double kMinHandBrake = 0.9;              // [1] the handbrake holds the car if pulled further than this
-constexpr double kMinClutchTorque = 5.0;           // [N m] the clutch bites if it transmits more than this
-constexpr double kMinDrivingSpeed = 2.0;           // [m/s] the car is driving if it is faster than this
-constexpr double kStandstillSpeed = 0.05;          // [m/s] the car is at rest if it is slower than this
+constexpr double kRestDelay = 0.25;        // [s] delay after a gear engages: the lever is at rest
+constexpr double kHandDelay = 0.05;        // [s] delay after a gear engages: the hand still holds the knob
+constexpr double kMinHandBrake = 0.9;      // [1] the handbrake holds the car if pulled further than this
+constexpr double kMinClutchTorque = 5.0;   // [N m] the clutch bites if it transmits more than this
+constexpr double kMinDrivingSpeed = 2.0;   // [m/s] the car is driving if it is faster than this
+constexpr double kStandstillSpeed = 0.05;  // [m/s] the car is at rest if it is slower than this
 
 double depth_beyond_wall(const FilmFrame& frame) {
   return glm::distance(frame.lever.lever, frame.lever.proxy);
@@ -34,7 +33,7 @@ const FilmFrame& fastest_frame(std::span<const FilmFrame> film) {
 
 std::string speeds(const FilmFrame& frame) {
   return fmt::format("{:.0f} km/h, {:.0f} rpm in gear {}", haptics::kKmhPerMps * frame.car.road_speed,
-                     kRpm * frame.car.engine_speed, haptics::gear_name(frame.car.gear));
+                     frame.car.engine_speed / haptics::kTurnPerMinute, haptics::gear_name(frame.car.gear));
 }
 
 // Returns the frame with the largest clutch torque while the handbrake holds the car; null if there is no such frame.
@@ -112,15 +111,16 @@ std::vector<Shot> lesson_shots(std::span<const FilmFrame> film, const std::strin
     shots.push_back({lesson + "_bite",
                      fmt::format("The bite point: the clutch carries {:.0f} N m, the engine turns at {:.0f} rpm, and "
                                  "the handbrake still holds the car",
-                                 bite->car.clutch_torque, kRpm * bite->car.engine_speed),
+                                 bite->car.clutch_torque, bite->car.engine_speed / haptics::kTurnPerMinute),
                      bite, "driver"});
   }
   if (const FilmFrame* ring = ring_frame(film)) {
-    shots.push_back({lesson + "_ring",
-                     fmt::format("The synchroniser blocks the shift: its two sides differ by {:.0f} rpm while the hand "
-                                 "pushes with {:.0f} N",
-                                 kRpm * std::abs(ring->car.dog_difference), glm::length(ring->lever.f_h)),
-                     ring, "gearbox"});
+    shots.push_back(
+        {lesson + "_ring",
+         fmt::format("The synchroniser blocks the shift: its two sides differ by {:.0f} rpm while the hand "
+                     "pushes with {:.0f} N",
+                     std::abs(ring->car.dog_difference) / haptics::kTurnPerMinute, glm::length(ring->lever.f_h)),
+         ring, "gearbox"});
     const std::vector<lab::GearTime> gears = gears_of(film);
     const auto next =
         std::find_if(gears.begin(), gears.end(), [&](const lab::GearTime& gear) { return gear.time > ring->time; });

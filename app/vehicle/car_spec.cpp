@@ -1,6 +1,5 @@
 #include "app/vehicle/car_spec.h"
 
-#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,8 +12,6 @@
 namespace gearshift::vehicle {
 namespace {
 
-constexpr double kPerRpm = std::numbers::pi / 30.0;  // [rad/s]
-
 constexpr haptics::Range kTorquePointRpm{0.0, 20000.0};
 constexpr haptics::Range kTorqueNm{0.0, 5000.0};
 constexpr haptics::Range kRatio{0.1, 20.0};
@@ -25,7 +22,7 @@ void read_full_load(const haptics::TomlTable& table, EngineSpec& engine) {
     table.fail("full_load", fmt::format("must have between 2 and {} points, each {{ rpm = ..., nm = ... }}, but has {}",
                                         kMaxTorquePoints, points.size()));
   for (const haptics::TomlTable& point : points) {
-    const double speed = point.number("rpm", kTorquePointRpm) * kPerRpm;
+    const double speed = point.number("rpm", kTorquePointRpm) * haptics::kTurnPerMinute;
     if (engine.points > 0 && speed <= engine.full_load[engine.points - 1].speed)
       point.fail("rpm", "must be greater than the rpm of the previous point");
     engine.full_load[engine.points++] = {speed, point.number("nm", kTorqueNm)};
@@ -52,7 +49,8 @@ void check_engine(const haptics::TomlTable& table, const EngineSpec& engine) {
   if (first > engine.idle || last < engine.limiter)
     table.fail("full_load",
                fmt::format("must cover all speeds from idle_rpm to limiter_rpm, but covers only {} to {} rpm",
-                           haptics::number_text(first / kPerRpm, 3), haptics::number_text(last / kPerRpm, 3)));
+                           haptics::number_text(first / haptics::kTurnPerMinute, 3),
+                           haptics::number_text(last / haptics::kTurnPerMinute, 3)));
 }
 
 EngineSpec read_engine(const haptics::TomlTable& table) {

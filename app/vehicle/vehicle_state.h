@@ -57,9 +57,7 @@ struct VehicleState {
   double drive_torque = 0.0;  // [N m] torque of the gearbox at the wheels; forward is positive
   double slope = 0.0;         // [rad] slope of the road; uphill is positive
   haptics::Pedals pedals;
-  double steering = 0.0;                       // [rad] steering wheel angle; left is positive
-  bool ignition = true;                        // lights the warning lamps if the engine is off
-  bool turn_left = false, turn_right = false;  // indicators
+  bool ignition = true;  // lights the warning lamps if the engine is off
 
   // Lever
   double force_scale = 1.0;  // [1] device force divided by real force, at most 1

@@ -29,12 +29,6 @@ class UiContext {
   void begin(const UiInput& input);   // makes the context current and calls ImGui::NewFrame
   void end();                         // calls ImGui::Render
 
-  // After begin(): true if the input belongs to the user interface and not to the scene behind it. The keyboard belongs
-  // to the user interface only while a field is edited or the navigation highlight is visible, not merely because a
-  // panel was clicked.
-  bool wants_mouse() const;
-  bool wants_keys() const;
-
  private:
   struct State;
   std::unique_ptr<State> state_;

@@ -46,15 +46,4 @@ void UiContext::end() {
   ImGui::Render();
 }
 
-bool UiContext::wants_mouse() const {
-  ImGui::SetCurrentContext(state_->context);
-  return ImGui::GetIO().WantCaptureMouse;
-}
-
-bool UiContext::wants_keys() const {
-  ImGui::SetCurrentContext(state_->context);
-  const ImGuiIO& io = ImGui::GetIO();
-  return io.WantTextInput || io.NavVisible;
-}
-
 }  // namespace gearshift::engine

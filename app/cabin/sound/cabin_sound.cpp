@@ -1,7 +1,6 @@
 #include "app/cabin/sound/cabin_sound.h"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "app/cabin/sound/car_synth.h"
@@ -89,7 +88,7 @@ void CabinSound::update_engine(const vehicle::VehicleState& car, double time) {
   const double step = std::max(0.0, time - std::exchange(updated_at_, time)) / kLoadTime;
   load_ += std::clamp(car.engine_load - load_, -step, step);
   if (!config_.engine) return;
-  const double speed = car.engine_speed * 30.0 / std::numbers::pi;  // [1/min]
+  const double speed = car.engine_speed / haptics::kTurnPerMinute;  // [1/min]
   engine_voices().set(world_, speed, load_, 1.0, kEnginePlace);
 }
 

@@ -22,7 +22,7 @@ float pitch_of(double speed, double loop_speed) {
 }
 
 double rpm(const vehicle::VehicleState& car) {
-  return car.engine_speed * 30.0 / std::numbers::pi;
+  return car.engine_speed / haptics::kTurnPerMinute;
 }
 
 }  // namespace

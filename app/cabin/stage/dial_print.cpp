@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include <glm/geometric.hpp>
@@ -135,7 +134,7 @@ DialPrint::DialPrint(const engine::Model& model) {
 bool DialPrint::print(engine::Model& model, double red_line) {
   if (!(red_line > 0.0) || red_line == red_line_) return false;
   red_line_ = red_line;
-  const double from = red_line * 30.0 / std::numbers::pi;
+  const double from = red_line / haptics::kTurnPerMinute;
   for (std::size_t i = 0; i < 2; ++i) {
     engine::Image& picture = model.textures[static_cast<std::size_t>(texture_[i])].pixels;
     RedLinePainter(original_[i], picture, kPrints[i], from).draw();

@@ -10,18 +10,12 @@ namespace gearshift::cabin {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);
 constexpr double kPedalTravel = 20.0 * kDegree;
 constexpr double kHandBrakeTravel = 30.0 * kDegree;
 constexpr double kIdleLimit = 300.0;  // [1/min] oil, battery and engine lamps are lit below this engine speed
 
-bool blinks_now(double time) noexcept {
-  const double phase = time * kBlinkRate;
-  return phase - std::floor(phase) < 0.5;
-}
-
-bool is_lit(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever, double time) noexcept {
-  const double rpm = kRpm * car.engine_speed;
+bool is_lit(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever) noexcept {
+  const double rpm = car.engine_speed / haptics::kTurnPerMinute;
   switch (lamp) {
     case Lamp::oil:
     case Lamp::battery:
@@ -33,9 +27,8 @@ bool is_lit(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSn
     case Lamp::stall:
       return car.ignition && (car.stalled || car.grinding);
     case Lamp::turn_left:
-      return car.turn_left && blinks_now(time);
     case Lamp::turn_right:
-      return car.turn_right && blinks_now(time);
+      return false;  // the road has no turns
     case Lamp::lever:
       return (lever.flags & (haptics::kFlagOverPush | haptics::kFlagSaturated)) != 0;
   }
@@ -49,7 +42,7 @@ double needle_angle(double value, double top) noexcept {
 }
 
 double tach_angle(const vehicle::VehicleState& car) noexcept {
-  return needle_angle(kRpm * car.engine_speed, kTachTop);
+  return needle_angle(car.engine_speed / haptics::kTurnPerMinute, kTachTop);
 }
 
 double speed_angle(const vehicle::VehicleState& car) noexcept {
@@ -75,9 +68,8 @@ double hand_brake_angle(double pulled) noexcept {
   return kHandBrakeTravel * std::clamp(pulled, 0.0, 1.0);
 }
 
-float lamp_light(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever,
-                 double time) noexcept {
-  return is_lit(lamp, car, lever, time) ? 1.0f : 0.0f;
+float lamp_light(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever) noexcept {
+  return is_lit(lamp, car, lever) ? 1.0f : 0.0f;
 }
 
 }  // namespace gearshift::cabin

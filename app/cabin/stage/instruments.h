@@ -1,4 +1,4 @@
-// Instruments (needles, gear display, lamps) and the positions of steering wheel, pedals and handbrake.
+// Instruments (needles, gear display, lamps) and the positions of pedals and handbrake.
 #pragma once
 
 #include <array>
@@ -40,10 +40,7 @@ inline constexpr int kLampCount = 8;
 inline constexpr std::array<const char*, kLampCount> kLampNodes = {
     "LampOil", "LampBattery", "LampHandbrake", "LampEngine", "LampStall", "LampTurnLeft", "LampTurnRight", "LampLever"};
 
-inline constexpr double kBlinkRate = 1.5;  // [Hz] indicators: 90 flashes per minute; UN R6 requires 60 to 120
-
-// Brightness of a lamp, from 0 (dark) to 1 (lit). time [s]: for blinking.
-float lamp_light(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever,
-                 double time) noexcept;
+// Brightness of a lamp, from 0 (dark) to 1 (lit).
+float lamp_light(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever) noexcept;
 
 }  // namespace gearshift::cabin

@@ -60,8 +60,8 @@ struct Stage::State {
   std::optional<Hand> hand;
   std::optional<Gearbox> gearbox;
   std::array<int, kLampCount> lamp{};
-  int lever = engine::kNone, ghost = engine::kNone, boot = engine::kNone, wheel = engine::kNone, tach = engine::kNone,
-      speed = engine::kNone, gear_panel = engine::kNone;
+  int lever = engine::kNone, ghost = engine::kNone, boot = engine::kNone, tach = engine::kNone, speed = engine::kNone,
+      gear_panel = engine::kNone;
   int clutch = engine::kNone, brake = engine::kNone, throttle = engine::kNone, hand_brake = engine::kNone;
   int shift_up = engine::kNone, shift_down = engine::kNone, driven_path = engine::kNone, ideal_path = engine::kNone;
   int beam = engine::kNone, beam_end = engine::kNone;
@@ -94,7 +94,6 @@ struct Stage::State {
     lever = required_node(model, "LeverPivot");
     ghost = required_node(model, "GhostPivot");
     boot = required_node(model, "Boot");
-    wheel = required_node(model, "SteeringWheel");
     tach = required_node(model, "TachNeedle");
     speed = required_node(model, "SpeedNeedle");
     gear_panel = required_node(model, "GearPanel");
@@ -172,7 +171,6 @@ struct Stage::State {
     turn(speed, about(kZ, speed_angle(car) + swing));
     scene.nodes[static_cast<std::size_t>(shift_up)].visible = car.shift_advice > 0;
     scene.nodes[static_cast<std::size_t>(shift_down)].visible = car.shift_advice < 0;
-    turn(wheel, about(kZ, car.steering));
     turn(clutch, about(kX, pedal_angle(car.pedals.clutch)));
     turn(brake, about(kX, pedal_angle(car.pedals.brake)));
     turn(throttle, about(kX, pedal_angle(car.pedals.throttle)));
@@ -180,7 +178,7 @@ struct Stage::State {
     scene.nodes[static_cast<std::size_t>(gear_panel)].uv_shift = gear_field(car.gear);
     for (int i = 0; i < kLampCount; ++i) {
       const auto at = static_cast<std::size_t>(lamp[static_cast<std::size_t>(i)]);
-      scene.nodes[at].emissive = lamp_light(static_cast<Lamp>(i), car, input.lever, input.time);
+      scene.nodes[at].emissive = lamp_light(static_cast<Lamp>(i), car, input.lever);
     }
   }
 

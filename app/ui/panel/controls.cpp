@@ -1,5 +1,9 @@
 #include "app/ui/panel/controls.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
+
 #include "app/ui/panel/palette.h"
 #include "app/ui/panel/text_lines.h"
 #include "engine/ui/ui_style.h"
@@ -62,6 +66,21 @@ bool Controls::button(const char* name, const char* label, ImVec2 size, ImU32 co
   const bool pressed = button(name, label, size);
   ImGui::PopStyleColor(3);
   return pressed;
+}
+
+bool Controls::slider(const char* key, const haptics::FileRange& range, const haptics::Display& display,
+                      double& value) {
+  double shown = display.factor * value;
+  const double min = display.factor * range.min, max = display.factor * range.max;
+  const std::string format = fmt::format("%.{}f {}", display.decimals, display.unit);
+  const int flags = ImGuiSliderFlags_AlwaysClamp | (display.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  ImGui::PushID(key);
+  const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &min, &max, format.c_str(), flags);
+  ImGui::PopID();
+  mark(key);
+  if (changed) value = std::clamp(shown / display.factor, range.min, range.max);
+  return changed;
 }
 
 std::optional<std::string> Controls::choice(const char* name, std::string_view current,

@@ -13,6 +13,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "haptics/files/parameter.h"
+
 namespace gearshift::ui {
 
 struct ControlRect {
@@ -36,6 +38,8 @@ class Controls {
   // converts an option to its displayed text; if null, options are displayed unchanged.
   std::optional<std::string> choice(const char* name, std::string_view current, std::span<const std::string> options,
                                     float width, std::string (*label)(std::string_view) = nullptr);
+  // Draws a slider of the remaining width, in the unit of the display. Returns true if the user changed the value.
+  bool slider(const char* key, const haptics::FileRange& range, const haptics::Display& display, double& value);
   // Draws a dash in the curve's colour, then the text in the small font, e.g. "f_h 12.3 N".
   void legend(ImU32 colour, std::string_view text);
   // Draws one line, at most `width` [px] wide: in the small font if necessary, with an ellipsis as a last resort.

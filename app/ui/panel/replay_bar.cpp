@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <span>
 #include <string>
 
@@ -23,8 +22,7 @@ namespace {
 constexpr float kMaxBarWidth = 80.0f, kOpeningWidth = 36.0f;                    // [em]
 constexpr float kPedalHeight = 2.1f, kSpeedHeight = 2.5f, kForceHeight = 2.1f;  // [em] enough for two axis numbers
 constexpr std::array<double, 5> kPaces{0.1, 0.25, 0.5, 1.0, 2.0};
-constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);  // [rpm] per rad/s
-constexpr double kMinSpan = 1e-3;                         // [s]
+constexpr double kMinSpan = 1e-3;  // [s]
 
 bool begin_bar(const ControlRect& room, float width) {
   const auto max = std::max(engine::ui_em(), static_cast<float>(room.max.y - room.min.y));
@@ -312,9 +310,9 @@ void ReplayBar::draw_curves(const lessons::Player& replay) {
     plot.list().AddLine(plot.at(now, 0.0), plot.at(now, max), ink::kText, 0.1f * em);
   };
   Curves& c = *curves_;
-  const double rpm = 1000.0 * std::max(1.0, std::ceil(kRpm * max_of(c.engine, c.shaft) / 1000.0));
+  const double rpm = 1000.0 * std::max(1.0, std::ceil(max_of(c.engine, c.shaft) / haptics::kTurnPerMinute / 1000.0));
   lane("%", kPedalHeight, 105.0, 100.0, &c.clutch, ink::kAccent, &c.throttle, ink::kGood);
-  lane("rpm", kSpeedHeight, rpm, kRpm, &c.engine, ink::kEngine, &c.shaft, ink::kShaft);
+  lane("rpm", kSpeedHeight, rpm, 1.0 / haptics::kTurnPerMinute, &c.engine, ink::kEngine, &c.shaft, ink::kShaft);
   lane("N", kForceHeight, nice_above(std::max(1.0, 1.05 * max_of(c.force, c.force)), 10.0), 1.0, &c.force, ink::kHand,
        nullptr, 0);
 }

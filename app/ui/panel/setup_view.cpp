@@ -36,20 +36,6 @@ void draw_choice(Controls& controls, const char* key, Enum& value) {
   if (chosen) value = static_cast<Enum>(std::find(names.begin(), names.end(), *chosen) - names.begin());
 }
 
-// The slider shows the value in the unit of the display.
-template <class Number>
-void draw_slider(Controls& controls, const char* key, haptics::FileRange range, const haptics::Display& display,
-                 Number& value) {
-  double shown = display.factor * static_cast<double>(value);
-  const double min = display.factor * range.min, max = display.factor * range.max;
-  const std::string format = fmt::format("%.{}f {}", display.decimals, display.unit);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
-  const int flags = ImGuiSliderFlags_AlwaysClamp | (display.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  if (ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &min, &max, format.c_str(), flags))
-    value = static_cast<Number>(std::clamp(shown / display.factor, range.min, range.max));
-  controls.mark(key);
-}
-
 void draw_parameter(Controls& controls, const auto& parameter, auto& value) {
   using Value = std::remove_cvref_t<decltype(value)>;
   ImGui::AlignTextToFramePadding();
@@ -63,7 +49,8 @@ void draw_parameter(Controls& controls, const auto& parameter, auto& value) {
   } else if constexpr (std::is_enum_v<Value>) {
     draw_choice(controls, parameter.key, value);
   } else {
-    draw_slider(controls, parameter.key, parameter.range, parameter.display, value);
+    double wide = static_cast<double>(value);
+    if (controls.slider(parameter.key, parameter.range, parameter.display, wide)) value = static_cast<Value>(wide);
   }
   ImGui::PopID();
 }

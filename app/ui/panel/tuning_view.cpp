@@ -143,16 +143,10 @@ void TuningView::draw_field(std::size_t index, Controls& controls, const PanelIn
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("%s\nToo low: %s.\nToo high: %s.", field.description, field.too_low, field.too_high);
   put_right(format_stable_range(field, stable), bad ? ink::kBad : ink::kSoft);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   if (bad) ImGui::PushStyleColor(ImGuiCol_Text, ink::kBad);
   if (bad) ImGui::PushStyleColor(ImGuiCol_SliderGrab, ink::kBad);
-  const std::string format = fmt::format("%.{}f {}", field.display.decimals, field.display.unit);
-  ImGui::PushID(field.key);
-  const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &field.range.min, &field.range.max,
-                                           format.c_str(), ImGuiSliderFlags_AlwaysClamp);
-  ImGui::PopID();
+  const bool changed = controls.slider(field.key, field.range, field.display, value);
   if (bad) ImGui::PopStyleColor(2);
-  controls.mark(field.key);
   if (ImGui::IsItemActivated()) same_drag_ = false;
   draw_stable_bar(field, stable, running);
   ImGui::Dummy({0.0f, 0.1f * engine::ui_em()});

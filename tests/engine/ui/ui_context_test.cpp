@@ -85,30 +85,14 @@ TEST_CASE("clicks between two frames all count, each where it was made, and a sc
   for (int i = 0; i < 20; ++i) form.frame();
   CHECK(form.presses == 2);
   CHECK(std::string(form.text) == "x");
-  CHECK_FALSE(form.ui.wants_keys());
 }
 
-TEST_CASE("the mouse belongs to the interface inside a window, and to the scene elsewhere") {
-  Form form;
-  form.frame();
-  form.events.mouse = {static_cast<double>(form.button.x), static_cast<double>(form.button.y)};
-  form.frame();
-  form.frame();
-  CHECK(form.ui.wants_mouse());
-  form.events.mouse = {700, 600};
-  form.frame();
-  form.frame();
-  CHECK_FALSE(form.ui.wants_mouse());
-}
-
-TEST_CASE("the keyboard belongs to the interface while a field is edited, not because a button was clicked") {
+TEST_CASE("text goes to the field that was clicked") {
   Form form;
   form.frame();
   form.click(form.button);
-  CHECK_FALSE(form.ui.wants_keys());
   form.click(form.field);
   form.frame();
-  CHECK(form.ui.wants_keys());
   form.events.steps = {U'5', U'\u00b5'};
   form.frame();
   form.frame();
@@ -128,7 +112,6 @@ TEST_CASE("keys navigate and press: GLFW's key codes are mapped") {
   CHECK(form.presses == 1);
   strike(kKeyDown);
   strike(kKeyUp);
-  CHECK(form.ui.wants_keys());
   strike(kKeySpace);
   CHECK(form.presses == 2);
   form.events.steps = {UiKey{9999, true}, UiKey{-1, true}, UiKey{kKeyA, true}};  // unknown key codes are ignored

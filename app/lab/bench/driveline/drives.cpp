@@ -1,14 +1,11 @@
 #include "app/lab/bench/driveline/drives.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "app/lab/bench/driveline/driveline_rig.h"
 
 namespace gearshift::lab {
 namespace {
-
-constexpr double kPerRpm = std::numbers::pi / 30.0;  // [rad/s]
 
 Drive drive_of(const char* name, double engine, double road, int gear, double duration) {
   Drive drive;
@@ -31,7 +28,8 @@ vehicle::CarSpec hatchback() {
   vehicle::CarSpec car;
   const double table[][2] = {{600, 70},   {1000, 95},  {1500, 115}, {2000, 125}, {3000, 138},
                              {4000, 145}, {5000, 138}, {6000, 117}, {6500, 60},  {7000, 0}};
-  for (const auto& [rpm, torque] : table) car.engine.full_load[car.engine.points++] = {rpm * kPerRpm, torque};
+  for (const auto& [rpm, torque] : table)
+    car.engine.full_load[car.engine.points++] = {rpm * haptics::kTurnPerMinute, torque};
   car.engine.friction = 8.0;
   car.engine.friction_slope = 0.002;
   car.engine.friction_square = 3.5e-5;
@@ -61,7 +59,7 @@ Drive dump_at_idle() {
 }
 
 Drive dump_at_4000() {
-  Drive drive = drive_of("clutch dump at 4000 rpm", 4000.0 * kPerRpm, 0.0, 1, 2.0);
+  Drive drive = drive_of("clutch dump at 4000 rpm", 4000.0 * haptics::kTurnPerMinute, 0.0, 1, 2.0);
   drive.input = [](double t) { return pedals(1, 0.8, ramp(t, 0.02, 0.05, 1.0, 0.0)); };
   return drive;
 }

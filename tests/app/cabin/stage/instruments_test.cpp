@@ -17,8 +17,8 @@ vehicle::VehicleState running(double rpm) {
   return car;
 }
 
-float light(cabin::Lamp lamp, const vehicle::VehicleState& car, double time = 0.0) {
-  return cabin::lamp_light(lamp, car, haptics::HapticSnapshot{}, time);
+float light(cabin::Lamp lamp, const vehicle::VehicleState& car) {
+  return cabin::lamp_light(lamp, car, haptics::HapticSnapshot{});
 }
 
 }  // namespace
@@ -88,30 +88,12 @@ TEST_CASE("the vibration is zero without shudder, and otherwise has zero mean an
   }
 }
 
-TEST_CASE("indicators blink at 1.5 Hz, on half of the time, each side independently") {
-  vehicle::VehicleState car = running(900.0);
-  car.turn_left = true;
-  int lit = 0, edges = 0;
-  bool was = light(cabin::Lamp::turn_left, car, 0.0) > 0.0f;
-  constexpr int kSamples = 20000;  // 20 s in steps of 1 ms
-  for (int i = 0; i < kSamples; ++i) {
-    const bool now = light(cabin::Lamp::turn_left, car, 0.001 * i) > 0.0f;
-    lit += now ? 1 : 0;
-    edges += now != was ? 1 : 0;
-    was = now;
-    CHECK(light(cabin::Lamp::turn_right, car, 0.001 * i) == 0.0f);
-  }
-  CHECK(lit == doctest::Approx(0.5 * kSamples).epsilon(0.01));
-  CHECK(edges >= 59);
-  CHECK(edges <= 60);
-}
-
 TEST_CASE("the lamp at the lever warns of over-push and saturation only") {
   haptics::HapticSnapshot lever;
   for (std::uint32_t bit = 0; bit < 6; ++bit) {
     lever.flags = 1u << bit;
     const bool warns = lever.flags == haptics::kFlagOverPush || lever.flags == haptics::kFlagSaturated;
-    CHECK(cabin::lamp_light(cabin::Lamp::lever, vehicle::VehicleState{}, lever, 0.0) == (warns ? 1.0f : 0.0f));
+    CHECK(cabin::lamp_light(cabin::Lamp::lever, vehicle::VehicleState{}, lever) == (warns ? 1.0f : 0.0f));
   }
 }
 

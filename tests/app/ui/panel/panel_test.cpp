@@ -37,7 +37,7 @@ TEST_CASE("stop, arm, release, record and replay are requested once by a click o
   rig.events.mouse = {640, 300};  // the cabin
   rig.events.mouse_down[0] = true;
   CHECK_FALSE(has<Stop>(rig.frame()));
-  CHECK_FALSE(rig.ui.wants_mouse());
+  CHECK_FALSE(rig.panel.covers({640, 300}));
 }
 
 TEST_CASE("a dragged slider requests tunings within its range, and the running loop accepts each unchanged") {
@@ -228,11 +228,11 @@ TEST_CASE("the check of new settings is repeated when the device changes, even i
 
 TEST_CASE("by keys only: Tab enters the panel, arrows move to STOP, Space presses it, Escape leaves the panel") {
   PanelRig rig;
-  CHECK_FALSE(rig.ui.wants_keys());
+  CHECK_FALSE(rig.panel.has_keyboard());
   rig.press(kRight);  // before Tab, an arrow key moves only the lever
-  CHECK_FALSE(rig.ui.wants_keys());
+  CHECK_FALSE(rig.panel.has_keyboard());
   rig.press(kTab);
-  CHECK(rig.ui.wants_keys());
+  CHECK(rig.panel.has_keyboard());
   bool stopped = false;
   for (int i = 0; i < 6 && !stopped; ++i) {
     rig.press(kRight);
@@ -241,9 +241,9 @@ TEST_CASE("by keys only: Tab enters the panel, arrows move to STOP, Space presse
   CHECK(stopped);
   rig.press(kEscape);
   rig.press(kEscape);
-  CHECK_FALSE(rig.ui.wants_keys());
+  CHECK_FALSE(rig.panel.has_keyboard());
   rig.press(kLeft);
-  CHECK_FALSE(rig.ui.wants_keys());
+  CHECK_FALSE(rig.panel.has_keyboard());
 }
 
 TEST_CASE("Ctrl+Tab moves to the lists for car and gate; from there the arrows reach the tuning and change it") {
@@ -270,9 +270,9 @@ TEST_CASE("Ctrl+Tab moves to the lists for car and gate; from there the arrows r
 TEST_CASE("a click in the panel does not take the keyboard from the car") {
   PanelRig rig;
   rig.click("record");
-  CHECK_FALSE(rig.ui.wants_keys());
+  CHECK_FALSE(rig.panel.has_keyboard());
   rig.press(kDown);
-  CHECK_FALSE(rig.ui.wants_keys());
+  CHECK_FALSE(rig.panel.has_keyboard());
 }
 
 TEST_CASE("a hidden panel draws nothing, ignores the mouse and keeps collecting data") {
