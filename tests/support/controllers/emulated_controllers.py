@@ -146,7 +146,7 @@ def run(devices, command):
 class Plug:
     """Sends a device's events, beneath run(). A program reads them from a pipe in the place of the device file. Like the
     kernel, it gives all events to every reader: as soon as a pipe is opened, another takes its place for the next reader.
-    Create it before the program that reads it."""
+    A reader gets only the events after it has opened its pipe. Create this before the program that reads it."""
 
     IN_OPEN = 0x20
     libc = ctypes.CDLL(None, use_errno=True)
@@ -170,8 +170,8 @@ class Plug:
         """Puts a new pipe in the place of the device file. GLFW would take a deleted file for an unplugged device."""
         made = f"{os.environ['UMOCKDEV_DIR']}/next_{self.device.file}"
         os.mkfifo(made, 0o600)
-        self.pipes.append(os.open(made, os.O_RDWR | os.O_NONBLOCK))
-        Plug.watched[self.libc.inotify_add_watch(Plug.inotify, made.encode(), Plug.IN_OPEN)] = self
+        pipe = os.open(made, os.O_RDWR | os.O_NONBLOCK)
+        Plug.watched[self.libc.inotify_add_watch(Plug.inotify, made.encode(), Plug.IN_OPEN)] = self, pipe
         os.rename(made, self.path)
 
     @staticmethod
@@ -181,8 +181,9 @@ class Plug:
             while data:
                 number, _, _, length = struct.unpack_from("iIII", data)
                 data = data[16 + length:]
-                plug = Plug.watched.pop(number, None)
-                if plug:
+                if number in Plug.watched:
+                    plug, pipe = Plug.watched.pop(number)
+                    plug.pipes.append(pipe)
                     plug.renew()
 
     def send(self, kind, code, value):
@@ -208,7 +209,7 @@ class Plug:
         return f"{os.environ['UMOCKDEV_DIR']}/sys/class/input/{prefix}{self.device.file}"
 
     def unplug(self):
-        Plug.watched = {number: plug for number, plug in Plug.watched.items() if plug is not self}
+        Plug.watched = {number: one for number, one in Plug.watched.items() if one[0] is not self}
         os.unlink(self.path)
         os.rename(self.entry(), self.entry("unplugged_"))
 
