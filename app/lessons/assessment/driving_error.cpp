@@ -44,7 +44,8 @@ using E = DrivingError;
 // are engineering values that still have to be checked with people, unless the row gives a source.
 constexpr std::array<ErrorDescription, kErrorKindCount> kErrors{{
     {ErrorKind::stall, "stall", &E::engine_speed, kInRpm, ErrorRule{0.0, 0.0, kNever, Severity::severe}, "stall",
-     "The engine stalled at {} rpm.", "Use more throttle at the bite point. When you stop, press the clutch in time."},
+     "The engine stalled: it fell from {} rpm within a second.",
+     "Use more throttle at the bite point. When you stop, press the clutch in time."},
     // Relative to the red line.
     {ErrorKind::over_rev, "over_rev", &E::engine_speed, kInRpm, ErrorRule{1.0, 0.98, 1.1, Severity::severe},
      "rev above the red line", "You revved the engine to {} rpm, above its red line.",

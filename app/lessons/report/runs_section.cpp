@@ -18,7 +18,7 @@ std::string format_cost(const DrivingError& error) {
   return title_from_key(to_string(error.severity)) + ":";
 }
 
-// Returns text such as "−2.0 The engine stalled at 350 rpm. (12.4 s into the run, shift 3)", plus advice if `advised`.
+// Returns text such as "−2.0 The engine stalled: .... (12.4 s into the run, shift 3)", plus advice if `advised`.
 std::string error_item(const LessonResult& result, const DrivingError& error, bool advised) {
   const std::string shift = error.shift >= 0 ? fmt::format(", shift {}", error.shift + 1) : std::string();
   const std::string advice =

@@ -86,7 +86,7 @@ TEST_CASE("an error that fails the lesson fails it at any grade, and its sentenc
   const LessonResult result = graded(stalled, lesson_that_catches({ErrorKind::stall}));
   CHECK(result.grade == 8.0);
   CHECK_FALSE(result.passed);
-  CHECK(result.why == "The engine stalled at 859 rpm.");
+  CHECK(result.why == "The engine stalled: it fell from 859 rpm within a second.");
   CHECK(graded(stalled).passed);
 }
 

@@ -117,7 +117,7 @@ TEST_CASE("runs, newest first: day, lesson, mode, grade, result, every error wit
   CHECK(has(rows[0][5], "not passed"));
   CHECK(has(rows[0][5], "Grade 3.5 is below 6.0."));
   CHECK(has(rows[0][6], "−2.0  The clutch came up 0.12 s before the gear was in.  (12.4 s into the run, shift 3)"));
-  CHECK(has(rows[0][6], "−4.5  The engine stalled at 382 rpm.  (30.0 s into the run)"));
+  CHECK(has(rows[0][6], "−4.5  The engine stalled: it fell from 382 rpm within a second.  (30.0 s into the run)"));
   CHECK(has(rows[0][6], "Note: The car jerked (12 m/s³)."));
   CHECK(has(rows[0][6], "Calmer at the bite point."));
   CHECK(has(rows[0][6], "Bo, 2026-01-09 "));

@@ -72,7 +72,8 @@ inline CoachState driven(std::string_view key = "hill_start") {
   coach.now.steps = lesson.steps.size();
   coach.now.prompt = lesson.steps[2].prompt;
   coach.now.hint = lesson.steps[2].hint;
-  coach.now.feedback = {"The lever moved 0.12 s before the clutch was down.", "The engine stalled at 640 rpm."};
+  coach.now.feedback = {"The lever moved 0.12 s before the clutch was down.",
+                        "The engine stalled: it fell from 640 rpm within a second."};
   return coach;
 }
 

@@ -430,7 +430,7 @@ TEST_CASE("after a lesson one click restarts it or offers the next lesson; a gui
   CHECK(says("Emergency stop"));
   rig.show(over(result_of("hill_start", failing_errors())));
   CHECK(says("Not passed"));
-  CHECK(says("The engine stalled at 592 rpm."));
+  CHECK(says("The engine stalled: it fell from 592 rpm within a second."));
   CHECK_FALSE(rig.panel.control_rect("lesson_next").has_value());  // no button: the next lesson is this one
   rig.show(over(result_of("hill_start", some_errors(), true)));
   CHECK(says("graded"));
