@@ -15,16 +15,32 @@
 #include "haptics/files/printable.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/verified_file.h"
+#include "haptics/gate/lockout.h"
 
 namespace gearshift::session {
 namespace {
 
-std::string shift_request(const ui::DriverInput::MissedGear& missed, const haptics::Gate& gate) {
+// In a sequential gate, the driver opens the way into `gear` by holding a control. Empty if nothing locks it out.
+std::optional<ui::Action> opens(const haptics::Gate& gate, int gear) {
+  for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
+    if (!haptics::is_sequential(gate) || haptics::locked_gear(gate, lockout) != gear) continue;
+    if (lockout.kind == haptics::LockoutKind::push_down) return ui::Action::push_down;
+    if (lockout.kind == haptics::LockoutKind::lift) return ui::Action::lift;
+  }
+  return std::nullopt;
+}
+
+std::string shift_request(const ui::DriverInput::MissedGear& missed, const haptics::Gate& gate,
+                          const ui::Bindings& bindings, const std::vector<engine::Controller>& all) {
   const char* name = haptics::gear_name(missed.gear);
-  if (missed.gear != haptics::kNeutralGear && haptics::slot_of_gear(gate, missed.gear) == haptics::kNoSlot)
-    return fmt::format("This gearbox has no gear {}.", name);
-  return missed.of_shifter ? fmt::format("Your shifter is in {}, but the lever is not. Press the clutch.", name)
-                           : fmt::format("The lever did not reach {}. Press the clutch.", name);
+  if (!haptics::has_gear(gate, missed.gear)) return fmt::format("This gearbox has no gear {}.", name);
+  if (missed.of_shifter) return fmt::format("Your shifter is in {}, but the lever is not. Press the clutch.", name);
+  const std::optional<ui::Action> opening = opens(gate, missed.gear);
+  if (!opening) return fmt::format("The lever did not reach {}. Press the clutch.", name);
+  const std::vector<std::string> inputs = ui::bound_inputs(bindings, *opening, all);
+  return fmt::format("{} is locked out. Hold {}{} while you shift down.", name,
+                     *opening == ui::Action::lift ? "the lift ring up" : "the knob down",
+                     inputs.empty() ? "" : fmt::format(" ({})", inputs.front()));
 }
 
 // One name per line. Empty if there is no such file.
@@ -151,7 +167,7 @@ ui::ControlsView ControlsAssistant::view(const haptics::Gate& gate, bool offers)
   request_.clear();
   if (setup_) return {&*setup_, controllers_, {}, {}};
   if (const auto missed = driver_.missed_gear())
-    request_ = shift_request(*missed, gate);
+    request_ = shift_request(*missed, gate, driver_.bindings(), controllers_);
   else if (!problems_.empty())
     request_ = problems_.front();
   return {nullptr, controllers_, offers_, request_};

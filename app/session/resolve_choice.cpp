@@ -20,6 +20,11 @@ namespace {
 
 std::vector<int> gears_of(const haptics::GateLayout& layout) {
   std::vector<int> gears{haptics::kNeutralGear};
+  if (layout.sequential_gears > 0) {
+    gears.push_back(haptics::kReverseGear);
+    for (int gear = 1; gear <= layout.sequential_gears; ++gear) gears.push_back(gear);
+    return gears;
+  }
   for (const haptics::ColumnLayout& column : layout.columns) {
     gears.push_back(column.forward.gear);
     gears.push_back(column.back.gear);
@@ -34,7 +39,9 @@ bool has_gears_of(const vehicle::CarSpec& car, const haptics::GateLayout& layout
   });
 }
 
+// Lessons teach gates with a slot per gear.
 bool has_gears_of(const haptics::GateLayout& layout, const lessons::Lesson& lesson) {
+  if (layout.sequential_gears > 0) return false;
   const std::vector<int> gears = gears_of(layout);
   const auto has = [&gears](int gear) { return std::find(gears.begin(), gears.end(), gear) != gears.end(); };
   return has(lesson.start.gear) &&
@@ -109,6 +116,10 @@ runtime::RuntimeConfig make_runtime_config(const SessionChoice& choice, const Re
   if (choice.hand != kAutomaticHand) return config;
   if (choice.stick)
     throw std::invalid_argument("hand \"by itself\" works only with the simulated lever, not with a stick");
+  if (config.layout.sequential_gears > 0)
+    throw std::invalid_argument(
+        "hand \"by itself\" needs a gate with a slot for each gear, and this one is sequential; choose another gate or "
+        "another hand");
   if (!config.car) throw std::invalid_argument("hand \"by itself\" needs a car; choose a car or another hand");
   config.driver = automatic_driver(config, *config.car, lesson);
   return config;

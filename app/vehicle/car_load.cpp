@@ -62,6 +62,11 @@ double release_clutch(double pedal, double seconds, const PedalTiming& timing, c
   return pedal;
 }
 
+// +1 for a slot in front of the aisle, -1 behind it.
+double side_of(const haptics::Gate& gate, int slot) noexcept {
+  return static_cast<int>(haptics::slot_of(gate, slot).side);
+}
+
 // Fills in the speeds that were left empty.
 CarStart complete_start(const CarSpec& car, CarStart start) {
   const double shaft = shaft_per_road(car, start.gear) * start.road_speed;
@@ -108,7 +113,8 @@ const haptics::Pedals& KeyboardPedals::move(const haptics::PedalKeys& keys, doub
 }
 
 void check_car_fits(const CarSpec& car, const haptics::Gate& gate) {
-  for (const haptics::Slot& slot : haptics::slots(gate)) {
+  const haptics::Gate sleeves = sleeves_of(gate);
+  for (const haptics::Slot& slot : haptics::slots(sleeves)) {
     if (shaft_per_road(car, slot.gear) != 0.0) continue;
     throw std::invalid_argument(
         fmt::format("this gate has a gear {}, but the car \"{}\" does not", haptics::gear_name(slot.gear), car.name));
@@ -121,17 +127,19 @@ CarLoad::CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_lim
       gate_(gate),
       start_(complete_start(car, start)),
       parameters_(format_parameters(car, force_limit, start_, seed)),
+      drum_(gate),
       keyboard_(timing, car.clutch),
       driveline_(car),
-      synchroniser_(car.synchro, gate, force_scale(force_limit), start.gear, seed),
+      synchroniser_(car.synchro, sleeves_of(gate), force_scale(force_limit), start.gear, seed),
       vibration_(car.engine.shudder * force_scale(force_limit)),
       guidance_(gate) {
   check_car_fits(car, gate);
-  for (std::size_t i = 0; i < haptics::slots(gate).size(); ++i) {
-    const haptics::Slot& slot = gate.slot[i];
+  const haptics::Gate sleeves = sleeves_of(gate);
+  for (std::size_t i = 0; i < haptics::slots(sleeves).size(); ++i) {
+    const haptics::Slot& slot = sleeves.slot[i];
     const double per_road = shaft_per_road(car, slot.gear);
     const double ratio = std::abs(per_road) * car.body.wheel_radius / car.gearbox.final_drive;
-    gear_of_slot_[i] = {slot.gear, static_cast<double>(static_cast<int>(slot.side)), per_road, ratio};
+    gear_of_slot_[i] = {slot.gear, per_road, ratio};
   }
   driveline_.place(*start_.engine_speed, *start_.shaft_speed, start_.road_speed, start_.running, start_.stalled);
   state_ = driveline_.state();
@@ -154,7 +162,8 @@ haptics::Pedals CarLoad::move_pedals(const haptics::Pedals& axes, const haptics:
 }
 
 haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period) noexcept {
-  const SleeveInput lever = sleeve_input(in);
+  const ShiftDrum::Sleeve moved = drum_.turn(in);
+  const SleeveInput lever = sleeve_input(in, moved);
   const SleeveOutput sleeve = synchroniser_.step(lever, period);
   const haptics::DriverControls& driver = in.controls;
   DrivelineInput drive;
@@ -170,13 +179,12 @@ haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period)
 
   haptics::LeverOutput out;
   out.road_speed = state_.road_speed;
-  if (lever.slot != haptics::kNoSlot) {
-    const double side = gear_of_slot_[static_cast<std::size_t>(lever.slot)].side;
-    out.force.y = side * sleeve.force;
-    out.vibration.y = side * sleeve.rattle;
-    out.limited_slot = lever.slot;
-    out.depth_min = sleeve.depth_min;
-    out.depth_max = sleeve.depth_max;
+  if (in.slot != haptics::kNoSlot && lever.slot != haptics::kNoSlot && moved.way != 0.0) {
+    const double towards = side_of(gate_, in.slot) * moved.way;
+    out.force.y = towards * sleeve.force;
+    out.vibration.y = towards * sleeve.rattle;
+    out.limited_slot = in.slot;
+    limit_lever(sleeve, moved.way, out);
   }
   const double vibration = vibration_.step(state_.shudder, state_.engine_speed, period);
   out.force.y += vibration;
@@ -185,15 +193,29 @@ haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period)
   return out;
 }
 
-SleeveInput CarLoad::sleeve_input(const haptics::LeverInput& in) const noexcept {
+// The walls of a sleeve that moves out are walls of the lever in reverse order.
+void CarLoad::limit_lever(const SleeveOutput& sleeve, double way, haptics::LeverOutput& out) const noexcept {
+  const bool is_limited_inward = sleeve.depth_max < std::numeric_limits<double>::max();
+  if (way > 0.0) {
+    out.depth_min = sleeve.depth_min;
+    out.depth_max = sleeve.depth_max;
+    return;
+  }
+  if (is_limited_inward) out.depth_min = std::max(0.0, drum_.lever_depth(sleeve.depth_max));
+  if (sleeve.depth_min > 0.0) out.depth_max = drum_.lever_depth(sleeve.depth_min);
+}
+
+SleeveInput CarLoad::sleeve_input(const haptics::LeverInput& in, const ShiftDrum::Sleeve& sleeve) const noexcept {
   SleeveInput lever;
-  lever.slot = in.slot;
+  lever.slot = sleeve.slot;
   lever.clutch_open = clutch_capacity(car_.clutch, in.controls.pedals.clutch) <= 0.0;
-  if (in.slot == haptics::kNoSlot) return lever;
-  const SlotGear& gear = gear_of_slot_[static_cast<std::size_t>(in.slot)];
-  lever.depth = in.depth;
-  lever.push = gear.side * finite_or_zero(in.push.y);
-  lever.feel = haptics::feel_force(haptics::slot_of(gate_, in.slot).feel, in.depth);
+  if (sleeve.slot == haptics::kNoSlot) return lever;
+  const SlotGear& gear = gear_of_slot_[static_cast<std::size_t>(sleeve.slot)];
+  lever.depth = sleeve.depth;
+  if (in.slot != haptics::kNoSlot && sleeve.way != 0.0) {
+    lever.push = sleeve.way * side_of(gate_, in.slot) * finite_or_zero(in.push.y);
+    lever.feel = sleeve.way * haptics::feel_force(haptics::slot_of(gate_, in.slot).feel, in.depth);
+  }
   lever.difference = difference(gear);
   lever.load = driveline_.state().drive_torque / car_.gearbox.final_drive;
   return lever;

@@ -12,6 +12,7 @@
 #include "app/vehicle/driveline.h"
 #include "app/vehicle/engine_shudder.h"
 #include "app/vehicle/hand_guidance.h"
+#include "app/vehicle/shift_drum.h"
 #include "app/vehicle/synchroniser.h"
 #include "app/vehicle/vehicle_state.h"
 #include "haptics/gate/gate.h"
@@ -80,6 +81,7 @@ class CarLoad final : public haptics::LeverLoad {
   // Returns "car", the exact values from which make_car_load() rebuilds this load, and the text of the car file. Pedals
   // that keys press are left out, see LeverLoad::move_pedals().
   const char* replay_parameters() const noexcept override { return parameters_.c_str(); }
+  int start_gear() const noexcept override { return start_.gear; }
   const CarSpec& spec() const noexcept { return car_; }
   const VehicleState& state() const noexcept { return state_; }
   const Driveline& driveline() const noexcept { return driveline_; }
@@ -87,12 +89,12 @@ class CarLoad final : public haptics::LeverLoad {
  private:
   struct SlotGear {
     int gear = haptics::kNeutralGear;
-    double side = 1.0;      // side of the slot: +1 forward, -1 back
     double per_road = 0.0;  // [rad/m] shaft speed divided by road speed
     double ratio = 1.0;     // [1] shaft speed divided by the speed of the gear, > 0
   };
 
-  SleeveInput sleeve_input(const haptics::LeverInput& in) const noexcept;
+  SleeveInput sleeve_input(const haptics::LeverInput& in, const ShiftDrum::Sleeve& sleeve) const noexcept;
+  void limit_lever(const SleeveOutput& sleeve, double way, haptics::LeverOutput& out) const noexcept;
   double difference(const SlotGear& gear) const noexcept;
   void update_state(const haptics::DriverControls& controls, const SleeveInput& lever,
                     const SleeveOutput& sleeve) noexcept;
@@ -101,7 +103,8 @@ class CarLoad final : public haptics::LeverLoad {
   haptics::Gate gate_;
   CarStart start_;
   std::string parameters_;
-  std::array<SlotGear, haptics::kMaxSlots> gear_of_slot_{};
+  ShiftDrum drum_;
+  std::array<SlotGear, haptics::kMaxSlots> gear_of_slot_{};  // by slot of sleeves_of()
   KeyboardPedals keyboard_;
   Driveline driveline_;
   Synchroniser synchroniser_;

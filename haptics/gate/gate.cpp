@@ -14,6 +14,18 @@ int nearest_column(const Gate& gate, double x) noexcept {
   return nearest;
 }
 
+bool has_gear(const Gate& gate, int gear) noexcept {
+  if (is_sequential(gate)) return gear >= kReverseGear && gear <= gate.sequential_gears;
+  return gear == kNeutralGear || slot_of_gear(gate, gear) != kNoSlot;
+}
+
+int gear_behind(const Gate& gate, int slot, int engaged) noexcept {
+  const int gear = slot_of(gate, slot).gear;
+  if (!is_sequential(gate)) return gear;
+  const int next = engaged + (gear == kNextGear ? 1 : -1);
+  return has_gear(gate, next) ? next : engaged;
+}
+
 int slot_of_gear(const Gate& gate, int gear) noexcept {
   for (int i = 0; i < gate.slot_count; ++i) {
     if (slot_of(gate, i).gear == gear) return i;
@@ -29,6 +41,8 @@ glm::dvec2 rest_position(const Gate& gate, int gear) noexcept {
 }
 
 const char* gear_name(int gear) noexcept {
+  if (gear == kNextGear) return "+";
+  if (gear == kPreviousGear) return "-";
   static constexpr const char* kNames[] = {"R", "N", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
   static_assert(std::size(kNames) == kMaxGear - kReverseGear + 1);
   return gear >= kReverseGear && gear <= kMaxGear ? kNames[gear - kReverseGear] : "?";

@@ -8,6 +8,10 @@
 //    --+---+---+--         neutral aisle, |y| <= half_aisle
 //      1   3   5           slot: the branch of a column that ends in a gear
 //
+// A sequential gate has one column. Each stroke into one of its slots turns the shift drum by one gear, and a spring
+// returns the lever. The order is that of racing gearboxes and of simulators, for example of TORCS
+// (src/drivers/human/human.cpp): R N 1 2 3 ..., where neutral and reverse may be locked out on the way down.
+//
 // Axes: x = select (right +), y = shift (forward +), origin at neutral centre. [m]
 #pragma once
 
@@ -29,6 +33,10 @@ inline constexpr int kMaxLockouts = 16;
 inline constexpr int kReverseGear = -1;
 inline constexpr int kNeutralGear = 0;
 inline constexpr int kMaxGear = 9;
+// The slots of a sequential gate: they lead to the next and to the previous gear of R N 1 2 3 ...
+inline constexpr int kNextGear = 100;
+inline constexpr int kPreviousGear = 101;
+inline constexpr int kAnyGear = -2;
 inline constexpr int kNoSlot = -1;
 inline constexpr double kKmhPerMps = 3.6;  // road speed is in km/h in files and on screen, in m/s in the code
 inline constexpr double kTurnPerMinute = std::numbers::pi / 30.0;  // [rad/s]
@@ -87,6 +95,7 @@ struct Lockout {
   double barrier = 0.0;  // [m] x of the wall, if lateral
   int beyond = 0;        // if lateral: the blocked side of the barrier, -1 (left) or +1 (right)
   int after_gear = kNeutralGear;
+  int from_gear = kAnyGear;  // the wall stands only while this gear is engaged; for sequential gates
   double close_above = 0.0;  // [m/s] road speed
   double open_below = 0.0;   // [m/s] road speed, less than close_above
 };
@@ -101,6 +110,7 @@ struct Gate {
   int slot_count = 0;
   int lockout_count = 0;
   int buffer_count = 0;
+  int sequential_gears = 0;  // number of forward gears of a sequential gate; 0: each gear has its own slot
   std::array<Column, kMaxColumns> column{};
   std::array<Slot, kMaxSlots> slot{};
   std::array<Lockout, kMaxLockouts> lockout{};
@@ -133,13 +143,24 @@ inline const Slot& slot_of(const Gate& gate, int index) noexcept {
 // Index of the column whose centre is nearest to x.
 int nearest_column(const Gate& gate, double x) noexcept;
 
-// Index of the slot of `gear`; kNoSlot if the gate has no such gear.
+inline bool is_sequential(const Gate& gate) noexcept {
+  return gate.sequential_gears > 0;
+}
+
+// True for a gear that can be engaged, neutral included.
+bool has_gear(const Gate& gate, int gear) noexcept;
+
+// The gear that the lever engages at the end of `slot` while `engaged` is engaged. At the end of a sequence it is
+// `engaged` itself.
+int gear_behind(const Gate& gate, int slot, int engaged) noexcept;
+
+// Index of the slot of `gear`; kNoSlot if the gate has no such gear, or is sequential.
 int slot_of_gear(const Gate& gate, int gear) noexcept;
 
 // Position [m] of the lever at rest in a gear. In neutral this is the neutral column's junction.
 glm::dvec2 rest_position(const Gate& gate, int gear) noexcept;
 
-// Name of a gear: "R", "N", "1", "2", ...; "?" for gears above kMaxGear.
+// Name of a gear: "R", "N", "1", "2", ...; "+" and "-" for the slots of a sequential gate; otherwise "?".
 const char* gear_name(int gear) noexcept;
 
 // True if the point is in free space with all lockouts open. `slack` [m] moves every wall outwards.

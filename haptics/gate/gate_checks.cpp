@@ -105,6 +105,7 @@ void check_junctions(const GateLayout& layout) {
 }
 
 void check_gears(const GateLayout& layout) {
+  if (layout.sequential_gears > 0) return;  // read_gate_layout() has checked the number
   constexpr std::size_t kGears = kMaxGear - kReverseGear + 1;
   const auto at = [](int gear) {
     const int index = gear - kReverseGear;
@@ -254,15 +255,16 @@ void check_lockouts(const GateLayout& layout) {
          "a gate can have at most " + std::to_string(kMaxLockouts) + " lockouts");
   }
   for (const LockoutLayout& lockout : layout.lockouts) {
+    if (lockout.kind == LockoutKind::speed && !(lockout.open_below < lockout.close_above)) {
+      fail(layout, lockout.line,
+           "open_below_kmh must be smaller than close_above_kmh, or the lockout would open and close rapidly");
+    }
+    if (layout.sequential_gears > 0) continue;
     if (lockout.gear == kNeutralGear || column_of_gear(layout, lockout.gear) < 0) {
       fail(layout, lockout.line,
            "this lockout is for gear " + std::string(gear_name(lockout.gear)) + ", but the gate has no such gear");
     }
     if (lockout.kind == LockoutKind::after_gear) check_after_gear(layout, lockout);
-    if (lockout.kind == LockoutKind::speed && !(lockout.open_below < lockout.close_above)) {
-      fail(layout, lockout.line,
-           "open_below_kmh must be smaller than close_above_kmh, or the lockout would open and close rapidly");
-    }
   }
 }
 

@@ -78,7 +78,11 @@ void add_lockout(Gate& gate, const LockoutLayout& from, const GateLayout& layout
   lockout.after_gear = from.after_gear;
   lockout.close_above = from.close_above;
   lockout.open_below = from.open_below;
-
+  if (is_sequential(gate)) {
+    lockout.slot = slot_of_gear(gate, kPreviousGear);
+    lockout.from_gear = from.gear + 1;
+    return;
+  }
   const int column = slot_of(gate, lockout.slot).column;
   lockout.lateral = can_be_lateral(gate, column, from.kind, layout);
   if (!lockout.lateral) return;
@@ -99,6 +103,7 @@ Gate compile_gate(const GateLayout& layout, glm::dvec2 workspace, double radius)
   gate.select_min = layout.columns.front().position - layout.slot_width / 2.0;
   gate.select_max = layout.columns.back().position + layout.slot_width / 2.0;
   gate.neutral_column = layout.neutral_column;
+  gate.sequential_gears = layout.sequential_gears;
   for (const ColumnLayout& column : layout.columns) add_column(gate, column, layout);
   add_buffers(gate, layout);
   for (const LockoutLayout& lockout : layout.lockouts) add_lockout(gate, lockout, layout);

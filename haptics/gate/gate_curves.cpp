@@ -67,6 +67,11 @@ std::vector<FeelKnot> slot_knots(const GateLayout& layout) {
 
   std::vector<FeelKnot> knots = aisle_knots(layout);
   if (s.mouth > s.plateau) knots.push_back({s.mouth, -feel.aisle_force, 0.0});
+  if (layout.sequential_gears > 0) {  // behind the crest the drum falls into the gear; the lever always returns
+    knots.push_back({s.crest, -feel.detent_force, 0.0});
+    knots.push_back({s.lock, -feel.aisle_force, 0.0});
+    return knots;
+  }
   knots.push_back({s.bump, -feel.mouth_force, 0.0});
   knots.push_back({s.low, -low, 0.0});
   knots.push_back({s.crest, -feel.detent_force, 0.0});

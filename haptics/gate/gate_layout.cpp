@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "haptics/files/parameter_file.h"
@@ -26,6 +27,13 @@ int read_gear(const TomlTable& table, std::string_view key) {
   int gear = kReverseGear;
   while (word != gear_name(gear)) ++gear;
   return gear;
+}
+
+// A lockout of a sequential gate may also bar the way from first to neutral.
+int read_locked_gear(const TomlTable& table, bool is_sequential) {
+  if (!is_sequential) return read_gear(table, "gear");
+  const std::vector<std::string> names{gear_name(kReverseGear), gear_name(kNeutralGear)};
+  return table.choice("gear", names) == names.front() ? kReverseGear : kNeutralGear;
 }
 
 SlotLayout read_slot(const TomlTable& column, std::string_view key) {
@@ -68,6 +76,22 @@ void read_columns(const TomlTable& root, GateLayout& layout) {
   }
 }
 
+// A sequential gate has one column, whose slots are the strokes up and down.
+void read_sequence(const TomlTable& root, GateLayout& layout) {
+  const TomlTable table = root.table("sequential");
+  if (root.has("column")) root.fail("column", "must be left out, because [sequential] makes the only column");
+  const double gears = table.number("gears", {1.0, kMaxGear});
+  if (gears != std::floor(gears)) table.fail("gears", "must be a whole number");
+  layout.sequential_gears = static_cast<int>(gears);
+  const bool pulls_up = table.choice("up", {"back", "forward"}) == "back";
+  ColumnLayout column;
+  column.line = table.line();
+  column.forward = {pulls_up ? kPreviousGear : kNextGear, table.line("up")};
+  column.back = {pulls_up ? kNextGear : kPreviousGear, table.line("up")};
+  layout.columns.push_back(column);
+  table.reject_unknown_keys();
+}
+
 void read_gate(const TomlTable& table, GateLayout& layout) {
   read_parameters(table, layout);
   layout.lines.gate = table.line();
@@ -93,11 +117,13 @@ LockoutKind read_kind(const TomlTable& table) {
 
 // Reads the speeds only for a speed lockout. In any other lockout they are therefore rejected as unknown keys instead
 // of being ignored.
-LockoutLayout read_lockout(const TomlTable& table) {
+LockoutLayout read_lockout(const TomlTable& table, bool is_sequential) {
   LockoutLayout lockout;
   lockout.line = table.line();
-  lockout.gear = read_gear(table, "gear");
+  lockout.gear = read_locked_gear(table, is_sequential);
   lockout.kind = read_kind(table);
+  if (is_sequential && lockout.kind == LockoutKind::after_gear)
+    table.fail("kind", "must be push_down, lift or speed in a sequential gate");
   if (lockout.kind == LockoutKind::after_gear) lockout.after_gear = read_gear(table, "after");
   if (lockout.kind == LockoutKind::speed) read_parameters(table, lockout);
   table.reject_unknown_keys();
@@ -118,8 +144,12 @@ GateLayout parse_gate_layout(std::string_view text, std::string file_name) {
   layout.name = root.text("name");
   if (root.has("gate")) read_gate(root.table("gate"), layout);
   if (root.has("feel")) read_feel(root.table("feel"), layout);
-  read_columns(root, layout);
-  for (const TomlTable& table : root.tables("lockout")) layout.lockouts.push_back(read_lockout(table));
+  if (root.has("sequential"))
+    read_sequence(root, layout);
+  else
+    read_columns(root, layout);
+  for (const TomlTable& table : root.tables("lockout"))
+    layout.lockouts.push_back(read_lockout(table, layout.sequential_gears > 0));
   root.reject_unknown_keys();
   return layout;
 }

@@ -45,7 +45,7 @@ struct FeelLayout {
   double aisle_force = 1.0;   // [N] centres the lever fore and aft in the neutral aisle
   double mouth_force = 4.0;   // [N] resists entering a slot's mouth
   double detent_force = 6.0;  // [N] resists the lever before a gear engages
-  double lock_force = 12.0;   // [N] resists pulling the lever out of an engaged gear
+  double lock_force = 12.0;   // [N] resists pulling the lever out of an engaged gear; none in a sequential gate
   double buffer_force = 4.0;  // [N] deflects the lever in the buffer of a closed junction
 };
 
@@ -61,6 +61,7 @@ struct GateLayout {
   std::string file;                   // for messages
   std::string text;                   // content of the layout file, for storing in traces
   std::vector<ColumnLayout> columns;  // in order from left to right
+  int sequential_gears = 0;           // as in Gate; there is one column, with the slots kNextGear and kPreviousGear
   int neutral_column = 0;
   double aisle_width = 0.012;  // [m] width of the neutral aisle, from wall to wall
   double slot_width = 0.010;   // [m] width of a slot, from wall to wall
@@ -84,7 +85,8 @@ inline constexpr Parameter<GateLayout> kParameters<GateLayout>[] = {
      "Leg of a slot's 45 degree corners."},
 };
 static_assert(describes_all(&GateLayout::name, &GateLayout::file, &GateLayout::text, &GateLayout::columns,
-                            &GateLayout::neutral_column, &GateLayout::feel, &GateLayout::lockouts, &GateLayout::lines));
+                            &GateLayout::sequential_gears, &GateLayout::neutral_column, &GateLayout::feel,
+                            &GateLayout::lockouts, &GateLayout::lines));
 
 template <>
 inline constexpr Parameter<ColumnLayout> kParameters<ColumnLayout>[] = {

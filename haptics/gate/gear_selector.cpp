@@ -21,15 +21,29 @@ int gear_at(const Gate& gate, glm::dvec2 proxy, int engaged) noexcept {
 }  // namespace
 
 int GearSelector::update(const Gate& gate, glm::dvec2 proxy, double period) noexcept {
-  const int current = gear_at(gate, proxy, gear_);
+  const int current = gear_at(gate, proxy, lever_);
   if (current != candidate_) {
     candidate_ = current;
     candidate_time_ = 0.0;
   } else {
     candidate_time_ += period;
   }
-  if (candidate_ != gear_ && candidate_time_ >= debounce_) gear_ = candidate_;
+  if (candidate_ != lever_ && candidate_time_ >= debounce_) lever_ = candidate_;
+  if (is_sequential(gate))
+    turn_drum(gate, proxy);
+  else
+    gear_ = lever_;
   return gear_;
+}
+
+void GearSelector::turn_drum(const Gate& gate, glm::dvec2 proxy) noexcept {
+  if (lever_ == kNeutralGear) {
+    if (slot_at(gate, proxy) == kNoSlot) is_ready_ = true;
+    return;
+  }
+  if (!is_ready_) return;
+  gear_ = gear_behind(gate, slot_of_gear(gate, lever_), gear_);
+  is_ready_ = false;
 }
 
 }  // namespace gearshift::haptics

@@ -9,12 +9,23 @@ namespace {
 
 constexpr double kSideTolerance = 1e-9;  // [m] tolerance for rounding at the sides of a slot
 
-bool is_beyond(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy) noexcept {
-  if (lockout.lateral) return lockout.beyond * (proxy.x - lockout.barrier) > 0.0;
-  const Slot& slot = slot_of(gate, lockout.slot);
+bool is_past_mouth(const Gate& gate, const Slot& slot, glm::dvec2 proxy) noexcept {
   const Column& column = column_of(gate, slot.column);
   const bool in_slot = std::abs(proxy.x - column.center) <= column.half_width + gate.chamfer + kSideTolerance;
   return in_slot && static_cast<int>(slot.side) * proxy.y > gate.half_aisle + gate.chamfer;
+}
+
+bool is_beyond(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy) noexcept {
+  if (lockout.lateral) return lockout.beyond * (proxy.x - lockout.barrier) > 0.0;
+  return is_past_mouth(gate, slot_of(gate, lockout.slot), proxy);
+}
+
+// The shift drum does not turn beyond its first and last gear.
+void close_ends(const Gate& gate, int engaged, glm::dvec2 proxy, Passage& passage) noexcept {
+  for (int i = 0; i < gate.slot_count; ++i) {
+    const bool ends = gear_behind(gate, i, engaged) == engaged;
+    if (ends && !is_past_mouth(gate, slot_of(gate, i), proxy)) passage.closed |= 1u << i;
+  }
 }
 
 bool has_left_column(const Gate& gate, int gear, glm::dvec2 proxy) noexcept {
@@ -74,10 +85,18 @@ Passage Lockouts::update(const Gate& gate, const LockoutInputs& in, glm::dvec2 p
     if (lockout.kind == LockoutKind::speed || lockout.kind == LockoutKind::after_gear) {
       latched_ = is_latched(gate, lockout, in, proxy, latched_ & bit) ? latched_ | bit : latched_ & ~bit;
     }
-    if (is_locked(lockout, in, latched_ & bit) && !is_beyond(gate, lockout, proxy)) add_to_passage(lockout, passage);
+    const bool applies = lockout.from_gear == kAnyGear || lockout.from_gear == in.gear;
+    if (applies && is_locked(lockout, in, latched_ & bit) && !is_beyond(gate, lockout, proxy))
+      add_to_passage(lockout, passage);
     bit <<= 1;
   }
+  if (is_sequential(gate)) close_ends(gate, in.gear, proxy, passage);
   return passage;
+}
+
+int locked_gear(const Gate& gate, const Lockout& lockout) noexcept {
+  const int engaged = lockout.from_gear == kAnyGear ? kNeutralGear : lockout.from_gear;
+  return gear_behind(gate, lockout.slot, engaged);
 }
 
 std::string describe(const Lockout& lockout) {

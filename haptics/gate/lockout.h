@@ -40,6 +40,7 @@ class Lockouts {
   std::uint32_t latched_ = 0;  // one bit per lockout: 1 if closed by speed or by the last gear
 };
 
+int locked_gear(const Gate& gate, const Lockout& lockout) noexcept;  // the gear that is out of reach while it is closed
 std::string describe(const Lockout& lockout);  // for example "closed above 20, open below 15 km/h"
 
 }  // namespace gearshift::haptics

@@ -80,7 +80,7 @@ HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevic
       estimator_(config.estimator, period_, spec_.position_step, config.guard.stale_time),
       observer_(device.spec(), period_),
       limiter_(device.spec(), period_),
-      selector_(config.gear_debounce),
+      selector_(config.gear_debounce, is_sequential(gate) ? load.start_gear() : kNeutralGear),
       guard_(guard_of(config, device.spec()), device.spec(), period_, config.contact.energy_control),
       stiffest_feel_(max_feel_stiffness(gate)),
       passage_(open_passage(gate)),

@@ -78,6 +78,8 @@ class LeverLoad {
   virtual LeverOutput step(const LeverInput& in, double period) noexcept = 0;  // period [s]
   // Text that identifies the model and its parameters in a trace; a replay rejects a different model.
   virtual const char* replay_parameters() const noexcept = 0;
+  // The gear that a sequential gate is in before the first step. A replay gets it from the same text.
+  virtual int start_gear() const noexcept { return kNeutralGear; }
 };
 
 class NoLoad final : public LeverLoad {

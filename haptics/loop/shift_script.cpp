@@ -48,10 +48,12 @@ class StrokeWriter {
   std::vector<HandStroke> strokes_;
 };
 
-bool has_lockout(const Gate& gate, int slot, LockoutKind kind, int after_gear = kNeutralGear) {
+// `gear`: the engaged gear.
+bool has_lockout(const Gate& gate, int slot, LockoutKind kind, int gear) {
   return std::any_of(gate.lockout.begin(), gate.lockout.begin() + gate.lockout_count, [&](const Lockout& lockout) {
+    if (lockout.from_gear != kAnyGear && lockout.from_gear != gear) return false;
     return lockout.slot == slot && lockout.kind == kind &&
-           (kind != LockoutKind::after_gear || lockout.after_gear == after_gear);
+           (kind != LockoutKind::after_gear || lockout.after_gear == gear);
   });
 }
 
@@ -79,6 +81,23 @@ double lean_at(const Gate& gate, double x, double direction) {
   return ends_gate ? std::copysign(half_width + kLean, direction) : 0.0;
 }
 
+// Strokes of a sequential gate until `to` is engaged; ends in the neutral aisle. Returns the gear that is engaged then.
+int shift_in_sequence(const Gate& gate, int gear, int to, const ShiftStyle& style, StrokeWriter& writer) {
+  while (gear != to && has_gear(gate, to)) {
+    const int index = slot_of_gear(gate, to > gear ? kNextGear : kPreviousGear);
+    const Slot& slot = slot_of(gate, index);
+    const double x = column_of(gate, slot.column).center;
+    const bool opens = style.opens_lockouts;
+    writer.hold(opens && has_lockout(gate, index, LockoutKind::push_down, gear),
+                opens && has_lockout(gate, index, LockoutKind::lift, gear));
+    writer.move_to({x, static_cast<int>(slot.side) * (slot.end + (style.leans ? kLean : 0.0))}, style.dwell_gear);
+    writer.hold(false, false);
+    writer.move_to({x, 0.0}, style.dwell_neutral);
+    gear = gear_behind(gate, index, gear);
+  }
+  return gear;
+}
+
 }  // namespace
 
 std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<const int> gears,
@@ -89,15 +108,20 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
     if (std::abs(direction) <= column_at(gate, x).half_width + 1.01 * kLean) return;  // already in the right column
     writer.move_to({x + (style.leans ? lean_at(gate, x, direction) : 0.0), 0.0}, style.dwell_neutral);
   };
-  int gear = kNeutralGear;
+  int gear = style.engaged;
   for (const int next : gears) {
     const int index = slot_of_gear(gate, next);
     const dvec2 rest = rest_position(gate, next);
     if (slot_at(gate, writer.at()) != kNoSlot) writer.move_to({writer.at().x, 0.0}, style.dwell_neutral);
+    if (is_sequential(gate)) {
+      gear = shift_in_sequence(gate, gear, next, style, writer);
+      continue;
+    }
     if (has_lockout(gate, index, LockoutKind::after_gear, gear)) {
       writer.move_to({detour_x(gate, rest.x), 0.0}, style.dwell_neutral);
     }
-    writer.hold(has_lockout(gate, index, LockoutKind::push_down), has_lockout(gate, index, LockoutKind::lift));
+    writer.hold(has_lockout(gate, index, LockoutKind::push_down, gear),
+                has_lockout(gate, index, LockoutKind::lift, gear));
     select(rest.x);
     if (index != kNoSlot) {
       const Slot& slot = gate.slot[static_cast<std::size_t>(index)];
@@ -112,6 +136,12 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
 
 std::vector<int> tour_order(const Gate& gate) {
   std::vector<int> order;
+  if (is_sequential(gate)) {
+    for (int gear = 1; gear <= gate.sequential_gears; ++gear) order.push_back(gear);
+    for (int gear = gate.sequential_gears - 1; gear >= kReverseGear; --gear)
+      if (gear != kNeutralGear) order.push_back(gear);
+    return order;
+  }
   order.reserve(static_cast<std::size_t>(gate.slot_count));
   for (const Slot& slot : slots(gate)) order.push_back(slot.gear);
   std::sort(order.begin(), order.end());

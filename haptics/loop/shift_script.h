@@ -17,15 +17,18 @@ struct ShiftStyle {
   // true: the scripted hand aims 1.5 mm beyond end walls and end stops, as a human hand does; false: it aims at the
   // gear's rest position
   bool leans = true;
+  int engaged = kNeutralGear;  // gear of a sequential gate at the start
+  bool opens_lockouts = true;  // presses the knob or lifts the ring where a lockout requires it
 };
 
 // Strokes from `start` [m] (in free space) through the gears in order (kNeutralGear is allowed): out of the slot, along
 // the neutral aisle (via the neutral column if a lockout requires it), into the slot. The knob is pushed down or lifted
-// where a lockout requires it.
+// where a lockout requires it. In a sequential gate, one stroke and back for each gear on the way.
 std::vector<HandStroke> shift_strokes(const Gate& gate, glm::dvec2 start, std::span<const int> gears,
                                       const ShiftStyle& style = {});
 
-// All gears of the gate in the order of the paper's Fig. 9: forward gears rising, then reverse.
+// All gears of the gate in the order of the paper's Fig. 9: forward gears rising, then reverse. In a sequential gate, the
+// forward gears come again on the way down.
 std::vector<int> tour_order(const Gate& gate);
 
 // Hand settings for the tour through all gears, the benchmarks and the tests. The effort compensates for the low

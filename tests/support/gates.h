@@ -20,6 +20,9 @@ inline haptics::Gate paper_gate() {
   return shipped_gate("paper");
 }
 
+inline constexpr const char* kSequentialGate = "sequential_six";
+
+// The shipped gates with a slot per gear.
 inline std::vector<std::string> shipped_names() {
   return {"paper",
           "five_speed_r_left_up",

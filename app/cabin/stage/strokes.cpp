@@ -38,6 +38,10 @@ std::vector<Line> glyph(int gear) {
       arc(a, {0.32, 0.74}, {0.24, 0.26}, 90.0, -90.0);
       a.emplace_back(0.06, 0.48);
       return {a, {{0.30, 0.48}, {0.58, 0.0}}};
+    case haptics::kNextGear:
+      return {{{0.04, 0.5}, {0.56, 0.5}}, {{0.30, 0.24}, {0.30, 0.76}}};
+    case haptics::kPreviousGear:
+      return {{{0.04, 0.5}, {0.56, 0.5}}};
     case haptics::kNeutralGear:
       return {{{0.04, 0.0}, {0.04, 1.0}, {0.56, 0.0}, {0.56, 1.0}}};
     case 1:

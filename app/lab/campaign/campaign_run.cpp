@@ -268,7 +268,10 @@ std::vector<haptics::GateLayout> shipped_layouts(const std::filesystem::path& fo
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<haptics::GateLayout> layouts;
-  for (const std::filesystem::path& file : files) layouts.push_back(haptics::read_gate_layout(file));
+  for (const std::filesystem::path& file : files) {
+    const haptics::GateLayout layout = haptics::read_gate_layout(file);
+    if (layout.sequential_gears == 0) layouts.push_back(layout);
+  }
   return layouts;
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/lab/gate/gate_report.h"
+#include "haptics/gate/lockout.h"
 
 namespace gearshift::lab {
 namespace {
@@ -83,7 +84,7 @@ Json gears_json(const GateReport& report) {
 Json lockouts_json(const haptics::Gate& gate) {
   Json all = Json::array();
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
-    Json one = {{"gear", haptics::gear_name(haptics::slot_of(gate, lockout.slot).gear)},
+    Json one = {{"gear", haptics::gear_name(haptics::locked_gear(gate, lockout))},
                 {"kind", haptics::to_string(lockout.kind)}};
     one["barrier_x_mm"] = lockout.lateral ? Json(millimetres(lockout.barrier)) : Json(nullptr);
     if (lockout.kind == haptics::LockoutKind::after_gear) one["after"] = haptics::gear_name(lockout.after_gear);

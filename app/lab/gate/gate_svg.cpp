@@ -114,7 +114,7 @@ void draw_legend(base::Svg& svg, const haptics::Gate& gate, glm::dvec2 at) {
   legend.line({base::kClosedColour, lessons::kStopWidth}, "closed side of a junction");
   if (gate.buffer_count > 0) legend.buffer("buffer: deflects the lever into the slots");
   for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
-    const char* gear = haptics::gear_name(haptics::slot_of(gate, lockout.slot).gear);
+    const char* gear = haptics::gear_name(haptics::locked_gear(gate, lockout));
     legend.line({base::kLockoutColour, 1.2, kLongDash},
                 fmt::format("lockout of {}: {}", gear, haptics::describe(lockout)));
   }

@@ -39,8 +39,12 @@ void add_gears(Text out, const GateReport& report) {
     fmt::format_to(out, "{:<6}{:<10}{:<10}{:>10.1f}{:>12.1f}{:>12.1f}{:>12.1f}{:>14.1f}\n",
                    haptics::gear_name(slot.gear), junction_name(report, slot), to_string(slot.side),
                    millimetres(slot.rest), millimetres(slot.engage_depth), millimetres(slot.release_depth),
-                   millimetres(slot.end), report.layout.feel.lock_force);
+                   millimetres(slot.end), haptics::is_sequential(report.gate) ? 0.0 : report.layout.feel.lock_force);
   }
+  if (!haptics::is_sequential(report.gate)) return;
+  fmt::format_to(out, "one stroke is one gear: {} N", haptics::gear_name(haptics::kReverseGear));
+  for (int gear = 1; gear <= report.gate.sequential_gears; ++gear) fmt::format_to(out, " {}", gear);
+  fmt::format_to(out, "\n");
 }
 
 void add_pairs(Text out, const haptics::GateDescription& list) {
@@ -59,7 +63,7 @@ void add_lockouts(Text out, const haptics::Gate& gate) {
     const std::string where = lockout.lateral
                                   ? fmt::format("across the aisle at x = {:.1f} mm", millimetres(lockout.barrier))
                                   : "in the mouth of the slot";
-    fmt::format_to(out, "{:<10}{:<34}{}\n", haptics::gear_name(haptics::slot_of(gate, lockout.slot).gear), where,
+    fmt::format_to(out, "{:<10}{:<34}{}\n", haptics::gear_name(haptics::locked_gear(gate, lockout)), where,
                    haptics::describe(lockout));
   }
 }
@@ -72,7 +76,9 @@ std::string gate_table(const GateReport& report) {
   const Text out(text);
   fmt::format_to(out, "{} ({})\n", report.layout.name, report.layout.file);
   fmt::format_to(out, "{} aisles, {} junctions, {} wall pairs, {} gears, {} lockouts\n", list.aisles.size(),
-                 list.junctions.size(), list.wall_pairs.size(), report.gate.slot_count, report.gate.lockout_count);
+                 list.junctions.size(), list.wall_pairs.size(),
+                 haptics::is_sequential(report.gate) ? report.gate.sequential_gears + 1 : report.gate.slot_count,
+                 report.gate.lockout_count);
   add_aisles(out, list);
   add_junctions(out, report);
   add_gears(out, report);

@@ -30,6 +30,10 @@ void check_gear(const Lesson& lesson, const haptics::Gate& gate, int gear) {
 }
 
 void check_gears(const Lesson& lesson, const haptics::Gate& gate) {
+  if (haptics::is_sequential(gate))
+    throw std::invalid_argument("lesson " + lesson.key +
+                                " needs a gate with a slot for each gear, and this one is sequential; choose another "
+                                "gate");
   check_gear(lesson, gate, lesson.start.gear);
   for (const LessonStep& step : lesson.steps) {
     check_gear(lesson, gate, step.gear);

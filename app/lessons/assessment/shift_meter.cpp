@@ -71,12 +71,19 @@ std::optional<ShiftRecord> ShiftMeter::add(const vehicle::DriveSample& sample) {
   return ended;
 }
 
-// True if `gear` is engaged and the lever rests in its slot.
+// True if `gear` is engaged and the lever rests in its slot. In a sequential gate, the lever rests in no slot.
 bool ShiftMeter::rests_in(const vehicle::DriveSample& now, int gear) const noexcept {
   const int index = haptics::slot_at(gate_, now.lever.proxy);
+  if (haptics::is_sequential(gate_)) return now.car.gear == gear;
   if (now.car.gear != gear || index == haptics::kNoSlot) return false;
   const haptics::Slot& slot = haptics::slot_of(gate_, index);
   return slot.gear == gear && std::abs(now.lever.proxy.y) >= slot.engage_depth;
+}
+
+// The slot through which the lever goes into `gear`.
+int ShiftMeter::slot_to(int gear) const noexcept {
+  if (!haptics::is_sequential(gate_)) return haptics::slot_of_gear(gate_, gear);
+  return haptics::slot_of_gear(gate_, gear > open_.record.from ? haptics::kNextGear : haptics::kPreviousGear);
 }
 
 // Returns the slot that the lever is in, if the lever is past the slot's chamfered entry. Otherwise returns kNoSlot.
@@ -89,7 +96,7 @@ int ShiftMeter::slot_past_mouth(const vehicle::DriveSample& now) const noexcept 
 bool ShiftMeter::is_trying_another(const vehicle::DriveSample& now) const noexcept {
   const int slot = slot_past_mouth(now);
   return vehicle::touches_dogs(now) && slot != haptics::kNoSlot &&
-         haptics::slot_of(gate_, slot).gear != open_.record.from;
+         haptics::gear_behind(gate_, slot, open_.record.from) != open_.record.from;
 }
 
 // True if the lever pushes against ring or dogs.
@@ -177,9 +184,10 @@ void ShiftMeter::follow_lever(const vehicle::DriveSample& now) {
     const haptics::Slot& entered = haptics::slot_of(gate_, slot);
     if (slot != open_.last_slot) ++open_.entered[static_cast<std::size_t>(slot)];
     const bool is_try = std::abs(now.lever.proxy.y) >= entered.release_depth || vehicle::touches_dogs(now);
-    if (is_try && entered.gear != open_.record.from) {
+    const int gear = haptics::gear_behind(gate_, slot, open_.record.from);
+    if (is_try && gear != open_.record.from) {
       open_.tried = true;
-      open_.tried_gear = entered.gear;
+      open_.tried_gear = gear;
     }
   }
   open_.last_slot = slot;
@@ -217,7 +225,7 @@ void ShiftMeter::follow_gear(const vehicle::DriveSample& now) {
     open_.has_rev_error = false;
     if (open_.gear_in) {
       open_.gear_in_at = now.time();
-      const int slot = haptics::slot_of_gear(gate_, gear);
+      const int slot = slot_to(gear);
       if (slot != haptics::kNoSlot) open_.engaged[static_cast<std::size_t>(slot)] = true;
       end_path(now);
     }
@@ -298,7 +306,7 @@ void ShiftMeter::end(const vehicle::DriveSample& at, bool is_complete) {
   ShiftRecord& record = open_.record;
   record.end = at.time();
   const auto was_in = [this](int gear) {
-    const int slot = haptics::slot_of_gear(gate_, gear);
+    const int slot = slot_to(gear);
     return slot != haptics::kNoSlot && open_.engaged[static_cast<std::size_t>(slot)];
   };
   record.missed =
@@ -312,8 +320,8 @@ void ShiftMeter::end(const vehicle::DriveSample& at, bool is_complete) {
   if (!open_.gear_in) end_path(at);
   record.steps_out_of_place = steps_out_of_place(record.steps, record.from, record.to, is_complete);
   const int goal = record.to == haptics::kNeutralGear || record.missed ? open_.tried_gear : record.to;
-  for (std::size_t i = 0; i < open_.entered.size(); ++i) {
-    const int gear = gate_.slot[i].gear;
+  for (std::size_t i = 0; i < haptics::slots(gate_).size(); ++i) {
+    const int gear = haptics::gear_behind(gate_, static_cast<int>(i), record.from);
     if (gear != record.from && gear != goal && !open_.engaged[i]) record.wrong_columns += open_.entered[i];
   }
 }

@@ -96,6 +96,7 @@ class ShiftMeter {
   ShiftRecord close();
 
   bool rests_in(const vehicle::DriveSample& now, int gear) const noexcept;
+  int slot_to(int gear) const noexcept;
   int slot_past_mouth(const vehicle::DriveSample& now) const noexcept;
   bool is_trying_another(const vehicle::DriveSample& now) const noexcept;
   bool is_pushing(const vehicle::DriveSample& now) const noexcept;

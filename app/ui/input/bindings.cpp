@@ -176,8 +176,11 @@ void read_buttons(const haptics::TomlTable& root, Bindings& bindings) {
 void read_lever(const haptics::TomlTable& root, Bindings& bindings) {
   if (!root.has("lever")) return;
   const haptics::TomlTable lever = root.table("lever");
-  if (lever.has("mode"))
-    bindings.lever_mode = lever.choice("mode", {"moves", "places"}) == "moves" ? LeverMode::moves : LeverMode::places;
+  if (lever.has("mode")) {
+    const std::string mode = lever.choice("mode", {std::begin(kLeverModes), std::end(kLeverModes)});
+    bindings.lever_mode =
+        static_cast<LeverMode>(std::find(std::begin(kLeverModes), std::end(kLeverModes), mode) - kLeverModes);
+  }
   bindings.stick_speed = lever.number_or("full_speed_m_per_s", bindings.stick_speed, {0.01, 2.0});
   lever.reject_unknown_keys();
 }

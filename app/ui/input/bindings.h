@@ -59,9 +59,11 @@ struct ActionInfo {
 const std::vector<ActionInfo>& all_actions();
 
 enum class LeverMode {
-  moves,  // for self-centring sticks: deflection sets the hand's speed, so the hand stops when the stick is released
-  places  // for levers that stay in place when released: deflection sets the hand's position
+  moves,   // for self-centring sticks: deflection sets the hand's speed, so the hand stops when the stick is released
+  places,  // for levers that stay in place when released: deflection sets the hand's position
+  steps    // for sequential levers that spring back: each pull shifts one gear up, each push one gear down
 };
+inline constexpr std::string_view kLeverModes[] = {"moves", "places", "steps"};  // in the file
 
 // "gear_reverse", "gear_neutral", "gear_1", ...
 std::string gear_key(int gear);

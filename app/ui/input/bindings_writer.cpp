@@ -64,7 +64,8 @@ std::string bindings_text(const Bindings& bindings) {
             actions_text(controller.actions, number);
     for (const auto& [gear, buttons] : controller.gears) text += line(gear_key(gear), list_text(buttons, number));
   }
-  text += "\n[lever]\n" + line("mode", bindings.lever_mode == LeverMode::moves ? "\"moves\"" : "\"places\"") +
+  text += "\n[lever]\n" +
+          line("mode", fmt::format("\"{}\"", kLeverModes[static_cast<std::size_t>(bindings.lever_mode)])) +
           line("full_speed_m_per_s", haptics::toml_number(bindings.stick_speed));
   return text + "\n[pace]\n" + line("mouse_mm_per_px", haptics::toml_number(bindings.mouse_mm_per_px)) +
          line("lever_key_m_per_s", haptics::toml_number(bindings.key_speed)) +

@@ -33,8 +33,10 @@ constexpr Choice kShifting[] = {{Answer::gear_buttons, "1", "A shifter with gear
                                 {Answer::lever, "3", "A lever with axes"},
                                 {Answer::other, "4", "Mouse, keys or game pad"},
                                 {Answer::back, "b", "Back"}};
-constexpr Choice kLeverModes[] = {
-    {Answer::stays, "y", "It stays"}, {Answer::returns, "n", "It springs back"}, {Answer::back, "b", "Back"}};
+constexpr Choice kLeverAnswers[] = {{Answer::stays, "1", "It stays"},
+                                    {Answer::returns, "2", "It springs back: move the hand"},
+                                    {Answer::steps, "3", "It springs back: shift a gear up or down"},
+                                    {Answer::back, "b", "Back"}};
 
 // `all`: the controllers that are plugged in, of which several may be equal.
 std::string describe(const ControllerName& of, int which, const char* kind, int number,
@@ -77,8 +79,8 @@ std::vector<engine::Controller> controllers_to_set_up(const std::vector<engine::
 std::vector<int> gears_to_set_up(const haptics::Gate& gate) {
   std::vector<int> gears;
   for (int gear = 1; gear <= haptics::kMaxGear; ++gear)
-    if (haptics::slot_of_gear(gate, gear) != haptics::kNoSlot) gears.push_back(gear);
-  if (haptics::slot_of_gear(gate, haptics::kReverseGear) != haptics::kNoSlot) gears.push_back(haptics::kReverseGear);
+    if (haptics::has_gear(gate, gear)) gears.push_back(gear);
+  if (haptics::has_gear(gate, haptics::kReverseGear)) gears.push_back(haptics::kReverseGear);
   return gears;
 }
 
@@ -103,7 +105,7 @@ std::span<const Choice> ControlsSetup::choices() const noexcept {
     case Kind::shifting:
       return kShifting;
     case Kind::lever_mode:
-      return kLeverModes;
+      return kLeverAnswers;
     case Kind::hand_brake_button:
       return kHandBrakes;
     case Kind::neutral:
@@ -237,7 +239,9 @@ void ControlsSetup::answer(Answer answer) {
   } else if (now.kind == Kind::shifting) {
     choose_shifting(answer);
   } else if (now.kind == Kind::lever_mode) {
-    bindings_.lever_mode = answer == Answer::stays ? LeverMode::places : LeverMode::moves;
+    bindings_.lever_mode = answer == Answer::stays     ? LeverMode::places
+                           : answer == Answer::returns ? LeverMode::moves
+                                                       : LeverMode::steps;
     next({});
   } else if (now.kind == Kind::axis) {
     is_resting_ = true;
@@ -371,7 +375,8 @@ void ControlsSetup::finish_gear() {
 }
 
 void ControlsSetup::finish_direction() {
-  if (pressed_.empty()) return repeat("No button was pressed.");
+  if (pressed_.empty())
+    return repeat("No button was pressed. If your shifter has an axis, go back and choose the lever with axes.");
   if (pressed_.size() > 1) return repeat("Several buttons were pressed. Press only one.");
   const Button button = *pressed_.begin();
   if (const std::string other = meaning_in_this_run(button); !other.empty()) return refuse_button(other);

@@ -28,7 +28,7 @@ namespace gearshift::ui {
 
 class ControlsSetup {
  public:
-  enum class Answer { done, skip, back, gear_buttons, two_buttons, lever, other, stays, returns, held, toggled };
+  enum class Answer { done, skip, back, gear_buttons, two_buttons, lever, other, stays, returns, steps, held, toggled };
   struct Choice {
     Answer answer;
     const char* key;  // what to type in a terminal; "" stands for Enter

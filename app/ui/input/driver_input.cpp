@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kMinAxisMove = 0.02;  // [1] axis motion smaller than this is noise
 constexpr double kPushTravel = 0.05;   // [m] mouse motion beyond the hand's reach at which the push is `max_push`
+constexpr double kStepPull = 0.6;      // [1] deflection of a stick at which a step counts, see LeverMode::steps
+constexpr double kStepReturn = 0.3;    // [1] deflection below which the next step may begin
 constexpr double kTakesOver = 0.5;     // [1] a handbrake pulled this far replaces the switched one
 constexpr double kBeyondGate = 0.02;   // [m] reach of the hand beyond the gate, see hand_reach()
 
@@ -150,7 +152,7 @@ void DriverInput::follow_shifter(const ControllerButtons& bound, const engine::C
   }
   const int gear = held_gear(bound, *one);
   if (last && gear != *last) {
-    gear_hand_.shift_to(gear, lever_);
+    gear_hand_.shift_to(gear, engaged_, lever_);
     is_gear_of_shifter_ = true;
   }
   last = gear;
@@ -161,8 +163,11 @@ void DriverInput::retry_gear() {
   const bool is_down = controls_.pedals.clutch > 0.5 || is_held(Action::clutch);
   const bool is_pressed = is_down && !was_clutch_down_;
   was_clutch_down_ = is_down;
-  if (const std::optional<MissedGear> missed = missed_gear(); missed && is_pressed)
-    gear_hand_.shift_to(missed->gear, lever_);
+  const std::optional<MissedGear> missed = is_pressed ? missed_gear() : std::nullopt;
+  if (missed && missed->of_shifter)
+    gear_hand_.shift_to(missed->gear, engaged_, lever_);
+  else if (missed)
+    gear_hand_.try_again(engaged_, lever_);
 }
 
 std::optional<DriverInput::MissedGear> DriverInput::missed_gear() const {
@@ -250,10 +255,11 @@ void DriverInput::move_hand(const engine::WindowInput& input, double seconds) {
   mouse_moved_lever_ = mouse_moves_lever_;
   const Bindings& bindings = config_.bindings;
   const glm::dvec2 at{stick(input, &Bindings::lever_select), stick(input, &Bindings::lever_shift)};
-  const bool moves = bindings.lever_mode == LeverMode::moves;
+  const bool moves = bindings.lever_mode == LeverMode::moves, places = bindings.lever_mode == LeverMode::places;
+  if (bindings.lever_mode == LeverMode::steps) shift_by_stick(at.y);
   const glm::dvec2 speed = key_speed() + (moves ? bindings.stick_speed * at * glm::abs(at) : glm::dvec2(0.0));
   const bool takes_over = speed != glm::dvec2(0.0) || (mouse_moves && input.mouse_moved != glm::dvec2(0.0)) ||
-                          (!moves && at != glm::dvec2(0.0));
+                          (places && at != glm::dvec2(0.0));
   if (takes_over) gear_hand_.release();
   if (gear_hand_.is_active()) {
     hand_ = gear_hand_.next(seconds, lever_, engaged_);
@@ -262,7 +268,7 @@ void DriverInput::move_hand(const engine::WindowInput& input, double seconds) {
   } else {
     if (mouse_moves) aim_by_mouse(input.mouse_moved);
     aim_by_speed(speed, seconds);
-    if (!moves) aim_by_stick(at);
+    if (places) aim_by_stick(at);
     set_hand();
   }
   hand_.pressed_down = hand_.pressed_down || is_held(Action::push_down);
@@ -298,6 +304,16 @@ void DriverInput::aim_by_speed(glm::dvec2 speed, double seconds) {
     since_key_motion_ += seconds;
     if (since_key_motion_ >= kRestDelay) aim_ = glm::clamp(aim_, lever_ - kRestLead, lever_ + kRestLead);
   }
+  const bool is_pulling = moves || mouse_moves_lever_ || config_.bindings.lever_mode == LeverMode::places;
+  if (gate_ && haptics::is_sequential(*gate_) && !is_pulling) aim_ = lever_;
+}
+
+// A lever that springs back passes a stroke's threshold once per stroke.
+void DriverInput::shift_by_stick(double shift) {
+  const double depth = std::abs(shift);
+  if (depth > kStepPull && !is_stick_pulled_) trigger(shift < 0.0 ? Action::shift_up : Action::shift_down);
+  if (depth > kStepPull) is_stick_pulled_ = true;
+  if (depth < kStepReturn) is_stick_pulled_ = false;
 }
 
 void DriverInput::aim_by_stick(glm::dvec2 stick) {
@@ -334,6 +350,7 @@ void DriverInput::rebind(const Bindings& bindings) {
   config_.bindings = bindings;
   watch_ = {};
   shifters_.clear();
+  is_stick_pulled_ = false;
   has_pads_ = false;
   for (std::set<Source>* sources : {&down_, &newly_down_, &released_})
     std::erase_if(*sources, [](const Source& source) { return source.device != kKeyboard; });

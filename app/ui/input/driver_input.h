@@ -5,7 +5,8 @@
 //           hand's position while the stick is away from rest. The hand stays within reach; mouse motion beyond reach
 //           becomes a push on the lever. With keys, or with a stick that sets the speed, the hand leads the
 //           lever by at most 5 cm. 0.3 s after their release the hand moves back to at most 5 mm from the lever, so
-//           that it does not push on the lever permanently.
+//           that it does not push on the lever permanently. In a sequential gate it then lets go, so that the lever
+//           springs back. With LeverMode::steps, each pull of the stick is a `shift_up`, each push a `shift_down`.
 //   gears   A controller's gear buttons move the hand to the gear whose button is held. None held stands for neutral.
 //           Where the shifter is at the start moves nothing, only its changes do. Keys, mouse or a stick
 //           take the hand over when they move it. If something holds the lever, such as a synchroniser, the hand gives
@@ -116,6 +117,7 @@ class DriverInput {
   bool any_bound_source(Action action, const Holds& holds) const;
   void move_hand(const engine::WindowInput& input, double seconds);
   void aim_by_stick(glm::dvec2 stick);
+  void shift_by_stick(double shift);
   void read_pedals(const engine::WindowInput& input);
   void aim_by_mouse(glm::dvec2 moved_px);
   void aim_by_speed(glm::dvec2 speed, double seconds);
@@ -146,6 +148,7 @@ class DriverInput {
   std::optional<haptics::Gate> gate_;
   GearHand gear_hand_;
   std::vector<std::optional<int>> shifters_;  // gear of each of Bindings::controllers; empty: not plugged in
+  bool is_stick_pulled_ = false;              // with LeverMode::steps, since the stick last sprang back
   bool has_pads_ = false;                     // in the last frame
   bool is_gear_of_shifter_ = false;           // the gear that gear_hand_ moves to
   bool was_clutch_down_ = false;

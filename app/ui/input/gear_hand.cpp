@@ -17,8 +17,10 @@ constexpr double kReaction = 0.03;     // [s] added to each stroke
 constexpr double kNeutralDelay = 0.3;  // [s] a shift through neutral takes less; then the lever stays in its column
 constexpr double kCornerTolerance = 0.004;  // [m] distance at which the lever counts as arrived at a stroke's end
 constexpr double kCornerWait = 0.4;         // [s] longest wait for it; a wall may keep the lever away
-constexpr double kRestAfter = 0.2;          // [s] after the end of the movement, if the lever is in the gear
-constexpr double kMissedAfter = 0.7;        // [s] after its end; a synchroniser needs less with the clutch open
+// [s] the same in a sequential gate, where the lever returns and must be in the gear before
+constexpr double kStrokeWait = 0.7;
+constexpr double kRestAfter = 0.2;    // [s] after the end of the movement, if the lever is in the gear
+constexpr double kMissedAfter = 0.7;  // [s] after its end; a synchroniser needs less with the clutch open
 
 }  // namespace
 
@@ -27,22 +29,28 @@ void GearHand::set_gate(const haptics::Gate& gate) {
   release();
 }
 
-void GearHand::shift_to(int gear, glm::dvec2 lever) {
+void GearHand::shift(int gear, int engaged, glm::dvec2 lever, bool opens_lockouts) {
   if (!gate_) return;
   const bool is_neutral = gear == haptics::kNeutralGear;
   const haptics::ShiftStyle style{.pace = kPace,
                                   .reaction = kReaction,
                                   .dwell_gear = 0.0,
                                   .dwell_neutral = is_neutral ? kNeutralDelay : 0.0,
-                                  .leans = false};
+                                  .leans = false,
+                                  .engaged = engaged,
+                                  .opens_lockouts = opens_lockouts};
   gear_ = gear;
+  opens_lockouts_ = opens_lockouts;
   time_ = 0.0;
   is_resting_ = false;
   waited_ = 0.0;
   corners_.clear();
-  const bool exists = is_neutral || haptics::slot_of_gear(*gate_, gear) != haptics::kNoSlot;
+  const bool exists = haptics::has_gear(*gate_, gear);
   std::vector<haptics::HandStroke> strokes;
   if (exists) strokes = haptics::shift_strokes(*gate_, lever, std::array{gear}, style);
+  // A shifter passes neutral on its way. In a sequential gate, a stroke towards neutral would change the gear at once.
+  if (is_neutral && opens_lockouts && haptics::is_sequential(*gate_) && !strokes.empty())
+    strokes.insert(strokes.begin(), {lever, kNeutralDelay, 0.0, {}, false, false});
   double end = 0.0;
   for (const haptics::HandStroke& stroke : strokes) {
     corners_.push_back({end + stroke.duration, stroke.to});
@@ -55,8 +63,7 @@ void GearHand::shift_by(int gears, int engaged, glm::dvec2 lever) {
   if (!gate_) return;
   const int from = is_moving() ? gear_ : engaged;
   const int to = from + gears;
-  const bool exists = to == haptics::kNeutralGear || haptics::slot_of_gear(*gate_, to) != haptics::kNoSlot;
-  if (exists) shift_to(to, lever);
+  if (haptics::has_gear(*gate_, to)) shift(to, engaged, lever, !haptics::is_sequential(*gate_));
 }
 
 haptics::HandTarget GearHand::next(double seconds, glm::dvec2 lever, int engaged) {
@@ -70,7 +77,8 @@ haptics::HandTarget GearHand::next(double seconds, glm::dvec2 lever, int engaged
   if (!corners_.empty() && end >= corners_.front().end) {
     waited_ += seconds;
     const bool has_arrived = glm::distance(lever, corners_.front().at) < kCornerTolerance;
-    if (time_ >= corners_.front().end - kPeriod && (has_arrived || waited_ > kCornerWait)) {
+    const double wait = haptics::is_sequential(*gate_) ? kStrokeWait : kCornerWait;
+    if (time_ >= corners_.front().end - kPeriod && (has_arrived || waited_ > wait)) {
       corners_.erase(corners_.begin());
       waited_ = 0.0;
     }

@@ -18,10 +18,12 @@ class GearHand {
   void set_gate(const haptics::Gate& gate);
 
   // Begins to move from the lever point `lever` [m] to the gear, and presses the knob or lifts the ring on the way if
-  // the gate requires it. Does nothing before set_gate().
-  void shift_to(int gear, glm::dvec2 lever);
-  // Like shift_to(), for the gear that follows the engaged one in the order R N 1 2 3 ...
+  // the gate requires it. Does nothing before set_gate(). `engaged`: the engaged gear.
+  void shift_to(int gear, int engaged, glm::dvec2 lever) { shift(gear, engaged, lever, true); }
+  // Like shift_to(), for the gear that follows the engaged one in the order R N 1 2 3 ... In a sequential gate, the
+  // driver opens the lockouts.
   void shift_by(int gears, int engaged, glm::dvec2 lever);
+  void try_again(int engaged, glm::dvec2 lever) { shift(gear_, engaged, lever, opens_lockouts_); }
   void release() noexcept { hand_.reset(); }  // something else moves the hand
 
   bool is_active() const noexcept { return hand_.has_value(); }
@@ -34,11 +36,14 @@ class GearHand {
   int selected_gear() const noexcept { return gear_; }
 
  private:
+  void shift(int gear, int engaged, glm::dvec2 lever, bool opens_lockouts);
+
   std::optional<haptics::Gate> gate_;
   std::optional<haptics::ScriptedHand> hand_;
   int gear_ = haptics::kNeutralGear;  // selected
   double time_ = 0.0;                 // [s] since shift_to()
-  bool is_resting_ = false;           // the lever has arrived
+  bool opens_lockouts_ = true;
+  bool is_resting_ = false;  // the lever has arrived
   struct Corner {
     double end = 0.0;  // [s] time of the stroke's end
     glm::dvec2 at{0.0};

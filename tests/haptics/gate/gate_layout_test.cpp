@@ -100,7 +100,7 @@ constexpr Hostile kHostile[] = {
     {"unknown_gear", ":14: forward = \"10\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"unknown_key", ":8: chamfer_in is not a known key; known keys: aisle_width_mm, slot_width_mm"},
     {"unknown_kind", ":31: kind = \"magnet\": must be one of push_down, lift, speed, after_gear"},
-    {"unknown_table", ":9: sound is not a known key; known keys: name, gate, feel, column, lockout"},
+    {"unknown_table", ":9: sound is not a known key; known keys: name, gate, feel, sequential, column, lockout"},
     {"unreachable_gears",
      ":17: only an end column can have a closed junction; here it would block the "
      "way to gear 5 and R"},

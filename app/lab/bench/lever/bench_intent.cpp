@@ -59,7 +59,9 @@ int reached(const haptics::Gate& gate, const Aim& aim) {
 std::vector<std::string> gates_in(const std::string& folder) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() != ".toml" || is_sequential(bench_gate(folder, entry.path().stem().string())))
+      continue;
+    names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;

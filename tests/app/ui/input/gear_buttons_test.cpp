@@ -41,7 +41,10 @@ Bindings shifter_bindings() {
   shifter.gears[kReverseGear] = {kButtonOfReverse};
   for (int gear = 1; gear <= 6; ++gear) shifter.gears[gear] = {button_of(gear)};
   Bindings bindings;
-  bindings.keys = {{Action::lever_left, {GLFW_KEY_LEFT}}, {Action::clutch, {GLFW_KEY_A}}};
+  bindings.keys = {{Action::lever_left, {GLFW_KEY_LEFT}},
+                   {Action::lever_back, {GLFW_KEY_DOWN}},
+                   {Action::lift, {GLFW_KEY_W}},
+                   {Action::clutch, {GLFW_KEY_A}}};
   bindings.controllers = {shifter};
   return bindings;
 }
@@ -186,7 +189,7 @@ TEST_CASE("the hand stops at every corner of its way, also where a frame is long
     GearHand hand;
     hand.set_gate(gate);
     const dvec2 start = rest_position(gate, 1), end = rest_position(gate, to);
-    hand.shift_to(to, start);
+    hand.shift_to(to, 1, start);
     std::vector<dvec2> way{start};
     for (int i = 0; i < 20; ++i) way.push_back(hand.next(1.5, way.back(), kNeutralGear).position);
     // Between two frames, the lever moves in a straight line: along the slot, along the aisle, along the other slot.
@@ -319,4 +322,143 @@ TEST_CASE("a lever that stays in place does not lean on the gear: at its own end
   axes[1] = 0.0f;  // pulled out again
   desk.run(0.5);
   CHECK(desk.gear() == kNeutralGear);
+}
+
+// Analog axes of a shifter: 0 sideways, 1 forward and back.
+Bindings axis_bindings(LeverMode mode) {
+  Bindings bindings = shifter_bindings();
+  bindings.controllers.clear();
+  bindings.lever_mode = mode;
+  bindings.lever_shift = AxisBinding{.of = {"Shifter", ""}, .axis = 1};
+  return bindings;
+}
+
+WindowInput key(int code, bool down) {
+  WindowInput input;
+  input.keys = {{code, down, false, false, false}};
+  return input;
+}
+
+TEST_CASE("a sequential gate: paddles shift one gear each; neutral and reverse need the lift ring on the way down") {
+  ShifterDesk desk(shipped_gate(kSequentialGate));
+  std::vector<int> reached;
+  const auto press = [&](std::size_t button) {
+    desk.press(button);
+    desk.run(2.0);
+    reached.push_back(desk.gear());
+  };
+  for (int i = 0; i < 7; ++i) press(4);
+  for (int i = 0; i < 6; ++i) press(5);
+  CHECK(reached == std::vector{1, 2, 3, 4, 5, 6, 6, 5, 4, 3, 2, 1, 1});
+  REQUIRE(desk.driver.missed_gear());
+  CHECK(desk.driver.missed_gear()->gear == kNeutralGear);
+  CHECK(desk.push() < 1.0);  // the hand has given up, and the lever has sprung back
+  CHECK(glm::length(desk.at()) < 0.003);
+  desk.input.keys = key(GLFW_KEY_W, true).keys;
+  reached.clear();
+  for (int i = 0; i < 3; ++i) press(5);
+  desk.input.keys = key(GLFW_KEY_W, false).keys;
+  for (int i = 0; i < 2; ++i) press(4);
+  CHECK(reached == std::vector{kNeutralGear, kReverseGear, kReverseGear, kNeutralGear, 1});
+  CHECK_FALSE(desk.driver.missed_gear());
+  MESSAGE("largest push ", desk.max_push, " N");
+  CHECK(desk.max_push < 60.0);
+}
+
+TEST_CASE("a sequential gate: paddles pressed faster than the lever moves lose no gear") {
+  ShifterDesk desk(shipped_gate(kSequentialGate));
+  for (int i = 0; i < 4; ++i) {
+    desk.press(4);
+    desk.run(0.1);
+  }
+  desk.run(5.0);
+  CHECK(desk.gear() == 4);
+  for (int i = 0; i < 3; ++i) {
+    desk.press(5);
+    desk.run(0.1);
+  }
+  desk.run(5.0);
+  CHECK(desk.gear() == 1);
+}
+
+TEST_CASE("a sequential gate: a shifter with a button per gear goes there in as many strokes as needed") {
+  ShifterDesk desk(shipped_gate(kSequentialGate));
+  for (const int gear : {1, 4, 2, 6, kReverseGear, 3}) {
+    CAPTURE(gear);
+    desk.put(gear);
+    desk.run(6.0);
+    CHECK(desk.gear() == gear);
+    CHECK_FALSE(desk.driver.missed_gear());
+  }
+  desk.put(kNeutralGear);
+  desk.run(4.0);
+  CHECK(desk.gear() == kNeutralGear);
+}
+
+TEST_CASE("a sprung lever with axes shifts gears in steps, in a sequential gate and in an H gate") {
+  for (const char* name : {kSequentialGate, "paper"}) {
+    CAPTURE(name);
+    ShifterDesk desk(shipped_gate(name));
+    desk.driver.rebind(axis_bindings(LeverMode::steps));
+    desk.input.controllers = {controller("Sequential Shifter", {0.0f, 0.01f})};
+    float& shift = desk.input.controllers[0].axes[1];
+    const auto pull = [&](float to) {
+      for (const float at :
+           {0.3f * to, 0.7f * to, to, 0.65f * to, to, 0.5f * to, 0.0f}) {  // trembles about the threshold
+        shift = at;
+        desk.run(2 * kFrameTime);
+      }
+      desk.run(1.5);
+      return desk.gear();
+    };
+    shift = 0.05f;  // the first report
+    desk.run(2 * kFrameTime);
+    CHECK(pull(-1.0f) == 1);
+    CHECK(pull(-0.8f) == 2);
+    CHECK(pull(-0.5f) == 2);
+    CHECK(pull(-1.0f) == 3);
+    CHECK(pull(1.0f) == 2);
+    shift = -1.0f;  // held: one gear
+    desk.run(4.0);
+    CHECK(desk.gear() == 3);
+  }
+}
+
+TEST_CASE(
+    "a sequential gate: a lever with axes that places the hand shifts one gear per stroke, and leans on nothing") {
+  ShifterDesk desk(shipped_gate(kSequentialGate));
+  desk.driver.rebind(axis_bindings(LeverMode::places));
+  desk.input.controllers = {controller("Sequential Shifter", {0.0f, 0.01f})};
+  float& shift = desk.input.controllers[0].axes[1];
+  const auto stroke = [&](float to) {
+    for (int i = 1; i <= 20; ++i) {
+      shift = to * static_cast<float>(i) / 20.0f;
+      desk.run(kFrameTime);
+    }
+    desk.run(0.3);
+    shift = 0.0f;
+    desk.run(1.0);
+    return desk.gear();
+  };
+  shift = 0.05f;
+  desk.run(2 * kFrameTime);
+  CHECK(stroke(-1.0f) == 1);
+  CHECK(stroke(-1.0f) == 2);
+  CHECK(stroke(1.0f) == 1);
+  CHECK(stroke(1.0f) == 1);  // neutral is locked out
+  CHECK(desk.push() < 1.0);
+  CHECK(glm::length(desk.at()) < 0.003);
+}
+
+TEST_CASE("a sequential gate: a lever that a key has pulled springs back when the key is released") {
+  ShifterDesk desk(shipped_gate(kSequentialGate));
+  desk.input.keys = key(GLFW_KEY_DOWN, true).keys;
+  desk.run(0.6);
+  CHECK(desk.gear() == 1);
+  CHECK(desk.at().y < -0.030);
+  desk.input.keys = key(GLFW_KEY_DOWN, false).keys;
+  desk.run(0.6);
+  CHECK(glm::length(desk.at()) < 0.003);
+  CHECK(desk.push() < 1.0);
+  CHECK(desk.gear() == 1);
 }
