@@ -25,6 +25,7 @@ class ControlsAssistant {
   // stick.
   void update(const std::vector<engine::Controller>& controllers, double seconds);
   bool is_setting_up() const { return setup_.has_value(); }
+  const std::set<std::string>& declined() const { return declined_; }  // names of controllers that are not offered
   // Call while setting up. Removes from the window's input what must not reach the driver: the controllers with which
   // the user answers, and Escape, which cancels, unless it has another use now (`uses_escape`). Returns a message for
   // the user; empty if there is none.

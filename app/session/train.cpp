@@ -236,7 +236,7 @@ class WindowTrainer {
   // On the console; in the window, card and note show them.
   void report_controllers(const std::vector<engine::Controller>& controllers) {
     std::vector<std::string> sentences = ui::describe_bound(input_.bindings(), controllers);
-    for (std::string& sentence : ui::describe_unbound(input_.bindings(), controllers))
+    for (std::string& sentence : ui::describe_unbound(input_.bindings(), controllers, controls_.declined()))
       sentences.push_back(std::move(sentence));
     for (const std::string& sentence : sentences) {
       const bool is_known = std::find(reported_.begin(), reported_.end(), sentence) != reported_.end();

@@ -64,7 +64,7 @@ std::string counts_text(const LeverAxisCalibration& axis) {
 
 }  // namespace
 
-std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs) {
+std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs, bool dampers) {
   std::vector<CalibrationStep> missing;
   if (!calibration.has_stops()) missing.push_back(CalibrationStep::range);
   if (!calibration.has_travel() || !calibration.has_force()) missing.push_back(CalibrationStep::numbers);
@@ -73,13 +73,15 @@ std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration,
   if (!calibration.has_strength()) missing.push_back(CalibrationStep::strength);
   if (!calibration.has_handle()) missing.push_back(CalibrationStep::handle);
   const bool has_cross_talk = calibration.select.spring_cross_talk >= 0.0 && calibration.shift.spring_cross_talk >= 0.0;
-  if (springs && !calibration.select_by_position && (!calibration.has_springs() || !has_cross_talk))
-    missing.push_back(CalibrationStep::springs);
+  const bool lacks_springs = springs && (!calibration.has_springs() || !has_cross_talk);
+  const bool has_dampers = calibration.select.damper_sign != 0 && calibration.shift.damper_sign != 0;
+  const bool lacks_dampers = !springs && dampers && !has_dampers && calibration.dampers_refused.empty();
+  if (!calibration.select_by_position && (lacks_springs || lacks_dampers)) missing.push_back(CalibrationStep::springs);
   return missing;
 }
 
-Calibrator::Calibrator(PidDriver& driver, CalibrationTick tick, const DeviceCalibration& known)
-    : driver_(driver), tick_(std::move(tick)), calibration_(known) {
+Calibrator::Calibrator(PidDriver& driver, CalibrationTick tick, const DeviceCalibration& known, bool has_springs)
+    : driver_(driver), tick_(std::move(tick)), has_springs_(has_springs), calibration_(known) {
   if (!known.has_stops()) return;
   found_[0] = {known.select.usage, known.select.high > known.select.low ? 1 : -1};
   found_[1] = {known.shift.usage, known.shift.high > known.shift.low ? 1 : -1};

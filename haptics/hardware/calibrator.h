@@ -27,8 +27,8 @@ inline constexpr double kCautiousForce = 0.10;  // [1] fraction of the full forc
 
 enum class CalibrationStep : std::uint8_t { range, numbers, polarity, timing, strength, handle, springs };
 
-// Calibration steps still to do, in the required order. `springs`: true if the device supports springs (PidAbility).
-std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs);
+// Calibration steps still to do, in the required order. `springs`, `dampers`: true if the device has them (PidAbility).
+std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs, bool dampers);
 
 enum class LeverButton : std::uint8_t { press, lift, stop };
 
@@ -36,7 +36,7 @@ class Calibrator {
  public:
   // `known`: the calibration to start from. The driver must be prepared and streaming, and must outlive the calibrator.
   // The calibrator sends the driver's commands, so no other thread may send any.
-  Calibrator(PidDriver& driver, CalibrationTick tick, const DeviceCalibration& known);
+  Calibrator(PidDriver& driver, CalibrationTick tick, const DeviceCalibration& known, bool has_springs = true);
 
   const DeviceCalibration& calibration() const noexcept { return calibration_; }
 
@@ -161,6 +161,7 @@ class Calibrator {
 
   PidDriver& driver_;
   CalibrationTick tick_;
+  bool has_springs_;
   DeviceCalibration calibration_;
   std::array<FoundAxis, 2> found_{};                // select, shift
   std::array<std::optional<PulseFit>, 2> known_{};  // the lever's motion, until the handle is measured

@@ -780,6 +780,7 @@ std::string Calibrator::measure_springs_anew() {
   std::string sentence;
   try {
     if (calibration_.select_by_position) throw EffectsRefused("springs need forces along both axes");
+    if (!has_springs_) throw EffectsRefused("the stick has no springs");
     sentence = measure_spring_strengths();
   } catch (const EffectsRefused& refused) {
     calibration_.springs_refused = refused.what();

@@ -74,7 +74,7 @@ def check(what, holds):
 class Trainer:
     """The trainer in its window; `bindings`: text of a bindings file, or nothing for the shipped one."""
 
-    def __init__(self, folder, bindings=None, size="200x140"):
+    def __init__(self, folder, bindings=None, size="200x140", gate="five_speed_r_right_down"):
         self.folder, self.log = folder, f"{folder}/out.txt"
         options = []
         if bindings:
@@ -83,8 +83,8 @@ class Trainer:
             options = ["--bindings", f"{folder}/bindings.toml"]
         with open(self.log, "w") as out:
             self.process = subprocess.Popen(
-                [gearshift, "train", "--size", size, "--silent", "--no-panel", "--lesson", "none", "--gate",
-                 "five_speed_r_right_down", *options],
+                [gearshift, "train", "--size", size, "--silent", "--no-panel", "--lesson", "none", "--gate", gate,
+                 "--car", "diesel" if gate == "sequential_six" else "hatchback", *options],
                 stdout=out, stderr=subprocess.STDOUT, cwd=folder, env={**os.environ, **homes(folder)})
         self.wait_for("forces on$")
 
@@ -103,13 +103,16 @@ class Trainer:
         self.process.terminate()
         self.process.wait(timeout=30)
 
-    def recording(self):
-        """The rows of the recorded drive, as numbers by column."""
+    def replay(self, *options):
         data = f"{self.folder}/data/gearshift"
         traces = [os.path.join(at, name) for at, _, names in os.walk(data) for name in names if name.endswith(".trace")]
         assert len(traces) == 1, traces
-        subprocess.run([gearshift, "replay", traces[0], "--csv", f"{self.folder}/drive.csv"], check=True,
-                       stdout=subprocess.DEVNULL, env={**os.environ, **homes(self.folder)})
+        return subprocess.run([gearshift, "replay", traces[0], *options], check=True, capture_output=True, text=True,
+                              env={**os.environ, **homes(self.folder)}).stdout
+
+    def recording(self):
+        """The rows of the recorded drive, as numbers by column."""
+        self.replay("--csv", f"{self.folder}/drive.csv")
         with open(f"{self.folder}/drive.csv") as file:
             return list(csv.DictReader(file))
 
@@ -475,9 +478,123 @@ def labels_follow_the_layout(plugs, folder):
     trainer.end()
 
 
+def declined_devices_are_not_mentioned(plugs, folder):
+    os.makedirs(f"{folder}/config/gearshift")
+    with open(f"{folder}/config/gearshift/declined_controllers.txt", "w") as file:
+        file.write(f"{plugs['handbrake'].device.name}\n{plugs['g29'].device.name}\n")
+    trainer = Trainer(folder)
+    trainer.wait_for("Heusinkveld.* was found")
+    time.sleep(1.0)
+    for name in (G29, HANDBRAKE):
+        check(f"{name}, which was declined, is not mentioned", f"{name}" not in trainer.text())
+    plugs["handbrake"].unplug()
+    time.sleep(1.0)
+    plugs["handbrake"].plug_in_denied()
+    plugs["handbrake"].renew()
+    trainer.wait_for("USB Handbrake was found")  # it is plugged in again, so the user may want it now
+    trainer.end()
+
+
+# A sequential shifter with two buttons, whose ring releases neutral and reverse.
+SEQUENTIAL = """
+[keys]
+stop = "Space"
+[[controller]]
+stick = "Button Box"
+record = "0"
+shift_up = "30"
+shift_down = "31"
+lift = "2"
+clutch = "3"
+quit = "1"
+"""
+
+# A sprung lever with an axis: each pull is a gear.
+SPRUNG_LEVER = SEQUENTIAL + """
+[pad_axes.lever_shift]
+stick = "USB Handbrake"
+axis = 0
+from = -1
+to = 1
+[lever]
+mode = "steps"
+"""
+
+
+def sequential_shifters_work(plugs, folder):
+    trainer = Trainer(folder, SEQUENTIAL, gate="sequential_six")
+    box = plugs["box"]
+    box.button(3)  # the clutch, which a key presses in 0.25 s
+    time.sleep(0.5)
+    for gear in "1", "2", "3", "4", "5", "6":
+        tap(box, 30)
+        trainer.wait_for(f" {gear} engaged")
+        if gear == "3":  # a recording begins with another loop, which must not forget the gear
+            tap(box, 0)
+            trainer.wait_for("recording to")
+            time.sleep(1.0)
+    tap(box, 30)
+    for gear in "5", "4", "3", "2", "1":
+        tap(box, 31)
+        trainer.wait_for(f" {gear} engaged", 2)
+    tap(box, 31)
+    time.sleep(2.0)
+    tap(box, 30)
+    trainer.wait_for(" 2 engaged", 3)  # not first, because neutral was locked out
+    tap(box, 31)
+    trainer.wait_for(" 1 engaged", 3)
+    box.button(2)
+    tap(box, 31)
+    time.sleep(1.5)
+    tap(box, 31)
+    trainer.wait_for(" R engaged")
+    box.button(2, False)
+    time.sleep(0.5)
+    tap(box, 30)
+    time.sleep(1.5)
+    tap(box, 30)
+    trainer.wait_for(" 1 engaged", 4)
+    tap(box, 0)
+    tap(box, 1)
+    check("the trainer ends well", trainer.process.wait(timeout=30) == 0)
+    gears = changes([row["gear"] for row in trainer.recording()])
+    check(f"the recording begins in third, got {gears}", [int(float(gear)) for gear in gears] ==
+          [3, 4, 5, 6, 5, 4, 3, 2, 1, 2, 1, 0, -1, 0, 1])
+    check("it replays bit for bit", "identical bit for bit" in trainer.replay())
+
+
+def sprung_levers_shift_in_steps(plugs, folder):
+    for gate in ("sequential_six", "five_speed_r_right_down"):
+        with tempfile.TemporaryDirectory() as home:
+            trainer = Trainer(home, SPRUNG_LEVER, gate=gate)
+            box, lever = plugs["box"], plugs["handbrake"]
+            box.button(3)
+            time.sleep(0.5)
+
+            def stroke(end):
+                for value in (128, (128 + end) // 2, end, (128 + end) // 2, 128):
+                    lever.axis(emulated.ABS_X, value)
+                    time.sleep(0.1)
+
+            lever.axis(emulated.ABS_X, 100)  # the first report
+            lever.axis(emulated.ABS_X, 128)
+            time.sleep(0.3)
+            for number, gear in enumerate("123"):
+                stroke(0)
+                trainer.wait_for(f" {gear} engaged")
+            stroke(255)
+            trainer.wait_for(" 2 engaged", 2)
+            check(f"in {gate} each pull of a sprung lever is one gear up, each push one down",
+                  re.findall(r"(\d) engaged", trainer.text()) == ["1", "2", "3", "2"])
+            tap(box, 1)
+            trainer.process.wait(timeout=30)
+            box.button(3, False)
+
+
 SCENARIOS = [devices_are_listed, steams_copy_works_alone, unknown_devices_do_nothing, everything_set_up_works,
              hats_and_lost_events, access_is_granted_late, pad_drives_at_once, renamed_device_works,
-             equal_devices_are_told_apart_by_their_ports, calibration_in_a_terminal, labels_follow_the_layout]
+             equal_devices_are_told_apart_by_their_ports, calibration_in_a_terminal, labels_follow_the_layout,
+             declined_devices_are_not_mentioned, sequential_shifters_work, sprung_levers_shift_in_steps]
 
 
 

@@ -100,10 +100,10 @@ std::string run_dialog(OpenStick& stick, KnownStick& known, const fs::path& fold
     save_known_stick(known, folder);
   };
   haptics::Calibrator calibrator(
-      stick.driver(), [&stick] { return tick(stick); }, known.calibration);
+      stick.driver(), [&stick] { return tick(stick); }, known.calibration, stick.ability().spring);
   for (const std::string& note : stick.ability().notes) base::print_line(note);
   try {
-    calibrate(calibrator, stick.ability().spring, dialog);
+    calibrate(calibrator, stick.ability(), dialog);
   } catch (const CalibrationEnded& ended) {
     base::print_line(ended.what());
   }

@@ -207,10 +207,11 @@ class DialogRunner {
 
 }  // namespace
 
-void calibrate(haptics::Calibrator& calibrator, bool springs, const CalibrationDialog& dialog,
+void calibrate(haptics::Calibrator& calibrator, const haptics::PidAbility& ability, const CalibrationDialog& dialog,
                const CalibrationTimes& times) {
   DialogRunner runner(calibrator, dialog, times);
-  for (const haptics::CalibrationStep step : haptics::missing_steps(calibrator.calibration(), springs)) {
+  for (const haptics::CalibrationStep step :
+       haptics::missing_steps(calibrator.calibration(), ability.spring, ability.damper)) {
     if (is_possible(step, calibrator.calibration())) runner.run_step(step);
   }
 }

@@ -29,9 +29,9 @@ struct CalibrationTimes {
   double button = 6.0;  // time to press a button
 };
 
-// Runs the missing steps in order. `springs`: whether the stick can render springs. Exceptions from `ask` and `save`
+// Runs the missing steps in order. `ability`: of the stick. Exceptions from `ask` and `save`
 // are passed on to the caller.
-void calibrate(haptics::Calibrator& calibrator, bool springs, const CalibrationDialog& dialog,
+void calibrate(haptics::Calibrator& calibrator, const haptics::PidAbility& ability, const CalibrationDialog& dialog,
                const CalibrationTimes& times = {});
 
 }  // namespace gearshift::runtime

@@ -298,8 +298,11 @@ std::string help_text(const Bindings& bindings, const std::vector<engine::Contro
       line(joined(buttons, name),
            gear == haptics::kNeutralGear ? "neutral" : std::string("gear ") + haptics::gear_name(gear));
   }
-  for (const AxisInfo& info : kAxes)
-    if (const auto& axis = bindings.*info.axis) line(axis_label(*axis, pad_id), info.help);
+  for (const AxisInfo& info : kAxes) {
+    const bool shifts = info.axis == &Bindings::lever_shift && bindings.lever_mode == LeverMode::steps;
+    if (const auto& axis = bindings.*info.axis)
+      line(axis_label(*axis, pad_id), shifts ? "back: one gear up, forward: one gear down" : info.help);
+  }
   return text;
 }
 

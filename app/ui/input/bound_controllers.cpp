@@ -161,10 +161,12 @@ std::vector<std::string> describe_bound(const Bindings& bindings, const std::vec
   return sentences;
 }
 
-std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<Controller>& all) {
+std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<Controller>& all,
+                                          const std::set<std::string>& declined) {
   std::vector<std::string> sentences;
   for (const Controller* one : unbound_controllers(bindings, all)) {
     const std::string name = haptics::printable(one->name);
+    if (declined.contains(name)) continue;
     sentences.push_back(
         one->can_be_read
             ? fmt::format(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,8 @@ std::vector<const engine::Controller*> unbound_controllers(const Bindings& bindi
 // Sentences about controllers that the bindings name but that are absent, have another name today, may not be read, or
 // have too few buttons.
 std::vector<std::string> describe_bound(const Bindings& bindings, const std::vector<engine::Controller>& all);
-// Sentences about controllers that have no effect yet.
-std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<engine::Controller>& all);
+// Sentences about controllers that have no effect yet. `declined`: names of those that the user does not want to set up.
+std::vector<std::string> describe_unbound(const Bindings& bindings, const std::vector<engine::Controller>& all,
+                                          const std::set<std::string>& declined = {});
 
 }  // namespace gearshift::ui

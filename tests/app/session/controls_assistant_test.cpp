@@ -11,6 +11,7 @@
 
 #include <doctest/doctest.h>
 
+#include "app/ui/input/bound_controllers.h"
 #include "tests/support/controllers.h"
 #include "tests/support/gates.h"
 #include "tests/support/temp_folder.h"
@@ -249,6 +250,12 @@ TEST_CASE("controllers that are declined are not offered at the next start, but 
   later.all = all;
   later.frame();
   CHECK(later.offers().empty());
+  // Nor does the console name them.
+  later.all.push_back(controller("New", {0.0f}));
+  const std::vector<std::string> sentences =
+      describe_unbound(shipped_bindings(), later.all, later.assistant.declined());
+  REQUIRE(sentences.size() == 1);
+  CHECK(sentences.front().starts_with("New was found."));
 }
 
 TEST_CASE("if the answer cannot be saved, it is said and holds for this session") {

@@ -97,7 +97,7 @@ TEST_CASE(
       // On the other sticks a count is at most 4 um.
       const double fine = family == StickFamily::sidewinder ? 0.10 : 0.04;
       const DeviceCalibration& found = calibrator.calibration();
-      CHECK(missing_steps(found, true).empty());
+      CHECK(missing_steps(found, true, true).empty());
       CHECK(found.select.constant_sign == truth.select.constant_sign);
       CHECK(found.shift.constant_sign == truth.shift.constant_sign);
       CHECK(found.select.spring_sign == truth.select.spring_sign);
@@ -391,15 +391,15 @@ TEST_CASE("the measured intervals are those of the stick and its ticks") {
 TEST_CASE("missing steps are listed in order, and finished steps are not listed") {
   using enum CalibrationStep;
   DeviceCalibration known;
-  CHECK(missing_steps(known, true) == std::vector{range, numbers, polarity, timing, strength, handle, springs});
-  CHECK(missing_steps(known, false) == std::vector{range, numbers, polarity, timing, strength, handle});
+  CHECK(missing_steps(known, true, true) == std::vector{range, numbers, polarity, timing, strength, handle, springs});
+  CHECK(missing_steps(known, false, false) == std::vector{range, numbers, polarity, timing, strength, handle});
   known = calibration_of(config_of(StickFamily::vjoy));
-  CHECK(missing_steps(known, true).empty());
+  CHECK(missing_steps(known, true, true).empty());
   known.timing = {};
   known.shift.spring_dead_band = 0.0;
-  CHECK(missing_steps(known, true) == std::vector{timing, springs});
+  CHECK(missing_steps(known, true, true) == std::vector{timing, springs});
   known = unmeasured_calibration(config_of(StickFamily::vjoy));
-  CHECK(missing_steps(known, true) == std::vector{polarity, timing, handle, springs});
+  CHECK(missing_steps(known, true, true) == std::vector{polarity, timing, handle, springs});
 }
 
 // The hand adds 1.6 times the handle's mass and over thirty times its stiffness. Walls tuned for handle and hand
@@ -456,7 +456,7 @@ TEST_CASE("resumed: the remaining steps need only what is in the file") {
   CalibrationBench again(config, half);
   again.calibrator.measure_timing();
   again.calibrator.measure_springs();
-  CHECK(missing_steps(again.calibrator.calibration(), true) == std::vector{CalibrationStep::handle});
+  CHECK(missing_steps(again.calibrator.calibration(), true, true) == std::vector{CalibrationStep::handle});
 }
 
 TEST_CASE("invalid input while a person moves the lever is refused and changes nothing") {

@@ -110,6 +110,7 @@ class SwappedHand final : public HandDriver {
 
 struct Driven {
   std::size_t gears = 0;
+  std::vector<int> order;         // the engaged gears
   double rms = 0.0, worst = 0.0;  // [N] force believed minus force made
   double wrong = 0.0;             // [s] forces of at least 1 N in opposite directions
   double silent = 0.0;            // [s] longest time without a force although at least 1 N was believed
@@ -143,7 +144,8 @@ Driven drive_through(const Gate& gate, const EmulatedStickConfig& bare, const De
     result.silent = std::max(result.silent, silence);
   }
   result.rms = std::sqrt(sum / static_cast<double>(count));
-  result.gears = run.gears().size();
+  result.order = run.gears();
+  result.gears = result.order.size();
   result.problems = run.problems();
   return result;
 }
@@ -418,6 +420,28 @@ TEST_CASE("a lever that moves forward and back only: with one motor and with two
     CHECK(driven.problems.empty());
     table += std::to_string(motors) + " | " + std::to_string(driven.gears) + " | " + std::to_string(driven.rms) +
              " | " + std::to_string(driven.worst) + '\n';
+  }
+  MESSAGE(table);
+}
+
+// The other lever along one axis: the select axis has neither motor nor forces.
+TEST_CASE("a sequential gate with one motor and with two: six gears up and down, and reverse") {
+  std::string table = "stick | engaged | rms N | worst N\n";
+  for (const int motors : {1, 2}) {
+    CAPTURE(motors);
+    EmulatedStickConfig config;
+    config.family = StickFamily::openffboard;
+    config.habits.motors = motors;
+    const bool is_swapped = motors == 1;  // the only motor moves X
+    const Calibrated calibrated = calibrate_stick(config, is_swapped);
+    CHECK(calibrated.refusal == "");
+    const Driven driven = drive_through(stick_gate("sequential_six", config), config, calibrated.found, is_swapped);
+    CHECK(driven.order == std::vector{1, 2, 3, 4, 5, 6, 5, 4, 3, 2, 1, kReverseGear});
+    CHECK(driven.rms < kMaxRms);
+    CHECK(driven.wrong == 0.0);
+    CHECK(driven.problems.empty());
+    table += std::to_string(motors) + " motors | " + std::to_string(driven.order.size()) + " | " +
+             std::to_string(driven.rms) + " | " + std::to_string(driven.worst) + '\n';
   }
   MESSAGE(table);
 }

@@ -308,6 +308,10 @@ void StickFirmware::create(int type) noexcept {
   load_status_ = BlockStatus::error;
   if (refusal) load_status_ = *refusal;
   if (refusal || type < 1 || type > family_.last_type) return;
+  if (habits_.springs_full && kind_of(type) == EffectKind::spring) {
+    load_status_ = BlockStatus::full;
+    return;
+  }
   load_block_ = fails ? 0 : habits_.stopped_is_free ? effects_.create_or_take_stopped() : effects_.create();
   load_status_ = load_block_ > 0 ? BlockStatus::success : BlockStatus::full;
   if (habits_.state_sent == StateSent::at_setting) queue_state(load_block_, true);

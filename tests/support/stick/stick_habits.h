@@ -126,10 +126,13 @@ struct StickHabits {
   bool control_tests_bits = false;  // control numbers are tested bit by bit: pause and continue free all effects [stm]
 
   // Answers
-  int late_loads = 0;                // reads of the block load report that answer "pending" before the block [../facts]
-  int short_features = 0;            // [bytes] missing at the end of feature reports [adapt]
-  bool load_answers_once = false;    // a second read answers the lever's report [adapt]
-  bool first_create_fails = false;   // after power-on [pico]
+  int late_loads = 0;               // reads of the block load report that answer "pending" before the block [../facts]
+  int short_features = 0;           // [bytes] missing at the end of feature reports [adapt]
+  bool load_answers_once = false;   // a second read answers the lever's report [adapt]
+  bool first_create_fails = false;  // after power-on [pico]
+  // Each family of effects has its own room, and that of springs is full [adapt, of the third]; no firmware is known that
+  // has dampers and never springs, which PID 1.0 allows.
+  bool springs_full = false;
   bool pool_by_driver_flag = false;  // the pool report says that the driver manages the pool; not true [vjoy]
   bool pool_read_frees_all = false;  // [adapt]
   StateSent state_sent = StateSent::at_changes;

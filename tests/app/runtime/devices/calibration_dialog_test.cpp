@@ -34,16 +34,19 @@ class Pusher final : public HandDriver {
   glm::dvec2 push{0.0};  // [N]
 };
 
-EmulatedStickConfig bare_stick() {
+EmulatedStickConfig bare_stick(const StickHabits& habits = {}) {
   EmulatedStickConfig config;
+  config.habits = habits;
   config.lever.hand = kBareHand;
   return config;
 }
 
 // An emulated stick, its simulated user, and the dialog between the user and the program.
 struct Rig {
+  explicit Rig(const StickHabits& habits = {}) : stick(bare_stick(habits), hand) {}
+
   Pusher hand;
-  EmulatedStick stick{bare_stick(), hand};
+  EmulatedStick stick;
   std::mutex mutex;
   std::atomic<bool> plugged{true};
   StickPort port{stick, mutex, plugged};
@@ -98,8 +101,8 @@ struct Rig {
     dialog.print = [this](const std::string& line) { printed.push_back(line); };
     dialog.save = [this](const DeviceCalibration& calibration) { saved.push_back(calibration); };
     Calibrator calibrator(
-        driver, [this] { return tick(); }, known);
-    calibrate(calibrator, ability.spring, dialog);
+        driver, [this] { return tick(); }, known, ability.spring);
+    calibrate(calibrator, ability, dialog);
     return calibrator.calibration();
   }
 
@@ -112,10 +115,28 @@ struct Rig {
 
 }  // namespace
 
+TEST_CASE("a stick with dampers but without springs is asked for its dampers, once") {
+  StickHabits habits;
+  habits.springs_full = true;
+  Rig rig(habits);
+  REQUIRE_FALSE(rig.ability.spring);
+  REQUIRE(rig.ability.damper);
+  const DeviceCalibration found = rig.run();
+  CHECK(found.springs_refused == "the stick has no springs");
+  CHECK(found.dampers_refused == "");
+  CHECK(found.select.damper_sign == 1);
+  CHECK(found.shift.damper_strength ==
+        doctest::Approx(DeviceCalibration(Rig().run()).shift.damper_strength).epsilon(0.1));
+  CHECK(missing_steps(found, false, true).empty());
+  Rig again(habits);
+  (void)again.run(found);
+  CHECK(again.asked.empty());
+}
+
 TEST_CASE("the calibration matches the user's actions and answers; every step is saved when done") {
   Rig rig;
   const DeviceCalibration found = rig.run();
-  CHECK(missing_steps(found, true).empty());
+  CHECK(missing_steps(found, true, true).empty());
   CHECK(found.select.usage == 0x30);
   CHECK(found.shift.usage == 0x31);
   CHECK(found.select.travel == doctest::Approx(0.14));  // the user typed 140 mm
@@ -147,7 +168,7 @@ TEST_CASE("one full force, or one for each axis") {
     };
     Calibrator calibrator(
         rig.driver, [&] { return rig.tick(); }, known);
-    calibrate(calibrator, true, dialog);
+    calibrate(calibrator, rig.ability, dialog);
     CHECK(rig.has_printed("is not one or two numbers from 0.5 to 100 N") == !answers.empty());
     return Pair{calibrator.calibration().select.full_force, calibrator.calibration().shift.full_force};
   };
@@ -178,7 +199,7 @@ TEST_CASE("no motor moves before the user was told to let go of the stick") {
                           return rig.tick();
                         },
                         {});
-  calibrate(calibrator, rig.ability.spring, dialog);
+  calibrate(calibrator, rig.ability, dialog);
   CHECK(moved);
 }
 
@@ -202,7 +223,7 @@ TEST_CASE("invalid input is reported and asked again: a stick that was not pushe
     return line;
   };
   Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, {});
-  calibrate(calibrator, rig.ability.spring, dialog);
+  calibrate(calibrator, rig.ability, dialog);
   CHECK(slept);
   CHECK(rig.has_printed("\"yes\" is not a valid answer"));
   CHECK(rig.has_printed("no axis moved"));
@@ -221,12 +242,12 @@ TEST_CASE("an interrupted calibration continues with the first missing step and 
     return first.answer(next);
   };
   Calibrator calibrator(first.driver, [&] { return first.tick(); }, {});
-  CHECK_THROWS_AS(calibrate(calibrator, true, dialog), CalibrationEnded);
+  CHECK_THROWS_AS(calibrate(calibrator, first.ability, dialog), CalibrationEnded);
   REQUIRE(first.saved.size() == 3);
 
   Rig second;
   const DeviceCalibration found = second.run(first.saved.back());
-  CHECK(missing_steps(found, true).empty());
+  CHECK(missing_steps(found, true, true).empty());
   CHECK(second.asked.size() == 4);  // the questions are about timing, strength, handle and springs
   CHECK(second.asked.front().find("how fast the stick responds") != std::string::npos);
   CHECK(found.press_button == 3);
@@ -247,7 +268,7 @@ TEST_CASE("every step may be left out, and the question says what that costs") {
       return std::string("-");
     };
     Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, {});
-    calibrate(calibrator, rig.ability.spring, dialog);
+    calibrate(calibrator, rig.ability, dialog);
     CHECK_FALSE(rig.has_printed("Rejected"));
     CHECK(calibrator.calibration().has_springs() ==
           (std::string(left_out) == "knob down" || std::string(left_out) == "how fast" ||
@@ -266,7 +287,7 @@ TEST_CASE("a step that is rejected three times is left out, and those that need 
     return rig.answer(next);
   };
   Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, {});
-  calibrate(calibrator, rig.ability.spring, dialog);
+  calibrate(calibrator, rig.ability, dialog);
   CHECK(rig.has_printed("the lever does not move with 10 % of the full force"));
   CHECK(rig.has_printed("This step is left out: the stick cannot be used."));
   CHECK(rig.asked.size() == 12);  // 6 for the range, 3 numbers, 3 times the direction of forces

@@ -279,7 +279,7 @@ TEST_CASE("bindings that are written and read again are equal: the shipped ones 
   full.lever_select->of = {"Stick", "046d:c24f"};
   full.lever_select->centre = 0.1234567890123456;
   full.lever_select->end_zone = 1.0 / 3.0;
-  full.lever_mode = LeverMode::places;
+  full.lever_mode = LeverMode::steps;
   full.stick_speed = 0.1;
   full.pedal_timing.slip_time = 2.5;
   for (const Bindings& bindings : {read_bindings(shipped), full}) {

@@ -154,6 +154,18 @@ TEST_CASE("a button that is held in neutral and released in a gear is neutral's;
   CHECK(lever_value(*lever.setup.bindings().lever_select, -0.9) == -1.0);
   CHECK(lever.setup.bindings().lever_shift->axis == 1);
   CHECK(lever.setup.bindings().lever_mode == LeverMode::places);
+
+  Person sprung;  // a sequential lever with an axis
+  sprung.go_through([&](const std::string& prompt) {
+    if (has(prompt, "How do you shift")) return Answer::lever;
+    if (has(prompt, "forward")) return sprung.lever(1), Answer::done;
+    return has(prompt, "stay in place") ? Answer::steps : Answer::skip;
+  });
+  CHECK(sprung.setup.bindings().lever_shift->axis == 1);
+  CHECK(sprung.setup.bindings().lever_mode == LeverMode::steps);
+  CHECK(bindings_text(sprung.setup.bindings()).find("mode = \"steps\"") != std::string::npos);
+  CHECK(help_text(sprung.setup.bindings(), {}).find("axis 1\tback: one gear up, forward: one gear down\n") !=
+        std::string::npos);
 }
 
 TEST_CASE(
