@@ -149,4 +149,11 @@ SessionChoice with_lesson(SessionChoice choice, const lessons::Lesson& lesson) {
   return choice;
 }
 
+std::string describe_replaced_gate(const SessionChoice& choice, const SessionChoice& with,
+                                   const lessons::Lesson& lesson) {
+  if (choice.gate.empty() || !lesson.gate.empty() || with.gate == choice.gate) return {};
+  const char* needs = read_gate(choice.gate).sequential_gears > 0 ? "a slot for each gear" : "other gears";
+  return fmt::format("This lesson needs {}, so the gate is {} instead of {}.", needs, with.gate, choice.gate);
+}
+
 }  // namespace gearshift::session

@@ -41,5 +41,9 @@ SessionChoice with_gate(SessionChoice choice, const std::string& gate);
 // two exceptions: the default car replaces kNoCar, and the car's gate replaces a gate that does not fit lesson and car.
 // Throws like resolve_car().
 SessionChoice with_lesson(SessionChoice choice, const lessons::Lesson& lesson);
+// Says why with_lesson() has replaced the chosen gate; empty if the choice named none, the lesson names its own, or the
+// gate fits.
+std::string describe_replaced_gate(const SessionChoice& choice, const SessionChoice& with,
+                                   const lessons::Lesson& lesson);
 
 }  // namespace gearshift::session

@@ -34,8 +34,10 @@ Session::Session(const SessionChoice& choice)
   const lessons::Lesson* lesson = director_.coach().lesson();
   if (choice.hand == kAutomaticHand && lesson != nullptr)
     begin_lesson();
+  else if (lesson != nullptr)
+    offer_in_its_gate(choice, *lesson);
   else
-    switch_to(lesson != nullptr ? with_lesson(choice, *lesson) : choice);
+    switch_to(choice);
   if (const std::optional<std::string> problem = director_.coach().take_problem()) message_ = *problem;
   why_silent_ = sound_.silence_reason();
   const bool missed = choice.sound == engine::SoundOutput::card && !why_silent_.empty();
@@ -47,6 +49,12 @@ Session::Session(const SessionChoice& choice)
   panel_.hands = {"light", "grip", "arm", std::string(kAutomaticHand)};
   if (choice.stick) panel_.hands.clear();
   panel_.device_name = choice.stick ? choice.stick->name() : std::string(kSimulatedDevice);
+}
+
+void Session::offer_in_its_gate(const SessionChoice& choice, const lessons::Lesson& lesson) {
+  const SessionChoice wanted = with_lesson(choice, lesson);
+  switch_to(wanted);
+  add_message(describe_replaced_gate(choice, wanted, lesson));
 }
 
 void Session::rebuild_stage(const haptics::Gate& gate, const std::string& text, const haptics::YokeGeometry& yoke,

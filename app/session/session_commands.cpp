@@ -171,8 +171,11 @@ void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* less
   if (config.clock == runtime::RuntimeClock::virtual_time) start_ns_ = -std::llround(1e9 * time_);
   director_.set_road(lesson);
   lever_.send_controls(director_.controls());
-  const std::string limit = lever_.describe_limit();
-  if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
+  add_message(lever_.describe_limit());
+}
+
+void Session::add_message(const std::string& message) {
+  if (!message.empty()) message_ += (message_.empty() ? "" : "; ") + message;
 }
 
 // Ends a running lesson early, ends recordings and ends a replay.
@@ -246,7 +249,9 @@ void Session::begin_lesson() {
   }
   SessionChoice wanted = with_lesson(lever_.choice(), lesson);
   if (lever_.exists()) wanted.haptics = lever_.runtime().config().preset.haptics;
+  const std::string replaced = describe_replaced_gate(lever_.choice(), wanted, lesson);
   switch_to(wanted, &lesson);
+  add_message(replaced);
   const bool is_saved = director_.view().is_saving && !director_.view().learner.empty();
   director_.begin(lever_, is_saved ? record_lesson(lesson.key) : fs::path());
   lever_.send_controls(director_.controls());

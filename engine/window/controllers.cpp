@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -105,12 +107,60 @@ float centred(const input_absinfo& axis) {
                        : 2.0f * (static_cast<float>(axis.value) - static_cast<float>(axis.minimum)) / range - 1.0f;
 }
 
+// GLFW reports the state of a game pad and no events, so it misses a press shorter than a frame. The device has reported
+// it, but only GLFW's table knows which button of the pad it is. That shows whenever a button stays down for a frame. After
+// two such presses, short ones count, too; a single one may be two buttons that change places between two readings.
+class ShortPresses {
+ public:
+  // Call once per poll. `device`: the pad as a controller. Adds the short presses to the state that GLFW reports.
+  void add_to(Gamepad& pad, const Controller& device) {
+    std::vector<unsigned char> held = device.buttons;
+    for (const std::size_t i : device.tapped) held[i] = 0;
+    held_.resize(held.size());
+    const std::optional<std::size_t> pressed = only_new(held_, held), shown = only_new(pad_, pad.buttons);
+    if (pressed && shown && device.tapped.empty()) learn(*pressed, *shown);
+    held_ = std::move(held);
+    pad_ = pad.buttons;
+    for (const std::size_t i : device.tapped)
+      if (const auto known = known_.find(i); known != known_.end() && known->second.times >= kTimes)
+        pad.buttons[known->second.button] = 1;
+  }
+
+ private:
+  static constexpr int kTimes = 2;
+  struct Known {
+    std::size_t button = 0;  // GLFW_GAMEPAD_BUTTON_...
+    int times = 0;           // how often this has shown
+  };
+
+  // The button that is down now and was up before; empty if there are several or none.
+  template <class Buttons>
+  static std::optional<std::size_t> only_new(const Buttons& before, const Buttons& now) {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (now[i] == 0 || before[i] != 0) continue;
+      if (found) return std::nullopt;
+      found = i;
+    }
+    return found;
+  }
+  void learn(std::size_t pressed, std::size_t shown) {
+    Known& known = known_[pressed];
+    known = {shown, known.button == shown ? known.times + 1 : 1};
+  }
+
+  std::vector<unsigned char> held_;
+  std::array<unsigned char, 15> pad_{};
+  std::map<std::size_t, Known> known_;
+};
+
 // The device behind each of GLFW's joystick numbers. GLFW reads a device's events whenever it is asked about it, and writes out of
 // bounds at the event of a key below BTN_MISC (glfw issues 2455 and 2856; GLFW 3.4 aborts). Keyboards that declare an axis
 // count as joysticks, so a device that is no game pad is asked only once, right after it was opened.
 struct Joystick {
   enum class Kind : unsigned char { unknown, gamepad, other } kind = Kind::unknown;
   std::string file;  // of its controller; empty: not known yet
+  ShortPresses short_presses{};
 };
 std::array<Joystick, GLFW_JOYSTICK_LAST + 1> joysticks;
 int joysticks_since = 0;  // glfw_starts() for which they hold
@@ -158,6 +208,7 @@ void add_gamepads(std::vector<Controller>& controllers) {
     pad->gamepad.emplace();
     std::copy(std::begin(mapped.axes), std::end(mapped.axes), pad->gamepad->axes.begin());
     std::copy(std::begin(mapped.buttons), std::end(mapped.buttons), pad->gamepad->buttons.begin());
+    joysticks[static_cast<std::size_t>(id)].short_presses.add_to(*pad->gamepad, *pad);
   }
 }
 
@@ -227,9 +278,13 @@ void Controllers::Node::read() {
   is_gone = result != -EAGAIN;
   state.axes.clear();
   state.buttons.clear();
+  state.tapped.clear();
   for (const unsigned code : axes) state.axes.push_back(centred(*libevdev_get_abs_info(device, code)));
-  for (const unsigned code : buttons)
-    state.buttons.push_back(newly_down.contains(code) || libevdev_get_event_value(device, EV_KEY, code) != 0 ? 1 : 0);
+  for (const unsigned code : buttons) {
+    const bool is_down = libevdev_get_event_value(device, EV_KEY, code) != 0;
+    if (!is_down && newly_down.contains(code)) state.tapped.push_back(state.buttons.size());
+    state.buttons.push_back(is_down || newly_down.contains(code) ? 1 : 0);
+  }
   for (const unsigned code : hats) {
     const int x = libevdev_get_event_value(device, EV_ABS, code);
     const int y = libevdev_get_event_value(device, EV_ABS, code + 1);

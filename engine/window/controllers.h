@@ -7,6 +7,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,8 +30,9 @@ struct Controller {
   // 0 or 1, in the order of the kernel's codes, then up, right, down, left per hat. A button that was pressed and released
   // since the last poll is 1.
   std::vector<unsigned char> buttons;
-  std::optional<Gamepad> gamepad;  // if GLFW knows the model as a game pad
-  bool can_be_read = true;         // false: the user lacks permission; there are no axes and no buttons
+  std::vector<std::size_t> tapped;  // those of `buttons` that are up again
+  std::optional<Gamepad> gamepad;   // if GLFW knows the model as a game pad
+  bool can_be_read = true;          // false: the user lacks permission; there are no axes and no buttons
 };
 
 class Controllers {

@@ -33,9 +33,9 @@ constexpr Choice kShifting[] = {{Answer::gear_buttons, "1", "A shifter with gear
                                 {Answer::lever, "3", "A lever with axes"},
                                 {Answer::other, "4", "Mouse, keys or game pad"},
                                 {Answer::back, "b", "Back"}};
-constexpr Choice kLeverAnswers[] = {{Answer::stays, "1", "It stays"},
-                                    {Answer::returns, "2", "It springs back: move the hand"},
-                                    {Answer::steps, "3", "It springs back: shift a gear up or down"},
+constexpr Choice kLeverAnswers[] = {{Answer::stays, "y", "It stays"},
+                                    {Answer::returns, "n", "It springs back"},
+                                    {Answer::steps, "s", "It is sequential"},
                                     {Answer::back, "b", "Back"}};
 
 // `all`: the controllers that are plugged in, of which several may be equal.

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "haptics/gate/lockout.h"
 #include "haptics/loop/shift_script.h"
 
 namespace gearshift::ui {
@@ -64,6 +65,15 @@ void GearHand::shift_by(int gears, int engaged, glm::dvec2 lever) {
   const int from = is_moving() ? gear_ : engaged;
   const int to = from + gears;
   if (haptics::has_gear(*gate_, to)) shift(to, engaged, lever, !haptics::is_sequential(*gate_));
+}
+
+void GearHand::try_again(int engaged, glm::dvec2 lever) {
+  if (!gate_) return;
+  const auto lockouts = haptics::lockouts(*gate_);
+  const bool is_locked = std::any_of(lockouts.begin(), lockouts.end(), [this](const haptics::Lockout& lockout) {
+    return haptics::locked_gear(*gate_, lockout) == gear_;
+  });
+  if (opens_lockouts_ || !is_locked) shift(gear_, engaged, lever, opens_lockouts_);
 }
 
 haptics::HandTarget GearHand::next(double seconds, glm::dvec2 lever, int engaged) {

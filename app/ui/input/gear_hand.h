@@ -23,8 +23,8 @@ class GearHand {
   // Like shift_to(), for the gear that follows the engaged one in the order R N 1 2 3 ... In a sequential gate, the
   // driver opens the lockouts.
   void shift_by(int gears, int engaged, glm::dvec2 lever);
-  void try_again(int engaged, glm::dvec2 lever) { shift(gear_, engaged, lever, opens_lockouts_); }
-  void release() noexcept { hand_.reset(); }  // something else moves the hand
+  void try_again(int engaged, glm::dvec2 lever);  // does nothing where the driver has to open a lockout
+  void release() noexcept { hand_.reset(); }      // something else moves the hand
 
   bool is_active() const noexcept { return hand_.has_value(); }
   // Call once per frame while active. At the end of each stroke the hand waits for the lever: with few frames per second

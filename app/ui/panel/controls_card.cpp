@@ -125,9 +125,10 @@ void draw_controller(const engine::Controller& one) {
 
 // Name of each choice's button in Controls.
 const char* name_of(ControlsSetup::Answer answer) {
-  constexpr std::array kNames{"setup_done",    "setup_skip",  "setup_back",   "setup_gears",
-                              "setup_paddles", "setup_lever", "setup_other",  "setup_stays",
-                              "setup_returns", "setup_held",  "setup_toggled"};
+  constexpr std::array kNames{"setup_done",    "setup_skip",  "setup_back",  "setup_gears",
+                              "setup_paddles", "setup_lever", "setup_other", "setup_stays",
+                              "setup_returns", "setup_steps", "setup_held",  "setup_toggled"};
+  static_assert(kNames.size() == static_cast<std::size_t>(ControlsSetup::Answer::toggled) + 1);
   return kNames[static_cast<std::size_t>(answer)];
 }
 

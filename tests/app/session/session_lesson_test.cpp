@@ -93,6 +93,30 @@ const CoachView& drive_to_the_end(Session& session) {
 
 }  // namespace
 
+TEST_CASE("a lesson on a sequential gate takes a gate with a slot for each gear, and says so") {
+  LessonRig rig;
+  SessionChoice choice = rig.choice("moving_off", "grip");
+  choice.gate = "sequential_six";
+  choice.car = "diesel";
+  Session offered(choice);
+  CHECK(offered.message() ==
+        "This lesson needs a slot for each gear, so the gate is six_speed_r_left_down instead of sequential_six.");
+  CHECK_FALSE(is_sequential(offered.runtime().gate()));
+
+  choice.lesson = "none";
+  Session free(choice);
+  CHECK(free.message().empty());
+  CHECK(is_sequential(free.runtime().gate()));
+  free.apply(OfferLesson{"moving_off"});
+  CHECK(is_sequential(free.runtime().gate()));
+  free.apply(BeginLesson{});
+  CHECK(free.message().find("This lesson needs a slot for each gear") == 0);
+  CHECK(free.coach().view().phase == LessonPhase::driving);
+
+  choice.gate.clear();  // the car's own gate
+  CHECK(Session(choice).message().empty());
+}
+
 TEST_CASE("a competent driver passes a lesson in the running session; run, shifts and recording are saved") {
   LessonRig rig;
   Session session(rig.choice("hill_start", "grip"));

@@ -426,7 +426,7 @@ TEST_CASE("a lever that moves forward and back only: with one motor and with two
 
 // The other lever along one axis: the select axis has neither motor nor forces.
 TEST_CASE("a sequential gate with one motor and with two: six gears up and down, and reverse") {
-  std::string table = "stick | engaged | rms N | worst N\n";
+  std::string table = "motors | engaged | rms N | worst N\n";
   for (const int motors : {1, 2}) {
     CAPTURE(motors);
     EmulatedStickConfig config;
@@ -440,8 +440,8 @@ TEST_CASE("a sequential gate with one motor and with two: six gears up and down,
     CHECK(driven.rms < kMaxRms);
     CHECK(driven.wrong == 0.0);
     CHECK(driven.problems.empty());
-    table += std::to_string(motors) + " motors | " + std::to_string(driven.order.size()) + " | " +
-             std::to_string(driven.rms) + " | " + std::to_string(driven.worst) + '\n';
+    table += std::to_string(motors) + " | " + std::to_string(driven.order.size()) + " | " + std::to_string(driven.rms) +
+             " | " + std::to_string(driven.worst) + '\n';
   }
   MESSAGE(table);
 }

@@ -354,6 +354,10 @@ TEST_CASE("a sequential gate: paddles shift one gear each; neutral and reverse n
   CHECK(desk.driver.missed_gear()->gear == kNeutralGear);
   CHECK(desk.push() < 1.0);  // the hand has given up, and the lever has sprung back
   CHECK(glm::length(desk.at()) < 0.003);
+  desk.input.keys = key(GLFW_KEY_A, true).keys;  // the clutch opens no lockout
+  desk.run(0.4);
+  CHECK(desk.push() < 1.0);
+  CHECK(glm::length(desk.at()) < 0.003);
   desk.input.keys = key(GLFW_KEY_W, true).keys;
   reached.clear();
   for (int i = 0; i < 3; ++i) press(5);

@@ -70,7 +70,7 @@ TEST_CASE("each step shows its prompt, what was found and only its own answers, 
     std::vector<std::string> found;
     for (const char* name :
          {"setup_done", "setup_skip", "setup_back", "setup_gears", "setup_paddles", "setup_lever", "setup_other",
-          "setup_stays", "setup_returns", "setup_held", "setup_toggled", "setup_save", "setup_cancel"})
+          "setup_stays", "setup_returns", "setup_steps", "setup_held", "setup_toggled", "setup_save", "setup_cancel"})
       if (rig.panel.control_rect(name)) found.emplace_back(name);
     return found;
   };
@@ -100,11 +100,11 @@ TEST_CASE("each step shows its prompt, what was found and only its own answers, 
   CHECK(shows("Move the LEVER to the left"));
   give("setup_skip");
   give("setup_skip");
-  CHECK(answers() == Names{"setup_back", "setup_stays", "setup_returns", "setup_cancel"});
+  CHECK(answers() == Names{"setup_back", "setup_stays", "setup_returns", "setup_steps", "setup_cancel"});
   give("setup_stays");
   CHECK(answers() == Names{"setup_back", "setup_save", "setup_cancel"});
   give("setup_back");
-  CHECK(answers() == Names{"setup_back", "setup_stays", "setup_returns", "setup_cancel"});
+  CHECK(answers() == Names{"setup_back", "setup_stays", "setup_returns", "setup_steps", "setup_cancel"});
   give("setup_stays");
   settle(rig);
   CHECK(has<SaveControls>(rig.click("setup_save")));
