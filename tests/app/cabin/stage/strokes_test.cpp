@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -33,7 +34,9 @@ TEST_CASE("a straight stroke covers its length times its width, plus two half di
 
 TEST_CASE("gear labels differ from each other and stay inside their box") {
   std::set<std::string> seen;
-  for (int gear = haptics::kReverseGear; gear <= haptics::kMaxGear; ++gear) {
+  std::vector<int> gears{haptics::kNextGear, haptics::kPreviousGear};
+  for (int gear = haptics::kReverseGear; gear <= haptics::kMaxGear; ++gear) gears.push_back(gear);
+  for (const int gear : gears) {
     std::string shape;
     for (const cabin::Stroke& stroke : cabin::gear_label(gear, {0.5, 0.5}, 0.2, 0.02, glm::vec3(1.0f))) {
       for (const glm::dvec2 p : stroke.line) {
