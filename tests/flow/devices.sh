@@ -60,6 +60,12 @@ for run in $families; do
   check "its plots are pictures" is_png "$run/trajectory.png"
 done
 
+gate=sequential_six hand_gate=sequential_six tour sequential openffboard
+check "a sequential gate: the tour succeeds" [ $? = 0 ]
+check "one stroke is one gear, up to sixth, down to first, and to reverse with the ring" in_order sequential
+check "it visits them all" grep -q "gears: 1, 2, 3, 4, 5, 6, 5, 4, 3, 2, 1, R\." sequential.txt
+check "its trace replays" replays sequential
+
 early() {
   printf '\n\n\n\n' | with_stick --family vjoy -- "$gearshift" tour --device vjoy --gate paper --out early >early.txt 2>early.err
 }

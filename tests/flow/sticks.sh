@@ -115,7 +115,8 @@ END
 # Settings of tour(), which drives the tour of the paper's gate. The emulated hand shifts while the motors are on.
 tour_seconds=100 # at most
 enters=100       # at most
-hand_gate=paper  # the gate that the emulated hand follows
+gate=paper        # of the tour
+hand_gate=paper   # the gate that the emulated hand follows
 # Takes the log and the process; sends an Enter to file descriptor 9 for each request, until the process ends.
 confirm_requests() {
   local confirmed=0
@@ -132,7 +133,7 @@ tour() { # takes the name for the output, the stick family, and options of the e
   shift 2
   mkfifo "$name_of_run.in"
   exec 9<>"$name_of_run.in"
-  with_stick --family "$family" --tour "$hand_gate" "$@" -- "$gearshift" tour --device "${id[$family]}" --gate paper \
+  with_stick --family "$family" --tour "$hand_gate" "$@" -- "$gearshift" tour --device "${id[$family]}" --gate "$gate" \
     --preset ./patient.toml --seconds $tour_seconds --out "$name_of_run" <&9 >"$name_of_run.txt" 2>"$name_of_run.err" &
   local run=$!
   confirm_requests "$name_of_run" $run
